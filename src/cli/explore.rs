@@ -1,0 +1,35 @@
+//! The explorer, opened from the command line.
+
+use std::process::ExitCode;
+
+use anyhow::Result;
+
+use super::Misuse;
+use super::args::{ColorChoice, Explore, MarkerChoice};
+use crate::scenario::Scenario;
+use crate::tui::plot::Marker;
+use crate::tui::{self, Options, keys};
+
+/// Opens the explorer.
+pub fn explore(options: &Explore) -> Result<ExitCode> {
+    let keys = keys::parse_script(options.keys.as_deref().unwrap_or("")).map_err(Misuse)?;
+    let marker = options.marker.map(|choice| match choice {
+        MarkerChoice::Braille => Marker::Braille,
+        MarkerChoice::Halfblock => Marker::HalfBlock,
+        MarkerChoice::Dot => Marker::Dot,
+        MarkerChoice::Ascii => Marker::Ascii,
+    });
+    let colored = match options.color {
+        ColorChoice::Always => Some(true),
+        ColorChoice::Never => Some(false),
+        ColorChoice::Auto => None,
+    };
+    tui::run(Options {
+        scenario: Scenario::load(&options.scenario, &options.changes.set)?,
+        fps: options.fps,
+        marker,
+        colored,
+        script: options.print.map(|size| (keys, size)),
+    })?;
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,154 @@
+//! Whole files or none: everything is written beside its place and renamed into it.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+/// A file or directory that could not be written; nothing half-written is left behind.
+#[derive(Debug, Error)]
+pub enum WriteError {
+    /// The directory of another run.
+    #[error("{}: already holds files; choose another directory or add --force", .0.display())]
+    Occupied(PathBuf),
+    /// The path of a directory is taken by something else.
+    #[error("{}: is not a directory", .0.display())]
+    NotADirectory(PathBuf),
+    /// The system refused.
+    #[error("{}: cannot write: {source}", path.display())]
+    Io {
+        /// What was to be written.
+        path: PathBuf,
+        /// Why not.
+        source: io::Error,
+    },
+}
+
+impl WriteError {
+    /// Whether another choice of directory by the user would have avoided it.
+    pub fn is_misuse(&self) -> bool {
+        !matches!(self, Self::Io { source, .. } if source.kind() == io::ErrorKind::StorageFull)
+    }
+}
+
+/// Writes `contents` to `path`: to a temporary file in the same directory, flushed to the disk and
+/// renamed over `path`, so that a reader sees the old file or the new one and never a torn one.
+pub fn write_whole(path: &Path, contents: &[u8]) -> Result<(), WriteError> {
+    let failed = |source| WriteError::Io {
+        path: path.to_owned(),
+        source,
+    };
+    let directory = path
+        .parent()
+        .filter(|parent| !parent.as_os_str().is_empty())
+        .unwrap_or(Path::new("."));
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".mdr-tui-").suffix(".tmp");
+    #[cfg(unix)]
+    {
+        // Results are ordinary files, not secrets: what the umask leaves of 0666.
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    let mut file = builder.tempfile_in(directory).map_err(failed)?;
+    file.write_all(contents).map_err(failed)?;
+    file.as_file().sync_all().map_err(failed)?;
+    file.persist(path).map_err(|error| failed(error.error))?;
+    Ok(())
+}
+
+/// The directory of one run's files.
+#[derive(Debug)]
+pub struct RunDirectory {
+    path: PathBuf,
+}
+
+impl RunDirectory {
+    /// Takes `path` for the files of a run: makes it where there is none, and refuses one that holds
+    /// anything already unless `force` is set.
+    pub fn claim(path: &Path, force: bool) -> Result<Self, WriteError> {
+        let failed = |source| WriteError::Io {
+            path: path.to_owned(),
+            source,
+        };
+        match fs::read_dir(path) {
+            Ok(mut entries) => {
+                if !force && entries.next().is_some() {
+                    return Err(WriteError::Occupied(path.to_owned()));
+                }
+            }
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                fs::create_dir_all(path).map_err(failed)?;
+            }
+            Err(_) if path.is_file() => return Err(WriteError::NotADirectory(path.to_owned())),
+            Err(error) => return Err(failed(error)),
+        }
+        // Find out now, not after an hour of computing, whether files can be made here.
+        tempfile::Builder::new()
+            .prefix(".mdr-tui-")
+            .tempfile_in(path)
+            .map_err(failed)?;
+        Ok(Self {
+            path: path.to_owned(),
+        })
+    }
+
+    /// Writes one of the run's files, whole.
+    pub fn write(&self, name: &str, contents: &[u8]) -> Result<PathBuf, WriteError> {
+        let path = self.path.join(name);
+        write_whole(&path, contents)?;
+        Ok(path)
+    }
+
+    /// Where the files stand.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+}
+
+/// A directory name that is free: `stem`, or `stem-2`, `stem-3`, … in the working directory.
+pub fn free_directory(stem: &str) -> PathBuf {
+    let plain = PathBuf::from(stem);
+    if !plain.exists() {
+        return plain;
+    }
+    (2..)
+        .map(|n| PathBuf::from(format!("{stem}-{n}")))
+        .find(|path| !path.exists())
+        .unwrap_or(plain)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_claimed_directory_is_new_empty_or_forced() {
+        let base = tempfile::tempdir().expect("a directory");
+        let path = base.path().join("deep/run");
+        let run = RunDirectory::claim(&path, false).expect("a new directory");
+        assert_eq!(fs::read_dir(&path).expect("the directory").count(), 0);
+        RunDirectory::claim(&path, false).expect("an empty directory");
+        run.write("state.csv", b"r_m\n0\n").expect("a file");
+        let refusal = RunDirectory::claim(&path, false).expect_err("an occupied directory");
+        assert!(refusal.to_string().ends_with("add --force"), "{refusal}");
+        RunDirectory::claim(&path, true).expect("a forced directory");
+        let file = path.join("state.csv");
+        assert!(matches!(
+            RunDirectory::claim(&file, true),
+            Err(WriteError::NotADirectory(_))
+        ));
+    }
+
+    #[test]
+    fn a_file_is_replaced_whole_and_leaves_no_trace_of_its_making() {
+        let base = tempfile::tempdir().expect("a directory");
+        let path = base.path().join("x.csv");
+        write_whole(&path, b"old").expect("a file");
+        write_whole(&path, b"new").expect("a file");
+        assert_eq!(fs::read(&path).expect("the file"), b"new");
+        assert_eq!(fs::read_dir(base.path()).expect("the directory").count(), 1);
+        assert!(write_whole(&base.path().join("no/such/place.csv"), b"").is_err());
+    }
+}

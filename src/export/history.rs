@@ -1,0 +1,67 @@
+//! `history.csv`: a row a recorded moment.
+
+use super::header::{lines, number, optional};
+use crate::scenario::session::Session;
+use crate::simulation::Moment;
+
+/// The columns, in order.
+pub const COLUMNS: [&str; 13] = [
+    "cycle",
+    "time_s",
+    "u_z_m",
+    "u_x_m",
+    "F_z_N",
+    "F_x_N",
+    "contact_radius_m",
+    "stick_radius_m",
+    "permanent_stick_radius_m",
+    "wear_volume_m3",
+    "dissipated_energy_J",
+    "energy_residual",
+    "max_pressure_Pa",
+];
+
+/// The rows recorded so far, as text.
+#[derive(Debug, Default, Clone)]
+pub struct History {
+    rows: String,
+    last_cycle: Option<f64>,
+}
+
+impl History {
+    /// Adds the present moment of `session`, once.
+    pub fn record(&mut self, session: &Session) {
+        let simulation = session.simulation();
+        if self.last_cycle == Some(simulation.cycle()) {
+            return;
+        }
+        self.last_cycle = Some(simulation.cycle());
+        self.rows
+            .push_str(&row(&simulation.moment(), simulation.max_pressure()));
+        self.rows.push('\n');
+    }
+
+    /// The whole file, its header telling of the present state of `session`.
+    pub fn table(&self, session: &Session) -> String {
+        format!("{}{}\n{}", lines(session), COLUMNS.join(","), self.rows)
+    }
+}
+
+fn row(moment: &Moment, max_pressure: f64) -> String {
+    [
+        number(moment.cycle),
+        number(moment.time),
+        number(moment.depth),
+        number(moment.shift),
+        number(moment.normal_force),
+        number(moment.tangential_force),
+        number(moment.contact_radius),
+        optional(moment.stick_radius),
+        optional(moment.permanent_stick_radius),
+        number(moment.wear_volume),
+        number(moment.dissipated_energy),
+        optional(moment.energy_residual),
+        number(max_pressure),
+    ]
+    .join(",")
+}

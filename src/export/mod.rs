@@ -1,0 +1,6 @@
+//! Files: tables of observations and of histories, written whole or not at all. Nothing here runs anything.
+
+pub mod file;
+pub mod header;
+pub mod history;
+pub mod state;

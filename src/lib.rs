@@ -1,0 +1,51 @@
+//! Fretting wear by the Method of Dimensionality Reduction, live in the terminal.
+//!
+//! The library behind the program `mdr-tui`. It implements Q. Li, F. Forsbach, J. Benad (2019),
+//! *Numerical implementation of fretting wear in the framework of the MDR*, Facta Universitatis,
+//! Mech. Eng. 17(1), 87–93, doi 10.22190/FUME190103012L, called *the paper* throughout.
+//!
+//! # The house
+//!
+//! Floors import downwards only:
+//!
+//! | floor | holds | knows |
+//! |---|---|---|
+//! | [`math`] | grids, root solve, the three Abel transforms and the ways to compute them | no physics |
+//! | [`contact`] | materials, indenters, normal and tangential springs | no time |
+//! | [`wear`] | wear laws | one step |
+//! | [`simulation`] | motion, state, stepping, observations | no scenario, no file, no screen |
+//! | [`scenario`] | TOML in and out, presets, a session with its changes | no screen |
+//! | [`export`] | CSV files, whole or not at all | runs nothing |
+//! | [`cli`], [`tui`] | the command line; the explorer | everything below |
+//!
+//! Beside them stands [`oracle`]: closed forms, written with `std` alone, that judge the rest.
+//!
+//! A user's TOML becomes a [`scenario::Scenario`], a [`scenario::session::Session`] runs it, and
+//! screens and files see owned [`simulation::Observation`]s. The explorer and the headless commands
+//! drive the same session, so the same scenario and the same changes give the same bits.
+//!
+//! # Symbols (SI)
+//!
+//! | symbol | meaning | unit | equation |
+//! |---|---|---|---|
+//! | r, x | radius in the 3D contact; coordinate in the 1D contact | m | |
+//! | f, f₀ | 3D profile of the indenter, now and unworn | m | (1), (15) |
+//! | g | 1D profile | m | (1) |
+//! | d = u_z, u_x⁽⁰⁾ | depth and tangential displacement of the indenter | m | (14) |
+//! | a, c | contact radius, stick radius | m | (15) |
+//! | q_z, q_x | normal and tangential line load of the springs | N/m | |
+//! | p, τ | pressure and shear stress | Pa | (3) |
+//! | u_x(x), u_x(r) | displacement of the springs and of the surface | m | (2) |
+//! | E*, G*, ν, μ | effective moduli, Poisson's ratio, friction | Pa, Pa, –, – | |
+//! | k | wear coefficient | 1/Pa | (15) |
+//! | V, E_d | worn volume, work of friction | m³, J | V = k E_d |
+
+pub mod cli;
+pub mod contact;
+pub mod export;
+pub mod math;
+pub mod oracle;
+pub mod scenario;
+pub mod simulation;
+pub mod tui;
+pub mod wear;

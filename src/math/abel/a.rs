@@ -1,0 +1,58 @@
+//! Method A of the paper: the singularity of Eq. (2) weakened by splitting u in two.
+//!
+//! # Formula
+//!
+//! Eq. (7), after V. I. Krylov (1962): with u = x u′ + (u − x u′) in each cell and u′ by forward
+//! differences,
+//!
+//! ```text
+//! w_j = (2/π) Σ_{k<j} { u′_k [√(r_j² − x_k²) − √(r_j² − x_{k+1}²)]
+//!                     + (u_k − u′_k x_k) [asin(x_{k+1}/r_j) − asin(x_k/r_j)] }
+//! ```
+//!
+//! which is the exact integral of the piecewise linear u. Eqs. (1) and (3) are [`benad`](super::benad)'s.
+//!
+//! - **Order**: second on smooth data. Order ½ in τ at a kink between nodes.
+//! - **At r = 0**: w = u(0).
+//! - **At the contact edge**: nothing special, u is a displacement and has no jump.
+//! - **Known failure**: none in fretting; the row sums are one, so a rigid shift maps to itself.
+
+use std::f64::consts::FRAC_2_PI;
+
+use nalgebra::DMatrix;
+
+use super::kernel::{asin_step, root_step};
+
+/// Eq. (2): weights of the surface displacement.
+pub fn displacement(nodes: &[f64]) -> DMatrix<f64> {
+    let mut weights = DMatrix::zeros(nodes.len(), nodes.len());
+    weights[(0, 0)] = 1.0;
+    for (j, &r) in nodes.iter().enumerate().skip(1) {
+        for k in 0..j {
+            let (a, b) = (nodes[k], nodes[k + 1]);
+            let arc = asin_step(a, b, r);
+            // ∫ (x − a)/(b − a) dx/√(r² − x²): the share of the right node.
+            let right = (root_step(a, b, r) - a * arc) / (b - a);
+            weights[(j, k)] += FRAC_2_PI * (arc - right);
+            weights[(j, k + 1)] += FRAC_2_PI * right;
+        }
+    }
+    weights
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_is_exact_and_a_shift_maps_to_itself() {
+        let nodes: Vec<f64> = (0..=30).map(|i| f64::from(i) / 30.0).collect();
+        let weights = displacement(&nodes);
+        for (j, &r) in nodes.iter().enumerate() {
+            let shift: f64 = weights.row(j).iter().sum();
+            assert!((shift - 1.0).abs() < 1e-14);
+            let line: f64 = weights.row(j).iter().zip(&nodes).map(|(w, x)| w * x).sum();
+            assert!((line - FRAC_2_PI * r).abs() < 1e-14);
+        }
+    }
+}

@@ -1,0 +1,206 @@
+//! The three Abel transforms between the 3D contact and its 1D image, and the ways to compute them.
+//!
+//! # Formula
+//!
+//! Eqs. (1) to (3) of Q. Li, F. Forsbach, J. Benad (2019), Facta Univ. Mech. Eng. 17(1), 87–93,
+//! doi 10.22190/FUME190103012L, called *the paper* throughout this crate:
+//!
+//! ```text
+//! g(x) = f(0) + x ∫₀ˣ f′(r) / √(x² − r²) dr        profile, 3D → 1D              (1)
+//! w(r) = (2/π) ∫₀ʳ u(x) / √(r² − x²) dx             displacement, 1D → 3D         (2)
+//! p(r) = −(1/π) ∫ᵣ^∞ q′(x) / √(x² − r²) dx          stress, 1D → 3D               (3)
+//! ```
+//!
+//! The term f(0) in (1) is ours: a tip that wears recedes, and a constant must map to itself.
+//!
+//! All methods here are linear in the nodal values, so an [`AbelPlan`] holds three matrices, made
+//! once for a grid and applied with the caller's buffers. Setting up costs O(N²) kernel
+//! evaluations, an application at most N²/2 multiply-adds, the memory is 1.5 N² numbers.
+//!
+//! | method | Eq. (1) | Eq. (2) | Eq. (3) | strictly causal |
+//! |---|---|---|---|---|
+//! | `benad` | [`benad::profile`] | [`benad::displacement`] | [`benad::stress`] | no: Eq. (2) looks one node ahead |
+//! | `a` | [`benad::profile`] | [`a::displacement`] | [`benad::stress`] | yes |
+//! | `b` | [`b::profile`] | [`b::displacement`] | [`b::stress`] | no: Eqs. (1) and (3) look one node across |
+//! | `a+b` | [`benad::profile`] | [`b::displacement`] | [`benad::stress`] | yes |
+
+use std::fmt;
+use std::str::FromStr;
+
+use super::grid::RadialGrid;
+use super::invalid::Invalid;
+use super::staircase::Staircase;
+
+pub mod a;
+pub mod b;
+pub mod benad;
+mod kernel;
+
+/// A published way to compute the three transforms.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum AbelMethod {
+    /// Integration by parts, J. Benad (2018): reference [9] of the paper.
+    Benad,
+    /// The paper's Method A: the singularity of (2) split off, Eq. (7).
+    A,
+    /// The paper's Method B: trapezoids in asin and acosh, Eqs. (11) to (13).
+    B,
+    /// The paper's suggestion (b): Method A for (1) and (3), Method B for (2).
+    APlusB,
+}
+
+impl AbelMethod {
+    /// Every method, in the order in which keys step through them.
+    pub const ALL: [Self; 4] = [Self::A, Self::APlusB, Self::B, Self::Benad];
+
+    /// The name in scenarios, on the screen and in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Benad => "benad",
+            Self::A => "a",
+            Self::B => "b",
+            Self::APlusB => "a+b",
+        }
+    }
+
+    /// One line on what the method does.
+    pub fn description(self) -> &'static str {
+        match self {
+            Self::Benad => "integration by parts (Benad 2018); unstable in fretting",
+            Self::A => "Method A of the paper: singularity split off; causal",
+            Self::B => {
+                "Method B of the paper: trapezoids in asin and acosh; leaks at the stick border"
+            }
+            Self::APlusB => "Method A for Eqs. (1) and (3), B for Eq. (2); causal",
+        }
+    }
+}
+
+impl fmt::Display for AbelMethod {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(self.name())
+    }
+}
+
+impl FromStr for AbelMethod {
+    type Err = Invalid;
+
+    fn from_str(name: &str) -> Result<Self, Invalid> {
+        Self::ALL
+            .into_iter()
+            .find(|method| method.name() == name)
+            .ok_or_else(|| {
+                let names = Self::ALL.map(|method| format!("\"{method}\""));
+                Invalid::new(
+                    "method",
+                    format!("{name:?}"),
+                    format!("must be one of {}", names.join(", ")),
+                )
+            })
+    }
+}
+
+/// The three transforms of one method on one grid, ready to apply.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AbelPlan {
+    method: AbelMethod,
+    profile: Staircase,
+    displacement: Staircase,
+    stress: Staircase,
+}
+
+impl AbelPlan {
+    /// Computes the weights of `method` on `grid`.
+    pub fn new(method: AbelMethod, grid: &RadialGrid) -> Self {
+        let nodes = grid.nodes();
+        let (profile, displacement, stress) = match method {
+            AbelMethod::Benad => (
+                benad::profile(nodes),
+                benad::displacement(nodes),
+                benad::stress(nodes),
+            ),
+            AbelMethod::A => (
+                benad::profile(nodes),
+                a::displacement(nodes),
+                benad::stress(nodes),
+            ),
+            AbelMethod::B => (b::profile(nodes), b::displacement(nodes), b::stress(nodes)),
+            AbelMethod::APlusB => (
+                benad::profile(nodes),
+                b::displacement(nodes),
+                benad::stress(nodes),
+            ),
+        };
+        Self {
+            method,
+            profile: Staircase::pack(&profile),
+            displacement: Staircase::pack(&displacement),
+            stress: Staircase::pack(&stress),
+        }
+    }
+
+    /// The method that this plan computes.
+    pub fn method(&self) -> AbelMethod {
+        self.method
+    }
+
+    /// Eq. (1): the 1D profile `g` of the 3D profile `f`, both nodal, in the same unit.
+    pub fn profile(&self, f: &[f64], g: &mut [f64]) {
+        self.profile.apply(f, g);
+    }
+
+    /// Eq. (2): the surface displacement `w` of the spring displacement `u`, both nodal.
+    pub fn displacement(&self, u: &[f64], w: &mut [f64]) {
+        self.displacement.apply(u, w);
+    }
+
+    /// Eq. (3): the stress `p` (N/m²) of the line load `q` (N/m), both nodal. `q` ends at the grid's edge.
+    pub fn stress(&self, q: &[f64], p: &mut [f64]) {
+        self.stress.apply(q, p);
+    }
+
+    /// The operator of Eq. (1).
+    pub fn profile_operator(&self) -> &Staircase {
+        &self.profile
+    }
+
+    /// The operator of Eq. (2).
+    pub fn displacement_operator(&self) -> &Staircase {
+        &self.displacement
+    }
+
+    /// The operator of Eq. (3).
+    pub fn stress_operator(&self) -> &Staircase {
+        &self.stress
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_read_back() {
+        for method in AbelMethod::ALL {
+            assert_eq!(method.name().parse(), Ok(method));
+        }
+        let refusal = "c".parse::<AbelMethod>().expect_err("no such method");
+        assert!(refusal.to_string().contains("\"a+b\""), "{refusal}");
+    }
+
+    #[test]
+    fn only_a_and_its_mixture_are_causal() {
+        let grid = RadialGrid::uniform(20, 1.0).expect("a grid");
+        for method in AbelMethod::ALL {
+            let plan = AbelPlan::new(method, &grid);
+            let causal = plan.profile.looks_inwards_only()
+                && plan.displacement.looks_inwards_only()
+                && plan.stress.looks_outwards_only();
+            assert_eq!(
+                causal,
+                matches!(method, AbelMethod::A | AbelMethod::APlusB),
+                "{method}"
+            );
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! A value that a constructor refuses: which one it was, and which rule it broke.
+
+use thiserror::Error;
+
+/// A refused value. The floors above add where it stood (a TOML path, an option of the command line).
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{field} = {value}: {rule}")]
+pub struct Invalid {
+    /// Name of the value, as a scenario spells it.
+    pub field: &'static str,
+    /// The value as it was given.
+    pub value: String,
+    /// What would be right.
+    pub rule: String,
+}
+
+impl Invalid {
+    /// Refuses `value` of `field` because of `rule`.
+    pub fn new(field: &'static str, value: impl ToString, rule: impl Into<String>) -> Self {
+        Self {
+            field,
+            value: value.to_string(),
+            rule: rule.into(),
+        }
+    }
+}
+
+/// Passes a finite number, refuses NaN and infinities.
+pub fn finite(field: &'static str, value: f64) -> Result<f64, Invalid> {
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(Invalid::new(field, value, "must be a finite number"))
+    }
+}
+
+/// Passes a finite number greater than zero.
+pub fn positive(field: &'static str, value: f64) -> Result<f64, Invalid> {
+    if value.is_finite() && value > 0.0 {
+        Ok(value)
+    } else {
+        Err(Invalid::new(field, value, "must be greater than 0"))
+    }
+}
+
+/// Passes a finite number that is zero or greater.
+pub fn non_negative(field: &'static str, value: f64) -> Result<f64, Invalid> {
+    if value.is_finite() && value >= 0.0 {
+        Ok(value)
+    } else {
+        Err(Invalid::new(field, value, "must be 0 or greater"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_refusal_names_field_value_and_rule() {
+        let refusal = positive("radius", -1.0).expect_err("a negative radius");
+        assert_eq!(refusal.to_string(), "radius = -1: must be greater than 0");
+    }
+
+    #[test]
+    fn nothing_that_is_not_finite_passes() {
+        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert!(finite("x", value).is_err());
+            assert!(positive("x", value).is_err());
+            assert!(non_negative("x", value).is_err());
+        }
+        assert_eq!(non_negative("x", 0.0), Ok(0.0));
+        assert!(positive("x", 0.0).is_err());
+    }
+}

@@ -1,0 +1,8 @@
+//! The ground floor: grids, a bracketed root solve and the Abel transforms. It knows no physics.
+
+pub mod abel;
+pub mod grid;
+pub mod invalid;
+pub mod quadrature;
+pub mod root;
+pub mod staircase;

@@ -1,0 +1,355 @@
+//! A paraboloid and a cone with a flat tip of radius b, frictionless.
+//!
+//! Sources: Ejike (1969) for the truncated cone, Maugis & Barquins (1983), Popov & Heß (2015),
+//! ch. 3. From (1), for x > b (g = 0 up to b):
+//! - paraboloid f = (r²−b²)/2R: g = (x/R)√(x²−b²), F = (2E*/3R)(2a²+b²)√(a²−b²);
+//! - cone f = (r−b) tan θ: g = x tan θ acos(b/x), F = E* tan θ [a² acos(b/a) + b√(a²−b²)].
+//!
+//! The pressure is an incomplete elliptic integral. With m = max(r, b), l = min(r, b) and
+//! x² = m² + (m²−l²) sinh² v, (3) becomes p = (E*/π) ∫ g′(x)√(x²−b²)/x dv, whose integrand is smooth;
+//! it is integrated numerically. p is finite on the axis, +∞ (logarithmic) at the rim r = b, and 0
+//! at the contact edge. b = 0 is the plain shape.
+
+use super::power_law::PowerLaw;
+use super::quadrature::integrate;
+use super::special::{angle_beyond, leg, positive_part};
+use std::f64::consts::PI;
+
+/// (E*/π) ∫ h(x)/x dv, h = g′(x)√(x²−b²), for 0 ≤ r < a, 0 < b < a.
+fn pressure(e_star: f64, a: f64, b: f64, r: f64, h: impl Fn(f64) -> f64) -> f64 {
+    let (m, l) = (r.max(b), r.min(b));
+    let (reach, gap) = (leg(a, m), leg(m, l));
+    if gap == 0.0 {
+        return f64::INFINITY;
+    }
+    // asinh(reach/gap), without overflow when the gap is tiny.
+    let end = if reach > gap {
+        (reach + reach.hypot(gap)).ln() - gap.ln()
+    } else {
+        (reach / gap).asinh()
+    };
+    let integrand = |v: f64| {
+        let x = m.hypot(gap * v.sinh());
+        h(x) / x
+    };
+    e_star / PI * integrate(integrand, 0.0, end)
+}
+
+/// f = (r² − b²)/(2R) for r > b, 0 for r ≤ b.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TruncatedParaboloid {
+    /// E*, Pa.
+    pub e_star: f64,
+    /// Radius of curvature R, m.
+    pub radius: f64,
+    /// Radius of the flat tip b ≥ 0, m.
+    pub tip_radius: f64,
+}
+
+impl TruncatedParaboloid {
+    /// f(r), m.
+    pub fn profile(&self, r: f64) -> f64 {
+        let b = self.tip_radius;
+        positive_part((r - b) * (r + b)) / (2.0 * self.radius)
+    }
+
+    /// g(x) = (x/R)√(x²−b²), m; 0 for |x| ≤ b.
+    pub fn mdr_profile(&self, x: f64) -> f64 {
+        x.abs() / self.radius * leg(x.abs(), self.tip_radius)
+    }
+
+    /// d = (a/R)√(a²−b²), m, for a ≥ b; NaN for a < b, which no load gives.
+    pub fn depth(&self, contact_radius: f64) -> f64 {
+        if contact_radius < self.tip_radius {
+            return f64::NAN;
+        }
+        self.mdr_profile(contact_radius)
+    }
+
+    /// a, m: 2a² = b² + √(b⁴ + 4R²d²); b at d = 0, and 0 (no contact) for d < 0.
+    pub fn contact_radius(&self, depth: f64) -> f64 {
+        if depth < 0.0 {
+            return 0.0;
+        }
+        let square = self.tip_radius * self.tip_radius;
+        (0.5 * (square + square.hypot(2.0 * self.radius * depth))).sqrt()
+    }
+
+    /// F = (2E*/3R)(2a²+b²)√(a²−b²), N, for a ≥ b; NaN for a < b.
+    pub fn force(&self, contact_radius: f64) -> f64 {
+        let (a, b) = (contact_radius, self.tip_radius);
+        if a < b {
+            return f64::NAN;
+        }
+        2.0 * self.e_star / (3.0 * self.radius) * (2.0 * a * a + b * b) * leg(a, b)
+    }
+
+    /// p(r), Pa, by quadrature of (3); +∞ at r = b, 0 for r ≥ a (and everywhere if a ≤ b).
+    pub fn pressure(&self, contact_radius: f64, r: f64) -> f64 {
+        let (a, b) = (contact_radius, self.tip_radius);
+        if r >= a || a <= b {
+            return 0.0;
+        }
+        if b == 0.0 {
+            return PowerLaw::paraboloid(self.radius).pressure(self.e_star, a, r);
+        }
+        pressure(self.e_star, a, b, r, |x| {
+            (2.0 * x * x - b * b) / self.radius
+        })
+    }
+}
+
+/// f = (r − b) tan θ for r > b, 0 for r ≤ b.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TruncatedCone {
+    /// E*, Pa.
+    pub e_star: f64,
+    /// tan θ > 0, dimensionless.
+    pub slope: f64,
+    /// Radius of the flat tip b ≥ 0, m.
+    pub tip_radius: f64,
+}
+
+impl TruncatedCone {
+    /// f(r), m.
+    pub fn profile(&self, r: f64) -> f64 {
+        positive_part(r - self.tip_radius) * self.slope
+    }
+
+    /// g(x) = x tan θ acos(b/x), m; 0 for |x| ≤ b.
+    pub fn mdr_profile(&self, x: f64) -> f64 {
+        x.abs() * self.slope * angle_beyond(self.tip_radius, x.abs())
+    }
+
+    /// d = a tan θ acos(b/a), m, for a ≥ b; NaN for a < b, which no load gives.
+    pub fn depth(&self, contact_radius: f64) -> f64 {
+        if contact_radius < self.tip_radius {
+            return f64::NAN;
+        }
+        self.mdr_profile(contact_radius)
+    }
+
+    /// a, m: the root of g(a) = d between b and b + 2d/(π tan θ), by bisection to the last digit;
+    /// b at d = 0, and 0 (no contact) for d < 0.
+    pub fn contact_radius(&self, depth: f64) -> f64 {
+        if depth < 0.0 {
+            return 0.0;
+        }
+        let mut low = self.tip_radius;
+        let mut high = low + 2.0 * depth / (PI * self.slope);
+        loop {
+            let middle = 0.5 * (low + high);
+            if !(low < middle && middle < high) {
+                return middle;
+            }
+            if self.mdr_profile(middle) < depth {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+    }
+
+    /// F = E* tan θ [a² acos(b/a) + b√(a²−b²)], N, for a ≥ b; NaN for a < b.
+    pub fn force(&self, contact_radius: f64) -> f64 {
+        let (a, b) = (contact_radius, self.tip_radius);
+        if a < b {
+            return f64::NAN;
+        }
+        self.e_star * self.slope * (a * a * angle_beyond(b, a) + b * leg(a, b))
+    }
+
+    /// p(r), Pa, by quadrature of (3); +∞ at r = b, 0 for r ≥ a (and everywhere if a ≤ b).
+    pub fn pressure(&self, contact_radius: f64, r: f64) -> f64 {
+        let (a, b) = (contact_radius, self.tip_radius);
+        if r >= a || a <= b {
+            return 0.0;
+        }
+        if b == 0.0 {
+            return PowerLaw::cone(self.slope).pressure(self.e_star, a, r);
+        }
+        pressure(self.e_star, a, b, r, |x| {
+            self.slope * (leg(x, b) * angle_beyond(b, x) + b)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::FRAC_PI_2;
+
+    const E: f64 = 2.3e11;
+    const A: f64 = 1.4e-4;
+    const BALL: TruncatedParaboloid = TruncatedParaboloid {
+        e_star: E,
+        radius: 0.01,
+        tip_radius: 5e-5,
+    };
+    const CONE: TruncatedCone = TruncatedCone {
+        e_star: E,
+        slope: 0.02,
+        tip_radius: 5e-5,
+    };
+
+    fn close(value: f64, exact: f64, relative: f64, what: &str) {
+        let error = (value - exact).abs();
+        assert!(
+            error <= relative * exact.abs(),
+            "{what}: {value:e} against {exact:e}"
+        );
+    }
+
+    /// ∫₀ᵃ f dr with the logarithmic rim b taken out by r = b(1 ∓ t³) steps.
+    fn across_rim(f: impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
+        let inner = |t: f64| f(b * (1.0 - t.powi(3))) * 3.0 * b * t * t;
+        let outer = |t: f64| f(b + (a - b) * t.powi(3)) * 3.0 * (a - b) * t * t;
+        integrate(inner, 0.0, 1.0) + integrate(outer, 0.0, 1.0)
+    }
+
+    #[test]
+    fn mdr_profiles_are_equation_1() {
+        for x in [5.1e-5, 9e-5, A] {
+            // r = x sin t, from the rim at sin t = b/x.
+            let start = (5e-5f64 / x).asin();
+            let ball = x * integrate(|t| x * t.sin() / 0.01, start, FRAC_PI_2);
+            let cone = x * integrate(|_| 0.02, start, FRAC_PI_2);
+            close(BALL.mdr_profile(-x), ball, 1e-12, "ball");
+            close(CONE.mdr_profile(-x), cone, 1e-12, "cone");
+        }
+        assert_eq!((BALL.mdr_profile(4e-5), CONE.mdr_profile(4e-5)), (0.0, 0.0));
+    }
+
+    #[test]
+    fn forces_are_the_sum_of_the_springs_and_of_the_pressure() {
+        let area = |g: &dyn Fn(f64) -> f64| {
+            // x = b + (a − b)t² takes the root at b away.
+            let (b, l) = (5e-5, A - 5e-5);
+            let outer = |t: f64| (g(A) - g(b + l * t * t)) * 2.0 * l * t;
+            2.0 * E * (g(A) * b + integrate(outer, 0.0, 1.0))
+        };
+        close(
+            BALL.force(A),
+            area(&|x| BALL.mdr_profile(x)),
+            1e-12,
+            "ball springs",
+        );
+        close(
+            CONE.force(A),
+            area(&|x| CONE.mdr_profile(x)),
+            1e-12,
+            "cone springs",
+        );
+        let ring = |p: f64, r: f64| 2.0 * PI * r * p;
+        let ball = across_rim(|r| ring(BALL.pressure(A, r), r), A, 5e-5);
+        let cone = across_rim(|r| ring(CONE.pressure(A, r), r), A, 5e-5);
+        close(BALL.force(A), ball, 1e-9, "ball pressure");
+        close(CONE.force(A), cone, 1e-9, "cone pressure");
+    }
+
+    #[test]
+    fn pressure_is_equation_3_by_secants() {
+        let b = 5e-5f64;
+        let ball = |x: f64| (2.0 * x * x - b * b) / (0.01 * (x * x - b * b).sqrt());
+        let cone = |x: f64| 0.02 * ((b / x).acos() + b / (x * x - b * b).sqrt());
+        // x = m/cos t: dx/√(x²−m²) = dt/cos t, with the other root left as it is.
+        let by_secant = |slope: &dyn Fn(f64) -> f64, r: f64| {
+            let m = r.max(b);
+            let integrand = |t: f64| {
+                let x = m / t.cos();
+                let other = if r > b {
+                    1.0
+                } else {
+                    ((x * x - b * b) / (x * x - r * r)).sqrt()
+                };
+                slope(x) * other / t.cos()
+            };
+            E / PI * integrate(integrand, 0.0, (m / A).acos())
+        };
+        for r in [0.0, 1e-5, 4e-5, 4.9e-5, 5.1e-5, 6e-5, 1e-4, 1.39e-4] {
+            close(BALL.pressure(A, r), by_secant(&ball, r), 1e-11, "ball");
+            close(CONE.pressure(A, r), by_secant(&cone, r), 1e-11, "cone");
+        }
+    }
+
+    #[test]
+    fn no_tip_is_the_plain_shape_and_a_small_one_nearly_so() {
+        let (r, hertz, love) = (0.4 * A, PowerLaw::paraboloid(0.01), PowerLaw::cone(0.02));
+        for (b, tolerance) in [(0.0, 1e-14), (1e-9, 1e-7)] {
+            let ball = TruncatedParaboloid {
+                tip_radius: b,
+                ..BALL
+            };
+            let cone = TruncatedCone {
+                tip_radius: b,
+                ..CONE
+            };
+            close(
+                ball.pressure(A, r),
+                hertz.pressure(E, A, r),
+                tolerance,
+                "p ball",
+            );
+            close(
+                cone.pressure(A, r),
+                love.pressure(E, A, r),
+                1e3 * tolerance,
+                "p cone",
+            );
+            close(
+                ball.force(A),
+                hertz.force(E, hertz.depth(A)),
+                tolerance,
+                "F ball",
+            );
+            close(
+                cone.force(A),
+                love.force(E, love.depth(A)),
+                1e3 * tolerance,
+                "F cone",
+            );
+        }
+    }
+
+    #[test]
+    fn axis_value_in_closed_form() {
+        // r = 0: p = (E*/πR) ∫ (2x²−b²)/(x√(x²−b²)) dx = (E*/πR)[2√(a²−b²) − b acos(b/a)].
+        let (b, s) = (5e-5f64, leg(A, 5e-5));
+        let ball = E / (PI * 0.01) * (2.0 * s - b * (b / A).acos());
+        close(BALL.pressure(A, 0.0), ball, 1e-13, "ball axis");
+        // Cone: (E*tanθ/π) ∫ [acos(b/x)/x + b/(x√(x²−b²))] dx; with x = b/cos t: ∫ (t tan t + 1) dt.
+        let cone = E * 0.02 / PI * integrate(|t: f64| t * t.tan() + 1.0, 0.0, (b / A).acos());
+        close(CONE.pressure(A, 0.0), cone, 1e-12, "cone axis");
+    }
+
+    #[test]
+    fn depth_inverts_and_limits_hold() {
+        // Just above the tip d rises like √(a−b), so that a's last digit costs half of d's.
+        for (d, tolerance) in [(1e-12, 1e-4), (1e-8, 1e-11), (1e-6, 1e-14), (1e-2, 1e-14)] {
+            close(
+                BALL.depth(BALL.contact_radius(d)),
+                d,
+                tolerance,
+                "ball d(a(d))",
+            );
+            close(
+                CONE.depth(CONE.contact_radius(d)),
+                d,
+                tolerance,
+                "cone d(a(d))",
+            );
+        }
+        assert_eq!(CONE.contact_radius(0.0), 5e-5);
+        assert_eq!(
+            (CONE.contact_radius(-1.0), BALL.contact_radius(-1.0)),
+            (0.0, 0.0)
+        );
+        assert!(CONE.depth(4e-5).is_nan() && BALL.force(4e-5).is_nan());
+        assert_eq!(
+            (BALL.pressure(A, 5e-5), CONE.pressure(A, 5e-5)),
+            (f64::INFINITY, f64::INFINITY)
+        );
+        assert_eq!((BALL.pressure(A, A), CONE.pressure(5e-5, 0.0)), (0.0, 0.0));
+        assert_eq!((CONE.profile(4e-5), BALL.profile(4e-5)), (0.0, 0.0));
+    }
+}

@@ -1,0 +1,148 @@
+//! KEY = VALUE: what `--set`, a recorded change and the edit form have in common.
+
+use toml::{Table, Value};
+
+use super::check::unknown;
+use super::error::{Origin, ScenarioError, echo};
+use super::parameters::{self, Kind, Parameter};
+
+/// Splits `KEY=VALUE`; `flag` stands before it in messages.
+pub(super) fn split<'a>(text: &'a str, flag: &str) -> Result<(&'a str, &'a str), ScenarioError> {
+    let halves = text
+        .split_once('=')
+        .map(|(key, value)| (key.trim(), value.trim()));
+    match halves {
+        Some((key, value)) if !key.is_empty() && !value.is_empty() => Ok((key, value)),
+        _ => Err(ScenarioError::NotAnAssignment {
+            given: format!("{flag}{}", echo(text)),
+        }),
+    }
+}
+
+/// Puts `value` at the dotted path `key`; `written` is how the user wrote it.
+pub(super) fn assign(
+    table: &mut Table,
+    origin: &mut Origin,
+    key: &str,
+    value: &str,
+    written: &str,
+) -> Result<(), ScenarioError> {
+    let refuse = |rule: String| ScenarioError::Refused {
+        place: written.to_owned(),
+        rule,
+    };
+    if key == "changes" || key.starts_with("changes.") {
+        return Err(refuse("changes are recorded during a run, not set".into()));
+    }
+    let Some(parameter) = parameters::find(key) else {
+        return Err(if parameters::is_section(key) {
+            refuse(format!(
+                "{key} is a table; {}",
+                parameters::hint(&format!("{key}.*"))
+            ))
+        } else {
+            unknown(written, key, key)
+        });
+    };
+    let value = parse(parameter, value);
+    if parameter.path == "indenter.shape" {
+        drop_keys_of_other_shapes(table, &value);
+    }
+    origin.assign(parameter.path, written);
+    insert(table, parameter.path, value);
+    Ok(())
+}
+
+/// The value as TOML reads it, or the bare text.
+fn parse(parameter: &Parameter, text: &str) -> Value {
+    let parsed = text.parse::<Value>();
+    match (parameter.kind, parsed) {
+        (Kind::Text | Kind::Choice(_), Ok(Value::String(text))) => Value::String(text),
+        (Kind::Text | Kind::Choice(_), _) | (_, Err(_)) => Value::String(text.to_owned()),
+        (_, Ok(value)) => value,
+    }
+}
+
+/// Keys of a shape that is no longer there would only be refused.
+fn drop_keys_of_other_shapes(table: &mut Table, shape: &Value) {
+    let known = shape
+        .as_str()
+        .filter(|shape| parameters::SHAPES.contains(shape));
+    if let (Some(shape), Some(Value::Table(indenter))) = (known, table.get_mut("indenter")) {
+        indenter.retain(|key, _| {
+            let parameter = parameters::find(&format!("indenter.{key}"));
+            parameter.is_none_or(|known| known.shapes.is_empty() || known.shapes.contains(&shape))
+        });
+    }
+}
+
+/// Writes the value, making the tables on the way. Where something else stands in the way of a
+/// table, it stays, and the check of all keys will find it.
+fn insert(table: &mut Table, path: &str, value: Value) {
+    match path.split_once('.') {
+        None => {
+            table.insert(path.to_owned(), value);
+        }
+        Some((first, rest)) => {
+            let entry = table
+                .entry(first)
+                .or_insert_with(|| Value::Table(Table::new()));
+            if let Value::Table(inner) = entry {
+                insert(inner, rest, value);
+            }
+        }
+    }
+}
+
+/// How an error repeats an assignment.
+pub(super) fn written(key: &str, value: &str) -> String {
+    format!("{} = {}", echo(key), echo(value))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::check;
+
+    fn assigned(key: &str, value: &str) -> Table {
+        let (mut table, mut origin) = (Table::new(), Origin::new("t"));
+        assign(&mut table, &mut origin, key, value, &written(key, value)).expect("a known key");
+        check::keys(&table, &origin).expect("a value of the right kind");
+        table
+    }
+
+    #[test]
+    fn values_are_toml_and_bare_words_are_text() {
+        for (key, value, expected) in [
+            ("numerics.method", "b", "b"),
+            ("numerics.method", "a+b", "a+b"),
+            ("numerics.method", "\"a+b\"", "a+b"),
+            ("title", "2024-01-01", "2024-01-01"),
+            ("title", "12", "12"),
+        ] {
+            let table = assigned(key, value);
+            let expected = Value::String(expected.into());
+            let found = match key.split_once('.') {
+                Some((first, rest)) => table[first].get(rest),
+                None => table.get(key),
+            };
+            assert_eq!(found, Some(&expected), "{key}={value}");
+        }
+        assert_eq!(
+            assigned("wear.coefficient", "1e-12")["wear"]["coefficient"],
+            Value::Float(1e-12)
+        );
+        assert_eq!(
+            assigned("run.snapshot_at", "[1, 2.5]")["run"]["snapshot_at"],
+            Value::Array(vec![Value::Integer(1), Value::Float(2.5)])
+        );
+    }
+
+    #[test]
+    fn an_assignment_has_two_sides() {
+        assert_eq!(split(" a.b = c=d ", ""), Ok(("a.b", "c=d")));
+        for text in ["", "a", "=", "a=", "=b"] {
+            assert!(split(text, "--set ").is_err(), "{text:?}");
+        }
+    }
+}

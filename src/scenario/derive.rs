@@ -1,0 +1,202 @@
+//! What a scenario may leave to the program: the domain's edge and the references of the power law,
+//! found by pressing the unworn indenter.
+
+use std::f64::consts::PI;
+
+use crate::contact::indenter::Indenter;
+use crate::contact::material::Material;
+use crate::contact::normal;
+use crate::math::abel::{AbelMethod, AbelPlan};
+use crate::math::grid::RadialGrid;
+use crate::simulation::drive::{Control, Drive};
+
+/// Cells of the grid on which the unworn contact is solved: 1e-4 of the depth is more than enough.
+const CELLS: usize = 200;
+
+/// Under a prescribed force a wearing contact sinks in; the domain has room for this many times
+/// the depth of the unworn one.
+const ROOM_TO_SINK: f64 = 3.0;
+
+/// The contact of the unworn indenter.
+struct Pressed {
+    /// d, m.
+    depth: f64,
+    /// a, m.
+    radius: f64,
+    /// F_z, N.
+    force: f64,
+}
+
+/// The largest radius that can ever touch, m: where f₀ reaches the largest depth. Under a force it
+/// has no bound in general, and [`ROOM_TO_SINK`] stands in.
+pub(super) fn domain_radius(
+    indenter: &Indenter,
+    material: &Material,
+    control: &Control,
+) -> Option<f64> {
+    match control {
+        Control::Displacement(depth) => Some(indenter.radius_at(depth.highest())),
+        Control::Force(force) => {
+            let pressed = press_by(indenter, material, force.highest())?;
+            Some(indenter.radius_at(ROOM_TO_SINK * pressed.depth))
+        }
+    }
+}
+
+/// τ_ref, Pa, and v_ref, m/s, of the power law where the scenario gives none: μ times the mean
+/// pressure at the mean normal position, and the greatest tangential velocity of the indenter.
+pub(super) fn references(
+    indenter: &Indenter,
+    material: &Material,
+    drive: &Drive,
+) -> Option<(f64, f64)> {
+    // A motion that only touches at its deepest has its pressure there.
+    let swing = drive.normal().oscillation();
+    let at = if swing.mean() > 0.0 {
+        swing.mean()
+    } else {
+        swing.highest()
+    };
+    let pressed = match drive.normal() {
+        Control::Displacement(_) => press_to(indenter, material, at)?,
+        Control::Force(_) => press_by(indenter, material, at)?,
+    };
+    let mean_pressure = pressed.force / (PI * pressed.radius * pressed.radius);
+    // Without friction there is no stress to compare with, and any reference does.
+    let friction = if material.friction() > 0.0 {
+        material.friction()
+    } else {
+        1.0
+    };
+    let velocity = match drive.tangential() {
+        None => 0.0,
+        Some(Control::Displacement(shift)) => shift.amplitude() * shift.angular_frequency(),
+        Some(Control::Force(force)) => {
+            let stiffness = 2.0 * material.tangential_modulus() * pressed.radius;
+            force.amplitude() / stiffness * force.angular_frequency()
+        }
+    };
+    let slip_rate = if velocity > 0.0 { velocity } else { 1.0 };
+    Some((friction * mean_pressure, slip_rate))
+}
+
+/// Presses to a depth, m.
+fn press_to(indenter: &Indenter, material: &Material, depth: f64) -> Option<Pressed> {
+    let (grid, g) = unworn(indenter, indenter.radius_at(depth))?;
+    let mut load = vec![0.0; grid.len()];
+    let contact = normal::press(
+        grid.nodes(),
+        &g,
+        depth,
+        material.normal_modulus(),
+        &mut load,
+    );
+    Some(Pressed {
+        depth,
+        radius: contact.radius,
+        force: contact.force,
+    })
+}
+
+/// Presses by a force, N, on a domain just wide enough to carry it.
+fn press_by(indenter: &Indenter, material: &Material, force: f64) -> Option<Pressed> {
+    let modulus = material.normal_modulus();
+    // F(a) = 2n/(n+1) E* κₙ f₀(a) a exceeds E* f₀(a) a for every n ≥ 1.
+    let radius = std::iter::successors(Some(1e-15), |radius| Some(radius * 1.25))
+        .take_while(|radius| *radius < 1e15)
+        .find(|&radius| modulus * indenter.profile(radius) * radius >= force)?;
+    let (grid, g) = unworn(indenter, radius)?;
+    let mut load = vec![0.0; grid.len()];
+    let deepest = g[grid.cells()];
+    let depth = normal::depth_for_load(grid.nodes(), &g, force, modulus, deepest, &mut load)?;
+    let contact = normal::press(grid.nodes(), &g, depth, modulus, &mut load);
+    Some(Pressed {
+        depth,
+        radius: contact.radius,
+        force,
+    })
+}
+
+/// The 1D image of the unworn profile out to `radius`, m.
+fn unworn(indenter: &Indenter, radius: f64) -> Option<(RadialGrid, Vec<f64>)> {
+    let grid = RadialGrid::uniform(CELLS, radius).ok()?;
+    let f: Vec<f64> = grid.nodes().iter().map(|&r| indenter.profile(r)).collect();
+    let mut g = vec![0.0; grid.len()];
+    AbelPlan::new(AbelMethod::A, &grid).profile(&f, &mut g);
+    Some((grid, g))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulation::drive::Oscillation;
+
+    fn hertz() -> (Indenter, Material, f64) {
+        let indenter = Indenter::paraboloid(0.01).expect("a shape");
+        let material = Material::new(2.3077e11, 0.3, 0.1).expect("a material");
+        (indenter, material, 4.0 / 3.0 * 2.3077e11 * 0.1 * 1e-9)
+    }
+
+    #[test]
+    fn a_force_finds_the_depth_and_the_radius_of_hertz() {
+        let (indenter, material, force) = hertz();
+        let pressed = press_by(&indenter, &material, force).expect("a contact");
+        assert!(
+            (pressed.depth / 1e-6 - 1.0).abs() < 1e-3,
+            "{}",
+            pressed.depth
+        );
+        assert!(
+            (pressed.radius / 1e-4 - 1.0).abs() < 1e-3,
+            "{}",
+            pressed.radius
+        );
+        let pressed = press_to(&indenter, &material, 1e-6).expect("a contact");
+        assert!(
+            (pressed.force / force - 1.0).abs() < 1e-3,
+            "{}",
+            pressed.force
+        );
+    }
+
+    #[test]
+    fn every_shape_and_size_carries_its_load() {
+        let (_, material, _) = hertz();
+        for indenter in [
+            Indenter::paraboloid(1e-9),
+            Indenter::paraboloid(1e6),
+            Indenter::cone(1e-6),
+            Indenter::cone(1.5),
+            Indenter::power(1e30, 20.0),
+            Indenter::power(1e-30, 1.0),
+        ] {
+            let indenter = indenter.expect("a shape");
+            for force in [1e-9, 1.0, 1e6] {
+                let pressed = press_by(&indenter, &material, force);
+                let pressed = pressed.unwrap_or_else(|| panic!("{indenter:?} {force}"));
+                assert!(
+                    pressed.depth > 0.0 && pressed.radius > 0.0,
+                    "{indenter:?} {force}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn references_follow_pressure_and_velocity() {
+        let (indenter, material, force) = hertz();
+        let swing =
+            |mean, amplitude| Oscillation::new(mean, amplitude, 100.0, 0.0).expect("a motion");
+        let normal = Control::Displacement(swing(1e-6, 0.0));
+        let tangential = Some(Control::Displacement(swing(0.0, 1e-7)));
+        let drive = Drive::new(normal, tangential);
+        let (stress, rate) = references(&indenter, &material, &drive).expect("references");
+        assert!((stress / (0.1 * force / (PI * 1e-8)) - 1.0).abs() < 1e-3);
+        assert!((rate / 1e-5 - 1.0).abs() < 1e-12);
+        let still = Drive::new(normal, None);
+        assert_eq!(
+            references(&indenter, &material, &still).map(|both| both.1),
+            Some(1.0)
+        );
+    }
+}

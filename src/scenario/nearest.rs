@@ -1,0 +1,49 @@
+//! The known name nearest to a mistyped one.
+
+use strsim::normalized_damerau_levenshtein as likeness;
+
+use super::parameters::split;
+
+/// Below this, two names are taken to have nothing to do with each other.
+const LIKELY: f64 = 0.5;
+
+/// The name among `known` that `typed` most likely stands for; dotted paths are compared with regard
+/// to their tables.
+pub(super) fn nearest<'a>(typed: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    let mut best = None;
+    let mut highest = LIKELY;
+    for candidate in known {
+        let score = score(typed, candidate);
+        if score > highest {
+            (best, highest) = (Some(candidate), score);
+        }
+    }
+    best
+}
+
+fn score(typed: &str, known: &str) -> f64 {
+    let ((table, key), (known_table, known_key)) = (split(typed), split(known));
+    if table == known_table {
+        let begins = key.len() > 2 && (known_key.starts_with(key) || known_key.ends_with(key));
+        likeness(key, known_key).max(if begins { 0.8 } else { 0.0 })
+    } else if key == known_key {
+        0.8 + 0.1 * likeness(table, known_table)
+    } else {
+        // Another table is another subject, so the whole path must be close.
+        let whole = likeness(typed, known);
+        if whole > 0.75 { whole - 0.05 } else { 0.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_near_is_nothing() {
+        let known = ["hertz", "mindlin", "li2019-fig3"];
+        assert_eq!(nearest("hert", known.into_iter()), Some("hertz"));
+        assert_eq!(nearest("fig3", known.into_iter()), Some("li2019-fig3"));
+        assert_eq!(nearest("qwop", known.into_iter()), None);
+    }
+}

@@ -1,0 +1,154 @@
+//! The scenarios that ship: ordinary TOML files, embedded in the program, without private powers.
+
+use super::error::printable;
+use super::nearest::nearest;
+
+/// A scenario that ships.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Preset {
+    /// The name on the command line: the file's, without its ending.
+    pub name: &'static str,
+    /// The TOML, with its comments.
+    pub text: &'static str,
+}
+
+macro_rules! presets {
+    ($($name:literal),+ $(,)?) => {
+        &[$(Preset {
+            name: $name,
+            text: include_str!(concat!("../../presets/", $name, ".toml")),
+        }),+]
+    };
+}
+
+/// Every preset, in the order in which lists show them.
+pub const ALL: &[Preset] = presets![
+    "li2019-fig3",
+    "hertz",
+    "mindlin",
+    "limit-shape",
+    "gross-slip",
+    "separation",
+    "two-frequencies",
+    "power-law",
+    "cone",
+    "strong-wear",
+    "harsh-wear",
+];
+
+/// The preset of this name.
+pub fn find(name: &str) -> Option<&'static Preset> {
+    ALL.iter().find(|preset| preset.name == name)
+}
+
+/// What to write instead of the unknown `name`.
+pub(super) fn hint(name: &str) -> String {
+    let names = ALL.iter().map(|preset| preset.name);
+    match nearest(name, names.clone()) {
+        Some(near) => format!("did you mean {near}? A file's path ends in .toml or has a /"),
+        None => {
+            let names: Vec<&str> = names.collect();
+            format!(
+                "there are {}; a file's path ends in .toml or has a /",
+                names.join(", ")
+            )
+        }
+    }
+}
+
+impl Preset {
+    /// The scenario's title.
+    pub fn title(&self) -> String {
+        self.text_of("title")
+    }
+
+    /// What it shows, on one line.
+    pub fn summary(&self) -> String {
+        self.text_of("description")
+    }
+
+    fn text_of(&self, key: &str) -> String {
+        let table = self.text.parse::<toml::Table>().unwrap_or_default();
+        let text = table
+            .get(key)
+            .and_then(toml::Value::as_str)
+            .unwrap_or_default();
+        let words: Vec<&str> = text.split_whitespace().collect();
+        printable(&words.join(" "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::Scenario;
+    use crate::simulation::Simulation;
+
+    #[test]
+    fn every_file_is_embedded_and_every_preset_has_its_file() {
+        let directory = concat!(env!("CARGO_MANIFEST_DIR"), "/presets");
+        let mut files: Vec<String> = std::fs::read_dir(directory)
+            .expect("the directory of presets")
+            .map(|entry| {
+                entry
+                    .expect("an entry")
+                    .file_name()
+                    .to_string_lossy()
+                    .into_owned()
+            })
+            .collect();
+        let mut embedded: Vec<String> = ALL
+            .iter()
+            .map(|preset| format!("{}.toml", preset.name))
+            .collect();
+        files.sort();
+        embedded.sort();
+        assert_eq!(files, embedded);
+    }
+
+    #[test]
+    fn every_preset_has_a_line_for_the_list_and_says_how_long_it_runs() {
+        for preset in ALL {
+            assert!((5..=60).contains(&preset.title().len()), "{}", preset.name);
+            assert!(
+                (20..=110).contains(&preset.summary().len()),
+                "{}",
+                preset.name
+            );
+            let scenario = Scenario::load(preset.name, &[]).expect("a scenario");
+            assert!(scenario.run().cycles.is_some(), "{}", preset.name);
+            let comments = preset
+                .text
+                .lines()
+                .take_while(|line| line.starts_with('#'))
+                .count();
+            assert!(
+                (5..=12).contains(&comments),
+                "{}: {comments} lines",
+                preset.name
+            );
+        }
+    }
+
+    #[test]
+    fn every_preset_runs_for_a_cycle() {
+        for preset in ALL {
+            let scenario = Scenario::load(preset.name, &[]).expect("a scenario");
+            let mut simulation = Simulation::new(scenario.setup().clone()).expect("a contact");
+            let outcome = simulation.advance_to(1.0);
+            assert_eq!(outcome, Ok(()), "{}", preset.name);
+        }
+    }
+
+    #[test]
+    fn a_mistyped_name_is_led_to_the_nearest() {
+        let error = Scenario::load("mindlyn", &[]).expect_err("no such preset");
+        assert!(
+            error
+                .to_string()
+                .starts_with("mindlyn: no such preset; did you mean mindlin?")
+        );
+        let error = Scenario::load("q", &[]).expect_err("no such preset");
+        assert!(error.to_string().contains("there are li2019-fig3, hertz"));
+    }
+}

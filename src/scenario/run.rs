@@ -1,0 +1,67 @@
+//! What a scenario says about its own run: how long, what to keep, what was changed on the way.
+
+use serde::{Deserialize, Serialize};
+use toml::{Table, Value};
+
+use crate::math::invalid::{Invalid, non_negative};
+
+/// `[run]`: how far a run goes and where it is written out.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct RunPlan {
+    /// Length of the run in cycles, 0 or more; none: until the user stops it.
+    pub cycles: Option<f64>,
+    /// Cycles at which the state is written; those after the end of the run are never reached.
+    pub snapshot_at: Vec<f64>,
+}
+
+impl RunPlan {
+    /// Refuses cycles that are negative or not finite; the field is that of `[run]`.
+    pub fn check(&self) -> Result<(), Invalid> {
+        if let Some(cycles) = self.cycles {
+            non_negative("cycles", cycles)?;
+        }
+        for &cycle in &self.snapshot_at {
+            non_negative("snapshot_at", cycle).map_err(|invalid| {
+                Invalid::new("snapshot_at", invalid.value, "each must be 0 or greater")
+            })?;
+        }
+        Ok(())
+    }
+
+    pub(super) fn to_table(&self) -> Table {
+        let mut table = Table::new();
+        if let Some(cycles) = self.cycles {
+            table.insert("cycles".into(), Value::Float(cycles));
+        }
+        table.insert("snapshot_at".into(), self.snapshot_at.clone().into());
+        table
+    }
+}
+
+/// `[[changes]]`: one key that was changed during the run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Change {
+    /// When, in cycles since the start.
+    pub at_cycle: f64,
+    /// The key and its new value, `KEY = VALUE` with the value as TOML.
+    pub set: String,
+}
+
+impl Change {
+    /// The change of `key` to `value` (as TOML, or a bare word) at `at_cycle` cycles.
+    pub fn new(at_cycle: f64, key: &str, value: &str) -> Self {
+        Self {
+            at_cycle,
+            set: format!("{key} = {value}"),
+        }
+    }
+
+    pub(super) fn to_table(&self) -> Table {
+        let mut table = Table::new();
+        table.insert("at_cycle".into(), Value::Float(self.at_cycle));
+        table.insert("set".into(), Value::String(self.set.clone()));
+        table
+    }
+}

@@ -1,0 +1,132 @@
+//! A run under way: a scenario, its simulation, and the changes made to it.
+//!
+//! The explorer and the headless commands both drive this, so the same scenario and the same
+//! changes give the same bits.
+
+use std::collections::VecDeque;
+
+use thiserror::Error;
+
+use super::{Change, RunPlan, Scenario, ScenarioError};
+use crate::simulation::{Breakdown, Simulation};
+
+/// Why a session could not start, change or go on.
+#[derive(Debug, Error)]
+pub enum SessionError {
+    /// A value that is refused.
+    #[error(transparent)]
+    Scenario(#[from] ScenarioError),
+    /// A contact that cannot go on.
+    #[error(transparent)]
+    Breakdown(#[from] Breakdown),
+}
+
+/// A scenario being run.
+#[derive(Debug, Clone)]
+pub struct Session {
+    /// As it was loaded, without the changes.
+    loaded: Scenario,
+    /// As it is now, with the changes made so far.
+    scenario: Scenario,
+    simulation: Simulation,
+    changes: Vec<Change>,
+    pending: VecDeque<Change>,
+}
+
+impl Session {
+    /// Starts `scenario` from the unworn contact. Changes it has recorded are made again when their
+    /// cycle comes.
+    pub fn start(scenario: Scenario) -> Result<Self, SessionError> {
+        let simulation = Simulation::new(scenario.setup().clone())?;
+        let mut pending: Vec<Change> = scenario.changes().to_vec();
+        pending.sort_by(|a, b| a.at_cycle.total_cmp(&b.at_cycle));
+        let mut session = Self {
+            scenario: scenario.clone(),
+            loaded: scenario,
+            simulation,
+            changes: Vec::new(),
+            pending: pending.into(),
+        };
+        session.make_due_changes()?;
+        Ok(session)
+    }
+
+    /// The scenario as it is now, changes included.
+    pub fn scenario(&self) -> &Scenario {
+        &self.scenario
+    }
+
+    /// The scenario as it was loaded, ready to start again.
+    pub fn loaded(&self) -> &Scenario {
+        &self.loaded
+    }
+
+    /// The simulation.
+    pub fn simulation(&self) -> &Simulation {
+        &self.simulation
+    }
+
+    /// The changes made so far, in order.
+    pub fn changes(&self) -> &[Change] {
+        &self.changes
+    }
+
+    /// One step, then the changes that are due.
+    pub fn step(&mut self) -> Result<(), SessionError> {
+        self.simulation.step()?;
+        self.make_due_changes()
+    }
+
+    /// Steps to `cycle` exactly, making recorded changes on the way.
+    pub fn advance_to(&mut self, cycle: f64) -> Result<(), SessionError> {
+        while let Some(at) = self
+            .pending
+            .front()
+            .map(|change| change.at_cycle)
+            .filter(|&at| at <= cycle)
+        {
+            self.simulation.advance_to(at)?;
+            self.make_due_changes()?;
+        }
+        Ok(self.simulation.advance_to(cycle)?)
+    }
+
+    /// Changes one key of the scenario now, carrying the state over, and records it.
+    /// On an error nothing has changed.
+    pub fn change(&mut self, key: &str, value: &str) -> Result<(), SessionError> {
+        self.make(Change::new(self.simulation.cycle(), key, value))
+    }
+
+    fn make(&mut self, change: Change) -> Result<(), SessionError> {
+        let scenario = self.scenario.after(&change)?;
+        self.simulation.reconfigure(scenario.setup().clone())?;
+        self.scenario = scenario;
+        self.changes.push(change);
+        Ok(())
+    }
+
+    /// The run so far as a scenario of its own: what was loaded, each change, and where it stands.
+    pub fn as_run(&self, snapshot_at: Vec<f64>) -> Scenario {
+        let plan = RunPlan {
+            cycles: Some(self.simulation.cycle()),
+            snapshot_at,
+        };
+        self.loaded
+            .with_changes(self.changes.clone())
+            .with_run(plan)
+    }
+
+    fn make_due_changes(&mut self) -> Result<(), SessionError> {
+        let due = |change: &Change, cycle| change.at_cycle <= cycle;
+        while self
+            .pending
+            .front()
+            .is_some_and(|change| due(change, self.simulation.cycle()))
+        {
+            if let Some(change) = self.pending.pop_front() {
+                self.make(change)?;
+            }
+        }
+        Ok(())
+    }
+}

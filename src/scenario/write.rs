@@ -1,0 +1,105 @@
+//! A scenario as TOML: all numbers to the last bit, keys in the order of the table of parameters.
+
+use std::fmt::Write;
+
+use toml::{Table, Value};
+
+use super::parameters::{Kind, PARAMETERS};
+
+/// Writes `table`, which has passed [`check::keys`](super::check::keys).
+pub(super) fn scenario(table: &Table) -> String {
+    let mut text = String::new();
+    let mut open = "";
+    for parameter in PARAMETERS
+        .iter()
+        .filter(|known| known.section() != "changes")
+    {
+        let Some(value) = at(table, parameter.path) else {
+            continue;
+        };
+        if value.as_array().is_some_and(Vec::is_empty) {
+            continue;
+        }
+        if parameter.section() != open {
+            open = parameter.section();
+            let _ = writeln!(text, "\n[{open}]");
+        }
+        let _ = write!(text, "{} = {}", parameter.key(), self::value(value));
+        let commented =
+            matches!(parameter.kind, Kind::Number | Kind::Numbers) && !parameter.unit.is_empty();
+        let _ = match commented {
+            true => writeln!(text, "  # {}", parameter.unit),
+            false => writeln!(text),
+        };
+    }
+    let changes = table.get("changes").and_then(Value::as_array);
+    for change in changes.into_iter().flatten() {
+        text.push_str("\n[[changes]]\n");
+        for key in ["at_cycle", "set"] {
+            if let Some(value) = change.get(key) {
+                let _ = writeln!(text, "{key} = {}", self::value(value));
+            }
+        }
+    }
+    text.trim_start().to_owned()
+}
+
+/// The value at a dotted path.
+pub(super) fn at<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
+    match path.split_once('.') {
+        None => table.get(path),
+        Some((first, rest)) => at(table.get(first)?.as_table()?, rest),
+    }
+}
+
+/// One value, as it may stand after `=`.
+pub(super) fn value(value: &Value) -> String {
+    match value {
+        Value::Float(number) => self::number(*number),
+        Value::Array(list) => {
+            let list: Vec<String> = list.iter().map(self::value).collect();
+            format!("[{}]", list.join(", "))
+        }
+        other => other.to_string(),
+    }
+}
+
+/// The shortest form that reads back to the same bits, and as a float.
+fn number(number: f64) -> String {
+    let size = number.abs();
+    if number != 0.0 && number.is_finite() && !(1e-3..1e6).contains(&size) {
+        format!("{number:e}")
+    } else if number.is_nan() {
+        "nan".to_owned()
+    } else {
+        format!("{number:?}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_read_back_as_the_same_floats() {
+        for (given, shown) in [
+            (0.0, "0.0"),
+            (-0.0, "-0.0"),
+            (1.0, "1.0"),
+            (1e-7, "1e-7"),
+            (2.3077e11, "2.3077e11"),
+            (0.1 + 0.2, "0.30000000000000004"),
+            (5e-324, "5e-324"),
+            (f64::MAX, "1.7976931348623157e308"),
+            (123_456.789, "123456.789"),
+        ] {
+            assert_eq!(number(given), shown);
+            let read = shown.parse::<Value>().expect("a TOML value");
+            assert_eq!(
+                read.as_float().map(f64::to_bits),
+                Some(given.to_bits()),
+                "{shown}"
+            );
+        }
+    }
+}

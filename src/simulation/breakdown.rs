@@ -1,0 +1,90 @@
+//! Why a run cannot go on: a plain word with the cycle, the cause and what would help.
+
+use thiserror::Error;
+
+use crate::math::abel::AbelMethod;
+
+/// A step that could not be taken. The state is that of the last good step.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("stopped after {cycle} cycles: {cause}")]
+pub struct Breakdown {
+    /// The cycle of the last good step.
+    pub cycle: f64,
+    /// What happened.
+    pub cause: Cause,
+}
+
+/// What can happen.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Cause {
+    /// A NaN or an infinity in the contact or in the worn profile.
+    #[error("the {quantity} is not finite; {}", advice(*method))]
+    NotFinite {
+        /// Which quantity was seen first.
+        quantity: &'static str,
+        /// The transform method in use.
+        method: AbelMethod,
+    },
+    /// The worn profile stands far above what can touch.
+    #[error(
+        "the wear runs away: {worn:.1} times the largest depth at r = {radius:.4e} m; {}",
+        advice(*method)
+    )]
+    Runaway {
+        /// Largest worn depth in units of the largest depth of indentation.
+        worn: f64,
+        /// Where it stands, m.
+        radius: f64,
+        /// The transform method in use.
+        method: AbelMethod,
+    },
+    /// The contact has grown to the last node.
+    #[error(
+        "the contact has reached the domain's edge at {domain_radius:.4e} m; \
+         a larger numerics.domain_radius would hold it"
+    )]
+    EdgeReached {
+        /// L, m.
+        domain_radius: f64,
+    },
+    /// A prescribed normal force that no depth carries.
+    #[error(
+        "no depth carries the normal force {force:.4e} N within the domain's radius of \
+         {domain_radius:.4e} m; a larger numerics.domain_radius or a smaller motion.normal would do"
+    )]
+    LoadTooLarge {
+        /// F_z, N.
+        force: f64,
+        /// L, m.
+        domain_radius: f64,
+    },
+    /// A prescribed tangential force beyond friction.
+    #[error(
+        "the tangential force {force:.4e} N exceeds what friction holds, {limit:.4e} N; \
+         prescribe the displacement, or a smaller motion.tangential"
+    )]
+    FrictionExceeded {
+        /// F_x, N.
+        force: f64,
+        /// μ F_z, N.
+        limit: f64,
+    },
+}
+
+/// What is likely behind a state that blows up, by method.
+fn advice(method: AbelMethod) -> &'static str {
+    match method {
+        AbelMethod::Benad => {
+            "method benad amplifies errors in every round trip f -> g -> f; \
+             numerics.method = \"a\" is stable"
+        }
+        AbelMethod::B => {
+            "method b grows teeth at large wear coefficients; \
+             numerics.method = \"a\" or more numerics.steps_per_cycle would help"
+        }
+        AbelMethod::A | AbelMethod::APlusB => {
+            "the wear of a step is too large for the grid; more numerics.steps_per_cycle, \
+             fewer numerics.points or a smaller wear.coefficient would help"
+        }
+    }
+}

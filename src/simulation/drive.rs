@@ -1,0 +1,236 @@
+//! The motion of the indenter, Eq. (14) of the paper: here time appears first.
+//!
+//! Time is counted in *cycles*: one period of the tangential motion, or of the normal motion where
+//! there is no tangential one.
+
+use std::f64::consts::TAU;
+
+use crate::math::invalid::{Invalid, finite, non_negative, positive};
+
+/// The most cycles that are looked through for a common period of both directions.
+pub const LONGEST_REPEAT: u32 = 20;
+
+/// mean + amplitude · sin(ωt + φ), of a displacement in m or of a force in N.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Oscillation {
+    mean: f64,
+    amplitude: f64,
+    angular_frequency: f64,
+    phase: f64,
+}
+
+impl Oscillation {
+    /// With an amplitude of 0 or more, ω greater than 0 in rad/s and φ in rad.
+    pub fn new(
+        mean: f64,
+        amplitude: f64,
+        angular_frequency: f64,
+        phase: f64,
+    ) -> Result<Self, Invalid> {
+        Ok(Self {
+            mean: finite("mean", mean)?,
+            amplitude: non_negative("amplitude", amplitude)?,
+            angular_frequency: positive("angular_frequency", angular_frequency)?,
+            phase: finite("phase", phase)?,
+        })
+    }
+
+    /// The value around which the motion swings.
+    pub fn mean(&self) -> f64 {
+        self.mean
+    }
+
+    /// Half the way from the lowest to the highest value.
+    pub fn amplitude(&self) -> f64 {
+        self.amplitude
+    }
+
+    /// ω, rad/s.
+    pub fn angular_frequency(&self) -> f64 {
+        self.angular_frequency
+    }
+
+    /// φ, rad.
+    pub fn phase(&self) -> f64 {
+        self.phase
+    }
+
+    /// The highest value.
+    pub fn highest(&self) -> f64 {
+        self.mean + self.amplitude
+    }
+
+    /// The lowest value.
+    pub fn lowest(&self) -> f64 {
+        self.mean - self.amplitude
+    }
+
+    /// The value after `turns` of this oscillation. Only the fraction of a turn is given to the
+    /// sine, so that the millionth turn is like the first.
+    fn after_turns(&self, turns: f64) -> f64 {
+        self.mean + self.amplitude * (TAU * turns.fract() + self.phase).sin()
+    }
+}
+
+/// How one direction is driven.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Control {
+    /// The displacement of the indenter, m, is prescribed.
+    Displacement(Oscillation),
+    /// The force on the indenter, N, is prescribed.
+    Force(Oscillation),
+}
+
+impl Control {
+    /// The oscillation of whatever is prescribed.
+    pub fn oscillation(&self) -> &Oscillation {
+        match self {
+            Self::Displacement(oscillation) | Self::Force(oscillation) => oscillation,
+        }
+    }
+}
+
+/// A prescribed value at one moment: displacement in m or force in N.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Target {
+    /// m.
+    Displacement(f64),
+    /// N.
+    Force(f64),
+}
+
+/// Both directions of the motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Drive {
+    normal: Control,
+    tangential: Option<Control>,
+}
+
+impl Drive {
+    /// The normal motion, and the tangential one where there is one.
+    pub fn new(normal: Control, tangential: Option<Control>) -> Self {
+        Self { normal, tangential }
+    }
+
+    /// The normal motion.
+    pub fn normal(&self) -> &Control {
+        &self.normal
+    }
+
+    /// The tangential motion; without it there are no tangential springs, no slip and no wear.
+    pub fn tangential(&self) -> Option<&Control> {
+        self.tangential.as_ref()
+    }
+
+    /// The length of one cycle, s.
+    pub fn period(&self) -> f64 {
+        TAU / self.leading().angular_frequency
+    }
+
+    fn leading(&self) -> &Oscillation {
+        self.tangential
+            .as_ref()
+            .unwrap_or(&self.normal)
+            .oscillation()
+    }
+
+    /// ω₁/ω₂: turns of the normal motion in one cycle.
+    pub fn frequency_ratio(&self) -> f64 {
+        self.normal.oscillation().angular_frequency / self.leading().angular_frequency
+    }
+
+    /// After how many cycles the motion of both directions repeats, where it does within
+    /// [`LONGEST_REPEAT`]; none for incommensurate frequencies.
+    pub fn repeats_after(&self) -> Option<u32> {
+        let ratio = self.frequency_ratio();
+        (1..=LONGEST_REPEAT).find(|&cycles| {
+            let turns = f64::from(cycles) * ratio;
+            turns.round() > 0.0 && (turns - turns.round()).abs() < 1e-9 * turns
+        })
+    }
+
+    /// What the normal direction is asked for after `cycles`.
+    pub fn normal_at(&self, cycles: f64) -> Target {
+        at(&self.normal, cycles * self.frequency_ratio())
+    }
+
+    /// What the tangential direction is asked for after `cycles`.
+    pub fn tangential_at(&self, cycles: f64) -> Option<Target> {
+        self.tangential.as_ref().map(|control| at(control, cycles))
+    }
+}
+
+fn at(control: &Control, turns: f64) -> Target {
+    match control {
+        Control::Displacement(oscillation) => Target::Displacement(oscillation.after_turns(turns)),
+        Control::Force(oscillation) => Target::Force(oscillation.after_turns(turns)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn drive(ratio: f64) -> Drive {
+        let normal = Oscillation::new(1e-6, 1e-7, 100.0 * ratio, 0.0).expect("a motion");
+        let tangential = Oscillation::new(0.0, 1e-7, 100.0, 0.5).expect("a motion");
+        Drive::new(
+            Control::Displacement(normal),
+            Some(Control::Displacement(tangential)),
+        )
+    }
+
+    #[test]
+    fn the_values_are_those_of_eq_14() {
+        let drive = drive(2.0);
+        let cycles = 3.3;
+        let time = cycles * drive.period();
+        let expected = 1e-6 + 1e-7 * (200.0 * time).sin();
+        let Target::Displacement(depth) = drive.normal_at(cycles) else {
+            panic!("a displacement")
+        };
+        assert!((depth - expected).abs() < 1e-20);
+        let expected = 1e-7 * (100.0 * time + 0.5).sin();
+        let Some(Target::Displacement(shift)) = drive.tangential_at(cycles) else {
+            panic!("a displacement")
+        };
+        assert!((shift - expected).abs() < 1e-20);
+    }
+
+    #[test]
+    fn the_ten_millionth_cycle_is_like_the_first() {
+        let drive = drive(1.0);
+        assert_eq!(
+            drive.tangential_at(0.25),
+            drive.tangential_at(10_000_000.25)
+        );
+    }
+
+    #[test]
+    fn common_periods_are_found() {
+        for (ratio, cycles) in [
+            (1.0, Some(1)),
+            (2.0, Some(1)),
+            (0.5, Some(2)),
+            (1.5, Some(2)),
+            (2f64.sqrt(), None),
+        ] {
+            assert_eq!(drive(ratio).repeats_after(), cycles, "{ratio}");
+        }
+    }
+
+    #[test]
+    fn without_tangential_motion_the_normal_one_sets_the_cycle() {
+        let normal = Oscillation::new(1e-6, 0.0, 10.0, 0.0).expect("a motion");
+        let drive = Drive::new(Control::Displacement(normal), None);
+        assert_eq!(drive.period(), TAU / 10.0);
+        assert_eq!(drive.tangential_at(1.0), None);
+    }
+
+    #[test]
+    fn impossible_motions_are_refused() {
+        assert!(Oscillation::new(f64::NAN, 0.0, 1.0, 0.0).is_err());
+        assert!(Oscillation::new(0.0, -1.0, 1.0, 0.0).is_err());
+        assert!(Oscillation::new(0.0, 1.0, 0.0, 0.0).is_err());
+    }
+}

@@ -1,0 +1,3 @@
+//! How the state is carried forward in time.
+
+pub(super) mod direct;

@@ -1,0 +1,233 @@
+//! Pictures of one moment, owned and read-only: all that files and screens see of a simulation.
+
+use std::sync::Arc;
+
+use bitflags::bitflags;
+use serde::Serialize;
+
+use super::Simulation;
+use crate::math::abel::AbelMethod;
+
+bitflags! {
+    /// Which curves a reader shows. What nobody shows is not computed.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub struct Curves: u8 {
+        /// f.
+        const PROFILE = 1;
+        /// g.
+        const PROFILE_1D = 1 << 1;
+        /// q_z, q_x and u_x of the springs.
+        const SPRINGS = 1 << 2;
+        /// p: one transform.
+        const PRESSURE = 1 << 3;
+        /// τ.
+        const SHEAR = 1 << 4;
+        /// u_x(r) of the surface: one transform.
+        const SURFACE = 1 << 5;
+        /// Stick, slip or open, node by node.
+        const ZONES = 1 << 6;
+    }
+}
+
+/// What a node does at the moment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Zone {
+    /// In contact, moving with the indenter.
+    Stick,
+    /// In contact, sliding.
+    Slip,
+    /// Not in contact.
+    Open,
+}
+
+impl Zone {
+    /// The name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Stick => "stick",
+            Self::Slip => "slip",
+            Self::Open => "open",
+        }
+    }
+}
+
+/// The scalars of one moment: a row of the history.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Moment {
+    /// Cycles since the start.
+    pub cycle: f64,
+    /// s.
+    pub time: f64,
+    /// Depth u_z, m.
+    pub depth: f64,
+    /// u_x⁽⁰⁾, m.
+    pub shift: f64,
+    /// F_z, N.
+    pub normal_force: f64,
+    /// F_x, N; 0 without tangential motion.
+    pub tangential_force: f64,
+    /// a, m.
+    pub contact_radius: f64,
+    /// c of this moment, m; none without tangential motion.
+    pub stick_radius: Option<f64>,
+    /// The smallest c of the last period of the motion, m.
+    pub permanent_stick_radius: Option<f64>,
+    /// V, m³.
+    pub wear_volume: f64,
+    /// E_d, J.
+    pub dissipated_energy: f64,
+    /// 1 − V/∫k dE_d: how far the 3D side and the 1D side disagree. None before anything has worn
+    /// and under laws that do not follow energy.
+    pub energy_residual: Option<f64>,
+}
+
+/// The scalars and the curves that were asked for; a curve that was not is empty.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Observation {
+    /// The scalars.
+    pub moment: Moment,
+    /// The transform method.
+    pub method: AbelMethod,
+    /// The wear law's name; none without wear.
+    pub law: Option<&'static str>,
+    /// Nodes r = x, m.
+    pub radii: Arc<[f64]>,
+    /// f₀, m.
+    pub unworn: Arc<[f64]>,
+    /// f, m.
+    pub profile: Vec<f64>,
+    /// f − f₀, m.
+    pub wear: Vec<f64>,
+    /// g, m.
+    pub profile_1d: Vec<f64>,
+    /// q_z, N/m.
+    pub normal_load: Vec<f64>,
+    /// q_x, N/m.
+    pub tangential_load: Vec<f64>,
+    /// u_x of the springs, m.
+    pub spring: Vec<f64>,
+    /// p, Pa.
+    pub pressure: Vec<f64>,
+    /// τ, Pa.
+    pub shear: Vec<f64>,
+    /// u_x(r) of the surface, m.
+    pub surface: Vec<f64>,
+    /// Stick, slip or open.
+    pub zones: Vec<Zone>,
+}
+
+impl Simulation {
+    /// The scalars of the present moment.
+    pub fn moment(&self) -> Moment {
+        let (state, contact) = (self.state(), &self.workspace.contact);
+        let wear_volume = self.wear_volume();
+        let residual = 1.0 - (wear_volume - state.unexplained_volume) / state.expected_volume;
+        Moment {
+            cycle: state.cycle,
+            time: state.cycle * self.setup().drive.period(),
+            depth: contact.depth,
+            shift: contact.shift,
+            normal_force: contact.normal.force,
+            tangential_force: contact.tangential_force,
+            contact_radius: contact.normal.radius,
+            stick_radius: contact.slide.map(|slide| slide.stick_radius),
+            permanent_stick_radius: contact
+                .slide
+                .map(|slide| state.permanent_stick_radius().min(slide.stick_radius)),
+            wear_volume,
+            dissipated_energy: state.dissipated_energy,
+            energy_residual: (state.expected_volume > 0.0).then_some(residual),
+        }
+    }
+
+    /// The largest pressure of the present moment, Pa: one transform.
+    pub fn max_pressure(&self) -> f64 {
+        self.pressure().into_iter().fold(0.0, f64::max)
+    }
+
+    fn pressure(&self) -> Vec<f64> {
+        let mut pressure = vec![0.0; self.setup().grid.len()];
+        self.workspace
+            .plan
+            .stress(&self.workspace.normal_load, &mut pressure);
+        pressure
+    }
+
+    /// The present moment with the curves of `curves`.
+    pub fn observe(&self, curves: Curves) -> Observation {
+        let work = &self.workspace;
+        let nodes = self.setup().grid.len();
+        let with_springs = self.setup().drive.tangential().is_some();
+        // Springs that the scene does not have carry nothing.
+        let or_zero = |values: &[f64]| {
+            if with_springs {
+                values.to_vec()
+            } else {
+                vec![0.0; nodes]
+            }
+        };
+        let when = |curve: Curves, make: &dyn Fn() -> Vec<f64>| {
+            if curves.intersects(curve) {
+                make()
+            } else {
+                Vec::new()
+            }
+        };
+        let transformed = |values: &[f64], transform: &dyn Fn(&[f64], &mut [f64])| {
+            let mut out = vec![0.0; nodes];
+            if with_springs {
+                transform(values, &mut out);
+            }
+            out
+        };
+        let worn = || {
+            work.unworn
+                .iter()
+                .zip(&self.state().wear)
+                .map(|(f, w)| f + w)
+                .collect()
+        };
+        Observation {
+            moment: self.moment(),
+            method: self.setup().method,
+            law: self.setup().wear.map(|law| law.name()),
+            radii: self.setup().grid.nodes().into(),
+            unworn: Arc::clone(&work.unworn),
+            profile: when(Curves::PROFILE, &worn),
+            wear: when(Curves::PROFILE, &|| self.state().wear.clone()),
+            profile_1d: when(Curves::PROFILE_1D, &|| work.g.clone()),
+            normal_load: when(Curves::SPRINGS, &|| work.normal_load.clone()),
+            tangential_load: when(Curves::SPRINGS, &|| or_zero(&work.tangential_load)),
+            spring: when(Curves::SPRINGS, &|| or_zero(&work.spring)),
+            pressure: when(Curves::PRESSURE, &|| self.pressure()),
+            shear: when(Curves::SHEAR, &|| {
+                transformed(&work.tangential_load, &|q, tau| work.plan.stress(q, tau))
+            }),
+            surface: when(Curves::SURFACE, &|| {
+                transformed(&work.spring, &|u, w| work.plan.displacement(u, w))
+            }),
+            zones: if curves.contains(Curves::ZONES) {
+                self.zones()
+            } else {
+                Vec::new()
+            },
+        }
+    }
+
+    fn zones(&self) -> Vec<Zone> {
+        let work = &self.workspace;
+        work.normal_load
+            .iter()
+            .enumerate()
+            .map(|(j, &load)| {
+                if load <= 0.0 {
+                    Zone::Open
+                } else if work.slip.get(j).is_none_or(|&slip| slip == 0.0) {
+                    Zone::Stick
+                } else {
+                    Zone::Slip
+                }
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,286 @@
+//! The one table of commands: it makes the keys, the footer and the help.
+
+use super::keys::{Key, Named};
+
+/// What a key can ask for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Command {
+    /// Leave.
+    Quit,
+    /// Leave, and leave the last screen in the terminal.
+    QuitKeepingScreen,
+    /// Close what is open, or leave the zoomed panel.
+    Back,
+    /// Show or hide the help.
+    Help,
+    /// Run or pause.
+    RunPause,
+    /// One step of the simulation.
+    Step,
+    /// To the end of the cycle.
+    Cycle,
+    /// The next transform method.
+    NextMethod,
+    /// The transform method before.
+    PreviousMethod,
+    /// The next wear law.
+    NextLaw,
+    /// The wear law before.
+    PreviousLaw,
+    /// More cycles a second.
+    Faster,
+    /// Fewer cycles a second.
+    Slower,
+    /// Focus the next panel.
+    NextPanel,
+    /// Focus the panel before.
+    PreviousPanel,
+    /// The focused panel alone, or all of them.
+    Zoom,
+    /// Write the present state to files.
+    Snapshot,
+    /// Choose another preset.
+    Presets,
+    /// Start again.
+    Restart,
+    /// Logarithmic ordinate of the focused panel.
+    LogScale,
+    /// Up in a list.
+    Up,
+    /// Down in a list.
+    Down,
+    /// Take what is selected.
+    Accept,
+}
+
+/// A command, the keys that call it, and what help says of it.
+pub struct Binding {
+    /// The command.
+    pub command: Command,
+    /// Its keys; the first is shown in the footer.
+    pub keys: &'static [Key],
+    /// Its name, in a word or two.
+    pub name: &'static str,
+    /// What it does, in a line.
+    pub help: &'static str,
+    /// Whether the footer shows it.
+    pub in_footer: bool,
+}
+
+const fn bind(
+    command: Command,
+    keys: &'static [Key],
+    name: &'static str,
+    help: &'static str,
+    in_footer: bool,
+) -> Binding {
+    Binding {
+        command,
+        keys,
+        name,
+        help,
+        in_footer,
+    }
+}
+
+use Command as C;
+use Key::{Char, Ctrl};
+
+/// Every command of the explorer, in the order of the help.
+pub static BINDINGS: &[Binding] = &[
+    bind(
+        C::RunPause,
+        &[Char(' ')],
+        "run/pause",
+        "run or pause the simulation",
+        true,
+    ),
+    bind(
+        C::Step,
+        &[Char('.')],
+        "step",
+        "pause and take one step",
+        true,
+    ),
+    bind(
+        C::Cycle,
+        &[Char(',')],
+        "cycle",
+        "pause and go on to the end of the cycle",
+        true,
+    ),
+    bind(
+        C::Faster,
+        &[Char('+'), Char('=')],
+        "faster",
+        "more cycles a second, up to as fast as it can",
+        true,
+    ),
+    bind(
+        C::Slower,
+        &[Char('-')],
+        "slower",
+        "fewer cycles a second",
+        false,
+    ),
+    bind(
+        C::NextMethod,
+        &[Char('m')],
+        "method",
+        "next transform method; the state is carried over",
+        true,
+    ),
+    bind(
+        C::PreviousMethod,
+        &[Char('M')],
+        "method back",
+        "previous transform method",
+        false,
+    ),
+    bind(
+        C::NextLaw,
+        &[Char('w')],
+        "wear law",
+        "next wear law; the state is carried over",
+        true,
+    ),
+    bind(
+        C::PreviousLaw,
+        &[Char('W')],
+        "law back",
+        "previous wear law",
+        false,
+    ),
+    bind(
+        C::NextPanel,
+        &[Key::Named(Named::Tab)],
+        "panel",
+        "focus the next panel",
+        true,
+    ),
+    bind(
+        C::PreviousPanel,
+        &[Key::Named(Named::BackTab)],
+        "panel back",
+        "focus the previous panel",
+        false,
+    ),
+    bind(
+        C::Zoom,
+        &[Char('z')],
+        "zoom",
+        "show the focused panel alone, or all again",
+        true,
+    ),
+    bind(
+        C::LogScale,
+        &[Char('L')],
+        "log",
+        "logarithmic scale in the focused panel",
+        false,
+    ),
+    bind(
+        C::Snapshot,
+        &[Char('s')],
+        "snapshot",
+        "write state.csv and scenario.toml to a new directory",
+        true,
+    ),
+    bind(
+        C::Presets,
+        &[Char('p')],
+        "presets",
+        "choose another preset",
+        true,
+    ),
+    bind(
+        C::Restart,
+        &[Char('r')],
+        "restart",
+        "start the scenario again, as it was loaded",
+        false,
+    ),
+    bind(
+        C::Up,
+        &[Key::Named(Named::Up), Char('k')],
+        "up",
+        "up in a list",
+        false,
+    ),
+    bind(
+        C::Down,
+        &[Key::Named(Named::Down), Char('j')],
+        "down",
+        "down in a list",
+        false,
+    ),
+    bind(
+        C::Accept,
+        &[Key::Named(Named::Enter)],
+        "accept",
+        "take what is selected",
+        false,
+    ),
+    bind(
+        C::Back,
+        &[Key::Named(Named::Esc)],
+        "back",
+        "close what is open, leave the zoomed panel",
+        false,
+    ),
+    bind(
+        C::Help,
+        &[Char('?')],
+        "help",
+        "show or hide this help",
+        true,
+    ),
+    bind(
+        C::Quit,
+        &[Char('q'), Ctrl('c')],
+        "quit",
+        "leave; Ctrl-C leaves from anywhere",
+        true,
+    ),
+    bind(
+        C::QuitKeepingScreen,
+        &[Char('Q')],
+        "quit, keep",
+        "leave, and leave the last screen behind",
+        false,
+    ),
+];
+
+/// The command of a key.
+pub fn of_key(key: Key) -> Option<Command> {
+    BINDINGS
+        .iter()
+        .find(|binding| binding.keys.contains(&key))
+        .map(|binding| binding.command)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_key_has_two_commands() {
+        let keys: Vec<Key> = BINDINGS
+            .iter()
+            .flat_map(|binding| binding.keys)
+            .copied()
+            .collect();
+        for (i, key) in keys.iter().enumerate() {
+            assert!(!keys[..i].contains(key), "{key} is bound twice");
+        }
+    }
+
+    #[test]
+    fn every_command_says_what_it_does() {
+        for binding in BINDINGS {
+            assert!(
+                !binding.keys.is_empty() && !binding.help.is_empty() && binding.help.len() < 60
+            );
+        }
+    }
+}

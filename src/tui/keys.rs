@@ -1,0 +1,171 @@
+//! Keys by name: one notation for the command table, the help, and `--keys` scripts.
+//!
+//! A printable character stands for itself; everything else stands in angle brackets:
+//! `<Space>`, `<Tab>`, `<S-Tab>`, `<Esc>`, `<Enter>`, `<Up>`, `<C-c>`; `<lt>` is "<" itself.
+
+use std::fmt;
+
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+
+/// One key press.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Key {
+    /// A printable character, as shifted.
+    Char(char),
+    /// Ctrl with a character.
+    Ctrl(char),
+    /// A key without a character.
+    Named(Named),
+}
+
+/// Keys without a character of their own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Named {
+    /// The tabulator.
+    Tab,
+    /// Shift and the tabulator.
+    BackTab,
+    /// Escape.
+    Esc,
+    /// Return.
+    Enter,
+    /// Backspace.
+    Backspace,
+    /// Arrow up.
+    Up,
+    /// Arrow down.
+    Down,
+    /// Arrow left.
+    Left,
+    /// Arrow right.
+    Right,
+}
+
+const NAMED: [(Named, &str, KeyCode); 9] = [
+    (Named::Tab, "Tab", KeyCode::Tab),
+    (Named::BackTab, "S-Tab", KeyCode::BackTab),
+    (Named::Esc, "Esc", KeyCode::Esc),
+    (Named::Enter, "Enter", KeyCode::Enter),
+    (Named::Backspace, "Backspace", KeyCode::Backspace),
+    (Named::Up, "Up", KeyCode::Up),
+    (Named::Down, "Down", KeyCode::Down),
+    (Named::Left, "Left", KeyCode::Left),
+    (Named::Right, "Right", KeyCode::Right),
+];
+
+impl Key {
+    /// The key of a terminal event; none for keys that no command uses.
+    pub fn of_event(event: &KeyEvent) -> Option<Self> {
+        if let KeyCode::Char(character) = event.code {
+            let with_control = event.modifiers.contains(KeyModifiers::CONTROL);
+            return Some(if with_control {
+                Self::Ctrl(character.to_ascii_lowercase())
+            } else {
+                Self::Char(character)
+            });
+        }
+        NAMED
+            .iter()
+            .find(|(_, _, code)| *code == event.code)
+            .map(|(named, _, _)| Self::Named(*named))
+    }
+
+    /// The key with a name as it stands between angle brackets.
+    fn of_name(name: &str) -> Option<Self> {
+        match name {
+            "Space" => return Some(Self::Char(' ')),
+            "lt" => return Some(Self::Char('<')),
+            _ => {}
+        }
+        if let Some(character) = name.strip_prefix("C-") {
+            let mut characters = character.chars();
+            return match (characters.next(), characters.next()) {
+                (Some(character), None) => Some(Self::Ctrl(character.to_ascii_lowercase())),
+                _ => None,
+            };
+        }
+        NAMED
+            .iter()
+            .find(|(_, text, _)| *text == name)
+            .map(|(named, _, _)| Self::Named(*named))
+    }
+}
+
+impl fmt::Display for Key {
+    /// As a reader of help expects it: `Space`, `Ctrl-c`, `q`.
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Char(' ') => formatter.write_str("Space"),
+            Self::Char(character) => write!(formatter, "{character}"),
+            Self::Ctrl(character) => write!(formatter, "Ctrl-{}", character.to_ascii_uppercase()),
+            Self::Named(Named::BackTab) => formatter.write_str("Shift-Tab"),
+            Self::Named(named) => {
+                let name = NAMED
+                    .iter()
+                    .find(|(key, _, _)| key == named)
+                    .map_or("", |(_, name, _)| name);
+                formatter.write_str(name)
+            }
+        }
+    }
+}
+
+/// Reads a script of keys; an error says what could not be read and where.
+pub fn parse_script(script: &str) -> Result<Vec<Key>, String> {
+    let mut keys = Vec::new();
+    let mut rest = script;
+    while let Some(first) = rest.chars().next() {
+        if first != '<' {
+            if first.is_control() {
+                return Err(format!(
+                    "--keys: {first:?} stands for no key; use <Enter>, <Tab>, ..."
+                ));
+            }
+            keys.push(Key::Char(first));
+            rest = &rest[first.len_utf8()..];
+            continue;
+        }
+        let named = rest[1..]
+            .split_once('>')
+            .and_then(|(name, after)| Some((Key::of_name(name)?, after)));
+        let Some((key, after)) = named else {
+            let start: String = rest.chars().take(12).collect();
+            return Err(format!(
+                "--keys: {start:?} begins no key; keys are characters or <Space>, <Tab>, <Esc>, <Enter>, <Up>, \
+                 <C-c>, and <lt> for \"<\""
+            ));
+        };
+        keys.push(key);
+        rest = after;
+    }
+    Ok(keys)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scripts_read_characters_and_names() {
+        let keys = parse_script("m<Space>M<Tab><C-c><lt>?").expect("a script");
+        let expected = [
+            Key::Char('m'),
+            Key::Char(' '),
+            Key::Char('M'),
+            Key::Named(Named::Tab),
+            Key::Ctrl('c'),
+            Key::Char('<'),
+            Key::Char('?'),
+        ];
+        assert_eq!(keys, expected);
+        assert_eq!(parse_script(""), Ok(Vec::new()));
+    }
+
+    #[test]
+    fn a_bad_script_is_refused_with_its_place() {
+        for script in ["<", "m<Nope>", "<C-xy>", "<C->", "<Spac", "a\u{1b}b", "<ü>"] {
+            let refusal = parse_script(script).expect_err(script);
+            assert!(!refusal.chars().any(char::is_control), "{refusal}");
+        }
+    }
+}

@@ -1,0 +1,272 @@
+//! The explorer: a worker thread steps the simulation, an input thread reads the keys, and the
+//! screen is drawn when one of them has something new.
+//!
+//! ```text
+//! keys ── Event ──▶ App ── Order ──▶ worker (Session)
+//!                    ▲                  │
+//!                    └── Event, Frame ──┘
+//! ```
+
+use std::io::{self, IsTerminal, Write};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread;
+use std::time::Duration;
+
+use anyhow::{Context, Result, bail};
+use crossterm::event::{self, KeyEventKind};
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::iterator::Signals;
+
+use crate::scenario::Scenario;
+use crate::scenario::session::Session;
+
+pub mod app;
+pub mod command;
+#[cfg(debug_assertions)]
+mod fault;
+pub mod keys;
+pub mod panels;
+pub mod plot;
+pub mod screen;
+mod script;
+mod terminal;
+pub mod theme;
+pub mod trend;
+pub mod worker;
+
+use app::{App, Leave};
+use keys::Key;
+use plot::Marker;
+pub use script::Size;
+use theme::Theme;
+use worker::{Order, Slot, Worker};
+
+/// What can happen while the screen waits.
+#[derive(Debug)]
+pub enum Event {
+    /// A key was pressed.
+    Key(Key),
+    /// The terminal has another size.
+    Resize,
+    /// A frame waits in the slot.
+    Frame,
+    /// A word for the user.
+    Notice(String),
+    /// The terminal is gone, or the process was asked to end.
+    HangUp,
+    /// The worker has ended.
+    WorkerGone,
+}
+
+/// What the explorer is opened with.
+#[derive(Debug)]
+pub struct Options {
+    /// The scenario to show.
+    pub scenario: Scenario,
+    /// The most frames drawn in a second.
+    pub fps: u16,
+    /// How curves are drawn; by the locale if not said.
+    pub marker: Option<Marker>,
+    /// Whether to use colour; by NO_COLOR if not said.
+    pub colored: Option<bool>,
+    /// Keys to press instead of reading the keyboard, and the size of the screen to print.
+    pub script: Option<(Vec<Key>, Size)>,
+}
+
+/// There is nothing here that the explorer could be shown on.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}; mdr-tui run SCENARIO computes without a screen")]
+pub struct NoTerminal(&'static str);
+
+/// Opens the explorer, or plays a script of keys to it.
+pub fn run(options: Options) -> Result<()> {
+    if options.script.is_none() {
+        refuse_what_is_no_terminal()?;
+    }
+    let theme = theme(&options);
+    let session = Session::start(options.scenario)?;
+    let (orders, to_worker) = channel();
+    let (events, from_threads) = channel();
+    let slot = Arc::new(Slot::default());
+    let interval = Duration::from_secs_f64(1.0 / f64::from(options.fps));
+    let worker = Worker::new(
+        session,
+        Arc::clone(&slot),
+        events.clone(),
+        interval,
+        options.script.is_none(),
+    );
+    let mut app = App::new(theme, orders.clone());
+    terminal::keep_panics();
+    let thread = spawn_worker(worker, to_worker, events.clone())?;
+    let outcome = match options.script {
+        Some((keys, size)) => script::play(&mut app, &keys, size, &orders, &from_threads),
+        None => converse(&mut app, &slot, &events, &from_threads),
+    };
+    let _ = orders.send(Order::Quit);
+    let _ = thread.join();
+    if let Some(word) = terminal::panic_word() {
+        bail!("a defect in mdr-tui: {word}");
+    }
+    outcome
+}
+
+/// Draws and listens until told to leave.
+fn converse(
+    app: &mut App,
+    slot: &Slot,
+    events: &Sender<Event>,
+    inbox: &Receiver<Event>,
+) -> Result<()> {
+    listen_for_signals(events.clone())?;
+    let mut screen = terminal::Screen::open().context("cannot take over the terminal")?;
+    listen_for_keys(events.clone());
+    let outcome = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
+        attend(app, slot, inbox, &mut screen)
+    }));
+    drop(screen);
+    let Ok(outcome) = outcome else {
+        // The panic's own word is told by the caller.
+        return Ok(());
+    };
+    outcome?;
+    if app.leave == Some(Leave::KeepScreen) {
+        let (columns, rows) = crossterm::terminal::size()?;
+        io::stdout().write_all(
+            script::text(
+                app,
+                Size {
+                    columns,
+                    rows: rows.saturating_sub(1),
+                },
+            )
+            .as_bytes(),
+        )?;
+    }
+    Ok(())
+}
+
+fn attend(
+    app: &mut App,
+    slot: &Slot,
+    inbox: &Receiver<Event>,
+    screen: &mut terminal::Screen,
+) -> Result<()> {
+    screen.draw(app)?;
+    while let Ok(first) = inbox.recv() {
+        #[cfg(debug_assertions)]
+        fault::strike("screen");
+        // Whatever else has come in is answered with the same drawing.
+        for event in std::iter::once(first).chain(inbox.try_iter()) {
+            match event {
+                Event::Key(key) => app.press(key),
+                Event::Frame => {
+                    if let Some(frame) = slot.take() {
+                        app.take_frame(frame);
+                    }
+                }
+                Event::Notice(text) => app.notice = Some(text),
+                Event::Resize => {}
+                Event::HangUp | Event::WorkerGone => return Ok(()),
+            }
+        }
+        if app.leave.is_some() {
+            return Ok(());
+        }
+        screen.draw(app)?;
+    }
+    Ok(())
+}
+
+/// Says so when it ends, whichever way it ends.
+struct Farewell(Sender<Event>);
+
+impl Drop for Farewell {
+    fn drop(&mut self) {
+        let _ = self.0.send(Event::WorkerGone);
+    }
+}
+
+fn spawn_worker(
+    worker: Worker,
+    orders: Receiver<Order>,
+    events: Sender<Event>,
+) -> Result<thread::JoinHandle<()>> {
+    thread::Builder::new()
+        .name("simulation".into())
+        .spawn(move || {
+            let _farewell = Farewell(events);
+            worker.serve(&orders);
+        })
+        .context("cannot start the simulation's thread")
+}
+
+/// Reads the keyboard until the terminal is gone. The thread ends with the process.
+fn listen_for_keys(events: Sender<Event>) {
+    thread::spawn(move || {
+        loop {
+            let event = match event::read() {
+                Ok(event::Event::Key(key)) if key.kind != KeyEventKind::Release => {
+                    Key::of_event(&key).map(Event::Key)
+                }
+                Ok(event::Event::Resize(_, _)) => Some(Event::Resize),
+                Ok(_) => None,
+                Err(_) => Some(Event::HangUp),
+            };
+            let over = matches!(event, Some(Event::HangUp));
+            if event.is_some_and(|event| events.send(event).is_err()) || over {
+                return;
+            }
+        }
+    });
+}
+
+/// SIGTERM, SIGINT and SIGHUP end the explorer as `q` does.
+fn listen_for_signals(events: Sender<Event>) -> Result<()> {
+    let mut signals =
+        Signals::new([SIGTERM, SIGINT, SIGHUP]).context("cannot listen for signals")?;
+    thread::spawn(move || {
+        if signals.forever().next().is_some() {
+            let _ = events.send(Event::HangUp);
+        }
+    });
+    Ok(())
+}
+
+fn refuse_what_is_no_terminal() -> Result<(), NoTerminal> {
+    if !io::stdout().is_terminal() || !io::stdin().is_terminal() {
+        return Err(NoTerminal("the explorer needs a terminal"));
+    }
+    if std::env::var("TERM").is_ok_and(|term| term == "dumb") {
+        return Err(NoTerminal(
+            "a dumb terminal (TERM=dumb) cannot show the explorer",
+        ));
+    }
+    Ok(())
+}
+
+fn theme(options: &Options) -> Theme {
+    let no_color = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+    let colored = options.colored.unwrap_or(!no_color);
+    let marker = options.marker.unwrap_or(if utf8_locale() {
+        Marker::Braille
+    } else {
+        Marker::Ascii
+    });
+    // crossterm has its own opinion of NO_COLOR; ours has been formed with --color in view.
+    crossterm::style::force_color_output(colored);
+    Theme::new(colored, marker)
+}
+
+/// Whether the locale says UTF-8: the first of LC_ALL, LC_CTYPE and LANG that is set decides, and a
+/// terminal that says nothing is taken for a modern one.
+fn utf8_locale() -> bool {
+    ["LC_ALL", "LC_CTYPE", "LANG"]
+        .iter()
+        .find_map(|name| std::env::var(name).ok().filter(|value| !value.is_empty()))
+        .is_none_or(|locale| {
+            let locale = locale.to_ascii_lowercase();
+            locale.contains("utf-8") || locale.contains("utf8")
+        })
+}

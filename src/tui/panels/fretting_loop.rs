@@ -1,0 +1,44 @@
+//! The fretting loop: tangential force over displacement in the last cycle. Its area is the energy
+//! that the cycle dissipates.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::text::Line;
+use ratatui::widgets::Widget;
+
+use super::{App, Frame, Panel, plot};
+use crate::tui::plot::{Axis, Curve};
+use crate::tui::theme::Role;
+
+/// What the ordinate must hold.
+pub fn ordinates(frame: &Frame) -> Vec<f64> {
+    if frame.observation.moment.stick_radius.is_none() {
+        return Vec::new();
+    }
+    frame.trend.fretting_loop().1
+}
+
+/// Draws the panel.
+pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
+    let theme = &app.theme;
+    let moment = &frame.observation.moment;
+    if moment.stick_radius.is_none() {
+        Line::styled(
+            " no tangential motion in this scenario",
+            theme.style(Role::Quiet),
+        )
+        .render(area, buffer);
+        return;
+    }
+    let (shifts, forces) = frame.trend.fretting_loop();
+    let here = ([moment.shift; 2], [moment.tangential_force; 2]);
+    plot(
+        Panel::Loop,
+        app,
+        Axis::new("u_x", "m"),
+        Axis::new("F_x", "N"),
+    )
+    .curve(Curve::new("", &shifts, &forces, theme.style(Role::Shear)))
+    .curve(Curve::new("", &here.0, &here.1, theme.style(Role::Alarm)))
+    .render(area, buffer);
+}

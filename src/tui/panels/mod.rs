@@ -1,0 +1,223 @@
+//! Panels, one a file: each draws one frame into one area.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Block, Borders, Widget};
+
+use super::app::App;
+use super::plot::{Axis, Curve, Plot, Scale, VerticalMark, Zone};
+use super::theme::{Role, Theme};
+use super::worker::Frame;
+use crate::simulation::Curves;
+
+mod fretting_loop;
+mod numbers;
+mod profile;
+mod radii;
+mod springs;
+mod stresses;
+
+/// The panels of the explorer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Panel {
+    /// The 3D profile.
+    Profile,
+    /// p and τ.
+    Stresses,
+    /// The 1D profile.
+    Springs,
+    /// F_x over u_x.
+    Loop,
+    /// Radii over cycles.
+    Radii,
+    /// The numbers of the moment.
+    Numbers,
+}
+
+impl Panel {
+    /// All panels, in reading order.
+    pub const ALL: [Self; 6] = [
+        Self::Profile,
+        Self::Stresses,
+        Self::Springs,
+        Self::Loop,
+        Self::Radii,
+        Self::Numbers,
+    ];
+
+    /// The panels with axes.
+    pub const PLOTS: [Self; 5] = [
+        Self::Profile,
+        Self::Stresses,
+        Self::Springs,
+        Self::Loop,
+        Self::Radii,
+    ];
+
+    /// The panel so many places further on.
+    pub fn shifted(self, places: isize) -> Self {
+        let at = Self::ALL
+            .iter()
+            .position(|panel| *panel == self)
+            .unwrap_or(0) as isize;
+        Self::ALL[(at + places).rem_euclid(Self::ALL.len() as isize) as usize]
+    }
+
+    /// The title.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Profile => "3D profile",
+            Self::Stresses => "stresses",
+            Self::Springs => "1D profile",
+            Self::Loop => "fretting loop",
+            Self::Radii => "radii over cycles",
+            Self::Numbers => "numbers",
+        }
+    }
+
+    /// Whether a logarithmic ordinate makes sense.
+    pub fn can_be_log(self) -> bool {
+        matches!(self, Self::Stresses | Self::Profile)
+    }
+
+    /// What the panel needs computed.
+    pub fn curves(self) -> Curves {
+        match self {
+            Self::Profile => Curves::PROFILE,
+            Self::Stresses => Curves::PRESSURE | Curves::SHEAR,
+            Self::Springs => Curves::PROFILE_1D,
+            Self::Loop | Self::Radii | Self::Numbers => Curves::empty(),
+        }
+    }
+
+    /// The smallest and largest ordinate that the panel shows of a frame.
+    pub fn extent(self, frame: &Frame, scale: Scale) -> Option<[f64; 2]> {
+        let mut values: Vec<f64> = match self {
+            Self::Profile => profile::ordinates(frame),
+            Self::Stresses => stresses::ordinates(frame),
+            Self::Springs => springs::ordinates(frame),
+            Self::Loop => fretting_loop::ordinates(frame),
+            Self::Radii => radii::ordinates(frame),
+            Self::Numbers => return None,
+        };
+        values.retain(|value| value.is_finite() && (scale == Scale::Linear || *value > 0.0));
+        let high = values.iter().copied().reduce(f64::max)?;
+        let low = values.iter().copied().reduce(f64::min)?;
+        // Five decades say more than the last trace of a stress at the edge of the contact.
+        Some([
+            if scale == Scale::Log {
+                low.max(1e-5 * high)
+            } else {
+                low
+            },
+            high,
+        ])
+    }
+
+    /// Draws the panel.
+    pub fn draw(self, frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
+        let theme = &app.theme;
+        let role = if app.focus == self {
+            Role::Focus
+        } else {
+            Role::Title
+        };
+        let title = Line::from(vec![Span::styled(
+            format!(" {} ", self.title()),
+            theme.style(role),
+        )]);
+        let mut block = Block::new()
+            .borders(Borders::TOP)
+            .border_style(theme.style(Role::Quiet))
+            .title(title);
+        if theme.ascii() {
+            block = block.border_set(ratatui::symbols::border::Set {
+                horizontal_top: "-",
+                ..ratatui::symbols::border::PLAIN
+            });
+        }
+        let inner = block.inner(area);
+        block.render(area, buffer);
+        match self {
+            Self::Profile => profile::draw(frame, app, inner, buffer),
+            Self::Stresses => stresses::draw(frame, app, inner, buffer),
+            Self::Springs => springs::draw(frame, app, inner, buffer),
+            Self::Loop => fretting_loop::draw(frame, app, inner, buffer),
+            Self::Radii => radii::draw(frame, app, inner, buffer),
+            Self::Numbers => numbers::draw(frame, app, inner, buffer),
+        }
+    }
+}
+
+/// A plot of nodal values over the radius, with the bounds that the app keeps for the panel.
+fn radial_plot<'a>(
+    panel: Panel,
+    app: &App,
+    abscissa: &'a str,
+    label: &'a str,
+    unit: &'a str,
+) -> Plot<'a> {
+    plot(panel, app, Axis::new(abscissa, "m"), Axis::new(label, unit))
+}
+
+fn plot<'a>(panel: Panel, app: &App, x: Axis<'a>, y: Axis<'a>) -> Plot<'a> {
+    let mut y = y.scale(app.scale(panel));
+    if let Some(bounds) = app.bounds(panel) {
+        y = y.bounds(bounds);
+    }
+    Plot::new(x, y)
+        .marker(app.theme.marker)
+        .axis_style(app.theme.style(Role::Quiet))
+}
+
+/// Marks at the contact radius a and at the stick radius c.
+fn edge_marks(frame: &Frame, theme: &Theme) -> Vec<VerticalMark<'static>> {
+    let moment = &frame.observation.moment;
+    let mut marks = Vec::new();
+    if moment.contact_radius > 0.0 {
+        marks.push(VerticalMark {
+            x: moment.contact_radius,
+            label: "a",
+            style: theme.style(Role::Contact),
+        });
+    }
+    if let Some(stick) = moment
+        .stick_radius
+        .filter(|&c| c > 0.0 && c < moment.contact_radius)
+    {
+        marks.push(VerticalMark {
+            x: stick,
+            label: "c",
+            style: theme.style(Role::Stick),
+        });
+    }
+    marks
+}
+
+/// Stick, slip and open along the radius.
+fn zones(frame: &Frame, theme: &Theme) -> Vec<Zone> {
+    let moment = &frame.observation.moment;
+    let edge = frame.observation.radii.last().copied().unwrap_or(0.0);
+    let contact = moment.contact_radius;
+    let stick = moment.stick_radius.unwrap_or(contact).min(contact);
+    [
+        (0.0, stick, Role::Stick, 's'),
+        (stick, contact, Role::Slip, '~'),
+        (contact, edge, Role::Open, '.'),
+    ]
+    .into_iter()
+    .filter(|(from, to, _, _)| to > from)
+    .map(|(from, to, role, glyph)| Zone {
+        from,
+        to,
+        style: theme.style(role),
+        glyph,
+    })
+    .collect()
+}
+
+/// A solid curve of a role.
+fn curve<'a>(name: &'a str, xs: &'a [f64], ys: &'a [f64], theme: &Theme, role: Role) -> Curve<'a> {
+    Curve::new(name, xs, ys, theme.style(role))
+}

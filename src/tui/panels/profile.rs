@@ -1,0 +1,38 @@
+//! The 3D profile f(r), worn and unworn, with the zones of the contact under it.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::widgets::Widget;
+
+use super::{App, Frame, Panel, curve, edge_marks, radial_plot, zones};
+use crate::tui::plot::Band;
+use crate::tui::theme::Role;
+
+/// What the ordinate must hold.
+pub fn ordinates(frame: &Frame) -> Vec<f64> {
+    let seen = &frame.observation;
+    if seen.profile.is_empty() {
+        return Vec::new();
+    }
+    seen.unworn.iter().chain(&seen.profile).copied().collect()
+}
+
+/// Draws the panel.
+pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
+    let (seen, theme) = (&frame.observation, &app.theme);
+    let zones = zones(frame, theme);
+    let mut plot = radial_plot(Panel::Profile, app, "r", "f", "m")
+        .curve(curve("unworn", &seen.radii, &seen.unworn, theme, Role::Unworn).dashed())
+        .curve(curve(
+            "now",
+            &seen.radii,
+            &seen.profile,
+            theme,
+            Role::Profile,
+        ))
+        .band(Band { zones: &zones });
+    for mark in edge_marks(frame, theme) {
+        plot = plot.mark(mark);
+    }
+    plot.render(area, buffer);
+}

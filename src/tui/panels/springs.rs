@@ -1,0 +1,38 @@
+//! The 1D profile g(x) against the depth to which it is pressed: springs touch where g is less.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::widgets::Widget;
+
+use super::{App, Frame, Panel, curve, edge_marks, radial_plot};
+use crate::tui::theme::Role;
+
+/// What the ordinate must hold.
+pub fn ordinates(frame: &Frame) -> Vec<f64> {
+    let seen = &frame.observation;
+    seen.profile_1d
+        .iter()
+        .copied()
+        .chain((!seen.profile_1d.is_empty()).then_some(seen.moment.depth))
+        .collect()
+}
+
+/// Draws the panel.
+pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
+    let (seen, theme) = (&frame.observation, &app.theme);
+    let ends = [0.0, seen.radii.last().copied().unwrap_or(0.0)];
+    let depth = [seen.moment.depth; 2];
+    let mut plot = radial_plot(Panel::Springs, app, "x", "g", "m")
+        .curve(curve("depth d", &ends, &depth, theme, Role::Contact).dashed())
+        .curve(curve(
+            "g",
+            &seen.radii,
+            &seen.profile_1d,
+            theme,
+            Role::Profile1d,
+        ));
+    for mark in edge_marks(frame, theme) {
+        plot = plot.mark(mark);
+    }
+    plot.render(area, buffer);
+}

@@ -1,0 +1,64 @@
+//! Pressure p(r) and shear stress τ(r). τ is drawn as τ/μ: it meets ±p where the contact slips.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::widgets::Widget;
+
+use super::{App, Frame, Panel, curve, edge_marks, radial_plot};
+use crate::tui::plot::Scale;
+use crate::tui::theme::Role;
+
+/// τ/μ; empty without friction or tangential motion.
+fn scaled_shear(frame: &Frame, scale: Scale) -> Vec<f64> {
+    if frame.friction == 0.0 || frame.observation.moment.stick_radius.is_none() {
+        return Vec::new();
+    }
+    // A logarithmic ordinate shows the size of τ.
+    let sign = |shear: f64| {
+        if scale == Scale::Log {
+            shear.abs()
+        } else {
+            shear
+        }
+    };
+    frame
+        .observation
+        .shear
+        .iter()
+        .map(|&shear| sign(shear) / frame.friction)
+        .collect()
+}
+
+/// What the ordinate must hold.
+pub fn ordinates(frame: &Frame) -> Vec<f64> {
+    let mut values = frame.observation.pressure.clone();
+    values.extend(scaled_shear(frame, Scale::Linear));
+    values
+}
+
+/// Draws the panel.
+pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
+    let (seen, theme) = (&frame.observation, &app.theme);
+    let scale = app.scale(Panel::Stresses);
+    let shear = scaled_shear(frame, scale);
+    let name = match (theme.ascii(), scale) {
+        (true, Scale::Linear) => "tau/mu",
+        (true, Scale::Log) => "|tau|/mu",
+        (false, Scale::Linear) => "τ/μ",
+        (false, Scale::Log) => "|τ|/μ",
+    };
+    let mut plot = radial_plot(Panel::Stresses, app, "r", "stress", "Pa").curve(curve(
+        "p",
+        &seen.radii,
+        &seen.pressure,
+        theme,
+        Role::Pressure,
+    ));
+    if !shear.is_empty() {
+        plot = plot.curve(curve(name, &seen.radii, &shear, theme, Role::Shear));
+    }
+    for mark in edge_marks(frame, theme) {
+        plot = plot.mark(mark);
+    }
+    plot.render(area, buffer);
+}

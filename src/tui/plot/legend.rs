@@ -1,0 +1,238 @@
+//! The legend: names of the curves and, with a cursor, their values there.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::Style;
+use ratatui::text::Span;
+
+use super::marker::Marker;
+use super::raster::Raster;
+use super::units::{AxisUnit, format_number, format_value_in, to_ascii};
+use super::{Axis, Curve, Plot, Scale};
+
+/// Significant digits of a reading.
+const DIGITS: usize = 4;
+
+/// Names longer than this are cut, in cells.
+const LONGEST_NAME: usize = 24;
+
+/// One line: what is left-aligned, what is right-aligned, and how it looks.
+#[derive(Debug, Clone)]
+struct Line {
+    left: String,
+    right: String,
+    style: Style,
+}
+
+/// How the values at the cursor are given.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Reading {
+    /// With unit and prefix.
+    Full,
+    /// As bare numbers, in the axis' unit.
+    Bare,
+    /// Not at all.
+    None,
+}
+
+/// A block of lines of one width.
+#[derive(Debug, Clone)]
+pub(super) struct Legend {
+    lines: Vec<Line>,
+    width: u16,
+}
+
+impl Legend {
+    /// The legend of `plot` and its place in `area` (a plot area in buffer cells): with
+    /// readings in the axes' `units` if there is a cursor and they fit, as bare numbers
+    /// rather than over a curve, else names only; `None` if nothing fits or there is
+    /// nothing to say.
+    pub(super) fn arrange(
+        plot: &Plot<'_>,
+        units: [&AxisUnit; 2],
+        area: Rect,
+        raster: &Raster,
+    ) -> Option<(Legend, Rect)> {
+        if plot.hide_legend {
+            return None;
+        }
+        let placed = |reading: Reading| {
+            let legend = Legend::new(plot, units, reading);
+            let lines = legend.lines.len();
+            let fits = legend.width <= area.width / 2 && lines <= usize::from(area.height / 2);
+            (fits && legend.width > 0).then(|| {
+                let (place, covered) = legend.place(area, raster);
+                (legend, place, covered)
+            })
+        };
+        let readings = match plot.cursor {
+            Some(x) if x.is_finite() => {
+                let (full, bare) = (placed(Reading::Full), placed(Reading::Bare));
+                match (full, bare) {
+                    (Some(full), Some(bare)) if bare.2 < full.2 => Some(bare),
+                    (full, bare) => full.or(bare),
+                }
+            }
+            _ => None,
+        };
+        let (legend, place, _) = readings.or_else(|| placed(Reading::None))?;
+        Some((legend, place))
+    }
+
+    fn new(plot: &Plot<'_>, units: [&AxisUnit; 2], reading: Reading) -> Legend {
+        let header = plot.cursor.filter(|_| reading != Reading::None);
+        let named = plot.curves.iter().filter(|curve| !curve.name.is_empty());
+        let header = header.map(|x| header_line(plot, units[0], x));
+        let curves = named.map(|curve| curve_line(plot, curve, units[1], reading));
+        Legend::block(header.into_iter().chain(curves).collect())
+    }
+
+    fn block(lines: Vec<Line>) -> Legend {
+        let width = |line: &Line| {
+            let gap = if line.right.is_empty() { 0 } else { 2 };
+            cells(&line.left) + gap + cells(&line.right)
+        };
+        let width = lines.iter().map(width).max().unwrap_or(0);
+        Legend { lines, width }
+    }
+
+    /// The corner of `area` where the legend covers the fewest dots, the top right one if
+    /// there is a choice; and how many it covers.
+    fn place(&self, area: Rect, raster: &Raster) -> (Rect, u32) {
+        let height = self.lines.len() as u16;
+        let (right, bottom) = (area.width - self.width, area.height - height);
+        let corners = [(right, 0), (0, 0), (right, bottom), (0, bottom)];
+        let covered = corners.map(|(x, y)| raster.dots_in(Rect::new(x, y, self.width, height)));
+        let best = (1..4).fold(
+            0,
+            |best, i| if covered[i] < covered[best] { i } else { best },
+        );
+        let (x, y) = corners[best];
+        let place = Rect::new(area.x + x, area.y + y, self.width, height);
+        (place, covered[best])
+    }
+
+    /// Writes the lines into `area`, which [`Legend::arrange`] gave.
+    pub(super) fn render(&self, area: Rect, buf: &mut Buffer) {
+        for (row, line) in area.rows().zip(&self.lines) {
+            let width = usize::from(row.width);
+            buf.set_stringn(row.x, row.y, &line.left, width, line.style);
+            let x = row.right().saturating_sub(cells(&line.right));
+            buf.set_stringn(x, row.y, &line.right, width, line.style);
+        }
+    }
+}
+
+/// The reading of the cursor itself.
+fn header_line(plot: &Plot<'_>, unit: &AxisUnit, x: f64) -> Line {
+    let ascii = plot.marker == Marker::Ascii;
+    Line {
+        left: text(plot.x_axis.label, ascii),
+        right: with_unit(x, &plot.x_axis, unit, ascii),
+        style: plot.axis_style,
+    }
+}
+
+fn curve_line(plot: &Plot<'_>, curve: &Curve<'_>, unit: &AxisUnit, reading: Reading) -> Line {
+    let ascii = plot.marker == Marker::Ascii;
+    let swatch = match (ascii, curve.dashed) {
+        (false, false) => '─',
+        (false, true) => '╌',
+        (true, false) => '-',
+        (true, true) => '=',
+    };
+    let name: String = text(curve.name, ascii).chars().take(LONGEST_NAME).collect();
+    let value = plot.cursor.and_then(|x| value_at(curve, x));
+    Line {
+        left: format!("{swatch} {name}"),
+        right: match (reading, value) {
+            (Reading::None, _) => String::new(),
+            (_, None) => if ascii { "-" } else { "–" }.to_owned(),
+            (Reading::Full, Some(y)) => with_unit(y, &plot.y_axis, unit, ascii),
+            (Reading::Bare, Some(y)) => format_number(y / unit.factor, DIGITS),
+        },
+        style: Style {
+            bg: None,
+            ..curve.style
+        },
+    }
+}
+
+/// A reading in the unit its axis is labelled in; in one of its own where the axis has none
+/// for it (log axes, powers of ten, values far below the axis' range).
+fn with_unit(value: f64, axis: &Axis<'_>, unit: &AxisUnit, ascii: bool) -> String {
+    let scaled = value / unit.factor;
+    let power = unit.text.starts_with(|c: char| c.is_ascii_digit());
+    let small = scaled.abs() < 1e-3 && scaled != 0.0;
+    if axis.scale == Scale::Log || power || small {
+        return format_value_in(value, axis.unit, DIGITS, ascii);
+    }
+    let text = format!("{} {}", format_number(scaled, DIGITS), unit.text);
+    text.trim_end().to_owned()
+}
+
+/// The cursor's readings in one short line, for a plot too small for a legend: its place
+/// and as many values of curves as fit `width`, in multiples `factors` of the axes' units.
+pub(super) fn short_reading(plot: &Plot<'_>, factors: [f64; 2], width: u16) -> Option<String> {
+    let x = plot.cursor.filter(|x| x.is_finite())?;
+    let mut line = format!("{}:", format_number(x / factors[0], 3));
+    for y in plot.curves.iter().filter_map(|curve| value_at(curve, x)) {
+        let longer = format!("{line} {}", format_number(y / factors[1], 3));
+        if cells(&longer) > width {
+            break;
+        }
+        line = longer;
+    }
+    line.contains(' ').then_some(line)
+}
+
+/// A curve's value at `x`: at a point of it, or linearly interpolated between the first two
+/// neighbouring points that have `x` between them. `None` in gaps and outside.
+pub(super) fn value_at(curve: &Curve<'_>, x: f64) -> Option<f64> {
+    let mut previous: Option<(f64, f64)> = None;
+    for (x1, y1) in curve.points() {
+        let point = (x1.is_finite() && y1.is_finite()).then_some((x1, y1));
+        if point.is_some() && x1 == x {
+            return Some(y1);
+        }
+        if let (Some((x0, y0)), Some(_)) = (previous, point)
+            && (x0.min(x1)..=x0.max(x1)).contains(&x)
+        {
+            let share = (x / 2.0 - x0 / 2.0) / (x1 / 2.0 - x0 / 2.0);
+            return Some(y0 * (1.0 - share) + y1 * share);
+        }
+        previous = point;
+    }
+    None
+}
+
+/// A label as it is shown.
+pub(super) fn text(label: &str, ascii: bool) -> String {
+    let folded = if ascii { to_ascii(label) } else { label.into() };
+    folded.into_owned()
+}
+
+/// The width of a text in cells.
+pub(super) fn cells(text: &str) -> u16 {
+    Span::raw(text).width().min(usize::from(u16::MAX)) as u16
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_between_points() {
+        let (xs, ys) = ([0.0, 1.0, 2.0, 3.0, 5.0], [0.0, 10.0, f64::NAN, 4.0, 0.0]);
+        let curve = Curve::new("", &xs, &ys, Style::new());
+        assert_eq!(value_at(&curve, 0.25), Some(2.5));
+        assert_eq!(value_at(&curve, 1.0), Some(10.0));
+        assert_eq!(value_at(&curve, 1.5), None);
+        assert_eq!(value_at(&curve, 3.0), Some(4.0));
+        assert_eq!(value_at(&curve, 4.0), Some(2.0));
+        assert_eq!(value_at(&curve, 5.1), None);
+        assert_eq!(value_at(&curve, f64::NAN), None);
+        let back = Curve::new("", &[2.0, 0.0], &[1e308, -1e308], Style::new());
+        assert_eq!(value_at(&back, 1.0), Some(0.0));
+    }
+}

@@ -1,0 +1,89 @@
+//! The terminal's life: taken over on start, given back on every way out.
+
+use std::io::{self, BufWriter, Stdout, Write, stdout};
+use std::sync::{Mutex, PoisonError};
+
+use crossterm::cursor::Show;
+use crossterm::terminal::{
+    BeginSynchronizedUpdate, EndSynchronizedUpdate, EnterAlternateScreen, LeaveAlternateScreen,
+    disable_raw_mode, enable_raw_mode,
+};
+use crossterm::{execute, queue};
+use ratatui::Terminal;
+use ratatui::backend::CrosstermBackend;
+
+use super::app::App;
+use super::screen;
+
+/// Output is collected so that a frame goes out in one write.
+const OUTPUT_BUFFER: usize = 64 * 1024;
+
+type Backend = CrosstermBackend<BufWriter<Stdout>>;
+
+/// The terminal in raw mode on its alternate screen, until dropped.
+pub struct Screen {
+    terminal: Terminal<Backend>,
+}
+
+impl Screen {
+    /// Takes the terminal over.
+    pub fn open() -> io::Result<Self> {
+        enable_raw_mode()?;
+        let restore = RestoreOnFailure;
+        execute!(stdout(), EnterAlternateScreen)?;
+        let backend = CrosstermBackend::new(BufWriter::with_capacity(OUTPUT_BUFFER, stdout()));
+        let mut terminal = Terminal::new(backend)?;
+        terminal.clear()?;
+        terminal.hide_cursor()?;
+        std::mem::forget(restore);
+        Ok(Self { terminal })
+    }
+
+    /// Draws the app: only what changed goes over the wire, between synchronization marks.
+    pub fn draw(&mut self, app: &App) -> io::Result<()> {
+        queue!(self.terminal.backend_mut(), BeginSynchronizedUpdate)?;
+        self.terminal
+            .draw(|frame| screen::draw(app, frame.area(), frame.buffer_mut()))?;
+        queue!(self.terminal.backend_mut(), EndSynchronizedUpdate)?;
+        Write::flush(self.terminal.backend_mut())
+    }
+}
+
+impl Drop for Screen {
+    fn drop(&mut self) {
+        restore();
+    }
+}
+
+struct RestoreOnFailure;
+
+impl Drop for RestoreOnFailure {
+    fn drop(&mut self) {
+        restore();
+    }
+}
+
+/// Gives the terminal back. A terminal that is gone cannot be restored; nothing is to be done then.
+fn restore() {
+    let _ = execute!(stdout(), EndSynchronizedUpdate, LeaveAlternateScreen, Show);
+    let _ = disable_raw_mode();
+}
+
+/// What the first panic in any thread said. It is told when the terminal is itself again: printed
+/// at once, it would be drawn over.
+static PANIC: Mutex<Option<String>> = Mutex::new(None);
+
+/// Has panics leave their word here instead of on the screen.
+pub fn keep_panics() {
+    std::panic::set_hook(Box::new(|panic| {
+        let mut kept = PANIC.lock().unwrap_or_else(PoisonError::into_inner);
+        if kept.is_none() {
+            *kept = Some(panic.to_string().replace('\n', " "));
+        }
+    }));
+}
+
+/// What a panic said, if there was one.
+pub fn panic_word() -> Option<String> {
+    PANIC.lock().unwrap_or_else(PoisonError::into_inner).take()
+}

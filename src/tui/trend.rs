@@ -1,0 +1,153 @@
+//! What the explorer remembers of the past: the last loop in full, older cycles ever more coarsely.
+
+use std::collections::VecDeque;
+
+use crate::simulation::Moment;
+
+/// The most cycles kept one by one; when they are full, neighbours are merged in pairs.
+const CAPACITY: usize = 2048;
+
+/// The most points kept of the fretting loop.
+const LOOP_CAPACITY: usize = 4096;
+
+/// One cycle, or several that were merged: extremes survive merging.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cycle {
+    /// Where it ends.
+    pub cycle: f64,
+    /// Largest contact radius, m.
+    pub contact_radius: f64,
+    /// Smallest stick radius, m; NaN without tangential motion.
+    pub stick_radius: f64,
+    /// Worn volume at the end, m³.
+    pub wear_volume: f64,
+}
+
+impl Cycle {
+    fn merged(self, later: Self) -> Self {
+        Self {
+            contact_radius: self.contact_radius.max(later.contact_radius),
+            stick_radius: self.stick_radius.min(later.stick_radius),
+            ..later
+        }
+    }
+}
+
+/// The past of a run.
+#[derive(Debug, Clone, Default)]
+pub struct Trend {
+    cycles: Vec<Cycle>,
+    open: Option<Cycle>,
+    /// How many cycles an entry stands for.
+    stride: f64,
+    shifts: VecDeque<f64>,
+    forces: VecDeque<f64>,
+    loop_cycles: VecDeque<f64>,
+}
+
+impl Trend {
+    /// Takes in the moment after a step.
+    pub fn record(&mut self, moment: &Moment) {
+        self.record_loop(moment);
+        let now = Cycle {
+            cycle: moment.cycle,
+            contact_radius: moment.contact_radius,
+            stick_radius: moment.stick_radius.unwrap_or(f64::NAN),
+            wear_volume: moment.wear_volume,
+        };
+        let merged = self.open.map_or(now, |open| open.merged(now));
+        let start = self.cycles.last().map_or(0.0, |cycle| cycle.cycle);
+        if merged.cycle < start + self.stride.max(1.0) - 1e-9 {
+            self.open = Some(merged);
+            return;
+        }
+        self.open = None;
+        self.cycles.push(merged);
+        if self.cycles.len() >= CAPACITY {
+            self.cycles = self
+                .cycles
+                .chunks(2)
+                .filter_map(|pair| pair.iter().copied().reduce(Cycle::merged))
+                .collect();
+            self.stride = 2.0 * self.stride.max(1.0);
+        }
+    }
+
+    fn record_loop(&mut self, moment: &Moment) {
+        self.shifts.push_back(moment.shift);
+        self.forces.push_back(moment.tangential_force);
+        self.loop_cycles.push_back(moment.cycle);
+        // One cycle and the point that closes it.
+        while self.loop_cycles.len() > 1
+            && (self.loop_cycles[0] < moment.cycle - 1.0 - 1e-9
+                || self.loop_cycles.len() > LOOP_CAPACITY)
+        {
+            self.shifts.pop_front();
+            self.forces.pop_front();
+            self.loop_cycles.pop_front();
+        }
+    }
+
+    /// The cycles so far, the unfinished one included, oldest first.
+    pub fn cycles(&self) -> impl Iterator<Item = &Cycle> {
+        self.cycles.iter().chain(&self.open)
+    }
+
+    /// u_x⁽⁰⁾ (m) and F_x (N) of the last cycle.
+    pub fn fretting_loop(&self) -> (Vec<f64>, Vec<f64>) {
+        (
+            self.shifts.iter().copied().collect(),
+            self.forces.iter().copied().collect(),
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn moment(cycle: f64, stick: f64) -> Moment {
+        Moment {
+            cycle,
+            time: 0.0,
+            depth: 0.0,
+            shift: cycle.fract(),
+            normal_force: 0.0,
+            tangential_force: 1.0,
+            contact_radius: 2.0,
+            stick_radius: Some(stick),
+            permanent_stick_radius: Some(stick),
+            wear_volume: cycle,
+            dissipated_energy: 0.0,
+            energy_residual: None,
+        }
+    }
+
+    #[test]
+    fn memory_is_bounded_and_extremes_survive() {
+        let mut trend = Trend::default();
+        for step in 1..=200_000_u32 {
+            let cycle = f64::from(step) / 4.0;
+            trend.record(&moment(cycle, if step == 777 { 0.1 } else { 1.0 }));
+        }
+        assert!(trend.cycles().count() <= CAPACITY);
+        let smallest = trend
+            .cycles()
+            .map(|cycle| cycle.stick_radius)
+            .fold(f64::INFINITY, f64::min);
+        assert_eq!(smallest, 0.1);
+        assert_eq!(
+            trend.cycles().last().map(|cycle| cycle.cycle),
+            Some(50_000.0)
+        );
+    }
+
+    #[test]
+    fn the_loop_holds_one_cycle() {
+        let mut trend = Trend::default();
+        for step in 1..=1000_u32 {
+            trend.record(&moment(f64::from(step) / 100.0, 1.0));
+        }
+        assert_eq!(trend.fretting_loop().0.len(), 101);
+    }
+}

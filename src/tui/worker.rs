@@ -1,0 +1,501 @@
+//! The worker: a thread that owns the simulation, takes orders between steps and publishes frames.
+//!
+//! It steps no further ahead than the pace allows, and it publishes a frame only after the one
+//! before has been taken, so that a slow terminal costs the simulation nothing.
+
+use std::path::PathBuf;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use super::Event;
+use super::trend::Trend;
+use crate::export::file::{RunDirectory, free_directory};
+use crate::export::header::number;
+use crate::export::state;
+use crate::math::abel::AbelMethod;
+use crate::scenario::Scenario;
+use crate::scenario::session::Session;
+use crate::simulation::{Curves, Observation};
+
+/// Laws that keys step through.
+const LAWS: [&str; 2] = ["archard", "power"];
+
+/// How long the worker steps before it looks for orders again.
+const STINT: Duration = Duration::from_millis(4);
+
+/// What the explorer asks of the worker.
+#[derive(Debug)]
+pub enum Order {
+    /// Run or pause.
+    RunPause,
+    /// Pause, one step.
+    Step,
+    /// Pause, to the end of the cycle.
+    Cycle,
+    /// The method so many places further on.
+    Method(isize),
+    /// The wear law so many places further on.
+    Law(isize),
+    /// The pace so many places further on.
+    Pace(i32),
+    /// Start again as loaded.
+    Restart,
+    /// Another scenario, from the start.
+    Load(Box<Scenario>),
+    /// Write the state to files.
+    Snapshot,
+    /// Compute these curves from now on.
+    Show(Curves),
+    /// Answer with a frame when all orders before are carried out.
+    Sync(Sender<Arc<Frame>>),
+    /// End.
+    Quit,
+}
+
+/// How fast the simulation is let run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Pace {
+    /// Cycles a second.
+    Cycles(f64),
+    /// As fast as it can.
+    Unlimited,
+}
+
+impl Pace {
+    const SLOWEST: i32 = -3;
+    const UNLIMITED: i32 = 15;
+
+    /// 1, 2, 5, 10, … cycles a second by rung; the last rung is without limit.
+    fn of_rung(rung: i32) -> Self {
+        if rung >= Self::UNLIMITED {
+            return Self::Unlimited;
+        }
+        let mantissa = [1.0, 2.0, 5.0][rung.rem_euclid(3) as usize];
+        Self::Cycles(mantissa * 10f64.powi(rung.div_euclid(3)))
+    }
+}
+
+/// What the worker is doing.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Activity {
+    /// Stepping.
+    Running,
+    /// Waiting for orders.
+    Paused,
+    /// At the end of the scenario's plan.
+    Done,
+    /// Broken down; the text says why.
+    Stopped(String),
+}
+
+/// All that a screen shows of the simulation.
+#[derive(Debug, Clone)]
+pub struct Frame {
+    /// The curves and scalars.
+    pub observation: Observation,
+    /// The past.
+    pub trend: Trend,
+    /// What the worker does.
+    pub activity: Activity,
+    /// How fast it may go.
+    pub pace: Pace,
+    /// How fast it goes, cycles a second; none until measured.
+    pub speed: Option<f64>,
+    /// What a step costs, s.
+    pub step_cost: Option<f64>,
+    /// The scenario's title.
+    pub title: String,
+    /// The preset's name or the file.
+    pub origin: String,
+    /// Where the scenario's plan ends, cycles.
+    pub planned_cycles: Option<f64>,
+    /// Steps a cycle.
+    pub steps_per_cycle: u32,
+    /// μ, for the scale of τ.
+    pub friction: f64,
+}
+
+/// The place where the latest frame waits to be taken.
+#[derive(Debug, Default)]
+pub struct Slot(Mutex<Option<Arc<Frame>>>);
+
+impl Slot {
+    /// Takes the latest frame, if there is a new one.
+    pub fn take(&self) -> Option<Arc<Frame>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).take()
+    }
+
+    /// Puts a frame there; true if the place was empty and the screen must be told.
+    fn put(&self, frame: Arc<Frame>) -> bool {
+        self.0
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .replace(frame)
+            .is_none()
+    }
+}
+
+/// The worker's side.
+pub struct Worker {
+    session: Session,
+    trend: Trend,
+    curves: Curves,
+    activity: Activity,
+    rung: i32,
+    meter: Meter,
+    slot: Arc<Slot>,
+    events: Sender<Event>,
+    interval: Duration,
+    published: Instant,
+}
+
+impl Worker {
+    /// A worker on `session` that publishes at most every `interval`.
+    pub fn new(
+        session: Session,
+        slot: Arc<Slot>,
+        events: Sender<Event>,
+        interval: Duration,
+        running: bool,
+    ) -> Self {
+        let mut trend = Trend::default();
+        trend.record(&session.simulation().moment());
+        let activity = if running {
+            Activity::Running
+        } else {
+            Activity::Paused
+        };
+        Self {
+            session,
+            trend,
+            curves: Curves::all(),
+            activity,
+            rung: 3,
+            meter: Meter::default(),
+            slot,
+            events,
+            interval,
+            published: Instant::now(),
+        }
+    }
+
+    /// Carries out orders and steps in between, until told to quit.
+    pub fn serve(mut self, orders: &Receiver<Order>) {
+        self.publish();
+        loop {
+            #[cfg(debug_assertions)]
+            super::fault::strike("worker");
+            let wait = self.until_next_step();
+            match wait.map_or_else(
+                || orders.recv().map_err(RecvTimeoutError::from),
+                |wait| orders.recv_timeout(wait),
+            ) {
+                Ok(Order::Quit) | Err(RecvTimeoutError::Disconnected) => return,
+                Ok(order) => {
+                    self.obey(order);
+                    self.meter.restart(self.session.simulation().cycle());
+                    self.publish();
+                }
+                Err(RecvTimeoutError::Timeout) => self.step_for_a_stint(),
+            }
+        }
+    }
+
+    /// How long to wait for orders before the next step is due; forever when not running.
+    fn until_next_step(&self) -> Option<Duration> {
+        if self.activity != Activity::Running {
+            return None;
+        }
+        let due = match Pace::of_rung(self.rung) {
+            Pace::Unlimited => 0.0,
+            Pace::Cycles(pace) => self
+                .meter
+                .ahead(self.session.simulation().next_moment(), pace),
+        };
+        Some(Duration::from_secs_f64(due.clamp(0.0, 0.1)))
+    }
+
+    fn step_for_a_stint(&mut self) {
+        let start = Instant::now();
+        while self.activity == Activity::Running && start.elapsed() < STINT {
+            if let Pace::Cycles(pace) = Pace::of_rung(self.rung)
+                && self
+                    .meter
+                    .ahead(self.session.simulation().next_moment(), pace)
+                    > 0.0
+            {
+                break;
+            }
+            let before = self.session.simulation().cycle();
+            self.step();
+            self.end_where_planned(before);
+        }
+        self.meter.measure(
+            self.session.simulation().cycle(),
+            self.session.simulation().state().steps,
+            start.elapsed(),
+        );
+        if self.published.elapsed() >= self.interval || self.activity != Activity::Running {
+            self.publish();
+        }
+    }
+
+    fn step(&mut self) {
+        match self.session.step() {
+            Ok(()) => self.trend.record(&self.session.simulation().moment()),
+            Err(error) => self.activity = Activity::Stopped(error.to_string()),
+        }
+    }
+
+    /// Pauses when a running simulation passes the end of the scenario's plan.
+    fn end_where_planned(&mut self, before: f64) {
+        let Some(end) = self.session.loaded().run().cycles else {
+            return;
+        };
+        let simulation = self.session.simulation();
+        let end = end - simulation.rounding();
+        if self.activity == Activity::Running && before < end && simulation.cycle() >= end {
+            self.activity = Activity::Done;
+        }
+    }
+
+    fn obey(&mut self, order: Order) {
+        match order {
+            Order::RunPause => match self.activity {
+                Activity::Running => self.activity = Activity::Paused,
+                Activity::Paused | Activity::Done => self.activity = Activity::Running,
+                Activity::Stopped(_) => {
+                    self.notice("the run has broken down; r starts again, m changes the method")
+                }
+            },
+            Order::Step => self.by_hand(|_, _| true),
+            Order::Cycle => {
+                self.by_hand(|before, now| (now + 1e-9).floor() > (before + 1e-9).floor())
+            }
+            Order::Method(places) => {
+                let now = self.session.simulation().setup().method;
+                let method = shifted(&AbelMethod::ALL, |method| *method == now, places);
+                self.change("numerics.method", method.name());
+            }
+            Order::Law(places) => match self.session.simulation().setup().wear {
+                None => self.notice("this scenario has no wear: there is no law to change"),
+                Some(now) => {
+                    let law = shifted(&LAWS, |law| *law == now.name(), places);
+                    self.change("wear.law", law);
+                }
+            },
+            Order::Pace(rungs) => {
+                self.rung = (self.rung + rungs).clamp(Pace::SLOWEST, Pace::UNLIMITED)
+            }
+            Order::Restart => self.load(self.session.loaded().clone()),
+            Order::Load(scenario) => self.load(*scenario),
+            Order::Snapshot => self.snapshot(),
+            Order::Show(curves) => self.curves = curves,
+            Order::Sync(reply) => {
+                let _ = reply.send(Arc::new(self.frame()));
+            }
+            Order::Quit => {}
+        }
+    }
+
+    /// Pauses and steps until `done`, which is given the cycles before and now, is true.
+    fn by_hand(&mut self, done: impl Fn(f64, f64) -> bool) {
+        if matches!(self.activity, Activity::Stopped(_)) {
+            return self.notice("the run has broken down; r starts again, m changes the method");
+        }
+        self.activity = Activity::Paused;
+        let before = self.session.simulation().cycle();
+        loop {
+            self.step();
+            if self.activity != Activity::Paused || done(before, self.session.simulation().cycle())
+            {
+                return;
+            }
+        }
+    }
+
+    fn change(&mut self, key: &str, value: &str) {
+        match self.session.change(key, &format!("\"{value}\"")) {
+            Ok(()) => {
+                if matches!(self.activity, Activity::Stopped(_)) {
+                    self.activity = Activity::Paused;
+                }
+                let cycle = self.session.simulation().cycle();
+                self.notice(&format!("{key} = {value} from cycle {cycle:.2} on"));
+            }
+            Err(error) => self.notice(&error.to_string()),
+        }
+    }
+
+    fn load(&mut self, scenario: Scenario) {
+        match Session::start(scenario) {
+            Ok(session) => {
+                self.session = session;
+                self.trend = Trend::default();
+                self.trend.record(&self.session.simulation().moment());
+                if self.activity != Activity::Running {
+                    self.activity = Activity::Paused;
+                }
+            }
+            Err(error) => self.notice(&error.to_string()),
+        }
+    }
+
+    /// Writes `state.csv` and, beside it, the scenario that leads there.
+    fn snapshot(&mut self) {
+        let session = &self.session;
+        let stem = session.loaded().stem();
+        let directory = free_directory(&format!(
+            "{stem}-cycle-{}",
+            number(session.simulation().cycle())
+        ));
+        let written = RunDirectory::claim(&directory, false).and_then(|directory| {
+            directory.write(
+                "scenario.toml",
+                session.as_run(Vec::new()).to_toml().as_bytes(),
+            )?;
+            directory.write("state.csv", state::table(session).as_bytes())
+        });
+        match written {
+            Ok(path) => self.notice(&format!("snapshot in {}", show(&path))),
+            Err(error) => self.notice(&error.to_string()),
+        }
+    }
+
+    fn notice(&self, text: &str) {
+        let _ = self.events.send(Event::Notice(text.to_owned()));
+    }
+
+    fn publish(&mut self) {
+        self.published = Instant::now();
+        if self.slot.put(Arc::new(self.frame())) {
+            let _ = self.events.send(Event::Frame);
+        }
+    }
+
+    fn frame(&self) -> Frame {
+        let simulation = self.session.simulation();
+        let scenario = self.session.scenario();
+        Frame {
+            observation: simulation.observe(self.curves),
+            trend: self.trend.clone(),
+            activity: self.activity.clone(),
+            pace: Pace::of_rung(self.rung),
+            speed: self
+                .meter
+                .speed
+                .filter(|_| self.activity == Activity::Running),
+            step_cost: self.meter.step_cost,
+            title: scenario.title().to_owned(),
+            origin: scenario.origin().to_owned(),
+            planned_cycles: self.session.loaded().run().cycles,
+            steps_per_cycle: simulation.setup().steps_per_cycle,
+            friction: simulation.setup().material.friction(),
+        }
+    }
+}
+
+/// The element so many places after the one that is `now`, around the ends.
+fn shifted<T: Copy>(all: &[T], now: impl Fn(&T) -> bool, places: isize) -> T {
+    let at = all.iter().position(now).unwrap_or(0) as isize;
+    all[(at + places).rem_euclid(all.len() as isize) as usize]
+}
+
+fn show(path: &std::path::Path) -> String {
+    let path: PathBuf = path.components().collect();
+    path.display().to_string()
+}
+
+/// Watches the clock: what the pace asks for, and what is reached.
+#[derive(Debug)]
+struct Meter {
+    start: Instant,
+    start_cycle: f64,
+    window: Instant,
+    window_cycle: f64,
+    window_steps: u64,
+    busy: Duration,
+    speed: Option<f64>,
+    step_cost: Option<f64>,
+}
+
+impl Default for Meter {
+    fn default() -> Self {
+        let now = Instant::now();
+        Self {
+            start: now,
+            start_cycle: 0.0,
+            window: now,
+            window_cycle: 0.0,
+            window_steps: 0,
+            busy: Duration::ZERO,
+            speed: None,
+            step_cost: None,
+        }
+    }
+}
+
+impl Meter {
+    /// Forgets how far ahead or behind the run is.
+    fn restart(&mut self, cycle: f64) {
+        self.start = Instant::now();
+        self.start_cycle = cycle;
+        self.window = self.start;
+        self.window_cycle = cycle;
+        self.busy = Duration::ZERO;
+        self.window_steps = u64::MAX;
+    }
+
+    /// Seconds until `cycle` is due at `pace` cycles a second.
+    fn ahead(&self, cycle: f64, pace: f64) -> f64 {
+        (cycle - self.start_cycle) / pace - self.start.elapsed().as_secs_f64()
+    }
+
+    /// Takes in a stint that ended at `cycle` after `steps` in all.
+    fn measure(&mut self, cycle: f64, steps: u64, busy: Duration) {
+        if self.window_steps > steps {
+            self.window_steps = steps;
+            self.window_cycle = cycle;
+            self.busy = Duration::ZERO;
+            return;
+        }
+        self.busy += busy;
+        let elapsed = self.window.elapsed().as_secs_f64();
+        if elapsed < 0.5 {
+            return;
+        }
+        let taken = steps - self.window_steps;
+        self.speed = Some((cycle - self.window_cycle) / elapsed);
+        if taken > 0 {
+            self.step_cost = Some(self.busy.as_secs_f64() / taken as f64);
+        }
+        // A machine that cannot keep the pace does not owe the past.
+        self.start = Instant::now();
+        self.start_cycle = cycle;
+        self.window = self.start;
+        self.window_cycle = cycle;
+        self.window_steps = steps;
+        self.busy = Duration::ZERO;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_pace_goes_up_in_ones_twos_and_fives() {
+        let paces: Vec<Pace> = (0..7).map(Pace::of_rung).collect();
+        let expected = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0].map(Pace::Cycles);
+        assert_eq!(paces, expected);
+        assert_eq!(Pace::of_rung(-1), Pace::Cycles(0.5));
+        assert_eq!(Pace::of_rung(Pace::UNLIMITED), Pace::Unlimited);
+    }
+
+    #[test]
+    fn methods_go_around() {
+        assert_eq!(shifted(&[1, 2, 3], |n| *n == 3, 1), 1);
+        assert_eq!(shifted(&[1, 2, 3], |n| *n == 1, -1), 3);
+    }
+}

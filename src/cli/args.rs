@@ -77,10 +77,14 @@ pub struct Explore {
     #[arg(long, value_enum, default_value_t = ColorChoice::Auto)]
     pub color: ColorChoice,
     /// Press these keys instead of reading the keyboard, print the last screen and exit.
-    ///
-    /// Ordinary characters stand for themselves; <Space>, <Tab>, <Esc>, <Enter>, <Left>, … for keys,
-    /// <lt> for "<". Every key waits until the simulation has answered the one before.
-    #[arg(long, value_name = "SCRIPT", requires = "print")]
+    #[arg(
+        long,
+        value_name = "SCRIPT",
+        requires = "print",
+        long_help = "Press these keys instead of reading the keyboard, print the last screen and exit.\n\n\
+            Ordinary characters stand for themselves; <Space>, <Tab>, <Esc>, <Enter>, <Left>, ... for \
+            keys, <lt> for \"<\". Every key waits until the simulation has answered the one before."
+    )]
     pub keys: Option<String>,
     /// Print the screen at this size after the last key; the simulation starts paused.
     #[arg(long, value_name = "COLUMNSxROWS")]

@@ -4,8 +4,6 @@
 //! table of [`parameters`] → the serde mirror → the parts' own constructors → [`Scenario`]. Each
 //! step refuses with one line that names the origin, the dotted path, the value and the rule.
 
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
 
 use toml::Table;
@@ -20,18 +18,16 @@ mod nearest;
 pub mod parameters;
 pub mod preset;
 mod raw;
+mod read;
 mod run;
 pub mod session;
+mod table;
 mod validate;
 mod write;
 
 use error::{Origin, echo};
 pub use error::{ScenarioError, printable};
-use raw::Raw;
 pub use run::{Change, RunPlan};
-
-/// The largest file that is read as a scenario, in bytes.
-const LARGEST_FILE: u64 = 1 << 20;
 
 /// A validated scenario: parts that are ready to run, and the text they can be made from again.
 #[derive(Debug, Clone)]
@@ -63,7 +59,7 @@ impl Scenario {
         let is_path = name_or_path.contains(['/', std::path::MAIN_SEPARATOR])
             || name_or_path.to_lowercase().ends_with(".toml");
         if is_path {
-            return Self::from_toml(&read(name_or_path)?, name_or_path, sets);
+            return Self::from_toml(&read::file(name_or_path)?, name_or_path, sets);
         }
         match preset::find(name_or_path) {
             Some(preset) => Self::from_toml(preset.text, preset.name, sets),
@@ -77,7 +73,7 @@ impl Scenario {
     /// Reads a scenario from a text that messages call `origin`.
     pub fn from_toml(text: &str, origin: &str, sets: &[String]) -> Result<Self, ScenarioError> {
         let mut from = Origin::new(origin);
-        let mut table = parse(text, &from)?;
+        let mut table = read::table(text, &from)?;
         for set in sets {
             let (key, value) = assign::split(set, "--set ")?;
             let written = format!("--set {}", echo(set));
@@ -186,7 +182,7 @@ impl Scenario {
     /// Checks a table and makes its parts; errors show its values as they were written.
     fn build(table: Table, from: &Origin, origin: &str) -> Result<Self, ScenarioError> {
         check::keys(&table, from)?;
-        let mut raw = decode(table.clone(), from)?;
+        let mut raw = read::mirror(table.clone(), from)?;
         raw.fill_in();
         let run = std::mem::take(&mut raw.run);
         let changes = std::mem::take(&mut raw.changes);
@@ -263,59 +259,4 @@ impl Scenario {
         table.insert("changes".into(), changes.into());
         table
     }
-}
-
-/// Reads a file that can be a scenario: text, and not too long.
-fn read(path: &str) -> Result<String, ScenarioError> {
-    let unreadable = |reason: String| ScenarioError::Unreadable {
-        origin: printable(path),
-        reason,
-    };
-    if Path::new(path).is_dir() {
-        return Err(unreadable(
-            "is a directory; a scenario is a TOML file".into(),
-        ));
-    }
-    let failed = |error: std::io::Error| {
-        unreadable(match error.kind() {
-            std::io::ErrorKind::NotFound => "no such file; mdr-tui presets lists what ships".into(),
-            _ => format!("cannot be read: {error}"),
-        })
-    };
-    let file = File::open(path).map_err(failed)?;
-    let mut bytes = Vec::new();
-    file.take(LARGEST_FILE + 1)
-        .read_to_end(&mut bytes)
-        .map_err(failed)?;
-    if bytes.len() as u64 > LARGEST_FILE {
-        return Err(unreadable(
-            "is larger than 1 MiB; a scenario is a short TOML file".into(),
-        ));
-    }
-    String::from_utf8(bytes).map_err(|error| {
-        let at = error.utf8_error().valid_up_to();
-        unreadable(format!(
-            "is not UTF-8 text at byte {at}; a scenario is a TOML file"
-        ))
-    })
-}
-
-fn parse(text: &str, origin: &Origin) -> Result<Table, ScenarioError> {
-    toml::from_str(text).map_err(|error| {
-        let at = error.span().map_or(0, |span| span.start);
-        let before = text.get(..at).unwrap_or(text);
-        let line = before.rsplit('\n').next().unwrap_or_default();
-        ScenarioError::Syntax {
-            origin: origin.name().to_owned(),
-            line: before.matches('\n').count() + 1,
-            column: line.chars().count() + 1,
-            message: printable(&error.message().replace('\n', "; ")),
-        }
-    })
-}
-
-/// The table as its serde mirror. After the check of all keys little can go wrong here.
-fn decode(table: Table, origin: &Origin) -> Result<Raw, ScenarioError> {
-    serde_path_to_error::deserialize(table)
-        .map_err(|error: serde_path_to_error::Error<toml::de::Error>| origin.broken(&error))
 }

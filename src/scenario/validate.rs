@@ -200,7 +200,7 @@ impl Parts<'_> {
     ) -> Result<Control, ScenarioError> {
         let amplitude = raw.amplitude.unwrap_or(0.0);
         let frequency = match raw.angular_frequency {
-            None if amplitude == 0.0 => other_frequency.unwrap_or(1.0),
+            None if amplitude == 0.0 => other_frequency.filter(|other| *other > 0.0).unwrap_or(1.0),
             given => self.require(given, &format!("{section}.angular_frequency"))?,
         };
         let oscillation = Oscillation::new(mean, amplitude, frequency, raw.phase.unwrap_or(0.0))

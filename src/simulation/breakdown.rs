@@ -47,6 +47,17 @@ pub enum Cause {
         /// L, m.
         domain_radius: f64,
     },
+    /// The contact has grown to where the unworn indenter stands too high to touch.
+    #[error(
+        "the contact reaches {radius:.4e} m, where nothing can touch at this depth: the profile has blown up; {}",
+        advice(*method)
+    )]
+    BlownUp {
+        /// L, m.
+        radius: f64,
+        /// The transform method in use.
+        method: AbelMethod,
+    },
     /// A prescribed normal force that no depth carries.
     #[error(
         "no depth carries the normal force {force:.4e} N within the domain's radius of \

@@ -140,8 +140,11 @@ impl Drive {
     }
 
     /// After how many cycles the motion of both directions repeats, where it does within
-    /// [`LONGEST_REPEAT`]; none for incommensurate frequencies.
+    /// [`LONGEST_REPEAT`]; none for incommensurate frequencies. A direction that stands still always repeats.
     pub fn repeats_after(&self) -> Option<u32> {
+        if self.normal.oscillation().amplitude == 0.0 {
+            return Some(1);
+        }
         let ratio = self.frequency_ratio();
         (1..=LONGEST_REPEAT).find(|&cycles| {
             let turns = f64::from(cycles) * ratio;

@@ -38,8 +38,17 @@ pub(super) fn solve_contact(
         });
     }
     if normal.nodes == xs.len() && work.normal_load[xs.len() - 1] > 1e-9 * modulus * depth {
-        return Err(Cause::EdgeReached {
-            domain_radius: setup.grid.radius(),
+        let radius = setup.grid.radius();
+        // Wear only lowers the surface: where f₀ exceeds the depth, nothing ever touches.
+        return Err(if work.unworn[xs.len() - 1] >= depth * (1.0 - 1e-9) {
+            Cause::BlownUp {
+                radius,
+                method: setup.method,
+            }
+        } else {
+            Cause::EdgeReached {
+                domain_radius: radius,
+            }
         });
     }
     work.contact = Contact {

@@ -11,7 +11,7 @@
 //! Space run/pause  . step  , cycle  m method ...                       ? help
 //! ```
 //!
-//! Two columns below [`WIDE`] columns, three from there on.
+//! Two panels side by side on a narrow screen, three on a wide one.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Rect};

@@ -1,7 +1,7 @@
 //! Integration by parts: the singular kernel is integrated once more, the data differentiated.
 //!
 //! J. Benad (2018), Fast numerical implementation of the MDR transformations, Facta Univ. Mech.
-//! Eng. 16(2), 127–138: reference [9] of the paper.
+//! Eng. 16(2), 127–138: the paper's reference 9.
 //!
 //! # Formula
 //!

@@ -39,7 +39,7 @@ mod kernel;
 /// A published way to compute the three transforms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum AbelMethod {
-    /// Integration by parts, J. Benad (2018): reference [9] of the paper.
+    /// Integration by parts, J. Benad (2018): the paper's reference 9.
     Benad,
     /// The paper's Method A: the singularity of (2) split off, Eq. (7).
     A,

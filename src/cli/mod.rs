@@ -7,8 +7,8 @@ use clap::Parser;
 use clap::error::ErrorKind;
 
 use crate::export::file::WriteError;
-use crate::scenario::ScenarioError;
 use crate::scenario::session::SessionError;
+use crate::scenario::{ScenarioError, printable};
 use crate::tui::NoTerminal;
 
 pub mod args;
@@ -56,10 +56,9 @@ fn dispatch(arguments: Arguments) -> anyhow::Result<ExitCode> {
     }
 }
 
-/// Prints one line on stderr.
+/// Prints one line on stderr, whatever names the user gave.
 pub(crate) fn complain(message: &str) {
-    let line = message.trim_end().replace('\n', " ");
-    let _ = writeln!(io::stderr(), "mdr-tui: {line}");
+    let _ = writeln!(io::stderr(), "mdr-tui: {}", printable(message.trim_end()));
 }
 
 /// Wrong use and wrong input are 2, a run that failed is 1.
@@ -102,7 +101,8 @@ fn refuse(error: &clap::Error) -> ExitCode {
         .map(str::trim)
         .filter(|line| !line.is_empty())
         .collect::<Vec<_>>()
-        .join(" ");
+        .join(" ")
+        .replace(" tip: ", "; ");
     complain(&format!(
         "{}; see mdr-tui --help",
         words.trim_start_matches("error: ")

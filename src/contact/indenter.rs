@@ -1,4 +1,10 @@
-//! The unworn indenter: its profile f₀(r), the gap to its tip before anything deforms.
+//! The unworn indenter: its profile f₀(r), the gap to its tip before anything deforms, and the 1D
+//! image g₀(x) of that profile in closed form.
+//!
+//! V. L. Popov, M. Heß (2015), Method of dimensionality reduction in contact mechanics and friction,
+//! ch. 3; κₙ = √π Γ(n/2 + 1)/Γ(n/2 + ½).
+
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use crate::math::invalid::{Invalid, positive};
 
@@ -22,6 +28,25 @@ pub enum Indenter {
         /// n.
         exponent: f64,
     },
+    /// f = 0 up to the rim, and nothing beyond it.
+    FlatPunch {
+        /// The punch's radius, m.
+        radius: f64,
+    },
+    /// f = (r² − b²)/(2R) outside a flat tip of radius b.
+    TruncatedParaboloid {
+        /// R, m.
+        radius: f64,
+        /// b, m.
+        tip_radius: f64,
+    },
+    /// f = (r − b) tan θ outside a flat tip of radius b.
+    TruncatedCone {
+        /// θ, rad.
+        angle: f64,
+        /// b, m.
+        tip_radius: f64,
+    },
 }
 
 impl Indenter {
@@ -32,18 +57,10 @@ impl Indenter {
 
     /// A cone whose flank rises by `angle` rad, greater than 0 and less than π/2.
     pub fn cone(angle: f64) -> Result<Self, Invalid> {
-        if angle > 0.0 && angle < std::f64::consts::FRAC_PI_2 {
-            Ok(Self::Cone { angle })
-        } else {
-            Err(Invalid::new(
-                "angle",
-                angle,
-                "must be greater than 0 and less than pi/2 (rad)",
-            ))
-        }
+        check_angle(angle).map(|angle| Self::Cone { angle })
     }
 
-    /// f = `coefficient` · r^`exponent`, with an exponent of at least 1.
+    /// f = `coefficient` · r^`exponent`, with an exponent from 1 to 20.
     pub fn power(coefficient: f64, exponent: f64) -> Result<Self, Invalid> {
         let coefficient = positive("coefficient", coefficient)?;
         if (1.0..=20.0).contains(&exponent) {
@@ -56,7 +73,28 @@ impl Indenter {
         }
     }
 
-    /// f₀(r), m.
+    /// A flat punch of the given radius in m.
+    pub fn flat_punch(radius: f64) -> Result<Self, Invalid> {
+        positive("radius", radius).map(|radius| Self::FlatPunch { radius })
+    }
+
+    /// A paraboloid of curvature radius R in m, cut flat at a tip radius in m.
+    pub fn truncated_paraboloid(radius: f64, tip_radius: f64) -> Result<Self, Invalid> {
+        Ok(Self::TruncatedParaboloid {
+            radius: positive("radius", radius)?,
+            tip_radius: positive("tip_radius", tip_radius)?,
+        })
+    }
+
+    /// A cone of the given angle in rad, cut flat at a tip radius in m.
+    pub fn truncated_cone(angle: f64, tip_radius: f64) -> Result<Self, Invalid> {
+        Ok(Self::TruncatedCone {
+            angle: check_angle(angle)?,
+            tip_radius: positive("tip_radius", tip_radius)?,
+        })
+    }
+
+    /// f₀(r), m. A flat punch ends at its rim: there is nothing to ask beyond.
     pub fn profile(&self, r: f64) -> f64 {
         match *self {
             Self::Paraboloid { radius } => r * r / (2.0 * radius),
@@ -65,11 +103,39 @@ impl Indenter {
                 coefficient,
                 exponent,
             } => coefficient * r.powf(exponent),
+            Self::FlatPunch { .. } => 0.0,
+            Self::TruncatedParaboloid { radius, tip_radius } if r > tip_radius => {
+                (r - tip_radius) * (r + tip_radius) / (2.0 * radius)
+            }
+            Self::TruncatedCone { angle, tip_radius } if r > tip_radius => {
+                (r - tip_radius) * angle.tan()
+            }
+            Self::TruncatedParaboloid { .. } | Self::TruncatedCone { .. } => 0.0,
+        }
+    }
+
+    /// g₀(x), m: Eq. (1) of the paper in closed form.
+    pub fn profile_1d(&self, x: f64) -> f64 {
+        match *self {
+            Self::Paraboloid { radius } => x * x / radius,
+            Self::Cone { angle } => FRAC_PI_2 * x * angle.tan(),
+            Self::Power {
+                coefficient,
+                exponent,
+            } => kappa(exponent) * coefficient * x.powf(exponent),
+            Self::FlatPunch { .. } => 0.0,
+            Self::TruncatedParaboloid { radius, tip_radius } if x > tip_radius => {
+                x * ((x - tip_radius) * (x + tip_radius)).sqrt() / radius
+            }
+            Self::TruncatedCone { angle, tip_radius } if x > tip_radius => {
+                x * angle.tan() * (tip_radius / x).acos()
+            }
+            Self::TruncatedParaboloid { .. } | Self::TruncatedCone { .. } => 0.0,
         }
     }
 
     /// The radius at which f₀ reaches `height`, m: nothing outside it touches at that depth,
-    /// whatever wears inside (f∞ ≥ f₀ and f∞ ≤ d, §5 of the limiting profile).
+    /// whatever wears inside. A punch never reaches beyond its rim.
     pub fn radius_at(&self, height: f64) -> f64 {
         let height = height.max(0.0);
         match *self {
@@ -79,6 +145,28 @@ impl Indenter {
                 coefficient,
                 exponent,
             } => (height / coefficient).powf(exponent.recip()),
+            Self::FlatPunch { radius } => radius,
+            Self::TruncatedParaboloid { radius, tip_radius } => {
+                tip_radius.hypot((2.0 * radius * height).sqrt())
+            }
+            Self::TruncatedCone { angle, tip_radius } => tip_radius + height / angle.tan(),
+        }
+    }
+
+    /// The rim at which the indenter ends, m, where it does.
+    pub fn rim(&self) -> Option<f64> {
+        match *self {
+            Self::FlatPunch { radius } => Some(radius),
+            _ => None,
+        }
+    }
+
+    /// The radius at which f₀ has a kink, m, where it has one.
+    pub fn kink(&self) -> Option<f64> {
+        match *self {
+            Self::TruncatedParaboloid { tip_radius, .. }
+            | Self::TruncatedCone { tip_radius, .. } => Some(tip_radius),
+            _ => None,
         }
     }
 
@@ -88,29 +176,87 @@ impl Indenter {
             Self::Paraboloid { .. } => "paraboloid",
             Self::Cone { .. } => "cone",
             Self::Power { .. } => "power",
+            Self::FlatPunch { .. } => "flat-punch",
+            Self::TruncatedParaboloid { .. } => "truncated-paraboloid",
+            Self::TruncatedCone { .. } => "truncated-cone",
         }
     }
+}
+
+fn check_angle(angle: f64) -> Result<f64, Invalid> {
+    if angle > 0.0 && angle < FRAC_PI_2 {
+        Ok(angle)
+    } else {
+        Err(Invalid::new(
+            "angle",
+            angle,
+            "must be greater than 0 and less than pi/2 (rad)",
+        ))
+    }
+}
+
+/// κₙ: g = κₙ A xⁿ for f = A rⁿ.
+fn kappa(n: f64) -> f64 {
+    PI.sqrt() * libm::tgamma(0.5 * n + 1.0) / libm::tgamma(0.5 * n + 0.5)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[test]
-    fn the_radius_at_a_height_inverts_the_profile() {
-        for shape in [
+    fn shapes() -> Vec<Indenter> {
+        [
             Indenter::paraboloid(0.01),
             Indenter::cone(0.02),
             Indenter::power(3e7, 4.0),
             Indenter::power(0.5, 1.0),
-        ] {
-            let shape = shape.expect("a shape");
-            for height in [1e-12, 1e-6, 1e-3] {
+            Indenter::truncated_paraboloid(0.01, 2e-5),
+            Indenter::truncated_cone(0.02, 2e-5),
+        ]
+        .into_iter()
+        .map(|shape| shape.expect("a shape"))
+        .collect()
+    }
+
+    #[test]
+    fn the_radius_at_a_height_inverts_the_profile() {
+        for shape in shapes() {
+            for height in [1e-9, 1e-6, 1e-3] {
                 let back = shape.profile(shape.radius_at(height));
-                assert!((back / height - 1.0).abs() < 1e-12, "{shape:?}");
+                assert!((back / height - 1.0).abs() < 1e-9, "{shape:?}");
             }
             assert_eq!(shape.profile(0.0), 0.0);
-            assert_eq!(shape.radius_at(-1.0), 0.0);
+        }
+    }
+
+    /// Eq. (1) with r = x sin φ: g = x ∫ f′(x sin φ) dφ, by the midpoint rule on f′ by differences.
+    #[test]
+    fn the_closed_images_are_those_of_eq_1() {
+        for shape in shapes() {
+            for x in [1e-5, 4e-5, 1.3e-4] {
+                let steps = 40_000;
+                let h = FRAC_PI_2 / f64::from(steps);
+                let sum: f64 = (0..steps)
+                    .map(|i| {
+                        let r = x * (h * (f64::from(i) + 0.5)).sin();
+                        let dr = 1e-6 * x;
+                        (shape.profile(r + dr) - shape.profile((r - dr).abs()))
+                            / (r + dr - (r - dr).abs())
+                    })
+                    .sum();
+                let (ours, expected) = (shape.profile_1d(x), x * h * sum);
+                assert!(
+                    (ours - expected).abs() <= 1e-4 * expected.abs(),
+                    "{shape:?} at {x}: {ours} {expected}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn kappa_of_cone_paraboloid_and_quartic() {
+        for (n, expected) in [(1.0, FRAC_PI_2), (2.0, 2.0), (4.0, 8.0 / 3.0)] {
+            assert!((kappa(n) / expected - 1.0).abs() < 1e-14);
         }
     }
 
@@ -122,5 +268,8 @@ mod tests {
         assert!(Indenter::cone(1.6).is_err());
         assert!(Indenter::power(1.0, 0.5).is_err());
         assert!(Indenter::power(0.0, 2.0).is_err());
+        assert!(Indenter::flat_punch(0.0).is_err());
+        assert!(Indenter::truncated_paraboloid(0.01, -1.0).is_err());
+        assert!(Indenter::truncated_cone(2.0, 1e-5).is_err());
     }
 }

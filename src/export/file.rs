@@ -16,28 +16,28 @@ pub enum WriteError {
     #[error("{}: is not a directory", .0.display())]
     NotADirectory(PathBuf),
     /// The system refused.
-    #[error("{}: cannot write: {source}", path.display())]
+    #[error("{}: cannot write: {cause}", path.display())]
     Io {
         /// What was to be written.
         path: PathBuf,
-        /// Why not.
-        source: io::Error,
+        /// Why not; the message says it, so it is no further link of the chain.
+        cause: io::Error,
     },
 }
 
 impl WriteError {
     /// Whether another choice of directory by the user would have avoided it.
     pub fn is_misuse(&self) -> bool {
-        !matches!(self, Self::Io { source, .. } if source.kind() == io::ErrorKind::StorageFull)
+        !matches!(self, Self::Io { cause, .. } if cause.kind() == io::ErrorKind::StorageFull)
     }
 }
 
 /// Writes `contents` to `path`: to a temporary file in the same directory, flushed to the disk and
 /// renamed over `path`, so that a reader sees the old file or the new one and never a torn one.
 pub fn write_whole(path: &Path, contents: &[u8]) -> Result<(), WriteError> {
-    let failed = |source| WriteError::Io {
+    let failed = |cause| WriteError::Io {
         path: path.to_owned(),
-        source,
+        cause,
     };
     let directory = path
         .parent()
@@ -68,9 +68,9 @@ impl RunDirectory {
     /// Takes `path` for the files of a run: makes it where there is none, and refuses one that holds
     /// anything already unless `force` is set.
     pub fn claim(path: &Path, force: bool) -> Result<Self, WriteError> {
-        let failed = |source| WriteError::Io {
+        let failed = |cause| WriteError::Io {
             path: path.to_owned(),
-            source,
+            cause,
         };
         match fs::read_dir(path) {
             Ok(mut entries) => {

@@ -37,7 +37,11 @@ pub(super) fn solve_contact(
             method: setup.method,
         });
     }
-    if normal.nodes == xs.len() && work.normal_load[xs.len() - 1] > 1e-9 * modulus * depth {
+    let has_rim = setup.indenter.rim().is_some();
+    if !has_rim
+        && normal.nodes == xs.len()
+        && work.normal_load[xs.len() - 1] > 1e-9 * modulus * depth
+    {
         let radius = setup.grid.radius();
         // Wear only lowers the surface: where f₀ exceeds the depth, nothing ever touches.
         return Err(if work.unworn[xs.len() - 1] >= depth * (1.0 - 1e-9) {

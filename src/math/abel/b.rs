@@ -24,7 +24,7 @@ use std::f64::consts::{FRAC_1_PI, FRAC_2_PI};
 
 use nalgebra::DMatrix;
 
-use super::kernel::{acosh_step, asin_step, central_difference};
+use super::kernel::{acosh_step, add_jump_at_rim, asin_step, central_difference};
 
 /// Eq. (11): weights of the 1D profile.
 pub fn profile(nodes: &[f64]) -> DMatrix<f64> {
@@ -77,6 +77,7 @@ pub fn stress(nodes: &[f64]) -> DMatrix<f64> {
             }
         }
     }
+    add_jump_at_rim(&mut weights, nodes);
     weights
 }
 

@@ -34,7 +34,7 @@ use std::f64::consts::{FRAC_1_PI, FRAC_2_PI, FRAC_PI_2};
 
 use nalgebra::DMatrix;
 
-use super::kernel::{acosh_step, asin_step, central_difference};
+use super::kernel::{acosh_step, add_jump_at_rim, asin_step, central_difference};
 
 /// Eq. (1): weights of the 1D profile.
 pub fn profile(nodes: &[f64]) -> DMatrix<f64> {
@@ -74,7 +74,8 @@ pub fn displacement(nodes: &[f64]) -> DMatrix<f64> {
     weights
 }
 
-/// Eq. (3): weights of the stress. The line load ends at the last node.
+/// Eq. (3): weights of the stress. The line load ends at the last node; where it is not zero there,
+/// it jumps, as at the rim of a punch.
 pub fn stress(nodes: &[f64]) -> DMatrix<f64> {
     let last = nodes.len() - 1;
     let mut weights = DMatrix::zeros(nodes.len(), nodes.len());
@@ -92,6 +93,7 @@ pub fn stress(nodes: &[f64]) -> DMatrix<f64> {
             weights[(j, k + 1)] -= weight;
         }
     }
+    add_jump_at_rim(&mut weights, nodes);
     weights
 }
 

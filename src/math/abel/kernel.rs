@@ -1,6 +1,8 @@
 //! Integrals of the Abel kernels over one cell, free of cancellation, and difference formulas.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
+
+use nalgebra::DMatrix;
 
 /// √(b² − a²) for 0 ≤ a ≤ b.
 pub(super) fn leg(a: f64, b: f64) -> f64 {
@@ -29,6 +31,17 @@ pub(super) fn root_step(a: f64, b: f64, r: f64) -> f64 {
 /// ∫ₐᵇ dx/√(x² − r²) = acosh(b/r) − acosh(a/r), for 0 ≤ r ≤ a < b; at r = 0 it is ln(b/a).
 pub(super) fn acosh_step(a: f64, b: f64, r: f64) -> f64 {
     ((b - a) * (b + a) / (b * leg(r, a) + a * leg(r, b))).asinh()
+}
+
+/// Adds to the weights of Eq. (3) what a jump of the line load from q to nothing at the last node
+/// does: q/(π√(a² − r²)), infinite at the rim itself. There stands the mean over the last cell.
+pub(super) fn add_jump_at_rim(weights: &mut DMatrix<f64>, nodes: &[f64]) {
+    let last = nodes.len() - 1;
+    let rim = nodes[last];
+    for (j, &r) in nodes[..last].iter().enumerate() {
+        weights[(j, last)] += FRAC_1_PI / leg(r, rim);
+    }
+    weights[(last, last)] += 2.0 * FRAC_1_PI / leg(nodes[last - 1], rim);
 }
 
 /// The first derivative at node k as weights of nodal values: central differences inside,

@@ -78,6 +78,28 @@ impl WearLaw {
         matches!(self, Self::Archard { .. })
     }
 
+    /// ∂Δf/∂τ of one step, m/Pa: how strongly the wear of a node answers to its stress `tau` (Pa) at
+    /// a slip `slip` (m) over `duration` (s).
+    pub fn sensitivity(&self, tau: f64, slip: f64, duration: f64) -> f64 {
+        match *self {
+            Self::Archard { coefficient } => coefficient * slip.abs(),
+            Self::Power {
+                coefficient,
+                stress_exponent,
+                slip_rate_exponent,
+                reference_stress,
+                reference_slip_rate,
+            } => {
+                coefficient
+                    * reference_slip_rate
+                    * duration
+                    * stress_exponent
+                    * (tau.abs() / reference_stress).powf(stress_exponent - 1.0)
+                    * (slip.abs() / (reference_slip_rate * duration)).powf(slip_rate_exponent)
+            }
+        }
+    }
+
     /// Adds the wear (m) of one step to `wear`: stress `tau` (Pa) and slip `slip` (m) at the nodes,
     /// over a time of `duration` (s).
     ///
@@ -152,6 +174,23 @@ mod tests {
                 (worn(law, 1) / worn(law, 64) - 1.0).abs() < 1e-12,
                 "n = {exponent}"
             );
+        }
+    }
+
+    #[test]
+    fn the_sensitivity_is_the_derivative() {
+        for law in [
+            WearLaw::archard(1e-12),
+            WearLaw::power(1e-12, 1.5, 0.7, 3e7, 2e-5),
+        ] {
+            let law = law.expect("a law");
+            let at = |tau: f64| {
+                let mut wear = [0.0];
+                law.wear(&[tau], &[1e-7], 1e-3, &mut wear);
+                wear[0]
+            };
+            let slope = (at(2.0001e8) - at(1.9999e8)) / 2e4;
+            assert!((law.sensitivity(2e8, 1e-7, 1e-3) / slope - 1.0).abs() < 1e-6);
         }
     }
 

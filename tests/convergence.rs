@@ -108,7 +108,7 @@ fn the_displacement_past_a_kink_is_of_order_three_halves_and_one_by_benad() {
 fn the_stress_of_smooth_data_is_of_order_three_halves_and_one_at_the_axis() {
     orders("gauss", LoadToStress, 0.1, THREE_HALVES, 0.25);
     let pair = pair("gauss", LoadToStress);
-    for method in AbelMethod::ALL {
+    for method in AbelMethod::PUBLISHED {
         let observed = (error(method, pair, 400, 0.0) / error(method, pair, 800, 0.0)).log2();
         holds(
             &format!("axis by {method}, order {observed:.3}"),

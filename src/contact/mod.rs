@@ -1,5 +1,6 @@
 //! The contact: materials, indenters, and the Winkler springs that stand for the half-space.
 
+pub mod foundation;
 pub mod indenter;
 pub mod material;
 pub mod normal;

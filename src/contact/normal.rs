@@ -2,81 +2,87 @@
 //!
 //! V. L. Popov, M. Heß (2015), Method of dimensionality reduction in contact mechanics and
 //! friction, ch. 3: q_z(x) = E*(d − g(x)) where that is positive; F_z = 2∫₀ᵃ q_z dx.
+//!
+//! The edge of the contact lies between two springs. The compression d − g is known on both sides of
+//! it, negative outside, so it is interpolated there, linearly in x², never extrapolated: exact for
+//! a paraboloid.
 
+use super::foundation::Foundation;
+use crate::math::abel::bend::{self, Bend};
 use crate::math::root;
+
+/// An edge this close to a spring, in parts of the cell, stands on it.
+const ON_A_SPRING: f64 = 1e-9;
 
 /// What pressing the profile g to a depth gives, beside the line load itself.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct NormalContact {
     /// F_z, N.
     pub force: f64,
-    /// The contact radius a, m: where d − g crosses zero, between nodes; 0 without contact.
+    /// The contact radius a, m; 0 without contact.
     pub radius: f64,
-    /// How many nodes, counted from r = 0, lie within the contact radius.
+    /// How many springs, counted from r = 0, lie within the contact radius.
     pub nodes: usize,
 }
 
-/// Presses the 1D profile `g` (m) to `depth` (m) on springs of stiffness E* = `modulus` (Pa) a length
-/// and writes the line load `q` (N/m).
-pub fn press(xs: &[f64], g: &[f64], depth: f64, modulus: f64, q: &mut [f64]) -> NormalContact {
-    let mut nodes = 0;
-    for (j, (load, &gap)) in q.iter_mut().zip(g).enumerate() {
-        let compression = depth - gap;
+/// Presses the 1D profile `g` (m) to `depth` (m) on springs of stiffness E* = `modulus` (Pa) a length:
+/// writes the line load `q` (N/m) and its breaks.
+pub fn press(
+    row: &Foundation,
+    g: &[f64],
+    depth: f64,
+    modulus: f64,
+    q: &mut [f64],
+    breaks: &mut Vec<Bend>,
+) -> NormalContact {
+    breaks.clear();
+    let (xs, squares) = (row.nodes(), row.squares());
+    let mut contact = NormalContact::default();
+    let mut before = 0.0;
+    for (k, (load, &gap)) in q.iter_mut().zip(g).enumerate() {
+        let compression = modulus * (depth - gap);
         // Written so that NaN counts as contact and is seen, instead of passing as an open gap.
-        if compression <= 0.0 {
-            *load = 0.0;
-        } else {
-            *load = modulus * compression;
-            nodes = j + 1;
+        let open = compression <= 0.0;
+        *load = if open { 0.0 } else { compression };
+        if k > 0 && open != (before <= 0.0) {
+            let (left, right) = (squares[k - 1], squares[k]);
+            let share = before / (before - compression);
+            let edge = left + (right - left) * share;
+            if open {
+                contact.radius = edge.sqrt();
+            }
+            if share > ON_A_SPRING && share < 1.0 - ON_A_SPRING {
+                let ends = [f64::max(before, 0.0), f64::max(compression, 0.0)];
+                bend::polyline([left, right], ends, &[(edge, 0.0)], breaks);
+            }
         }
-    }
-    let radius = edge(xs, g, depth, nodes);
-    NormalContact {
-        force: force(xs, q, nodes, radius),
-        radius,
-        nodes,
-    }
-}
-
-/// The contact radius, by linear interpolation in the cell in which the gap opens.
-fn edge(xs: &[f64], g: &[f64], depth: f64, nodes: usize) -> f64 {
-    match nodes {
-        0 => 0.0,
-        n if n == xs.len() => xs[n - 1],
-        n => {
-            let (inside, outside) = (depth - g[n - 1], g[n] - depth);
-            xs[n - 1] + (xs[n] - xs[n - 1]) * inside / (inside + outside)
+        if !open {
+            contact.nodes = k + 1;
+            contact.radius = xs[k];
         }
+        before = compression;
     }
-}
-
-/// F = 2∫₀ᵃ q dx with q linear between nodes and down to zero at the edge a.
-///
-/// Serves for F_z with q_z, for F_x with q_x, and for the power of friction with q_x times the slip.
-pub fn force(xs: &[f64], q: &[f64], nodes: usize, radius: f64) -> f64 {
-    if nodes == 0 {
-        return 0.0;
-    }
-    let whole_cells = crate::math::quadrature::trapezoid(&xs[..nodes], &q[..nodes]);
-    2.0 * whole_cells + (radius - xs[nodes - 1]) * q[nodes - 1]
+    contact.force = row.force(q, breaks);
+    contact
 }
 
 /// The depth (m) at which the profile carries `load` (N), to about 1e-14 of the depth.
-/// `None` where the load is beyond what the domain can carry at a depth below `deepest`.
+/// `None` where the load is beyond what the row can carry at a depth below `deepest`.
 pub fn depth_for_load(
-    xs: &[f64],
+    row: &Foundation,
     g: &[f64],
     load: f64,
     modulus: f64,
     deepest: f64,
     q: &mut [f64],
+    breaks: &mut Vec<Bend>,
 ) -> Option<f64> {
     let shallowest = g.iter().copied().fold(f64::INFINITY, f64::min);
     if load <= 0.0 {
         return Some(shallowest);
     }
     root::bracketed(
-        |depth| press(xs, g, depth, modulus, q).force / load - 1.0,
+        |depth| press(row, g, depth, modulus, q, breaks).force / load - 1.0,
         shallowest,
         deepest,
         1e-15 * deepest,
@@ -86,48 +92,58 @@ pub fn depth_for_load(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::grid::RadialGrid;
 
     /// Hertz in units of R = E* = d = 1: g = x², a = 1, F = 4/3.
-    fn hertz(cells: usize) -> (Vec<f64>, Vec<f64>) {
-        let xs: Vec<f64> = (0..=cells)
-            .map(|i| 1.23 * i as f64 / cells as f64)
-            .collect();
-        let g = xs.iter().map(|x| x * x).collect();
-        (xs, g)
+    fn hertz(cells: usize) -> (Foundation, Vec<f64>) {
+        let grid = RadialGrid::uniform(cells, 1.23).expect("a grid");
+        let g = grid.squares().to_vec();
+        (Foundation::new(&grid), g)
     }
 
     #[test]
-    fn the_force_and_the_radius_of_hertz_with_an_error_of_second_order() {
-        let mut previous = f64::INFINITY;
-        for cells in [50, 100, 200, 400] {
-            let (xs, g) = hertz(cells);
-            let mut q = vec![f64::NAN; xs.len()];
-            let contact = press(&xs, &g, 1.0, 1.0, &mut q);
-            let h = xs[1];
-            assert!((contact.force - 4.0 / 3.0).abs() < 0.5 * h * h);
-            assert!((contact.radius - 1.0).abs() < 0.5 * h * h);
+    fn hertz_is_exact_wherever_the_edge_falls() {
+        for cells in [7, 50, 123] {
+            let (row, g) = hertz(cells);
+            let (mut q, mut breaks) = (vec![f64::NAN; g.len()], Vec::new());
+            let contact = press(&row, &g, 1.0, 1.0, &mut q, &mut breaks);
+            assert!((contact.force - 4.0 / 3.0).abs() < 1e-14, "{contact:?}");
+            assert!((contact.radius - 1.0).abs() < 1e-14);
             assert!(q[contact.nodes..].iter().all(|&load| load == 0.0));
-            assert!(h < previous);
-            previous = h;
         }
     }
 
     #[test]
     fn a_load_finds_its_depth() {
-        let (xs, g) = hertz(200);
-        let mut q = vec![0.0; xs.len()];
-        let load = press(&xs, &g, 0.8, 1.0, &mut q).force;
-        let depth = depth_for_load(&xs, &g, load, 1.0, 1.5, &mut q).expect("a depth");
-        assert!((depth - 0.8).abs() < 1e-12);
-        assert_eq!(depth_for_load(&xs, &g, 0.0, 1.0, 1.5, &mut q), Some(0.0));
-        assert_eq!(depth_for_load(&xs, &g, 1e9, 1.0, 1.5, &mut q), None);
+        let (row, g) = hertz(200);
+        let (mut q, mut breaks) = (vec![0.0; g.len()], Vec::new());
+        let load = press(&row, &g, 0.8, 1.0, &mut q, &mut breaks).force;
+        let mut depth = |load| depth_for_load(&row, &g, load, 1.0, 1.5, &mut q, &mut breaks);
+        assert!((depth(load).expect("a depth") - 0.8).abs() < 1e-12);
+        assert_eq!(depth(0.0), Some(0.0));
+        assert_eq!(depth(1e9), None);
     }
 
     #[test]
     fn no_contact_carries_nothing() {
-        let (xs, g) = hertz(20);
-        let mut q = vec![1.0; xs.len()];
-        assert_eq!(press(&xs, &g, -0.1, 1.0, &mut q), NormalContact::default());
-        assert!(q.iter().all(|&load| load == 0.0));
+        let (row, g) = hertz(20);
+        let (mut q, mut breaks) = (vec![1.0; g.len()], Vec::new());
+        assert_eq!(
+            press(&row, &g, -0.1, 1.0, &mut q, &mut breaks),
+            NormalContact::default()
+        );
+        assert!(q.iter().all(|&load| load == 0.0) && breaks.is_empty());
+    }
+
+    #[test]
+    fn a_gap_in_the_middle_is_seen() {
+        let (row, g) = hertz(100);
+        // A tip that has receded: contact in a ring.
+        let g: Vec<f64> = g.iter().map(|t| t + 2.0 * (0.3 - t).max(0.0)).collect();
+        let (mut q, mut breaks) = (vec![0.0; g.len()], Vec::new());
+        let contact = press(&row, &g, 0.5, 1.0, &mut q, &mut breaks);
+        assert!((contact.radius - 0.5f64.sqrt()).abs() < 1e-12);
+        assert_eq!(q[0], 0.0);
+        assert_eq!(breaks.len(), 6);
     }
 }

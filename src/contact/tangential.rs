@@ -4,26 +4,52 @@
 //! the indenter; where G*|u| ≤ μ q_z it does (stick), elsewhere u = ±μ q_z/G* with the
 //! predictor's sign (slip). A spring out of contact carries nothing and remembers nothing: u = 0.
 
-/// How far beyond its limit, in parts of the predicted displacement, a spring still sticks.
+use serde::{Deserialize, Serialize};
+
+use super::foundation::Foundation;
+use crate::math::abel::bend::{self, Bend};
+
+/// How far beyond its limit, in parts of the limit, a spring still sticks.
 ///
 /// A spring that has shaken down touches its limit once a cycle and no more: rounding must not
 /// make it slip there.
 const TOUCH: f64 = 1e-10;
 
-/// What one increment of tangential motion gives, beside the displacements themselves.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Slide {
-    /// The radius within which every spring sticks, m, between nodes; the contact radius when all stick.
-    pub stick_radius: f64,
-    /// How many nodes, counted from r = 0, stick.
-    pub stick_nodes: usize,
+/// The same in parts of the largest limit, for springs that carry next to nothing.
+const TOUCH_OF_LARGEST: f64 = 1e-12;
+
+/// A border this close to a spring, in parts of the cell, stands on it.
+const ON_A_SPRING: f64 = 1e-9;
+
+/// What a spring does in a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Hold {
+    /// Moves with the indenter.
+    Stick,
+    /// Slips, strained in the direction of x.
+    Forward,
+    /// Slips, strained against the direction of x.
+    Backward,
+    /// Out of contact.
+    Open,
+}
+
+impl Hold {
+    /// +1 or −1 for a spring that slips.
+    pub fn sign(self) -> Option<f64> {
+        match self {
+            Self::Forward => Some(1.0),
+            Self::Backward => Some(-1.0),
+            Self::Stick | Self::Open => None,
+        }
+    }
 }
 
 /// The part of the contact that the tangential springs need to know.
 #[derive(Debug, Clone, Copy)]
 pub struct Grip<'a> {
-    /// Nodes, m.
-    pub xs: &'a [f64],
+    /// Where the springs stand.
+    pub row: &'a Foundation,
     /// The normal line load q_z, N/m, nodal.
     pub normal_load: &'a [f64],
     /// The contact radius a, m.
@@ -32,106 +58,254 @@ pub struct Grip<'a> {
     pub reach: f64,
 }
 
-/// Moves the indenter by `increment` (m): `spring` (m), the displacement of every spring, is carried
-/// from before to after, and `slip` (m) receives what the indenter moved and the spring did not.
+/// What each spring did in a step.
+#[derive(Debug, Clone, Copy)]
+pub struct Motion<'a> {
+    /// u_x before, m.
+    pub before: &'a [f64],
+    /// What the springs did in the step before.
+    pub held: &'a [Hold],
+}
+
+/// Moves the indenter by `increment` (m): `spring` (m) receives the displacement of every spring
+/// after, `slip` (m) what the indenter moved and the spring did not, `hold` what it did.
 ///
 /// The slip is exactly zero where a spring sticks, so that a transform that looks inwards gives a
 /// surface slip of exactly zero inside the stick zone.
-pub fn slide(grip: Grip<'_>, increment: f64, spring: &mut [f64], slip: &mut [f64]) -> Slide {
-    // Innermost spring that slips, and how far each neighbour is from its limit, for the border.
-    let mut border = None;
-    let mut excess_before = -1.0;
-    for (j, ((u, slipped), &load)) in spring
-        .iter_mut()
-        .zip(slip)
-        .zip(grip.normal_load)
-        .enumerate()
-    {
-        let limit = grip.reach * load;
-        let before = if load > 0.0 { *u } else { 0.0 };
-        let predicted = *u + increment;
-        let excess = predicted.abs() - limit;
-        if excess <= TOUCH * predicted.abs() && load > 0.0 {
-            *u = predicted.clamp(-limit, limit);
-            *slipped = 0.0;
-        } else {
-            *u = if load > 0.0 {
-                limit.copysign(predicted)
-            } else {
-                0.0
-            };
-            *slipped = increment - (*u - before);
-            if border.is_none() {
-                border = Some((j, crossing(grip.xs, j, excess_before, excess)));
-            }
+pub fn slide(
+    grip: Grip<'_>,
+    increment: f64,
+    before: &[f64],
+    spring: &mut [f64],
+    slip: &mut [f64],
+    hold: &mut [Hold],
+) {
+    let dead_band =
+        TOUCH_OF_LARGEST * grip.reach * grip.normal_load.iter().copied().fold(0.0, f64::max);
+    for j in 0..spring.len() {
+        let load = grip.normal_load[j];
+        if load <= 0.0 {
+            (spring[j], slip[j], hold[j]) = (0.0, increment, Hold::Open);
+            continue;
         }
-        excess_before = excess;
-    }
-    let (stick_nodes, stick_radius) = border.unwrap_or((grip.xs.len(), grip.contact_radius));
-    Slide {
-        stick_radius: stick_radius.min(grip.contact_radius),
-        stick_nodes,
+        let limit = grip.reach * load;
+        let predicted = before[j] + increment;
+        if predicted.abs() <= limit * (1.0 + TOUCH) + dead_band && limit > 0.0 {
+            (spring[j], slip[j], hold[j]) = (predicted.clamp(-limit, limit), 0.0, Hold::Stick);
+        } else {
+            let sign = predicted.signum();
+            let direction = if sign > 0.0 {
+                Hold::Forward
+            } else {
+                Hold::Backward
+            };
+            (spring[j], hold[j]) = (sign * limit, direction);
+            slip[j] = increment - (spring[j] - before[j]);
+        }
     }
 }
 
-/// Where the excess of the prediction over the limit crosses zero between nodes j − 1 and j.
-fn crossing(xs: &[f64], j: usize, before: f64, at: f64) -> f64 {
-    if j == 0 {
-        return 0.0;
+/// Finds the borders of stick and slip between springs: writes the breaks of u_x (m) that they and
+/// the contact's edge make, and returns the radius within which every spring sticks, m.
+///
+/// At a border the line of the springs that stick meets the line of the limits, μ q_z/G*. A spring
+/// that stuck in the step before and slips now tells the slope of the first line by where it stood;
+/// else the last cell that sticks does.
+pub fn borders(
+    grip: Grip<'_>,
+    motion: Motion<'_>,
+    spring: &[f64],
+    hold: &[Hold],
+    breaks: &mut Vec<Bend>,
+) -> f64 {
+    breaks.clear();
+    let squares = grip.row.squares();
+    let mut stick_radius = None;
+    if hold.first().is_some_and(|&first| first != Hold::Stick) {
+        stick_radius = Some(0.0);
     }
-    let share = if at > before {
-        -before / (at - before)
-    } else {
-        1.0
-    };
-    xs[j - 1] + (xs[j] - xs[j - 1]) * share.clamp(0.0, 1.0)
+    for k in 0..hold.len().saturating_sub(1) {
+        if hold[k] == hold[k + 1] {
+            continue;
+        }
+        let cell = Cell {
+            grip,
+            motion,
+            spring,
+            hold,
+            k,
+        };
+        let width = squares[k + 1] - squares[k];
+        let edge = (hold[k] == Hold::Open || hold[k + 1] == Hold::Open)
+            .then(|| grip.contact_radius * grip.contact_radius)
+            .filter(|&at| {
+                at > squares[k] + ON_A_SPRING * width && at < squares[k + 1] - ON_A_SPRING * width
+            });
+        let border = cell.border(edge);
+        if stick_radius.is_none() && hold[k] == Hold::Stick {
+            let outside = if hold[k + 1] == Hold::Open {
+                edge.unwrap_or(squares[k + 1])
+            } else {
+                squares[k + 1]
+            };
+            stick_radius = Some(border.map_or(outside, |(at, _)| at).sqrt());
+        }
+        let inner: [Option<(f64, f64)>; 2] = [border, edge.map(|at| (at, 0.0))];
+        let inner: Vec<(f64, f64)> = inner.into_iter().flatten().collect();
+        if !inner.is_empty() {
+            bend::polyline(
+                [squares[k], squares[k + 1]],
+                [spring[k], spring[k + 1]],
+                &inner,
+                breaks,
+            );
+        }
+    }
+    stick_radius
+        .unwrap_or(grip.contact_radius)
+        .min(grip.contact_radius)
+}
+
+/// A cell whose two springs do different things.
+struct Cell<'a> {
+    grip: Grip<'a>,
+    motion: Motion<'a>,
+    spring: &'a [f64],
+    hold: &'a [Hold],
+    k: usize,
+}
+
+impl Cell<'_> {
+    /// Where stick ends in this cell: x² and u_x there.
+    fn border(&self, edge: Option<f64>) -> Option<(f64, f64)> {
+        let (k, t) = (self.k, self.grip.row.squares());
+        let width = t[k + 1] - t[k];
+        let limit = |j: usize| self.grip.reach * self.grip.normal_load[j];
+        // The limit falls to zero at the contact's edge.
+        let end = edge.unwrap_or(t[k + 1]);
+        let limit_slope = (limit(k + 1) - limit(k)) / (end - t[k]);
+        let (from, sign, stick_slope) = match (self.hold[k], self.hold[k + 1]) {
+            (Hold::Stick, other) => {
+                let sign = other.sign().unwrap_or(self.spring[k].signum());
+                let slope = if other != Hold::Open && self.motion.held[k + 1] == Hold::Stick {
+                    (self.motion.before[k + 1] - self.motion.before[k]) / width
+                } else if k > 0 && self.hold[k - 1] == Hold::Stick {
+                    (self.spring[k] - self.spring[k - 1]) / (t[k] - t[k - 1])
+                } else {
+                    0.0
+                };
+                (k, sign, slope)
+            }
+            (other, Hold::Stick) => {
+                let slope = if self.motion.held[k] == Hold::Stick {
+                    (self.motion.before[k + 1] - self.motion.before[k]) / width
+                } else if self.hold.get(k + 2) == Some(&Hold::Stick) {
+                    (self.spring[k + 2] - self.spring[k + 1]) / (t[k + 2] - t[k + 1])
+                } else {
+                    0.0
+                };
+                (k + 1, other.sign()?, slope)
+            }
+            _ => return None,
+        };
+        // u + slope·(t − t_from) = ±(limit + limit_slope·(t − t_from))
+        let limit_here = limit(from);
+        let offset = (sign * limit_here - self.spring[from]) / (stick_slope - sign * limit_slope);
+        let at = t[from] + offset;
+        let inside = at > t[k] + ON_A_SPRING * width && at < end - ON_A_SPRING * width;
+        inside.then(|| (at, self.spring[from] + stick_slope * offset))
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::grid::RadialGrid;
 
     /// Springs under a Hertzian load in units of d = a = E* = G* = 1, μ = 0.1.
-    fn hertz() -> (Vec<f64>, Vec<f64>) {
-        let xs: Vec<f64> = (0..=300).map(|i| 1.5 * f64::from(i) / 300.0).collect();
-        let load = xs.iter().map(|x| (1.0 - x * x).max(0.0)).collect();
-        (xs, load)
+    struct Bench {
+        row: Foundation,
+        load: Vec<f64>,
+        spring: Vec<f64>,
+        slip: Vec<f64>,
+        hold: Vec<Hold>,
+        breaks: Vec<Bend>,
     }
 
-    fn grip<'a>(xs: &'a [f64], load: &'a [f64]) -> Grip<'a> {
-        Grip {
-            xs,
-            normal_load: load,
-            contact_radius: 1.0,
-            reach: 0.1,
+    impl Bench {
+        fn new() -> Self {
+            let grid = RadialGrid::uniform(300, 1.5).expect("a grid");
+            let load: Vec<f64> = grid.squares().iter().map(|t| (1.0 - t).max(0.0)).collect();
+            let n = load.len();
+            Self {
+                row: Foundation::new(&grid),
+                load,
+                spring: vec![0.0; n],
+                slip: vec![f64::NAN; n],
+                hold: vec![Hold::Stick; n],
+                breaks: Vec::new(),
+            }
+        }
+
+        /// Moves by `increment` with `reach`; returns the stick radius.
+        fn slide(&mut self, increment: f64, reach: f64) -> f64 {
+            let grip = Grip {
+                row: &self.row,
+                normal_load: &self.load,
+                contact_radius: 1.0,
+                reach,
+            };
+            let (before, held) = (self.spring.clone(), self.hold.clone());
+            slide(
+                grip,
+                increment,
+                &before,
+                &mut self.spring,
+                &mut self.slip,
+                &mut self.hold,
+            );
+            let motion = Motion {
+                before: &before,
+                held: &held,
+            };
+            borders(grip, motion, &self.spring, &self.hold, &mut self.breaks)
         }
     }
 
     #[test]
     fn the_stick_border_is_cattaneos() {
-        // 1 − c² = U/μ: with U = 0.05, c = √½.
-        let (xs, load) = hertz();
-        let (mut u, mut slip) = (vec![0.0; xs.len()], vec![f64::NAN; xs.len()]);
-        let slide = slide(grip(&xs, &load), 0.05, &mut u, &mut slip);
-        assert!(
-            (slide.stick_radius - 0.5f64.sqrt()).abs() < 1e-5,
-            "{slide:?}"
-        );
-        assert!(slip[..slide.stick_nodes].iter().all(|&s| s == 0.0));
-        assert!(slip[slide.stick_nodes..].iter().all(|&s| s > 0.0));
+        // 1 − c² = U/μ: with U = 0.05, c = √½; F_x = μF_z[1 − (1 − U/U_s)^{3/2}], F_z = 4/3, U_s = 0.1.
+        for steps in [1, 20] {
+            let mut bench = Bench::new();
+            let mut stick = 0.0;
+            for _ in 0..steps {
+                stick = bench.slide(0.05 / f64::from(steps), 0.1);
+            }
+            assert!((stick - 0.5f64.sqrt()).abs() < 1e-13, "{stick}");
+            let force = bench.row.force(&bench.spring, &bench.breaks);
+            let expected = 0.1 * 4.0 / 3.0 * (1.0 - 0.5f64.powf(1.5));
+            assert!((force / expected - 1.0).abs() < 1e-12, "{force} {expected}");
+            assert!(
+                bench
+                    .slip
+                    .iter()
+                    .zip(&bench.hold)
+                    .all(|(&s, &hold)| (s == 0.0) == (hold == Hold::Stick))
+            );
+        }
     }
 
     #[test]
     fn history_is_kept_and_a_reversal_sticks_everywhere() {
-        let (xs, load) = hertz();
-        let (mut u, mut slip) = (vec![0.0; xs.len()], vec![0.0; xs.len()]);
-        slide(grip(&xs, &load), 0.05, &mut u, &mut slip);
-        let there = u.clone();
-        let back = slide(grip(&xs, &load), -1e-9, &mut u, &mut slip);
+        let mut bench = Bench::new();
+        bench.slide(0.05, 0.1);
+        let there = bench.spring.clone();
         // All but the springs at the very edge, which carry less than the increment, stick.
-        assert!(back.stick_radius > 0.99);
+        assert!(bench.slide(-1e-9, 0.1) > 0.99);
         assert!(
-            u.iter()
+            bench
+                .spring
+                .iter()
                 .zip(&there)
                 .take(190)
                 .all(|(now, then)| (now - then + 1e-9).abs() < 1e-15)
@@ -140,43 +314,40 @@ mod tests {
 
     #[test]
     fn a_spring_that_only_touches_its_limit_sticks() {
-        let (xs, load) = hertz();
-        let (mut u, mut slip) = (vec![0.0; xs.len()], vec![0.0; xs.len()]);
-        slide(grip(&xs, &load), 0.05, &mut u, &mut slip);
-        slide(grip(&xs, &load), -0.03, &mut u, &mut slip);
-        let again = slide(grip(&xs, &load), 0.03 * (1.0 + 1e-12), &mut u, &mut slip);
+        let mut bench = Bench::new();
+        bench.slide(0.05, 0.1);
+        bench.slide(-0.03, 0.1);
         // Slipped there and back: only where 2μ(1 − x²) < 0.03. Further in, up to √½, limits are touched.
-        assert!(
-            (again.stick_radius - 0.85f64.sqrt()).abs() < 0.005,
-            "{again:?}"
-        );
-        assert!(slip[..again.stick_nodes].iter().all(|&s| s == 0.0));
+        let stick = bench.slide(0.03 * (1.0 + 1e-12), 0.1);
+        assert!((stick - 0.85f64.sqrt()).abs() < 0.005, "{stick}");
     }
 
     #[test]
     fn an_open_spring_forgets() {
-        let (xs, load) = hertz();
-        let (mut u, mut slip) = (vec![0.02; xs.len()], vec![0.0; xs.len()]);
-        slide(grip(&xs, &load), 0.0, &mut u, &mut slip);
-        assert!(u.iter().zip(&load).all(|(&u, &q)| q > 0.0 || u == 0.0));
-        assert!(u.iter().zip(&load).all(|(&u, &q)| u.abs() <= 0.1 * q));
+        let mut bench = Bench::new();
+        bench.spring.fill(0.02);
+        bench.slide(0.0, 0.1);
+        assert!(
+            bench
+                .spring
+                .iter()
+                .zip(&bench.load)
+                .all(|(&u, &q)| q > 0.0 || u == 0.0)
+        );
+        assert!(
+            bench
+                .spring
+                .iter()
+                .zip(&bench.load)
+                .all(|(&u, &q)| u.abs() <= 0.1 * q)
+        );
     }
 
     #[test]
     fn without_friction_everything_slips() {
-        let (xs, load) = hertz();
-        let (mut u, mut slip) = (vec![0.0; xs.len()], vec![0.0; xs.len()]);
-        let slide = slide(
-            Grip {
-                reach: 0.0,
-                ..grip(&xs, &load)
-            },
-            0.05,
-            &mut u,
-            &mut slip,
-        );
-        assert_eq!(slide.stick_radius, 0.0);
-        assert!(u.iter().all(|&u| u == 0.0));
-        assert!(slip.iter().all(|&s| s == 0.05));
+        let mut bench = Bench::new();
+        assert_eq!(bench.slide(0.05, 0.0), 0.0);
+        assert!(bench.spring.iter().all(|&u| u == 0.0));
+        assert!(bench.slip.iter().all(|&s| s == 0.05));
     }
 }

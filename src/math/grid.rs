@@ -12,10 +12,22 @@ pub const MIN_CELLS: usize = 4;
 /// The most cells a grid may have: three dense triangular operators of this size take about 0.8 GB.
 pub const MAX_CELLS: usize = 8192;
 
+/// The share of the cells of a graded grid that lie inside its border.
+const SHARE_INSIDE: f64 = 0.2;
+
+/// The exponent with which the cells of a graded grid shrink towards its border.
+const GRADING: f64 = 1.5;
+
+/// The width below which no cell of a graded grid is meant to fall, in units of the radius:
+/// 1e-4 contact radii for a domain of 1.5 of them.
+const NARROWEST: f64 = 1e-4 / 1.5;
+
 /// Nodes r₀ = 0 < r₁ < … < r_N = L, in metres or in any other unit of length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RadialGrid {
     nodes: Vec<f64>,
+    squares: Vec<f64>,
+    border: Option<usize>,
 }
 
 impl RadialGrid {
@@ -25,7 +37,63 @@ impl RadialGrid {
         let nodes = (0..=cells)
             .map(|i| radius * (i as f64 / cells as f64))
             .collect();
-        Ok(Self { nodes })
+        Ok(Self::from_nodes(nodes, None))
+    }
+
+    /// N = `cells` cells from r = 0 to L = `radius` that shrink from both sides towards c = `border`,
+    /// on which a node stands exactly.
+    ///
+    /// # Formula
+    ///
+    /// ```text
+    /// inside   r = c − c (1 − i/n)^γ            i = 0 … n
+    /// outside  r = c + (L − c) (i/(N − n))^γ    i = 1 … N − n
+    /// ```
+    ///
+    /// A fifth of the cells lies inside, at least two on either side, and γ = 3/2: the worn profile
+    /// rises like √(r − c) outside a permanent stick zone of radius c. On each side γ is lowered, to 1
+    /// at the least, where the cell next to c would fall below 1e-4/1.5 of L: narrower cells
+    /// magnify rounding and the uncertainty of c itself.
+    pub fn graded(cells: usize, border: f64, radius: f64) -> Result<Self, Invalid> {
+        Self::check(cells, radius)?;
+        positive("border", border)?;
+        if border >= radius {
+            return Err(Invalid::new(
+                "border",
+                border,
+                format!("must be less than the domain's radius {radius}"),
+            ));
+        }
+        let inside = ((SHARE_INSIDE * cells as f64).round() as usize).clamp(2, cells - 2);
+        let outside = cells - inside;
+        let narrowest = NARROWEST * radius;
+        let power = exponent(border, inside, narrowest);
+        let mut nodes: Vec<f64> = (0..inside)
+            .map(|i| border - border * (1.0 - i as f64 / inside as f64).powf(power))
+            .collect();
+        nodes.push(border);
+        let width = radius - border;
+        let power = exponent(width, outside, narrowest);
+        nodes
+            .extend((1..outside).map(|i| border + width * (i as f64 / outside as f64).powf(power)));
+        nodes.push(radius);
+        if nodes.windows(2).any(|pair| pair[0] >= pair[1]) {
+            return Err(Invalid::new(
+                "border",
+                border,
+                format!("leaves no room for nodes between 0 and {radius}"),
+            ));
+        }
+        Ok(Self::from_nodes(nodes, Some(inside)))
+    }
+
+    fn from_nodes(nodes: Vec<f64>, border: Option<usize>) -> Self {
+        let squares = nodes.iter().map(|r| r * r).collect();
+        Self {
+            nodes,
+            squares,
+            border,
+        }
     }
 
     fn check(cells: usize, radius: f64) -> Result<(), Invalid> {
@@ -42,6 +110,16 @@ impl RadialGrid {
     /// All nodes, r = 0 and the domain's edge included.
     pub fn nodes(&self) -> &[f64] {
         &self.nodes
+    }
+
+    /// The squares of all nodes, t = r²: the variable in which even profiles are smooth.
+    pub fn squares(&self) -> &[f64] {
+        &self.squares
+    }
+
+    /// The index of the node on the border towards which the cells shrink; none on a uniform grid.
+    pub fn border(&self) -> Option<usize> {
+        self.border
     }
 
     /// The number of nodes, N + 1.
@@ -64,7 +142,10 @@ impl RadialGrid {
         self.nodes[self.cells()]
     }
 
-    /// Linear interpolation of nodal `values` at `r`, constant beyond the domain's edge.
+    /// Interpolation of nodal `values` at `r`, constant beyond the domain's edge.
+    ///
+    /// Linear in r² between the nodes, since every profile here is even in r: exact for a constant
+    /// and for a paraboloid.
     pub fn interpolate(&self, values: &[f64], r: f64) -> f64 {
         let upper = self.nodes.partition_point(|&node| node < r);
         if upper == 0 {
@@ -74,9 +155,14 @@ impl RadialGrid {
             return values[self.cells()];
         }
         let (left, right) = (self.nodes[upper - 1], self.nodes[upper]);
-        let weight = (r - left) / (right - left);
+        let weight = (r - left) * (r + left) / ((right - left) * (right + left));
         values[upper - 1] + weight * (values[upper] - values[upper - 1])
     }
+}
+
+/// The exponent that shrinks `cells` cells over `width` to no less than `narrowest`.
+fn exponent(width: f64, cells: usize, narrowest: f64) -> f64 {
+    ((width / narrowest).ln() / (cells as f64).ln()).clamp(1.0, GRADING)
 }
 
 #[cfg(test)]
@@ -107,12 +193,57 @@ mod tests {
     }
 
     #[test]
-    fn interpolation_is_exact_on_lines_and_at_nodes() {
-        let grid = RadialGrid::uniform(10, 2.0).expect("a grid");
-        let line: Vec<f64> = grid.nodes().iter().map(|r| 3.0 * r - 1.0).collect();
-        for r in [0.0, 0.05, 0.2, 1.999, 2.0] {
-            assert!((grid.interpolate(&line, r) - (3.0 * r - 1.0)).abs() < 1e-14);
+    fn a_graded_grid_has_its_border_on_a_node() {
+        for scale in [1e-12, 1e-4, 1.0] {
+            for cells in [4, 7, 25, 100, 400, 800, 8192] {
+                for fraction in [1e-3, 0.05, 0.3, 0.76, 0.99] {
+                    let (border, radius) = (fraction * scale * 1.37, scale * 1.37);
+                    let grid = RadialGrid::graded(cells, border, radius).expect("a grid");
+                    let at = grid.border().expect("a border");
+                    assert_eq!(grid.nodes()[at], border);
+                    assert_eq!(grid.nodes()[0], 0.0);
+                    assert_eq!(grid.radius(), radius);
+                    assert_eq!(grid.cells(), cells);
+                    assert!(at >= 2 && cells - at >= 2);
+                    assert!(grid.nodes().windows(2).all(|pair| pair[0] < pair[1]));
+                    let squares = grid.squares().iter().zip(grid.nodes());
+                    assert!(squares.into_iter().all(|(t, r)| *t == r * r));
+                }
+            }
         }
-        assert_eq!(grid.interpolate(&line, 7.0), 5.0);
+    }
+
+    #[test]
+    fn grading_stops_before_the_cells_are_too_narrow() {
+        for cells in [100, 800, 4000] {
+            let grid = RadialGrid::graded(cells, 0.5, 1.5).expect("a grid");
+            let at = grid.border().expect("a border");
+            let width = grid.nodes()[at + 1] - grid.nodes()[at];
+            let free = (cells - at) as f64;
+            let expected = free.powf(-1.5).max(1e-4);
+            assert!((width / expected - 1.0).abs() < 1e-9, "{cells}: {width}");
+        }
+    }
+
+    #[test]
+    fn a_border_outside_the_domain_is_refused() {
+        for border in [0.0, -0.1, 1.0, 1.5, f64::NAN, f64::INFINITY, 1.0 - 1e-16] {
+            let refusal = RadialGrid::graded(100, border, 1.0).expect_err("an absurd border");
+            assert_eq!(refusal.field, "border");
+        }
+    }
+
+    #[test]
+    fn interpolation_is_exact_on_paraboloids_and_at_nodes() {
+        for grid in [
+            RadialGrid::uniform(10, 2.0).expect("a grid"),
+            RadialGrid::graded(10, 0.7, 2.0).expect("a grid"),
+        ] {
+            let even: Vec<f64> = grid.nodes().iter().map(|r| 3.0 * r * r - 1.0).collect();
+            for r in [0.0, 0.05, 0.2, 1.999, 2.0] {
+                assert!((grid.interpolate(&even, r) - (3.0 * r * r - 1.0)).abs() < 1e-14);
+            }
+            assert_eq!(grid.interpolate(&even, 7.0), 11.0);
+        }
     }
 }

@@ -8,6 +8,29 @@ pub fn trapezoid(xs: &[f64], ys: &[f64]) -> f64 {
         .sum()
 }
 
+/// Weights of ∫₀ᴸ y dx for nodal values y that are linear in x² between nodes: exact for a Hertzian
+/// line load.
+pub fn line_weights(xs: &[f64]) -> Vec<f64> {
+    let mut weights = vec![0.0; xs.len()];
+    for (k, cell) in xs.windows(2).enumerate() {
+        let [a, b] = [cell[0], cell[1]];
+        // ∫ₐᵇ (x² − a²)/(b² − a²) dx: the share of the right node.
+        let right = (b - a) * (2.0 * a + b) / (3.0 * (a + b));
+        weights[k] += (b - a) - right;
+        weights[k + 1] += right;
+    }
+    weights
+}
+
+/// The scalar product of weights and values.
+pub fn weighted(weights: &[f64], values: &[f64]) -> f64 {
+    weights
+        .iter()
+        .zip(values)
+        .map(|(weight, value)| weight * value)
+        .sum()
+}
+
 /// 2π ∫ y r dr: the volume under a surface of revolution whose height is piecewise linear in r².
 pub fn volume_of_revolution(rs: &[f64], ys: &[f64]) -> f64 {
     let twice = rs
@@ -27,6 +50,8 @@ mod tests {
         let nodes: Vec<f64> = [0.0, 0.1, 0.35, 0.5, 1.0].into();
         let line: Vec<f64> = nodes.iter().map(|x| 2.0 + 3.0 * x).collect();
         assert!((trapezoid(&nodes, &line) - 3.5).abs() < 1e-15);
+        let hertz: Vec<f64> = nodes.iter().map(|x| 1.0 - x * x).collect();
+        assert!((weighted(&line_weights(&nodes), &hertz) - 2.0 / 3.0).abs() < 1e-15);
         let cap: Vec<f64> = nodes.iter().map(|r| 1.0 - r * r).collect();
         let exact = 0.5 * std::f64::consts::PI;
         assert!((volume_of_revolution(&nodes, &cap) - exact).abs() < 1e-15);

@@ -46,7 +46,7 @@ pub(super) fn assign(
     };
     let value = parse(parameter, value);
     if parameter.path == "indenter.shape" {
-        drop_keys_of_other_shapes(table, &value);
+        drop_keys_of_other_shapes(table, &value, origin);
     }
     origin.assign(parameter.path, written);
     insert(table, parameter.path, value);
@@ -63,16 +63,30 @@ fn parse(parameter: &Parameter, text: &str) -> Value {
     }
 }
 
-/// Keys of a shape that is no longer there would only be refused.
-fn drop_keys_of_other_shapes(table: &mut Table, shape: &Value) {
+/// Keys of a shape that is no longer there would only be refused, or misread: the radius of a punch is
+/// none of curvature. What was assigned together with the shape stays.
+fn drop_keys_of_other_shapes(table: &mut Table, shape: &Value, origin: &Origin) {
+    const PUNCH: &str = "flat-punch";
     let known = shape
         .as_str()
         .filter(|shape| parameters::SHAPES.contains(shape));
-    if let (Some(shape), Some(Value::Table(indenter))) = (known, table.get_mut("indenter")) {
-        indenter.retain(|key, _| {
-            let parameter = parameters::find(&format!("indenter.{key}"));
-            parameter.is_none_or(|known| known.shapes.is_empty() || known.shapes.contains(&shape))
-        });
+    let (Some(shape), Some(Value::Table(indenter))) = (known, table.get_mut("indenter")) else {
+        return;
+    };
+    let before = indenter.get("shape").and_then(Value::as_str);
+    let other_radius = (before == Some(PUNCH)) != (shape == PUNCH);
+    indenter.retain(|key, _| {
+        let path = format!("indenter.{key}");
+        let misread = key == "radius" && other_radius && !origin.assigns(&path);
+        let takes = |known: &Parameter| known.shapes.is_empty() || known.shapes.contains(&shape);
+        !misread && parameters::find(&path).is_none_or(takes)
+    });
+    // A punch brings its own edge of the domain.
+    if shape == PUNCH
+        && !origin.assigns("numerics.domain_radius")
+        && let Some(Value::Table(numerics)) = table.get_mut("numerics")
+    {
+        numerics.remove("domain_radius");
     }
 }
 

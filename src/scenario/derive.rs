@@ -1,14 +1,16 @@
 //! What a scenario may leave to the program: the domain's edge and the references of the power law,
-//! found by pressing the unworn indenter.
+//! found by pressing the unworn indenter, and the choices that go with a transform method.
 
 use std::f64::consts::PI;
 
+use crate::contact::foundation::Foundation;
 use crate::contact::indenter::Indenter;
 use crate::contact::material::Material;
 use crate::contact::normal;
-use crate::math::abel::{AbelMethod, AbelPlan};
+use crate::math::abel::AbelMethod;
 use crate::math::grid::RadialGrid;
 use crate::simulation::drive::{Control, Drive};
+use crate::simulation::{Scheme, Spacing};
 
 /// Cells of the grid on which the unworn contact is solved: 1e-4 of the depth is more than enough.
 const CELLS: usize = 200;
@@ -27,13 +29,26 @@ struct Pressed {
     force: f64,
 }
 
-/// The largest radius that can ever touch, m: where f₀ reaches the largest depth. Under a force it
-/// has no bound in general, and [`ROOM_TO_SINK`] stands in.
+/// Grid and scheme where the scenario gives none: the published methods run as they were published.
+pub(super) fn choices(method: AbelMethod) -> (Spacing, Scheme) {
+    match method {
+        AbelMethod::Product => (Spacing::Graded, Scheme::Trapezoid),
+        AbelMethod::Benad | AbelMethod::A | AbelMethod::B | AbelMethod::APlusB => {
+            (Spacing::Uniform, Scheme::Euler)
+        }
+    }
+}
+
+/// The largest radius that can ever touch, m: the rim, or where f₀ reaches the largest depth. Under a
+/// force that has no bound in general, and [`ROOM_TO_SINK`] stands in.
 pub(super) fn domain_radius(
     indenter: &Indenter,
     material: &Material,
     control: &Control,
 ) -> Option<f64> {
+    if let Some(rim) = indenter.rim() {
+        return Some(rim);
+    }
     match control {
         Control::Displacement(depth) => Some(indenter.radius_at(depth.highest())),
         Control::Force(force) => {
@@ -84,12 +99,14 @@ pub(super) fn references(
 fn press_to(indenter: &Indenter, material: &Material, depth: f64) -> Option<Pressed> {
     let (grid, g) = unworn(indenter, indenter.radius_at(depth))?;
     let mut load = vec![0.0; grid.len()];
+    let row = Foundation::new(&grid);
     let contact = normal::press(
-        grid.nodes(),
+        &row,
         &g,
         depth,
         material.normal_modulus(),
         &mut load,
+        &mut Vec::new(),
     );
     Some(Pressed {
         depth,
@@ -101,15 +118,24 @@ fn press_to(indenter: &Indenter, material: &Material, depth: f64) -> Option<Pres
 /// Presses by a force, N, on a domain just wide enough to carry it.
 fn press_by(indenter: &Indenter, material: &Material, force: f64) -> Option<Pressed> {
     let modulus = material.normal_modulus();
-    // F(a) = 2n/(n+1) E* κₙ f₀(a) a exceeds E* f₀(a) a for every n ≥ 1.
+    if let Some(radius) = indenter.rim() {
+        let depth = force / (2.0 * modulus * radius);
+        return Some(Pressed {
+            depth,
+            radius,
+            force,
+        });
+    }
+    // F(a) = 2n/(n+1) E* κₙ f₀(a) a exceeds E* f₀(a) a for every n ≥ 1, and a flat tip adds to it.
     let radius = std::iter::successors(Some(1e-15), |radius| Some(radius * 1.25))
         .take_while(|radius| *radius < 1e15)
         .find(|&radius| modulus * indenter.profile(radius) * radius >= force)?;
     let (grid, g) = unworn(indenter, radius)?;
     let mut load = vec![0.0; grid.len()];
     let deepest = g[grid.cells()];
-    let depth = normal::depth_for_load(grid.nodes(), &g, force, modulus, deepest, &mut load)?;
-    let contact = normal::press(grid.nodes(), &g, depth, modulus, &mut load);
+    let (row, mut breaks) = (Foundation::new(&grid), Vec::new());
+    let depth = normal::depth_for_load(&row, &g, force, modulus, deepest, &mut load, &mut breaks)?;
+    let contact = normal::press(&row, &g, depth, modulus, &mut load, &mut breaks);
     Some(Pressed {
         depth,
         radius: contact.radius,
@@ -117,12 +143,11 @@ fn press_by(indenter: &Indenter, material: &Material, force: f64) -> Option<Pres
     })
 }
 
-/// The 1D image of the unworn profile out to `radius`, m.
+/// A grid out to `radius`, m, and the 1D image of the unworn profile on it.
 fn unworn(indenter: &Indenter, radius: f64) -> Option<(RadialGrid, Vec<f64>)> {
     let grid = RadialGrid::uniform(CELLS, radius).ok()?;
-    let f: Vec<f64> = grid.nodes().iter().map(|&r| indenter.profile(r)).collect();
-    let mut g = vec![0.0; grid.len()];
-    AbelPlan::new(AbelMethod::A, &grid).profile(&f, &mut g);
+    let image = |&x: &f64| indenter.profile_1d(x);
+    let g = grid.nodes().iter().map(image).collect();
     Some((grid, g))
 }
 
@@ -169,6 +194,10 @@ mod tests {
             Indenter::cone(1.5),
             Indenter::power(1e30, 20.0),
             Indenter::power(1e-30, 1.0),
+            Indenter::flat_punch(1e-6),
+            Indenter::truncated_paraboloid(0.01, 1e-3),
+            Indenter::truncated_paraboloid(1e3, 1e-9),
+            Indenter::truncated_cone(0.02, 1e-3),
         ] {
             let indenter = indenter.expect("a shape");
             for force in [1e-9, 1.0, 1e6] {
@@ -180,6 +209,29 @@ mod tests {
                 );
             }
         }
+    }
+
+    /// F = 2E*(d a − ∫g dx) for both shapes with a flat face.
+    #[test]
+    fn a_flat_face_sinks_by_its_force_over_its_width() {
+        let (_, material, force) = hertz();
+        let punch = Indenter::flat_punch(1e-4).expect("a shape");
+        let pressed = press_by(&punch, &material, force).expect("a contact");
+        assert!((pressed.depth / (2e-6 / 3.0) - 1.0).abs() < 1e-3);
+        assert_eq!(pressed.radius, 1e-4);
+        let back = press_to(&punch, &material, pressed.depth).expect("a contact");
+        assert!((back.force / force - 1.0).abs() < 1e-12);
+        // F = 2E*/(3R) (2a² + b²) √(a² − b²) with b = 1e-4, a = 1.25e-4.
+        let tip = Indenter::truncated_paraboloid(0.01, 1e-4).expect("a shape");
+        let (a, b) = (1.25e-4f64, 1e-4f64);
+        let load = 2.0 * 2.3077e11 / 0.03 * (2.0 * a * a + b * b) * (a * a - b * b).sqrt();
+        let pressed = press_by(&tip, &material, load).expect("a contact");
+        assert!(
+            (pressed.radius / a - 1.0).abs() < 2e-3,
+            "{}",
+            pressed.radius
+        );
+        assert!((pressed.depth / tip.profile_1d(a) - 1.0).abs() < 2e-3);
     }
 
     #[test]

@@ -121,6 +121,11 @@ impl Origin {
         self.assigned.push((path.to_owned(), written.to_owned()));
     }
 
+    /// Whether `path` was assigned after the text was read.
+    pub fn assigns(&self, path: &str) -> bool {
+        self.assigned.iter().any(|(key, _)| key == path)
+    }
+
     /// The text's name, fit for a line.
     pub fn name(&self) -> &str {
         &self.name

@@ -35,7 +35,8 @@ pub struct Scenario {
     origin: String,
     title: String,
     description: String,
-    /// All keys except `[run]` and `[[changes]]`, with the defaults that may change written out.
+    /// All keys except `[run]` and `[[changes]]`, with the defaults that may change written out,
+    /// but for those that follow the method.
     table: Table,
     setup: Setup,
     run: RunPlan,
@@ -83,7 +84,8 @@ impl Scenario {
     }
 
     /// The same scenario with one key changed, by the rules of `--set`: `value` is TOML or a bare
-    /// word. Changing `indenter.shape` drops the keys of the shape before.
+    /// word. Changing `indenter.shape` drops the keys of the shape before. Where the scenario gives
+    /// no `numerics.grid` and `numerics.scheme`, they go with the `numerics.method` it is changed to.
     pub fn with(&self, key: &str, value: &str) -> Result<Self, ScenarioError> {
         self.with_all(&[(key, value)])
     }
@@ -174,9 +176,14 @@ impl Scenario {
         write::at(&self.whole(), path).map(write::value)
     }
 
-    /// The whole scenario as it is run. Read back, it gives an equal one, to the last bit.
+    /// The whole scenario as it is run. Read back, it gives an equal one, to the last bit. What
+    /// follows from the method stands there as a comment, so that it still follows a change of it.
     pub fn to_toml(&self) -> String {
-        write::scenario(&self.whole())
+        let follows = [
+            ("numerics.grid", self.setup.spacing.name()),
+            ("numerics.scheme", self.setup.scheme.name()),
+        ];
+        write::scenario(&self.whole(), &follows, self.setup.method)
     }
 
     /// Checks a table and makes its parts; errors show its values as they were written.

@@ -32,6 +32,9 @@ pub const ALL: &[Preset] = presets![
     "two-frequencies",
     "power-law",
     "cone",
+    "flat-punch",
+    "truncated-paraboloid",
+    "truncated-cone",
     "strong-wear",
     "harsh-wear",
 ];

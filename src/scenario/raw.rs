@@ -6,6 +6,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Change, RunPlan};
+use crate::math::abel::AbelMethod;
 
 /// A whole scenario.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -30,6 +31,7 @@ pub(super) struct RawIndenter {
     pub shape: Option<String>,
     pub radius: Option<f64>,
     pub angle: Option<f64>,
+    pub tip_radius: Option<f64>,
     pub coefficient: Option<f64>,
     pub exponent: Option<f64>,
 }
@@ -100,12 +102,13 @@ pub(super) struct RawNumerics {
     pub steps_per_cycle: Option<i64>,
     pub domain_radius: Option<f64>,
     pub grid: Option<String>,
+    pub scheme: Option<String>,
     pub integrator: Option<String>,
 }
 
 impl Raw {
     /// Writes out the defaults that may change between versions, so that a scenario that is kept
-    /// means the same later.
+    /// means the same later. What follows from the method stays open, so that it goes on following.
     pub fn fill_in(&mut self) {
         let or = |value: &mut Option<String>, default: &str| {
             value.get_or_insert_with(|| default.to_owned());
@@ -117,8 +120,7 @@ impl Raw {
         if let Some(wear) = &mut self.wear {
             or(&mut wear.law, "archard");
         }
-        or(&mut self.numerics.method, DEFAULT_METHOD);
-        or(&mut self.numerics.grid, "uniform");
+        or(&mut self.numerics.method, DEFAULT_METHOD.name());
         or(&mut self.numerics.integrator, "direct");
         self.numerics.points.get_or_insert(DEFAULT_POINTS);
         self.numerics
@@ -128,7 +130,7 @@ impl Raw {
 }
 
 /// The best transform method there is.
-const DEFAULT_METHOD: &str = "a";
+const DEFAULT_METHOD: AbelMethod = AbelMethod::Product;
 /// N, as in the paper.
 const DEFAULT_POINTS: i64 = 100;
 /// Time steps in a cycle.

@@ -54,9 +54,20 @@ const fn whole(path: &'static str, range: &'static str, meaning: &'static str) -
 }
 
 /// The shapes that `indenter.shape` names.
-pub(super) const SHAPES: &[&str] = &["paraboloid", "cone", "power"];
+pub(super) const SHAPES: &[&str] = &[
+    "paraboloid",
+    "cone",
+    "power",
+    "flat-punch",
+    "truncated-paraboloid",
+    "truncated-cone",
+];
 /// The transform methods, as [`AbelMethod`](crate::math::abel::AbelMethod) names them.
-pub(super) const METHODS: &[&str] = &["a", "a+b", "b", "benad"];
+pub(super) const METHODS: &[&str] = &["product", "a", "a+b", "b", "benad"];
+/// Where the nodes lie, as [`Spacing`](crate::simulation::Spacing) names it.
+pub(super) const SPACINGS: &[&str] = &["graded", "uniform"];
+/// How a step is taken, as [`Scheme`](crate::simulation::Scheme) names it.
+pub(super) const SCHEMES: &[&str] = &["trapezoid", "euler"];
 const CONTROLS: Kind = Kind::Choice(&["displacement", "force"]);
 const PRESCRIBED: &str = "m, or N where control = \"force\"";
 
@@ -76,18 +87,25 @@ pub const PARAMETERS: &[Parameter] = &[
         "shape of the unworn indenter",
     ),
     shape(
-        &["paraboloid"],
+        &["paraboloid", "flat-punch", "truncated-paraboloid"],
         "indenter.radius",
         "m",
         POSITIVE,
-        "radius of curvature",
+        "radius of curvature, or of the flat punch",
     ),
     shape(
-        &["cone"],
+        &["cone", "truncated-cone"],
         "indenter.angle",
         "rad",
         "greater than 0 and less than pi/2",
         "rise of the flank, slope = tan(angle)",
+    ),
+    shape(
+        &["truncated-paraboloid", "truncated-cone"],
+        "indenter.tip_radius",
+        "m",
+        POSITIVE,
+        "radius of the flat tip",
     ),
     shape(
         &["power"],
@@ -278,8 +296,14 @@ pub const PARAMETERS: &[Parameter] = &[
     key(
         "numerics.grid",
         "",
-        Kind::Choice(&["uniform"]),
-        "how the nodes are spread",
+        Kind::Choice(SPACINGS),
+        "where the nodes lie; the default follows the method",
+    ),
+    key(
+        "numerics.scheme",
+        "",
+        Kind::Choice(SCHEMES),
+        "how a time step is taken; the default follows the method",
     ),
     key(
         "numerics.integrator",

@@ -1,7 +1,7 @@
 //! From the serde mirror to parts that can be run: the parts' own constructors judge, and this file
 //! says where in the scenario the refused value stands.
 
-use toml::Table;
+use toml::{Table, Value};
 
 use super::check::{missing, show};
 use super::derive;
@@ -12,6 +12,7 @@ use super::run::RunPlan;
 use super::write;
 use crate::contact::indenter::Indenter;
 use crate::contact::material::{Body, Material};
+use crate::math::abel::AbelMethod;
 use crate::math::grid::RadialGrid;
 use crate::math::invalid::Invalid;
 use crate::simulation::Setup;
@@ -29,16 +30,25 @@ pub(super) fn setup(raw: &Raw, table: &Table, origin: &Origin) -> Result<Setup, 
     let material = parts.material()?;
     let wear = parts.wear(&indenter, &material, &drive)?;
     let numerics = &raw.numerics;
+    let refused = |invalid| parts.refused("numerics", invalid);
     let method = parts.require(numerics.method.as_deref(), "numerics.method")?;
+    let method: AbelMethod = method.parse().map_err(refused)?;
+    let (spacing, scheme) = derive::choices(method);
     Ok(Setup {
         grid: parts.grid(&indenter, &material, &drive)?,
         material,
         indenter,
         drive,
         wear,
-        method: method
-            .parse()
-            .map_err(|invalid| parts.refused("numerics", invalid))?,
+        method,
+        spacing: match numerics.grid.as_deref() {
+            Some(name) => name.parse().map_err(refused)?,
+            None => spacing,
+        },
+        scheme: match numerics.scheme.as_deref() {
+            Some(name) => name.parse().map_err(refused)?,
+            None => scheme,
+        },
         steps_per_cycle: parts.steps_per_cycle()?,
     })
 }
@@ -107,13 +117,19 @@ impl Parts<'_> {
             }
         }
         let size = |value, path| self.require(value, path);
+        let radius = || size(raw.radius, "indenter.radius");
+        let angle = || size(raw.angle, "indenter.angle");
+        let tip_radius = || size(raw.tip_radius, "indenter.tip_radius");
         match shape {
-            "cone" => Indenter::cone(size(raw.angle, "indenter.angle")?),
+            "cone" => Indenter::cone(angle()?),
             "power" => Indenter::power(
                 size(raw.coefficient, "indenter.coefficient")?,
                 size(raw.exponent, "indenter.exponent")?,
             ),
-            _ => Indenter::paraboloid(size(raw.radius, "indenter.radius")?),
+            "flat-punch" => Indenter::flat_punch(radius()?),
+            "truncated-paraboloid" => Indenter::truncated_paraboloid(radius()?, tip_radius()?),
+            "truncated-cone" => Indenter::truncated_cone(angle()?, tip_radius()?),
+            _ => Indenter::paraboloid(radius()?),
         }
         .map_err(|invalid| self.refused("indenter", invalid))
     }
@@ -260,6 +276,12 @@ impl Parts<'_> {
         let numerics = &self.raw.numerics;
         let points = self.require(numerics.points, "numerics.points")?;
         let points = usize::try_from(points).map_err(|_| self.out_of_range("numerics.points"))?;
+        if indenter.rim().is_some() && numerics.domain_radius.is_some() {
+            let shape = indenter.name();
+            let rule =
+                format!("does not go with shape = \"{shape}\", whose rim is the domain's edge");
+            return Err(self.refuse("numerics.domain_radius", "", rule));
+        }
         let radius = numerics
             .domain_radius
             .or_else(|| derive::domain_radius(indenter, material, drive.normal()))
@@ -270,6 +292,14 @@ impl Parts<'_> {
                     "no contact carries this force; must be smaller",
                 )
             })?;
+        if indenter
+            .kink()
+            .is_some_and(|tip_radius| tip_radius >= radius)
+        {
+            let edge = show(&Value::Float(radius));
+            let rule = format!("must be less than the domain's edge, {edge} m");
+            return Err(self.refuse("indenter.tip_radius", "", rule));
+        }
         RadialGrid::uniform(points, radius).map_err(|invalid| self.refused("numerics", invalid))
     }
 

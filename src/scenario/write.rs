@@ -5,9 +5,11 @@ use std::fmt::Write;
 use toml::{Table, Value};
 
 use super::parameters::{Kind, PARAMETERS};
+use crate::math::abel::AbelMethod;
 
-/// Writes `table`, which has passed [`check::keys`](super::check::keys).
-pub(super) fn scenario(table: &Table) -> String {
+/// Writes `table`, which has passed [`check::keys`](super::check::keys). Each of `follows`, a path
+/// and a word, becomes a comment where the table does not give it: it follows from `method`.
+pub(super) fn scenario(table: &Table, follows: &[(&str, &str)], method: AbelMethod) -> String {
     let mut text = String::new();
     let mut open = "";
     for parameter in PARAMETERS
@@ -15,6 +17,14 @@ pub(super) fn scenario(table: &Table) -> String {
         .filter(|known| known.section() != "changes")
     {
         let Some(value) = at(table, parameter.path) else {
+            let word = follows.iter().find(|(path, _)| *path == parameter.path);
+            if let (Some((_, word)), true) = (word, parameter.section() == open) {
+                let key = parameter.key();
+                let _ = writeln!(
+                    text,
+                    "# {key} = \"{word}\"  # default of method \"{method}\""
+                );
+            }
             continue;
         };
         if value.as_array().is_some_and(Vec::is_empty) {

@@ -93,7 +93,7 @@ fn advice(method: AbelMethod) -> &'static str {
             "method b grows teeth at large wear coefficients; \
              numerics.method = \"a\" or more numerics.steps_per_cycle would help"
         }
-        AbelMethod::A | AbelMethod::APlusB => {
+        AbelMethod::Product | AbelMethod::A | AbelMethod::APlusB => {
             "the wear of a step is too large for the grid; more numerics.steps_per_cycle, \
              fewer numerics.points or a smaller wear.coefficient would help"
         }

@@ -10,6 +10,9 @@ use crate::math::invalid::{Invalid, finite, non_negative, positive};
 /// The most cycles that are looked through for a common period of both directions.
 pub const LONGEST_REPEAT: u32 = 20;
 
+/// Into how many pieces a cycle is cut where turning points are looked for.
+const PIECES_OF_A_CYCLE: f64 = 64.0;
+
 /// mean + amplitude · sin(ωt + φ), of a displacement in m or of a force in N.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Oscillation {
@@ -152,6 +155,76 @@ impl Drive {
         })
     }
 
+    /// The first cycle after `from` and up to `until` at which d + κu_x or d − κu_x turns, where both
+    /// displacements are prescribed: there slip ends or begins. κ is the [stick
+    /// ratio](crate::contact::material::Material::stick_ratio).
+    pub fn turning_point(&self, stick_ratio: f64, from: f64, until: f64) -> Option<f64> {
+        let (Control::Displacement(normal), Some(Control::Displacement(tangential))) =
+            (&self.normal, &self.tangential)
+        else {
+            return None;
+        };
+        let ratio = self.frequency_ratio();
+        // Without friction nothing sticks; with very much, the shift alone turns things.
+        let (normal_weight, tangential_weight) = if stick_ratio > 1.0 {
+            (normal.amplitude * ratio / stick_ratio, tangential.amplitude)
+        } else {
+            (normal.amplitude * ratio, tangential.amplitude * stick_ratio)
+        };
+        let rate = |sign: f64, cycles: f64| {
+            let down = (TAU * (cycles * ratio).fract() + normal.phase).cos();
+            let along = (TAU * cycles.fract() + tangential.phase).cos();
+            normal_weight * down + sign * tangential_weight * along
+        };
+        let pieces = (PIECES_OF_A_CYCLE * ratio.max(1.0) * (until - from))
+            .ceil()
+            .max(4.0);
+        [1.0, -1.0]
+            .into_iter()
+            .filter_map(|sign| {
+                (0..pieces as u32).find_map(|i| {
+                    let at = |i: u32| from + (until - from) * f64::from(i) / pieces;
+                    sign_change(|cycles| rate(sign, cycles), at(i), at(i + 1))
+                })
+            })
+            .reduce(f64::min)
+    }
+
+    /// g at the border of the permanent stick zone, m, where both displacements are prescribed: a
+    /// spring that shakes down never slips again. ½{min(d + κu_x) + min(d − κu_x)}; 0 or less means
+    /// that everything slips in every cycle.
+    ///
+    /// E. Melan's theorem for springs with friction: J. R. Barber, A. Klarbring, M. Ciavarella (2008),
+    /// Int. J. Solids Struct. 45, 4577–4596.
+    pub fn shakedown_depth(&self, stick_ratio: f64) -> Option<f64> {
+        let (Control::Displacement(normal), Some(Control::Displacement(tangential))) =
+            (&self.normal, &self.tangential)
+        else {
+            return None;
+        };
+        if !stick_ratio.is_finite() {
+            return Some(f64::NEG_INFINITY);
+        }
+        let Some(cycles) = self.repeats_after() else {
+            return Some(normal.lowest() - stick_ratio * tangential.amplitude);
+        };
+        let value = |sign: f64, turns: f64| {
+            normal.after_turns(turns * self.frequency_ratio())
+                + sign * stick_ratio * tangential.after_turns(turns)
+        };
+        let lowest = |sign: f64| {
+            let end = f64::from(cycles);
+            let mut smallest = value(sign, 0.0);
+            let mut from = 0.0;
+            while let Some(turn) = self.turning_point(stick_ratio, from, end) {
+                smallest = smallest.min(value(sign, turn));
+                from = turn + 1e-6;
+            }
+            smallest
+        };
+        Some(0.5 * (lowest(1.0) + lowest(-1.0)))
+    }
+
     /// What the normal direction is asked for after `cycles`.
     pub fn normal_at(&self, cycles: f64) -> Target {
         at(&self.normal, cycles * self.frequency_ratio())
@@ -161,6 +234,27 @@ impl Drive {
     pub fn tangential_at(&self, cycles: f64) -> Option<Target> {
         self.tangential.as_ref().map(|control| at(control, cycles))
     }
+}
+
+/// Where `function` crosses zero between `a` and `b`, `b` included.
+fn sign_change(function: impl Fn(f64) -> f64, a: f64, b: f64) -> Option<f64> {
+    let (mut low, mut high) = (a, b);
+    let (at_low, at_high) = (function(low), function(high));
+    if at_high == 0.0 && at_low != 0.0 {
+        return Some(high);
+    }
+    if at_low * at_high >= 0.0 {
+        return None;
+    }
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if function(middle) * at_low > 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    Some(high)
 }
 
 fn at(control: &Control, turns: f64) -> Target {
@@ -207,6 +301,42 @@ mod tests {
             drive.tangential_at(0.25),
             drive.tangential_at(10_000_000.25)
         );
+    }
+
+    #[test]
+    fn turning_points_are_where_the_rates_vanish() {
+        let drive = drive(1.0);
+        let first = drive.turning_point(8.0, 0.0, 1.0).expect("a turn");
+        let value = |cycles: f64| {
+            let (Target::Displacement(d), Some(Target::Displacement(u))) =
+                (drive.normal_at(cycles), drive.tangential_at(cycles))
+            else {
+                panic!("displacements")
+            };
+            [d + 8.0 * u, d - 8.0 * u]
+        };
+        let h = 1e-6;
+        let (left, here, right) = (value(first - h), value(first), value(first + h));
+        assert!((0..2).any(|i| (here[i] - left[i]) * (right[i] - here[i]) <= 0.0));
+        let mut from = 0.0;
+        let mut turns = 0;
+        while let Some(turn) = drive.turning_point(8.0, from, 1.0) {
+            (from, turns) = (turn + 1e-6, turns + 1);
+        }
+        assert_eq!(turns, 4);
+    }
+
+    #[test]
+    fn the_shakedown_depth_of_equal_frequencies_is_the_closed_form() {
+        // Physics of the dual oscillation: d₀ − ½[√(Δd²+κ²Δu²+2κΔdΔu cos φ) + √(… − …)].
+        let (dd, ku, phi) = (1e-7f64, 8.0 * 1e-7, 0.5f64);
+        let branch = |sign: f64| (dd * dd + ku * ku + sign * 2.0 * ku * dd * phi.cos()).sqrt();
+        let expected = 1e-6 - 0.5 * (branch(1.0) + branch(-1.0));
+        let depth = drive(1.0).shakedown_depth(8.0).expect("a depth");
+        assert!((depth / expected - 1.0).abs() < 1e-9, "{depth} {expected}");
+        // Incommensurate: d₀ − Δd − κΔu.
+        let depth = drive(2f64.sqrt()).shakedown_depth(8.0).expect("a depth");
+        assert!((depth - (1e-6 - 1e-7 - 8e-7)).abs() < 1e-18);
     }
 
     #[test]

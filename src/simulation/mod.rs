@@ -6,12 +6,15 @@ use std::sync::Arc;
 
 use crate::contact::indenter::Indenter;
 use crate::contact::material::Material;
+use crate::contact::tangential::Hold;
 use crate::math::abel::AbelMethod;
 use crate::math::grid::RadialGrid;
-use crate::math::quadrature;
+use crate::math::quadrature::weighted;
 use crate::wear::WearLaw;
 
+mod border;
 pub mod breakdown;
+mod choices;
 pub mod drive;
 mod integrator;
 pub mod observation;
@@ -20,6 +23,7 @@ pub mod state;
 mod workspace;
 
 pub use breakdown::{Breakdown, Cause};
+pub use choices::{Scheme, Spacing};
 use drive::{Drive, LONGEST_REPEAT};
 pub use observation::{Curves, Moment, Observation, Zone};
 pub use state::State;
@@ -40,6 +44,11 @@ pub struct Setup {
     pub wear: Option<WearLaw>,
     /// The way to compute the transforms.
     pub method: AbelMethod,
+    /// Whether the grid is to be graded towards the stick border; [`grid`](Self::grid) then only
+    /// says how many cells there are and where the domain ends.
+    pub spacing: Spacing,
+    /// How a step in time is taken.
+    pub scheme: Scheme,
     /// Steps a cycle, at least 1.
     pub steps_per_cycle: u32,
 }
@@ -65,11 +74,12 @@ pub struct Simulation {
 impl Simulation {
     /// Presses the unworn indenter to u_z(0), then shifts it to u_x(0), without wear.
     pub fn new(setup: Setup) -> Result<Self, Breakdown> {
+        let setup = border::graded(&setup, None);
         let state = State::new(setup.grid.len(), setup.drive.tangential().is_some());
         Self::resume(setup, state)
     }
 
-    /// Goes on from a saved state.
+    /// Goes on from a saved state, on the grid of `setup` as it is.
     pub fn resume(setup: Setup, state: State) -> Result<Self, Breakdown> {
         let workspace = Workspace::new(&setup, None);
         let mut simulation = Self {
@@ -85,11 +95,35 @@ impl Simulation {
     /// on another grid they are interpolated. Where the new parts cannot hold the contact, the
     /// simulation stays as it was.
     pub fn reconfigure(&mut self, setup: Setup) -> Result<(), Breakdown> {
-        let same_grid = setup.grid == self.setup.grid;
-        let plan = (same_grid && setup.method == self.setup.method)
-            .then(|| Arc::clone(&self.workspace.plan));
+        let setup = if border::stays(&self.setup, &setup) {
+            Setup {
+                grid: self.setup.grid.clone(),
+                ..setup
+            }
+        } else {
+            border::graded(&setup, Some(self))
+        };
+        let state = self.state_on(&setup);
+        let same = setup.grid == self.setup.grid
+            && setup.method == self.setup.method
+            && setup.indenter == self.setup.indenter;
+        let planned = same.then(|| Arc::clone(&self.workspace.planned));
+        let workspace = Workspace::new(&setup, planned);
+        let mut changed = Self {
+            setup,
+            state,
+            workspace,
+        };
+        changed.settle()?;
+        *self = changed;
+        Ok(())
+    }
+
+    /// The present state on the grid of another setup.
+    fn state_on(&self, setup: &Setup) -> State {
         let mut state = self.state.clone();
-        if !same_grid {
+        let nodes = setup.grid.len();
+        if setup.grid != self.setup.grid {
             let onto = |values: &[f64]| {
                 setup
                     .grid
@@ -101,28 +135,20 @@ impl Simulation {
             state.wear = onto(&self.state.wear);
             if !state.spring.is_empty() {
                 state.spring = onto(&self.state.spring);
+                state.hold = vec![Hold::Stick; nodes];
             }
         }
-        state.spring.resize(
-            if setup.drive.tangential().is_some() {
-                setup.grid.len()
-            } else {
-                0
-            },
-            0.0,
-        );
-        let workspace = Workspace::new(&setup, plan);
-        let mut changed = Self {
-            setup,
-            state,
-            workspace,
+        let springs = if setup.drive.tangential().is_some() {
+            nodes
+        } else {
+            0
         };
-        changed.settle()?;
-        *self = changed;
-        Ok(())
+        state.spring.resize(springs, 0.0);
+        state.hold.resize(springs, Hold::Stick);
+        state
     }
 
-    /// The parts in use.
+    /// The parts in use; the grid is the one that is computed on.
     pub fn setup(&self) -> &Setup {
         &self.setup
     }
@@ -137,67 +163,107 @@ impl Simulation {
         self.state.cycle
     }
 
-    /// Takes one step, to the next multiple of 1/steps-per-cycle.
+    /// Takes one step, to the next moment.
     pub fn step(&mut self) -> Result<(), Breakdown> {
-        let cycle = self.next_moment();
-        self.step_to(cycle)
+        let (cycle, turns) = self.next();
+        self.step_to(cycle, turns)
     }
 
     /// Steps until `cycle` is reached; the last step is shortened so as to end there exactly.
     pub fn advance_to(&mut self, cycle: f64) -> Result<(), Breakdown> {
         while self.state.cycle < cycle {
-            let next = self.next_moment();
+            let (next, turns) = self.next();
             // A step that would end within rounding of the goal ends at the goal.
-            self.step_to(if next > cycle - self.rounding() {
-                cycle
-            } else {
-                next
-            })?;
+            let reached = next > cycle - self.rounding();
+            let at_turn = turns && next < cycle + self.rounding();
+            self.step_to(if reached { cycle } else { next }, at_turn)?;
         }
         Ok(())
     }
 
     /// Cycles that are less than this apart are the same moment.
     pub fn rounding(&self) -> f64 {
-        1e-6 / f64::from(self.setup.steps_per_cycle)
+        let steps = f64::from(self.setup.steps_per_cycle);
+        (1e-6 / steps).max(8.0 * f64::EPSILON * self.state.cycle)
     }
 
-    /// The next multiple of 1/steps-per-cycle after the present cycle.
+    /// The cycle at which the next step ends: the next multiple of 1/steps-per-cycle, or before it
+    /// the next turning point of the motion, if the scheme minds.
     pub fn next_moment(&self) -> f64 {
-        let steps = f64::from(self.setup.steps_per_cycle);
-        ((self.state.cycle * steps + 1e-6).floor() + 1.0) / steps
+        self.next().0
+    }
+
+    fn next(&self) -> (f64, bool) {
+        let (now, steps) = (self.state.cycle, f64::from(self.setup.steps_per_cycle));
+        // The tolerance outgrows the rounding of late cycles, so that every step gets on.
+        let multiple = ((now + self.rounding()) * steps).floor() + 1.0;
+        let regular = multiple / steps;
+        if self.setup.scheme == Scheme::Euler {
+            return (regular, false);
+        }
+        let (drive, ratio) = (&self.setup.drive, self.setup.material.stick_ratio());
+        let (rounding, sliver) = (self.rounding(), SLIVER / steps);
+        // The end of a cycle is never passed over: histories count on it.
+        let passable = |moment: f64| moment.fract() != 0.0;
+        let next = |regular: f64| {
+            let turn = drive.turning_point(ratio, now + rounding, regular + sliver);
+            match turn {
+                Some(turn) if (turn - regular).abs() <= rounding => (regular, true),
+                Some(turn) if turn < regular || passable(regular) => (turn, true),
+                _ => (regular, false),
+            }
+        };
+        if regular - now < sliver && passable(regular) && self.state.steps > 0 {
+            return next((multiple + 1.0) / steps);
+        }
+        next(regular)
     }
 
     /// One step of the integrator; the state changes only if all went well.
-    fn step_to(&mut self, cycle: f64) -> Result<(), Breakdown> {
-        match integrator::direct::step(&self.setup, &mut self.state, &mut self.workspace, cycle) {
-            Ok(()) => Ok(()),
-            Err(cause) => {
-                let breakdown = Breakdown {
-                    cycle: self.state.cycle,
-                    cause,
-                };
-                // Leave buffers that belong to the last good state; they held a contact before.
-                let _ = self.settle();
-                Err(breakdown)
+    fn step_to(&mut self, cycle: f64, turns: bool) -> Result<(), Breakdown> {
+        integrator::step(
+            &self.setup,
+            &mut self.state,
+            &mut self.workspace,
+            cycle,
+            turns,
+        )
+        .map_err(|cause| {
+            // What is looked at now must be the last good state, not the contact that failed.
+            self.workspace.show_last_good(&self.setup, &self.state);
+            Breakdown {
+                cycle: self.state.cycle,
+                cause,
             }
-        }
+        })
     }
 
     /// Solves the contact at the present cycle, without wear and without passing time.
     fn settle(&mut self) -> Result<(), Breakdown> {
-        integrator::direct::settle(&self.setup, &mut self.state, &mut self.workspace).map_err(
-            |cause| Breakdown {
+        integrator::settle(&self.setup, &mut self.state, &mut self.workspace).map_err(|cause| {
+            Breakdown {
                 cycle: self.state.cycle,
                 cause,
-            },
-        )
+            }
+        })
     }
 
     /// Worn volume 2π∫(f − f₀) r dr, m³.
     pub fn wear_volume(&self) -> f64 {
-        quadrature::volume_of_revolution(self.setup.grid.nodes(), &self.state.wear)
+        worn_volume(&self.workspace)
     }
+}
+
+/// A turning point this close to a regular moment, in steps, takes its place.
+const SLIVER: f64 = 0.1;
+
+/// 2π∫(f − f₀) r dr of the profile as it stands, m³.
+fn worn_volume(work: &Workspace) -> f64 {
+    let rim = work
+        .rim
+        .as_ref()
+        .map_or(0.0, |rim| rim.volume(&work.planned.grid));
+    weighted(&work.planned.volume_weights, &work.wear) + rim
 }
 
 /// Cycles after which the permanent stick radius is read anew: the common period of the motion.

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use bitflags::bitflags;
 use serde::Serialize;
 
-use super::Simulation;
+use super::{Simulation, solve};
+use crate::contact::tangential::Hold;
 use crate::math::abel::AbelMethod;
 
 bitflags! {
@@ -76,6 +77,8 @@ pub struct Moment {
     pub wear_volume: f64,
     /// E_d, J.
     pub dissipated_energy: f64,
+    /// 1 − ΔV/∫k dE_d over the last complete period of the motion.
+    pub period_residual: Option<f64>,
     /// 1 − V/∫k dE_d: how far the 3D side and the 1D side disagree. None before anything has worn
     /// and under laws that do not follow energy.
     pub energy_residual: Option<f64>,
@@ -130,12 +133,13 @@ impl Simulation {
             normal_force: contact.normal.force,
             tangential_force: contact.tangential_force,
             contact_radius: contact.normal.radius,
-            stick_radius: contact.slide.map(|slide| slide.stick_radius),
+            stick_radius: contact.stick_radius,
             permanent_stick_radius: contact
-                .slide
-                .map(|slide| state.permanent_stick_radius().min(slide.stick_radius)),
+                .stick_radius
+                .map(|stick| state.permanent_stick_radius().min(stick)),
             wear_volume,
             dissipated_energy: state.dissipated_energy,
+            period_residual: state.period.residual,
             energy_residual: (state.expected_volume > 0.0).then_some(residual),
         }
     }
@@ -147,9 +151,11 @@ impl Simulation {
 
     fn pressure(&self) -> Vec<f64> {
         let mut pressure = vec![0.0; self.setup().grid.len()];
-        self.workspace
-            .plan
-            .stress(&self.workspace.normal_load, &mut pressure);
+        solve::pressure(
+            &self.workspace,
+            self.setup().material.normal_modulus(),
+            &mut pressure,
+        );
         pressure
     }
 
@@ -173,26 +179,24 @@ impl Simulation {
                 Vec::new()
             }
         };
-        let transformed = |values: &[f64], transform: &dyn Fn(&[f64], &mut [f64])| {
+        let transformed = |transform: &dyn Fn(&mut [f64])| {
             let mut out = vec![0.0; nodes];
             if with_springs {
-                transform(values, &mut out);
+                transform(&mut out);
             }
             out
         };
+        let modulus = self.setup().material.tangential_modulus();
         let worn = || {
-            work.unworn
-                .iter()
-                .zip(&self.state().wear)
-                .map(|(f, w)| f + w)
-                .collect()
+            let unworn = work.planned.unworn.iter();
+            unworn.zip(&self.state().wear).map(|(f, w)| f + w).collect()
         };
         Observation {
             moment: self.moment(),
             method: self.setup().method,
             law: self.setup().wear.map(|law| law.name()),
             radii: self.setup().grid.nodes().into(),
-            unworn: Arc::clone(&work.unworn),
+            unworn: Arc::clone(&work.planned.unworn),
             profile: when(Curves::PROFILE, &worn),
             wear: when(Curves::PROFILE, &|| self.state().wear.clone()),
             profile_1d: when(Curves::PROFILE_1D, &|| work.g.clone()),
@@ -201,10 +205,10 @@ impl Simulation {
             spring: when(Curves::SPRINGS, &|| or_zero(&work.spring)),
             pressure: when(Curves::PRESSURE, &|| self.pressure()),
             shear: when(Curves::SHEAR, &|| {
-                transformed(&work.tangential_load, &|q, tau| work.plan.stress(q, tau))
+                transformed(&|out| solve::shear(work, modulus, out))
             }),
             surface: when(Curves::SURFACE, &|| {
-                transformed(&work.spring, &|u, w| work.plan.displacement(u, w))
+                transformed(&|out| solve::surface_displacement(work, out))
             }),
             zones: if curves.contains(Curves::ZONES) {
                 self.zones()
@@ -216,18 +220,11 @@ impl Simulation {
 
     fn zones(&self) -> Vec<Zone> {
         let work = &self.workspace;
-        work.normal_load
-            .iter()
-            .enumerate()
-            .map(|(j, &load)| {
-                if load <= 0.0 {
-                    Zone::Open
-                } else if work.slip.get(j).is_none_or(|&slip| slip == 0.0) {
-                    Zone::Stick
-                } else {
-                    Zone::Slip
-                }
-            })
-            .collect()
+        let zone = |(j, &load): (usize, &f64)| match work.hold.get(j) {
+            _ if load <= 0.0 => Zone::Open,
+            Some(Hold::Forward | Hold::Backward) => Zone::Slip,
+            _ => Zone::Stick,
+        };
+        work.normal_load.iter().enumerate().map(zone).collect()
     }
 }

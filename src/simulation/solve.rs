@@ -3,48 +3,81 @@
 use super::Setup;
 use super::breakdown::Cause;
 use super::drive::Target;
+use super::state::State;
 use super::workspace::{Contact, Workspace};
 use crate::contact::normal;
-use crate::contact::tangential::{Grip, Slide, slide};
+use crate::contact::tangential::{self, Grip, Motion};
+use crate::math::abel::{bend, worn};
 use crate::math::root;
 
 /// Brings g up to date with the worn depth `wear` (m) by Eq. (1).
 pub(super) fn update_profile(work: &mut Workspace, wear: &[f64]) {
-    work.plan.profile(wear, &mut work.g);
-    for (g, unworn) in work.g.iter_mut().zip(work.unworn_1d.iter()) {
+    let planned = &work.planned;
+    match &planned.worn {
+        Some(operator) => operator.apply(wear, &mut work.g),
+        None => planned.plan.profile(wear, &mut work.g),
+    }
+    for (g, unworn) in work.g.iter_mut().zip(&planned.unworn_1d) {
         *g += unworn;
+    }
+    work.rim = None;
+    if planned.has_breaks() {
+        work.rim = worn::find_rim(&planned.grid, wear);
+        if let Some(rim) = &work.rim {
+            bend::add_to_profile(
+                &rim.bends(&planned.grid, wear),
+                planned.grid.squares(),
+                &mut work.g,
+            );
+        }
     }
 }
 
-/// Presses and shifts the indenter to what the drive asks for at `cycle`.
-///
-/// Reads `work.g`; writes the loads, the springs and their slip. `spring` and `shift` are the
-/// springs and the indenter before.
+/// Presses and shifts the indenter to what the drive asks for at `cycle`, from the springs and the
+/// shift of `state`, with the 1D profile `work.predicted`. Writes the loads, the springs, their slip
+/// and the scalars.
 pub(super) fn solve_contact(
     setup: &Setup,
+    state: &State,
     work: &mut Workspace,
     cycle: f64,
-    spring: &[f64],
-    shift: f64,
 ) -> Result<(), Cause> {
     let depth = depth_at(setup, work, cycle)?;
-    let xs = setup.grid.nodes();
+    press(setup, work, depth)?;
+    work.contact.shift = state.shift;
+    match setup.drive.tangential_at(cycle) {
+        None => Ok(()),
+        Some(Target::Displacement(target)) => {
+            shift_by(setup, state, work, target - state.shift);
+            work.contact.shift = target;
+            Ok(())
+        }
+        Some(Target::Force(target)) => {
+            let increment = increment_for_force(setup, state, work, target)?;
+            shift_by(setup, state, work, increment);
+            work.contact.shift = state.shift + increment;
+            Ok(())
+        }
+    }
+}
+
+fn press(setup: &Setup, work: &mut Workspace, depth: f64) -> Result<(), Cause> {
+    let planned = &work.planned;
     let modulus = setup.material.normal_modulus();
-    let normal = normal::press(xs, &work.g, depth, modulus, &mut work.normal_load);
+    let (load, breaks) = (&mut work.normal_load, &mut work.normal_breaks);
+    let mut normal = normal::press(&planned.row, &work.predicted, depth, modulus, load, breaks);
     if !normal.force.is_finite() {
         return Err(Cause::NotFinite {
             quantity: "normal force",
             method: setup.method,
         });
     }
-    let has_rim = setup.indenter.rim().is_some();
-    if !has_rim
-        && normal.nodes == xs.len()
-        && work.normal_load[xs.len() - 1] > 1e-9 * modulus * depth
+    let last = setup.grid.cells();
+    if setup.indenter.rim().is_none() && normal.nodes > last && load[last] > 1e-9 * modulus * depth
     {
         let radius = setup.grid.radius();
         // Wear only lowers the surface: where f₀ exceeds the depth, nothing ever touches.
-        return Err(if work.unworn[xs.len() - 1] >= depth * (1.0 - 1e-9) {
+        return Err(if planned.unworn[last] >= depth * (1.0 - 1e-9) {
             Cause::BlownUp {
                 radius,
                 method: setup.method,
@@ -55,27 +88,28 @@ pub(super) fn solve_contact(
             }
         });
     }
-    work.contact = Contact {
-        depth,
-        shift,
-        normal,
-        tangential_force: 0.0,
-        slide: None,
-    };
-    match setup.drive.tangential_at(cycle) {
-        None => Ok(()),
-        Some(Target::Displacement(target)) => {
-            shift_by(setup, work, target - shift, spring);
-            work.contact.shift = target;
-            Ok(())
+    work.rim_edge = None;
+    if let Some(rim) = &work.rim {
+        for (compression, g) in work.compression.iter_mut().zip(&work.predicted) {
+            *compression = depth - g;
         }
-        Some(Target::Force(target)) => {
-            let increment = increment_for_force(setup, work, target, spring)?;
-            shift_by(setup, work, increment, spring);
-            work.contact.shift = shift + increment;
-            Ok(())
+        if let Some(edge) = worn::edge_at_rim(rim, &planned.grid, &work.compression) {
+            // It takes the place of the edge that was found in its cell, if one was.
+            let end = planned.grid.squares()[rim.cell + 1];
+            if breaks.last().is_some_and(|last| last.at == end) {
+                breaks.truncate(breaks.len().saturating_sub(3));
+            }
+            normal.radius = edge.at.sqrt();
+            normal.force = planned.row.force(load, breaks) + 2.0 * modulus * edge.line_integral();
+            work.rim_edge = Some(edge);
         }
     }
+    work.contact = Contact {
+        depth,
+        normal,
+        ..Contact::default()
+    };
+    Ok(())
 }
 
 /// The depth, m: prescribed, or the one that carries the prescribed force.
@@ -83,14 +117,22 @@ fn depth_at(setup: &Setup, work: &mut Workspace, cycle: f64) -> Result<f64, Caus
     match setup.drive.normal_at(cycle) {
         Target::Displacement(depth) => Ok(depth),
         Target::Force(force) => {
-            let deepest = work.g[setup.grid.cells()];
+            let deepest = match setup.indenter.rim() {
+                // A punch carries any load; its springs yield at most what the load needs.
+                Some(rim) => {
+                    let flat = force / (2.0 * setup.material.normal_modulus() * rim);
+                    work.predicted.iter().copied().fold(0.0, f64::max) + 2.0 * flat.abs()
+                }
+                None => work.predicted[setup.grid.cells()],
+            };
             normal::depth_for_load(
-                setup.grid.nodes(),
-                &work.g,
+                &work.planned.row,
+                &work.predicted,
                 force,
                 setup.material.normal_modulus(),
                 deepest,
                 &mut work.normal_load,
+                &mut work.normal_breaks,
             )
             .ok_or(Cause::LoadTooLarge {
                 force,
@@ -100,36 +142,48 @@ fn depth_at(setup: &Setup, work: &mut Workspace, cycle: f64) -> Result<f64, Caus
     }
 }
 
-/// Moves the tangential springs from `spring` by `increment` (m).
-fn shift_by(setup: &Setup, work: &mut Workspace, increment: f64, spring: &[f64]) -> Slide {
-    work.spring.copy_from_slice(spring);
+/// Moves the tangential springs by `increment` (m) from where they stand in `state`.
+fn shift_by(setup: &Setup, state: &State, work: &mut Workspace, increment: f64) {
     let grip = Grip {
-        xs: setup.grid.nodes(),
+        row: &work.planned.row,
         normal_load: &work.normal_load,
         contact_radius: work.contact.normal.radius,
         reach: setup.material.friction() / setup.material.tangential_modulus(),
     };
-    let slide = slide(grip, increment, &mut work.spring, &mut work.slip);
+    tangential::slide(
+        grip,
+        increment,
+        &state.spring,
+        &mut work.spring,
+        &mut work.slip,
+        &mut work.hold,
+    );
+    let motion = Motion {
+        before: &state.spring,
+        held: &state.hold,
+    };
+    let stick = tangential::borders(
+        grip,
+        motion,
+        &work.spring,
+        &work.hold,
+        &mut work.spring_breaks,
+    );
+    let modulus = setup.material.tangential_modulus();
     for (load, u) in work.tangential_load.iter_mut().zip(&work.spring) {
-        *load = setup.material.tangential_modulus() * u;
+        *load = modulus * u;
     }
-    work.contact.slide = Some(slide);
-    work.contact.tangential_force = line_integral(setup, work, &work.tangential_load);
-    slide
-}
-
-/// 2∫ q dx over the contact.
-pub(super) fn line_integral(setup: &Setup, work: &Workspace, q: &[f64]) -> f64 {
-    let normal = work.contact.normal;
-    normal::force(setup.grid.nodes(), q, normal.nodes, normal.radius)
+    work.contact.stick_radius = Some(stick);
+    work.contact.tangential_force =
+        modulus * work.planned.row.force(&work.spring, &work.spring_breaks);
 }
 
 /// The increment of displacement (m) that brings the tangential force to `target` (N).
 fn increment_for_force(
     setup: &Setup,
+    state: &State,
     work: &mut Workspace,
     target: f64,
-    spring: &[f64],
 ) -> Result<f64, Cause> {
     let limit = setup.material.friction() * work.contact.normal.force;
     if target.abs() >= limit {
@@ -143,7 +197,7 @@ fn increment_for_force(
     let span = 2.0 * stiffest * setup.material.friction() / setup.material.tangential_modulus();
     root::bracketed(
         |increment| {
-            shift_by(setup, work, increment, spring);
+            shift_by(setup, state, work, increment);
             (work.contact.tangential_force - target) / limit
         },
         -span,
@@ -154,4 +208,37 @@ fn increment_for_force(
         force: target,
         limit,
     })
+}
+
+/// p(r), Pa, of the solved contact by Eq. (3); `modulus` is E*.
+pub(super) fn pressure(work: &Workspace, modulus: f64, out: &mut [f64]) {
+    let planned = &work.planned;
+    planned.plan.stress(&work.normal_load, out);
+    if planned.has_breaks() {
+        bend::add_to_stress(&work.normal_breaks, planned.grid.squares(), out);
+        if let Some(edge) = &work.rim_edge {
+            edge.add_to_stress(modulus, planned.grid.squares(), out);
+        }
+    }
+}
+
+/// τ(r), Pa, of the solved contact by Eq. (3); `modulus` is G*.
+pub(super) fn shear(work: &Workspace, modulus: f64, out: &mut [f64]) {
+    let planned = &work.planned;
+    planned.plan.stress(&work.spring, out);
+    if planned.has_breaks() {
+        bend::add_to_stress(&work.spring_breaks, planned.grid.squares(), out);
+    }
+    for stress in out {
+        *stress *= modulus;
+    }
+}
+
+/// u_x(r), m, of the surface by Eq. (2).
+pub(super) fn surface_displacement(work: &Workspace, out: &mut [f64]) {
+    let planned = &work.planned;
+    planned.plan.displacement(&work.spring, out);
+    if planned.has_breaks() {
+        bend::add_to_displacement(&work.spring_breaks, &planned.grid, out);
+    }
 }

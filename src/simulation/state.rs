@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::contact::tangential::Hold;
+
 /// What is saved, restored, and carried over when a method or a law is switched.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct State {
@@ -18,6 +20,12 @@ pub struct State {
     pub wear: Vec<f64>,
     /// Displacement of the tangential springs u_x, m, at the nodes; empty without tangential motion.
     pub spring: Vec<f64>,
+    /// What each spring did in the last step; empty without tangential motion.
+    pub hold: Vec<Hold>,
+    /// What a step of second order remembers of the one before.
+    pub last: LastStep,
+    /// The energy balance of the last period of the motion.
+    pub period: PeriodBalance,
     /// Work of friction since the start, E_d, J.
     pub dissipated_energy: f64,
     /// The part of the volume that a law in proportion to friction work must have worn, ∫k dE_d, m³.
@@ -30,6 +38,44 @@ pub struct State {
     pub settled_stick_radius: Option<f64>,
 }
 
+/// V = k E_d over one period of the motion.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct PeriodBalance {
+    /// Worn volume and ∫k dE_d where the period began, m³.
+    start: [f64; 2],
+    /// 1 − ΔV/∫k dE_d of the last complete period; none before there is one, or if nothing wore.
+    pub residual: Option<f64>,
+}
+
+impl PeriodBalance {
+    /// Ends a period at a worn volume and an expected one (m³).
+    pub fn close(&mut self, volume: f64, expected: f64) {
+        let (worn, due) = (volume - self.start[0], expected - self.start[1]);
+        self.residual = (due > 0.0).then(|| 1.0 - worn / due);
+        self.start = [volume, expected];
+    }
+}
+
+/// The step before, as far as the next one builds on it.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct LastStep {
+    /// Its length in cycles; 0 where the motion turned, or something else broke the smoothness, so
+    /// that nothing is to be extrapolated from it.
+    pub duration: f64,
+    /// What g grew by, m, nodal.
+    pub growth: Vec<f64>,
+    /// What f grew by, m, nodal.
+    pub wear: Vec<f64>,
+    /// q_z at its end, N/m, nodal.
+    pub normal_load: Vec<f64>,
+    /// ∫ of the breaks of q_z at its end, N.
+    pub edge_load: f64,
+    /// p and τ at its end, Pa, nodal.
+    pub pressure: Vec<f64>,
+    /// τ.
+    pub shear: Vec<f64>,
+}
+
 impl State {
     /// An unworn, unloaded contact.
     pub fn new(nodes: usize, has_springs: bool) -> Self {
@@ -40,6 +86,9 @@ impl State {
             shift: 0.0,
             wear: vec![0.0; nodes],
             spring: vec![0.0; if has_springs { nodes } else { 0 }],
+            hold: vec![Hold::Stick; if has_springs { nodes } else { 0 }],
+            last: LastStep::default(),
+            period: PeriodBalance::default(),
             dissipated_energy: 0.0,
             expected_volume: 0.0,
             unexplained_volume: 0.0,

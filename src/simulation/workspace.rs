@@ -3,36 +3,81 @@
 use std::sync::Arc;
 
 use super::Setup;
+use super::state::State;
+use crate::contact::foundation::Foundation;
 use crate::contact::normal::NormalContact;
-use crate::contact::tangential::Slide;
-use crate::math::abel::AbelPlan;
+use crate::contact::tangential::Hold;
+use crate::math::abel::bend::Bend;
+use crate::math::abel::worn::{self, Rim, RimEdge};
+use crate::math::abel::{AbelMethod, AbelPlan};
+use crate::math::grid::RadialGrid;
+use crate::math::staircase::Staircase;
 
 /// Weights, buffers, and the contact as the last step solved it.
 #[derive(Debug, Clone)]
 pub(super) struct Workspace {
-    pub plan: Arc<AbelPlan>,
-    /// f₀ and its 1D image g₀, m.
-    pub unworn: Arc<[f64]>,
-    pub unworn_1d: Arc<[f64]>,
-    /// g, m.
+    pub planned: Arc<Planned>,
+    /// g, m, of the profile as it stands.
     pub g: Vec<f64>,
-    /// q_z, N/m.
+    /// g, m, that the contact was solved with: the scheme may look ahead.
+    pub predicted: Vec<f64>,
+    /// The rim of the worn zone, where the worn profile has a kink.
+    pub rim: Option<Rim>,
+    /// d − g, m.
+    pub compression: Vec<f64>,
+    /// q_z, N/m, and its breaks.
     pub normal_load: Vec<f64>,
-    /// The springs u_x after the step, m.
+    pub normal_breaks: Vec<Bend>,
+    /// The contact's edge where it lies in the rim's cell.
+    pub rim_edge: Option<RimEdge>,
+    /// The springs u_x after the step, m, and their breaks.
     pub spring: Vec<f64>,
+    pub hold: Vec<Hold>,
+    pub spring_breaks: Vec<Bend>,
     /// Slip of the springs in the step, m.
     pub slip: Vec<f64>,
     /// q_x, N/m.
     pub tangential_load: Vec<f64>,
-    /// q_x times the slip, J/m.
+    /// The work of friction, J/m.
     pub friction_work: Vec<f64>,
-    /// τ, Pa.
-    pub tau: Vec<f64>,
+    /// p, Pa.
+    pub pressure: Vec<f64>,
+    /// τ at the end of the step, Pa.
+    pub shear: Vec<f64>,
+    /// τ by which the step wears, Pa.
+    pub working_shear: Vec<f64>,
     /// Slip of the surface in the step, m.
     pub surface_slip: Vec<f64>,
+    /// What the step wears, m.
+    pub worn: Vec<f64>,
     /// f − f₀ after the step, m.
     pub wear: Vec<f64>,
     pub contact: Contact,
+    good: LastGood,
+}
+
+/// What the state does not tell of the last good step.
+#[derive(Debug, Clone, Default)]
+struct LastGood {
+    contact: Contact,
+    normal_breaks: Vec<Bend>,
+    spring_breaks: Vec<Bend>,
+    rim_edge: Option<RimEdge>,
+}
+
+/// What depends on the grid, the method and the indenter alone.
+#[derive(Debug)]
+pub(super) struct Planned {
+    pub plan: AbelPlan,
+    /// From the worn depth to its share of g, where the method has an operator of its own for it.
+    pub worn: Option<Staircase>,
+    pub row: Foundation,
+    pub grid: RadialGrid,
+    /// Weights of 2π∫ y r dr, m².
+    pub volume_weights: Vec<f64>,
+    /// f₀ and its 1D image g₀, m.
+    pub unworn: Arc<[f64]>,
+    pub unworn_1d: Vec<f64>,
 }
 
 /// The scalars of a solved contact.
@@ -42,42 +87,102 @@ pub(super) struct Contact {
     pub shift: f64,
     pub normal: NormalContact,
     pub tangential_force: f64,
-    pub slide: Option<Slide>,
+    /// The stick radius, m; none without tangential motion.
+    pub stick_radius: Option<f64>,
+}
+
+impl Planned {
+    fn new(setup: &Setup) -> Self {
+        let plan = AbelPlan::new(setup.method, &setup.grid);
+        let nodes = setup.grid.nodes();
+        let unworn: Arc<[f64]> = nodes.iter().map(|&r| setup.indenter.profile(r)).collect();
+        let (worn, unworn_1d) = if setup.method == AbelMethod::Product {
+            let image = nodes
+                .iter()
+                .map(|&x| setup.indenter.profile_1d(x))
+                .collect();
+            (Some(Staircase::pack(&worn::profile(&setup.grid))), image)
+        } else {
+            let mut image = vec![0.0; nodes.len()];
+            plan.profile(&unworn, &mut image);
+            (None, image)
+        };
+        Self {
+            worn,
+            row: Foundation::new(&setup.grid),
+            volume_weights: worn::volume_weights(&setup.grid),
+            grid: setup.grid.clone(),
+            plan,
+            unworn,
+            unworn_1d,
+        }
+    }
+
+    /// Whether breaks between nodes go into the transforms.
+    pub fn has_breaks(&self) -> bool {
+        self.plan.method() == AbelMethod::Product
+    }
 }
 
 impl Workspace {
-    /// Plans the transforms and sets up the buffers; `plan` is reused where one fits.
-    pub fn new(setup: &Setup, plan: Option<Arc<AbelPlan>>) -> Self {
-        let plan = plan.unwrap_or_else(|| Arc::new(AbelPlan::new(setup.method, &setup.grid)));
-        let unworn: Arc<[f64]> = setup
-            .grid
-            .nodes()
-            .iter()
-            .map(|&r| setup.indenter.profile(r))
-            .collect();
+    /// Plans the transforms and sets up the buffers; `planned` is reused where it fits.
+    pub fn new(setup: &Setup, planned: Option<Arc<Planned>>) -> Self {
+        let planned = planned.unwrap_or_else(|| Arc::new(Planned::new(setup)));
         let nodes = setup.grid.len();
-        let mut g = vec![0.0; nodes];
-        plan.profile(&unworn, &mut g);
         // Without tangential motion there are no springs, without wear no stress to wear by.
         let springs = if setup.drive.tangential().is_some() {
             nodes
         } else {
             0
         };
+        let wearing = if setup.wear.is_some() { springs } else { 0 };
         Self {
-            unworn_1d: g.as_slice().into(),
-            plan,
-            unworn,
-            g,
+            g: planned.unworn_1d.clone(),
+            predicted: planned.unworn_1d.clone(),
+            planned,
+            rim: None,
+            compression: vec![0.0; nodes],
             normal_load: vec![0.0; nodes],
+            normal_breaks: Vec::new(),
+            rim_edge: None,
             spring: vec![0.0; springs],
+            hold: vec![Hold::Stick; springs],
+            spring_breaks: Vec::new(),
             slip: vec![0.0; springs],
             tangential_load: vec![0.0; springs],
             friction_work: vec![0.0; springs],
-            tau: vec![0.0; springs],
-            surface_slip: vec![0.0; springs],
+            pressure: vec![0.0; wearing],
+            shear: vec![0.0; wearing],
+            working_shear: vec![0.0; wearing],
+            surface_slip: vec![0.0; wearing],
+            worn: vec![0.0; nodes],
             wear: vec![0.0; nodes],
             contact: Contact::default(),
+            good: LastGood::default(),
         }
+    }
+
+    /// Notes that the contact as solved is good.
+    pub fn keep_as_good(&mut self) {
+        self.good.contact = self.contact;
+        self.good.normal_breaks.clone_from(&self.normal_breaks);
+        self.good.spring_breaks.clone_from(&self.spring_breaks);
+        self.good.rim_edge = self.rim_edge;
+    }
+
+    /// Takes the contact of the last good step back, after one that failed.
+    pub fn show_last_good(&mut self, setup: &Setup, state: &State) {
+        self.contact = self.good.contact;
+        self.normal_breaks.clone_from(&self.good.normal_breaks);
+        self.spring_breaks.clone_from(&self.good.spring_breaks);
+        self.rim_edge = self.good.rim_edge;
+        self.normal_load.copy_from_slice(&state.last.normal_load);
+        self.spring.copy_from_slice(&state.spring);
+        self.hold.copy_from_slice(&state.hold);
+        self.wear.copy_from_slice(&state.wear);
+        for (load, u) in self.tangential_load.iter_mut().zip(&state.spring) {
+            *load = setup.material.tangential_modulus() * u;
+        }
+        super::solve::update_profile(self, &state.wear);
     }
 }

@@ -167,7 +167,7 @@ fn attend(
                     }
                 }
                 Event::Notice(text) => app.notice = Some(text),
-                Event::Resize => {}
+                Event::Resize => screen.start_afresh()?,
                 Event::HangUp | Event::WorkerGone => return Ok(()),
             }
         }

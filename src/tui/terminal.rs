@@ -1,12 +1,13 @@
 //! The terminal's life: taken over on start, given back on every way out.
 
 use std::io::{self, BufWriter, Stdout, Write, stdout};
+use std::mem::ManuallyDrop;
 use std::sync::{Mutex, PoisonError};
 
 use crossterm::cursor::Show;
 use crossterm::terminal::{
-    BeginSynchronizedUpdate, EndSynchronizedUpdate, EnterAlternateScreen, LeaveAlternateScreen,
-    disable_raw_mode, enable_raw_mode,
+    BeginSynchronizedUpdate, Clear, ClearType, EndSynchronizedUpdate, EnterAlternateScreen,
+    LeaveAlternateScreen, disable_raw_mode, enable_raw_mode,
 };
 use crossterm::{execute, queue};
 use ratatui::Terminal;
@@ -22,7 +23,9 @@ type Backend = CrosstermBackend<BufWriter<Stdout>>;
 
 /// The terminal in raw mode on its alternate screen, until dropped.
 pub struct Screen {
-    terminal: Terminal<Backend>,
+    /// Never dropped: that would write the rest of a frame behind the restored screen, and panic
+    /// where the terminal is gone.
+    terminal: ManuallyDrop<Terminal<Backend>>,
 }
 
 impl Screen {
@@ -30,13 +33,22 @@ impl Screen {
     pub fn open() -> io::Result<Self> {
         enable_raw_mode()?;
         let restore = RestoreOnFailure;
-        execute!(stdout(), EnterAlternateScreen)?;
+        // Not the clear of ratatui: it asks where the cursor is, and not every terminal answers.
+        execute!(stdout(), EnterAlternateScreen, Clear(ClearType::All))?;
         let backend = CrosstermBackend::new(BufWriter::with_capacity(OUTPUT_BUFFER, stdout()));
         let mut terminal = Terminal::new(backend)?;
-        terminal.clear()?;
         terminal.hide_cursor()?;
         std::mem::forget(restore);
-        Ok(Self { terminal })
+        Ok(Self {
+            terminal: ManuallyDrop::new(terminal),
+        })
+    }
+
+    /// Starts from an empty screen of the present size. Between two drawings a terminal can have
+    /// become smaller and large again, so that its size says nothing of what is left on it.
+    pub fn start_afresh(&mut self) -> io::Result<()> {
+        let size = self.terminal.size()?;
+        self.terminal.resize(size.into())
     }
 
     /// Draws the app: only what changed goes over the wire, between synchronization marks.

@@ -119,6 +119,7 @@ mod tests {
             permanent_stick_radius: Some(stick),
             wear_volume: cycle,
             dissipated_energy: 0.0,
+            period_residual: None,
             energy_residual: None,
         }
     }

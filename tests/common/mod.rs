@@ -7,7 +7,7 @@ use mdr_tui::contact::material::Material;
 use mdr_tui::math::abel::AbelMethod;
 use mdr_tui::math::grid::RadialGrid;
 use mdr_tui::simulation::drive::{Control, Drive, Oscillation};
-use mdr_tui::simulation::{Setup, Simulation};
+use mdr_tui::simulation::{Scheme, Setup, Simulation, Spacing};
 use mdr_tui::wear::WearLaw;
 
 /// The parts of a run as plain values; a test names only what differs from the default.
@@ -56,6 +56,8 @@ impl From<Scene> for Setup {
             drive: Drive::new(scene.normal, scene.tangential),
             wear: scene.law,
             method: scene.method,
+            spacing: Spacing::Uniform,
+            scheme: Scheme::Euler,
             steps_per_cycle: scene.steps,
         }
     }

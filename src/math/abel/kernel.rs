@@ -33,6 +33,18 @@ pub(super) fn acosh_step(a: f64, b: f64, r: f64) -> f64 {
     ((b - a) * (b + a) / (b * leg(r, a) + a * leg(r, b))).asinh()
 }
 
+/// ∫ₐᵇ (x² − a²) dx/√(r² − x²) = (r²/2 − a²) [asin(b/r) − asin(a/r)] − ½ [b√(r²−b²) − a√(r²−a²)],
+/// for 0 ≤ a ≤ b ≤ r.
+pub(super) fn square_step(a: f64, b: f64, r: f64) -> f64 {
+    let ends = (b - a) * leg(b, r) - a * root_step(a, b, r);
+    (0.5 * r * r - a * a) * asin_step(a, b, r) - 0.5 * ends
+}
+
+/// ∫ₐᵇ x dx/√(x² − r²) = √(b² − r²) − √(a² − r²), for 0 ≤ r ≤ a < b.
+pub(super) fn outer_root_step(a: f64, b: f64, r: f64) -> f64 {
+    (b - a) * (b + a) / (leg(r, a) + leg(r, b))
+}
+
 /// Adds to the weights of Eq. (3) what a jump of the line load from q to nothing at the last node
 /// does: q/(π√(a² − r²)), infinite at the rim itself. There stands the mean over the last cell.
 pub(super) fn add_jump_at_rim(weights: &mut DMatrix<f64>, nodes: &[f64]) {
@@ -76,6 +88,20 @@ mod tests {
         assert!((acosh_step(a, b, r) - ((b / r).acosh() - (a / r).acosh())).abs() < 1e-15);
         assert!((acosh_step(a, b, 0.0) - (b / a).ln()).abs() < 1e-15);
         assert_eq!(asin_step(0.0, 0.5, 0.5), FRAC_PI_2);
+        assert!((outer_root_step(a, b, r) - (leg(r, b) - leg(r, a))).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_square_step_is_its_integral() {
+        let (a, b, r): (f64, f64, f64) = (0.3, 0.45, 0.5);
+        let (cells, mut sum) = (4000, 0.0);
+        for i in 0..cells {
+            let x = a + (b - a) * (f64::from(i) + 0.5) / f64::from(cells);
+            sum += (x - a) * (x + a) / leg(x, r) * (b - a) / f64::from(cells);
+        }
+        assert!((square_step(a, b, r) - sum).abs() < 1e-9);
+        // The whole quarter circle: ∫₀ʳ x² dx/√(r² − x²) = πr²/4.
+        assert!((square_step(0.0, r, r) - 0.5 * FRAC_PI_2 * r * r).abs() < 1e-16);
     }
 
     #[test]

@@ -1,3 +1,159 @@
-//! How the state is carried forward in time.
+//! How the state is carried forward in time: direct stepping, every step of every cycle.
 
-pub(super) mod direct;
+use super::breakdown::Cause;
+use super::choices::Scheme;
+use super::solve::{pressure, shear, solve_contact, update_profile};
+use super::state::{LastStep, State};
+use super::workspace::Workspace;
+use super::{Setup, cycles_to_settle, worn_volume};
+use crate::math::quadrature::weighted;
+
+mod euler;
+mod trapezoid;
+
+/// A worn depth of this many times the largest depth of indentation cannot come from contact.
+const RUNAWAY: f64 = 10.0;
+
+/// Solves the contact at the present cycle: pressed to u_z, shifted to u_x, nothing worn.
+pub(super) fn settle(setup: &Setup, state: &mut State, work: &mut Workspace) -> Result<(), Cause> {
+    update_profile(work, &state.wear);
+    work.predicted.copy_from_slice(&work.g);
+    solve_contact(setup, state, work, state.cycle)?;
+    work.wear.copy_from_slice(&state.wear);
+    let nodes = work.g.len();
+    let mut last = LastStep {
+        normal_load: work.normal_load.clone(),
+        edge_load: edge_load(work),
+        growth: vec![0.0; nodes],
+        wear: vec![0.0; nodes],
+        pressure: vec![0.0; nodes],
+        shear: vec![0.0; nodes],
+        duration: 0.0,
+    };
+    pressure(work, setup.material.normal_modulus(), &mut last.pressure);
+    if setup.drive.tangential().is_some() {
+        shear(work, setup.material.tangential_modulus(), &mut last.shear);
+    }
+    state.last = last;
+    take_over(state, work);
+    Ok(())
+}
+
+/// One step from the state's cycle to `cycle`, at which the motion turns or does not. On an error
+/// the state is that of the last good step.
+pub(super) fn step(
+    setup: &Setup,
+    state: &mut State,
+    work: &mut Workspace,
+    cycle: f64,
+    turns: bool,
+) -> Result<(), Cause> {
+    match setup.scheme {
+        Scheme::Euler => euler::step(setup, state, work, cycle)?,
+        Scheme::Trapezoid => trapezoid::step(setup, state, work, cycle)?,
+    }
+    if turns {
+        state.last.duration = 0.0;
+    }
+    state.steps += 1;
+    Ok(())
+}
+
+/// Makes the solved contact and the worn profile of one step the state.
+fn commit(
+    setup: &Setup,
+    state: &mut State,
+    work: &mut Workspace,
+    cycle: f64,
+    friction_work: f64,
+) -> Result<(), Cause> {
+    check(setup, work)?;
+    if let Some(law) = &setup.wear {
+        // The two sides of V = k E_d: what work explains, and what other laws wore.
+        if law.follows_energy() {
+            state.expected_volume += law.coefficient() * friction_work;
+        } else {
+            state.unexplained_volume += weighted(&work.planned.volume_weights, &work.worn);
+        }
+        update_profile_keeping_growth(state, work);
+    }
+    state.dissipated_energy += friction_work;
+    take_over(state, work);
+    keep_smallest_stick(setup, state, work, cycle);
+    state.last.normal_load.copy_from_slice(&work.normal_load);
+    state.last.edge_load = edge_load(work);
+    state.last.duration = cycle - state.cycle;
+    state.cycle = cycle;
+    Ok(())
+}
+
+/// Brings g up to date and notes by how much it has grown.
+fn update_profile_keeping_growth(state: &mut State, work: &mut Workspace) {
+    state.last.growth.copy_from_slice(&work.g);
+    let wear = std::mem::take(&mut work.wear);
+    update_profile(work, &wear);
+    work.wear = wear;
+    for (growth, g) in state.last.growth.iter_mut().zip(&work.g) {
+        *growth = g - *growth;
+    }
+    state.last.wear.copy_from_slice(&work.worn);
+}
+
+/// ∫ of what the breaks of q_z add to its nodal values, N.
+fn edge_load(work: &Workspace) -> f64 {
+    0.5 * (work.contact.normal.force - work.planned.row.force(&work.normal_load, &[]))
+}
+
+/// Refuses a worn profile that is not finite or far above anything that can touch.
+fn check(setup: &Setup, work: &Workspace) -> Result<(), Cause> {
+    let method = setup.method;
+    let (mut highest, mut at) = (0.0, 0);
+    let mut sum = 0.0;
+    for (j, &worn) in work.wear.iter().enumerate() {
+        sum += worn;
+        if worn > highest {
+            (highest, at) = (worn, j);
+        }
+    }
+    if !f64::is_finite(sum) {
+        return Err(Cause::NotFinite {
+            quantity: "worn profile",
+            method,
+        });
+    }
+    let deepest = setup.deepest().unwrap_or(work.contact.depth);
+    if highest > RUNAWAY * deepest && deepest > 0.0 {
+        return Err(Cause::Runaway {
+            worn: highest / deepest,
+            radius: setup.grid.nodes()[at],
+            method,
+        });
+    }
+    Ok(())
+}
+
+fn take_over(state: &mut State, work: &mut Workspace) {
+    work.keep_as_good();
+    state.depth = work.contact.depth;
+    state.shift = work.contact.shift;
+    state.wear.copy_from_slice(&work.wear);
+    state.spring.copy_from_slice(&work.spring);
+    state.hold.copy_from_slice(&work.hold);
+}
+
+/// Follows the smallest stick radius and the energy balance through a period of the motion.
+fn keep_smallest_stick(setup: &Setup, state: &mut State, work: &Workspace, cycle: f64) {
+    let Some(stick) = work.contact.stick_radius else {
+        return;
+    };
+    state.smallest_stick_radius = state.smallest_stick_radius.min(stick);
+    let period = f64::from(cycles_to_settle(&setup.drive));
+    if (cycle / period).floor() > (state.cycle / period).floor() {
+        state.settled_stick_radius = Some(state.smallest_stick_radius);
+        state.smallest_stick_radius = f64::INFINITY;
+        state.period.close(
+            worn_volume(work) - state.unexplained_volume,
+            state.expected_volume,
+        );
+    }
+}

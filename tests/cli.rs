@@ -1,0 +1,574 @@
+//! The command line as a user types it: what is refused and how, and what `run` writes.
+
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use mdr_tui::export::{history, state};
+use mdr_tui::scenario::session::Session;
+use mdr_tui::scenario::{Scenario, preset};
+use mdr_tui::simulation::Curves;
+
+mod desk;
+
+use desk::{Desk, Said, Table, bits, names};
+
+/// One line on stderr that has `expected` in it, code 2, nothing on stdout, nothing written.
+fn assert_refused(desk: &Desk, arguments: &[&str], expected: &str) {
+    let before = desk.inventory();
+    let said = desk.say(arguments);
+    assert_eq!(said.code, 2, "{arguments:?}: {}", said.err);
+    assert_eq!(said.out, "", "{arguments:?}");
+    let line = said.err.strip_suffix('\n').expect("a whole line");
+    assert!(line.starts_with("mdr-tui: "), "{line}");
+    assert!(!line.chars().any(char::is_control), "{line:?}");
+    assert!(line.contains(expected), "{line:?} without {expected:?}");
+    assert!(desk.inventory() == before, "{arguments:?} wrote something");
+}
+
+#[test]
+fn a_bad_scenario_is_one_line_and_nothing_written() {
+    let desk = Desk::new();
+    desk.write("unknown.toml", b"[indenter]\nradious = 0.01\n");
+    desk.write("type.toml", b"[indenter]\nradius = \"big\"\n");
+    desk.write("syntax.toml", b"title = \n");
+    desk.write("empty.toml", b"");
+    desk.write("binary.toml", &[0xff, 0xfe, 0x00, 0x80]);
+    fs::create_dir(desk.path("folder.toml")).expect("a directory");
+    for (scenario, expected) in [
+        ("missing.toml", "missing.toml: no such file"),
+        ("folder.toml", "folder.toml: is a directory"),
+        ("./", "is a directory"),
+        ("unknown.toml", "did you mean indenter.radius?"),
+        ("type.toml", "indenter.radius = \"big\": must be"),
+        ("syntax.toml", "syntax.toml: line 1"),
+        ("empty.toml", "indenter.shape is missing"),
+        ("binary.toml", "not UTF-8"),
+        ("mindlyn", "did you mean mindlin?"),
+        ("a\u{1b}[31mb\n.toml", "a\\u{1b}[31mb\\n.toml: no such file"),
+    ] {
+        assert_refused(
+            &desk,
+            &["run", scenario, "--cycles", "0.1", "--out", "new"],
+            expected,
+        );
+        assert_refused(&desk, &[scenario, "--print", "80x24"], expected);
+        assert_refused(&desk, &[scenario], expected);
+    }
+}
+
+#[test]
+fn a_bad_value_is_one_line_and_nothing_written() {
+    let desk = Desk::new();
+    for (set, rule) in [
+        ("indenter.radius=-0.01", "must be greater than 0"),
+        ("indenter.radius=nan", "must be a finite number"),
+        ("indenter.radius=inf", "must be a finite number"),
+        ("indenter.radius=wide", "must be a finite number"),
+        ("material.poisson=0.7", "must be from 0 to 0.5"),
+        ("numerics.points=0", "must be from 4 to"),
+        ("numerics.points=1e12", "must be a whole number"),
+        ("numerics.points=1000000000000", "must be from 4 to"),
+        (
+            "numerics.points=99999999999999999999",
+            "must be a whole number",
+        ),
+        ("numerics.points=", "must be KEY=VALUE"),
+        ("numerics.steps_per_cycle=0", "must be from 1 to"),
+        ("numerics.method=best", "must be one of \"a\", \"a+b\""),
+        ("numerics.mehtod=a", "did you mean numerics.method?"),
+        ("friction.coefficient=-0.1", "must be"),
+        ("wear.coefficient=nan", "must be a finite number"),
+        ("numerics=1", "numerics is a table"),
+        ("radius", "must be KEY=VALUE"),
+        ("ra\u{1b}[2J\u{7}dius=1", "ra\\u{1b}[2J\\u{7}dius"),
+    ] {
+        let expected = format!("--set {}", &set[..2]);
+        for expected in [expected.as_str(), rule] {
+            let arguments = [
+                "run",
+                "li2019-fig3",
+                "--set",
+                set,
+                "--cycles",
+                "0.1",
+                "--out",
+                "new",
+            ];
+            assert_refused(&desk, &arguments, expected);
+        }
+    }
+}
+
+#[test]
+fn wrong_use_is_one_line_and_nothing_written() {
+    let desk = Desk::new();
+    let run = |options: &[&'static str]| {
+        let mut arguments = vec!["run", "li2019-fig3", "--out", "new"];
+        arguments.extend(options);
+        arguments
+    };
+    let cycles = "cycles are a number of 0 or more";
+    let size = "a size is COLUMNSxROWS";
+    for (arguments, expected) in [
+        (run(&["--cycles", "-1"]), cycles),
+        (run(&["--cycles", "nan"]), cycles),
+        (run(&["--cycles", "inf"]), cycles),
+        (run(&["--cycles", "many"]), cycles),
+        (run(&["--cycles", ""]), cycles),
+        (run(&["--cycles"]), "--cycles <X>"),
+        (
+            run(&["--cycles", "1", "--snapshot-at", "0.5,2"]),
+            "--snapshot-at 2: lies beyond the end at 1 cycles",
+        ),
+        (run(&["--cycles", "1", "--snapshot-at", "-1"]), cycles),
+        (run(&["--cycles", "1", "--snapshot-at", "0.5,,1"]), cycles),
+        (run(&["--history", "seldom"]), "every-step"),
+        (run(&["--frobnicate"]), "--frobnicate"),
+        (vec!["--frobnicate"], "--frobnicate"),
+        (vec!["run"], "<SCENARIO>"),
+        (vec!["presets", "nope"], "presets nope: no such preset"),
+        (
+            vec!["presets", "no\u{1b}[31mpe"],
+            "presets no\\u{1b}[31mpe: no such",
+        ),
+        (vec!["completions", "nosh"], "possible values: bash"),
+        (vec!["completions"], "<SHELL>"),
+        (
+            vec!["--keys", "m<Nope>", "--print", "80x24"],
+            "--keys: \"<Nope>\" begins no key",
+        ),
+        (vec!["--keys", "<", "--print", "80x24"], "--keys: \"<\""),
+        (
+            vec!["--keys", "m\u{1b}", "--print", "80x24"],
+            "stands for no key",
+        ),
+        (vec!["--keys", "m"], "--print"),
+        (vec!["--print", "80"], size),
+        (vec!["--print", "0x24"], size),
+        (vec!["--print", "80x24x"], size),
+        (vec!["--print=-3x24"], size),
+        (vec!["--print", "99999x99999"], size),
+        (vec!["--fps", "0", "--print", "80x24"], "--fps"),
+        (vec!["--marker", "crayon"], "braille"),
+        (vec!["--color", "maybe"], "never"),
+    ] {
+        assert_refused(&desk, &arguments, expected);
+    }
+}
+
+#[test]
+fn an_unwritable_out_is_one_line_and_nothing_written() {
+    let desk = Desk::new();
+    desk.write("file", b"in the way");
+    fs::create_dir(desk.path("full")).expect("a directory");
+    desk.write("full/notes.txt", b"mine");
+    for (out, expected) in [
+        ("file", "file: is not a directory"),
+        ("file/below", "file/below: cannot write: Not a directory"),
+        ("full", "full: already holds files; choose another"),
+        (
+            "file/\u{1b}[31m\n",
+            "file/\\u{1b}[31m\\n: cannot write: Not a directory",
+        ),
+        ("", "--out <DIR>"),
+    ] {
+        assert_refused(
+            &desk,
+            &["run", "hertz", "--cycles", "0.1", "--out", out],
+            expected,
+        );
+    }
+    if cfg!(target_os = "linux") {
+        let out = "/proc/mdr-tui";
+        assert_refused(&desk, &["run", "hertz", "--out", out], "cannot write");
+    }
+}
+
+#[test]
+fn run_writes_the_files_of_the_contract() {
+    let desk = Desk::new();
+    let summary = desk.done("run li2019-fig3 --cycles 3.25 --snapshot-at 1.50,2 --out x");
+    assert!(summary.starts_with("Dual oscillation of a paraboloid: 3.25 cycles\n"));
+    assert_eq!(
+        names(&desk.path("x")),
+        [
+            "history.csv",
+            "scenario.toml",
+            "state-1.50.csv",
+            "state-2.csv",
+            "state.csv"
+        ]
+    );
+    for (name, cycle) in [
+        ("state-1.50.csv", "1.5"),
+        ("state-2.csv", "2"),
+        ("state.csv", "3.25"),
+    ] {
+        let table = Table::parse(&desk.read(&format!("x/{name}")));
+        assert_eq!(
+            table.columns.join(", "),
+            "r_m, f0_m, f_m, g_m, u_z_1d_m, q_z_N_per_m, q_x_N_per_m, p_Pa, tau_Pa, u_x_1d_m, u_x_m, wear_m, zone"
+        );
+        assert_eq!(table.columns, state::COLUMNS);
+        assert_eq!(table.header[0].0, "mdr-tui");
+        assert_eq!(table.header("mdr-tui"), env!("CARGO_PKG_VERSION"));
+        assert_eq!(table.header("scenario"), "Dual oscillation of a paraboloid");
+        assert_eq!(table.header("cycle"), cycle);
+        assert_eq!(table.header("law"), "archard");
+        assert_eq!(table.header("points"), "100");
+        assert_eq!(table.header("steps_per_cycle"), "100");
+        assert_eq!(table.rows.len(), 101);
+        let zones: Vec<&str> = table.rows.iter().map(|row| row[12].as_str()).collect();
+        let mut seen = zones.clone();
+        seen.dedup();
+        assert_eq!(seen, ["stick", "slip", "open"]);
+    }
+    let table = Table::parse(&desk.read("x/history.csv"));
+    assert_eq!(
+        table.columns.join(", "),
+        "cycle, time_s, u_z_m, u_x_m, F_z_N, F_x_N, contact_radius_m, stick_radius_m, permanent_stick_radius_m, wear_volume_m3, dissipated_energy_J, energy_residual, max_pressure_Pa"
+    );
+    assert_eq!(table.columns, history::COLUMNS);
+    assert_eq!(table.column("cycle"), [0.0, 1.0, 2.0, 3.0, 3.25]);
+}
+
+#[test]
+fn the_numbers_of_the_files_read_back_exactly() {
+    let desk = Desk::new();
+    desk.done("run li2019-fig3 --cycles 2 --out x");
+    let scenario = Scenario::load("li2019-fig3", &[]).expect("a preset");
+    let mut session = Session::start(scenario).expect("a contact");
+    for _ in 0..200 {
+        session.step().expect("a step");
+    }
+    let seen = session.simulation().observe(Curves::all());
+    let table = Table::parse(&desk.read("x/state.csv"));
+    for (name, values) in [
+        ("r_m", &seen.radii[..]),
+        ("f0_m", &seen.unworn[..]),
+        ("f_m", &seen.profile[..]),
+        ("g_m", &seen.profile_1d[..]),
+        ("q_z_N_per_m", &seen.normal_load[..]),
+        ("q_x_N_per_m", &seen.tangential_load[..]),
+        ("p_Pa", &seen.pressure[..]),
+        ("tau_Pa", &seen.shear[..]),
+        ("u_x_1d_m", &seen.spring[..]),
+        ("u_x_m", &seen.surface[..]),
+        ("wear_m", &seen.wear[..]),
+    ] {
+        assert_eq!(bits(&table.column(name)), bits(values), "{name}");
+    }
+    let moment = session.simulation().moment();
+    let table = Table::parse(&desk.read("x/history.csv"));
+    for (name, value) in [
+        ("time_s", moment.time),
+        ("F_z_N", moment.normal_force),
+        ("F_x_N", moment.tangential_force),
+        ("contact_radius_m", moment.contact_radius),
+        ("wear_volume_m3", moment.wear_volume),
+        ("dissipated_energy_J", moment.dissipated_energy),
+    ] {
+        let last = table.column(name).last().copied().expect("a row");
+        assert_eq!(last.to_bits(), value.to_bits(), "{name}");
+    }
+}
+
+#[test]
+fn scenario_toml_gives_the_same_numbers_to_the_last_bit() {
+    let desk = Desk::new();
+    for (i, line) in [
+        "run li2019-fig3 --cycles 150.24 --snapshot-at 50.72,100",
+        "run two-frequencies --cycles 3.3 --set numerics.points=57 --set numerics.method=b",
+        "run li2019-fig3 --cycles 2 --set wear.coefficient=1.7e-10 --set friction.coefficient=0.3",
+        "run power-law --cycles 2",
+        r#"run cone --cycles 1.111 --set title="a\"cone\"\n=#1""#,
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let (first, second) = (format!("first-{i}"), format!("second-{i}"));
+        desk.done(&format!("{line} --out {first} --quiet"));
+        desk.done(&format!("run {first}/scenario.toml --out {second} --quiet"));
+        assert_eq!(names(&desk.path(&first)), names(&desk.path(&second)));
+        for name in names(&desk.path(&first)) {
+            let read = |directory: &str| desk.read(&format!("{directory}/{name}"));
+            assert!(read(&first) == read(&second), "{first}: {name} differs");
+        }
+    }
+}
+
+#[test]
+fn looking_between_two_steps_does_not_change_the_run() {
+    let desk = Desk::new();
+    desk.done("run li2019-fig3 --cycles 3 --out plain --quiet");
+    let moments = "1.2345,0.0001,2.999,3,0";
+    desk.done(&format!(
+        "run li2019-fig3 --cycles 3 --out looking --quiet --snapshot-at {moments}"
+    ));
+    for name in ["state.csv", "history.csv"] {
+        let (plain, looking) = (format!("plain/{name}"), format!("looking/{name}"));
+        assert!(desk.read(&plain) == desk.read(&looking), "{name} differs");
+    }
+    desk.done("run li2019-fig3 --cycles 1.2345 --out ending --quiet");
+    assert!(desk.read("looking/state-1.2345.csv") == desk.read("ending/state.csv"));
+    assert!(desk.read("looking/state-3.csv") == desk.read("plain/state.csv"));
+    let start = Table::parse(&desk.read("looking/state-0.csv"));
+    assert!(start.column("wear_m").iter().all(|&wear| wear == 0.0));
+}
+
+#[test]
+fn the_history_of_every_step_has_a_row_more_than_steps() {
+    let desk = Desk::new();
+    for (out, cycles, rows) in [("whole", "2", 201), ("part", "1.2345", 125)] {
+        desk.done(&format!(
+            "run hertz --cycles {cycles} --history every-step --out {out} --quiet"
+        ));
+        let table = Table::parse(&desk.read(&format!("{out}/history.csv")));
+        let moments = table.column("cycle");
+        assert_eq!(moments.len(), rows);
+        assert!(moments.is_sorted_by(|a, b| a < b));
+        assert_eq!(moments.last(), cycles.parse().ok().as_ref());
+        // Without tangential motion there is no stick radius to write.
+        assert!(table.column("stick_radius_m").iter().all(|c| c.is_nan()));
+    }
+}
+
+#[test]
+fn json_parses_and_quiet_is_quiet() {
+    let desk = Desk::new();
+    let summary = desk.done("run mindlin --out a --json");
+    let summary: serde_json::Value = serde_json::from_str(&summary).expect("a JSON value");
+    assert_eq!(summary["directory"], "a");
+    let scenario = Scenario::load("mindlin", &[]).expect("a preset");
+    assert_eq!(summary["cycle"].as_f64(), scenario.run().cycles);
+    assert!(
+        summary["contact_radius"]
+            .as_f64()
+            .is_some_and(|radius| radius > 0.0)
+    );
+    assert_eq!(desk.done("run mindlin --out b --quiet"), "");
+    let list: serde_json::Value =
+        serde_json::from_str(&desk.done("presets --json")).expect("a JSON value");
+    assert_eq!(list.as_array().map(Vec::len), Some(preset::ALL.len()));
+}
+
+#[test]
+fn force_writes_over_the_files_of_another_run() {
+    let desk = Desk::new();
+    desk.done("run hertz --cycles 1 --out x --quiet --force");
+    desk.write("x/notes.txt", b"mine");
+    assert_refused(&desk, &["run", "cone", "--out", "x"], "--force");
+    desk.done("run cone --cycles 1 --out x --quiet --force");
+    let table = Table::parse(&desk.read("x/state.csv"));
+    assert_eq!(table.header("scenario"), "Dual oscillation of a cone");
+    assert_eq!(desk.read("x/notes.txt"), "mine");
+}
+
+#[test]
+fn without_out_a_run_takes_a_new_directory_each_time() {
+    let desk = Desk::new();
+    for _ in 0..2 {
+        desk.done("run hertz --cycles 0.1 --quiet");
+    }
+    assert_eq!(names(&desk.path("")), ["hertz-run", "hertz-run-2"]);
+}
+
+#[test]
+fn a_run_that_breaks_down_keeps_the_last_good_cycle() {
+    let desk = Desk::new();
+    let line = "run li2019-fig3 --cycles 50 --set numerics.method=benad --set wear.coefficient=1e-7 --out x";
+    let said = desk.say(&line.split(' ').collect::<Vec<_>>());
+    assert_eq!((said.code, said.out.as_str()), (1, ""));
+    assert_eq!(said.err.lines().count(), 1, "{}", said.err);
+    let after = said
+        .err
+        .split_once("stopped after ")
+        .and_then(|(_, rest)| rest.split_once(" cycles: "));
+    let (cycle, cause) = after.expect("the cycle and the cause");
+    assert!(cause.len() > 20 && cause.contains("numerics."), "{cause}");
+    assert_eq!(
+        names(&desk.path("x")),
+        ["history.csv", "scenario.toml", "state.csv"]
+    );
+    let state = Table::parse(&desk.read("x/state.csv"));
+    assert_eq!(state.header("cycle"), cycle);
+    let cycle: f64 = cycle.parse().expect("a number");
+    assert!(0.0 < cycle && cycle < 50.0);
+    assert!(state.column("f_m").iter().all(|f| f.is_finite()));
+    let history = Table::parse(&desk.read("x/history.csv"));
+    assert_eq!(history.column("cycle").last(), Some(&cycle));
+    // What was kept is a run of its own, which ends well.
+    desk.done("run x/scenario.toml --out again --quiet");
+    let again = Table::parse(&desk.read("again/state.csv"));
+    for name in ["f_m", "q_x_N_per_m", "tau_Pa", "u_x_1d_m", "wear_m"] {
+        assert_eq!(bits(&again.column(name)), bits(&state.column(name)));
+    }
+}
+
+/// Starts a run that does not end by itself, and waits until it has written its first snapshot.
+fn long_run(desk: &Desk, out: &str) -> Child {
+    let mut child = desk
+        .command(&[
+            "run",
+            "li2019-fig3",
+            "--cycles",
+            "1e9",
+            "--snapshot-at",
+            "0.5",
+            "--out",
+            out,
+        ])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    let sign = desk.path(out).join("state-0.5.csv");
+    let start = Instant::now();
+    while !sign.exists() {
+        let waiting = start.elapsed() < Duration::from_secs(20);
+        assert!(waiting && matches!(child.try_wait(), Ok(None)));
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    child
+}
+
+#[cfg(unix)]
+#[test]
+fn a_signal_ends_a_run_and_keeps_what_is_done() {
+    let desk = Desk::new();
+    for signal in ["TERM", "INT"] {
+        let child = long_run(&desk, signal);
+        let kill = format!("kill -{signal} {}", child.id());
+        let sent = Command::new("sh").args(["-c", &kill]).status();
+        assert!(sent.expect("a shell").success());
+        let said = Said::from(child.wait_with_output().expect("an end"));
+        assert_eq!((said.code, said.out.as_str()), (1, ""), "{}", said.err);
+        let cycle = said
+            .err
+            .strip_prefix("mdr-tui: interrupted at cycle ")
+            .and_then(|rest| rest.strip_suffix(&format!("; kept in {signal}\n")))
+            .expect("the cycle and the directory");
+        assert_eq!(
+            names(&desk.path(signal)),
+            ["history.csv", "scenario.toml", "state-0.5.csv", "state.csv"]
+        );
+        let state = Table::parse(&desk.read(&format!("{signal}/state.csv")));
+        assert_eq!(state.header("cycle"), cycle);
+    }
+}
+
+#[test]
+fn presets_are_listed_and_printed_as_they_stand() {
+    let desk = Desk::new();
+    let list = desk.done("presets");
+    assert_eq!(list.lines().count(), preset::ALL.len());
+    for (line, preset) in list.lines().zip(preset::ALL) {
+        assert!(line.starts_with(preset.name) && line.ends_with(&preset.title()));
+        assert!(line.chars().count() <= 80, "{line}");
+        let file = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("presets")
+            .join(format!("{}.toml", preset.name));
+        let printed = desk.done(&format!("presets {}", preset.name));
+        assert_eq!(
+            printed,
+            fs::read_to_string(file).expect("the preset's file")
+        );
+    }
+    // A preset starts a scenario of one's own.
+    desk.write("mine.toml", desk.done("presets cone").as_bytes());
+    for (scenario, out) in [("cone", "theirs"), ("mine.toml", "mine")] {
+        desk.done(&format!("run {scenario} --cycles 1 --out {out} --quiet"));
+    }
+    assert!(desk.read("theirs/state.csv") == desk.read("mine/state.csv"));
+}
+
+#[test]
+fn completions_and_the_manual_page_name_the_commands() {
+    let desk = Desk::new();
+    for shell in ["bash", "zsh", "fish"] {
+        let script = desk.done(&format!("completions {shell}"));
+        for word in ["mdr-tui", "presets", "snapshot-at"] {
+            assert!(script.contains(word), "{shell}: {word}");
+        }
+    }
+    let page = desk.done("man");
+    assert!(page.contains(".TH mdr-tui 1"), "{page}");
+    for word in ["run", "presets", "completions"] {
+        assert!(page.contains(word), "{word}");
+    }
+}
+
+#[test]
+fn every_help_has_an_example() {
+    let desk = Desk::new();
+    for command in ["run", "presets", "completions", "man", ""] {
+        let help = desk.done(&format!("{command} --help"));
+        let (_, examples) = help
+            .split_once("Example")
+            .unwrap_or_else(|| panic!("{command} --help without an example"));
+        assert!(examples.contains("\n  mdr-tui"), "{examples}");
+    }
+    let help = desk.done("--help");
+    for command in ["run", "presets", "completions", "man"] {
+        assert!(help.contains(&format!("\n  {command} ")), "{command}");
+    }
+    let version = desk.done("--version");
+    assert_eq!(version, format!("mdr-tui {}\n", env!("CARGO_PKG_VERSION")));
+}
+
+#[test]
+fn a_reader_who_leaves_early_is_no_error() {
+    let desk = Desk::new();
+    for arguments in [
+        vec!["presets"],
+        vec!["presets", "hertz"],
+        vec!["man"],
+        vec!["completions", "bash"],
+        vec!["--help"],
+        vec!["--print", "200x50"],
+        vec!["run", "hertz", "--cycles", "0.1"],
+    ] {
+        let (reader, writer) = std::io::pipe().expect("a pipe");
+        drop(reader);
+        let output = desk.command(&arguments).stdout(writer).output();
+        let said = Said::from(output.expect("the program starts"));
+        assert_eq!((said.code, said.err.as_str()), (0, ""), "{arguments:?}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_a_failure_in_one_line() {
+    let desk = Desk::new();
+    for arguments in [vec!["presets"], vec!["man"], vec!["--print", "80x24"]] {
+        let full = fs::File::create("/dev/full").expect("the full device");
+        let output = desk.command(&arguments).stdout(full).output();
+        let said = Said::from(output.expect("the program starts"));
+        assert_eq!(said.code, 1, "{arguments:?}");
+        assert_eq!(said.err.lines().count(), 1, "{}", said.err);
+    }
+}
+
+#[test]
+fn a_scenario_can_come_through_a_pipe() {
+    if !cfg!(unix) {
+        return;
+    }
+    let desk = Desk::new();
+    let mut child = desk
+        .command(&["run", "/dev/stdin", "--cycles", "1", "--out", "x"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    let text = preset::find("hertz").expect("a preset").text;
+    let mut stdin = child.stdin.take().expect("a pipe");
+    stdin.write_all(text.as_bytes()).expect("a reader");
+    drop(stdin);
+    let said = Said::from(child.wait_with_output().expect("an end"));
+    assert_eq!((said.code, said.err.as_str()), (0, ""));
+}

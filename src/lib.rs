@@ -15,6 +15,7 @@
 //! | [`wear`] | wear laws | one step |
 //! | [`simulation`] | motion, state, stepping, observations | no scenario, no file, no screen |
 //! | [`scenario`] | TOML in and out, presets, a session with its changes | no screen |
+//! | [`studies`] | errors against theory, as tables | no file, no screen |
 //! | [`export`] | CSV files, whole or not at all | runs nothing |
 //! | [`cli`], [`tui`] | the command line; the explorer | everything below |
 //!
@@ -47,5 +48,6 @@ pub mod math;
 pub mod oracle;
 pub mod scenario;
 pub mod simulation;
+pub mod studies;
 pub mod tui;
 pub mod wear;

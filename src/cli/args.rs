@@ -3,8 +3,11 @@
 use std::path::PathBuf;
 use std::str::FromStr;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use crate::math::grid::{MAX_CELLS, MIN_CELLS};
+use crate::studies::verify::{LADDER, Problem};
 use crate::tui::Size;
 
 /// Watch a fretting contact wear away, live in the terminal.
@@ -37,6 +40,8 @@ pub enum Command {
     Run(Run),
     /// List the presets, or print one as TOML.
     Presets(Presets),
+    /// Compare every method with closed forms, over a ladder of N.
+    Verify(Verify),
     /// Print a completion script for a shell.
     #[command(
         after_help = "Example:\n  mdr-tui completions bash > ~/.local/share/bash-completion/completions/mdr-tui"
@@ -142,6 +147,50 @@ pub struct Presets {
     pub json: bool,
 }
 
+/// Options of `verify`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    mdr-tui verify                                  the error tables of all problems\n  \
+    mdr-tui verify --problem hertz --csv fig2.csv   Fig. 2 of the paper, node by node\n  \
+    mdr-tui verify --problem hertz --points 100 --plot")]
+pub struct Verify {
+    /// Only this problem; can be repeated.
+    #[arg(long, value_name = "NAME", value_parser = problem_parser())]
+    pub problem: Vec<Problem>,
+    /// The numbers of grid cells N to try; default: 50,100,200,400,800.
+    #[arg(
+        long,
+        value_name = "N1,N2,...",
+        value_delimiter = ',',
+        value_parser = points,
+        allow_hyphen_values = true,
+        default_values_t = LADDER,
+        hide_default_value = true
+    )]
+    pub points: Vec<usize>,
+    /// Also the runs that take minutes: the limiting profile on more than 200 cells.
+    #[arg(long)]
+    pub long: bool,
+    /// Write the error at every node to this file.
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+    /// Write over a file that is there already.
+    #[arg(long, requires = "csv")]
+    pub force: bool,
+    /// Draw the errors over r/a, on the finest grid of each method.
+    #[arg(long, conflicts_with = "json")]
+    pub plot: bool,
+    /// What the curves of --plot are made of.
+    #[arg(long, value_enum, default_value_t = MarkerChoice::Braille, requires = "plot")]
+    pub marker: MarkerChoice,
+    /// Print all rows as JSON instead of tables.
+    #[arg(long)]
+    pub json: bool,
+    /// Show no progress.
+    #[arg(long)]
+    pub quiet: bool,
+}
+
 /// Which moments `history.csv` records.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum HistoryChoice {
@@ -201,4 +250,18 @@ fn cycles(text: &str) -> Result<f64, String> {
         Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),
         _ => Err("cycles are a number of 0 or more, e.g. 199.24".into()),
     }
+}
+
+fn points(text: &str) -> Result<usize, String> {
+    match text.trim().parse::<usize>() {
+        Ok(points) if (MIN_CELLS..=MAX_CELLS).contains(&points) => Ok(points),
+        _ => Err(format!(
+            "points are whole numbers from {MIN_CELLS} to {MAX_CELLS}, e.g. 100,1000"
+        )),
+    }
+}
+
+fn problem_parser() -> impl TypedValueParser<Value = Problem> {
+    PossibleValuesParser::new(Problem::ALL.map(Problem::name))
+        .try_map(|name| name.parse::<Problem>())
 }

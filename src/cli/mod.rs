@@ -13,10 +13,12 @@ use crate::tui::NoTerminal;
 
 pub mod args;
 mod documents;
+mod error_curves;
 mod explore;
 mod presets;
 mod progress;
 mod run;
+mod verify;
 
 use args::{Arguments, Command};
 
@@ -51,6 +53,7 @@ fn dispatch(arguments: Arguments) -> anyhow::Result<ExitCode> {
         None => explore::explore(&arguments.explore),
         Some(Command::Run(options)) => run::run(&options),
         Some(Command::Presets(options)) => presets::presets(&options),
+        Some(Command::Verify(options)) => verify::verify(&options),
         Some(Command::Completions { shell }) => documents::completions(shell),
         Some(Command::Man) => documents::man(),
     }

@@ -15,8 +15,8 @@ use crate::export::file::{RunDirectory, free_directory};
 use crate::export::header::number;
 use crate::export::history::History;
 use crate::export::state;
-use crate::scenario::Scenario;
 use crate::scenario::session::Session;
+use crate::scenario::{Scenario, printable};
 
 /// Runs a scenario and writes its files.
 pub fn run(options: &Run) -> Result<ExitCode> {
@@ -242,7 +242,7 @@ impl Job<'_> {
         writeln!(
             out,
             "  files in                {}",
-            self.directory.path().display()
+            printable(&self.directory.path().display().to_string())
         )?;
         Ok(())
     }

@@ -4,11 +4,12 @@
 //! friction, ch. 3: q_z(x) = E*(d − g(x)) where that is positive; F_z = 2∫₀ᵃ q_z dx.
 //!
 //! The edge of the contact lies between two springs. The compression d − g is known on both sides of
-//! it, negative outside, so it is interpolated there, linearly in x², never extrapolated: exact for
-//! a paraboloid.
+//! it, negative outside, so it is interpolated there, never extrapolated: exact for a paraboloid and a
+//! cone.
 
 use super::foundation::Foundation;
 use crate::math::abel::bend::{self, Bend};
+use crate::math::abel::product;
 use crate::math::root;
 
 /// An edge this close to a spring, in parts of the cell, stands on it.
@@ -38,6 +39,8 @@ pub fn press(
     breaks.clear();
     let (xs, squares) = (row.nodes(), row.squares());
     let mut contact = NormalContact::default();
+    let tip = [0, 1, 2].map(|j| modulus * (depth - g[j]));
+    let cusp = row.cusp(&tip, f64::INFINITY);
     let mut before = 0.0;
     for (k, (load, &gap)) in q.iter_mut().zip(g).enumerate() {
         let compression = modulus * (depth - gap);
@@ -46,10 +49,10 @@ pub fn press(
         *load = if open { 0.0 } else { compression };
         if k > 0 && open != (before <= 0.0) {
             let (left, right) = (squares[k - 1], squares[k]);
-            let share = before / (before - compression);
-            let edge = left + (right - left) * share;
+            let edge = product::edge_square(&xs[k - 1..=k], &[before, compression], 0, cusp);
+            let share = (edge - left) / (right - left);
             if open {
-                contact.radius = edge.sqrt();
+                contact.radius = edge.sqrt().max(xs[k - 1]);
             }
             if share > ON_A_SPRING && share < 1.0 - ON_A_SPRING {
                 let ends = [f64::max(before, 0.0), f64::max(compression, 0.0)];
@@ -62,7 +65,7 @@ pub fn press(
         }
         before = compression;
     }
-    contact.force = row.force(q, breaks);
+    contact.force = row.force(q, breaks, contact.radius);
     contact
 }
 

@@ -137,7 +137,7 @@ pub fn borders(
         };
         let width = squares[k + 1] - squares[k];
         let edge = (hold[k] == Hold::Open || hold[k + 1] == Hold::Open)
-            .then(|| grip.contact_radius * grip.contact_radius)
+            .then_some(grip.contact_radius * grip.contact_radius)
             .filter(|&at| {
                 at > squares[k] + ON_A_SPRING * width && at < squares[k + 1] - ON_A_SPRING * width
             });
@@ -282,7 +282,7 @@ mod tests {
                 stick = bench.slide(0.05 / f64::from(steps), 0.1);
             }
             assert!((stick - 0.5f64.sqrt()).abs() < 1e-13, "{stick}");
-            let force = bench.row.force(&bench.spring, &bench.breaks);
+            let force = bench.row.force(&bench.spring, &bench.breaks, 1.0);
             let expected = 0.1 * 4.0 / 3.0 * (1.0 - 0.5f64.powf(1.5));
             assert!((force / expected - 1.0).abs() < 1e-12, "{force} {expected}");
             assert!(

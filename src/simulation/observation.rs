@@ -8,6 +8,7 @@ use serde::Serialize;
 use super::{Simulation, solve};
 use crate::contact::tangential::Hold;
 use crate::math::abel::AbelMethod;
+use crate::math::quadrature::volume_of_revolution;
 
 bitflags! {
     /// Which curves a reader shows. What nobody shows is not computed.
@@ -147,6 +148,20 @@ impl Simulation {
     /// The largest pressure of the present moment, Pa: one transform.
     pub fn max_pressure(&self) -> f64 {
         self.pressure().into_iter().fold(0.0, f64::max)
+    }
+
+    /// 1 − ∫p dA/F_z: the pressure of the 3D side against the springs of the 1D side. None without
+    /// load. One transform; between nodes p is linear in r², and a root towards the edge.
+    pub fn force_residual(&self) -> Option<f64> {
+        let contact = &self.workspace.contact.normal;
+        if contact.force <= 0.0 || contact.nodes == 0 {
+            return None;
+        }
+        let (p, nodes) = (self.pressure(), self.setup().grid.nodes());
+        let last = contact.nodes - 1;
+        let inside = volume_of_revolution(&nodes[..=last], &p[..=last]);
+        let ring = (contact.radius - nodes[last]) * (contact.radius + nodes[last]);
+        Some(1.0 - (inside + std::f64::consts::PI * ring * 2.0 / 3.0 * p[last]) / contact.force)
     }
 
     fn pressure(&self) -> Vec<f64> {

@@ -7,7 +7,8 @@ use super::state::State;
 use super::workspace::{Contact, Workspace};
 use crate::contact::normal;
 use crate::contact::tangential::{self, Grip, Motion};
-use crate::math::abel::{bend, worn};
+use crate::math::abel::bend::{self, Bend};
+use crate::math::abel::{product, worn};
 use crate::math::root;
 
 /// Brings g up to date with the worn depth `wear` (m) by Eq. (1).
@@ -100,7 +101,8 @@ fn press(setup: &Setup, work: &mut Workspace, depth: f64) -> Result<(), Cause> {
                 breaks.truncate(breaks.len().saturating_sub(3));
             }
             normal.radius = edge.at.sqrt();
-            normal.force = planned.row.force(load, breaks) + 2.0 * modulus * edge.line_integral();
+            normal.force = planned.row.force(load, breaks, normal.radius)
+                + 2.0 * modulus * edge.line_integral();
             work.rim_edge = Some(edge);
         }
     }
@@ -174,8 +176,12 @@ fn shift_by(setup: &Setup, state: &State, work: &mut Workspace, increment: f64) 
         *load = modulus * u;
     }
     work.contact.stick_radius = Some(stick);
-    work.contact.tangential_force =
-        modulus * work.planned.row.force(&work.spring, &work.spring_breaks);
+    work.contact.tangential_force = modulus
+        * work.planned.row.force(
+            &work.spring,
+            &work.spring_breaks,
+            work.contact.normal.radius,
+        );
 }
 
 /// The increment of displacement (m) that brings the tangential force to `target` (N).
@@ -212,26 +218,34 @@ fn increment_for_force(
 
 /// p(r), Pa, of the solved contact by Eq. (3); `modulus` is E*.
 pub(super) fn pressure(work: &Workspace, modulus: f64, out: &mut [f64]) {
-    let planned = &work.planned;
-    planned.plan.stress(&work.normal_load, out);
-    if planned.has_breaks() {
-        bend::add_to_stress(&work.normal_breaks, planned.grid.squares(), out);
-        if let Some(edge) = &work.rim_edge {
-            edge.add_to_stress(modulus, planned.grid.squares(), out);
-        }
+    stress(work, &work.normal_load, &work.normal_breaks, out);
+    if let Some(edge) = &work.rim_edge {
+        edge.add_to_stress(modulus, work.planned.grid.squares(), out);
     }
 }
 
 /// τ(r), Pa, of the solved contact by Eq. (3); `modulus` is G*.
 pub(super) fn shear(work: &Workspace, modulus: f64, out: &mut [f64]) {
-    let planned = &work.planned;
-    planned.plan.stress(&work.spring, out);
-    if planned.has_breaks() {
-        bend::add_to_stress(&work.spring_breaks, planned.grid.squares(), out);
-    }
+    stress(work, &work.spring, &work.spring_breaks, out);
     for stress in out {
         *stress *= modulus;
     }
+}
+
+/// Eq. (3) with the breaks of the load and the end of its cusp, and nothing outside the contact.
+fn stress(work: &Workspace, load: &[f64], breaks: &[Bend], out: &mut [f64]) {
+    let planned = &work.planned;
+    planned.plan.stress(load, out);
+    if !planned.has_breaks() {
+        return;
+    }
+    bend::add_to_stress(breaks, planned.grid.squares(), out);
+    let contact = &work.contact.normal;
+    if planned.row.cusp(load, contact.radius) != 0.0 {
+        product::stress_edge(planned.grid.nodes(), load, contact.radius, out);
+    }
+    // The cusp's operator is not causal to the last bit.
+    out[contact.nodes..].fill(0.0);
 }
 
 /// u_x(r), m, of the surface by Eq. (2).

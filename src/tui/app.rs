@@ -7,10 +7,12 @@ use std::sync::Arc;
 use std::sync::mpsc::Sender;
 
 use super::command::{self, Command};
+use super::companion::Companion;
 use super::keys::Key;
 use super::panels::Panel;
 use super::plot::{Scale, sticky_bounds};
 use super::theme::Theme;
+use super::theory::Theory;
 use super::worker::{Frame, Order};
 use crate::scenario::{Scenario, preset};
 use crate::simulation::Curves;
@@ -24,6 +26,8 @@ pub enum Overlay {
     Help(u16),
     /// The presets, one of them selected.
     Presets(usize),
+    /// Certificates and companion.
+    Accuracy,
 }
 
 /// How the program is left.
@@ -51,6 +55,10 @@ pub struct App {
     pub theme: Theme,
     /// Set when the program is to end.
     pub leave: Option<Leave>,
+    /// Whether theory lies over the plots.
+    pub with_theory: bool,
+    /// What the companion has shown, once it has; none while it runs or before it was asked.
+    pub companion: Option<Result<Companion, String>>,
     log_panels: Vec<Panel>,
     bounds: HashMap<(Panel, Scale), [f64; 2]>,
     shown: Curves,
@@ -68,6 +76,8 @@ impl App {
             notice: None,
             theme,
             leave: None,
+            with_theory: false,
+            companion: None,
             log_panels: Vec::new(),
             bounds: HashMap::new(),
             shown: Curves::all(),
@@ -118,6 +128,7 @@ impl App {
             (Some(command), Overlay::None) => self.command(command),
             (Some(command), Overlay::Help(line)) => self.help_command(command, line),
             (Some(command), Overlay::Presets(at)) => self.presets_command(command, at),
+            (Some(command), Overlay::Accuracy) => self.accuracy_command(command),
         }
         self.tell_what_shows();
     }
@@ -142,6 +153,13 @@ impl App {
             Command::Zoom | Command::Accept => self.zoomed = !self.zoomed,
             Command::Snapshot => self.order(Order::Snapshot),
             Command::Presets => self.overlay = Overlay::Presets(self.present_preset()),
+            Command::Theory => self.toggle_theory(),
+            Command::Compare => self.order(Order::Compare),
+            Command::Accuracy => {
+                self.companion = None;
+                self.overlay = Overlay::Accuracy;
+                self.order(Order::Companion);
+            }
             Command::Restart => self.restart(),
             Command::LogScale => self.toggle_log(),
         }
@@ -168,6 +186,39 @@ impl App {
             }
             other => return self.through(other),
         };
+    }
+
+    fn accuracy_command(&mut self, command: Command) {
+        match command {
+            Command::Back | Command::Accuracy | Command::Accept => self.overlay = Overlay::None,
+            // The run can be watched from here.
+            Command::RunPause
+            | Command::Step
+            | Command::Cycle
+            | Command::Faster
+            | Command::Slower => {
+                self.command(command);
+            }
+            other => self.through(other),
+        }
+    }
+
+    fn toggle_theory(&mut self) {
+        self.with_theory = !self.with_theory;
+        self.forget_scales();
+        if let Some(frame) = self.frame.clone() {
+            self.take_frame(frame);
+        }
+    }
+
+    /// What theory says, if it is to be shown.
+    pub fn theory_of<'a>(&self, frame: &'a Frame) -> Option<&'a Theory> {
+        self.with_theory.then_some(&*frame.theory)
+    }
+
+    /// Whether the accuracy panel waits for the companion.
+    pub fn awaits_companion(&self) -> bool {
+        self.overlay == Overlay::Accuracy && self.companion.is_none()
     }
 
     /// Leaving works from anywhere; other commands close what is open first.
@@ -225,6 +276,7 @@ impl App {
 
     /// Hidden panels cost no transform.
     fn tell_what_shows(&mut self) {
+        // A comparison needs both curves, whatever panel is zoomed.
         let shown = self
             .visible()
             .iter()

@@ -45,6 +45,12 @@ pub enum Command {
     Restart,
     /// Logarithmic ordinate of the focused panel.
     LogScale,
+    /// Theory over the plots.
+    Theory,
+    /// Two methods side by side.
+    Compare,
+    /// How far to trust the run.
+    Accuracy,
     /// Up in a list.
     Up,
     /// Down in a list.
@@ -198,6 +204,27 @@ pub static BINDINGS: &[Binding] = &[
         &[Char('r')],
         "restart",
         "start the scenario again, as it was loaded",
+        false,
+    ),
+    bind(
+        C::Theory,
+        &[Char('t')],
+        "theory",
+        "closed forms over the plots, or not",
+        false,
+    ),
+    bind(
+        C::Compare,
+        &[Char('c')],
+        "compare",
+        "a second method beside this one; m and M change it",
+        true,
+    ),
+    bind(
+        C::Accuracy,
+        &[Char('a')],
+        "accuracy",
+        "how far to trust the run: certificates, half the cells",
         false,
     ),
     bind(

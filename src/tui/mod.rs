@@ -23,6 +23,7 @@ use crate::scenario::session::Session;
 
 pub mod app;
 pub mod command;
+pub mod companion;
 #[cfg(debug_assertions)]
 mod fault;
 pub mod keys;
@@ -32,10 +33,13 @@ pub mod screen;
 mod script;
 mod terminal;
 pub mod theme;
+pub mod theory;
 pub mod trend;
+pub mod trust;
 pub mod worker;
 
 use app::{App, Leave};
+use companion::Companion;
 use keys::Key;
 use plot::Marker;
 pub use script::Size;
@@ -53,6 +57,8 @@ pub enum Event {
     Frame,
     /// A word for the user.
     Notice(String),
+    /// The companion has come to its end.
+    Companion(Result<Companion, String>),
     /// The terminal is gone, or the process was asked to end.
     HangUp,
     /// The worker has ended.
@@ -167,6 +173,7 @@ fn attend(
                     }
                 }
                 Event::Notice(text) => app.notice = Some(text),
+                Event::Companion(answer) => app.companion = Some(answer),
                 Event::Resize => screen.start_afresh()?,
                 Event::HangUp | Event::WorkerGone => return Ok(()),
             }

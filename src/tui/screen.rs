@@ -20,8 +20,9 @@ use ratatui::widgets::{Block, Clear, Paragraph, Widget};
 
 use super::app::{App, Overlay};
 use super::command::BINDINGS;
-use super::panels::Panel;
+use super::panels::{Panel, compare};
 use super::theme::Role;
+use super::trust;
 use super::worker::{Activity, Frame, Pace};
 use crate::scenario::preset;
 
@@ -61,10 +62,15 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         Overlay::None => {}
         Overlay::Help(line) => help(app, line, middle, buffer),
         Overlay::Presets(at) => presets(app, at, middle, buffer),
+        Overlay::Accuracy => accuracy(app, middle, buffer),
     }
 }
 
 fn panels(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
+    if let Some(rival) = &frame.rival {
+        compare::draw(frame, rival, app, area, buffer);
+        return;
+    }
     if app.zoomed {
         app.focus.draw(frame, app, area, buffer);
         return;
@@ -82,36 +88,63 @@ fn panels(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// Title on the left, what runs and how on the right; the title gives way.
+/// Title on the left, what runs and how on the right. On a narrow screen the title gives way, then
+/// the parts that are missed least.
 fn status(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     let bar = app.theme.style(Role::Bar);
     buffer.set_style(area, bar);
-    let separator = if app.theme.ascii() { " | " } else { " │ " };
-    let right = status_parts(frame, app.theme.ascii()).join(separator);
-    let width = usize::from(area.width);
-    let room = width.saturating_sub(right.chars().count() + 3);
-    let mut title: String = frame
-        .title
-        .chars()
-        .filter(|c| !c.is_control())
-        .take(room)
-        .collect();
-    if title.chars().count() < frame.title.chars().count() && room > 12 {
-        title.truncate(
-            title
-                .char_indices()
-                .nth(room - 2)
-                .map_or(title.len(), |(at, _)| at),
-        );
-        title.push_str("..");
+    let ascii = app.theme.ascii();
+    let separator = if ascii { " | " } else { " │ " };
+    let mut parts = status_parts(frame, ascii);
+    while parts.len() > 1
+        && Line::raw(parts_text(&parts, separator)).width() + 2 > usize::from(area.width)
+    {
+        let least = parts
+            .iter()
+            .enumerate()
+            .min_by_key(|(_, (weight, _))| *weight)
+            .map_or(0, |(at, _)| at);
+        parts.remove(least);
     }
+    let right = parts_text(&parts, separator);
+    let room = usize::from(area.width).saturating_sub(Line::raw(right.as_str()).width() + 3);
+    let title = shortened(&frame.title, room, ascii);
     Line::styled(format!(" {title}"), bar).render(area, buffer);
     Line::styled(format!("{right} "), bar)
         .right_aligned()
         .render(area, buffer);
 }
 
-fn status_parts(frame: &Frame, ascii: bool) -> Vec<String> {
+fn parts_text(parts: &[(u8, String)], separator: &str) -> String {
+    parts
+        .iter()
+        .map(|(_, text)| text.as_str())
+        .collect::<Vec<_>>()
+        .join(separator)
+}
+
+/// As much of a title as fits in `room` cells, printable, and ASCII where it must be.
+fn shortened(title: &str, room: usize, ascii: bool) -> String {
+    let clean = |c: char| match c {
+        c if c.is_control() => ' ',
+        c if ascii && !c.is_ascii() => '?',
+        c => c,
+    };
+    let mut text: String = title.chars().map(clean).collect();
+    if Line::raw(text.as_str()).width() <= room {
+        return text;
+    }
+    if room < 12 {
+        return String::new();
+    }
+    while Line::raw(text.as_str()).width() + 2 > room {
+        text.pop();
+    }
+    text + ".."
+}
+
+/// What the status line says, each part with its weight.
+fn status_parts(frame: &Frame, ascii: bool) -> Vec<(u8, String)> {
     let moment = &frame.observation.moment;
     let law = frame.observation.law.unwrap_or("no wear");
     let mut cycle = format!("cycle {:.2}", moment.cycle);
@@ -132,13 +165,76 @@ fn status_parts(frame: &Frame, ascii: bool) -> Vec<String> {
         (Activity::Done, true) => "# done",
         (Activity::Stopped(_), _) => "! stopped",
     };
-    vec![
-        format!("{}", frame.observation.method),
-        law.into(),
-        cycle,
-        pace,
-        activity.into(),
-    ]
+    let mut parts = vec![
+        (4, frame.observation.method.to_string()),
+        (3, law.into()),
+        (5, cycle),
+        (1, pace),
+    ];
+    parts.extend(trust::figure(frame).map(|figure| (2, format!("trust {figure}"))));
+    parts.push((6, activity.into()));
+    parts
+}
+
+/// How far to trust the run: its certificates and the companion.
+fn accuracy(app: &App, area: Rect, buffer: &mut Buffer) {
+    let Some(frame) = &app.frame else { return };
+    let mut lines = vec![Line::styled(
+        " two ways to the same number:",
+        app.theme.style(Role::Title),
+    )];
+    let certificates = trust::certificates(frame);
+    if certificates.is_empty() {
+        lines.push(Line::raw(
+            "   nothing to compare yet: let it run for a cycle or two",
+        ));
+    }
+    for certificate in &certificates {
+        lines.push(Line::raw(format!(
+            "   {:9.1e}  {}",
+            certificate.error, certificate.meaning
+        )));
+    }
+    if let Some(residual) = frame.observation.moment.energy_residual {
+        lines.push(Line::raw(format!(
+            "   {residual:9.1e}  V against k E_d over the whole run"
+        )));
+    }
+    lines.push(Line::raw(""));
+    lines.push(Line::styled(
+        " the same run on half the cells:",
+        app.theme.style(Role::Title),
+    ));
+    match &app.companion {
+        None => lines.push(Line::raw("   running ...")),
+        Some(Err(error)) => lines.push(Line::raw(format!("   {error}"))),
+        Some(Ok(companion)) => {
+            let title = format!(
+                "   {} cells, to cycle {:.2}, in {:.2} s",
+                companion.cells, companion.cycle, companion.seconds
+            );
+            lines.push(Line::raw(title));
+            let [mean, largest] = companion.profile;
+            lines.push(Line::raw(format!(
+                "   {mean:9.1e}  rms difference of f, in depths; largest {largest:.1e}"
+            )));
+            if let Some(difference) = companion.stick_radius {
+                lines.push(Line::raw(format!(
+                    "   {difference:9.1e}  permanent stick radius"
+                )));
+            }
+            if let Some(difference) = companion.wear_volume {
+                lines.push(Line::raw(format!("   {difference:9.1e}  worn volume")));
+            }
+            let estimate = mean / 3.0;
+            lines.push(Line::raw(format!(
+                "   {estimate:9.1e}  so about this much error of f here, at second order"
+            )));
+        }
+    }
+    let size = (76, lines.len() as u16 + 2);
+    let inside = popup(app, "accuracy (Esc closes)", size, area, buffer);
+    Paragraph::new(lines).render(inside, buffer);
 }
 
 /// Two or three digits of a speed.
@@ -161,7 +257,12 @@ fn footer(app: &App, area: Rect, buffer: &mut Buffer) {
             .chars()
             .map(|c| if c.is_control() { ' ' } else { c })
             .collect();
-        Line::styled(format!(" {text}"), app.theme.style(Role::Alarm)).render(area, buffer);
+        let role = if app.notice.is_some() {
+            Role::Notice
+        } else {
+            Role::Alarm
+        };
+        Line::styled(format!(" {text}"), app.theme.style(role)).render(area, buffer);
         return;
     }
     let mut spans = Vec::new();

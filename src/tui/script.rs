@@ -7,6 +7,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use anyhow::{Context, Result};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
+use ratatui::text::Line;
 
 use super::Event;
 use super::app::App;
@@ -69,9 +70,17 @@ fn catch_up(app: &mut App, orders: &Sender<Order>, events: &Receiver<Event>) -> 
         .send(Order::Sync(reply))
         .context("the simulation has ended")?;
     app.take_frame(answer.recv().context("the simulation has ended")?);
+    // The companion is waited for, so that a script always sees its answer.
+    while app.awaits_companion() {
+        if let Event::Companion(answer) = events.recv().context("the simulation has ended")? {
+            app.companion = Some(answer);
+        }
+    }
     while let Ok(event) = events.try_recv() {
-        if let Event::Notice(text) = event {
-            app.notice = Some(text);
+        match event {
+            Event::Notice(text) => app.notice = Some(text),
+            Event::Companion(answer) => app.companion = Some(answer),
+            _ => {}
         }
     }
     Ok(())
@@ -84,7 +93,18 @@ pub fn text(app: &App, size: Size) -> String {
     screen::draw(app, area, &mut buffer);
     let mut text = String::new();
     for row in area.rows() {
-        let line: String = row.positions().map(|at| buffer[at].symbol()).collect();
+        let mut line = String::new();
+        let mut covered = 0;
+        for at in row.positions() {
+            // A wide character covers the cell behind it.
+            if covered > 0 {
+                covered -= 1;
+                continue;
+            }
+            let symbol = buffer[at].symbol();
+            covered = Line::raw(symbol).width().saturating_sub(1);
+            line.push_str(symbol);
+        }
         text.push_str(line.trim_end());
         text.push('\n');
     }

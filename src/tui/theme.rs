@@ -9,6 +9,8 @@ use super::plot::Marker;
 pub enum Role {
     /// The unworn profile, and what is past.
     Unworn,
+    /// What theory says.
+    Limit,
     /// The worn profile f.
     Profile,
     /// The 1D profile g.
@@ -33,6 +35,8 @@ pub enum Role {
     Focus,
     /// The status bar.
     Bar,
+    /// A word for the user.
+    Notice,
     /// Something is wrong.
     Alarm,
 }
@@ -49,6 +53,11 @@ impl Theme {
     /// A theme with or without colour.
     pub fn new(colored: bool, marker: Marker) -> Self {
         Self { colored, marker }
+    }
+
+    /// Whether colours tell things apart.
+    pub fn colored(&self) -> bool {
+        self.colored
     }
 
     /// Whether text must stay within ASCII.
@@ -68,6 +77,7 @@ impl Theme {
                     plain.add_modifier(Modifier::DIM)
                 }
             }
+            Role::Limit => with(Color::LightGreen),
             Role::Profile => with(Color::Yellow),
             Role::Profile1d => with(Color::LightBlue),
             Role::Pressure | Role::Contact => with(Color::Cyan),
@@ -76,6 +86,7 @@ impl Theme {
             Role::Slip => with(Color::LightRed),
             Role::Title => plain.add_modifier(Modifier::BOLD),
             Role::Focus | Role::Bar => plain.add_modifier(Modifier::REVERSED),
+            Role::Notice => with(Color::Yellow),
             Role::Alarm => with(Color::LightRed).add_modifier(Modifier::BOLD),
         }
     }

@@ -6,9 +6,12 @@
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use super::Event;
+use super::companion;
+use super::theory::Theory;
 use super::trend::Trend;
 use crate::export::file::{RunDirectory, free_directory};
 use crate::export::header::number;
@@ -45,6 +48,10 @@ pub enum Order {
     Load(Box<Scenario>),
     /// Write the state to files.
     Snapshot,
+    /// Begin or end the comparison with another method.
+    Compare,
+    /// Run the companion on half the cells.
+    Companion,
     /// Compute these curves from now on.
     Show(Curves),
     /// Answer with a frame when all orders before are carried out.
@@ -89,6 +96,19 @@ pub enum Activity {
     Stopped(String),
 }
 
+/// A second run in lockstep with the first.
+#[derive(Debug, Clone)]
+pub struct Rival {
+    /// Method and cells.
+    pub name: String,
+    /// Its curves and scalars.
+    pub observation: Observation,
+    /// What a step of it costs, s.
+    pub step_cost: Option<f64>,
+    /// Why it stopped, if it did.
+    pub stopped: Option<String>,
+}
+
 /// All that a screen shows of the simulation.
 #[derive(Debug, Clone)]
 pub struct Frame {
@@ -114,6 +134,12 @@ pub struct Frame {
     pub steps_per_cycle: u32,
     /// μ, for the scale of τ.
     pub friction: f64,
+    /// 1 − ∫p dA/F_z, where p is computed and something carries load.
+    pub force_residual: Option<f64>,
+    /// What theory says of the scene.
+    pub theory: Arc<Theory>,
+    /// The run beside this one.
+    pub rival: Option<Rival>,
 }
 
 /// The place where the latest frame waits to be taken.
@@ -136,9 +162,21 @@ impl Slot {
     }
 }
 
+/// The worker's own side of a rival.
+struct RivalRun {
+    session: Session,
+    /// Which of [`rivals`] it is.
+    choice: usize,
+    busy: Duration,
+    steps: u64,
+    stopped: Option<String>,
+}
+
 /// The worker's side.
 pub struct Worker {
     session: Session,
+    rival: Option<RivalRun>,
+    theory: Arc<Theory>,
     trend: Trend,
     curves: Curves,
     activity: Activity,
@@ -167,7 +205,9 @@ impl Worker {
             Activity::Paused
         };
         Self {
+            theory: Arc::new(Theory::of(session.simulation().setup())),
             session,
+            rival: None,
             trend,
             curves: Curves::all(),
             activity,
@@ -243,9 +283,53 @@ impl Worker {
 
     fn step(&mut self) {
         match self.session.step() {
-            Ok(()) => self.trend.record(&self.session.simulation().moment()),
+            Ok(()) => {
+                self.trend.record(&self.session.simulation().moment());
+                self.follow();
+            }
             Err(error) => self.activity = Activity::Stopped(error.to_string()),
         }
+    }
+
+    /// Brings the rival to where this run is.
+    fn follow(&mut self) {
+        let Some(rival) = &mut self.rival else { return };
+        if rival.stopped.is_some() {
+            return;
+        }
+        let (start, before) = (Instant::now(), rival.session.simulation().state().steps);
+        if let Err(error) = rival.session.advance_to(self.session.simulation().cycle()) {
+            rival.stopped = Some(error.to_string());
+        }
+        rival.busy += start.elapsed();
+        rival.steps += rival.session.simulation().state().steps - before;
+    }
+
+    /// Sets a rival beside this run, from the same state.
+    fn rival(&mut self, choice: usize) {
+        let (key, value) = &rivals(&self.session)[choice];
+        let mut session = self.session.clone();
+        match session.change(key, value) {
+            Ok(()) => {
+                self.rival = Some(RivalRun {
+                    session,
+                    choice,
+                    busy: Duration::ZERO,
+                    steps: 0,
+                    stopped: None,
+                });
+            }
+            Err(error) => self.notice(&error.to_string()),
+        }
+    }
+
+    /// Runs the companion beside the worker; its answer comes as an event.
+    fn companion(&self) {
+        let (session, events) = (self.session.clone(), self.events.clone());
+        thread::spawn(move || {
+            let answer = companion::run(&session).map_err(|error| error.to_string());
+            let _ = events.send(Event::Companion(answer));
+        });
     }
 
     /// Pauses when a running simulation passes the end of the scenario's plan.
@@ -272,6 +356,16 @@ impl Worker {
             Order::Step => self.by_hand(|_, _| true),
             Order::Cycle => {
                 self.by_hand(|before, now| (now + 1e-9).floor() > (before + 1e-9).floor())
+            }
+            Order::Compare => match self.rival.take() {
+                Some(_) => {}
+                None => self.rival(0),
+            },
+            Order::Companion => self.companion(),
+            Order::Method(places) if self.rival.is_some() => {
+                let all = rivals(&self.session).len();
+                let now = self.rival.as_ref().map_or(0, |rival| rival.choice) as isize;
+                self.rival((now + places).rem_euclid(all as isize) as usize);
             }
             Order::Method(places) => {
                 let now = self.session.simulation().setup().method;
@@ -318,6 +412,7 @@ impl Worker {
     fn change(&mut self, key: &str, value: &str) {
         match self.session.change(key, &format!("\"{value}\"")) {
             Ok(()) => {
+                self.theory = Arc::new(Theory::of(self.session.simulation().setup()));
                 if matches!(self.activity, Activity::Stopped(_)) {
                     self.activity = Activity::Paused;
                 }
@@ -332,6 +427,8 @@ impl Worker {
         match Session::start(scenario) {
             Ok(session) => {
                 self.session = session;
+                self.rival = None;
+                self.theory = Arc::new(Theory::of(self.session.simulation().setup()));
                 self.trend = Trend::default();
                 self.trend.record(&self.session.simulation().moment());
                 if self.activity != Activity::Running {
@@ -392,8 +489,49 @@ impl Worker {
             planned_cycles: self.session.loaded().run().cycles,
             steps_per_cycle: simulation.setup().steps_per_cycle,
             friction: simulation.setup().material.friction(),
+            force_residual: self
+                .curves
+                .contains(Curves::PRESSURE)
+                .then(|| simulation.force_residual())
+                .flatten(),
+            theory: Arc::clone(&self.theory),
+            rival: self.rival.as_ref().map(|rival| Rival {
+                name: name(&rival.session),
+                observation: rival
+                    .session
+                    .simulation()
+                    .observe(Curves::PROFILE | Curves::PRESSURE),
+                step_cost: (rival.steps > 0).then(|| rival.busy.as_secs_f64() / rival.steps as f64),
+                stopped: rival.stopped.clone(),
+            }),
         }
     }
+}
+
+/// What a run can be compared with: every other method, and itself on half the cells.
+fn rivals(session: &Session) -> Vec<(&'static str, String)> {
+    let setup = session.simulation().setup();
+    let others = AbelMethod::ALL
+        .into_iter()
+        .filter(|method| *method != setup.method);
+    let mut list: Vec<_> = others
+        .map(|method| ("numerics.method", format!("\"{method}\"")))
+        .collect();
+    // The paper's verdict is about B: it comes first.
+    list.sort_by_key(|(_, value)| value != "\"b\"");
+    list.push((
+        "numerics.points",
+        (setup.grid.cells() / 2)
+            .max(crate::math::grid::MIN_CELLS)
+            .to_string(),
+    ));
+    list
+}
+
+/// Method and cells.
+fn name(session: &Session) -> String {
+    let setup = session.simulation().setup();
+    format!("{} {}", setup.method, setup.grid.cells())
 }
 
 /// The element so many places after the one that is `now`, around the ends.

@@ -62,6 +62,9 @@ impl AbelMethod {
     /// Every method, in the order in which keys step through them.
     pub const ALL: [Self; 5] = [Self::Product, Self::A, Self::APlusB, Self::B, Self::Benad];
 
+    /// The methods of the paper and of its reference 9.
+    pub const PUBLISHED: [Self; 4] = [Self::A, Self::APlusB, Self::B, Self::Benad];
+
     /// The name in scenarios, on the screen and in files.
     pub fn name(self) -> &'static str {
         match self {

@@ -213,11 +213,15 @@ pub fn stress_edge(nodes: &[f64], q: &[f64], edge: f64, p: &mut [f64]) {
     }
 }
 
-/// ∫ₐᵇ (a + b − 2x)/(a + b) dx/√(x² − r²): the slope of one bubble of the cusp, without the infinite
-/// part at the axis.
+/// ∫ₐᵇ (a + b − 2x)/(a + b) dx/√(x² − r²): the slope of one bubble of the cusp.
+///
+/// At the axis the first bubble's is infinite and left out as a whole. With the finite half of it
+/// alone, wear of the tip would raise the pressure there, and the tip would run away.
 fn outer_bubble(a: f64, b: f64, r: f64) -> f64 {
-    let logarithm = if a == 0.0 { 0.0 } else { acosh_step(a, b, r) };
-    logarithm - 2.0 * outer_root_step(a, b, r) / (a + b)
+    if a == 0.0 {
+        return 0.0;
+    }
+    acosh_step(a, b, r) - 2.0 * outer_root_step(a, b, r) / (a + b)
 }
 
 /// A = Σ weight × value over nodes 0, 1, 2.

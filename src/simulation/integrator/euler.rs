@@ -18,6 +18,7 @@ use super::super::solve::{shear, solve_contact};
 use super::super::state::State;
 use super::super::workspace::Workspace;
 use super::commit;
+use crate::math::abel::bend;
 
 /// One step from the state's cycle to `cycle`.
 pub(super) fn step(
@@ -38,7 +39,7 @@ pub(super) fn step(
         {
             *work = load * slip;
         }
-        friction_work = work.planned.row.force(&work.friction_work, &[]);
+        friction_work = work_of_friction(work);
         if let Some(law) = &setup.wear {
             let mut tau = std::mem::take(&mut work.shear);
             shear(work, setup.material.tangential_modulus(), &mut tau);
@@ -56,4 +57,24 @@ pub(super) fn step(
         }
     }
     commit(setup, state, work, cycle, friction_work)
+}
+
+/// 2∫ q_x Δs dx, the integrand falling to zero at the contact's edge.
+fn work_of_friction(work: &Workspace) -> f64 {
+    let (normal, squares) = (&work.contact.normal, work.planned.grid.squares());
+    let mut breaks = Vec::new();
+    if normal.nodes > 0 && normal.nodes < squares.len() {
+        let last = normal.nodes - 1;
+        let ends = [work.friction_work[last], work.friction_work[last + 1]];
+        let edge = (normal.radius * normal.radius, 0.0);
+        bend::polyline(
+            [squares[last], squares[last + 1]],
+            ends,
+            &[edge],
+            &mut breaks,
+        );
+    }
+    work.planned
+        .row
+        .force(&work.friction_work, &breaks, normal.radius)
 }

@@ -101,7 +101,12 @@ fn update_profile_keeping_growth(state: &mut State, work: &mut Workspace) {
 
 /// ∫ of what the breaks of q_z add to its nodal values, N.
 fn edge_load(work: &Workspace) -> f64 {
-    0.5 * (work.contact.normal.force - work.planned.row.force(&work.normal_load, &[]))
+    let normal = &work.contact.normal;
+    0.5 * (normal.force
+        - work
+            .planned
+            .row
+            .force(&work.normal_load, &[], normal.radius))
 }
 
 /// Refuses a worn profile that is not finite or far above anything that can touch.

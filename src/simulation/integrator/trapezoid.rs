@@ -24,7 +24,9 @@
 //! Δf ← (Δf + ζρ Δf_prev)/(1 + ζ), which keeps the order; a step with z above 2.5 is taken in parts.
 //! The smallest part is 1/64 of the step and is taken as Δf/(1 + z), monotone for any z.
 //!
-//! - **Order**: second (measured over 25 to 200 steps a cycle).
+//! - **Order**: second in parts of a cycle without turns; 1.7 to 1.8 is what Fig. 3 shows between 25 and
+//!   400 steps, where turning points cut steps anew on every rung. Its error at 100 steps is below that
+//!   of explicit Euler at 800.
 //! - **Cost**: four transforms a step.
 
 use super::super::Setup;
@@ -32,7 +34,7 @@ use super::super::breakdown::Cause;
 use super::super::solve::{pressure, shear, solve_contact};
 use super::super::state::State;
 use super::super::workspace::Workspace;
-use super::commit;
+use super::{commit, edge_load};
 use crate::contact::tangential::Hold;
 
 /// The most that the profile is looked ahead, in lengths of the step before.
@@ -132,15 +134,17 @@ fn work_of_friction(setup: &Setup, state: &State, work: &mut Workspace) -> f64 {
     {
         *power = 0.5 * friction * (after + before) * slip.abs();
     }
-    let nodes = work.contact.normal.nodes;
-    let at_edge = if nodes > 0 {
-        work.slip[nodes - 1].abs()
+    let normal = &work.contact.normal;
+    let at_edge = if normal.nodes > 0 {
+        work.slip[normal.nodes - 1].abs()
     } else {
         0.0
     };
-    let edge = 0.5 * (work.contact.normal.force - work.planned.row.force(&work.normal_load, &[]));
-    work.planned.row.force(&work.friction_work, &[])
-        + friction * (edge + state.last.edge_load) * at_edge
+    let edge = friction * (edge_load(work) + state.last.edge_load) * at_edge;
+    work.planned
+        .row
+        .force(&work.friction_work, &[], normal.radius)
+        + edge
 }
 
 /// Fills `work.worn` and `work.wear`; returns the largest stiffness z of a node.

@@ -11,6 +11,7 @@ use super::theme::{Role, Theme};
 use super::worker::Frame;
 use crate::simulation::Curves;
 
+pub mod compare;
 mod fretting_loop;
 mod numbers;
 mod profile;
@@ -117,28 +118,12 @@ impl Panel {
 
     /// Draws the panel.
     pub fn draw(self, frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
-        let theme = &app.theme;
         let role = if app.focus == self {
             Role::Focus
         } else {
             Role::Title
         };
-        let title = Line::from(vec![Span::styled(
-            format!(" {} ", self.title()),
-            theme.style(role),
-        )]);
-        let mut block = Block::new()
-            .borders(Borders::TOP)
-            .border_style(theme.style(Role::Quiet))
-            .title(title);
-        if theme.ascii() {
-            block = block.border_set(ratatui::symbols::border::Set {
-                horizontal_top: "-",
-                ..ratatui::symbols::border::PLAIN
-            });
-        }
-        let inner = block.inner(area);
-        block.render(area, buffer);
+        let inner = titled(self.title(), role, app, area, buffer);
         match self {
             Self::Profile => profile::draw(frame, app, inner, buffer),
             Self::Stresses => stresses::draw(frame, app, inner, buffer),
@@ -148,6 +133,30 @@ impl Panel {
             Self::Numbers => numbers::draw(frame, app, inner, buffer),
         }
     }
+}
+
+/// The frame of a panel that is not focused; returns its inside.
+fn panel_block(title: &str, app: &App, area: Rect, buffer: &mut Buffer) -> Rect {
+    titled(title, Role::Title, app, area, buffer)
+}
+
+/// A rule with a title; returns what is below it.
+fn titled(title: &str, role: Role, app: &App, area: Rect, buffer: &mut Buffer) -> Rect {
+    let theme = &app.theme;
+    let title = Line::from(vec![Span::styled(format!(" {title} "), theme.style(role))]);
+    let mut block = Block::new()
+        .borders(Borders::TOP)
+        .border_style(theme.style(Role::Quiet))
+        .title(title);
+    if theme.ascii() {
+        block = block.border_set(ratatui::symbols::border::Set {
+            horizontal_top: "-",
+            ..ratatui::symbols::border::PLAIN
+        });
+    }
+    let inner = block.inner(area);
+    block.render(area, buffer);
+    inner
 }
 
 /// A plot of nodal values over the radius, with the bounds that the app keeps for the panel.

@@ -21,8 +21,13 @@ pub fn ordinates(frame: &Frame) -> Vec<f64> {
 pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     let (seen, theme) = (&frame.observation, &app.theme);
     let zones = zones(frame, theme);
+    let limit = app
+        .theory_of(frame)
+        .and_then(|theory| theory.limiting_profile(&seen.radii))
+        .unwrap_or_default();
     let mut plot = radial_plot(Panel::Profile, app, "r", "f", "m")
         .curve(curve("unworn", &seen.radii, &seen.unworn, theme, Role::Unworn).dashed())
+        .curve(curve("limit", &seen.radii, &limit, theme, Role::Limit).dashed())
         .curve(curve(
             "now",
             &seen.radii,

@@ -35,6 +35,7 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
         .map(|cycle| cycle.stick_radius)
         .collect();
     let end = cycles.last().copied().unwrap_or(0.0).max(1.0);
+    let ends = [0.0, end];
     let mut plot = plot(
         Panel::Radii,
         app,
@@ -44,6 +45,11 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     .curve(curve("contact a", &cycles, &contact, theme, Role::Contact));
     if stick.iter().any(|radius| radius.is_finite()) {
         plot = plot.curve(curve("stick c", &cycles, &stick, theme, Role::Stick).dashed());
+    }
+    let theory = app.theory_of(frame).and_then(|theory| theory.stick_radius);
+    let line = theory.map(|radius| [radius; 2]);
+    if let Some(line) = &line {
+        plot = plot.curve(curve("theory c", &ends, line, theme, Role::Limit));
     }
     plot.render(area, buffer);
 }

@@ -47,6 +47,16 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
         (false, Scale::Linear) => "τ/μ",
         (false, Scale::Log) => "|τ|/μ",
     };
+    let theory = app.theory_of(frame);
+    let hertz = theory
+        .and_then(|theory| theory.unworn_pressure(seen.moment.depth, &seen.radii))
+        .unwrap_or_default();
+    let cattaneo: Vec<f64> = theory
+        .and_then(|theory| theory.unworn_shear(seen.moment.cycle, seen.moment.shift, &seen.radii))
+        .unwrap_or_default()
+        .into_iter()
+        .map(|shear| if scale == Scale::Log { shear.abs() } else { shear } / frame.friction)
+        .collect();
     let mut plot = radial_plot(Panel::Stresses, app, "r", "stress", "Pa").curve(curve(
         "p",
         &seen.radii,
@@ -55,7 +65,15 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
         Role::Pressure,
     ));
     if !shear.is_empty() {
-        plot = plot.curve(curve(name, &seen.radii, &shear, theme, Role::Shear));
+        plot = plot.curve(
+            curve(name, &seen.radii, &shear, theme, Role::Shear).dashed_if(!theme.colored()),
+        );
+    }
+    if !hertz.is_empty() {
+        plot = plot.curve(curve("unworn p", &seen.radii, &hertz, theme, Role::Limit).dashed());
+    }
+    if !cattaneo.is_empty() {
+        plot = plot.curve(curve("Cattaneo", &seen.radii, &cattaneo, theme, Role::Unworn).dashed());
     }
     for mark in edge_marks(frame, theme) {
         plot = plot.mark(mark);

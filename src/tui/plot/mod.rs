@@ -76,6 +76,13 @@ impl<'a> Curve<'a> {
         self
     }
 
+    /// The same curve, dashed where `dashed` is true.
+    #[must_use]
+    pub fn dashed_if(mut self, dashed: bool) -> Self {
+        self.dashed = dashed;
+        self
+    }
+
     /// The same curve, the area between it and `base` (y axis' unit) shaded.
     #[must_use]
     pub fn fill_to(mut self, base: f64) -> Self {

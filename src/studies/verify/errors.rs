@@ -1,0 +1,102 @@
+//! The error of nodal results against theory: node by node, the largest, and the root mean square.
+
+use crate::math::quadrature::trapezoid;
+
+/// Errors at the nodes of one result, none of them negative.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Errors {
+    /// r/a of the nodes that were compared.
+    pub radii: Vec<f64>,
+    /// The error at each.
+    pub errors: Vec<f64>,
+    /// r/a of the nodes where theory is infinite, or 0 and the error relative to it.
+    pub left_out: Vec<f64>,
+    /// Whether [`rms`](Self::rms) averages over the radius instead of over the nodes.
+    over_radius: bool,
+}
+
+/// One node: r/a, result and theory.
+pub type Sample = (f64, f64, f64);
+
+impl Errors {
+    /// |result − theory|/|theory|: the measure of the paper's Fig. 2.
+    pub fn relative(samples: impl Iterator<Item = Sample>) -> Self {
+        Self::collect(samples, |theory| theory.abs())
+    }
+
+    /// |result − theory|/`unit`.
+    pub fn in_units_of(unit: f64, samples: impl Iterator<Item = Sample>) -> Self {
+        Self::collect(samples, |_| unit)
+    }
+
+    /// The relative error of a single number that stands for the radius `r`/a.
+    pub fn single(r: f64, result: f64, theory: f64) -> Self {
+        Self::relative(std::iter::once((r, result, theory)))
+    }
+
+    /// The same errors, the root mean square taken over the radius: fair between grids whose nodes
+    /// lie differently.
+    #[must_use]
+    pub fn over_radius(mut self) -> Self {
+        self.over_radius = true;
+        self
+    }
+
+    fn collect(samples: impl Iterator<Item = Sample>, unit: impl Fn(f64) -> f64) -> Self {
+        let mut all = Self {
+            radii: Vec::new(),
+            errors: Vec::new(),
+            left_out: Vec::new(),
+            over_radius: false,
+        };
+        for (r, result, theory) in samples {
+            let unit = unit(theory);
+            if theory.is_finite() && unit > 0.0 {
+                all.radii.push(r);
+                all.errors.push((result - theory).abs() / unit);
+            } else {
+                all.left_out.push(r);
+            }
+        }
+        all
+    }
+
+    /// The largest error; NaN if any is.
+    pub fn max(&self) -> f64 {
+        let larger = |worst: f64, &e: &f64| if e > worst || e.is_nan() { e } else { worst };
+        self.errors.iter().fold(0.0, larger)
+    }
+
+    /// √(mean of squares), over the nodes or over the radius.
+    pub fn rms(&self) -> f64 {
+        let squares: Vec<f64> = self.errors.iter().map(|e| e * e).collect();
+        match (self.radii.first(), self.radii.last()) {
+            (Some(first), Some(last)) if self.over_radius && last > first => {
+                (trapezoid(&self.radii, &squares) / (last - first)).sqrt()
+            }
+            _ => (squares.iter().sum::<f64>() / squares.len() as f64).sqrt(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nodes_without_a_measure_are_left_out_and_nan_is_seen() {
+        let samples = [
+            (0.0, 0.1, 0.0),
+            (0.5, 1.5, 1.0),
+            (0.8, 1.0, 1.0),
+            (1.0, 3.0, f64::INFINITY),
+        ];
+        let errors = Errors::relative(samples.into_iter());
+        assert_eq!(errors.left_out, [0.0, 1.0]);
+        assert_eq!((errors.max(), errors.rms()), (0.5, 0.125f64.sqrt()));
+        let errors = Errors::in_units_of(2.0, samples.into_iter());
+        assert_eq!(errors.errors, [0.05, 0.25, 0.0]);
+        let broken = [(0.1, f64::NAN, 1.0), (0.2, 1.0, 1.0)];
+        assert!(Errors::relative(broken.into_iter()).max().is_nan());
+    }
+}

@@ -1,0 +1,185 @@
+//! The problems of the study, by name.
+
+use std::fmt;
+use std::str::FromStr;
+
+use crate::math::abel::AbelMethod;
+use crate::math::invalid::Invalid;
+
+/// A problem with a closed form.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Problem {
+    /// The paraboloid of the paper's Fig. 2.
+    Hertz,
+    /// A cone.
+    Cone,
+    /// f = r⁴.
+    Quartic,
+    /// A paraboloid with a flat tip.
+    TruncatedParaboloid,
+    /// A flat punch.
+    FlatPunch,
+    /// Partial slip of a paraboloid.
+    Cattaneo,
+    /// What endless fretting leaves of a paraboloid.
+    Limit,
+}
+
+/// A result that is compared with theory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Quantity {
+    /// Its symbol.
+    pub name: &'static str,
+    /// Whether it is one number, and not one a node.
+    pub single: bool,
+}
+
+const fn curve(name: &'static str) -> Quantity {
+    Quantity {
+        name,
+        single: false,
+    }
+}
+
+/// g, p and w.
+const TRANSFORMS: [Quantity; 3] = [curve("g"), curve("p"), curve("w")];
+
+impl Problem {
+    /// Every problem, in the order of the report.
+    pub const ALL: [Self; 7] = [
+        Self::Hertz,
+        Self::Cone,
+        Self::Quartic,
+        Self::TruncatedParaboloid,
+        Self::FlatPunch,
+        Self::Cattaneo,
+        Self::Limit,
+    ];
+
+    /// The name on the command line and in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Hertz => "hertz",
+            Self::Cone => "cone",
+            Self::Quartic => "quartic",
+            Self::TruncatedParaboloid => "truncated-paraboloid",
+            Self::FlatPunch => "flat-punch",
+            Self::Cattaneo => "cattaneo",
+            Self::Limit => "limit",
+        }
+    }
+
+    /// What is solved, how, where the edges lie, in what the error is measured and what is left
+    /// out: lines of at most 78 columns.
+    pub fn description(self) -> &'static [&'static str] {
+        match self {
+            Self::Hertz => &[
+                "Paraboloid, as in Fig. 2 of the paper: N cells over the contact, the edge a on",
+                "the last node; g of the exact f, p of the exact q, w of the exact u = d - g.",
+                "Error relative to theory at each node. Left out: g at r = 0 and p at r = a,",
+                "where theory is 0.",
+            ],
+            Self::Cone => &[
+                "Cone: N cells over the contact, the edge a on the last node; transforms of",
+                "exact data. Error of g and w in the depth d, of p in the mean pressure.",
+                "Left out: p at r = 0, where theory is infinite.",
+            ],
+            Self::Quartic => &[
+                "f = r^4: N cells over 1.5 a, the edge a a third of a cell past a node; p as",
+                "the simulation has it, g and w of exact data. Error of g and w in the depth d,",
+                "of p in the mean pressure. Nodes inside a.",
+            ],
+            Self::TruncatedParaboloid => &[
+                "Paraboloid with a flat tip of radius b = a/2: N cells over 1.5 a, a and b a",
+                "third of a cell past a node; p, infinite at b, as the simulation has it, g and",
+                "w of exact data. Error of g and w in the depth d, of p in the mean pressure.",
+                "Nodes inside a.",
+            ],
+            Self::FlatPunch => &[
+                "Flat punch: N cells over the punch, its rim on the last node, where q jumps;",
+                "p as the simulation has it. Error in the mean pressure.",
+                "Left out: r = a, where theory is infinite.",
+            ],
+            Self::Cattaneo => &[
+                "Partial slip of a paraboloid on first loading, c = a/2, a quarter of a cycle",
+                "of the simulation without wear: N cells over 1.5 a, a and c a third of a cell",
+                "past a node. Error of tau in its peak at all nodes, of the slip of the surface",
+                "in its peak at the nodes inside a.",
+            ],
+            Self::Limit => &[
+                "Limiting profile: paraboloid at constant depth d, mu = 0.1, nu = 0.3,",
+                "amplitude 0.05 d, k E* d/a = 3, 400 cycles of 40 steps, N cells over 1.5 a;",
+                "each method on its own grid and scheme. Error of f in d, the rms over the",
+                "radius; relative error of the permanent stick radius c.",
+            ],
+        }
+    }
+
+    /// What is compared.
+    pub fn quantities(self) -> &'static [Quantity] {
+        const SLIP: [Quantity; 2] = [curve("tau"), curve("slip")];
+        const STICK: Quantity = Quantity {
+            name: "c",
+            single: true,
+        };
+        const WORN: [Quantity; 2] = [curve("f"), STICK];
+        match self {
+            Self::Hertz | Self::Cone | Self::Quartic | Self::TruncatedParaboloid => &TRANSFORMS,
+            Self::FlatPunch => &TRANSFORMS[1..2],
+            Self::Cattaneo => &SLIP,
+            Self::Limit => &WORN,
+        }
+    }
+
+    /// The most cells that are tried unless everything is asked for: the limit takes seconds a run.
+    pub fn most_points(self) -> Option<usize> {
+        match self {
+            Self::Limit => Some(200),
+            _ => None,
+        }
+    }
+
+    /// How long one task takes, roughly, in any unit: for a progress bar.
+    pub fn effort(self, points: usize) -> u64 {
+        let square = (points * points) as u64;
+        match self {
+            Self::Limit => 400 * square,
+            _ => square,
+        }
+    }
+}
+
+/// The paper's methods, which stay on the paper's grid and scheme.
+const PUBLISHED: [AbelMethod; 4] = [
+    AbelMethod::A,
+    AbelMethod::APlusB,
+    AbelMethod::B,
+    AbelMethod::Benad,
+];
+
+/// Whether a method is one of the paper's.
+pub fn is_published(method: AbelMethod) -> bool {
+    PUBLISHED.contains(&method)
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(self.name())
+    }
+}
+
+impl FromStr for Problem {
+    type Err = Invalid;
+
+    fn from_str(name: &str) -> Result<Self, Invalid> {
+        let found = Self::ALL.into_iter().find(|problem| problem.name() == name);
+        found.ok_or_else(|| {
+            let names = Self::ALL.map(Self::name);
+            Invalid::new(
+                "problem",
+                format!("{name:?}"),
+                format!("must be one of {}", names.join(", ")),
+            )
+        })
+    }
+}

@@ -1,0 +1,201 @@
+//! Tables of a study: one a problem to read, one of all rows for JSON, one of all nodes for CSV.
+
+use super::errors::Errors;
+use super::{Outcome, Problem, Quantity};
+use crate::studies::table::{Cell, Column, Format, Table};
+
+/// Below this an error is rounding, and its order means nothing.
+pub const ROUNDING: f64 = 1e-12;
+
+/// With no more quantities than this there is room for the order of the rms as well.
+const ROOMY: usize = 2;
+
+/// The table of one problem, a row for each method and N.
+pub fn problem_table(problem: Problem, outcomes: &[Outcome]) -> Table {
+    let quantities = problem.quantities();
+    let roomy = quantities.len() <= ROOMY;
+    let mut columns = vec![
+        Column::new("method", Format::Words),
+        Column::new("N", Format::Count),
+    ];
+    for quantity in quantities {
+        for &(name, format) in shown(*quantity, roomy) {
+            columns.push(Column::grouped(quantity.name, name, format));
+        }
+    }
+    let mut table = Table::new(columns);
+    for outcome in outcomes.iter().filter(|o| o.task.problem == problem) {
+        let mut row = vec![
+            Cell::Words(outcome.task.method.name().into()),
+            Cell::Count(outcome.task.points),
+        ];
+        for (at, quantity) in quantities.iter().enumerate() {
+            let mut cells = group(outcome, at, outcomes);
+            cells.truncate(shown(*quantity, roomy).len());
+            row.extend(cells);
+        }
+        table.push(row);
+    }
+    table
+}
+
+/// The columns of one quantity.
+fn shown(quantity: Quantity, roomy: bool) -> &'static [(&'static str, Format)] {
+    const ALL: [(&str, Format); 4] = [
+        ("max", Format::Rough),
+        ("order", Format::Fixed),
+        ("rms", Format::Rough),
+        ("order", Format::Fixed),
+    ];
+    const SINGLE: [(&str, Format); 2] = [("error", Format::Rough), ("order", Format::Fixed)];
+    match (quantity.single, roomy) {
+        (true, _) => &SINGLE,
+        (false, true) => &ALL,
+        (false, false) => &ALL[..3],
+    }
+}
+
+/// Max, its order, rms and its order; or where the run stopped.
+fn group(outcome: &Outcome, at: usize, outcomes: &[Outcome]) -> Vec<Cell> {
+    match &outcome.errors {
+        Ok(errors) => vec![
+            Cell::Number(errors[at].max()),
+            order(outcome, at, outcomes, Errors::max).into(),
+            Cell::Number(errors[at].rms()),
+            order(outcome, at, outcomes, Errors::rms).into(),
+        ],
+        Err(stop) => {
+            let words = format!("stopped at cycle {:.2}", stop.cycle());
+            let mut cells = vec![Cell::Across(words)];
+            cells.resize(4, Cell::Missing);
+            cells
+        }
+    }
+}
+
+/// log(error of the next coarser grid / error)/log(N/N of it): none on the coarsest and where an
+/// error is rounding.
+fn order(
+    outcome: &Outcome,
+    at: usize,
+    outcomes: &[Outcome],
+    size: fn(&Errors) -> f64,
+) -> Option<f64> {
+    let task = outcome.task;
+    let coarser = outcomes
+        .iter()
+        .filter(|o| o.task.problem == task.problem && o.task.method == task.method)
+        .filter(|o| o.task.points < task.points)
+        .max_by_key(|o| o.task.points)?;
+    let (Ok(before), Ok(now)) = (&coarser.errors, &outcome.errors) else {
+        return None;
+    };
+    let (before, now) = (size(&before[at]), size(&now[at]));
+    if before.min(now) < ROUNDING {
+        return None;
+    }
+    let ratio = task.points as f64 / coarser.task.points as f64;
+    let order = (before / now).log2() / ratio.log2();
+    order.is_finite().then_some(order)
+}
+
+/// Every row of every problem, a quantity a row.
+pub fn all_rows(outcomes: &[Outcome]) -> Table {
+    let mut table = Table::new(vec![
+        Column::new("problem", Format::Words),
+        Column::new("quantity", Format::Words),
+        Column::new("method", Format::Words),
+        Column::new("points", Format::Count),
+        Column::new("max", Format::Rough),
+        Column::new("max_order", Format::Fixed),
+        Column::new("rms", Format::Rough),
+        Column::new("rms_order", Format::Fixed),
+        Column::new("nodes", Format::Count),
+        Column::new("nodes_left_out", Format::Count),
+        Column::new("stopped_at_cycle", Format::Fixed),
+        Column::new("stopped_because", Format::Words),
+    ]);
+    for outcome in outcomes {
+        for (at, quantity) in outcome.task.problem.quantities().iter().enumerate() {
+            let mut row = key(outcome, quantity.name);
+            match &outcome.errors {
+                Ok(errors) => {
+                    row.extend(group(outcome, at, outcomes));
+                    row.push(Cell::Count(errors[at].radii.len()));
+                    row.push(Cell::Count(errors[at].left_out.len()));
+                }
+                Err(stop) => {
+                    row.resize(row.len() + 6, Cell::Missing);
+                    row.push(Cell::Number(stop.cycle()));
+                    row.push(Cell::Words(stop.to_string()));
+                }
+            }
+            table.push(row);
+        }
+    }
+    table
+}
+
+/// The error at every node.
+pub fn all_nodes(outcomes: &[Outcome]) -> Table {
+    let mut table = Table::new(vec![
+        Column::new("problem", Format::Words),
+        Column::new("quantity", Format::Words),
+        Column::new("method", Format::Words),
+        Column::new("points", Format::Count),
+        Column::new("r_over_a", Format::Fixed),
+        Column::new("error", Format::Rough),
+    ]);
+    for outcome in outcomes {
+        let Ok(all) = &outcome.errors else { continue };
+        for (quantity, errors) in outcome.task.problem.quantities().iter().zip(all) {
+            for (&r, &error) in errors.radii.iter().zip(&errors.errors) {
+                let mut row = key(outcome, quantity.name);
+                row.extend([Cell::Number(r), Cell::Number(error)]);
+                table.push(row);
+            }
+        }
+    }
+    table
+}
+
+fn key(outcome: &Outcome, quantity: &str) -> Vec<Cell> {
+    vec![
+        Cell::Words(outcome.task.problem.name().into()),
+        Cell::Words(quantity.into()),
+        Cell::Words(outcome.task.method.name().into()),
+        Cell::Count(outcome.task.points),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Stop, Task};
+    use super::*;
+    use crate::math::abel::AbelMethod;
+    use crate::simulation::{Breakdown, Cause};
+
+    #[test]
+    fn a_run_that_stopped_says_where_instead_of_a_number() {
+        let outcome = Outcome {
+            task: Task {
+                problem: Problem::Limit,
+                method: AbelMethod::Benad,
+                points: 400,
+            },
+            errors: Err(Stop::Breakdown(Breakdown {
+                cycle: 12.5,
+                cause: Cause::EdgeReached { domain_radius: 1.5 },
+            })),
+        };
+        let outcomes = [outcome];
+        let text = problem_table(Problem::Limit, &outcomes).text();
+        let row = text.lines().nth(2).expect("a row");
+        assert_eq!(row.matches("stopped at cycle 12.50").count(), 2, "{row}");
+        assert!(row.chars().count() <= 80, "{row}");
+        let json = serde_json::to_value(all_rows(&outcomes)).expect("JSON");
+        assert_eq!(json[1]["stopped_at_cycle"], 12.5);
+        assert!(json[1]["max"].is_null());
+        assert_eq!(all_nodes(&outcomes).rows().len(), 0);
+    }
+}

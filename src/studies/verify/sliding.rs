@@ -1,0 +1,86 @@
+//! Tangential contact of a paraboloid with a = d = R = 1: first loading, and the end of all wear.
+
+use super::Stop;
+use super::errors::Errors;
+use super::normal::Between;
+use super::problem::is_published;
+use super::scene::{FRICTION, POISSON, Scene};
+use crate::contact::indenter::Indenter;
+use crate::math::abel::AbelMethod;
+use crate::oracle::cattaneo_mindlin::CattaneoMindlin;
+use crate::oracle::limiting_profile::LimitingProfile;
+use crate::oracle::partial_slip::stiffness_ratio;
+use crate::simulation::{Curves, Scheme, Simulation, Spacing};
+
+/// The closed form, moved by `amplitude`.
+fn theory(amplitude: f64) -> CattaneoMindlin {
+    CattaneoMindlin {
+        e_star: 1.0,
+        g_star: stiffness_ratio(POISSON),
+        mu: FRICTION,
+        radius: 1.0,
+        depth: 1.0,
+        amplitude,
+    }
+}
+
+/// τ and slip after a quarter of a cycle without wear, c about a/2: c² = 1 − κU.
+pub fn cattaneo(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop> {
+    let Between { domain, inner } = Between::nodes(points);
+    let exact = theory((1.0 - inner * inner) * theory(0.0).gross_slip_displacement());
+    let mut scene = Scene::pressed(method, points, domain, Indenter::paraboloid(1.0)?, 1.0);
+    scene.amplitude = Some(exact.amplitude);
+    let mut simulation = Simulation::new(scene.setup()?)?;
+    simulation.advance_to(0.25)?;
+    let seen = simulation.observe(Curves::SHEAR | Curves::SURFACE);
+    let nodes = seen.radii.iter().copied();
+    let shear = nodes.clone().zip(&seen.shear);
+    let shear = shear.map(|(r, &tau)| (r, tau, exact.shear_stress(r)));
+    let slip = nodes.zip(&seen.surface).take_while(|(r, _)| *r <= 1.0);
+    let slip = slip.map(|(r, surface)| (r, seen.moment.shift - surface, exact.slip(r)));
+    // τ rises up to c and falls from there; the slip rises up to a.
+    let peak = exact.shear_stress(exact.stick_radius());
+    Ok(vec![
+        Errors::in_units_of(peak, shear),
+        Errors::in_units_of(exact.slip(1.0), slip),
+    ])
+}
+
+/// L/a: wider than √2, beyond which nothing touches.
+const DOMAIN: f64 = 1.5;
+
+/// U, in d.
+const AMPLITUDE: f64 = 0.05;
+
+/// K = kE*d/a.
+const WEAR: f64 = 3.0;
+
+/// After so many cycles what is left to wear is far below every error.
+const CYCLES: f64 = 400.0;
+
+/// f and the permanent stick radius after a long run.
+pub fn limit(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop> {
+    let stick_radius = theory(AMPLITUDE).stick_radius();
+    let exact = LimitingProfile {
+        e_star: 1.0,
+        radius: 1.0,
+        depth: 1.0,
+        stick_radius,
+    };
+    let mut scene = Scene::pressed(method, points, DOMAIN, Indenter::paraboloid(1.0)?, 1.0);
+    scene.amplitude = Some(AMPLITUDE);
+    scene.wear = Some(WEAR);
+    if !is_published(method) {
+        (scene.spacing, scene.scheme) = (Spacing::Graded, Scheme::Trapezoid);
+    }
+    let mut simulation = Simulation::new(scene.setup()?)?;
+    simulation.advance_to(CYCLES)?;
+    let seen = simulation.observe(Curves::PROFILE);
+    let worn = seen.radii.iter().zip(&seen.profile);
+    let worn = worn.map(|(&r, &f)| (r, f, exact.profile(r)));
+    let found = seen.moment.permanent_stick_radius.unwrap_or(f64::NAN);
+    Ok(vec![
+        Errors::in_units_of(1.0, worn).over_radius(),
+        Errors::single(stick_radius, found, stick_radius),
+    ])
+}

@@ -1,0 +1,138 @@
+//! Two runs in lockstep from one state: both profiles, both pressures, and the difference below.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::text::Line;
+use ratatui::widgets::Widget;
+
+use super::{App, Frame, Panel, curve, edge_marks, panel_block, radial_plot};
+use crate::tui::companion::differences;
+use crate::tui::plot::units::{format_number, format_value_in};
+use crate::tui::plot::{Axis, Plot, Scale};
+use crate::tui::theme::Role;
+use crate::tui::worker::Rival;
+
+/// Draws the comparison over the whole area of the panels.
+pub fn draw(frame: &Frame, rival: &Rival, app: &App, area: Rect, buffer: &mut Buffer) {
+    let [top, bottom] = Layout::vertical([Constraint::Fill(3), Constraint::Fill(2)]).areas(area);
+    let [left, right] = Layout::horizontal([Constraint::Fill(1); 2])
+        .spacing(1)
+        .areas(top);
+    let [below, numbers] = Layout::horizontal([Constraint::Fill(3), Constraint::Fill(2)])
+        .spacing(1)
+        .areas(bottom);
+    let names = (this_name(frame), rival.name.as_str());
+    let (seen, other, theme) = (&frame.observation, &rival.observation, &app.theme);
+    let inside = panel_block(
+        &format!("3D profile: {} and {}", names.0, names.1),
+        app,
+        left,
+        buffer,
+    );
+    let mut plot = radial_plot(Panel::Profile, app, "r", "f", "m")
+        .curve(curve(names.1, &other.radii, &other.profile, theme, Role::Slip).dashed())
+        .curve(curve(
+            &names.0,
+            &seen.radii,
+            &seen.profile,
+            theme,
+            Role::Profile,
+        ));
+    for mark in edge_marks(frame, theme) {
+        plot = plot.mark(mark);
+    }
+    plot.render(inside, buffer);
+    let inside = panel_block("pressure", app, right, buffer);
+    radial_plot(Panel::Stresses, app, "r", "p", "Pa")
+        .curve(curve(names.1, &other.radii, &other.pressure, theme, Role::Slip).dashed())
+        .curve(curve(
+            &names.0,
+            &seen.radii,
+            &seen.pressure,
+            theme,
+            Role::Pressure,
+        ))
+        .render(inside, buffer);
+    let inside = panel_block("difference of f", app, below, buffer);
+    let difference: Vec<f64> = differences(other, seen).into_iter().map(f64::abs).collect();
+    let largest = difference.iter().copied().fold(0.0, f64::max);
+    let edge = seen.radii.last().copied().unwrap_or(0.0);
+    // Six decades: what lies below is rounding.
+    let decade = largest.log10().ceil();
+    let bounds = if largest > 0.0 {
+        [10f64.powf(decade - 6.0), 10f64.powf(decade)]
+    } else {
+        [1e-18, 1e-12]
+    };
+    let ordinate = Axis::new("|difference|", "m")
+        .scale(Scale::Log)
+        .bounds(bounds);
+    Plot::new(Axis::new("r", "m").bounds([0.0, edge]), ordinate)
+        .curve(curve("", &other.radii, &difference, theme, Role::Slip))
+        .marker(theme.marker)
+        .axis_style(theme.style(Role::Quiet))
+        .render(inside, buffer);
+    let inside = panel_block("both", app, numbers, buffer);
+    let rows = rows(frame, rival, &difference, theme.ascii());
+    for ((name, here, there), row) in rows.iter().zip(inside.rows()) {
+        Line::raw(format!(" {name:13} {here:>11} {there:>11}")).render(row, buffer);
+    }
+}
+
+fn this_name(frame: &Frame) -> String {
+    format!(
+        "{} {}",
+        frame.observation.method,
+        frame.observation.radii.len() - 1
+    )
+}
+
+fn rows(
+    frame: &Frame,
+    rival: &Rival,
+    difference: &[f64],
+    ascii: bool,
+) -> Vec<(&'static str, String, String)> {
+    let (here, there) = (&frame.observation.moment, &rival.observation.moment);
+    let value = |value: f64, unit: &str| format_value_in(value, unit, 4, ascii);
+    let maybe =
+        |number: Option<f64>, unit: &str| number.map_or_else(|| "-".into(), |v| value(v, unit));
+    let mean =
+        (difference.iter().map(|d| d * d).sum::<f64>() / difference.len().max(1) as f64).sqrt();
+    let mut rows = vec![
+        ("", this_name(frame), rival.name.clone()),
+        (
+            "stick c",
+            maybe(here.permanent_stick_radius, "m"),
+            maybe(there.permanent_stick_radius, "m"),
+        ),
+        (
+            "contact a",
+            value(here.contact_radius, "m"),
+            value(there.contact_radius, "m"),
+        ),
+        (
+            "worn volume",
+            value(here.wear_volume, "m³"),
+            value(there.wear_volume, "m³"),
+        ),
+        (
+            "1 - V/(k E_d)",
+            here.energy_residual
+                .map_or_else(|| "-".into(), |v| format_number(v, 2)),
+            there
+                .energy_residual
+                .map_or_else(|| "-".into(), |v| format_number(v, 2)),
+        ),
+        (
+            "a step costs",
+            maybe(frame.step_cost, "s"),
+            maybe(rival.step_cost, "s"),
+        ),
+        ("rms difference", value(mean, "m"), String::new()),
+    ];
+    if let Some(stopped) = &rival.stopped {
+        rows.insert(1, ("", String::new(), stopped.clone()));
+    }
+    rows
+}

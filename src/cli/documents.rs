@@ -1,10 +1,11 @@
-//! Completions and the manual page, made from the arguments themselves.
+//! Completions and the manual pages, made from the arguments themselves.
 
 use std::io::{self, Write};
 use std::process::ExitCode;
 
 use anyhow::Result;
 use clap::CommandFactory;
+use clap_mangen::Man;
 
 use super::args::Arguments;
 
@@ -16,10 +17,16 @@ pub fn completions(shell: clap_complete::Shell) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Prints the manual page.
+/// Prints the manual page, and after it one page for each command.
 pub fn man() -> Result<ExitCode> {
-    let mut page = Vec::new();
-    clap_mangen::Man::new(Arguments::command()).render(&mut page)?;
-    io::stdout().write_all(&page)?;
+    let mut command = Arguments::command();
+    // Gives the commands their full names, "mdr-tui run".
+    command.build();
+    let mut pages = Vec::new();
+    Man::new(command.clone()).render(&mut pages)?;
+    for subcommand in command.get_subcommands() {
+        Man::new(subcommand.clone()).render(&mut pages)?;
+    }
+    io::stdout().write_all(&pages)?;
     Ok(ExitCode::SUCCESS)
 }

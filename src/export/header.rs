@@ -25,6 +25,8 @@ pub fn lines(session: &Session) -> String {
     line("law", law);
     line("points", &setup.grid.cells().to_string());
     line("steps_per_cycle", &setup.steps_per_cycle.to_string());
+    line("grid", setup.spacing.name());
+    line("scheme", setup.scheme.name());
     for change in session.changes() {
         line(
             &format!("at cycle {}", number(change.at_cycle)),

@@ -2,10 +2,9 @@
 
 use super::header::{lines, number, optional};
 use crate::scenario::session::Session;
-use crate::simulation::Moment;
 
 /// The columns, in order.
-pub const COLUMNS: [&str; 13] = [
+pub const COLUMNS: [&str; 15] = [
     "cycle",
     "time_s",
     "u_z_m",
@@ -19,6 +18,8 @@ pub const COLUMNS: [&str; 13] = [
     "dissipated_energy_J",
     "energy_residual",
     "max_pressure_Pa",
+    "period_energy_residual",
+    "force_residual",
 ];
 
 /// The rows recorded so far, as text.
@@ -36,8 +37,7 @@ impl History {
             return;
         }
         self.last_cycle = Some(simulation.cycle());
-        self.rows
-            .push_str(&row(&simulation.moment(), simulation.max_pressure()));
+        self.rows.push_str(&row(session));
         self.rows.push('\n');
     }
 
@@ -47,7 +47,9 @@ impl History {
     }
 }
 
-fn row(moment: &Moment, max_pressure: f64) -> String {
+fn row(session: &Session) -> String {
+    let simulation = session.simulation();
+    let moment = simulation.moment();
     [
         number(moment.cycle),
         number(moment.time),
@@ -61,7 +63,9 @@ fn row(moment: &Moment, max_pressure: f64) -> String {
         number(moment.wear_volume),
         number(moment.dissipated_energy),
         optional(moment.energy_residual),
-        number(max_pressure),
+        number(simulation.max_pressure()),
+        optional(moment.period_residual),
+        optional(simulation.force_residual()),
     ]
     .join(",")
 }

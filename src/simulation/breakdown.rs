@@ -87,11 +87,11 @@ fn advice(method: AbelMethod) -> &'static str {
     match method {
         AbelMethod::Benad => {
             "method benad amplifies errors in every round trip f -> g -> f; \
-             numerics.method = \"a\" is stable"
+             numerics.method = \"product\" is stable"
         }
         AbelMethod::B => {
             "method b grows teeth at large wear coefficients; \
-             numerics.method = \"a\" or more numerics.steps_per_cycle would help"
+             numerics.method = \"product\" or more numerics.steps_per_cycle would help"
         }
         AbelMethod::Product | AbelMethod::A | AbelMethod::APlusB => {
             "the wear of a step is too large for the grid; more numerics.steps_per_cycle, \

@@ -19,7 +19,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Clear, Paragraph, Widget};
 
 use super::app::{App, Overlay};
-use super::command::BINDINGS;
+use super::command::{BINDINGS, Binding, Command};
 use super::panels::{Panel, compare};
 use super::theme::Role;
 use super::trust;
@@ -337,17 +337,68 @@ const ASCII_BORDER: ratatui::symbols::border::Set = ratatui::symbols::border::Se
     horizontal_bottom: "-",
 };
 
+/// Commands that share a line of the help where the screen is short.
+const PAIRS: [(Command, Command, &str); 6] = [
+    (
+        Command::Step,
+        Command::Cycle,
+        "pause and take one step; go on to the end of the cycle",
+    ),
+    (
+        Command::Faster,
+        Command::Slower,
+        "more, fewer cycles a second, up to as fast as it can",
+    ),
+    (
+        Command::NextMethod,
+        Command::PreviousMethod,
+        "next, previous transform method; the state is carried over",
+    ),
+    (
+        Command::NextLaw,
+        Command::PreviousLaw,
+        "next, previous wear law; the state is carried over",
+    ),
+    (
+        Command::NextPanel,
+        Command::PreviousPanel,
+        "focus the next, previous panel",
+    ),
+    (Command::Up, Command::Down, "up, down in a list"),
+];
+
+/// The keys and what they do, one command a line, or pairs of commands where `rows` are few.
+fn help_lines(rows: u16) -> Vec<(String, &'static str)> {
+    let keys = |binding: &Binding| {
+        let keys: Vec<String> = binding.keys.iter().map(ToString::to_string).collect();
+        keys.join(" ")
+    };
+    let is_short = usize::from(rows) < BINDINGS.len();
+    let of = |command| BINDINGS.iter().find(|binding| binding.command == command);
+    let mut lines = Vec::new();
+    for binding in BINDINGS {
+        let pair = PAIRS
+            .iter()
+            .find(|(one, other, _)| is_short && [*one, *other].contains(&binding.command));
+        match pair {
+            None => lines.push((keys(binding), binding.help)),
+            Some((one, other, help)) if *one == binding.command => {
+                let other = of(*other).map(keys).unwrap_or_default();
+                lines.push((format!("{} {other}", keys(binding)), help));
+            }
+            Some(_) => {}
+        }
+    }
+    lines
+}
+
 fn help(app: &App, first: u16, area: Rect, buffer: &mut Buffer) {
-    let lines: Vec<Line> = BINDINGS
-        .iter()
-        .map(|binding| {
-            let keys: Vec<String> = binding.keys.iter().map(ToString::to_string).collect();
+    let lines: Vec<Line> = help_lines(area.height.saturating_sub(2))
+        .into_iter()
+        .map(|(keys, help)| {
             Line::from(vec![
-                Span::styled(
-                    format!(" {:>11}  ", keys.join(" ")),
-                    app.theme.style(Role::Title),
-                ),
-                Span::raw(binding.help),
+                Span::styled(format!(" {keys:>13}  "), app.theme.style(Role::Title)),
+                Span::raw(help),
             ])
         })
         .collect();

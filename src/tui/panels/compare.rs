@@ -12,15 +12,27 @@ use crate::tui::plot::{Axis, Plot, Scale};
 use crate::tui::theme::Role;
 use crate::tui::worker::Rival;
 
+/// What the table of both runs' numbers needs, columns.
+const NUMBERS: u16 = 39;
+
+/// Below this width the difference is not drawn.
+const NARROWEST: u16 = 20;
+
 /// Draws the comparison over the whole area of the panels.
 pub fn draw(frame: &Frame, rival: &Rival, app: &App, area: Rect, buffer: &mut Buffer) {
     let [top, bottom] = Layout::vertical([Constraint::Fill(3), Constraint::Fill(2)]).areas(area);
     let [left, right] = Layout::horizontal([Constraint::Fill(1); 2])
         .spacing(1)
         .areas(top);
-    let [below, numbers] = Layout::horizontal([Constraint::Fill(3), Constraint::Fill(2)])
-        .spacing(1)
-        .areas(bottom);
+    // The numbers are cut nowhere; the difference has what is left, if that is enough to see it.
+    let left_over = bottom.width.saturating_sub(NUMBERS + 1);
+    let [below, numbers] = if left_over < NARROWEST {
+        [Rect::ZERO, bottom]
+    } else {
+        Layout::horizontal([Constraint::Fill(1), Constraint::Length(NUMBERS)])
+            .spacing(1)
+            .areas(bottom)
+    };
     let names = (this_name(frame), rival.name.as_str());
     let (seen, other, theme) = (&frame.observation, &rival.observation, &app.theme);
     let inside = panel_block(
@@ -75,7 +87,7 @@ pub fn draw(frame: &Frame, rival: &Rival, app: &App, area: Rect, buffer: &mut Bu
     let inside = panel_block("both", app, numbers, buffer);
     let rows = rows(frame, rival, &difference, theme.ascii());
     for ((name, here, there), row) in rows.iter().zip(inside.rows()) {
-        Line::raw(format!(" {name:13} {here:>11} {there:>11}")).render(row, buffer);
+        Line::raw(format!(" {name:14} {here:>11} {there:>11}")).render(row, buffer);
     }
 }
 

@@ -22,10 +22,12 @@ pub fn man() -> Result<ExitCode> {
     let mut command = Arguments::command();
     // Gives the commands their full names, "mdr-tui run".
     command.build();
+    let source = concat!("mdr-tui ", env!("CARGO_PKG_VERSION"));
     let mut pages = Vec::new();
-    Man::new(command.clone()).render(&mut pages)?;
-    for subcommand in command.get_subcommands() {
-        Man::new(subcommand.clone()).render(&mut pages)?;
+    for command in std::iter::once(&command).chain(command.get_subcommands()) {
+        Man::new(command.clone())
+            .source(source)
+            .render(&mut pages)?;
     }
     io::stdout().write_all(&pages)?;
     Ok(ExitCode::SUCCESS)

@@ -8,12 +8,13 @@ use std::sync::mpsc::Sender;
 
 use super::command::{self, Command};
 use super::companion::Companion;
+use super::frame::Frame;
 use super::keys::Key;
 use super::panels::Panel;
 use super::plot::{Scale, sticky_bounds};
 use super::theme::Theme;
 use super::theory::Theory;
-use super::worker::{Frame, Order};
+use super::worker::Order;
 use crate::scenario::{Scenario, preset};
 use crate::simulation::Curves;
 

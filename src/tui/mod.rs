@@ -26,7 +26,9 @@ pub mod command;
 pub mod companion;
 #[cfg(debug_assertions)]
 mod fault;
+pub mod frame;
 pub mod keys;
+pub mod pace;
 pub mod panels;
 pub mod plot;
 pub mod screen;
@@ -40,11 +42,12 @@ pub mod worker;
 
 use app::{App, Leave};
 use companion::Companion;
+use frame::Slot;
 use keys::Key;
 use plot::Marker;
 pub use script::Size;
 use theme::Theme;
-use worker::{Order, Slot, Worker};
+use worker::{Order, Worker};
 
 /// What can happen while the screen waits.
 #[derive(Debug)]

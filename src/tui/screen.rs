@@ -20,10 +20,11 @@ use ratatui::widgets::{Block, Clear, Paragraph, Widget};
 
 use super::app::{App, Overlay};
 use super::command::{BINDINGS, Binding, Command};
+use super::frame::{Activity, Frame};
+use super::pace::Pace;
 use super::panels::{Panel, compare};
 use super::theme::Role;
 use super::trust;
-use super::worker::{Activity, Frame, Pace};
 use crate::scenario::preset;
 
 /// From this width on, three panels stand side by side.
@@ -123,14 +124,20 @@ fn parts_text(parts: &[(u8, String)], separator: &str) -> String {
         .join(separator)
 }
 
+/// A text from outside, printable, and ASCII where it must be.
+fn clean(text: &str, ascii: bool) -> String {
+    text.chars()
+        .map(|c| match c {
+            c if c.is_control() => ' ',
+            c if ascii && !c.is_ascii() => '?',
+            c => c,
+        })
+        .collect()
+}
+
 /// As much of a title as fits in `room` cells, printable, and ASCII where it must be.
 fn shortened(title: &str, room: usize, ascii: bool) -> String {
-    let clean = |c: char| match c {
-        c if c.is_control() => ' ',
-        c if ascii && !c.is_ascii() => '?',
-        c => c,
-    };
-    let mut text: String = title.chars().map(clean).collect();
+    let mut text = clean(title, ascii);
     if Line::raw(text.as_str()).width() <= room {
         return text;
     }
@@ -253,10 +260,7 @@ fn footer(app: &App, area: Rect, buffer: &mut Buffer) {
         _ => None,
     });
     if let Some(text) = app.notice.as_deref().or(stopped) {
-        let text: String = text
-            .chars()
-            .map(|c| if c.is_control() { ' ' } else { c })
-            .collect();
+        let text = clean(text, app.theme.ascii());
         let role = if app.notice.is_some() {
             Role::Notice
         } else {

@@ -1,6 +1,6 @@
 //! One figure for how far to trust what is on the screen: the worst of the run's own certificates.
 
-use super::worker::Frame;
+use super::frame::Frame;
 
 /// Above this error the figure says where it comes from.
 const WORRYING: f64 = 0.02;

@@ -4,13 +4,15 @@
 //! before has been taken, so that a slow terminal costs the simulation nothing.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
-use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use super::Event;
 use super::companion;
+use super::frame::{Activity, Frame, Rival, Slot};
+use super::pace::{Meter, Pace};
 use super::theory::Theory;
 use super::trend::Trend;
 use crate::export::file::{RunDirectory, free_directory};
@@ -19,7 +21,7 @@ use crate::export::state;
 use crate::math::abel::AbelMethod;
 use crate::scenario::Scenario;
 use crate::scenario::session::Session;
-use crate::simulation::{Curves, Observation};
+use crate::simulation::Curves;
 
 /// Laws that keys step through.
 const LAWS: [&str; 2] = ["archard", "power"];
@@ -58,108 +60,6 @@ pub enum Order {
     Sync(Sender<Arc<Frame>>),
     /// End.
     Quit,
-}
-
-/// How fast the simulation is let run.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Pace {
-    /// Cycles a second.
-    Cycles(f64),
-    /// As fast as it can.
-    Unlimited,
-}
-
-impl Pace {
-    const SLOWEST: i32 = -3;
-    const UNLIMITED: i32 = 15;
-
-    /// 1, 2, 5, 10, … cycles a second by rung; the last rung is without limit.
-    fn of_rung(rung: i32) -> Self {
-        if rung >= Self::UNLIMITED {
-            return Self::Unlimited;
-        }
-        let mantissa = [1.0, 2.0, 5.0][rung.rem_euclid(3) as usize];
-        Self::Cycles(mantissa * 10f64.powi(rung.div_euclid(3)))
-    }
-}
-
-/// What the worker is doing.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Activity {
-    /// Stepping.
-    Running,
-    /// Waiting for orders.
-    Paused,
-    /// At the end of the scenario's plan.
-    Done,
-    /// Broken down; the text says why.
-    Stopped(String),
-}
-
-/// A second run in lockstep with the first.
-#[derive(Debug, Clone)]
-pub struct Rival {
-    /// Method and cells.
-    pub name: String,
-    /// Its curves and scalars.
-    pub observation: Observation,
-    /// What a step of it costs, s.
-    pub step_cost: Option<f64>,
-    /// Why it stopped, if it did.
-    pub stopped: Option<String>,
-}
-
-/// All that a screen shows of the simulation.
-#[derive(Debug, Clone)]
-pub struct Frame {
-    /// The curves and scalars.
-    pub observation: Observation,
-    /// The past.
-    pub trend: Trend,
-    /// What the worker does.
-    pub activity: Activity,
-    /// How fast it may go.
-    pub pace: Pace,
-    /// How fast it goes, cycles a second; none until measured.
-    pub speed: Option<f64>,
-    /// What a step costs, s.
-    pub step_cost: Option<f64>,
-    /// The scenario's title.
-    pub title: String,
-    /// The preset's name or the file.
-    pub origin: String,
-    /// Where the scenario's plan ends, cycles.
-    pub planned_cycles: Option<f64>,
-    /// Steps a cycle.
-    pub steps_per_cycle: u32,
-    /// μ, for the scale of τ.
-    pub friction: f64,
-    /// 1 − ∫p dA/F_z, where p is computed and something carries load.
-    pub force_residual: Option<f64>,
-    /// What theory says of the scene.
-    pub theory: Arc<Theory>,
-    /// The run beside this one.
-    pub rival: Option<Rival>,
-}
-
-/// The place where the latest frame waits to be taken.
-#[derive(Debug, Default)]
-pub struct Slot(Mutex<Option<Arc<Frame>>>);
-
-impl Slot {
-    /// Takes the latest frame, if there is a new one.
-    pub fn take(&self) -> Option<Arc<Frame>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).take()
-    }
-
-    /// Puts a frame there; true if the place was empty and the screen must be told.
-    fn put(&self, frame: Arc<Frame>) -> bool {
-        self.0
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .replace(frame)
-            .is_none()
-    }
 }
 
 /// The worker's own side of a rival.
@@ -545,91 +445,9 @@ fn show(path: &std::path::Path) -> String {
     path.display().to_string()
 }
 
-/// Watches the clock: what the pace asks for, and what is reached.
-#[derive(Debug)]
-struct Meter {
-    start: Instant,
-    start_cycle: f64,
-    window: Instant,
-    window_cycle: f64,
-    window_steps: u64,
-    busy: Duration,
-    speed: Option<f64>,
-    step_cost: Option<f64>,
-}
-
-impl Default for Meter {
-    fn default() -> Self {
-        let now = Instant::now();
-        Self {
-            start: now,
-            start_cycle: 0.0,
-            window: now,
-            window_cycle: 0.0,
-            window_steps: 0,
-            busy: Duration::ZERO,
-            speed: None,
-            step_cost: None,
-        }
-    }
-}
-
-impl Meter {
-    /// Forgets how far ahead or behind the run is.
-    fn restart(&mut self, cycle: f64) {
-        self.start = Instant::now();
-        self.start_cycle = cycle;
-        self.window = self.start;
-        self.window_cycle = cycle;
-        self.busy = Duration::ZERO;
-        self.window_steps = u64::MAX;
-    }
-
-    /// Seconds until `cycle` is due at `pace` cycles a second.
-    fn ahead(&self, cycle: f64, pace: f64) -> f64 {
-        (cycle - self.start_cycle) / pace - self.start.elapsed().as_secs_f64()
-    }
-
-    /// Takes in a stint that ended at `cycle` after `steps` in all.
-    fn measure(&mut self, cycle: f64, steps: u64, busy: Duration) {
-        if self.window_steps > steps {
-            self.window_steps = steps;
-            self.window_cycle = cycle;
-            self.busy = Duration::ZERO;
-            return;
-        }
-        self.busy += busy;
-        let elapsed = self.window.elapsed().as_secs_f64();
-        if elapsed < 0.5 {
-            return;
-        }
-        let taken = steps - self.window_steps;
-        self.speed = Some((cycle - self.window_cycle) / elapsed);
-        if taken > 0 {
-            self.step_cost = Some(self.busy.as_secs_f64() / taken as f64);
-        }
-        // A machine that cannot keep the pace does not owe the past.
-        self.start = Instant::now();
-        self.start_cycle = cycle;
-        self.window = self.start;
-        self.window_cycle = cycle;
-        self.window_steps = steps;
-        self.busy = Duration::ZERO;
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_pace_goes_up_in_ones_twos_and_fives() {
-        let paces: Vec<Pace> = (0..7).map(Pace::of_rung).collect();
-        let expected = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0].map(Pace::Cycles);
-        assert_eq!(paces, expected);
-        assert_eq!(Pace::of_rung(-1), Pace::Cycles(0.5));
-        assert_eq!(Pace::of_rung(Pace::UNLIMITED), Pace::Unlimited);
-    }
 
     #[test]
     fn methods_go_around() {

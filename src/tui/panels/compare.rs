@@ -7,10 +7,10 @@ use ratatui::widgets::Widget;
 
 use super::{App, Frame, Panel, curve, edge_marks, panel_block, radial_plot};
 use crate::tui::companion::differences;
+use crate::tui::frame::Rival;
 use crate::tui::plot::units::{format_number, format_value_in};
 use crate::tui::plot::{Axis, Plot, Scale};
 use crate::tui::theme::Role;
-use crate::tui::worker::Rival;
 
 /// What the table of both runs' numbers needs, columns.
 const NUMBERS: u16 = 39;
@@ -55,7 +55,9 @@ pub fn draw(frame: &Frame, rival: &Rival, app: &App, area: Rect, buffer: &mut Bu
     }
     plot.render(inside, buffer);
     let inside = panel_block("pressure", app, right, buffer);
-    radial_plot(Panel::Stresses, app, "r", "p", "Pa")
+    Plot::new(Axis::new("r", "m"), Axis::new("p", "Pa"))
+        .marker(theme.marker)
+        .axis_style(theme.style(Role::Quiet))
         .curve(curve(names.1, &other.radii, &other.pressure, theme, Role::Slip).dashed())
         .curve(curve(
             &names.0,

@@ -6,9 +6,9 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Widget};
 
 use super::app::App;
+use super::frame::Frame;
 use super::plot::{Axis, Curve, Plot, Scale, VerticalMark, Zone};
 use super::theme::{Role, Theme};
-use super::worker::Frame;
 use crate::simulation::Curves;
 
 pub mod compare;

@@ -1,0 +1,87 @@
+//! What the worker shows of the simulation, and the place where it waits to be taken.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use super::pace::Pace;
+use super::theory::Theory;
+use super::trend::Trend;
+use crate::simulation::Observation;
+
+/// What the worker is doing.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Activity {
+    /// Stepping.
+    Running,
+    /// Waiting for orders.
+    Paused,
+    /// At the end of the scenario's plan.
+    Done,
+    /// Broken down; the text says why.
+    Stopped(String),
+}
+
+/// A second run in lockstep with the first.
+#[derive(Debug, Clone)]
+pub struct Rival {
+    /// Method and cells.
+    pub name: String,
+    /// Its curves and scalars.
+    pub observation: Observation,
+    /// What a step of it costs, s.
+    pub step_cost: Option<f64>,
+    /// Why it stopped, if it did.
+    pub stopped: Option<String>,
+}
+
+/// All that a screen shows of the simulation.
+#[derive(Debug, Clone)]
+pub struct Frame {
+    /// The curves and scalars.
+    pub observation: Observation,
+    /// The past.
+    pub trend: Trend,
+    /// What the worker does.
+    pub activity: Activity,
+    /// How fast it may go.
+    pub pace: Pace,
+    /// How fast it goes, cycles a second; none until measured.
+    pub speed: Option<f64>,
+    /// What a step costs, s.
+    pub step_cost: Option<f64>,
+    /// The scenario's title.
+    pub title: String,
+    /// The preset's name or the file.
+    pub origin: String,
+    /// Where the scenario's plan ends, cycles.
+    pub planned_cycles: Option<f64>,
+    /// Steps a cycle.
+    pub steps_per_cycle: u32,
+    /// μ, for the scale of τ.
+    pub friction: f64,
+    /// 1 − ∫p dA/F_z, where p is computed and something carries load.
+    pub force_residual: Option<f64>,
+    /// What theory says of the scene.
+    pub theory: Arc<Theory>,
+    /// The run beside this one.
+    pub rival: Option<Rival>,
+}
+
+/// The place where the latest frame waits to be taken.
+#[derive(Debug, Default)]
+pub struct Slot(Mutex<Option<Arc<Frame>>>);
+
+impl Slot {
+    /// Takes the latest frame, if there is a new one.
+    pub fn take(&self) -> Option<Arc<Frame>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).take()
+    }
+
+    /// Puts a frame there; true if the place was empty and the screen must be told.
+    pub(super) fn put(&self, frame: Arc<Frame>) -> bool {
+        self.0
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .replace(frame)
+            .is_none()
+    }
+}

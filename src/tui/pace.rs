@@ -1,0 +1,117 @@
+//! How fast the explorer lets the simulation run, and how fast it does.
+
+use std::time::{Duration, Instant};
+
+/// How fast the simulation is let run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Pace {
+    /// Cycles a second.
+    Cycles(f64),
+    /// As fast as it can.
+    Unlimited,
+}
+
+impl Pace {
+    /// The slowest rung.
+    pub const SLOWEST: i32 = -3;
+    /// The rung without limit.
+    pub const UNLIMITED: i32 = 15;
+
+    /// 1, 2, 5, 10, … cycles a second by rung; the last rung is without limit.
+    pub fn of_rung(rung: i32) -> Self {
+        if rung >= Self::UNLIMITED {
+            return Self::Unlimited;
+        }
+        let mantissa = [1.0, 2.0, 5.0][rung.rem_euclid(3) as usize];
+        Self::Cycles(mantissa * 10f64.powi(rung.div_euclid(3)))
+    }
+}
+
+/// Watches the clock: what the pace asks for, and what is reached.
+#[derive(Debug)]
+pub(super) struct Meter {
+    start: Instant,
+    start_cycle: f64,
+    window: Instant,
+    window_cycle: f64,
+    window_steps: u64,
+    busy: Duration,
+    /// Cycles a second; none until measured.
+    pub speed: Option<f64>,
+    /// What a step costs, s; none until measured.
+    pub step_cost: Option<f64>,
+}
+
+impl Default for Meter {
+    fn default() -> Self {
+        let now = Instant::now();
+        Self {
+            start: now,
+            start_cycle: 0.0,
+            window: now,
+            window_cycle: 0.0,
+            window_steps: 0,
+            busy: Duration::ZERO,
+            speed: None,
+            step_cost: None,
+        }
+    }
+}
+
+impl Meter {
+    /// Forgets how far ahead or behind the run is.
+    pub fn restart(&mut self, cycle: f64) {
+        self.start = Instant::now();
+        self.start_cycle = cycle;
+        self.window = self.start;
+        self.window_cycle = cycle;
+        self.busy = Duration::ZERO;
+        self.window_steps = u64::MAX;
+    }
+
+    /// Seconds until `cycle` is due at `pace` cycles a second.
+    pub fn ahead(&self, cycle: f64, pace: f64) -> f64 {
+        (cycle - self.start_cycle) / pace - self.start.elapsed().as_secs_f64()
+    }
+
+    /// Takes in a stint that ended at `cycle` after `steps` in all.
+    pub fn measure(&mut self, cycle: f64, steps: u64, busy: Duration) {
+        if self.window_steps > steps {
+            self.window_steps = steps;
+            self.window_cycle = cycle;
+            self.busy = Duration::ZERO;
+            return;
+        }
+        self.busy += busy;
+        let elapsed = self.window.elapsed().as_secs_f64();
+        if elapsed < 0.5 {
+            return;
+        }
+        let taken = steps - self.window_steps;
+        self.speed = Some((cycle - self.window_cycle) / elapsed);
+        if taken > 0 {
+            self.step_cost = Some(self.busy.as_secs_f64() / taken as f64);
+        }
+        // A machine that cannot keep the pace does not owe the past.
+        self.start = Instant::now();
+        self.start_cycle = cycle;
+        self.window = self.start;
+        self.window_cycle = cycle;
+        self.window_steps = steps;
+        self.busy = Duration::ZERO;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_pace_goes_up_in_ones_twos_and_fives() {
+        let paces: Vec<Pace> = (0..7).map(Pace::of_rung).collect();
+        let expected = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0].map(Pace::Cycles);
+        assert_eq!(paces, expected);
+        assert_eq!(Pace::of_rung(-1), Pace::Cycles(0.5));
+        assert_eq!(Pace::of_rung(Pace::UNLIMITED), Pace::Unlimited);
+    }
+}

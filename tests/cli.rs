@@ -13,7 +13,7 @@ use mdr_tui::simulation::Curves;
 
 mod desk;
 
-use desk::{Desk, Said, Table, bits, names};
+use desk::{Desk, Said, Table, bits, end, names};
 
 /// One line on stderr that has `expected` in it, code 2, nothing on stdout, nothing written.
 fn assert_refused(desk: &Desk, arguments: &[&str], expected: &str) {
@@ -77,7 +77,14 @@ fn a_bad_value_is_one_line_and_nothing_written() {
         ),
         ("numerics.points=", "must be KEY=VALUE"),
         ("numerics.steps_per_cycle=0", "must be from 1 to"),
-        ("numerics.method=best", "must be one of \"a\", \"a+b\""),
+        (
+            "numerics.scheme=best",
+            "must be one of \"trapezoid\", \"euler\"",
+        ),
+        (
+            "numerics.method=best",
+            "must be one of \"product\", \"a\", \"a+b\"",
+        ),
         ("numerics.mehtod=a", "did you mean numerics.method?"),
         ("friction.coefficient=-0.1", "must be"),
         ("wear.coefficient=nan", "must be a finite number"),
@@ -217,6 +224,7 @@ fn run_writes_the_files_of_the_contract() {
         assert_eq!(table.header("mdr-tui"), env!("CARGO_PKG_VERSION"));
         assert_eq!(table.header("scenario"), "Dual oscillation of a paraboloid");
         assert_eq!(table.header("cycle"), cycle);
+        assert_eq!(table.header("method"), "product");
         assert_eq!(table.header("law"), "archard");
         assert_eq!(table.header("points"), "100");
         assert_eq!(table.header("steps_per_cycle"), "100");
@@ -229,7 +237,7 @@ fn run_writes_the_files_of_the_contract() {
     let table = Table::parse(&desk.read("x/history.csv"));
     assert_eq!(
         table.columns.join(", "),
-        "cycle, time_s, u_z_m, u_x_m, F_z_N, F_x_N, contact_radius_m, stick_radius_m, permanent_stick_radius_m, wear_volume_m3, dissipated_energy_J, energy_residual, max_pressure_Pa"
+        "cycle, time_s, u_z_m, u_x_m, F_z_N, F_x_N, contact_radius_m, stick_radius_m, permanent_stick_radius_m, wear_volume_m3, dissipated_energy_J, energy_residual, max_pressure_Pa, period_energy_residual, force_residual"
     );
     assert_eq!(table.columns, history::COLUMNS);
     assert_eq!(table.column("cycle"), [0.0, 1.0, 2.0, 3.0, 3.25]);
@@ -241,9 +249,7 @@ fn the_numbers_of_the_files_read_back_exactly() {
     desk.done("run li2019-fig3 --cycles 2 --out x");
     let scenario = Scenario::load("li2019-fig3", &[]).expect("a preset");
     let mut session = Session::start(scenario).expect("a contact");
-    for _ in 0..200 {
-        session.step().expect("a step");
-    }
+    session.advance_to(2.0).expect("two cycles");
     let seen = session.simulation().observe(Curves::all());
     let table = Table::parse(&desk.read("x/state.csv"));
     for (name, values) in [
@@ -284,6 +290,7 @@ fn scenario_toml_gives_the_same_numbers_to_the_last_bit() {
         "run two-frequencies --cycles 3.3 --set numerics.points=57 --set numerics.method=b",
         "run li2019-fig3 --cycles 2 --set wear.coefficient=1.7e-10 --set friction.coefficient=0.3",
         "run power-law --cycles 2",
+        "run li2019-fig3 --cycles 20.5 --snapshot-at 3.3 --set numerics.method=a --set numerics.scheme=euler",
         r#"run cone --cycles 1.111 --set title="a\"cone\"\n=#1""#,
     ]
     .into_iter()
@@ -324,7 +331,7 @@ fn the_history_of_every_step_has_a_row_more_than_steps() {
     let desk = Desk::new();
     for (out, cycles, rows) in [("whole", "2", 201), ("part", "1.2345", 125)] {
         desk.done(&format!(
-            "run hertz --cycles {cycles} --history every-step --out {out} --quiet"
+            "run hertz --cycles {cycles} --history every-step --out {out} --quiet --set numerics.scheme=euler"
         ));
         let table = Table::parse(&desk.read(&format!("{out}/history.csv")));
         let moments = table.column("cycle");
@@ -333,6 +340,35 @@ fn the_history_of_every_step_has_a_row_more_than_steps() {
         assert_eq!(moments.last(), cycles.parse().ok().as_ref());
         // Without tangential motion there is no stick radius to write.
         assert!(table.column("stick_radius_m").iter().all(|c| c.is_nan()));
+    }
+}
+
+#[test]
+fn the_trapezoid_has_the_regular_steps_and_a_few_at_turning_points() {
+    let desk = Desk::new();
+    desk.done("run li2019-fig3 --cycles 3 --history every-step --out x --quiet");
+    let moments = Table::parse(&desk.read("x/history.csv")).column("cycle");
+    assert_eq!((moments.first(), moments.last()), (Some(&0.0), Some(&3.0)));
+    assert!(moments.is_sorted_by(|a, b| a < b));
+    let step = 0.01;
+    let is_regular = |moment: f64| (moment / step - (moment / step).round()).abs() < 1e-9;
+    let added = moments
+        .iter()
+        .filter(|&&moment| !is_regular(moment))
+        .count();
+    assert!((3..=30).contains(&added), "{added} steps added in 3 cycles");
+    // No step is longer than a regular one and a tenth, and no whole cycle is left out.
+    for pair in moments.windows(2) {
+        assert!(pair[1] - pair[0] < 1.1 * step + 1e-9, "{pair:?}");
+    }
+    for whole in [1.0, 2.0, 3.0] {
+        assert!(moments.contains(&whole), "no step ends at cycle {whole}");
+    }
+    // Where a regular moment is missing, a turning point stands within a tenth of a step of it.
+    for regular in (0..=300).map(|i| f64::from(i) * step) {
+        let distance = |moment: &f64| (moment - regular).abs();
+        let nearest = moments.iter().map(distance).fold(f64::INFINITY, f64::min);
+        assert!(nearest < 0.1 * step + 1e-9, "{regular}");
     }
 }
 
@@ -400,12 +436,59 @@ fn a_run_that_breaks_down_keeps_the_last_good_cycle() {
     assert!(state.column("f_m").iter().all(|f| f.is_finite()));
     let history = Table::parse(&desk.read("x/history.csv"));
     assert_eq!(history.column("cycle").last(), Some(&cycle));
-    // What was kept is a run of its own, which ends well.
-    desk.done("run x/scenario.toml --out again --quiet");
-    let again = Table::parse(&desk.read("again/state.csv"));
-    for name in ["f_m", "q_x_N_per_m", "tau_Pa", "u_x_1d_m", "wear_m"] {
-        assert_eq!(bits(&again.column(name)), bits(&state.column(name)));
+    // What was kept is a run of its own, which ends well, in every column of both files.
+    assert_replays(&desk, "x", "again");
+}
+
+/// The kept run in `first` runs again into `second` without a complaint, bit for bit.
+fn assert_replays(desk: &Desk, first: &str, second: &str) {
+    desk.done(&format!("run {first}/scenario.toml --out {second} --quiet"));
+    for name in ["state.csv", "history.csv"] {
+        let text = [first, second].map(|directory| desk.read(&format!("{directory}/{name}")));
+        let [kept, again] = text.each_ref().map(|text| Table::parse(text));
+        assert_eq!(kept.columns, again.columns, "{name}");
+        let differing: Vec<&String> = (0..kept.columns.len())
+            .filter(|&i| {
+                let column = |table: &Table| -> Vec<String> {
+                    table.rows.iter().map(|row| row[i].clone()).collect()
+                };
+                column(&kept) != column(&again)
+            })
+            .map(|i| &kept.columns[i])
+            .collect();
+        assert!(differing.is_empty(), "{first}/{name}: {differing:?} differ");
+        assert!(text[0] == text[1], "{first}/{name}: the headers differ");
     }
+}
+
+/// Every method with a wear coefficient that is far too large; returns how many broke down.
+fn broken_down(scheme: &str) -> i32 {
+    let desk = Desk::new();
+    let mut breakdowns = 0;
+    for method in ["product", "a", "a+b", "b", "benad"] {
+        for wear in ["1e-7", "1e-6"] {
+            let out = format!("{method}-{wear}");
+            let line = format!(
+                "run li2019-fig3 --cycles 3.3 --set wear.coefficient={wear} --out {out} --quiet \
+                 --set numerics.method={method} --set numerics.scheme={scheme}"
+            );
+            let said = desk.say(&line.split_whitespace().collect::<Vec<_>>());
+            assert!([0, 1].contains(&said.code), "{out}: {}", said.err);
+            breakdowns += said.code;
+            assert_replays(&desk, &out, &format!("{out}-again"));
+        }
+    }
+    breakdowns
+}
+
+#[test]
+fn a_breakdown_of_the_euler_scheme_replays_to_the_last_bit() {
+    assert!(broken_down("euler") >= 5);
+}
+
+#[test]
+fn a_breakdown_of_the_trapezoid_replays_to_the_last_bit() {
+    assert!(broken_down("trapezoid") >= 2);
 }
 
 /// Starts a run that does not end by itself, and waits until it has written its first snapshot.
@@ -444,7 +527,7 @@ fn a_signal_ends_a_run_and_keeps_what_is_done() {
         let kill = format!("kill -{signal} {}", child.id());
         let sent = Command::new("sh").args(["-c", &kill]).status();
         assert!(sent.expect("a shell").success());
-        let said = Said::from(child.wait_with_output().expect("an end"));
+        let said = end(child);
         assert_eq!((said.code, said.out.as_str()), (1, ""), "{}", said.err);
         let cycle = said
             .err
@@ -496,15 +579,19 @@ fn completions_and_the_manual_page_name_the_commands() {
     }
     let page = desk.done("man");
     assert!(page.contains(".TH mdr-tui 1"), "{page}");
-    for word in ["run", "presets", "completions"] {
-        assert!(page.contains(word), "{word}");
+    for command in ["run", "presets", "verify", "completions", "man"] {
+        let title = format!(".TH mdr-tui-{command} 1");
+        assert_eq!(page.matches(&title).count(), 1, "{command}");
+    }
+    for option in ["--snapshot-at", "--history", "--keys", "--set"] {
+        assert!(page.contains(&option.replace('-', "\\-")), "{option}");
     }
 }
 
 #[test]
 fn every_help_has_an_example() {
     let desk = Desk::new();
-    for command in ["run", "presets", "completions", "man", ""] {
+    for command in ["run", "presets", "verify", "completions", "man", ""] {
         let help = desk.done(&format!("{command} --help"));
         let (_, examples) = help
             .split_once("Example")
@@ -512,7 +599,7 @@ fn every_help_has_an_example() {
         assert!(examples.contains("\n  mdr-tui"), "{examples}");
     }
     let help = desk.done("--help");
-    for command in ["run", "presets", "completions", "man"] {
+    for command in ["run", "presets", "verify", "completions", "man"] {
         assert!(help.contains(&format!("\n  {command} ")), "{command}");
     }
     let version = desk.done("--version");
@@ -569,6 +656,6 @@ fn a_scenario_can_come_through_a_pipe() {
     let mut stdin = child.stdin.take().expect("a pipe");
     stdin.write_all(text.as_bytes()).expect("a reader");
     drop(stdin);
-    let said = Said::from(child.wait_with_output().expect("an end"));
+    let said = end(child);
     assert_eq!((said.code, said.err.as_str()), (0, ""));
 }

@@ -206,10 +206,6 @@ impl App {
 
     fn toggle_theory(&mut self) {
         self.with_theory = !self.with_theory;
-        self.forget_scales();
-        if let Some(frame) = self.frame.clone() {
-            self.take_frame(frame);
-        }
     }
 
     /// What theory says, if it is to be shown.

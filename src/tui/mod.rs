@@ -139,7 +139,11 @@ fn converse(
         // The panic's own word is told by the caller.
         return Ok(());
     };
-    outcome?;
+    match outcome {
+        // A terminal that goes away while it is drawn on has hung up; nothing has failed.
+        Err(_) if !io::stdout().is_terminal() => return Ok(()),
+        outcome => outcome?,
+    }
     if app.leave == Some(Leave::KeepScreen) {
         let (columns, rows) = crossterm::terminal::size()?;
         io::stdout().write_all(

@@ -227,7 +227,10 @@ impl Worker {
     fn companion(&self) {
         let (session, events) = (self.session.clone(), self.events.clone());
         thread::spawn(move || {
-            let answer = companion::run(&session).map_err(|error| error.to_string());
+            // Whatever happens, somebody waits for the answer.
+            let answer = std::panic::catch_unwind(|| companion::run(&session))
+                .map_err(|_| "the companion failed".to_owned())
+                .and_then(|answer| answer.map_err(|error| error.to_string()));
             let _ = events.send(Event::Companion(answer));
         });
     }

@@ -2,7 +2,9 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Child, Command, Output, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
@@ -94,6 +96,20 @@ impl Desk {
         found.sort();
         found
     }
+}
+
+/// Waits until a program has ended that says no more than a pipe holds; fails if it does not end.
+pub fn end(mut child: Child) -> Said {
+    let start = Instant::now();
+    while let Ok(None) = child.try_wait() {
+        if start.elapsed() > Duration::from_secs(60) {
+            let _ = child.kill();
+            let said = child.wait_with_output();
+            panic!("it does not end; so far it said {said:?}");
+        }
+        thread::sleep(Duration::from_millis(5));
+    }
+    child.wait_with_output().expect("an end").into()
 }
 
 /// Names in the directory, sorted.

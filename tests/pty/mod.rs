@@ -2,6 +2,7 @@
 
 use std::io::{Read, Write};
 use std::num::NonZeroU16;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -12,7 +13,7 @@ use portable_pty::{
 use vt100::{Parser, Screen};
 
 /// Longer than anything takes on a busy machine.
-const PATIENCE: Duration = Duration::from_secs(20);
+pub const PATIENCE: Duration = Duration::from_secs(20);
 
 /// What has come out of the program.
 struct Output {
@@ -20,14 +21,23 @@ struct Output {
     raw: Vec<u8>,
 }
 
+/// The test's own handles of the terminal.
+struct Handles {
+    master: Box<dyn MasterPty + Send>,
+    writer: Box<dyn Write + Send>,
+    /// Kept open, so that the terminal's modes can be read when the program is gone.
+    _slave: Box<dyn SlavePty + Send>,
+}
+
 /// A terminal with the program in it.
 pub struct Terminal {
     child: Box<dyn Child + Send + Sync>,
-    master: Box<dyn MasterPty + Send>,
-    writer: Box<dyn Write + Send>,
+    /// None once the terminal has gone away.
+    handles: Option<Handles>,
+    /// Reads what comes out, until the terminal is gone or reading is over.
+    collector: thread::JoinHandle<()>,
+    reading_is_over: Arc<AtomicBool>,
     output: Arc<Mutex<Output>>,
-    /// Kept open, so that the terminal's modes can be read when the program is gone.
-    _slave: Box<dyn SlavePty + Send>,
     modes_before: String,
 }
 
@@ -55,23 +65,39 @@ impl Terminal {
             raw: Vec::new(),
         }));
         let reader = master.try_clone_reader().expect("a reader");
-        collect(reader, Arc::clone(&output));
+        let reading_is_over = Arc::new(AtomicBool::new(false));
+        let collector = collect(reader, Arc::clone(&output), Arc::clone(&reading_is_over));
         let writer = master.take_writer().expect("a writer");
         let child = slave.spawn_command(command).expect("the program starts");
         Self {
             child,
-            master,
-            writer,
+            handles: Some(Handles {
+                master,
+                writer,
+                _slave: slave,
+            }),
+            collector,
+            reading_is_over,
             output,
-            _slave: slave,
             modes_before,
         }
     }
 
     /// Types `keys`.
     pub fn press(&mut self, keys: &str) {
-        self.writer.write_all(keys.as_bytes()).expect("a terminal");
-        self.writer.flush().expect("a terminal");
+        let writer = &mut self.handles.as_mut().expect("a terminal").writer;
+        writer.write_all(keys.as_bytes()).expect("a terminal");
+        writer.flush().expect("a terminal");
+    }
+
+    /// Closes the terminal from outside, as closing its window does. The program must be drawing,
+    /// for its next output is the last that is read.
+    pub fn go_away(&mut self) {
+        self.reading_is_over.store(true, Ordering::Relaxed);
+        self.patiently("its next output never comes", |terminal| {
+            terminal.collector.is_finished().then_some(())
+        });
+        self.handles = None;
     }
 
     /// Gives the terminal another size.
@@ -80,9 +106,8 @@ impl Terminal {
             let screen = output.parser.screen_mut();
             screen.set_size(nonzero(rows), nonzero(columns));
         });
-        self.master
-            .resize(pty_size(columns, rows))
-            .expect("a terminal");
+        let master = &self.handles.as_ref().expect("a terminal").master;
+        master.resize(pty_size(columns, rows)).expect("a terminal");
     }
 
     /// Sends the program a signal.
@@ -99,8 +124,7 @@ impl Terminal {
     pub fn wait_until(&self, what: &str, seen: impl Fn(&Screen) -> bool) {
         let start = Instant::now();
         while !self.look(&seen) {
-            let screen = self.text();
-            assert!(start.elapsed() < PATIENCE, "no {what}:\n{screen}");
+            self.assert_patience(start, &format!("no {what}"));
             thread::sleep(Duration::from_millis(10));
         }
     }
@@ -119,23 +143,44 @@ impl Terminal {
             if now != length {
                 (length, since) = (now, Instant::now());
             }
-            assert!(start.elapsed() < PATIENCE, "it never falls silent");
+            self.assert_patience(start, "it never falls silent");
             thread::sleep(Duration::from_millis(10));
         }
     }
 
     /// Waits until the program has ended and all it has said has come out.
     pub fn wait_for_end(&mut self) -> ExitStatus {
+        let status = self.patiently("it does not end", |terminal| {
+            terminal.child.try_wait().expect("a program")
+        });
+        self.wait_for_silence();
+        status
+    }
+
+    /// Tries until something comes of it.
+    fn patiently<T>(
+        &mut self,
+        failure: &str,
+        mut attempt: impl FnMut(&mut Self) -> Option<T>,
+    ) -> T {
         let start = Instant::now();
         loop {
-            if let Some(status) = self.child.try_wait().expect("a program") {
-                self.wait_for_silence();
-                return status;
+            if let Some(found) = attempt(self) {
+                return found;
             }
-            let screen = self.text();
-            assert!(start.elapsed() < PATIENCE, "it does not end:\n{screen}");
+            self.assert_patience(start, failure);
             thread::sleep(Duration::from_millis(10));
         }
+    }
+
+    /// Fails when a wait that began at `start` has taken too long.
+    fn assert_patience(&self, start: Instant, failure: &str) {
+        let waited = start.elapsed();
+        assert!(
+            waited < PATIENCE,
+            "{failure} after {waited:.0?}; the screen:\n{}",
+            self.text()
+        );
     }
 
     /// Looks at the screen.
@@ -155,7 +200,8 @@ impl Terminal {
 
     /// Whether line discipline, echo and all else are as they were before the program started.
     pub fn has_its_modes_back(&self) -> bool {
-        format!("{:?}", self.master.get_termios()) == self.modes_before
+        let master = &self.handles.as_ref().expect("a terminal").master;
+        format!("{:?}", master.get_termios()) == self.modes_before
     }
 
     fn with<T>(&self, action: impl FnOnce(&mut Output) -> T) -> T {
@@ -166,22 +212,32 @@ impl Terminal {
 impl Drop for Terminal {
     fn drop(&mut self) {
         // A test that failed leaves no program behind.
-        if let Ok(None) = self.child.try_wait() {
+        let start = Instant::now();
+        while let Ok(None) = self.child.try_wait()
+            && start.elapsed() < PATIENCE
+        {
             let _ = self.child.kill();
-            let _ = self.child.wait();
+            thread::sleep(Duration::from_millis(10));
         }
     }
 }
 
-fn collect(mut reader: Box<dyn Read + Send>, output: Arc<Mutex<Output>>) {
+fn collect(
+    mut reader: Box<dyn Read + Send>,
+    output: Arc<Mutex<Output>>,
+    is_over: Arc<AtomicBool>,
+) -> thread::JoinHandle<()> {
     thread::spawn(move || {
         let mut bytes = [0; 4096];
         while let Ok(count @ 1..) = reader.read(&mut bytes) {
+            if is_over.load(Ordering::Relaxed) {
+                return;
+            }
             let mut output = output.lock().unwrap_or_else(PoisonError::into_inner);
             output.parser.process(&bytes[..count]);
             output.raw.extend_from_slice(&bytes[..count]);
         }
-    });
+    })
 }
 
 fn pty_size(columns: u16, rows: u16) -> PtySize {

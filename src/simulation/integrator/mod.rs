@@ -36,6 +36,7 @@ pub(super) fn settle(setup: &Setup, state: &mut State, work: &mut Workspace) -> 
     }
     state.last = last;
     take_over(state, work);
+    work.keep_as_good();
     Ok(())
 }
 
@@ -56,6 +57,7 @@ pub(super) fn step(
         state.last.duration = 0.0;
     }
     state.steps += 1;
+    work.keep_as_good();
     Ok(())
 }
 
@@ -137,8 +139,7 @@ fn check(setup: &Setup, work: &Workspace) -> Result<(), Cause> {
     Ok(())
 }
 
-fn take_over(state: &mut State, work: &mut Workspace) {
-    work.keep_as_good();
+fn take_over(state: &mut State, work: &Workspace) {
     state.depth = work.contact.depth;
     state.shift = work.contact.shift;
     state.wear.copy_from_slice(&work.wear);

@@ -58,21 +58,32 @@ pub(super) fn step(
     cycle: f64,
 ) -> Result<(), Cause> {
     let whole = cycle - state.cycle;
+    // A step that fails in a later part must leave nothing of its earlier ones.
+    let mut before = None;
     let mut part = 1.0;
     while state.cycle < cycle {
         let left = cycle - state.cycle;
-        let reach = if part * whole < left * (1.0 - 1e-9) {
+        let in_parts = part * whole < left * (1.0 - 1e-9);
+        let reach = if in_parts {
             state.cycle + part * whole
         } else {
             cycle
         };
-        let floor = part <= SMALLEST_PART;
-        match attempt(setup, state, work, reach, floor)? {
-            Outcome::TooHarsh(stiffness) => part = (2.0 * part / stiffness).max(SMALLEST_PART),
-            Outcome::Done(stiffness) => {
+        if in_parts && before.is_none() {
+            before = Some(state.clone());
+        }
+        match attempt(setup, state, work, reach, part <= SMALLEST_PART) {
+            Ok(Outcome::TooHarsh(stiffness)) => part = (2.0 * part / stiffness).max(SMALLEST_PART),
+            Ok(Outcome::Done(stiffness)) => {
                 if stiffness < 1.2 {
                     part = (1.5 * part).min(1.0);
                 }
+            }
+            Err(cause) => {
+                if let Some(before) = before {
+                    *state = before;
+                }
+                return Err(cause);
             }
         }
     }

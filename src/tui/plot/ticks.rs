@@ -118,7 +118,7 @@ fn linear_ticks(window: &Window, factor: f64, labels: Labels) -> Vec<Tick> {
     single.into_iter().collect()
 }
 
-/// Decades, with 2 and 5 between them if there is room; `None` if fewer than two fit.
+/// Decades, with 2 and 5 between them if there is room; `None` if no two of them fit.
 fn log_ticks(window: &Window, labels: Labels) -> Option<Vec<Tick>> {
     let [lo, hi] = window.bounds();
     let first = (lo.log10() - 1e-9).floor() as i32;
@@ -157,14 +157,18 @@ fn log_ticks(window: &Window, labels: Labels) -> Option<Vec<Tick>> {
             return Some(found);
         }
     }
-    let mut decades = (first..=last).filter_map(|exponent| {
-        tick(Step {
-            mantissa: 1,
-            exponent,
-        })
-    });
-    let ends = [decades.next()?, decades.next_back()?];
-    fit(&ends, window, labels, 1, 1).then(|| ends.into())
+    // The outermost decades, or the outermost of all where there are no two decades.
+    [&[1][..], &[1, 2, 5]].into_iter().find_map(|mantissas| {
+        let mut steps = (first..=last)
+            .flat_map(|exponent| {
+                mantissas
+                    .iter()
+                    .map(move |&mantissa| Step { mantissa, exponent })
+            })
+            .filter_map(tick);
+        let ends = [steps.next()?, steps.next_back()?];
+        fit(&ends, window, labels, 1, 1).then(|| ends.into())
+    })
 }
 
 /// The distance in cells that keeps an axis airy.

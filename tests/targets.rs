@@ -368,9 +368,10 @@ fn balance(scene: Scene, cycles: u32) -> Balance {
     }
 }
 
-/// The whole run keeps 1e-3, but not each of its cycles: when the rim of the worn zone passes a node,
-/// the volume of the outermost cell changes all at once by some percent of a cycle's wear, and the
-/// cycles until the next node give it back. That shrinks with the cells, with order 1.6; the bounds on
+/// The whole run keeps 1e-3, but not each of its cycles: next to the rim of the worn zone the pressure
+/// in the rim's cell is steeper than its nodes say, so wear there lags behind the work; when the rim
+/// passes the next node, the volume of that cell jumps by some percent of a cycle's wear and pays part
+/// of it back. That shrinks with the cells, with order 1.6; the bounds on
 /// single cycles are measured ones with a margin.
 #[test]
 fn what_has_worn_is_what_friction_has_worked() {

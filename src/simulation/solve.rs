@@ -8,7 +8,7 @@ use super::workspace::{Contact, Workspace};
 use crate::contact::normal;
 use crate::contact::tangential::{self, Grip, Motion};
 use crate::math::abel::bend::{self, Bend};
-use crate::math::abel::{product, worn};
+use crate::math::abel::{product, rim};
 use crate::math::root;
 
 /// Brings g up to date with the worn depth `wear` (m) by Eq. (1).
@@ -23,7 +23,7 @@ pub(super) fn update_profile(work: &mut Workspace, wear: &[f64]) {
     }
     work.rim = None;
     if planned.has_breaks() {
-        work.rim = worn::find_rim(&planned.grid, wear);
+        work.rim = rim::find_rim(&planned.grid, wear);
         if let Some(rim) = &work.rim {
             bend::add_to_profile(
                 &rim.bends(&planned.grid, wear),
@@ -94,7 +94,7 @@ fn press(setup: &Setup, work: &mut Workspace, depth: f64) -> Result<(), Cause> {
         for (compression, g) in work.compression.iter_mut().zip(&work.predicted) {
             *compression = depth - g;
         }
-        if let Some(edge) = worn::edge_at_rim(rim, &planned.grid, &work.compression) {
+        if let Some(edge) = rim::edge_at_rim(rim, &planned.grid, &work.compression) {
             // It takes the place of the edge that was found in its cell, if one was.
             let end = planned.grid.squares()[rim.cell + 1];
             if breaks.last().is_some_and(|last| last.at == end) {

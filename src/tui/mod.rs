@@ -28,6 +28,7 @@ pub mod companion;
 mod fault;
 pub mod frame;
 pub mod keys;
+mod overlays;
 pub mod pace;
 pub mod panels;
 pub mod plot;

@@ -12,7 +12,7 @@
 //!
 //! which is the exact integral of the piecewise linear u. Eqs. (1) and (3) are [`benad`](super::benad)'s.
 //!
-//! - **Order**: second on smooth data. Order ½ in τ at a kink between nodes.
+//! - **Order**, in the largest error over smooth data: 2. At a kink that falls between nodes: 3/2.
 //! - **At r = 0**: w = u(0).
 //! - **At the contact edge**: nothing special, u is a displacement and has no jump.
 //! - **Known failure**: none in fretting; the row sums are one, so a rigid shift maps to itself.

@@ -13,7 +13,8 @@
 //! First derivatives by central differences, zero at r = 0 (everything is even in r), one-sided at
 //! the domain's edge.
 //!
-//! - **Order**: second on smooth data, 3/2 in w near r; order ½ in p at a kink between nodes.
+//! - **Order**, in the largest error over smooth data: 3/2 in g, p and w; 1 in g of a cone, whose slope
+//!   at the tip is taken as zero. At a kink that falls between nodes: ½ in g and p, 3/2 in w.
 //! - **At r = 0**: g = f(0), w = u(0); in p the first cell takes q′ ∝ x, so the integral is finite.
 //! - **At the contact edge**: the central difference smears the edge over two cells.
 //! - **Known failure**: a central difference looks one node across, so wear outside the stick border

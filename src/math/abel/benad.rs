@@ -21,8 +21,8 @@
 //!
 //! His w stays as he has it: u′ by central differences, the integral by trapezoids.
 //!
-//! - **Order**: g and p second on smooth data away from the axis; w second. Order ½ at a kink that
-//!   falls between nodes.
+//! - **Order**, in the largest error over smooth data: 3/2 in g, p and w (1 in p at r = 0). At a kink
+//!   that falls between nodes: ½ in g and p, 1 in w.
 //! - **At r = 0**: g = f(0), w = u(0). In p the first cell takes q linear in x² (q′ = O(x)), or the
 //!   integral would be infinite; for a cone, whose p(0) is truly infinite, a finite value stands
 //!   there that grows like ln N.

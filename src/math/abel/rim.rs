@@ -79,7 +79,7 @@ impl Rim {
         three_bends(t, self.at, [chord, left, right])
     }
 
-    /// The volume (m³) that the rim adds to [`volume_weights`]: a triangle over the chord in t.
+    /// The volume (m³) that the rim adds to [`volume_weights`](super::worn::volume_weights): a triangle over the chord in t.
     pub fn volume(&self, grid: &RadialGrid) -> f64 {
         let nodes = &grid.nodes()[self.cell..=self.cell + 1];
         0.5 * PI * self.height * (nodes[1] - nodes[0]) * (nodes[1] + nodes[0])

@@ -18,7 +18,7 @@
 //! V   = π Σ_{k<c} ½(δ_k + δ_{k+1}) Δt + π Σ_{k≥c} ∫ δ 2z dz
 //! ```
 //!
-//! σ and S as in [`product`](super::product). Without a border (no permanent stick zone) the operator is
+//! σ and S as in [`product`]. Without a border (no permanent stick zone) the operator is
 //! [`product::profile`]. The basis is ours; it lowers the error of a fretting run ten to thirty times.
 //!
 //! - **Order**: exact for 1 and z outside c, and for z² but for the cell next to c; second in smooth F.

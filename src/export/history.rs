@@ -50,6 +50,7 @@ impl History {
 fn row(session: &Session) -> String {
     let simulation = session.simulation();
     let moment = simulation.moment();
+    let pressure = simulation.pressure();
     [
         number(moment.cycle),
         number(moment.time),
@@ -63,9 +64,9 @@ fn row(session: &Session) -> String {
         number(moment.wear_volume),
         number(moment.dissipated_energy),
         optional(moment.energy_residual),
-        number(simulation.max_pressure()),
+        number(pressure.iter().copied().fold(0.0, f64::max)),
         optional(moment.period_residual),
-        optional(simulation.force_residual()),
+        optional(simulation.force_residual(&pressure)),
     ]
     .join(",")
 }

@@ -147,17 +147,22 @@ impl RadialGrid {
     /// Linear in r² between the nodes, since every profile here is even in r: exact for a constant
     /// and for a paraboloid.
     pub fn interpolate(&self, values: &[f64], r: f64) -> f64 {
-        let upper = self.nodes.partition_point(|&node| node < r);
-        if upper == 0 {
-            return values[0];
-        }
-        if upper >= self.len() {
-            return values[self.cells()];
-        }
-        let (left, right) = (self.nodes[upper - 1], self.nodes[upper]);
-        let weight = (r - left) * (r + left) / ((right - left) * (right + left));
-        values[upper - 1] + weight * (values[upper] - values[upper - 1])
+        interpolate(&self.nodes, values, r)
     }
+}
+
+/// Nodal `values` at `r`, linear in r² between `nodes`, constant beyond the last one.
+pub fn interpolate(nodes: &[f64], values: &[f64], r: f64) -> f64 {
+    let upper = nodes.partition_point(|&node| node < r);
+    if upper == 0 {
+        return values[0];
+    }
+    if upper >= nodes.len() {
+        return values[nodes.len() - 1];
+    }
+    let (left, right) = (nodes[upper - 1], nodes[upper]);
+    let weight = (r - left) * (r + left) / ((right - left) * (right + left));
+    values[upper - 1] + weight * (values[upper] - values[upper - 1])
 }
 
 /// The exponent that shrinks `cells` cells over `width` to no less than `narrowest`.

@@ -69,6 +69,8 @@ pub struct Simulation {
     setup: Setup,
     state: State,
     workspace: Workspace,
+    /// Where the next step ends, and whether the motion turns there.
+    next: (f64, bool),
 }
 
 impl Simulation {
@@ -86,6 +88,7 @@ impl Simulation {
             setup,
             state,
             workspace,
+            next: (0.0, false),
         };
         simulation.settle()?;
         Ok(simulation)
@@ -113,6 +116,7 @@ impl Simulation {
             setup,
             state,
             workspace,
+            next: (0.0, false),
         };
         changed.settle()?;
         *self = changed;
@@ -165,14 +169,14 @@ impl Simulation {
 
     /// Takes one step, to the next moment.
     pub fn step(&mut self) -> Result<(), Breakdown> {
-        let (cycle, turns) = self.next();
+        let (cycle, turns) = self.next;
         self.step_to(cycle, turns)
     }
 
     /// Steps until `cycle` is reached; the last step is shortened so as to end there exactly.
     pub fn advance_to(&mut self, cycle: f64) -> Result<(), Breakdown> {
         while self.state.cycle < cycle {
-            let (next, turns) = self.next();
+            let (next, turns) = self.next;
             // A step that would end within rounding of the goal ends at the goal.
             let reached = next > cycle - self.rounding();
             let at_turn = turns && next < cycle + self.rounding();
@@ -190,10 +194,11 @@ impl Simulation {
     /// The cycle at which the next step ends: the next multiple of 1/steps-per-cycle, or before it
     /// the next turning point of the motion, if the scheme minds.
     pub fn next_moment(&self) -> f64 {
-        self.next().0
+        self.next.0
     }
 
-    fn next(&self) -> (f64, bool) {
+    /// Looks for the end of the next step.
+    fn look_ahead(&self) -> (f64, bool) {
         let (now, steps) = (self.state.cycle, f64::from(self.setup.steps_per_cycle));
         // The tolerance outgrows the rounding of late cycles, so that every step gets on.
         let multiple = ((now + self.rounding()) * steps).floor() + 1.0;
@@ -235,7 +240,9 @@ impl Simulation {
                 cycle: self.state.cycle,
                 cause,
             }
-        })
+        })?;
+        self.next = self.look_ahead();
+        Ok(())
     }
 
     /// Solves the contact at the present cycle, without wear and without passing time.
@@ -245,7 +252,9 @@ impl Simulation {
                 cycle: self.state.cycle,
                 cause,
             }
-        })
+        })?;
+        self.next = self.look_ahead();
+        Ok(())
     }
 
     /// Worn volume 2π∫(f − f₀) r dr, m³.

@@ -145,26 +145,8 @@ impl Simulation {
         }
     }
 
-    /// The largest pressure of the present moment, Pa: one transform.
-    pub fn max_pressure(&self) -> f64 {
-        self.pressure().into_iter().fold(0.0, f64::max)
-    }
-
-    /// 1 − ∫p dA/F_z: the pressure of the 3D side against the springs of the 1D side. None without
-    /// load. One transform; between nodes p is linear in r², and a root towards the edge.
-    pub fn force_residual(&self) -> Option<f64> {
-        let contact = &self.workspace.contact.normal;
-        if contact.force <= 0.0 || contact.nodes == 0 {
-            return None;
-        }
-        let (p, nodes) = (self.pressure(), self.setup().grid.nodes());
-        let last = contact.nodes - 1;
-        let inside = volume_of_revolution(&nodes[..=last], &p[..=last]);
-        let ring = (contact.radius - nodes[last]) * (contact.radius + nodes[last]);
-        Some(1.0 - (inside + std::f64::consts::PI * ring * 2.0 / 3.0 * p[last]) / contact.force)
-    }
-
-    fn pressure(&self) -> Vec<f64> {
+    /// p(r), Pa, of the present moment: one transform.
+    pub fn pressure(&self) -> Vec<f64> {
         let mut pressure = vec![0.0; self.setup().grid.len()];
         solve::pressure(
             &self.workspace,
@@ -172,6 +154,21 @@ impl Simulation {
             &mut pressure,
         );
         pressure
+    }
+
+    /// 1 − ∫p dA/F_z with the `pressure` p (Pa) of the present moment: the 3D side against the springs
+    /// of the 1D side. None without load. Between nodes p is linear in r², and a root towards the edge.
+    pub fn force_residual(&self, pressure: &[f64]) -> Option<f64> {
+        let contact = &self.workspace.contact.normal;
+        if contact.force <= 0.0 || contact.nodes == 0 {
+            return None;
+        }
+        let nodes = self.setup().grid.nodes();
+        let last = contact.nodes - 1;
+        let inside = volume_of_revolution(&nodes[..=last], &pressure[..=last]);
+        let ring = (contact.radius - nodes[last]) * (contact.radius + nodes[last]);
+        let edge = std::f64::consts::PI * ring * 2.0 / 3.0 * pressure[last];
+        Some(1.0 - (inside + edge) / contact.force)
     }
 
     /// The present moment with the curves of `curves`.

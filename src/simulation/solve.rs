@@ -91,10 +91,8 @@ fn press(setup: &Setup, work: &mut Workspace, depth: f64) -> Result<(), Cause> {
     }
     work.rim_edge = None;
     if let Some(rim) = &work.rim {
-        for (compression, g) in work.compression.iter_mut().zip(&work.predicted) {
-            *compression = depth - g;
-        }
-        if let Some(edge) = rim::edge_at_rim(rim, &planned.grid, &work.compression) {
+        let compression = |j: usize| depth - work.predicted[j];
+        if let Some(edge) = rim::edge_at_rim(rim, &planned.grid, compression) {
             // It takes the place of the edge that was found in its cell, if one was.
             let end = planned.grid.squares()[rim.cell + 1];
             if breaks.last().is_some_and(|last| last.at == end) {
@@ -106,9 +104,11 @@ fn press(setup: &Setup, work: &mut Workspace, depth: f64) -> Result<(), Cause> {
             work.rim_edge = Some(edge);
         }
     }
+    let nodal = planned.row.force(load, &[], normal.radius);
     work.contact = Contact {
         depth,
         normal,
+        edge_load: 0.5 * (normal.force - nodal),
         ..Contact::default()
     };
     Ok(())

@@ -24,8 +24,6 @@ pub(super) struct Workspace {
     pub predicted: Vec<f64>,
     /// The rim of the worn zone, where the worn profile has a kink.
     pub rim: Option<Rim>,
-    /// d − g, m.
-    pub compression: Vec<f64>,
     /// q_z, N/m, and its breaks.
     pub normal_load: Vec<f64>,
     pub normal_breaks: Vec<Bend>,
@@ -87,6 +85,8 @@ pub(super) struct Contact {
     pub depth: f64,
     pub shift: f64,
     pub normal: NormalContact,
+    /// ∫ of what the breaks of q_z add to its nodal values, N.
+    pub edge_load: f64,
     pub tangential_force: f64,
     /// The stick radius, m; none without tangential motion.
     pub stick_radius: Option<f64>,
@@ -142,7 +142,6 @@ impl Workspace {
             predicted: planned.unworn_1d.clone(),
             planned,
             rim: None,
-            compression: vec![0.0; nodes],
             normal_load: vec![0.0; nodes],
             normal_breaks: Vec::new(),
             rim_edge: None,

@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use crate::math::grid::{MIN_CELLS, interpolate};
 use crate::scenario::session::{Session, SessionError};
 use crate::simulation::{Curves, Observation};
 
@@ -25,7 +26,7 @@ pub struct Companion {
 /// Runs the companion of a session from its start to where it stands.
 pub fn run(session: &Session) -> Result<Companion, SessionError> {
     let start = Instant::now();
-    let cells = (session.simulation().setup().grid.cells() / 2).max(crate::math::grid::MIN_CELLS);
+    let cells = (session.simulation().setup().grid.cells() / 2).max(MIN_CELLS);
     let scenario = session
         .loaded()
         .with("numerics.points", &cells.to_string())?;
@@ -64,16 +65,6 @@ pub fn run(session: &Session) -> Result<Companion, SessionError> {
 pub fn differences(there: &Observation, here: &Observation) -> Vec<f64> {
     let points = there.radii.iter().zip(&there.wear);
     points
-        .map(|(&r, wear)| wear - at(&here.radii, &here.wear, r))
+        .map(|(&r, wear)| wear - interpolate(&here.radii, &here.wear, r))
         .collect()
-}
-
-/// Nodal values at r, linear in r² between nodes.
-fn at(radii: &[f64], values: &[f64], r: f64) -> f64 {
-    let upper = radii
-        .partition_point(|&node| node < r)
-        .clamp(1, radii.len() - 1);
-    let [a, b] = [radii[upper - 1], radii[upper]];
-    let share = ((r * r - a * a) / (b * b - a * a)).clamp(0.0, 1.0);
-    values[upper - 1] + share * (values[upper] - values[upper - 1])
 }

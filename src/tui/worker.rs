@@ -377,8 +377,13 @@ impl Worker {
     fn frame(&self) -> Frame {
         let simulation = self.session.simulation();
         let scenario = self.session.scenario();
+        let observation = simulation.observe(self.curves);
+        let shown = !observation.pressure.is_empty();
+        let force_residual = shown
+            .then(|| simulation.force_residual(&observation.pressure))
+            .flatten();
         Frame {
-            observation: simulation.observe(self.curves),
+            observation,
             trend: self.trend.clone(),
             activity: self.activity.clone(),
             pace: Pace::of_rung(self.rung),
@@ -392,11 +397,7 @@ impl Worker {
             planned_cycles: self.session.loaded().run().cycles,
             steps_per_cycle: simulation.setup().steps_per_cycle,
             friction: simulation.setup().material.friction(),
-            force_residual: self
-                .curves
-                .contains(Curves::PRESSURE)
-                .then(|| simulation.force_residual())
-                .flatten(),
+            force_residual,
             theory: Arc::clone(&self.theory),
             rival: self.rival.as_ref().map(|rival| Rival {
                 name: name(&rival.session),

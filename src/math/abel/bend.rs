@@ -127,7 +127,7 @@ pub fn line_integral(bends: &[Bend], radius: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::{DMatrix, DVector};
+    use super::super::testing::apply;
 
     use super::super::product;
     use super::*;
@@ -138,13 +138,6 @@ mod tests {
         let k = through.partition_point(|&(at, _)| at <= t).clamp(1, 4);
         let ((a, va), (b, vb)) = (through[k - 1], through[k]);
         va + (vb - va) * (t - a) / (b - a)
-    }
-
-    fn apply(weights: &DMatrix<f64>, values: &[f64]) -> Vec<f64> {
-        (weights * DVector::from_column_slice(values))
-            .iter()
-            .copied()
-            .collect()
     }
 
     /// The coarse grid with hats against a grid that has nodes at the kinks.

@@ -42,6 +42,8 @@ pub mod bend;
 mod kernel;
 pub mod product;
 pub mod rim;
+#[cfg(test)]
+mod testing;
 pub mod worn;
 
 /// A way to compute the three transforms.

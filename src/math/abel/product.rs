@@ -235,7 +235,7 @@ fn cusp_weights(nodes: &[f64]) -> [f64; 3] {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::DVector;
+    use super::super::testing::apply;
 
     use super::super::bend::{add_to_stress, polyline};
     use super::*;
@@ -247,13 +247,6 @@ mod tests {
             RadialGrid::graded(100, 0.767 * scale, 1.5 * scale).expect("a grid"),
             RadialGrid::graded(37, 0.31 * scale, 1.3 * scale).expect("a grid"),
         ]
-    }
-
-    fn apply(weights: &DMatrix<f64>, values: &[f64]) -> Vec<f64> {
-        (weights * DVector::from_column_slice(values))
-            .iter()
-            .copied()
-            .collect()
     }
 
     fn worst(found: &[f64], exact: impl Iterator<Item = f64>) -> f64 {

@@ -132,15 +132,20 @@ struct Tail {
     steepness: f64,
 }
 
-/// The contact edge, if it lies in the rim's cell. `compression` = d − g (m), of either sign, nodal.
+/// The contact edge, if it lies in the rim's cell. `compression` gives d − g (m), of
+/// either sign, at a node.
 ///
 /// None means that the edge is an ordinary one, to be found by interpolation.
-pub fn edge_at_rim(rim: &Rim, grid: &RadialGrid, compression: &[f64]) -> Option<RimEdge> {
+pub fn edge_at_rim(
+    rim: &Rim,
+    grid: &RadialGrid,
+    compression: impl Fn(usize) -> f64,
+) -> Option<RimEdge> {
     let cell = rim.cell;
     let (before, first, behind) = (
-        compression[cell - 1],
-        compression[cell],
-        compression[cell + 1],
+        compression(cell - 1),
+        compression(cell),
+        compression(cell + 1),
     );
     if !(before > 0.0 && first > 0.0 && behind <= 0.0) {
         return None;
@@ -216,20 +221,13 @@ impl RimEdge {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::{DMatrix, DVector};
+    use super::super::testing::apply;
 
     use super::super::product;
     use super::*;
 
     fn graded(cells: usize, border: f64) -> RadialGrid {
         RadialGrid::graded(cells, border, 1.5).expect("a grid")
-    }
-
-    fn apply(weights: &DMatrix<f64>, values: &[f64]) -> Vec<f64> {
-        (weights * DVector::from_column_slice(values))
-            .iter()
-            .copied()
-            .collect()
     }
 
     /// Worn flat between c and b, unworn beyond: falling in t to a rim, where it ends.
@@ -294,7 +292,7 @@ mod tests {
                 }
             })
             .collect();
-        let edge = edge_at_rim(&rim, &grid, &compression).expect("an edge");
+        let edge = edge_at_rim(&rim, &grid, |j| compression[j]).expect("an edge");
         assert!((edge.at - (0.6 * rim.at + 0.4 * next)).abs() < 1e-14);
 
         let modulus = 3.0;
@@ -342,11 +340,11 @@ mod tests {
         let squares = grid.squares();
         let zero = 0.5 * (squares[rim.cell] + rim.at);
         let compression: Vec<f64> = squares.iter().map(|t| 0.2 * (zero - t)).collect();
-        let edge = edge_at_rim(&rim, &grid, &compression).expect("an edge");
+        let edge = edge_at_rim(&rim, &grid, |j| compression[j]).expect("an edge");
         assert!((edge.at - zero).abs() < 1e-13);
         let hats = bend::line_integral(&edge.bends, grid.radius());
         assert!((edge.line_integral() - hats).abs() < 1e-14);
         let away: Vec<f64> = squares.iter().map(|t| 0.2 * (0.5 * zero - t)).collect();
-        assert_eq!(edge_at_rim(&rim, &grid, &away), None);
+        assert_eq!(edge_at_rim(&rim, &grid, |j| away[j]), None);
     }
 }

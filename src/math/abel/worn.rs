@@ -104,19 +104,12 @@ fn distances(nodes: &[f64], border: usize) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::DVector;
+    use super::super::testing::apply;
 
     use super::*;
 
     fn graded(cells: usize, border: f64) -> RadialGrid {
         RadialGrid::graded(cells, border, 1.5).expect("a grid")
-    }
-
-    fn apply(weights: &DMatrix<f64>, values: &[f64]) -> Vec<f64> {
-        (weights * DVector::from_column_slice(values))
-            .iter()
-            .copied()
-            .collect()
     }
 
     #[test]

@@ -50,9 +50,6 @@ pub(super) fn step(
             let duration = (cycle - state.cycle) * setup.drive.period();
             work.worn.fill(0.0);
             law.wear(&work.shear, &work.surface_slip, duration, &mut work.worn);
-            for ((after, before), worn) in work.wear.iter_mut().zip(&state.wear).zip(&work.worn) {
-                *after = before + worn;
-            }
             state.last.shear.copy_from_slice(&work.shear);
         }
     }

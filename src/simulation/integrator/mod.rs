@@ -23,7 +23,7 @@ pub(super) fn settle(setup: &Setup, state: &mut State, work: &mut Workspace) -> 
     let nodes = work.g.len();
     let mut last = LastStep {
         normal_load: work.normal_load.clone(),
-        edge_load: edge_load(work),
+        edge_load: work.contact.edge_load,
         growth: vec![0.0; nodes],
         wear: vec![0.0; nodes],
         pressure: vec![0.0; nodes],
@@ -61,7 +61,7 @@ pub(super) fn step(
     Ok(())
 }
 
-/// Makes the solved contact and the worn profile of one step the state.
+/// Adds what one step has worn, and makes the solved contact and the worn profile the state.
 fn commit(
     setup: &Setup,
     state: &mut State,
@@ -69,6 +69,9 @@ fn commit(
     cycle: f64,
     friction_work: f64,
 ) -> Result<(), Cause> {
+    for ((after, before), worn) in work.wear.iter_mut().zip(&state.wear).zip(&work.worn) {
+        *after = before + worn;
+    }
     check(setup, work)?;
     if let Some(law) = &setup.wear {
         // The two sides of V = k E_d: what work explains, and what other laws wore.
@@ -83,7 +86,7 @@ fn commit(
     take_over(state, work);
     keep_smallest_stick(setup, state, work, cycle);
     state.last.normal_load.copy_from_slice(&work.normal_load);
-    state.last.edge_load = edge_load(work);
+    state.last.edge_load = work.contact.edge_load;
     state.last.duration = cycle - state.cycle;
     state.cycle = cycle;
     Ok(())
@@ -99,16 +102,6 @@ fn update_profile_keeping_growth(state: &mut State, work: &mut Workspace) {
         *growth = g - *growth;
     }
     state.last.wear.copy_from_slice(&work.worn);
-}
-
-/// ∫ of what the breaks of q_z add to its nodal values, N.
-fn edge_load(work: &Workspace) -> f64 {
-    let normal = &work.contact.normal;
-    0.5 * (normal.force
-        - work
-            .planned
-            .row
-            .force(&work.normal_load, &[], normal.radius))
 }
 
 /// Refuses a worn profile that is not finite or far above anything that can touch.

@@ -34,7 +34,7 @@ use super::super::breakdown::Cause;
 use super::super::solve::{pressure, shear, solve_contact};
 use super::super::state::State;
 use super::super::workspace::Workspace;
-use super::{commit, edge_load};
+use super::commit;
 use crate::contact::tangential::Hold;
 
 /// The most that the profile is looked ahead, in lengths of the step before.
@@ -151,14 +151,14 @@ fn work_of_friction(setup: &Setup, state: &State, work: &mut Workspace) -> f64 {
     } else {
         0.0
     };
-    let edge = friction * (edge_load(work) + state.last.edge_load) * at_edge;
+    let edge = friction * (work.contact.edge_load + state.last.edge_load) * at_edge;
     work.planned
         .row
         .force(&work.friction_work, &[], normal.radius)
         + edge
 }
 
-/// Fills `work.worn` and `work.wear`; returns the largest stiffness z of a node.
+/// Fills `work.worn`; returns the largest stiffness z of a node.
 fn wear(
     setup: &Setup,
     state: &State,
@@ -215,9 +215,6 @@ fn wear(
             let lean = 0.625 * (z - MILD);
             work.worn[j] = (work.worn[j] + lean * ahead * state.last.wear[j]) / (1.0 + lean);
         }
-    }
-    for ((after, before), worn) in work.wear.iter_mut().zip(&state.wear).zip(&work.worn) {
-        *after = before + worn;
     }
     stiffest
 }

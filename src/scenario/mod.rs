@@ -12,6 +12,7 @@ use crate::simulation::Setup;
 
 mod assign;
 mod check;
+pub mod checkpoint;
 mod derive;
 mod error;
 mod nearest;

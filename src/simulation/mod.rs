@@ -18,6 +18,7 @@ mod choices;
 pub mod drive;
 mod integrator;
 pub mod observation;
+mod saved;
 mod solve;
 pub mod state;
 mod workspace;
@@ -26,6 +27,7 @@ pub use breakdown::{Breakdown, Cause};
 pub use choices::{Scheme, Spacing};
 use drive::{Drive, LONGEST_REPEAT};
 pub use observation::{Curves, Moment, Observation, Zone};
+pub use saved::{Saved, Unfit};
 pub use state::State;
 use workspace::Workspace;
 

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
+
 use super::Setup;
 use super::state::State;
 use crate::contact::foundation::Foundation;
@@ -52,13 +54,13 @@ pub(super) struct Workspace {
     /// f − f₀ after the step, m.
     pub wear: Vec<f64>,
     pub contact: Contact,
-    good: LastGood,
+    pub good: LastGood,
 }
 
 /// What the state does not tell of the last good step.
-#[derive(Debug, Clone, Default)]
-struct LastGood {
-    contact: Contact,
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub(super) struct LastGood {
+    pub contact: Contact,
     normal_breaks: Vec<Bend>,
     spring_breaks: Vec<Bend>,
     rim_edge: Option<RimEdge>,
@@ -80,7 +82,7 @@ pub(super) struct Planned {
 }
 
 /// The scalars of a solved contact.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub(super) struct Contact {
     pub depth: f64,
     pub shift: f64,

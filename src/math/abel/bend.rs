@@ -32,13 +32,15 @@
 
 use std::f64::consts::FRAC_2_PI;
 
+use serde::{Deserialize, Serialize};
+
 use crate::math::grid::RadialGrid;
 
 /// A break point closer to a node than this share of its cell is taken to be the node.
 pub(super) const CLOSEST: f64 = 1e-9;
 
 /// One bend J (t − t_m)₊ of a profile over t = x².
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Bend {
     /// Where: t_m = x_m², m².
     pub at: f64,

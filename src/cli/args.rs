@@ -2,9 +2,11 @@
 
 use std::path::PathBuf;
 use std::str::FromStr;
+use std::time::Duration;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use serde::{Deserialize, Serialize};
 
 use crate::math::grid::{MAX_CELLS, MIN_CELLS};
 use crate::studies::verify::{LADDER, Problem};
@@ -91,6 +93,12 @@ pub struct Explore {
             keys, <lt> for \"<\". Every key waits until the simulation has answered the one before."
     )]
     pub keys: Option<String>,
+    /// Go on where an explorer or a run was put away; the simulation starts paused.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["scenario", "set"])]
+    pub resume: Option<PathBuf>,
+    /// How often the session is put away so that it can be resumed, in seconds; 0: only at the end.
+    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = interval)]
+    pub checkpoint_every: Interval,
     /// Print the screen at this size after the last key; the simulation starts paused.
     #[arg(long, value_name = "COLUMNSxROWS")]
     pub print: Option<Size>,
@@ -101,13 +109,22 @@ pub struct Explore {
 #[command(after_help = "Examples:\n  \
     mdr-tui run li2019-fig3 --cycles 199.24 --snapshot-at 50.72,100 --out fig3\n  \
     mdr-tui run mine.toml --set numerics.method=b --out with-b\n  \
-    mdr-tui run fig3/scenario.toml --out again    the same numbers to the last bit")]
+    mdr-tui run fig3/scenario.toml --out again    the same numbers to the last bit\n  \
+    mdr-tui run --resume fig3/run.checkpoint      go on with a run that was interrupted")]
 pub struct Run {
     /// A preset's name, or a path to a .toml file.
-    pub scenario: String,
+    #[arg(required_unless_present = "resume")]
+    pub scenario: Option<String>,
     /// Changes to the scenario.
     #[command(flatten)]
     pub changes: Changes,
+    /// Go on with a run that was interrupted, or one that the explorer put away.
+    #[arg(
+        long,
+        value_name = "FILE",
+        conflicts_with_all = ["scenario", "set", "snapshot_at", "history"]
+    )]
+    pub resume: Option<PathBuf>,
     /// How many cycles to run; default: the scenario's run.cycles.
     #[arg(long, value_name = "X", value_parser = cycles, allow_hyphen_values = true)]
     pub cycles: Option<f64>,
@@ -119,7 +136,8 @@ pub struct Run {
         allow_hyphen_values = true
     )]
     pub snapshot_at: Option<Vec<CycleAsGiven>>,
-    /// The directory for the files; default: a new one named after the scenario.
+    /// The directory for the files; default: a new one named after the scenario, with --resume the
+    /// run's own.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Write into a directory that holds files already.
@@ -128,6 +146,9 @@ pub struct Run {
     /// Which moments the history records.
     #[arg(long, value_enum, default_value_t = HistoryChoice::Cycle)]
     pub history: HistoryChoice,
+    /// How often the run is put away so that it can be resumed, in seconds; 0: only when it stops.
+    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = interval)]
+    pub checkpoint_every: Interval,
     /// Print the last moment as JSON.
     #[arg(long)]
     pub json: bool,
@@ -224,13 +245,42 @@ pub enum ColorChoice {
     Never,
 }
 
+/// Time between two checkpoints; none: only at the end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Interval(pub Option<Duration>);
+
+fn interval(text: &str) -> Result<Interval, String> {
+    match text.parse::<f64>() {
+        Ok(0.0) => Ok(Interval(None)),
+        Ok(seconds) if (1e-3..=1e6).contains(&seconds) => {
+            Ok(Interval(Some(Duration::from_secs_f64(seconds))))
+        }
+        _ => Err("an interval is 0, or from 0.001 to 1000000 seconds, e.g. 60".into()),
+    }
+}
+
 /// A cycle, and how it was spelled: the spelling names its file.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
 pub struct CycleAsGiven {
     /// The cycle.
     pub cycle: f64,
     /// As typed.
     pub spelling: String,
+}
+
+impl From<CycleAsGiven> for String {
+    fn from(cycle: CycleAsGiven) -> Self {
+        cycle.spelling
+    }
+}
+
+impl TryFrom<String> for CycleAsGiven {
+    type Error = String;
+
+    fn try_from(spelling: String) -> Result<Self, String> {
+        spelling.parse()
+    }
 }
 
 impl FromStr for CycleAsGiven {

@@ -7,17 +7,20 @@ use clap::Parser;
 use clap::error::ErrorKind;
 
 use crate::export::file::WriteError;
+use crate::scenario::checkpoint::CheckpointError;
 use crate::scenario::session::SessionError;
 use crate::scenario::{ScenarioError, printable};
 use crate::tui::NoTerminal;
 
 pub mod args;
 mod documents;
+mod errand;
 mod error_curves;
 mod explore;
 mod presets;
 mod progress;
 mod run;
+mod stop;
 mod verify;
 
 use args::{Arguments, Command};
@@ -67,7 +70,11 @@ pub(crate) fn complain(message: &str) {
 /// Wrong use and wrong input are 2, a run that failed is 1.
 fn exit_code(error: &anyhow::Error) -> u8 {
     for cause in error.chain() {
-        if cause.is::<Misuse>() || cause.is::<ScenarioError>() || cause.is::<NoTerminal>() {
+        if cause.is::<Misuse>()
+            || cause.is::<ScenarioError>()
+            || cause.is::<CheckpointError>()
+            || cause.is::<NoTerminal>()
+        {
             return MISUSED;
         }
         if let Some(SessionError::Scenario(_)) = cause.downcast_ref() {

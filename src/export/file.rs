@@ -110,7 +110,9 @@ impl RunDirectory {
         match fs::read_dir(path) {
             Ok(entries) => {
                 let checkpoint = path.join(RUN_CHECKPOINT);
-                let mut others = entries.flatten().filter(|entry| !is_temporary(&entry.path()));
+                let mut others = entries
+                    .flatten()
+                    .filter(|entry| !is_temporary(&entry.path()));
                 if force {
                     // It would outlive the results that it belongs to.
                     remove(&checkpoint)?;

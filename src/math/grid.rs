@@ -94,7 +94,8 @@ impl RadialGrid {
             return Err(refuse("must be there"));
         };
         Self::check(nodes.len() - 1, radius)?;
-        if first.to_bits() != 0 || nodes.windows(2).any(|pair| !(pair[0] < pair[1])) {
+        let ascends = nodes.windows(2).all(|pair| pair[0] < pair[1]);
+        if first.to_bits() != 0 || !ascends {
             return Err(refuse("must ascend from 0"));
         }
         if border.is_some_and(|at| at == 0 || at + 1 >= nodes.len()) {

@@ -107,7 +107,7 @@ pub fn encode<E: Serialize>(session: &Session, errand: Option<&E>) -> Vec<u8> {
     let body = Body {
         origin: parts.loaded.origin().into(),
         scenario: parts.loaded.to_toml(),
-        changes: parts.changes.into(),
+        changes: parts.changes,
         pending: parts.pending,
         saved: parts.saved,
         errand,

@@ -23,7 +23,7 @@ use crate::scenario::{Scenario, printable};
 use crate::tui::panics;
 
 /// How old the copy may be that a defect of the program leaves of a run.
-const COPY_INTERVAL: Duration = Duration::from_secs(1);
+const COPY_INTERVAL: Duration = Duration::from_millis(100);
 
 /// Runs a scenario, or goes on with one, and writes its files.
 pub fn run(options: &Run) -> Result<ExitCode> {

@@ -128,10 +128,10 @@ impl RunDirectory {
             Err(_) if path.is_file() => return Err(WriteError::NotADirectory(path.to_owned())),
             Err(error) => return Err(failed(error)),
         }
-        Self::try_out(path)
+        Self::reopen(path)
     }
 
-    /// Goes on in the directory of a run that was interrupted.
+    /// Goes on in the directory of a run that was interrupted; what a kill has left there goes.
     pub fn reopen(path: &Path) -> Result<Self, WriteError> {
         sweep(path, Duration::ZERO);
         Self::try_out(path)

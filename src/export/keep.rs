@@ -50,6 +50,15 @@ impl Keeper {
         self.last = Instant::now();
         written
     }
+
+    /// Itself, unless nothing was ever kept: then it gives its place back.
+    pub fn if_ever(self) -> Option<Self> {
+        if fs::metadata(&self.path).is_ok_and(|about| about.len() > 0) {
+            return Some(self);
+        }
+        let _ = fs::remove_file(self.path);
+        None
+    }
 }
 
 /// A free place for the checkpoint of an explorer on a scenario called `stem`: the directory is made,

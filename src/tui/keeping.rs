@@ -10,7 +10,7 @@ use crate::scenario::checkpoint;
 use crate::scenario::session::Session;
 
 /// How old the copy may be that a defect of the program leaves of a session.
-const COPY_INTERVAL: Duration = Duration::from_secs(1);
+const COPY_INTERVAL: Duration = Duration::from_millis(100);
 
 /// Keeps a session.
 #[derive(Debug)]
@@ -101,14 +101,17 @@ impl Keeping {
         if self.kept != Mark::of(session) {
             self.keep(session);
         }
-        match (self.failure, self.keeper) {
-            (Some(failure), _) => Some(format!("nothing is kept: {failure}")),
-            (None, None) => None,
-            (None, Some(keeper)) => Some(format!(
-                "kept at cycle {}; mdr-tui --resume {} goes on",
-                number(session.simulation().cycle()),
-                shell_word(keeper.path())
-            )),
+        let place = self.keeper.as_ref().map(|keeper| {
+            let (cycle, path) = (f64::from_bits(self.kept.cycle), shell_word(keeper.path()));
+            format!(
+                "kept at cycle {}; mdr-tui --resume {path} goes on",
+                number(cycle)
+            )
+        });
+        match (self.failure, place) {
+            (None, place) => place,
+            (Some(failure), Some(place)) => Some(format!("{failure}; {place}")),
+            (Some(failure), None) => Some(format!("nothing is kept: {failure}")),
         }
     }
 
@@ -118,6 +121,8 @@ impl Keeping {
         self.failure = written.err().map(|error| error.to_string());
         if self.failure.is_none() {
             self.kept = Mark::of(session);
+        } else {
+            self.keeper = self.keeper.take().and_then(Keeper::if_ever);
         }
     }
 

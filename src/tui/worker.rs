@@ -210,6 +210,10 @@ impl Worker {
                 break;
             }
             let before = self.session.simulation().cycle();
+            #[cfg(debug_assertions)]
+            if before > 5.0 {
+                super::fault::strike("sixth cycle");
+            }
             self.step();
             self.end_where_planned(before);
         }

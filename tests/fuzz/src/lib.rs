@@ -23,13 +23,18 @@ fn assert_line(text: &str) {
     assert!(text.len() < 4000, "{} bytes: {text}", text.len());
 }
 
+/// One input in eight takes the way that costs most.
+fn is_chosen(text: &str) -> bool {
+    text.bytes().fold(0_u8, u8::wrapping_add) % 8 == 0
+}
+
 /// A scenario that was accepted writes itself down and is read back as itself; it can be stepped.
 fn accepted(scenario: &Scenario) {
     assert_line(&format!(".{}", scenario.title()));
     let text = scenario.to_toml();
     let again = Scenario::from_toml(&text, scenario.origin(), &[]);
     assert!(again.as_ref() == Ok(scenario), "{text}\n{again:?}");
-    if scenario.setup().grid.cells() > CELLS {
+    if scenario.setup().grid.cells() > CELLS || !is_chosen(&text) {
         return;
     }
     match Session::start(scenario.clone()) {
@@ -74,6 +79,9 @@ pub fn keys(text: &str) {
         Ok(keys) => keys,
         Err(error) => return assert_line(&error),
     };
+    if !is_chosen(text) {
+        return;
+    }
     let (orders, _inbox): (_, Receiver<_>) = channel();
     let mut app = App::new(Theme::new(true, Marker::Braille), orders);
     let area = Rect::new(0, 0, 80, 24);

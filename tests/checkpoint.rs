@@ -1,8 +1,9 @@
 //! A run put away and taken up again is the run that was never put away, to the last bit.
 
+use ciborium::Value;
 use mdr_tui::export::history::History;
 use mdr_tui::export::state;
-use mdr_tui::scenario::checkpoint::{CheckpointError, encode, from_bytes};
+use mdr_tui::scenario::checkpoint::{CheckpointError, encode, from_bytes, sealed};
 use mdr_tui::scenario::session::Session;
 use mdr_tui::scenario::{Scenario, preset};
 
@@ -125,6 +126,52 @@ fn changes_that_are_still_to_come_come() {
 fn harsh_wear_that_steps_in_parts_goes_on_as_if_nothing_had_been() {
     let sets = ["numerics.points=60", "wear.coefficient=4e-8"];
     follow(session("li2019-fig3", &sets), 90, 7, "harsh");
+}
+
+/// Takes one value off every list of the saved state in turn: none of them may be believed.
+#[test]
+fn a_state_of_another_length_is_refused() {
+    let mut session = session("li2019-fig3", &["numerics.points=8"]);
+    session.advance_to(0.31).expect("a part of a cycle");
+    let whole = encode(&session, None::<&()>);
+    let contents = {
+        let mut ends = whole.iter().enumerate().filter(|(_, byte)| **byte == b'\n');
+        let start = ends.nth(2).expect("three lines").0 + 1;
+        &whole[start..]
+    };
+    let body: Value = ciborium::from_reader(contents).expect("CBOR");
+    let mut lists = 0;
+    loop {
+        let (mut bent, mut left) = (body.clone(), lists);
+        if !shorten(&mut bent, &mut left, false) {
+            break;
+        }
+        lists += 1;
+        let mut contents = b"\n".to_vec();
+        ciborium::into_writer(&bent, &mut contents).expect("CBOR");
+        refusal(&sealed(&contents));
+    }
+    // Nodes, wear, springs, holds, and what the last step left.
+    assert!(lists >= 8, "{lists} lists");
+}
+
+/// Shortens the list of the state that comes after `left` others; false if there is none.
+fn shorten(value: &mut Value, left: &mut usize, inside: bool) -> bool {
+    match value {
+        Value::Map(fields) => fields.iter_mut().any(|(key, value)| {
+            let inside = inside || matches!(key.as_text(), Some("state" | "nodes"));
+            shorten(value, left, inside)
+        }),
+        Value::Array(list) if inside && list.len() > 2 => {
+            let found = *left == 0;
+            *left = left.wrapping_sub(1);
+            if found {
+                list.pop();
+            }
+            found
+        }
+        _ => false,
+    }
 }
 
 fn refusal(bytes: &[u8]) -> CheckpointError {

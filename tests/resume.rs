@@ -141,7 +141,7 @@ fn a_resumed_run_may_go_further() {
     let desk = Desk::new();
     let plan = "run li2019-fig3 --set numerics.points=40 --set run.snapshot_at=[1,3.5]";
     desk.done(&format!("{plan} --cycles 5 --out whole --quiet"));
-    let line = format!("{plan} --cycles 2e9 --out broken --checkpoint-every 0.001");
+    let line = format!("{plan} --cycles 1e9 --out broken --checkpoint-every 0.001");
     let mut child = start(&desk, &line);
     wait_for(&mut child, &desk.path("broken/run.checkpoint"));
     let _ = child.kill();

@@ -9,6 +9,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use serde::{Deserialize, Serialize};
 
 use crate::math::grid::{MAX_CELLS, MIN_CELLS};
+use crate::scenario::MOST_CYCLES;
 use crate::studies::verify::{LADDER, Problem};
 use crate::tui::Size;
 
@@ -297,7 +298,10 @@ impl FromStr for CycleAsGiven {
 
 fn cycles(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
-        Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),
+        Ok(value) if (0.0..=MOST_CYCLES).contains(&value) => Ok(value),
+        Ok(value) if value > MOST_CYCLES && value.is_finite() => {
+            Err(format!("a run has {MOST_CYCLES:e} cycles or fewer"))
+        }
         _ => Err("cycles are a number of 0 or more, e.g. 199.24".into()),
     }
 }

@@ -7,8 +7,11 @@ use serde::{Deserialize, Serialize};
 use super::Misuse;
 use super::args::{CycleAsGiven, HistoryChoice, Run};
 use crate::export::history::{self, History};
-use crate::scenario::Scenario;
 use crate::scenario::session::Session;
+use crate::scenario::{MOST_SNAPSHOTS, Scenario};
+
+/// The most rows of a history, which is held in memory: some 3 GB.
+const MOST_ROWS: f64 = 1e7;
 
 /// The order that a run was given, and how far it has come.
 #[derive(Debug, Serialize, Deserialize)]
@@ -20,7 +23,10 @@ pub struct Errand {
     every_step: bool,
     /// Cycles at which the state is written, in the order given, those beyond the end included.
     snapshots: Vec<CycleAsGiven>,
-    /// How many of [`due`](Self::due) have been dealt with.
+    /// Those of them that do not lie beyond the end, sorted by cycle.
+    #[serde(skip)]
+    due: Vec<CycleAsGiven>,
+    /// How many of these have been dealt with.
     taken: usize,
     /// The rows so far.
     history: History,
@@ -50,13 +56,15 @@ impl Errand {
             }
             None => planned(scenario),
         };
-        Ok(Self {
+        Self {
             cycles,
             every_step: options.history == HistoryChoice::EveryStep,
             snapshots,
+            due: Vec::new(),
             taken: 0,
             history: History::default(),
-        })
+        }
+        .ready(scenario)
     }
 
     /// What is left to do for a `session` that was put away: `kept` if a run did it, and what the
@@ -77,6 +85,7 @@ impl Errand {
                     cycles: end(cycles.or(planned_end), name)?,
                     every_step: false,
                     taken: snapshots.iter().filter(|at| at.cycle < now).count(),
+                    due: Vec::new(),
                     snapshots,
                     history: History::default(),
                 }
@@ -90,30 +99,44 @@ impl Errand {
             );
             return Err(Misuse(message).into());
         }
-        Ok(errand)
+        errand.ready(session.scenario())
     }
 
-    /// The snapshots of the run, sorted by cycle, and none beyond the end.
-    fn due(&self) -> Vec<&CycleAsGiven> {
-        let mut due: Vec<_> = self.snapshots.iter().collect();
-        due.retain(|snapshot| snapshot.cycle <= self.cycles);
-        due.sort_by(|a, b| a.cycle.total_cmp(&b.cycle));
-        due
+    /// Sorts what is to be done, and refuses what no machine can hold.
+    fn ready(mut self, scenario: &Scenario) -> Result<Self> {
+        self.due = self.snapshots.clone();
+        self.due.retain(|snapshot| snapshot.cycle <= self.cycles);
+        self.due.sort_by(|a, b| a.cycle.total_cmp(&b.cycle));
+        if self.due.len() > MOST_SNAPSHOTS {
+            let message = format!(
+                "--snapshot-at: {} snapshots; a run takes {MOST_SNAPSHOTS} or fewer",
+                self.due.len()
+            );
+            return Err(Misuse(message).into());
+        }
+        let rows = self.cycles * f64::from(scenario.setup().steps_per_cycle);
+        if self.every_step && rows > MOST_ROWS {
+            let message = format!(
+                "--history every-step: {rows:.1e} rows; a history has {MOST_ROWS:e} or fewer: \
+                 fewer --cycles or numerics.steps_per_cycle would do"
+            );
+            return Err(Misuse(message).into());
+        }
+        Ok(self)
     }
 
     /// The next snapshot that lies before `cycle`; it counts as dealt with.
     pub fn next_snapshot(&mut self, cycle: f64) -> Option<CycleAsGiven> {
-        let next = self.due().get(self.taken).copied()?.clone();
+        let next = self.due.get(self.taken)?;
         (next.cycle < cycle).then(|| {
             self.taken += 1;
-            next
+            next.clone()
         })
     }
 
     /// The snapshots that were dealt with.
     pub fn taken(&self) -> Vec<CycleAsGiven> {
-        let due = self.due().into_iter();
-        due.take(self.taken).cloned().collect()
+        self.due.iter().take(self.taken).cloned().collect()
     }
 
     /// The snapshots as `scenario.toml` is to name them.

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use anyhow::{Result, anyhow};
+use anyhow::{Context, Result, anyhow};
 
 use super::args::{CycleAsGiven, Run};
 use super::errand::{Errand, Mark};
@@ -103,7 +103,7 @@ impl Job {
     fn start(options: &Run, name: &str) -> Result<Self> {
         let scenario = Scenario::load(name, &options.changes.set)?;
         let errand = Errand::new(options, &scenario, name)?;
-        let session = Session::start(scenario)?;
+        let session = Session::start(scenario).with_context(|| printable(name))?;
         let path = options.out.clone();
         let path =
             path.unwrap_or_else(|| free_directory(&format!("{}-run", session.loaded().stem())));

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::contact::tangential::Hold;
+use crate::math::abel::bend::Bend;
 
 /// What is saved, restored, and carried over when a method or a law is switched.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -70,6 +71,8 @@ pub struct LastStep {
     pub normal_load: Vec<f64>,
     /// ∫ of the breaks of q_z at its end, N.
     pub edge_load: f64,
+    /// The breaks of u_x at its end, m.
+    pub spring_breaks: Vec<Bend>,
     /// p and τ at its end, Pa, nodal.
     pub pressure: Vec<f64>,
     /// τ.

@@ -37,6 +37,8 @@ pub(super) struct Workspace {
     pub spring_breaks: Vec<Bend>,
     /// Slip of the springs in the step, m.
     pub slip: Vec<f64>,
+    /// Where the slip bends between springs, and in which cell.
+    pub slip_kinks: Vec<(usize, Bend)>,
     /// q_x, N/m.
     pub tangential_load: Vec<f64>,
     /// The work of friction, J/m.
@@ -151,6 +153,7 @@ impl Workspace {
             hold: vec![Hold::Stick; springs],
             spring_breaks: Vec::new(),
             slip: vec![0.0; springs],
+            slip_kinks: Vec::new(),
             tangential_load: vec![0.0; springs],
             friction_work: vec![0.0; springs],
             pressure: vec![0.0; wearing],

@@ -82,6 +82,20 @@ pub fn polyline(t: [f64; 2], v: [f64; 2], inner: &[(f64, f64)], bends: &mut Vec<
     }
 }
 
+/// The bends of hats, each with the cell (between nodes k and k + 1) that its hat fills.
+pub fn by_cell<'a>(
+    bends: &'a [Bend],
+    squares: &'a [f64],
+) -> impl Iterator<Item = (usize, Bend)> + 'a {
+    let mut hat = None;
+    bends.iter().map(move |&bend| {
+        let cell = hat.unwrap_or_else(|| squares.partition_point(|&t| t <= bend.at) - 1);
+        // A hat ends on the outer node of its cell.
+        hat = (bend.at < squares[cell + 1]).then_some(cell);
+        (cell, bend)
+    })
+}
+
 /// Eq. (1): adds what bends of f do to the 1D profile `g` on nodes with the given `squares` (m²).
 pub fn add_to_profile(bends: &[Bend], squares: &[f64], g: &mut [f64]) {
     for bend in bends {

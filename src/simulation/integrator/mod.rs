@@ -24,6 +24,7 @@ pub(super) fn settle(setup: &Setup, state: &mut State, work: &mut Workspace) -> 
     let mut last = LastStep {
         normal_load: work.normal_load.clone(),
         edge_load: work.contact.edge_load,
+        spring_breaks: work.spring_breaks.clone(),
         growth: vec![0.0; nodes],
         wear: vec![0.0; nodes],
         pressure: vec![0.0; nodes],
@@ -87,6 +88,7 @@ fn commit(
     keep_smallest_stick(setup, state, work, cycle);
     state.last.normal_load.copy_from_slice(&work.normal_load);
     state.last.edge_load = work.contact.edge_load;
+    state.last.spring_breaks.clone_from(&work.spring_breaks);
     state.last.duration = cycle - state.cycle;
     state.cycle = cycle;
     Ok(())

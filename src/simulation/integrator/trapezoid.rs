@@ -36,6 +36,7 @@ use super::super::state::State;
 use super::super::workspace::Workspace;
 use super::commit;
 use crate::contact::tangential::Hold;
+use crate::math::abel::bend::{self, Bend};
 
 /// The most that the profile is looked ahead, in lengths of the step before.
 const FARTHEST: f64 = 4.0;
@@ -141,21 +142,35 @@ fn attempt(
 fn work_of_friction(setup: &Setup, state: &State, work: &mut Workspace) -> f64 {
     let friction = setup.material.friction();
     let loads = work.normal_load.iter().zip(&state.last.normal_load);
-    for (power, ((after, before), slip)) in work.friction_work.iter_mut().zip(loads.zip(&work.slip))
-    {
-        *power = 0.5 * friction * (after + before) * slip.abs();
+    for (limit, (after, before)) in work.friction_work.iter_mut().zip(loads) {
+        *limit = 0.5 * friction * (after + before);
     }
+    kinks_of_slip(work, &state.last.spring_breaks);
     let normal = &work.contact.normal;
-    let at_edge = if normal.nodes > 0 {
-        work.slip[normal.nodes - 1].abs()
-    } else {
-        0.0
+    let at_edge = match normal.nodes {
+        0 => 0.0,
+        nodes => work.slip[nodes - 1].abs(),
     };
     let edge = friction * (work.contact.edge_load + state.last.edge_load) * at_edge;
-    work.planned
-        .row
-        .force(&work.friction_work, &[], normal.radius)
-        + edge
+    let row = &work.planned.row;
+    let (limit, slip) = (&work.friction_work, &work.slip);
+    edge + row.work(limit, slip, &work.slip_kinks, normal.radius)
+}
+
+/// Where the slip of the step bends between springs: where a border of stick is now, and where one was
+/// before. A cell that sticks does not slip, wherever its border was.
+fn kinks_of_slip(work: &mut Workspace, before: &[Bend]) {
+    let squares = work.planned.grid.squares();
+    work.slip_kinks.clear();
+    for (breaks, sign) in [(&work.spring_breaks[..], -1.0), (before, 1.0)] {
+        for (k, bend) in bend::by_cell(breaks, squares) {
+            let slips = |j: usize| work.hold[j].sign().is_some();
+            if (slips(k) || slips(k + 1)) && work.hold[k + 1] != Hold::Open {
+                let jump = sign * bend.jump;
+                work.slip_kinks.push((k, Bend { jump, ..bend }));
+            }
+        }
+    }
 }
 
 /// Fills `work.worn`; returns the largest stiffness z of a node.

@@ -354,3 +354,57 @@ fn a_connection_that_is_cut_keeps_the_session() {
     terminal.press("q");
     assert_eq!(terminal.wait_for_end().exit_code(), 0);
 }
+
+#[test]
+fn an_explorer_that_is_killed_loses_an_interval_at_most() {
+    for pause in [0.3, 0.71, 0.95] {
+        let home = home();
+        let arguments = ["--checkpoint-every", "0.01"];
+        let mut terminal = Terminal::start(at_home(&home, &arguments), 80, 24);
+        terminal.wait_until("explorer under way", is_under_way);
+        thread::sleep(Duration::from_secs_f64(pause));
+        let seen = terminal.look(cycle).expect("a cycle");
+        terminal.signal("KILL");
+        terminal.wait_for_end();
+        let path = kept(&home).expect("a checkpoint");
+        let session = read(&path);
+        // Ten cycles a second, a checkpoint a hundredth: a second's tenth is generous.
+        assert!(session.simulation().cycle() > seen - 1.0, "{seen}");
+        assert_exact(&session);
+        // Without a screen it goes on as well.
+        let out = home.path().join("out");
+        let run = Command::new(env!("CARGO_BIN_EXE_mdr-tui"))
+            .args(["run", "--quiet", "--cycles", "30", "--resume"])
+            .arg(&path)
+            .arg("--out")
+            .arg(&out)
+            .status();
+        assert!(run.expect("the program starts").success());
+        let mut straight = Session::start(session.loaded().clone()).expect("a contact");
+        straight.advance_to(30.0).expect("thirty cycles");
+        let table = mdr_tui::export::state::table(&straight);
+        assert!(fs::read_to_string(out.join("state.csv")).expect("the state") == table);
+    }
+}
+
+#[test]
+fn without_a_shell_ctrl_z_says_so_and_nothing_stops() {
+    let home = home();
+    let mut terminal = Terminal::start(at_home(&home, &[]), 80, 24);
+    terminal.wait_until("explorer under way", is_under_way);
+    for stop in ["key", "signal"] {
+        match stop {
+            "key" => terminal.press("\x1a"),
+            _ => terminal.signal("TSTP"),
+        }
+        terminal.wait_for("there is no shell to go back to");
+        let seen = terminal.look(cycle);
+        terminal.wait_until("later cycle", |screen| cycle(screen) > seen);
+        terminal.press("x");
+        terminal.wait_until("keys again", |screen| {
+            !screen.contents().contains("no shell")
+        });
+    }
+    terminal.press("q");
+    assert_eq!(terminal.wait_for_end().exit_code(), 0);
+}

@@ -333,3 +333,50 @@ fn a_defect_keeps_what_is_done_and_says_so_in_one_line() {
     desk.done("run hertz --cycles 1 --out whole --quiet");
     assert_alike(&desk, "whole", "x");
 }
+
+/// Room for a checkpoint and not for the files, as far as a limit on their size can say so.
+#[test]
+fn a_disk_that_is_full_at_the_end_leaves_a_checkpoint() {
+    let desk = Desk::new();
+    let bin = env!("CARGO_BIN_EXE_mdr-tui");
+    let run = |blocks: u32, out: &str| {
+        let line = format!(
+            "trap '' XFSZ; ulimit -f {blocks}; exec '{bin}' run li2019-fig3 --cycles 3 --out {out} \
+             --snapshot-at 1,2 --set numerics.points=400"
+        );
+        let mut command = Command::new("bash");
+        command.args(["-c", &line]).current_dir(desk.path(""));
+        command.env("XDG_STATE_HOME", desk.path("state"));
+        Said::from(command.output().expect("a shell"))
+    };
+    // Kilobytes: the tables of 401 nodes take more than 60, and the checkpoint takes less than that.
+    for (blocks, kept) in [(0, None), (60, Some("tight"))] {
+        let out = kept.unwrap_or("full");
+        let said = run(blocks, out);
+        assert_eq!(said.code, 1, "{}", said.err);
+        let last = said.err.lines().last().unwrap_or_default();
+        assert!(last.contains("cannot write"), "{}", said.err);
+        let owed = said
+            .err
+            .matches("the run goes on, to try again at its end")
+            .count();
+        assert_eq!(owed, 2, "{}", said.err);
+        match kept {
+            None => assert!(last.ends_with("there is no checkpoint"), "{last}"),
+            Some(out) => {
+                let hint = format!("mdr-tui run --resume {out}/run.checkpoint goes on");
+                assert!(last.contains(&hint), "{last}");
+                let line = format!("run --resume {out}/run.checkpoint --quiet");
+                desk.say(&line.split(' ').collect::<Vec<_>>());
+                desk.done(
+                    "run li2019-fig3 --cycles 3 --out whole --snapshot-at 1,2 \
+                     --set numerics.points=400 --quiet",
+                );
+                for name in ["state.csv", "history.csv", "scenario.toml"] {
+                    let read = |directory: &str| desk.read(&format!("{directory}/{name}"));
+                    assert!(read("whole") == read(out), "{name} differs");
+                }
+            }
+        }
+    }
+}

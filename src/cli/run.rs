@@ -13,9 +13,9 @@ use super::args::{CycleAsGiven, Run};
 use super::errand::{Errand, Mark};
 use super::progress::Progress;
 use super::{FAILED, complain, stop};
-use crate::export::file::{RUN_CHECKPOINT, RunDirectory, free_directory, write_whole};
+use crate::export::file::{RUN_CHECKPOINT, RunDirectory, WriteError, free_directory, write_whole};
 use crate::export::header::number;
-use crate::export::keep::Keeper;
+use crate::export::keep::{self, Keeper};
 use crate::export::state;
 use crate::scenario::checkpoint;
 use crate::scenario::session::Session;
@@ -35,22 +35,16 @@ pub fn run(options: &Run) -> Result<ExitCode> {
     panics::keep();
     // A defect must not take hours of computing with it.
     let outcome = catch_unwind(AssertUnwindSafe(|| job.advance(&stop)));
-    let outcome = match outcome {
-        Ok(Ok(Ended::Interrupted)) => {
-            job.put_away();
-            Ok(Ended::Interrupted)
-        }
-        Ok(outcome) => outcome,
-        Err(_) => {
-            let defect = job.go_back();
-            job.put_away();
-            job.write_end()?;
-            return Err(defect);
-        }
-    };
+    let outcome = outcome.unwrap_or_else(|_| Ok(Ended::Broken(job.go_back())));
+    if matches!(outcome, Ok(Ended::Interrupted | Ended::Broken(_))) {
+        job.put_away();
+    }
     // Whatever happened, what was computed is kept.
-    job.write_end()?;
-    if !matches!(outcome, Ok(Ended::Interrupted)) {
+    if let Err(error) = job.write_end() {
+        // The directory was good when the run began: this is a failure, not misuse.
+        return Err(anyhow!("{error}; {}", job.rescue()));
+    }
+    if matches!(outcome, Ok(Ended::Done) | Err(_)) {
         job.directory.close()?;
     }
     match outcome {
@@ -69,6 +63,7 @@ pub fn run(options: &Run) -> Result<ExitCode> {
             ));
             Ok(ExitCode::from(FAILED))
         }
+        Ok(Ended::Broken(word)) => Err(anyhow!("{word}; {}", job.way_on())),
         Err(error) => Err(error.context(format!(
             "{} (kept in {})",
             job.name,
@@ -80,6 +75,8 @@ pub fn run(options: &Run) -> Result<ExitCode> {
 enum Ended {
     Done,
     Interrupted,
+    /// By a defect, as told.
+    Broken(String),
 }
 
 struct Job {
@@ -226,12 +223,12 @@ impl Job {
     }
 
     /// After a defect: back to the copy, for a step that was cut short has left half a state.
-    fn go_back(&mut self) -> anyhow::Error {
+    fn go_back(&mut self) -> String {
         self.session = self.copy.0.clone();
         self.errand.rewind(self.copy.1);
         let cycle = number(self.session.simulation().cycle());
         let word = panics::word().unwrap_or_default();
-        anyhow!("a defect in mdr-tui: {word}; kept at cycle {cycle}")
+        format!("a defect in mdr-tui: {word}; kept at cycle {cycle}")
     }
 
     /// How to go on with a run that has stopped.
@@ -265,22 +262,47 @@ impl Job {
         Ok(())
     }
 
-    fn write_end(&mut self) -> Result<()> {
-        for (name, table) in &self.owed {
-            self.directory.write(name, table.as_bytes())?;
-        }
-        let files: [(&str, String); 3] = [
+    /// Writes the files of the end; all that can be, where not all can.
+    fn write_end(&mut self) -> Result<(), WriteError> {
+        let owed = self.owed.iter().cloned();
+        let files = [
             (
-                "scenario.toml",
+                "scenario.toml".to_owned(),
                 self.session.as_run(self.errand.snapshot_at()).to_toml(),
             ),
-            ("history.csv", self.errand.table(&self.session)),
-            ("state.csv", state::table(&self.session)),
+            ("history.csv".to_owned(), self.errand.table(&self.session)),
+            ("state.csv".to_owned(), state::table(&self.session)),
         ];
-        for (name, text) in files {
-            self.directory.write(name, text.as_bytes())?;
+        let mut outcome = Ok(());
+        for (name, text) in owed.chain(files) {
+            let written = self.directory.write(&name, text.as_bytes());
+            outcome = outcome.and(written.map(|_| ()));
         }
-        Ok(())
+        outcome
+    }
+
+    /// Where the files cannot be written, a checkpoint may: in their place, or where explorers keep
+    /// theirs. Says where it is.
+    fn rescue(&mut self) -> String {
+        let bytes = checkpoint::encode(&self.session, Some(&self.errand));
+        let stem = self.session.loaded().stem();
+        let elsewhere = || keep::place(&keep::state_directory()?, &stem).ok();
+        for path in std::iter::once_with(|| Some(self.directory.checkpoint()))
+            .chain(std::iter::once_with(elsewhere))
+            .flatten()
+        {
+            let mut keeper = Keeper::new(path, None);
+            if keeper.keep(&bytes).is_ok() {
+                self.keeper = keeper;
+                return self.way_on();
+            }
+            // A checkpoint that was kept before is better than none.
+            if let Some(keeper) = keeper.if_ever() {
+                self.keeper = keeper;
+                return self.way_on();
+            }
+        }
+        "there is no checkpoint".into()
     }
 
     fn summarize(&self, as_json: bool) -> Result<()> {

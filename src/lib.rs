@@ -14,7 +14,7 @@
 //! | [`contact`] | materials, indenters, normal and tangential springs | no time |
 //! | [`wear`] | wear laws | one step |
 //! | [`simulation`] | motion, state, stepping, observations | no scenario, no file, no screen |
-//! | [`scenario`] | TOML in and out, presets, a session with its changes | no screen |
+//! | [`scenario`] | TOML in and out, presets, a session with its changes and checkpoints | no screen |
 //! | [`studies`] | errors against theory, as tables | no file, no screen |
 //! | [`export`] | CSV files, whole or not at all | runs nothing |
 //! | [`cli`], [`tui`] | the command line; the explorer | everything below |

@@ -522,7 +522,7 @@ fn long_run(desk: &Desk, out: &str) -> Child {
 #[test]
 fn a_signal_ends_a_run_and_keeps_what_is_done() {
     let desk = Desk::new();
-    for signal in ["TERM", "INT"] {
+    for signal in ["TERM", "INT", "HUP"] {
         let child = long_run(&desk, signal);
         let kill = format!("kill -{signal} {}", child.id());
         let sent = Command::new("sh").args(["-c", &kill]).status();
@@ -532,11 +532,20 @@ fn a_signal_ends_a_run_and_keeps_what_is_done() {
         let cycle = said
             .err
             .strip_prefix("mdr-tui: interrupted at cycle ")
-            .and_then(|rest| rest.strip_suffix(&format!("; kept in {signal}\n")))
+            .and_then(|rest| rest.split_once(&format!("; kept in {signal}; ")))
             .expect("the cycle and the directory");
+        let (cycle, way_on) = cycle;
+        let command = format!("mdr-tui run --resume {signal}/run.checkpoint goes on\n");
+        assert_eq!(way_on, command);
         assert_eq!(
             names(&desk.path(signal)),
-            ["history.csv", "scenario.toml", "state-0.5.csv", "state.csv"]
+            [
+                "history.csv",
+                "run.checkpoint",
+                "scenario.toml",
+                "state-0.5.csv",
+                "state.csv"
+            ]
         );
         let state = Table::parse(&desk.read(&format!("{signal}/state.csv")));
         assert_eq!(state.header("cycle"), cycle);

@@ -9,6 +9,7 @@ mod common;
 use common::{Scene, archard, holds, run, run_setup, swing};
 use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::math::abel::AbelMethod::{A, B, Product};
+use mdr_tui::math::abel::worn;
 use mdr_tui::math::grid::RadialGrid;
 use mdr_tui::oracle::cattaneo_mindlin::CattaneoMindlin;
 use mdr_tui::oracle::dual_oscillation::{DualOscillation, Frequencies};
@@ -106,24 +107,6 @@ fn method_a_misses_the_limiting_profile_by_four_times_as_much() {
     holds(&format!("ours, a: {published:.3e}"), ours, published / 4.0);
 }
 
-/// The worn depth at any radius. Outside the border it is what the basis of the product method is
-/// built on: wear_c + z F with z = √(r² − c²) and F linear in z, level in the first cell.
-fn worn_at(grid: &RadialGrid, wear: &[f64], r: f64) -> f64 {
-    let Some(border) = grid.border().filter(|&border| r > grid.nodes()[border]) else {
-        return grid.interpolate(wear, r);
-    };
-    let t = grid.squares();
-    let z = |square: f64| (square - t[border]).sqrt();
-    let rate = |k: usize| {
-        let k = k.max(border + 1);
-        (wear[k] - wear[border]) / z(t[k])
-    };
-    let upper = grid.nodes().partition_point(|&node| node < r);
-    let (left, right, here) = (z(t[upper - 1]), z(t[upper]), z(r * r));
-    let weight = (here - left) / (right - left);
-    wear[border] + here * (rate(upper - 1) * (1.0 - weight) + rate(upper) * weight)
-}
-
 /// Radius and profile of the converged state.
 fn reference() -> Vec<(f64, f64)> {
     let text = include_str!("fixtures/reference/fig3_k1.csv");
@@ -140,7 +123,7 @@ fn fig3_error(simulation: &Simulation) -> f64 {
     let (grid, wear) = (&simulation.setup().grid, &simulation.state().wear);
     let errors = rows
         .iter()
-        .map(|&(r, profile)| 0.5 * r * r + worn_at(grid, wear, r) - profile);
+        .map(|&(r, profile)| 0.5 * r * r + worn::interpolate(grid, wear, r) - profile);
     rms(errors)
 }
 

@@ -1,6 +1,7 @@
 //! The explorer in a real pseudo-terminal: started, driven, resized, quit, killed and broken.
 #![cfg(unix)]
 
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -50,7 +51,25 @@ fn assert_clean_end(terminal: &mut Terminal) {
     let status = terminal.wait_for_end();
     assert_eq!((status.exit_code(), status.signal()), (0, None));
     assert_given_back(terminal);
-    assert_eq!(terminal.text().trim(), "");
+    kept_at(terminal);
+}
+
+/// The cycle and the checkpoint that the only line on the screen tells of; none where it is empty.
+fn kept_at(terminal: &Terminal) -> Option<(f64, PathBuf)> {
+    let text = terminal.look(|screen| {
+        let (_, columns) = screen.size();
+        let rows: Vec<String> = screen.rows(0, columns.get()).collect();
+        rows.concat().trim().to_owned()
+    });
+    if text.is_empty() {
+        return None;
+    }
+    let told = text
+        .strip_prefix("mdr-tui: kept at cycle ")
+        .and_then(|rest| rest.strip_suffix(" goes on"))
+        .and_then(|rest| rest.split_once("; mdr-tui --resume "));
+    let (cycle, path) = told.unwrap_or_else(|| panic!("left behind: {text}"));
+    Some((cycle.parse().expect("a cycle"), path.into()))
 }
 
 #[test]
@@ -338,4 +357,49 @@ fn a_locale_without_utf8_gets_plain_ascii() {
     let raw = terminal.raw();
     let first = raw.iter().position(|byte| !byte.is_ascii());
     assert_eq!(first, None, "{}", terminal.text());
+}
+
+/// A shell with job control, in which the explorer is started by typing.
+fn shell(directory: &Path) -> Terminal {
+    let mut command = program(&[]);
+    *command.get_argv_mut() = ["bash", "--norc", "--noprofile", "-i"]
+        .map(Into::into)
+        .to_vec();
+    command.cwd(directory);
+    command.env("PS1", "ready> ");
+    let terminal = Terminal::start(command, 80, 24);
+    terminal.wait_for("ready>");
+    terminal
+}
+
+#[test]
+fn ctrl_z_gives_the_terminal_to_the_shell_and_fg_takes_it_back() {
+    let base = tempfile::tempdir().expect("a directory");
+    let bin = env!("CARGO_BIN_EXE_mdr-tui");
+    std::fs::write(base.path().join("wrapped"), format!("'{bin}'\n")).expect("a script");
+    for start in [bin, "sh wrapped"] {
+        let mut terminal = shell(base.path());
+        terminal.press(&format!("{start}\n"));
+        terminal.wait_until("running explorer", is_running);
+        for _ in 0..2 {
+            terminal.press("\x1a");
+            terminal.wait_until("shell", |screen| {
+                let text = screen.contents();
+                !screen.alternate_screen() && !screen.hide_cursor() && text.contains("Stopped")
+            });
+            // The shell echoes and answers.
+            terminal.press("echo $((6*7))\n");
+            terminal.wait_for("\n42");
+            terminal.press("clear; fg\n");
+            terminal.wait_until("explorer again", |screen| {
+                screen.alternate_screen() && is_running(screen)
+            });
+        }
+        let seen = terminal.look(cycle);
+        terminal.wait_until("later cycle", |screen| cycle(screen) > seen);
+        terminal.press("q");
+        terminal.wait_for("goes on");
+        terminal.press("exit\n");
+        terminal.wait_for_end();
+    }
 }

@@ -2,13 +2,19 @@
 
 use std::path::PathBuf;
 use std::str::FromStr;
+use std::time::Duration;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use serde::{Deserialize, Serialize};
 
 use crate::math::grid::{MAX_CELLS, MIN_CELLS};
+use crate::scenario::MOST_CYCLES;
+use crate::math::abel::AbelMethod;
+use crate::studies::trade;
 use crate::studies::verify::{LADDER, Problem};
 use crate::tui::Size;
+use crate::tui::plot::Marker;
 
 /// Watch a fretting contact wear away, live in the terminal.
 #[derive(Debug, Parser)]
@@ -42,6 +48,8 @@ pub enum Command {
     Presets(Presets),
     /// Compare every method with closed forms, over a ladder of N.
     Verify(Verify),
+    /// Measure speed against accuracy: one scenario by many settings.
+    Trade(Trade),
     /// Print a completion script for a shell.
     #[command(
         after_help = "Example:\n  mdr-tui completions bash > ~/.local/share/bash-completion/completions/mdr-tui"
@@ -91,6 +99,12 @@ pub struct Explore {
             keys, <lt> for \"<\". Every key waits until the simulation has answered the one before."
     )]
     pub keys: Option<String>,
+    /// Go on where an explorer or a run was put away; the simulation starts paused.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["scenario", "set"])]
+    pub resume: Option<PathBuf>,
+    /// How often the session is put away so that it can be resumed, in seconds; 0: only at the end.
+    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = interval)]
+    pub checkpoint_every: Interval,
     /// Print the screen at this size after the last key; the simulation starts paused.
     #[arg(long, value_name = "COLUMNSxROWS")]
     pub print: Option<Size>,
@@ -101,13 +115,22 @@ pub struct Explore {
 #[command(after_help = "Examples:\n  \
     mdr-tui run li2019-fig3 --cycles 199.24 --snapshot-at 50.72,100 --out fig3\n  \
     mdr-tui run mine.toml --set numerics.method=b --out with-b\n  \
-    mdr-tui run fig3/scenario.toml --out again    the same numbers to the last bit")]
+    mdr-tui run fig3/scenario.toml --out again    the same numbers to the last bit\n  \
+    mdr-tui run --resume fig3/run.checkpoint      go on with a run that was interrupted")]
 pub struct Run {
     /// A preset's name, or a path to a .toml file.
-    pub scenario: String,
+    #[arg(required_unless_present = "resume")]
+    pub scenario: Option<String>,
     /// Changes to the scenario.
     #[command(flatten)]
     pub changes: Changes,
+    /// Go on with a run that was interrupted, or one that the explorer put away.
+    #[arg(
+        long,
+        value_name = "FILE",
+        conflicts_with_all = ["scenario", "set", "snapshot_at", "history"]
+    )]
+    pub resume: Option<PathBuf>,
     /// How many cycles to run; default: the scenario's run.cycles.
     #[arg(long, value_name = "X", value_parser = cycles, allow_hyphen_values = true)]
     pub cycles: Option<f64>,
@@ -119,7 +142,8 @@ pub struct Run {
         allow_hyphen_values = true
     )]
     pub snapshot_at: Option<Vec<CycleAsGiven>>,
-    /// The directory for the files; default: a new one named after the scenario.
+    /// The directory for the files; default: a new one named after the scenario, with --resume the
+    /// run's own.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Write into a directory that holds files already.
@@ -128,6 +152,9 @@ pub struct Run {
     /// Which moments the history records.
     #[arg(long, value_enum, default_value_t = HistoryChoice::Cycle)]
     pub history: HistoryChoice,
+    /// How often the run is put away so that it can be resumed, in seconds; 0: only when it stops.
+    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = interval)]
+    pub checkpoint_every: Interval,
     /// Print the last moment as JSON.
     #[arg(long)]
     pub json: bool,
@@ -191,6 +218,69 @@ pub struct Verify {
     pub quiet: bool,
 }
 
+/// Options of `trade`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    mdr-tui trade li2019-fig3 --plot            the Pareto front, as a table and drawn\n  \
+    mdr-tui trade mine.toml --accuracy 1e-3     the cheapest setting that errs by 1e-3 at most\n  \
+    mdr-tui trade mine.toml --methods product,a --points 50,100,200 --csv trade.csv")]
+pub struct Trade {
+    /// A preset's name, or a path to a .toml file.
+    pub scenario: String,
+    /// Changes to the scenario.
+    #[command(flatten)]
+    pub changes: Changes,
+    /// How many cycles to run; default: the scenario's run.cycles.
+    #[arg(long, value_name = "X", value_parser = cycles, allow_hyphen_values = true)]
+    pub cycles: Option<f64>,
+    /// The methods to try; default: all.
+    #[arg(long, value_name = "M1,M2,...", value_delimiter = ',', value_parser = method_parser())]
+    pub methods: Vec<AbelMethod>,
+    /// The numbers of grid cells N to try.
+    #[arg(
+        long,
+        value_name = "N1,N2,...",
+        value_delimiter = ',',
+        value_parser = points,
+        allow_hyphen_values = true,
+        default_values_t = trade::POINTS
+    )]
+    pub points: Vec<usize>,
+    /// The steps a cycle to try.
+    #[arg(
+        long,
+        value_name = "S1,S2,...",
+        value_delimiter = ',',
+        value_parser = clap::value_parser!(u32).range(1..=100_000),
+        default_values_t = trade::STEPS
+    )]
+    pub steps: Vec<u32>,
+    /// Print only the cheapest setting whose error is at most E, in largest depths.
+    #[arg(long, value_name = "E", value_parser = accuracy)]
+    pub accuracy: Option<f64>,
+    /// Print all settings, not only the front.
+    #[arg(long)]
+    pub all: bool,
+    /// Write all settings to this file.
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+    /// Write over a file that is there already.
+    #[arg(long, requires = "csv")]
+    pub force: bool,
+    /// Draw error over time, a plot a method, the front of all dashed.
+    #[arg(long, conflicts_with = "json")]
+    pub plot: bool,
+    /// What the curves of --plot are made of.
+    #[arg(long, value_enum, default_value_t = MarkerChoice::Braille, requires = "plot")]
+    pub marker: MarkerChoice,
+    /// Print all settings as JSON instead of a table.
+    #[arg(long)]
+    pub json: bool,
+    /// Show no progress.
+    #[arg(long)]
+    pub quiet: bool,
+}
+
 /// Which moments `history.csv` records.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum HistoryChoice {
@@ -213,6 +303,17 @@ pub enum MarkerChoice {
     Ascii,
 }
 
+impl From<MarkerChoice> for Marker {
+    fn from(choice: MarkerChoice) -> Self {
+        match choice {
+            MarkerChoice::Braille => Self::Braille,
+            MarkerChoice::Halfblock => Self::HalfBlock,
+            MarkerChoice::Dot => Self::Dot,
+            MarkerChoice::Ascii => Self::Ascii,
+        }
+    }
+}
+
 /// When colour is used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum ColorChoice {
@@ -224,13 +325,42 @@ pub enum ColorChoice {
     Never,
 }
 
+/// Time between two checkpoints; none: only at the end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Interval(pub Option<Duration>);
+
+fn interval(text: &str) -> Result<Interval, String> {
+    match text.parse::<f64>() {
+        Ok(0.0) => Ok(Interval(None)),
+        Ok(seconds) if (1e-3..=1e6).contains(&seconds) => {
+            Ok(Interval(Some(Duration::from_secs_f64(seconds))))
+        }
+        _ => Err("an interval is 0, or from 0.001 to 1000000 seconds, e.g. 60".into()),
+    }
+}
+
 /// A cycle, and how it was spelled: the spelling names its file.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
 pub struct CycleAsGiven {
     /// The cycle.
     pub cycle: f64,
     /// As typed.
     pub spelling: String,
+}
+
+impl From<CycleAsGiven> for String {
+    fn from(cycle: CycleAsGiven) -> Self {
+        cycle.spelling
+    }
+}
+
+impl TryFrom<String> for CycleAsGiven {
+    type Error = String;
+
+    fn try_from(spelling: String) -> Result<Self, String> {
+        spelling.parse()
+    }
 }
 
 impl FromStr for CycleAsGiven {
@@ -247,7 +377,10 @@ impl FromStr for CycleAsGiven {
 
 fn cycles(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
-        Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),
+        Ok(value) if (0.0..=MOST_CYCLES).contains(&value) => Ok(value),
+        Ok(value) if value > MOST_CYCLES && value.is_finite() => {
+            Err(format!("a run has {MOST_CYCLES:e} cycles or fewer"))
+        }
         _ => Err("cycles are a number of 0 or more, e.g. 199.24".into()),
     }
 }
@@ -259,6 +392,18 @@ fn points(text: &str) -> Result<usize, String> {
             "points are whole numbers from {MIN_CELLS} to {MAX_CELLS}, e.g. 100,1000"
         )),
     }
+}
+
+fn accuracy(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value > 0.0 && value <= 1.0 => Ok(value),
+        _ => Err("an accuracy is greater than 0 and at most 1, in largest depths, e.g. 1e-3".into()),
+    }
+}
+
+fn method_parser() -> impl TypedValueParser<Value = AbelMethod> {
+    PossibleValuesParser::new(AbelMethod::ALL.map(AbelMethod::name))
+        .try_map(|name| name.parse::<AbelMethod>())
 }
 
 fn problem_parser() -> impl TypedValueParser<Value = Problem> {

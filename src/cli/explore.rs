@@ -1,12 +1,16 @@
 //! The explorer, opened from the command line.
 
+use std::io::{self, Write};
 use std::process::ExitCode;
 
 use anyhow::Result;
+use serde::de::IgnoredAny;
 
-use super::Misuse;
 use super::args::{ColorChoice, Explore, MarkerChoice};
-use crate::scenario::Scenario;
+use super::{Misuse, complain};
+use crate::export::keep;
+use crate::scenario::session::Session;
+use crate::scenario::{Scenario, checkpoint};
 use crate::tui::plot::Marker;
 use crate::tui::{self, Options, keys};
 
@@ -24,12 +28,26 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
         ColorChoice::Never => Some(false),
         ColorChoice::Auto => None,
     };
-    tui::run(Options {
-        scenario: Scenario::load(&options.scenario, &options.changes.set)?,
+    let session = match &options.resume {
+        Some(file) => checkpoint::read::<IgnoredAny>(file)?.session,
+        None => Session::start(Scenario::load(&options.scenario, &options.changes.set)?)?,
+    };
+    let keep_in = keep::state_directory();
+    let farewell = tui::run(Options {
+        session,
+        running: options.resume.is_none(),
+        keep_in,
+        keep_every: options.checkpoint_every.0,
         fps: options.fps,
         marker,
         colored,
         script: options.print.map(|size| (keys, size)),
     })?;
+    if let Some(word) = farewell.word {
+        complain(&word);
+    }
+    if let Some(screen) = farewell.screen {
+        io::stdout().write_all(screen.as_bytes())?;
+    }
     Ok(ExitCode::SUCCESS)
 }

@@ -7,17 +7,23 @@ use clap::Parser;
 use clap::error::ErrorKind;
 
 use crate::export::file::WriteError;
+use crate::scenario::checkpoint::CheckpointError;
 use crate::scenario::session::SessionError;
 use crate::scenario::{ScenarioError, printable};
 use crate::tui::NoTerminal;
 
 pub mod args;
 mod documents;
+mod errand;
 mod error_curves;
 mod explore;
 mod presets;
 mod progress;
+mod results;
 mod run;
+mod small_multiples;
+mod stop;
+mod trade;
 mod verify;
 
 use args::{Arguments, Command};
@@ -54,6 +60,7 @@ fn dispatch(arguments: Arguments) -> anyhow::Result<ExitCode> {
         Some(Command::Run(options)) => run::run(&options),
         Some(Command::Presets(options)) => presets::presets(&options),
         Some(Command::Verify(options)) => verify::verify(&options),
+        Some(Command::Trade(options)) => trade::trade(&options),
         Some(Command::Completions { shell }) => documents::completions(shell),
         Some(Command::Man) => documents::man(),
     }
@@ -67,7 +74,11 @@ pub(crate) fn complain(message: &str) {
 /// Wrong use and wrong input are 2, a run that failed is 1.
 fn exit_code(error: &anyhow::Error) -> u8 {
     for cause in error.chain() {
-        if cause.is::<Misuse>() || cause.is::<ScenarioError>() || cause.is::<NoTerminal>() {
+        if cause.is::<Misuse>()
+            || cause.is::<ScenarioError>()
+            || cause.is::<CheckpointError>()
+            || cause.is::<NoTerminal>()
+        {
             return MISUSED;
         }
         if let Some(SessionError::Scenario(_)) = cause.downcast_ref() {

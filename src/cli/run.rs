@@ -1,223 +1,329 @@
 //! `mdr-tui run`: the simulation without a screen.
 
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
 use std::process::ExitCode;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, anyhow};
 
-use super::args::{CycleAsGiven, HistoryChoice, Run};
+use super::args::{CycleAsGiven, Run};
+use super::errand::{Errand, Mark};
 use super::progress::Progress;
-use super::{FAILED, Misuse, complain};
-use crate::export::file::{RunDirectory, free_directory};
+use super::{FAILED, complain, stop};
+use crate::export::file::{RUN_CHECKPOINT, RunDirectory, WriteError, free_directory, write_whole};
 use crate::export::header::number;
-use crate::export::history::History;
+use crate::export::keep::{self, Keeper};
 use crate::export::state;
+use crate::scenario::checkpoint;
 use crate::scenario::session::Session;
 use crate::scenario::{Scenario, printable};
+use crate::tui::panics;
 
-/// Runs a scenario and writes its files.
+/// How old the copy may be that a defect of the program leaves of a run.
+const COPY_INTERVAL: Duration = Duration::from_millis(100);
+
+/// Runs a scenario, or goes on with one, and writes its files.
 pub fn run(options: &Run) -> Result<ExitCode> {
-    let scenario = Scenario::load(&options.scenario, &options.changes.set)?;
-    let cycles = options.cycles.or(scenario.run().cycles).ok_or_else(|| {
-        Misuse(format!(
-            "{}: has no run.cycles; say how many with --cycles X",
-            options.scenario
-        ))
-    })?;
-    let snapshots = snapshots(options, &scenario, cycles)?;
-    let session = Session::start(scenario)?;
-    let directory = match &options.out {
-        Some(path) => path.clone(),
-        None => free_directory(&format!("{}-run", session.loaded().stem())),
-    };
-    let directory = RunDirectory::claim(&directory, options.force)?;
-    let mut job = Job {
-        session,
-        history: History::default(),
-        directory,
-        options,
-        snapshots,
-        cycles,
+    let mut job = match (&options.resume, &options.scenario) {
+        (Some(path), _) => Job::resume(options, path)?,
+        (None, scenario) => Job::start(options, scenario.as_deref().unwrap_or_default())?,
     };
     if let Some(why) = job.session.simulation().why_never_jumped()
         && !options.quiet
     {
         complain(&format!("every cycle is stepped directly: {why}"));
     }
-    let stop = stop_signal()?;
-    let outcome = job.advance(&stop);
+    let stop = stop::signal()?;
+    panics::keep();
+    // A defect must not take hours of computing with it.
+    let outcome = catch_unwind(AssertUnwindSafe(|| job.advance(&stop)));
+    let outcome = outcome.unwrap_or_else(|_| Ok(Ended::Broken(job.go_back())));
+    if matches!(outcome, Ok(Ended::Interrupted | Ended::Broken(_))) {
+        job.put_away();
+    }
     // Whatever happened, what was computed is kept.
-    job.write_end()?;
+    if let Err(error) = job.write_end() {
+        // The directory was good when the run began: this is a failure, not misuse.
+        return Err(anyhow!("{error}; {}", job.rescue()));
+    }
+    if matches!(outcome, Ok(Ended::Done) | Err(_)) {
+        job.directory.close()?;
+    }
     match outcome {
         Ok(Ended::Done) => {
             if !options.quiet {
-                job.summarize()?;
+                job.summarize(options.json)?;
             }
             Ok(ExitCode::SUCCESS)
         }
         Ok(Ended::Interrupted) => {
+            let cycle = number(job.session.simulation().cycle());
             complain(&format!(
-                "interrupted at cycle {}; kept in {}",
-                number(job.session.simulation().cycle()),
-                job.directory.path().display()
+                "interrupted at cycle {cycle}; kept in {}; {}",
+                job.directory.path().display(),
+                job.way_on()
             ));
             Ok(ExitCode::from(FAILED))
         }
+        Ok(Ended::Broken(word)) => Err(anyhow!("{word}; {}", job.way_on())),
         Err(error) => Err(error.context(format!(
             "{} (kept in {})",
-            options.scenario,
+            job.name,
             job.directory.path().display()
         ))),
     }
 }
 
-/// The snapshots asked for, sorted by cycle and none beyond the end.
-fn snapshots(options: &Run, scenario: &Scenario, cycles: f64) -> Result<Vec<CycleAsGiven>> {
-    let mut snapshots = match &options.snapshot_at {
-        Some(given) => {
-            if let Some(late) = given.iter().find(|snapshot| snapshot.cycle > cycles) {
-                let message = format!(
-                    "--snapshot-at {}: lies beyond the end at {cycles} cycles",
-                    late.spelling
-                );
-                return Err(Misuse(message).into());
-            }
-            given.clone()
-        }
-        None => {
-            let planned = scenario
-                .run()
-                .snapshot_at
-                .iter()
-                .filter(|&&cycle| cycle <= cycles);
-            planned
-                .map(|&cycle| CycleAsGiven {
-                    cycle,
-                    spelling: cycle.to_string(),
-                })
-                .collect()
-        }
-    };
-    snapshots.sort_by(|a, b| a.cycle.total_cmp(&b.cycle));
-    Ok(snapshots)
-}
-
-/// Set by the first Ctrl-C or SIGTERM: stop after the step and keep what is done. A second one ends
-/// the process at once.
-fn stop_signal() -> Result<Arc<AtomicBool>> {
-    let stop = Arc::new(AtomicBool::new(false));
-    for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
-        signal_hook::flag::register_conditional_shutdown(
-            signal,
-            i32::from(FAILED),
-            Arc::clone(&stop),
-        )
-        .and_then(|_| signal_hook::flag::register(signal, Arc::clone(&stop)))
-        .context("cannot listen for signals")?;
-    }
-    Ok(stop)
-}
-
 enum Ended {
     Done,
     Interrupted,
+    /// By a defect, as told.
+    Broken(String),
 }
 
-struct Job<'a> {
+struct Job {
+    /// What messages call the run.
+    name: String,
     session: Session,
-    history: History,
+    errand: Errand,
     directory: RunDirectory,
-    options: &'a Run,
-    snapshots: Vec<CycleAsGiven>,
-    cycles: f64,
+    keeper: Keeper,
+    /// Whether the user knows that checkpoints fail.
+    has_warned: bool,
+    /// The run a moment ago, and the moment.
+    copy: (Session, Mark),
+    copied: Instant,
+    /// Snapshots that could not be written when their cycle came, to be tried again at the end.
+    owed: Vec<(String, String)>,
+    quiet: bool,
 }
 
-impl Job<'_> {
+impl Job {
+    fn start(options: &Run, name: &str) -> Result<Self> {
+        let scenario = Scenario::load(name, &options.changes.set)?;
+        let errand = Errand::new(options, &scenario, name)?;
+        let session = Session::start(scenario).with_context(|| printable(name))?;
+        let path = options.out.clone();
+        let path =
+            path.unwrap_or_else(|| free_directory(&format!("{}-run", session.loaded().stem())));
+        let directory = RunDirectory::claim(&path, options.force)?;
+        Ok(Self::new(name, session, errand, directory, options))
+    }
+
+    /// Goes on where a run was put away: in its own directory, or in another one, into which the
+    /// snapshots that it has written are copied.
+    fn resume(options: &Run, file: &Path) -> Result<Self> {
+        let name = printable(&file.display().to_string());
+        let kept = checkpoint::read::<Errand>(file)?;
+        let session = kept.session;
+        let errand = Errand::resumed(kept.errand, &session, options.cycles, &name)?;
+        let home = file.parent().map(|home| match home.as_os_str().is_empty() {
+            true => Path::new("."),
+            false => home,
+        });
+        let home = home.filter(|_| file.file_name().is_some_and(|name| name == RUN_CHECKPOINT));
+        let path = match (&options.out, home) {
+            (Some(out), _) => out.clone(),
+            (None, Some(home)) => home.to_owned(),
+            (None, None) => free_directory(&format!("{}-run", session.loaded().stem())),
+        };
+        let real = |path: &Path| path.canonicalize().ok();
+        let directory = match home {
+            Some(home) if real(home) == real(&path) => RunDirectory::reopen(&path)?,
+            _ => RunDirectory::claim(&path, options.force)?,
+        };
+        for snapshot in errand.taken() {
+            let (name, home) = (file_of(&snapshot), home.unwrap_or(Path::new(".")));
+            let (from, to) = (home.join(&name), directory.path().join(&name));
+            if to.exists() {
+                continue;
+            }
+            match std::fs::read(&from) {
+                Ok(table) => write_whole(&to, &table)?,
+                Err(_) => complain(&format!("{}: is not there any more", from.display())),
+            }
+        }
+        Ok(Self::new(&name, session, errand, directory, options))
+    }
+
+    fn new(
+        name: &str,
+        session: Session,
+        errand: Errand,
+        directory: RunDirectory,
+        options: &Run,
+    ) -> Self {
+        Self {
+            name: name.to_owned(),
+            keeper: Keeper::new(directory.checkpoint(), options.checkpoint_every.0),
+            directory,
+            has_warned: false,
+            copy: (session.clone(), errand.mark()),
+            session,
+            errand,
+            copied: Instant::now(),
+            owed: Vec::new(),
+            quiet: options.quiet,
+        }
+    }
+
     /// Steps to the end, taking snapshots on the way.
     fn advance(&mut self, stop: &AtomicBool) -> Result<Ended> {
-        let mut progress = Progress::new(self.cycles, self.options.quiet);
-        let mut snapshots = std::mem::take(&mut self.snapshots).into_iter().peekable();
-        self.history.record(&self.session);
+        let mut progress = Progress::new(self.errand.cycles, self.quiet);
+        self.errand.record(&self.session);
         loop {
             let simulation = self.session.simulation();
             let (cycle, close) = (simulation.cycle(), simulation.rounding());
-            while let Some(snapshot) = snapshots.next_if(|snapshot| snapshot.cycle < cycle + close)
-            {
-                self.snapshot(&snapshot, &self.session)?;
+            while let Some(snapshot) = self.errand.next_snapshot(cycle + close) {
+                self.snapshot(&snapshot, None)?;
             }
-            if cycle >= self.cycles {
+            if cycle >= self.errand.cycles {
                 break;
             }
             if stop.load(Ordering::Relaxed) {
                 progress.finish();
                 return Ok(Ended::Interrupted);
             }
+            #[cfg(debug_assertions)]
+            crate::tui::fault::strike("run");
+            let simulation = self.session.simulation();
             let reach = if simulation.may_jump() {
                 f64::INFINITY
             } else {
                 simulation.next_moment()
             };
-            // Between two steps a copy takes the fraction of a step: looking does not change the run.
-            let copied = snapshots.peek().filter(|snapshot| snapshot.cycle < reach);
-            let before = copied.map(|_| self.session.clone());
-            self.session.step_until(self.cycles)?;
+            let passes = self.errand.has_snapshot_before(reach);
+            let before = passes.then(|| self.session.clone());
+            self.session.step_until(self.errand.cycles)?;
             let now = self.session.simulation().cycle() - close;
             if let Some(before) = before {
-                while let Some(snapshot) = snapshots.next_if(|snapshot| snapshot.cycle < now) {
-                    self.snapshot(&snapshot, &before)?;
+                while let Some(snapshot) = self.errand.next_snapshot(now) {
+                    self.snapshot(&snapshot, Some(&before))?;
                 }
             }
-            self.record();
+            self.errand.record(&self.session);
+            self.look_after();
             progress.at(cycle);
         }
         progress.finish();
         Ok(Ended::Done)
     }
 
-    fn record(&mut self) {
-        let cycle = self.session.simulation().cycle();
-        if self.options.history == HistoryChoice::EveryStep || cycle.fract() == 0.0 {
-            self.history.record(&self.session);
+    /// Keeps a copy in memory and a checkpoint on the disk up to date.
+    fn look_after(&mut self) {
+        if self.copied.elapsed() >= COPY_INTERVAL {
+            self.copy = (self.session.clone(), self.errand.mark());
+            self.copied = Instant::now();
+        }
+        if self.keeper.is_due() {
+            self.put_away();
         }
     }
 
-    /// Writes the state at a cycle at or after the one where `session` stands.
-    fn snapshot(&self, snapshot: &CycleAsGiven, session: &Session) -> Result<PathBuf> {
-        let simulation = session.simulation();
-        let name = format!("state-{}.csv", snapshot.spelling);
-        let table = if snapshot.cycle > simulation.cycle() + simulation.rounding() {
-            let mut glimpse = session.clone();
-            glimpse.advance_to(snapshot.cycle)?;
-            state::table(&glimpse)
-        } else {
-            state::table(session)
-        };
-        Ok(self.directory.write(&name, table.as_bytes())?)
+    /// Writes a checkpoint. Where that fails, the user is told once, and the run goes on.
+    fn put_away(&mut self) {
+        let bytes = checkpoint::encode(&self.session, Some(&self.errand));
+        match self.keeper.keep(&bytes) {
+            Ok(()) => self.has_warned = false,
+            Err(error) if !self.has_warned => {
+                self.has_warned = true;
+                complain(&format!("{error}; the run goes on without a checkpoint"));
+            }
+            Err(_) => {}
+        }
     }
 
-    fn write_end(&mut self) -> Result<()> {
-        self.history.record(&self.session);
-        let snapshot_at = match &self.options.snapshot_at {
-            Some(given) => given.iter().map(|snapshot| snapshot.cycle).collect(),
-            None => self.session.loaded().run().snapshot_at.clone(),
+    /// After a defect: back to the copy, for a step that was cut short has left half a state.
+    fn go_back(&mut self) -> String {
+        self.session = self.copy.0.clone();
+        self.errand.rewind(self.copy.1);
+        let cycle = number(self.session.simulation().cycle());
+        let word = panics::word().unwrap_or_default();
+        format!("a defect in mdr-tui: {word}; kept at cycle {cycle}")
+    }
+
+    /// How to go on with a run that has stopped.
+    fn way_on(&self) -> String {
+        match self.keeper.path() {
+            path if path.exists() => {
+                format!("mdr-tui run --resume {} goes on", path.display())
+            }
+            _ => "there is no checkpoint".into(),
+        }
+    }
+
+    /// Writes the state at the present cycle, or at one after `before`, the run a step ago: a copy of it
+    /// takes the fraction of a step, so that looking does not change the run. What cannot be written
+    /// is owed.
+    fn snapshot(&mut self, snapshot: &CycleAsGiven, before: Option<&Session>) -> Result<()> {
+        let table = match before {
+            Some(before) => {
+                let mut glimpse = before.clone();
+                glimpse.advance_to(snapshot.cycle)?;
+                state::table(&glimpse)
+            }
+            None => state::table(&self.session),
         };
-        let scenario = self.session.as_run(snapshot_at);
-        self.directory
-            .write("scenario.toml", scenario.to_toml().as_bytes())?;
-        self.directory
-            .write("history.csv", self.history.table(&self.session).as_bytes())?;
-        self.directory
-            .write("state.csv", state::table(&self.session).as_bytes())?;
+        let name = file_of(snapshot);
+        if let Err(error) = self.directory.write(&name, table.as_bytes()) {
+            complain(&format!(
+                "{error}; the run goes on, to try again at its end"
+            ));
+            self.owed.push((name, table));
+        }
         Ok(())
     }
 
-    fn summarize(&self) -> Result<()> {
+    /// Writes the files of the end; all that can be, where not all can.
+    fn write_end(&mut self) -> Result<(), WriteError> {
+        let owed = self.owed.iter().cloned();
+        let files = [
+            (
+                "scenario.toml".to_owned(),
+                self.session.as_run(self.errand.snapshot_at()).to_toml(),
+            ),
+            ("history.csv".to_owned(), self.errand.table(&self.session)),
+            ("state.csv".to_owned(), state::table(&self.session)),
+        ];
+        let mut outcome = Ok(());
+        for (name, text) in owed.chain(files) {
+            let written = self.directory.write(&name, text.as_bytes());
+            outcome = outcome.and(written.map(|_| ()));
+        }
+        outcome
+    }
+
+    /// Where the files cannot be written, a checkpoint may: in their place, or where explorers keep
+    /// theirs. Says where it is.
+    fn rescue(&mut self) -> String {
+        let bytes = checkpoint::encode(&self.session, Some(&self.errand));
+        let stem = self.session.loaded().stem();
+        let elsewhere = || keep::place(&keep::state_directory()?, &stem).ok();
+        for path in std::iter::once_with(|| Some(self.directory.checkpoint()))
+            .chain(std::iter::once_with(elsewhere))
+            .flatten()
+        {
+            let mut keeper = Keeper::new(path, None);
+            if keeper.keep(&bytes).is_ok() {
+                self.keeper = keeper;
+                return self.way_on();
+            }
+            // A checkpoint that was kept before is better than none.
+            if let Some(keeper) = keeper.if_ever() {
+                self.keeper = keeper;
+                return self.way_on();
+            }
+        }
+        "there is no checkpoint".into()
+    }
+
+    fn summarize(&self, as_json: bool) -> Result<()> {
         let moment = self.session.simulation().moment();
         let mut out = io::stdout().lock();
-        if self.options.json {
+        if as_json {
             let mut summary = serde_json::to_value(moment)?;
             summary["directory"] = self.directory.path().display().to_string().into();
             writeln!(out, "{summary}")?;
@@ -260,4 +366,9 @@ impl Job<'_> {
         )?;
         Ok(())
     }
+}
+
+/// The name of a snapshot's file.
+fn file_of(snapshot: &CycleAsGiven) -> String {
+    format!("state-{}.csv", snapshot.spelling)
 }

@@ -1,23 +1,21 @@
 //! `mdr-tui verify`: the error of every method against closed forms.
 
 use std::io::{self, IsTerminal, Write};
-use std::path::Path;
 use std::process::ExitCode;
 
 use anyhow::Result;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::args::{MarkerChoice, Verify};
-use super::{Misuse, error_curves};
+use super::args::Verify;
+use super::{Misuse, error_curves, results};
 use crate::export::file::write_whole;
 use crate::studies::verify::report::{all_nodes, all_rows, problem_table};
 use crate::studies::verify::{Outcome, Problem, Study, Task};
-use crate::tui::plot::Marker;
 
 /// Runs the study and prints, draws and writes what was asked for.
 pub fn verify(options: &Verify) -> Result<ExitCode> {
     if let Some(path) = &options.csv {
-        check(path, options.force)?;
+        results::check(path, options.force)?;
     }
     let study = Study {
         problems: if options.problem.is_empty() {
@@ -51,23 +49,6 @@ pub fn verify(options: &Verify) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Finds out before anything is computed whether the file can be written.
-fn check(path: &Path, force: bool) -> Result<(), Misuse> {
-    let refuse = |why: &str| Err(Misuse(format!("--csv {}: {why}", path.display())));
-    if path.is_dir() || path.file_name().is_none() {
-        return refuse("is no name of a file");
-    }
-    if path.exists() && !force {
-        return refuse("exists already; choose another name or add --force");
-    }
-    match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() && !parent.is_dir() => {
-            refuse("its directory does not exist")
-        }
-        _ => Ok(()),
-    }
-}
-
 fn run(tasks: &[Task], quiet: bool) -> Vec<Outcome> {
     let effort = |task: &Task| task.problem.effort(task.points);
     let bar = ProgressBar::new(tasks.iter().map(effort).sum());
@@ -94,12 +75,7 @@ fn run(tasks: &[Task], quiet: bool) -> Vec<Outcome> {
 
 /// Every table under what it shows, and the curves under their table.
 fn text(study: &Study, outcomes: &[Outcome], options: &Verify) -> String {
-    let marker = match options.marker {
-        MarkerChoice::Braille => Marker::Braille,
-        MarkerChoice::Halfblock => Marker::HalfBlock,
-        MarkerChoice::Dot => Marker::Dot,
-        MarkerChoice::Ascii => Marker::Ascii,
-    };
+    let marker = options.marker.into();
     let mut text = String::new();
     for problem in Problem::ALL {
         if !outcomes.iter().any(|o| o.task.problem == problem) {

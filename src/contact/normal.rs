@@ -7,6 +7,8 @@
 //! it, negative outside, so it is interpolated there, never extrapolated: exact for a paraboloid and a
 //! cone.
 
+use serde::{Deserialize, Serialize};
+
 use super::foundation::Foundation;
 use crate::math::abel::bend::{self, Bend};
 use crate::math::abel::product;
@@ -16,7 +18,7 @@ use crate::math::root;
 const ON_A_SPRING: f64 = 1e-9;
 
 /// What pressing the profile g to a depth gives, beside the line load itself.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct NormalContact {
     /// F_z, N.
     pub force: f64,

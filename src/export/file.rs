@@ -3,6 +3,7 @@
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use thiserror::Error;
 
@@ -12,6 +13,14 @@ pub enum WriteError {
     /// The directory of another run.
     #[error("{}: already holds files; choose another directory or add --force", .0.display())]
     Occupied(PathBuf),
+    /// The directory of a run that was interrupted.
+    #[error(
+        "{}: holds a run that was interrupted; mdr-tui run --resume {} goes on with it, --force \
+         starts anew",
+        .0.parent().unwrap_or(.0).display(),
+        .0.display()
+    )]
+    Interrupted(PathBuf),
     /// The path of a directory is taken by something else.
     #[error("{}: is not a directory", .0.display())]
     NotADirectory(PathBuf),
@@ -44,7 +53,7 @@ pub fn write_whole(path: &Path, contents: &[u8]) -> Result<(), WriteError> {
         .filter(|parent| !parent.as_os_str().is_empty())
         .unwrap_or(Path::new("."));
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".mdr-tui-").suffix(".tmp");
+    builder.prefix(TEMPORARY).suffix(".tmp");
     #[cfg(unix)]
     {
         // Results are ordinary files, not secrets: what the umask leaves of 0666.
@@ -57,6 +66,32 @@ pub fn write_whole(path: &Path, contents: &[u8]) -> Result<(), WriteError> {
     file.persist(path).map_err(|error| failed(error.error))?;
     Ok(())
 }
+
+/// What the name of a file that is not yet whole begins with.
+const TEMPORARY: &str = ".mdr-tui-";
+
+fn is_temporary(path: &Path) -> bool {
+    let name = path.file_name().map(|name| name.to_string_lossy());
+    name.is_some_and(|name| name.starts_with(TEMPORARY))
+}
+
+/// Removes temporary files of at least this age, which processes that were killed have left behind.
+pub fn sweep(directory: &Path, age: Duration) {
+    let Ok(entries) = fs::read_dir(directory) else {
+        return;
+    };
+    for path in entries.flatten().map(|entry| entry.path()) {
+        let written = fs::metadata(&path).and_then(|about| about.modified()).ok();
+        let old = written.is_some_and(|at| at.elapsed().is_ok_and(|past| past >= age));
+        if is_temporary(&path) && (old || age.is_zero()) {
+            // One that cannot be removed is in nobody's way.
+            let _ = fs::remove_file(path);
+        }
+    }
+}
+
+/// The name of the checkpoint in the directory of a run that is not at its end.
+pub const RUN_CHECKPOINT: &str = "run.checkpoint";
 
 /// The directory of one run's files.
 #[derive(Debug)]
@@ -73,8 +108,17 @@ impl RunDirectory {
             cause,
         };
         match fs::read_dir(path) {
-            Ok(mut entries) => {
-                if !force && entries.next().is_some() {
+            Ok(entries) => {
+                let checkpoint = path.join(RUN_CHECKPOINT);
+                let mut others = entries
+                    .flatten()
+                    .filter(|entry| !is_temporary(&entry.path()));
+                if force {
+                    // It would outlive the results that it belongs to.
+                    remove(&checkpoint)?;
+                } else if checkpoint.exists() {
+                    return Err(WriteError::Interrupted(checkpoint));
+                } else if others.next().is_some() {
                     return Err(WriteError::Occupied(path.to_owned()));
                 }
             }
@@ -84,14 +128,37 @@ impl RunDirectory {
             Err(_) if path.is_file() => return Err(WriteError::NotADirectory(path.to_owned())),
             Err(error) => return Err(failed(error)),
         }
-        // Find out now, not after an hour of computing, whether files can be made here.
+        Self::reopen(path)
+    }
+
+    /// Goes on in the directory of a run that was interrupted; what a kill has left there goes.
+    pub fn reopen(path: &Path) -> Result<Self, WriteError> {
+        sweep(path, Duration::ZERO);
+        Self::try_out(path)
+    }
+
+    /// Finds out now, not after an hour of computing, whether files can be made here.
+    fn try_out(path: &Path) -> Result<Self, WriteError> {
         tempfile::Builder::new()
-            .prefix(".mdr-tui-")
+            .prefix(TEMPORARY)
             .tempfile_in(path)
-            .map_err(failed)?;
+            .map_err(|cause| WriteError::Io {
+                path: path.to_owned(),
+                cause,
+            })?;
         Ok(Self {
             path: path.to_owned(),
         })
+    }
+
+    /// Where the checkpoint of the run is until it is at its end.
+    pub fn checkpoint(&self) -> PathBuf {
+        self.path.join(RUN_CHECKPOINT)
+    }
+
+    /// The run is at its end: its checkpoint goes.
+    pub fn close(&self) -> Result<(), WriteError> {
+        remove(&self.checkpoint())
     }
 
     /// Writes one of the run's files, whole.
@@ -104,6 +171,17 @@ impl RunDirectory {
     /// Where the files stand.
     pub fn path(&self) -> &Path {
         &self.path
+    }
+}
+
+/// Removes a file, if it is there.
+fn remove(path: &Path) -> Result<(), WriteError> {
+    match fs::remove_file(path) {
+        Err(cause) if cause.kind() != io::ErrorKind::NotFound => Err(WriteError::Io {
+            path: path.to_owned(),
+            cause,
+        }),
+        _ => Ok(()),
     }
 }
 

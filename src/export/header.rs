@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use crate::scenario::printable;
 use crate::scenario::session::Session;
 
 /// The header lines for the present state of `session`.
@@ -11,12 +12,8 @@ pub fn lines(session: &Session) -> String {
     let law = setup.wear.map_or("none", |law| law.name());
     let mut text = String::new();
     let mut line = |key: &str, value: &str| {
-        // A title cannot break out of its line.
-        let value: String = value
-            .chars()
-            .map(|c| if c.is_control() { ' ' } else { c })
-            .collect();
-        let _ = writeln!(text, "# {key}: {value}");
+        // A title cannot break out of its line, nor do anything to a terminal.
+        let _ = writeln!(text, "# {key}: {}", printable(value));
     };
     line("mdr-tui", env!("CARGO_PKG_VERSION"));
     line("scenario", scenario.title());

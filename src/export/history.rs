@@ -1,5 +1,7 @@
 //! `history.csv`: a row a recorded moment.
 
+use serde::{Deserialize, Serialize};
+
 use super::header::{lines, number, optional};
 use crate::scenario::session::Session;
 
@@ -27,13 +29,39 @@ pub const COLUMNS: [&str; 19] = [
 ];
 
 /// The rows recorded so far, as text.
-#[derive(Debug, Default, Clone)]
+#[derive(Debug, Default, Clone, Serialize, Deserialize)]
 pub struct History {
     rows: String,
     last_cycle: Option<f64>,
 }
 
+/// A place in a history to go back to.
+#[derive(Debug, Clone, Copy)]
+pub struct Mark {
+    length: usize,
+    last_cycle: Option<f64>,
+}
+
 impl History {
+    /// Whether nothing is recorded yet.
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+
+    /// How much is recorded.
+    pub fn mark(&self) -> Mark {
+        Mark {
+            length: self.rows.len(),
+            last_cycle: self.last_cycle,
+        }
+    }
+
+    /// Forgets what was recorded after `mark`.
+    pub fn rewind(&mut self, mark: Mark) {
+        self.rows.truncate(mark.length);
+        self.last_cycle = mark.last_cycle;
+    }
+
     /// Adds the present moment of `session`, once.
     pub fn record(&mut self, session: &Session) {
         let simulation = session.simulation();
@@ -45,9 +73,14 @@ impl History {
         self.rows.push('\n');
     }
 
-    /// The whole file, its header telling of the present state of `session`.
+    /// The whole file up to the present state of `session`, of which its header tells.
     pub fn table(&self, session: &Session) -> String {
-        format!("{}{}\n{}", lines(session), COLUMNS.join(","), self.rows)
+        let mut table = format!("{}{}\n{}", lines(session), COLUMNS.join(","), self.rows);
+        if self.last_cycle != Some(session.simulation().cycle()) {
+            table.push_str(&row(session));
+            table.push('\n');
+        }
+        table
     }
 }
 

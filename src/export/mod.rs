@@ -3,4 +3,5 @@
 pub mod file;
 pub mod header;
 pub mod history;
+pub mod keep;
 pub mod state;

@@ -87,6 +87,25 @@ impl RadialGrid {
         Ok(Self::from_nodes(nodes, Some(inside)))
     }
 
+    /// The grid that once had these nodes and this [`border`](Self::border), to the last bit.
+    pub fn restored(nodes: Vec<f64>, border: Option<usize>) -> Result<Self, Invalid> {
+        let refuse = |rule: &str| Invalid::new("nodes", format!("{} of them", nodes.len()), rule);
+        let (Some(&first), Some(&radius)) = (nodes.first(), nodes.last()) else {
+            return Err(refuse("must be there"));
+        };
+        Self::check(nodes.len() - 1, radius)?;
+        let ascends = nodes.windows(2).all(|pair| pair[0] < pair[1]);
+        if first.to_bits() != 0 || !ascends {
+            return Err(refuse("must ascend from 0"));
+        }
+        if border.is_some_and(|at| at == 0 || at + 1 >= nodes.len()) {
+            return Err(refuse(
+                "must hold the border between the first and the last",
+            ));
+        }
+        Ok(Self::from_nodes(nodes, border))
+    }
+
     fn from_nodes(nodes: Vec<f64>, border: Option<usize>) -> Self {
         let squares = nodes.iter().map(|r| r * r).collect();
         Self {

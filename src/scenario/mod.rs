@@ -12,6 +12,7 @@ use crate::simulation::Setup;
 
 mod assign;
 mod check;
+pub mod checkpoint;
 mod derive;
 mod error;
 mod nearest;
@@ -27,7 +28,7 @@ mod write;
 
 use error::{Origin, echo};
 pub use error::{ScenarioError, printable};
-pub use run::{Change, RunPlan};
+pub use run::{Change, MOST_CYCLES, MOST_SNAPSHOTS, RunPlan};
 
 /// A validated scenario: parts that are ready to run, and the text they can be made from again.
 #[derive(Debug, Clone)]

@@ -5,6 +5,12 @@ use toml::{Table, Value};
 
 use crate::math::invalid::{Invalid, non_negative};
 
+/// The longest run, in cycles.
+pub const MOST_CYCLES: f64 = 1e9;
+
+/// The most snapshots of a run.
+pub const MOST_SNAPSHOTS: usize = 10_000;
+
 /// `[run]`: how far a run goes and where it is written out.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -16,10 +22,19 @@ pub struct RunPlan {
 }
 
 impl RunPlan {
-    /// Refuses cycles that are negative or not finite; the field is that of `[run]`.
+    /// Refuses cycles that are negative, not finite or absurdly many; the field is that of `[run]`.
     pub fn check(&self) -> Result<(), Invalid> {
         if let Some(cycles) = self.cycles {
             non_negative("cycles", cycles)?;
+            if cycles > MOST_CYCLES {
+                let rule = format!("must be {MOST_CYCLES:e} or less");
+                return Err(Invalid::new("cycles", cycles, rule));
+            }
+        }
+        let snapshots = self.snapshot_at.len();
+        if snapshots > MOST_SNAPSHOTS {
+            let rule = format!("must be {MOST_SNAPSHOTS} of them or fewer");
+            return Err(Invalid::new("snapshot_at", snapshots, rule));
         }
         for &cycle in &self.snapshot_at {
             non_negative("snapshot_at", cycle).map_err(|invalid| {

@@ -3,12 +3,13 @@
 //! The explorer and the headless commands both drive this, so the same scenario and the same
 //! changes give the same bits.
 
+use std::borrow::Cow;
 use std::collections::VecDeque;
 
 use thiserror::Error;
 
 use super::{Change, RunPlan, Scenario, ScenarioError};
-use crate::simulation::{Breakdown, Simulation};
+use crate::simulation::{Breakdown, Saved, Simulation, Unfit};
 
 /// Why a session could not start, change or go on.
 #[derive(Debug, Error)]
@@ -19,6 +20,25 @@ pub enum SessionError {
     /// A contact that cannot go on.
     #[error(transparent)]
     Breakdown(#[from] Breakdown),
+}
+
+/// A saved run that cannot be taken up.
+#[derive(Debug, Error)]
+pub enum RestoreError {
+    /// A change in it that is refused.
+    #[error(transparent)]
+    Scenario(#[from] ScenarioError),
+    /// A state that is none of its scenario's.
+    #[error(transparent)]
+    Unfit(#[from] Unfit),
+}
+
+/// All that a session is made of.
+pub(super) struct Parts<'a> {
+    pub loaded: Cow<'a, Scenario>,
+    pub changes: Cow<'a, [Change]>,
+    pub pending: Vec<Change>,
+    pub saved: Saved,
 }
 
 /// A scenario being run.
@@ -49,6 +69,33 @@ impl Session {
         };
         session.make_due_changes()?;
         Ok(session)
+    }
+
+    /// What there is to be put away.
+    pub(super) fn parts(&self) -> Parts<'_> {
+        Parts {
+            loaded: Cow::Borrowed(&self.loaded),
+            changes: Cow::Borrowed(&self.changes),
+            pending: self.pending.iter().cloned().collect(),
+            saved: self.simulation.save(),
+        }
+    }
+
+    /// Goes on where a session was put away.
+    pub(super) fn restore(parts: Parts) -> Result<Self, RestoreError> {
+        let loaded = parts.loaded.into_owned();
+        let mut scenario = loaded.clone();
+        for change in parts.changes.iter() {
+            scenario = scenario.after(change)?;
+        }
+        let simulation = Simulation::restore(scenario.setup().clone(), parts.saved)?;
+        Ok(Self {
+            loaded,
+            scenario,
+            simulation,
+            changes: parts.changes.into_owned(),
+            pending: parts.pending.into(),
+        })
     }
 
     /// The scenario as it is now, changes included.

@@ -22,6 +22,9 @@ use crate::wear::WearLaw;
 /// The most steps in a cycle.
 const MOST_STEPS: i64 = 1_000_000;
 
+/// The most periods of the normal motion in a cycle.
+const HIGHEST_RATIO: f64 = 1000.0;
+
 /// Makes the parts of a scenario; `table` is what `raw` mirrors.
 pub(super) fn setup(raw: &Raw, table: &Table, origin: &Origin) -> Result<Setup, ScenarioError> {
     let parts = Parts { raw, table, origin };
@@ -207,7 +210,17 @@ impl Parts<'_> {
             let other = motion.normal.angular_frequency;
             self.control(raw, raw.mean.unwrap_or(0.0), other, "motion.tangential")
         });
-        Ok(Drive::new(normal, tangential.transpose()?))
+        let tangential = tangential.transpose()?;
+        let frequency = |control: &Control| control.oscillation().angular_frequency();
+        let cycle = tangential.as_ref().map(frequency);
+        if cycle.is_some_and(|cycle| frequency(&normal) > HIGHEST_RATIO * cycle) {
+            let rule = format!(
+                "must be at most {HIGHEST_RATIO} times motion.tangential.angular_frequency, \
+                 whose period is the cycle"
+            );
+            return Err(self.refuse("motion.normal.angular_frequency", "", rule));
+        }
+        Ok(Drive::new(normal, tangential))
     }
 
     /// One direction of the motion. Where it stands still its frequency is that of the other

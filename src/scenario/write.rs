@@ -70,8 +70,30 @@ pub(super) fn value(value: &Value) -> String {
             let list: Vec<String> = list.iter().map(self::value).collect();
             format!("[{}]", list.join(", "))
         }
+        Value::String(text) if text.chars().any(is_rude) => escaped(text),
         other => other.to_string(),
     }
+}
+
+/// Characters that TOML takes as they are and a terminal acts on: C1 controls, and what turns the
+/// direction of text.
+fn is_rude(c: char) -> bool {
+    matches!(c, '\u{80}'..='\u{9f}' | '\u{200e}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
+/// A basic string on one line, all that is not plain escaped.
+fn escaped(text: &str) -> String {
+    let mut quoted = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => quoted.extend(['\\', c]),
+            c if c.is_control() || is_rude(c) => {
+                let _ = write!(quoted, "\\u{:04X}", u32::from(c));
+            }
+            c => quoted.push(c),
+        }
+    }
+    quoted + "\""
 }
 
 /// The shortest form that reads back to the same bits, and as a float.
@@ -89,6 +111,18 @@ fn number(number: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn rude_text_reads_back_and_harms_no_terminal() {
+        let text = "a\u{9b}2J\u{202e}\u{1b}\n\"\\\u{2066}\u{7f}b";
+        let shown = value(&Value::String(text.into()));
+        assert!(
+            !shown.chars().any(|c| c.is_control() || is_rude(c)),
+            "{shown:?}"
+        );
+        let read = shown.parse::<Value>().expect("a TOML value");
+        assert_eq!(read.as_str(), Some(text));
+    }
 
     #[test]
     fn numbers_read_back_as_the_same_floats() {

@@ -25,9 +25,19 @@ pub enum Cause {
         /// The transform method in use.
         method: AbelMethod,
     },
+    /// A contact whose force no f64 holds.
+    #[error(
+        "the normal force at the depth {depth:.4e} m is beyond all numbers; the scenario is in SI \
+         units: indenter in m, material in Pa, motion in m or N"
+    )]
+    Overflow {
+        /// u_z, m.
+        depth: f64,
+    },
     /// The worn profile stands far above what can touch.
     #[error(
-        "the wear runs away: {worn:.1} times the largest depth at r = {radius:.4e} m; {}",
+        "the wear runs away: {} times the largest depth at r = {radius:.4e} m; {}",
+        short(*worn),
         advice(*method)
     )]
     Runaway {
@@ -80,6 +90,15 @@ pub enum Cause {
         /// μ F_z, N.
         limit: f64,
     },
+}
+
+/// A number of any size in a few characters.
+fn short(value: f64) -> String {
+    if value < 1e4 {
+        format!("{value:.1}")
+    } else {
+        format!("{value:.1e}")
+    }
 }
 
 /// What is likely behind a state that blows up, by method.

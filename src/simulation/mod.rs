@@ -19,6 +19,7 @@ pub mod drive;
 mod integrator;
 mod moments;
 pub mod observation;
+mod saved;
 mod solve;
 pub mod state;
 mod workspace;
@@ -27,6 +28,7 @@ pub use breakdown::{Breakdown, Cause};
 pub use choices::{Integrator, Scheme, Spacing};
 use drive::{Drive, LONGEST_REPEAT};
 pub use observation::{Curves, Moment, Observation, Zone};
+pub use saved::{Saved, Unfit};
 use state::JumpMemory;
 pub use state::{Effort, State};
 use workspace::Workspace;
@@ -59,7 +61,7 @@ pub struct Setup {
 
 impl Setup {
     /// The largest depth of the motion, m, where the displacement is prescribed.
-    fn deepest(&self) -> Option<f64> {
+    pub fn largest_depth(&self) -> Option<f64> {
         match self.drive.normal() {
             drive::Control::Displacement(oscillation) => Some(oscillation.highest()),
             drive::Control::Force(_) => None,

@@ -69,6 +69,9 @@ fn press(setup: &Setup, work: &mut Workspace, depth: f64) -> Result<(), Cause> {
     let (load, breaks) = (&mut work.normal_load, &mut work.normal_breaks);
     let mut normal = normal::press(&planned.row, &work.predicted, depth, modulus, load, breaks);
     if !normal.force.is_finite() {
+        if work.predicted.iter().all(|g| g.is_finite()) {
+            return Err(Cause::Overflow { depth });
+        }
         return Err(Cause::NotFinite {
             quantity: "normal force",
             method: setup.method,

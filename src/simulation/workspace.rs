@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
+
 use super::choices::Integrator;
 use super::state::State;
 use super::{Setup, moments};
@@ -61,13 +63,13 @@ pub(super) struct Workspace {
     /// Transforms computed since they were last counted.
     pub transforms: u64,
     pub contact: Contact,
-    good: LastGood,
+    pub good: LastGood,
 }
 
 /// What the state does not tell of the last good step.
-#[derive(Debug, Clone, Default)]
-struct LastGood {
-    contact: Contact,
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub(super) struct LastGood {
+    pub contact: Contact,
     normal_breaks: Vec<Bend>,
     spring_breaks: Vec<Bend>,
     rim_edge: Option<RimEdge>,
@@ -91,7 +93,7 @@ pub(super) struct Planned {
 }
 
 /// The scalars of a solved contact.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub(super) struct Contact {
     pub depth: f64,
     pub shift: f64,
@@ -219,6 +221,9 @@ impl Workspace {
         for (load, u) in self.tangential_load.iter_mut().zip(&state.spring) {
             *load = setup.material.tangential_modulus() * u;
         }
+        // That is no work of the run.
+        let counted = self.transforms;
         super::solve::update_profile(self, &state.wear);
+        self.transforms = counted;
     }
 }

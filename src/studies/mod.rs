@@ -2,4 +2,5 @@
 //! neither files nor screens: what is printed, drawn and written is for the floors above.
 
 pub mod table;
+pub mod trade;
 pub mod verify;

@@ -56,6 +56,8 @@ pub struct App {
     pub theme: Theme,
     /// Set when the program is to end.
     pub leave: Option<Leave>,
+    /// Set when the program is to stop and give the terminal to its shell.
+    pub suspend: bool,
     /// Whether theory lies over the plots.
     pub with_theory: bool,
     /// What the companion has shown, once it has; none while it runs or before it was asked.
@@ -77,6 +79,7 @@ impl App {
             notice: None,
             theme,
             leave: None,
+            suspend: false,
             with_theory: false,
             companion: None,
             log_panels: Vec::new(),
@@ -140,6 +143,7 @@ impl App {
             Command::QuitKeepingScreen => self.leave = Some(Leave::KeepScreen),
             Command::Back => self.zoomed = false,
             Command::Help => self.overlay = Overlay::Help(0),
+            Command::Suspend => self.suspend = true,
             Command::RunPause => self.order(Order::RunPause),
             Command::Step => self.order(Order::Step),
             Command::Cycle => self.order(Order::Cycle),

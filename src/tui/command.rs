@@ -9,6 +9,8 @@ pub enum Command {
     Quit,
     /// Leave, and leave the last screen in the terminal.
     QuitKeepingScreen,
+    /// Stop, and give the terminal back to the shell for a while.
+    Suspend,
     /// Close what is open, or leave the zoomed panel.
     Back,
     /// Show or hide the help.
@@ -274,6 +276,13 @@ pub static BINDINGS: &[Binding] = &[
         &[Char('Q')],
         "quit, keep",
         "leave, and leave the last screen behind",
+        false,
+    ),
+    bind(
+        C::Suspend,
+        &[Ctrl('z')],
+        "suspend",
+        "back to the shell for a while; fg returns",
         false,
     ),
 ];

@@ -7,33 +7,37 @@
 //!                    └── Event, Frame ──┘
 //! ```
 
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, IsTerminal};
+use std::path::PathBuf;
 use std::sync::Arc;
+use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 use std::time::Duration;
 
 use anyhow::{Context, Result, bail};
 use crossterm::event::{self, KeyEventKind};
-use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGTERM, SIGTSTP};
 use signal_hook::iterator::Signals;
 
-use crate::scenario::Scenario;
 use crate::scenario::session::Session;
 
 pub mod app;
 pub mod command;
 pub mod companion;
 #[cfg(debug_assertions)]
-mod fault;
+pub(crate) mod fault;
 pub mod frame;
+pub mod keeping;
 pub mod keys;
 mod overlays;
 pub mod pace;
 pub mod panels;
+pub(crate) mod panics;
 pub mod plot;
 pub mod screen;
 mod script;
+mod suspend;
 mod terminal;
 pub mod theme;
 pub mod theory;
@@ -44,6 +48,7 @@ pub mod worker;
 use app::{App, Leave};
 use companion::Companion;
 use frame::Slot;
+use keeping::Keeping;
 use keys::Key;
 use plot::Marker;
 pub use script::Size;
@@ -63,6 +68,10 @@ pub enum Event {
     Notice(String),
     /// The companion has come to its end.
     Companion(Result<Companion, String>),
+    /// The process is asked to stop for a while.
+    Suspend,
+    /// The process goes on after it was stopped.
+    Continue,
     /// The terminal is gone, or the process was asked to end.
     HangUp,
     /// The worker has ended.
@@ -72,8 +81,14 @@ pub enum Event {
 /// What the explorer is opened with.
 #[derive(Debug)]
 pub struct Options {
-    /// The scenario to show.
-    pub scenario: Scenario,
+    /// The session to show.
+    pub session: Session,
+    /// Whether it runs at once.
+    pub running: bool,
+    /// Where checkpoints are kept; none: nowhere.
+    pub keep_in: Option<PathBuf>,
+    /// How often; none: only at the end.
+    pub keep_every: Option<Duration>,
     /// The most frames drawn in a second.
     pub fps: u16,
     /// How curves are drawn; by the locale if not said.
@@ -89,46 +104,66 @@ pub struct Options {
 #[error("{0}; mdr-tui run SCENARIO computes without a screen")]
 pub struct NoTerminal(&'static str);
 
+/// What is left to print when the terminal is itself again.
+#[derive(Debug, Default)]
+pub struct Farewell {
+    /// Where the session is kept.
+    pub word: Option<String>,
+    /// The last screen, if it is to stay.
+    pub screen: Option<String>,
+}
+
 /// Opens the explorer, or plays a script of keys to it.
-pub fn run(options: Options) -> Result<()> {
+pub fn run(options: Options) -> Result<Farewell> {
     if options.script.is_none() {
         refuse_what_is_no_terminal()?;
     }
     let theme = theme(&options);
-    let session = Session::start(options.scenario)?;
     let (orders, to_worker) = channel();
     let (events, from_threads) = channel();
     let slot = Arc::new(Slot::default());
     let interval = Duration::from_secs_f64(1.0 / f64::from(options.fps));
+    let keeping = options
+        .keep_in
+        .filter(|_| options.script.is_none())
+        .map(|directory| Keeping::new(directory, options.keep_every, &options.session));
     let worker = Worker::new(
-        session,
+        options.session,
         Arc::clone(&slot),
         events.clone(),
         interval,
-        options.script.is_none(),
+        options.running && options.script.is_none(),
     );
+    let halt = worker.halt();
     let mut app = App::new(theme, orders.clone());
-    terminal::keep_panics();
-    let thread = spawn_worker(worker, to_worker, events.clone())?;
+    panics::keep();
+    let thread = spawn_worker(worker, keeping, to_worker, events.clone())?;
     let outcome = match options.script {
-        Some((keys, size)) => script::play(&mut app, &keys, size, &orders, &from_threads),
+        Some((keys, size)) => {
+            script::play(&mut app, &keys, size, &orders, &from_threads).map(|()| None)
+        }
         None => converse(&mut app, &slot, &events, &from_threads),
     };
+    halt.store(true, Ordering::Relaxed);
     let _ = orders.send(Order::Quit);
-    let _ = thread.join();
-    if let Some(word) = terminal::panic_word() {
-        bail!("a defect in mdr-tui: {word}");
+    let kept = thread.join().unwrap_or_default();
+    if let Some(word) = panics::word() {
+        let kept = kept.unwrap_or_else(|| "nothing was to be kept".into());
+        bail!("a defect in mdr-tui: {word}; {kept}");
     }
-    outcome
+    match (outcome, kept) {
+        (Err(error), Some(kept)) => Err(error.context(kept)),
+        (outcome, word) => outcome.map(|screen| Farewell { word, screen }),
+    }
 }
 
-/// Draws and listens until told to leave.
+/// Draws and listens until told to leave; returns the last screen if it is to stay.
 fn converse(
     app: &mut App,
     slot: &Slot,
     events: &Sender<Event>,
     inbox: &Receiver<Event>,
-) -> Result<()> {
+) -> Result<Option<String>> {
     listen_for_signals(events.clone())?;
     let mut screen = terminal::Screen::open().context("cannot take over the terminal")?;
     listen_for_keys(events.clone());
@@ -138,27 +173,19 @@ fn converse(
     drop(screen);
     let Ok(outcome) = outcome else {
         // The panic's own word is told by the caller.
-        return Ok(());
+        return Ok(None);
     };
     match outcome {
         // A terminal that goes away while it is drawn on has hung up; nothing has failed.
-        Err(_) if !io::stdout().is_terminal() => return Ok(()),
+        Err(_) if !io::stdout().is_terminal() => return Ok(None),
         outcome => outcome?,
     }
-    if app.leave == Some(Leave::KeepScreen) {
-        let (columns, rows) = crossterm::terminal::size()?;
-        io::stdout().write_all(
-            script::text(
-                app,
-                Size {
-                    columns,
-                    rows: rows.saturating_sub(1),
-                },
-            )
-            .as_bytes(),
-        )?;
+    if app.leave != Some(Leave::KeepScreen) {
+        return Ok(None);
     }
-    Ok(())
+    let (columns, rows) = crossterm::terminal::size()?;
+    let rows = rows.saturating_sub(1);
+    Ok(Some(script::text(app, Size { columns, rows })))
 }
 
 fn attend(
@@ -168,6 +195,8 @@ fn attend(
     screen: &mut terminal::Screen,
 ) -> Result<()> {
     screen.draw(app)?;
+    // Between the order to stop and the word that the process goes on, the screen is the shell's.
+    let mut is_away = false;
     while let Ok(first) = inbox.recv() {
         #[cfg(debug_assertions)]
         fault::strike("screen");
@@ -182,22 +211,38 @@ fn attend(
                 }
                 Event::Notice(text) => app.notice = Some(text),
                 Event::Companion(answer) => app.companion = Some(answer),
+                Event::Resize if is_away => {}
                 Event::Resize => screen.start_afresh()?,
+                Event::Suspend => app.suspend = true,
+                Event::Continue => {
+                    screen.take_back()?;
+                    is_away = false;
+                }
                 Event::HangUp | Event::WorkerGone => return Ok(()),
             }
         }
         if app.leave.is_some() {
             return Ok(());
         }
-        screen.draw(app)?;
+        if std::mem::take(&mut app.suspend) && !is_away {
+            screen.give_back();
+            is_away = suspend::stop();
+            if !is_away {
+                app.notice = Some("there is no shell to go back to".into());
+                screen.take_back()?;
+            }
+        }
+        if !is_away {
+            screen.draw(app)?;
+        }
     }
     Ok(())
 }
 
 /// Says so when it ends, whichever way it ends.
-struct Farewell(Sender<Event>);
+struct LastWord(Sender<Event>);
 
-impl Drop for Farewell {
+impl Drop for LastWord {
     fn drop(&mut self) {
         let _ = self.0.send(Event::WorkerGone);
     }
@@ -205,14 +250,15 @@ impl Drop for Farewell {
 
 fn spawn_worker(
     worker: Worker,
+    keeping: Option<Keeping>,
     orders: Receiver<Order>,
     events: Sender<Event>,
-) -> Result<thread::JoinHandle<()>> {
+) -> Result<thread::JoinHandle<Option<String>>> {
     thread::Builder::new()
         .name("simulation".into())
         .spawn(move || {
-            let _farewell = Farewell(events);
-            worker.serve(&orders);
+            let _last_word = LastWord(events);
+            worker.serve_and_keep(&orders, keeping)
         })
         .context("cannot start the simulation's thread")
 }
@@ -237,13 +283,21 @@ fn listen_for_keys(events: Sender<Event>) {
     });
 }
 
-/// SIGTERM, SIGINT and SIGHUP end the explorer as `q` does.
+/// SIGTERM, SIGINT and SIGHUP end the explorer as `q` does; SIGTSTP and SIGCONT stop it and have it
+/// go on.
 fn listen_for_signals(events: Sender<Event>) -> Result<()> {
-    let mut signals =
-        Signals::new([SIGTERM, SIGINT, SIGHUP]).context("cannot listen for signals")?;
+    let mut signals = Signals::new([SIGTERM, SIGINT, SIGHUP, SIGTSTP, SIGCONT])
+        .context("cannot listen for signals")?;
     thread::spawn(move || {
-        if signals.forever().next().is_some() {
-            let _ = events.send(Event::HangUp);
+        for signal in signals.forever() {
+            let event = match signal {
+                SIGTSTP => Event::Suspend,
+                SIGCONT => Event::Continue,
+                _ => Event::HangUp,
+            };
+            if events.send(event).is_err() {
+                return;
+            }
         }
     });
     Ok(())

@@ -105,7 +105,7 @@ const ASCII_BORDER: ratatui::symbols::border::Set = ratatui::symbols::border::Se
 };
 
 /// Commands that share a line of the help where the screen is short.
-const PAIRS: [(Command, Command, &str); 6] = [
+const PAIRS: [(Command, Command, &str); 7] = [
     (
         Command::Step,
         Command::Cycle,
@@ -132,6 +132,11 @@ const PAIRS: [(Command, Command, &str); 6] = [
         "focus the next, previous panel",
     ),
     (Command::Up, Command::Down, "up, down in a list"),
+    (
+        Command::QuitKeepingScreen,
+        Command::Suspend,
+        "leave, and leave the last screen behind; shell until fg",
+    ),
 ];
 
 /// The keys and what they do, one command a line, or pairs of commands where `rows` are few.

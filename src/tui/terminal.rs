@@ -2,7 +2,6 @@
 
 use std::io::{self, BufWriter, Stdout, Write, stdout};
 use std::mem::ManuallyDrop;
-use std::sync::{Mutex, PoisonError};
 
 use crossterm::cursor::Show;
 use crossterm::terminal::{
@@ -31,10 +30,7 @@ pub struct Screen {
 impl Screen {
     /// Takes the terminal over.
     pub fn open() -> io::Result<Self> {
-        enable_raw_mode()?;
-        let restore = RestoreOnFailure;
-        // Not the clear of ratatui: it asks where the cursor is, and not every terminal answers.
-        execute!(stdout(), EnterAlternateScreen, Clear(ClearType::All))?;
+        let restore = take_over()?;
         let backend = CrosstermBackend::new(BufWriter::with_capacity(OUTPUT_BUFFER, stdout()));
         let mut terminal = Terminal::new(backend)?;
         terminal.hide_cursor()?;
@@ -49,6 +45,18 @@ impl Screen {
     pub fn start_afresh(&mut self) -> io::Result<()> {
         let size = self.terminal.size()?;
         self.terminal.resize(size.into())
+    }
+
+    /// Gives the terminal back for a while.
+    pub fn give_back(&mut self) {
+        restore();
+    }
+
+    /// Takes the terminal over again, as it may be anything by now.
+    pub fn take_back(&mut self) -> io::Result<()> {
+        std::mem::forget(take_over()?);
+        self.terminal.hide_cursor()?;
+        self.start_afresh()
     }
 
     /// Draws the app: only what changed goes over the wire, between synchronization marks.
@@ -67,6 +75,14 @@ impl Drop for Screen {
     }
 }
 
+fn take_over() -> io::Result<RestoreOnFailure> {
+    enable_raw_mode()?;
+    let restore = RestoreOnFailure;
+    // Not the clear of ratatui: it asks where the cursor is, and not every terminal answers.
+    execute!(stdout(), EnterAlternateScreen, Clear(ClearType::All))?;
+    Ok(restore)
+}
+
 struct RestoreOnFailure;
 
 impl Drop for RestoreOnFailure {
@@ -79,23 +95,4 @@ impl Drop for RestoreOnFailure {
 fn restore() {
     let _ = execute!(stdout(), EndSynchronizedUpdate, LeaveAlternateScreen, Show);
     let _ = disable_raw_mode();
-}
-
-/// What the first panic in any thread said. It is told when the terminal is itself again: printed
-/// at once, it would be drawn over.
-static PANIC: Mutex<Option<String>> = Mutex::new(None);
-
-/// Has panics leave their word here instead of on the screen.
-pub fn keep_panics() {
-    std::panic::set_hook(Box::new(|panic| {
-        let mut kept = PANIC.lock().unwrap_or_else(PoisonError::into_inner);
-        if kept.is_none() {
-            *kept = Some(panic.to_string().replace('\n', " "));
-        }
-    }));
-}
-
-/// What a panic said, if there was one.
-pub fn panic_word() -> Option<String> {
-    PANIC.lock().unwrap_or_else(PoisonError::into_inner).take()
 }

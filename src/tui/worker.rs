@@ -3,8 +3,10 @@
 //! It steps no further ahead than the pace allows, and it publishes a frame only after the one
 //! before has been taken, so that a slow terminal costs the simulation nothing.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -12,6 +14,7 @@ use std::time::{Duration, Instant};
 use super::Event;
 use super::companion;
 use super::frame::{Activity, Frame, Rival, Slot};
+use super::keeping::Keeping;
 use super::pace::{Meter, Pace};
 use super::theory::Theory;
 use super::trend::Trend;
@@ -86,6 +89,9 @@ pub struct Worker {
     events: Sender<Event>,
     interval: Duration,
     published: Instant,
+    keeping: Option<Keeping>,
+    /// Set when orders that take long are to be cut short.
+    halt: Arc<AtomicBool>,
 }
 
 impl Worker {
@@ -117,15 +123,41 @@ impl Worker {
             events,
             interval,
             published: Instant::now(),
+            keeping: None,
+            halt: Arc::default(),
         }
+    }
+
+    /// What to set for the worker to cut short what it does, before it is told to quit.
+    pub fn halt(&self) -> Arc<AtomicBool> {
+        Arc::clone(&self.halt)
     }
 
     /// Carries out orders and steps in between, until told to quit.
     pub fn serve(mut self, orders: &Receiver<Order>) {
+        self.attend(orders);
+    }
+
+    /// [`serve`](Self::serve), and keeps the session on the way and at the end, a panic included;
+    /// returns what there is to say of that.
+    pub fn serve_and_keep(
+        mut self,
+        orders: &Receiver<Order>,
+        keeping: Option<Keeping>,
+    ) -> Option<String> {
+        self.keeping = keeping;
+        let served = catch_unwind(AssertUnwindSafe(|| self.attend(orders)));
+        // A step that was cut short has left half a state.
+        let session = served.is_ok().then_some(&self.session);
+        self.keeping.take()?.finish(session)
+    }
+
+    fn attend(&mut self, orders: &Receiver<Order>) {
         self.publish();
         loop {
             #[cfg(debug_assertions)]
             super::fault::strike("worker");
+            self.look_after();
             let wait = self.until_next_step();
             match wait.map_or_else(
                 || orders.recv().map_err(RecvTimeoutError::from),
@@ -137,15 +169,25 @@ impl Worker {
                     self.meter.restart(self.session.simulation().cycle());
                     self.publish();
                 }
+                Err(RecvTimeoutError::Timeout) if self.activity != Activity::Running => {}
                 Err(RecvTimeoutError::Timeout) => self.step_for_a_stint(),
             }
         }
     }
 
-    /// How long to wait for orders before the next step is due; forever when not running.
+    /// Keeps the session when that is due.
+    fn look_after(&mut self) {
+        let keeping = self.keeping.as_mut();
+        if let Some(word) = keeping.and_then(|keeping| keeping.look_after(&self.session)) {
+            self.notice(&word);
+        }
+    }
+
+    /// How long to wait for orders before the next step or checkpoint is due; forever when there is
+    /// none.
     fn until_next_step(&self) -> Option<Duration> {
         if self.activity != Activity::Running {
-            return None;
+            return self.keeping.as_ref()?.wait(&self.session);
         }
         let due = match Pace::of_rung(self.rung) {
             Pace::Unlimited => 0.0,
@@ -168,6 +210,10 @@ impl Worker {
                 break;
             }
             let before = self.session.simulation().cycle();
+            #[cfg(debug_assertions)]
+            if before > 5.0 {
+                super::fault::strike("sixth cycle");
+            }
             self.step();
             self.end_where_planned(before);
         }
@@ -305,7 +351,9 @@ impl Worker {
         let before = self.session.simulation().cycle();
         loop {
             self.step();
-            if self.activity != Activity::Paused || done(before, self.session.simulation().cycle())
+            if self.activity != Activity::Paused
+                || done(before, self.session.simulation().cycle())
+                || self.halt.load(Ordering::Relaxed)
             {
                 return;
             }
@@ -329,6 +377,9 @@ impl Worker {
     fn load(&mut self, scenario: Scenario) {
         match Session::start(scenario) {
             Ok(session) => {
+                if let Some(keeping) = &mut self.keeping {
+                    keeping.turn_over(&self.session, &session);
+                }
                 self.session = session;
                 self.rival = None;
                 self.theory = Arc::new(Theory::of(self.session.simulation().setup()));

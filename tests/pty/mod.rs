@@ -2,6 +2,7 @@
 
 use std::io::{Read, Write};
 use std::num::NonZeroU16;
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
@@ -41,6 +42,11 @@ pub struct Terminal {
     modes_before: String,
 }
 
+/// Where the program keeps its checkpoints under test.
+pub fn state_home() -> &'static Path {
+    Path::new(concat!(env!("CARGO_TARGET_TMPDIR"), "/state"))
+}
+
 /// The program with these arguments, in an environment of its own.
 pub fn program(arguments: &[&str]) -> CommandBuilder {
     let mut command = CommandBuilder::new(env!("CARGO_BIN_EXE_mdr-tui"));
@@ -48,6 +54,7 @@ pub fn program(arguments: &[&str]) -> CommandBuilder {
     for name in ["NO_COLOR", "MDR_TUI_FAULT", "LANG", "LC_CTYPE"] {
         command.env_remove(name);
     }
+    command.env("XDG_STATE_HOME", state_home());
     command.env("TERM", "xterm-256color");
     command.env("LC_ALL", "C.UTF-8");
     command

@@ -12,6 +12,8 @@
 
 use std::f64::consts::{FRAC_1_PI, PI};
 
+use serde::{Deserialize, Serialize};
+
 use super::bend::{self, Bend, CLOSEST};
 use crate::math::grid::RadialGrid;
 
@@ -109,7 +111,7 @@ fn three_bends(t: [f64; 2], at: f64, slopes: [f64; 3]) -> [Bend; 3] {
 /// q = q_b − C_b √(x² − t_b)   for t_b < x² < t_a = t_b + (q_b/C_b)²
 /// p += (C_b/π) asinh √((t_a − t_b)/(t_b − r²))   for r² < t_b
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct RimEdge {
     /// The contact edge, t_a = a², m².
     pub at: f64,
@@ -122,7 +124,7 @@ pub struct RimEdge {
 }
 
 /// q = q_b − C_b √(x² − t_b).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct Tail {
     /// t_b, m².
     rim: f64,

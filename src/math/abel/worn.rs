@@ -96,6 +96,25 @@ pub fn volume_weights(grid: &RadialGrid) -> Vec<f64> {
     weights
 }
 
+/// The worn depth at `r`, of nodal `wear`, by the interpolant of [`profile`]; constant beyond the domain.
+pub fn interpolate(grid: &RadialGrid, wear: &[f64], r: f64) -> f64 {
+    let nodes = grid.nodes();
+    let outside = grid.border().filter(|&c| r > nodes[c] && r < grid.radius());
+    let Some(border) = outside else {
+        return grid.interpolate(wear, r);
+    };
+    let z = |r: f64| leg(nodes[border], r);
+    // F of a node; of the node on the border, that of the next one.
+    let factor = |k: usize| {
+        let k = k.max(border + 1);
+        (wear[k] - wear[border]) / z(nodes[k])
+    };
+    let upper = nodes.partition_point(|&node| node < r);
+    let (left, right, here) = (z(nodes[upper - 1]), z(nodes[upper]), z(r));
+    let weight = (here - left) / (right - left);
+    wear[border] + here * (factor(upper - 1) * (1.0 - weight) + factor(upper) * weight)
+}
+
 /// z = √(r² − c²) of every node, 0 inside.
 fn distances(nodes: &[f64], border: usize) -> Vec<f64> {
     let c = nodes[border];
@@ -164,6 +183,24 @@ mod tests {
             for k in j + 1..61 {
                 assert_eq!(weights[(j, k)], 0.0);
             }
+        }
+    }
+
+    #[test]
+    fn the_interpolant_runs_through_its_nodes_and_is_exact_for_roots() {
+        let grid = graded(40, 0.6);
+        let z = distances(grid.nodes(), grid.border().expect("a border"));
+        let delta: Vec<f64> = z.iter().map(|z| 0.2 + 0.3 * z + z * z).collect();
+        for (&r, value) in grid.nodes().iter().zip(&delta) {
+            assert!((interpolate(&grid, &delta, r) - value).abs() < 1e-14);
+        }
+        // In the cell next to c, F is constant.
+        let next = grid.nodes()[grid.border().expect("a border") + 1];
+        for i in 0..=100 {
+            let r = next + (1.5 - next) * f64::from(i) / 100.0;
+            let z = leg(0.6, r);
+            let exact = 0.2 + 0.3 * z + z * z;
+            assert!((interpolate(&grid, &delta, r) - exact).abs() < 1e-13, "{r}");
         }
     }
 

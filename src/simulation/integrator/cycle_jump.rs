@@ -88,6 +88,7 @@ pub(in super::super) fn jump(
     } else if found.is_none() {
         rest(setup, state);
     }
+    memory.effort.transforms += std::mem::take(&mut work.transforms);
     match found {
         Some(jump) => {
             accept(setup, state, work, memory, jump);
@@ -115,7 +116,7 @@ fn search(
         return None;
     };
     let period = f64::from(setup.drive.repeats_after()?);
-    let deepest = setup.deepest().unwrap_or(state.depth);
+    let deepest = setup.largest_depth().unwrap_or(state.depth);
     let largest = first.wear.iter().copied().fold(0.0, f64::max);
     let mut length = if state.jump.length > 0.0 {
         state.jump.length

@@ -131,7 +131,7 @@ fn check(setup: &Setup, work: &Workspace) -> Result<(), Cause> {
             method,
         });
     }
-    let deepest = setup.deepest().unwrap_or(work.contact.depth);
+    let deepest = setup.largest_depth().unwrap_or(work.contact.depth);
     if highest > RUNAWAY * deepest && deepest > 0.0 {
         return Err(Cause::Runaway {
             worn: highest / deepest,

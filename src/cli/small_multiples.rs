@@ -1,0 +1,51 @@
+//! Plots beside each other, drawn as text: all on axes of their own, so that they can be told apart and
+//! compared without colour.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::widgets::Widget;
+
+use crate::tui::plot::Plot;
+
+/// Cells of one plot.
+const SIZE: (u16, u16) = (39, 11);
+
+/// Columns between two plots.
+const GAP: u16 = 2;
+
+/// Plots beside each other.
+const ACROSS: usize = 2;
+
+/// The plots in rows of two.
+pub fn draw(plots: &[Plot<'_>]) -> String {
+    let (width, height) = SIZE;
+    let mut text = String::new();
+    for plots in plots.chunks(ACROSS) {
+        let mut buffer = Buffer::empty(Rect::new(0, 0, (width + GAP) * ACROSS as u16, height));
+        for (at, plot) in plots.iter().enumerate() {
+            let area = Rect::new(at as u16 * (width + GAP), 0, width, height);
+            plot.render(area, &mut buffer);
+        }
+        text.push('\n');
+        for row in buffer.area.rows() {
+            let line: String = row.positions().map(|at| buffer[at].symbol()).collect();
+            text.push_str(line.trim_end());
+            text.push('\n');
+        }
+    }
+    text
+}
+
+/// The ends of an axis in full decades that holds all positive values; none without any.
+pub fn decades(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
+    let seen = values.filter(|value| value.is_finite() && *value > 0.0);
+    let (least, most) = seen.fold((f64::INFINITY, 0.0), |(a, b): (f64, f64), value| {
+        (a.min(value), b.max(value))
+    });
+    if most == 0.0 {
+        return None;
+    }
+    let ends = [least.log10().floor(), most.log10().ceil()];
+    let top = if ends[1] <= ends[0] { ends[0] + 1.0 } else { ends[1] };
+    Some([10f64.powf(ends[0]), 10f64.powf(top)])
+}

@@ -1,0 +1,273 @@
+//! `mdr-tui trade`: speed against accuracy, measured on this machine.
+
+use std::io::{self, IsTerminal, Write};
+use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use anyhow::{Context, Result};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use ratatui::style::Style;
+
+use super::args::Trade;
+use super::{FAILED, Misuse, complain, results, small_multiples, stop};
+use crate::export::file::write_whole;
+use crate::export::header::number;
+use crate::math::abel::AbelMethod;
+use crate::scenario::Scenario;
+use crate::studies::trade::report::{Trial, cheapest, front, points, table};
+use crate::studies::trade::{self, Errors, Ladder, Sample, Setting};
+use crate::tui::plot::{Axis, Curve, Plot, Scale};
+
+/// Runs the study and prints, draws and writes what was asked for.
+pub fn trade(options: &Trade) -> Result<ExitCode> {
+    if let Some(path) = &options.csv {
+        results::check(path, options.force)?;
+    }
+    let scenario = Scenario::load(&options.scenario, &options.changes.set)?;
+    let cycles = options.cycles.or(scenario.run().cycles).ok_or_else(|| {
+        Misuse(format!(
+            "{}: has no run.cycles; say how many with --cycles X",
+            options.scenario
+        ))
+    })?;
+    if scenario.setup().wear.is_none() {
+        let message = format!(
+            "{}: nothing wears, so there is no worn profile to be right about; see verify",
+            options.scenario
+        );
+        return Err(Misuse(message).into());
+    }
+    let mut ladder = Ladder {
+        points: options.points.clone(),
+        steps: options.steps.clone(),
+        ..Ladder::default()
+    };
+    if !options.methods.is_empty() {
+        ladder.methods.clone_from(&options.methods);
+    }
+    let study = Study {
+        settings: ladder.settings(&scenario),
+        reference: ladder.reference(&scenario),
+        scenario,
+        cycles,
+    };
+    let stop = stop::signal()?;
+    let Some(found) = study.run(&stop, options.quiet)? else {
+        complain("interrupted before the reference was there: there is nothing to tell");
+        return Ok(ExitCode::from(FAILED));
+    };
+    if let Some(path) = &options.csv {
+        let text = format!("{}{}", study.header(&found), table(&found.trials, &found.trials).csv());
+        write_whole(path, text.as_bytes())?;
+    }
+    let mut out = io::stdout().lock();
+    if let Some(accuracy) = options.accuracy {
+        return recommend(&found, accuracy, options.json, &mut out);
+    }
+    if options.json {
+        let rows = table(&found.trials, &found.trials);
+        writeln!(out, "{}", serde_json::to_string_pretty(&rows)?)?;
+    } else {
+        write!(out, "{}", study.text(&found, options))?;
+    }
+    Ok(match found.interrupted {
+        true => ExitCode::from(FAILED),
+        false => ExitCode::SUCCESS,
+    })
+}
+
+/// The cheapest setting for an accuracy, as assignments that `--set` takes.
+fn recommend(found: &Found, accuracy: f64, json: bool, out: &mut impl Write) -> Result<ExitCode> {
+    let Some(trial) = cheapest(&found.trials, accuracy) else {
+        complain(&format!(
+            "no setting that was tried errs by {accuracy:e} or less; try more --points or --steps"
+        ));
+        return Ok(ExitCode::from(FAILED));
+    };
+    if json {
+        let row = table([trial], &found.trials);
+        writeln!(out, "{}", serde_json::to_string_pretty(&row)?)?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    if let Ok((sample, errors)) = &trial.outcome {
+        writeln!(
+            out,
+            "# error {:.1e} of the largest depth (rms), in {:.1e} s",
+            errors.rms, sample.seconds
+        )?;
+    }
+    for (key, value) in trial.setting.keys() {
+        writeln!(out, "--set {key}={value}")?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+struct Study {
+    scenario: Scenario,
+    cycles: f64,
+    settings: Vec<Setting>,
+    reference: Setting,
+}
+
+struct Found {
+    reference: Sample,
+    /// The same half as fine, against it.
+    convergence: Option<Errors>,
+    trials: Vec<Trial>,
+    interrupted: bool,
+}
+
+impl Study {
+    /// The reference first, then every setting, the cheapest first; none without a reference.
+    fn run(&self, stop: &AtomicBool, quiet: bool) -> Result<Option<Found>> {
+        let go_on = || !stop.load(Ordering::Relaxed);
+        let half = Setting {
+            points: self.reference.points / 2,
+            steps: self.reference.steps / 2,
+            tolerance: self.reference.tolerance.map(|tolerance| 4.0 * tolerance),
+            ..self.reference
+        };
+        let efforts = [self.reference, half].into_iter().chain(self.settings.iter().copied());
+        let bar = bar(efforts.map(|setting| setting.effort(self.cycles)).sum(), quiet);
+        let run = |setting: &Setting, what: &str| {
+            bar.set_message(format!(
+                "{what}{} {}, N = {}, {} steps",
+                setting.method, setting.scheme, setting.points, setting.steps
+            ));
+            bar.tick();
+            let outcome = trade::run(&self.scenario, setting, self.cycles, &go_on);
+            bar.inc(setting.effort(self.cycles));
+            outcome
+        };
+        let Some(reference) = run(&self.reference, "reference, ") else {
+            return Ok(None);
+        };
+        let reference = reference.context("the reference")?;
+        let half = run(&half, "reference, ");
+        let interrupted = half.is_none();
+        let mut found = Found {
+            convergence: half.and_then(|half| Some(half.ok()?.against(&reference))),
+            reference,
+            trials: Vec::new(),
+            interrupted,
+        };
+        for setting in &self.settings {
+            let Some(outcome) = run(setting, "") else {
+                found.interrupted = true;
+                break;
+            };
+            let outcome = outcome.map(|sample| {
+                let errors = sample.against(&found.reference);
+                (sample, errors)
+            });
+            found.trials.push(Trial {
+                setting: *setting,
+                outcome: outcome.map_err(|error| error.to_string()),
+            });
+        }
+        bar.finish_and_clear();
+        Ok(Some(found))
+    }
+
+    /// What was compared with what.
+    fn notes(&self, found: &Found) -> Vec<String> {
+        let Setting { points, steps, .. } = self.reference;
+        let converged = found.convergence.map_or(String::new(), |errors| {
+            format!(
+                "; half as fine differs from it by {:.1e} rms, {:.1e} at most",
+                errors.rms, errors.largest
+            )
+        });
+        let mut notes = vec![
+            format!(
+                "{}, {} cycles: error of the worn profile at the end, in largest depths",
+                self.scenario.title(),
+                number(self.cycles)
+            ),
+            format!(
+                "reference: {}, N = {points}, {steps} steps a cycle, {:.1e} s{converged}",
+                self.reference.method, found.reference.seconds
+            ),
+        ];
+        if found.interrupted {
+            notes.push(format!(
+                "interrupted: {} of {} settings were tried",
+                found.trials.len(),
+                self.settings.len()
+            ));
+        }
+        notes
+    }
+
+    fn header(&self, found: &Found) -> String {
+        let mut text = format!("# mdr-tui: {}\n# study: trade\n", env!("CARGO_PKG_VERSION"));
+        for note in self.notes(found) {
+            text.push_str(&format!("# {note}\n"));
+        }
+        text
+    }
+
+    fn text(&self, found: &Found, options: &Trade) -> String {
+        let mut text = String::new();
+        for note in self.notes(found) {
+            text.push_str(&note);
+            text.push('\n');
+        }
+        let shown: Vec<&Trial> = if options.all {
+            found.trials.iter().collect()
+        } else {
+            front(&found.trials)
+        };
+        text.push_str(&table(shown, &found.trials).text());
+        if options.plot {
+            text.push_str(&plots(found, options));
+        }
+        text
+    }
+}
+
+/// Error over time: a plot a method with its own front, the front of all dashed.
+fn plots(found: &Found, options: &Trade) -> String {
+    let all = points(front(&found.trials));
+    let fronts: Vec<(AbelMethod, (Vec<f64>, Vec<f64>))> = AbelMethod::ALL
+        .into_iter()
+        .map(|method| {
+            let mine = found.trials.iter().filter(|trial| trial.setting.method == method);
+            (method, points(front(mine)))
+        })
+        .filter(|(_, (times, _))| !times.is_empty())
+        .collect();
+    let every = |pick: fn(&(Vec<f64>, Vec<f64>)) -> &Vec<f64>| {
+        small_multiples::decades(fronts.iter().flat_map(|(_, front)| pick(front)).copied())
+    };
+    let (Some(times), Some(errors)) = (every(|front| &front.0), every(|front| &front.1)) else {
+        return String::new();
+    };
+    let names: Vec<String> = fronts.iter().map(|(method, _)| format!("{method}: error")).collect();
+    let plots: Vec<Plot> = fronts
+        .iter()
+        .zip(&names)
+        .map(|((_, mine), name)| {
+            Plot::new(
+                Axis::new("time", "s").bounds(times).scale(Scale::Log),
+                Axis::new(name, "").bounds(errors).scale(Scale::Log),
+            )
+            .curve(Curve::new("", &all.0, &all.1, Style::new()).dashed())
+            .curve(Curve::new("", &mine.0, &mine.1, Style::new()))
+            .marker(options.marker.into())
+        })
+        .collect();
+    small_multiples::draw(&plots)
+}
+
+fn bar(effort: u64, quiet: bool) -> ProgressBar {
+    let bar = ProgressBar::new(effort);
+    if quiet || !io::stderr().is_terminal() {
+        bar.set_draw_target(ProgressDrawTarget::hidden());
+    }
+    let template = "{msg} [{bar:32}] {percent}%  {elapsed} gone, {eta} to go";
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style.progress_chars("=> "));
+    }
+    bar
+}

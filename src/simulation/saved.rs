@@ -1,0 +1,126 @@
+//! A run put away, and taken up again to the same bits.
+//!
+//! What is put away: the nodes, since a pilot run may have chosen them; the state; and what the
+//! workspace holds of the last good step that neither the state nor the setup tells. All else
+//! follows from these, so that the next step and every observation are those of the run that was
+//! never put away.
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use super::workspace::{LastGood, Workspace};
+use super::{Setup, Simulation, State};
+use crate::math::grid::RadialGrid;
+
+/// A simulation at rest, without the setup that it runs on.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Saved {
+    nodes: Vec<f64>,
+    border: Option<usize>,
+    state: State,
+    good: LastGood,
+}
+
+impl Saved {
+    /// Cycles since the start.
+    pub fn cycle(&self) -> f64 {
+        self.state.cycle
+    }
+}
+
+/// A saved run that does not belong to a setup, or to none at all.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("the saved {what} {rule}")]
+pub struct Unfit {
+    what: &'static str,
+    rule: String,
+}
+
+impl Unfit {
+    fn new(what: &'static str, rule: impl Into<String>) -> Self {
+        let rule = rule.into();
+        Self { what, rule }
+    }
+}
+
+impl Simulation {
+    /// Puts the run away as it stands.
+    pub fn save(&self) -> Saved {
+        Saved {
+            nodes: self.setup.grid.nodes().to_vec(),
+            border: self.setup.grid.border(),
+            state: self.state.clone(),
+            good: self.workspace.good.clone(),
+        }
+    }
+
+    /// Takes a run up where it was put away; `setup` is the one it ran on, but for its grid.
+    pub fn restore(setup: Setup, saved: Saved) -> Result<Self, Unfit> {
+        let grid = RadialGrid::restored(saved.nodes, saved.border)
+            .map_err(|invalid| Unfit::new("grid", invalid.rule))?;
+        let of = |grid: &RadialGrid| (grid.cells(), grid.radius().to_bits());
+        if of(&grid) != of(&setup.grid) {
+            return Err(Unfit::new("grid", "is not that of the scenario"));
+        }
+        let setup = Setup { grid, ..setup };
+        check(&setup, &saved.state, &saved.good)?;
+        let mut workspace = Workspace::new(&setup, None);
+        workspace.good = saved.good;
+        workspace.show_last_good(&setup, &saved.state);
+        let mut simulation = Self {
+            setup,
+            state: saved.state,
+            workspace,
+            next: (0.0, false),
+        };
+        simulation.next = simulation.look_ahead();
+        Ok(simulation)
+    }
+}
+
+/// Refuses what cannot have come out of a step on this setup.
+fn check(setup: &Setup, state: &State, good: &LastGood) -> Result<(), Unfit> {
+    let nodes = setup.grid.len();
+    let springs = match setup.drive.tangential() {
+        Some(_) => nodes,
+        None => 0,
+    };
+    let settled = state.jump.settled.as_ref();
+    for (what, length, due) in [
+        ("wear", state.wear.len(), nodes),
+        ("springs", state.spring.len(), springs),
+        ("springs' holds", state.hold.len(), springs),
+        ("growth of g", state.last.growth.len(), nodes),
+        ("growth of f", state.last.wear.len(), nodes),
+        ("line load", state.last.normal_load.len(), nodes),
+        ("pressure", state.last.pressure.len(), nodes),
+        ("shear stress", state.last.shear.len(), nodes),
+        (
+            "wear of a settled cycle",
+            settled.map_or(nodes, |settled| settled.wear.len()),
+            nodes,
+        ),
+    ] {
+        if length != due {
+            let rule = format!("has {length} values, where the scenario has {due}");
+            return Err(Unfit::new(what, rule));
+        }
+    }
+    if !(state.cycle >= 0.0 && state.cycle.is_finite()) {
+        return Err(Unfit::new("cycle", "is not a number of 0 or more"));
+    }
+    for (what, values) in [
+        ("wear", &state.wear[..]),
+        ("springs", &state.spring),
+        ("depth", &[state.depth]),
+        ("shift", &[state.shift]),
+    ] {
+        if values.iter().any(|value| !value.is_finite()) {
+            return Err(Unfit::new(what, "is not finite"));
+        }
+    }
+    if good.contact.normal.nodes > nodes {
+        return Err(Unfit::new("contact", "reaches beyond the grid"));
+    }
+    Ok(())
+}

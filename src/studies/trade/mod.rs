@@ -1,0 +1,144 @@
+//! Speed against accuracy, measured: one scenario computed in many ways, each against a reference.
+//!
+//! The error is that of the worn profile at the end, at 401 radii in equal distances over the domain:
+//! its rms and its largest value, in units of the largest depth; beside it those of the permanent stick
+//! radius, in contact radii, and of the worn volume, in parts of it. The reference is the best method,
+//! twice as fine as the finest that is tried; how far it is itself from half as fine is told with it.
+
+use std::time::{Duration, Instant};
+
+use crate::math::abel::worn;
+use crate::scenario::Scenario;
+use crate::scenario::session::{Session, SessionError};
+
+pub mod report;
+mod setting;
+
+pub use setting::{Ladder, POINTS, STEPS, Setting, TOLERANCES};
+
+/// Radii at which profiles are compared.
+const RADII: usize = 401;
+
+/// A run is repeated until it has taken this long, and its median time counts.
+const LONG_ENOUGH: Duration = Duration::from_millis(60);
+
+/// The most repetitions.
+const REPETITIONS: usize = 5;
+
+/// How a run ended.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sample {
+    /// The worn depth at equidistant radii, in units of the largest depth.
+    worn: Vec<f64>,
+    /// The permanent stick radius, m; NaN without one.
+    stick_radius: f64,
+    /// The contact radius, m.
+    contact_radius: f64,
+    /// m³.
+    volume: f64,
+    /// Time of one run with its set-up, s.
+    pub seconds: f64,
+    /// Transforms computed.
+    pub transforms: u64,
+    /// Steps and jumps taken.
+    pub steps: u64,
+}
+
+/// How far a run is from the reference.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Errors {
+    /// Of the profile, rms, in largest depths.
+    pub rms: f64,
+    /// Of the profile, largest, in largest depths.
+    pub largest: f64,
+    /// Of the permanent stick radius, in contact radii.
+    pub stick_radius: f64,
+    /// Of the worn volume, in parts of it.
+    pub volume: f64,
+}
+
+impl Sample {
+    /// The differences of this run from another one.
+    pub fn against(&self, reference: &Self) -> Errors {
+        let differences = || self.worn.iter().zip(&reference.worn).map(|(a, b)| (a - b).abs());
+        let sum: f64 = differences().map(|error| error * error).sum();
+        Errors {
+            rms: (sum / RADII as f64).sqrt(),
+            largest: differences().fold(0.0, f64::max),
+            stick_radius: (self.stick_radius - reference.stick_radius).abs()
+                / reference.contact_radius,
+            volume: (self.volume / reference.volume - 1.0).abs(),
+        }
+    }
+}
+
+/// Runs `scenario` by `setting` over `cycles`, and again while that is quick. `go_on` is asked between
+/// steps; if it says no, there is no result.
+pub fn run(
+    scenario: &Scenario,
+    setting: &Setting,
+    cycles: f64,
+    go_on: &dyn Fn() -> bool,
+) -> Option<Result<Sample, SessionError>> {
+    let scenario = match setting.of(scenario) {
+        Ok(scenario) => scenario,
+        Err(error) => return Some(Err(error.into())),
+    };
+    let (mut times, mut all) = (Vec::new(), Duration::ZERO);
+    loop {
+        let start = Instant::now();
+        let session = match one_run(&scenario, cycles, go_on)? {
+            Ok(session) => session,
+            Err(error) => return Some(Err(error)),
+        };
+        let taken = start.elapsed();
+        all += taken;
+        times.push(taken.as_secs_f64());
+        if all >= LONG_ENOUGH || times.len() == REPETITIONS {
+            times.sort_by(f64::total_cmp);
+            return Some(Ok(sample(&session, times[times.len() / 2])));
+        }
+    }
+}
+
+fn one_run(
+    scenario: &Scenario,
+    cycles: f64,
+    go_on: &dyn Fn() -> bool,
+) -> Option<Result<Session, SessionError>> {
+    let mut session = match Session::start(scenario.clone()) {
+        Ok(session) => session,
+        Err(error) => return Some(Err(error)),
+    };
+    while session.simulation().cycle() < cycles {
+        if !go_on() {
+            return None;
+        }
+        // A cycle at a time: a stop is seen soon, and asking costs nothing.
+        let next = (session.simulation().cycle().floor() + 1.0).min(cycles);
+        let end = if session.simulation().may_jump() { cycles } else { next };
+        if let Err(error) = session.step_until(end) {
+            return Some(Err(error));
+        }
+    }
+    Some(Ok(session))
+}
+
+fn sample(session: &Session, seconds: f64) -> Sample {
+    let simulation = session.simulation();
+    let (setup, state) = (simulation.setup(), simulation.state());
+    let moment = simulation.moment();
+    let depth = setup.largest_depth().unwrap_or(moment.depth);
+    let radius = |i: usize| setup.grid.radius() * (i as f64 / (RADII - 1) as f64);
+    Sample {
+        worn: (0..RADII)
+            .map(|i| worn::interpolate(&setup.grid, &state.wear, radius(i)) / depth)
+            .collect(),
+        stick_radius: moment.permanent_stick_radius.unwrap_or(f64::NAN),
+        contact_radius: moment.contact_radius,
+        volume: moment.wear_volume,
+        seconds,
+        transforms: state.effort.transforms,
+        steps: state.steps,
+    }
+}

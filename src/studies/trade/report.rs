@@ -1,0 +1,176 @@
+//! What a trade study found: rows, the Pareto front, the cheapest setting for an accuracy.
+
+use super::{Errors, Sample, Setting};
+use crate::simulation::Integrator;
+use crate::studies::table::{Cell, Column, Format, Table};
+
+/// One setting, and how it did.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Trial {
+    /// The setting.
+    pub setting: Setting,
+    /// The run and its errors, or why there is none.
+    pub outcome: Result<(Sample, Errors), String>,
+}
+
+impl Trial {
+    /// Time and error (rms of the profile), of a run that came to its end.
+    fn point(&self) -> Option<(f64, f64)> {
+        let (sample, errors) = self.outcome.as_ref().ok()?;
+        errors.rms.is_finite().then_some((sample.seconds, errors.rms))
+    }
+}
+
+/// The trials that no other one beats in both time and error, the fastest first.
+pub fn front<'a>(trials: impl IntoIterator<Item = &'a Trial>) -> Vec<&'a Trial> {
+    let mut sorted: Vec<(&Trial, (f64, f64))> = trials
+        .into_iter()
+        .filter_map(|trial| Some((trial, trial.point()?)))
+        .collect();
+    sorted.sort_by(|(_, a), (_, b)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let mut best = f64::INFINITY;
+    sorted.retain(|(_, (_, error))| {
+        let better = *error < best;
+        best = best.min(*error);
+        better
+    });
+    sorted.into_iter().map(|(trial, _)| trial).collect()
+}
+
+/// The fastest trial whose error is at most `accuracy`.
+pub fn cheapest(trials: &[Trial], accuracy: f64) -> Option<&Trial> {
+    let front = front(trials);
+    front
+        .into_iter()
+        .find(|trial| trial.point().is_some_and(|(_, error)| error <= accuracy))
+}
+
+/// Time and error of each trial, for a plot.
+pub fn points<'a>(trials: impl IntoIterator<Item = &'a Trial>) -> (Vec<f64>, Vec<f64>) {
+    trials.into_iter().filter_map(Trial::point).unzip()
+}
+
+/// A row a trial: those of `shown`, marked where they stand on the front of all.
+pub fn table<'a>(shown: impl IntoIterator<Item = &'a Trial>, all: &[Trial]) -> Table {
+    let mut table = Table::new(vec![
+        Column::new("method", Format::Words),
+        Column::new("scheme", Format::Words),
+        Column::new("integrator", Format::Words),
+        Column::new("points", Format::Count),
+        Column::new("steps_per_cycle", Format::Count),
+        Column::new("tolerance", Format::Rough),
+        Column::new("time_s", Format::Rough),
+        Column::new("steps", Format::Count),
+        Column::new("transforms", Format::Count),
+        Column::new("error_rms", Format::Rough),
+        Column::new("error_max", Format::Rough),
+        Column::new("stick_error", Format::Rough),
+        Column::new("volume_error", Format::Rough),
+        Column::new("front", Format::Words),
+    ]);
+    let front = front(all);
+    for trial in shown {
+        let Setting {
+            method,
+            scheme,
+            points,
+            steps,
+            tolerance,
+        } = trial.setting;
+        let words = |text: &str| Cell::Words(text.to_owned());
+        let integrator = Integrator::NAMES[usize::from(tolerance.is_some())];
+        let mut row = vec![
+            words(method.name()),
+            words(scheme.name()),
+            words(integrator),
+            Cell::Count(points),
+            Cell::Count(steps as usize),
+            tolerance.into(),
+        ];
+        match &trial.outcome {
+            Ok((sample, errors)) => row.extend([
+                Cell::Number(sample.seconds),
+                Cell::Count(sample.steps as usize),
+                Cell::Count(sample.transforms as usize),
+                Cell::Number(errors.rms),
+                Cell::Number(errors.largest),
+                finite(errors.stick_radius),
+                finite(errors.volume),
+                words(if front.contains(&trial) { "*" } else { "" }),
+            ]),
+            Err(reason) => {
+                row.push(Cell::Across(reason.clone()));
+                row.resize(14, Cell::Missing);
+            }
+        }
+        table.push(row);
+    }
+    table
+}
+
+fn finite(value: f64) -> Cell {
+    Some(value).filter(|value| value.is_finite()).into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::abel::AbelMethod;
+    use crate::simulation::Scheme;
+
+    fn trial(points: usize, seconds: f64, rms: f64) -> Trial {
+        let sample = Sample {
+            worn: Vec::new(),
+            stick_radius: 1.0,
+            contact_radius: 1.0,
+            volume: 1.0,
+            seconds,
+            transforms: 4,
+            steps: 1,
+        };
+        let errors = Errors {
+            rms,
+            largest: rms,
+            stick_radius: f64::NAN,
+            volume: 0.0,
+        };
+        Trial {
+            setting: Setting {
+                method: AbelMethod::A,
+                scheme: Scheme::Euler,
+                points,
+                steps: 100,
+                tolerance: None,
+            },
+            outcome: Ok((sample, errors)),
+        }
+    }
+
+    #[test]
+    fn the_front_is_what_nothing_beats() {
+        let mut trials = vec![
+            trial(1, 1.0, 1e-2),
+            trial(2, 0.5, 3e-2),
+            trial(3, 2.0, 2e-2),
+            trial(4, 3.0, 1e-3),
+            trial(5, 3.0, 2e-3),
+            trial(6, 0.1, f64::NAN),
+        ];
+        trials.push(Trial {
+            outcome: Err("broke".into()),
+            ..trial(7, 0.0, 0.0)
+        });
+        let points = |trials: Vec<&Trial>| -> Vec<usize> {
+            trials.iter().map(|trial| trial.setting.points).collect()
+        };
+        assert_eq!(points(front(&trials)), [2, 1, 4]);
+        assert_eq!(cheapest(&trials, 1e-2).map(|t| t.setting.points), Some(1));
+        assert_eq!(cheapest(&trials, 5e-3).map(|t| t.setting.points), Some(4));
+        assert_eq!(cheapest(&trials, 1e-4), None);
+        let table = table(&trials, &trials);
+        let stars = table.rows().iter().filter(|row| row[13] == Cell::Words("*".into()));
+        assert_eq!(stars.count(), 3);
+        assert!(table.text().contains("broke"));
+        assert_eq!(table.rows()[0][11], Cell::Missing);
+    }
+}

@@ -1,0 +1,6 @@
+//! Any text as `--keys`.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|text: &str| mdr_tui_fuzz::keys(text));

@@ -6,7 +6,7 @@
 
 mod common;
 
-use common::{Scene, archard, holds, run, swing};
+use common::{Scene, archard, holds, run, run_setup, swing};
 use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::math::abel::AbelMethod::{A, B, Product};
 use mdr_tui::math::grid::RadialGrid;
@@ -29,12 +29,6 @@ fn ours(scene: Scene) -> Setup {
 
 fn run_ours(scene: Scene, cycles: f64) -> Simulation {
     run_setup(ours(scene), cycles)
-}
-
-fn run_setup(setup: Setup, cycles: f64) -> Simulation {
-    let mut simulation = Simulation::new(setup).expect("a contact");
-    simulation.advance_to(cycles).expect("a run to the end");
-    simulation
 }
 
 fn rms(differences: impl Iterator<Item = f64>) -> f64 {

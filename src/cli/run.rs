@@ -31,6 +31,11 @@ pub fn run(options: &Run) -> Result<ExitCode> {
         (Some(path), _) => Job::resume(options, path)?,
         (None, scenario) => Job::start(options, scenario.as_deref().unwrap_or_default())?,
     };
+    if let Some(why) = job.session.simulation().why_never_jumped()
+        && !options.quiet
+    {
+        complain(&format!("every cycle is stepped directly: {why}"));
+    }
     let stop = stop::signal()?;
     panics::keep();
     // A defect must not take hours of computing with it.
@@ -171,10 +176,10 @@ impl Job {
         self.errand.record(&self.session);
         loop {
             let simulation = self.session.simulation();
-            let (cycle, next) = (simulation.cycle(), simulation.next_moment());
-            let close = simulation.rounding();
-            while let Some(snapshot) = self.errand.next_snapshot(next - close) {
-                self.snapshot(&snapshot)?;
+            let (cycle, close) = (simulation.cycle(), simulation.rounding());
+            while let Some(snapshot) = self.errand.next_snapshot(cycle + close) {
+                let table = table_at(&snapshot, &self.session)?;
+                self.keep_snapshot(&snapshot, table);
             }
             if cycle >= self.errand.cycles {
                 break;
@@ -185,10 +190,22 @@ impl Job {
             }
             #[cfg(debug_assertions)]
             crate::tui::fault::strike("run");
-            if next > self.errand.cycles - close {
-                self.session.advance_to(self.errand.cycles)?;
+            let simulation = self.session.simulation();
+            let reach = if simulation.may_jump() {
+                f64::INFINITY
             } else {
-                self.session.step()?;
+                simulation.next_moment()
+            };
+            // Between two steps a copy takes the fraction of a step: looking does not change the run.
+            let copied = self.errand.has_snapshot_before(reach);
+            let before = copied.then(|| self.session.clone());
+            self.session.step_until(self.errand.cycles)?;
+            let now = self.session.simulation().cycle() - close;
+            if let Some(before) = before {
+                while let Some(snapshot) = self.errand.next_snapshot(now) {
+                    let table = table_at(&snapshot, &before)?;
+                    self.keep_snapshot(&snapshot, table);
+                }
             }
             self.errand.record(&self.session);
             self.look_after();
@@ -241,17 +258,8 @@ impl Job {
         }
     }
 
-    /// Writes the state at a cycle at or after the present one. Between two steps a copy takes the
-    /// fraction of a step, so that looking does not change the run. What cannot be written is owed.
-    fn snapshot(&mut self, snapshot: &CycleAsGiven) -> Result<()> {
-        let simulation = self.session.simulation();
-        let table = if snapshot.cycle > simulation.cycle() + simulation.rounding() {
-            let mut glimpse = self.session.clone();
-            glimpse.advance_to(snapshot.cycle)?;
-            state::table(&glimpse)
-        } else {
-            state::table(&self.session)
-        };
+    /// Writes a snapshot. What cannot be written is owed.
+    fn keep_snapshot(&mut self, snapshot: &CycleAsGiven, table: String) {
         let name = file_of(snapshot);
         if let Err(error) = self.directory.write(&name, table.as_bytes()) {
             complain(&format!(
@@ -259,7 +267,6 @@ impl Job {
             ));
             self.owed.push((name, table));
         }
-        Ok(())
     }
 
     /// Writes the files of the end; all that can be, where not all can.
@@ -351,6 +358,17 @@ impl Job {
         )?;
         Ok(())
     }
+}
+
+/// The table of the state at a cycle at or after the one where `session` stands.
+fn table_at(snapshot: &CycleAsGiven, session: &Session) -> Result<String> {
+    let simulation = session.simulation();
+    if snapshot.cycle <= simulation.cycle() + simulation.rounding() {
+        return Ok(state::table(session));
+    }
+    let mut glimpse = session.clone();
+    glimpse.advance_to(snapshot.cycle)?;
+    Ok(state::table(&glimpse))
 }
 
 /// The name of a snapshot's file.

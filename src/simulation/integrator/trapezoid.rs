@@ -34,15 +34,12 @@ use super::super::breakdown::Cause;
 use super::super::solve::{pressure, shear, solve_contact};
 use super::super::state::State;
 use super::super::workspace::Workspace;
-use super::commit;
+use super::{commit, stiffness};
 use crate::contact::tangential::Hold;
 use crate::math::abel::bend::{self, Bend};
 
 /// The most that the profile is looked ahead, in lengths of the step before.
 const FARTHEST: f64 = 4.0;
-
-/// Largest eigenvalue of the response of p to wear times its diagonal, 1.7 · 0.87, per cell's width.
-const STIFFNESS: f64 = 1.48;
 
 /// Stiffness up to which a step is explicit, and beyond which it is taken in parts.
 const MILD: f64 = 0.7;
@@ -119,23 +116,31 @@ fn attempt(
         *predicted = g + ahead * growth;
     }
     solve_contact(setup, state, work, cycle)?;
-    let mut stiffness = 0.0;
-    let mut friction_work = 0.0;
-    if setup.drive.tangential().is_some() {
-        friction_work = work_of_friction(setup, state, work);
-        if setup.wear.is_some() {
-            stiffness = wear(setup, state, work, duration, ahead, floor);
-            if stiffness > HARSH && !floor {
-                return Ok(Outcome::TooHarsh(stiffness));
-            }
-        }
+    let friction_work = worn(setup, state, work, cycle);
+    let stiffness = soften(setup, state, work, duration, ahead, floor);
+    if stiffness > HARSH && !floor {
+        return Ok(Outcome::TooHarsh(stiffness));
     }
     commit(setup, state, work, cycle, friction_work)?;
-    if setup.wear.is_some() && setup.drive.tangential().is_some() {
-        state.last.pressure.copy_from_slice(&work.pressure);
-        state.last.shear.copy_from_slice(&work.shear);
-    }
     Ok(Outcome::Done(stiffness))
+}
+
+/// What the step that the contact has been solved for wears (m, into `work.worn`), and its work of
+/// friction (J).
+pub(super) fn worn(setup: &Setup, state: &State, work: &mut Workspace, cycle: f64) -> f64 {
+    work.worn.fill(0.0);
+    if setup.drive.tangential().is_none() {
+        return 0.0;
+    }
+    let friction_work = work_of_friction(setup, state, work);
+    if let Some(law) = &setup.wear {
+        stresses(setup, work);
+        mean_shear(setup, state, work);
+        let seconds = (cycle - state.cycle) * setup.drive.period();
+        let (tau, slip) = (&work.working_shear, &work.surface_slip);
+        law.wear(tau, slip, seconds, &mut work.worn);
+    }
+    friction_work
 }
 
 /// 2∫ μ (q_n + q_{n+1})/2 |Δs| dx: what each spring that slips turns into heat.
@@ -173,16 +178,8 @@ fn kinks_of_slip(work: &mut Workspace, before: &[Bend]) {
     }
 }
 
-/// Fills `work.worn`; returns the largest stiffness z of a node.
-fn wear(
-    setup: &Setup,
-    state: &State,
-    work: &mut Workspace,
-    duration: f64,
-    ahead: f64,
-    floor: bool,
-) -> f64 {
-    let Some(law) = &setup.wear else { return 0.0 };
+/// p and τ at the end of the step, and the slip of the surface in it.
+fn stresses(setup: &Setup, work: &mut Workspace) {
     let (mut p, mut tau) = (
         std::mem::take(&mut work.pressure),
         std::mem::take(&mut work.shear),
@@ -190,6 +187,7 @@ fn wear(
     pressure(work, setup.material.normal_modulus(), &mut p);
     shear(work, setup.material.tangential_modulus(), &mut tau);
     (work.pressure, work.shear) = (p, tau);
+    work.transforms += 3;
     work.planned
         .plan
         .displacement(&work.slip, &mut work.surface_slip);
@@ -200,35 +198,28 @@ fn wear(
         .take_while(|&&hold| hold == Hold::Stick)
         .count();
     work.surface_slip[..core].fill(0.0);
-    mean_shear(setup, state, work);
-    let seconds = duration * setup.drive.period();
-    work.worn.fill(0.0);
-    law.wear(
-        &work.working_shear,
-        &work.surface_slip,
-        seconds,
-        &mut work.worn,
-    );
-    let scale = STIFFNESS * setup.material.friction() * setup.material.normal_modulus();
-    let nodes = setup.grid.nodes();
-    let mut stiffest: f64 = 0.0;
-    for j in core..work.worn.len() {
-        let tau = work.working_shear[j];
-        if tau == 0.0 {
-            continue;
-        }
-        let width = match j {
-            0 => nodes[1],
-            j if j + 1 == nodes.len() => nodes[j] - nodes[j - 1],
-            j => 0.5 * (nodes[j + 1] - nodes[j - 1]),
-        };
-        let z = scale / width * law.sensitivity(tau, work.surface_slip[j], seconds);
-        stiffest = stiffest.max(z);
+}
+
+/// Lets nodes with a stiff response wear less than explicitly; returns the largest stiffness z of a
+/// node.
+fn soften(
+    setup: &Setup,
+    state: &State,
+    work: &mut Workspace,
+    duration: f64,
+    ahead: f64,
+    floor: bool,
+) -> f64 {
+    let stiffest = stiffness::of_step(setup, work, duration);
+    if stiffest <= MILD && !floor {
+        return stiffest;
+    }
+    for (j, (worn, &z)) in work.worn.iter_mut().zip(&work.stiffness).enumerate() {
         if floor {
-            work.worn[j] /= 1.0 + z;
+            *worn /= 1.0 + z;
         } else if z > MILD {
             let lean = 0.625 * (z - MILD);
-            work.worn[j] = (work.worn[j] + lean * ahead * state.last.wear[j]) / (1.0 + lean);
+            *worn = (*worn + lean * ahead * state.last.wear[j]) / (1.0 + lean);
         }
     }
     stiffest

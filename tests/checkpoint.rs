@@ -123,6 +123,17 @@ fn changes_that_are_still_to_come_come() {
 }
 
 #[test]
+fn jumps_over_cycles_go_on_as_if_nothing_had_been() {
+    let sets = [
+        "numerics.points=40",
+        "numerics.integrator=cycle-jump",
+        "wear.coefficient=1e-12",
+    ];
+    let end = follow(session("li2019-fig3", &sets), 140, 3, "jumps");
+    assert!(end.simulation().state().effort.jumps > 3);
+}
+
+#[test]
 fn harsh_wear_that_steps_in_parts_goes_on_as_if_nothing_had_been() {
     let sets = ["numerics.points=60", "wear.coefficient=4e-8"];
     follow(session("li2019-fig3", &sets), 90, 7, "harsh");

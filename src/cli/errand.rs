@@ -140,6 +140,12 @@ impl Errand {
         })
     }
 
+    /// Whether a snapshot is to be taken before `cycle`.
+    pub fn has_snapshot_before(&self, cycle: f64) -> bool {
+        let next = self.due.get(self.taken);
+        next.is_some_and(|next| next.cycle < cycle)
+    }
+
     /// The snapshots that were dealt with.
     pub fn taken(&self) -> Vec<CycleAsGiven> {
         self.due.iter().take(self.taken).cloned().collect()

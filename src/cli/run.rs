@@ -178,7 +178,8 @@ impl Job {
             let simulation = self.session.simulation();
             let (cycle, close) = (simulation.cycle(), simulation.rounding());
             while let Some(snapshot) = self.errand.next_snapshot(cycle + close) {
-                self.snapshot(&snapshot, None)?;
+                let table = table_at(&snapshot, &self.session)?;
+                self.keep_snapshot(&snapshot, table);
             }
             if cycle >= self.errand.cycles {
                 break;
@@ -195,13 +196,15 @@ impl Job {
             } else {
                 simulation.next_moment()
             };
-            let passes = self.errand.has_snapshot_before(reach);
-            let before = passes.then(|| self.session.clone());
+            // Between two steps a copy takes the fraction of a step: looking does not change the run.
+            let copied = self.errand.has_snapshot_before(reach);
+            let before = copied.then(|| self.session.clone());
             self.session.step_until(self.errand.cycles)?;
             let now = self.session.simulation().cycle() - close;
             if let Some(before) = before {
                 while let Some(snapshot) = self.errand.next_snapshot(now) {
-                    self.snapshot(&snapshot, Some(&before))?;
+                    let table = table_at(&snapshot, &before)?;
+                    self.keep_snapshot(&snapshot, table);
                 }
             }
             self.errand.record(&self.session);
@@ -255,18 +258,8 @@ impl Job {
         }
     }
 
-    /// Writes the state at the present cycle, or at one after `before`, the run a step ago: a copy of it
-    /// takes the fraction of a step, so that looking does not change the run. What cannot be written
-    /// is owed.
-    fn snapshot(&mut self, snapshot: &CycleAsGiven, before: Option<&Session>) -> Result<()> {
-        let table = match before {
-            Some(before) => {
-                let mut glimpse = before.clone();
-                glimpse.advance_to(snapshot.cycle)?;
-                state::table(&glimpse)
-            }
-            None => state::table(&self.session),
-        };
+    /// Writes a snapshot. What cannot be written is owed.
+    fn keep_snapshot(&mut self, snapshot: &CycleAsGiven, table: String) {
         let name = file_of(snapshot);
         if let Err(error) = self.directory.write(&name, table.as_bytes()) {
             complain(&format!(
@@ -274,7 +267,6 @@ impl Job {
             ));
             self.owed.push((name, table));
         }
-        Ok(())
     }
 
     /// Writes the files of the end; all that can be, where not all can.
@@ -366,6 +358,17 @@ impl Job {
         )?;
         Ok(())
     }
+}
+
+/// The table of the state at a cycle at or after the one where `session` stands.
+fn table_at(snapshot: &CycleAsGiven, session: &Session) -> Result<String> {
+    let simulation = session.simulation();
+    if snapshot.cycle <= simulation.cycle() + simulation.rounding() {
+        return Ok(state::table(session));
+    }
+    let mut glimpse = session.clone();
+    glimpse.advance_to(snapshot.cycle)?;
+    Ok(state::table(&glimpse))
 }
 
 /// The name of a snapshot's file.

@@ -19,6 +19,8 @@ pub struct Saved {
     border: Option<usize>,
     state: State,
     good: LastGood,
+    /// Transforms not yet counted as effort.
+    transforms: u64,
 }
 
 impl Saved {
@@ -51,6 +53,7 @@ impl Simulation {
             border: self.setup.grid.border(),
             state: self.state.clone(),
             good: self.workspace.good.clone(),
+            transforms: self.workspace.transforms,
         }
     }
 
@@ -67,6 +70,7 @@ impl Simulation {
         let mut workspace = Workspace::new(&setup, None);
         workspace.good = saved.good;
         workspace.show_last_good(&setup, &saved.state);
+        workspace.transforms = saved.transforms;
         let mut simulation = Self {
             setup,
             state: saved.state,
@@ -92,6 +96,11 @@ fn check(setup: &Setup, state: &State, good: &LastGood) -> Result<(), Unfit> {
         ("springs' holds", state.hold.len(), springs),
         ("growth of g", state.last.growth.len(), nodes),
         ("growth of f", state.last.wear.len(), nodes),
+        (
+            "wear of a cycle",
+            settled.map_or(nodes, |settled| settled.wear.len()),
+            nodes,
+        ),
         ("line load", state.last.normal_load.len(), nodes),
         ("pressure", state.last.pressure.len(), nodes),
         ("shear stress", state.last.shear.len(), nodes),

@@ -125,12 +125,6 @@ impl Errand {
         Ok(self)
     }
 
-    /// Whether one of the snapshots to come lies before `cycle`.
-    pub fn has_snapshot_before(&self, cycle: f64) -> bool {
-        let next = self.due.get(self.taken);
-        next.is_some_and(|next| next.cycle < cycle)
-    }
-
     /// The next snapshot that lies before `cycle`; it counts as dealt with.
     pub fn next_snapshot(&mut self, cycle: f64) -> Option<CycleAsGiven> {
         let next = self.due.get(self.taken)?;

@@ -104,11 +104,6 @@ fn check(setup: &Setup, state: &State, good: &LastGood) -> Result<(), Unfit> {
         ("line load", state.last.normal_load.len(), nodes),
         ("pressure", state.last.pressure.len(), nodes),
         ("shear stress", state.last.shear.len(), nodes),
-        (
-            "wear of a settled cycle",
-            settled.map_or(nodes, |settled| settled.wear.len()),
-            nodes,
-        ),
     ] {
         if length != due {
             let rule = format!("has {length} values, where the scenario has {due}");

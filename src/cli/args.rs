@@ -6,7 +6,8 @@ use std::str::FromStr;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-use crate::math::grid::{MAX_CELLS, MIN_CELLS};
+use crate::math::abel::MOST_DENSE_CELLS;
+use crate::math::grid::MIN_CELLS;
 use crate::studies::verify::{LADDER, Problem};
 use crate::tui::Size;
 
@@ -254,9 +255,9 @@ fn cycles(text: &str) -> Result<f64, String> {
 
 fn points(text: &str) -> Result<usize, String> {
     match text.trim().parse::<usize>() {
-        Ok(points) if (MIN_CELLS..=MAX_CELLS).contains(&points) => Ok(points),
+        Ok(points) if (MIN_CELLS..=MOST_DENSE_CELLS).contains(&points) => Ok(points),
         _ => Err(format!(
-            "points are whole numbers from {MIN_CELLS} to {MAX_CELLS}, e.g. 100,1000"
+            "points are whole numbers from {MIN_CELLS} to {MOST_DENSE_CELLS}, e.g. 100,1000"
         )),
     }
 }

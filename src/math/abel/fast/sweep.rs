@@ -100,7 +100,8 @@ impl Outward {
                 &jumps[REACH..REACH + rows],
                 &mut sums[..rows],
             );
-            dispatch!(level, _simd => finish_outward(
+            dispatch!(level, simd => finish_outward(
+                simd,
                 self, block, &slope, &jumps, &sums, output,
             ));
         }
@@ -109,7 +110,8 @@ impl Outward {
 
 /// The near field and the part of κ of one block.
 #[inline(always)]
-fn finish_outward(
+fn finish_outward<S: Simd>(
+    simd: S,
     sweep: &Outward,
     block: usize,
     slope: &[f64; BLOCK + 1],
@@ -118,13 +120,9 @@ fn finish_outward(
     output: &mut [f64],
 ) {
     let first = block * BLOCK;
-    let mut near = [0.0; BLOCK];
-    for (distance, weights) in (1..).zip(sweep.near.block(block)) {
-        let jumps = &jumps[REACH - distance..][..BLOCK];
-        for ((near, weight), jump) in near.iter_mut().zip(weights).zip(jumps) {
-            *near += weight * jump;
-        }
-    }
+    let near = near_field(simd, &sweep.near, block, |distance| {
+        &jumps[REACH - distance..][..BLOCK]
+    });
     let scale = &sweep.scale[first..first + output.len()];
     for (i, (out, scale)) in output.iter_mut().zip(scale).enumerate() {
         *out += scale * (sweep.whole * slope[i] - sums[i]) + near[i];
@@ -194,7 +192,8 @@ impl Inward {
                 &moments[..rows],
                 &mut sums[..rows],
             );
-            dispatch!(level, _simd => finish_inward(
+            dispatch!(level, simd => finish_inward(
+                simd,
                 self, block, &mut total, &moments, &sums, output,
             ));
         }
@@ -203,7 +202,8 @@ impl Inward {
 
 /// The near field and the part of κ of one block.
 #[inline(always)]
-fn finish_inward(
+fn finish_inward<S: Simd>(
+    simd: S,
     sweep: &Inward,
     block: usize,
     total: &mut f64,
@@ -211,13 +211,9 @@ fn finish_inward(
     sums: &[f64; BLOCK],
     output: &mut [f64],
 ) {
-    let mut near = [0.0; BLOCK];
-    for (distance, weights) in (1..).zip(sweep.near.block(block)) {
-        let moments = &moments[distance..][..BLOCK];
-        for ((near, weight), moment) in near.iter_mut().zip(weights).zip(moments) {
-            *near += weight * moment;
-        }
-    }
+    let near = near_field(simd, &sweep.near, block, |distance| {
+        &moments[distance..][..BLOCK]
+    });
     // Σ_{k>j} of the block, the only part in sequence.
     let mut beyond = [0.0; BLOCK];
     for (beyond, moment) in beyond.iter_mut().zip(moments).rev() {
@@ -227,6 +223,30 @@ fn finish_inward(
     for (i, out) in output.iter_mut().enumerate() {
         *out += sweep.whole * beyond[i] - sums[i] + near[i];
     }
+}
+
+/// Weights times the sources at every distance, for the rows of one block side by side.
+#[inline(always)]
+fn near_field<'a, S: Simd>(
+    simd: S,
+    near: &Near,
+    block: usize,
+    sources: impl Fn(usize) -> &'a [f64],
+) -> [f64; BLOCK] {
+    let mut sums = [f64x4::splat(simd, 0.0); BLOCK / LANES];
+    for (distance, weights) in (1..).zip(near.block(block)) {
+        let (weights, _) = weights.as_chunks::<LANES>();
+        let (sources, _) = sources(distance).as_chunks::<LANES>();
+        for ((sum, weight), source) in sums.iter_mut().zip(weights).zip(sources) {
+            let weight = f64x4::from_slice(simd, weight);
+            *sum = weight.mul_add(f64x4::from_slice(simd, source), *sum);
+        }
+    }
+    let mut rows = [0.0; BLOCK];
+    for (lanes, sum) in rows.as_chunks_mut::<LANES>().0.iter_mut().zip(&sums) {
+        sum.store_slice(lanes);
+    }
+    rows
 }
 
 /// The recurrences over one block of rows, from its end if `REVERSED`; the number of groups is fixed
@@ -265,19 +285,22 @@ fn groups_block<S: Simd, const GROUPS: usize, const REVERSED: bool>(
     let load = |lanes: &[f64; LANES]| f64x4::from_slice(simd, lanes);
     let mut powers: [f64x4<S>; GROUPS] = std::array::from_fn(|group| load(&state[group]));
     let factors: [f64x4<S>; GROUPS] = std::array::from_fn(|group| load(&factors[group]));
-    let (decay, _) = decay.as_chunks::<GROUPS>();
-    let rows = sources.len();
-    for i in 0..rows {
-        let row = if REVERSED { rows - 1 - i } else { i };
-        let source = f64x4::splat(simd, sources[row]);
-        let decay = &decay[row];
+    let rows = decay.as_chunks::<GROUPS>().0.iter();
+    let rows = rows.zip(sources).zip(sums);
+    let step = |((decay, source), row): ((&[[f64; LANES]; GROUPS], &f64), &mut f64)| {
+        let source = f64x4::splat(simd, *source);
         let mut sum = [f64x4::splat(simd, 0.0); 2];
         for group in 0..GROUPS {
             let decayed = load(&decay[group]) * powers[group];
             sum[group % 2] += decayed;
             powers[group] = factors[group].mul_add(source, decayed);
         }
-        sums[row] = simd.reduce_sum_f64x4(sum[0] + sum[1]);
+        *row = simd.reduce_sum_f64x4(sum[0] + sum[1]);
+    };
+    if REVERSED {
+        rows.rev().for_each(step);
+    } else {
+        rows.for_each(step);
     }
     for (lanes, power) in state.iter_mut().zip(&powers) {
         power.store_slice(lanes);

@@ -224,3 +224,35 @@ fn large_grids_are_no_trouble() {
     fast.stress(&load, &mut out);
     assert!(is(&out, &|t| 2.0 * FRAC_1_PI * (1.0 - t).sqrt()));
 }
+
+/// Hertz and Cattaneo with the edge and the stick border between nodes, by [`bend`](super::super::bend).
+#[test]
+fn breaks_between_nodes_are_as_exact_as_the_tolerance() {
+    use super::super::bend::{add_to_stress, polyline};
+    let kinks = [0.2345, 0.6131];
+    let load = |t: f64| -> f64 { kinks.iter().map(|kink| (kink - t).max(0.0)).sum() };
+    for cells in [200, 1000, 20_000] {
+        let uniform = RadialGrid::uniform(cells, 1.0);
+        for grid in [uniform, RadialGrid::graded(cells, 0.3, 1.0)] {
+            let grid = grid.expect("a grid");
+            let t = grid.squares();
+            let fast = FastProduct::new(&grid, TOLERANCE).expect("a plan");
+            let q: Vec<f64> = t.iter().map(|&t| load(t)).collect();
+            let mut p = vec![f64::NAN; grid.len()];
+            fast.stress(&q, &mut p);
+            let mut bends = Vec::new();
+            for k in 0..cells {
+                let inner = kinks.map(|kink| (kink, load(kink)));
+                polyline([t[k], t[k + 1]], [q[k], q[k + 1]], &inner, &mut bends);
+            }
+            add_to_stress(&bends, t, &mut p);
+            let worst = p.iter().zip(t).map(|(p, &t)| {
+                let roots = kinks.iter().map(|kink| (kink - t).max(0.0).sqrt());
+                (p - 2.0 * FRAC_1_PI * roots.sum::<f64>()).abs()
+            });
+            let worst = worst.fold(0.0, f64::max);
+            assert!(p.iter().all(|p| p.is_finite()));
+            assert!(worst < 1e-9, "{cells}: {worst:e}");
+        }
+    }
+}

@@ -280,15 +280,15 @@ fn bad_assignments_name_themselves() {
         ),
         (
             "numerics.points=many",
-            "--set numerics.points=many: must be a whole number from 4 to 8192",
+            "--set numerics.points=many: must be a whole number from 4 to 100000",
         ),
         (
             "numerics.points=1e12",
-            "--set numerics.points=1e12: must be a whole number from 4 to 8192",
+            "--set numerics.points=1e12: must be a whole number from 4 to 100000",
         ),
         (
             "numerics.points=0",
-            "--set numerics.points=0: must be from 4 to 8192",
+            "--set numerics.points=0: must be from 4 to 100000",
         ),
         (
             "indenter.radius=-1",

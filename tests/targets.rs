@@ -10,7 +10,6 @@ use common::{Scene, archard, holds, run, run_setup, swing};
 use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::math::abel::AbelMethod::{A, B, Product};
 use mdr_tui::math::abel::worn;
-use mdr_tui::math::grid::RadialGrid;
 use mdr_tui::oracle::cattaneo_mindlin::CattaneoMindlin;
 use mdr_tui::oracle::dual_oscillation::{DualOscillation, Frequencies};
 use mdr_tui::oracle::limiting_profile::LimitingProfile;

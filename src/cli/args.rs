@@ -8,9 +8,9 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use serde::{Deserialize, Serialize};
 
-use crate::math::grid::{MAX_CELLS, MIN_CELLS};
+use crate::math::abel::{AbelMethod, MOST_DENSE_CELLS};
+use crate::math::grid::MIN_CELLS;
 use crate::scenario::MOST_CYCLES;
-use crate::math::abel::AbelMethod;
 use crate::studies::trade;
 use crate::studies::verify::{LADDER, Problem};
 use crate::tui::Size;
@@ -387,9 +387,9 @@ fn cycles(text: &str) -> Result<f64, String> {
 
 fn points(text: &str) -> Result<usize, String> {
     match text.trim().parse::<usize>() {
-        Ok(points) if (MIN_CELLS..=MAX_CELLS).contains(&points) => Ok(points),
+        Ok(points) if (MIN_CELLS..=MOST_DENSE_CELLS).contains(&points) => Ok(points),
         _ => Err(format!(
-            "points are whole numbers from {MIN_CELLS} to {MAX_CELLS}, e.g. 100,1000"
+            "points are whole numbers from {MIN_CELLS} to {MOST_DENSE_CELLS}, e.g. 100,1000"
         )),
     }
 }
@@ -397,7 +397,9 @@ fn points(text: &str) -> Result<usize, String> {
 fn accuracy(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value > 0.0 && value <= 1.0 => Ok(value),
-        _ => Err("an accuracy is greater than 0 and at most 1, in largest depths, e.g. 1e-3".into()),
+        _ => {
+            Err("an accuracy is greater than 0 and at most 1, in largest depths, e.g. 1e-3".into())
+        }
     }
 }
 

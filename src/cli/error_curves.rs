@@ -39,7 +39,10 @@ pub fn draw(problem: Problem, outcomes: &[Outcome], marker: Marker) -> String {
         let Some(bounds) = bounds(&facets) else {
             continue;
         };
-        let plots: Vec<Plot> = facets.iter().map(|facet| facet.plot(bounds, marker)).collect();
+        let plots: Vec<Plot> = facets
+            .iter()
+            .map(|facet| facet.plot(bounds, marker))
+            .collect();
         text.push_str(&small_multiples::draw(&plots));
     }
     text

@@ -20,4 +20,3 @@ pub fn check(path: &Path, force: bool) -> Result<(), Misuse> {
         _ => Ok(()),
     }
 }
-

@@ -46,6 +46,10 @@ pub fn decades(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
         return None;
     }
     let ends = [least.log10().floor(), most.log10().ceil()];
-    let top = if ends[1] <= ends[0] { ends[0] + 1.0 } else { ends[1] };
+    let top = if ends[1] <= ends[0] {
+        ends[0] + 1.0
+    } else {
+        ends[1]
+    };
     Some([10f64.powf(ends[0]), 10f64.powf(top)])
 }

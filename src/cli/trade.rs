@@ -57,7 +57,11 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
         return Ok(ExitCode::from(FAILED));
     };
     if let Some(path) = &options.csv {
-        let text = format!("{}{}", study.header(&found), table(&found.trials, &found.trials).csv());
+        let text = format!(
+            "{}{}",
+            study.header(&found),
+            table(&found.trials, &found.trials).csv()
+        );
         write_whole(path, text.as_bytes())?;
     }
     let mut out = io::stdout().lock();
@@ -127,8 +131,13 @@ impl Study {
             tolerance: self.reference.tolerance.map(|tolerance| 4.0 * tolerance),
             ..self.reference
         };
-        let efforts = [self.reference, half].into_iter().chain(self.settings.iter().copied());
-        let bar = bar(efforts.map(|setting| setting.effort(self.cycles)).sum(), quiet);
+        let efforts = [self.reference, half]
+            .into_iter()
+            .chain(self.settings.iter().copied());
+        let bar = bar(
+            efforts.map(|setting| setting.effort(self.cycles)).sum(),
+            quiet,
+        );
         let run = |setting: &Setting, what: &str| {
             bar.set_message(format!(
                 "{what}{} {}, N = {}, {} steps",
@@ -232,7 +241,10 @@ fn plots(found: &Found, options: &Trade) -> String {
     let fronts: Vec<(AbelMethod, (Vec<f64>, Vec<f64>))> = AbelMethod::ALL
         .into_iter()
         .map(|method| {
-            let mine = found.trials.iter().filter(|trial| trial.setting.method == method);
+            let mine = found
+                .trials
+                .iter()
+                .filter(|trial| trial.setting.method == method);
             (method, points(front(mine)))
         })
         .filter(|(_, (times, _))| !times.is_empty())
@@ -243,7 +255,10 @@ fn plots(found: &Found, options: &Trade) -> String {
     let (Some(times), Some(errors)) = (every(|front| &front.0), every(|front| &front.1)) else {
         return String::new();
     };
-    let names: Vec<String> = fronts.iter().map(|(method, _)| format!("{method}: error")).collect();
+    let names: Vec<String> = fronts
+        .iter()
+        .map(|(method, _)| format!("{method}: error"))
+        .collect();
     let plots: Vec<Plot> = fronts
         .iter()
         .zip(&names)

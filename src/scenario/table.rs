@@ -280,7 +280,7 @@ pub const PARAMETERS: &[Parameter] = &[
     ),
     whole(
         "numerics.points",
-        "from 4 to 8192",
+        "from 4 to 100000",
         "grid cells from r = 0 to the domain's edge",
     ),
     whole(

@@ -13,7 +13,7 @@ use super::write;
 use crate::contact::indenter::Indenter;
 use crate::contact::material::{Body, Material};
 use crate::math::abel::AbelMethod;
-use crate::math::grid::RadialGrid;
+use crate::math::grid::{MAX_CELLS, RadialGrid};
 use crate::math::invalid::Invalid;
 use crate::simulation::drive::{Control, Drive, Oscillation};
 use crate::simulation::{Integrator, Setup};
@@ -38,7 +38,7 @@ pub(super) fn setup(raw: &Raw, table: &Table, origin: &Origin) -> Result<Setup, 
     let method: AbelMethod = method.parse().map_err(refused)?;
     let (spacing, scheme) = derive::choices(method);
     Ok(Setup {
-        grid: parts.grid(&indenter, &material, &drive)?,
+        grid: parts.grid(method, &indenter, &material, &drive)?,
         material,
         indenter,
         drive,
@@ -287,6 +287,7 @@ impl Parts<'_> {
 
     fn grid(
         &self,
+        method: AbelMethod,
         indenter: &Indenter,
         material: &Material,
         drive: &Drive,
@@ -294,6 +295,13 @@ impl Parts<'_> {
         let numerics = &self.raw.numerics;
         let points = self.require(numerics.points, "numerics.points")?;
         let points = usize::try_from(points).map_err(|_| self.out_of_range("numerics.points"))?;
+        let most = method.most_cells();
+        if points > most && points <= MAX_CELLS {
+            let rule = format!(
+                "must be at most {most} with method = \"{method}\", which has no fast form"
+            );
+            return Err(self.refuse("numerics.points", "", rule));
+        }
         if indenter.rim().is_some() && numerics.domain_radius.is_some() {
             let shape = indenter.name();
             let rule =

@@ -13,9 +13,8 @@ use crate::contact::tangential::Hold;
 use crate::math::abel::bend::Bend;
 use crate::math::abel::rim::{Rim, RimEdge};
 use crate::math::abel::worn;
-use crate::math::abel::{AbelMethod, AbelPlan};
+use crate::math::abel::{AbelMethod, AbelPlan, WornPlan};
 use crate::math::grid::RadialGrid;
-use crate::math::staircase::Staircase;
 
 /// Weights, buffers, and the contact as the last step solved it.
 #[derive(Debug, Clone)]
@@ -79,8 +78,8 @@ pub(super) struct LastGood {
 #[derive(Debug)]
 pub(super) struct Planned {
     pub plan: AbelPlan,
-    /// From the worn depth to its share of g, where the method has an operator of its own for it.
-    pub worn: Option<Staircase>,
+    /// From the worn depth to its share of g, where that is not the plan's Eq. (1).
+    pub worn: Option<WornPlan>,
     pub row: Foundation,
     pub grid: RadialGrid,
     /// Width of the cell around each node, m.
@@ -115,7 +114,8 @@ impl Planned {
                 .iter()
                 .map(|&x| setup.indenter.profile_1d(x))
                 .collect();
-            (Some(Staircase::pack(&worn::profile(&setup.grid))), image)
+            let border = setup.grid.border();
+            (border.map(|_| WornPlan::new(&setup.grid)), image)
         } else {
             let mut image = vec![0.0; nodes.len()];
             plan.profile(&unworn, &mut image);

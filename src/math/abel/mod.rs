@@ -16,9 +16,10 @@
 //! [`bend`] adds what a kink between two nodes does, [`worn`] transforms the worn part of a profile that
 //! has a permanent stick zone, and [`rim`] finds where it ends.
 //!
-//! All methods here are linear in the nodal values, so an [`AbelPlan`] holds three matrices, made
-//! once for a grid and applied with the caller's buffers. Setting up costs O(N²) kernel
-//! evaluations, an application at most N²/2 multiply-adds, the memory is 1.5 N² numbers.
+//! All methods here are linear in the nodal values, so an [`AbelPlan`] holds three operators, made
+//! once for a grid and applied with the caller's buffers. A method is what is computed, its [`Form`] is
+//! how. The dense form is three matrices: O(N²) kernel evaluations to set up, at most N²/2 multiply-adds to
+//! apply, 1.5 N² numbers. The product method has a form in O(N) as well: see [`fast`].
 //!
 //! | method | Eq. (1) | Eq. (2) | Eq. (3) | strictly causal |
 //! |---|---|---|---|---|
@@ -31,20 +32,26 @@
 use std::fmt;
 use std::str::FromStr;
 
-use super::grid::RadialGrid;
+use super::grid::{MAX_CELLS, RadialGrid};
 use super::invalid::Invalid;
 use super::staircase::Staircase;
+use fast::{FastProduct, FastWorn};
 
 pub mod a;
 pub mod b;
 pub mod benad;
 pub mod bend;
+pub mod fast;
 mod kernel;
 pub mod product;
 pub mod rim;
 #[cfg(test)]
 mod testing;
 pub mod worn;
+
+/// The most cells of a method that has the dense form alone: its three triangular matrices then take
+/// about 0.8 GB.
+pub const MOST_DENSE_CELLS: usize = 8192;
 
 /// A way to compute the three transforms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -76,6 +83,14 @@ impl AbelMethod {
             Self::A => "a",
             Self::B => "b",
             Self::APlusB => "a+b",
+        }
+    }
+
+    /// The most cells that the method is computed with.
+    pub fn most_cells(self) -> usize {
+        match self {
+            Self::Product => MAX_CELLS,
+            _ => MOST_DENSE_CELLS,
         }
     }
 
@@ -117,18 +132,71 @@ impl FromStr for AbelMethod {
     }
 }
 
+/// How a method is computed; what it computes is the same.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Form {
+    /// As matrices: N²/2 multiply-adds and numbers.
+    Dense,
+    /// As recurrences, see [`fast`]: O(N). The product method alone has it.
+    Fast,
+}
+
+impl Form {
+    /// The cells from which every operator takes less time in the fast form than in the dense one, as
+    /// measured by `cargo bench --bench transforms`: the three transforms do so from about 100 on, the
+    /// worn depth from 200 on.
+    pub const CROSSOVER: usize = 200;
+
+    /// The quicker form of `method` on so many cells.
+    pub fn quicker(method: AbelMethod, cells: usize) -> Self {
+        if method == AbelMethod::Product && cells >= Self::CROSSOVER {
+            Self::Fast
+        } else {
+            Self::Dense
+        }
+    }
+}
+
 /// The three transforms of one method on one grid, ready to apply.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct AbelPlan {
     method: AbelMethod,
-    profile: Staircase,
-    displacement: Staircase,
-    stress: Staircase,
+    operators: Operators,
+}
+
+#[derive(Debug, PartialEq)]
+enum Operators {
+    Dense {
+        profile: Staircase,
+        displacement: Staircase,
+        stress: Staircase,
+    },
+    Fast(Box<FastProduct>),
 }
 
 impl AbelPlan {
-    /// Computes the weights of `method` on `grid`.
+    /// Computes the weights of `method` on `grid`, in the quicker form.
     pub fn new(method: AbelMethod, grid: &RadialGrid) -> Self {
+        match Form::quicker(method, grid.cells()) {
+            Form::Dense => Self::dense(method, grid),
+            Form::Fast => fast::TOLERANCES
+                .into_iter()
+                .find_map(|tolerance| Self::fast(grid, tolerance))
+                .unwrap_or_else(|| Self::dense(method, grid)),
+        }
+    }
+
+    /// The product method on `grid` in the fast form, to a tolerance that [`fast`] explains; none if that is
+    /// out of reach.
+    pub fn fast(grid: &RadialGrid, tolerance: f64) -> Option<Self> {
+        Some(Self {
+            method: AbelMethod::Product,
+            operators: Operators::Fast(Box::new(FastProduct::new(grid, tolerance)?)),
+        })
+    }
+
+    /// `method` on `grid` in the dense form.
+    pub fn dense(method: AbelMethod, grid: &RadialGrid) -> Self {
         let nodes = grid.nodes();
         let (profile, displacement, stress) = match method {
             AbelMethod::Product => (
@@ -155,9 +223,11 @@ impl AbelPlan {
         };
         Self {
             method,
-            profile: Staircase::pack(&profile),
-            displacement: Staircase::pack(&displacement),
-            stress: Staircase::pack(&stress),
+            operators: Operators::Dense {
+                profile: Staircase::pack(&profile),
+                displacement: Staircase::pack(&displacement),
+                stress: Staircase::pack(&stress),
+            },
         }
     }
 
@@ -166,34 +236,71 @@ impl AbelPlan {
         self.method
     }
 
+    /// How it does so.
+    pub fn form(&self) -> Form {
+        match self.operators {
+            Operators::Dense { .. } => Form::Dense,
+            Operators::Fast(_) => Form::Fast,
+        }
+    }
+
     /// Eq. (1): the 1D profile `g` of the 3D profile `f`, both nodal, in the same unit.
     pub fn profile(&self, f: &[f64], g: &mut [f64]) {
-        self.profile.apply(f, g);
+        match &self.operators {
+            Operators::Dense { profile, .. } => profile.apply(f, g),
+            Operators::Fast(fast) => fast.profile(f, g),
+        }
     }
 
     /// Eq. (2): the surface displacement `w` of the spring displacement `u`, both nodal.
     pub fn displacement(&self, u: &[f64], w: &mut [f64]) {
-        self.displacement.apply(u, w);
+        match &self.operators {
+            Operators::Dense { displacement, .. } => displacement.apply(u, w),
+            Operators::Fast(fast) => fast.displacement(u, w),
+        }
     }
 
     /// Eq. (3): the stress `p` (N/m²) of the line load `q` (N/m), both nodal. `q` ends at the grid's edge.
     pub fn stress(&self, q: &[f64], p: &mut [f64]) {
-        self.stress.apply(q, p);
+        match &self.operators {
+            Operators::Dense { stress, .. } => stress.apply(q, p),
+            Operators::Fast(fast) => fast.stress(q, p),
+        }
+    }
+}
+
+/// Eq. (1) on the worn depth, see [`worn`], on a grid with a border.
+#[derive(Debug, PartialEq)]
+pub enum WornPlan {
+    /// As a matrix.
+    Dense(Staircase),
+    /// In O(N).
+    Fast(Box<FastWorn>),
+}
+
+impl WornPlan {
+    /// Computes the weights, in the quicker form.
+    pub fn new(grid: &RadialGrid) -> Self {
+        match Form::quicker(AbelMethod::Product, grid.cells()) {
+            Form::Dense => Self::dense(grid),
+            Form::Fast => fast::TOLERANCES
+                .into_iter()
+                .find_map(|tolerance| FastWorn::new(grid, tolerance))
+                .map_or_else(|| Self::dense(grid), |fast| Self::Fast(Box::new(fast))),
+        }
     }
 
-    /// The operator of Eq. (1).
-    pub fn profile_operator(&self) -> &Staircase {
-        &self.profile
+    /// The dense form.
+    pub fn dense(grid: &RadialGrid) -> Self {
+        Self::Dense(Staircase::pack(&worn::profile(grid)))
     }
 
-    /// The operator of Eq. (2).
-    pub fn displacement_operator(&self) -> &Staircase {
-        &self.displacement
-    }
-
-    /// The operator of Eq. (3).
-    pub fn stress_operator(&self) -> &Staircase {
-        &self.stress
+    /// The 1D image `g` of the worn depth, both nodal, m.
+    pub fn apply(&self, depth: &[f64], g: &mut [f64]) {
+        match self {
+            Self::Dense(weights) => weights.apply(depth, g),
+            Self::Fast(fast) => fast.profile(depth, g),
+        }
     }
 }
 
@@ -216,9 +323,17 @@ mod tests {
         let grid = RadialGrid::uniform(20, 1.0).expect("a grid");
         for method in AbelMethod::ALL {
             let plan = AbelPlan::new(method, &grid);
-            let causal = plan.profile.looks_inwards_only()
-                && plan.displacement.looks_inwards_only()
-                && plan.stress.looks_outwards_only();
+            let Operators::Dense {
+                profile,
+                displacement,
+                stress,
+            } = &plan.operators
+            else {
+                panic!("so few cells are dense");
+            };
+            let causal = profile.looks_inwards_only()
+                && displacement.looks_inwards_only()
+                && stress.looks_outwards_only();
             assert_eq!(
                 causal,
                 matches!(method, AbelMethod::A | AbelMethod::APlusB),

@@ -60,7 +60,12 @@ pub struct Errors {
 impl Sample {
     /// The differences of this run from another one.
     pub fn against(&self, reference: &Self) -> Errors {
-        let differences = || self.worn.iter().zip(&reference.worn).map(|(a, b)| (a - b).abs());
+        let differences = || {
+            self.worn
+                .iter()
+                .zip(&reference.worn)
+                .map(|(a, b)| (a - b).abs())
+        };
         let sum: f64 = differences().map(|error| error * error).sum();
         Errors {
             rms: (sum / RADII as f64).sqrt(),
@@ -116,7 +121,11 @@ fn one_run(
         }
         // A cycle at a time: a stop is seen soon, and asking costs nothing.
         let next = (session.simulation().cycle().floor() + 1.0).min(cycles);
-        let end = if session.simulation().may_jump() { cycles } else { next };
+        let end = if session.simulation().may_jump() {
+            cycles
+        } else {
+            next
+        };
         if let Err(error) = session.step_until(end) {
             return Some(Err(error));
         }

@@ -17,7 +17,10 @@ impl Trial {
     /// Time and error (rms of the profile), of a run that came to its end.
     fn point(&self) -> Option<(f64, f64)> {
         let (sample, errors) = self.outcome.as_ref().ok()?;
-        errors.rms.is_finite().then_some((sample.seconds, errors.rms))
+        errors
+            .rms
+            .is_finite()
+            .then_some((sample.seconds, errors.rms))
     }
 }
 
@@ -168,7 +171,10 @@ mod tests {
         assert_eq!(cheapest(&trials, 5e-3).map(|t| t.setting.points), Some(4));
         assert_eq!(cheapest(&trials, 1e-4), None);
         let table = table(&trials, &trials);
-        let stars = table.rows().iter().filter(|row| row[13] == Cell::Words("*".into()));
+        let stars = table
+            .rows()
+            .iter()
+            .filter(|row| row[13] == Cell::Words("*".into()));
         assert_eq!(stars.count(), 3);
         assert!(table.text().contains("broke"));
         assert_eq!(table.rows()[0][11], Cell::Missing);

@@ -41,7 +41,10 @@ impl Setting {
             ("numerics.steps_per_cycle", self.steps.to_string()),
         ];
         let integrator = usize::from(self.tolerance.is_some());
-        keys.push(("numerics.integrator", Integrator::NAMES[integrator].to_owned()));
+        keys.push((
+            "numerics.integrator",
+            Integrator::NAMES[integrator].to_owned(),
+        ));
         if let Some(tolerance) = self.tolerance {
             keys.push(("numerics.tolerance", format!("{tolerance:e}")));
         }

@@ -269,17 +269,6 @@ fn the_permanent_stick_radius_is_melans() {
     }
 }
 
-/// The slope of a line through points at x = 0, 1, 2 …
-fn slope(values: &[f64]) -> f64 {
-    let middle = (values.len() - 1) as f64 / 2.0;
-    let steps = values.iter().enumerate();
-    let (above, below) = steps.fold((0.0, 0.0), |(above, below), (i, value)| {
-        let x = i as f64 - middle;
-        (above + x * value, below + x * x)
-    });
-    above / below
-}
-
 /// On a practically frozen profile both sides of V = kE_d have closed forms: the work of a cycle, and
 /// the wear 4μk p s at each node. The borders that pass between the springs are seen whatever the
 /// number of steps.
@@ -332,41 +321,65 @@ fn a_cycle_costs_its_work_and_wears_its_depth() {
     }
 }
 
-/// All on one grid: the pilot run that places its border depends on the step. Measured: 1.80 from 50 to
-/// 400 steps, 1.64 from 25 to 200, 1.74 through 13 rungs there; turning points that cut steps at odd
-/// places make the errors of neighbouring rungs scatter by a third.
+/// All on one grid: the pilot run that places its border depends on the step. Rungs a factor √2 apart,
+/// since turning points cut steps at odd places and make the errors of neighbouring rungs scatter by
+/// a third. At K = 1 wear is stiff next to the border below 50 steps a cycle, and the errors there lie
+/// below the line of second order: from 25 to 200 steps its slope is 1.6.
 #[test]
 fn stepping_is_of_second_order_in_time() {
-    let grid = Simulation::new(ours(fig3(1.0, 200, 800))).expect("a contact");
-    let worn = |scheme, steps| {
-        let setup = Setup {
-            scheme,
-            steps_per_cycle: steps,
-            ..grid.setup().clone()
+    const LADDER: [u32; 9] = [25, 36, 50, 71, 100, 141, 200, 283, 400];
+    for (wear_number, first) in [(0.3, 0), (1.0, 2)] {
+        let grid = Simulation::new(ours(fig3(wear_number, 200, 800))).expect("a contact");
+        let worn = |scheme, steps| {
+            let setup = Setup {
+                scheme,
+                steps_per_cycle: steps,
+                ..grid.setup().clone()
+            };
+            let state = State::new(setup.grid.len(), true);
+            let mut simulation = Simulation::resume(setup, state).expect("a contact");
+            simulation.advance_to(20.0).expect("a run to the end");
+            simulation.state().wear.clone()
         };
-        let state = State::new(setup.grid.len(), true);
-        let mut simulation = Simulation::resume(setup, state).expect("a contact");
-        simulation.advance_to(20.0).expect("a run to the end");
-        simulation.state().wear.clone()
+        let fine = worn(Scheme::Trapezoid, 1600);
+        let error = |scheme, steps: u32| {
+            let wear = worn(scheme, steps);
+            let error = rms(wear.iter().zip(&fine).map(|(a, b)| a - b));
+            eprintln!("{scheme}, K = {wear_number}, {steps} steps a cycle: {error:.3e}");
+            (f64::from(steps), error)
+        };
+        let ours = LADDER.map(|steps| error(Scheme::Trapezoid, steps));
+        let second = order(&ours[first..]);
+        holds(
+            &format!("lack of order at K = {wear_number}"),
+            2.0 - second,
+            0.2,
+        );
+        let rungs: Vec<f64> = ours.iter().step_by(2).map(|&(_, error)| error).collect();
+        assert!(
+            rungs[..4].windows(2).all(|pair| pair[1] < pair[0]),
+            "{rungs:?}"
+        );
+        let euler = [100, 200, 400, 800].map(|steps| error(Scheme::Euler, steps));
+        holds("order of explicit Euler", order(&euler), 1.2);
+        holds(
+            "100 steps against 800 of explicit Euler",
+            rungs[2],
+            euler[3].1,
+        );
+    }
+}
+
+/// The order that errors at numbers of steps show: the slope of a line through their logarithms.
+fn order(errors: &[(f64, f64)]) -> f64 {
+    let mean = |of: &dyn Fn(f64, f64) -> f64| {
+        let logs = errors
+            .iter()
+            .map(|(steps, error)| of(steps.log2(), error.log2()));
+        logs.sum::<f64>() / errors.len() as f64
     };
-    let fine = worn(Scheme::Trapezoid, 1600);
-    let error = |scheme, steps| {
-        let wear = worn(scheme, steps);
-        let error = rms(wear.iter().zip(&fine).map(|(a, b)| a - b));
-        eprintln!("{scheme}, {steps} steps a cycle: {error:.3e}");
-        error
-    };
-    let ours = [25, 50, 100, 200, 400].map(|steps| error(Scheme::Trapezoid, steps));
-    let euler = [100, 200, 400, 800].map(|steps| error(Scheme::Euler, steps));
-    let order = |errors: &[f64]| {
-        let logs: Vec<f64> = errors.iter().map(|error| -error.log2()).collect();
-        slope(&logs)
-    };
-    let (first, second) = (order(&euler), order(&ours[1..]));
-    assert!(ours.windows(2).all(|pair| pair[1] < pair[0]), "{ours:?}");
-    assert!(second >= 1.7, "order {second}");
-    holds("order of explicit Euler", first, 1.2);
-    holds("100 steps against 800 of explicit Euler", ours[2], euler[3]);
+    let (x, y) = (mean(&|x, _| x), mean(&|_, y| y));
+    -mean(&|u, v| (u - x) * (v - y)) / mean(&|u, _| (u - x) * (u - x))
 }
 
 /// V against k E_d, in parts of k E_d: over the run, in its first cycle, and in its worst cycle; and
@@ -396,17 +409,17 @@ fn balance(scene: Scene, cycles: u32) -> Balance {
     }
 }
 
-/// The whole run keeps 1e-3, but not each of its cycles: next to the rim of the worn zone the pressure
+/// The whole run keeps 2e-4, but not each of its cycles keeps 1e-3: next to the rim of the worn zone the pressure
 /// in the rim's cell is steeper than its nodes say, so wear there lags behind the work; when the rim
 /// passes the next node, the volume of that cell jumps by some percent of a cycle's wear and pays part
 /// of it back. That shrinks with the cells, with order 1.6; the bounds on
 /// single cycles are measured ones with a margin.
 #[test]
 fn what_has_worn_is_what_friction_has_worked() {
-    for (cells, worst, good) in [(100, 8e-2, 0.3), (200, 2.2e-2, 0.7), (400, 6e-3, 0.85)] {
+    for (cells, worst, good) in [(100, 7e-2, 0.38), (200, 1.9e-2, 0.7), (400, 5e-3, 0.87)] {
         let found = balance(fig3(0.3, cells, 100), 199);
         let what = |name: &str| format!("{name} of Fig. 3 at N = {cells}");
-        holds(&what("residual"), found.whole, 1e-3);
+        holds(&what("residual"), found.whole, 2e-4);
         holds(&what("residual of the first cycle"), found.first, 1e-3);
         holds(&what("largest residual of a cycle"), found.worst, worst);
         assert!(
@@ -418,16 +431,16 @@ fn what_has_worn_is_what_friction_has_worked() {
     }
 }
 
-/// At constant depth the stress gathers at the border, where slip sets in, and the sums over the
-/// nodes of the 3D side lose some of it: measured bounds, with a margin. Late cycles wear almost
+/// At constant depth the rim of the worn zone creeps through the last cells, and what its cell lacks is
+/// never paid back: measured bounds, with a margin. Late cycles wear almost
 /// nothing, and nothing is asked of them.
 #[test]
 fn the_limiting_profile_has_cost_its_work() {
     for (cells, wear_number, cycles, bound) in [
-        (100, 3.0, 400, 8e-3),
-        (200, 3.0, 400, 3.5e-3),
-        (100, 0.3, 200, 8e-3),
-        (200, 0.3, 200, 3.5e-3),
+        (100, 3.0, 400, 4.5e-3),
+        (200, 3.0, 400, 2.4e-3),
+        (100, 0.3, 200, 4.5e-3),
+        (200, 0.3, 200, 2.4e-3),
     ] {
         let scene = Scene {
             cells,

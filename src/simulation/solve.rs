@@ -6,9 +6,9 @@ use super::drive::Target;
 use super::state::State;
 use super::workspace::{Contact, Workspace};
 use crate::contact::normal;
-use crate::contact::tangential::{self, Grip, Motion};
+use crate::contact::tangential::{self, Grip, Hold, Motion};
 use crate::math::abel::bend::{self, Bend};
-use crate::math::abel::{product, rim};
+use crate::math::abel::{curvature, product, rim};
 use crate::math::root;
 
 /// Brings g up to date with the worn depth `wear` (m) by Eq. (1).
@@ -226,11 +226,30 @@ pub(super) fn pressure(work: &Workspace, modulus: f64, out: &mut [f64]) {
     if let Some(edge) = &work.rim_edge {
         edge.add_to_stress(modulus, work.planned.grid.squares(), out);
     }
+    let at_rim = work.rim_edge.iter();
+    let at_rim = at_rim.flat_map(|edge| edge.load_bends(modulus));
+    let breaks = work.normal_breaks.iter().copied().chain(at_rim);
+    curve(work, &work.normal_load, breaks, out);
+}
+
+/// Adds what the curvature of a line load between the nodes does to its stress: everywhere but where
+/// springs stick, and at the first one that slips.
+fn curve(work: &Workspace, load: &[f64], breaks: impl Iterator<Item = Bend>, out: &mut [f64]) {
+    let planned = &work.planned;
+    if planned.has_breaks() {
+        let contact = &work.contact.normal;
+        let cusp = planned.row.cusp(load, contact.radius);
+        let sticks = |j: usize| work.hold.get(j) == Some(&Hold::Stick);
+        let smooth = |j: usize| !sticks(j - 1) && !sticks(j);
+        let out = &mut out[..contact.nodes];
+        curvature::add_to_stress(&planned.grid, load, cusp, breaks, smooth, out);
+    }
 }
 
 /// τ(r), Pa, of the solved contact by Eq. (3); `modulus` is G*.
 pub(super) fn shear(work: &Workspace, modulus: f64, out: &mut [f64]) {
     stress(work, &work.spring, &work.spring_breaks, out);
+    curve(work, &work.spring, work.spring_breaks.iter().copied(), out);
     for stress in out {
         *stress *= modulus;
     }

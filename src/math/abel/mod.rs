@@ -13,8 +13,9 @@
 //!
 //! The term f(0) in (1) is ours: a tip that wears recedes, and a constant must map to itself.
 //!
-//! [`bend`] adds what a kink between two nodes does, [`worn`] transforms the worn part of a profile that
-//! has a permanent stick zone, and [`rim`] finds where it ends.
+//! [`bend`] adds what a kink between two nodes does and [`curvature`] what a curved load does, [`worn`]
+//! transforms the worn part of a profile that has a permanent stick zone, and [`rim`] finds where it
+//! ends.
 //!
 //! All methods here are linear in the nodal values, so an [`AbelPlan`] holds three operators, made
 //! once for a grid and applied with the caller's buffers. A method is what is computed, its [`Form`] is
@@ -41,6 +42,7 @@ pub mod a;
 pub mod b;
 pub mod benad;
 pub mod bend;
+pub mod curvature;
 pub mod fast;
 mod kernel;
 pub mod product;

@@ -32,8 +32,8 @@
 //! Lond. A 224, 561–573, doi 10.1098/rspa.1954.0180; the basis in r² and the cusp are ours.
 //!
 //! - **Order**: exact for paraboloid and cone, on any nodes. On smooth data second in g and w; p of
-//!   order 3/2 next to an edge where q is curved in t. Order ½ at a kink between nodes, unless it is
-//!   given to [`bend`](super::bend).
+//!   order 3/2 where q is curved in t, and with [`curvature`](super::curvature) second but next to an edge.
+//!   Order ½ at a kink between nodes, unless it is given to [`bend`](super::bend).
 //! - **Cost**: O(N²) kernels to set up, O(N²/2) to apply, as for every method here.
 //! - **At r = 0**: g = f(0), w = u(0). In p(0) the cusp of the first cell is dropped, or the integral
 //!   would be infinite, as a cone's p(0) is.
@@ -55,7 +55,7 @@
 //!
 //! | method | N = 50 | 100 | 200 | 400 |
 //! |---|---|---|---|---|
-//! | this one, graded cells, [`worn`](super::worn), [`bend`](super::bend) | 9.7e-4 | 3.5e-4 | 7.8e-5 | 2.0e-5 |
+//! | this one, graded cells, [`worn`](super::worn), [`bend`](super::bend), [`curvature`](super::curvature) | 7.9e-4 | 3.2e-4 | 8.2e-5 | 3.1e-5 |
 //! | a, uniform cells | 1.3e-2 | 4.9e-3 | 1.1e-3 | 2.0e-3 |
 //! | a+b, uniform cells | 1.2e-2 | 4.8e-3 | 1.4e-3 | 2.0e-3 |
 //! | b, uniform cells | 4.5e-2 | 3.6e-2 | 2.9e-2 | 2.3e-2 |

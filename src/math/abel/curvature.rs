@@ -1,0 +1,195 @@
+//! What the stress at a node lacks where the line load is curved between nodes.
+//!
+//! # Formula
+//!
+//! A load that is linear in t = x² in each cell has its curvature κ = q″(t) gathered in jumps J of the
+//! slope at the nodes, and Eq. (3) becomes a sum p_j = (2/π) Σ_{m>j} J_m √(t_m − t_j). As a quadrature
+//! of ∫κ√(t − t_j) dt it is the trapezoidal rule on a root, which falls short by −ζ(−½) h^{3/2} κ
+//! whatever lies further out (I. Navot 1961, J. Math. Phys. 40, 271–276: Euler and Maclaurin's sum at a
+//! branch point). So
+//!
+//! ```text
+//! p_j += (2/π) 0.2079 h_j^{3/2} κ_j,   κ_j = 2J_j/(h_{j−1} + h_j),   h_j = t_{j+1} − t_j
+//! ```
+//!
+//! and where the load bends in the cell behind the node, at t_b, the rule has one cell:
+//! (t_b − t_j)^{3/2}/6 in place of 0.2079 h^{3/2}.
+//!
+//! The pressure within a cell, averaged, never had this error; its values at the nodes did. In a
+//! fretting run of N = 100 they were low by 0.3 % wherever the worn contact is curved, and so was the
+//! wear.
+//!
+//! - **Order**: lifts that of p from 3/2 to 2, but for the nodes next to an edge (r⁴ at N = 100: rms error
+//!   1.9e-4 of the mean pressure, 1.3e-3 without). Exact data of [`product`](super::product) stay exact:
+//!   they have no curvature.
+//! - **Cost**: O(N), one square root a node.
+//! - **At r = 0**: nothing is added there and at the next node: cells in t that grow threefold from one to
+//!   the next are no even rule, and the term would turn the response of the pressure to wear round.
+//! - **At a stick border**: a worn contact drops its load like a root behind the permanent stick zone. A
+//!   second difference across its border is no curvature, and would let the core reach into the
+//!   slip zone and dig there without end: the caller says where the load is smooth.
+//! - **Known failure**: next to a kink between nodes that no [`Bend`] tells of, the jump at
+//!   the nodes is none of a curvature. The error there is of order ½ with this term and without.
+
+use std::f64::consts::FRAC_2_PI;
+
+use super::bend::Bend;
+use crate::math::grid::RadialGrid;
+
+/// −ζ(−½).
+const ENDLESS: f64 = 0.207_886_224_977_354_57;
+
+/// The same of a single cell: ⅔ − ½.
+const SINGLE: f64 = 1.0 / 6.0;
+
+/// Eq. (3): adds to the stress `p` (N/m²) what the curvature of a `load` (N/m) does, beside
+/// [`product::stress`](super::product::stress) and the `breaks` of the load (N/m, from the tip outwards).
+/// `p` ends with the nodes in contact; `cusp` is the slope of the load at the tip, which is no curvature;
+/// `smooth` tells whether a load may be seen as smooth from the node before a node to the one behind it.
+pub fn add_to_stress(
+    grid: &RadialGrid,
+    load: &[f64],
+    cusp: f64,
+    breaks: impl IntoIterator<Item = Bend>,
+    smooth: impl Fn(usize) -> bool,
+    p: &mut [f64],
+) {
+    let (nodes, t) = (grid.nodes(), grid.squares());
+    let mut breaks = breaks.into_iter().peekable();
+    let slope =
+        |k: usize| (load[k + 1] - load[k]) / (t[k + 1] - t[k]) - cusp / (nodes[k] + nodes[k + 1]);
+    let mut before = slope(0);
+    for j in 1..p.len().min(t.len() - 1) {
+        let behind = slope(j);
+        let mut jump = behind - before;
+        before = behind;
+        while let Some(bend) = breaks.next_if(|bend| bend.at <= t[j]) {
+            if bend.at == t[j] {
+                jump += bend.jump;
+            }
+        }
+        if j == 1 || !smooth(j) {
+            continue;
+        }
+        let cell = t[j + 1] - t[j];
+        let lack = match breaks.peek() {
+            Some(bend) if bend.at < t[j + 1] => root_cubed(bend.at - t[j]) * SINGLE,
+            _ => root_cubed(cell) * ENDLESS,
+        };
+        p[j] += FRAC_2_PI * lack * 2.0 * jump / (t[j + 1] - t[j - 1]);
+    }
+}
+
+fn root_cubed(width: f64) -> f64 {
+    width * width.sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::bend;
+    use super::super::product;
+    use super::super::testing::apply;
+    use super::super::worn;
+    use super::*;
+
+    /// q = 1 − t², as under f ∝ r⁴, that ends at a = 1 between nodes: the stress with its edge.
+    fn quartic(cells: usize, corrected: bool) -> Vec<(f64, f64)> {
+        // a = 1 a third of a cell behind a node, for every N.
+        let domain = cells as f64 / ((2 * cells / 3) as f64 + 1.0 / 3.0);
+        let grid = RadialGrid::uniform(cells, domain).expect("a grid");
+        let t = grid.squares();
+        let load: Vec<f64> = t.iter().map(|t| (1.0 - t * t).max(0.0)).collect();
+        let cell = t.partition_point(|&t| t <= 1.0) - 1;
+        let mut breaks = Vec::new();
+        bend::polyline(
+            [t[cell], t[cell + 1]],
+            [load[cell], 0.0],
+            &[(1.0, 0.0)],
+            &mut breaks,
+        );
+        let mut p = apply(&product::stress(grid.nodes()), &load);
+        bend::add_to_stress(&breaks, t, &mut p);
+        if corrected {
+            add_to_stress(&grid, &load, 0.0, breaks, |_| true, &mut p);
+        }
+        let exact = |s: f64| FRAC_2_PI * (1.0 - s).sqrt() * ((1.0 - s) / 1.5 + 2.0 * s);
+        let inside = t.iter().zip(&p).take(cell + 1);
+        inside.map(|(&s, p)| (s, p - exact(s))).collect()
+    }
+
+    fn worst(errors: &[(f64, f64)], within: f64) -> f64 {
+        let inside = errors.iter().filter(|(s, _)| *s < within);
+        inside.map(|(_, error)| error.abs()).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn a_curved_load_has_its_stress_to_second_order() {
+        let order = |corrected: bool| {
+            let errors = [50, 100, 200, 400].map(|cells| worst(&quartic(cells, corrected), 0.8));
+            eprintln!("{corrected}: {errors:?}");
+            (errors[0] / errors[3]).log2() / 3.0
+        };
+        assert!(order(true) > 1.95);
+        assert!(order(false) < 1.6);
+        let (with, without) = (quartic(100, true), quartic(100, false));
+        for within in [0.8, 1.0] {
+            let (with, without) = (worst(&with, within), worst(&without, within));
+            assert!(with < without / 3.0, "{within}: {with} {without}");
+        }
+    }
+
+    #[test]
+    fn what_is_exact_stays_exact() {
+        let grid = RadialGrid::graded(80, 0.4, 1.5).expect("a grid");
+        let (nodes, t) = (grid.nodes(), grid.squares());
+        let load: Vec<f64> = nodes
+            .iter()
+            .map(|x| (1.0 - 0.3 * x - 0.7 * x * x).max(0.0))
+            .collect();
+        let cell = t.partition_point(|&t| t <= 1.0) - 1;
+        let mut breaks = Vec::new();
+        bend::polyline(
+            [t[cell], t[cell + 1]],
+            [load[cell], 0.0],
+            &[(1.0, 0.0)],
+            &mut breaks,
+        );
+        let mut p = vec![0.0; t.len()];
+        add_to_stress(&grid, &load, -0.3, breaks.iter().copied(), |_| true, &mut p);
+        // The cusp is not linear in t in the edge's cell.
+        assert!(p[..cell].iter().all(|p| p.abs() < 1e-13), "{p:?}");
+        let mut q = vec![0.0; t.len()];
+        add_to_stress(&grid, &load, 0.0, breaks, |_| true, &mut q);
+        assert!(q[1..cell].iter().any(|p| p.abs() > 1e-6));
+    }
+
+    /// No teeth, as without it: each mode of worn depth lowers its own pressure.
+    #[test]
+    fn the_response_of_the_pressure_keeps_its_spectrum() {
+        for grid in [
+            RadialGrid::graded(50, 0.767, 1.5).expect("a grid"),
+            RadialGrid::graded(100, 0.42, 1.5).expect("a grid"),
+            RadialGrid::graded(60, 0.17, 1.5).expect("a grid"),
+            RadialGrid::uniform(60, 1.5).expect("a grid"),
+        ] {
+            let mut stress = product::stress(grid.nodes());
+            for (i, mut column) in stress.column_iter_mut().enumerate() {
+                let mut load = vec![0.0; grid.len()];
+                load[i] = 1.0;
+                let outside = |j: usize| grid.border().is_none_or(|border| j > border + 1);
+                add_to_stress(&grid, &load, 0.0, [], outside, column.as_mut_slice());
+            }
+            // What wears: the nodes outside the border, up to the last but one.
+            let response = stress * worn::profile(&grid);
+            let from = grid.border().unwrap_or(0) + 1;
+            let size = grid.len() - 1 - from;
+            let wearing = response.view((from, from), (size, size)).into_owned();
+            let values = wearing.complex_eigenvalues();
+            let largest = values.iter().map(|value| value.re).fold(0.0, f64::max);
+            for value in &values {
+                assert!(value.re > 0.0, "{value}");
+                assert!(value.im.abs() < 0.35 * largest, "{value} {largest}");
+            }
+        }
+    }
+}

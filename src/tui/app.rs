@@ -6,30 +6,22 @@ use std::collections::HashMap;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
 
-use super::command::{self, Command};
+use super::command::Command;
 use super::companion::Companion;
 use super::frame::Frame;
 use super::keys::Key;
+use super::overlays::{Answer, Help, Library, Overlay, Palette};
 use super::panels::Panel;
 use super::plot::{Scale, sticky_bounds};
 use super::theme::Theme;
 use super::theory::Theory;
 use super::worker::Order;
-use crate::scenario::{Scenario, preset};
+use crate::scenario::Scenario;
 use crate::simulation::Curves;
 
-/// What lies over the panels.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Overlay {
-    /// Nothing.
-    None,
-    /// The keys, scrolled down by so many lines.
-    Help(u16),
-    /// The presets, one of them selected.
-    Presets(usize),
-    /// Certificates and companion.
-    Accuracy,
-}
+/// The places of the cursor over the domain, and where it first stands.
+const CURSOR_PLACES: i16 = 100;
+const CURSOR_START: i16 = 33;
 
 /// How the program is left.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -60,6 +52,8 @@ pub struct App {
     pub with_theory: bool,
     /// What the companion has shown, once it has; none while it runs or before it was asked.
     pub companion: Option<Result<Companion, String>>,
+    /// Where the cursor stands, in hundredths of the domain.
+    cursor: Option<i16>,
     log_panels: Vec<Panel>,
     bounds: HashMap<(Panel, Scale), [f64; 2]>,
     shown: Curves,
@@ -79,6 +73,7 @@ impl App {
             leave: None,
             with_theory: false,
             companion: None,
+            cursor: None,
             log_panels: Vec::new(),
             bounds: HashMap::new(),
             shown: Curves::all(),
@@ -121,15 +116,28 @@ impl App {
         }
     }
 
-    /// Answers a key.
+    /// Answers a key. `Ctrl-C` leaves from anywhere, whatever is being typed.
     pub fn press(&mut self, key: Key) {
         self.notice = None;
-        match (command::of_key(key), self.overlay) {
-            (None, _) => {}
-            (Some(command), Overlay::None) => self.command(command),
-            (Some(command), Overlay::Help(line)) => self.help_command(command, line),
-            (Some(command), Overlay::Presets(at)) => self.presets_command(command, at),
-            (Some(command), Overlay::Accuracy) => self.accuracy_command(command),
+        if key == Key::Ctrl('c') {
+            self.leave = Some(Leave::Clean);
+            return;
+        }
+        let mut overlay = std::mem::take(&mut self.overlay);
+        match overlay.press(key, self.frame.as_deref()) {
+            Answer::Stay => self.overlay = overlay,
+            Answer::Close => {}
+            Answer::Through(command) => self.command(command),
+            Answer::Meanwhile(command) => {
+                self.command(command);
+                self.overlay = overlay;
+            }
+            Answer::Order(order) => self.order(order),
+            Answer::Load(name) => self.load(&name),
+            Answer::Say(text) => {
+                self.notice = Some(text);
+                self.overlay = overlay;
+            }
         }
         self.tell_what_shows();
     }
@@ -139,7 +147,9 @@ impl App {
             Command::Quit => self.leave = Some(Leave::Clean),
             Command::QuitKeepingScreen => self.leave = Some(Leave::KeepScreen),
             Command::Back => self.zoomed = false,
-            Command::Help => self.overlay = Overlay::Help(0),
+            Command::Help => self.overlay = Overlay::Help(Help::default()),
+            Command::Search => self.overlay = Overlay::Help(Help::searching()),
+            Command::Palette => self.overlay = Overlay::Palette(Palette::default()),
             Command::RunPause => self.order(Order::RunPause),
             Command::Step => self.order(Order::Step),
             Command::Cycle => self.order(Order::Cycle),
@@ -153,8 +163,18 @@ impl App {
             Command::PreviousPanel | Command::Up => self.focus = self.focus.shifted(-1),
             Command::Zoom | Command::Accept => self.zoomed = !self.zoomed,
             Command::Snapshot => self.order(Order::Snapshot),
-            Command::Presets => self.overlay = Overlay::Presets(self.present_preset()),
-            Command::Theory => self.toggle_theory(),
+            Command::Presets => {
+                self.overlay = Overlay::Library(Library::open(self.frame.as_deref()));
+            }
+            Command::Theory => self.with_theory = !self.with_theory,
+            Command::Cursor => {
+                self.cursor = match self.cursor {
+                    None => Some(CURSOR_START),
+                    Some(_) => None,
+                }
+            }
+            Command::Left => self.move_sideways(-1),
+            Command::Right => self.move_sideways(1),
             Command::Compare => self.order(Order::Compare),
             Command::Accuracy => {
                 self.companion = None;
@@ -166,46 +186,19 @@ impl App {
         }
     }
 
-    fn help_command(&mut self, command: Command, line: u16) {
-        self.overlay = match command {
-            Command::Up => Overlay::Help(line.saturating_sub(1)),
-            Command::Down => Overlay::Help((line + 1).min(command::BINDINGS.len() as u16 - 1)),
-            Command::Back | Command::Help | Command::Accept => Overlay::None,
-            other => return self.through(other),
-        };
-    }
-
-    fn presets_command(&mut self, command: Command, at: usize) {
-        let count = preset::ALL.len();
-        self.overlay = match command {
-            Command::Up | Command::PreviousPanel => Overlay::Presets((at + count - 1) % count),
-            Command::Down | Command::NextPanel => Overlay::Presets((at + 1) % count),
-            Command::Back | Command::Presets => Overlay::None,
-            Command::Accept | Command::RunPause => {
-                self.load(preset::ALL[at].name);
-                Overlay::None
-            }
-            other => return self.through(other),
-        };
-    }
-
-    fn accuracy_command(&mut self, command: Command) {
-        match command {
-            Command::Back | Command::Accuracy | Command::Accept => self.overlay = Overlay::None,
-            // The run can be watched from here.
-            Command::RunPause
-            | Command::Step
-            | Command::Cycle
-            | Command::Faster
-            | Command::Slower => {
-                self.command(command);
-            }
-            other => self.through(other),
+    /// Moves the cursor by a hundredth of the domain, or the focus where there is no cursor.
+    fn move_sideways(&mut self, places: i16) {
+        match &mut self.cursor {
+            Some(place) => *place = (*place + places).clamp(0, CURSOR_PLACES),
+            None => self.focus = self.focus.shifted(isize::from(places)),
         }
     }
 
-    fn toggle_theory(&mut self) {
-        self.with_theory = !self.with_theory;
+    /// The radius at the cursor, m, if there is one.
+    pub fn cursor_radius(&self, frame: &Frame) -> Option<f64> {
+        let edge = frame.observation.radii.last()?;
+        let place = self.cursor?;
+        Some(edge * f64::from(place) / f64::from(CURSOR_PLACES))
     }
 
     /// What theory says, if it is to be shown.
@@ -216,12 +209,6 @@ impl App {
     /// Whether the accuracy panel waits for the companion.
     pub fn awaits_companion(&self) -> bool {
         self.overlay == Overlay::Accuracy && self.companion.is_none()
-    }
-
-    /// Leaving works from anywhere; other commands close what is open first.
-    fn through(&mut self, command: Command) {
-        self.overlay = Overlay::None;
-        self.command(command);
     }
 
     fn load(&mut self, name: &str) {
@@ -258,17 +245,6 @@ impl App {
 
     fn forget_scales(&mut self) {
         self.bounds.clear();
-    }
-
-    fn present_preset(&self) -> usize {
-        let origin = self
-            .frame
-            .as_ref()
-            .map_or("", |frame| frame.origin.as_str());
-        preset::ALL
-            .iter()
-            .position(|preset| preset.name == origin)
-            .unwrap_or(0)
     }
 
     /// Hidden panels cost no transform.

@@ -51,6 +51,16 @@ pub enum Command {
     Compare,
     /// How far to trust the run.
     Accuracy,
+    /// Read the curves at a radius.
+    Cursor,
+    /// Every command by its name.
+    Palette,
+    /// Search in the help.
+    Search,
+    /// Left: the cursor, or the focus.
+    Left,
+    /// Right.
+    Right,
     /// Up in a list.
     Up,
     /// Down in a list.
@@ -228,6 +238,34 @@ pub static BINDINGS: &[Binding] = &[
         false,
     ),
     bind(
+        C::Cursor,
+        &[Char('x')],
+        "cursor",
+        "a cursor that reads all curves at r; arrows move it",
+        false,
+    ),
+    bind(
+        C::Palette,
+        &[Char(':')],
+        "commands",
+        "every command by its name, and set KEY=VALUE",
+        true,
+    ),
+    bind(
+        C::Left,
+        &[Key::Named(Named::Left), Char('h')],
+        "left",
+        "move the cursor inwards, or the focus back",
+        false,
+    ),
+    bind(
+        C::Right,
+        &[Key::Named(Named::Right), Char('l')],
+        "right",
+        "move the cursor outwards, or the focus on",
+        false,
+    ),
+    bind(
         C::Up,
         &[Key::Named(Named::Up), Char('k')],
         "up",
@@ -261,6 +299,13 @@ pub static BINDINGS: &[Binding] = &[
         "help",
         "show or hide this help",
         true,
+    ),
+    bind(
+        C::Search,
+        &[Char('/')],
+        "search",
+        "search in the help",
+        false,
     ),
     bind(
         C::Quit,

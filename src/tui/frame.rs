@@ -3,6 +3,7 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::pace::Pace;
+use super::settings::Setting;
 use super::theory::Theory;
 use super::trend::Trend;
 use crate::simulation::Observation;
@@ -56,6 +57,8 @@ pub struct Frame {
     pub planned_cycles: Option<f64>,
     /// Steps a cycle.
     pub steps_per_cycle: u32,
+    /// The keys that can be changed, with their values.
+    pub settings: Arc<Vec<Setting>>,
     /// μ, for the scale of τ.
     pub friction: f64,
     /// 1 − ∫p dA/F_z, where p is computed and something carries load.

@@ -18,12 +18,12 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Paragraph, Widget};
 
-use super::app::{App, Overlay};
+use super::app::App;
 use super::command::BINDINGS;
 use super::frame::{Activity, Frame};
-use super::overlays::{accuracy, help, presets};
 use super::pace::Pace;
 use super::panels::{Panel, compare};
+use super::readout;
 use super::theme::Role;
 use super::trust;
 
@@ -59,12 +59,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         None => Line::raw("starting ...").render(middle, buffer),
     }
     footer(app, bottom, buffer);
-    match app.overlay {
-        Overlay::None => {}
-        Overlay::Help(line) => help(app, line, middle, buffer),
-        Overlay::Presets(at) => presets(app, at, middle, buffer),
-        Overlay::Accuracy => accuracy(app, middle, buffer),
-    }
+    app.overlay.draw(app, middle, buffer);
 }
 
 fn panels(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
@@ -192,7 +187,8 @@ fn short(value: f64) -> String {
     }
 }
 
-/// A word for the user if there is one, else as many keys as fit.
+/// A word for the user if there is one, the values at the cursor if there is one, else as many keys
+/// as fit.
 fn footer(app: &App, area: Rect, buffer: &mut Buffer) {
     let stopped = app.frame.as_ref().and_then(|frame| match &frame.activity {
         Activity::Stopped(reason) => Some(reason.as_str()),
@@ -206,6 +202,12 @@ fn footer(app: &App, area: Rect, buffer: &mut Buffer) {
             Role::Alarm
         };
         Line::styled(format!(" {text}"), app.theme.style(role)).render(area, buffer);
+        return;
+    }
+    let frame = app.frame.as_ref();
+    if let Some((frame, r)) = frame.and_then(|frame| Some((frame, app.cursor_radius(frame)?))) {
+        let text = readout::line(frame, r, usize::from(area.width), app.theme.ascii());
+        Line::raw(text).render(area, buffer);
         return;
     }
     let mut spans = Vec::new();

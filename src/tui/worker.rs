@@ -13,6 +13,7 @@ use super::Event;
 use super::companion;
 use super::frame::{Activity, Frame, Rival, Slot};
 use super::pace::{Meter, Pace};
+use super::settings::Setting;
 use super::theory::Theory;
 use super::trend::Trend;
 use crate::export::file::{RunDirectory, free_directory};
@@ -20,6 +21,7 @@ use crate::export::header::number;
 use crate::export::state;
 use crate::math::abel::AbelMethod;
 use crate::scenario::Scenario;
+use crate::scenario::parameters::{Kind, find};
 use crate::scenario::session::Session;
 use crate::simulation::Curves;
 
@@ -44,6 +46,13 @@ pub enum Order {
     Law(isize),
     /// The pace so many places further on.
     Pace(i32),
+    /// A key of the scenario gets a value: TOML, or a bare word.
+    Change {
+        /// The dotted path.
+        key: String,
+        /// The value.
+        value: String,
+    },
     /// Start again as loaded.
     Restart,
     /// Another scenario, from the start.
@@ -77,6 +86,7 @@ pub struct Worker {
     session: Session,
     rival: Option<RivalRun>,
     theory: Arc<Theory>,
+    settings: Arc<Vec<Setting>>,
     trend: Trend,
     curves: Curves,
     activity: Activity,
@@ -106,6 +116,7 @@ impl Worker {
         };
         Self {
             theory: Arc::new(Theory::of(session.simulation().setup())),
+            settings: Arc::new(Setting::all(session.scenario())),
             session,
             rival: None,
             trend,
@@ -282,6 +293,7 @@ impl Worker {
                     self.change("wear.law", law);
                 }
             },
+            Order::Change { key, value } => self.change(&key, &value),
             Order::Pace(rungs) => {
                 self.rung = (self.rung + rungs).clamp(Pace::SLOWEST, Pace::UNLIMITED)
             }
@@ -313,9 +325,14 @@ impl Worker {
     }
 
     fn change(&mut self, key: &str, value: &str) {
-        match self.session.change(key, &format!("\"{value}\"")) {
+        let quoted = format!("\"{value}\"");
+        let is_word = find(key).is_some_and(|known| matches!(known.kind, Kind::Choice(_)));
+        match self
+            .session
+            .change(key, if is_word { &quoted } else { value })
+        {
             Ok(()) => {
-                self.theory = Arc::new(Theory::of(self.session.simulation().setup()));
+                self.learn();
                 if matches!(self.activity, Activity::Stopped(_)) {
                     self.activity = Activity::Paused;
                 }
@@ -326,12 +343,18 @@ impl Worker {
         }
     }
 
+    /// What follows from the scenario as it is now.
+    fn learn(&mut self) {
+        self.theory = Arc::new(Theory::of(self.session.simulation().setup()));
+        self.settings = Arc::new(Setting::all(self.session.scenario()));
+    }
+
     fn load(&mut self, scenario: Scenario) {
         match Session::start(scenario) {
             Ok(session) => {
                 self.session = session;
                 self.rival = None;
-                self.theory = Arc::new(Theory::of(self.session.simulation().setup()));
+                self.learn();
                 self.trend = Trend::default();
                 self.trend.record(&self.session.simulation().moment());
                 if self.activity != Activity::Running {
@@ -396,6 +419,7 @@ impl Worker {
             origin: scenario.origin().to_owned(),
             planned_cycles: self.session.loaded().run().cycles,
             steps_per_cycle: simulation.setup().steps_per_cycle,
+            settings: Arc::clone(&self.settings),
             friction: simulation.setup().material.friction(),
             force_residual,
             theory: Arc::clone(&self.theory),

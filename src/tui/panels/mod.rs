@@ -159,15 +159,18 @@ fn titled(title: &str, role: Role, app: &App, area: Rect, buffer: &mut Buffer) -
     inner
 }
 
-/// A plot of nodal values over the radius, with the bounds that the app keeps for the panel.
+/// A plot of nodal values over the radius, with the bounds that the app keeps for the panel and the
+/// cursor. The ordinate is a label and a unit.
 fn radial_plot<'a>(
     panel: Panel,
     app: &App,
+    frame: &Frame,
     abscissa: &'a str,
-    label: &'a str,
-    unit: &'a str,
+    ordinate: (&'a str, &'a str),
 ) -> Plot<'a> {
+    let (label, unit) = ordinate;
     plot(panel, app, Axis::new(abscissa, "m"), Axis::new(label, unit))
+        .cursor(app.cursor_radius(frame))
 }
 
 fn plot<'a>(panel: Panel, app: &App, x: Axis<'a>, y: Axis<'a>) -> Plot<'a> {

@@ -1,0 +1,169 @@
+//! What hands do in the explorer: reading values, typing commands, editing parameters, going back
+//! in time. Keys are played by `--keys`, and the screen comes from `--print`.
+
+use insta::assert_snapshot;
+
+#[expect(dead_code, reason = "the tests of the command line use the rest")]
+mod desk;
+
+use desk::Desk;
+
+/// The screen in 80 by 24 after `keys` on a scenario.
+fn shot_of(desk: &Desk, scenario: &str, keys: &str) -> String {
+    let said = desk.say(&[scenario, "--keys", keys, "--print", "80x24"]);
+    assert_eq!((said.code, said.err.as_str()), (0, ""), "{keys}");
+    said.out
+}
+
+fn shot(keys: &str) -> String {
+    shot_of(&Desk::new(), "li2019-fig3", keys)
+}
+
+/// The line at the foot of the screen.
+fn foot(text: &str) -> &str {
+    text.lines().last().unwrap_or_default().trim()
+}
+
+/// The number behind `name` in a line of values, in the unit that follows it.
+fn value(line: &str, name: &str) -> (f64, String) {
+    let words: Vec<&str> = line.split_whitespace().collect();
+    let at = words.iter().position(|word| *word == name);
+    let at = at.unwrap_or_else(|| panic!("no {name} in {line}"));
+    let number = words[at + 1].parse().expect("a number");
+    (number, words[at + 2].to_owned())
+}
+
+#[test]
+fn the_cursor_reads_all_curves_at_its_radius() {
+    let desk = Desk::new();
+    let text = shot_of(&desk, "li2019-fig3", ",,x");
+    let line = foot(&text).to_owned();
+    let (r, unit) = value(&line, "r");
+    assert_eq!(unit, "µm");
+    assert!(line.contains(" stick "), "{line}");
+    // The same values stand in the file of the same moment, between the nodes around r.
+    shot_of(&desk, "li2019-fig3", ",,s");
+    let table = desk::Table::parse(&desk.read("li2019-fig3-cycle-2/state.csv"));
+    let radii = table.column("r_m");
+    let above = radii
+        .iter()
+        .position(|node| *node > r * 1e-6)
+        .expect("a node");
+    for (name, column, factors) in [
+        ("f", "f_m", [("nm", 1e-9), ("µm", 1e-6)]),
+        ("worn", "wear_m", [("pm", 1e-12), ("nm", 1e-9)]),
+        ("p", "p_Pa", [("GPa", 1e9), ("MPa", 1e6)]),
+        ("τ", "tau_Pa", [("MPa", 1e6), ("kPa", 1e3)]),
+    ] {
+        let (number, unit) = value(&line, name);
+        let factor = factors.iter().find(|(known, _)| *known == unit);
+        let seen = number * factor.unwrap_or_else(|| panic!("{line}")).1;
+        let values = table.column(column);
+        let (low, high) = (values[above - 1], values[above]);
+        let slack = 1e-3 * low.abs().max(high.abs());
+        assert!(
+            (low.min(high) - slack..=low.max(high) + slack).contains(&seen),
+            "{name}: {seen} is not between {low} and {high}"
+        );
+    }
+}
+
+#[test]
+fn the_cursor_moves_and_goes() {
+    let radius = |keys: &str| value(foot(&shot(keys)), "r").0;
+    let start = radius(",x");
+    assert!(radius(",xl") > start && radius(",xh") < start);
+    assert_eq!(radius(",xl<Right>h<Left>"), start);
+    assert_eq!(radius(&format!(",x{}", "h".repeat(40))), 0.0);
+    assert_eq!(shot(",xx"), shot(","));
+    // Without it, the arrows move the focus as Tab does.
+    assert_eq!(shot(",lz"), shot(",<Tab>z"));
+    assert_eq!(shot(",<Left>z"), shot(",<S-Tab>z"));
+    // Beyond the contact there is no stress.
+    let outside = shot(&format!(",x{}", "l".repeat(60)));
+    assert!(foot(&outside).contains(" open "), "{outside}");
+    assert!(foot(&outside).contains(" p 0 "), "{outside}");
+}
+
+#[test]
+fn the_cursor_in_the_plots() {
+    assert_snapshot!("cursor-80x24", shot(",,x"));
+    let desk = Desk::new();
+    let zoomed = ["li2019-fig3", "--keys", ",,x<Tab>z", "--print", "120x30"];
+    assert_snapshot!("cursor-zoomed-120x30", desk.say(&zoomed).out);
+}
+
+#[test]
+fn the_palette_does_what_the_key_does() {
+    for (typed, key) in [
+        (":method<Enter>", "m"),
+        (":METHOD back<Enter>", "M"),
+        (":cyc<Enter>", ","),
+        (":zoom<Enter>", "z"),
+        (":presets<Enter>", "p"),
+        (":next wear<Enter>", "w"),
+    ] {
+        assert_eq!(
+            shot(&format!(",{typed}")),
+            shot(&format!(",{key}")),
+            "{typed}"
+        );
+    }
+    let plain = shot(",");
+    for closed in [":<Esc>", ":method<Esc>", ":x<Backspace><Backspace>"] {
+        assert_eq!(shot(&format!(",{closed}")), plain, "{closed}");
+    }
+    // What is typed is text: q and Space are characters there; Ctrl-C is not.
+    assert!(shot(",:q <lt>").contains(" :q <"));
+    assert!(shot(":q<C-c>,,,").contains("cycle 0.00/"));
+}
+
+#[test]
+fn the_palette_completes_keys_and_their_values() {
+    let text = shot(",:fric");
+    assert!(text.contains(" set friction.coefficient= "), "{text}");
+    let text = shot(",:fric<Tab>0.25<Enter>");
+    assert_eq!(
+        foot(&text),
+        "friction.coefficient = 0.25 from cycle 1.00 on"
+    );
+    let text = shot(",:set numerics.method=be<Enter>");
+    assert_eq!(foot(&text), "numerics.method = benad from cycle 1.00 on");
+    let text = shot(",:set numerics.method=<Down><Down><Enter>.");
+    assert!(
+        text.lines()
+            .next()
+            .is_some_and(|line| line.contains(" a+b │")),
+        "{text}"
+    );
+    for (typed, refusal) in [
+        (
+            "set friction.coefficient=-1",
+            "friction.coefficient = -1: must be 0 or greater",
+        ),
+        (
+            "set frictoin.coefficient=1",
+            "unknown key frictoin.coefficient; did you mean",
+        ),
+        ("set run.cycles=3", "run.cycles cannot change during a run"),
+        ("no such thing", "no command is called no such thing"),
+    ] {
+        let text = shot(&format!(",:{typed}<Enter>"));
+        assert!(foot(&text).contains(refusal), "{typed}: {}", foot(&text));
+    }
+    let text = shot(",:load her<Enter>");
+    assert!(text.contains("cycle 0.00/2.5"), "{text}");
+    assert_snapshot!("palette-80x24", shot(",:we"));
+}
+
+#[test]
+fn help_is_searched_by_words() {
+    let text = shot("/wear law");
+    for (word, is_there) in [("next wear law", true), ("run or pause", false)] {
+        assert_eq!(text.contains(word), is_there, "{word}\n{text}");
+    }
+    assert!(shot("?/zzz").contains("no command has these words"));
+    assert_eq!(shot(",?/wear<Esc>"), shot(",?"));
+    assert_eq!(shot(",/wear<Enter>"), shot(","));
+    assert_snapshot!("help-search-80x24", shot("/cycle"));
+}

@@ -167,3 +167,109 @@ fn help_is_searched_by_words() {
     assert_eq!(shot(",/wear<Enter>"), shot(","));
     assert_snapshot!("help-search-80x24", shot("/cycle"));
 }
+
+#[test]
+fn the_form_edits_parameters_while_it_runs() {
+    assert_snapshot!("form-80x24", shot(",e<Down><Down><Down><Enter>"));
+    let desk = Desk::new();
+    let wide = ["li2019-fig3", "--keys", ",e", "--print", "200x50"];
+    assert_snapshot!("form-200x50", desk.say(&wide).out);
+    // Typed, stepped, and chosen.
+    for (keys, told) in [
+        (
+            "e<Down><Enter><C-u>0.02<Enter>",
+            "indenter.radius = 0.02 from cycle 1.00 on",
+        ),
+        (
+            "e<Down>0.02<Backspace>3<Enter>",
+            "indenter.radius = 0.03 from cycle 1.00 on",
+        ),
+        ("ejjjj+", "friction.coefficient = 1.1e-1 from cycle 1.00 on"),
+        (
+            "ejjjj++-",
+            "friction.coefficient = 1.1e-1 from cycle 1.00 on",
+        ),
+    ] {
+        let text = shot(&format!(",{keys}"));
+        assert!(text.contains(told), "{keys}: {told}\n{text}");
+    }
+    // The run goes on below it, and it closes without a trace.
+    assert!(shot("e,,").contains("cycle 2.00/"));
+    assert_eq!(shot(",e<Esc>"), shot(","));
+    assert_eq!(shot(",ejj5<Esc><Esc>"), shot(","));
+    // The default edge of the domain is no number yet: nothing to step from.
+    let text = shot(",e<Up><Up><Up><Up>+");
+    assert!(text.contains("there is no next value from here"), "{text}");
+    // Every shape brings its own keys.
+    let text = shot(",e<Enter>");
+    assert!(text.contains("indenter.angle is missing"), "{text}");
+}
+
+#[test]
+fn the_form_shows_refusals_and_changes_nothing() {
+    for (keys, refusal) in [
+        (
+            "ejjj<Enter><C-u>0.7<Enter>",
+            "material.poisson = 0.7: must be from 0 to 0.5",
+        ),
+        (
+            "ejjj<Enter><C-u>soft<Enter>",
+            "material.poisson = soft: must be a finite number",
+        ),
+        ("ejjj<Enter><C-u>nan<Enter>", "must be a finite number"),
+    ] {
+        let text = shot(&format!(",{keys}"));
+        assert!(text.contains(refusal), "{keys}: {refusal}\n{text}");
+        assert!(
+            text.contains("material.poisson                     0.3"),
+            "{text}"
+        );
+    }
+}
+
+/// What a snapshot of `keys` holds, and the same run again without a screen.
+fn replayed(keys: &str) -> (String, String) {
+    let desk = Desk::new();
+    let text = shot_of(&desk, "li2019-fig3", keys);
+    let name = desk::names(&desk.path("."));
+    let [name] = name.as_slice() else {
+        panic!("{keys}: {name:?}\n{text}");
+    };
+    let state = desk.read(&format!("{name}/state.csv"));
+    desk.done(&format!("run {name}/scenario.toml --out again --quiet"));
+    (state, desk.read("again/state.csv"))
+}
+
+#[test]
+fn edits_are_recorded_and_run_again_bit_for_bit() {
+    for (keys, changes) in [
+        (",,ejjjj+<Esc>,...ejjjj--<Esc>,s", 3),
+        (
+            ",e<Down>0.011<Enter><Esc>,:set wear.coefficient=1e-9<Enter>..:set numerics.points=60<Enter>,s",
+            3,
+        ),
+        (
+            ",:set motion.tangential.amplitude=2e-7<Enter>.,:set wear.law=power<Enter>,s",
+            2,
+        ),
+    ] {
+        let (state, again) = replayed(keys);
+        assert_eq!(
+            state.matches("# at cycle ").count(),
+            changes,
+            "{keys}\n{state}"
+        );
+        assert!(state == again, "{keys}: the states differ");
+    }
+}
+
+#[test]
+fn a_note_goes_into_both_files() {
+    let (state, again) = replayed(",Sworn \"through\", ask k.<Backspace>?<Enter>");
+    assert!(
+        state.contains("\n# note: worn \"through\", ask k?\n"),
+        "{state}"
+    );
+    assert!(state == again);
+    assert_eq!(shot(",Sabc<Esc>"), shot(","));
+}

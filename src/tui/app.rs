@@ -10,12 +10,13 @@ use super::command::Command;
 use super::companion::Companion;
 use super::frame::Frame;
 use super::keys::Key;
-use super::overlays::{Answer, Help, Library, Overlay, Palette};
+use super::line::LineEdit;
+use super::order::Order;
+use super::overlays::{Answer, Form, Help, Library, Overlay, Palette};
 use super::panels::Panel;
 use super::plot::{Scale, sticky_bounds};
 use super::theme::Theme;
 use super::theory::Theory;
-use super::worker::Order;
 use crate::scenario::Scenario;
 use crate::simulation::Curves;
 
@@ -133,6 +134,10 @@ impl App {
                 self.overlay = overlay;
             }
             Answer::Order(order) => self.order(order),
+            Answer::Ask(order) => {
+                self.order(order);
+                self.overlay = overlay;
+            }
             Answer::Load(name) => self.load(&name),
             Answer::Say(text) => {
                 self.notice = Some(text);
@@ -162,7 +167,9 @@ impl App {
             Command::NextPanel | Command::Down => self.focus = self.focus.shifted(1),
             Command::PreviousPanel | Command::Up => self.focus = self.focus.shifted(-1),
             Command::Zoom | Command::Accept => self.zoomed = !self.zoomed,
-            Command::Snapshot => self.order(Order::Snapshot),
+            Command::Snapshot => self.order(Order::Snapshot(None)),
+            Command::SnapshotNote => self.overlay = Overlay::Note(LineEdit::default()),
+            Command::Edit => self.overlay = Overlay::Form(Form::default()),
             Command::Presets => {
                 self.overlay = Overlay::Library(Library::open(self.frame.as_deref()));
             }

@@ -39,6 +39,10 @@ pub enum Command {
     Zoom,
     /// Write the present state to files.
     Snapshot,
+    /// The same with a note.
+    SnapshotNote,
+    /// Edit the parameters.
+    Edit,
     /// Choose another preset.
     Presets,
     /// Start again.
@@ -200,6 +204,20 @@ pub static BINDINGS: &[Binding] = &[
         &[Char('s')],
         "snapshot",
         "write state.csv and scenario.toml to a new directory",
+        true,
+    ),
+    bind(
+        C::SnapshotNote,
+        &[Char('S')],
+        "snapshot, note",
+        "the same with a note, kept in both files",
+        false,
+    ),
+    bind(
+        C::Edit,
+        &[Char('e')],
+        "edit",
+        "edit any parameter while it runs; changes are recorded",
         true,
     ),
     bind(

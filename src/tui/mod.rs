@@ -29,14 +29,17 @@ mod fault;
 pub mod frame;
 pub mod keys;
 pub mod line;
+pub mod order;
 pub mod overlays;
 pub mod pace;
 pub mod panels;
 pub mod plot;
 mod readout;
+mod rival;
 pub mod screen;
 mod script;
 pub mod settings;
+mod snapshot;
 mod terminal;
 pub mod theme;
 pub mod theory;
@@ -48,10 +51,11 @@ use app::{App, Leave};
 use companion::Companion;
 use frame::Slot;
 use keys::Key;
+use order::Order;
 use plot::Marker;
 pub use script::Size;
 use theme::Theme;
-use worker::{Order, Worker};
+use worker::Worker;
 
 /// What can happen while the screen waits.
 #[derive(Debug)]

@@ -21,6 +21,7 @@ use ratatui::widgets::{Paragraph, Widget};
 use super::app::App;
 use super::command::BINDINGS;
 use super::frame::{Activity, Frame};
+use super::overlays::Overlay;
 use super::pace::Pace;
 use super::panels::{Panel, compare};
 use super::readout;
@@ -104,7 +105,7 @@ fn status(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     }
     let right = parts_text(&parts, separator);
     let room = usize::from(area.width).saturating_sub(Line::raw(right.as_str()).width() + 3);
-    let title = shortened(&frame.title, room, ascii);
+    let title = shortened(app.theme.printable(&frame.title), room);
     Line::styled(format!(" {title}"), bar).render(area, buffer);
     Line::styled(format!("{right} "), bar)
         .right_aligned()
@@ -119,20 +120,8 @@ fn parts_text(parts: &[(u8, String)], separator: &str) -> String {
         .join(separator)
 }
 
-/// A text from outside, printable, and ASCII where it must be.
-fn clean(text: &str, ascii: bool) -> String {
-    text.chars()
-        .map(|c| match c {
-            c if c.is_control() => ' ',
-            c if ascii && !c.is_ascii() => '?',
-            c => c,
-        })
-        .collect()
-}
-
-/// As much of a title as fits in `room` cells, printable, and ASCII where it must be.
-fn shortened(title: &str, room: usize, ascii: bool) -> String {
-    let mut text = clean(title, ascii);
+/// As much of a title as fits in `room` cells.
+fn shortened(mut text: String, room: usize) -> String {
     if Line::raw(text.as_str()).width() <= room {
         return text;
     }
@@ -194,9 +183,14 @@ fn footer(app: &App, area: Rect, buffer: &mut Buffer) {
         Activity::Stopped(reason) => Some(reason.as_str()),
         _ => None,
     });
-    if let Some(text) = app.notice.as_deref().or(stopped) {
-        let text = clean(text, app.theme.ascii());
-        let role = if app.notice.is_some() {
+    // The form has a line of its own for what is answered to it.
+    let notice = app
+        .notice
+        .as_deref()
+        .filter(|_| !matches!(app.overlay, Overlay::Form(_)));
+    if let Some(text) = notice.or(stopped) {
+        let text = app.theme.printable(text);
+        let role = if notice.is_some() {
             Role::Notice
         } else {
             Role::Alarm

@@ -12,8 +12,8 @@ use ratatui::text::Line;
 use super::Event;
 use super::app::App;
 use super::keys::Key;
+use super::order::Order;
 use super::screen;
-use super::worker::Order;
 
 /// A size of the screen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -51,6 +51,14 @@ impl Setting {
         format!("{value} {}", self.unit).trim_end().to_owned()
     }
 
+    /// What a greater value, or another word, does to the contact.
+    pub fn effect(&self) -> &'static str {
+        let found = EFFECTS
+            .iter()
+            .find(|(path, _)| *path == self.parameter.path);
+        found.map_or("", |(_, effect)| effect)
+    }
+
     /// What a value must be, in a line.
     pub fn rule(&self) -> String {
         let range = self.parameter.range;
@@ -82,6 +90,144 @@ impl Setting {
         }
     }
 }
+
+/// What the keys do.
+const EFFECTS: &[(&str, &str)] = &[
+    (
+        "indenter.shape",
+        "where pressure concentrates: a rim, a tip, or the middle",
+    ),
+    (
+        "indenter.radius",
+        "more: a wider contact and less pressure at the same depth",
+    ),
+    (
+        "indenter.angle",
+        "more: a sharper tip, a smaller contact, more pressure",
+    ),
+    (
+        "indenter.tip_radius",
+        "more: the contact begins wider, its rim carries more",
+    ),
+    (
+        "indenter.coefficient",
+        "more: a steeper profile, a smaller contact",
+    ),
+    (
+        "indenter.exponent",
+        "more: flatter in the middle, steeper outside",
+    ),
+    (
+        "material.effective_modulus",
+        "more: more pressure and force at the same depth",
+    ),
+    (
+        "material.poisson",
+        "more: softer sideways, so a wider stick zone",
+    ),
+    ("material.indenter.youngs_modulus", "more: a stiffer pair"),
+    (
+        "material.indenter.poisson",
+        "more: softer sideways, so a wider stick zone",
+    ),
+    (
+        "material.indenter.rigid",
+        "rigid: only the half-space yields",
+    ),
+    ("material.half_space.youngs_modulus", "more: a stiffer pair"),
+    (
+        "material.half_space.poisson",
+        "more: softer sideways, so a wider stick zone",
+    ),
+    (
+        "material.half_space.rigid",
+        "rigid: only the indenter yields",
+    ),
+    (
+        "friction.coefficient",
+        "more: a wider stick zone, higher shear where it slips",
+    ),
+    (
+        "motion.normal.control",
+        "displacement: wear unloads the contact; force: it sinks in",
+    ),
+    (
+        "motion.normal.mean",
+        "more: a wider contact, a wider stick zone",
+    ),
+    (
+        "motion.normal.amplitude",
+        "more: the edge of the contact opens and closes further",
+    ),
+    (
+        "motion.normal.angular_frequency",
+        "another ratio to the tangential one: another loop",
+    ),
+    (
+        "motion.normal.phase",
+        "when the contact is deepest, relative to the shaking",
+    ),
+    (
+        "motion.tangential.control",
+        "displacement or force is what swings",
+    ),
+    (
+        "motion.tangential.mean",
+        "where the shaking is centred; forgotten after a cycle",
+    ),
+    (
+        "motion.tangential.amplitude",
+        "more: a wider slip ring, then gross slip",
+    ),
+    (
+        "motion.tangential.angular_frequency",
+        "one period is a cycle; powers of slip rate feel it",
+    ),
+    (
+        "motion.tangential.phase",
+        "when the shift is largest, relative to the depth",
+    ),
+    (
+        "wear.law",
+        "archard follows the work of friction; power weighs stress and speed",
+    ),
+    (
+        "wear.coefficient",
+        "more: the same wear in fewer cycles, until steps are too coarse",
+    ),
+    (
+        "wear.stress_exponent",
+        "more: wear gathers where the stress is high",
+    ),
+    (
+        "wear.slip_rate_exponent",
+        "more: wear gathers where slip is fast",
+    ),
+    (
+        "wear.reference_stress",
+        "more: less wear where stress has a power above 1",
+    ),
+    (
+        "wear.reference_slip_rate",
+        "more: less wear where slip rate has a power above 1",
+    ),
+    ("numerics.method", "how the three transforms are computed"),
+    ("numerics.points", "more: finer and slower"),
+    ("numerics.steps_per_cycle", "more: finer in time and slower"),
+    (
+        "numerics.domain_radius",
+        "more: room to grow, coarser at the same points",
+    ),
+    (
+        "numerics.grid",
+        "graded: narrow cells where the worn profile is steep",
+    ),
+    (
+        "numerics.scheme",
+        "trapezoid: second order in time; euler: the paper's",
+    ),
+    ("numerics.integrator", "direct: every step of every cycle"),
+];
 
 /// The next number of two significant digits, up or down from `value`. Zero stays: it has no size.
 fn next_number(value: f64, up: bool) -> f64 {
@@ -123,6 +269,22 @@ mod tests {
             assert_eq!(next_number(value, true), up, "{value}");
             assert_eq!(next_number(value, false), down, "{value}");
         }
+    }
+
+    #[test]
+    fn every_key_that_can_change_says_what_it_does() {
+        for parameter in PARAMETERS
+            .iter()
+            .filter(|known| !["", "run", "changes"].contains(&known.section()))
+        {
+            let found = EFFECTS.iter().filter(|(path, _)| *path == parameter.path);
+            assert_eq!(found.count(), 1, "{}", parameter.path);
+        }
+        assert!(
+            EFFECTS
+                .iter()
+                .all(|(_, effect)| effect.chars().count() <= 68)
+        );
     }
 
     #[test]

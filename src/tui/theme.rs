@@ -65,6 +65,18 @@ impl Theme {
         self.marker == Marker::Ascii
     }
 
+    /// A text from outside as this terminal can show it: no control characters, and ASCII where it
+    /// must be.
+    pub fn printable(&self, text: &str) -> String {
+        text.chars()
+            .map(|c| match c {
+                c if c.is_control() => ' ',
+                c if self.ascii() && !c.is_ascii() => '?',
+                c => c,
+            })
+            .collect()
+    }
+
     /// The style of a role.
     pub fn style(&self, role: Role) -> Style {
         let plain = Style::new();

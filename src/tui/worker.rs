@@ -3,7 +3,6 @@
 //! It steps no further ahead than the pace allows, and it publishes a frame only after the one
 //! before has been taken, so that a slow terminal costs the simulation nothing.
 
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::thread;
@@ -11,14 +10,14 @@ use std::time::{Duration, Instant};
 
 use super::Event;
 use super::companion;
-use super::frame::{Activity, Frame, Rival, Slot};
+use super::frame::{Activity, Frame, Slot};
+use super::order::Order;
 use super::pace::{Meter, Pace};
+use super::rival::RivalRun;
 use super::settings::Setting;
+use super::snapshot;
 use super::theory::Theory;
 use super::trend::Trend;
-use crate::export::file::{RunDirectory, free_directory};
-use crate::export::header::number;
-use crate::export::state;
 use crate::math::abel::AbelMethod;
 use crate::scenario::Scenario;
 use crate::scenario::parameters::{Kind, find};
@@ -30,56 +29,6 @@ const LAWS: [&str; 2] = ["archard", "power"];
 
 /// How long the worker steps before it looks for orders again.
 const STINT: Duration = Duration::from_millis(4);
-
-/// What the explorer asks of the worker.
-#[derive(Debug)]
-pub enum Order {
-    /// Run or pause.
-    RunPause,
-    /// Pause, one step.
-    Step,
-    /// Pause, to the end of the cycle.
-    Cycle,
-    /// The method so many places further on.
-    Method(isize),
-    /// The wear law so many places further on.
-    Law(isize),
-    /// The pace so many places further on.
-    Pace(i32),
-    /// A key of the scenario gets a value: TOML, or a bare word.
-    Change {
-        /// The dotted path.
-        key: String,
-        /// The value.
-        value: String,
-    },
-    /// Start again as loaded.
-    Restart,
-    /// Another scenario, from the start.
-    Load(Box<Scenario>),
-    /// Write the state to files.
-    Snapshot,
-    /// Begin or end the comparison with another method.
-    Compare,
-    /// Run the companion on half the cells.
-    Companion,
-    /// Compute these curves from now on.
-    Show(Curves),
-    /// Answer with a frame when all orders before are carried out.
-    Sync(Sender<Arc<Frame>>),
-    /// End.
-    Quit,
-}
-
-/// The worker's own side of a rival.
-struct RivalRun {
-    session: Session,
-    /// Which of [`rivals`] it is.
-    choice: usize,
-    busy: Duration,
-    steps: u64,
-    stopped: Option<String>,
-}
 
 /// The worker's side.
 pub struct Worker {
@@ -196,40 +145,18 @@ impl Worker {
         match self.session.step() {
             Ok(()) => {
                 self.trend.record(&self.session.simulation().moment());
-                self.follow();
+                if let Some(rival) = &mut self.rival {
+                    rival.follow(self.session.simulation().cycle());
+                }
             }
             Err(error) => self.activity = Activity::Stopped(error.to_string()),
         }
     }
 
-    /// Brings the rival to where this run is.
-    fn follow(&mut self) {
-        let Some(rival) = &mut self.rival else { return };
-        if rival.stopped.is_some() {
-            return;
-        }
-        let (start, before) = (Instant::now(), rival.session.simulation().state().steps);
-        if let Err(error) = rival.session.advance_to(self.session.simulation().cycle()) {
-            rival.stopped = Some(error.to_string());
-        }
-        rival.busy += start.elapsed();
-        rival.steps += rival.session.simulation().state().steps - before;
-    }
-
-    /// Sets a rival beside this run, from the same state.
-    fn rival(&mut self, choice: usize) {
-        let (key, value) = &rivals(&self.session)[choice];
-        let mut session = self.session.clone();
-        match session.change(key, value) {
-            Ok(()) => {
-                self.rival = Some(RivalRun {
-                    session,
-                    choice,
-                    busy: Duration::ZERO,
-                    steps: 0,
-                    stopped: None,
-                });
-            }
+    /// Sets a rival beside this run, so many places after the one before.
+    fn rival(&mut self, places: isize) {
+        match RivalRun::beside(&self.session, self.rival.as_ref(), places) {
+            Ok(rival) => self.rival = Some(rival),
             Err(error) => self.notice(&error.to_string()),
         }
     }
@@ -276,11 +203,7 @@ impl Worker {
                 None => self.rival(0),
             },
             Order::Companion => self.companion(),
-            Order::Method(places) if self.rival.is_some() => {
-                let all = rivals(&self.session).len();
-                let now = self.rival.as_ref().map_or(0, |rival| rival.choice) as isize;
-                self.rival((now + places).rem_euclid(all as isize) as usize);
-            }
+            Order::Method(places) if self.rival.is_some() => self.rival(places),
             Order::Method(places) => {
                 let now = self.session.simulation().setup().method;
                 let method = shifted(&AbelMethod::ALL, |method| *method == now, places);
@@ -299,7 +222,7 @@ impl Worker {
             }
             Order::Restart => self.load(self.session.loaded().clone()),
             Order::Load(scenario) => self.load(*scenario),
-            Order::Snapshot => self.snapshot(),
+            Order::Snapshot(note) => self.snapshot(note.as_deref()),
             Order::Show(curves) => self.curves = curves,
             Order::Sync(reply) => {
                 let _ = reply.send(Arc::new(self.frame()));
@@ -365,23 +288,9 @@ impl Worker {
         }
     }
 
-    /// Writes `state.csv` and, beside it, the scenario that leads there.
-    fn snapshot(&mut self) {
-        let session = &self.session;
-        let stem = session.loaded().stem();
-        let directory = free_directory(&format!(
-            "{stem}-cycle-{}",
-            number(session.simulation().cycle())
-        ));
-        let written = RunDirectory::claim(&directory, false).and_then(|directory| {
-            directory.write(
-                "scenario.toml",
-                session.as_run(Vec::new()).to_toml().as_bytes(),
-            )?;
-            directory.write("state.csv", state::table(session).as_bytes())
-        });
-        match written {
-            Ok(path) => self.notice(&format!("snapshot in {}", show(&path))),
+    fn snapshot(&self, note: Option<&str>) {
+        match snapshot::write(&self.session, note) {
+            Ok(path) => self.notice(&format!("snapshot in {}", path.display())),
             Err(error) => self.notice(&error.to_string()),
         }
     }
@@ -423,54 +332,15 @@ impl Worker {
             friction: simulation.setup().material.friction(),
             force_residual,
             theory: Arc::clone(&self.theory),
-            rival: self.rival.as_ref().map(|rival| Rival {
-                name: name(&rival.session),
-                observation: rival
-                    .session
-                    .simulation()
-                    .observe(Curves::PROFILE | Curves::PRESSURE),
-                step_cost: (rival.steps > 0).then(|| rival.busy.as_secs_f64() / rival.steps as f64),
-                stopped: rival.stopped.clone(),
-            }),
+            rival: self.rival.as_ref().map(RivalRun::seen),
         }
     }
-}
-
-/// What a run can be compared with: every other method, and itself on half the cells.
-fn rivals(session: &Session) -> Vec<(&'static str, String)> {
-    let setup = session.simulation().setup();
-    let others = AbelMethod::ALL
-        .into_iter()
-        .filter(|method| *method != setup.method);
-    let mut list: Vec<_> = others
-        .map(|method| ("numerics.method", format!("\"{method}\"")))
-        .collect();
-    // The paper's verdict is about B: it comes first.
-    list.sort_by_key(|(_, value)| value != "\"b\"");
-    list.push((
-        "numerics.points",
-        (setup.grid.cells() / 2)
-            .max(crate::math::grid::MIN_CELLS)
-            .to_string(),
-    ));
-    list
-}
-
-/// Method and cells.
-fn name(session: &Session) -> String {
-    let setup = session.simulation().setup();
-    format!("{} {}", setup.method, setup.grid.cells())
 }
 
 /// The element so many places after the one that is `now`, around the ends.
 fn shifted<T: Copy>(all: &[T], now: impl Fn(&T) -> bool, places: isize) -> T {
     let at = all.iter().position(now).unwrap_or(0) as isize;
     all[(at + places).rem_euclid(all.len() as isize) as usize]
-}
-
-fn show(path: &std::path::Path) -> String {
-    let path: PathBuf = path.components().collect();
-    path.display().to_string()
 }
 
 #[cfg(test)]

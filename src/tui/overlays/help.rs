@@ -44,12 +44,16 @@ const GROUPS: &[(&[Command], &str)] = &[
         "the focused panel alone; its logarithmic scale",
     ),
     (
+        &[Command::Snapshot, Command::SnapshotNote],
+        "state and scenario to a new directory; with a note",
+    ),
+    (
         &[Command::Presets, Command::Restart],
         "choose another scenario; start this one again",
     ),
     (
-        &[Command::Theory, Command::Accuracy],
-        "closed forms over the plots; how far to trust the run",
+        &[Command::Theory, Command::Accuracy, Command::Compare],
+        "closed forms; how far to trust; a second method (m M)",
     ),
     (
         &[Command::Left, Command::Right],
@@ -183,5 +187,21 @@ impl Help {
         Paragraph::new(lines)
             .scroll((first, 0))
             .render(inside, buffer);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_is_cut() {
+        for rows in [20, 100] {
+            for (keys, help) in entries(rows) {
+                assert!(keys.chars().count() <= 16, "{keys}");
+                assert!(help.chars().count() <= 55, "{help}");
+            }
+        }
+        assert!(entries(20).len() <= 20);
     }
 }

@@ -9,16 +9,18 @@ use ratatui::widgets::{Block, Clear, Widget};
 use super::app::App;
 use super::command::{self, Command};
 use super::frame::Frame;
-use super::keys::Key;
+use super::keys::{Key, Named};
 use super::line::LineEdit;
+use super::order::Order;
 use super::theme::Role;
-use super::worker::Order;
 
 mod accuracy;
+mod form;
 mod help;
 mod library;
 mod palette;
 
+pub use form::Form;
 pub use help::Help;
 pub use library::Library;
 pub use palette::Palette;
@@ -37,6 +39,10 @@ pub enum Overlay {
     Accuracy,
     /// Every command by its name.
     Palette(Palette),
+    /// The parameters.
+    Form(Form),
+    /// The note of a snapshot.
+    Note(LineEdit),
 }
 
 /// What an overlay makes of a key.
@@ -52,6 +58,8 @@ pub enum Answer {
     Meanwhile(Command),
     /// It closes, and the worker is told.
     Order(Order),
+    /// It stays, and the worker is told.
+    Ask(Order),
     /// It closes, and this scenario is loaded.
     Load(String),
     /// It stays, and the user is told.
@@ -67,6 +75,8 @@ impl Overlay {
             Self::Library(library) => library.press(key),
             Self::Accuracy => command::of_key(key).map_or(Answer::Stay, accuracy::answer),
             Self::Palette(palette) => palette.press(key, frame),
+            Self::Form(form) => form.press(key, frame),
+            Self::Note(line) => note(line, key),
         }
     }
 
@@ -78,8 +88,28 @@ impl Overlay {
             Self::Library(library) => library.draw(app, area, buffer),
             Self::Accuracy => accuracy::draw(app, area, buffer),
             Self::Palette(palette) => palette.draw(app, area, buffer),
+            Self::Form(form) => form.draw(app, area, buffer),
+            Self::Note(line) => {
+                let title = "snapshot with a note (Enter writes, Esc closes)";
+                let inside = docked(app, title, (100, 3), area, buffer);
+                typing(" ", line, Style::new()).render(inside, buffer);
+            }
         }
     }
+}
+
+/// A note is typed; Enter takes the snapshot.
+fn note(line: &mut LineEdit, key: Key) -> Answer {
+    match key {
+        Key::Named(Named::Esc) => return Answer::Close,
+        Key::Named(Named::Enter) => {
+            let text = line.text().trim().to_owned();
+            let note = Some(text).filter(|text| !text.is_empty());
+            return Answer::Order(Order::Snapshot(note));
+        }
+        key => line.press(key),
+    };
+    Answer::Stay
 }
 
 /// A cleared box in the middle of `area`, with a title; returns its inside.

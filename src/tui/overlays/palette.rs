@@ -10,8 +10,8 @@ use crate::scenario::parameters::Kind;
 use crate::scenario::preset;
 use crate::tui::command::BINDINGS;
 use crate::tui::keys::Named;
+use crate::tui::order::Order;
 use crate::tui::theme::Role;
-use crate::tui::worker::Order;
 
 /// The line being typed, and which of its completions is selected.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -273,3 +273,69 @@ fn a_note_goes_into_both_files() {
     assert!(state == again);
     assert_eq!(shot(",Sabc<Esc>"), shot(","));
 }
+
+/// A screen's text without its foot, which tells of the last key.
+fn body(text: &str) -> Vec<&str> {
+    let lines: Vec<&str> = text.lines().collect();
+    lines[..lines.len() - 1].to_vec()
+}
+
+#[test]
+fn time_goes_back_and_forth() {
+    let status = |keys: &str| shot(keys).lines().next().unwrap_or_default().to_owned();
+    assert!(status(",,,,[[").contains("cycle 2.00/199.24 (present 4.00)"));
+    assert!(status(",,,,[[").trim_end().ends_with("◂ past"));
+    // There and back again is where it was, down to the last dot of the fretting loop.
+    for (there, plain) in [(",,,,[[]]", ",,,,"), (",...[[[]]]", ",...")] {
+        assert_eq!(body(&shot(there)), body(&shot(plain)), "{there}");
+    }
+    // A state of the past looks as it did, but for the words that say so.
+    let (past, then) = (shot(",,,,[["), shot(",,"));
+    assert_eq!(body(&past)[1..], body(&then)[1..]);
+    // Single steps are kept as well.
+    assert!(status(",..[").contains("cycle 1.01/"));
+    assert_eq!(foot(&shot(",[[[")), "the run begins here");
+    assert_eq!(foot(&shot(",]")), "this is the present");
+    assert_snapshot!("past-80x24", shot(",,,,[["));
+}
+
+#[test]
+fn a_branch_from_the_past_is_the_run_without_what_came_after() {
+    // Run on from there: the same as if there had been no way back.
+    assert_eq!(body(&shot(",,,,[[,")), body(&shot(",,,")));
+    let text = shot(",,,,[[.");
+    assert!(foot(&text).starts_with("a branch from cycle 2.00: what came after it is dropped"));
+    // Later changes are dropped, earlier ones stay, and all of it runs again bit for bit.
+    for (keys, changes) in [
+        (",m,w,[,s", 1),
+        (",,ejjjj+<Esc>,,[[[ejjjj-<Esc>.,s", 1),
+        (",m,[[[[.,m.,s", 1),
+        (",..m..[[,s", 0),
+        (",m.[s", 0),
+    ] {
+        let (state, again) = replayed(keys);
+        assert_eq!(
+            state.matches("# at cycle ").count(),
+            changes,
+            "{keys}\n{state}"
+        );
+        assert!(state == again, "{keys}: the states differ");
+    }
+}
+
+#[test]
+fn bookmarks_survive_branches() {
+    assert_eq!(
+        foot(&shot(",b")),
+        "cycle 1.00 is marked; B goes to marked states, there are 1"
+    );
+    assert_eq!(foot(&shot(",B")), "no state is marked; b marks this one");
+    // On the way back, forth leads to the present.
+    assert_eq!(body(&shot(",,b,,B]]")), body(&shot(",,,,")));
+    assert_eq!(body(&shot(",,b,,B"))[1..], body(&shot(",,"))[1..]);
+    // Marked, left behind by a branch with another friction, and found again.
+    let branch = ",,,b[[ejjjj+<Esc>,,B";
+    assert_eq!(body(&shot(branch)), body(&shot(",,,")));
+    let (state, again) = replayed(&format!("{branch},s"));
+    assert!(!state.contains("# at cycle ") && state == again);
+}

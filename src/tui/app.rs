@@ -168,6 +168,10 @@ impl App {
             Command::PreviousPanel | Command::Up => self.focus = self.focus.shifted(-1),
             Command::Zoom | Command::Accept => self.zoomed = !self.zoomed,
             Command::Snapshot => self.order(Order::Snapshot(None)),
+            Command::TimeBack => self.order(Order::Back),
+            Command::TimeForth => self.order(Order::Forth),
+            Command::Mark => self.order(Order::Mark),
+            Command::Visit => self.order(Order::Visit),
             Command::SnapshotNote => self.overlay = Overlay::Note(LineEdit::default()),
             Command::Edit => self.overlay = Overlay::Form(Form::default()),
             Command::Presets => {

@@ -43,6 +43,14 @@ pub enum Command {
     SnapshotNote,
     /// Edit the parameters.
     Edit,
+    /// Back in time.
+    TimeBack,
+    /// Forth in time.
+    TimeForth,
+    /// Mark the state on the screen.
+    Mark,
+    /// Go to a marked state.
+    Visit,
     /// Choose another preset.
     Presets,
     /// Start again.
@@ -219,6 +227,34 @@ pub static BINDINGS: &[Binding] = &[
         "edit",
         "edit any parameter while it runs; changes are recorded",
         true,
+    ),
+    bind(
+        C::TimeBack,
+        &[Char('[')],
+        "back in time",
+        "back in time; running or editing branches from there",
+        false,
+    ),
+    bind(
+        C::TimeForth,
+        &[Char(']')],
+        "forth in time",
+        "forth in time, up to the present",
+        false,
+    ),
+    bind(
+        C::Mark,
+        &[Char('b')],
+        "bookmark",
+        "mark the state on the screen",
+        false,
+    ),
+    bind(
+        C::Visit,
+        &[Char('B')],
+        "go to bookmark",
+        "go to the marked state before this one",
+        false,
     ),
     bind(
         C::Presets,

@@ -57,6 +57,8 @@ pub struct Frame {
     pub planned_cycles: Option<f64>,
     /// Steps a cycle.
     pub steps_per_cycle: u32,
+    /// The cycle of the present, while the screen shows a state of the past.
+    pub present: Option<f64>,
     /// The keys that can be changed, with their values.
     pub settings: Arc<Vec<Setting>>,
     /// μ, for the scale of τ.

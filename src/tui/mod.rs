@@ -33,6 +33,7 @@ pub mod order;
 pub mod overlays;
 pub mod pace;
 pub mod panels;
+mod past;
 pub mod plot;
 mod readout;
 mod rival;

@@ -29,6 +29,14 @@ pub enum Order {
         /// The value.
         value: String,
     },
+    /// One kept state back in time.
+    Back,
+    /// One kept state forth in time.
+    Forth,
+    /// Mark the state on the screen.
+    Mark,
+    /// Go to the marked state before this one.
+    Visit,
     /// Start again as loaded.
     Restart,
     /// Another scenario, from the start.

@@ -147,7 +147,12 @@ fn status_parts(frame: &Frame, ascii: bool) -> Vec<(u8, String)> {
         (None, Pace::Cycles(pace)) => format!("{} cycles/s", short(pace)),
         (None, Pace::Unlimited) => "unlimited".into(),
     };
+    if let Some(present) = frame.present {
+        cycle.push_str(&format!(" (present {present:.2})"));
+    }
     let activity = match (&frame.activity, ascii) {
+        (Activity::Paused, false) if frame.present.is_some() => "◂ past",
+        (Activity::Paused, true) if frame.present.is_some() => "< past",
         (Activity::Running, false) => "▶ running",
         (Activity::Running, true) => "> running",
         (Activity::Paused, false) => "⏸ paused",

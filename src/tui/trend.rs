@@ -33,19 +33,50 @@ impl Cycle {
     }
 }
 
-/// The past of a run.
+/// What a [`Trend`] knows of the unfinished cycle and of the last loop.
 #[derive(Debug, Clone, Default)]
-pub struct Trend {
-    cycles: Vec<Cycle>,
+pub struct Tip {
     open: Option<Cycle>,
-    /// How many cycles an entry stands for.
-    stride: f64,
     shifts: VecDeque<f64>,
     forces: VecDeque<f64>,
     loop_cycles: VecDeque<f64>,
 }
 
+impl Tip {
+    /// Memory that it holds, in bytes.
+    pub fn bytes(&self) -> usize {
+        3 * 8 * self.loop_cycles.len()
+    }
+}
+
+/// The past of a run.
+#[derive(Debug, Clone, Default)]
+pub struct Trend {
+    cycles: Vec<Cycle>,
+    /// How many cycles an entry stands for.
+    stride: f64,
+    tip: Tip,
+}
+
 impl Trend {
+    /// What is lost when the trend is cut back to an earlier cycle.
+    pub fn tip(&self) -> Tip {
+        self.tip.clone()
+    }
+
+    /// The trend as it was at `cycle`, where it had this tip.
+    pub fn until(&self, cycle: f64, tip: &Tip) -> Self {
+        let before = self.cycles.iter();
+        Self {
+            cycles: before
+                .take_while(|entry| entry.cycle <= cycle + 1e-9)
+                .copied()
+                .collect(),
+            stride: self.stride,
+            tip: tip.clone(),
+        }
+    }
+
     /// Takes in the moment after a step.
     pub fn record(&mut self, moment: &Moment) {
         self.record_loop(moment);
@@ -55,13 +86,13 @@ impl Trend {
             stick_radius: moment.stick_radius.unwrap_or(f64::NAN),
             wear_volume: moment.wear_volume,
         };
-        let merged = self.open.map_or(now, |open| open.merged(now));
+        let merged = self.tip.open.map_or(now, |open| open.merged(now));
         let start = self.cycles.last().map_or(0.0, |cycle| cycle.cycle);
         if merged.cycle < start + self.stride.max(1.0) - 1e-9 {
-            self.open = Some(merged);
+            self.tip.open = Some(merged);
             return;
         }
-        self.open = None;
+        self.tip.open = None;
         self.cycles.push(merged);
         if self.cycles.len() >= CAPACITY {
             self.cycles = self
@@ -74,30 +105,30 @@ impl Trend {
     }
 
     fn record_loop(&mut self, moment: &Moment) {
-        self.shifts.push_back(moment.shift);
-        self.forces.push_back(moment.tangential_force);
-        self.loop_cycles.push_back(moment.cycle);
+        self.tip.shifts.push_back(moment.shift);
+        self.tip.forces.push_back(moment.tangential_force);
+        self.tip.loop_cycles.push_back(moment.cycle);
         // One cycle and the point that closes it.
-        while self.loop_cycles.len() > 1
-            && (self.loop_cycles[0] < moment.cycle - 1.0 - 1e-9
-                || self.loop_cycles.len() > LOOP_CAPACITY)
+        while self.tip.loop_cycles.len() > 1
+            && (self.tip.loop_cycles[0] < moment.cycle - 1.0 - 1e-9
+                || self.tip.loop_cycles.len() > LOOP_CAPACITY)
         {
-            self.shifts.pop_front();
-            self.forces.pop_front();
-            self.loop_cycles.pop_front();
+            self.tip.shifts.pop_front();
+            self.tip.forces.pop_front();
+            self.tip.loop_cycles.pop_front();
         }
     }
 
     /// The cycles so far, the unfinished one included, oldest first.
     pub fn cycles(&self) -> impl Iterator<Item = &Cycle> {
-        self.cycles.iter().chain(&self.open)
+        self.cycles.iter().chain(&self.tip.open)
     }
 
     /// u_x⁽⁰⁾ (m) and F_x (N) of the last cycle.
     pub fn fretting_loop(&self) -> (Vec<f64>, Vec<f64>) {
         (
-            self.shifts.iter().copied().collect(),
-            self.forces.iter().copied().collect(),
+            self.tip.shifts.iter().copied().collect(),
+            self.tip.forces.iter().copied().collect(),
         )
     }
 }

@@ -64,6 +64,8 @@ impl Form {
                     watch @ (Command::RunPause
                     | Command::Step
                     | Command::Cycle
+                    | Command::TimeBack
+                    | Command::TimeForth
                     | Command::Snapshot
                     | Command::Theory),
                 ),

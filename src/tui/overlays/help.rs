@@ -48,6 +48,15 @@ const GROUPS: &[(&[Command], &str)] = &[
         "state and scenario to a new directory; with a note",
     ),
     (
+        &[
+            Command::TimeBack,
+            Command::TimeForth,
+            Command::Mark,
+            Command::Visit,
+        ],
+        "back and forth in time; mark a state, go to a mark",
+    ),
+    (
         &[Command::Presets, Command::Restart],
         "choose another scenario; start this one again",
     ),
@@ -56,13 +65,12 @@ const GROUPS: &[(&[Command], &str)] = &[
         "closed forms; how far to trust; a second method (m M)",
     ),
     (
-        &[Command::Left, Command::Right],
-        "move the cursor, or the focus",
+        &[Command::Cursor, Command::Left, Command::Right],
+        "a cursor that reads all curves at r; it moves",
     ),
-    (&[Command::Up, Command::Down], "up, down in a list"),
     (
-        &[Command::Accept, Command::Back],
-        "take what is selected; close what is open",
+        &[Command::Up, Command::Down, Command::Accept, Command::Back],
+        "up, down; take what is selected; close what is open",
     ),
     (
         &[Command::Help, Command::Search],
@@ -158,7 +166,7 @@ impl Help {
             .into_iter()
             .map(|(keys, help)| {
                 Line::from(vec![
-                    Span::styled(format!(" {keys:>16}  "), app.theme.style(Role::Title)),
+                    Span::styled(format!(" {keys:>21}  "), app.theme.style(Role::Title)),
                     Span::raw(help),
                 ])
             })
@@ -167,12 +175,12 @@ impl Help {
         let mut title = "keys (Esc closes)";
         if let Some(line) = &self.search {
             if lines.is_empty() {
-                let text = format!("{:>19}no command has these words", "");
+                let text = format!("{:>24}no command has these words", "");
                 lines.push(Line::styled(text, app.theme.style(Role::Quiet)));
             }
             lines.insert(
                 0,
-                typing(&format!("{:>19}", "/"), line, app.theme.style(Role::Title)),
+                typing(&format!("{:>24}", "/"), line, app.theme.style(Role::Title)),
             );
             // The box keeps its height while the list gets shorter.
             height = BINDINGS.len() as u16 + 3;
@@ -180,7 +188,7 @@ impl Help {
         } else if height > area.height {
             title = "keys (up and down scroll, Esc closes)";
         }
-        let inside = popup(app, title, (76, height), area, buffer);
+        let inside = popup(app, title, (80, height), area, buffer);
         let first = self
             .first
             .min((lines.len() as u16).saturating_sub(inside.height));
@@ -198,8 +206,8 @@ mod tests {
     fn nothing_is_cut() {
         for rows in [20, 100] {
             for (keys, help) in entries(rows) {
-                assert!(keys.chars().count() <= 16, "{keys}");
-                assert!(help.chars().count() <= 55, "{help}");
+                assert!(keys.chars().count() <= 21, "{keys}");
+                assert!(help.chars().count() <= 54, "{help}");
             }
         }
         assert!(entries(20).len() <= 20);

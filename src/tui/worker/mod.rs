@@ -13,6 +13,7 @@ use super::companion;
 use super::frame::{Activity, Frame, Slot};
 use super::order::Order;
 use super::pace::{Meter, Pace};
+use super::past::Past;
 use super::rival::RivalRun;
 use super::settings::Setting;
 use super::snapshot;
@@ -23,6 +24,10 @@ use crate::scenario::Scenario;
 use crate::scenario::parameters::{Kind, find};
 use crate::scenario::session::Session;
 use crate::simulation::Curves;
+
+mod travel;
+
+use travel::ends_cycle;
 
 /// Laws that keys step through.
 const LAWS: [&str; 2] = ["archard", "power"];
@@ -37,6 +42,10 @@ pub struct Worker {
     theory: Arc<Theory>,
     settings: Arc<Vec<Setting>>,
     trend: Trend,
+    /// The trend up to the present, while the screen is in the past.
+    whole_trend: Option<Trend>,
+    past: Past,
+    kept_at: Instant,
     curves: Curves,
     activity: Activity,
     rung: i32,
@@ -69,6 +78,9 @@ impl Worker {
             session,
             rival: None,
             trend,
+            whole_trend: None,
+            past: Past::default(),
+            kept_at: Instant::now(),
             curves: Curves::all(),
             activity,
             rung: 3,
@@ -129,6 +141,7 @@ impl Worker {
             }
             let before = self.session.simulation().cycle();
             self.step();
+            self.keep_cycle(before);
             self.end_where_planned(before);
         }
         self.meter.measure(
@@ -142,6 +155,10 @@ impl Worker {
     }
 
     fn step(&mut self) {
+        self.branch();
+        if self.session.simulation().state().steps == 0 {
+            self.keep();
+        }
         match self.session.step() {
             Ok(()) => {
                 self.trend.record(&self.session.simulation().moment());
@@ -195,9 +212,11 @@ impl Worker {
                 }
             },
             Order::Step => self.by_hand(|_, _| true),
-            Order::Cycle => {
-                self.by_hand(|before, now| (now + 1e-9).floor() > (before + 1e-9).floor())
-            }
+            Order::Cycle => self.by_hand(ends_cycle),
+            Order::Back => self.travel(Past::back, "the run begins here"),
+            Order::Forth => self.travel(Past::forth, "this is the present"),
+            Order::Mark => self.mark(),
+            Order::Visit => self.visit(),
             Order::Compare => match self.rival.take() {
                 Some(_) => {}
                 None => self.rival(0),
@@ -240,14 +259,19 @@ impl Worker {
         let before = self.session.simulation().cycle();
         loop {
             self.step();
+            if ends_cycle(before, self.session.simulation().cycle()) {
+                self.keep();
+            }
             if self.activity != Activity::Paused || done(before, self.session.simulation().cycle())
             {
-                return;
+                break;
             }
         }
+        self.keep();
     }
 
     fn change(&mut self, key: &str, value: &str) {
+        self.keep();
         let quoted = format!("\"{value}\"");
         let is_word = find(key).is_some_and(|known| matches!(known.kind, Kind::Choice(_)));
         match self
@@ -255,6 +279,7 @@ impl Worker {
             .change(key, if is_word { &quoted } else { value })
         {
             Ok(()) => {
+                self.branch();
                 self.learn();
                 if matches!(self.activity, Activity::Stopped(_)) {
                     self.activity = Activity::Paused;
@@ -277,6 +302,8 @@ impl Worker {
             Ok(session) => {
                 self.session = session;
                 self.rival = None;
+                self.past = Past::default();
+                self.whole_trend = None;
                 self.learn();
                 self.trend = Trend::default();
                 self.trend.record(&self.session.simulation().moment());
@@ -328,6 +355,7 @@ impl Worker {
             origin: scenario.origin().to_owned(),
             planned_cycles: self.session.loaded().run().cycles,
             steps_per_cycle: simulation.setup().steps_per_cycle,
+            present: self.past.present(),
             settings: Arc::clone(&self.settings),
             friction: simulation.setup().material.friction(),
             force_residual,

@@ -15,6 +15,7 @@ use super::order::Order;
 use super::overlays::{Answer, Form, Help, Library, Overlay, Palette};
 use super::panels::Panel;
 use super::plot::{Scale, sticky_bounds};
+use super::screen;
 use super::theme::Theme;
 use super::theory::Theory;
 use crate::scenario::Scenario;
@@ -58,6 +59,8 @@ pub struct App {
     log_panels: Vec<Panel>,
     bounds: HashMap<(Panel, Scale), [f64; 2]>,
     shown: Curves,
+    /// How many panels the screen has room for.
+    room: usize,
     orders: Sender<Order>,
 }
 
@@ -78,13 +81,14 @@ impl App {
             log_panels: Vec::new(),
             bounds: HashMap::new(),
             shown: Curves::all(),
+            room: screen::room(80, 24),
             orders,
         }
     }
 
     /// Takes in a new frame; the scales of the plots follow its data.
     pub fn take_frame(&mut self, frame: Arc<Frame>) {
-        for panel in Panel::PLOTS {
+        for panel in Panel::ALL {
             if let Some([low, high]) = panel.extent(&frame, self.scale(panel)) {
                 let key = (panel, self.scale(panel));
                 let bounds = sticky_bounds(self.bounds.get(&key).copied(), low, high);
@@ -101,7 +105,7 @@ impl App {
 
     /// Whether a panel's ordinate is logarithmic.
     pub fn scale(&self, panel: Panel) -> Scale {
-        if self.log_panels.contains(&panel) {
+        if panel == Panel::Residual || self.log_panels.contains(&panel) {
             Scale::Log
         } else {
             Scale::Linear
@@ -113,8 +117,35 @@ impl App {
         if self.zoomed {
             std::slice::from_ref(&self.focus)
         } else {
-            &Panel::ALL
+            self.page(self.room)
         }
+    }
+
+    /// The panels beside the focused one where `room` of them fit.
+    pub fn page(&self, room: usize) -> &[Panel] {
+        let at = self.focus.index() / room.max(1) * room;
+        &Panel::ALL[at..(at + room).min(Panel::ALL.len())]
+    }
+
+    /// Which page that is, counted from 1, and how many there are.
+    pub fn pages(&self, room: usize) -> (usize, usize) {
+        let room = room.max(1);
+        (
+            self.focus.index() / room + 1,
+            Panel::ALL.len().div_ceil(room),
+        )
+    }
+
+    /// Takes note of the terminal's size: what is on no page is not computed.
+    pub fn resize(&mut self, columns: u16, rows: u16) {
+        self.room = screen::room(columns, rows);
+        self.tell_what_shows();
+    }
+
+    /// The first panel of the next page gets the focus.
+    fn turn_page(&mut self) {
+        let (page, pages) = self.pages(self.room);
+        self.focus = Panel::ALL[page % pages * self.room];
     }
 
     /// Answers a key. `Ctrl-C` leaves from anywhere, whatever is being typed.
@@ -164,6 +195,7 @@ impl App {
             Command::PreviousLaw => self.order(Order::Law(-1)),
             Command::Faster => self.order(Order::Pace(1)),
             Command::Slower => self.order(Order::Pace(-1)),
+            Command::NextPage => self.turn_page(),
             Command::NextPanel | Command::Down => self.focus = self.focus.shifted(1),
             Command::PreviousPanel | Command::Up => self.focus = self.focus.shifted(-1),
             Command::Zoom | Command::Accept => self.zoomed = !self.zoomed,

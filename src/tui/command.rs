@@ -35,6 +35,8 @@ pub enum Command {
     NextPanel,
     /// Focus the panel before.
     PreviousPanel,
+    /// The next page of panels.
+    NextPage,
     /// The focused panel alone, or all of them.
     Zoom,
     /// Write the present state to files.
@@ -142,7 +144,7 @@ pub static BINDINGS: &[Binding] = &[
         &[Char('+'), Char('=')],
         "faster",
         "more cycles a second, up to as fast as it can",
-        true,
+        false,
     ),
     bind(
         C::Slower,
@@ -178,6 +180,13 @@ pub static BINDINGS: &[Binding] = &[
         "law back",
         "previous wear law",
         false,
+    ),
+    bind(
+        C::NextPage,
+        &[Char('v')],
+        "view",
+        "more panels: cross-section, wear, rates, cost",
+        true,
     ),
     bind(
         C::NextPanel,

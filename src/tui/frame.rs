@@ -6,6 +6,7 @@ use super::pace::Pace;
 use super::settings::Setting;
 use super::theory::Theory;
 use super::trend::Trend;
+use crate::contact::indenter::Indenter;
 use crate::simulation::Observation;
 
 /// What the worker is doing.
@@ -61,6 +62,8 @@ pub struct Frame {
     pub present: Option<f64>,
     /// The keys that can be changed, with their values.
     pub settings: Arc<Vec<Setting>>,
+    /// The unworn shape, which goes on beyond the domain.
+    pub indenter: Indenter,
     /// μ, for the scale of τ.
     pub friction: f64,
     /// 1 − ∫p dA/F_z, where p is computed and something carries load.

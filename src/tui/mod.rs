@@ -175,6 +175,8 @@ fn attend(
     inbox: &Receiver<Event>,
     screen: &mut terminal::Screen,
 ) -> Result<()> {
+    let (columns, rows) = crossterm::terminal::size()?;
+    app.resize(columns, rows);
     screen.draw(app)?;
     while let Ok(first) = inbox.recv() {
         #[cfg(debug_assertions)]
@@ -190,7 +192,11 @@ fn attend(
                 }
                 Event::Notice(text) => app.notice = Some(text),
                 Event::Companion(answer) => app.companion = Some(answer),
-                Event::Resize => screen.start_afresh()?,
+                Event::Resize => {
+                    screen.start_afresh()?;
+                    let (columns, rows) = crossterm::terminal::size()?;
+                    app.resize(columns, rows);
+                }
                 Event::HangUp | Event::WorkerGone => return Ok(()),
             }
         }

@@ -11,7 +11,8 @@
 //! Space run/pause  . step  , cycle  m method ...                       ? help
 //! ```
 //!
-//! Two panels side by side on a narrow screen, three on a wide one.
+//! Two panels side by side on a narrow screen, three or four on a wide one; the others are on further
+//! pages.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Rect};
@@ -23,13 +24,19 @@ use super::command::BINDINGS;
 use super::frame::{Activity, Frame};
 use super::overlays::Overlay;
 use super::pace::Pace;
-use super::panels::{Panel, compare};
+use super::panels::compare;
 use super::readout;
 use super::theme::Role;
 use super::trust;
 
 /// From this width on, three panels stand side by side.
 const WIDE: u16 = 110;
+
+/// From this width on, four.
+const VERY_WIDE: u16 = 160;
+
+/// From this height on, there are three rows of them on a wide screen.
+const TALL: u16 = 33;
 
 /// Below this size there is a message instead of panels.
 const SMALLEST: (u16, u16) = (40, 10);
@@ -63,6 +70,21 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     app.overlay.draw(app, middle, buffer);
 }
 
+/// How many panels fit on a screen of this size.
+pub fn room(columns: u16, rows: u16) -> usize {
+    let (across, down) = grid(Rect::new(0, 0, columns, rows.saturating_sub(2)));
+    across * down
+}
+
+/// Columns and rows of panels in an area.
+fn grid(area: Rect) -> (usize, usize) {
+    match area.width {
+        VERY_WIDE.. => (4, if area.height >= TALL { 3 } else { 2 }),
+        WIDE.. => (3, if area.height >= TALL { 3 } else { 2 }),
+        _ => (2, 3),
+    }
+}
+
 fn panels(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     if let Some(rival) = &frame.rival {
         compare::draw(frame, rival, app, area, buffer);
@@ -72,10 +94,12 @@ fn panels(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
         app.focus.draw(frame, app, area, buffer);
         return;
     }
-    let columns: usize = if area.width >= WIDE { 3 } else { 2 };
-    let rows = Panel::ALL.len() / columns;
+    let (columns, rows) = grid(area);
+    let shown = app.page(columns * rows);
+    // The last page may be shorter; its panels are then higher.
+    let rows = shown.len().div_ceil(columns);
     let bands = Layout::vertical(vec![Constraint::Fill(1); rows]).split(area);
-    for (band, row) in bands.iter().zip(Panel::ALL.chunks(columns)) {
+    for (band, row) in bands.iter().zip(shown.chunks(columns)) {
         let cells = Layout::horizontal(vec![Constraint::Fill(1); columns])
             .spacing(1)
             .split(*band);

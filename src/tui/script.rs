@@ -52,6 +52,7 @@ pub fn play(
     orders: &Sender<Order>,
     events: &Receiver<Event>,
 ) -> Result<()> {
+    app.resize(size.columns, size.rows);
     catch_up(app, orders, events)?;
     for key in keys {
         app.press(*key);

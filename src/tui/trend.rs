@@ -21,6 +21,14 @@ pub struct Cycle {
     pub stick_radius: f64,
     /// Worn volume at the end, m³.
     pub wear_volume: f64,
+    /// What the work of friction says of it, k E_d, m³; NaN where the law does not follow energy.
+    pub expected_volume: f64,
+    /// Volume worn in a cycle, m³, on average over the entry.
+    pub wear_rate: f64,
+    /// Largest |1 − ΔV/(k ΔE_d)| of a period of the motion; NaN before there is one.
+    pub residual: f64,
+    /// What a step cost, s; NaN where it was not measured.
+    pub step_cost: f64,
 }
 
 impl Cycle {
@@ -28,6 +36,8 @@ impl Cycle {
         Self {
             contact_radius: self.contact_radius.max(later.contact_radius),
             stick_radius: self.stick_radius.min(later.stick_radius),
+            residual: self.residual.max(later.residual),
+            step_cost: self.step_cost.max(later.step_cost),
             ..later
         }
     }
@@ -56,9 +66,15 @@ pub struct Trend {
     /// How many cycles an entry stands for.
     stride: f64,
     tip: Tip,
+    step_cost: Option<f64>,
 }
 
 impl Trend {
+    /// What a step costs from now on, s.
+    pub fn note_cost(&mut self, step_cost: Option<f64>) {
+        self.step_cost = step_cost;
+    }
+
     /// What is lost when the trend is cut back to an earlier cycle.
     pub fn tip(&self) -> Tip {
         self.tip.clone()
@@ -74,6 +90,7 @@ impl Trend {
                 .collect(),
             stride: self.stride,
             tip: tip.clone(),
+            step_cost: self.step_cost,
         }
     }
 
@@ -85,9 +102,23 @@ impl Trend {
             contact_radius: moment.contact_radius,
             stick_radius: moment.stick_radius.unwrap_or(f64::NAN),
             wear_volume: moment.wear_volume,
+            expected_volume: moment
+                .energy_residual
+                .map_or(f64::NAN, |residual| moment.wear_volume / (1.0 - residual)),
+            wear_rate: 0.0,
+            residual: moment.period_residual.map_or(f64::NAN, f64::abs),
+            step_cost: self.step_cost.unwrap_or(f64::NAN),
         };
-        let merged = self.tip.open.map_or(now, |open| open.merged(now));
-        let start = self.cycles.last().map_or(0.0, |cycle| cycle.cycle);
+        let mut merged = self.tip.open.map_or(now, |open| open.merged(now));
+        let (start, volume) = self
+            .cycles
+            .last()
+            .map_or((0.0, 0.0), |entry| (entry.cycle, entry.wear_volume));
+        merged.wear_rate = if merged.cycle > start {
+            (merged.wear_volume - volume) / (merged.cycle - start)
+        } else {
+            f64::NAN
+        };
         if merged.cycle < start + self.stride.max(1.0) - 1e-9 {
             self.tip.open = Some(merged);
             return;

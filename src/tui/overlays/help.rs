@@ -36,8 +36,12 @@ const GROUPS: &[(&[Command], &str)] = &[
         "next, previous wear law; the state stays",
     ),
     (
-        &[Command::NextPanel, Command::PreviousPanel],
-        "focus the next, previous panel",
+        &[
+            Command::NextPage,
+            Command::NextPanel,
+            Command::PreviousPanel,
+        ],
+        "more panels; focus the next, previous panel",
     ),
     (
         &[Command::Zoom, Command::LogScale],

@@ -149,6 +149,7 @@ impl Worker {
             self.session.simulation().state().steps,
             start.elapsed(),
         );
+        self.trend.note_cost(self.meter.step_cost);
         if self.published.elapsed() >= self.interval || self.activity != Activity::Running {
             self.publish();
         }
@@ -357,6 +358,7 @@ impl Worker {
             steps_per_cycle: simulation.setup().steps_per_cycle,
             present: self.past.present(),
             settings: Arc::clone(&self.settings),
+            indenter: simulation.setup().indenter,
             friction: simulation.setup().material.friction(),
             force_residual,
             theory: Arc::clone(&self.theory),

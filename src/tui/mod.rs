@@ -46,6 +46,7 @@ pub mod theme;
 pub mod theory;
 pub mod trend;
 pub mod trust;
+pub mod wire;
 pub mod worker;
 
 use app::{App, Leave};

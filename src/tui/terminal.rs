@@ -1,25 +1,26 @@
 //! The terminal's life: taken over on start, given back on every way out.
 
-use std::io::{self, BufWriter, Stdout, Write, stdout};
+use std::io::{self, BufWriter, Stdout, stdout};
 use std::mem::ManuallyDrop;
 use std::sync::{Mutex, PoisonError};
 
 use crossterm::cursor::Show;
+use crossterm::execute;
+use crossterm::style::{Attribute, SetAttribute};
 use crossterm::terminal::{
-    BeginSynchronizedUpdate, Clear, ClearType, EndSynchronizedUpdate, EnterAlternateScreen,
-    LeaveAlternateScreen, disable_raw_mode, enable_raw_mode,
+    Clear, ClearType, EndSynchronizedUpdate, EnterAlternateScreen, LeaveAlternateScreen,
+    disable_raw_mode, enable_raw_mode,
 };
-use crossterm::{execute, queue};
 use ratatui::Terminal;
-use ratatui::backend::CrosstermBackend;
 
 use super::app::App;
 use super::screen;
+use super::wire::Wire;
 
 /// Output is collected so that a frame goes out in one write.
 const OUTPUT_BUFFER: usize = 64 * 1024;
 
-type Backend = CrosstermBackend<BufWriter<Stdout>>;
+type Backend = Wire<BufWriter<Stdout>>;
 
 /// The terminal in raw mode on its alternate screen, until dropped.
 pub struct Screen {
@@ -35,9 +36,9 @@ impl Screen {
         let restore = RestoreOnFailure;
         // Not the clear of ratatui: it asks where the cursor is, and not every terminal answers.
         execute!(stdout(), EnterAlternateScreen, Clear(ClearType::All))?;
-        let backend = CrosstermBackend::new(BufWriter::with_capacity(OUTPUT_BUFFER, stdout()));
-        let mut terminal = Terminal::new(backend)?;
-        terminal.hide_cursor()?;
+        let out = BufWriter::with_capacity(OUTPUT_BUFFER, stdout());
+        let backend = Wire::new(out, || Ok(crossterm::terminal::size()?.into()));
+        let terminal = Terminal::new(backend)?;
         std::mem::forget(restore);
         Ok(Self {
             terminal: ManuallyDrop::new(terminal),
@@ -51,13 +52,11 @@ impl Screen {
         self.terminal.resize(size.into())
     }
 
-    /// Draws the app: only what changed goes over the wire, between synchronization marks.
+    /// Draws the app: only what changed goes over the wire.
     pub fn draw(&mut self, app: &App) -> io::Result<()> {
-        queue!(self.terminal.backend_mut(), BeginSynchronizedUpdate)?;
         self.terminal
             .draw(|frame| screen::draw(app, frame.area(), frame.buffer_mut()))?;
-        queue!(self.terminal.backend_mut(), EndSynchronizedUpdate)?;
-        Write::flush(self.terminal.backend_mut())
+        Ok(())
     }
 }
 
@@ -77,7 +76,13 @@ impl Drop for RestoreOnFailure {
 
 /// Gives the terminal back. A terminal that is gone cannot be restored; nothing is to be done then.
 fn restore() {
-    let _ = execute!(stdout(), EndSynchronizedUpdate, LeaveAlternateScreen, Show);
+    let _ = execute!(
+        stdout(),
+        EndSynchronizedUpdate,
+        SetAttribute(Attribute::Reset),
+        LeaveAlternateScreen,
+        Show
+    );
     let _ = disable_raw_mode();
 }
 

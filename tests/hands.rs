@@ -339,3 +339,89 @@ fn bookmarks_survive_branches() {
     let (state, again) = replayed(&format!("{branch},s"));
     assert!(!state.contains("# at cycle ") && state == again);
 }
+
+#[test]
+fn the_library_shows_presets_and_the_users_own_files() {
+    let desk = Desk::new();
+    let mine = desk
+        .done("presets cone")
+        .replace("title = \"", "title = \"Mine: ");
+    desk.write("mine.toml", mine.as_bytes());
+    desk.write("broken.toml", b"[indenter]\nshape = \"ball\"\n");
+    desk.write("notes.txt", b"no scenario");
+    std::fs::create_dir_all(desk.path("deeper/down")).expect("a directory");
+    desk.write("deeper/other.toml", mine.as_bytes());
+    assert_snapshot!("library-80x24", shot_of(&desk, "li2019-fig3", ",pj"));
+    let ends = |keys: &str| shot_of(&desk, "li2019-fig3", &format!(",p<End>{keys}"));
+    // From the end: the directory above, the one here, the two files.
+    let text = ends("");
+    for (name, is_there) in [
+        (" ../ ", true),
+        (" deeper/ ", true),
+        (" mine.toml ", true),
+        (" notes.txt", false),
+    ] {
+        assert_eq!(text.contains(name), is_there, "{name}\n{text}");
+    }
+    assert!(ends("kk").contains("Mine: "), "{}", ends("kk"));
+    let broken = ends("kkk");
+    assert!(
+        broken.contains("indenter.shape = \"ball\": must be one of"),
+        "{broken}"
+    );
+    // A file that is refused changes nothing; a good one starts.
+    let text = ends("kkk<Enter>");
+    assert!(
+        text.contains("cycle 1.00/199.24") && foot(&text).contains("must be one of"),
+        "{text}"
+    );
+    assert!(
+        ends("kk<Enter>").contains("cycle 0.00/"),
+        "{}",
+        ends("kk<Enter>")
+    );
+    let text = ends("k<Enter>");
+    assert!(
+        text.contains(" other.toml ") && text.contains(" down/ "),
+        "{text}"
+    );
+    let text = ends("k<Enter><Enter>,s");
+    assert!(
+        foot(&text).contains("snapshot in other-cycle-1/state.csv"),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_hint_stays_until_the_first_key() {
+    let start = shot("");
+    assert!(foot(&start).starts_with("New here?"), "{start}");
+    assert!(foot(&start).contains("? help") && foot(&start).ends_with("q quit"));
+    assert!(foot(&shot("<Esc>")).starts_with("Space run/pause"));
+}
+
+#[test]
+fn themes_change_colours_and_nothing_else() {
+    let text = shot(",T");
+    assert_eq!(foot(&text), "theme light");
+    assert_eq!(body(&text), body(&shot(",")));
+    let desk = Desk::new();
+    for theme in ["dark", "light"] {
+        let said = desk.say(&["--theme", theme, "--keys", ",", "--print", "80x24"]);
+        assert_eq!(said.out, shot(","), "{theme}");
+    }
+    // Without colour, dashes and letters tell things apart.
+    let mono = desk.say(&["--theme", "mono", "--keys", ",", "--print", "80x24"]);
+    assert_eq!(
+        mono.out,
+        desk.say(&["--color", "never", "--keys", ",", "--print", "80x24"])
+            .out
+    );
+    assert!(
+        mono.out.contains("ssss~~~~") || mono.out.contains("s~"),
+        "{}",
+        mono.out
+    );
+    let refused = desk.say(&["--theme", "pink", "--keys", ",", "--print", "80x24"]);
+    assert_eq!(refused.code, 2);
+}

@@ -21,7 +21,7 @@ use mdr_tui::tui::keys::{Key, Named, parse_script};
 use mdr_tui::tui::order::Order;
 use mdr_tui::tui::panels::Panel;
 use mdr_tui::tui::plot::Marker;
-use mdr_tui::tui::theme::Theme;
+use mdr_tui::tui::theme::{Look, Theme};
 use mdr_tui::tui::worker::Worker;
 use mdr_tui::tui::{Event, screen};
 use ratatui::buffer::Buffer;
@@ -340,7 +340,7 @@ impl Stage {
         let worker = Worker::new(session, slot, sender, Duration::from_secs(1), false);
         let worker = thread::spawn(move || worker.serve(&to_worker));
         Self {
-            app: App::new(Theme::new(true, marker), orders.clone()),
+            app: App::new(Theme::new(Look::Dark, marker), orders.clone()),
             orders,
             events,
             worker: Some(worker),

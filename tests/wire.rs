@@ -15,7 +15,7 @@ use mdr_tui::tui::keys::parse_script;
 use mdr_tui::tui::order::Order;
 use mdr_tui::tui::plot::Marker;
 use mdr_tui::tui::screen;
-use mdr_tui::tui::theme::Theme;
+use mdr_tui::tui::theme::{Look, Theme};
 use mdr_tui::tui::wire::Wire;
 use mdr_tui::tui::worker::Worker;
 use proptest::prelude::*;
@@ -52,7 +52,7 @@ impl Counted {
         let interval = Duration::from_secs(1);
         let worker = Worker::new(session, Arc::new(Slot::default()), events, interval, false);
         thread::spawn(move || worker.serve(&to_worker));
-        let mut app = App::new(Theme::new(true, Marker::Braille), orders.clone());
+        let mut app = App::new(Theme::new(Look::Dark, Marker::Braille), orders.clone());
         let Size { width, height } = size().expect("a size");
         app.resize(width, height);
         Self {

@@ -81,6 +81,10 @@ pub struct Explore {
     /// When to use colour; auto obeys NO_COLOR.
     #[arg(long, value_enum, default_value_t = ColorChoice::Auto)]
     pub color: ColorChoice,
+    /// Which colours: for a dark or a light background, or none; the default is what the terminal
+    /// says of its background, else dark.
+    #[arg(long, value_enum)]
+    pub theme: Option<ThemeChoice>,
     /// Press these keys instead of reading the keyboard, print the last screen and exit.
     #[arg(
         long,
@@ -222,6 +226,17 @@ pub enum ColorChoice {
     Always,
     /// Never.
     Never,
+}
+
+/// Which colours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ThemeChoice {
+    /// For a dark background.
+    Dark,
+    /// For a light background.
+    Light,
+    /// Bold, dim and reversed only.
+    Mono,
 }
 
 /// A cycle, and how it was spelled: the spelling names its file.

@@ -5,9 +5,10 @@ use std::process::ExitCode;
 use anyhow::Result;
 
 use super::Misuse;
-use super::args::{ColorChoice, Explore, MarkerChoice};
+use super::args::{ColorChoice, Explore, MarkerChoice, ThemeChoice};
 use crate::scenario::Scenario;
 use crate::tui::plot::Marker;
+use crate::tui::theme::Look;
 use crate::tui::{self, Options, keys};
 
 /// Opens the explorer.
@@ -29,6 +30,11 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
         fps: options.fps,
         marker,
         colored,
+        look: options.theme.map(|choice| match choice {
+            ThemeChoice::Dark => Look::Dark,
+            ThemeChoice::Light => Look::Light,
+            ThemeChoice::Mono => Look::Mono,
+        }),
         script: options.print.map(|size| (keys, size)),
     })?;
     Ok(ExitCode::SUCCESS)

@@ -46,6 +46,8 @@ pub struct App {
     pub overlay: Overlay,
     /// A line for the user, until the next key.
     pub notice: Option<String>,
+    /// Whether no key has been pressed yet.
+    pub is_new: bool,
     /// How things look.
     pub theme: Theme,
     /// Set when the program is to end.
@@ -73,6 +75,7 @@ impl App {
             zoomed: false,
             overlay: Overlay::None,
             notice: None,
+            is_new: true,
             theme,
             leave: None,
             with_theory: false,
@@ -151,6 +154,7 @@ impl App {
     /// Answers a key. `Ctrl-C` leaves from anywhere, whatever is being typed.
     pub fn press(&mut self, key: Key) {
         self.notice = None;
+        self.is_new = false;
         if key == Key::Ctrl('c') {
             self.leave = Some(Leave::Clean);
             return;
@@ -210,6 +214,10 @@ impl App {
                 self.overlay = Overlay::Library(Library::open(self.frame.as_deref()));
             }
             Command::Theory => self.with_theory = !self.with_theory,
+            Command::Theme => {
+                self.theme.look = self.theme.look.next();
+                self.notice = Some(format!("theme {}", self.theme.look.name()));
+            }
             Command::Cursor => {
                 self.cursor = match self.cursor {
                     None => Some(CURSOR_START),

@@ -61,6 +61,8 @@ pub enum Command {
     LogScale,
     /// Theory over the plots.
     Theory,
+    /// Other colours.
+    Theme,
     /// Two methods side by side.
     Compare,
     /// How far to trust the run.
@@ -269,7 +271,7 @@ pub static BINDINGS: &[Binding] = &[
         C::Presets,
         &[Char('p')],
         "presets",
-        "choose another preset",
+        "another preset, or a file of your own",
         true,
     ),
     bind(
@@ -284,6 +286,13 @@ pub static BINDINGS: &[Binding] = &[
         &[Char('t')],
         "theory",
         "closed forms over the plots, or not",
+        false,
+    ),
+    bind(
+        C::Theme,
+        &[Char('T')],
+        "theme",
+        "colours for a dark or a light background, or none",
         false,
     ),
     bind(

@@ -56,7 +56,7 @@ use keys::Key;
 use order::Order;
 use plot::Marker;
 pub use script::Size;
-use theme::Theme;
+use theme::{Look, Theme};
 use worker::Worker;
 
 /// What can happen while the screen waits.
@@ -89,6 +89,8 @@ pub struct Options {
     pub marker: Option<Marker>,
     /// Whether to use colour; by NO_COLOR if not said.
     pub colored: Option<bool>,
+    /// Which colours; by the terminal's own word on its background if not said.
+    pub look: Option<Look>,
     /// Keys to press instead of reading the keyboard, and the size of the screen to print.
     pub script: Option<(Vec<Key>, Size)>,
 }
@@ -279,14 +281,26 @@ fn refuse_what_is_no_terminal() -> Result<(), NoTerminal> {
 fn theme(options: &Options) -> Theme {
     let no_color = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
     let colored = options.colored.unwrap_or(!no_color);
-    let marker = options.marker.unwrap_or(if utf8_locale() {
-        Marker::Braille
-    } else {
-        Marker::Ascii
+    // The console of Linux has half blocks in its fonts, but no Braille.
+    let is_console = std::env::var("TERM").is_ok_and(|term| term == "linux");
+    let marker = options.marker.unwrap_or(match utf8_locale() {
+        true if is_console => Marker::HalfBlock,
+        true => Marker::Braille,
+        false => Marker::Ascii,
     });
-    // crossterm has its own opinion of NO_COLOR; ours has been formed with --color in view.
-    crossterm::style::force_color_output(colored);
-    Theme::new(colored, marker)
+    let look = match options.look {
+        _ if !colored => Look::Mono,
+        Some(look) => look,
+        None if light_background() => Look::Light,
+        None => Look::Dark,
+    };
+    Theme::new(look, marker)
+}
+
+/// Whether the terminal says that its background is light: the last number of COLORFGBG.
+fn light_background() -> bool {
+    let colors = std::env::var("COLORFGBG").unwrap_or_default();
+    matches!(colors.rsplit(';').next(), Some("7" | "15"))
 }
 
 /// Whether the locale says UTF-8: the first of LC_ALL, LC_CTYPE and LANG that is set decides, and a

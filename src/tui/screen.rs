@@ -41,6 +41,9 @@ const TALL: u16 = 33;
 /// Below this size there is a message instead of panels.
 const SMALLEST: (u16, u16) = (40, 10);
 
+/// What somebody sees who has not pressed a key yet.
+const HINT: &str = " New here? Space pauses, v shows more, : lists all commands.   ? help   q quit";
+
 /// Draws everything.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     if area.width < SMALLEST.0 || area.height < SMALLEST.1 {
@@ -225,6 +228,10 @@ fn footer(app: &App, area: Rect, buffer: &mut Buffer) {
             Role::Alarm
         };
         Line::styled(format!(" {text}"), app.theme.style(role)).render(area, buffer);
+        return;
+    }
+    if app.is_new && HINT.len() <= usize::from(area.width) {
+        Line::styled(HINT, app.theme.style(Role::Notice)).render(area, buffer);
         return;
     }
     let frame = app.frame.as_ref();

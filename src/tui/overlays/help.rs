@@ -44,8 +44,8 @@ const GROUPS: &[(&[Command], &str)] = &[
         "more panels; focus the next, previous panel",
     ),
     (
-        &[Command::Zoom, Command::LogScale],
-        "the focused panel alone; its logarithmic scale",
+        &[Command::Zoom, Command::LogScale, Command::Theme],
+        "the focused panel alone; its log scale; colours",
     ),
     (
         &[Command::Snapshot, Command::SnapshotNote],

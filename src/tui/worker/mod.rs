@@ -150,7 +150,9 @@ impl Worker {
     /// Keeps the session when that is due.
     fn look_after(&mut self) {
         let keeping = self.keeping.as_mut();
-        if let Some(word) = keeping.and_then(|keeping| keeping.look_after(self.past.line(&self.session))) {
+        if let Some(word) =
+            keeping.and_then(|keeping| keeping.look_after(self.past.line(&self.session)))
+        {
             self.notice(&word);
         }
     }

@@ -107,7 +107,7 @@ fn it_runs_pauses_switches_resizes_and_quits() {
     terminal.press(".");
     terminal.wait_for(" a+b │ archard");
     terminal.wait_for("q quit");
-    assert!(terminal.look(cycle) > paused_at);
+    terminal.wait_until("later cycle", |screen| cycle(screen) > paused_at);
 
     for (columns, rows) in [(120, 40), (60, 15), (80, 24)] {
         terminal.resize(columns, rows);

@@ -408,3 +408,23 @@ fn without_a_shell_ctrl_z_says_so_and_nothing_stops() {
     terminal.press("q");
     assert_eq!(terminal.wait_for_end().exit_code(), 0);
 }
+
+#[test]
+fn leaving_from_the_past_keeps_the_present() {
+    let home = home();
+    let mut terminal = Terminal::start(at_home(&home, &[]), 80, 24);
+    terminal.wait_until("explorer under way", is_under_way);
+    terminal.press(" ");
+    terminal.wait_for("paused");
+    terminal.press(",,");
+    terminal.wait_until("third cycle", |screen| cycle(screen) >= Some(2.0));
+    terminal.wait_for_silence();
+    let present = terminal.look(cycle);
+    terminal.press("[[");
+    terminal.wait_until("the past", |screen| cycle(screen) < present);
+    terminal.press("q");
+    terminal.wait_for_end();
+    let session = read(&kept(&home).expect("a checkpoint"));
+    assert_eq!(Some(session.simulation().cycle()), present);
+    assert_exact(&session);
+}

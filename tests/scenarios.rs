@@ -381,6 +381,7 @@ fn a_run_written_out_keeps_its_plan_and_its_changes() {
     let plan = RunPlan {
         cycles: Some(12.345),
         snapshot_at: vec![0.1 + 0.2, 7.0],
+        note: Some("a \"remark\"\nin two lines".into()),
     };
     let changes = vec![
         Change::new(1.0, "numerics.method", "\"b\""),
@@ -558,7 +559,7 @@ proptest! {
         let scenario = load(preset::ALL[preset].name, &[])
             .with_all(&assignments)
             .map_err(|error| TestCaseError::fail(error.to_string()))?
-            .with_run(RunPlan { cycles, snapshot_at })
+            .with_run(RunPlan { cycles, snapshot_at, note: None })
             .with_changes(vec![Change::new(at_cycle, "friction.coefficient", &number(phase.abs()))]);
         let text = scenario.to_toml();
         let read = Scenario::from_toml(&text, scenario.origin(), &[])

@@ -18,9 +18,11 @@ use mdr_tui::tui::app::App;
 use mdr_tui::tui::command::{self, BINDINGS};
 use mdr_tui::tui::frame::Slot;
 use mdr_tui::tui::keys::{Key, Named, parse_script};
+use mdr_tui::tui::order::Order;
+use mdr_tui::tui::panels::Panel;
 use mdr_tui::tui::plot::Marker;
-use mdr_tui::tui::theme::Theme;
-use mdr_tui::tui::worker::{Order, Worker};
+use mdr_tui::tui::theme::{Look, Theme};
+use mdr_tui::tui::worker::Worker;
 use mdr_tui::tui::{Event, screen};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -98,6 +100,49 @@ fn a_zoomed_panel() {
 #[test]
 fn a_logarithmic_panel() {
     pin("logarithmic", "li2019-fig3", ",,<Tab>L");
+}
+
+#[test]
+fn more_panels() {
+    pin("more", "li2019-fig3", ",,,,v");
+}
+
+#[test]
+fn a_cut_through_the_bodies() {
+    pin("section", "strong-wear", ",,,,,,,,,vz");
+    let desk = desk();
+    let text = shot(desk.path(), "li2019-fig3", ",,vz", (81, 24));
+    for line in panels(&text).iter().skip(4).take(12) {
+        // Left and right are alike.
+        let line: Vec<char> = format!("{line:81}").chars().collect();
+        assert!(line.iter().eq(line.iter().rev()), "{text}");
+    }
+}
+
+#[test]
+fn nine_panels_on_a_middling_screen() {
+    let desk = desk();
+    let text = shot(desk.path(), "gross-slip", ",,,", (120, 40));
+    insta::assert_snapshot!("gross-slip-120x40", text);
+}
+
+#[test]
+fn panels_come_in_pages() {
+    let desk = desk();
+    let shot = |keys: &str, size| shot(desk.path(), "li2019-fig3", keys, size);
+    let first = shot(",", (80, 24));
+    assert!(first.contains("fretting loop") && !first.contains("wear rate"));
+    let second = shot(",v", (80, 24));
+    assert!(second.contains("wear rate") && !second.contains("fretting loop"));
+    assert_eq!(shot(",vv", (80, 24)), first);
+    // Tab walks over the page's end; the page follows the focus.
+    assert_eq!(shot(",<Tab><Tab><Tab><Tab><Tab><Tab>", (80, 24)), second);
+    // A large screen has them all.
+    let all = shot(",", (200, 50));
+    for panel in Panel::ALL {
+        assert!(all.contains(panel.title()), "{panel:?}");
+    }
+    assert_eq!(shot(",v", (200, 50)), all);
 }
 
 #[test]
@@ -295,7 +340,7 @@ impl Stage {
         let worker = Worker::new(session, slot, sender, Duration::from_secs(1), false);
         let worker = thread::spawn(move || worker.serve(&to_worker));
         Self {
-            app: App::new(Theme::new(true, marker), orders.clone()),
+            app: App::new(Theme::new(Look::Dark, marker), orders.clone()),
             orders,
             events,
             worker: Some(worker),

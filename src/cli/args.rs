@@ -89,6 +89,10 @@ pub struct Explore {
     /// When to use colour; auto obeys NO_COLOR.
     #[arg(long, value_enum, default_value_t = ColorChoice::Auto)]
     pub color: ColorChoice,
+    /// Which colours: for a dark or a light background, or none; the default is what the terminal
+    /// says of its background, else dark.
+    #[arg(long, value_enum)]
+    pub theme: Option<ThemeChoice>,
     /// Press these keys instead of reading the keyboard, print the last screen and exit.
     #[arg(
         long,
@@ -337,6 +341,17 @@ fn interval(text: &str) -> Result<Interval, String> {
         }
         _ => Err("an interval is 0, or from 0.001 to 1000000 seconds, e.g. 60".into()),
     }
+}
+
+/// Which colours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ThemeChoice {
+    /// For a dark background.
+    Dark,
+    /// For a light background.
+    Light,
+    /// Bold, dim and reversed only.
+    Mono,
 }
 
 /// A cycle, and how it was spelled: the spelling names its file.

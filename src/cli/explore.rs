@@ -6,12 +6,13 @@ use std::process::ExitCode;
 use anyhow::Result;
 use serde::de::IgnoredAny;
 
-use super::args::{ColorChoice, Explore, MarkerChoice};
+use super::args::{ColorChoice, Explore, MarkerChoice, ThemeChoice};
 use super::{Misuse, complain};
 use crate::export::keep;
 use crate::scenario::session::Session;
 use crate::scenario::{Scenario, checkpoint};
 use crate::tui::plot::Marker;
+use crate::tui::theme::Look;
 use crate::tui::{self, Options, keys};
 
 /// Opens the explorer.
@@ -41,6 +42,11 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
         fps: options.fps,
         marker,
         colored,
+        look: options.theme.map(|choice| match choice {
+            ThemeChoice::Dark => Look::Dark,
+            ThemeChoice::Light => Look::Light,
+            ThemeChoice::Mono => Look::Mono,
+        }),
         script: options.print.map(|size| (keys, size)),
     })?;
     if let Some(word) = farewell.word {

@@ -24,6 +24,9 @@ pub fn lines(session: &Session) -> String {
     line("steps_per_cycle", &setup.steps_per_cycle.to_string());
     line("grid", setup.spacing.name());
     line("scheme", setup.scheme.name());
+    if let Some(note) = &session.loaded().run().note {
+        line("note", note);
+    }
     for change in session.changes() {
         line(
             &format!("at cycle {}", number(change.at_cycle)),

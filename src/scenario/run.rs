@@ -19,6 +19,8 @@ pub struct RunPlan {
     pub cycles: Option<f64>,
     /// Cycles at which the state is written; those after the end of the run are never reached.
     pub snapshot_at: Vec<f64>,
+    /// A remark that is kept with the files.
+    pub note: Option<String>,
 }
 
 impl RunPlan {
@@ -50,6 +52,9 @@ impl RunPlan {
             table.insert("cycles".into(), Value::Float(cycles));
         }
         table.insert("snapshot_at".into(), self.snapshot_at.clone().into());
+        if let Some(note) = &self.note {
+            table.insert("note".into(), Value::String(note.clone()));
+        }
         table
     }
 }

@@ -154,11 +154,25 @@ impl Session {
         Ok(())
     }
 
+    /// The same run with a remark that its files carry.
+    #[must_use]
+    pub fn noted(&self, note: &str) -> Self {
+        let run = RunPlan {
+            note: Some(note.to_owned()),
+            ..self.loaded.run().clone()
+        };
+        Self {
+            loaded: self.loaded.with_run(run),
+            ..self.clone()
+        }
+    }
+
     /// The run so far as a scenario of its own: what was loaded, each change, and where it stands.
     pub fn as_run(&self, snapshot_at: Vec<f64>) -> Scenario {
         let plan = RunPlan {
             cycles: Some(self.simulation.cycle()),
             snapshot_at,
+            note: self.loaded.run().note.clone(),
         };
         self.loaded
             .with_changes(self.changes.clone())

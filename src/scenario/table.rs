@@ -331,6 +331,12 @@ pub const PARAMETERS: &[Parameter] = &[
             "moments at which the state is written",
         )
     },
+    key(
+        "run.note",
+        "",
+        Kind::Text,
+        "a remark that is kept with the files",
+    ),
     number(
         "changes.at_cycle",
         "cycles",

@@ -28,6 +28,8 @@ bitflags! {
         const SURFACE = 1 << 5;
         /// Stick, slip or open, node by node.
         const ZONES = 1 << 6;
+        /// u_z(r) of the surface: one transform.
+        const DEPRESSION = 1 << 7;
     }
 }
 
@@ -116,6 +118,8 @@ pub struct Observation {
     pub shear: Vec<f64>,
     /// u_x(r) of the surface, m.
     pub surface: Vec<f64>,
+    /// u_z(r) of the surface, m, downwards: d − f in contact, Eq. (2) of the springs outside.
+    pub depression: Vec<f64>,
     /// Stick, slip or open.
     pub zones: Vec<Zone>,
 }
@@ -199,7 +203,7 @@ impl Simulation {
             out
         };
         let modulus = self.setup().material.tangential_modulus();
-        let worn = || {
+        let worn = || -> Vec<f64> {
             let unworn = work.planned.unworn.iter();
             unworn.zip(&self.state().wear).map(|(f, w)| f + w).collect()
         };
@@ -221,6 +225,16 @@ impl Simulation {
             }),
             surface: when(Curves::SURFACE, &|| {
                 transformed(&|out| solve::surface_displacement(work, out))
+            }),
+            depression: when(Curves::DEPRESSION, &|| {
+                let mut out = vec![0.0; nodes];
+                let modulus = self.setup().material.normal_modulus();
+                solve::depression(work, modulus, &mut out);
+                let (depth, inside) = (work.contact.depth, work.contact.normal.nodes);
+                for (out, f) in out.iter_mut().zip(worn()).take(inside) {
+                    *out = depth - f;
+                }
+                out
             }),
             zones: if curves.contains(Curves::ZONES) {
                 self.zones()

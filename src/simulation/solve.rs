@@ -279,3 +279,16 @@ pub(super) fn surface_displacement(work: &Workspace, out: &mut [f64]) {
         bend::add_to_displacement(&work.spring_breaks, &planned.grid, out);
     }
 }
+
+/// u_z(r), m, of the surface by Eq. (2), downwards; `modulus` is E*. The cusp of an edge within the
+/// rim's cell is left out: for looking at, and only outside the contact.
+pub(super) fn depression(work: &Workspace, modulus: f64, out: &mut [f64]) {
+    let planned = &work.planned;
+    planned.plan.displacement(&work.normal_load, out);
+    if planned.has_breaks() {
+        bend::add_to_displacement(&work.normal_breaks, &planned.grid, out);
+    }
+    for depth in out {
+        *depth /= modulus;
+    }
+}

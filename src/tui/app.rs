@@ -6,30 +6,24 @@ use std::collections::HashMap;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
 
-use super::command::{self, Command};
+use super::command::Command;
 use super::companion::Companion;
 use super::frame::Frame;
 use super::keys::Key;
+use super::line::LineEdit;
+use super::order::Order;
+use super::overlays::{Answer, Form, Help, Library, Overlay, Palette};
 use super::panels::Panel;
 use super::plot::{Scale, sticky_bounds};
+use super::screen;
 use super::theme::Theme;
 use super::theory::Theory;
-use super::worker::Order;
-use crate::scenario::{Scenario, preset};
+use crate::scenario::Scenario;
 use crate::simulation::Curves;
 
-/// What lies over the panels.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Overlay {
-    /// Nothing.
-    None,
-    /// The keys, scrolled down by so many lines.
-    Help(u16),
-    /// The presets, one of them selected.
-    Presets(usize),
-    /// Certificates and companion.
-    Accuracy,
-}
+/// The places of the cursor over the domain, and where it first stands.
+const CURSOR_PLACES: i16 = 100;
+const CURSOR_START: i16 = 33;
 
 /// How the program is left.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,6 +46,8 @@ pub struct App {
     pub overlay: Overlay,
     /// A line for the user, until the next key.
     pub notice: Option<String>,
+    /// Whether no key has been pressed yet.
+    pub is_new: bool,
     /// How things look.
     pub theme: Theme,
     /// Set when the program is to end.
@@ -62,9 +58,13 @@ pub struct App {
     pub with_theory: bool,
     /// What the companion has shown, once it has; none while it runs or before it was asked.
     pub companion: Option<Result<Companion, String>>,
+    /// Where the cursor stands, in hundredths of the domain.
+    cursor: Option<i16>,
     log_panels: Vec<Panel>,
     bounds: HashMap<(Panel, Scale), [f64; 2]>,
     shown: Curves,
+    /// How many panels the screen has room for.
+    room: usize,
     orders: Sender<Order>,
 }
 
@@ -77,21 +77,24 @@ impl App {
             zoomed: false,
             overlay: Overlay::None,
             notice: None,
+            is_new: true,
             theme,
             leave: None,
             suspend: false,
             with_theory: false,
             companion: None,
+            cursor: None,
             log_panels: Vec::new(),
             bounds: HashMap::new(),
             shown: Curves::all(),
+            room: screen::room(80, 24),
             orders,
         }
     }
 
     /// Takes in a new frame; the scales of the plots follow its data.
     pub fn take_frame(&mut self, frame: Arc<Frame>) {
-        for panel in Panel::PLOTS {
+        for panel in Panel::ALL {
             if let Some([low, high]) = panel.extent(&frame, self.scale(panel)) {
                 let key = (panel, self.scale(panel));
                 let bounds = sticky_bounds(self.bounds.get(&key).copied(), low, high);
@@ -108,7 +111,7 @@ impl App {
 
     /// Whether a panel's ordinate is logarithmic.
     pub fn scale(&self, panel: Panel) -> Scale {
-        if self.log_panels.contains(&panel) {
+        if panel == Panel::Residual || self.log_panels.contains(&panel) {
             Scale::Log
         } else {
             Scale::Linear
@@ -120,19 +123,64 @@ impl App {
         if self.zoomed {
             std::slice::from_ref(&self.focus)
         } else {
-            &Panel::ALL
+            self.page(self.room)
         }
     }
 
-    /// Answers a key.
+    /// The panels beside the focused one where `room` of them fit.
+    pub fn page(&self, room: usize) -> &[Panel] {
+        let at = self.focus.index() / room.max(1) * room;
+        &Panel::ALL[at..(at + room).min(Panel::ALL.len())]
+    }
+
+    /// Which page that is, counted from 1, and how many there are.
+    pub fn pages(&self, room: usize) -> (usize, usize) {
+        let room = room.max(1);
+        (
+            self.focus.index() / room + 1,
+            Panel::ALL.len().div_ceil(room),
+        )
+    }
+
+    /// Takes note of the terminal's size: what is on no page is not computed.
+    pub fn resize(&mut self, columns: u16, rows: u16) {
+        self.room = screen::room(columns, rows);
+        self.tell_what_shows();
+    }
+
+    /// The first panel of the next page gets the focus.
+    fn turn_page(&mut self) {
+        let (page, pages) = self.pages(self.room);
+        self.focus = Panel::ALL[page % pages * self.room];
+    }
+
+    /// Answers a key. `Ctrl-C` leaves from anywhere, whatever is being typed.
     pub fn press(&mut self, key: Key) {
         self.notice = None;
-        match (command::of_key(key), self.overlay) {
-            (None, _) => {}
-            (Some(command), Overlay::None) => self.command(command),
-            (Some(command), Overlay::Help(line)) => self.help_command(command, line),
-            (Some(command), Overlay::Presets(at)) => self.presets_command(command, at),
-            (Some(command), Overlay::Accuracy) => self.accuracy_command(command),
+        self.is_new = false;
+        if key == Key::Ctrl('c') {
+            self.leave = Some(Leave::Clean);
+            return;
+        }
+        let mut overlay = std::mem::take(&mut self.overlay);
+        match overlay.press(key, self.frame.as_deref()) {
+            Answer::Stay => self.overlay = overlay,
+            Answer::Close => {}
+            Answer::Through(command) => self.command(command),
+            Answer::Meanwhile(command) => {
+                self.command(command);
+                self.overlay = overlay;
+            }
+            Answer::Order(order) => self.order(order),
+            Answer::Ask(order) => {
+                self.order(order);
+                self.overlay = overlay;
+            }
+            Answer::Load(name) => self.load(&name),
+            Answer::Say(text) => {
+                self.notice = Some(text);
+                self.overlay = overlay;
+            }
         }
         self.tell_what_shows();
     }
@@ -142,8 +190,10 @@ impl App {
             Command::Quit => self.leave = Some(Leave::Clean),
             Command::QuitKeepingScreen => self.leave = Some(Leave::KeepScreen),
             Command::Back => self.zoomed = false,
-            Command::Help => self.overlay = Overlay::Help(0),
             Command::Suspend => self.suspend = true,
+            Command::Help => self.overlay = Overlay::Help(Help::default()),
+            Command::Search => self.overlay = Overlay::Help(Help::searching()),
+            Command::Palette => self.overlay = Overlay::Palette(Palette::default()),
             Command::RunPause => self.order(Order::RunPause),
             Command::Step => self.order(Order::Step),
             Command::Cycle => self.order(Order::Cycle),
@@ -153,12 +203,33 @@ impl App {
             Command::PreviousLaw => self.order(Order::Law(-1)),
             Command::Faster => self.order(Order::Pace(1)),
             Command::Slower => self.order(Order::Pace(-1)),
+            Command::NextPage => self.turn_page(),
             Command::NextPanel | Command::Down => self.focus = self.focus.shifted(1),
             Command::PreviousPanel | Command::Up => self.focus = self.focus.shifted(-1),
             Command::Zoom | Command::Accept => self.zoomed = !self.zoomed,
-            Command::Snapshot => self.order(Order::Snapshot),
-            Command::Presets => self.overlay = Overlay::Presets(self.present_preset()),
-            Command::Theory => self.toggle_theory(),
+            Command::Snapshot => self.order(Order::Snapshot(None)),
+            Command::TimeBack => self.order(Order::Back),
+            Command::TimeForth => self.order(Order::Forth),
+            Command::Mark => self.order(Order::Mark),
+            Command::Visit => self.order(Order::Visit),
+            Command::SnapshotNote => self.overlay = Overlay::Note(LineEdit::default()),
+            Command::Edit => self.overlay = Overlay::Form(Form::default()),
+            Command::Presets => {
+                self.overlay = Overlay::Library(Library::open(self.frame.as_deref()));
+            }
+            Command::Theory => self.with_theory = !self.with_theory,
+            Command::Theme => {
+                self.theme.look = self.theme.look.next();
+                self.notice = Some(format!("theme {}", self.theme.look.name()));
+            }
+            Command::Cursor => {
+                self.cursor = match self.cursor {
+                    None => Some(CURSOR_START),
+                    Some(_) => None,
+                }
+            }
+            Command::Left => self.move_sideways(-1),
+            Command::Right => self.move_sideways(1),
             Command::Compare => self.order(Order::Compare),
             Command::Accuracy => {
                 self.companion = None;
@@ -170,46 +241,19 @@ impl App {
         }
     }
 
-    fn help_command(&mut self, command: Command, line: u16) {
-        self.overlay = match command {
-            Command::Up => Overlay::Help(line.saturating_sub(1)),
-            Command::Down => Overlay::Help((line + 1).min(command::BINDINGS.len() as u16 - 1)),
-            Command::Back | Command::Help | Command::Accept => Overlay::None,
-            other => return self.through(other),
-        };
-    }
-
-    fn presets_command(&mut self, command: Command, at: usize) {
-        let count = preset::ALL.len();
-        self.overlay = match command {
-            Command::Up | Command::PreviousPanel => Overlay::Presets((at + count - 1) % count),
-            Command::Down | Command::NextPanel => Overlay::Presets((at + 1) % count),
-            Command::Back | Command::Presets => Overlay::None,
-            Command::Accept | Command::RunPause => {
-                self.load(preset::ALL[at].name);
-                Overlay::None
-            }
-            other => return self.through(other),
-        };
-    }
-
-    fn accuracy_command(&mut self, command: Command) {
-        match command {
-            Command::Back | Command::Accuracy | Command::Accept => self.overlay = Overlay::None,
-            // The run can be watched from here.
-            Command::RunPause
-            | Command::Step
-            | Command::Cycle
-            | Command::Faster
-            | Command::Slower => {
-                self.command(command);
-            }
-            other => self.through(other),
+    /// Moves the cursor by a hundredth of the domain, or the focus where there is no cursor.
+    fn move_sideways(&mut self, places: i16) {
+        match &mut self.cursor {
+            Some(place) => *place = (*place + places).clamp(0, CURSOR_PLACES),
+            None => self.focus = self.focus.shifted(isize::from(places)),
         }
     }
 
-    fn toggle_theory(&mut self) {
-        self.with_theory = !self.with_theory;
+    /// The radius at the cursor, m, if there is one.
+    pub fn cursor_radius(&self, frame: &Frame) -> Option<f64> {
+        let edge = frame.observation.radii.last()?;
+        let place = self.cursor?;
+        Some(edge * f64::from(place) / f64::from(CURSOR_PLACES))
     }
 
     /// What theory says, if it is to be shown.
@@ -220,12 +264,6 @@ impl App {
     /// Whether the accuracy panel waits for the companion.
     pub fn awaits_companion(&self) -> bool {
         self.overlay == Overlay::Accuracy && self.companion.is_none()
-    }
-
-    /// Leaving works from anywhere; other commands close what is open first.
-    fn through(&mut self, command: Command) {
-        self.overlay = Overlay::None;
-        self.command(command);
     }
 
     fn load(&mut self, name: &str) {
@@ -262,17 +300,6 @@ impl App {
 
     fn forget_scales(&mut self) {
         self.bounds.clear();
-    }
-
-    fn present_preset(&self) -> usize {
-        let origin = self
-            .frame
-            .as_ref()
-            .map_or("", |frame| frame.origin.as_str());
-        preset::ALL
-            .iter()
-            .position(|preset| preset.name == origin)
-            .unwrap_or(0)
     }
 
     /// Hidden panels cost no transform.

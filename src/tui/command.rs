@@ -37,10 +37,24 @@ pub enum Command {
     NextPanel,
     /// Focus the panel before.
     PreviousPanel,
+    /// The next page of panels.
+    NextPage,
     /// The focused panel alone, or all of them.
     Zoom,
     /// Write the present state to files.
     Snapshot,
+    /// The same with a note.
+    SnapshotNote,
+    /// Edit the parameters.
+    Edit,
+    /// Back in time.
+    TimeBack,
+    /// Forth in time.
+    TimeForth,
+    /// Mark the state on the screen.
+    Mark,
+    /// Go to a marked state.
+    Visit,
     /// Choose another preset.
     Presets,
     /// Start again.
@@ -49,10 +63,22 @@ pub enum Command {
     LogScale,
     /// Theory over the plots.
     Theory,
+    /// Other colours.
+    Theme,
     /// Two methods side by side.
     Compare,
     /// How far to trust the run.
     Accuracy,
+    /// Read the curves at a radius.
+    Cursor,
+    /// Every command by its name.
+    Palette,
+    /// Search in the help.
+    Search,
+    /// Left: the cursor, or the focus.
+    Left,
+    /// Right.
+    Right,
     /// Up in a list.
     Up,
     /// Down in a list.
@@ -122,7 +148,7 @@ pub static BINDINGS: &[Binding] = &[
         &[Char('+'), Char('=')],
         "faster",
         "more cycles a second, up to as fast as it can",
-        true,
+        false,
     ),
     bind(
         C::Slower,
@@ -160,6 +186,13 @@ pub static BINDINGS: &[Binding] = &[
         false,
     ),
     bind(
+        C::NextPage,
+        &[Char('v')],
+        "view",
+        "more panels: cross-section, wear, rates, cost",
+        true,
+    ),
+    bind(
         C::NextPanel,
         &[Key::Named(Named::Tab)],
         "panel",
@@ -195,10 +228,52 @@ pub static BINDINGS: &[Binding] = &[
         true,
     ),
     bind(
+        C::SnapshotNote,
+        &[Char('S')],
+        "snapshot, note",
+        "the same with a note, kept in both files",
+        false,
+    ),
+    bind(
+        C::Edit,
+        &[Char('e')],
+        "edit",
+        "edit any parameter while it runs; changes are recorded",
+        true,
+    ),
+    bind(
+        C::TimeBack,
+        &[Char('[')],
+        "back in time",
+        "back in time; running or editing branches from there",
+        false,
+    ),
+    bind(
+        C::TimeForth,
+        &[Char(']')],
+        "forth in time",
+        "forth in time, up to the present",
+        false,
+    ),
+    bind(
+        C::Mark,
+        &[Char('b')],
+        "bookmark",
+        "mark the state on the screen",
+        false,
+    ),
+    bind(
+        C::Visit,
+        &[Char('B')],
+        "go to bookmark",
+        "go to the marked state before this one",
+        false,
+    ),
+    bind(
         C::Presets,
         &[Char('p')],
         "presets",
-        "choose another preset",
+        "another preset, or a file of your own",
         true,
     ),
     bind(
@@ -216,6 +291,13 @@ pub static BINDINGS: &[Binding] = &[
         false,
     ),
     bind(
+        C::Theme,
+        &[Char('T')],
+        "theme",
+        "colours for a dark or a light background, or none",
+        false,
+    ),
+    bind(
         C::Compare,
         &[Char('c')],
         "compare",
@@ -227,6 +309,34 @@ pub static BINDINGS: &[Binding] = &[
         &[Char('a')],
         "accuracy",
         "how far to trust the run: certificates, half the cells",
+        false,
+    ),
+    bind(
+        C::Cursor,
+        &[Char('x')],
+        "cursor",
+        "a cursor that reads all curves at r; arrows move it",
+        false,
+    ),
+    bind(
+        C::Palette,
+        &[Char(':')],
+        "commands",
+        "every command by its name, and set KEY=VALUE",
+        true,
+    ),
+    bind(
+        C::Left,
+        &[Key::Named(Named::Left), Char('h')],
+        "left",
+        "move the cursor inwards, or the focus back",
+        false,
+    ),
+    bind(
+        C::Right,
+        &[Key::Named(Named::Right), Char('l')],
+        "right",
+        "move the cursor outwards, or the focus on",
         false,
     ),
     bind(
@@ -263,6 +373,13 @@ pub static BINDINGS: &[Binding] = &[
         "help",
         "show or hide this help",
         true,
+    ),
+    bind(
+        C::Search,
+        &[Char('/')],
+        "search",
+        "search in the help",
+        false,
     ),
     bind(
         C::Quit,

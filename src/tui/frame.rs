@@ -3,8 +3,10 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::pace::Pace;
+use super::settings::Setting;
 use super::theory::Theory;
 use super::trend::Trend;
+use crate::contact::indenter::Indenter;
 use crate::simulation::Observation;
 
 /// What the worker is doing.
@@ -56,6 +58,12 @@ pub struct Frame {
     pub planned_cycles: Option<f64>,
     /// Steps a cycle.
     pub steps_per_cycle: u32,
+    /// The cycle of the present, while the screen shows a state of the past.
+    pub present: Option<f64>,
+    /// The keys that can be changed, with their values.
+    pub settings: Arc<Vec<Setting>>,
+    /// The unworn shape, which goes on beyond the domain.
+    pub indenter: Indenter,
     /// μ, for the scale of τ.
     pub friction: f64,
     /// 1 − ∫p dA/F_z, where p is computed and something carries load.

@@ -39,9 +39,19 @@ pub enum Named {
     Left,
     /// Arrow right.
     Right,
+    /// To the beginning.
+    Home,
+    /// To the end.
+    End,
+    /// A page up.
+    PageUp,
+    /// A page down.
+    PageDown,
+    /// Delete.
+    Delete,
 }
 
-const NAMED: [(Named, &str, KeyCode); 9] = [
+const NAMED: [(Named, &str, KeyCode); 14] = [
     (Named::Tab, "Tab", KeyCode::Tab),
     (Named::BackTab, "S-Tab", KeyCode::BackTab),
     (Named::Esc, "Esc", KeyCode::Esc),
@@ -51,6 +61,11 @@ const NAMED: [(Named, &str, KeyCode); 9] = [
     (Named::Down, "Down", KeyCode::Down),
     (Named::Left, "Left", KeyCode::Left),
     (Named::Right, "Right", KeyCode::Right),
+    (Named::Home, "Home", KeyCode::Home),
+    (Named::End, "End", KeyCode::End),
+    (Named::PageUp, "PageUp", KeyCode::PageUp),
+    (Named::PageDown, "PageDown", KeyCode::PageDown),
+    (Named::Delete, "Delete", KeyCode::Delete),
 ];
 
 impl Key {

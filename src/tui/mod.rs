@@ -30,19 +30,27 @@ pub(crate) mod fault;
 pub mod frame;
 pub mod keeping;
 pub mod keys;
-mod overlays;
+pub mod line;
+pub mod order;
+pub mod overlays;
 pub mod pace;
 pub mod panels;
 pub(crate) mod panics;
+mod past;
 pub mod plot;
+mod readout;
+mod rival;
 pub mod screen;
 mod script;
+pub mod settings;
+mod snapshot;
 mod suspend;
 mod terminal;
 pub mod theme;
 pub mod theory;
 pub mod trend;
 pub mod trust;
+pub mod wire;
 pub mod worker;
 
 use app::{App, Leave};
@@ -50,10 +58,11 @@ use companion::Companion;
 use frame::Slot;
 use keeping::Keeping;
 use keys::Key;
+use order::Order;
 use plot::Marker;
 pub use script::Size;
-use theme::Theme;
-use worker::{Order, Worker};
+use theme::{Look, Theme};
+use worker::Worker;
 
 /// What can happen while the screen waits.
 #[derive(Debug)]
@@ -95,6 +104,8 @@ pub struct Options {
     pub marker: Option<Marker>,
     /// Whether to use colour; by NO_COLOR if not said.
     pub colored: Option<bool>,
+    /// Which colours; by the terminal's own word on its background if not said.
+    pub look: Option<Look>,
     /// Keys to press instead of reading the keyboard, and the size of the screen to print.
     pub script: Option<(Vec<Key>, Size)>,
 }
@@ -188,12 +199,22 @@ fn converse(
     Ok(Some(script::text(app, Size { columns, rows })))
 }
 
+/// Fits the screen and the app to the terminal's present size.
+fn refit(app: &mut App, screen: &mut terminal::Screen) -> Result<()> {
+    screen.start_afresh()?;
+    let (columns, rows) = crossterm::terminal::size()?;
+    app.resize(columns, rows);
+    Ok(())
+}
+
 fn attend(
     app: &mut App,
     slot: &Slot,
     inbox: &Receiver<Event>,
     screen: &mut terminal::Screen,
 ) -> Result<()> {
+    let (columns, rows) = crossterm::terminal::size()?;
+    app.resize(columns, rows);
     screen.draw(app)?;
     // Between the order to stop and the word that the process goes on, the screen is the shell's.
     let mut is_away = false;
@@ -212,10 +233,11 @@ fn attend(
                 Event::Notice(text) => app.notice = Some(text),
                 Event::Companion(answer) => app.companion = Some(answer),
                 Event::Resize if is_away => {}
-                Event::Resize => screen.start_afresh()?,
                 Event::Suspend => app.suspend = true,
+                Event::Resize => refit(app, screen)?,
                 Event::Continue => {
                     screen.take_back()?;
+                    refit(app, screen)?;
                     is_away = false;
                 }
                 Event::HangUp | Event::WorkerGone => return Ok(()),
@@ -318,14 +340,26 @@ fn refuse_what_is_no_terminal() -> Result<(), NoTerminal> {
 fn theme(options: &Options) -> Theme {
     let no_color = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
     let colored = options.colored.unwrap_or(!no_color);
-    let marker = options.marker.unwrap_or(if utf8_locale() {
-        Marker::Braille
-    } else {
-        Marker::Ascii
+    // The console of Linux has half blocks in its fonts, but no Braille.
+    let is_console = std::env::var("TERM").is_ok_and(|term| term == "linux");
+    let marker = options.marker.unwrap_or(match utf8_locale() {
+        true if is_console => Marker::HalfBlock,
+        true => Marker::Braille,
+        false => Marker::Ascii,
     });
-    // crossterm has its own opinion of NO_COLOR; ours has been formed with --color in view.
-    crossterm::style::force_color_output(colored);
-    Theme::new(colored, marker)
+    let look = match options.look {
+        _ if !colored => Look::Mono,
+        Some(look) => look,
+        None if light_background() => Look::Light,
+        None => Look::Dark,
+    };
+    Theme::new(look, marker)
+}
+
+/// Whether the terminal says that its background is light: the last number of COLORFGBG.
+fn light_background() -> bool {
+    let colors = std::env::var("COLORFGBG").unwrap_or_default();
+    matches!(colors.rsplit(';').next(), Some("7" | "15"))
 }
 
 /// Whether the locale says UTF-8: the first of LC_ALL, LC_CTYPE and LANG that is set decides, and a

@@ -11,27 +11,38 @@
 //! Space run/pause  . step  , cycle  m method ...                       ? help
 //! ```
 //!
-//! Two panels side by side on a narrow screen, three on a wide one.
+//! Two panels side by side on a narrow screen, three or four on a wide one; the others are on further
+//! pages.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Paragraph, Widget};
 
-use super::app::{App, Overlay};
+use super::app::App;
 use super::command::BINDINGS;
 use super::frame::{Activity, Frame};
-use super::overlays::{accuracy, help, presets};
+use super::overlays::Overlay;
 use super::pace::Pace;
-use super::panels::{Panel, compare};
+use super::panels::compare;
+use super::readout;
 use super::theme::Role;
 use super::trust;
 
 /// From this width on, three panels stand side by side.
 const WIDE: u16 = 110;
 
+/// From this width on, four.
+const VERY_WIDE: u16 = 160;
+
+/// From this height on, there are three rows of them on a wide screen.
+const TALL: u16 = 33;
+
 /// Below this size there is a message instead of panels.
 const SMALLEST: (u16, u16) = (40, 10);
+
+/// What somebody sees who has not pressed a key yet.
+const HINT: &str = " New here? Space pauses, v shows more, : lists all commands.   ? help   q quit";
 
 /// Draws everything.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
@@ -59,11 +70,21 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         None => Line::raw("starting ...").render(middle, buffer),
     }
     footer(app, bottom, buffer);
-    match app.overlay {
-        Overlay::None => {}
-        Overlay::Help(line) => help(app, line, middle, buffer),
-        Overlay::Presets(at) => presets(app, at, middle, buffer),
-        Overlay::Accuracy => accuracy(app, middle, buffer),
+    app.overlay.draw(app, middle, buffer);
+}
+
+/// How many panels fit on a screen of this size.
+pub fn room(columns: u16, rows: u16) -> usize {
+    let (across, down) = grid(Rect::new(0, 0, columns, rows.saturating_sub(2)));
+    across * down
+}
+
+/// Columns and rows of panels in an area.
+fn grid(area: Rect) -> (usize, usize) {
+    match area.width {
+        VERY_WIDE.. => (4, if area.height >= TALL { 3 } else { 2 }),
+        WIDE.. => (3, if area.height >= TALL { 3 } else { 2 }),
+        _ => (2, 3),
     }
 }
 
@@ -76,10 +97,12 @@ fn panels(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
         app.focus.draw(frame, app, area, buffer);
         return;
     }
-    let columns: usize = if area.width >= WIDE { 3 } else { 2 };
-    let rows = Panel::ALL.len() / columns;
+    let (columns, rows) = grid(area);
+    let shown = app.page(columns * rows);
+    // The last page may be shorter; its panels are then higher.
+    let rows = shown.len().div_ceil(columns);
     let bands = Layout::vertical(vec![Constraint::Fill(1); rows]).split(area);
-    for (band, row) in bands.iter().zip(Panel::ALL.chunks(columns)) {
+    for (band, row) in bands.iter().zip(shown.chunks(columns)) {
         let cells = Layout::horizontal(vec![Constraint::Fill(1); columns])
             .spacing(1)
             .split(*band);
@@ -109,7 +132,7 @@ fn status(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     }
     let right = parts_text(&parts, separator);
     let room = usize::from(area.width).saturating_sub(Line::raw(right.as_str()).width() + 3);
-    let title = shortened(&frame.title, room, ascii);
+    let title = shortened(app.theme.printable(&frame.title), room);
     Line::styled(format!(" {title}"), bar).render(area, buffer);
     Line::styled(format!("{right} "), bar)
         .right_aligned()
@@ -124,20 +147,8 @@ fn parts_text(parts: &[(u8, String)], separator: &str) -> String {
         .join(separator)
 }
 
-/// A text from outside, printable, and ASCII where it must be.
-fn clean(text: &str, ascii: bool) -> String {
-    text.chars()
-        .map(|c| match c {
-            c if c.is_control() => ' ',
-            c if ascii && !c.is_ascii() => '?',
-            c => c,
-        })
-        .collect()
-}
-
-/// As much of a title as fits in `room` cells, printable, and ASCII where it must be.
-fn shortened(title: &str, room: usize, ascii: bool) -> String {
-    let mut text = clean(title, ascii);
+/// As much of a title as fits in `room` cells.
+fn shortened(mut text: String, room: usize) -> String {
     if Line::raw(text.as_str()).width() <= room {
         return text;
     }
@@ -163,7 +174,12 @@ fn status_parts(frame: &Frame, ascii: bool) -> Vec<(u8, String)> {
         (None, Pace::Cycles(pace)) => format!("{} cycles/s", short(pace)),
         (None, Pace::Unlimited) => "unlimited".into(),
     };
+    if let Some(present) = frame.present {
+        cycle.push_str(&format!(" (present {present:.2})"));
+    }
     let activity = match (&frame.activity, ascii) {
+        (Activity::Paused, false) if frame.present.is_some() => "◂ past",
+        (Activity::Paused, true) if frame.present.is_some() => "< past",
         (Activity::Running, false) => "▶ running",
         (Activity::Running, true) => "> running",
         (Activity::Paused, false) => "⏸ paused",
@@ -192,20 +208,36 @@ fn short(value: f64) -> String {
     }
 }
 
-/// A word for the user if there is one, else as many keys as fit.
+/// A word for the user if there is one, the values at the cursor if there is one, else as many keys
+/// as fit.
 fn footer(app: &App, area: Rect, buffer: &mut Buffer) {
     let stopped = app.frame.as_ref().and_then(|frame| match &frame.activity {
         Activity::Stopped(reason) => Some(reason.as_str()),
         _ => None,
     });
-    if let Some(text) = app.notice.as_deref().or(stopped) {
-        let text = clean(text, app.theme.ascii());
-        let role = if app.notice.is_some() {
+    // The form has a line of its own for what is answered to it.
+    let notice = app
+        .notice
+        .as_deref()
+        .filter(|_| !matches!(app.overlay, Overlay::Form(_)));
+    if let Some(text) = notice.or(stopped) {
+        let text = app.theme.printable(text);
+        let role = if notice.is_some() {
             Role::Notice
         } else {
             Role::Alarm
         };
         Line::styled(format!(" {text}"), app.theme.style(role)).render(area, buffer);
+        return;
+    }
+    if app.is_new && HINT.len() <= usize::from(area.width) {
+        Line::styled(HINT, app.theme.style(Role::Notice)).render(area, buffer);
+        return;
+    }
+    let frame = app.frame.as_ref();
+    if let Some((frame, r)) = frame.and_then(|frame| Some((frame, app.cursor_radius(frame)?))) {
+        let text = readout::line(frame, r, usize::from(area.width), app.theme.ascii());
+        Line::raw(text).render(area, buffer);
         return;
     }
     let mut spans = Vec::new();

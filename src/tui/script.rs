@@ -12,8 +12,8 @@ use ratatui::text::Line;
 use super::Event;
 use super::app::App;
 use super::keys::Key;
+use super::order::Order;
 use super::screen;
-use super::worker::Order;
 
 /// A size of the screen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,6 +52,7 @@ pub fn play(
     orders: &Sender<Order>,
     events: &Receiver<Event>,
 ) -> Result<()> {
+    app.resize(size.columns, size.rows);
     catch_up(app, orders, events)?;
     for key in keys {
         app.press(*key);

@@ -1,24 +1,25 @@
 //! The terminal's life: taken over on start, given back on every way out.
 
-use std::io::{self, BufWriter, Stdout, Write, stdout};
+use std::io::{self, BufWriter, Stdout, stdout};
 use std::mem::ManuallyDrop;
 
 use crossterm::cursor::Show;
+use crossterm::execute;
+use crossterm::style::{Attribute, SetAttribute};
 use crossterm::terminal::{
-    BeginSynchronizedUpdate, Clear, ClearType, EndSynchronizedUpdate, EnterAlternateScreen,
-    LeaveAlternateScreen, disable_raw_mode, enable_raw_mode,
+    Clear, ClearType, EndSynchronizedUpdate, EnterAlternateScreen, LeaveAlternateScreen,
+    disable_raw_mode, enable_raw_mode,
 };
-use crossterm::{execute, queue};
 use ratatui::Terminal;
-use ratatui::backend::CrosstermBackend;
 
 use super::app::App;
 use super::screen;
+use super::wire::Wire;
 
 /// Output is collected so that a frame goes out in one write.
 const OUTPUT_BUFFER: usize = 64 * 1024;
 
-type Backend = CrosstermBackend<BufWriter<Stdout>>;
+type Backend = Wire<BufWriter<Stdout>>;
 
 /// The terminal in raw mode on its alternate screen, until dropped.
 pub struct Screen {
@@ -31,9 +32,7 @@ impl Screen {
     /// Takes the terminal over.
     pub fn open() -> io::Result<Self> {
         let restore = take_over()?;
-        let backend = CrosstermBackend::new(BufWriter::with_capacity(OUTPUT_BUFFER, stdout()));
-        let mut terminal = Terminal::new(backend)?;
-        terminal.hide_cursor()?;
+        let terminal = fresh()?;
         std::mem::forget(restore);
         Ok(Self {
             terminal: ManuallyDrop::new(terminal),
@@ -55,17 +54,16 @@ impl Screen {
     /// Takes the terminal over again, as it may be anything by now.
     pub fn take_back(&mut self) -> io::Result<()> {
         std::mem::forget(take_over()?);
-        self.terminal.hide_cursor()?;
-        self.start_afresh()
+        // What the backend knew of the terminal holds no more.
+        self.terminal = ManuallyDrop::new(fresh()?);
+        Ok(())
     }
 
-    /// Draws the app: only what changed goes over the wire, between synchronization marks.
+    /// Draws the app: only what changed goes over the wire.
     pub fn draw(&mut self, app: &App) -> io::Result<()> {
-        queue!(self.terminal.backend_mut(), BeginSynchronizedUpdate)?;
         self.terminal
             .draw(|frame| screen::draw(app, frame.area(), frame.buffer_mut()))?;
-        queue!(self.terminal.backend_mut(), EndSynchronizedUpdate)?;
-        Write::flush(self.terminal.backend_mut())
+        Ok(())
     }
 }
 
@@ -73,6 +71,12 @@ impl Drop for Screen {
     fn drop(&mut self) {
         restore();
     }
+}
+
+/// A terminal of which nothing is known.
+fn fresh() -> io::Result<Terminal<Backend>> {
+    let out = BufWriter::with_capacity(OUTPUT_BUFFER, stdout());
+    Terminal::new(Wire::new(out, || Ok(crossterm::terminal::size()?.into())))
 }
 
 fn take_over() -> io::Result<RestoreOnFailure> {
@@ -93,6 +97,12 @@ impl Drop for RestoreOnFailure {
 
 /// Gives the terminal back. A terminal that is gone cannot be restored; nothing is to be done then.
 fn restore() {
-    let _ = execute!(stdout(), EndSynchronizedUpdate, LeaveAlternateScreen, Show);
+    let _ = execute!(
+        stdout(),
+        EndSynchronizedUpdate,
+        SetAttribute(Attribute::Reset),
+        LeaveAlternateScreen,
+        Show
+    );
     let _ = disable_raw_mode();
 }

@@ -21,6 +21,14 @@ pub struct Cycle {
     pub stick_radius: f64,
     /// Worn volume at the end, m³.
     pub wear_volume: f64,
+    /// What the work of friction says of it, k E_d, m³; NaN where the law does not follow energy.
+    pub expected_volume: f64,
+    /// Volume worn in a cycle, m³, on average over the entry.
+    pub wear_rate: f64,
+    /// Largest |1 − ΔV/(k ΔE_d)| of a period of the motion; NaN before there is one.
+    pub residual: f64,
+    /// What a step cost, s; NaN where it was not measured.
+    pub step_cost: f64,
 }
 
 impl Cycle {
@@ -28,8 +36,26 @@ impl Cycle {
         Self {
             contact_radius: self.contact_radius.max(later.contact_radius),
             stick_radius: self.stick_radius.min(later.stick_radius),
+            residual: self.residual.max(later.residual),
+            step_cost: self.step_cost.max(later.step_cost),
             ..later
         }
+    }
+}
+
+/// What a [`Trend`] knows of the unfinished cycle and of the last loop.
+#[derive(Debug, Clone, Default)]
+pub struct Tip {
+    open: Option<Cycle>,
+    shifts: VecDeque<f64>,
+    forces: VecDeque<f64>,
+    loop_cycles: VecDeque<f64>,
+}
+
+impl Tip {
+    /// Memory that it holds, in bytes.
+    pub fn bytes(&self) -> usize {
+        3 * 8 * self.loop_cycles.len()
     }
 }
 
@@ -37,15 +63,37 @@ impl Cycle {
 #[derive(Debug, Clone, Default)]
 pub struct Trend {
     cycles: Vec<Cycle>,
-    open: Option<Cycle>,
     /// How many cycles an entry stands for.
     stride: f64,
-    shifts: VecDeque<f64>,
-    forces: VecDeque<f64>,
-    loop_cycles: VecDeque<f64>,
+    tip: Tip,
+    step_cost: Option<f64>,
 }
 
 impl Trend {
+    /// What a step costs from now on, s.
+    pub fn note_cost(&mut self, step_cost: Option<f64>) {
+        self.step_cost = step_cost;
+    }
+
+    /// What is lost when the trend is cut back to an earlier cycle.
+    pub fn tip(&self) -> Tip {
+        self.tip.clone()
+    }
+
+    /// The trend as it was at `cycle`, where it had this tip.
+    pub fn until(&self, cycle: f64, tip: &Tip) -> Self {
+        let before = self.cycles.iter();
+        Self {
+            cycles: before
+                .take_while(|entry| entry.cycle <= cycle + 1e-9)
+                .copied()
+                .collect(),
+            stride: self.stride,
+            tip: tip.clone(),
+            step_cost: self.step_cost,
+        }
+    }
+
     /// Takes in the moment after a step.
     pub fn record(&mut self, moment: &Moment) {
         self.record_loop(moment);
@@ -54,14 +102,28 @@ impl Trend {
             contact_radius: moment.contact_radius,
             stick_radius: moment.stick_radius.unwrap_or(f64::NAN),
             wear_volume: moment.wear_volume,
+            expected_volume: moment
+                .energy_residual
+                .map_or(f64::NAN, |residual| moment.wear_volume / (1.0 - residual)),
+            wear_rate: 0.0,
+            residual: moment.period_residual.map_or(f64::NAN, f64::abs),
+            step_cost: self.step_cost.unwrap_or(f64::NAN),
         };
-        let merged = self.open.map_or(now, |open| open.merged(now));
-        let start = self.cycles.last().map_or(0.0, |cycle| cycle.cycle);
+        let mut merged = self.tip.open.map_or(now, |open| open.merged(now));
+        let (start, volume) = self
+            .cycles
+            .last()
+            .map_or((0.0, 0.0), |entry| (entry.cycle, entry.wear_volume));
+        merged.wear_rate = if merged.cycle > start {
+            (merged.wear_volume - volume) / (merged.cycle - start)
+        } else {
+            f64::NAN
+        };
         if merged.cycle < start + self.stride.max(1.0) - 1e-9 {
-            self.open = Some(merged);
+            self.tip.open = Some(merged);
             return;
         }
-        self.open = None;
+        self.tip.open = None;
         self.cycles.push(merged);
         if self.cycles.len() >= CAPACITY {
             self.cycles = self
@@ -74,30 +136,30 @@ impl Trend {
     }
 
     fn record_loop(&mut self, moment: &Moment) {
-        self.shifts.push_back(moment.shift);
-        self.forces.push_back(moment.tangential_force);
-        self.loop_cycles.push_back(moment.cycle);
+        self.tip.shifts.push_back(moment.shift);
+        self.tip.forces.push_back(moment.tangential_force);
+        self.tip.loop_cycles.push_back(moment.cycle);
         // One cycle and the point that closes it.
-        while self.loop_cycles.len() > 1
-            && (self.loop_cycles[0] < moment.cycle - 1.0 - 1e-9
-                || self.loop_cycles.len() > LOOP_CAPACITY)
+        while self.tip.loop_cycles.len() > 1
+            && (self.tip.loop_cycles[0] < moment.cycle - 1.0 - 1e-9
+                || self.tip.loop_cycles.len() > LOOP_CAPACITY)
         {
-            self.shifts.pop_front();
-            self.forces.pop_front();
-            self.loop_cycles.pop_front();
+            self.tip.shifts.pop_front();
+            self.tip.forces.pop_front();
+            self.tip.loop_cycles.pop_front();
         }
     }
 
     /// The cycles so far, the unfinished one included, oldest first.
     pub fn cycles(&self) -> impl Iterator<Item = &Cycle> {
-        self.cycles.iter().chain(&self.open)
+        self.cycles.iter().chain(&self.tip.open)
     }
 
     /// u_x⁽⁰⁾ (m) and F_x (N) of the last cycle.
     pub fn fretting_loop(&self) -> (Vec<f64>, Vec<f64>) {
         (
-            self.shifts.iter().copied().collect(),
-            self.forces.iter().copied().collect(),
+            self.tip.shifts.iter().copied().collect(),
+            self.tip.forces.iter().copied().collect(),
         )
     }
 }

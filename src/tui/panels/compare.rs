@@ -41,7 +41,7 @@ pub fn draw(frame: &Frame, rival: &Rival, app: &App, area: Rect, buffer: &mut Bu
         left,
         buffer,
     );
-    let mut plot = radial_plot(Panel::Profile, app, "r", "f", "m")
+    let mut plot = radial_plot(Panel::Profile, app, frame, "r", ("f", "m"))
         .curve(curve(names.1, &other.radii, &other.profile, theme, Role::Slip).dashed())
         .curve(curve(
             &names.0,
@@ -56,6 +56,7 @@ pub fn draw(frame: &Frame, rival: &Rival, app: &App, area: Rect, buffer: &mut Bu
     plot.render(inside, buffer);
     let inside = panel_block("pressure", app, right, buffer);
     Plot::new(Axis::new("r", "m"), Axis::new("p", "Pa"))
+        .cursor(app.cursor_radius(frame))
         .marker(theme.marker)
         .axis_style(theme.style(Role::Quiet))
         .curve(curve(names.1, &other.radii, &other.pressure, theme, Role::Slip).dashed())
@@ -83,6 +84,7 @@ pub fn draw(frame: &Frame, rival: &Rival, app: &App, area: Rect, buffer: &mut Bu
         .bounds(bounds);
     Plot::new(Axis::new("r", "m").bounds([0.0, edge]), ordinate)
         .curve(curve("", &other.radii, &difference, theme, Role::Slip))
+        .cursor(app.cursor_radius(frame))
         .marker(theme.marker)
         .axis_style(theme.style(Role::Quiet))
         .render(inside, buffer);

@@ -3,10 +3,9 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::text::Line;
 use ratatui::widgets::Widget;
 
-use super::{App, Frame, Panel, plot};
+use super::{App, Frame, Panel, nothing, plot};
 use crate::tui::plot::{Axis, Curve};
 use crate::tui::theme::Role;
 
@@ -23,12 +22,7 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = &app.theme;
     let moment = &frame.observation.moment;
     if moment.stick_radius.is_none() {
-        Line::styled(
-            " no tangential motion in this scenario",
-            theme.style(Role::Quiet),
-        )
-        .render(area, buffer);
-        return;
+        return nothing("no tangential motion in this scenario", app, area, buffer);
     }
     let (shifts, forces) = frame.trend.fretting_loop();
     let here = ([moment.shift; 2], [moment.tangential_force; 2]);

@@ -9,15 +9,22 @@ use super::app::App;
 use super::frame::Frame;
 use super::plot::{Axis, Curve, Plot, Scale, VerticalMark, Zone};
 use super::theme::{Role, Theme};
+use super::trend::Cycle;
 use crate::simulation::Curves;
 
 pub mod compare;
+mod cost;
+mod depth;
 mod fretting_loop;
 mod numbers;
 mod profile;
 mod radii;
+mod rate;
+mod residual;
+mod section;
 mod springs;
 mod stresses;
+mod volume;
 
 /// The panels of the explorer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -34,35 +41,47 @@ pub enum Panel {
     Radii,
     /// The numbers of the moment.
     Numbers,
+    /// A cut through indenter and half-space.
+    Section,
+    /// Worn depth over the radius.
+    Depth,
+    /// Worn volume and work of friction over cycles.
+    Volume,
+    /// Worn volume of a cycle over cycles.
+    Rate,
+    /// The energy residual of a period over cycles.
+    Residual,
+    /// What a step costs over cycles.
+    Cost,
 }
 
 impl Panel {
-    /// All panels, in reading order.
-    pub const ALL: [Self; 6] = [
+    /// All panels, in reading order; the first six fill the smallest screen.
+    pub const ALL: [Self; 12] = [
         Self::Profile,
         Self::Stresses,
         Self::Springs,
         Self::Loop,
         Self::Radii,
         Self::Numbers,
-    ];
-
-    /// The panels with axes.
-    pub const PLOTS: [Self; 5] = [
-        Self::Profile,
-        Self::Stresses,
-        Self::Springs,
-        Self::Loop,
-        Self::Radii,
+        Self::Section,
+        Self::Depth,
+        Self::Volume,
+        Self::Rate,
+        Self::Residual,
+        Self::Cost,
     ];
 
     /// The panel so many places further on.
     pub fn shifted(self, places: isize) -> Self {
-        let at = Self::ALL
-            .iter()
-            .position(|panel| *panel == self)
-            .unwrap_or(0) as isize;
+        let at = self.index() as isize;
         Self::ALL[(at + places).rem_euclid(Self::ALL.len() as isize) as usize]
+    }
+
+    /// Its place in reading order.
+    pub fn index(self) -> usize {
+        let at = Self::ALL.iter().position(|panel| *panel == self);
+        at.unwrap_or(0)
     }
 
     /// The title.
@@ -74,12 +93,21 @@ impl Panel {
             Self::Loop => "fretting loop",
             Self::Radii => "radii over cycles",
             Self::Numbers => "numbers",
+            Self::Section => "cross-section",
+            Self::Depth => "worn depth",
+            Self::Volume => "worn volume",
+            Self::Rate => "wear rate",
+            Self::Residual => "energy residual",
+            Self::Cost => "cost of a step",
         }
     }
 
     /// Whether a logarithmic ordinate makes sense.
     pub fn can_be_log(self) -> bool {
-        matches!(self, Self::Stresses | Self::Profile)
+        matches!(
+            self,
+            Self::Stresses | Self::Profile | Self::Depth | Self::Volume | Self::Rate | Self::Cost
+        )
     }
 
     /// What the panel needs computed.
@@ -88,7 +116,9 @@ impl Panel {
             Self::Profile => Curves::PROFILE,
             Self::Stresses => Curves::PRESSURE | Curves::SHEAR,
             Self::Springs => Curves::PROFILE_1D,
-            Self::Loop | Self::Radii | Self::Numbers => Curves::empty(),
+            Self::Section => Curves::PROFILE | Curves::DEPRESSION,
+            Self::Depth => Curves::PROFILE,
+            _ => Curves::empty(),
         }
     }
 
@@ -100,6 +130,12 @@ impl Panel {
             Self::Springs => springs::ordinates(frame),
             Self::Loop => fretting_loop::ordinates(frame),
             Self::Radii => radii::ordinates(frame),
+            Self::Section => section::ordinates(frame),
+            Self::Depth => depth::ordinates(frame),
+            Self::Volume => volume::ordinates(frame),
+            Self::Rate => rate::ordinates(frame),
+            Self::Residual => residual::ordinates(frame),
+            Self::Cost => cost::ordinates(frame),
             Self::Numbers => return None,
         };
         values.retain(|value| value.is_finite() && (scale == Scale::Linear || *value > 0.0));
@@ -131,6 +167,12 @@ impl Panel {
             Self::Loop => fretting_loop::draw(frame, app, inner, buffer),
             Self::Radii => radii::draw(frame, app, inner, buffer),
             Self::Numbers => numbers::draw(frame, app, inner, buffer),
+            Self::Section => section::draw(frame, app, inner, buffer),
+            Self::Depth => depth::draw(frame, app, inner, buffer),
+            Self::Volume => volume::draw(frame, app, inner, buffer),
+            Self::Rate => rate::draw(frame, app, inner, buffer),
+            Self::Residual => residual::draw(frame, app, inner, buffer),
+            Self::Cost => cost::draw(frame, app, inner, buffer),
         }
     }
 }
@@ -159,15 +201,18 @@ fn titled(title: &str, role: Role, app: &App, area: Rect, buffer: &mut Buffer) -
     inner
 }
 
-/// A plot of nodal values over the radius, with the bounds that the app keeps for the panel.
+/// A plot of nodal values over the radius, with the bounds that the app keeps for the panel and the
+/// cursor. The ordinate is a label and a unit.
 fn radial_plot<'a>(
     panel: Panel,
     app: &App,
+    frame: &Frame,
     abscissa: &'a str,
-    label: &'a str,
-    unit: &'a str,
+    ordinate: (&'a str, &'a str),
 ) -> Plot<'a> {
+    let (label, unit) = ordinate;
     plot(panel, app, Axis::new(abscissa, "m"), Axis::new(label, unit))
+        .cursor(app.cursor_radius(frame))
 }
 
 fn plot<'a>(panel: Panel, app: &App, x: Axis<'a>, y: Axis<'a>) -> Plot<'a> {
@@ -178,6 +223,31 @@ fn plot<'a>(panel: Panel, app: &App, x: Axis<'a>, y: Axis<'a>) -> Plot<'a> {
     Plot::new(x, y)
         .marker(app.theme.marker)
         .axis_style(app.theme.style(Role::Quiet))
+}
+
+/// A quantity of every cycle over the cycles so far.
+fn over_cycles<'a>(panel: Panel, frame: &Frame, app: &App, y: Axis<'a>) -> Plot<'a> {
+    let end = frame.trend.cycles().last().map_or(0.0, |entry| entry.cycle);
+    plot(
+        panel,
+        app,
+        Axis::new("cycles", "").bounds([0.0, end.max(1.0)]),
+        y,
+    )
+}
+
+/// One quantity of every cycle, with the cycles it belongs to.
+fn series(frame: &Frame, of: impl Fn(&Cycle) -> f64) -> (Vec<f64>, Vec<f64>) {
+    frame
+        .trend
+        .cycles()
+        .map(|entry| (entry.cycle, of(entry)))
+        .unzip()
+}
+
+/// A word in a panel that has nothing to plot.
+fn nothing(text: &str, app: &App, area: Rect, buffer: &mut Buffer) {
+    Line::styled(format!(" {text}"), app.theme.style(Role::Quiet)).render(area, buffer);
 }
 
 /// Marks at the contact radius a and at the stick radius c.

@@ -25,7 +25,7 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
         .theory_of(frame)
         .and_then(|theory| theory.limiting_profile(&seen.radii))
         .unwrap_or_default();
-    let mut plot = radial_plot(Panel::Profile, app, "r", "f", "m")
+    let mut plot = radial_plot(Panel::Profile, app, frame, "r", ("f", "m"))
         .curve(curve("unworn", &seen.radii, &seen.unworn, theme, Role::Unworn).dashed());
     if !limit.is_empty() {
         plot = plot.curve(curve("limit", &seen.radii, &limit, theme, Role::Limit).dashed());

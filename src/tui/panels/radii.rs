@@ -4,7 +4,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 
-use super::{App, Frame, Panel, curve, plot};
+use super::{App, Frame, Panel, curve, over_cycles, series};
 use crate::tui::plot::Axis;
 use crate::tui::theme::Role;
 
@@ -23,26 +23,16 @@ pub fn ordinates(frame: &Frame) -> Vec<f64> {
 /// Draws the panel.
 pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = &app.theme;
-    let cycles: Vec<f64> = frame.trend.cycles().map(|cycle| cycle.cycle).collect();
-    let contact: Vec<f64> = frame
-        .trend
-        .cycles()
-        .map(|cycle| cycle.contact_radius)
-        .collect();
-    let stick: Vec<f64> = frame
-        .trend
-        .cycles()
-        .map(|cycle| cycle.stick_radius)
-        .collect();
-    let end = cycles.last().copied().unwrap_or(0.0).max(1.0);
-    let ends = [0.0, end];
-    let mut plot = plot(
-        Panel::Radii,
-        app,
-        Axis::new("cycles", "").bounds([0.0, end]),
-        Axis::new("radius", "m"),
-    )
-    .curve(curve("contact a", &cycles, &contact, theme, Role::Contact));
+    let (cycles, contact) = series(frame, |entry| entry.contact_radius);
+    let stick = series(frame, |entry| entry.stick_radius).1;
+    let ends = [0.0, cycles.last().copied().unwrap_or(0.0).max(1.0)];
+    let mut plot = over_cycles(Panel::Radii, frame, app, Axis::new("radius", "m")).curve(curve(
+        "contact a",
+        &cycles,
+        &contact,
+        theme,
+        Role::Contact,
+    ));
     if stick.iter().any(|radius| radius.is_finite()) {
         plot = plot.curve(curve("stick c", &cycles, &stick, theme, Role::Stick).dashed());
     }

@@ -22,7 +22,7 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     let (seen, theme) = (&frame.observation, &app.theme);
     let ends = [0.0, seen.radii.last().copied().unwrap_or(0.0)];
     let depth = [seen.moment.depth; 2];
-    let mut plot = radial_plot(Panel::Springs, app, "x", "g", "m")
+    let mut plot = radial_plot(Panel::Springs, app, frame, "x", ("g", "m"))
         .curve(curve("depth d", &ends, &depth, theme, Role::Contact).dashed())
         .curve(curve(
             "g",

@@ -57,7 +57,7 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
         .into_iter()
         .map(|shear| if scale == Scale::Log { shear.abs() } else { shear } / frame.friction)
         .collect();
-    let mut plot = radial_plot(Panel::Stresses, app, "r", "stress", "Pa").curve(curve(
+    let mut plot = radial_plot(Panel::Stresses, app, frame, "r", ("stress", "Pa")).curve(curve(
         "p",
         &seen.radii,
         &seen.pressure,

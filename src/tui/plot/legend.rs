@@ -142,7 +142,7 @@ fn curve_line(plot: &Plot<'_>, curve: &Curve<'_>, unit: &AxisUnit, reading: Read
         (true, true) => '=',
     };
     let name: String = text(curve.name, ascii).chars().take(LONGEST_NAME).collect();
-    let value = plot.cursor.and_then(|x| value_at(curve, x));
+    let value = plot.cursor.and_then(|x| curve.value_at(x));
     Line {
         left: format!("{swatch} {name}"),
         right: match (reading, value) {
@@ -176,7 +176,7 @@ fn with_unit(value: f64, axis: &Axis<'_>, unit: &AxisUnit, ascii: bool) -> Strin
 pub(super) fn short_reading(plot: &Plot<'_>, factors: [f64; 2], width: u16) -> Option<String> {
     let x = plot.cursor.filter(|x| x.is_finite())?;
     let mut line = format!("{}:", format_number(x / factors[0], 3));
-    for y in plot.curves.iter().filter_map(|curve| value_at(curve, x)) {
+    for y in plot.curves.iter().filter_map(|curve| curve.value_at(x)) {
         let longer = format!("{line} {}", format_number(y / factors[1], 3));
         if cells(&longer) > width {
             break;
@@ -184,26 +184,6 @@ pub(super) fn short_reading(plot: &Plot<'_>, factors: [f64; 2], width: u16) -> O
         line = longer;
     }
     line.contains(' ').then_some(line)
-}
-
-/// A curve's value at `x`: at a point of it, or linearly interpolated between the first two
-/// neighbouring points that have `x` between them. `None` in gaps and outside.
-pub(super) fn value_at(curve: &Curve<'_>, x: f64) -> Option<f64> {
-    let mut previous: Option<(f64, f64)> = None;
-    for (x1, y1) in curve.points() {
-        let point = (x1.is_finite() && y1.is_finite()).then_some((x1, y1));
-        if point.is_some() && x1 == x {
-            return Some(y1);
-        }
-        if let (Some((x0, y0)), Some(_)) = (previous, point)
-            && (x0.min(x1)..=x0.max(x1)).contains(&x)
-        {
-            let share = (x / 2.0 - x0 / 2.0) / (x1 / 2.0 - x0 / 2.0);
-            return Some(y0 * (1.0 - share) + y1 * share);
-        }
-        previous = point;
-    }
-    None
 }
 
 /// A label as it is shown.
@@ -215,24 +195,4 @@ pub(super) fn text(label: &str, ascii: bool) -> String {
 /// The width of a text in cells.
 pub(super) fn cells(text: &str) -> u16 {
     Span::raw(text).width().min(usize::from(u16::MAX)) as u16
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn values_between_points() {
-        let (xs, ys) = ([0.0, 1.0, 2.0, 3.0, 5.0], [0.0, 10.0, f64::NAN, 4.0, 0.0]);
-        let curve = Curve::new("", &xs, &ys, Style::new());
-        assert_eq!(value_at(&curve, 0.25), Some(2.5));
-        assert_eq!(value_at(&curve, 1.0), Some(10.0));
-        assert_eq!(value_at(&curve, 1.5), None);
-        assert_eq!(value_at(&curve, 3.0), Some(4.0));
-        assert_eq!(value_at(&curve, 4.0), Some(2.0));
-        assert_eq!(value_at(&curve, 5.1), None);
-        assert_eq!(value_at(&curve, f64::NAN), None);
-        let back = Curve::new("", &[2.0, 0.0], &[1e308, -1e308], Style::new());
-        assert_eq!(value_at(&back, 1.0), Some(0.0));
-    }
 }

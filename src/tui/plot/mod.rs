@@ -90,6 +90,26 @@ impl<'a> Curve<'a> {
         self
     }
 
+    /// The curve's value at `x`: at a point of it, or linearly interpolated between the first two
+    /// neighbouring points that have `x` between them. `None` in gaps and outside.
+    pub fn value_at(&self, x: f64) -> Option<f64> {
+        let mut previous: Option<(f64, f64)> = None;
+        for (x1, y1) in self.points() {
+            let point = (x1.is_finite() && y1.is_finite()).then_some((x1, y1));
+            if point.is_some() && x1 == x {
+                return Some(y1);
+            }
+            if let (Some((x0, y0)), Some(_)) = (previous, point)
+                && (x0.min(x1)..=x0.max(x1)).contains(&x)
+            {
+                let share = (x / 2.0 - x0 / 2.0) / (x1 / 2.0 - x0 / 2.0);
+                return Some(y0 * (1.0 - share) + y1 * share);
+            }
+            previous = point;
+        }
+        None
+    }
+
     /// The points of the curve, gaps included.
     fn points(&self) -> impl Iterator<Item = (f64, f64)> {
         self.xs.iter().copied().zip(self.ys.iter().copied())

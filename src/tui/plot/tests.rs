@@ -375,3 +375,18 @@ fn later_curves_win_the_colour_and_backgrounds_stay() {
     assert!(curve.clone().all(|cell| cell.fg == Color::Blue));
     assert!(buf.content.iter().all(|cell| cell.bg == Color::Black));
 }
+
+#[test]
+fn values_between_points() {
+    let (xs, ys) = ([0.0, 1.0, 2.0, 3.0, 5.0], [0.0, 10.0, f64::NAN, 4.0, 0.0]);
+    let curve = Curve::new("", &xs, &ys, Style::new());
+    assert_eq!(curve.value_at(0.25), Some(2.5));
+    assert_eq!(curve.value_at(1.0), Some(10.0));
+    assert_eq!(curve.value_at(1.5), None);
+    assert_eq!(curve.value_at(3.0), Some(4.0));
+    assert_eq!(curve.value_at(4.0), Some(2.0));
+    assert_eq!(curve.value_at(5.1), None);
+    assert_eq!(curve.value_at(f64::NAN), None);
+    let back = Curve::new("", &[2.0, 0.0], &[1e308, -1e308], Style::new());
+    assert_eq!(back.value_at(1.0), Some(0.0));
+}

@@ -10,7 +10,7 @@ use mdr_tui::tui::app::App;
 use mdr_tui::tui::keys::parse_script;
 use mdr_tui::tui::plot::Marker;
 use mdr_tui::tui::screen;
-use mdr_tui::tui::theme::Theme;
+use mdr_tui::tui::theme::{Look, Theme};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
@@ -89,7 +89,7 @@ pub fn keys(text: &str) {
         return;
     }
     let (orders, _inbox): (_, Receiver<_>) = channel();
-    let mut app = App::new(Theme::new(true, Marker::Braille), orders);
+    let mut app = App::new(Theme::new(Look::Dark, Marker::Braille), orders);
     let area = Rect::new(0, 0, 80, 24);
     for key in keys.into_iter().take(100) {
         app.press(key);

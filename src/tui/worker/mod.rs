@@ -4,7 +4,6 @@
 //! before has been taken, so that a slow terminal costs the simulation nothing.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
@@ -13,18 +12,25 @@ use std::time::{Duration, Instant};
 
 use super::Event;
 use super::companion;
-use super::frame::{Activity, Frame, Rival, Slot};
+use super::frame::{Activity, Frame, Slot};
 use super::keeping::Keeping;
+use super::order::Order;
 use super::pace::{Meter, Pace};
+use super::past::Past;
+use super::rival::RivalRun;
+use super::settings::Setting;
+use super::snapshot;
 use super::theory::Theory;
 use super::trend::Trend;
-use crate::export::file::{RunDirectory, free_directory};
-use crate::export::header::number;
-use crate::export::state;
 use crate::math::abel::AbelMethod;
 use crate::scenario::Scenario;
+use crate::scenario::parameters::{Kind, find};
 use crate::scenario::session::Session;
 use crate::simulation::Curves;
+
+mod travel;
+
+use travel::ends_cycle;
 
 /// Laws that keys step through.
 const LAWS: [&str; 2] = ["archard", "power"];
@@ -32,55 +38,17 @@ const LAWS: [&str; 2] = ["archard", "power"];
 /// How long the worker steps before it looks for orders again.
 const STINT: Duration = Duration::from_millis(4);
 
-/// What the explorer asks of the worker.
-#[derive(Debug)]
-pub enum Order {
-    /// Run or pause.
-    RunPause,
-    /// Pause, one step.
-    Step,
-    /// Pause, to the end of the cycle.
-    Cycle,
-    /// The method so many places further on.
-    Method(isize),
-    /// The wear law so many places further on.
-    Law(isize),
-    /// The pace so many places further on.
-    Pace(i32),
-    /// Start again as loaded.
-    Restart,
-    /// Another scenario, from the start.
-    Load(Box<Scenario>),
-    /// Write the state to files.
-    Snapshot,
-    /// Begin or end the comparison with another method.
-    Compare,
-    /// Run the companion on half the cells.
-    Companion,
-    /// Compute these curves from now on.
-    Show(Curves),
-    /// Answer with a frame when all orders before are carried out.
-    Sync(Sender<Arc<Frame>>),
-    /// End.
-    Quit,
-}
-
-/// The worker's own side of a rival.
-struct RivalRun {
-    session: Session,
-    /// Which of [`rivals`] it is.
-    choice: usize,
-    busy: Duration,
-    steps: u64,
-    stopped: Option<String>,
-}
-
 /// The worker's side.
 pub struct Worker {
     session: Session,
     rival: Option<RivalRun>,
     theory: Arc<Theory>,
+    settings: Arc<Vec<Setting>>,
     trend: Trend,
+    /// The trend up to the present, while the screen is in the past.
+    whole_trend: Option<Trend>,
+    past: Past,
+    kept_at: Instant,
     curves: Curves,
     activity: Activity,
     rung: i32,
@@ -112,9 +80,13 @@ impl Worker {
         };
         Self {
             theory: Arc::new(Theory::of(session.simulation().setup())),
+            settings: Arc::new(Setting::all(session.scenario())),
             session,
             rival: None,
             trend,
+            whole_trend: None,
+            past: Past::default(),
+            kept_at: Instant::now(),
             curves: Curves::all(),
             activity,
             rung: 3,
@@ -148,7 +120,7 @@ impl Worker {
         self.keeping = keeping;
         let served = catch_unwind(AssertUnwindSafe(|| self.attend(orders)));
         // A step that was cut short has left half a state.
-        let session = served.is_ok().then_some(&self.session);
+        let session = served.is_ok().then(|| self.past.line(&self.session));
         self.keeping.take()?.finish(session)
     }
 
@@ -178,7 +150,9 @@ impl Worker {
     /// Keeps the session when that is due.
     fn look_after(&mut self) {
         let keeping = self.keeping.as_mut();
-        if let Some(word) = keeping.and_then(|keeping| keeping.look_after(&self.session)) {
+        if let Some(word) =
+            keeping.and_then(|keeping| keeping.look_after(self.past.line(&self.session)))
+        {
             self.notice(&word);
         }
     }
@@ -187,7 +161,7 @@ impl Worker {
     /// none.
     fn until_next_step(&self) -> Option<Duration> {
         if self.activity != Activity::Running {
-            return self.keeping.as_ref()?.wait(&self.session);
+            return self.keeping.as_ref()?.wait(self.past.line(&self.session));
         }
         let due = match Pace::of_rung(self.rung) {
             Pace::Unlimited => 0.0,
@@ -215,6 +189,7 @@ impl Worker {
                 super::fault::strike("sixth cycle");
             }
             self.step();
+            self.keep_cycle(before);
             self.end_where_planned(before);
         }
         self.meter.measure(
@@ -222,49 +197,32 @@ impl Worker {
             self.session.simulation().state().steps,
             start.elapsed(),
         );
+        self.trend.note_cost(self.meter.step_cost);
         if self.published.elapsed() >= self.interval || self.activity != Activity::Running {
             self.publish();
         }
     }
 
     fn step(&mut self) {
+        self.branch();
+        if self.session.simulation().state().steps == 0 {
+            self.keep();
+        }
         match self.session.step() {
             Ok(()) => {
                 self.trend.record(&self.session.simulation().moment());
-                self.follow();
+                if let Some(rival) = &mut self.rival {
+                    rival.follow(self.session.simulation().cycle());
+                }
             }
             Err(error) => self.activity = Activity::Stopped(error.to_string()),
         }
     }
 
-    /// Brings the rival to where this run is.
-    fn follow(&mut self) {
-        let Some(rival) = &mut self.rival else { return };
-        if rival.stopped.is_some() {
-            return;
-        }
-        let (start, before) = (Instant::now(), rival.session.simulation().state().steps);
-        if let Err(error) = rival.session.advance_to(self.session.simulation().cycle()) {
-            rival.stopped = Some(error.to_string());
-        }
-        rival.busy += start.elapsed();
-        rival.steps += rival.session.simulation().state().steps - before;
-    }
-
-    /// Sets a rival beside this run, from the same state.
-    fn rival(&mut self, choice: usize) {
-        let (key, value) = &rivals(&self.session)[choice];
-        let mut session = self.session.clone();
-        match session.change(key, value) {
-            Ok(()) => {
-                self.rival = Some(RivalRun {
-                    session,
-                    choice,
-                    busy: Duration::ZERO,
-                    steps: 0,
-                    stopped: None,
-                });
-            }
+    /// Sets a rival beside this run, so many places after the one before.
+    fn rival(&mut self, places: isize) {
+        match RivalRun::beside(&self.session, self.rival.as_ref(), places) {
+            Ok(rival) => self.rival = Some(rival),
             Err(error) => self.notice(&error.to_string()),
         }
     }
@@ -303,19 +261,17 @@ impl Worker {
                 }
             },
             Order::Step => self.by_hand(|_, _| true),
-            Order::Cycle => {
-                self.by_hand(|before, now| (now + 1e-9).floor() > (before + 1e-9).floor())
-            }
+            Order::Cycle => self.by_hand(ends_cycle),
+            Order::Back => self.travel(Past::back, "the run begins here"),
+            Order::Forth => self.travel(Past::forth, "this is the present"),
+            Order::Mark => self.mark(),
+            Order::Visit => self.visit(),
             Order::Compare => match self.rival.take() {
                 Some(_) => {}
                 None => self.rival(0),
             },
             Order::Companion => self.companion(),
-            Order::Method(places) if self.rival.is_some() => {
-                let all = rivals(&self.session).len();
-                let now = self.rival.as_ref().map_or(0, |rival| rival.choice) as isize;
-                self.rival((now + places).rem_euclid(all as isize) as usize);
-            }
+            Order::Method(places) if self.rival.is_some() => self.rival(places),
             Order::Method(places) => {
                 let now = self.session.simulation().setup().method;
                 let method = shifted(&AbelMethod::ALL, |method| *method == now, places);
@@ -328,12 +284,13 @@ impl Worker {
                     self.change("wear.law", law);
                 }
             },
+            Order::Change { key, value } => self.change(&key, &value),
             Order::Pace(rungs) => {
                 self.rung = (self.rung + rungs).clamp(Pace::SLOWEST, Pace::UNLIMITED)
             }
             Order::Restart => self.load(self.session.loaded().clone()),
             Order::Load(scenario) => self.load(*scenario),
-            Order::Snapshot => self.snapshot(),
+            Order::Snapshot(note) => self.snapshot(note.as_deref()),
             Order::Show(curves) => self.curves = curves,
             Order::Sync(reply) => {
                 let _ = reply.send(Arc::new(self.frame()));
@@ -351,19 +308,30 @@ impl Worker {
         let before = self.session.simulation().cycle();
         loop {
             self.step();
+            if ends_cycle(before, self.session.simulation().cycle()) {
+                self.keep();
+            }
             if self.activity != Activity::Paused
                 || done(before, self.session.simulation().cycle())
                 || self.halt.load(Ordering::Relaxed)
             {
-                return;
+                break;
             }
         }
+        self.keep();
     }
 
     fn change(&mut self, key: &str, value: &str) {
-        match self.session.change(key, &format!("\"{value}\"")) {
+        self.keep();
+        let quoted = format!("\"{value}\"");
+        let is_word = find(key).is_some_and(|known| matches!(known.kind, Kind::Choice(_)));
+        match self
+            .session
+            .change(key, if is_word { &quoted } else { value })
+        {
             Ok(()) => {
-                self.theory = Arc::new(Theory::of(self.session.simulation().setup()));
+                self.branch();
+                self.learn();
                 if matches!(self.activity, Activity::Stopped(_)) {
                     self.activity = Activity::Paused;
                 }
@@ -374,15 +342,23 @@ impl Worker {
         }
     }
 
+    /// What follows from the scenario as it is now.
+    fn learn(&mut self) {
+        self.theory = Arc::new(Theory::of(self.session.simulation().setup()));
+        self.settings = Arc::new(Setting::all(self.session.scenario()));
+    }
+
     fn load(&mut self, scenario: Scenario) {
         match Session::start(scenario) {
             Ok(session) => {
                 if let Some(keeping) = &mut self.keeping {
-                    keeping.turn_over(&self.session, &session);
+                    keeping.turn_over(self.past.line(&self.session), &session);
                 }
                 self.session = session;
                 self.rival = None;
-                self.theory = Arc::new(Theory::of(self.session.simulation().setup()));
+                self.past = Past::default();
+                self.whole_trend = None;
+                self.learn();
                 self.trend = Trend::default();
                 self.trend.record(&self.session.simulation().moment());
                 if self.activity != Activity::Running {
@@ -393,23 +369,9 @@ impl Worker {
         }
     }
 
-    /// Writes `state.csv` and, beside it, the scenario that leads there.
-    fn snapshot(&mut self) {
-        let session = &self.session;
-        let stem = session.loaded().stem();
-        let directory = free_directory(&format!(
-            "{stem}-cycle-{}",
-            number(session.simulation().cycle())
-        ));
-        let written = RunDirectory::claim(&directory, false).and_then(|directory| {
-            directory.write(
-                "scenario.toml",
-                session.as_run(Vec::new()).to_toml().as_bytes(),
-            )?;
-            directory.write("state.csv", state::table(session).as_bytes())
-        });
-        match written {
-            Ok(path) => self.notice(&format!("snapshot in {}", show(&path))),
+    fn snapshot(&self, note: Option<&str>) {
+        match snapshot::write(&self.session, note) {
+            Ok(path) => self.notice(&format!("snapshot in {}", path.display())),
             Err(error) => self.notice(&error.to_string()),
         }
     }
@@ -447,57 +409,21 @@ impl Worker {
             origin: scenario.origin().to_owned(),
             planned_cycles: self.session.loaded().run().cycles,
             steps_per_cycle: simulation.setup().steps_per_cycle,
+            present: self.past.present(),
+            settings: Arc::clone(&self.settings),
+            indenter: simulation.setup().indenter,
             friction: simulation.setup().material.friction(),
             force_residual,
             theory: Arc::clone(&self.theory),
-            rival: self.rival.as_ref().map(|rival| Rival {
-                name: name(&rival.session),
-                observation: rival
-                    .session
-                    .simulation()
-                    .observe(Curves::PROFILE | Curves::PRESSURE),
-                step_cost: (rival.steps > 0).then(|| rival.busy.as_secs_f64() / rival.steps as f64),
-                stopped: rival.stopped.clone(),
-            }),
+            rival: self.rival.as_ref().map(RivalRun::seen),
         }
     }
-}
-
-/// What a run can be compared with: every other method, and itself on half the cells.
-fn rivals(session: &Session) -> Vec<(&'static str, String)> {
-    let setup = session.simulation().setup();
-    let others = AbelMethod::ALL
-        .into_iter()
-        .filter(|method| *method != setup.method);
-    let mut list: Vec<_> = others
-        .map(|method| ("numerics.method", format!("\"{method}\"")))
-        .collect();
-    // The paper's verdict is about B: it comes first.
-    list.sort_by_key(|(_, value)| value != "\"b\"");
-    list.push((
-        "numerics.points",
-        (setup.grid.cells() / 2)
-            .max(crate::math::grid::MIN_CELLS)
-            .to_string(),
-    ));
-    list
-}
-
-/// Method and cells.
-fn name(session: &Session) -> String {
-    let setup = session.simulation().setup();
-    format!("{} {}", setup.method, setup.grid.cells())
 }
 
 /// The element so many places after the one that is `now`, around the ends.
 fn shifted<T: Copy>(all: &[T], now: impl Fn(&T) -> bool, places: isize) -> T {
     let at = all.iter().position(now).unwrap_or(0) as isize;
     all[(at + places).rem_euclid(all.len() as isize) as usize]
-}
-
-fn show(path: &std::path::Path) -> String {
-    let path: PathBuf = path.components().collect();
-    path.display().to_string()
 }
 
 #[cfg(test)]

@@ -1,0 +1,110 @@
+//! One line of text being typed.
+
+use super::keys::{Key, Named};
+
+/// The text and where the next character goes.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct LineEdit {
+    text: Vec<char>,
+    at: usize,
+}
+
+impl LineEdit {
+    /// A line that holds `text`, the cursor behind it.
+    pub fn new(text: &str) -> Self {
+        let text: Vec<char> = text.chars().filter(|c| !c.is_control()).collect();
+        let at = text.len();
+        Self { text, at }
+    }
+
+    /// The whole line.
+    pub fn text(&self) -> String {
+        self.text.iter().collect()
+    }
+
+    /// Whether nothing has been typed.
+    pub fn is_empty(&self) -> bool {
+        self.text.is_empty()
+    }
+
+    /// What stands before the cursor, and from it on.
+    pub fn halves(&self) -> (String, String) {
+        let (before, after) = self.text.split_at(self.at);
+        (before.iter().collect(), after.iter().collect())
+    }
+
+    /// Takes a key as a shell's line does: characters, arrows, Home, End, Backspace, Delete, Ctrl-U
+    /// for all before the cursor and Ctrl-W for the word before it. False for keys that are not its own.
+    pub fn press(&mut self, key: Key) -> bool {
+        match key {
+            Key::Char(character) => {
+                self.text.insert(self.at, character);
+                self.at += 1;
+            }
+            Key::Named(Named::Backspace) if self.at > 0 => {
+                self.at -= 1;
+                self.text.remove(self.at);
+            }
+            Key::Named(Named::Delete) if self.at < self.text.len() => {
+                self.text.remove(self.at);
+            }
+            Key::Named(Named::Backspace | Named::Delete) => {}
+            Key::Named(Named::Left) => self.at = self.at.saturating_sub(1),
+            Key::Named(Named::Right) => self.at = (self.at + 1).min(self.text.len()),
+            Key::Named(Named::Home) | Key::Ctrl('a') => self.at = 0,
+            Key::Named(Named::End) | Key::Ctrl('e') => self.at = self.text.len(),
+            Key::Ctrl('u') => self.cut_to(0),
+            Key::Ctrl('w') => {
+                let before = &self.text[..self.at];
+                let word = before.iter().rposition(|c| *c != ' ');
+                let start = word.map_or(0, |end| {
+                    before[..end]
+                        .iter()
+                        .rposition(|c| *c == ' ')
+                        .map_or(0, |space| space + 1)
+                });
+                self.cut_to(start);
+            }
+            _ => return false,
+        }
+        true
+    }
+
+    /// Removes what stands from `start` to the cursor.
+    fn cut_to(&mut self, start: usize) {
+        self.text.drain(start..self.at);
+        self.at = start;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tui::keys::parse_script;
+
+    fn typed(script: &str) -> (String, String) {
+        let mut line = LineEdit::new("ab");
+        for key in parse_script(script).expect("a script") {
+            line.press(key);
+        }
+        line.halves()
+    }
+
+    #[test]
+    fn it_edits_as_a_shell_does() {
+        for (script, before, after) in [
+            ("cd", "abcd", ""),
+            ("<Left>x", "ax", "b"),
+            ("<Left><Left><Left><Delete>", "", "b"),
+            ("<Backspace><Backspace><Backspace>é", "é", ""),
+            ("<Home>1<End>2", "1ab2", ""),
+            (" cd ef<C-w>", "ab cd ", ""),
+            (" cd  <C-w>", "ab ", ""),
+            ("<C-w><C-w>", "", ""),
+            ("<Left><C-u>", "", "b"),
+        ] {
+            assert_eq!(typed(script), (before.into(), after.into()), "{script}");
+        }
+        assert!(!LineEdit::default().press(Key::Named(Named::Enter)));
+    }
+}

@@ -1,0 +1,56 @@
+//! What the explorer can ask of the worker: the only arrow back from the screen.
+
+use std::sync::Arc;
+use std::sync::mpsc::Sender;
+
+use super::frame::Frame;
+use crate::scenario::Scenario;
+use crate::simulation::Curves;
+
+/// What the explorer asks of the worker.
+#[derive(Debug)]
+pub enum Order {
+    /// Run or pause.
+    RunPause,
+    /// Pause, one step.
+    Step,
+    /// Pause, to the end of the cycle.
+    Cycle,
+    /// The method so many places further on.
+    Method(isize),
+    /// The wear law so many places further on.
+    Law(isize),
+    /// The pace so many places further on.
+    Pace(i32),
+    /// A key of the scenario gets a value: TOML, or a bare word.
+    Change {
+        /// The dotted path.
+        key: String,
+        /// The value.
+        value: String,
+    },
+    /// One kept state back in time.
+    Back,
+    /// One kept state forth in time.
+    Forth,
+    /// Mark the state on the screen.
+    Mark,
+    /// Go to the marked state before this one.
+    Visit,
+    /// Start again as loaded.
+    Restart,
+    /// Another scenario, from the start.
+    Load(Box<Scenario>),
+    /// Write the state to files, with a note if there is one.
+    Snapshot(Option<String>),
+    /// Begin or end the comparison with another method.
+    Compare,
+    /// Run the companion on half the cells.
+    Companion,
+    /// Compute these curves from now on.
+    Show(Curves),
+    /// Answer with a frame when all orders before are carried out.
+    Sync(Sender<Arc<Frame>>),
+    /// End.
+    Quit,
+}

@@ -1,0 +1,195 @@
+//! Scenarios to choose from: the presets, and the user's own files, with what they show.
+
+use std::path::{Path, PathBuf};
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::text::Line;
+use ratatui::widgets::{Paragraph, Widget, Wrap};
+
+use super::{Answer, App, Command, Frame, Key, first_shown, popup};
+use crate::scenario::preset::{self, Preset};
+use crate::scenario::{Scenario, printable};
+use crate::tui::command;
+use crate::tui::keys::Named;
+use crate::tui::theme::Role;
+
+/// The most entries of a directory that are listed.
+const LONGEST: usize = 1000;
+
+/// Rows of words on what is selected.
+const WORDS: u16 = 4;
+
+/// The list: presets first, then what is in a directory.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Library {
+    at: usize,
+    directory: PathBuf,
+    entries: Vec<Entry>,
+    /// What is said of the selected entry.
+    about: String,
+}
+
+/// Something to choose.
+#[derive(Debug, Clone, PartialEq)]
+enum Entry {
+    Preset(&'static Preset),
+    Directory(PathBuf),
+    File(PathBuf),
+}
+
+impl Entry {
+    fn name(&self) -> String {
+        let last = |path: &Path| {
+            let name = path.file_name().unwrap_or(path.as_os_str());
+            printable(&name.to_string_lossy())
+        };
+        match self {
+            Self::Preset(preset) => preset.name.to_owned(),
+            Self::Directory(path) if path.ends_with("..") => "../".to_owned(),
+            Self::Directory(path) => format!("{}/", last(path)),
+            Self::File(path) => last(path),
+        }
+    }
+
+    fn title(&self) -> String {
+        match self {
+            Self::Preset(preset) => preset.title(),
+            Self::Directory(_) | Self::File(_) => String::new(),
+        }
+    }
+
+    /// What it shows, or why it cannot be run.
+    fn about(&self) -> String {
+        match self {
+            Self::Preset(preset) => preset.summary(),
+            Self::Directory(path) => format!("the scenarios in {}", path.display()),
+            Self::File(path) => match Scenario::load(&path.to_string_lossy(), &[]) {
+                Ok(scenario) if scenario.description().is_empty() => scenario.title().to_owned(),
+                Ok(scenario) => format!("{}: {}", scenario.title(), scenario.description()),
+                Err(error) => error.to_string(),
+            },
+        }
+    }
+}
+
+/// The directories and the scenarios in a directory, by name.
+fn files(directory: &Path) -> Vec<Entry> {
+    let mut found: Vec<Entry> = std::fs::read_dir(directory)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|entry| entry.path())
+        .filter(|path| {
+            let name = path.file_name().and_then(|name| name.to_str());
+            name.is_some_and(|name| !name.starts_with('.'))
+        })
+        .filter_map(|path| {
+            if path.is_dir() {
+                return Some(Entry::Directory(path));
+            }
+            let is_scenario = path
+                .extension()
+                .is_some_and(|end| end.eq_ignore_ascii_case("toml"));
+            is_scenario.then_some(Entry::File(path))
+        })
+        .take(LONGEST)
+        .collect();
+    found.sort_by_key(|entry| (matches!(entry, Entry::Directory(_)), entry.name()));
+    found.push(Entry::Directory(directory.join("..")));
+    found
+}
+
+impl Library {
+    /// The list with the scenario on the screen selected, and the working directory.
+    pub fn open(frame: Option<&Frame>) -> Self {
+        let mut library = Self::default();
+        library.enter(PathBuf::from("."));
+        let origin = frame.map_or("", |frame| frame.origin.as_str());
+        let is_shown = |entry: &Entry| match entry {
+            Entry::Preset(preset) => preset.name == origin,
+            Entry::File(path) => path.as_path() == Path::new(".").join(origin),
+            Entry::Directory(_) => false,
+        };
+        let at = library.entries.iter().position(is_shown);
+        library.select(at.unwrap_or(0));
+        library
+    }
+
+    fn enter(&mut self, directory: PathBuf) {
+        self.entries = preset::ALL.iter().map(Entry::Preset).collect();
+        self.entries.extend(files(&directory));
+        self.directory = directory;
+    }
+
+    fn select(&mut self, at: usize) {
+        self.at = at.min(self.entries.len() - 1);
+        self.about = self.entries[self.at].about();
+    }
+
+    pub(super) fn press(&mut self, key: Key) -> Answer {
+        let count = self.entries.len();
+        match (key, command::of_key(key)) {
+            (Key::Named(Named::Home), _) => self.select(0),
+            (Key::Named(Named::End), _) => self.select(count - 1),
+            (Key::Named(Named::PageUp), _) => self.select(self.at.saturating_sub(10)),
+            (Key::Named(Named::PageDown), _) => self.select(self.at + 10),
+            (_, Some(Command::Up | Command::PreviousPanel)) => {
+                self.select((self.at + count - 1) % count);
+            }
+            (_, Some(Command::Down | Command::NextPanel)) => self.select((self.at + 1) % count),
+            (_, Some(Command::Back | Command::Presets)) => return Answer::Close,
+            (_, Some(Command::Accept | Command::RunPause)) => return self.take(),
+            (_, Some(other)) => return Answer::Through(other),
+            (_, None) => {}
+        }
+        Answer::Stay
+    }
+
+    /// Loads what is selected, or goes into it.
+    fn take(&mut self) -> Answer {
+        match &self.entries[self.at] {
+            Entry::Preset(preset) => Answer::Load(preset.name.to_owned()),
+            Entry::File(path) => Answer::Load(path.to_string_lossy().into_owned()),
+            Entry::Directory(path) => {
+                let path = path.clone();
+                self.enter(path);
+                self.select(preset::ALL.len());
+                Answer::Stay
+            }
+        }
+    }
+
+    pub(super) fn draw(&self, app: &App, area: Rect, buffer: &mut Buffer) {
+        let names = preset::ALL.iter().map(|preset| preset.name.len());
+        let width = names.max().unwrap_or(0);
+        let height = self.entries.len() as u16 + WORDS + 2;
+        let title = "presets (and files of yours; Enter starts, Esc closes)";
+        let inside = popup(app, title, (80, height), area, buffer);
+        let list = Rect {
+            height: inside.height.saturating_sub(WORDS),
+            ..inside
+        };
+        let shown = self.entries.iter().enumerate();
+        let first = first_shown(self.at, list.height);
+        for ((i, entry), row) in shown.skip(first).zip(list.rows()) {
+            let name = app.theme.printable(&entry.name());
+            let text = format!(" {name:width$}  {} ", entry.title());
+            let line = Line::raw(text);
+            line.render(row, buffer);
+            if i == self.at {
+                buffer.set_style(row, app.theme.style(Role::Focus));
+            }
+        }
+        let words = Rect {
+            x: inside.x + 1,
+            y: list.bottom() + 1,
+            width: inside.width.saturating_sub(2),
+            height: inside.height.saturating_sub(list.height + 1),
+        };
+        Paragraph::new(app.theme.printable(&self.about))
+            .style(app.theme.style(Role::Quiet))
+            .wrap(Wrap { trim: true })
+            .render(words, buffer);
+    }
+}

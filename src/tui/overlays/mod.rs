@@ -1,0 +1,182 @@
+//! What lies over the panels, one a file: each keeps its own state, answers keys and draws itself.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::{Modifier, Style};
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Block, Clear, Widget};
+
+use super::app::App;
+use super::command::{self, Command};
+use super::frame::Frame;
+use super::keys::{Key, Named};
+use super::line::LineEdit;
+use super::order::Order;
+use super::theme::Role;
+
+mod accuracy;
+mod form;
+mod help;
+mod library;
+mod palette;
+
+pub use form::Form;
+pub use help::Help;
+pub use library::Library;
+pub use palette::Palette;
+
+/// What lies over the panels.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub enum Overlay {
+    /// Nothing.
+    #[default]
+    None,
+    /// The keys.
+    Help(Help),
+    /// The presets.
+    Library(Library),
+    /// Certificates and companion.
+    Accuracy,
+    /// Every command by its name.
+    Palette(Palette),
+    /// The parameters.
+    Form(Form),
+    /// The note of a snapshot.
+    Note(LineEdit),
+}
+
+/// What an overlay makes of a key.
+#[derive(Debug)]
+pub enum Answer {
+    /// It stays.
+    Stay,
+    /// It closes.
+    Close,
+    /// It closes, and the command is carried out.
+    Through(Command),
+    /// It stays, and the command is carried out below it.
+    Meanwhile(Command),
+    /// It closes, and the worker is told.
+    Order(Order),
+    /// It stays, and the worker is told.
+    Ask(Order),
+    /// It closes, and this scenario is loaded.
+    Load(String),
+    /// It stays, and the user is told.
+    Say(String),
+}
+
+impl Overlay {
+    /// Answers a key, given what is on the screen.
+    pub fn press(&mut self, key: Key, frame: Option<&Frame>) -> Answer {
+        match self {
+            Self::None => command::of_key(key).map_or(Answer::Stay, Answer::Through),
+            Self::Help(help) => help.press(key),
+            Self::Library(library) => library.press(key),
+            Self::Accuracy => command::of_key(key).map_or(Answer::Stay, accuracy::answer),
+            Self::Palette(palette) => palette.press(key, frame),
+            Self::Form(form) => form.press(key, frame),
+            Self::Note(line) => note(line, key),
+        }
+    }
+
+    /// Draws it over `area`.
+    pub fn draw(&self, app: &App, area: Rect, buffer: &mut Buffer) {
+        match self {
+            Self::None => {}
+            Self::Help(help) => help.draw(app, area, buffer),
+            Self::Library(library) => library.draw(app, area, buffer),
+            Self::Accuracy => accuracy::draw(app, area, buffer),
+            Self::Palette(palette) => palette.draw(app, area, buffer),
+            Self::Form(form) => form.draw(app, area, buffer),
+            Self::Note(line) => {
+                let title = "snapshot with a note (Enter writes, Esc closes)";
+                let inside = docked(app, title, (100, 3), area, buffer);
+                typing(" ", line, Style::new()).render(inside, buffer);
+            }
+        }
+    }
+}
+
+/// A note is typed; Enter takes the snapshot.
+fn note(line: &mut LineEdit, key: Key) -> Answer {
+    match key {
+        Key::Named(Named::Esc) => return Answer::Close,
+        Key::Named(Named::Enter) => {
+            let text = line.text().trim().to_owned();
+            let note = Some(text).filter(|text| !text.is_empty());
+            return Answer::Order(Order::Snapshot(note));
+        }
+        key => line.press(key),
+    };
+    Answer::Stay
+}
+
+/// A cleared box in the middle of `area`, with a title; returns its inside.
+fn popup(app: &App, title: &str, size: (u16, u16), area: Rect, buffer: &mut Buffer) -> Rect {
+    let height = size.1.min(area.height);
+    let place = Rect {
+        y: area.y + (area.height - height) / 2,
+        ..area
+    };
+    boxed(app, title, (size.0, height), place, buffer)
+}
+
+/// The same at the lower end of `area`: what lies above can be watched.
+fn docked(app: &App, title: &str, size: (u16, u16), area: Rect, buffer: &mut Buffer) -> Rect {
+    let height = size.1.min(area.height);
+    let place = Rect {
+        y: area.bottom() - height,
+        ..area
+    };
+    boxed(app, title, (size.0, height), place, buffer)
+}
+
+fn boxed(app: &App, title: &str, size: (u16, u16), area: Rect, buffer: &mut Buffer) -> Rect {
+    let width = size.0.min(area.width);
+    let place = Rect::new(
+        area.x + (area.width - width) / 2,
+        area.y,
+        width,
+        size.1.min(area.height),
+    );
+    Clear.render(place, buffer);
+    let mut block = Block::bordered()
+        .border_style(app.theme.style(Role::Quiet))
+        .title(format!(" {title} "));
+    if app.theme.ascii() {
+        block = block.border_set(ASCII_BORDER);
+    }
+    let inside = block.inner(place);
+    block.render(place, buffer);
+    inside
+}
+
+const ASCII_BORDER: ratatui::symbols::border::Set = ratatui::symbols::border::Set {
+    top_left: "+",
+    top_right: "+",
+    bottom_left: "+",
+    bottom_right: "+",
+    vertical_left: "|",
+    vertical_right: "|",
+    horizontal_top: "-",
+    horizontal_bottom: "-",
+};
+
+/// The first entry to show so that entry `at` is among the `rows` shown.
+fn first_shown(at: usize, rows: u16) -> usize {
+    (at + 1).saturating_sub(usize::from(rows))
+}
+
+/// A line being typed behind a prompt, its cursor shown.
+fn typing(prompt: &str, line: &LineEdit, style: Style) -> Line<'static> {
+    let (before, after) = line.halves();
+    let mut after = after.chars();
+    let under = after.next().unwrap_or(' ');
+    Line::from(vec![
+        Span::styled(prompt.to_owned(), style),
+        Span::raw(before),
+        Span::styled(under.to_string(), Modifier::REVERSED),
+        Span::raw(after.collect::<String>()),
+    ])
+}

@@ -1,0 +1,27 @@
+//! What a step costs on this machine, over cycles.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::widgets::Widget;
+
+use super::{App, Frame, Panel, curve, nothing, over_cycles, series};
+use crate::tui::plot::Axis;
+use crate::tui::theme::Role;
+
+/// What the ordinate must hold: costs are read from zero.
+pub fn ordinates(frame: &Frame) -> Vec<f64> {
+    let mut values = series(frame, |entry| entry.step_cost).1;
+    values.push(0.0);
+    values
+}
+
+/// Draws the panel.
+pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
+    let (cycles, cost) = series(frame, |entry| entry.step_cost);
+    if !cost.iter().any(|value| value.is_finite()) {
+        return nothing("measured while it runs", app, area, buffer);
+    }
+    over_cycles(Panel::Cost, frame, app, Axis::new("a step", "s"))
+        .curve(curve("", &cycles, &cost, &app.theme, Role::Shear))
+        .render(area, buffer);
+}

@@ -1,0 +1,32 @@
+//! The volume that a cycle wears, over cycles.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::widgets::Widget;
+
+use super::{App, Frame, Panel, curve, nothing, over_cycles, series};
+use crate::tui::plot::{Axis, Scale};
+use crate::tui::theme::Role;
+
+/// What the ordinate must hold.
+pub fn ordinates(frame: &Frame) -> Vec<f64> {
+    let mut values = series(frame, |entry| entry.wear_rate).1;
+    values.push(0.0);
+    values
+}
+
+/// Draws the panel.
+pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
+    if frame.observation.law.is_none() {
+        return nothing("no wear in this scenario", app, area, buffer);
+    }
+    let (cycles, rate) = series(frame, |entry| entry.wear_rate);
+    let now = curve("", &cycles, &rate, &app.theme, Role::Profile);
+    let now = match app.scale(Panel::Rate) {
+        Scale::Linear => now.fill_to(0.0),
+        Scale::Log => now,
+    };
+    over_cycles(Panel::Rate, frame, app, Axis::new("dV a cycle", "m³"))
+        .curve(now)
+        .render(area, buffer);
+}

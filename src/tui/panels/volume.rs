@@ -1,0 +1,36 @@
+//! Worn volume over cycles, and what the work of friction says of it: V = k E_d.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::widgets::Widget;
+
+use super::{App, Frame, Panel, curve, nothing, over_cycles, series};
+use crate::tui::plot::Axis;
+use crate::tui::plot::units::format_value_in;
+use crate::tui::theme::Role;
+
+/// What the ordinate must hold: volumes grow from zero.
+pub fn ordinates(frame: &Frame) -> Vec<f64> {
+    let mut values = vec![0.0];
+    values.extend(series(frame, |entry| entry.wear_volume).1);
+    values
+}
+
+/// Draws the panel.
+pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
+    let (seen, theme) = (&frame.observation, &app.theme);
+    if seen.law.is_none() {
+        return nothing("no wear in this scenario", app, area, buffer);
+    }
+    let (cycles, volume) = series(frame, |entry| entry.wear_volume);
+    let expected = series(frame, |entry| entry.expected_volume).1;
+    let work = format_value_in(seen.moment.dissipated_energy, "J", 4, theme.ascii());
+    let work = format!("E_d {work}");
+    let mut plot = over_cycles(Panel::Volume, frame, app, Axis::new("V", "m³"))
+        .curve(curve("V", &cycles, &volume, theme, Role::Profile))
+        .note(&work);
+    if expected.iter().any(|value| value.is_finite()) {
+        plot = plot.curve(curve("k E_d", &cycles, &expected, theme, Role::Shear).dashed());
+    }
+    plot.render(area, buffer);
+}

@@ -1,0 +1,343 @@
+//! Where the run has been: whole states to go back to, within a bound of memory.
+//!
+//! A state is kept at the end of a cycle, after every step taken by hand, and before every change.
+//! When the memory is full, states are thinned where they stand closest for their age, so that the
+//! recent past stays dense and the early past never vanishes. A state holds the whole session: what
+//! goes on from it is the same run to the last bit, and later changes are not part of it.
+
+use std::sync::Arc;
+
+use super::trend::{Tip, Trend};
+use crate::scenario::session::Session;
+
+/// The memory for the past, in bytes.
+const BUDGET: usize = 64 << 20;
+
+/// Arrays of nodal values that a session holds, rounded up.
+const ARRAYS: usize = 40;
+
+/// What a session holds beside nodal values: its texts and tables, in bytes.
+const TEXTS: usize = 24 << 10;
+
+/// One state of the past.
+#[derive(Debug, Clone)]
+pub(super) struct Kept {
+    /// The run as it was.
+    pub session: Session,
+    /// What the trend cannot find out from later entries.
+    pub tip: Tip,
+}
+
+impl Kept {
+    fn cycle(&self) -> f64 {
+        self.session.simulation().cycle()
+    }
+
+    /// An upper bound of what it holds, and of the operators that it alone may keep alive.
+    fn bytes(&self, before: Option<&Self>) -> usize {
+        let setup = self.session.simulation().setup();
+        let nodes = setup.grid.len();
+        let shared = before.is_some_and(|before| {
+            let other = before.session.simulation().setup();
+            other.method == setup.method
+                && other.indenter == setup.indenter
+                && other.grid == setup.grid
+        });
+        let operators = if shared { 0 } else { 4 * nodes * nodes };
+        8 * (ARRAYS * nodes + operators) + self.tip.bytes() + TEXTS
+    }
+}
+
+/// A state that the user has marked, with the trend that led there.
+#[derive(Debug, Clone)]
+pub(super) struct Bookmark {
+    /// The state.
+    pub kept: Arc<Kept>,
+    /// The cycles before it.
+    pub trend: Trend,
+}
+
+/// The states of the past, oldest first, and where in them the screen is.
+#[derive(Debug)]
+pub(super) struct Past {
+    kept: Vec<Arc<Kept>>,
+    /// The state on the screen; none at the present.
+    at: Option<usize>,
+    bookmarks: Vec<Bookmark>,
+    budget: usize,
+}
+
+impl Default for Past {
+    fn default() -> Self {
+        Self {
+            kept: Vec::new(),
+            at: None,
+            bookmarks: Vec::new(),
+            budget: BUDGET,
+        }
+    }
+}
+
+impl Past {
+    /// Keeps the present state, once.
+    pub fn keep(&mut self, session: &Session, trend: &Trend) {
+        if self.at.is_some() || self.is_kept(session) {
+            return;
+        }
+        self.kept.push(Arc::new(Kept {
+            session: session.clone(),
+            tip: trend.tip(),
+        }));
+        while self.kept.len() > 2 && self.bytes() > self.budget {
+            self.thin();
+        }
+    }
+
+    /// Whether the newest state is the present one: no step and no change since.
+    fn is_kept(&self, session: &Session) -> bool {
+        self.kept.last().is_some_and(|last| {
+            last.session.simulation().state().steps == session.simulation().state().steps
+                && last.session.changes().len() == session.changes().len()
+        })
+    }
+
+    /// Memory in use, in bytes.
+    fn bytes(&self) -> usize {
+        let before = std::iter::once(None).chain(self.kept.iter().map(Some));
+        let states = self.kept.iter().zip(before);
+        let states: usize = states
+            .map(|(kept, before)| kept.bytes(before.map(|kept| &**kept)))
+            .sum();
+        let marked = self.bookmarks.iter();
+        states + marked.map(|mark| mark.kept.bytes(None)).sum::<usize>()
+    }
+
+    /// Drops the state that is missed least: the one in the smallest gap for its age. The first and
+    /// the last stay.
+    fn thin(&mut self) {
+        let newest = self.kept.last().map_or(0.0, |kept| kept.cycle());
+        let gap = |i: usize| {
+            let width = self.kept[i + 1].cycle() - self.kept[i - 1].cycle();
+            width / (newest - self.kept[i].cycle() + 1.0)
+        };
+        let least = (1..self.kept.len() - 1).min_by(|&a, &b| gap(a).total_cmp(&gap(b)));
+        if let Some(least) = least {
+            self.kept.remove(least);
+        }
+    }
+
+    /// One state back; none at the beginning. The present must have been kept.
+    pub fn back(&mut self) -> Option<Arc<Kept>> {
+        let now = self.at.unwrap_or(self.kept.len().saturating_sub(1));
+        self.at = Some(now.checked_sub(1)?);
+        self.kept.get(now - 1).cloned()
+    }
+
+    /// One state forth; none at the present.
+    pub fn forth(&mut self) -> Option<Arc<Kept>> {
+        let next = self.at? + 1;
+        let found = self.kept.get(next).cloned();
+        self.at = (next + 1 < self.kept.len()).then_some(next);
+        found
+    }
+
+    /// The session at the present, whatever is on the screen: what is worth keeping.
+    pub fn line<'a>(&'a self, shown: &'a Session) -> &'a Session {
+        let last = self.kept.last().filter(|_| self.at.is_some());
+        last.map_or(shown, |kept| &kept.session)
+    }
+
+    /// The cycle of the present, while the screen is in the past.
+    pub fn present(&self) -> Option<f64> {
+        self.at?;
+        self.kept.last().map(|kept| kept.cycle())
+    }
+
+    /// Makes the state on the screen the present: what came after it is dropped. True if there was
+    /// anything to drop.
+    pub fn branch(&mut self) -> bool {
+        let Some(at) = self.at.take() else {
+            return false;
+        };
+        self.kept.truncate(at + 1);
+        true
+    }
+
+    /// Marks a state, once.
+    pub fn mark(&mut self, session: &Session, trend: &Trend) {
+        let kept = Arc::new(Kept {
+            session: session.clone(),
+            tip: trend.tip(),
+        });
+        let is_there = |mark: &Bookmark| is_same(&mark.kept.session, session);
+        if !self.bookmarks.iter().any(is_there) {
+            let trend = trend.clone();
+            self.bookmarks.push(Bookmark { kept, trend });
+            let cycle = |mark: &Bookmark| mark.kept.cycle();
+            self.bookmarks.sort_by(|a, b| cycle(a).total_cmp(&cycle(b)));
+        }
+    }
+
+    /// How many states are marked.
+    pub fn marks(&self) -> usize {
+        self.bookmarks.len()
+    }
+
+    /// The bookmark before `session`, going around to the last one.
+    pub fn bookmark_before(&self, session: &Session) -> Option<Bookmark> {
+        let same = |mark: &Bookmark| is_same(&mark.kept.session, session);
+        let now = session.simulation().cycle();
+        let at = self.bookmarks.iter().position(same);
+        let at = at.unwrap_or_else(|| {
+            let earlier = self.bookmarks.iter();
+            earlier.filter(|mark| mark.kept.cycle() < now).count()
+        });
+        let before = at.checked_sub(1).or(self.bookmarks.len().checked_sub(1))?;
+        self.bookmarks.get(before).cloned()
+    }
+
+    /// Goes to a bookmark. On the line of the present it becomes a place in the past; on another one
+    /// it becomes the present itself, and only what led to it stays.
+    pub fn visit(&mut self, mark: &Bookmark) {
+        let goal = &mark.kept.session;
+        let is_past = self
+            .kept
+            .last()
+            .is_some_and(|present| leads_to(goal, &present.session));
+        if !is_past {
+            self.kept.retain(|kept| leads_to(&kept.session, goal));
+        }
+        let at = self
+            .kept
+            .iter()
+            .position(|kept| is_same(&kept.session, goal));
+        let at = at.unwrap_or_else(|| {
+            let before = |kept: &&Arc<Kept>| leads_to(&kept.session, goal);
+            let at = self.kept.iter().take_while(before).count();
+            self.kept.insert(at, Arc::clone(&mark.kept));
+            at
+        });
+        self.at = (at + 1 < self.kept.len()).then_some(at);
+    }
+}
+
+/// Whether two sessions are the same run at the same moment.
+fn is_same(a: &Session, b: &Session) -> bool {
+    a.simulation().state().steps == b.simulation().state().steps && a.changes() == b.changes()
+}
+
+/// Whether `later` went through `earlier`: a run is made of its changes and nothing else, so it did
+/// if every change since came after it.
+fn leads_to(earlier: &Session, later: &Session) -> bool {
+    let (from, to) = (earlier.simulation().cycle(), later.simulation().cycle());
+    let made = earlier.changes().len();
+    from <= to
+        && later.changes().len() >= made
+        && later.changes()[..made] == *earlier.changes()
+        && later.changes()[made..]
+            .iter()
+            .all(|change| change.at_cycle >= from)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::Scenario;
+
+    fn session() -> Session {
+        let sets = [
+            "numerics.points=16".into(),
+            "numerics.steps_per_cycle=4".into(),
+        ];
+        let scenario = Scenario::load("li2019-fig3", &sets).expect("a preset");
+        Session::start(scenario).expect("a contact")
+    }
+
+    fn cycles(past: &Past) -> Vec<f64> {
+        past.kept.iter().map(|kept| kept.cycle()).collect()
+    }
+
+    #[test]
+    fn memory_is_bounded_and_the_recent_past_is_dense() {
+        let (mut session, trend) = (session(), Trend::default());
+        let mut past = Past::default();
+        past.keep(&session, &trend);
+        past.budget = 24 * past.kept[0].bytes(None);
+        for cycle in 1..=300 {
+            session.advance_to(f64::from(cycle)).expect("a step");
+            past.keep(&session, &trend);
+            past.keep(&session, &trend);
+            assert!(past.bytes() <= past.budget);
+        }
+        let cycles = cycles(&past);
+        assert_eq!((cycles[0], cycles[cycles.len() - 1]), (0.0, 300.0));
+        assert!(cycles.len() >= 16, "{cycles:?}");
+        assert!(cycles.is_sorted_by(|a, b| a < b));
+        // The last few cycles are all there, and gaps grow no faster than age.
+        assert!(cycles.ends_with(&[298.0, 299.0, 300.0]), "{cycles:?}");
+        for pair in cycles.windows(2) {
+            assert!(
+                pair[1] - pair[0] <= 0.7 * (300.0 - pair[0]) + 1.0,
+                "{cycles:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn back_and_forth_end_at_the_ends() {
+        let (mut session, trend) = (session(), Trend::default());
+        let mut past = Past::default();
+        for cycle in 0..4 {
+            session.advance_to(f64::from(cycle)).expect("a step");
+            past.keep(&session, &trend);
+        }
+        let at = |kept: Option<Arc<Kept>>| kept.map(|kept| kept.cycle());
+        assert!(past.forth().is_none());
+        assert_eq!(at(past.back()), Some(2.0));
+        assert_eq!(past.present(), Some(3.0));
+        assert_eq!(at(past.back()), Some(1.0));
+        assert_eq!(at(past.forth()), Some(2.0));
+        assert_eq!(at(past.forth()), Some(3.0));
+        assert_eq!(past.present(), None);
+        assert_eq!(at(past.back()), Some(2.0));
+        assert!(past.branch() && !past.branch());
+        assert_eq!(cycles(&past), [0.0, 1.0, 2.0]);
+        for _ in 0..3 {
+            past.back();
+        }
+        assert!(past.back().is_none());
+        assert_eq!(past.present(), Some(2.0));
+    }
+
+    #[test]
+    fn a_bookmark_on_another_branch_brings_its_own_past() {
+        let (mut session, trend) = (session(), Trend::default());
+        let mut past = Past::default();
+        for cycle in 0..3 {
+            session.advance_to(f64::from(cycle)).expect("a step");
+            past.keep(&session, &trend);
+        }
+        past.mark(&session, &trend);
+        past.mark(&session, &trend);
+        assert_eq!(past.marks(), 1);
+        let early = past.back().expect("a state");
+        past.branch();
+        let mut other = early.session.clone();
+        other
+            .change("friction.coefficient", "0.2")
+            .expect("a value");
+        past.keep(&other, &trend);
+        other.advance_to(4.0).expect("a step");
+        past.keep(&other, &trend);
+        assert_eq!(cycles(&past), [0.0, 1.0, 1.0, 4.0]);
+        let mark = past.bookmark_before(&other).expect("a bookmark");
+        past.visit(&mark);
+        assert_eq!(cycles(&past), [0.0, 1.0, 2.0]);
+        assert_eq!(past.present(), None);
+        // On the same line it is a place in the past.
+        session.advance_to(3.0).expect("a step");
+        past.keep(&session, &trend);
+        past.visit(&mark);
+        assert_eq!(past.present(), Some(3.0));
+    }
+}

@@ -86,6 +86,17 @@ fn the_cursor_moves_and_goes() {
 }
 
 #[test]
+fn the_cursor_reads_curves_of_hidden_panels_too() {
+    // What one page shows, the other reads as well.
+    let line = foot(&shot(",x")).to_owned();
+    for keys in [",xv", ",xz", ",vx", ",xvz"] {
+        assert_eq!(foot(&shot(keys)), line, "{keys}");
+    }
+    // And a comparison on the second page has its pressures.
+    assert_eq!(body(&shot(",cv")), body(&shot(",c")));
+}
+
+#[test]
 fn the_cursor_in_the_plots() {
     assert_snapshot!("cursor-80x24", shot(",,x"));
     let desk = Desk::new();

@@ -29,6 +29,7 @@ mod fault;
 pub mod frame;
 pub mod keys;
 pub mod line;
+pub mod manual;
 pub mod order;
 pub mod overlays;
 pub mod pace;

@@ -31,7 +31,7 @@ fn main() {
 }
 
 /// Cycles of the runs that are compared.
-const CYCLES: f64 = 60.0;
+const CYCLES: f64 = 600.0;
 
 /// How a terminal tells its size.
 type Tell = fn() -> io::Result<Size>;

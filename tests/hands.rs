@@ -195,10 +195,10 @@ fn the_form_edits_parameters_while_it_runs() {
             "e<Down>0.02<Backspace>3<Enter>",
             "indenter.radius = 0.03 from cycle 1.00 on",
         ),
-        ("ejjjj+", "friction.coefficient = 1.1e-1 from cycle 1.00 on"),
+        ("ejjjj+", "friction.coefficient = 0.11 from cycle 1.00 on"),
         (
             "ejjjj++-",
-            "friction.coefficient = 1.1e-1 from cycle 1.00 on",
+            "friction.coefficient = 0.11 from cycle 1.00 on",
         ),
     ] {
         let text = shot(&format!(",{keys}"));

@@ -85,7 +85,7 @@ impl Setting {
                 let next = next_number(value.parse().ok()?, up);
                 Some(if up { next.ceil() } else { next.floor() }.to_string())
             }
-            Kind::Number => Some(format!("{:e}", next_number(value.parse().ok()?, up))),
+            Kind::Number => Some(plain(next_number(value.parse().ok()?, up))),
             Kind::Text | Kind::Numbers => None,
         }
     }
@@ -250,6 +250,15 @@ fn next_number(value: f64, up: bool) -> f64 {
     text.parse::<f64>().unwrap_or(size).copysign(value)
 }
 
+/// A number as a reader writes it.
+fn plain(value: f64) -> String {
+    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -301,7 +310,7 @@ mod tests {
         assert_eq!(of("numerics.points").next(true).as_deref(), Some("110"));
         assert_eq!(
             of("friction.coefficient").next(true).as_deref(),
-            Some("1.1e-1")
+            Some("0.11")
         );
         assert!(
             settings

@@ -196,10 +196,7 @@ fn the_form_edits_parameters_while_it_runs() {
             "indenter.radius = 0.03 from cycle 1.00 on",
         ),
         ("ejjjj+", "friction.coefficient = 0.11 from cycle 1.00 on"),
-        (
-            "ejjjj++-",
-            "friction.coefficient = 0.11 from cycle 1.00 on",
-        ),
+        ("ejjjj++-", "friction.coefficient = 0.11 from cycle 1.00 on"),
     ] {
         let text = shot(&format!(",{keys}"));
         assert!(text.contains(told), "{keys}: {told}\n{text}");

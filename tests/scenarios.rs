@@ -526,6 +526,12 @@ proptest! {
         // A bare text: escapes of TOML would be read as such.
         let quoted = |text: &str| toml::Value::String(text.to_owned()).to_string();
         let number = |value: f64| format!("{value:?}");
+        let two_bodies = preset::ALL[preset].text.contains("[material.indenter]");
+        let material = if two_bodies {
+            ["material.indenter.youngs_modulus", "material.indenter.poisson"]
+        } else {
+            ["material.effective_modulus", "material.poisson"]
+        };
         let mut assignments = vec![
             ("title", quoted(&title)),
             ("description", quoted(&description)),
@@ -533,8 +539,8 @@ proptest! {
             ("motion.normal.amplitude", number(amplitude)),
             ("motion.normal.angular_frequency", number(coefficient)),
             ("motion.normal.phase", number(phase)),
-            ("material.effective_modulus", number(modulus)),
-            ("material.poisson", number(poisson)),
+            (material[0], number(modulus)),
+            (material[1], number(poisson)),
             ("friction.coefficient", number(amplitude)),
             ("wear.coefficient", number(coefficient)),
             ("wear.law", ["archard", "power"][law].to_owned()),

@@ -42,6 +42,11 @@ pub fn run(options: &Run) -> Result<ExitCode> {
         snapshots,
         cycles,
     };
+    if let Some(why) = job.session.simulation().why_never_jumped()
+        && !options.quiet
+    {
+        complain(&format!("every cycle is stepped directly: {why}"));
+    }
     let stop = stop_signal()?;
     let outcome = job.advance(&stop);
     // Whatever happened, what was computed is kept.
@@ -138,10 +143,10 @@ impl Job<'_> {
         self.history.record(&self.session);
         loop {
             let simulation = self.session.simulation();
-            let (cycle, next) = (simulation.cycle(), simulation.next_moment());
-            let close = simulation.rounding();
-            while let Some(snapshot) = snapshots.next_if(|snapshot| snapshot.cycle < next - close) {
-                self.snapshot(&snapshot)?;
+            let (cycle, close) = (simulation.cycle(), simulation.rounding());
+            while let Some(snapshot) = snapshots.next_if(|snapshot| snapshot.cycle < cycle + close)
+            {
+                self.snapshot(&snapshot, &self.session)?;
             }
             if cycle >= self.cycles {
                 break;
@@ -150,10 +155,20 @@ impl Job<'_> {
                 progress.finish();
                 return Ok(Ended::Interrupted);
             }
-            if next > self.cycles - close {
-                self.session.advance_to(self.cycles)?;
+            let reach = if simulation.may_jump() {
+                f64::INFINITY
             } else {
-                self.session.step()?;
+                simulation.next_moment()
+            };
+            // Between two steps a copy takes the fraction of a step: looking does not change the run.
+            let copied = snapshots.peek().filter(|snapshot| snapshot.cycle < reach);
+            let before = copied.map(|_| self.session.clone());
+            self.session.step_until(self.cycles)?;
+            let now = self.session.simulation().cycle() - close;
+            if let Some(before) = before {
+                while let Some(snapshot) = snapshots.next_if(|snapshot| snapshot.cycle < now) {
+                    self.snapshot(&snapshot, &before)?;
+                }
             }
             self.record();
             progress.at(cycle);
@@ -169,17 +184,16 @@ impl Job<'_> {
         }
     }
 
-    /// Writes the state at a cycle at or after the present one. Between two steps a copy takes the
-    /// fraction of a step, so that looking does not change the run.
-    fn snapshot(&self, snapshot: &CycleAsGiven) -> Result<PathBuf> {
-        let simulation = self.session.simulation();
+    /// Writes the state at a cycle at or after the one where `session` stands.
+    fn snapshot(&self, snapshot: &CycleAsGiven, session: &Session) -> Result<PathBuf> {
+        let simulation = session.simulation();
         let name = format!("state-{}.csv", snapshot.spelling);
         let table = if snapshot.cycle > simulation.cycle() + simulation.rounding() {
-            let mut glimpse = self.session.clone();
+            let mut glimpse = session.clone();
             glimpse.advance_to(snapshot.cycle)?;
             state::table(&glimpse)
         } else {
-            state::table(&self.session)
+            state::table(session)
         };
         Ok(self.directory.write(&name, table.as_bytes())?)
     }

@@ -4,7 +4,7 @@ use super::header::{lines, number, optional};
 use crate::scenario::session::Session;
 
 /// The columns, in order.
-pub const COLUMNS: [&str; 15] = [
+pub const COLUMNS: [&str; 19] = [
     "cycle",
     "time_s",
     "u_z_m",
@@ -20,6 +20,10 @@ pub const COLUMNS: [&str; 15] = [
     "max_pressure_Pa",
     "period_energy_residual",
     "force_residual",
+    "steps",
+    "transforms",
+    "evaluated_cycles",
+    "rejected_jumps",
 ];
 
 /// The rows recorded so far, as text.
@@ -49,7 +53,7 @@ impl History {
 
 fn row(session: &Session) -> String {
     let simulation = session.simulation();
-    let moment = simulation.moment();
+    let (moment, state) = (simulation.moment(), simulation.state());
     let pressure = simulation.pressure();
     [
         number(moment.cycle),
@@ -67,6 +71,10 @@ fn row(session: &Session) -> String {
         number(pressure.iter().copied().fold(0.0, f64::max)),
         optional(moment.period_residual),
         optional(simulation.force_residual(&pressure)),
+        state.steps.to_string(),
+        state.effort.transforms.to_string(),
+        state.effort.evaluated_cycles.to_string(),
+        state.effort.rejected_jumps.to_string(),
     ]
     .join(",")
 }

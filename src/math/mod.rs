@@ -1,6 +1,7 @@
 //! The ground floor: grids, a bracketed root solve and the Abel transforms. It knows no physics.
 
 pub mod abel;
+pub mod chebyshev;
 pub mod grid;
 pub mod invalid;
 pub mod quadrature;

@@ -37,6 +37,7 @@ pub const ALL: &[Preset] = presets![
     "truncated-cone",
     "strong-wear",
     "harsh-wear",
+    "mild-million",
 ];
 
 /// The preset of this name.

@@ -104,6 +104,7 @@ pub(super) struct RawNumerics {
     pub grid: Option<String>,
     pub scheme: Option<String>,
     pub integrator: Option<String>,
+    pub tolerance: Option<f64>,
 }
 
 impl Raw {

@@ -71,24 +71,26 @@ impl Session {
         &self.changes
     }
 
-    /// One step, then the changes that are due.
+    /// One step or jump, then the changes that are due.
     pub fn step(&mut self) -> Result<(), SessionError> {
-        self.simulation.step()?;
+        self.step_until(f64::INFINITY)
+    }
+
+    /// One step or jump that ends at `cycle` at the latest, and where the next recorded change is to be
+    /// made; then the changes that are due.
+    pub fn step_until(&mut self, cycle: f64) -> Result<(), SessionError> {
+        let change = self.pending.front().map(|change| change.at_cycle);
+        let end = change.map_or(cycle, |at| cycle.min(at));
+        self.simulation.step_until(end)?;
         self.make_due_changes()
     }
 
     /// Steps to `cycle` exactly, making recorded changes on the way.
     pub fn advance_to(&mut self, cycle: f64) -> Result<(), SessionError> {
-        while let Some(at) = self
-            .pending
-            .front()
-            .map(|change| change.at_cycle)
-            .filter(|&at| at <= cycle)
-        {
-            self.simulation.advance_to(at)?;
-            self.make_due_changes()?;
+        while self.simulation.cycle() < cycle {
+            self.step_until(cycle)?;
         }
-        Ok(self.simulation.advance_to(cycle)?)
+        Ok(())
     }
 
     /// Changes one key of the scenario now, carrying the state over, and records it.

@@ -1,6 +1,7 @@
 //! Every key a scenario may hold, with its unit, its meaning and its range.
 
 use super::parameters::{Kind, Parameter};
+use crate::simulation::Integrator;
 
 const POSITIVE: &str = "greater than 0";
 const NOT_NEGATIVE: &str = "of 0 or greater";
@@ -308,9 +309,18 @@ pub const PARAMETERS: &[Parameter] = &[
     key(
         "numerics.integrator",
         "",
-        Kind::Choice(&["direct"]),
-        "how time is stepped",
+        Kind::Choice(&Integrator::NAMES),
+        "every step of every cycle, or jumps over many cycles that are alike",
     ),
+    Parameter {
+        range: "greater than 0, at most 0.1",
+        ..number(
+            "numerics.tolerance",
+            "",
+            POSITIVE,
+            "error that cycle jumps aim at, in units of the largest depth; default 2e-4",
+        )
+    },
     number("run.cycles", "cycles", NOT_NEGATIVE, "length of the run"),
     Parameter {
         range: "each 0 or greater",

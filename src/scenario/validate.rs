@@ -15,8 +15,8 @@ use crate::contact::material::{Body, Material};
 use crate::math::abel::AbelMethod;
 use crate::math::grid::RadialGrid;
 use crate::math::invalid::Invalid;
-use crate::simulation::Setup;
 use crate::simulation::drive::{Control, Drive, Oscillation};
+use crate::simulation::{Integrator, Setup};
 use crate::wear::WearLaw;
 
 /// The most steps in a cycle.
@@ -50,6 +50,11 @@ pub(super) fn setup(raw: &Raw, table: &Table, origin: &Origin) -> Result<Setup, 
             None => scheme,
         },
         steps_per_cycle: parts.steps_per_cycle()?,
+        integrator: Integrator::new(
+            &parts.require(numerics.integrator.clone(), "numerics.integrator")?,
+            numerics.tolerance.unwrap_or(Integrator::DEFAULT_TOLERANCE),
+        )
+        .map_err(refused)?,
     })
 }
 

@@ -6,7 +6,7 @@
 //! of the motion finds it. One node of the graded grid stands there, a hair inside: a node outside
 //! would wear and drag the cell before it along.
 
-use super::choices::Spacing;
+use super::choices::{Integrator, Spacing};
 use super::{Setup, Simulation};
 use crate::math::grid::RadialGrid;
 
@@ -102,6 +102,7 @@ fn with_border(setup: &Setup, border: f64, cells: usize) -> Option<Setup> {
 fn pilot(setup: &Setup, from: Option<&Simulation>, depth: f64) -> Option<f64> {
     let setup = Setup {
         steps_per_cycle: setup.steps_per_cycle.min(PILOT_STEPS),
+        integrator: Integrator::Direct,
         ..setup.clone()
     };
     let period = f64::from(super::cycles_to_settle(&setup.drive));

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crate::math::invalid::Invalid;
+use crate::math::invalid::{Invalid, positive};
 
 /// Where the nodes lie.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -22,6 +22,45 @@ pub enum Scheme {
     Euler,
     /// Extrapolated profile, mean stress of the step, turning points met exactly: second order.
     Trapezoid,
+}
+
+/// How cycles are gone through.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Integrator {
+    /// Every step of every cycle.
+    Direct,
+    /// Jumps over many settled cycles at once where cycles are alike; direct elsewhere.
+    CycleJump {
+        /// The error of the worn profile to aim at, in units of the largest depth.
+        tolerance: f64,
+    },
+}
+
+impl Integrator {
+    /// The names in scenarios and files.
+    pub const NAMES: [&str; 2] = ["direct", "cycle-jump"];
+
+    /// The tolerance of jumps where none is given.
+    pub const DEFAULT_TOLERANCE: f64 = 2e-4;
+
+    /// The integrator of a name, with the tolerance of its jumps: greater than 0, at most 0.1.
+    pub fn new(name: &str, tolerance: f64) -> Result<Self, Invalid> {
+        if by_name("integrator", &Self::NAMES, |name| name, name)? == "direct" {
+            return Ok(Self::Direct);
+        }
+        if positive("tolerance", tolerance)? > 0.1 {
+            return Err(Invalid::new("tolerance", tolerance, "must be at most 0.1"));
+        }
+        Ok(Self::CycleJump { tolerance })
+    }
+
+    /// The name in scenarios and files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Direct => Self::NAMES[0],
+            Self::CycleJump { .. } => Self::NAMES[1],
+        }
+    }
 }
 
 impl Spacing {
@@ -103,6 +142,18 @@ impl fmt::Display for Scheme {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_integrator_needs_a_name_and_a_tolerance() {
+        for name in Integrator::NAMES {
+            let integrator = Integrator::new(name, 1e-3).expect("an integrator");
+            assert_eq!(integrator.name(), name);
+        }
+        let field = |name, tolerance| Integrator::new(name, tolerance).map_err(|e| e.field);
+        assert_eq!(field("jump", 1e-3), Err("integrator"));
+        assert_eq!(field("cycle-jump", 0.0), Err("tolerance"));
+        assert_eq!(field("cycle-jump", 0.2), Err("tolerance"));
+    }
 
     #[test]
     fn names_read_back() {

@@ -17,16 +17,18 @@ pub mod breakdown;
 mod choices;
 pub mod drive;
 mod integrator;
+mod moments;
 pub mod observation;
 mod solve;
 pub mod state;
 mod workspace;
 
 pub use breakdown::{Breakdown, Cause};
-pub use choices::{Scheme, Spacing};
+pub use choices::{Integrator, Scheme, Spacing};
 use drive::{Drive, LONGEST_REPEAT};
 pub use observation::{Curves, Moment, Observation, Zone};
-pub use state::State;
+use state::JumpMemory;
+pub use state::{Effort, State};
 use workspace::Workspace;
 
 /// The parts that a run is assembled from, each validated on its own floor.
@@ -51,6 +53,8 @@ pub struct Setup {
     pub scheme: Scheme,
     /// Steps a cycle, at least 1.
     pub steps_per_cycle: u32,
+    /// How cycles are gone through.
+    pub integrator: Integrator,
 }
 
 impl Setup {
@@ -126,6 +130,7 @@ impl Simulation {
     /// The present state on the grid of another setup.
     fn state_on(&self, setup: &Setup) -> State {
         let mut state = self.state.clone();
+        state.jump = JumpMemory::default();
         let nodes = setup.grid.len();
         if setup.grid != self.setup.grid {
             let onto = |values: &[f64]| {
@@ -167,61 +172,88 @@ impl Simulation {
         self.state.cycle
     }
 
-    /// Takes one step, to the next moment.
+    /// Takes one step, to the next moment, or one jump over many cycles.
     pub fn step(&mut self) -> Result<(), Breakdown> {
-        let (cycle, turns) = self.next;
-        self.step_to(cycle, turns)
+        self.step_until(f64::INFINITY)
     }
 
-    /// Steps until `cycle` is reached; the last step is shortened so as to end there exactly.
+    /// Takes one step or jump that ends at `cycle` at the latest; nothing if that has been reached.
+    pub fn step_until(&mut self, cycle: f64) -> Result<(), Breakdown> {
+        if self.state.cycle >= cycle || self.jump(cycle - self.state.cycle)? {
+            return Ok(());
+        }
+        let (next, turns) = self.next;
+        // A step that would end within rounding of the goal ends at the goal.
+        let reached = next > cycle - self.rounding();
+        let at_turn = turns && next < cycle + self.rounding();
+        self.step_to(if reached { cycle } else { next }, at_turn)
+    }
+
+    /// Steps until `cycle` is reached exactly.
     pub fn advance_to(&mut self, cycle: f64) -> Result<(), Breakdown> {
         while self.state.cycle < cycle {
-            let (next, turns) = self.next;
-            // A step that would end within rounding of the goal ends at the goal.
-            let reached = next > cycle - self.rounding();
-            let at_turn = turns && next < cycle + self.rounding();
-            self.step_to(if reached { cycle } else { next }, at_turn)?;
+            self.step_until(cycle)?;
         }
         Ok(())
     }
 
-    /// Cycles that are less than this apart are the same moment.
-    pub fn rounding(&self) -> f64 {
-        let steps = f64::from(self.setup.steps_per_cycle);
-        (1e-6 / steps).max(8.0 * f64::EPSILON * self.state.cycle)
+    /// Whether the next step may be a jump over many cycles.
+    pub fn may_jump(&self) -> bool {
+        integrator::is_possible(&self.setup, &self.state)
     }
 
-    /// The cycle at which the next step ends: the next multiple of 1/steps-per-cycle, or before it
-    /// the next turning point of the motion, if the scheme minds.
+    /// Why cycles that were to be jumped are all stepped directly; none where they are jumped.
+    pub fn why_never_jumped(&self) -> Option<&'static str> {
+        let Setup {
+            drive,
+            wear,
+            integrator,
+            ..
+        } = &self.setup;
+        match integrator {
+            Integrator::Direct => None,
+            _ if drive.tangential().is_none() || wear.is_none() => Some("nothing wears"),
+            _ if drive.repeats_after().is_none() => {
+                Some("the two frequencies have no common period, so no two cycles are alike")
+            }
+            Integrator::CycleJump { .. } => None,
+        }
+    }
+
+    /// Jumps over at most `most` cycles, where that is wanted and pays.
+    fn jump(&mut self, most: f64) -> Result<bool, Breakdown> {
+        if !self.may_jump() {
+            return Ok(false);
+        }
+        let jumped = integrator::jump(&self.setup, &mut self.state, &mut self.workspace, most)
+            .map_err(|cause| self.broken(cause))?;
+        self.next = self.look_ahead();
+        Ok(jumped == integrator::Jumped::Done)
+    }
+
+    /// What is looked at now must be the last good state, not the contact that failed.
+    fn broken(&mut self, cause: Cause) -> Breakdown {
+        self.workspace.show_last_good(&self.setup, &self.state);
+        Breakdown {
+            cycle: self.state.cycle,
+            cause,
+        }
+    }
+
+    /// Cycles that are less than this apart are the same moment.
+    pub fn rounding(&self) -> f64 {
+        moments::rounding(&self.setup, self.state.cycle)
+    }
+
+    /// The cycle at which the next step ends, if it is not a jump: the next multiple of
+    /// 1/steps-per-cycle, or before it the next turning point of the motion, if the scheme minds.
     pub fn next_moment(&self) -> f64 {
         self.next.0
     }
 
     /// Looks for the end of the next step.
     fn look_ahead(&self) -> (f64, bool) {
-        let (now, steps) = (self.state.cycle, f64::from(self.setup.steps_per_cycle));
-        // The tolerance outgrows the rounding of late cycles, so that every step gets on.
-        let multiple = ((now + self.rounding()) * steps).floor() + 1.0;
-        let regular = multiple / steps;
-        if self.setup.scheme == Scheme::Euler {
-            return (regular, false);
-        }
-        let (drive, ratio) = (&self.setup.drive, self.setup.material.stick_ratio());
-        let (rounding, sliver) = (self.rounding(), SLIVER / steps);
-        // The end of a cycle is never passed over: histories count on it.
-        let passable = |moment: f64| moment.fract() != 0.0;
-        let next = |regular: f64| {
-            let turn = drive.turning_point(ratio, now + rounding, regular + sliver);
-            match turn {
-                Some(turn) if (turn - regular).abs() <= rounding => (regular, true),
-                Some(turn) if turn < regular || passable(regular) => (turn, true),
-                _ => (regular, false),
-            }
-        };
-        if regular - now < sliver && passable(regular) && self.state.steps > 0 {
-            return next((multiple + 1.0) / steps);
-        }
-        next(regular)
+        moments::next(&self.setup, self.state.cycle, self.state.steps > 0)
     }
 
     /// One step of the integrator; the state changes only if all went well.
@@ -233,14 +265,7 @@ impl Simulation {
             cycle,
             turns,
         )
-        .map_err(|cause| {
-            // What is looked at now must be the last good state, not the contact that failed.
-            self.workspace.show_last_good(&self.setup, &self.state);
-            Breakdown {
-                cycle: self.state.cycle,
-                cause,
-            }
-        })?;
+        .map_err(|cause| self.broken(cause))?;
         self.next = self.look_ahead();
         Ok(())
     }
@@ -262,9 +287,6 @@ impl Simulation {
         worn_volume(&self.workspace)
     }
 }
-
-/// A turning point this close to a regular moment, in steps, takes its place.
-const SLIVER: f64 = 0.1;
 
 /// 2π∫(f − f₀) r dr of the profile as it stands, m³.
 fn worn_volume(work: &Workspace) -> f64 {

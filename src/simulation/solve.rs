@@ -13,6 +13,7 @@ use crate::math::root;
 
 /// Brings g up to date with the worn depth `wear` (m) by Eq. (1).
 pub(super) fn update_profile(work: &mut Workspace, wear: &[f64]) {
+    work.transforms += 1;
     let planned = &work.planned;
     match &planned.worn {
         Some(operator) => operator.apply(wear, &mut work.g),

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::contact::tangential::Hold;
+use crate::math::abel::bend::Bend;
 
 /// What is saved, restored, and carried over when a method or a law is switched.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -24,6 +25,10 @@ pub struct State {
     pub hold: Vec<Hold>,
     /// What a step of second order remembers of the one before.
     pub last: LastStep,
+    /// What jumps over cycles go on from.
+    pub jump: JumpMemory,
+    /// How much has been done so far.
+    pub effort: Effort,
     /// The energy balance of the last period of the motion.
     pub period: PeriodBalance,
     /// Work of friction since the start, E_d, J.
@@ -36,6 +41,47 @@ pub struct State {
     pub smallest_stick_radius: f64,
     /// The smallest stick radius of the last complete cycle, m; none before there is one.
     pub settled_stick_radius: Option<f64>,
+}
+
+/// The work done since the start, in counts that do not depend on the machine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Effort {
+    /// Contact problems solved.
+    pub contacts: u64,
+    /// Transforms between the 3D contact and its 1D image.
+    pub transforms: u64,
+    /// Cycles gone through on a frozen profile, for jumps.
+    pub evaluated_cycles: u64,
+    /// Jumps made.
+    pub jumps: u64,
+    /// Jumps thrown away because their error was too large.
+    pub rejected_jumps: u64,
+}
+
+/// What a jump over cycles leaves for the next one.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct JumpMemory {
+    /// How many cycles the next jump should cover; 0 before the first one.
+    pub length: f64,
+    /// Cycles are stepped directly until this one.
+    pub rest_until: f64,
+    /// Periods to rest the next time that a jump does not pay.
+    pub patience: u32,
+    /// What a settled cycle wears and does at the present state; none if it has changed since.
+    pub settled: Option<SettledCycle>,
+}
+
+/// What a settled cycle does on a frozen profile, per cycle.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct SettledCycle {
+    /// Wear, m, nodal.
+    pub wear: Vec<f64>,
+    /// Work of friction, J.
+    pub friction_work: f64,
+    /// The largest stiffness of a node: h cycles at once are explicitly stable for h times this < 2.
+    pub stiffness: f64,
+    /// The smallest stick radius, m.
+    pub stick_radius: f64,
 }
 
 /// V = k E_d over one period of the motion.
@@ -70,6 +116,8 @@ pub struct LastStep {
     pub normal_load: Vec<f64>,
     /// ∫ of the breaks of q_z at its end, N.
     pub edge_load: f64,
+    /// The breaks of u_x at its end, m.
+    pub spring_breaks: Vec<Bend>,
     /// p and τ at its end, Pa, nodal.
     pub pressure: Vec<f64>,
     /// τ.
@@ -88,6 +136,8 @@ impl State {
             spring: vec![0.0; if has_springs { nodes } else { 0 }],
             hold: vec![Hold::Stick; if has_springs { nodes } else { 0 }],
             last: LastStep::default(),
+            jump: JumpMemory::default(),
+            effort: Effort::default(),
             period: PeriodBalance::default(),
             dissipated_energy: 0.0,
             expected_volume: 0.0,

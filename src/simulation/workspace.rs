@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use super::Setup;
+use super::choices::Integrator;
 use super::state::State;
+use super::{Setup, moments};
 use crate::contact::foundation::Foundation;
 use crate::contact::normal::NormalContact;
 use crate::contact::tangential::Hold;
@@ -35,6 +36,8 @@ pub(super) struct Workspace {
     pub spring_breaks: Vec<Bend>,
     /// Slip of the springs in the step, m.
     pub slip: Vec<f64>,
+    /// Where the slip bends between springs, and in which cell.
+    pub slip_kinks: Vec<(usize, Bend)>,
     /// q_x, N/m.
     pub tangential_load: Vec<f64>,
     /// The work of friction, J/m.
@@ -47,10 +50,16 @@ pub(super) struct Workspace {
     pub working_shear: Vec<f64>,
     /// Slip of the surface in the step, m.
     pub surface_slip: Vec<f64>,
+    /// How stiffly each node answers to its wear, of a step.
+    pub stiffness: Vec<f64>,
+    /// The ends of the steps of a period, in cycles, for jumps.
+    pub moments: Vec<f64>,
     /// What the step wears, m.
     pub worn: Vec<f64>,
     /// f − f₀ after the step, m.
     pub wear: Vec<f64>,
+    /// Transforms computed since they were last counted.
+    pub transforms: u64,
     pub contact: Contact,
     good: LastGood,
 }
@@ -72,6 +81,8 @@ pub(super) struct Planned {
     pub worn: Option<Staircase>,
     pub row: Foundation,
     pub grid: RadialGrid,
+    /// Width of the cell around each node, m.
+    pub widths: Vec<f64>,
     /// Weights of 2π∫ y r dr, m².
     pub volume_weights: Vec<f64>,
     /// f₀ and its 1D image g₀, m.
@@ -111,6 +122,7 @@ impl Planned {
         Self {
             worn,
             row: Foundation::new(&setup.grid),
+            widths: widths(nodes),
             volume_weights: worn::volume_weights(&setup.grid),
             grid: setup.grid.clone(),
             plan,
@@ -122,6 +134,26 @@ impl Planned {
     /// Whether breaks between nodes go into the transforms.
     pub fn has_breaks(&self) -> bool {
         self.plan.method() == AbelMethod::Product
+    }
+}
+
+/// Half the distance between the neighbours of each node; at the ends, the width of the cell.
+fn widths(nodes: &[f64]) -> Vec<f64> {
+    let end = nodes.len() - 1;
+    (0..=end)
+        .map(|j| match j {
+            0 => nodes[1],
+            j if j == end => nodes[end] - nodes[end - 1],
+            j => 0.5 * (nodes[j + 1] - nodes[j - 1]),
+        })
+        .collect()
+}
+
+/// The steps of a period, where periods are to be jumped.
+fn jump_moments(setup: &Setup) -> Vec<f64> {
+    match (setup.integrator, setup.drive.repeats_after()) {
+        (Integrator::CycleJump { .. }, Some(period)) => moments::of_period(setup, period),
+        _ => Vec::new(),
     }
 }
 
@@ -149,14 +181,18 @@ impl Workspace {
             hold: vec![Hold::Stick; springs],
             spring_breaks: Vec::new(),
             slip: vec![0.0; springs],
+            slip_kinks: Vec::new(),
             tangential_load: vec![0.0; springs],
             friction_work: vec![0.0; springs],
             pressure: vec![0.0; wearing],
             shear: vec![0.0; wearing],
             working_shear: vec![0.0; wearing],
             surface_slip: vec![0.0; wearing],
+            stiffness: vec![0.0; wearing],
+            moments: jump_moments(setup),
             worn: vec![0.0; nodes],
             wear: vec![0.0; nodes],
+            transforms: 0,
             contact: Contact::default(),
             good: LastGood::default(),
         }

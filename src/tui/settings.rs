@@ -226,7 +226,14 @@ const EFFECTS: &[(&str, &str)] = &[
         "numerics.scheme",
         "trapezoid: second order in time; euler: the paper's",
     ),
-    ("numerics.integrator", "direct: every step of every cycle"),
+    (
+        "numerics.integrator",
+        "direct: every step; cycle-jump: over cycles that are alike",
+    ),
+    (
+        "numerics.tolerance",
+        "more: longer jumps over cycles, less accurate",
+    ),
 ];
 
 /// The next number of two significant digits, up or down from `value`. Zero stays: it has no size.

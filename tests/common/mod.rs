@@ -2,12 +2,14 @@
 //!
 //! Every item here is used by every test file that includes it.
 
+#![allow(dead_code, reason = "not every file of tests needs all of it")]
+
 use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::contact::material::Material;
 use mdr_tui::math::abel::AbelMethod;
 use mdr_tui::math::grid::RadialGrid;
 use mdr_tui::simulation::drive::{Control, Drive, Oscillation};
-use mdr_tui::simulation::{Scheme, Setup, Simulation, Spacing};
+use mdr_tui::simulation::{Integrator, Scheme, Setup, Simulation, Spacing};
 use mdr_tui::wear::WearLaw;
 
 /// The parts of a run as plain values; a test names only what differs from the default.
@@ -59,6 +61,7 @@ impl From<Scene> for Setup {
             spacing: Spacing::Uniform,
             scheme: Scheme::Euler,
             steps_per_cycle: scene.steps,
+            integrator: Integrator::Direct,
         }
     }
 }
@@ -76,6 +79,13 @@ pub fn archard(coefficient: f64) -> Option<WearLaw> {
 /// The contact after `cycles`; a breakdown fails the test.
 pub fn run(scene: Scene, cycles: f64) -> Simulation {
     let mut simulation = Simulation::new(scene.into()).expect("a contact");
+    simulation.advance_to(cycles).expect("a run to the end");
+    simulation
+}
+
+/// The contact of a whole setup after `cycles`.
+pub fn run_setup(setup: Setup, cycles: f64) -> Simulation {
+    let mut simulation = Simulation::new(setup).expect("a contact");
     simulation.advance_to(cycles).expect("a run to the end");
     simulation
 }

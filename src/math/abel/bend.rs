@@ -32,13 +32,15 @@
 
 use std::f64::consts::FRAC_2_PI;
 
+use serde::{Deserialize, Serialize};
+
 use crate::math::grid::RadialGrid;
 
 /// A break point closer to a node than this share of its cell is taken to be the node.
 pub(super) const CLOSEST: f64 = 1e-9;
 
 /// One bend J (t − t_m)₊ of a profile over t = x².
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Bend {
     /// Where: t_m = x_m², m².
     pub at: f64,
@@ -78,6 +80,20 @@ pub fn polyline(t: [f64; 2], v: [f64; 2], inner: &[(f64, f64)], bends: &mut Vec<
             jump: chord - steepness,
         });
     }
+}
+
+/// The bends of hats, each with the cell (between nodes k and k + 1) that its hat fills.
+pub fn by_cell<'a>(
+    bends: &'a [Bend],
+    squares: &'a [f64],
+) -> impl Iterator<Item = (usize, Bend)> + 'a {
+    let mut hat = None;
+    bends.iter().map(move |&bend| {
+        let cell = hat.unwrap_or_else(|| squares.partition_point(|&t| t <= bend.at) - 1);
+        // A hat ends on the outer node of its cell.
+        hat = (bend.at < squares[cell + 1]).then_some(cell);
+        (cell, bend)
+    })
 }
 
 /// Eq. (1): adds what bends of f do to the 1D profile `g` on nodes with the given `squares` (m²).

@@ -29,31 +29,34 @@ pub(super) fn step(
 ) -> Result<(), Cause> {
     work.predicted.copy_from_slice(&work.g);
     solve_contact(setup, state, work, cycle)?;
-    let mut friction_work = 0.0;
-    if setup.drive.tangential().is_some() {
-        for ((work, load), slip) in work
-            .friction_work
-            .iter_mut()
-            .zip(&work.tangential_load)
-            .zip(&work.slip)
-        {
-            *work = load * slip;
-        }
-        friction_work = work_of_friction(work);
-        if let Some(law) = &setup.wear {
-            let mut tau = std::mem::take(&mut work.shear);
-            shear(work, setup.material.tangential_modulus(), &mut tau);
-            work.shear = tau;
-            work.planned
-                .plan
-                .displacement(&work.slip, &mut work.surface_slip);
-            let duration = (cycle - state.cycle) * setup.drive.period();
-            work.worn.fill(0.0);
-            law.wear(&work.shear, &work.surface_slip, duration, &mut work.worn);
-            state.last.shear.copy_from_slice(&work.shear);
-        }
-    }
+    let friction_work = worn(setup, state, work, cycle);
     commit(setup, state, work, cycle, friction_work)
+}
+
+/// What the step that the contact has been solved for wears (m, into `work.worn`), and its work of
+/// friction (J).
+pub(super) fn worn(setup: &Setup, state: &State, work: &mut Workspace, cycle: f64) -> f64 {
+    work.worn.fill(0.0);
+    if setup.drive.tangential().is_none() {
+        return 0.0;
+    }
+    let loads = work.tangential_load.iter().zip(&work.slip);
+    for (work, (load, slip)) in work.friction_work.iter_mut().zip(loads) {
+        *work = load * slip;
+    }
+    if let Some(law) = &setup.wear {
+        let mut tau = std::mem::take(&mut work.shear);
+        shear(work, setup.material.tangential_modulus(), &mut tau);
+        work.shear = tau;
+        work.transforms += 2;
+        work.planned
+            .plan
+            .displacement(&work.slip, &mut work.surface_slip);
+        work.working_shear.copy_from_slice(&work.shear);
+        let seconds = (cycle - state.cycle) * setup.drive.period();
+        law.wear(&work.shear, &work.surface_slip, seconds, &mut work.worn);
+    }
+    work_of_friction(work)
 }
 
 /// 2∫ q_x Δs dx, the integrand falling to zero at the contact's edge.

@@ -1,4 +1,5 @@
-//! How the state is carried forward in time: direct stepping, every step of every cycle.
+//! How the state is carried forward in time: direct stepping, every step of every cycle, or jumps over
+//! many cycles that are alike.
 
 use super::breakdown::Cause;
 use super::choices::Scheme;
@@ -8,8 +9,13 @@ use super::workspace::Workspace;
 use super::{Setup, cycles_to_settle, worn_volume};
 use crate::math::quadrature::weighted;
 
+mod cycle_jump;
 mod euler;
+mod settled;
+mod stiffness;
 mod trapezoid;
+
+pub(super) use cycle_jump::{Jumped, is_possible, jump};
 
 /// A worn depth of this many times the largest depth of indentation cannot come from contact.
 const RUNAWAY: f64 = 10.0;
@@ -24,6 +30,7 @@ pub(super) fn settle(setup: &Setup, state: &mut State, work: &mut Workspace) -> 
     let mut last = LastStep {
         normal_load: work.normal_load.clone(),
         edge_load: work.contact.edge_load,
+        spring_breaks: work.spring_breaks.clone(),
         growth: vec![0.0; nodes],
         wear: vec![0.0; nodes],
         pressure: vec![0.0; nodes],
@@ -35,7 +42,7 @@ pub(super) fn settle(setup: &Setup, state: &mut State, work: &mut Workspace) -> 
         shear(work, setup.material.tangential_modulus(), &mut last.shear);
     }
     state.last = last;
-    take_over(state, work);
+    take_over(state, work, state.cycle);
     work.keep_as_good();
     Ok(())
 }
@@ -83,12 +90,15 @@ fn commit(
         update_profile_keeping_growth(state, work);
     }
     state.dissipated_energy += friction_work;
-    take_over(state, work);
     keep_smallest_stick(setup, state, work, cycle);
-    state.last.normal_load.copy_from_slice(&work.normal_load);
-    state.last.edge_load = work.contact.edge_load;
-    state.last.duration = cycle - state.cycle;
-    state.cycle = cycle;
+    state.wear.copy_from_slice(&work.wear);
+    take_over(state, work, cycle);
+    if setup.wear.is_some() && setup.drive.tangential().is_some() {
+        state.last.pressure.copy_from_slice(&work.pressure);
+        state.last.shear.copy_from_slice(&work.shear);
+    }
+    // The profile has changed: what a settled cycle wore on the old one is out of date.
+    state.jump.settled = None;
     Ok(())
 }
 
@@ -132,12 +142,19 @@ fn check(setup: &Setup, work: &Workspace) -> Result<(), Cause> {
     Ok(())
 }
 
-fn take_over(state: &mut State, work: &Workspace) {
+/// Makes the solved contact that of the state, at `cycle`.
+fn take_over(state: &mut State, work: &mut Workspace, cycle: f64) {
     state.depth = work.contact.depth;
     state.shift = work.contact.shift;
-    state.wear.copy_from_slice(&work.wear);
     state.spring.copy_from_slice(&work.spring);
     state.hold.copy_from_slice(&work.hold);
+    state.last.normal_load.copy_from_slice(&work.normal_load);
+    state.last.edge_load = work.contact.edge_load;
+    state.last.spring_breaks.clone_from(&work.spring_breaks);
+    state.last.duration = cycle - state.cycle;
+    state.cycle = cycle;
+    state.effort.contacts += 1;
+    state.effort.transforms += std::mem::take(&mut work.transforms);
 }
 
 /// Follows the smallest stick radius and the energy balance through a period of the motion.

@@ -34,14 +34,12 @@ use super::super::breakdown::Cause;
 use super::super::solve::{pressure, shear, solve_contact};
 use super::super::state::State;
 use super::super::workspace::Workspace;
-use super::commit;
+use super::{commit, stiffness};
 use crate::contact::tangential::Hold;
+use crate::math::abel::bend::{self, Bend};
 
 /// The most that the profile is looked ahead, in lengths of the step before.
 const FARTHEST: f64 = 4.0;
-
-/// Largest eigenvalue of the response of p to wear times its diagonal, 1.7 · 0.87, per cell's width.
-const STIFFNESS: f64 = 1.48;
 
 /// Stiffness up to which a step is explicit, and beyond which it is taken in parts.
 const MILD: f64 = 0.7;
@@ -118,56 +116,70 @@ fn attempt(
         *predicted = g + ahead * growth;
     }
     solve_contact(setup, state, work, cycle)?;
-    let mut stiffness = 0.0;
-    let mut friction_work = 0.0;
-    if setup.drive.tangential().is_some() {
-        friction_work = work_of_friction(setup, state, work);
-        if setup.wear.is_some() {
-            stiffness = wear(setup, state, work, duration, ahead, floor);
-            if stiffness > HARSH && !floor {
-                return Ok(Outcome::TooHarsh(stiffness));
-            }
-        }
+    let friction_work = worn(setup, state, work, cycle);
+    let stiffness = soften(setup, state, work, duration, ahead, floor);
+    if stiffness > HARSH && !floor {
+        return Ok(Outcome::TooHarsh(stiffness));
     }
     commit(setup, state, work, cycle, friction_work)?;
-    if setup.wear.is_some() && setup.drive.tangential().is_some() {
-        state.last.pressure.copy_from_slice(&work.pressure);
-        state.last.shear.copy_from_slice(&work.shear);
-    }
     Ok(Outcome::Done(stiffness))
+}
+
+/// What the step that the contact has been solved for wears (m, into `work.worn`), and its work of
+/// friction (J).
+pub(super) fn worn(setup: &Setup, state: &State, work: &mut Workspace, cycle: f64) -> f64 {
+    work.worn.fill(0.0);
+    if setup.drive.tangential().is_none() {
+        return 0.0;
+    }
+    let friction_work = work_of_friction(setup, state, work);
+    if let Some(law) = &setup.wear {
+        stresses(setup, work);
+        mean_shear(setup, state, work);
+        let seconds = (cycle - state.cycle) * setup.drive.period();
+        let (tau, slip) = (&work.working_shear, &work.surface_slip);
+        law.wear(tau, slip, seconds, &mut work.worn);
+    }
+    friction_work
 }
 
 /// 2∫ μ (q_n + q_{n+1})/2 |Δs| dx: what each spring that slips turns into heat.
 fn work_of_friction(setup: &Setup, state: &State, work: &mut Workspace) -> f64 {
     let friction = setup.material.friction();
     let loads = work.normal_load.iter().zip(&state.last.normal_load);
-    for (power, ((after, before), slip)) in work.friction_work.iter_mut().zip(loads.zip(&work.slip))
-    {
-        *power = 0.5 * friction * (after + before) * slip.abs();
+    for (limit, (after, before)) in work.friction_work.iter_mut().zip(loads) {
+        *limit = 0.5 * friction * (after + before);
     }
+    kinks_of_slip(work, &state.last.spring_breaks);
     let normal = &work.contact.normal;
-    let at_edge = if normal.nodes > 0 {
-        work.slip[normal.nodes - 1].abs()
-    } else {
-        0.0
+    let at_edge = match normal.nodes {
+        0 => 0.0,
+        nodes => work.slip[nodes - 1].abs(),
     };
     let edge = friction * (work.contact.edge_load + state.last.edge_load) * at_edge;
-    work.planned
-        .row
-        .force(&work.friction_work, &[], normal.radius)
-        + edge
+    let row = &work.planned.row;
+    let (limit, slip) = (&work.friction_work, &work.slip);
+    edge + row.work(limit, slip, &work.slip_kinks, normal.radius)
 }
 
-/// Fills `work.worn`; returns the largest stiffness z of a node.
-fn wear(
-    setup: &Setup,
-    state: &State,
-    work: &mut Workspace,
-    duration: f64,
-    ahead: f64,
-    floor: bool,
-) -> f64 {
-    let Some(law) = &setup.wear else { return 0.0 };
+/// Where the slip of the step bends between springs: where a border of stick is now, and where one was
+/// before. A cell that sticks does not slip, wherever its border was.
+fn kinks_of_slip(work: &mut Workspace, before: &[Bend]) {
+    let squares = work.planned.grid.squares();
+    work.slip_kinks.clear();
+    for (breaks, sign) in [(&work.spring_breaks[..], -1.0), (before, 1.0)] {
+        for (k, bend) in bend::by_cell(breaks, squares) {
+            let slips = |j: usize| work.hold[j].sign().is_some();
+            if (slips(k) || slips(k + 1)) && work.hold[k + 1] != Hold::Open {
+                let jump = sign * bend.jump;
+                work.slip_kinks.push((k, Bend { jump, ..bend }));
+            }
+        }
+    }
+}
+
+/// p and τ at the end of the step, and the slip of the surface in it.
+fn stresses(setup: &Setup, work: &mut Workspace) {
     let (mut p, mut tau) = (
         std::mem::take(&mut work.pressure),
         std::mem::take(&mut work.shear),
@@ -175,6 +187,7 @@ fn wear(
     pressure(work, setup.material.normal_modulus(), &mut p);
     shear(work, setup.material.tangential_modulus(), &mut tau);
     (work.pressure, work.shear) = (p, tau);
+    work.transforms += 3;
     work.planned
         .plan
         .displacement(&work.slip, &mut work.surface_slip);
@@ -185,35 +198,28 @@ fn wear(
         .take_while(|&&hold| hold == Hold::Stick)
         .count();
     work.surface_slip[..core].fill(0.0);
-    mean_shear(setup, state, work);
-    let seconds = duration * setup.drive.period();
-    work.worn.fill(0.0);
-    law.wear(
-        &work.working_shear,
-        &work.surface_slip,
-        seconds,
-        &mut work.worn,
-    );
-    let scale = STIFFNESS * setup.material.friction() * setup.material.normal_modulus();
-    let nodes = setup.grid.nodes();
-    let mut stiffest: f64 = 0.0;
-    for j in core..work.worn.len() {
-        let tau = work.working_shear[j];
-        if tau == 0.0 {
-            continue;
-        }
-        let width = match j {
-            0 => nodes[1],
-            j if j + 1 == nodes.len() => nodes[j] - nodes[j - 1],
-            j => 0.5 * (nodes[j + 1] - nodes[j - 1]),
-        };
-        let z = scale / width * law.sensitivity(tau, work.surface_slip[j], seconds);
-        stiffest = stiffest.max(z);
+}
+
+/// Lets nodes with a stiff response wear less than explicitly; returns the largest stiffness z of a
+/// node.
+fn soften(
+    setup: &Setup,
+    state: &State,
+    work: &mut Workspace,
+    duration: f64,
+    ahead: f64,
+    floor: bool,
+) -> f64 {
+    let stiffest = stiffness::of_step(setup, work, duration);
+    if stiffest <= MILD && !floor {
+        return stiffest;
+    }
+    for (j, (worn, &z)) in work.worn.iter_mut().zip(&work.stiffness).enumerate() {
         if floor {
-            work.worn[j] /= 1.0 + z;
+            *worn /= 1.0 + z;
         } else if z > MILD {
             let lean = 0.625 * (z - MILD);
-            work.worn[j] = (work.worn[j] + lean * ahead * state.last.wear[j]) / (1.0 + lean);
+            *worn = (*worn + lean * ahead * state.last.wear[j]) / (1.0 + lean);
         }
     }
     stiffest

@@ -1,0 +1,180 @@
+//! Runge–Kutta–Chebyshev steps: explicit, second order, and stable for stiff real spectra.
+//!
+//! # Formula
+//!
+//! B. P. Sommeijer, L. F. Shampine, J. G. Verwer (1998), RKC: an explicit solver for parabolic PDEs,
+//! J. Comput. Appl. Math. 88, 315–326, doi 10.1016/S0377-0427(97)00219-7, in its notation. For y′ = F(y)
+//! and s ≥ 2 stages, with the Chebyshev polynomials T_j, w₀ = 1 + ε/s², ε = 2/13, w₁ = T′_s(w₀)/T″_s(w₀),
+//! b_j = T″_j(w₀)/T′_j(w₀)² (b₀ = b₁ = b₂) and a_j = 1 − b_j T_j(w₀):
+//!
+//! ```text
+//! Y₀ = y,   Y₁ = Y₀ + μ̃₁ h F₀,   μ̃₁ = b₁ w₁
+//! Y_j = (1 − μ_j − ν_j) Y₀ + μ_j Y_{j−1} + ν_j Y_{j−2} + μ̃_j h F_{j−1} + γ̃_j h F₀
+//! μ_j = 2 b_j w₀/b_{j−1},  ν_j = −b_j/b_{j−2},  μ̃_j = 2 b_j w₁/b_{j−1},  γ̃_j = −a_{j−1} μ̃_j
+//! error ≈ ⅘ (y_n − y_{n+1}) + ⅖ h (F_n + F_{n+1})
+//! ```
+//!
+//! - **Stability**: along the negative real axis up to hρ = ⅔ (s² − 1)(1 − 2ε/15): the reach grows with
+//!   the square of the stages.
+//! - **Cost**: s − 1 evaluations for y_{n+1}, one more for F_{n+1}, which the next step begins with.
+
+/// The damping ε.
+const DAMPING: f64 = 2.0 / 13.0;
+
+/// The fewest stages of a step.
+pub const FEWEST_STAGES: usize = 2;
+
+/// The stages that a step needs to be stable where h times the spectral radius is `stiffness`.
+pub fn stages_for(stiffness: f64) -> usize {
+    let reach = 2.0 / 3.0 * (1.0 - 2.0 / 15.0 * DAMPING);
+    let stages = (1.0 + stiffness.max(0.0) / reach).sqrt().ceil();
+    (stages as usize).max(FEWEST_STAGES)
+}
+
+/// One step of length `h` (in units of the independent variable) from `y` with the slope `first` there:
+/// `next` receives y_{n+1}. `slope` gives F; if it fails, so does the step.
+pub fn step<E>(
+    stages: usize,
+    h: f64,
+    y: &[f64],
+    first: &[f64],
+    next: &mut Vec<f64>,
+    mut slope: impl FnMut(&[f64], &mut Vec<f64>) -> Result<(), E>,
+) -> Result<(), E> {
+    let coefficients = coefficients(stages.max(FEWEST_STAGES));
+    let mut before = y.to_vec();
+    let mut latest: Vec<f64> = y
+        .iter()
+        .zip(first)
+        .map(|(y, f)| y + coefficients.first * h * f)
+        .collect();
+    let mut slopes = Vec::with_capacity(y.len());
+    for stage in &coefficients.stages {
+        slope(&latest, &mut slopes)?;
+        for i in 0..y.len() {
+            let value = (1.0 - stage.mu - stage.nu) * y[i]
+                + stage.mu * latest[i]
+                + stage.nu * before[i]
+                + h * (stage.mu_tilde * slopes[i] + stage.gamma_tilde * first[i]);
+            before[i] = latest[i];
+            latest[i] = value;
+        }
+    }
+    *next = latest;
+    Ok(())
+}
+
+/// The error that a step from `y` to `next` has made, component `i`.
+pub fn error(h: f64, y: f64, next: f64, first: f64, last: f64) -> f64 {
+    0.8 * (y - next) + 0.4 * h * (first + last)
+}
+
+struct Coefficients {
+    first: f64,
+    stages: Vec<Stage>,
+}
+
+struct Stage {
+    mu: f64,
+    nu: f64,
+    mu_tilde: f64,
+    gamma_tilde: f64,
+}
+
+fn coefficients(stages: usize) -> Coefficients {
+    let w0 = 1.0 + DAMPING / (stages * stages) as f64;
+    // T, T′ and T″ at w₀, by their three-term recurrences.
+    let mut t = vec![[1.0, 0.0, 0.0], [w0, 1.0, 0.0]];
+    for j in 2..=stages {
+        let (one, two) = (t[j - 1], t[j - 2]);
+        t.push([
+            2.0 * w0 * one[0] - two[0],
+            2.0 * one[0] + 2.0 * w0 * one[1] - two[1],
+            4.0 * one[1] + 2.0 * w0 * one[2] - two[2],
+        ]);
+    }
+    let w1 = t[stages][1] / t[stages][2];
+    let b = |j: usize| {
+        let [_, slope, bend] = t[j.max(2)];
+        bend / (slope * slope)
+    };
+    let later = (2..=stages).map(|j| {
+        let mu_tilde = 2.0 * b(j) * w1 / b(j - 1);
+        Stage {
+            mu: 2.0 * b(j) * w0 / b(j - 1),
+            nu: -b(j) / b(j - 2),
+            mu_tilde,
+            gamma_tilde: -(1.0 - b(j - 1) * t[j - 1][0]) * mu_tilde,
+        }
+    });
+    Coefficients {
+        first: b(1) * w1,
+        stages: later.collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::convert::Infallible;
+
+    fn run(stages: usize, steps: usize, y: f64, f: impl Fn(f64) -> f64) -> f64 {
+        let h = 1.0 / steps as f64;
+        let mut y = vec![y];
+        for _ in 0..steps {
+            let (first, mut next) = (vec![f(y[0])], Vec::new());
+            let slope = |y: &[f64], out: &mut Vec<f64>| {
+                *out = vec![f(y[0])];
+                Ok::<(), Infallible>(())
+            };
+            let Ok(()) = step(stages, h, &y, &first, &mut next, slope);
+            y = next;
+        }
+        y[0]
+    }
+
+    #[test]
+    fn the_order_is_two_for_any_number_of_stages() {
+        for stages in [2, 3, 5, 12] {
+            // y′ = −y², y(0) = 1: y(1) = ½.
+            let error = |steps| (run(stages, steps, 1.0, |y| -y * y) - 0.5).abs();
+            let order = (error(20) / error(40)).log2();
+            assert!((order - 2.0).abs() < 0.1, "{stages} stages: {order}");
+        }
+    }
+
+    #[test]
+    fn steps_are_stable_as_far_as_promised() {
+        for stiffness in [0.5, 3.0, 20.0, 300.0, 1e4] {
+            let stages = stages_for(stiffness);
+            let damped = |rate: f64| run(stages, 1, 1.0, |y| -rate * y).abs();
+            for share in 1..=100 {
+                let rate = stiffness * f64::from(share) / 100.0;
+                assert!(damped(rate) <= 1.0, "{stages} stages at {rate}");
+            }
+            assert!(damped(3.0 * (stages * stages) as f64) > 1.0, "{stages}");
+        }
+    }
+
+    #[test]
+    fn the_error_is_that_of_the_step() {
+        for (stages, h) in [(2, 0.02), (5, 0.02), (5, 0.01)] {
+            let steps = (1.0_f64 / h).round() as usize;
+            // One step of y′ = −y² from 1.
+            let next = run(stages, steps, 1.0, |_| 0.0);
+            assert_eq!(next, 1.0);
+            let (mut end, f) = (Vec::new(), |y: f64| -y * y);
+            let slope = |y: &[f64], out: &mut Vec<f64>| {
+                *out = vec![f(y[0])];
+                Ok::<(), Infallible>(())
+            };
+            let Ok(()) = step(stages, h, &[1.0], &[-1.0], &mut end, slope);
+            let made = end[0] - 1.0 / (1.0 + h);
+            let told = error(h, 1.0, end[0], -1.0, f(end[0]));
+            assert!(
+                (0.2..5.0).contains(&(told / made).abs()),
+                "{stages} {h}: {told} {made}"
+            );
+        }
+    }
+}

@@ -433,3 +433,18 @@ fn themes_change_colours_and_nothing_else() {
     let refused = desk.say(&["--theme", "pink", "--keys", ",", "--print", "80x24"]);
     assert_eq!(refused.code, 2);
 }
+
+#[test]
+fn the_console_of_linux_gets_half_blocks() {
+    let desk = Desk::new();
+    let arguments = ["li2019-fig3", "--keys", ",", "--print", "80x24"];
+    let output = desk.command(&arguments).env("TERM", "linux").output();
+    let text = desk::Said::from(output.expect("the program starts")).out;
+    let braille = |text: &str| text.contains(|sign| ('\u{2801}'..='\u{28ff}').contains(&sign));
+    assert!(!braille(&text) && text.contains('▄'), "{text}");
+    let chosen = [&arguments[..], &["--marker", "braille"]].concat();
+    let output = desk.command(&chosen).env("TERM", "linux").output();
+    assert!(braille(
+        &desk::Said::from(output.expect("the program starts")).out
+    ));
+}

@@ -86,6 +86,17 @@ fn the_cursor_moves_and_goes() {
 }
 
 #[test]
+fn the_cursor_reads_curves_of_hidden_panels_too() {
+    // What one page shows, the other reads as well.
+    let line = foot(&shot(",x")).to_owned();
+    for keys in [",xv", ",xz", ",vx", ",xvz"] {
+        assert_eq!(foot(&shot(keys)), line, "{keys}");
+    }
+    // And a comparison on the second page has its pressures.
+    assert_eq!(body(&shot(",cv")), body(&shot(",c")));
+}
+
+#[test]
 fn the_cursor_in_the_plots() {
     assert_snapshot!("cursor-80x24", shot(",,x"));
     let desk = Desk::new();
@@ -184,11 +195,8 @@ fn the_form_edits_parameters_while_it_runs() {
             "e<Down>0.02<Backspace>3<Enter>",
             "indenter.radius = 0.03 from cycle 1.00 on",
         ),
-        ("ejjjj+", "friction.coefficient = 1.1e-1 from cycle 1.00 on"),
-        (
-            "ejjjj++-",
-            "friction.coefficient = 1.1e-1 from cycle 1.00 on",
-        ),
+        ("ejjjj+", "friction.coefficient = 0.11 from cycle 1.00 on"),
+        ("ejjjj++-", "friction.coefficient = 0.11 from cycle 1.00 on"),
     ] {
         let text = shot(&format!(",{keys}"));
         assert!(text.contains(told), "{keys}: {told}\n{text}");
@@ -424,4 +432,19 @@ fn themes_change_colours_and_nothing_else() {
     );
     let refused = desk.say(&["--theme", "pink", "--keys", ",", "--print", "80x24"]);
     assert_eq!(refused.code, 2);
+}
+
+#[test]
+fn the_console_of_linux_gets_half_blocks() {
+    let desk = Desk::new();
+    let arguments = ["li2019-fig3", "--keys", ",", "--print", "80x24"];
+    let output = desk.command(&arguments).env("TERM", "linux").output();
+    let text = desk::Said::from(output.expect("the program starts")).out;
+    let braille = |text: &str| text.contains(|sign| ('\u{2801}'..='\u{28ff}').contains(&sign));
+    assert!(!braille(&text) && text.contains('▄'), "{text}");
+    let chosen = [&arguments[..], &["--marker", "braille"]].concat();
+    let output = desk.command(&chosen).env("TERM", "linux").output();
+    assert!(braille(
+        &desk::Said::from(output.expect("the program starts")).out
+    ));
 }

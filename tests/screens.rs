@@ -652,6 +652,17 @@ fn no_size_makes_it_fail() {
         "c,",
         "mmmm.",
         "ct",
+        "cxhh",
+        "vz",
+        "lz",
+        "x[",
+        "]e",
+        "jjjj7",
+        "<Esc><Esc>:",
+        "set num",
+        "<Esc>S",
+        "note",
+        "<Esc>/wear",
     ]
     .iter()
     .scan(Stage::new("li2019-fig3", Marker::Braille), |stage, keys| {

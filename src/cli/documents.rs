@@ -1,4 +1,4 @@
-//! Completions and the manual pages, made from the arguments themselves.
+//! Completions and the manual pages, made from the arguments and the table of keys themselves.
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -8,6 +8,7 @@ use clap::CommandFactory;
 use clap_mangen::Man;
 
 use super::args::Arguments;
+use crate::tui::manual;
 
 /// Prints a completion script.
 pub fn completions(shell: clap_complete::Shell) -> Result<ExitCode> {
@@ -28,6 +29,9 @@ pub fn man() -> Result<ExitCode> {
         Man::new(command.clone())
             .source(source)
             .render(&mut pages)?;
+        if command.get_name() == "mdr-tui" {
+            pages.extend(manual::roff().into_bytes());
+        }
     }
     io::stdout().write_all(&pages)?;
     Ok(ExitCode::SUCCESS)

@@ -102,6 +102,7 @@ impl App {
             }
         }
         self.frame = Some(frame);
+        self.tell_what_shows();
     }
 
     /// The bounds of a panel's ordinate.
@@ -304,11 +305,22 @@ impl App {
 
     /// Hidden panels cost no transform.
     fn tell_what_shows(&mut self) {
-        // A comparison needs both curves, whatever panel is zoomed.
-        let shown = self
-            .visible()
-            .iter()
-            .fold(Curves::empty(), |curves, panel| curves | panel.curves());
+        // The trust in the status line rests on the pressure, whatever panel shows it.
+        let mut shown = Curves::PRESSURE;
+        for panel in self.visible() {
+            shown |= panel.curves();
+        }
+        // A comparison covers all panels, and a cursor reads all curves.
+        if self
+            .frame
+            .as_ref()
+            .is_some_and(|frame| frame.rival.is_some())
+        {
+            shown |= Curves::PROFILE;
+        }
+        if self.cursor.is_some() {
+            shown |= Curves::PROFILE | Curves::SHEAR | Curves::PROFILE_1D;
+        }
         if shown != self.shown {
             self.shown = shown;
             self.order(Order::Show(shown));

@@ -31,6 +31,7 @@ pub mod frame;
 pub mod keeping;
 pub mod keys;
 pub mod line;
+pub mod manual;
 pub mod order;
 pub mod overlays;
 pub mod pace;

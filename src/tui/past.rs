@@ -96,7 +96,7 @@ impl Past {
     /// Whether the newest state is the present one: no step and no change since.
     fn is_kept(&self, session: &Session) -> bool {
         self.kept.last().is_some_and(|last| {
-            last.session.simulation().state().steps == session.simulation().state().steps
+            last.session.simulation().cycle() == session.simulation().cycle()
                 && last.session.changes().len() == session.changes().len()
         })
     }
@@ -223,7 +223,7 @@ impl Past {
 
 /// Whether two sessions are the same run at the same moment.
 fn is_same(a: &Session, b: &Session) -> bool {
-    a.simulation().state().steps == b.simulation().state().steps && a.changes() == b.changes()
+    a.simulation().cycle() == b.simulation().cycle() && a.changes() == b.changes()
 }
 
 /// Whether `later` went through `earlier`: a run is made of its changes and nothing else, so it did

@@ -85,7 +85,7 @@ impl Setting {
                 let next = next_number(value.parse().ok()?, up);
                 Some(if up { next.ceil() } else { next.floor() }.to_string())
             }
-            Kind::Number => Some(format!("{:e}", next_number(value.parse().ok()?, up))),
+            Kind::Number => Some(plain(next_number(value.parse().ok()?, up))),
             Kind::Text | Kind::Numbers => None,
         }
     }
@@ -226,7 +226,14 @@ const EFFECTS: &[(&str, &str)] = &[
         "numerics.scheme",
         "trapezoid: second order in time; euler: the paper's",
     ),
-    ("numerics.integrator", "direct: every step of every cycle"),
+    (
+        "numerics.integrator",
+        "direct: every step; cycle-jump: over cycles that are alike",
+    ),
+    (
+        "numerics.tolerance",
+        "more: longer jumps over cycles, less accurate",
+    ),
 ];
 
 /// The next number of two significant digits, up or down from `value`. Zero stays: it has no size.
@@ -248,6 +255,15 @@ fn next_number(value: f64, up: bool) -> f64 {
     // Read back from text, so that 1.4e-10 is the number that a user would type.
     let text = format!("{count:.0}e{exponent}");
     text.parse::<f64>().unwrap_or(size).copysign(value)
+}
+
+/// A number as a reader writes it.
+fn plain(value: f64) -> String {
+    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
 }
 
 #[cfg(test)]
@@ -301,7 +317,7 @@ mod tests {
         assert_eq!(of("numerics.points").next(true).as_deref(), Some("110"));
         assert_eq!(
             of("friction.coefficient").next(true).as_deref(),
-            Some("1.1e-1")
+            Some("0.11")
         );
         assert!(
             settings

@@ -114,7 +114,7 @@ impl Form {
         let shown = settings
             .iter()
             .enumerate()
-            .skip(first_shown(at, list.height));
+            .skip(first_shown(at, settings.len(), list.height));
         for ((i, setting), row) in shown.zip(list.rows()) {
             let path = format!(" {:1$}", setting.parameter.path, VALUES - 1);
             match &self.typed {

@@ -6,8 +6,9 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Paragraph, Widget};
 
 use super::{Answer, App, Command, Key, LineEdit, popup, typing};
-use crate::tui::command::{self, BINDINGS, Binding};
+use crate::tui::command::{self, BINDINGS};
 use crate::tui::keys::Named;
+use crate::tui::manual::{Entry, keys, long, short};
 use crate::tui::theme::Role;
 
 /// The help: scrolled down by some lines, or searched.
@@ -17,116 +18,18 @@ pub struct Help {
     search: Option<LineEdit>,
 }
 
-/// Commands that share a line of the help where the screen is short.
-const GROUPS: &[(&[Command], &str)] = &[
-    (
-        &[Command::Step, Command::Cycle],
-        "pause and take one step; go on to the end of the cycle",
-    ),
-    (
-        &[Command::Faster, Command::Slower],
-        "more, fewer cycles a second, up to as fast as it can",
-    ),
-    (
-        &[Command::NextMethod, Command::PreviousMethod],
-        "next, previous transform method; the state stays",
-    ),
-    (
-        &[Command::NextLaw, Command::PreviousLaw],
-        "next, previous wear law; the state stays",
-    ),
-    (
-        &[
-            Command::NextPage,
-            Command::NextPanel,
-            Command::PreviousPanel,
-        ],
-        "more panels; focus the next, previous panel",
-    ),
-    (
-        &[Command::Zoom, Command::LogScale, Command::Theme],
-        "the focused panel alone; its log scale; colours",
-    ),
-    (
-        &[Command::Snapshot, Command::SnapshotNote],
-        "state and scenario to a new directory; with a note",
-    ),
-    (
-        &[
-            Command::TimeBack,
-            Command::TimeForth,
-            Command::Mark,
-            Command::Visit,
-        ],
-        "back and forth in time; mark a state, go to a mark",
-    ),
-    (
-        &[Command::Presets, Command::Restart],
-        "choose another scenario; start this one again",
-    ),
-    (
-        &[Command::Theory, Command::Accuracy, Command::Compare],
-        "closed forms; how far to trust; a second method (m M)",
-    ),
-    (
-        &[Command::Cursor, Command::Left, Command::Right],
-        "a cursor that reads all curves at r; it moves",
-    ),
-    (
-        &[Command::Up, Command::Down, Command::Accept, Command::Back],
-        "up, down; take what is selected; close what is open",
-    ),
-    (
-        &[Command::Help, Command::Search],
-        "show or hide this help; search in it",
-    ),
-];
-
-/// One line: the keys, and what they do.
-type Entry = (String, &'static str);
-
-/// Every command, one a line, or groups of commands where `rows` are few.
-fn entries(rows: u16) -> Vec<Entry> {
-    let is_short = usize::from(rows) < BINDINGS.len();
-    let group_of = |command: Command| {
-        GROUPS
-            .iter()
-            .find(|(group, _)| is_short && group.contains(&command))
-    };
-    let mut lines = Vec::new();
-    for binding in BINDINGS {
-        match group_of(binding.command) {
-            None => lines.push((keys(binding), binding.help)),
-            Some((group, help)) if group[0] == binding.command => {
-                let all: Vec<String> = group
-                    .iter()
-                    .filter_map(|command| BINDINGS.iter().find(|other| other.command == *command))
-                    .map(keys)
-                    .collect();
-                lines.push((all.join(" "), help));
-            }
-            Some(_) => {}
-        }
-    }
-    lines
-}
-
-fn keys(binding: &Binding) -> String {
-    let keys: Vec<String> = binding.keys.iter().map(ToString::to_string).collect();
-    keys.join(" ")
-}
-
 /// The commands that have all of the words in key, name or help.
 fn found(search: &str) -> Vec<Entry> {
     let words: Vec<String> = search.split_whitespace().map(str::to_lowercase).collect();
     BINDINGS
         .iter()
         .filter(|binding| {
-            let text = format!("{} {} {}", keys(binding), binding.name, binding.help);
+            let keys = keys(binding).join(" ");
+            let text = format!("{keys} {} {}", binding.name, binding.help);
             let text = text.to_lowercase();
             words.iter().all(|word| text.contains(word.as_str()))
         })
-        .map(|binding| (keys(binding), binding.help))
+        .map(Entry::of)
         .collect()
 }
 
@@ -164,13 +67,17 @@ impl Help {
     pub(super) fn draw(&self, app: &App, area: Rect, buffer: &mut Buffer) {
         let entries = match &self.search {
             Some(line) => found(&line.text()),
-            None => entries(area.height.saturating_sub(2)),
+            None if usize::from(area.height) < BINDINGS.len() + 2 => short(),
+            None => long(),
         };
         let mut lines: Vec<Line> = entries
             .into_iter()
-            .map(|(keys, help)| {
+            .map(|Entry { keys, help }| {
                 Line::from(vec![
-                    Span::styled(format!(" {keys:>21}  "), app.theme.style(Role::Title)),
+                    Span::styled(
+                        format!(" {:>21}  ", keys.join(" ")),
+                        app.theme.style(Role::Title),
+                    ),
                     Span::raw(help),
                 ])
             })
@@ -199,21 +106,5 @@ impl Help {
         Paragraph::new(lines)
             .scroll((first, 0))
             .render(inside, buffer);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn nothing_is_cut() {
-        for rows in [20, 100] {
-            for (keys, help) in entries(rows) {
-                assert!(keys.chars().count() <= 21, "{keys}");
-                assert!(help.chars().count() <= 54, "{help}");
-            }
-        }
-        assert!(entries(20).len() <= 20);
     }
 }

@@ -171,7 +171,7 @@ impl Library {
             ..inside
         };
         let shown = self.entries.iter().enumerate();
-        let first = first_shown(self.at, list.height);
+        let first = first_shown(self.at, self.entries.len(), list.height);
         for ((i, entry), row) in shown.skip(first).zip(list.rows()) {
             let name = app.theme.printable(&entry.name());
             let text = format!(" {name:width$}  {} ", entry.title());

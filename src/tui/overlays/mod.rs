@@ -163,9 +163,13 @@ const ASCII_BORDER: ratatui::symbols::border::Set = ratatui::symbols::border::Se
     horizontal_bottom: "-",
 };
 
-/// The first entry to show so that entry `at` is among the `rows` shown.
-fn first_shown(at: usize, rows: u16) -> usize {
-    (at + 1).saturating_sub(usize::from(rows))
+/// The first of `count` entries to show so that entry `at` is among the `rows` shown, and a few that
+/// follow it.
+fn first_shown(at: usize, count: usize, rows: u16) -> usize {
+    let following = usize::from(rows / 3);
+    (at + 1 + following)
+        .min(count)
+        .saturating_sub(usize::from(rows))
 }
 
 /// A line being typed behind a prompt, its cursor shown.

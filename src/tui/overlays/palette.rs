@@ -237,7 +237,10 @@ impl Palette {
             height: inside.height.saturating_sub(1),
             ..inside
         };
-        for ((i, completion), row) in shown.skip(first_shown(at, below.height)).zip(below.rows()) {
+        for ((i, completion), row) in shown
+            .skip(first_shown(at, list.len(), below.height))
+            .zip(below.rows())
+        {
             let name = Span::raw(format!(" {:22} ", completion.line));
             let right = format!(" {} ", completion.right);
             let room = usize::from(row.width)

@@ -142,7 +142,7 @@ fn a_plain_swing_needs_no_steps() {
     }
 }
 
-/// Work counts, which no machine changes: a million mild cycles cost what some hundred looks cost.
+/// Work counts: a million mild cycles cost what some hundred looks cost.
 #[test]
 fn a_million_cycles_cost_a_few_hundred() {
     let scenario = Scenario::load("mild-million", &[]).expect("a preset");
@@ -151,11 +151,16 @@ fn a_million_cycles_cost_a_few_hundred() {
     let deepest = simulation.state().wear.iter().copied().fold(0.0, f64::max);
     let depth = 1e-6;
     assert!((0.28..0.38).contains(&(deepest / depth)), "{deepest}");
-    let counts = format!(
-        "{} jumps, {} rejected, {} cycles looked at, {} transforms",
-        effort.jumps, effort.rejected_jumps, effort.evaluated_cycles, effort.transforms
-    );
-    insta::assert_snapshot!(counts);
+    // Within what other last digits of another processor may change.
+    let about = |what: &str, count: u64, due: u64| {
+        assert!(
+            count.abs_diff(due) * 8 <= due,
+            "{what}: {count}, not about {due}"
+        );
+    };
+    about("jumps", effort.jumps, 151);
+    about("cycles looked at", effort.evaluated_cycles, 648);
+    about("transforms", effort.transforms, 2993);
     // A thousand times the wear a cycle, every cycle stepped.
     let harsh = [
         "numerics.integrator=direct",
@@ -216,4 +221,27 @@ fn a_run_with_jumps_and_changes_repeats_itself() {
     let mut replay = Session::start(again).expect("a session");
     replay.advance_to(cycle).expect("the end");
     assert_eq!(replay.simulation().state(), session.simulation().state());
+}
+
+/// Of direct stepping: four transforms a step of the second-order scheme and one to begin with, three
+/// and one of explicit Euler; nothing but steps.
+#[test]
+fn a_step_costs_its_transforms() {
+    for (setup, transforms) in [
+        (fig3(0.05), 4),
+        (
+            Setup {
+                method: A,
+                spacing: Spacing::Uniform,
+                scheme: Scheme::Euler,
+                ..fig3(0.05)
+            },
+            3,
+        ),
+    ] {
+        let state = run_setup(setup, 10.0).state().clone();
+        assert_eq!(state.effort.transforms, transforms * state.steps + 1);
+        assert_eq!(state.effort.contacts, state.steps + 1);
+        assert_eq!((state.effort.evaluated_cycles, state.effort.jumps), (0, 0));
+    }
 }

@@ -235,10 +235,13 @@ impl Study {
     }
 }
 
+/// Times and errors.
+type Points = (Vec<f64>, Vec<f64>);
+
 /// Error over time: a plot a method with its own front, the front of all dashed.
 fn plots(found: &Found, options: &Trade) -> String {
     let all = points(front(&found.trials));
-    let fronts: Vec<(AbelMethod, (Vec<f64>, Vec<f64>))> = AbelMethod::ALL
+    let fronts: Vec<(AbelMethod, Points)> = AbelMethod::ALL
         .into_iter()
         .map(|method| {
             let mine = found
@@ -249,7 +252,7 @@ fn plots(found: &Found, options: &Trade) -> String {
         })
         .filter(|(_, (times, _))| !times.is_empty())
         .collect();
-    let every = |pick: fn(&(Vec<f64>, Vec<f64>)) -> &Vec<f64>| {
+    let every = |pick: fn(&Points) -> &Vec<f64>| {
         small_multiples::decades(fronts.iter().flat_map(|(_, front)| pick(front)).copied())
     };
     let (Some(times), Some(errors)) = (every(|front| &front.0), every(|front| &front.1)) else {

@@ -65,13 +65,14 @@ pub fn table<'a>(shown: impl IntoIterator<Item = &'a Trial>, all: &[Trial]) -> T
         Column::new("time_s", Format::Rough),
         Column::new("steps", Format::Count),
         Column::new("transforms", Format::Count),
-        Column::new("error_rms", Format::Rough),
-        Column::new("error_max", Format::Rough),
-        Column::new("stick_error", Format::Rough),
-        Column::new("volume_error", Format::Rough),
+        Column::grouped("against the reference", "error_rms", Format::Rough),
+        Column::grouped("against the reference", "error_max", Format::Rough),
+        Column::grouped("against the reference", "stick_error", Format::Rough),
+        Column::grouped("against the reference", "volume_error", Format::Rough),
         Column::new("front", Format::Words),
     ]);
     let front = front(all);
+    let stands = |trial: &Trial| front.iter().any(|other| std::ptr::eq(*other, trial));
     for trial in shown {
         let Setting {
             method,
@@ -99,9 +100,10 @@ pub fn table<'a>(shown: impl IntoIterator<Item = &'a Trial>, all: &[Trial]) -> T
                 Cell::Number(errors.largest),
                 finite(errors.stick_radius),
                 finite(errors.volume),
-                words(if front.contains(&trial) { "*" } else { "" }),
+                words(if stands(trial) { "*" } else { "" }),
             ]),
             Err(reason) => {
+                row.resize(9, Cell::Missing);
                 row.push(Cell::Across(reason.clone()));
                 row.resize(14, Cell::Missing);
             }

@@ -204,6 +204,8 @@ impl App {
             Command::PreviousLaw => self.order(Order::Law(-1)),
             Command::Faster => self.order(Order::Pace(1)),
             Command::Slower => self.order(Order::Pace(-1)),
+            Command::Coarser => self.order(Order::Accuracy(-1)),
+            Command::Finer => self.order(Order::Accuracy(1)),
             Command::NextPage => self.turn_page(),
             Command::NextPanel | Command::Down => self.focus = self.focus.shifted(1),
             Command::PreviousPanel | Command::Up => self.focus = self.focus.shifted(-1),

@@ -110,7 +110,7 @@ fn the_cheapest_setting_for_an_accuracy_reaches_it() {
         steps: 50,
         tolerance: None,
     };
-    let go_on = || true;
+    let go_on = |_| true;
     let fine = trade::run(&scenario, &reference, 3.0, &go_on);
     let fine = fine.expect("not stopped").expect("a run");
     let recommended = load("li2019-fig3", &sets);
@@ -142,7 +142,7 @@ fn the_cheapest_setting_for_an_accuracy_reaches_it() {
 fn an_accuracy_asked_for_is_reached() {
     let sets = ["motion.tangential.phase=1.2", "wear.coefficient=4e-10"];
     let scenario = load("li2019-fig3", &sets);
-    let go_on = || true;
+    let go_on = |_| true;
     let run = |setting: &Setting| {
         let found = trade::run(&scenario, setting, 60.0, &go_on);
         found.expect("not stopped").expect("a run")

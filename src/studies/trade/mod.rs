@@ -120,13 +120,13 @@ fn one_run(
             return None;
         }
         // A cycle at a time: a stop is seen soon, and asking costs nothing.
-        let next = (session.simulation().cycle().floor() + 1.0).min(cycles);
-        let end = if session.simulation().may_jump() {
-            cycles
+        let cycle = session.simulation().cycle();
+        let outcome = if session.simulation().may_jump() {
+            session.step_until(cycles)
         } else {
-            next
+            session.advance_to((cycle.floor() + 1.0).min(cycles))
         };
-        if let Err(error) = session.step_until(end) {
+        if let Err(error) = outcome {
             return Some(Err(error));
         }
     }

@@ -19,6 +19,8 @@ pub struct Foundation {
     weights: Vec<f64>,
     /// Of ∫ q s dx in each cell.
     products: Vec<[f64; 3]>,
+    /// ∫ of what a cusp of slope one adds to a load linear in x², from the tip to each node, m².
+    bubbles: Vec<f64>,
 }
 
 impl Foundation {
@@ -36,6 +38,7 @@ impl Foundation {
             squares: grid.squares().to_vec(),
             weights: line_weights(grid.nodes()),
             products,
+            bubbles: bubbles(grid.nodes()),
         }
     }
 
@@ -54,9 +57,16 @@ impl Foundation {
     /// A load with a cusp at the tip, as under a cone, is linear in x and not in x²: what that adds is
     /// added.
     pub fn force(&self, load: &[f64], breaks: &[Bend], edge: f64) -> f64 {
+        self.forces(load, breaks, edge).0
+    }
+
+    /// [`force`](Self::force), and what it would be without the breaks.
+    pub fn forces(&self, load: &[f64], breaks: &[Bend], edge: f64) -> (f64, f64) {
         let end = self.nodes[self.nodes.len() - 1];
-        let smooth = weighted(&self.weights, load) + bend::line_integral(breaks, end);
-        2.0 * (smooth + self.cusp(load, edge) * self.cusp_integral(edge))
+        let nodal = weighted(&self.weights, load);
+        let cusp = self.cusp_integral(load, edge);
+        let broken = nodal + bend::line_integral(breaks, end);
+        (2.0 * (broken + cusp), 2.0 * (nodal + cusp))
     }
 
     /// 2∫ q |s| dx over the row: the work (J) of a line load (N/m) that ends at `edge` (m) on a slip (m).
@@ -82,7 +92,7 @@ impl Foundation {
                     })
             })
             .sum();
-        let cusp = self.cusp(load, edge) * self.cusp_integral(edge) * slip[0].abs();
+        let cusp = self.cusp_integral(load, edge) * slip[0].abs();
         2.0 * (smooth + kinked + cusp)
     }
 
@@ -101,18 +111,35 @@ impl Foundation {
         }
     }
 
-    /// ∫ of what a cusp of slope one adds to a load linear in x² up to `edge`, m².
-    fn cusp_integral(&self, edge: f64) -> f64 {
-        let bubble = |a: f64, b: f64| (b - a).powi(3) / (6.0 * (a + b));
-        let whole = self.nodes.windows(2).take_while(|cell| cell[1] <= edge);
-        let inside: f64 = whole.map(|cell| bubble(cell[0], cell[1])).sum();
+    /// ∫ of what the cusp of `values` adds to them up to `edge`, in their unit times m.
+    fn cusp_integral(&self, values: &[f64], edge: f64) -> f64 {
+        let cusp = self.cusp(values, edge);
+        if cusp == 0.0 {
+            return 0.0;
+        }
         let last = self.nodes.partition_point(|&x| x <= edge) - 1;
+        let whole = self.bubbles[last];
         if edge > self.nodes[last] {
-            inside + bubble(self.nodes[last], edge)
+            cusp * (whole + bubble(self.nodes[last], edge))
         } else {
-            inside
+            cusp * whole
         }
     }
+}
+
+/// ∫ of the bubble of a cusp of slope one over a cell, m².
+fn bubble(a: f64, b: f64) -> f64 {
+    (b - a).powi(3) / (6.0 * (a + b))
+}
+
+/// The same from the tip to each node.
+fn bubbles(nodes: &[f64]) -> Vec<f64> {
+    let mut sum = 0.0;
+    let whole = nodes.windows(2).map(|cell| {
+        sum += bubble(cell[0], cell[1]);
+        sum
+    });
+    std::iter::once(0.0).chain(whole).collect()
 }
 
 #[cfg(test)]

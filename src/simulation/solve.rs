@@ -67,7 +67,10 @@ fn press(setup: &Setup, work: &mut Workspace, depth: f64) -> Result<(), Cause> {
     let planned = &work.planned;
     let modulus = setup.material.normal_modulus();
     let (load, breaks) = (&mut work.normal_load, &mut work.normal_breaks);
-    let mut normal = normal::press(&planned.row, &work.predicted, depth, modulus, load, breaks);
+    let mut normal = normal::touch(&planned.row, &work.predicted, depth, modulus, load, breaks);
+    let nodal;
+    (normal.force, nodal) = planned.row.forces(load, breaks, normal.radius);
+    let mut edge_load = 0.5 * (normal.force - nodal);
     if !normal.force.is_finite() {
         if work.predicted.iter().all(|g| g.is_finite()) {
             return Err(Cause::Overflow { depth });
@@ -103,16 +106,16 @@ fn press(setup: &Setup, work: &mut Workspace, depth: f64) -> Result<(), Cause> {
                 breaks.truncate(breaks.len().saturating_sub(3));
             }
             normal.radius = edge.at.sqrt();
-            normal.force = planned.row.force(load, breaks, normal.radius)
-                + 2.0 * modulus * edge.line_integral();
+            let (force, nodal) = planned.row.forces(load, breaks, normal.radius);
+            normal.force = force + 2.0 * modulus * edge.line_integral();
+            edge_load = 0.5 * (normal.force - nodal);
             work.rim_edge = Some(edge);
         }
     }
-    let nodal = planned.row.force(load, &[], normal.radius);
     work.contact = Contact {
         depth,
         normal,
-        edge_load: 0.5 * (normal.force - nodal),
+        edge_load,
         ..Contact::default()
     };
     Ok(())

@@ -60,9 +60,9 @@ pub(super) fn worn(setup: &Setup, state: &State, work: &mut Workspace, cycle: f6
 }
 
 /// 2∫ q_x Δs dx, the integrand falling to zero at the contact's edge.
-fn work_of_friction(work: &Workspace) -> f64 {
+fn work_of_friction(work: &mut Workspace) -> f64 {
     let (normal, squares) = (&work.contact.normal, work.planned.grid.squares());
-    let mut breaks = Vec::new();
+    work.work_breaks.clear();
     if normal.nodes > 0 && normal.nodes < squares.len() {
         let last = normal.nodes - 1;
         let ends = [work.friction_work[last], work.friction_work[last + 1]];
@@ -71,10 +71,10 @@ fn work_of_friction(work: &Workspace) -> f64 {
             [squares[last], squares[last + 1]],
             ends,
             &[edge],
-            &mut breaks,
+            &mut work.work_breaks,
         );
     }
     work.planned
         .row
-        .force(&work.friction_work, &breaks, normal.radius)
+        .force(&work.friction_work, &work.work_breaks, normal.radius)
 }

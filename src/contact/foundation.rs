@@ -17,6 +17,8 @@ pub struct Foundation {
     nodes: Vec<f64>,
     squares: Vec<f64>,
     weights: Vec<f64>,
+    /// Of the slope at the tip.
+    cusp_weights: [f64; 3],
     /// Of ∫ q s dx in each cell.
     products: Vec<[f64; 3]>,
     /// ∫ of what a cusp of slope one adds to a load linear in x², from the tip to each node, m².
@@ -37,6 +39,7 @@ impl Foundation {
             nodes: grid.nodes().to_vec(),
             squares: grid.squares().to_vec(),
             weights: line_weights(grid.nodes()),
+            cusp_weights: product::cusp_weights(grid.nodes()),
             products,
             bubbles: bubbles(grid.nodes()),
         }
@@ -72,9 +75,14 @@ impl Foundation {
     /// 2∫ q |s| dx over the row: the work (J) of a line load (N/m) that ends at `edge` (m) on a slip (m).
     /// Both are linear in x² in each cell; the slip has `kinks` inside cells besides, each with its cell.
     pub fn work(&self, load: &[f64], slip: &[f64], kinks: &[(usize, Bend)], edge: f64) -> f64 {
-        let cells = load.windows(2).zip(slip.windows(2));
+        // Most springs stick or carry nothing.
+        let first = slip.iter().position(|&slip| slip != 0.0);
+        let first = first.unwrap_or(slip.len()).saturating_sub(1);
+        let end = load.iter().rposition(|&load| load != 0.0);
+        let end = end.map_or(first, |last| (last + 2).min(load.len()).max(first));
+        let cells = load[first..end].windows(2).zip(slip[first..end].windows(2));
         let smooth: f64 = cells
-            .zip(&self.products)
+            .zip(&self.products[first..])
             .map(|((q, s), [inner, mixed, outer])| {
                 let s = [s[0].abs(), s[1].abs()];
                 inner * q[0] * s[0] + mixed * (q[0] * s[1] + q[1] * s[0]) + outer * q[1] * s[1]
@@ -102,7 +110,8 @@ impl Foundation {
         if edge <= self.nodes[3] {
             return 0.0;
         }
-        let cusp = product::cusp(&self.nodes[..3], &values[..3]);
+        let tip = self.cusp_weights.iter().zip(values);
+        let cusp: f64 = tip.map(|(weight, value)| weight * value).sum();
         let rounding = NO_CUSP * values[0].abs();
         if (cusp * self.nodes[2]).abs() > rounding {
             cusp

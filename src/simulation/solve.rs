@@ -225,7 +225,7 @@ fn increment_for_force(
 
 /// p(r), Pa, of the solved contact by Eq. (3); `modulus` is E*.
 pub(super) fn pressure(work: &Workspace, modulus: f64, out: &mut [f64]) {
-    stress(work, &work.normal_load, &work.normal_breaks, out);
+    stress(work, &work.normal_load, &work.normal_breaks, 0, out);
     if let Some(edge) = &work.rim_edge {
         edge.add_to_stress(modulus, work.planned.grid.squares(), out);
     }
@@ -251,17 +251,24 @@ fn curve(work: &Workspace, load: &[f64], breaks: impl Iterator<Item = Bend>, out
 
 /// τ(r), Pa, of the solved contact by Eq. (3); `modulus` is G*.
 pub(super) fn shear(work: &Workspace, modulus: f64, out: &mut [f64]) {
-    stress(work, &work.spring, &work.spring_breaks, out);
+    shear_from(0, work, modulus, out);
+}
+
+/// The same from the node `first` on; zero further in.
+pub(super) fn shear_from(first: usize, work: &Workspace, modulus: f64, out: &mut [f64]) {
+    stress(work, &work.spring, &work.spring_breaks, first, out);
     curve(work, &work.spring, work.spring_breaks.iter().copied(), out);
+    out[..first].fill(0.0);
     for stress in out {
         *stress *= modulus;
     }
 }
 
-/// Eq. (3) with the breaks of the load and the end of its cusp, and nothing outside the contact.
-fn stress(work: &Workspace, load: &[f64], breaks: &[Bend], out: &mut [f64]) {
+/// Eq. (3) with the breaks of the load and the end of its cusp, and nothing outside the contact; of use
+/// from the node `first` on.
+fn stress(work: &Workspace, load: &[f64], breaks: &[Bend], first: usize, out: &mut [f64]) {
     let planned = &work.planned;
-    planned.plan.stress(load, out);
+    planned.plan.stress_rows(load, out, first..load.len());
     if !planned.has_breaks() {
         return;
     }
@@ -272,6 +279,14 @@ fn stress(work: &Workspace, load: &[f64], breaks: &[Bend], out: &mut [f64]) {
     }
     // The cusp's operator is not causal to the last bit.
     out[contact.nodes..].fill(0.0);
+}
+
+/// The slip of the surface in the step, m, by Eq. (2), into `work.surface_slip`, on the first `nodes`.
+pub(super) fn surface_slip(work: &mut Workspace, nodes: usize) {
+    work.transforms += 1;
+    let (slip, surface) = (&work.slip, &mut work.surface_slip);
+    let plan = &work.planned.plan;
+    plan.displacement_rows(slip, surface, 0..nodes.min(slip.len()));
 }
 
 /// u_x(r), m, of the surface by Eq. (2).

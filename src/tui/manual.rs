@@ -33,7 +33,7 @@ const GROUPS: &[(&[Command], &str)] = &[
     ),
     (
         &[Command::Coarser, Command::Finer],
-        "faster, or more accurate: fewer or more cells and steps",
+        "faster, more accurate: fewer, more cells and steps",
     ),
     (
         &[Command::NextMethod, Command::PreviousMethod],

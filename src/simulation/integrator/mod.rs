@@ -117,21 +117,25 @@ fn update_profile_keeping_growth(state: &mut State, work: &mut Workspace) {
 /// Refuses a worn profile that is not finite or far above anything that can touch.
 fn check(setup: &Setup, work: &Workspace) -> Result<(), Cause> {
     let method = setup.method;
-    // Only a finite profile has a finite volume.
-    let volume = weighted(&work.planned.volume_weights, &work.wear);
-    if !volume.is_finite() {
+    let (mut highest, mut at) = (0.0, 0);
+    let mut sum = 0.0;
+    for (j, &worn) in work.wear.iter().enumerate() {
+        sum += worn;
+        if worn > highest {
+            (highest, at) = (worn, j);
+        }
+    }
+    if !f64::is_finite(sum) {
         return Err(Cause::NotFinite {
             quantity: "worn profile",
             method,
         });
     }
-    let highest = work.wear.iter().copied().fold(0.0, f64::max);
     let deepest = setup.largest_depth().unwrap_or(work.contact.depth);
     if highest > RUNAWAY * deepest && deepest > 0.0 {
-        let at = work.wear.iter().position(|&worn| worn == highest);
         return Err(Cause::Runaway {
             worn: highest / deepest,
-            radius: setup.grid.nodes()[at.unwrap_or_default()],
+            radius: setup.grid.nodes()[at],
             method,
         });
     }

@@ -5,7 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use anyhow::{Context, Result, anyhow};
 
@@ -15,15 +15,12 @@ use super::progress::Progress;
 use super::{FAILED, complain, stop};
 use crate::export::file::{RUN_CHECKPOINT, RunDirectory, WriteError, free_directory, write_whole};
 use crate::export::header::number;
-use crate::export::keep::{self, Keeper};
+use crate::export::keep::{self, COPY_INTERVAL, Keeper};
 use crate::export::state;
 use crate::scenario::checkpoint;
 use crate::scenario::session::Session;
 use crate::scenario::{Scenario, printable};
 use crate::tui::panics;
-
-/// How old the copy may be that a defect of the program leaves of a run.
-const COPY_INTERVAL: Duration = Duration::from_millis(100);
 
 /// Runs a scenario, or goes on with one, and writes its files.
 pub fn run(options: &Run) -> Result<ExitCode> {

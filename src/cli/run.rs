@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
@@ -104,8 +104,7 @@ impl Job {
         let errand = Errand::new(options, &scenario, name)?;
         let session = Session::start(scenario).with_context(|| printable(name))?;
         let path = options.out.clone();
-        let path =
-            path.unwrap_or_else(|| free_directory(&format!("{}-run", session.loaded().stem())));
+        let path = path.unwrap_or_else(|| new_directory(&session));
         let directory = RunDirectory::claim(&path, options.force)?;
         Ok(Self::new(name, session, errand, directory, options))
     }
@@ -125,7 +124,7 @@ impl Job {
         let path = match (&options.out, home) {
             (Some(out), _) => out.clone(),
             (None, Some(home)) => home.to_owned(),
-            (None, None) => free_directory(&format!("{}-run", session.loaded().stem())),
+            (None, None) => new_directory(&session),
         };
         let real = |path: &Path| path.canonicalize().ok();
         let directory = match home {
@@ -366,6 +365,11 @@ fn table_at(snapshot: &CycleAsGiven, session: &Session) -> Result<String> {
     let mut glimpse = session.clone();
     glimpse.advance_to(snapshot.cycle)?;
     Ok(state::table(&glimpse))
+}
+
+/// A directory that is not there yet, named after the scenario.
+fn new_directory(session: &Session) -> PathBuf {
+    free_directory(&format!("{}-run", session.loaded().stem()))
 }
 
 /// The name of a snapshot's file.

@@ -237,7 +237,7 @@ fn run_writes_the_files_of_the_contract() {
     let table = Table::parse(&desk.read("x/history.csv"));
     assert_eq!(
         table.columns.join(", "),
-        "cycle, time_s, u_z_m, u_x_m, F_z_N, F_x_N, contact_radius_m, stick_radius_m, permanent_stick_radius_m, wear_volume_m3, dissipated_energy_J, energy_residual, max_pressure_Pa, period_energy_residual, force_residual, steps, transforms, evaluated_cycles, rejected_jumps"
+        "cycle, time_s, u_z_m, u_x_m, F_z_N, F_x_N, contact_radius_m, stick_radius_m, permanent_stick_radius_m, wear_volume_m3, dissipated_energy_J, energy_residual, max_pressure_Pa, period_energy_residual, force_residual, steps, transforms, evaluated_cycles, rejected_jumps, stability_margin, parts"
     );
     assert_eq!(table.columns, history::COLUMNS);
     assert_eq!(table.column("cycle"), [0.0, 1.0, 2.0, 3.0, 3.25]);

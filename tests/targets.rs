@@ -14,7 +14,7 @@ use mdr_tui::oracle::cattaneo_mindlin::CattaneoMindlin;
 use mdr_tui::oracle::dual_oscillation::{DualOscillation, Frequencies};
 use mdr_tui::oracle::limiting_profile::LimitingProfile;
 use mdr_tui::oracle::partial_slip::stiffness_ratio;
-use mdr_tui::simulation::{Curves, Scheme, Setup, Simulation, Spacing, State};
+use mdr_tui::simulation::{Curves, Scheme, Setup, Simulation, Spacing, Stability, State};
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_3, FRAC_PI_4};
 
 /// The scene with the default numerics.
@@ -23,6 +23,7 @@ fn ours(scene: Scene) -> Setup {
         method: Product,
         spacing: Spacing::Graded,
         scheme: Scheme::Trapezoid,
+        stability: Stability::SubStep,
         ..Setup::from(scene)
     }
 }

@@ -103,6 +103,7 @@ pub(super) struct RawNumerics {
     pub domain_radius: Option<f64>,
     pub grid: Option<String>,
     pub scheme: Option<String>,
+    pub stability: Option<String>,
     pub integrator: Option<String>,
     pub tolerance: Option<f64>,
 }
@@ -122,6 +123,7 @@ impl Raw {
             or(&mut wear.law, "archard");
         }
         or(&mut self.numerics.method, DEFAULT_METHOD.name());
+        or(&mut self.numerics.stability, "sub-step");
         or(&mut self.numerics.integrator, "direct");
         self.numerics.points.get_or_insert(DEFAULT_POINTS);
         self.numerics

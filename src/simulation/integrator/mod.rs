@@ -11,6 +11,7 @@ use crate::math::quadrature::weighted;
 
 mod cycle_jump;
 mod euler;
+mod parts;
 mod settled;
 mod stiffness;
 mod trapezoid;
@@ -36,6 +37,7 @@ pub(super) fn settle(setup: &Setup, state: &mut State, work: &mut Workspace) -> 
         pressure: vec![0.0; nodes],
         shear: vec![0.0; nodes],
         duration: 0.0,
+        stiffness: 0.0,
     };
     pressure(work, setup.material.normal_modulus(), &mut last.pressure);
     if setup.drive.tangential().is_some() {

@@ -11,8 +11,8 @@ use serde::{Deserialize, Serialize};
 use crate::math::abel::{AbelMethod, MOST_DENSE_CELLS};
 use crate::math::grid::MIN_CELLS;
 use crate::scenario::MOST_CYCLES;
-use crate::studies::trade;
 use crate::studies::verify::{LADDER, Problem};
+use crate::studies::{stability, trade};
 use crate::tui::Size;
 use crate::tui::plot::Marker;
 
@@ -50,6 +50,8 @@ pub enum Command {
     Verify(Verify),
     /// Measure speed against accuracy: one scenario by many settings.
     Trade(Trade),
+    /// Map the wear coefficients that each method bears: stable, teeth, exploded.
+    Stability(Stability),
     /// Print a completion script for a shell.
     #[command(
         after_help = "Example:\n  mdr-tui completions bash > ~/.local/share/bash-completion/completions/mdr-tui"
@@ -285,6 +287,75 @@ pub struct Trade {
     pub quiet: bool,
 }
 
+/// Options of `stability`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    mdr-tui stability li2019-fig3                         every method as it was published\n  \
+    mdr-tui stability li2019-fig3 --guard both --methods product,b\n  \
+    mdr-tui stability mine.toml --points 100 --wear-numbers 1,3,10,30 --csv map.csv")]
+pub struct Stability {
+    /// A preset's name, or a path to a .toml file.
+    pub scenario: String,
+    /// Changes to the scenario.
+    #[command(flatten)]
+    pub changes: Changes,
+    /// How many cycles to run.
+    #[arg(long, value_name = "X", value_parser = cycles, allow_hyphen_values = true, default_value_t = 20.0)]
+    pub cycles: f64,
+    /// The methods to try; default: all.
+    #[arg(long, value_name = "M1,M2,...", value_delimiter = ',', value_parser = method_parser())]
+    pub methods: Vec<AbelMethod>,
+    /// The numbers of grid cells N to try.
+    #[arg(
+        long,
+        value_name = "N1,N2,...",
+        value_delimiter = ',',
+        value_parser = points,
+        allow_hyphen_values = true,
+        default_values_t = stability::POINTS
+    )]
+    pub points: Vec<usize>,
+    /// The wear numbers K = k E* d/a to try, d and a at the beginning.
+    #[arg(
+        long,
+        value_name = "K1,K2,...",
+        value_delimiter = ',',
+        value_parser = wear_number,
+        allow_hyphen_values = true,
+        default_values_t = stability::WEAR_NUMBERS
+    )]
+    pub wear_numbers: Vec<f64>,
+    /// The steps a cycle.
+    #[arg(long, value_name = "S", value_parser = clap::value_parser!(u32).range(1..=100_000), default_value_t = 100)]
+    pub steps: u32,
+    /// Whether steps that are too harsh are taken in parts.
+    #[arg(long, value_enum, default_value_t = Guard::Off)]
+    pub guard: Guard,
+    /// Write all runs to this file.
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+    /// Write over a file that is there already.
+    #[arg(long, requires = "csv")]
+    pub force: bool,
+    /// Print all runs as JSON instead of maps.
+    #[arg(long)]
+    pub json: bool,
+    /// Show no progress.
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+/// What `stability` does about harsh steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Guard {
+    /// The raw method.
+    Off,
+    /// Parts.
+    On,
+    /// One after the other.
+    Both,
+}
+
 /// Which moments `history.csv` records.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum HistoryChoice {
@@ -406,6 +477,13 @@ fn points(text: &str) -> Result<usize, String> {
         _ => Err(format!(
             "points are whole numbers from {MIN_CELLS} to {MOST_DENSE_CELLS}, e.g. 100,1000"
         )),
+    }
+}
+
+fn wear_number(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if value > 0.0 && value <= 1e6 => Ok(value),
+        _ => Err("wear numbers are greater than 0 and at most 1e6, e.g. 0.3,3,30".into()),
     }
 }
 

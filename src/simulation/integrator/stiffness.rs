@@ -20,7 +20,8 @@ use crate::math::quadrature::weighted;
 pub(super) fn of_step(setup: &Setup, work: &mut Workspace, duration: f64) -> f64 {
     let Some(law) = &setup.wear else { return 0.0 };
     let seconds = duration * setup.drive.period();
-    let scale = response(setup.method) * setup.material.friction() * setup.material.normal_modulus();
+    let scale =
+        response(setup.method) * setup.material.friction() * setup.material.normal_modulus();
     let points = work.working_shear.iter().zip(&work.surface_slip);
     let mut stiffest: f64 = 0.0;
     for ((z, width), (&tau, &slip)) in work

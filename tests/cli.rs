@@ -578,6 +578,56 @@ fn presets_are_listed_and_printed_as_they_stand() {
 }
 
 #[test]
+fn stability_draws_a_map_and_writes_its_runs() {
+    let desk = Desk::new();
+    let csv = desk.path("map.csv");
+    let csv = csv.to_str().expect("a path");
+    let arguments = [
+        "stability",
+        "li2019-fig3",
+        "--cycles",
+        "3",
+        "--points",
+        "25",
+        "--methods",
+        "a",
+        "--wear-numbers",
+        "1000,1",
+        "--steps",
+        "50",
+        "--guard",
+        "both",
+        "--csv",
+        csv,
+    ];
+    let said = desk.say(&arguments);
+    assert_eq!(said.code, 0, "{}", said.err);
+    assert!(
+        said.out.contains("a, guard off\n    25 ......"),
+        "{}",
+        said.out
+    );
+    assert!(said.out.contains("a, guard on"), "{}", said.out);
+    assert!(said.out.contains("critical K"), "{}", said.out);
+    let rows = fs::read_to_string(csv).expect("a file");
+    let rows: Vec<&str> = rows.lines().filter(|line| !line.starts_with('#')).collect();
+    assert_eq!(rows.len(), 5, "{rows:?}");
+    assert!(
+        rows[1].starts_with("a,off,25,50,1e0,stable,"),
+        "{}",
+        rows[1]
+    );
+    assert!(rows[4].starts_with("a,on,25,50,1e3,stable,"), "{}", rows[4]);
+    assert_refused(&desk, &arguments, "exists already");
+    assert_refused(&desk, &["stability", "hertz"], "nothing wears");
+    assert_refused(
+        &desk,
+        &["stability", "li2019-fig3", "--wear-numbers", "-1"],
+        "wear numbers are greater than 0",
+    );
+}
+
+#[test]
 fn completions_and_the_manual_page_name_the_commands() {
     let desk = Desk::new();
     for shell in ["bash", "zsh", "fish"] {

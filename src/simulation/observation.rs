@@ -149,9 +149,8 @@ impl Simulation {
             dissipated_energy: state.dissipated_energy,
             period_residual: state.period.residual,
             energy_residual: (state.expected_volume > 0.0).then_some(residual),
-            stability_margin: (state.last.stiffness > 0.0).then(|| {
-                stability::limit(self.setup().method, self.setup().scheme) / state.last.stiffness
-            }),
+            stability_margin: (state.last.stiffness > 0.0)
+                .then(|| stability::limit(self.setup().scheme) / state.last.stiffness),
         }
     }
 

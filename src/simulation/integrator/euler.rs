@@ -34,7 +34,7 @@ pub(super) fn step(
     work: &mut Workspace,
     cycle: f64,
 ) -> Result<(), Cause> {
-    let limit = stability::limit(setup.method, setup.scheme);
+    let limit = stability::limit(setup.scheme);
     parts::step(setup.stability, state, cycle, |state, reach, part| {
         work.predicted.copy_from_slice(&work.g);
         solve_contact(setup, state, work, reach)?;

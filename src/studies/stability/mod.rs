@@ -19,14 +19,18 @@ pub const POINTS: [usize; 4] = [25, 50, 100, 200];
 /// Wear numbers K that are tried: half decades.
 pub const WEAR_NUMBERS: [f64; 9] = [0.1, 0.316, 1.0, 3.16, 10.0, 31.6, 100.0, 316.0, 1000.0];
 
-/// Teeth of this height together, in largest depths, are no longer a smooth profile's own.
-pub const VISIBLE: f64 = 0.05;
+/// Teeth are what exceeds this over N², in largest depths. The bends of smooth profiles come to 12/N²:
+/// that is what runs with the guard end with, at any wear number and N from 25 to 200.
+pub const VISIBLE: f64 = 36.0;
 
 /// The wear number at which the stiffness of a step is read: nothing has changed shape by then.
 const MILD: f64 = 1e-3;
 
 /// Halvings of the interval, on the scale of ratios, in which the boundary lies.
 const HALVINGS: u32 = 3;
+
+/// Steps of one percent in which the boundary is looked for, from where the stiffest step has its limit.
+const REACH: i32 = 300;
 
 /// What is run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,7 +77,8 @@ pub struct Line {
     pub setting: Setting,
     /// The wear numbers of the ladder that were tried, and what came of them.
     pub outcomes: Vec<(f64, Outcome)>,
-    /// The wear number at which the stiffest step reaches the method's limit; none where nothing slips.
+    /// The wear number from which the stiffest error grows over a cycle; none where nothing slips, and
+    /// for methods whose limit is no matter of the step.
     pub predicted: Option<f64>,
     /// The smallest wear number at which teeth were seen, to a seventh; none if they never were.
     pub seen: Option<f64>,
@@ -143,24 +148,43 @@ impl Study {
         let depth = simulation.setup().largest_depth();
         let depth = depth.unwrap_or(simulation.state().depth);
         let height = teeth(&simulation.state().wear) / depth;
-        ControlFlow::Continue(Ok(if height > VISIBLE {
+        ControlFlow::Continue(Ok(if height > VISIBLE / (setting.points as f64).powi(2) {
             Outcome::Teeth(height)
         } else {
             Outcome::Stable
         }))
     }
 
-    /// The wear number at which the stiffest step of the first cycle reaches the limit.
+    /// The wear number from which the stiffest error grows over a cycle: z rises and falls with the
+    /// speed of the slip, and steps that damp an error make up for some that do not.
     fn predict(&self, setting: Setting) -> Result<Option<f64>, SessionError> {
         let mut session = self.start(setting, MILD)?;
-        let mut stiffest: f64 = 0.0;
-        while session.simulation().cycle() < self.cycles.min(1.0) {
-            session.step_until(1.0)?;
-            stiffest = stiffest.max(session.simulation().state().last.stiffness);
+        let mut stiffness = Vec::new();
+        // The first cycle lets the springs settle.
+        while session.simulation().cycle() < 2.0 {
+            session.step_until(2.0)?;
+            let simulation = session.simulation();
+            if simulation.cycle() > 1.0 {
+                stiffness.push(simulation.state().last.stiffness);
+            }
         }
         let setup = session.simulation().setup();
-        let limit = stability::limit(setup.method, setup.scheme);
-        Ok((stiffest > 0.0).then(|| MILD * limit / stiffest))
+        let stiffest = stiffness.iter().copied().fold(0.0, f64::max);
+        if !stability::follows_steps(setup.method) || stiffest <= 0.0 {
+            return Ok(None);
+        }
+        let grows = |factor: f64| {
+            let logs = stiffness
+                .iter()
+                .map(|z| stability::amplification(setup.scheme, factor * z).ln());
+            logs.sum::<f64>() > 0.0
+        };
+        let at_limit = stability::limit(setup.scheme) / stiffest;
+        let rungs = (0..REACH).map(|rung| at_limit * 1.01_f64.powi(rung));
+        Ok(rungs
+            .into_iter()
+            .find(|&factor| grows(factor))
+            .map(|factor| MILD * factor))
     }
 
     /// Runs the ladder, and then between its last stable and its first other rung to find the boundary.

@@ -58,11 +58,13 @@ fn limit_error(simulation: &Simulation) -> f64 {
 #[test]
 fn the_guard_takes_the_harshest_wear_to_its_limit() {
     holds("c", (first_stick_radius() - 0.3206).abs(), 1e-3);
-    let simulation = run_setup(fig3(1e3, 100), 3.0);
+    // In the first cycle nearly all is worn, and by its work; later work at the border wears hardly
+    // anything, and the residual of the period says so.
+    let mut simulation = run_setup(fig3(1e3, 100), 1.0);
+    let residual = simulation.moment().energy_residual.expect("worn").abs();
+    holds("energy residual of the first cycle", residual, 2e-2);
+    simulation.advance_to(20.0).expect("a run to the end");
     holds("rms of f", limit_error(&simulation), 1e-2);
-    let moment = simulation.moment();
-    let residual = moment.energy_residual.expect("worn").abs();
-    holds("energy residual", residual, 0.2);
     assert!(simulation.state().effort.parts > simulation.state().steps / 2);
     assert!(simulation.state().wear.iter().all(|&worn| worn >= 0.0));
 }
@@ -114,7 +116,7 @@ fn teeth_are_seen_where_they_were_predicted() {
             steps: 100,
             guard,
         };
-        let rungs = [10.0, 100.0, 1000.0];
+        let rungs = [31.6, 100.0, 316.0, 1000.0];
         study
             .line(setting, &rungs, &|| true, |_| {})
             .expect("runs")

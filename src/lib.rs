@@ -15,7 +15,7 @@
 //! | [`wear`] | wear laws | one step |
 //! | [`simulation`] | motion, state, stepping, observations | no scenario, no file, no screen |
 //! | [`scenario`] | TOML in and out, presets, a session with its changes and checkpoints | no screen |
-//! | [`studies`] | errors against theory, as tables | no file, no screen |
+//! | [`studies`] | errors against theory, speed against accuracy, stability, as tables | no file, no screen |
 //! | [`export`] | CSV files, whole or not at all | runs nothing |
 //! | [`cli`], [`tui`] | the command line; the explorer | everything below |
 //!

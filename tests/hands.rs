@@ -448,3 +448,34 @@ fn the_console_of_linux_gets_half_blocks() {
         &desk::Said::from(output.expect("the program starts")).out
     ));
 }
+
+/// Along the front: what was chosen and what to expect, recorded so that the snapshot replays it.
+#[test]
+fn finer_and_coarser_walk_along_the_front() {
+    let desk = Desk::new();
+    let text = shot_of(&desk, "li2019-fig3", ",>");
+    assert_eq!(
+        foot(&text),
+        "expected error 1e-4 of the depth: N = 207, 40 steps a cycle"
+    );
+    let text = shot_of(&desk, "li2019-fig3", ",<lt><lt>,s");
+    assert!(text.contains("li2019-fig3-cycle-2"), "{text}");
+    let scenario = desk.read("li2019-fig3-cycle-2/scenario.toml");
+    for set in ["numerics.accuracy = 1e-3", "numerics.accuracy = 3e-3"] {
+        assert!(scenario.contains(set), "{scenario}");
+    }
+    let state = desk.read("li2019-fig3-cycle-2/state.csv");
+    let rows = state.lines().filter(|line| !line.starts_with('#')).count();
+    assert_eq!(rows, 1 + 31 + 1);
+    let said = desk.say(&[
+        "run",
+        "li2019-fig3-cycle-2/scenario.toml",
+        "--quiet",
+        "--out",
+        "again",
+    ]);
+    assert_eq!((said.code, said.err.as_str()), (0, ""));
+    assert_eq!(desk.read("again/state.csv"), state);
+    let text = shot_of(&desk, "li2019-fig3", &">".repeat(9));
+    assert_eq!(foot(&text), "1e-5 is the finest accuracy there is");
+}

@@ -405,6 +405,40 @@ fn a_run_written_out_keeps_its_plan_and_its_changes() {
     assert!(stages[1].changes().is_empty());
 }
 
+/// An accuracy takes the place of what it chooses; a choice made by hand takes the place of the accuracy
+/// and leaves the other choices as they were.
+#[test]
+fn an_accuracy_chooses_cells_and_steps() {
+    let chosen = |scenario: &Scenario| {
+        let setup = scenario.setup();
+        (setup.grid.cells(), setup.steps_per_cycle)
+    };
+    let fine = load("limit-shape", &["numerics.accuracy=1e-4"]);
+    assert_eq!(chosen(&fine), (207, 40));
+    assert_eq!(fine.expected_error(), Some(1e-4));
+    let text = fine.to_toml();
+    for line in [
+        "accuracy = 1e-4",
+        "# points = 207  # what the accuracy asks for",
+        "# steps_per_cycle = 40  # what the accuracy asks for",
+    ] {
+        assert!(
+            text.lines().any(|written| written == line),
+            "{line}\n{text}"
+        );
+    }
+    assert_eq!(again(&fine), fine);
+    let coarse = fine.with("numerics.accuracy", "1e-2").expect("coarser");
+    assert_eq!(chosen(&coarse), (16, 12));
+    let by_hand = coarse.with("numerics.points", "50").expect("by hand");
+    assert_eq!(chosen(&by_hand), (50, 12));
+    assert_eq!(by_hand.value("numerics.accuracy"), None);
+    assert_eq!(again(&by_hand), by_hand);
+    let published = fine.with("numerics.method", "b").expect("another method");
+    assert_eq!(chosen(&published), (207, 40));
+    assert_eq!(published.expected_error(), None);
+}
+
 #[test]
 fn defaults_that_may_change_are_written_out_and_derived_ones_are_not() {
     let text = load("hertz", &[]).to_toml();

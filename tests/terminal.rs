@@ -7,7 +7,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use portable_pty::CommandBuilder;
-use vt100::{Color, Screen};
+use vt100::{Color, MouseProtocolMode, Screen};
 
 mod pty;
 
@@ -36,6 +36,8 @@ fn assert_given_back(terminal: &Terminal) {
     terminal.look(|screen| {
         assert!(!screen.alternate_screen(), "still on the alternate screen");
         assert!(!screen.hide_cursor(), "the cursor is still hidden");
+        let mouse = screen.mouse_protocol_mode();
+        assert_eq!(mouse, MouseProtocolMode::None, "the mouse is still taken");
     });
     assert!(terminal.has_its_modes_back(), "still in raw mode");
     let raw = terminal.raw();
@@ -211,7 +213,7 @@ fn a_terminal_that_goes_away_ends_it() {
 #[test]
 fn a_panic_gives_the_terminal_back_and_says_so_in_one_line() {
     for place in ["worker", "screen"] {
-        let mut command = program(&[]);
+        let mut command = program(&["--mouse"]);
         command.env("MDR_TUI_FAULT", place);
         let mut terminal = Terminal::start(command, 200, 24);
         let status = terminal.wait_for_end();
@@ -376,17 +378,23 @@ fn shell(directory: &Path) -> Terminal {
 fn ctrl_z_gives_the_terminal_to_the_shell_and_fg_takes_it_back() {
     let base = tempfile::tempdir().expect("a directory");
     let bin = env!("CARGO_BIN_EXE_mdr-tui");
-    std::fs::write(base.path().join("wrapped"), format!("'{bin}'\n")).expect("a script");
-    for start in [bin, "sh wrapped"] {
+    std::fs::write(base.path().join("wrapped"), format!("'{bin}' --mouse\n")).expect("a script");
+    for (start, mouse) in [
+        (bin, MouseProtocolMode::None),
+        ("sh wrapped", MouseProtocolMode::PressRelease),
+    ] {
         let mut terminal = shell(base.path());
         terminal.press(&format!("{start}\n"));
         terminal.wait_until("running explorer", is_running);
         for _ in 0..2 {
+            assert_eq!(terminal.look(Screen::mouse_protocol_mode), mouse);
             terminal.press("\x1a");
             terminal.wait_until("shell", |screen| {
                 let text = screen.contents();
                 !screen.alternate_screen() && !screen.hide_cursor() && text.contains("Stopped")
             });
+            let mode = terminal.look(Screen::mouse_protocol_mode);
+            assert_eq!(mode, MouseProtocolMode::None);
             // The shell echoes and answers.
             terminal.press("echo $((6*7))\n");
             terminal.wait_for("\n42");

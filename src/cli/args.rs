@@ -95,6 +95,10 @@ pub struct Explore {
     /// says of its background, else dark.
     #[arg(long, value_enum)]
     pub theme: Option<ThemeChoice>,
+    /// Use the mouse: a click focuses a panel, a second one zooms it, the wheel moves in lists; without
+    /// this, the terminal keeps it for selecting text.
+    #[arg(long)]
+    pub mouse: bool,
     /// Press these keys instead of reading the keyboard, print the last screen and exit.
     #[arg(
         long,

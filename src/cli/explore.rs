@@ -13,7 +13,7 @@ use crate::scenario::session::Session;
 use crate::scenario::{Scenario, checkpoint};
 use crate::tui::plot::Marker;
 use crate::tui::theme::Look;
-use crate::tui::{self, Options, keys};
+use crate::tui::{self, Capture, Options, keys};
 
 /// Opens the explorer.
 pub fn explore(options: &Explore) -> Result<ExitCode> {
@@ -47,6 +47,11 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
             ThemeChoice::Light => Look::Light,
             ThemeChoice::Mono => Look::Mono,
         }),
+        mouse: if options.mouse {
+            Capture::Clicks
+        } else {
+            Capture::None
+        },
         script: options.print.map(|size| (keys, size)),
     })?;
     if let Some(word) = farewell.word {

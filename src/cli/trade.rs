@@ -124,7 +124,6 @@ struct Found {
 impl Study {
     /// The reference first, then every setting, the cheapest first; none without a reference.
     fn run(&self, stop: &AtomicBool, quiet: bool) -> Result<Option<Found>> {
-        let go_on = || !stop.load(Ordering::Relaxed);
         let half = Setting {
             points: self.reference.points / 2,
             steps: self.reference.steps / 2,
@@ -143,9 +142,13 @@ impl Study {
                 "{what}{} {}, N = {}, {} steps",
                 setting.method, setting.scheme, setting.points, setting.steps
             ));
-            bar.tick();
+            let (begin, effort) = (bar.position(), setting.effort(self.cycles));
+            let go_on = |share: f64| {
+                bar.set_position(begin + (share * effort as f64) as u64);
+                !stop.load(Ordering::Relaxed)
+            };
             let outcome = trade::run(&self.scenario, setting, self.cycles, &go_on);
-            bar.inc(setting.effort(self.cycles));
+            bar.set_position(begin + effort);
             outcome
         };
         let Some(reference) = run(&self.reference, "reference, ") else {

@@ -2,9 +2,12 @@
 
 use toml::{Table, Value};
 
+use super::accuracy;
 use super::check::unknown;
 use super::error::{Origin, ScenarioError, echo};
 use super::parameters::{self, Kind, Parameter};
+use super::validate::CHOSEN_BY_ACCURACY;
+use super::write;
 
 /// Splits `KEY=VALUE`; `flag` stands before it in messages.
 pub(super) fn split<'a>(text: &'a str, flag: &str) -> Result<(&'a str, &'a str), ScenarioError> {
@@ -48,9 +51,30 @@ pub(super) fn assign(
     if parameter.path == "indenter.shape" {
         drop_keys_of_other_shapes(table, &value, origin);
     }
+    trade_accuracy_for_choices(table, parameter.path);
     origin.assign(parameter.path, written);
     insert(table, parameter.path, value);
     Ok(())
+}
+
+/// An accuracy takes the place of what it chooses, and the other way round: one of its choices that is
+/// made by hand leaves the others as they were chosen.
+fn trade_accuracy_for_choices(table: &mut Table, path: &str) {
+    let given = write::at(table, "numerics.accuracy").and_then(Value::as_float);
+    let Some(Value::Table(numerics)) = table.get_mut("numerics") else {
+        return;
+    };
+    let key = |path: &str| path.trim_start_matches("numerics.").to_owned();
+    if path == "numerics.accuracy" {
+        for chosen in CHOSEN_BY_ACCURACY {
+            numerics.remove(&key(chosen));
+        }
+    } else if let (true, Some(given)) = (CHOSEN_BY_ACCURACY.contains(&path), given) {
+        let (points, steps) = accuracy::choices(given);
+        numerics.remove("accuracy");
+        numerics.insert("points".into(), Value::Integer(points));
+        numerics.insert("steps_per_cycle".into(), Value::Integer(steps));
+    }
 }
 
 /// The value as TOML reads it, or the bare text.

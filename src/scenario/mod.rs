@@ -8,8 +8,10 @@ use std::path::Path;
 
 use toml::Table;
 
-use crate::simulation::Setup;
+use crate::math::abel::AbelMethod;
+use crate::simulation::{Scheme, Setup};
 
+pub mod accuracy;
 mod assign;
 mod check;
 pub mod checkpoint;
@@ -172,6 +174,19 @@ impl Scenario {
         &self.changes
     }
 
+    /// The error that the worn profile must be expected to have at the end, rms in largest depths: what was
+    /// asked for, or what is known of the default numerics on so many cells.
+    pub fn expected_error(&self) -> Option<f64> {
+        let setup = &self.setup;
+        let known = setup.method == AbelMethod::Product && setup.scheme == Scheme::Trapezoid;
+        if !known || setup.wear.is_none() {
+            return None;
+        }
+        let asked = self.value("numerics.accuracy");
+        let asked = asked.and_then(|value| value.parse().ok());
+        asked.or_else(|| Some(accuracy::expected(setup.grid.cells())))
+    }
+
     /// The value at a dotted path as TOML, where the scenario gives one.
     pub fn value(&self, path: &str) -> Option<String> {
         write::at(&self.whole(), path).map(write::value)
@@ -180,11 +195,27 @@ impl Scenario {
     /// The whole scenario as it is run. Read back, it gives an equal one, to the last bit. What
     /// follows from the method stands there as a comment, so that it still follows a change of it.
     pub fn to_toml(&self) -> String {
-        let follows = [
-            ("numerics.grid", self.setup.spacing.name()),
-            ("numerics.scheme", self.setup.scheme.name()),
+        let setup = &self.setup;
+        let quoted = |word: &str| format!("{word:?}");
+        let mut follows = vec![
+            ("numerics.grid", quoted(setup.spacing.name())),
+            ("numerics.scheme", quoted(setup.scheme.name())),
         ];
-        write::scenario(&self.whole(), &follows, self.setup.method)
+        let source = match self.value("numerics.accuracy") {
+            Some(_) => {
+                follows.extend([
+                    ("numerics.method", quoted(setup.method.name())),
+                    ("numerics.points", setup.grid.cells().to_string()),
+                    (
+                        "numerics.steps_per_cycle",
+                        setup.steps_per_cycle.to_string(),
+                    ),
+                ]);
+                "what the accuracy asks for".to_owned()
+            }
+            None => format!("default of method \"{}\"", setup.method),
+        };
+        write::scenario(&self.whole(), &follows, &source)
     }
 
     /// Checks a table and makes its parts; errors show its values as they were written.
@@ -194,7 +225,8 @@ impl Scenario {
         raw.fill_in();
         let run = std::mem::take(&mut raw.run);
         let changes = std::mem::take(&mut raw.changes);
-        let setup = validate::setup(&raw, &table, from)?;
+        validate::accuracy(&raw, &table, from)?;
+        let setup = validate::setup(&raw.resolved(), &table, from)?;
         let mut table = Table::try_from(&raw).map_err(|error| from.broken(&error))?;
         table.remove("run");
         table.remove("changes");

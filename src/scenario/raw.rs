@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Change, RunPlan};
+use super::{Change, RunPlan, accuracy};
 use crate::math::abel::AbelMethod;
 
 /// A whole scenario.
@@ -97,6 +97,7 @@ pub(super) struct RawWear {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct RawNumerics {
+    pub accuracy: Option<f64>,
     pub method: Option<String>,
     pub points: Option<i64>,
     pub steps_per_cycle: Option<i64>,
@@ -122,13 +123,28 @@ impl Raw {
         if let Some(wear) = &mut self.wear {
             or(&mut wear.law, "archard");
         }
-        or(&mut self.numerics.method, DEFAULT_METHOD.name());
         or(&mut self.numerics.stability, "sub-step");
         or(&mut self.numerics.integrator, "direct");
-        self.numerics.points.get_or_insert(DEFAULT_POINTS);
-        self.numerics
-            .steps_per_cycle
-            .get_or_insert(DEFAULT_STEPS_PER_CYCLE);
+        // An accuracy chooses these, and goes on choosing them when it is changed.
+        if self.numerics.accuracy.is_none() {
+            or(&mut self.numerics.method, DEFAULT_METHOD.name());
+            self.numerics.points.get_or_insert(DEFAULT_POINTS);
+            self.numerics
+                .steps_per_cycle
+                .get_or_insert(DEFAULT_STEPS_PER_CYCLE);
+        }
+    }
+
+    /// The same with what an accuracy chooses filled in.
+    pub fn resolved(&self) -> Self {
+        let mut raw = self.clone();
+        if let Some(accuracy) = raw.numerics.accuracy {
+            let (points, steps) = accuracy::choices(accuracy);
+            raw.numerics.method = Some(DEFAULT_METHOD.name().into());
+            raw.numerics.points = Some(points);
+            raw.numerics.steps_per_cycle = Some(steps);
+        }
+        raw
     }
 }
 

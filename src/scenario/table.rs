@@ -274,6 +274,15 @@ pub const PARAMETERS: &[Parameter] = &[
         POSITIVE,
         "slip rate at which the power law wears like archard",
     ),
+    Parameter {
+        range: "from 1e-5 to 0.1",
+        ..number(
+            "numerics.accuracy",
+            "",
+            POSITIVE,
+            "error of the worn profile, in largest depths: chooses method, points and steps",
+        )
+    },
     key(
         "numerics.method",
         "",

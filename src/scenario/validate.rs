@@ -3,6 +3,7 @@
 
 use toml::{Table, Value};
 
+use super::accuracy::RUNGS;
 use super::check::{missing, show};
 use super::derive;
 use super::error::{Origin, ScenarioError};
@@ -64,6 +65,32 @@ pub(super) fn setup(raw: &Raw, table: &Table, origin: &Origin) -> Result<Setup, 
         .map_err(refused)?,
     })
 }
+
+/// Refuses an accuracy out of range, and one beside what it is to choose.
+pub(super) fn accuracy(raw: &Raw, table: &Table, origin: &Origin) -> Result<(), ScenarioError> {
+    let Some(accuracy) = raw.numerics.accuracy else {
+        return Ok(());
+    };
+    let parts = Parts { raw, table, origin };
+    let [most, .., least] = RUNGS;
+    if !(least..=most).contains(&accuracy) {
+        return Err(parts.out_of_range("numerics.accuracy"));
+    }
+    for path in CHOSEN_BY_ACCURACY {
+        if write::at(table, path).is_some() {
+            let rule = format!("does not go with {path}, which it chooses; give either");
+            return Err(parts.refuse("numerics.accuracy", "", rule));
+        }
+    }
+    Ok(())
+}
+
+/// What `numerics.accuracy` stands for.
+pub(super) const CHOSEN_BY_ACCURACY: [&str; 3] = [
+    "numerics.method",
+    "numerics.points",
+    "numerics.steps_per_cycle",
+];
 
 /// Checks `[run]`.
 pub(super) fn run(plan: &RunPlan, origin: &Origin) -> Result<(), ScenarioError> {

@@ -5,11 +5,10 @@ use std::fmt::Write;
 use toml::{Table, Value};
 
 use super::parameters::{Kind, PARAMETERS};
-use crate::math::abel::AbelMethod;
 
 /// Writes `table`, which has passed [`check::keys`](super::check::keys). Each of `follows`, a path
-/// and a word, becomes a comment where the table does not give it: it follows from `method`.
-pub(super) fn scenario(table: &Table, follows: &[(&str, &str)], method: AbelMethod) -> String {
+/// and a value, becomes a comment where the table does not give it, which ends with its `source`.
+pub(super) fn scenario(table: &Table, follows: &[(&str, String)], source: &str) -> String {
     let mut text = String::new();
     let mut open = "";
     for parameter in PARAMETERS
@@ -17,13 +16,9 @@ pub(super) fn scenario(table: &Table, follows: &[(&str, &str)], method: AbelMeth
         .filter(|known| known.section() != "changes")
     {
         let Some(value) = at(table, parameter.path) else {
-            let word = follows.iter().find(|(path, _)| *path == parameter.path);
-            if let (Some((_, word)), true) = (word, parameter.section() == open) {
-                let key = parameter.key();
-                let _ = writeln!(
-                    text,
-                    "# {key} = \"{word}\"  # default of method \"{method}\""
-                );
+            let value = follows.iter().find(|(path, _)| *path == parameter.path);
+            if let (Some((_, value)), true) = (value, parameter.section() == open) {
+                let _ = writeln!(text, "# {} = {value}  # {source}", parameter.key());
             }
             continue;
         };

@@ -75,6 +75,7 @@ fn press(setup: &Setup, work: &mut Workspace, depth: f64) -> Result<(), Cause> {
         return Err(Cause::NotFinite {
             quantity: "normal force",
             method: setup.method,
+            stability: setup.stability,
         });
     }
     let last = setup.grid.cells();
@@ -86,6 +87,7 @@ fn press(setup: &Setup, work: &mut Workspace, depth: f64) -> Result<(), Cause> {
             Cause::BlownUp {
                 radius,
                 method: setup.method,
+                stability: setup.stability,
             }
         } else {
             Cause::EdgeReached {

@@ -6,16 +6,18 @@ use std::collections::HashMap;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
 
+use ratatui::layout::Rect;
+
 use super::command::Command;
 use super::companion::Companion;
 use super::frame::Frame;
 use super::keys::Key;
+use super::layout;
 use super::line::LineEdit;
 use super::order::Order;
 use super::overlays::{Answer, Form, Help, Library, Overlay, Palette};
 use super::panels::Panel;
 use super::plot::{Scale, sticky_bounds};
-use super::screen;
 use super::theme::Theme;
 use super::theory::Theory;
 use crate::scenario::Scenario;
@@ -63,8 +65,12 @@ pub struct App {
     log_panels: Vec<Panel>,
     bounds: HashMap<(Panel, Scale), [f64; 2]>,
     shown: Curves,
+    /// The terminal's size.
+    pub(super) area: Rect,
     /// How many panels the screen has room for.
     room: usize,
+    /// Whether the last click has zoomed, or the opposite.
+    pub(super) click_has_zoomed: bool,
     orders: Sender<Order>,
 }
 
@@ -87,7 +93,9 @@ impl App {
             log_panels: Vec::new(),
             bounds: HashMap::new(),
             shown: Curves::all(),
-            room: screen::room(80, 24),
+            area: Rect::new(0, 0, 80, 24),
+            room: layout::room(80, 24),
+            click_has_zoomed: false,
             orders,
         }
     }
@@ -145,7 +153,8 @@ impl App {
 
     /// Takes note of the terminal's size: what is on no page is not computed.
     pub fn resize(&mut self, columns: u16, rows: u16) {
-        self.room = screen::room(columns, rows);
+        self.area = Rect::new(0, 0, columns, rows);
+        self.room = layout::room(columns, rows);
         self.tell_what_shows();
     }
 
@@ -204,6 +213,8 @@ impl App {
             Command::PreviousLaw => self.order(Order::Law(-1)),
             Command::Faster => self.order(Order::Pace(1)),
             Command::Slower => self.order(Order::Pace(-1)),
+            Command::Coarser => self.order(Order::Accuracy(-1)),
+            Command::Finer => self.order(Order::Accuracy(1)),
             Command::NextPage => self.turn_page(),
             Command::NextPanel | Command::Down => self.focus = self.focus.shifted(1),
             Command::PreviousPanel | Command::Up => self.focus = self.focus.shifted(-1),
@@ -257,6 +268,19 @@ impl App {
         Some(edge * f64::from(place) / f64::from(CURSOR_PLACES))
     }
 
+    /// Whether there is a cursor.
+    pub(super) fn has_cursor(&self) -> bool {
+        self.cursor.is_some()
+    }
+
+    /// Puts the cursor to the place nearest to a radius, m.
+    pub(super) fn put_cursor(&mut self, frame: &Frame, radius: f64) {
+        if let Some(edge) = frame.observation.radii.last() {
+            let place = (radius / edge * f64::from(CURSOR_PLACES)).round();
+            self.cursor = Some((place as i16).clamp(0, CURSOR_PLACES));
+        }
+    }
+
     /// What theory says, if it is to be shown.
     pub fn theory_of<'a>(&self, frame: &'a Frame) -> Option<&'a Theory> {
         self.with_theory.then_some(&*frame.theory)
@@ -304,7 +328,7 @@ impl App {
     }
 
     /// Hidden panels cost no transform.
-    fn tell_what_shows(&mut self) {
+    pub(super) fn tell_what_shows(&mut self) {
         // The trust in the status line rests on the pressure, whatever panel shows it.
         let mut shown = Curves::PRESSURE;
         for panel in self.visible() {

@@ -33,6 +33,10 @@ pub enum Command {
     Faster,
     /// Fewer cycles a second.
     Slower,
+    /// Coarser, and cheaper.
+    Coarser,
+    /// Finer, and dearer.
+    Finer,
     /// Focus the next panel.
     NextPanel,
     /// Focus the panel before.
@@ -155,6 +159,20 @@ pub static BINDINGS: &[Binding] = &[
         &[Char('-')],
         "slower",
         "fewer cycles a second",
+        false,
+    ),
+    bind(
+        C::Coarser,
+        &[Char('<')],
+        "coarser",
+        "faster and less accurate: fewer cells and steps",
+        false,
+    ),
+    bind(
+        C::Finer,
+        &[Char('>')],
+        "finer",
+        "more accurate and slower: more cells and steps",
         false,
     ),
     bind(

@@ -50,6 +50,8 @@ pub struct Frame {
     pub speed: Option<f64>,
     /// What a step costs, s.
     pub step_cost: Option<f64>,
+    /// The error of the worn profile to expect at the end, in largest depths, where it is known.
+    pub expected_error: Option<f64>,
     /// The scenario's title.
     pub title: String,
     /// The preset's name or the file.

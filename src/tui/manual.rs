@@ -32,6 +32,10 @@ const GROUPS: &[(&[Command], &str)] = &[
         "more, fewer cycles a second, up to as fast as it can",
     ),
     (
+        &[Command::Coarser, Command::Finer],
+        "faster, more accurate: fewer, more cells and steps",
+    ),
+    (
         &[Command::NextMethod, Command::PreviousMethod],
         "next, previous transform method; the state stays",
     ),

@@ -13,7 +13,7 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, bail};
 use crossterm::event::{self, KeyEventKind};
@@ -30,8 +30,10 @@ pub(crate) mod fault;
 pub mod frame;
 pub mod keeping;
 pub mod keys;
+pub mod layout;
 pub mod line;
 pub mod manual;
+pub mod mouse;
 pub mod order;
 pub mod overlays;
 pub mod pace;
@@ -59,9 +61,11 @@ use companion::Companion;
 use frame::Slot;
 use keeping::Keeping;
 use keys::Key;
+use mouse::{Gesture, Mouse};
 use order::Order;
 use plot::Marker;
 pub use script::Size;
+pub use terminal::Capture;
 use theme::{Look, Theme};
 use worker::Worker;
 
@@ -70,6 +74,8 @@ use worker::Worker;
 pub enum Event {
     /// A key was pressed.
     Key(Key),
+    /// The mouse was used.
+    Point(Gesture),
     /// The terminal has another size.
     Resize,
     /// A frame waits in the slot.
@@ -107,6 +113,8 @@ pub struct Options {
     pub colored: Option<bool>,
     /// Which colours; by the terminal's own word on its background if not said.
     pub look: Option<Look>,
+    /// Whom the mouse belongs to.
+    pub mouse: Capture,
     /// Keys to press instead of reading the keyboard, and the size of the screen to print.
     pub script: Option<(Vec<Key>, Size)>,
 }
@@ -154,7 +162,7 @@ pub fn run(options: Options) -> Result<Farewell> {
         Some((keys, size)) => {
             script::play(&mut app, &keys, size, &orders, &from_threads).map(|()| None)
         }
-        None => converse(&mut app, &slot, &events, &from_threads),
+        None => converse(&mut app, options.mouse, &slot, &events, &from_threads),
     };
     halt.store(true, Ordering::Relaxed);
     let _ = orders.send(Order::Quit);
@@ -172,13 +180,14 @@ pub fn run(options: Options) -> Result<Farewell> {
 /// Draws and listens until told to leave; returns the last screen if it is to stay.
 fn converse(
     app: &mut App,
+    mouse: Capture,
     slot: &Slot,
     events: &Sender<Event>,
     inbox: &Receiver<Event>,
 ) -> Result<Option<String>> {
     listen_for_signals(events.clone())?;
-    let mut screen = terminal::Screen::open().context("cannot take over the terminal")?;
-    listen_for_keys(events.clone());
+    let mut screen = terminal::Screen::open(mouse).context("cannot take over the terminal")?;
+    listen_for_hands(events.clone(), mouse);
     let outcome = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
         attend(app, slot, inbox, &mut screen)
     }));
@@ -226,6 +235,7 @@ fn attend(
         for event in std::iter::once(first).chain(inbox.try_iter()) {
             match event {
                 Event::Key(key) => app.press(key),
+                Event::Point(gesture) => app.point(gesture),
                 Event::Frame => {
                     if let Some(frame) = slot.take() {
                         app.take_frame(frame);
@@ -286,13 +296,17 @@ fn spawn_worker(
         .context("cannot start the simulation's thread")
 }
 
-/// Reads the keyboard until the terminal is gone. The thread ends with the process.
-fn listen_for_keys(events: Sender<Event>) {
+/// Reads keyboard and mouse until the terminal is gone. The thread ends with the process.
+fn listen_for_hands(events: Sender<Event>, capture: Capture) {
     thread::spawn(move || {
+        let mut mouse = Mouse::default();
         loop {
             let event = match event::read() {
                 Ok(event::Event::Key(key)) if key.kind != KeyEventKind::Release => {
                     Key::of_event(&key).map(Event::Key)
+                }
+                Ok(event::Event::Mouse(event)) if capture == Capture::Clicks => {
+                    mouse.gesture(&event, Instant::now()).map(Event::Point)
                 }
                 Ok(event::Event::Resize(_, _)) => Some(Event::Resize),
                 Ok(_) => None,

@@ -20,6 +20,8 @@ pub enum Order {
     Method(isize),
     /// The wear law so many places further on.
     Law(isize),
+    /// The accuracy so many places further on, to finer ones if positive.
+    Accuracy(isize),
     /// The pace so many places further on.
     Pace(i32),
     /// A key of the scenario gets a value: TOML, or a bare word.

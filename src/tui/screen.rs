@@ -10,18 +10,16 @@
 //!   plot                                 values
 //! Space run/pause  . step  , cycle  m method ...                       ? help
 //! ```
-//!
-//! Two panels side by side on a narrow screen, three or four on a wide one; the others are on further
-//! pages.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Paragraph, Widget};
 
 use super::app::App;
 use super::command::BINDINGS;
 use super::frame::{Activity, Frame};
+use super::layout;
 use super::overlays::Overlay;
 use super::pace::Pace;
 use super::panels::compare;
@@ -29,39 +27,19 @@ use super::readout;
 use super::theme::Role;
 use super::trust;
 
-/// From this width on, three panels stand side by side.
-const WIDE: u16 = 110;
-
-/// From this width on, four.
-const VERY_WIDE: u16 = 160;
-
-/// From this height on, there are three rows of them on a wide screen.
-const TALL: u16 = 33;
-
-/// Below this size there is a message instead of panels.
-const SMALLEST: (u16, u16) = (40, 10);
-
 /// What somebody sees who has not pressed a key yet.
 const HINT: &str = " New here? Space pauses, v shows more, : lists all commands.   ? help   q quit";
 
 /// Draws everything.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
-    if area.width < SMALLEST.0 || area.height < SMALLEST.1 {
-        let text = format!(
-            "mdr-tui needs {} by {} characters; q quits",
-            SMALLEST.0, SMALLEST.1
-        );
+    let Some([top, middle, bottom]) = layout::bands(area) else {
+        let (columns, rows) = layout::SMALLEST;
+        let text = format!("mdr-tui needs {columns} by {rows} characters; q quits");
         Paragraph::new(text)
             .wrap(ratatui::widgets::Wrap { trim: true })
             .render(area, buffer);
         return;
-    }
-    let [top, middle, bottom] = Layout::vertical([
-        Constraint::Length(1),
-        Constraint::Min(0),
-        Constraint::Length(1),
-    ])
-    .areas(area);
+    };
     match &app.frame {
         Some(frame) => {
             status(frame, app, top, buffer);
@@ -73,42 +51,13 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     app.overlay.draw(app, middle, buffer);
 }
 
-/// How many panels fit on a screen of this size.
-pub fn room(columns: u16, rows: u16) -> usize {
-    let (across, down) = grid(Rect::new(0, 0, columns, rows.saturating_sub(2)));
-    across * down
-}
-
-/// Columns and rows of panels in an area.
-fn grid(area: Rect) -> (usize, usize) {
-    match area.width {
-        VERY_WIDE.. => (4, if area.height >= TALL { 3 } else { 2 }),
-        WIDE.. => (3, if area.height >= TALL { 3 } else { 2 }),
-        _ => (2, 3),
-    }
-}
-
 fn panels(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     if let Some(rival) = &frame.rival {
         compare::draw(frame, rival, app, area, buffer);
         return;
     }
-    if app.zoomed {
-        app.focus.draw(frame, app, area, buffer);
-        return;
-    }
-    let (columns, rows) = grid(area);
-    let shown = app.page(columns * rows);
-    // The last page may be shorter; its panels are then higher.
-    let rows = shown.len().div_ceil(columns);
-    let bands = Layout::vertical(vec![Constraint::Fill(1); rows]).split(area);
-    for (band, row) in bands.iter().zip(shown.chunks(columns)) {
-        let cells = Layout::horizontal(vec![Constraint::Fill(1); columns])
-            .spacing(1)
-            .split(*band);
-        for (cell, panel) in cells.iter().zip(row) {
-            panel.draw(frame, app, *cell, buffer);
-        }
+    for (panel, place) in layout::places(app, area) {
+        panel.draw(frame, app, place, buffer);
     }
 }
 

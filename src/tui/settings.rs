@@ -211,6 +211,10 @@ const EFFECTS: &[(&str, &str)] = &[
         "wear.reference_slip_rate",
         "more: less wear where slip rate has a power above 1",
     ),
+    (
+        "numerics.accuracy",
+        "less: finer and slower; chooses method, points and steps",
+    ),
     ("numerics.method", "how the three transforms are computed"),
     ("numerics.points", "more: finer and slower"),
     ("numerics.steps_per_cycle", "more: finer in time and slower"),

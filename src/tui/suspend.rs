@@ -1,43 +1,95 @@
 //! Ctrl-Z: the process stops, and its shell has the terminal until `fg`.
 
-use rustix::process::{Pid, Signal, getpgid, getpgrp, getpid, getsid, kill_current_process_group};
+use nix::sys::signal::{Signal, kill};
+use nix::unistd::{Pid, getpgid, getpid, getppid, getsid};
+
+/// What the system gives for a process of another pid namespace, as a container has one; to
+/// [`kill`], the caller's own group.
+const NOBODY: Pid = Pid::from_raw(0);
 
 /// Stops the process group, as the terminal would. Returns at once, false, where nobody could wake
 /// it: a stopped session leader's child is stopped for good.
 pub fn stop() -> bool {
-    is_under_job_control() && kill_current_process_group(Signal::STOP).is_ok()
+    let whose = |process| Some((getpgid(Some(process)).ok()?, getsid(Some(process)).ok()?));
+    is_under_job_control(getpid(), parent_of, whose) && kill(NOBODY, Signal::SIGSTOP).is_ok()
 }
 
-/// Whether a shell waits for the process group: some member's parent is in the same session, in
-/// another group. (A group without one is called orphaned, and the system does not stop it either.)
-fn is_under_job_control() -> bool {
-    let (group, session) = (getpgrp(), getsid(None));
-    let mut member = getpid();
+/// Whether a shell waits for the group of a process: some member's parent is in the same session,
+/// in another group. (A group without one is called orphaned, and the system does not stop it
+/// either.) `whose` gives a process's group and session.
+fn is_under_job_control(
+    process: Pid,
+    parent_of: impl Fn(Pid) -> Option<Pid>,
+    whose: impl Fn(Pid) -> Option<(Pid, Pid)>,
+) -> bool {
+    let Some((group, session)) = whose(process) else {
+        return false;
+    };
+    let mut member = process;
     // No family tree is this high.
     for _ in 0..100 {
         let Some(parent) = parent_of(member) else {
             return false;
         };
-        if getsid(Some(parent)) != session {
-            return false;
+        match whose(parent) {
+            Some(place) if place == (group, session) => member = parent,
+            place => return place.is_some_and(|(_, other)| other == session),
         }
-        if getpgid(Some(parent)) != Ok(group) {
-            return true;
-        }
-        member = parent;
     }
     false
 }
 
 /// The parent of a process. Where the system does not tell, only one's own is known.
 fn parent_of(process: Pid) -> Option<Pid> {
-    if process == getpid() {
-        return rustix::process::getppid();
+    let parent = if process == getpid() {
+        getppid()
+    } else {
+        let stat = std::fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
+        // "id (name) state parent ...", and the name may hold anything.
+        let (_, fields) = stat.rsplit_once(") ")?;
+        Pid::from_raw(fields.split(' ').nth(1)?.parse().ok()?)
+    };
+    (parent != NOBODY).then_some(parent)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whether a shell waits for process 10, whose ancestors are given from the parent on, each
+    /// with its group and session; process 10 is of group 10 and of session 5.
+    fn waits(ancestors: &[(i32, i32, i32)]) -> bool {
+        let family: Vec<_> = [(10, 10, 5)].iter().chain(ancestors).copied().collect();
+        let place = |process: Pid| {
+            let found = family.iter().position(|(id, ..)| *id == process.as_raw());
+            found.expect("only ancestors are asked for")
+        };
+        is_under_job_control(
+            Pid::from_raw(10),
+            |process| {
+                let (id, ..) = family.get(place(process) + 1)?;
+                Some(Pid::from_raw(*id))
+            },
+            |process| {
+                let (_, group, session) = family[place(process)];
+                Some((Pid::from_raw(group), Pid::from_raw(session)))
+            },
+        )
     }
-    let id = process.as_raw_nonzero();
-    let stat = std::fs::read_to_string(format!("/proc/{id}/stat")).ok()?;
-    // "id (name) state parent ...", and the name may hold anything.
-    let (_, fields) = stat.rsplit_once(") ")?;
-    let parent = fields.split(' ').nth(1)?.parse().ok()?;
-    Pid::from_raw(parent)
+
+    #[test]
+    fn a_shell_is_a_parent_in_the_same_session_and_another_group() {
+        assert!(waits(&[(5, 5, 5), (1, 1, 1)]));
+        // Through a script that runs in the explorer's group.
+        assert!(waits(&[(9, 10, 5), (5, 5, 5)]));
+    }
+
+    #[test]
+    fn without_a_shell_in_the_session_nobody_waits() {
+        assert!(!waits(&[]));
+        assert!(!waits(&[(4, 4, 4), (1, 1, 1)]));
+        assert!(!waits(&[(9, 10, 5), (4, 4, 4)]));
+        // A parent in the container whose session is outside of it.
+        assert!(!waits(&[(1, 0, 0)]));
+    }
 }

@@ -5,7 +5,7 @@ use std::mem::ManuallyDrop;
 
 use crossterm::cursor::Show;
 use crossterm::execute;
-use crossterm::style::{Attribute, SetAttribute};
+use crossterm::style::{Attribute, Print, SetAttribute};
 use crossterm::terminal::{
     Clear, ClearType, EndSynchronizedUpdate, EnterAlternateScreen, LeaveAlternateScreen,
     disable_raw_mode, enable_raw_mode,
@@ -19,6 +19,22 @@ use super::wire::Wire;
 /// Output is collected so that a frame goes out in one write.
 const OUTPUT_BUFFER: usize = 64 * 1024;
 
+/// Asks for presses, releases and the wheel (mode 1000), in numbers that hold on any screen (1006).
+/// The terminal is not asked for the mouse's movements: each would be bytes on the wire.
+const MOUSE_ON: &str = "\x1b[?1000h\x1b[?1006h";
+
+/// Takes that back.
+const MOUSE_OFF: &str = "\x1b[?1006l\x1b[?1000l";
+
+/// Whom the mouse belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Capture {
+    /// The terminal, which selects text with it.
+    None,
+    /// The explorer, which is told of clicks and the wheel.
+    Clicks,
+}
+
 type Backend = Wire<BufWriter<Stdout>>;
 
 /// The terminal in raw mode on its alternate screen, until dropped.
@@ -26,16 +42,18 @@ pub struct Screen {
     /// Never dropped: that would write the rest of a frame behind the restored screen, and panic
     /// where the terminal is gone.
     terminal: ManuallyDrop<Terminal<Backend>>,
+    mouse: Capture,
 }
 
 impl Screen {
-    /// Takes the terminal over.
-    pub fn open() -> io::Result<Self> {
-        let restore = take_over()?;
+    /// Takes the terminal over, and the mouse as well if it was asked for.
+    pub fn open(mouse: Capture) -> io::Result<Self> {
+        let restore = take_over(mouse)?;
         let terminal = fresh()?;
         std::mem::forget(restore);
         Ok(Self {
             terminal: ManuallyDrop::new(terminal),
+            mouse,
         })
     }
 
@@ -48,12 +66,12 @@ impl Screen {
 
     /// Gives the terminal back for a while.
     pub fn give_back(&mut self) {
-        restore();
+        restore(self.mouse);
     }
 
     /// Takes the terminal over again, as it may be anything by now.
     pub fn take_back(&mut self) -> io::Result<()> {
-        std::mem::forget(take_over()?);
+        std::mem::forget(take_over(self.mouse)?);
         // What the backend knew of the terminal holds no more.
         self.terminal = ManuallyDrop::new(fresh()?);
         Ok(())
@@ -69,7 +87,7 @@ impl Screen {
 
 impl Drop for Screen {
     fn drop(&mut self) {
-        restore();
+        restore(self.mouse);
     }
 }
 
@@ -79,24 +97,30 @@ fn fresh() -> io::Result<Terminal<Backend>> {
     Terminal::new(Wire::new(out, || Ok(crossterm::terminal::size()?.into())))
 }
 
-fn take_over() -> io::Result<RestoreOnFailure> {
+fn take_over(mouse: Capture) -> io::Result<RestoreOnFailure> {
     enable_raw_mode()?;
-    let restore = RestoreOnFailure;
+    let restore = RestoreOnFailure(mouse);
     // Not the clear of ratatui: it asks where the cursor is, and not every terminal answers.
     execute!(stdout(), EnterAlternateScreen, Clear(ClearType::All))?;
+    if mouse == Capture::Clicks {
+        execute!(stdout(), Print(MOUSE_ON))?;
+    }
     Ok(restore)
 }
 
-struct RestoreOnFailure;
+struct RestoreOnFailure(Capture);
 
 impl Drop for RestoreOnFailure {
     fn drop(&mut self) {
-        restore();
+        restore(self.0);
     }
 }
 
 /// Gives the terminal back. A terminal that is gone cannot be restored; nothing is to be done then.
-fn restore() {
+fn restore(mouse: Capture) {
+    if mouse == Capture::Clicks {
+        let _ = execute!(stdout(), Print(MOUSE_OFF));
+    }
     let _ = execute!(
         stdout(),
         EndSynchronizedUpdate,

@@ -35,8 +35,8 @@ const MOST_STAGES: usize = 40;
 /// The first jump wears this much at most, in depths and in units of the root of the tolerance.
 const FIRST: f64 = 0.3;
 
-/// The most cycles of a jump, so that their number stays exact.
-const LONGEST: f64 = 1e12;
+/// The most cycles of a jump, also where nothing wears any more.
+const LONGEST: f64 = 1e9;
 
 /// How many times its rms the error of a single node may be.
 const PEAK: f64 = 4.0;
@@ -82,8 +82,10 @@ pub(in super::super) fn jump(
         Some(first) => first,
         None => settled::cycle(setup, &mut memory, work, &state.wear)?,
     };
+    let springs = memory.clone();
     let mut found = search(setup, state, &mut memory, work, &first, f64::INFINITY);
     if found.as_ref().is_some_and(|jump| jump.covered > most) {
+        go_back(&mut memory, &springs);
         found = search(setup, state, &mut memory, work, &first, most);
     } else if found.is_none() {
         rest(setup, state);
@@ -157,14 +159,19 @@ fn search(
                 });
             }
             _ => {
-                let mut effort = memory.effort;
-                effort.rejected_jumps += 1;
-                memory.clone_from(&springs);
-                memory.effort = effort;
+                go_back(memory, &springs);
+                memory.effort.rejected_jumps += 1;
                 length = covered * factor;
             }
         }
     }
+}
+
+/// Takes the springs back to where they stood; the effort was made all the same.
+fn go_back(memory: &mut State, springs: &State) {
+    let effort = memory.effort;
+    memory.clone_from(springs);
+    memory.effort = effort;
 }
 
 /// A jump that was found good.

@@ -35,21 +35,27 @@ pub(super) fn step(
     cycle: f64,
 ) -> Result<(), Cause> {
     let limit = stability::limit(setup.scheme);
-    parts::step(setup.stability, state, cycle, |state, reach, part| {
-        work.predicted.copy_from_slice(&work.g);
-        solve_contact(setup, state, work, reach)?;
-        let mut friction_work = worn(setup, state, work, reach);
-        let stiffness = stiffness::of_step(setup, work, reach - state.cycle);
-        match part {
-            Part::Guarded if stiffness > HARSH * limit => {
-                return Ok(Outcome::TooHarsh(stiffness / (AIM * limit)));
+    parts::step(
+        setup.stability,
+        AIM * limit,
+        state,
+        cycle,
+        |state, reach, part| {
+            work.predicted.copy_from_slice(&work.g);
+            solve_contact(setup, state, work, reach)?;
+            let mut friction_work = worn(setup, state, work, reach);
+            let stiffness = stiffness::of_step(setup, work, reach - state.cycle);
+            match part {
+                Part::Guarded if stiffness > HARSH * limit => {
+                    return Ok(Outcome::TooHarsh(stiffness));
+                }
+                Part::Guarded | Part::Raw => {}
+                Part::Snap => friction_work *= stiffness::damp(work),
             }
-            Part::Guarded | Part::Raw => {}
-            Part::Snap => friction_work *= stiffness::damp(work),
-        }
-        commit(setup, state, work, reach, friction_work)?;
-        Ok(Outcome::Done(stiffness))
-    })
+            commit(setup, state, work, reach, friction_work)?;
+            Ok(Outcome::Done(stiffness))
+        },
+    )
 }
 
 /// What the step that the contact has been solved for wears (m, into `work.worn`), and its work of

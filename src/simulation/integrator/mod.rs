@@ -118,7 +118,7 @@ fn update_profile_keeping_growth(state: &mut State, work: &mut Workspace) {
 
 /// Refuses a worn profile that is not finite or far above anything that can touch.
 fn check(setup: &Setup, work: &Workspace) -> Result<(), Cause> {
-    let method = setup.method;
+    let (method, stability) = (setup.method, setup.stability);
     let (mut highest, mut at) = (0.0, 0);
     let mut sum = 0.0;
     for (j, &worn) in work.wear.iter().enumerate() {
@@ -131,6 +131,7 @@ fn check(setup: &Setup, work: &Workspace) -> Result<(), Cause> {
         return Err(Cause::NotFinite {
             quantity: "worn profile",
             method,
+            stability,
         });
     }
     let deepest = setup.largest_depth().unwrap_or(work.contact.depth);
@@ -139,6 +140,7 @@ fn check(setup: &Setup, work: &Workspace) -> Result<(), Cause> {
             worn: highest / deepest,
             radius: setup.grid.nodes()[at],
             method,
+            stability,
         });
     }
     Ok(())

@@ -16,18 +16,17 @@ use super::super::breakdown::Cause;
 use super::super::choices::Stability;
 use super::super::state::State;
 
-/// The stiffness below which the next part may be longer, and by how much.
-const EASY: f64 = 1.2;
+/// By how much a part may be longer than the one before it.
 const GROWTH: f64 = 1.5;
 
-/// The smallest part of a step: what keeps a step that no part would ever suit from taking for ever.
-const SMALLEST: f64 = 1e-5;
+/// The smallest part of a step: a snap in smaller ones ends the same, and a step stays quick at any wear.
+const SMALLEST: f64 = 1e-3;
 
 /// What came of a try.
 pub(super) enum Outcome {
     /// It is the state, at this stiffness.
     Done(f64),
-    /// It wants parts this many times as small: nothing is changed.
+    /// It would be, at this stiffness: nothing is changed.
     TooHarsh(f64),
 }
 
@@ -42,10 +41,11 @@ pub(super) enum Part {
     Snap,
 }
 
-/// One step from the state's cycle to `cycle`. `attempt` tries a part that ends at a cycle. On an error
-/// the state is as it was before the step.
+/// One step from the state's cycle to `cycle`, its parts as long as brings the stiffness to `aim`.
+/// `attempt` tries a part that ends at a cycle. On an error the state is as it was before the step.
 pub(super) fn step(
     guard: Stability,
+    aim: f64,
     state: &mut State,
     cycle: f64,
     mut attempt: impl FnMut(&mut State, f64, Part) -> Result<Outcome, Cause>,
@@ -55,7 +55,7 @@ pub(super) fn step(
     let mut before = None;
     let mut part = 1.0;
     // The last try that was too harsh, its length and its excess.
-    let (mut failed, mut snaps) = (None, false);
+    let (mut failed, mut snaps, mut hopeless) = (None, false, false);
     let (mut parts, mut stiffest) = (0, 0.0_f64);
     while state.cycle < cycle {
         let left = cycle - state.cycle;
@@ -69,26 +69,29 @@ pub(super) fn step(
             before = Some(state.clone());
         }
         let kind = match guard {
+            _ if hopeless => Part::Raw,
             Stability::Off => Part::Raw,
             Stability::SubStep if snaps || part <= SMALLEST => Part::Snap,
             Stability::SubStep => Part::Guarded,
         };
         match attempt(state, reach, kind) {
-            Ok(Outcome::TooHarsh(excess)) => {
+            // No part is short enough: what comes of it says what is wrong.
+            Ok(Outcome::TooHarsh(f64::INFINITY)) => hopeless = true,
+            Ok(Outcome::TooHarsh(stiffness)) => {
                 // Slip that takes no time stays as large in a part of the step.
-                let (tried, was) = failed.replace((part, excess)).unwrap_or((part, excess));
-                snaps = part < tried && excess / was > (part / tried).sqrt();
+                let (tried, was) = failed
+                    .replace((part, stiffness))
+                    .unwrap_or((part, stiffness));
+                snaps = part < tried && stiffness / was > (part / tried).sqrt();
                 if !snaps {
-                    part = (part / excess).max(SMALLEST);
+                    part = (part * aim / stiffness).max(SMALLEST);
                 }
             }
             Ok(Outcome::Done(stiffness)) => {
                 parts += 1;
                 (failed, snaps) = (None, false);
                 stiffest = stiffest.max(stiffness);
-                if stiffness < EASY {
-                    part = (GROWTH * part).min(1.0);
-                }
+                part = (part * (aim / stiffness).clamp(1.0, GROWTH)).min(1.0);
             }
             Err(cause) => {
                 if let Some(before) = before {

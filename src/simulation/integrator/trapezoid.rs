@@ -42,12 +42,9 @@ use crate::math::abel::bend::{self, Bend};
 /// The most that the profile is looked ahead, in lengths of the step before.
 const FARTHEST: f64 = 4.0;
 
-/// Stiffness up to which a step is explicit, and beyond which it is taken in parts.
+/// Stiffness up to which a step is explicit, as parts are, and beyond which it is taken in parts.
 const MILD: f64 = 0.7;
 const HARSH: f64 = 2.5;
-
-/// The stiffness that parts are given.
-const AIM: f64 = 2.0;
 
 /// One step from the state's cycle to `cycle`, in parts where wear is harsh.
 pub(super) fn step(
@@ -56,7 +53,7 @@ pub(super) fn step(
     work: &mut Workspace,
     cycle: f64,
 ) -> Result<(), Cause> {
-    parts::step(setup.stability, state, cycle, |state, reach, part| {
+    parts::step(setup.stability, MILD, state, cycle, |state, reach, part| {
         attempt(setup, state, work, reach, part)
     })
 }
@@ -87,7 +84,7 @@ fn attempt(
     let mut friction_work = worn(setup, state, work, cycle);
     let stiffness = stiffness::of_step(setup, work, duration);
     if stiffness > HARSH && part == Part::Guarded {
-        return Ok(Outcome::TooHarsh(stiffness / AIM));
+        return Ok(Outcome::TooHarsh(stiffness));
     }
     match part {
         Part::Raw => {}

@@ -77,13 +77,13 @@ impl Sample {
     }
 }
 
-/// Runs `scenario` by `setting` over `cycles`, and again while that is quick. `go_on` is asked between
-/// steps; if it says no, there is no result.
+/// Runs `scenario` by `setting` over `cycles`, and again while that is quick. `go_on` is told after each
+/// cycle what share of the run is done; if it says no, there is no result.
 pub fn run(
     scenario: &Scenario,
     setting: &Setting,
     cycles: f64,
-    go_on: &dyn Fn() -> bool,
+    go_on: &dyn Fn(f64) -> bool,
 ) -> Option<Result<Sample, SessionError>> {
     let scenario = match setting.of(scenario) {
         Ok(scenario) => scenario,
@@ -109,24 +109,24 @@ pub fn run(
 fn one_run(
     scenario: &Scenario,
     cycles: f64,
-    go_on: &dyn Fn() -> bool,
+    go_on: &dyn Fn(f64) -> bool,
 ) -> Option<Result<Session, SessionError>> {
     let mut session = match Session::start(scenario.clone()) {
         Ok(session) => session,
         Err(error) => return Some(Err(error)),
     };
     while session.simulation().cycle() < cycles {
-        if !go_on() {
+        if !go_on(session.simulation().cycle() / cycles) {
             return None;
         }
         // A cycle at a time: a stop is seen soon, and asking costs nothing.
-        let next = (session.simulation().cycle().floor() + 1.0).min(cycles);
-        let end = if session.simulation().may_jump() {
-            cycles
+        let cycle = session.simulation().cycle();
+        let outcome = if session.simulation().may_jump() {
+            session.step_until(cycles)
         } else {
-            next
+            session.advance_to((cycle.floor() + 1.0).min(cycles))
         };
-        if let Err(error) = session.step_until(end) {
+        if let Err(error) = outcome {
             return Some(Err(error));
         }
     }

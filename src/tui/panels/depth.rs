@@ -1,11 +1,7 @@
 //! The worn depth f − f₀ over the radius.
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
-use ratatui::widgets::Widget;
-
 use super::{App, Frame, Panel, curve, edge_marks, radial_plot, zones};
-use crate::tui::plot::{Band, Scale};
+use crate::tui::plot::{Band, Plot, Scale};
 use crate::tui::theme::Role;
 
 /// What the ordinate must hold.
@@ -13,8 +9,8 @@ pub fn ordinates(frame: &Frame) -> Vec<f64> {
     frame.observation.wear.clone()
 }
 
-/// Draws the panel.
-pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
+/// Makes the plot and hands it to `then`.
+pub fn plotted<T>(frame: &Frame, app: &App, then: impl FnOnce(&Plot<'_>) -> T) -> T {
     let (seen, theme) = (&frame.observation, &app.theme);
     let zones = zones(frame, theme);
     let limit: Vec<f64> = app
@@ -42,5 +38,5 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     for mark in edge_marks(frame, theme) {
         plot = plot.mark(mark);
     }
-    plot.render(area, buffer);
+    then(&plot)
 }

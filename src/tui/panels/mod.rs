@@ -1,7 +1,7 @@
 //! Panels, one a file: each draws one frame into one area.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Widget};
 
@@ -161,18 +161,36 @@ impl Panel {
         };
         let inner = titled(self.title(), role, app, area, buffer);
         match self {
-            Self::Profile => profile::draw(frame, app, inner, buffer),
-            Self::Stresses => stresses::draw(frame, app, inner, buffer),
-            Self::Springs => springs::draw(frame, app, inner, buffer),
+            Self::Profile => profile::plotted(frame, app, |plot| plot.render(inner, buffer)),
+            Self::Stresses => stresses::plotted(frame, app, |plot| plot.render(inner, buffer)),
+            Self::Springs => springs::plotted(frame, app, |plot| plot.render(inner, buffer)),
             Self::Loop => fretting_loop::draw(frame, app, inner, buffer),
             Self::Radii => radii::draw(frame, app, inner, buffer),
             Self::Numbers => numbers::draw(frame, app, inner, buffer),
             Self::Section => section::draw(frame, app, inner, buffer),
-            Self::Depth => depth::draw(frame, app, inner, buffer),
+            Self::Depth => depth::plotted(frame, app, |plot| plot.render(inner, buffer)),
             Self::Volume => volume::draw(frame, app, inner, buffer),
             Self::Rate => rate::draw(frame, app, inner, buffer),
             Self::Residual => residual::draw(frame, app, inner, buffer),
             Self::Cost => cost::draw(frame, app, inner, buffer),
+        }
+    }
+
+    /// The radius under a place of the screen, m, where the panel in `area` has a plot over r there.
+    pub fn radius_at(self, frame: &Frame, app: &App, area: Rect, at: Position) -> Option<f64> {
+        // The first row is the title's.
+        let inner = Rect {
+            y: area.y.saturating_add(1),
+            height: area.height.saturating_sub(1),
+            ..area
+        };
+        let radius = |plot: &Plot<'_>| plot.abscissa_at(inner, at);
+        match self {
+            Self::Profile => profile::plotted(frame, app, radius),
+            Self::Stresses => stresses::plotted(frame, app, radius),
+            Self::Springs => springs::plotted(frame, app, radius),
+            Self::Depth => depth::plotted(frame, app, radius),
+            _ => None,
         }
     }
 }

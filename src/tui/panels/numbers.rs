@@ -65,5 +65,8 @@ fn rows(frame: &Frame, ascii: bool) -> Vec<(&'static str, String)> {
     }
     rows.push(("cells", (frame.observation.radii.len() - 1).to_string()));
     rows.push(("steps a cycle", frame.steps_per_cycle.to_string()));
+    if let Some(error) = frame.expected_error {
+        rows.push(("error expected", format!("{error:.0e} d")));
+    }
     rows
 }

@@ -1,11 +1,7 @@
 //! The 3D profile f(r), worn and unworn, with the zones of the contact under it.
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
-use ratatui::widgets::Widget;
-
 use super::{App, Frame, Panel, curve, edge_marks, radial_plot, zones};
-use crate::tui::plot::Band;
+use crate::tui::plot::{Band, Plot};
 use crate::tui::theme::Role;
 
 /// What the ordinate must hold.
@@ -17,8 +13,8 @@ pub fn ordinates(frame: &Frame) -> Vec<f64> {
     seen.unworn.iter().chain(&seen.profile).copied().collect()
 }
 
-/// Draws the panel.
-pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
+/// Makes the plot and hands it to `then`.
+pub fn plotted<T>(frame: &Frame, app: &App, then: impl FnOnce(&Plot<'_>) -> T) -> T {
     let (seen, theme) = (&frame.observation, &app.theme);
     let zones = zones(frame, theme);
     let limit = app
@@ -42,5 +38,5 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     for mark in edge_marks(frame, theme) {
         plot = plot.mark(mark);
     }
-    plot.render(area, buffer);
+    then(&plot)
 }

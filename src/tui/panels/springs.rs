@@ -1,10 +1,7 @@
 //! The 1D profile g(x) against the depth to which it is pressed: springs touch where g is less.
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
-use ratatui::widgets::Widget;
-
 use super::{App, Frame, Panel, curve, edge_marks, radial_plot};
+use crate::tui::plot::Plot;
 use crate::tui::theme::Role;
 
 /// What the ordinate must hold.
@@ -17,8 +14,8 @@ pub fn ordinates(frame: &Frame) -> Vec<f64> {
         .collect()
 }
 
-/// Draws the panel.
-pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
+/// Makes the plot and hands it to `then`.
+pub fn plotted<T>(frame: &Frame, app: &App, then: impl FnOnce(&Plot<'_>) -> T) -> T {
     let (seen, theme) = (&frame.observation, &app.theme);
     let ends = [0.0, seen.radii.last().copied().unwrap_or(0.0)];
     let depth = [seen.moment.depth; 2];
@@ -34,5 +31,5 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     for mark in edge_marks(frame, theme) {
         plot = plot.mark(mark);
     }
-    plot.render(area, buffer);
+    then(&plot)
 }

@@ -1,11 +1,7 @@
 //! Pressure p(r) and shear stress τ(r). τ is drawn as τ/μ: it meets ±p where the contact slips.
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
-use ratatui::widgets::Widget;
-
 use super::{App, Frame, Panel, curve, edge_marks, radial_plot};
-use crate::tui::plot::Scale;
+use crate::tui::plot::{Plot, Scale};
 use crate::tui::theme::Role;
 
 /// τ/μ; empty without friction or tangential motion.
@@ -36,8 +32,8 @@ pub fn ordinates(frame: &Frame) -> Vec<f64> {
     values
 }
 
-/// Draws the panel.
-pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
+/// Makes the plot and hands it to `then`.
+pub fn plotted<T>(frame: &Frame, app: &App, then: impl FnOnce(&Plot<'_>) -> T) -> T {
     let (seen, theme) = (&frame.observation, &app.theme);
     let scale = app.scale(Panel::Stresses);
     let shear = scaled_shear(frame, scale);
@@ -78,5 +74,5 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     for mark in edge_marks(frame, theme) {
         plot = plot.mark(mark);
     }
-    plot.render(area, buffer);
+    then(&plot)
 }

@@ -1,7 +1,7 @@
 //! The layout: where title, ticks, plot area, band and labels go.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use ratatui::layout::{self, Rect};
 use ratatui::style::{Color, Style};
 use ratatui::widgets::Widget;
 
@@ -24,16 +24,27 @@ impl Widget for Plot<'_> {
     }
 }
 
+impl Plot<'_> {
+    /// The abscissa, in the x axis' unit, under a cell of the screen where the plot is drawn in `area`;
+    /// none outside of the curves' own part of it.
+    pub fn abscissa_at(&self, area: Rect, cell: layout::Position) -> Option<f64> {
+        if area.is_empty() {
+            return None;
+        }
+        let frame = Frame::of(self, area);
+        let column = cell.x.checked_sub(frame.inner.x)?;
+        let middle = frame.x.cell_middle(column);
+        frame.inner.contains(cell).then(|| frame.x.value(middle))
+    }
+}
+
 impl Widget for &Plot<'_> {
     fn render(self, area: Rect, buf: &mut Buffer) {
         let area = area.intersection(buf.area);
         if area.is_empty() {
             return;
         }
-        let [x_data, y_data] = extent(self);
-        let x_bounds = self.x_axis.resolve(x_data, false);
-        let y_bounds = self.y_axis.resolve(y_data, true);
-        let frame = Frame::new(self, area, x_bounds, y_bounds);
+        let frame = Frame::of(self, area);
         let mut raster = frame.raster();
         if area.width >= SMALLEST.0 && area.height >= SMALLEST.1 {
             frame.words(&mut raster, buf);
@@ -88,6 +99,13 @@ struct Frame<'p, 'a> {
 }
 
 impl<'p, 'a> Frame<'p, 'a> {
+    fn of(plot: &'p Plot<'a>, area: Rect) -> Self {
+        let [x_data, y_data] = extent(plot);
+        let x_bounds = plot.x_axis.resolve(x_data, false);
+        let y_bounds = plot.y_axis.resolve(y_data, true);
+        Self::new(plot, area, x_bounds, y_bounds)
+    }
+
     fn new(plot: &'p Plot<'a>, area: Rect, x_bounds: [f64; 2], y_bounds: [f64; 2]) -> Self {
         let bare = area.width < SMALLEST.0 || area.height < SMALLEST.1;
         let ascii = plot.marker == Marker::Ascii;

@@ -79,6 +79,20 @@ impl Window {
         Some((dot / usize::from(self.dots_per_cell)) as u16)
     }
 
+    /// The value at a position in dots: the inverse of [`position`](Self::position).
+    pub fn value(&self, position: f64) -> f64 {
+        let [lo, hi] = self.bounds.map(|v| self.transformed(v));
+        let share = match self.dots() {
+            0 | 1 => 0.5,
+            dots => position / (dots - 1) as f64,
+        };
+        let value = lo * (1.0 - share) + hi * share;
+        match self.scale {
+            Scale::Linear => value,
+            Scale::Log => 10f64.powf(value),
+        }
+    }
+
     /// The position in dots of the middle of cell `index`.
     pub fn cell_middle(&self, index: u16) -> f64 {
         let dots = f64::from(self.dots_per_cell);
@@ -112,6 +126,17 @@ mod tests {
             }
             assert_eq!(window.dot(14.0), None);
             assert_eq!(window.dot(-12.0), None);
+        }
+    }
+
+    #[test]
+    fn values_and_positions_are_inverse() {
+        for scale in [Scale::Linear, Scale::Log] {
+            let window = Window::new([2e-3, 5e3], scale, 40, 2);
+            for position in [0.0, 0.5, 17.25, 79.0] {
+                let back = window.position(window.value(position)).expect("a place");
+                assert!((back - position).abs() < 1e-9, "{scale:?}: {back}");
+            }
         }
     }
 

@@ -24,6 +24,7 @@ use super::theory::Theory;
 use super::trend::Trend;
 use crate::math::abel::AbelMethod;
 use crate::scenario::Scenario;
+use crate::scenario::accuracy;
 use crate::scenario::parameters::{Kind, find};
 use crate::scenario::session::Session;
 use crate::simulation::Curves;
@@ -34,6 +35,9 @@ use travel::ends_cycle;
 
 /// Laws that keys step through.
 const LAWS: [&str; 2] = ["archard", "power"];
+
+/// The time between two jumps over cycles, unless the pace is without limit.
+const JUMP_EVERY: Duration = Duration::from_millis(100);
 
 /// How long the worker steps before it looks for orders again.
 const STINT: Duration = Duration::from_millis(4);
@@ -57,6 +61,7 @@ pub struct Worker {
     events: Sender<Event>,
     interval: Duration,
     published: Instant,
+    stepped: Instant,
     keeping: Option<Keeping>,
     /// Set when orders that take long are to be cut short.
     halt: Arc<AtomicBool>,
@@ -95,6 +100,7 @@ impl Worker {
             events,
             interval,
             published: Instant::now(),
+            stepped: Instant::now(),
             keeping: None,
             halt: Arc::default(),
         }
@@ -163,24 +169,26 @@ impl Worker {
         if self.activity != Activity::Running {
             return self.keeping.as_ref()?.wait(self.past.line(&self.session));
         }
-        let due = match Pace::of_rung(self.rung) {
+        Some(Duration::from_secs_f64(self.ahead().clamp(0.0, 0.1)))
+    }
+
+    /// Seconds until the next step is due. A jump over many cycles is due a moment after the one before:
+    /// how far it goes is not for the pace to say, or no run could be repeated.
+    fn ahead(&self) -> f64 {
+        let simulation = self.session.simulation();
+        match Pace::of_rung(self.rung) {
             Pace::Unlimited => 0.0,
-            Pace::Cycles(pace) => self
-                .meter
-                .ahead(self.session.simulation().next_moment(), pace),
-        };
-        Some(Duration::from_secs_f64(due.clamp(0.0, 0.1)))
+            Pace::Cycles(_) if simulation.may_jump() => {
+                JUMP_EVERY.as_secs_f64() - self.stepped.elapsed().as_secs_f64()
+            }
+            Pace::Cycles(pace) => self.meter.ahead(simulation.next_moment(), pace),
+        }
     }
 
     fn step_for_a_stint(&mut self) {
         let start = Instant::now();
         while self.activity == Activity::Running && start.elapsed() < STINT {
-            if let Pace::Cycles(pace) = Pace::of_rung(self.rung)
-                && self
-                    .meter
-                    .ahead(self.session.simulation().next_moment(), pace)
-                    > 0.0
-            {
+            if self.ahead() > 0.0 {
                 break;
             }
             let before = self.session.simulation().cycle();
@@ -208,7 +216,11 @@ impl Worker {
         if self.session.simulation().state().steps == 0 {
             self.keep();
         }
-        match self.session.step() {
+        self.stepped = Instant::now();
+        let now = self.session.simulation().cycle();
+        let end = self.session.loaded().run().cycles;
+        let end = end.filter(|&end| now < end).unwrap_or(f64::INFINITY);
+        match self.session.step_until(end) {
             Ok(()) => {
                 self.trend.record(&self.session.simulation().moment());
                 if let Some(rival) = &mut self.rival {
@@ -285,6 +297,7 @@ impl Worker {
                 }
             },
             Order::Change { key, value } => self.change(&key, &value),
+            Order::Accuracy(places) => self.refine(places),
             Order::Pace(rungs) => {
                 self.rung = (self.rung + rungs).clamp(Pace::SLOWEST, Pace::UNLIMITED)
             }
@@ -319,6 +332,28 @@ impl Worker {
             }
         }
         self.keep();
+    }
+
+    /// Goes along the front of speed and accuracy, from where the present numerics stand on it.
+    fn refine(&mut self, places: isize) {
+        let scenario = self.session.scenario();
+        let cells = scenario.setup().grid.cells();
+        let now = scenario.expected_error();
+        let now = now.unwrap_or_else(|| accuracy::expected(cells));
+        let next = accuracy::rung(now, places);
+        if scenario.value("numerics.accuracy").is_some() && next == now {
+            let end = if places > 0 { "finest" } else { "coarsest" };
+            return self.notice(&format!("{next:e} is the {end} accuracy there is"));
+        }
+        self.change("numerics.accuracy", &format!("{next:e}"));
+        let setup = self.session.scenario().setup();
+        if self.session.scenario().expected_error() == Some(next) {
+            self.notice(&format!(
+                "expected error {next:e} of the depth: N = {}, {} steps a cycle",
+                setup.grid.cells(),
+                setup.steps_per_cycle
+            ));
+        }
     }
 
     fn change(&mut self, key: &str, value: &str) {
@@ -405,6 +440,7 @@ impl Worker {
                 .speed
                 .filter(|_| self.activity == Activity::Running),
             step_cost: self.meter.step_cost,
+            expected_error: scenario.expected_error(),
             title: scenario.title().to_owned(),
             origin: scenario.origin().to_owned(),
             planned_cycles: self.session.loaded().run().cycles,

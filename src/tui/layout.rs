@@ -1,0 +1,69 @@
+//! Where everything stands: the drawing and the mouse ask here.
+//!
+//! Two panels side by side on a narrow screen, three or four on a wide one; the others are on further
+//! pages.
+
+use ratatui::layout::{Constraint, Layout, Rect};
+
+use super::app::App;
+use super::panels::Panel;
+
+/// From this width on, three panels stand side by side.
+const WIDE: u16 = 110;
+
+/// From this width on, four.
+const VERY_WIDE: u16 = 160;
+
+/// From this height on, there are three rows of them on a wide screen.
+const TALL: u16 = 33;
+
+/// Below this size there is a message instead of panels.
+pub const SMALLEST: (u16, u16) = (40, 10);
+
+/// The status line, the panels' area and the line of keys; none on a screen that is too small.
+pub fn bands(screen: Rect) -> Option<[Rect; 3]> {
+    if screen.width < SMALLEST.0 || screen.height < SMALLEST.1 {
+        return None;
+    }
+    let lines = [
+        Constraint::Length(1),
+        Constraint::Min(0),
+        Constraint::Length(1),
+    ];
+    Some(Layout::vertical(lines).areas(screen))
+}
+
+/// How many panels fit on a screen of this size.
+pub fn room(columns: u16, rows: u16) -> usize {
+    let (across, down) = grid(Rect::new(0, 0, columns, rows.saturating_sub(2)));
+    across * down
+}
+
+/// Columns and rows of panels in an area.
+fn grid(area: Rect) -> (usize, usize) {
+    match area.width {
+        VERY_WIDE.. => (4, if area.height >= TALL { 3 } else { 2 }),
+        WIDE.. => (3, if area.height >= TALL { 3 } else { 2 }),
+        _ => (2, 3),
+    }
+}
+
+/// The panels in their area, each with its place.
+pub fn places(app: &App, area: Rect) -> Vec<(Panel, Rect)> {
+    if app.zoomed {
+        return vec![(app.focus, area)];
+    }
+    let (columns, rows) = grid(area);
+    let shown = app.page(columns * rows);
+    // The last page may be shorter; its panels are then higher.
+    let rows = shown.len().div_ceil(columns);
+    let bands = Layout::vertical(vec![Constraint::Fill(1); rows]).split(area);
+    let mut places = Vec::with_capacity(shown.len());
+    for (band, row) in bands.iter().zip(shown.chunks(columns)) {
+        let cells = Layout::horizontal(vec![Constraint::Fill(1); columns])
+            .spacing(1)
+            .split(*band);
+        places.extend(row.iter().copied().zip(cells.iter().copied()));
+    }
+    places
+}

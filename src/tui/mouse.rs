@@ -1,0 +1,132 @@
+//! The mouse, where it was asked for: a click focuses a panel or moves the cursor, a double click
+//! zooms, the wheel moves in what lies over the panels.
+
+use std::time::{Duration, Instant};
+
+use crossterm::event::{MouseButton, MouseEvent, MouseEventKind};
+use ratatui::layout::Position;
+
+use super::app::App;
+use super::keys::{Key, Named};
+use super::layout;
+use super::overlays::Overlay;
+
+/// Clicks at one place that follow each other faster than this belong together.
+const TOGETHER: Duration = Duration::from_millis(400);
+
+/// What a hand does with the mouse.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Gesture {
+    /// A press of the left button.
+    Click(Position),
+    /// A second one right after the first.
+    DoubleClick(Position),
+    /// The wheel turned away from the hand.
+    WheelUp,
+    /// The wheel turned towards the hand.
+    WheelDown,
+}
+
+/// Makes gestures of what the terminal tells.
+#[derive(Debug, Default)]
+pub struct Mouse {
+    /// When and where the last click was, and how many belong together with it.
+    last: Option<(Instant, Position, u32)>,
+}
+
+impl Mouse {
+    /// What an event at `now` means; none for releases, other buttons, and a third click.
+    pub fn gesture(&mut self, event: &MouseEvent, now: Instant) -> Option<Gesture> {
+        match event.kind {
+            MouseEventKind::Down(MouseButton::Left) => {
+                self.click(Position::new(event.column, event.row), now)
+            }
+            MouseEventKind::ScrollUp => Some(Gesture::WheelUp),
+            MouseEventKind::ScrollDown => Some(Gesture::WheelDown),
+            _ => None,
+        }
+    }
+
+    fn click(&mut self, at: Position, now: Instant) -> Option<Gesture> {
+        let before = match self.last {
+            Some((then, place, count)) if place == at && now - then < TOGETHER => count,
+            _ => 0,
+        };
+        self.last = Some((now, at, before + 1));
+        match before {
+            0 => Some(Gesture::Click(at)),
+            1 => Some(Gesture::DoubleClick(at)),
+            _ => None,
+        }
+    }
+}
+
+impl App {
+    /// Answers the mouse.
+    pub fn point(&mut self, gesture: Gesture) {
+        match (gesture, &self.overlay) {
+            (Gesture::WheelUp | Gesture::WheelDown, Overlay::None | Overlay::Accuracy) => {}
+            (Gesture::WheelUp, _) => self.press(Key::Named(Named::Up)),
+            (Gesture::WheelDown, _) => self.press(Key::Named(Named::Down)),
+            (Gesture::Click(at), Overlay::None) => self.click(at, false),
+            (Gesture::DoubleClick(at), Overlay::None) => self.click(at, true),
+            (Gesture::Click(_) | Gesture::DoubleClick(_), _) => {}
+        }
+    }
+
+    /// A click goes to another panel, moves the cursor in its plot, or else zooms; the second one of
+    /// a double click zooms unless the first has.
+    fn click(&mut self, at: Position, is_second: bool) {
+        self.notice = None;
+        self.is_new = false;
+        let Some(frame) = self.frame.clone().filter(|frame| frame.rival.is_none()) else {
+            return;
+        };
+        let Some([_, area, _]) = layout::bands(self.area) else {
+            return;
+        };
+        let places = layout::places(self, area);
+        let Some((panel, place)) = places.into_iter().find(|(_, place)| place.contains(at)) else {
+            return;
+        };
+        if is_second {
+            self.zoomed ^= !self.click_has_zoomed;
+        } else {
+            let was_focused = std::mem::replace(&mut self.focus, panel) == panel;
+            let radius = self
+                .has_cursor()
+                .then(|| panel.radius_at(&frame, self, place, at))
+                .flatten();
+            if let Some(radius) = radius {
+                self.put_cursor(&frame, radius);
+            }
+            self.click_has_zoomed = was_focused && radius.is_none();
+            self.zoomed ^= self.click_has_zoomed;
+        }
+        self.tell_what_shows();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn clicks_belong_together_by_place_and_time() {
+        let mut mouse = Mouse::default();
+        let start = Instant::now();
+        let [here, there] = [Position::new(3, 4), Position::new(5, 4)];
+        for (after, place, expected) in [
+            (0, here, Some(Gesture::Click(here))),
+            (300, here, Some(Gesture::DoubleClick(here))),
+            (500, here, None),
+            (1000, here, Some(Gesture::Click(here))),
+            (1100, there, Some(Gesture::Click(there))),
+            (1200, there, Some(Gesture::DoubleClick(there))),
+            (1250, here, Some(Gesture::Click(here))),
+        ] {
+            let now = start + Duration::from_millis(after);
+            assert_eq!(mouse.click(place, now), expected, "after {after} ms");
+        }
+    }
+}

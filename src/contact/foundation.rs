@@ -17,8 +17,12 @@ pub struct Foundation {
     nodes: Vec<f64>,
     squares: Vec<f64>,
     weights: Vec<f64>,
+    /// Of the slope at the tip.
+    cusp_weights: [f64; 3],
     /// Of ∫ q s dx in each cell.
     products: Vec<[f64; 3]>,
+    /// ∫ of what a cusp of slope one adds to a load linear in x², from the tip to each node, m².
+    bubbles: Vec<f64>,
 }
 
 impl Foundation {
@@ -35,7 +39,9 @@ impl Foundation {
             nodes: grid.nodes().to_vec(),
             squares: grid.squares().to_vec(),
             weights: line_weights(grid.nodes()),
+            cusp_weights: product::cusp_weights(grid.nodes()),
             products,
+            bubbles: bubbles(grid.nodes()),
         }
     }
 
@@ -54,17 +60,29 @@ impl Foundation {
     /// A load with a cusp at the tip, as under a cone, is linear in x and not in x²: what that adds is
     /// added.
     pub fn force(&self, load: &[f64], breaks: &[Bend], edge: f64) -> f64 {
+        self.forces(load, breaks, edge).0
+    }
+
+    /// [`force`](Self::force), and what it would be without the breaks.
+    pub fn forces(&self, load: &[f64], breaks: &[Bend], edge: f64) -> (f64, f64) {
         let end = self.nodes[self.nodes.len() - 1];
-        let smooth = weighted(&self.weights, load) + bend::line_integral(breaks, end);
-        2.0 * (smooth + self.cusp(load, edge) * self.cusp_integral(edge))
+        let nodal = weighted(&self.weights, load);
+        let cusp = self.cusp_integral(load, edge);
+        let broken = nodal + bend::line_integral(breaks, end);
+        (2.0 * (broken + cusp), 2.0 * (nodal + cusp))
     }
 
     /// 2∫ q |s| dx over the row: the work (J) of a line load (N/m) that ends at `edge` (m) on a slip (m).
     /// Both are linear in x² in each cell; the slip has `kinks` inside cells besides, each with its cell.
     pub fn work(&self, load: &[f64], slip: &[f64], kinks: &[(usize, Bend)], edge: f64) -> f64 {
-        let cells = load.windows(2).zip(slip.windows(2));
+        // Most springs stick or carry nothing.
+        let first = slip.iter().position(|&slip| slip != 0.0);
+        let first = first.unwrap_or(slip.len()).saturating_sub(1);
+        let end = load.iter().rposition(|&load| load != 0.0);
+        let end = end.map_or(first, |last| (last + 2).min(load.len()).max(first));
+        let cells = load[first..end].windows(2).zip(slip[first..end].windows(2));
         let smooth: f64 = cells
-            .zip(&self.products)
+            .zip(&self.products[first..])
             .map(|((q, s), [inner, mixed, outer])| {
                 let s = [s[0].abs(), s[1].abs()];
                 inner * q[0] * s[0] + mixed * (q[0] * s[1] + q[1] * s[0]) + outer * q[1] * s[1]
@@ -82,7 +100,7 @@ impl Foundation {
                     })
             })
             .sum();
-        let cusp = self.cusp(load, edge) * self.cusp_integral(edge) * slip[0].abs();
+        let cusp = self.cusp_integral(load, edge) * slip[0].abs();
         2.0 * (smooth + kinked + cusp)
     }
 
@@ -92,7 +110,8 @@ impl Foundation {
         if edge <= self.nodes[3] {
             return 0.0;
         }
-        let cusp = product::cusp(&self.nodes[..3], &values[..3]);
+        let tip = self.cusp_weights.iter().zip(values);
+        let cusp: f64 = tip.map(|(weight, value)| weight * value).sum();
         let rounding = NO_CUSP * values[0].abs();
         if (cusp * self.nodes[2]).abs() > rounding {
             cusp
@@ -101,18 +120,32 @@ impl Foundation {
         }
     }
 
-    /// ∫ of what a cusp of slope one adds to a load linear in x² up to `edge`, m².
-    fn cusp_integral(&self, edge: f64) -> f64 {
-        let bubble = |a: f64, b: f64| (b - a).powi(3) / (6.0 * (a + b));
-        let whole = self.nodes.windows(2).take_while(|cell| cell[1] <= edge);
-        let inside: f64 = whole.map(|cell| bubble(cell[0], cell[1])).sum();
+    /// ∫ of what the cusp of `values` adds to them up to `edge`, in their unit times m.
+    fn cusp_integral(&self, values: &[f64], edge: f64) -> f64 {
+        let cusp = self.cusp(values, edge);
         let last = self.nodes.partition_point(|&x| x <= edge) - 1;
+        let whole = self.bubbles[last];
         if edge > self.nodes[last] {
-            inside + bubble(self.nodes[last], edge)
+            cusp * (whole + bubble(self.nodes[last], edge))
         } else {
-            inside
+            cusp * whole
         }
     }
+}
+
+/// ∫ of the bubble of a cusp of slope one over a cell, m².
+fn bubble(a: f64, b: f64) -> f64 {
+    (b - a).powi(3) / (6.0 * (a + b))
+}
+
+/// The same from the tip to each node.
+fn bubbles(nodes: &[f64]) -> Vec<f64> {
+    let mut sum = 0.0;
+    let whole = nodes.windows(2).map(|cell| {
+        sum += bubble(cell[0], cell[1]);
+        sum
+    });
+    std::iter::once(0.0).chain(whole).collect()
 }
 
 #[cfg(test)]

@@ -38,36 +38,55 @@ pub fn press(
     q: &mut [f64],
     breaks: &mut Vec<Bend>,
 ) -> NormalContact {
+    let mut contact = touch(row, g, depth, modulus, q, breaks);
+    contact.force = row.force(q, breaks, contact.radius);
+    contact
+}
+
+/// The same without the sum of the forces, which stays 0.
+pub fn touch(
+    row: &Foundation,
+    g: &[f64],
+    depth: f64,
+    modulus: f64,
+    q: &mut [f64],
+    breaks: &mut Vec<Bend>,
+) -> NormalContact {
     breaks.clear();
     let (xs, squares) = (row.nodes(), row.squares());
     let mut contact = NormalContact::default();
-    let tip = [0, 1, 2].map(|j| modulus * (depth - g[j]));
-    let cusp = row.cusp(&tip, f64::INFINITY);
-    let mut before = 0.0;
-    for (k, (load, &gap)) in q.iter_mut().zip(g).enumerate() {
+    let compression = |k: usize| modulus * (depth - g[k]);
+    // Written so that NaN counts as contact and is seen, instead of passing as an open gap.
+    let is_open = |compression: f64| compression <= 0.0;
+    for (load, gap) in q.iter_mut().zip(g) {
         let compression = modulus * (depth - gap);
-        // Written so that NaN counts as contact and is seen, instead of passing as an open gap.
-        let open = compression <= 0.0;
-        *load = if open { 0.0 } else { compression };
-        if k > 0 && open != (before <= 0.0) {
-            let (left, right) = (squares[k - 1], squares[k]);
-            let edge = product::edge_square(&xs[k - 1..=k], &[before, compression], 0, cusp);
-            let share = (edge - left) / (right - left);
-            if open {
-                contact.radius = edge.sqrt().max(xs[k - 1]);
-            }
-            if share > ON_A_SPRING && share < 1.0 - ON_A_SPRING {
-                let ends = [f64::max(before, 0.0), f64::max(compression, 0.0)];
-                bend::polyline([left, right], ends, &[(edge, 0.0)], breaks);
-            }
-        }
-        if !open {
-            contact.nodes = k + 1;
-            contact.radius = xs[k];
-        }
-        before = compression;
+        *load = if is_open(compression) {
+            0.0
+        } else {
+            compression
+        };
     }
-    contact.force = row.force(q, breaks, contact.radius);
+    let cusp = row.cusp(&[0, 1, 2].map(compression), f64::INFINITY);
+    // One side of an edge carries nothing, the other does.
+    for (k, pair) in (1..).zip(q.windows(2)) {
+        if (pair[0] == 0.0) == (pair[1] == 0.0) {
+            continue;
+        }
+        let ends = [compression(k - 1), compression(k)];
+        let edge = product::edge_square(&xs[k - 1..=k], &ends, 0, cusp);
+        let (left, right) = (squares[k - 1], squares[k]);
+        let share = (edge - left) / (right - left);
+        if share > ON_A_SPRING && share < 1.0 - ON_A_SPRING {
+            bend::polyline([left, right], [pair[0], pair[1]], &[(edge, 0.0)], breaks);
+        }
+        if is_open(ends[1]) {
+            contact.radius = edge.sqrt().max(xs[k - 1]);
+            contact.nodes = k;
+        }
+    }
+    if q.last().is_some_and(|&load| load != 0.0) {
+        (contact.nodes, contact.radius) = (q.len(), xs[q.len() - 1]);
+    }
     contact
 }
 

@@ -82,26 +82,29 @@ pub fn slide(
 ) {
     let dead_band =
         TOUCH_OF_LARGEST * grip.reach * grip.normal_load.iter().copied().fold(0.0, f64::max);
-    for j in 0..spring.len() {
-        let load = grip.normal_load[j];
-        if load <= 0.0 {
-            (spring[j], slip[j], hold[j]) = (0.0, increment, Hold::Open);
-            continue;
-        }
+    let springs = spring.iter_mut().zip(slip).zip(hold).zip(before);
+    // Without branches: the processor takes several springs at a time.
+    for ((((after, slip), hold), &before), &load) in springs.zip(grip.normal_load) {
         let limit = grip.reach * load;
-        let predicted = before[j] + increment;
-        if predicted.abs() <= limit * (1.0 + TOUCH) + dead_band && limit > 0.0 {
-            (spring[j], slip[j], hold[j]) = (predicted.clamp(-limit, limit), 0.0, Hold::Stick);
+        let predicted = before + increment;
+        let sign = predicted.signum();
+        let open = load <= 0.0;
+        let sticks = predicted.abs() <= limit * (1.0 + TOUCH) + dead_band && limit > 0.0;
+        let within = sticks && predicted.abs() <= limit;
+        let held = if within { predicted } else { sign * limit };
+        let slipped = if sticks {
+            0.0
         } else {
-            let sign = predicted.signum();
-            let direction = if sign > 0.0 {
-                Hold::Forward
-            } else {
-                Hold::Backward
-            };
-            (spring[j], hold[j]) = (sign * limit, direction);
-            slip[j] = increment - (spring[j] - before[j]);
-        }
+            increment - (held - before)
+        };
+        *after = if open { 0.0 } else { held };
+        *slip = if open { increment } else { slipped };
+        *hold = match (open, sticks, sign > 0.0) {
+            (true, ..) => Hold::Open,
+            (_, true, _) => Hold::Stick,
+            (.., true) => Hold::Forward,
+            (.., false) => Hold::Backward,
+        };
     }
 }
 
@@ -150,15 +153,14 @@ pub fn borders(
             };
             stick_radius = Some(border.map_or(outside, |(at, _)| at).sqrt());
         }
-        let inner: [Option<(f64, f64)>; 2] = [border, edge.map(|at| (at, 0.0))];
-        let inner: Vec<(f64, f64)> = inner.into_iter().flatten().collect();
-        if !inner.is_empty() {
-            bend::polyline(
-                [squares[k], squares[k + 1]],
-                [spring[k], spring[k + 1]],
-                &inner,
-                breaks,
-            );
+        let mut bend = |inner: &[(f64, f64)]| {
+            let (t, v) = ([squares[k], squares[k + 1]], [spring[k], spring[k + 1]]);
+            bend::polyline(t, v, inner, breaks);
+        };
+        match (border, edge.map(|at| (at, 0.0))) {
+            (Some(border), Some(edge)) => bend(&[border, edge]),
+            (Some(inner), None) | (None, Some(inner)) => bend(&[inner]),
+            (None, None) => {}
         }
     }
     stick_radius

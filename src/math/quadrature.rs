@@ -45,13 +45,22 @@ pub fn product_weights(xs: &[f64]) -> Vec<[f64; 3]> {
         .collect()
 }
 
-/// The scalar product of weights and values.
+/// The scalar product of weights and values, as many of the one as of the other.
+///
+/// Eight sums, so that no addition waits for the one before.
 pub fn weighted(weights: &[f64], values: &[f64]) -> f64 {
-    weights
-        .iter()
-        .zip(values)
-        .map(|(weight, value)| weight * value)
-        .sum()
+    debug_assert_eq!(weights.len(), values.len());
+    let (weights, last_weights) = weights.as_chunks::<8>();
+    let (values, last_values) = values.as_chunks::<8>();
+    let mut sums = [0.0; 8];
+    for (weights, values) in weights.iter().zip(values) {
+        for ((sum, weight), value) in sums.iter_mut().zip(weights).zip(values) {
+            *sum += weight * value;
+        }
+    }
+    let last = last_weights.iter().zip(last_values);
+    let last: f64 = last.map(|(weight, value)| weight * value).sum();
+    sums.iter().sum::<f64>() + last
 }
 
 /// 2π ∫ y r dr: the volume under a surface of revolution whose height is piecewise linear in r².

@@ -1,9 +1,10 @@
-//! A linear operator on nodal values, stored by columns with the zeros at both ends left out.
+//! A linear operator on nodal values, stored in panels of rows with the zeros at both ends left out.
 //!
 //! The Abel transforms are triangular, or nearly so: g(x) and w(r) look inwards, p(r) looks
-//! outwards. Column storage turns their application into a sum of contiguous scaled columns, four at
-//! a time in the vector instructions of the processor, and lets columns be skipped where their input
-//! is zero (outside the contact, inside the stick zone). Cost: at most N²/2 multiply-adds.
+//! outwards. A panel is eight rows over the columns that any of them has. Their sums stay in the
+//! registers of the processor's vector unit while one pass goes through the panel's entries, and the pass
+//! covers only the columns where the input is not zero (within the contact, outside the stick zone).
+//! Cost: at most N²/2 multiply-adds.
 //!
 //! Processors that fuse multiplication and addition give other last digits than those that do not; on
 //! one machine they are always the same.
@@ -13,76 +14,101 @@ use std::ops::Range;
 use fearless_simd::{Level, dispatch, f64x4, prelude::*};
 use nalgebra::DMatrix;
 
-/// A square matrix whose columns each hold one contiguous run of entries.
+/// Rows of a panel, and of one vector.
+const ROWS: usize = 8;
+const LANES: usize = 4;
+
+/// A square matrix whose rows each hold one contiguous run of entries.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Staircase {
     size: usize,
-    columns: Vec<Column>,
-    entries: Vec<f64>,
+    panels: Vec<Panel>,
+    /// The panels' entries, column by column, zero where a row has none.
+    entries: Vec<[f64; ROWS]>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Column {
-    first_row: usize,
+#[derive(Debug, Clone, PartialEq)]
+struct Panel {
+    columns: Range<usize>,
+    /// Its first column in the entries.
     start: usize,
-    end: usize,
 }
 
-impl Column {
-    fn end_row(&self) -> usize {
-        self.first_row + (self.end - self.start)
+impl Panel {
+    /// Where the entries of those of its `columns` are that lie within `input`, and which ones these are.
+    fn within(&self, input: &Range<usize>) -> (Range<usize>, Range<usize>) {
+        let first = self.columns.start.max(input.start);
+        let end = self.columns.end.min(input.end).max(first);
+        let start = self.start + first - self.columns.start;
+        (start..start + (end - first), first..end)
     }
 }
 
-/// Adds four columns of equal length, each times its value.
+/// The sums of a panel's rows over its `columns`, each times its value.
 #[inline(always)]
-fn add_four<S: Simd>(simd: S, values: [f64; 4], columns: [&[f64]; 4], output: &mut [f64]) {
-    let factors = values.map(|value| f64x4::splat(simd, value));
-    let (outputs, rest) = output.as_chunks_mut::<4>();
-    let lanes = columns.map(|column| column.as_chunks::<4>().0);
-    let [a, b, c, d] = lanes.map(|lanes| &lanes[..outputs.len()]);
-    let start = 4 * outputs.len();
-    for ((((out, a), b), c), d) in outputs.iter_mut().zip(a).zip(b).zip(c).zip(d) {
-        let load = |lanes: &[f64; 4]| f64x4::from_slice(simd, lanes);
-        let mut sum = load(out);
-        for (factor, lanes) in factors.iter().zip([a, b, c, d]) {
-            sum = load(lanes).mul_add(*factor, sum);
+fn sum_panel<S: Simd>(simd: S, columns: &[[f64; ROWS]], values: &[f64]) -> [f64; ROWS] {
+    let halves = |column: &[f64; ROWS]| {
+        let (lanes, _) = column.as_chunks::<LANES>();
+        [0, 1].map(|half| f64x4::from_slice(simd, &lanes[half]))
+    };
+    // Every other column has sums of its own: the processor need not wait for the last addition.
+    let mut sums = [[f64x4::splat(simd, 0.0); 2]; 2];
+    let (pairs, last) = columns.as_chunks::<2>();
+    let (paired, value_of_last) = values.as_chunks::<2>();
+    for (pair, values) in pairs.iter().zip(paired) {
+        for ((sums, column), value) in sums.iter_mut().zip(pair).zip(values) {
+            let value = f64x4::splat(simd, *value);
+            for (sum, entries) in sums.iter_mut().zip(halves(column)) {
+                *sum = entries.mul_add(value, *sum);
+            }
         }
-        sum.store_slice(out);
     }
-    for (i, out) in rest.iter_mut().enumerate() {
-        for (value, column) in values.iter().zip(columns) {
-            *out += value * column[start + i];
+    for (column, value) in last.iter().zip(value_of_last) {
+        let value = f64x4::splat(simd, *value);
+        for (sum, entries) in sums[0].iter_mut().zip(halves(column)) {
+            *sum = entries.mul_add(value, *sum);
         }
+    }
+    let mut rows = [0.0; ROWS];
+    let [even, odd] = sums;
+    let (lanes, _) = rows.as_chunks_mut::<LANES>();
+    for ((lanes, even), odd) in lanes.iter_mut().zip(even).zip(odd) {
+        (even + odd).store_slice(lanes);
+    }
+    rows
+}
+
+/// The smallest range outside which `values` are zero.
+fn support(values: &[f64]) -> Range<usize> {
+    let first = values.iter().position(|&value| value != 0.0);
+    let last = values.iter().rposition(|&value| value != 0.0);
+    match (first, last) {
+        (Some(first), Some(last)) => first..last + 1,
+        _ => 0..0,
     }
 }
 
 impl Staircase {
-    /// Packs a square dense matrix; entries between the first and the last non-zero of a column stay.
+    /// Packs a square dense matrix; entries between the first and the last non-zero of a row stay.
     pub fn pack(dense: &DMatrix<f64>) -> Self {
         let size = dense.nrows();
-        let mut entries = Vec::new();
-        let columns = dense
-            .column_iter()
-            .map(|column| {
-                let first_row = column.iter().position(|&v| v != 0.0).unwrap_or(size);
-                let last_row = column
-                    .iter()
-                    .rposition(|&v| v != 0.0)
-                    .map_or(first_row, |k| k + 1);
-                let start = entries.len();
-                entries.extend(column.iter().take(last_row).skip(first_row));
-                let end = entries.len();
-                Column {
-                    first_row,
-                    start,
-                    end,
-                }
-            })
-            .collect();
+        let (mut panels, mut entries) = (Vec::new(), Vec::new());
+        for row in (0..size).step_by(ROWS) {
+            let rows = ROWS.min(size - row);
+            let any = |k: &usize| (row..row + rows).any(|j| dense[(j, *k)] != 0.0);
+            let first = (0..size).find(any).unwrap_or(0);
+            let end = (0..size).rfind(any).map_or(first, |k| k + 1);
+            panels.push(Panel {
+                columns: first..end,
+                start: entries.len(),
+            });
+            entries.extend((first..end).map(|k| {
+                std::array::from_fn(|i| if i < rows { dense[(row + i, k)] } else { 0.0 })
+            }));
+        }
         Self {
             size,
-            columns,
+            panels,
             entries,
         }
     }
@@ -90,76 +116,70 @@ impl Staircase {
     /// Writes the product with `input` into `output`, both of the operator's size.
     /// Whatever `output` held before is overwritten.
     pub fn apply(&self, input: &[f64], output: &mut [f64]) {
+        self.apply_rows(input, output, 0..self.size);
+    }
+
+    /// The same for those rows alone that are asked for; what the others receive does not
+    /// matter to the caller: zero, or what they would in [`apply`](Self::apply).
+    pub fn apply_rows(&self, input: &[f64], output: &mut [f64], rows: Range<usize>) {
         debug_assert_eq!(input.len(), self.size);
         debug_assert_eq!(output.len(), self.size);
         // Compiled once for every instruction set; the processor's own is chosen.
-        dispatch!(Level::new(), simd => self.multiply(simd, input, output));
-    }
-
-    /// Columns are taken four at a time, so that each output is loaded and stored once for four of them.
-    #[inline(always)]
-    fn multiply<S: Simd>(&self, simd: S, input: &[f64], output: &mut [f64]) {
-        output.fill(0.0);
-        let (inputs, other_inputs) = input.as_chunks::<4>();
-        let (columns, other_columns) = self.columns.as_chunks::<4>();
-        for (values, columns) in inputs.iter().zip(columns) {
-            if *values == [0.0; 4] {
-                continue;
-            }
-            // The rows that all four columns have.
-            let first = columns.iter().map(|column| column.first_row).max();
-            let end = columns.iter().map(Column::end_row).min();
-            let (first, end) = (first.unwrap_or(0), end.unwrap_or(0));
-            if first >= end {
-                for (value, column) in values.iter().zip(columns) {
-                    self.add(simd, *value, column, 0..self.size, output);
-                }
-                continue;
-            }
-            let [a, b, c, d] = columns.map(|column| self.entries_of(&column, &(first..end)));
-            for (value, column) in values.iter().zip(columns) {
-                self.add(simd, *value, column, 0..first, output);
-                self.add(simd, *value, column, end..self.size, output);
-            }
-            add_four(simd, *values, [a, b, c, d], &mut output[first..end]);
-        }
-        for (value, column) in other_inputs.iter().zip(other_columns) {
-            self.add(simd, *value, column, 0..self.size, output);
+        let finite = dispatch!(Level::new(), simd => self.multiply(simd, input, output, &rows));
+        if !finite {
+            self.apply_not_finite(input, output);
         }
     }
 
-    /// Adds `value` times the entries of `column` in the given rows.
+    /// Tells whether all sums are finite.
     #[inline(always)]
-    fn add<S: Simd>(
+    fn multiply<S: Simd>(
         &self,
-        _simd: S,
-        value: f64,
-        column: &Column,
-        rows: Range<usize>,
+        simd: S,
+        input: &[f64],
         output: &mut [f64],
-    ) {
-        let rows = rows.start.max(column.first_row)..rows.end.min(column.end_row());
-        if value == 0.0 || rows.is_empty() {
-            return;
+        rows: &Range<usize>,
+    ) -> bool {
+        let support = support(input);
+        let mut zeros = [0.0; ROWS];
+        let outputs = output.chunks_mut(ROWS).zip((0..).step_by(ROWS));
+        for ((output, row), panel) in outputs.zip(&self.panels) {
+            if row >= rows.end || row + ROWS <= rows.start {
+                output.fill(0.0);
+                continue;
+            }
+            let (at, columns) = panel.within(&support);
+            let sums = sum_panel(simd, &self.entries[at], &input[columns]);
+            for (zero, sum) in zeros.iter_mut().zip(&sums) {
+                *zero += 0.0 * sum;
+            }
+            output.copy_from_slice(&sums[..output.len()]);
         }
-        let entries = self.entries_of(column, &rows);
-        for (out, entry) in output[rows].iter_mut().zip(entries) {
-            *out += value * entry;
+        zeros == [0.0; ROWS]
+    }
+
+    /// Zero times a value that is not finite is no zero: it is passed on to the rows that have an entry
+    /// for it, and not to all rows of their panels. Such a step fails: this need not be quick.
+    fn apply_not_finite(&self, input: &[f64], output: &mut [f64]) {
+        for ((output, panel), row) in output.iter_mut().zip(self.rows()).zip(0..) {
+            let columns = &self.entries[panel.start..][..panel.columns.len()];
+            let terms = columns.iter().zip(&input[panel.columns.clone()]);
+            let seen = terms.filter(|(column, _)| column[row % ROWS] != 0.0);
+            *output = seen.map(|(column, value)| column[row % ROWS] * value).sum();
         }
     }
 
-    /// The entries of `column` in rows that it has.
-    fn entries_of(&self, column: &Column, rows: &Range<usize>) -> &[f64] {
-        let start = column.start + rows.start - column.first_row;
-        &self.entries[start..start + rows.len()]
+    /// The panel of every row.
+    fn rows(&self) -> impl Iterator<Item = &Panel> {
+        (0..self.size).map(|row| &self.panels[row / ROWS])
     }
 
     /// The operator as a dense matrix, for eigenvalues and norms.
     pub fn to_dense(&self) -> DMatrix<f64> {
         let mut dense = DMatrix::zeros(self.size, self.size);
-        for (k, column) in self.columns.iter().enumerate() {
-            for (offset, entry) in self.entries[column.start..column.end].iter().enumerate() {
-                dense[(column.first_row + offset, k)] = *entry;
+        for (row, panel) in self.rows().enumerate() {
+            for (k, column) in panel.columns.clone().zip(&self.entries[panel.start..]) {
+                dense[(row, k)] = column[row % ROWS];
             }
         }
         dense
@@ -167,18 +187,14 @@ impl Staircase {
 
     /// Whether row j needs input from columns 0..=j only.
     pub fn looks_inwards_only(&self) -> bool {
-        self.columns
-            .iter()
-            .enumerate()
-            .all(|(k, column)| column.first_row >= k)
+        let dense = self.to_dense();
+        dense == dense.lower_triangle()
     }
 
     /// Whether row j needs input from columns j.. only.
     pub fn looks_outwards_only(&self) -> bool {
-        self.columns
-            .iter()
-            .enumerate()
-            .all(|(k, column)| column.end_row() <= k + 1)
+        let dense = self.to_dense();
+        dense == dense.upper_triangle()
     }
 }
 
@@ -231,6 +247,21 @@ mod tests {
         packed.apply(&[0.0, f64::NAN, 0.0], &mut output);
         assert_eq!(output[0], 0.0);
         assert!(output[1].is_nan() && output[2].is_nan());
+    }
+
+    #[test]
+    fn rows_that_are_asked_for_are_those_of_the_whole() {
+        let dense = DMatrix::from_fn(40, 40, |i, j| if j <= i { (1 + i * j) as f64 } else { 0.0 });
+        let packed = Staircase::pack(&dense);
+        let input: Vec<f64> = (0..40).map(|j| (j as f64 * 1.7).sin()).collect();
+        let mut whole = vec![f64::NAN; 40];
+        packed.apply(&input, &mut whole);
+        for rows in [0..40, 3..17, 16..24, 39..40, 5..5] {
+            let mut part = vec![f64::NAN; 40];
+            packed.apply_rows(&input, &mut part, rows.clone());
+            assert_eq!(part[rows.clone()], whole[rows]);
+            assert!(part.iter().all(|value| value.is_finite()));
+        }
     }
 
     #[test]

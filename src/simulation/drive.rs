@@ -176,11 +176,15 @@ impl Drive {
             let along = (TAU * cycles.fract() + tangential.phase).cos();
             normal_weight * down + sign * tangential_weight * along
         };
+        // Most steps lie so far from every turn that the steepest rate does not reach zero within them.
+        let steepest = TAU * (normal_weight * ratio + tangential_weight);
+        let reach = 1.001 * steepest * (until - from);
         let pieces = (PIECES_OF_A_CYCLE * ratio.max(1.0) * (until - from))
             .ceil()
             .max(4.0);
         [1.0, -1.0]
             .into_iter()
+            .filter(|&sign| rate(sign, from).abs() <= reach)
             .filter_map(|sign| {
                 (0..pieces as u32).find_map(|i| {
                     let at = |i: u32| from + (until - from) * f64::from(i) / pieces;

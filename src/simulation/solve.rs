@@ -67,7 +67,10 @@ fn press(setup: &Setup, work: &mut Workspace, depth: f64) -> Result<(), Cause> {
     let planned = &work.planned;
     let modulus = setup.material.normal_modulus();
     let (load, breaks) = (&mut work.normal_load, &mut work.normal_breaks);
-    let mut normal = normal::press(&planned.row, &work.predicted, depth, modulus, load, breaks);
+    let mut normal = normal::touch(&planned.row, &work.predicted, depth, modulus, load, breaks);
+    let nodal;
+    (normal.force, nodal) = planned.row.forces(load, breaks, normal.radius);
+    let mut edge_load = 0.5 * (normal.force - nodal);
     if !normal.force.is_finite() {
         if work.predicted.iter().all(|g| g.is_finite()) {
             return Err(Cause::Overflow { depth });
@@ -105,16 +108,16 @@ fn press(setup: &Setup, work: &mut Workspace, depth: f64) -> Result<(), Cause> {
                 breaks.truncate(breaks.len().saturating_sub(3));
             }
             normal.radius = edge.at.sqrt();
-            normal.force = planned.row.force(load, breaks, normal.radius)
-                + 2.0 * modulus * edge.line_integral();
+            let (force, nodal) = planned.row.forces(load, breaks, normal.radius);
+            normal.force = force + 2.0 * modulus * edge.line_integral();
+            edge_load = 0.5 * (normal.force - nodal);
             work.rim_edge = Some(edge);
         }
     }
-    let nodal = planned.row.force(load, &[], normal.radius);
     work.contact = Contact {
         depth,
         normal,
-        edge_load: 0.5 * (normal.force - nodal),
+        edge_load,
         ..Contact::default()
     };
     Ok(())
@@ -224,7 +227,7 @@ fn increment_for_force(
 
 /// p(r), Pa, of the solved contact by Eq. (3); `modulus` is E*.
 pub(super) fn pressure(work: &Workspace, modulus: f64, out: &mut [f64]) {
-    stress(work, &work.normal_load, &work.normal_breaks, out);
+    stress(work, &work.normal_load, &work.normal_breaks, 0, out);
     if let Some(edge) = &work.rim_edge {
         edge.add_to_stress(modulus, work.planned.grid.squares(), out);
     }
@@ -250,17 +253,24 @@ fn curve(work: &Workspace, load: &[f64], breaks: impl Iterator<Item = Bend>, out
 
 /// τ(r), Pa, of the solved contact by Eq. (3); `modulus` is G*.
 pub(super) fn shear(work: &Workspace, modulus: f64, out: &mut [f64]) {
-    stress(work, &work.spring, &work.spring_breaks, out);
+    shear_from(0, work, modulus, out);
+}
+
+/// The same from the node `first` on; zero further in.
+pub(super) fn shear_from(first: usize, work: &Workspace, modulus: f64, out: &mut [f64]) {
+    stress(work, &work.spring, &work.spring_breaks, first, out);
     curve(work, &work.spring, work.spring_breaks.iter().copied(), out);
+    out[..first].fill(0.0);
     for stress in out {
         *stress *= modulus;
     }
 }
 
-/// Eq. (3) with the breaks of the load and the end of its cusp, and nothing outside the contact.
-fn stress(work: &Workspace, load: &[f64], breaks: &[Bend], out: &mut [f64]) {
+/// Eq. (3) with the breaks of the load and the end of its cusp, and nothing outside the contact; of use
+/// from the node `first` on.
+fn stress(work: &Workspace, load: &[f64], breaks: &[Bend], first: usize, out: &mut [f64]) {
     let planned = &work.planned;
-    planned.plan.stress(load, out);
+    planned.plan.stress_rows(load, out, first..load.len());
     if !planned.has_breaks() {
         return;
     }
@@ -271,6 +281,14 @@ fn stress(work: &Workspace, load: &[f64], breaks: &[Bend], out: &mut [f64]) {
     }
     // The cusp's operator is not causal to the last bit.
     out[contact.nodes..].fill(0.0);
+}
+
+/// The slip of the surface in the step, m, by Eq. (2), into `work.surface_slip`, on the first `nodes`.
+pub(super) fn surface_slip(work: &mut Workspace, nodes: usize) {
+    work.transforms += 1;
+    let (slip, surface) = (&work.slip, &mut work.surface_slip);
+    let plan = &work.planned.plan;
+    plan.displacement_rows(slip, surface, 0..nodes.min(slip.len()));
 }
 
 /// u_x(r), m, of the surface by Eq. (2).

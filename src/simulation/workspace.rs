@@ -41,8 +41,9 @@ pub(super) struct Workspace {
     pub slip_kinks: Vec<(usize, Bend)>,
     /// q_x, N/m.
     pub tangential_load: Vec<f64>,
-    /// The work of friction, J/m.
+    /// The work of friction, J/m, and its breaks.
     pub friction_work: Vec<f64>,
+    pub work_breaks: Vec<Bend>,
     /// p, Pa.
     pub pressure: Vec<f64>,
     /// τ at the end of the step, Pa.
@@ -186,6 +187,7 @@ impl Workspace {
             slip_kinks: Vec::new(),
             tangential_load: vec![0.0; springs],
             friction_work: vec![0.0; springs],
+            work_breaks: Vec::new(),
             pressure: vec![0.0; wearing],
             shear: vec![0.0; wearing],
             working_shear: vec![0.0; wearing],

@@ -56,11 +56,12 @@ pub fn add_to_stress(
 ) {
     let (nodes, t) = (grid.nodes(), grid.squares());
     let mut breaks = breaks.into_iter().peekable();
-    let slope =
-        |k: usize| (load[k + 1] - load[k]) / (t[k + 1] - t[k]) - cusp / (nodes[k] + nodes[k + 1]);
-    let mut before = slope(0);
-    for j in 1..p.len().min(t.len() - 1) {
-        let behind = slope(j);
+    let mut before = 0.0;
+    for j in 0..p.len().min(t.len() - 1) {
+        let mut behind = (load[j + 1] - load[j]) / (t[j + 1] - t[j]);
+        if cusp != 0.0 {
+            behind -= cusp / (nodes[j] + nodes[j + 1]);
+        }
         let mut jump = behind - before;
         before = behind;
         while let Some(bend) = breaks.next_if(|bend| bend.at <= t[j]) {
@@ -68,7 +69,7 @@ pub fn add_to_stress(
                 jump += bend.jump;
             }
         }
-        if j == 1 || !smooth(j) {
+        if j < 2 || !smooth(j) {
             continue;
         }
         let cell = t[j + 1] - t[j];

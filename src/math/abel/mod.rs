@@ -31,6 +31,7 @@
 //! | `a+b` | [`benad::profile`] | [`b::displacement`] | [`benad::stress`] | yes |
 
 use std::fmt;
+use std::ops::Range;
 use std::str::FromStr;
 
 use super::grid::{MAX_CELLS, RadialGrid};
@@ -262,10 +263,28 @@ impl AbelPlan {
         }
     }
 
+    /// [`displacement`](Self::displacement) for a caller who needs some `rows` of `w` alone; the others
+    /// hold something finite.
+    pub fn displacement_rows(&self, u: &[f64], w: &mut [f64], rows: Range<usize>) {
+        match &self.operators {
+            Operators::Dense { displacement, .. } => displacement.apply_rows(u, w, rows),
+            Operators::Fast(fast) => fast.displacement(u, w),
+        }
+    }
+
     /// Eq. (3): the stress `p` (N/m²) of the line load `q` (N/m), both nodal. `q` ends at the grid's edge.
     pub fn stress(&self, q: &[f64], p: &mut [f64]) {
         match &self.operators {
             Operators::Dense { stress, .. } => stress.apply(q, p),
+            Operators::Fast(fast) => fast.stress(q, p),
+        }
+    }
+
+    /// [`stress`](Self::stress) for a caller who needs some `rows` of `p` alone; the others hold something
+    /// finite.
+    pub fn stress_rows(&self, q: &[f64], p: &mut [f64], rows: Range<usize>) {
+        match &self.operators {
+            Operators::Dense { stress, .. } => stress.apply_rows(q, p, rows),
             Operators::Fast(fast) => fast.stress(q, p),
         }
     }

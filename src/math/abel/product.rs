@@ -225,7 +225,7 @@ fn outer_bubble(a: f64, b: f64, r: f64) -> f64 {
 }
 
 /// A = Σ weight × value over nodes 0, 1, 2.
-fn cusp_weights(nodes: &[f64]) -> [f64; 3] {
+pub(crate) fn cusp_weights(nodes: &[f64]) -> [f64; 3] {
     let (first, second) = (nodes[1], nodes[1] + nodes[2]);
     let scale = 1.0 / (1.0 / first - 1.0 / second);
     let inner = scale / (first * first);

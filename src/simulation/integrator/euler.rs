@@ -14,7 +14,7 @@
 
 use super::super::Setup;
 use super::super::breakdown::Cause;
-use super::super::solve::{shear, solve_contact};
+use super::super::solve::{self, solve_contact};
 use super::super::stability;
 use super::super::state::State;
 use super::super::workspace::Workspace;
@@ -70,13 +70,14 @@ pub(super) fn worn(setup: &Setup, state: &State, work: &mut Workspace, cycle: f6
         *work = load * slip;
     }
     if let Some(law) = &setup.wear {
+        // Method B's stress looks one node across.
+        solve::surface_slip(work, work.contact.normal.nodes + 1);
+        let slips = work.surface_slip.iter().position(|&slip| slip != 0.0);
+        let first = slips.unwrap_or(work.surface_slip.len());
         let mut tau = std::mem::take(&mut work.shear);
-        shear(work, setup.material.tangential_modulus(), &mut tau);
+        solve::shear_from(first, work, setup.material.tangential_modulus(), &mut tau);
         work.shear = tau;
-        work.transforms += 2;
-        work.planned
-            .plan
-            .displacement(&work.slip, &mut work.surface_slip);
+        work.transforms += 1;
         work.working_shear.copy_from_slice(&work.shear);
         let seconds = (cycle - state.cycle) * setup.drive.period();
         law.wear(&work.shear, &work.surface_slip, seconds, &mut work.worn);
@@ -85,9 +86,9 @@ pub(super) fn worn(setup: &Setup, state: &State, work: &mut Workspace, cycle: f6
 }
 
 /// 2∫ q_x Δs dx, the integrand falling to zero at the contact's edge.
-fn work_of_friction(work: &Workspace) -> f64 {
+fn work_of_friction(work: &mut Workspace) -> f64 {
     let (normal, squares) = (&work.contact.normal, work.planned.grid.squares());
-    let mut breaks = Vec::new();
+    work.work_breaks.clear();
     if normal.nodes > 0 && normal.nodes < squares.len() {
         let last = normal.nodes - 1;
         let ends = [work.friction_work[last], work.friction_work[last + 1]];
@@ -96,10 +97,10 @@ fn work_of_friction(work: &Workspace) -> f64 {
             [squares[last], squares[last + 1]],
             ends,
             &[edge],
-            &mut breaks,
+            &mut work.work_breaks,
         );
     }
     work.planned
         .row
-        .force(&work.friction_work, &breaks, normal.radius)
+        .force(&work.friction_work, &work.work_breaks, normal.radius)
 }

@@ -119,26 +119,23 @@ fn update_profile_keeping_growth(state: &mut State, work: &mut Workspace) {
 /// Refuses a worn profile that is not finite or far above anything that can touch.
 fn check(setup: &Setup, work: &Workspace) -> Result<(), Cause> {
     let (method, stability) = (setup.method, setup.stability);
-    let (mut highest, mut at) = (0.0, 0);
-    let mut sum = 0.0;
-    for (j, &worn) in work.wear.iter().enumerate() {
-        sum += worn;
-        if worn > highest {
-            (highest, at) = (worn, j);
-        }
-    }
-    if !f64::is_finite(sum) {
+    let highest = work.wear.iter().copied().fold(0.0, f64::max);
+    let deepest = setup.largest_depth().unwrap_or(work.contact.depth);
+    let worn = highest / deepest;
+    // Only a finite profile has a finite volume.
+    let volume = weighted(&work.planned.volume_weights, &work.wear);
+    if !volume.is_finite() || worn == f64::INFINITY && deepest > 0.0 {
         return Err(Cause::NotFinite {
             quantity: "worn profile",
             method,
             stability,
         });
     }
-    let deepest = setup.largest_depth().unwrap_or(work.contact.depth);
-    if highest > RUNAWAY * deepest && deepest > 0.0 {
+    if worn > RUNAWAY && deepest > 0.0 {
+        let at = work.wear.iter().position(|&worn| worn == highest);
         return Err(Cause::Runaway {
-            worn: highest / deepest,
-            radius: setup.grid.nodes()[at],
+            worn,
+            radius: setup.grid.nodes()[at.unwrap_or_default()],
             method,
             stability,
         });

@@ -18,10 +18,9 @@
 //!
 //! # Stability
 //!
-//! The response of p to wear at one node is E* D with D ≈ 0.87/h, and the largest eigenvalue of the
-//! response in units of D is 1.7 on any grid of the product method. With z = 1.7 μ E* D ∂(Δf)/∂τ,
-//! explicit steps stay clean up to z = 0.7. Beyond, the increment leans on the one before,
-//! Δf ← (Δf + ζρ Δf_prev)/(1 + ζ), which keeps the order; a step with z above 2.5 is taken in parts.
+//! At the [stiffness](super::stiffness) z, explicit steps stay clean up to z = 0.7. Beyond, the increment
+//! leans on the one before, Δf ← (Δf + ζρ Δf_prev)/(1 + ζ), which keeps the order; a step with z above 2.5
+//! is taken in [parts](super::parts).
 //!
 //! - **Order**: second. Fig. 3 shows 1.9 to 2.0 from 25 to 400 steps a cycle at K = 0.3, and from 50 to 400
 //!   at K = 1: with longer steps wear next to the border is stiff, z near 1. Turning points cut steps at
@@ -31,7 +30,7 @@
 
 use super::super::Setup;
 use super::super::breakdown::Cause;
-use super::super::solve::{pressure, shear, solve_contact};
+use super::super::solve::{pressure, shear, solve_contact, surface_slip};
 use super::super::state::State;
 use super::super::workspace::Workspace;
 use super::parts::{self, Outcome, Part};
@@ -87,8 +86,8 @@ fn attempt(
         return Ok(Outcome::TooHarsh(stiffness));
     }
     match part {
-        Part::Raw => {}
-        Part::Guarded => soften(state, work, ahead),
+        Part::Guarded if stiffness > MILD => soften(state, work, ahead),
+        Part::Guarded | Part::Raw => {}
         Part::Snap => friction_work *= stiffness::damp(work),
     }
     commit(setup, state, work, cycle, friction_work)?;
@@ -104,7 +103,7 @@ pub(super) fn worn(setup: &Setup, state: &State, work: &mut Workspace, cycle: f6
     }
     let friction_work = work_of_friction(setup, state, work);
     if let Some(law) = &setup.wear {
-        stresses(setup, work);
+        stresses(setup, state, work);
         mean_shear(setup, state, work);
         let seconds = (cycle - state.cycle) * setup.drive.period();
         let (tau, slip) = (&work.working_shear, &work.surface_slip);
@@ -149,7 +148,7 @@ fn kinks_of_slip(work: &mut Workspace, before: &[Bend]) {
 }
 
 /// p and τ at the end of the step, and the slip of the surface in it.
-fn stresses(setup: &Setup, work: &mut Workspace) {
+fn stresses(setup: &Setup, state: &State, work: &mut Workspace) {
     let (mut p, mut tau) = (
         std::mem::take(&mut work.pressure),
         std::mem::take(&mut work.shear),
@@ -157,10 +156,11 @@ fn stresses(setup: &Setup, work: &mut Workspace) {
     pressure(work, setup.material.normal_modulus(), &mut p);
     shear(work, setup.material.tangential_modulus(), &mut tau);
     (work.pressure, work.shear) = (p, tau);
-    work.transforms += 3;
-    work.planned
-        .plan
-        .displacement(&work.slip, &mut work.surface_slip);
+    work.transforms += 2;
+    // What carried a stress before or carries one now wears; method B's stress looks one node across.
+    let before = state.last.pressure.iter().rposition(|&p| p != 0.0);
+    let nodes = before.map_or(0, |last| last + 1);
+    surface_slip(work, nodes.max(work.contact.normal.nodes + 1));
     // Nothing slips within the innermost spring that does.
     let core = work
         .hold
@@ -184,18 +184,19 @@ fn soften(state: &State, work: &mut Workspace, ahead: f64) {
 fn mean_shear(setup: &Setup, state: &State, work: &mut Workspace) {
     let (zone, sign) = outer_slip_zone(&work.hold);
     let friction = sign * setup.material.friction();
-    let (before, after) = (&state.last, (&work.pressure, &work.shear));
-    for (j, mean) in work.working_shear.iter_mut().enumerate() {
-        let (was, is) = (before.shear[j], after.1[j]);
-        *mean = if j >= zone {
-            0.5 * friction * (before.pressure[j] + after.0[j])
-        } else if was * is > 0.0 {
+    let (inner, outer) = work.working_shear.split_at_mut(zone);
+    let shears = state.last.shear.iter().zip(&work.shear);
+    for ((mean, (was, is)), slip) in inner.iter_mut().zip(shears).zip(&work.surface_slip) {
+        let with_slip = if is * slip > 0.0 { 0.5 * is } else { 0.0 };
+        *mean = if was * is > 0.0 {
             0.5 * (was + is)
-        } else if is * work.surface_slip[j] > 0.0 {
-            0.5 * is
         } else {
-            0.0
+            with_slip
         };
+    }
+    let pressures = state.last.pressure[zone..].iter();
+    for (mean, (was, is)) in outer.iter_mut().zip(pressures.zip(&work.pressure[zone..])) {
+        *mean = 0.5 * friction * (was + is);
     }
 }
 

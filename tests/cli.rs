@@ -237,7 +237,7 @@ fn run_writes_the_files_of_the_contract() {
     let table = Table::parse(&desk.read("x/history.csv"));
     assert_eq!(
         table.columns.join(", "),
-        "cycle, time_s, u_z_m, u_x_m, F_z_N, F_x_N, contact_radius_m, stick_radius_m, permanent_stick_radius_m, wear_volume_m3, dissipated_energy_J, energy_residual, max_pressure_Pa, period_energy_residual, force_residual, steps, transforms, evaluated_cycles, rejected_jumps"
+        "cycle, time_s, u_z_m, u_x_m, F_z_N, F_x_N, contact_radius_m, stick_radius_m, permanent_stick_radius_m, wear_volume_m3, dissipated_energy_J, energy_residual, max_pressure_Pa, period_energy_residual, force_residual, steps, transforms, evaluated_cycles, rejected_jumps, stability_margin, parts"
     );
     assert_eq!(table.columns, history::COLUMNS);
     assert_eq!(table.column("cycle"), [0.0, 1.0, 2.0, 3.0, 3.25]);
@@ -461,7 +461,7 @@ fn assert_replays(desk: &Desk, first: &str, second: &str) {
     }
 }
 
-/// Every method with a wear coefficient that is far too large; returns how many broke down.
+/// Every method, unguarded, with a wear coefficient that is far too large; returns how many broke down.
 fn broken_down(scheme: &str) -> i32 {
     let desk = Desk::new();
     let mut breakdowns = 0;
@@ -470,7 +470,8 @@ fn broken_down(scheme: &str) -> i32 {
             let out = format!("{method}-{wear}");
             let line = format!(
                 "run li2019-fig3 --cycles 3.3 --set wear.coefficient={wear} --out {out} --quiet \
-                 --set numerics.method={method} --set numerics.scheme={scheme}"
+                 --set numerics.method={method} --set numerics.scheme={scheme} \
+                 --set numerics.stability=off"
             );
             let said = desk.say(&line.split_whitespace().collect::<Vec<_>>());
             assert!([0, 1].contains(&said.code), "{out}: {}", said.err);
@@ -575,6 +576,56 @@ fn presets_are_listed_and_printed_as_they_stand() {
         desk.done(&format!("run {scenario} --cycles 1 --out {out} --quiet"));
     }
     assert!(desk.read("theirs/state.csv") == desk.read("mine/state.csv"));
+}
+
+#[test]
+fn stability_draws_a_map_and_writes_its_runs() {
+    let desk = Desk::new();
+    let csv = desk.path("map.csv");
+    let csv = csv.to_str().expect("a path");
+    let arguments = [
+        "stability",
+        "li2019-fig3",
+        "--cycles",
+        "3",
+        "--points",
+        "25",
+        "--methods",
+        "a",
+        "--wear-numbers",
+        "1000,1",
+        "--steps",
+        "50",
+        "--guard",
+        "both",
+        "--csv",
+        csv,
+    ];
+    let said = desk.say(&arguments);
+    assert_eq!(said.code, 0, "{}", said.err);
+    for map in [
+        "a, guard off\n    25 .....| ######\n",
+        "a, guard on\n    25 .....| ......\n",
+    ] {
+        assert!(said.out.contains(map), "{}", said.out);
+    }
+    assert!(said.out.contains("critical K"), "{}", said.out);
+    let rows = fs::read_to_string(csv).expect("a file");
+    let rows: Vec<&str> = rows.lines().filter(|line| !line.starts_with('#')).collect();
+    assert_eq!(rows.len(), 5, "{rows:?}");
+    assert!(
+        rows[1].starts_with("a,off,25,50,1e0,stable,"),
+        "{}",
+        rows[1]
+    );
+    assert!(rows[4].starts_with("a,on,25,50,1e3,stable,"), "{}", rows[4]);
+    assert_refused(&desk, &arguments, "exists already");
+    assert_refused(&desk, &["stability", "hertz"], "nothing wears");
+    assert_refused(
+        &desk,
+        &["stability", "li2019-fig3", "--wear-numbers", "-1"],
+        "wear numbers are greater than 0",
+    );
 }
 
 #[test]

@@ -22,6 +22,7 @@ mod progress;
 mod results;
 mod run;
 mod small_multiples;
+mod stability;
 mod stop;
 mod trade;
 mod verify;
@@ -61,6 +62,7 @@ fn dispatch(arguments: Arguments) -> anyhow::Result<ExitCode> {
         Some(Command::Presets(options)) => presets::presets(&options),
         Some(Command::Verify(options)) => verify::verify(&options),
         Some(Command::Trade(options)) => trade::trade(&options),
+        Some(Command::Stability(options)) => stability::stability(&options),
         Some(Command::Completions { shell }) => documents::completions(shell),
         Some(Command::Man) => documents::man(),
     }

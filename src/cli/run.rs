@@ -309,7 +309,8 @@ impl Job {
     }
 
     fn summarize(&self, as_json: bool) -> Result<()> {
-        let moment = self.session.simulation().moment();
+        let simulation = self.session.simulation();
+        let (moment, state) = (simulation.moment(), simulation.state());
         let mut out = io::stdout().lock();
         if as_json {
             let mut summary = serde_json::to_value(moment)?;
@@ -345,6 +346,13 @@ impl Job {
             writeln!(
                 out,
                 "  energy residual         {residual:.1e}   (1 - V/(k E_d))"
+            )?;
+        }
+        let (parts, steps) = (state.effort.parts, state.steps);
+        if parts > 0 {
+            writeln!(
+                out,
+                "  harsh wear              {parts} parts in {steps} steps   (numerics.stability)"
             )?;
         }
         writeln!(

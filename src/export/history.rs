@@ -6,7 +6,7 @@ use super::header::{lines, number, optional};
 use crate::scenario::session::Session;
 
 /// The columns, in order.
-pub const COLUMNS: [&str; 19] = [
+pub const COLUMNS: [&str; 21] = [
     "cycle",
     "time_s",
     "u_z_m",
@@ -26,6 +26,8 @@ pub const COLUMNS: [&str; 19] = [
     "transforms",
     "evaluated_cycles",
     "rejected_jumps",
+    "stability_margin",
+    "parts",
 ];
 
 /// The rows recorded so far, as text.
@@ -108,6 +110,8 @@ fn row(session: &Session) -> String {
         state.effort.transforms.to_string(),
         state.effort.evaluated_cycles.to_string(),
         state.effort.rejected_jumps.to_string(),
+        optional(moment.stability_margin),
+        state.effort.parts.to_string(),
     ]
     .join(",")
 }

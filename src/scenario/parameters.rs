@@ -140,8 +140,8 @@ mod tests {
     use super::*;
     use crate::math::abel::AbelMethod;
     use crate::math::grid::{MAX_CELLS, MIN_CELLS};
-    use crate::scenario::table::{METHODS, SCHEMES, SPACINGS};
-    use crate::simulation::{Scheme, Spacing};
+    use crate::scenario::table::{METHODS, SCHEMES, SPACINGS, STABILITIES};
+    use crate::simulation::{Scheme, Spacing, Stability};
 
     #[test]
     fn every_key_says_what_it_means_and_stands_once() {
@@ -163,6 +163,7 @@ mod tests {
         assert_eq!(AbelMethod::ALL.map(AbelMethod::name), METHODS);
         assert_eq!(Spacing::ALL.map(Spacing::name), SPACINGS);
         assert_eq!(Scheme::ALL.map(Scheme::name), SCHEMES);
+        assert_eq!(Stability::ALL.map(Stability::name), STABILITIES);
         let points = find("numerics.points").expect("a parameter");
         assert_eq!(points.range, format!("from {MIN_CELLS} to {MAX_CELLS}"));
     }

@@ -104,6 +104,7 @@ pub(super) struct RawNumerics {
     pub domain_radius: Option<f64>,
     pub grid: Option<String>,
     pub scheme: Option<String>,
+    pub stability: Option<String>,
     pub integrator: Option<String>,
     pub tolerance: Option<f64>,
 }
@@ -122,6 +123,7 @@ impl Raw {
         if let Some(wear) = &mut self.wear {
             or(&mut wear.law, "archard");
         }
+        or(&mut self.numerics.stability, "sub-step");
         or(&mut self.numerics.integrator, "direct");
         // An accuracy chooses these, and goes on choosing them when it is changed.
         if self.numerics.accuracy.is_none() {

@@ -69,6 +69,8 @@ pub(super) const METHODS: &[&str] = &["product", "a", "a+b", "b", "benad"];
 pub(super) const SPACINGS: &[&str] = &["graded", "uniform"];
 /// How a step is taken, as [`Scheme`](crate::simulation::Scheme) names it.
 pub(super) const SCHEMES: &[&str] = &["trapezoid", "euler"];
+/// What is done about harsh steps, as [`Stability`](crate::simulation::Stability) names it.
+pub(super) const STABILITIES: &[&str] = &["sub-step", "off"];
 const CONTROLS: Kind = Kind::Choice(&["displacement", "force"]);
 const PRESCRIBED: &str = "m, or N where control = \"force\"";
 
@@ -314,6 +316,12 @@ pub const PARAMETERS: &[Parameter] = &[
         "",
         Kind::Choice(SCHEMES),
         "how a time step is taken; the default follows the method",
+    ),
+    key(
+        "numerics.stability",
+        "",
+        Kind::Choice(STABILITIES),
+        "whether steps too harsh for the method are taken in parts, or as they are",
     ),
     key(
         "numerics.integrator",

@@ -53,6 +53,10 @@ pub(super) fn setup(raw: &Raw, table: &Table, origin: &Origin) -> Result<Setup, 
             Some(name) => name.parse().map_err(refused)?,
             None => scheme,
         },
+        stability: parts
+            .require(numerics.stability.as_deref(), "numerics.stability")?
+            .parse()
+            .map_err(refused)?,
         steps_per_cycle: parts.steps_per_cycle()?,
         integrator: Integrator::new(
             &parts.require(numerics.integrator.clone(), "numerics.integrator")?,

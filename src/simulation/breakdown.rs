@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use super::choices::Stability;
 use crate::math::abel::AbelMethod;
 
 /// A step that could not be taken. The state is that of the last good step.
@@ -18,12 +19,14 @@ pub struct Breakdown {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Cause {
     /// A NaN or an infinity in the contact or in the worn profile.
-    #[error("the {quantity} is not finite; {}", advice(*method))]
+    #[error("the {quantity} is not finite; {}", advice(*method, *stability))]
     NotFinite {
         /// Which quantity was seen first.
         quantity: &'static str,
         /// The transform method in use.
         method: AbelMethod,
+        /// Whether harsh steps were taken in parts.
+        stability: Stability,
     },
     /// A contact whose force no f64 holds.
     #[error(
@@ -38,7 +41,7 @@ pub enum Cause {
     #[error(
         "the wear runs away: {} times the largest depth at r = {radius:.4e} m; {}",
         short(*worn),
-        advice(*method)
+        advice(*method, *stability)
     )]
     Runaway {
         /// Largest worn depth in units of the largest depth of indentation.
@@ -47,6 +50,8 @@ pub enum Cause {
         radius: f64,
         /// The transform method in use.
         method: AbelMethod,
+        /// Whether harsh steps were taken in parts.
+        stability: Stability,
     },
     /// The contact has grown to the last node.
     #[error(
@@ -60,13 +65,15 @@ pub enum Cause {
     /// The contact has grown to where the unworn indenter stands too high to touch.
     #[error(
         "the contact reaches {radius:.4e} m, where nothing can touch at this depth: the profile has blown up; {}",
-        advice(*method)
+        advice(*method, *stability)
     )]
     BlownUp {
         /// L, m.
         radius: f64,
         /// The transform method in use.
         method: AbelMethod,
+        /// Whether harsh steps were taken in parts.
+        stability: Stability,
     },
     /// A prescribed normal force that no depth carries.
     #[error(
@@ -102,7 +109,7 @@ fn short(value: f64) -> String {
 }
 
 /// What is likely behind a state that blows up, by method.
-fn advice(method: AbelMethod) -> &'static str {
+fn advice(method: AbelMethod, stability: Stability) -> &'static str {
     match method {
         AbelMethod::Benad => {
             "method benad amplifies errors in every round trip f -> g -> f; \
@@ -111,6 +118,10 @@ fn advice(method: AbelMethod) -> &'static str {
         AbelMethod::B => {
             "method b grows teeth at large wear coefficients; \
              numerics.method = \"product\" or more numerics.steps_per_cycle would help"
+        }
+        _ if stability == Stability::Off => {
+            "the wear of a step is too large for the grid; numerics.stability = \"sub-step\", \
+             more numerics.steps_per_cycle, fewer numerics.points or a smaller wear.coefficient would help"
         }
         AbelMethod::Product | AbelMethod::A | AbelMethod::APlusB => {
             "the wear of a step is too large for the grid; more numerics.steps_per_cycle, \

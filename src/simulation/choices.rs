@@ -24,6 +24,15 @@ pub enum Scheme {
     Trapezoid,
 }
 
+/// What is done about steps whose wear answers too stiffly to the stress.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Stability {
+    /// They are taken in parts.
+    SubStep,
+    /// Nothing: the raw method, as the paper saw it.
+    Off,
+}
+
 /// How cycles are gone through.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Integrator {
@@ -89,6 +98,19 @@ impl Scheme {
     }
 }
 
+impl Stability {
+    /// Every choice.
+    pub const ALL: [Self; 2] = [Self::SubStep, Self::Off];
+
+    /// The name in scenarios and files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::SubStep => "sub-step",
+            Self::Off => "off",
+        }
+    }
+}
+
 fn by_name<T: Copy>(
     field: &'static str,
     all: &[T],
@@ -127,6 +149,14 @@ impl FromStr for Scheme {
     }
 }
 
+impl FromStr for Stability {
+    type Err = Invalid;
+
+    fn from_str(name: &str) -> Result<Self, Invalid> {
+        by_name("stability", &Self::ALL, Self::name, name)
+    }
+}
+
 impl fmt::Display for Spacing {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(self.name())
@@ -162,6 +192,9 @@ mod tests {
         }
         for scheme in Scheme::ALL {
             assert_eq!(scheme.name().parse(), Ok(scheme));
+        }
+        for stability in Stability::ALL {
+            assert_eq!(stability.name().parse(), Ok(stability));
         }
         assert_eq!(
             "heun".parse::<Scheme>().map_err(|refusal| refusal.field),

@@ -21,11 +21,12 @@ mod moments;
 pub mod observation;
 mod saved;
 mod solve;
+pub mod stability;
 pub mod state;
 mod workspace;
 
 pub use breakdown::{Breakdown, Cause};
-pub use choices::{Integrator, Scheme, Spacing};
+pub use choices::{Integrator, Scheme, Spacing, Stability};
 use drive::{Drive, LONGEST_REPEAT};
 pub use observation::{Curves, Moment, Observation, Zone};
 pub use saved::{Saved, Unfit};
@@ -53,6 +54,8 @@ pub struct Setup {
     pub spacing: Spacing,
     /// How a step in time is taken.
     pub scheme: Scheme,
+    /// What is done about steps that are too harsh.
+    pub stability: Stability,
     /// Steps a cycle, at least 1.
     pub steps_per_cycle: u32,
     /// How cycles are gone through.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bitflags::bitflags;
 use serde::Serialize;
 
-use super::{Simulation, solve};
+use super::{Simulation, solve, stability};
 use crate::contact::tangential::Hold;
 use crate::math::abel::AbelMethod;
 use crate::math::quadrature::volume_of_revolution;
@@ -85,6 +85,9 @@ pub struct Moment {
     /// 1 − V/∫k dE_d: how far the 3D side and the 1D side disagree. None before anything has worn
     /// and under laws that do not follow energy.
     pub energy_residual: Option<f64>,
+    /// The largest stiffness that the method bears, over that of the last step, or of its harshest part:
+    /// below 1 wear grows teeth. None before anything has worn.
+    pub stability_margin: Option<f64>,
 }
 
 /// The scalars and the curves that were asked for; a curve that was not is empty.
@@ -146,6 +149,8 @@ impl Simulation {
             dissipated_energy: state.dissipated_energy,
             period_residual: state.period.residual,
             energy_residual: (state.expected_volume > 0.0).then_some(residual),
+            stability_margin: (state.last.stiffness > 0.0)
+                .then(|| stability::limit(self.setup().scheme) / state.last.stiffness),
         }
     }
 

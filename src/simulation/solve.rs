@@ -78,6 +78,7 @@ fn press(setup: &Setup, work: &mut Workspace, depth: f64) -> Result<(), Cause> {
         return Err(Cause::NotFinite {
             quantity: "normal force",
             method: setup.method,
+            stability: setup.stability,
         });
     }
     let last = setup.grid.cells();
@@ -89,6 +90,7 @@ fn press(setup: &Setup, work: &mut Workspace, depth: f64) -> Result<(), Cause> {
             Cause::BlownUp {
                 radius,
                 method: setup.method,
+                stability: setup.stability,
             }
         } else {
             Cause::EdgeReached {

@@ -50,6 +50,8 @@ pub struct Effort {
     pub contacts: u64,
     /// Transforms between the 3D contact and its 1D image.
     pub transforms: u64,
+    /// Parts of steps that were too harsh to be taken whole.
+    pub parts: u64,
     /// Cycles gone through on a frozen profile, for jumps.
     pub evaluated_cycles: u64,
     /// Jumps made.
@@ -108,6 +110,8 @@ pub struct LastStep {
     /// Its length in cycles; 0 where the motion turned, or something else broke the smoothness, so
     /// that nothing is to be extrapolated from it.
     pub duration: f64,
+    /// The largest stiffness z of a node in it, or in its harshest part; 0 without wear.
+    pub stiffness: f64,
     /// What g grew by, m, nodal.
     pub growth: Vec<f64>,
     /// What f grew by, m, nodal.

@@ -231,6 +231,10 @@ const EFFECTS: &[(&str, &str)] = &[
         "trapezoid: second order in time; euler: the paper's",
     ),
     (
+        "numerics.stability",
+        "sub-step: harsh steps in parts; off: the raw method",
+    ),
+    (
         "numerics.integrator",
         "direct: every step; cycle-jump: over cycles that are alike",
     ),

@@ -183,6 +183,7 @@ mod tests {
             dissipated_energy: 0.0,
             period_residual: None,
             energy_residual: None,
+            stability_margin: None,
         }
     }
 

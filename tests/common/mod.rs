@@ -7,7 +7,7 @@ use mdr_tui::contact::material::Material;
 use mdr_tui::math::abel::AbelMethod;
 use mdr_tui::math::grid::RadialGrid;
 use mdr_tui::simulation::drive::{Control, Drive, Oscillation};
-use mdr_tui::simulation::{Integrator, Scheme, Setup, Simulation, Spacing};
+use mdr_tui::simulation::{Integrator, Scheme, Setup, Simulation, Spacing, Stability};
 use mdr_tui::wear::WearLaw;
 
 /// The parts of a run as plain values; a test names only what differs from the default.
@@ -58,6 +58,7 @@ impl From<Scene> for Setup {
             method: scene.method,
             spacing: Spacing::Uniform,
             scheme: Scheme::Euler,
+            stability: Stability::Off,
             steps_per_cycle: scene.steps,
             integrator: Integrator::Direct,
         }
@@ -70,6 +71,7 @@ pub fn ours(scene: Scene) -> Setup {
         method: AbelMethod::Product,
         spacing: Spacing::Graded,
         scheme: Scheme::Trapezoid,
+        stability: Stability::SubStep,
         ..Setup::from(scene)
     }
 }

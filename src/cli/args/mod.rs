@@ -9,7 +9,7 @@ use crate::tui::Size;
 mod studies;
 mod values;
 
-pub use studies::{Rows, Trade, Verify};
+pub use studies::{Guard, Rows, Stability, Trade, Verify};
 pub use values::{ColorChoice, CycleAsGiven, HistoryChoice, Interval, MarkerChoice, ThemeChoice};
 use values::{cycles, interval};
 
@@ -47,6 +47,8 @@ pub enum Command {
     Verify(Verify),
     /// Measure speed against accuracy: one scenario by many settings.
     Trade(Trade),
+    /// Map the wear coefficients that each method bears: stable, teeth, exploded.
+    Stability(Stability),
     /// Print a completion script for a shell.
     #[command(
         after_help = "Example:\n  mdr-tui completions bash > ~/.local/share/bash-completion/completions/mdr-tui"

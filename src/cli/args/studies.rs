@@ -2,13 +2,15 @@
 
 use std::path::PathBuf;
 
-use clap::{Arg, Args};
+use clap::{Arg, Args, ValueEnum};
 
 use super::Changes;
-use super::values::{MarkerChoice, accuracy, cycles, method_parser, points, problem_parser};
+use super::values::{
+    MarkerChoice, accuracy, cycles, method_parser, points, problem_parser, wear_number,
+};
 use crate::math::abel::AbelMethod;
-use crate::studies::trade;
 use crate::studies::verify::{LADDER, Problem};
+use crate::studies::{stability, trade};
 
 /// Options of `verify`.
 #[derive(Debug, Args)]
@@ -107,6 +109,73 @@ pub struct Trade {
     /// What is said.
     #[command(flatten)]
     pub printing: Printing,
+}
+
+/// Options of `stability`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    mdr-tui stability li2019-fig3                         every method as it was published\n  \
+    mdr-tui stability li2019-fig3 --guard both --methods product,b\n  \
+    mdr-tui stability mine.toml --points 100 --wear-numbers 1,3,10,30 --csv map.csv")]
+#[command(mut_args = in_words(&[
+    ("csv", "Write all runs to this file"),
+    ("json", "Print all runs as JSON instead of maps"),
+]))]
+pub struct Stability {
+    /// A preset's name, or a path to a .toml file.
+    pub scenario: String,
+    /// Changes to the scenario.
+    #[command(flatten)]
+    pub changes: Changes,
+    /// How many cycles to run.
+    #[arg(long, value_name = "X", value_parser = cycles, allow_hyphen_values = true, default_value_t = 20.0)]
+    pub cycles: f64,
+    /// The methods to try; default: all.
+    #[arg(long, value_name = "M1,M2,...", value_delimiter = ',', value_parser = method_parser())]
+    pub methods: Vec<AbelMethod>,
+    /// The numbers of grid cells N to try.
+    #[arg(
+        long,
+        value_name = "N1,N2,...",
+        value_delimiter = ',',
+        value_parser = points,
+        allow_hyphen_values = true,
+        default_values_t = stability::POINTS
+    )]
+    pub points: Vec<usize>,
+    /// The wear numbers K = k E* d/a to try, d and a at the beginning.
+    #[arg(
+        long,
+        value_name = "K1,K2,...",
+        value_delimiter = ',',
+        value_parser = wear_number,
+        allow_hyphen_values = true,
+        default_values_t = stability::WEAR_NUMBERS
+    )]
+    pub wear_numbers: Vec<f64>,
+    /// The steps a cycle.
+    #[arg(long, value_name = "S", value_parser = clap::value_parser!(u32).range(1..=100_000), default_value_t = 100)]
+    pub steps: u32,
+    /// Whether steps that are too harsh are taken in parts.
+    #[arg(long, value_enum, default_value_t = Guard::Off)]
+    pub guard: Guard,
+    /// The file of the rows.
+    #[command(flatten)]
+    pub rows: Rows,
+    /// What is said.
+    #[command(flatten)]
+    pub printing: Printing,
+}
+
+/// What `stability` does about harsh steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Guard {
+    /// The raw method.
+    Off,
+    /// Parts.
+    On,
+    /// One after the other.
+    Both,
 }
 
 /// The file that a study writes its rows to.

@@ -137,6 +137,13 @@ pub(super) fn points(text: &str) -> Result<usize, String> {
     }
 }
 
+pub(super) fn wear_number(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if value > 0.0 && value <= 1e6 => Ok(value),
+        _ => Err("wear numbers are greater than 0 and at most 1e6, e.g. 0.3,3,30".into()),
+    }
+}
+
 pub(super) fn accuracy(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value > 0.0 && value <= 1.0 => Ok(value),

@@ -15,10 +15,17 @@
 use super::super::Setup;
 use super::super::breakdown::Cause;
 use super::super::solve::{self, solve_contact};
+use super::super::stability;
 use super::super::state::State;
 use super::super::workspace::Workspace;
-use super::commit;
+use super::parts::{self, Outcome, Part};
+use super::{commit, stiffness};
 use crate::math::abel::bend;
+
+/// The stiffness beyond which a step is taken in parts, and that of the parts, in limits: an explicit
+/// step at its limit rings, at half of it no error changes its sign.
+const HARSH: f64 = 0.5;
+const AIM: f64 = 0.4;
 
 /// One step from the state's cycle to `cycle`.
 pub(super) fn step(
@@ -27,10 +34,28 @@ pub(super) fn step(
     work: &mut Workspace,
     cycle: f64,
 ) -> Result<(), Cause> {
-    work.predicted.copy_from_slice(&work.g);
-    solve_contact(setup, state, work, cycle)?;
-    let friction_work = worn(setup, state, work, cycle);
-    commit(setup, state, work, cycle, friction_work)
+    let limit = stability::limit(setup.scheme);
+    parts::step(
+        setup.stability,
+        AIM * limit,
+        state,
+        cycle,
+        |state, reach, part| {
+            work.predicted.copy_from_slice(&work.g);
+            solve_contact(setup, state, work, reach)?;
+            let mut friction_work = worn(setup, state, work, reach);
+            let stiffness = stiffness::of_step(setup, work, reach - state.cycle);
+            match part {
+                Part::Guarded if stiffness > HARSH * limit => {
+                    return Ok(Outcome::TooHarsh(stiffness));
+                }
+                Part::Guarded | Part::Raw => {}
+                Part::Snap => friction_work *= stiffness::damp(work),
+            }
+            commit(setup, state, work, reach, friction_work)?;
+            Ok(Outcome::Done(stiffness))
+        },
+    )
 }
 
 /// What the step that the contact has been solved for wears (m, into `work.worn`), and its work of

@@ -11,6 +11,7 @@ use crate::math::quadrature::weighted;
 
 mod cycle_jump;
 mod euler;
+mod parts;
 mod settled;
 mod stiffness;
 mod trapezoid;
@@ -36,6 +37,7 @@ pub(super) fn settle(setup: &Setup, state: &mut State, work: &mut Workspace) -> 
         pressure: vec![0.0; nodes],
         shear: vec![0.0; nodes],
         duration: 0.0,
+        stiffness: 0.0,
     };
     pressure(work, setup.material.normal_modulus(), &mut last.pressure);
     if setup.drive.tangential().is_some() {
@@ -116,7 +118,7 @@ fn update_profile_keeping_growth(state: &mut State, work: &mut Workspace) {
 
 /// Refuses a worn profile that is not finite or far above anything that can touch.
 fn check(setup: &Setup, work: &Workspace) -> Result<(), Cause> {
-    let method = setup.method;
+    let (method, stability) = (setup.method, setup.stability);
     let highest = work.wear.iter().copied().fold(0.0, f64::max);
     let deepest = setup.largest_depth().unwrap_or(work.contact.depth);
     let worn = highest / deepest;
@@ -126,6 +128,7 @@ fn check(setup: &Setup, work: &Workspace) -> Result<(), Cause> {
         return Err(Cause::NotFinite {
             quantity: "worn profile",
             method,
+            stability,
         });
     }
     if worn > RUNAWAY && deepest > 0.0 {
@@ -134,6 +137,7 @@ fn check(setup: &Setup, work: &Workspace) -> Result<(), Cause> {
             worn,
             radius: setup.grid.nodes()[at.unwrap_or_default()],
             method,
+            stability,
         });
     }
     Ok(())

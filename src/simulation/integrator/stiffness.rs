@@ -2,28 +2,26 @@
 //!
 //! # Formula
 //!
-//! The response of p to wear at one node is E* D with D ≈ 0.87/h, h the width of its cell, and the
-//! largest eigenvalue of the response in units of D is 1.7 on any grid of the product method. Wear
-//! that answers to the stress with ∂Δf/∂τ therefore feeds back with
+//! Wear that answers to the stress with ∂Δf/∂τ feeds back, at a node with cells of the width h, with
 //!
 //! ```text
-//! z = 1.48 μ E* ∂Δf/∂τ / h,       k s for ∂Δf/∂τ under Archard's law
+//! z = ρ μ E* ∂Δf/∂τ / h,       k s for ∂Δf/∂τ under Archard's law
 //! ```
 //!
-//! An explicit step is stable for z < 2.
+//! ρ the [largest eigenvalue](super::super::stability::response) of the response of p to wear.
 
 use super::super::Setup;
+use super::super::stability::response;
 use super::super::workspace::Workspace;
-
-/// Largest eigenvalue of the response of p to wear times its diagonal, 1.7 · 0.87, per cell's width.
-const RESPONSE: f64 = 1.48;
+use crate::math::quadrature::weighted;
 
 /// The stiffness z of every node in the step of `duration` cycles that has just been worn, into
 /// `work.stiffness`; returns the largest.
 pub(super) fn of_step(setup: &Setup, work: &mut Workspace, duration: f64) -> f64 {
     let Some(law) = &setup.wear else { return 0.0 };
     let seconds = duration * setup.drive.period();
-    let scale = RESPONSE * setup.material.friction() * setup.material.normal_modulus();
+    let scale =
+        response(setup.method) * setup.material.friction() * setup.material.normal_modulus();
     let points = work.working_shear.iter().zip(&work.surface_slip);
     let mut stiffest: f64 = 0.0;
     for ((z, width), (&tau, &slip)) in work
@@ -39,4 +37,19 @@ pub(super) fn of_step(setup: &Setup, work: &mut Workspace, duration: f64) -> f64
         }
     }
     stiffest
+}
+
+/// Lets every node wear what an implicit step with its own response alone would, Δf/(1 + z): monotone for
+/// any z. Returns the share of the wear that is left: that of the stress which is left at the end of the
+/// step, and so that of the work of friction.
+pub(super) fn damp(work: &mut Workspace) -> f64 {
+    let explicit = weighted(&work.planned.volume_weights, &work.worn);
+    for (worn, z) in work.worn.iter_mut().zip(&work.stiffness) {
+        *worn /= 1.0 + z;
+    }
+    if explicit > 0.0 {
+        weighted(&work.planned.volume_weights, &work.worn) / explicit
+    } else {
+        1.0
+    }
 }

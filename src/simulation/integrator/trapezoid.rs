@@ -18,11 +18,9 @@
 //!
 //! # Stability
 //!
-//! The response of p to wear at one node is E* D with D ≈ 0.87/h, and the largest eigenvalue of the
-//! response in units of D is 1.7 on any grid of the product method. With z = 1.7 μ E* D ∂(Δf)/∂τ,
-//! explicit steps stay clean up to z = 0.7. Beyond, the increment leans on the one before,
-//! Δf ← (Δf + ζρ Δf_prev)/(1 + ζ), which keeps the order; a step with z above 2.5 is taken in parts.
-//! The smallest part is 1/64 of the step and is taken as Δf/(1 + z), monotone for any z.
+//! At the [stiffness](super::stiffness) z, explicit steps stay clean up to z = 0.7. Beyond, the increment
+//! leans on the one before, Δf ← (Δf + ζρ Δf_prev)/(1 + ζ), which keeps the order; a step with z above 2.5
+//! is taken in [parts](super::parts).
 //!
 //! - **Order**: second. Fig. 3 shows 1.9 to 2.0 from 25 to 400 steps a cycle at K = 0.3, and from 50 to 400
 //!   at K = 1: with longer steps wear next to the border is stiff, z near 1. Turning points cut steps at
@@ -35,6 +33,7 @@ use super::super::breakdown::Cause;
 use super::super::solve::{pressure, shear, solve_contact, surface_slip};
 use super::super::state::State;
 use super::super::workspace::Workspace;
+use super::parts::{self, Outcome, Part};
 use super::{commit, stiffness};
 use crate::contact::tangential::Hold;
 use crate::math::abel::bend::{self, Bend};
@@ -42,12 +41,9 @@ use crate::math::abel::bend::{self, Bend};
 /// The most that the profile is looked ahead, in lengths of the step before.
 const FARTHEST: f64 = 4.0;
 
-/// Stiffness up to which a step is explicit, and beyond which it is taken in parts.
+/// Stiffness up to which a step is explicit, as parts are, and beyond which it is taken in parts.
 const MILD: f64 = 0.7;
 const HARSH: f64 = 2.5;
-
-/// The smallest part of a step.
-const SMALLEST_PART: f64 = 1.0 / 64.0;
 
 /// One step from the state's cycle to `cycle`, in parts where wear is harsh.
 pub(super) fn step(
@@ -56,42 +52,9 @@ pub(super) fn step(
     work: &mut Workspace,
     cycle: f64,
 ) -> Result<(), Cause> {
-    let whole = cycle - state.cycle;
-    // A step that fails in a later part must leave nothing of its earlier ones.
-    let mut before = None;
-    let mut part = 1.0;
-    while state.cycle < cycle {
-        let left = cycle - state.cycle;
-        let in_parts = part * whole < left * (1.0 - 1e-9);
-        let reach = if in_parts {
-            state.cycle + part * whole
-        } else {
-            cycle
-        };
-        if in_parts && before.is_none() {
-            before = Some(state.clone());
-        }
-        match attempt(setup, state, work, reach, part <= SMALLEST_PART) {
-            Ok(Outcome::TooHarsh(stiffness)) => part = (2.0 * part / stiffness).max(SMALLEST_PART),
-            Ok(Outcome::Done(stiffness)) => {
-                if stiffness < 1.2 {
-                    part = (1.5 * part).min(1.0);
-                }
-            }
-            Err(cause) => {
-                if let Some(before) = before {
-                    *state = before;
-                }
-                return Err(cause);
-            }
-        }
-    }
-    Ok(())
-}
-
-enum Outcome {
-    Done(f64),
-    TooHarsh(f64),
+    parts::step(setup.stability, MILD, state, cycle, |state, reach, part| {
+        attempt(setup, state, work, reach, part)
+    })
 }
 
 fn attempt(
@@ -99,10 +62,10 @@ fn attempt(
     state: &mut State,
     work: &mut Workspace,
     cycle: f64,
-    floor: bool,
+    part: Part,
 ) -> Result<Outcome, Cause> {
     let duration = cycle - state.cycle;
-    let smooth = state.last.duration > 0.0 && !floor;
+    let smooth = state.last.duration > 0.0 && part != Part::Snap;
     let ahead = if smooth {
         (duration / state.last.duration).min(FARTHEST)
     } else {
@@ -117,10 +80,15 @@ fn attempt(
         *predicted = g + ahead * growth;
     }
     solve_contact(setup, state, work, cycle)?;
-    let friction_work = worn(setup, state, work, cycle);
-    let stiffness = soften(setup, state, work, duration, ahead, floor);
-    if stiffness > HARSH && !floor {
+    let mut friction_work = worn(setup, state, work, cycle);
+    let stiffness = stiffness::of_step(setup, work, duration);
+    if stiffness > HARSH && part == Part::Guarded {
         return Ok(Outcome::TooHarsh(stiffness));
+    }
+    match part {
+        Part::Guarded if stiffness > MILD => soften(state, work, ahead),
+        Part::Guarded | Part::Raw => {}
+        Part::Snap => friction_work *= stiffness::damp(work),
     }
     commit(setup, state, work, cycle, friction_work)?;
     Ok(Outcome::Done(stiffness))
@@ -202,29 +170,14 @@ fn stresses(setup: &Setup, state: &State, work: &mut Workspace) {
     work.surface_slip[..core].fill(0.0);
 }
 
-/// Lets nodes with a stiff response wear less than explicitly; returns the largest stiffness z of a
-/// node.
-fn soften(
-    setup: &Setup,
-    state: &State,
-    work: &mut Workspace,
-    duration: f64,
-    ahead: f64,
-    floor: bool,
-) -> f64 {
-    let stiffest = stiffness::of_step(setup, work, duration);
-    if stiffest <= MILD && !floor {
-        return stiffest;
-    }
+/// Lets nodes with a stiff response wear less than explicitly.
+fn soften(state: &State, work: &mut Workspace, ahead: f64) {
     for (j, (worn, &z)) in work.worn.iter_mut().zip(&work.stiffness).enumerate() {
-        if floor {
-            *worn /= 1.0 + z;
-        } else if z > MILD {
+        if z > MILD {
             let lean = 0.625 * (z - MILD);
             *worn = (*worn + lean * ahead * state.last.wear[j]) / (1.0 + lean);
         }
     }
-    stiffest
 }
 
 /// The stress that wears: its mean over the step, by zones.

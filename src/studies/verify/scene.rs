@@ -6,7 +6,7 @@ use crate::math::abel::AbelMethod;
 use crate::math::grid::RadialGrid;
 use crate::math::invalid::Invalid;
 use crate::simulation::drive::{Control, Drive, Oscillation};
-use crate::simulation::{Integrator, Scheme, Setup, Spacing};
+use crate::simulation::{Integrator, Scheme, Setup, Spacing, Stability};
 use crate::wear::WearLaw;
 
 /// μ.
@@ -77,6 +77,7 @@ impl Scene {
             method: self.method,
             spacing: self.spacing,
             scheme: self.scheme,
+            stability: Stability::Off,
             integrator: Integrator::Direct,
             steps_per_cycle: STEPS,
         })

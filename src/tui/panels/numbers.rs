@@ -57,6 +57,9 @@ fn rows(frame: &Frame, ascii: bool) -> Vec<(&'static str, String)> {
     if let Some(residual) = moment.energy_residual {
         rows.push(("1 - V/(k E_d)", format_number(residual, 2)));
     }
+    if let Some(margin) = moment.stability_margin {
+        rows.push(("stability margin", format_number(margin, 2)));
+    }
     if let Some(cost) = frame.step_cost {
         rows.push(("a step costs", value(cost, "s")));
     }

@@ -1,0 +1,108 @@
+//! `mdr-tui stability`: how harsh a wear each method bears.
+
+use std::io::{self, Write};
+use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use anyhow::Result;
+
+use super::args::{Guard, Stability};
+use super::{FAILED, Misuse, progress, results, stop};
+use crate::export::header::number;
+use crate::math::abel::AbelMethod;
+use crate::scenario::Scenario;
+use crate::studies::stability::report::{boundaries, maps, runs};
+use crate::studies::stability::{Line, Setting, Study};
+
+/// Runs the study and prints, draws and writes what was asked for.
+pub fn stability(options: &Stability) -> Result<ExitCode> {
+    options.rows.check()?;
+    let scenario = Scenario::load(&options.scenario, &options.changes.set)?;
+    let title = scenario.title().to_owned();
+    let Some(study) = Study::new(scenario, options.cycles)? else {
+        let message = format!(
+            "{}: nothing wears, or nothing touches at the beginning; wear needs [wear] and contact",
+            options.scenario
+        );
+        return Err(Misuse(message).into());
+    };
+    let stop = stop::signal()?;
+    let (lines, interrupted) = lines(&study, options, &stop)?;
+    let mut notes = vec![format!(
+        "{title}, {} cycles, {} steps a cycle: K = k E* d/a at the beginning",
+        number(options.cycles),
+        options.steps
+    )];
+    if interrupted {
+        notes.push("interrupted: the last line is not complete".to_owned());
+    }
+    let table = || runs(&lines).csv();
+    options.rows.write("stability", &notes, table)?;
+    let mut out = io::stdout().lock();
+    if options.printing.json {
+        results::print_json(&runs(&lines), &mut out)?;
+    } else {
+        for note in &notes {
+            writeln!(out, "{note}")?;
+        }
+        writeln!(
+            out,
+            ". stable  ~ teeth  # exploded  | where the limit is predicted\n"
+        )?;
+        write!(out, "{}{}", maps(&lines), boundaries(&lines).text())?;
+    }
+    Ok(match interrupted {
+        true => ExitCode::from(FAILED),
+        false => ExitCode::SUCCESS,
+    })
+}
+
+/// Every line of the study, or those that were done when it was stopped, and whether it was.
+fn lines(study: &Study, options: &Stability, stop: &AtomicBool) -> Result<(Vec<Line>, bool)> {
+    let settings = settings(options);
+    let mut wear_numbers = options.wear_numbers.clone();
+    wear_numbers.sort_by(f64::total_cmp);
+    let length = settings.len() * wear_numbers.len();
+    let behind = "{pos} of {len}  {elapsed} gone";
+    let bar = progress::bar(length as u64, behind, options.printing.quiet);
+    let go_on = || !stop.load(Ordering::Relaxed);
+    let (mut lines, mut interrupted) = (Vec::new(), false);
+    for setting in settings {
+        let name = format!("{}, N = {}", setting.method, setting.points);
+        bar.set_message(name);
+        bar.tick();
+        let (line, stopped) = study.line(setting, &wear_numbers, &go_on, |_| bar.inc(1))?;
+        lines.push(line);
+        if stopped {
+            interrupted = true;
+            break;
+        }
+    }
+    bar.finish_and_clear();
+    Ok((lines, interrupted))
+}
+
+/// Method by method, guard by guard, grid by grid.
+fn settings(options: &Stability) -> Vec<Setting> {
+    let methods = match options.methods.as_slice() {
+        [] => &AbelMethod::ALL,
+        some => some,
+    };
+    let guards: &[bool] = match options.guard {
+        Guard::Off => &[false],
+        Guard::On => &[true],
+        Guard::Both => &[false, true],
+    };
+    let mut settings = Vec::new();
+    for &method in methods {
+        for &guard in guards {
+            settings.extend(options.points.iter().map(|&points| Setting {
+                method,
+                points,
+                steps: options.steps,
+                guard,
+            }));
+        }
+    }
+    settings
+}

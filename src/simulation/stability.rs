@@ -1,0 +1,119 @@
+//! How harsh a step each method bears: known before the step is taken.
+//!
+//! # Formula
+//!
+//! The pressure answers to a worn depth δ by −E* M δ, M the matrix of Eq. (3) after Eq. (1). With its
+//! largest eigenvalue ρ/h, h the width of a cell, wear that answers to the stress by ∂Δf/∂τ feeds back
+//! by z = ρ μ E* ∂Δf/∂τ/h. A step multiplies the stiffest error by the largest root λ of
+//!
+//! ```text
+//! Euler:      λ = 1 − z                                       stable for z < 2
+//! trapezoid:  λ³ − λ² + ½z (2λ² + λ − 1) = 0                  stable for z < 2/√3
+//! ```
+//!
+//! the second from the mean of two stresses, each on a profile looked ahead. M of methods product, a,
+//! a+b and benad has positive eigenvalues alone. That of method b has some next to 0, which variable slip
+//! turns unstable, and benad's Eq. (2) amplifies errors of its own: both fail where no step is short enough.
+
+use nalgebra::Matrix3;
+
+use super::choices::Scheme;
+use crate::math::abel::AbelMethod;
+
+/// ρ: the largest eigenvalue of the response of p to wear, times the cell's width.
+pub fn response(method: AbelMethod) -> f64 {
+    match method {
+        // 1.51 on equal cells; this is what graded ones were measured with.
+        AbelMethod::Product => 1.48,
+        AbelMethod::A | AbelMethod::APlusB | AbelMethod::Benad => 1.51,
+        AbelMethod::B => 0.34,
+    }
+}
+
+/// Whether short enough steps are stable.
+pub fn follows_steps(method: AbelMethod) -> bool {
+    match method {
+        AbelMethod::Product | AbelMethod::A | AbelMethod::APlusB => true,
+        AbelMethod::B | AbelMethod::Benad => false,
+    }
+}
+
+/// The largest z of a stable step.
+pub fn limit(scheme: Scheme) -> f64 {
+    match scheme {
+        Scheme::Euler => 2.0,
+        Scheme::Trapezoid => 2.0 / 3.0_f64.sqrt(),
+    }
+}
+
+/// By how much a step of the stiffness z multiplies the stiffest error.
+pub fn amplification(scheme: Scheme, z: f64) -> f64 {
+    match scheme {
+        Scheme::Euler => (1.0 - z).abs(),
+        Scheme::Trapezoid => {
+            let companion = Matrix3::new(1.0 - z, -0.5 * z, 0.5 * z, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0);
+            let roots = companion.complex_eigenvalues();
+            roots.iter().map(|root| root.norm()).fold(0.0, f64::max)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::abel::AbelPlan;
+    use crate::math::grid::RadialGrid;
+    use nalgebra::DMatrix;
+
+    /// M h on equal cells, within a contact of three quarters of them; r = 0, which never wears, left out.
+    fn response_matrix(method: AbelMethod, cells: usize) -> DMatrix<f64> {
+        let grid = RadialGrid::uniform(cells, 1.0).expect("a grid");
+        let plan = AbelPlan::new(method, &grid);
+        let (nodes, contact) = (grid.len(), cells * 3 / 4);
+        let mut matrix = DMatrix::zeros(contact - 1, contact - 1);
+        let (mut load, mut stress) = (vec![0.0; nodes], vec![0.0; nodes]);
+        for j in 1..contact {
+            let mut worn = vec![0.0; nodes];
+            worn[j] = 1.0;
+            plan.profile(&worn, &mut load);
+            load[contact..].fill(0.0);
+            plan.stress(&load, &mut stress);
+            for i in 1..contact {
+                matrix[(i - 1, j - 1)] = stress[i] / cells as f64;
+            }
+        }
+        matrix
+    }
+
+    #[test]
+    fn the_response_is_the_largest_eigenvalue_of_each_method() {
+        for method in AbelMethod::ALL {
+            let eigenvalues = response_matrix(method, 100).complex_eigenvalues();
+            let largest = eigenvalues.iter().map(|z| z.norm()).fold(0.0, f64::max);
+            let error = (response(method) / largest - 1.0).abs();
+            assert!(error < 0.02, "{method}: {largest}");
+            let smallest = eigenvalues
+                .iter()
+                .map(|z| z.re)
+                .fold(f64::INFINITY, f64::min);
+            assert_eq!(
+                smallest > 1e-3,
+                method != AbelMethod::B,
+                "{method}: {smallest}"
+            );
+        }
+    }
+
+    #[test]
+    fn errors_grow_beyond_the_limit_and_not_before() {
+        for scheme in Scheme::ALL {
+            let limit = limit(scheme);
+            assert!(
+                (amplification(scheme, limit) - 1.0).abs() < 1e-9,
+                "{scheme}"
+            );
+            assert!(amplification(scheme, 0.99 * limit) < 1.0, "{scheme}");
+            assert!(amplification(scheme, 1.01 * limit) > 1.0, "{scheme}");
+        }
+    }
+}

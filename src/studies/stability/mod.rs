@@ -1,0 +1,237 @@
+//! Where wear grows teeth: a scenario run over a ladder of wear coefficients, by every method and on
+//! every grid, and what the largest eigenvalue of the method's response had predicted.
+
+use std::ops::ControlFlow;
+
+use crate::math::abel::AbelMethod;
+use crate::scenario::session::{Session, SessionError};
+use crate::scenario::{Change, Scenario};
+use crate::simulation::stability;
+
+pub mod report;
+mod teeth;
+
+pub use teeth::teeth;
+
+/// Numbers of cells that are tried.
+pub const POINTS: [usize; 4] = [25, 50, 100, 200];
+
+/// Wear numbers K that are tried: half decades.
+pub const WEAR_NUMBERS: [f64; 9] = [0.1, 0.316, 1.0, 3.16, 10.0, 31.6, 100.0, 316.0, 1000.0];
+
+/// Teeth are what exceeds this over N², in largest depths. The bends of smooth profiles come to 12/N²:
+/// that is what runs with the guard end with, at any wear number and N from 25 to 200.
+pub const VISIBLE: f64 = 36.0;
+
+/// The wear number at which the stiffness of a step is read: nothing has changed shape by then.
+const MILD: f64 = 1e-3;
+
+/// Halvings of the interval, on the scale of ratios, in which the boundary lies.
+const HALVINGS: u32 = 3;
+
+/// Steps of one percent in which the boundary is looked for, from where the stiffest step has its limit.
+const REACH: i32 = 300;
+
+/// What is run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Setting {
+    /// The transforms; grid and scheme are those that go with them, unless the scenario says so.
+    pub method: AbelMethod,
+    /// N.
+    pub points: usize,
+    /// Steps a cycle.
+    pub steps: u32,
+    /// Whether harsh steps are taken in parts.
+    pub guard: bool,
+}
+
+/// How a run ended.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Outcome {
+    /// Smooth to the end.
+    Stable,
+    /// At the end, with teeth of this height together, in largest depths.
+    Teeth(f64),
+    /// After some cycles, for a reason.
+    Exploded {
+        /// Cycles that it held.
+        cycle: f64,
+        /// In a plain word.
+        reason: String,
+    },
+}
+
+/// The scenario and how long it is run.
+#[derive(Debug, Clone)]
+pub struct Study {
+    scenario: Scenario,
+    cycles: f64,
+    /// k of K = 1, 1/Pa.
+    unit: f64,
+}
+
+/// What the runs of one setting told.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Line {
+    /// How it was run.
+    pub setting: Setting,
+    /// The wear numbers of the ladder that were tried, and what came of them.
+    pub outcomes: Vec<(f64, Outcome)>,
+    /// The wear number from which the stiffest error grows over a cycle; none where nothing slips, and
+    /// for methods whose limit is no matter of the step.
+    pub predicted: Option<f64>,
+    /// The smallest wear number at which teeth were seen, to a seventh; none if they never were.
+    pub seen: Option<f64>,
+}
+
+impl Study {
+    /// Of a scenario that wears, over `cycles`. None if nothing wears, or nothing touches at the
+    /// beginning: K = k E* d/a, with the depth and the contact radius there.
+    pub fn new(scenario: Scenario, cycles: f64) -> Result<Option<Self>, SessionError> {
+        let session = Session::start(scenario.clone())?;
+        let moment = session.simulation().moment();
+        let modulus = scenario.setup().material.normal_modulus();
+        let unit = moment.contact_radius / (modulus * moment.depth);
+        let wears = scenario.setup().wear.is_some();
+        Ok((wears && unit.is_finite() && unit > 0.0).then_some(Self {
+            scenario,
+            cycles,
+            unit,
+        }))
+    }
+
+    fn start(&self, setting: Setting, wear_number: f64) -> Result<Session, SessionError> {
+        let stability = if setting.guard { "sub-step" } else { "off" };
+        let keys = [
+            ("numerics.method", setting.method.name().to_owned()),
+            ("numerics.points", setting.points.to_string()),
+            ("numerics.steps_per_cycle", setting.steps.to_string()),
+            ("numerics.stability", stability.to_owned()),
+            ("numerics.integrator", "direct".to_owned()),
+            ("wear.coefficient", format!("{:e}", wear_number * self.unit)),
+        ];
+        let scenario = keys
+            .iter()
+            .try_fold(self.scenario.clone(), |scenario, (key, value)| {
+                scenario.after(&Change::new(0.0, key, value))
+            })?;
+        Session::start(scenario)
+    }
+
+    /// Runs one setting at one wear number; breaks off if `go_on` says no.
+    fn run(
+        &self,
+        setting: Setting,
+        wear_number: f64,
+        go_on: &dyn Fn() -> bool,
+    ) -> ControlFlow<(), Result<Outcome, SessionError>> {
+        let mut session = match self.start(setting, wear_number) {
+            Ok(session) => session,
+            Err(error) => return ControlFlow::Continue(Err(error)),
+        };
+        while session.simulation().cycle() < self.cycles {
+            if !go_on() {
+                return ControlFlow::Break(());
+            }
+            match session.step_until(self.cycles) {
+                Ok(()) => {}
+                Err(SessionError::Breakdown(breakdown)) => {
+                    return ControlFlow::Continue(Ok(Outcome::Exploded {
+                        cycle: breakdown.cycle,
+                        reason: breakdown.cause.to_string(),
+                    }));
+                }
+                Err(error) => return ControlFlow::Continue(Err(error)),
+            }
+        }
+        let simulation = session.simulation();
+        let depth = simulation.setup().largest_depth();
+        let depth = depth.unwrap_or(simulation.state().depth);
+        let height = teeth(&simulation.state().wear) / depth;
+        ControlFlow::Continue(Ok(if height > VISIBLE / (setting.points as f64).powi(2) {
+            Outcome::Teeth(height)
+        } else {
+            Outcome::Stable
+        }))
+    }
+
+    /// The wear number from which the stiffest error grows over a cycle: z rises and falls with the
+    /// speed of the slip, and steps that damp an error make up for some that do not.
+    fn predict(&self, setting: Setting) -> Result<Option<f64>, SessionError> {
+        let mut session = self.start(setting, MILD)?;
+        let mut stiffness = Vec::new();
+        // The first cycle lets the springs settle.
+        while session.simulation().cycle() < 2.0 {
+            session.step_until(2.0)?;
+            let simulation = session.simulation();
+            if simulation.cycle() > 1.0 {
+                stiffness.push(simulation.state().last.stiffness);
+            }
+        }
+        let setup = session.simulation().setup();
+        let stiffest = stiffness.iter().copied().fold(0.0, f64::max);
+        if !stability::follows_steps(setup.method) || stiffest <= 0.0 {
+            return Ok(None);
+        }
+        let grows = |factor: f64| {
+            let logs = stiffness
+                .iter()
+                .map(|z| stability::amplification(setup.scheme, factor * z).ln());
+            logs.sum::<f64>() > 0.0
+        };
+        let at_limit = stability::limit(setup.scheme) / stiffest;
+        let rungs = (0..REACH).map(|rung| at_limit * 1.01_f64.powi(rung));
+        Ok(rungs
+            .into_iter()
+            .find(|&factor| grows(factor))
+            .map(|factor| MILD * factor))
+    }
+
+    /// Runs the ladder, and then between its last stable and its first other rung to find the boundary.
+    /// `on_run` hears of every rung. If `go_on` says no, what is done is returned with `true`.
+    pub fn line(
+        &self,
+        setting: Setting,
+        wear_numbers: &[f64],
+        go_on: &dyn Fn() -> bool,
+        mut on_run: impl FnMut(f64),
+    ) -> Result<(Line, bool), SessionError> {
+        let mut line = Line {
+            setting,
+            outcomes: Vec::new(),
+            predicted: self.predict(setting)?,
+            seen: None,
+        };
+        let (mut below, mut above) = (None, None);
+        for &wear_number in wear_numbers {
+            let ControlFlow::Continue(outcome) = self.run(setting, wear_number, go_on) else {
+                return Ok((line, true));
+            };
+            let outcome = outcome?;
+            match (&outcome, above) {
+                (Outcome::Stable, None) => below = Some(wear_number),
+                (Outcome::Teeth(_) | Outcome::Exploded { .. }, None) => above = Some(wear_number),
+                _ => {}
+            }
+            line.outcomes.push((wear_number, outcome));
+            on_run(wear_number);
+        }
+        let (Some(mut low), Some(mut high)) = (below, above) else {
+            // Teeth on the lowest rung: the boundary lies below the ladder.
+            line.seen = above;
+            return Ok((line, false));
+        };
+        for _ in 0..HALVINGS {
+            let middle = (low * high).sqrt();
+            let ControlFlow::Continue(outcome) = self.run(setting, middle, go_on) else {
+                return Ok((line, true));
+            };
+            match outcome? {
+                Outcome::Stable => low = middle,
+                Outcome::Teeth(_) | Outcome::Exploded { .. } => high = middle,
+            }
+        }
+        line.seen = Some(high);
+        Ok((line, false))
+    }
+}

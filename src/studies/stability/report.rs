@@ -1,0 +1,204 @@
+//! What a stability study found: a map a method, the runs, the boundaries.
+
+use std::fmt::Write;
+
+use super::{Line, Outcome};
+use crate::studies::table::{Cell, Column, Format, Table};
+
+impl Outcome {
+    /// The word for it in tables.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Stable => "stable",
+            Self::Teeth(_) => "teeth",
+            Self::Exploded { .. } => "exploded",
+        }
+    }
+
+    /// The mark for it in maps.
+    fn mark(&self) -> char {
+        match self {
+            Self::Stable => '.',
+            Self::Teeth(_) => '~',
+            Self::Exploded { .. } => '#',
+        }
+    }
+}
+
+impl Line {
+    /// The seen boundary in units of the predicted one.
+    pub fn ratio(&self) -> Option<f64> {
+        Some(self.seen? / self.predicted?)
+    }
+}
+
+fn guard(line: &Line) -> Cell {
+    Cell::Words(if line.setting.guard { "on" } else { "off" }.to_owned())
+}
+
+/// A row a run.
+pub fn runs(lines: &[Line]) -> Table {
+    let mut table = Table::new(vec![
+        Column::new("method", Format::Words),
+        Column::new("guard", Format::Words),
+        Column::new("points", Format::Count),
+        Column::new("steps_per_cycle", Format::Count),
+        Column::new("wear_number", Format::Rough),
+        Column::new("outcome", Format::Words),
+        Column::new("exploded_at_cycle", Format::Fixed),
+        Column::new("teeth", Format::Rough),
+        Column::new("predicted_wear_number", Format::Rough),
+        Column::new("reason", Format::Words),
+    ]);
+    for line in lines {
+        for (wear_number, outcome) in &line.outcomes {
+            let (mut cycle, mut teeth, mut why) = (Cell::Missing, Cell::Missing, Cell::Missing);
+            match outcome {
+                Outcome::Stable => {}
+                Outcome::Teeth(height) => teeth = Cell::Number(*height),
+                Outcome::Exploded { cycle: at, reason } => {
+                    cycle = Cell::Number(*at);
+                    why = Cell::Words(reason.clone());
+                }
+            }
+            table.push(vec![
+                Cell::Words(line.setting.method.name().to_owned()),
+                guard(line),
+                Cell::Count(line.setting.points),
+                Cell::Count(line.setting.steps as usize),
+                Cell::Number(*wear_number),
+                Cell::Words(outcome.name().to_owned()),
+                cycle,
+                teeth,
+                line.predicted.into(),
+                why,
+            ]);
+        }
+    }
+    table
+}
+
+/// A row a method and grid: where the boundary was predicted, and where it was seen.
+pub fn boundaries(lines: &[Line]) -> Table {
+    let mut table = Table::new(vec![
+        Column::new("method", Format::Words),
+        Column::new("guard", Format::Words),
+        Column::new("points", Format::Count),
+        Column::grouped("critical K", "predicted", Format::Rough),
+        Column::grouped("critical K", "seen", Format::Rough),
+        Column::grouped("critical K", "ratio", Format::Fixed),
+    ]);
+    for line in lines {
+        table.push(vec![
+            Cell::Words(line.setting.method.name().to_owned()),
+            guard(line),
+            Cell::Count(line.setting.points),
+            line.predicted.into(),
+            line.seen.into(),
+            line.ratio().into(),
+        ]);
+    }
+    table
+}
+
+/// Width of a rung in a map.
+const RUNG: usize = 7;
+
+/// A map a method and guard: a row a grid, a column a wear number, `|` where the boundary is predicted.
+pub fn maps(lines: &[Line]) -> String {
+    let mut text = String::new();
+    let kind = |line: &Line| (line.setting.method, line.setting.guard);
+    for group in lines.chunk_by(|a, b| kind(a) == kind(b)) {
+        let Some(first) = group.iter().max_by_key(|line| line.outcomes.len()) else {
+            continue;
+        };
+        let guard = if first.setting.guard { "on" } else { "off" };
+        let _ = writeln!(text, "{}, guard {guard}", first.setting.method);
+        for line in group {
+            let _ = writeln!(
+                text,
+                "{:>6} {}",
+                line.setting.points,
+                strip(line).trim_end()
+            );
+        }
+        let rungs = first
+            .outcomes
+            .iter()
+            .map(|(k, _)| format!("{:<RUNG$}", short(*k)));
+        let rungs: String = rungs.collect();
+        let _ = writeln!(text, "  N  K={}\n", rungs.trim_end());
+    }
+    text
+}
+
+/// One row of a map.
+fn strip(line: &Line) -> String {
+    let marks = line.outcomes.iter().map(|(_, outcome)| outcome.mark());
+    let mut strip: Vec<char> = marks
+        .flat_map(|mark| std::iter::repeat_n(mark, RUNG - 1).chain([' ']))
+        .collect();
+    if let Some(predicted) = line.predicted {
+        let place = line.outcomes.windows(2).enumerate().find_map(|(i, pair)| {
+            let (low, high) = (pair[0].0, pair[1].0);
+            let share = (predicted / low).ln() / (high / low).ln();
+            (0.0..1.0)
+                .contains(&share)
+                .then(|| i * RUNG + (share * RUNG as f64) as usize)
+        });
+        if let Some(place) = place {
+            strip[place] = '|';
+        }
+    }
+    strip.into_iter().collect()
+}
+
+fn short(value: f64) -> String {
+    format!("{value}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::abel::AbelMethod;
+    use crate::studies::stability::Setting;
+
+    fn line() -> Line {
+        let exploded = Outcome::Exploded {
+            cycle: 2.5,
+            reason: "it blew, up".into(),
+        };
+        Line {
+            setting: Setting {
+                method: AbelMethod::A,
+                points: 50,
+                steps: 100,
+                guard: false,
+            },
+            outcomes: vec![
+                (1.0, Outcome::Stable),
+                (10.0, Outcome::Teeth(0.5)),
+                (100.0, exploded),
+            ],
+            predicted: Some(8.0),
+            seen: Some(4.0),
+        }
+    }
+
+    #[test]
+    fn a_map_marks_each_rung_and_the_prediction() {
+        let expected = "a, guard off\n    50 ......|~~~~~~ ######\n  N  K=1      10     100\n\n";
+        assert_eq!(maps(&[line()]), expected);
+        assert_eq!(line().ratio(), Some(0.5));
+    }
+
+    #[test]
+    fn tables_tell_when_and_why() {
+        let csv = runs(&[line()]).csv();
+        assert!(
+            csv.contains("a,off,50,100,1e2,exploded,2.5e0,,8e0,\"it blew, up\"\n"),
+            "{csv}"
+        );
+        assert!(boundaries(&[line()]).text().contains("0.50"));
+    }
+}

@@ -14,6 +14,7 @@ use mdr_tui::oracle::cattaneo_mindlin::CattaneoMindlin;
 use mdr_tui::oracle::dual_oscillation::{DualOscillation, Frequencies};
 use mdr_tui::oracle::limiting_profile::LimitingProfile;
 use mdr_tui::oracle::partial_slip::stiffness_ratio;
+use mdr_tui::scenario::Scenario;
 use mdr_tui::simulation::{Curves, Scheme, Setup, Simulation, Spacing, State};
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_3, FRAC_PI_4};
 
@@ -372,13 +373,11 @@ fn order(errors: &[(f64, f64)]) -> f64 {
     -mean(&|u, v| (u - x) * (v - y)) / mean(&|u, _| (u - x) * (u - x))
 }
 
-/// V against k E_d, in parts of k E_d: over the run, in its first cycle, and in its worst cycle; and
-/// the share of the cycles in which they agree to 1e-3.
+/// V against k E_d, in parts of k E_d: over the run, in its first cycle, and in its worst cycle.
 struct Balance {
     whole: f64,
     first: f64,
     worst: f64,
-    good: f64,
 }
 
 fn balance(scene: Scene, cycles: u32) -> Balance {
@@ -390,34 +389,69 @@ fn balance(scene: Scene, cycles: u32) -> Balance {
             simulation.moment().period_residual.map_or(0.0, f64::abs)
         })
         .collect();
-    let good = residuals.iter().filter(|&&residual| residual <= 1e-3);
     Balance {
         whole: simulation.moment().energy_residual.expect("wear").abs(),
         first: residuals[0],
         worst: residuals.iter().copied().fold(0.0, f64::max),
-        good: good.count() as f64 / f64::from(cycles),
     }
 }
 
-/// The whole run keeps 2e-4, but not each of its cycles keeps 1e-3: next to the rim of the worn zone the pressure
-/// in the rim's cell is steeper than its nodes say, so wear there lags behind the work; when the rim
-/// passes the next node, the volume of that cell jumps by some percent of a cycle's wear and pays part
-/// of it back. That shrinks with the cells, with order 1.6; the bounds on
-/// single cycles are measured ones with a margin.
+/// Every cycle keeps V = kE_d to 1e-3, V by its rate, and what a cycle wears at N = 100 is what it wears
+/// at N = 400; the profile's own V, which leaps when the rim of the worn zone passes a node, keeps 2e-4 of
+/// the whole run.
 #[test]
 fn what_has_worn_is_what_friction_has_worked() {
-    for (cells, worst, good) in [(100, 7e-2, 0.38), (200, 1.9e-2, 0.7), (400, 5e-3, 0.87)] {
+    for (cells, worst) in [(100, 7e-4), (200, 3e-4), (400, 1.1e-4)] {
         let found = balance(fig3(0.3, cells, 100), 199);
         let what = |name: &str| format!("{name} of Fig. 3 at N = {cells}");
         holds(&what("residual"), found.whole, 2e-4);
         holds(&what("residual of the first cycle"), found.first, 1e-3);
         holds(&what("largest residual of a cycle"), found.worst, worst);
-        assert!(
-            found.good >= good,
-            "{}: {}",
-            what("good cycles"),
-            found.good
-        );
+    }
+    let rates = |cells| -> Vec<f64> {
+        let mut simulation = Simulation::new(ours(fig3(0.3, cells, 100))).expect("a contact");
+        let mut before = 0.0;
+        let rates = (1..=60).map(|cycle| {
+            simulation.advance_to(f64::from(cycle)).expect("a cycle");
+            let volume = simulation.moment().wear_volume_by_rate;
+            volume - std::mem::replace(&mut before, volume)
+        });
+        rates.collect()
+    };
+    let (coarse, fine) = (rates(100), rates(400));
+    let errors = coarse.iter().zip(&fine).map(|(a, b)| (a / b - 1.0).abs());
+    holds("rate of wear at N = 100", errors.fold(0.0, f64::max), 1e-3);
+}
+
+/// So do the presets in every period in which more than 1e-4 of all wear is worn. Left out: the flat
+/// punch, whose pressure is infinite at its rim; explicit steps of method a; jumps over cycles.
+#[test]
+fn every_period_of_the_presets_wears_what_it_has_worked() {
+    for (name, bound) in [
+        ("li2019-fig3", 1e-3),
+        // With 40 steps a cycle, at K = 3.
+        ("limit-shape", 1.4e-3),
+        ("gross-slip", 1e-3),
+        ("separation", 1e-3),
+        ("two-frequencies", 1e-3),
+        ("cone", 1e-3),
+        ("truncated-paraboloid", 1e-3),
+        ("truncated-cone", 1e-3),
+        ("strong-wear", 1e-3),
+    ] {
+        let scenario = Scenario::load(name, &[]).expect("a preset");
+        let mut simulation = Simulation::new(scenario.setup().clone()).expect("a contact");
+        let (mut worst, mut volume) = (0.0_f64, 0.0);
+        for cycle in 1..=100 {
+            simulation.advance_to(f64::from(cycle)).expect("a cycle");
+            let moment = simulation.moment();
+            let worn = moment.wear_volume_by_rate - volume;
+            volume = moment.wear_volume_by_rate;
+            if worn > 1e-4 * volume {
+                worst = worst.max(moment.period_residual.map_or(0.0, f64::abs));
+            }
+        }
+        holds(&format!("largest residual of {name}"), worst, bound);
     }
 }
 

@@ -287,6 +287,11 @@ impl Simulation {
         Ok(())
     }
 
+    /// The integral of the rate of wear over surface and time, m³.
+    pub(crate) fn wear_volume_by_rate(&self) -> f64 {
+        volume_by_rate(&self.state, &self.workspace)
+    }
+
     /// Worn volume 2π∫(f − f₀) r dr, m³.
     pub fn wear_volume(&self) -> f64 {
         worn_volume(&self.workspace)
@@ -295,11 +300,18 @@ impl Simulation {
 
 /// 2π∫(f − f₀) r dr of the profile as it stands, m³.
 fn worn_volume(work: &Workspace) -> f64 {
-    let rim = work
-        .rim
-        .as_ref()
-        .map_or(0.0, |rim| rim.volume(&work.planned.grid));
-    weighted(&work.planned.volume_weights, &work.wear) + rim
+    weighted(&work.planned.volume_weights, &work.wear) + at_rim(work)
+}
+
+/// The integral of the rate of wear over surface and time, m³.
+fn volume_by_rate(state: &State, work: &Workspace) -> f64 {
+    weighted(&work.planned.volume_weights, &work.wear) + state.volume_between_nodes
+}
+
+/// What the kink at the rim of the worn zone adds to the interpolant of the nodes, m³.
+fn at_rim(work: &Workspace) -> f64 {
+    let rim = work.rim.as_ref();
+    rim.map_or(0.0, |rim| rim.volume(&work.planned.grid))
 }
 
 /// Cycles after which the permanent stick radius is read anew: the common period of the motion.

@@ -76,11 +76,14 @@ pub struct Moment {
     pub stick_radius: Option<f64>,
     /// The smallest c of the last period of the motion, m.
     pub permanent_stick_radius: Option<f64>,
-    /// V, m³.
+    /// V of the profile, m³.
     pub wear_volume: f64,
+    /// V as the rates of wear add up to, those between the nodes at the contact's edge included, m³: it
+    /// grows evenly, where that of the profile leaps when the rim of the worn zone passes a node.
+    pub wear_volume_by_rate: f64,
     /// E_d, J.
     pub dissipated_energy: f64,
-    /// 1 − ΔV/∫k dE_d over the last complete period of the motion.
+    /// 1 − ΔV/∫k dE_d over the last complete period of the motion, V by its rate.
     pub period_residual: Option<f64>,
     /// 1 − V/∫k dE_d: how far the 3D side and the 1D side disagree. None before anything has worn
     /// and under laws that do not follow energy.
@@ -146,6 +149,7 @@ impl Simulation {
                 .stick_radius
                 .map(|stick| state.permanent_stick_radius().min(stick)),
             wear_volume,
+            wear_volume_by_rate: self.wear_volume_by_rate(),
             dissipated_energy: state.dissipated_energy,
             period_residual: state.period.residual,
             energy_residual: (state.expected_volume > 0.0).then_some(residual),

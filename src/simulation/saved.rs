@@ -8,7 +8,7 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::workspace::{LastGood, Workspace};
+use super::workspace::{Contact, Workspace};
 use super::{Setup, Simulation, State};
 use crate::math::grid::RadialGrid;
 
@@ -18,7 +18,7 @@ pub struct Saved {
     nodes: Vec<f64>,
     border: Option<usize>,
     state: State,
-    good: LastGood,
+    contact: Contact,
     /// Transforms not yet counted as effort.
     transforms: u64,
 }
@@ -52,7 +52,7 @@ impl Simulation {
             nodes: self.setup.grid.nodes().to_vec(),
             border: self.setup.grid.border(),
             state: self.state.clone(),
-            good: self.workspace.good.clone(),
+            contact: self.workspace.good,
             transforms: self.workspace.transforms,
         }
     }
@@ -66,9 +66,9 @@ impl Simulation {
             return Err(Unfit::new("grid", "is not that of the scenario"));
         }
         let setup = Setup { grid, ..setup };
-        check(&setup, &saved.state, &saved.good)?;
+        check(&setup, &saved.state, &saved.contact)?;
         let mut workspace = Workspace::new(&setup, None);
-        workspace.good = saved.good;
+        workspace.good = saved.contact;
         workspace.show_last_good(&setup, &saved.state);
         workspace.transforms = saved.transforms;
         let mut simulation = Self {
@@ -83,7 +83,7 @@ impl Simulation {
 }
 
 /// Refuses what cannot have come out of a step on this setup.
-fn check(setup: &Setup, state: &State, good: &LastGood) -> Result<(), Unfit> {
+fn check(setup: &Setup, state: &State, contact: &Contact) -> Result<(), Unfit> {
     let nodes = setup.grid.len();
     let springs = match setup.drive.tangential() {
         Some(_) => nodes,
@@ -123,7 +123,7 @@ fn check(setup: &Setup, state: &State, good: &LastGood) -> Result<(), Unfit> {
             return Err(Unfit::new(what, "is not finite"));
         }
     }
-    if good.contact.normal.nodes > nodes {
+    if contact.normal.nodes > nodes {
         return Err(Unfit::new("contact", "reaches beyond the grid"));
     }
     Ok(())

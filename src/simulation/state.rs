@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::tangential::Hold;
 use crate::math::abel::bend::Bend;
+use crate::math::abel::rim::RimEdge;
 
 /// What is saved, restored, and carried over when a method or a law is switched.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -35,6 +36,8 @@ pub struct State {
     pub dissipated_energy: f64,
     /// The part of the volume that a law in proportion to friction work must have worn, ∫k dE_d, m³.
     pub expected_volume: f64,
+    /// What the rates of wear have taken between nodes beyond the interpolant of the nodes, m³.
+    pub volume_between_nodes: f64,
     /// Volume worn under other laws, m³: left out where wear is compared with work.
     pub unexplained_volume: f64,
     /// The smallest stick radius since the cycle began, m.
@@ -80,6 +83,8 @@ pub struct SettledCycle {
     pub wear: Vec<f64>,
     /// Work of friction, J.
     pub friction_work: f64,
+    /// Wear between nodes beyond their interpolant, m³; none where that is not known.
+    pub beyond_nodes: Option<f64>,
     /// The largest stiffness of a node: h cycles at once are explicitly stable for h times this < 2.
     pub stiffness: f64,
     /// The smallest stick radius, m.
@@ -118,6 +123,10 @@ pub struct LastStep {
     pub wear: Vec<f64>,
     /// q_z at its end, N/m, nodal.
     pub normal_load: Vec<f64>,
+    /// The breaks of q_z at its end, N/m.
+    pub normal_breaks: Vec<Bend>,
+    /// The contact's edge at its end, where it lies in the cell of the rim.
+    pub rim_edge: Option<RimEdge>,
     /// ∫ of the breaks of q_z at its end, N.
     pub edge_load: f64,
     /// The breaks of u_x at its end, m.
@@ -145,6 +154,7 @@ impl State {
             period: PeriodBalance::default(),
             dissipated_energy: 0.0,
             expected_volume: 0.0,
+            volume_between_nodes: 0.0,
             unexplained_volume: 0.0,
             smallest_stick_radius: f64::INFINITY,
             settled_stick_radius: None,

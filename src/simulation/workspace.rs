@@ -58,21 +58,15 @@ pub(super) struct Workspace {
     pub moments: Vec<f64>,
     /// What the step wears, m.
     pub worn: Vec<f64>,
+    /// What the step wears between nodes beyond their interpolant, m³; none where that is not known.
+    pub beyond_nodes: Option<f64>,
     /// f − f₀ after the step, m.
     pub wear: Vec<f64>,
     /// Transforms computed since they were last counted.
     pub transforms: u64,
     pub contact: Contact,
-    pub good: LastGood,
-}
-
-/// What the state does not tell of the last good step.
-#[derive(Debug, Clone, Default, Serialize, Deserialize)]
-pub(super) struct LastGood {
-    pub contact: Contact,
-    normal_breaks: Vec<Bend>,
-    spring_breaks: Vec<Bend>,
-    rim_edge: Option<RimEdge>,
+    /// The contact of the last good step.
+    pub good: Contact,
 }
 
 /// What depends on the grid, the method and the indenter alone.
@@ -195,27 +189,25 @@ impl Workspace {
             stiffness: vec![0.0; wearing],
             moments: jump_moments(setup),
             worn: vec![0.0; nodes],
+            beyond_nodes: None,
             wear: vec![0.0; nodes],
             transforms: 0,
             contact: Contact::default(),
-            good: LastGood::default(),
+            good: Contact::default(),
         }
     }
 
     /// Notes that the contact as solved is good.
     pub fn keep_as_good(&mut self) {
-        self.good.contact = self.contact;
-        self.good.normal_breaks.clone_from(&self.normal_breaks);
-        self.good.spring_breaks.clone_from(&self.spring_breaks);
-        self.good.rim_edge = self.rim_edge;
+        self.good = self.contact;
     }
 
     /// Takes the contact of the last good step back, after one that failed.
     pub fn show_last_good(&mut self, setup: &Setup, state: &State) {
-        self.contact = self.good.contact;
-        self.normal_breaks.clone_from(&self.good.normal_breaks);
-        self.spring_breaks.clone_from(&self.good.spring_breaks);
-        self.rim_edge = self.good.rim_edge;
+        self.contact = self.good;
+        self.normal_breaks.clone_from(&state.last.normal_breaks);
+        self.spring_breaks.clone_from(&state.last.spring_breaks);
+        self.rim_edge = state.last.rim_edge;
         self.normal_load.copy_from_slice(&state.last.normal_load);
         self.spring.copy_from_slice(&state.spring);
         self.hold.copy_from_slice(&state.hold);

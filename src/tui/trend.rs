@@ -21,6 +21,8 @@ pub struct Cycle {
     pub stick_radius: f64,
     /// Worn volume at the end, m³.
     pub wear_volume: f64,
+    /// The same as the rates of wear add up to, m³.
+    pub volume_by_rate: f64,
     /// What the work of friction says of it, k E_d, m³; NaN where the law does not follow energy.
     pub expected_volume: f64,
     /// Volume worn in a cycle, m³, on average over the entry.
@@ -102,6 +104,7 @@ impl Trend {
             contact_radius: moment.contact_radius,
             stick_radius: moment.stick_radius.unwrap_or(f64::NAN),
             wear_volume: moment.wear_volume,
+            volume_by_rate: moment.wear_volume_by_rate,
             expected_volume: moment
                 .energy_residual
                 .map_or(f64::NAN, |residual| moment.wear_volume / (1.0 - residual)),
@@ -113,9 +116,9 @@ impl Trend {
         let (start, volume) = self
             .cycles
             .last()
-            .map_or((0.0, 0.0), |entry| (entry.cycle, entry.wear_volume));
+            .map_or((0.0, 0.0), |entry| (entry.cycle, entry.volume_by_rate));
         merged.wear_rate = if merged.cycle > start {
-            (merged.wear_volume - volume) / (merged.cycle - start)
+            (merged.volume_by_rate - volume) / (merged.cycle - start)
         } else {
             f64::NAN
         };
@@ -180,6 +183,7 @@ mod tests {
             stick_radius: Some(stick),
             permanent_stick_radius: Some(stick),
             wear_volume: cycle,
+            wear_volume_by_rate: cycle,
             dissipated_energy: 0.0,
             period_residual: None,
             energy_residual: None,

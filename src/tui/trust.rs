@@ -33,6 +33,11 @@ pub fn certificates(frame: &Frame) -> Vec<Certificate> {
         moment.period_residual,
     );
     add(
+        "volume",
+        "V of the profile against k E_d since the start",
+        moment.energy_residual,
+    );
+    add(
         "force",
         "F_z of the springs against the integral of p",
         frame.force_residual,

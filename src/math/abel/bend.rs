@@ -10,6 +10,7 @@
 //! (1)  g(x) = 2x J √(x² − t_m)₊
 //! (2)  w(r) = (2/π) J [(r²/2 − t_m) acos(x_m/r) + ½ x_m √(r² − t_m)]    for r > x_m
 //! (3)  p(r) = (2/π) J √(t_m − r²)₊
+//!      ∫ p dt = (4/3π) J (t_m − t)₊^{3/2}  from t to t_m
 //!      ∫₀ᴸ dx = J (L − x_m)² (L + 2x_m)/3
 //! ```
 //!
@@ -131,6 +132,24 @@ pub fn add_to_stress(bends: &[Bend], squares: &[f64], p: &mut [f64]) {
     }
 }
 
+/// ∫ p dt and ∫ p (t − t₀) dt, N and N m², over the cell from `cell[0]` = t₀ to `cell[1]` (m²), of the
+/// stress p of Eq. (3) that bends of q (N/m) make.
+pub fn stress_moments(bends: impl IntoIterator<Item = Bend>, cell: [f64; 2]) -> [f64; 2] {
+    let (mut sum, mut first) = (0.0, 0.0);
+    for bend in bends {
+        let far = bend.at - cell[0];
+        if far <= 0.0 {
+            continue;
+        }
+        let near = (bend.at - cell[1]).max(0.0);
+        let thirds = far * far.sqrt() - near * near.sqrt();
+        let fifths = far * far * far.sqrt() - near * near * near.sqrt();
+        sum += bend.jump * thirds;
+        first += bend.jump * (far * thirds - 0.6 * fifths);
+    }
+    [sum, first].map(|moment| FRAC_2_PI * 2.0 / 3.0 * moment)
+}
+
 /// ∫ of the bends dx from x = 0 to `radius`, half of what they add to the force of the springs.
 pub fn line_integral(bends: &[Bend], radius: f64) -> f64 {
     let integral = |bend: &Bend| {
@@ -154,6 +173,30 @@ mod tests {
         let k = through.partition_point(|&(at, _)| at <= t).clamp(1, 4);
         let ((a, va), (b, vb)) = (through[k - 1], through[k]);
         va + (vb - va) * (t - a) / (b - a)
+    }
+
+    #[test]
+    fn the_stress_of_a_cell_sums_to_its_moments() {
+        let bends = [(0.25, 1.3), (0.4, -0.7), (0.46, 0.4), (0.9, -0.2)];
+        let bends = bends.map(|(at, jump)| Bend { at, jump });
+        for cell in [[0.1, 0.2], [0.3, 0.5], [0.41, 0.44], [0.9, 1.0]] {
+            let (parts, width) = (20_000, cell[1] - cell[0]);
+            let middles =
+                (0..parts).map(|i| cell[0] + width * (f64::from(i) + 0.5) / f64::from(parts));
+            let squares: Vec<f64> = middles.collect();
+            let mut p = vec![0.0; squares.len()];
+            add_to_stress(&bends, &squares, &mut p);
+            let step = width / f64::from(parts);
+            let sum: f64 = p.iter().map(|p| p * step).sum();
+            let arm = squares.iter().map(|t| t - cell[0]);
+            let first: f64 = arm.zip(&p).map(|(arm, p)| arm * p * step).sum();
+            let found = stress_moments(bends, cell);
+            assert!((found[0] - sum).abs() < 1e-7, "{cell:?}: {found:?} {sum}");
+            assert!(
+                (found[1] - first).abs() < 1e-8,
+                "{cell:?}: {found:?} {first}"
+            );
+        }
     }
 
     /// The coarse grid with hats against a grid that has nodes at the kinks.

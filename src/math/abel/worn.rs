@@ -73,27 +73,30 @@ pub fn profile(grid: &RadialGrid) -> DMatrix<f64> {
 
 /// The weights of V = 2π∫δ r dr (m³, of nodal δ in m), with the interpolant of [`profile`].
 pub fn volume_weights(grid: &RadialGrid) -> Vec<f64> {
-    let nodes = grid.nodes();
-    let border = grid.border().unwrap_or(grid.cells());
-    let z = distances(nodes, border);
-    let mut weights = vec![0.0; nodes.len()];
-    for k in 0..border {
-        let half = 0.5 * PI * (nodes[k + 1] - nodes[k]) * (nodes[k + 1] + nodes[k]);
-        weights[k] += half;
-        weights[k + 1] += half;
-    }
-    for k in border..grid.cells() {
-        let (a, h) = (z[k], z[k + 1] - z[k]);
-        // ∫ 2z² dz, weighted with the falling and with the rising half of the cell.
-        let left = 2.0 * PI * h * (0.5 * a * a + a * h / 3.0 + h * h / 12.0);
-        let right = 2.0 * PI * h * (0.5 * a * a + 2.0 * a * h / 3.0 + 0.25 * h * h);
-        for (node, share) in [(k.max(border + 1), left), (k + 1, right)] {
-            weights[node] += share / z[node];
-            weights[border] -= share / z[node];
+    let mut weights = vec![0.0; grid.len()];
+    for cell in 0..grid.cells() {
+        for (node, weight) in cell_weights(grid, cell) {
+            weights[node] += weight;
         }
-        weights[border] += PI * (nodes[k + 1] - nodes[k]) * (nodes[k + 1] + nodes[k]);
     }
     weights
+}
+
+/// The part of V in the cell between nodes `cell` and `cell` + 1: nodes with their weights, m².
+pub fn cell_weights(grid: &RadialGrid, cell: usize) -> [(usize, f64); 3] {
+    let (nodes, k) = (grid.nodes(), cell);
+    let area = PI * (nodes[k + 1] - nodes[k]) * (nodes[k + 1] + nodes[k]);
+    let Some(border) = grid.border().filter(|&border| k >= border) else {
+        return [(k, 0.5 * area), (k + 1, 0.5 * area), (0, 0.0)];
+    };
+    let z = |node: usize| leg(nodes[border], nodes[node]);
+    let (a, h) = (z(k), z(k + 1) - z(k));
+    // ∫ 2z² dz, weighted with the falling and with the rising half of the cell.
+    let left = 2.0 * PI * h * (0.5 * a * a + a * h / 3.0 + h * h / 12.0);
+    let right = 2.0 * PI * h * (0.5 * a * a + 2.0 * a * h / 3.0 + 0.25 * h * h);
+    let inner = k.max(border + 1);
+    let (left, right) = (left / z(inner), right / z(k + 1));
+    [(inner, left), (k + 1, right), (border, area - left - right)]
 }
 
 /// The worn depth at `r`, of nodal `wear`, by the interpolant of [`profile`]; constant beyond the domain.

@@ -17,12 +17,12 @@
 //! - **Known failure**: none of the motions that never repeat can be jumped; they are stepped directly.
 
 use super::super::Setup;
+use super::super::at_rim;
 use super::super::breakdown::Cause;
 use super::super::choices::Integrator;
 use super::super::state::{JumpMemory, SettledCycle, State};
 use super::super::workspace::Workspace;
-use super::super::worn_volume;
-use super::{check, settled};
+use super::{check, close_period, settled};
 use crate::math::chebyshev;
 use crate::math::quadrature::weighted;
 
@@ -186,10 +186,12 @@ struct Jump {
 struct After {
     wear: Vec<f64>,
     friction_work: f64,
+    beyond_nodes: f64,
     settled: SettledCycle,
 }
 
-/// One Runge–Kutta–Chebyshev step over `covered` cycles. The last entry of y is the work of friction.
+/// One Runge–Kutta–Chebyshev step over `covered` cycles. The last entries of y are the work of friction and
+/// the volume between nodes.
 fn attempt(
     setup: &Setup,
     memory: &mut State,
@@ -199,25 +201,29 @@ fn attempt(
     stages: usize,
 ) -> Result<After, Cause> {
     let nodes = memory.wear.len();
-    let with_work = |wear: &[f64], friction_work: f64| {
+    let with_sums = |wear: &[f64], friction_work: f64, volume: Option<f64>| {
         let mut values = wear.to_vec();
-        values.push(friction_work);
+        values.extend([friction_work, volume.unwrap_or_default()]);
         values
     };
-    let start = with_work(&memory.wear, 0.0);
-    let slope = with_work(&first.wear, first.friction_work);
+    let rates =
+        |cycle: &SettledCycle| with_sums(&cycle.wear, cycle.friction_work, cycle.beyond_nodes);
+    let start = with_sums(&memory.wear, 0.0, None);
+    let slope = rates(first);
     let mut end = Vec::new();
     chebyshev::step(stages, covered, &start, &slope, &mut end, |y, out| {
         let settled = settled::cycle(setup, memory, work, &y[..nodes])?;
-        *out = with_work(&settled.wear, settled.friction_work);
+        *out = rates(&settled);
         Ok::<(), Cause>(())
     })?;
+    let beyond_nodes = end.pop().unwrap_or_default();
     let friction_work = end.pop().unwrap_or_default();
     let settled = settled::cycle(setup, memory, work, &end)?;
     check(setup, work)?;
     Ok(After {
         wear: end,
         friction_work,
+        beyond_nodes,
         settled,
     })
 }
@@ -275,10 +281,11 @@ fn accept(setup: &Setup, state: &mut State, work: &mut Workspace, memory: State,
             state.unexplained_volume += now - worn;
         }
     }
-    state.period.close(
-        worn_volume(work) - state.unexplained_volume,
-        state.expected_volume,
-    );
+    state.volume_between_nodes = match after.settled.beyond_nodes {
+        Some(_) => state.volume_between_nodes + after.beyond_nodes,
+        None => at_rim(work),
+    };
+    close_period(state, work);
     state.effort.jumps += 1;
     state.last.duration = 0.0;
     state.last.growth.fill(0.0);

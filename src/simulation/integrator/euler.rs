@@ -62,6 +62,7 @@ pub(super) fn step(
 /// friction (J).
 pub(super) fn worn(setup: &Setup, state: &State, work: &mut Workspace, cycle: f64) -> f64 {
     work.worn.fill(0.0);
+    work.beyond_nodes = None;
     if setup.drive.tangential().is_none() {
         return 0.0;
     }

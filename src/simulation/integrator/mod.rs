@@ -6,10 +6,11 @@ use super::choices::Scheme;
 use super::solve::{pressure, shear, solve_contact, update_profile};
 use super::state::{LastStep, State};
 use super::workspace::Workspace;
-use super::{Setup, cycles_to_settle, worn_volume};
+use super::{Setup, at_rim, cycles_to_settle, volume_by_rate};
 use crate::math::quadrature::weighted;
 
 mod cycle_jump;
+mod edge_volume;
 mod euler;
 mod parts;
 mod settled;
@@ -29,15 +30,12 @@ pub(super) fn settle(setup: &Setup, state: &mut State, work: &mut Workspace) -> 
     work.wear.copy_from_slice(&state.wear);
     let nodes = work.g.len();
     let mut last = LastStep {
-        normal_load: work.normal_load.clone(),
-        edge_load: work.contact.edge_load,
-        spring_breaks: work.spring_breaks.clone(),
+        normal_load: vec![0.0; nodes],
         growth: vec![0.0; nodes],
         wear: vec![0.0; nodes],
         pressure: vec![0.0; nodes],
         shear: vec![0.0; nodes],
-        duration: 0.0,
-        stiffness: 0.0,
+        ..LastStep::default()
     };
     pressure(work, setup.material.normal_modulus(), &mut last.pressure);
     if setup.drive.tangential().is_some() {
@@ -90,6 +88,10 @@ fn commit(
             state.unexplained_volume += weighted(&work.planned.volume_weights, &work.worn);
         }
         update_profile_keeping_growth(state, work);
+        state.volume_between_nodes = match work.beyond_nodes {
+            Some(volume) => state.volume_between_nodes + volume,
+            None => at_rim(work),
+        };
     }
     state.dissipated_energy += friction_work;
     keep_smallest_stick(setup, state, work, cycle);
@@ -150,12 +152,20 @@ fn take_over(state: &mut State, work: &mut Workspace, cycle: f64) {
     state.spring.copy_from_slice(&work.spring);
     state.hold.copy_from_slice(&work.hold);
     state.last.normal_load.copy_from_slice(&work.normal_load);
+    state.last.normal_breaks.clone_from(&work.normal_breaks);
+    state.last.rim_edge = work.rim_edge;
     state.last.edge_load = work.contact.edge_load;
     state.last.spring_breaks.clone_from(&work.spring_breaks);
     state.last.duration = cycle - state.cycle;
     state.cycle = cycle;
     state.effort.contacts += 1;
     state.effort.transforms += std::mem::take(&mut work.transforms);
+}
+
+/// Weighs what a period of the motion has worn against its work of friction.
+fn close_period(state: &mut State, work: &Workspace) {
+    let volume = volume_by_rate(state, work) - state.unexplained_volume;
+    state.period.close(volume, state.expected_volume);
 }
 
 /// Follows the smallest stick radius and the energy balance through a period of the motion.
@@ -168,9 +178,6 @@ fn keep_smallest_stick(setup: &Setup, state: &mut State, work: &Workspace, cycle
     if (cycle / period).floor() > (state.cycle / period).floor() {
         state.settled_stick_radius = Some(state.smallest_stick_radius);
         state.smallest_stick_radius = f64::INFINITY;
-        state.period.close(
-            worn_volume(work) - state.unexplained_volume,
-            state.expected_volume,
-        );
+        close_period(state, work);
     }
 }

@@ -22,7 +22,7 @@ use super::super::drive::{Control, Oscillation};
 use super::super::solve::{pressure, shear, solve_contact, update_profile};
 use super::super::state::{SettledCycle, State};
 use super::super::workspace::Workspace;
-use super::{euler, stiffness, take_over, trapezoid};
+use super::{edge_volume, euler, stiffness, take_over, trapezoid};
 use crate::math::abel::bend;
 
 /// What a cycle does once the springs have settled on the worn depth `wear` (m), on average over the
@@ -81,6 +81,7 @@ fn period(
     let mut settled = SettledCycle {
         wear: vec![0.0; work.worn.len()],
         stick_radius: f64::INFINITY,
+        beyond_nodes: Some(0.0),
         ..SettledCycle::default()
     };
     let mut stiffness = vec![0.0; work.stiffness.len()];
@@ -90,6 +91,10 @@ fn period(
             Scheme::Euler => euler::worn(setup, memory, work, moment),
             Scheme::Trapezoid => trapezoid::worn(setup, memory, work, moment),
         };
+        settled.beyond_nodes = settled
+            .beyond_nodes
+            .zip(work.beyond_nodes)
+            .map(|(sum, more)| sum + more);
         stiffness::of_step(setup, work, moment - memory.cycle);
         for (sum, z) in stiffness.iter_mut().zip(&work.stiffness) {
             *sum += z;
@@ -110,6 +115,7 @@ fn period(
         *worn /= cycles;
     }
     settled.friction_work /= cycles;
+    settled.beyond_nodes = settled.beyond_nodes.map(|volume| volume / cycles);
     settled.stiffness = stiffness.iter().copied().fold(0.0, f64::max) / cycles;
     Ok(settled)
 }
@@ -178,16 +184,16 @@ fn plain_cycle(
     for (tau, p) in work.working_shear.iter_mut().zip(&memory.last.pressure) {
         *tau = friction * p;
     }
-    let mut wear = vec![0.0; work.worn.len()];
-    if let Some(law) = &setup.wear {
-        law.wear(&work.working_shear, &work.surface_slip, 1.0, &mut wear);
-    }
-    for worn in &mut wear {
-        *worn *= 2.0;
-    }
     for (limit, load) in work.friction_work.iter_mut().zip(&work.normal_load) {
         *limit = friction * load;
     }
+    work.worn.fill(0.0);
+    if let Some(law) = &setup.wear {
+        let (tau, slip) = (&work.working_shear, &work.surface_slip);
+        law.wear(tau, slip, 1.0, &mut work.worn);
+    }
+    let beyond_nodes = edge_volume::beyond_nodes(setup, memory, work, core);
+    let wear = work.worn.iter().map(|worn| 2.0 * worn).collect();
     let kinks: Vec<_> = bend::by_cell(&kinks, squares).collect();
     let contact = &work.contact;
     let at_edge = match contact.normal.nodes {
@@ -203,6 +209,7 @@ fn plain_cycle(
     Ok(SettledCycle {
         wear,
         friction_work: 2.0 * (half + at_edge),
+        beyond_nodes: beyond_nodes.map(|volume| 2.0 * volume),
         stiffness: 2.0 * stiffness::of_step(setup, work, 1.0 / setup.drive.period()),
         stick_radius,
     })

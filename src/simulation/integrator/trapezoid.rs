@@ -34,7 +34,7 @@ use super::super::solve::{pressure, shear, solve_contact, surface_slip};
 use super::super::state::State;
 use super::super::workspace::Workspace;
 use super::parts::{self, Outcome, Part};
-use super::{commit, stiffness};
+use super::{commit, edge_volume, stiffness};
 use crate::contact::tangential::Hold;
 use crate::math::abel::bend::{self, Bend};
 
@@ -88,7 +88,11 @@ fn attempt(
     match part {
         Part::Guarded if stiffness > MILD => soften(state, work, ahead),
         Part::Guarded | Part::Raw => {}
-        Part::Snap => friction_work *= stiffness::damp(work),
+        Part::Snap => {
+            let share = stiffness::damp(work);
+            friction_work *= share;
+            work.beyond_nodes = work.beyond_nodes.map(|volume| share * volume);
+        }
     }
     commit(setup, state, work, cycle, friction_work)?;
     Ok(Outcome::Done(stiffness))
@@ -98,16 +102,18 @@ fn attempt(
 /// friction (J).
 pub(super) fn worn(setup: &Setup, state: &State, work: &mut Workspace, cycle: f64) -> f64 {
     work.worn.fill(0.0);
+    work.beyond_nodes = None;
     if setup.drive.tangential().is_none() {
         return 0.0;
     }
     let friction_work = work_of_friction(setup, state, work);
     if let Some(law) = &setup.wear {
         stresses(setup, state, work);
-        mean_shear(setup, state, work);
+        let zone = mean_shear(setup, state, work);
         let seconds = (cycle - state.cycle) * setup.drive.period();
         let (tau, slip) = (&work.working_shear, &work.surface_slip);
         law.wear(tau, slip, seconds, &mut work.worn);
+        work.beyond_nodes = edge_volume::beyond_nodes(setup, state, work, zone);
     }
     friction_work
 }
@@ -180,8 +186,8 @@ fn soften(state: &State, work: &mut Workspace, ahead: f64) {
     }
 }
 
-/// The stress that wears: its mean over the step, by zones.
-fn mean_shear(setup: &Setup, state: &State, work: &mut Workspace) {
+/// The stress that wears: its mean over the step, by zones; returns where the outer slip zone begins.
+fn mean_shear(setup: &Setup, state: &State, work: &mut Workspace) -> usize {
     let (zone, sign) = outer_slip_zone(&work.hold);
     let friction = sign * setup.material.friction();
     let (inner, outer) = work.working_shear.split_at_mut(zone);
@@ -198,6 +204,7 @@ fn mean_shear(setup: &Setup, state: &State, work: &mut Workspace) {
     for (mean, (was, is)) in outer.iter_mut().zip(pressures.zip(&work.pressure[zone..])) {
         *mean = 0.5 * friction * (was + is);
     }
+    zone
 }
 
 /// The first node from which outwards every spring in contact slips in one direction, and that

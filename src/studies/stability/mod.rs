@@ -19,9 +19,9 @@ pub const POINTS: [usize; 4] = [25, 50, 100, 200];
 /// Wear numbers K that are tried: half decades.
 pub const WEAR_NUMBERS: [f64; 9] = [0.1, 0.316, 1.0, 3.16, 10.0, 31.6, 100.0, 316.0, 1000.0];
 
-/// Teeth are what exceeds this over N², in largest depths. The bends of smooth profiles come to 12/N²:
-/// that is what runs with the guard end with, at any wear number and N from 25 to 200.
-pub const VISIBLE: f64 = 36.0;
+/// Teeth that are higher than this, in largest depths, are seen. Those of smooth runs come to 7e-5 at most, in
+/// the preset separation, and to nothing in most.
+pub const VISIBLE: f64 = 5e-4;
 
 /// The wear number at which the stiffness of a step is read: nothing has changed shape by then.
 const MILD: f64 = 1e-3;
@@ -50,7 +50,7 @@ pub struct Setting {
 pub enum Outcome {
     /// Smooth to the end.
     Stable,
-    /// At the end, with teeth of this height together, in largest depths.
+    /// At the end, with teeth of this height, in largest depths.
     Teeth(f64),
     /// After some cycles, for a reason.
     Exploded {
@@ -148,7 +148,7 @@ impl Study {
         let depth = simulation.setup().largest_depth();
         let depth = depth.unwrap_or(simulation.state().depth);
         let height = teeth(&simulation.state().wear) / depth;
-        ControlFlow::Continue(Ok(if height > VISIBLE / (setting.points as f64).powi(2) {
+        ControlFlow::Continue(Ok(if height > VISIBLE {
             Outcome::Teeth(height)
         } else {
             Outcome::Stable

@@ -10,6 +10,7 @@ use thiserror::Error;
 
 use super::workspace::{LastGood, Workspace};
 use super::{Setup, Simulation, State};
+use crate::math::abel::bend::are_hats;
 use crate::math::grid::RadialGrid;
 
 /// A simulation at rest, without the setup that it runs on.
@@ -121,6 +122,11 @@ fn check(setup: &Setup, state: &State, good: &LastGood) -> Result<(), Unfit> {
     ] {
         if values.iter().any(|value| !value.is_finite()) {
             return Err(Unfit::new(what, "is not finite"));
+        }
+    }
+    for breaks in [&state.last.spring_breaks, &good.spring_breaks] {
+        if !are_hats(breaks, setup.grid.squares()) {
+            return Err(Unfit::new("springs' breaks", "do not lie in the grid"));
         }
     }
     if good.contact.normal.nodes > nodes {

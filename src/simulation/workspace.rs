@@ -71,7 +71,7 @@ pub(super) struct Workspace {
 pub(super) struct LastGood {
     pub contact: Contact,
     normal_breaks: Vec<Bend>,
-    spring_breaks: Vec<Bend>,
+    pub(super) spring_breaks: Vec<Bend>,
     rim_edge: Option<RimEdge>,
 }
 

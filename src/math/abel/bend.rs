@@ -96,6 +96,20 @@ pub fn by_cell<'a>(
     })
 }
 
+/// Whether [`by_cell`] can tell the cells of bends that come from a file: each hat begins inside the grid and
+/// goes on to the outer node of its cell at most.
+pub fn are_hats(bends: &[Bend], squares: &[f64]) -> bool {
+    let mut hat = None;
+    bends.iter().all(|bend| {
+        let end = hat.or_else(|| {
+            let next = squares.partition_point(|&t| t <= bend.at);
+            squares.get(next).copied()
+        });
+        hat = end.filter(|&end| bend.at < end);
+        bend.at >= 0.0 && bend.jump.is_finite() && end.is_some_and(|end| bend.at <= end)
+    })
+}
+
 /// Eq. (1): adds what bends of f do to the 1D profile `g` on nodes with the given `squares` (m²).
 pub fn add_to_profile(bends: &[Bend], squares: &[f64], g: &mut [f64]) {
     for bend in bends {

@@ -7,7 +7,9 @@ use crate::math::abel::AbelMethod;
 use crate::scenario::session::{Session, SessionError};
 use crate::scenario::{Change, Scenario};
 use crate::simulation::stability;
+use growth::growing_from;
 
+mod growth;
 pub mod report;
 mod teeth;
 
@@ -19,8 +21,8 @@ pub const POINTS: [usize; 4] = [25, 50, 100, 200];
 /// Wear numbers K that are tried: half decades.
 pub const WEAR_NUMBERS: [f64; 9] = [0.1, 0.316, 1.0, 3.16, 10.0, 31.6, 100.0, 316.0, 1000.0];
 
-/// Teeth that are higher than this, in largest depths, are seen. Those of smooth runs come to 7e-5 at most, in
-/// the preset separation, and to nothing in most.
+/// Teeth that are higher than this, in largest depths, are seen. The presets come to 7e-5 at most, and runs
+/// with the guard to 3e-4, next to the border of stick: one node, no comb.
 pub const VISIBLE: f64 = 5e-4;
 
 /// The wear number at which the stiffness of a step is read: nothing has changed shape by then.
@@ -28,9 +30,6 @@ const MILD: f64 = 1e-3;
 
 /// Halvings of the interval, on the scale of ratios, in which the boundary lies.
 const HALVINGS: u32 = 3;
-
-/// Steps of one percent in which the boundary is looked for, from where the stiffest step has its limit.
-const REACH: i32 = 300;
 
 /// What is run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -155,8 +154,8 @@ impl Study {
         }))
     }
 
-    /// The wear number from which the stiffest error grows over a cycle: z rises and falls with the
-    /// speed of the slip, and steps that damp an error make up for some that do not.
+    /// The wear number from which the stiffest error grows over a cycle of the unworn contact: z rises and
+    /// falls with the speed of the slip, and steps that damp an error make up for some that do not.
     fn predict(&self, setting: Setting) -> Result<Option<f64>, SessionError> {
         let mut session = self.start(setting, MILD)?;
         let mut stiffness = Vec::new();
@@ -169,22 +168,11 @@ impl Study {
             }
         }
         let setup = session.simulation().setup();
-        let stiffest = stiffness.iter().copied().fold(0.0, f64::max);
-        if !stability::follows_steps(setup.method) || stiffest <= 0.0 {
+        if stability::beyond_steps(setup.method).is_some() {
             return Ok(None);
         }
-        let grows = |factor: f64| {
-            let logs = stiffness
-                .iter()
-                .map(|z| stability::amplification(setup.scheme, factor * z).ln());
-            logs.sum::<f64>() > 0.0
-        };
-        let at_limit = stability::limit(setup.scheme) / stiffest;
-        let rungs = (0..REACH).map(|rung| at_limit * 1.01_f64.powi(rung));
-        Ok(rungs
-            .into_iter()
-            .find(|&factor| grows(factor))
-            .map(|factor| MILD * factor))
+        let factor = growing_from(setup.scheme, &stiffness);
+        Ok(factor.map(|factor| MILD * factor))
     }
 
     /// Runs the ladder, and then between its last stable and its first other rung to find the boundary.

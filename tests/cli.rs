@@ -639,7 +639,7 @@ fn completions_and_the_manual_page_name_the_commands() {
     }
     let page = desk.done("man");
     assert!(page.contains(".TH mdr-tui 1"), "{page}");
-    for command in ["run", "presets", "verify", "completions", "man"] {
+    for command in ["run", "presets", "verify", "trade", "completions", "man"] {
         let title = format!(".TH mdr-tui-{command} 1");
         assert_eq!(page.matches(&title).count(), 1, "{command}");
     }
@@ -651,7 +651,15 @@ fn completions_and_the_manual_page_name_the_commands() {
 #[test]
 fn every_help_has_an_example() {
     let desk = Desk::new();
-    for command in ["run", "presets", "verify", "completions", "man", ""] {
+    for command in [
+        "run",
+        "presets",
+        "verify",
+        "trade",
+        "completions",
+        "man",
+        "",
+    ] {
         let help = desk.done(&format!("{command} --help"));
         let (_, examples) = help
             .split_once("Example")
@@ -659,7 +667,7 @@ fn every_help_has_an_example() {
         assert!(examples.contains("\n  mdr-tui"), "{examples}");
     }
     let help = desk.done("--help");
-    for command in ["run", "presets", "verify", "completions", "man"] {
+    for command in ["run", "presets", "verify", "trade", "completions", "man"] {
         assert!(help.contains(&format!("\n  {command} ")), "{command}");
     }
     let version = desk.done("--version");

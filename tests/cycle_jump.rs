@@ -4,23 +4,13 @@
 
 mod common;
 
-use common::{Scene, archard, holds, run_setup, swing};
-use mdr_tui::math::abel::AbelMethod::{A, Product};
+use common::{Scene, archard, holds, ours, run_setup, swing};
+use mdr_tui::math::abel::AbelMethod::A;
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
-use mdr_tui::simulation::{Integrator, Scheme, Setup, Simulation, Spacing, Stability};
+use mdr_tui::simulation::{Integrator, Scheme, Setup, Simulation, Spacing};
 use mdr_tui::wear::WearLaw;
 use std::f64::consts::{FRAC_PI_4, SQRT_2};
-
-fn ours(scene: Scene) -> Setup {
-    Setup {
-        method: Product,
-        spacing: Spacing::Graded,
-        scheme: Scheme::Trapezoid,
-        stability: Stability::SubStep,
-        ..Setup::from(scene)
-    }
-}
 
 fn jumping(setup: &Setup, tolerance: f64) -> Setup {
     Setup {

@@ -248,6 +248,17 @@ fn replayed(keys: &str) -> (String, String) {
     (state, desk.read("again/state.csv"))
 }
 
+/// A snapshot of `keys` tells so many changes and runs again to the last bit.
+fn assert_runs_again(keys: &str, changes: usize) {
+    let (state, again) = replayed(keys);
+    assert_eq!(
+        state.matches("# at cycle ").count(),
+        changes,
+        "{keys}\n{state}"
+    );
+    assert!(state == again, "{keys}: the states differ");
+}
+
 #[test]
 fn edits_are_recorded_and_run_again_bit_for_bit() {
     for (keys, changes) in [
@@ -261,13 +272,7 @@ fn edits_are_recorded_and_run_again_bit_for_bit() {
             2,
         ),
     ] {
-        let (state, again) = replayed(keys);
-        assert_eq!(
-            state.matches("# at cycle ").count(),
-            changes,
-            "{keys}\n{state}"
-        );
-        assert!(state == again, "{keys}: the states differ");
+        assert_runs_again(keys, changes);
     }
 }
 
@@ -321,13 +326,7 @@ fn a_branch_from_the_past_is_the_run_without_what_came_after() {
         (",..m..[[,s", 0),
         (",m.[s", 0),
     ] {
-        let (state, again) = replayed(keys);
-        assert_eq!(
-            state.matches("# at cycle ").count(),
-            changes,
-            "{keys}\n{state}"
-        );
-        assert!(state == again, "{keys}: the states differ");
+        assert_runs_again(keys, changes);
     }
 }
 

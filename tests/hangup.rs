@@ -17,14 +17,7 @@ use vt100::Screen;
 
 mod pty;
 
-use pty::{Terminal, program};
-
-/// The cycle in the status line.
-fn cycle(screen: &Screen) -> Option<f64> {
-    let text = screen.contents();
-    let (_, after) = text.lines().next()?.split_once("cycle ")?;
-    after.split_once('/')?.0.parse().ok()
-}
+use pty::{Terminal, cycle, program};
 
 fn is_under_way(screen: &Screen) -> bool {
     cycle(screen).is_some_and(|cycle| cycle > 0.5)
@@ -35,6 +28,13 @@ fn at_home(home: &TempDir, arguments: &[&str]) -> CommandBuilder {
     let mut command = program(arguments);
     command.env("XDG_STATE_HOME", home.path());
     command
+}
+
+/// The explorer in a terminal so many columns wide, as soon as it has stepped for a while.
+fn under_way(home: &TempDir, arguments: &[&str], columns: u16) -> Terminal {
+    let terminal = Terminal::start(at_home(home, arguments), columns, 24);
+    terminal.wait_until("explorer under way", is_under_way);
+    terminal
 }
 
 fn home() -> TempDir {
@@ -97,8 +97,7 @@ fn a_hangup_keeps_the_session() {
 fn every_way_out_keeps_the_session_and_says_where() {
     for way in ["q", "Q", "\x03", "TERM", "INT", "HUP"] {
         let home = home();
-        let mut terminal = Terminal::start(at_home(&home, &[]), 200, 24);
-        terminal.wait_until("explorer under way", is_under_way);
+        let mut terminal = under_way(&home, &[], 200);
         match way {
             "TERM" | "INT" | "HUP" => terminal.signal(way),
             key => terminal.press(key),
@@ -132,8 +131,7 @@ fn a_session_without_a_step_leaves_nothing() {
 #[test]
 fn resuming_shows_the_session_paused_where_it_was_and_goes_on() {
     let home = home();
-    let mut terminal = Terminal::start(at_home(&home, &[]), 80, 24);
-    terminal.wait_until("explorer under way", is_under_way);
+    let mut terminal = under_way(&home, &[], 80);
     terminal.press(" ");
     terminal.wait_for("paused");
     terminal.press("m");
@@ -359,9 +357,7 @@ fn a_connection_that_is_cut_keeps_the_session() {
 fn an_explorer_that_is_killed_loses_an_interval_at_most() {
     for pause in [0.3, 0.71, 0.95] {
         let home = home();
-        let arguments = ["--checkpoint-every", "0.01"];
-        let mut terminal = Terminal::start(at_home(&home, &arguments), 80, 24);
-        terminal.wait_until("explorer under way", is_under_way);
+        let mut terminal = under_way(&home, &["--checkpoint-every", "0.01"], 80);
         thread::sleep(Duration::from_secs_f64(pause));
         let seen = terminal.look(cycle).expect("a cycle");
         terminal.signal("KILL");
@@ -390,8 +386,7 @@ fn an_explorer_that_is_killed_loses_an_interval_at_most() {
 #[test]
 fn without_a_shell_ctrl_z_says_so_and_nothing_stops() {
     let home = home();
-    let mut terminal = Terminal::start(at_home(&home, &[]), 80, 24);
-    terminal.wait_until("explorer under way", is_under_way);
+    let mut terminal = under_way(&home, &[], 80);
     for stop in ["key", "signal"] {
         match stop {
             "key" => terminal.press("\x1a"),
@@ -412,8 +407,7 @@ fn without_a_shell_ctrl_z_says_so_and_nothing_stops() {
 #[test]
 fn leaving_from_the_past_keeps_the_present() {
     let home = home();
-    let mut terminal = Terminal::start(at_home(&home, &[]), 80, 24);
-    terminal.wait_until("explorer under way", is_under_way);
+    let mut terminal = under_way(&home, &[], 80);
     terminal.press(" ");
     terminal.wait_for("paused");
     terminal.press(",,");

@@ -42,6 +42,14 @@ fn try_load(name: &str, sets: &[&str]) -> Result<Scenario, String> {
     Scenario::load(name, &sets).map_err(|error| error.to_string())
 }
 
+/// The file has this line.
+fn assert_line(text: &str, line: &str) {
+    assert!(
+        text.lines().any(|written| written == line),
+        "{line}\n{text}"
+    );
+}
+
 /// Reads `scenario` back from its own text.
 fn again(scenario: &Scenario) -> Scenario {
     let text = scenario.to_toml();
@@ -205,10 +213,7 @@ fn grid_and_scheme_follow_the_method_unless_they_are_given() {
                 ("scheme", setup.scheme.name()),
             ] {
                 let line = format!("# {key} = \"{word}\"  # default of method \"{method}\"");
-                assert!(
-                    text.lines().any(|written| written == line),
-                    "{line}\n{text}"
-                );
+                assert_line(&text, &line);
             }
         }
     }
@@ -422,10 +427,7 @@ fn an_accuracy_chooses_cells_and_steps() {
         "# points = 207  # what the accuracy asks for",
         "# steps_per_cycle = 40  # what the accuracy asks for",
     ] {
-        assert!(
-            text.lines().any(|written| written == line),
-            "{line}\n{text}"
-        );
+        assert_line(&text, line);
     }
     assert_eq!(again(&fine), fine);
     let coarse = fine.with("numerics.accuracy", "1e-2").expect("coarser");
@@ -448,10 +450,7 @@ fn defaults_that_may_change_are_written_out_and_derived_ones_are_not() {
         "integrator = \"direct\"",
         "effective_modulus = 2.3077e11  # Pa",
     ] {
-        assert!(
-            text.lines().any(|written| written == line),
-            "{line}\n{text}"
-        );
+        assert_line(&text, line);
     }
     assert!(text.contains("\nmethod = \""), "{text}");
     assert!(!text.contains("domain_radius"));

@@ -6,27 +6,16 @@
 
 mod common;
 
-use common::{Scene, archard, holds, run, run_setup, swing};
+use common::{Scene, archard, holds, ours, run, run_setup, swing};
 use mdr_tui::contact::indenter::Indenter;
-use mdr_tui::math::abel::AbelMethod::{A, B, Product};
+use mdr_tui::math::abel::AbelMethod::{A, B};
 use mdr_tui::math::abel::worn;
 use mdr_tui::oracle::cattaneo_mindlin::CattaneoMindlin;
 use mdr_tui::oracle::dual_oscillation::{DualOscillation, Frequencies};
 use mdr_tui::oracle::limiting_profile::LimitingProfile;
 use mdr_tui::oracle::partial_slip::stiffness_ratio;
-use mdr_tui::simulation::{Curves, Scheme, Setup, Simulation, Spacing, Stability, State};
+use mdr_tui::simulation::{Curves, Scheme, Setup, Simulation, Spacing, State};
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_3, FRAC_PI_4};
-
-/// The scene with the default numerics.
-fn ours(scene: Scene) -> Setup {
-    Setup {
-        method: Product,
-        spacing: Spacing::Graded,
-        scheme: Scheme::Trapezoid,
-        stability: Stability::SubStep,
-        ..Setup::from(scene)
-    }
-}
 
 fn run_ours(scene: Scene, cycles: f64) -> Simulation {
     run_setup(ours(scene), cycles)

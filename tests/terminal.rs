@@ -11,14 +11,7 @@ use vt100::{Color, MouseProtocolMode, Screen};
 
 mod pty;
 
-use pty::{Terminal, program};
-
-/// The cycle in the status line.
-fn cycle(screen: &Screen) -> Option<f64> {
-    let text = screen.contents();
-    let (_, after) = text.lines().next()?.split_once("cycle ")?;
-    after.split_once('/')?.0.parse().ok()
-}
+use pty::{Terminal, cycle, program};
 
 fn is_running(screen: &Screen) -> bool {
     screen.contents().contains("running") && cycle(screen).is_some_and(|cycle| cycle > 0.0)

@@ -9,16 +9,13 @@ use mdr_tui::simulation::Scheme;
 use mdr_tui::studies::trade::{self, Ladder, Setting};
 use serde_json::Value;
 
-/// Exit code, stdout, stderr.
-fn say(arguments: &[&str]) -> (i32, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_mdr-tui"))
-        .arg("trade")
-        .args(arguments)
-        .output()
-        .expect("the program runs");
-    let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
-    let code = output.status.code().expect("a code");
-    (code, text(output.stdout), text(output.stderr))
+#[expect(dead_code, reason = "the tests of other commands use the rest")]
+mod desk;
+
+use desk::{Desk, Said};
+
+fn say(arguments: &[&str]) -> Said {
+    Desk::new().say(&[&["trade"], arguments].concat())
 }
 
 const SMALL: [&str; 9] = [
@@ -33,7 +30,7 @@ const SMALL: [&str; 9] = [
     "product,a",
 ];
 
-fn small(more: &[&str]) -> (i32, String, String) {
+fn small(more: &[&str]) -> Said {
     say(&[&SMALL[..], more].concat())
 }
 
@@ -47,7 +44,7 @@ fn the_front_is_printed_and_drawn_and_everything_is_written() {
     let directory = tempfile::tempdir().expect("a directory");
     let file = directory.path().join("trade.csv");
     let path = file.to_str().expect("a path");
-    let (code, out, err) = small(&["--plot", "--marker", "ascii", "--csv", path]);
+    let Said { code, out, err } = small(&["--plot", "--marker", "ascii", "--csv", path]);
     assert_eq!((code, err.as_str()), (0, ""));
     assert!(
         out.contains("reference: product, N = 64, 40 steps a cycle"),
@@ -66,14 +63,14 @@ fn the_front_is_printed_and_drawn_and_everything_is_written() {
         rows[0].starts_with("method,scheme,integrator,points,steps_per_cycle,tolerance,time_s")
     );
 
-    let (code, _, err) = small(&["--csv", path]);
+    let Said { code, err, .. } = small(&["--csv", path]);
     assert_eq!(code, 2);
     assert!(err.contains("exists already"), "{err}");
 }
 
 #[test]
 fn rows_as_json_are_all_rows() {
-    let (code, out, err) = small(&["--json"]);
+    let Said { code, out, err } = small(&["--json"]);
     assert_eq!((code, err.as_str()), (0, ""));
     let rows: Vec<Value> = serde_json::from_str(&out).expect("JSON");
     assert_eq!(rows.len(), 36);
@@ -91,7 +88,7 @@ fn rows_as_json_are_all_rows() {
 
 #[test]
 fn the_cheapest_setting_for_an_accuracy_reaches_it() {
-    let (code, out, err) = small(&["--accuracy", "2e-3"]);
+    let Said { code, out, err } = small(&["--accuracy", "2e-3"]);
     assert_eq!((code, err.as_str()), (0, ""));
     let sets: Vec<&str> = out
         .lines()
@@ -129,7 +126,7 @@ fn the_cheapest_setting_for_an_accuracy_reaches_it() {
     let errors = found.expect("not stopped").expect("a run").against(&fine);
     assert!(errors.rms <= 2e-3, "{errors:?}");
 
-    let (code, _, err) = small(&["--accuracy", "1e-12"]);
+    let Said { code, err, .. } = small(&["--accuracy", "1e-12"]);
     assert_eq!(code, 1);
     assert!(
         err.contains("no setting that was tried errs by 1e-12 or less"),
@@ -244,7 +241,7 @@ fn what_cannot_be_traded_is_refused_in_one_line() {
         (&["li2019-fig3", "--methods", "c"], "invalid value 'c'"),
         (&["nothing.toml"], "no such file"),
     ] {
-        let (code, out, err) = say(arguments);
+        let Said { code, out, err } = say(arguments);
         assert_eq!((code, out.as_str()), (2, ""), "{arguments:?}");
         assert!(err.contains(line), "{err}");
         assert_eq!(err.lines().count(), 1, "{err}");

@@ -3,27 +3,23 @@
 
 use std::collections::HashSet;
 use std::fs;
-use std::process::Command;
 
 use mdr_tui::math::abel::AbelMethod::{self, A, APlusB, B, Benad};
 use mdr_tui::studies::verify::errors::Errors;
 use mdr_tui::studies::verify::{Outcome, Problem, Study, Task};
 use serde_json::Value;
 
-/// Exit code, stdout, stderr.
-fn say(arguments: &[&str]) -> (i32, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_mdr-tui"))
-        .arg("verify")
-        .args(arguments)
-        .output()
-        .expect("the program runs");
-    let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
-    let code = output.status.code().expect("a code");
-    (code, text(output.stdout), text(output.stderr))
+#[expect(dead_code, reason = "the tests of other commands use the rest")]
+mod desk;
+
+use desk::{Desk, Said};
+
+fn say(arguments: &[&str]) -> Said {
+    Desk::new().say(&[&["verify"], arguments].concat())
 }
 
 fn said(arguments: &[&str]) -> String {
-    let (code, out, err) = say(arguments);
+    let Said { code, out, err } = say(arguments);
     assert_eq!((code, err.as_str()), (0, ""), "{arguments:?}");
     out
 }
@@ -196,7 +192,7 @@ fn the_csv_has_every_node_and_is_never_written_over() {
     // g and p without a node each, w with all; tau at all nodes, slip inside a.
     assert_eq!(seen.len(), AbelMethod::ALL.len() * (50 + 50 + 51 + 51 + 34));
 
-    let (code, out, err) = say(&ask);
+    let Said { code, out, err } = say(&ask);
     assert_eq!((code, out.as_str()), (2, ""));
     assert!(
         err.contains("exists already") && err.contains("--force"),
@@ -246,7 +242,7 @@ fn nonsense_is_refused_in_one_line() {
         (&["--json", "--plot"], "--plot"),
         (&["--force"], "--csv"),
     ] {
-        let (code, out, err) = say(arguments);
+        let Said { code, out, err } = say(arguments);
         assert_eq!((code, out.as_str()), (2, ""), "{arguments:?}");
         assert_eq!(err.lines().count(), 1, "{err}");
         assert!(

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use anyhow::Result;
 use serde::de::IgnoredAny;
 
-use super::args::{ColorChoice, Explore, MarkerChoice, ThemeChoice};
+use super::args::{ColorChoice, Explore, ThemeChoice};
 use super::{Misuse, complain};
 use crate::export::keep;
 use crate::scenario::session::Session;
@@ -18,12 +18,6 @@ use crate::tui::{self, Capture, Options, keys};
 /// Opens the explorer.
 pub fn explore(options: &Explore) -> Result<ExitCode> {
     let keys = keys::parse_script(options.keys.as_deref().unwrap_or("")).map_err(Misuse)?;
-    let marker = options.marker.map(|choice| match choice {
-        MarkerChoice::Braille => Marker::Braille,
-        MarkerChoice::Halfblock => Marker::HalfBlock,
-        MarkerChoice::Dot => Marker::Dot,
-        MarkerChoice::Ascii => Marker::Ascii,
-    });
     let colored = match options.color {
         ColorChoice::Always => Some(true),
         ColorChoice::Never => Some(false),
@@ -40,7 +34,7 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
         keep_in,
         keep_every: options.checkpoint_every.0,
         fps: options.fps,
-        marker,
+        marker: options.marker.map(Marker::from),
         colored,
         look: options.theme.map(|choice| match choice {
             ThemeChoice::Dark => Look::Dark,

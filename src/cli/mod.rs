@@ -12,7 +12,7 @@ use crate::scenario::session::SessionError;
 use crate::scenario::{ScenarioError, printable};
 use crate::tui::NoTerminal;
 
-pub mod args;
+mod args;
 mod documents;
 mod errand;
 mod error_curves;

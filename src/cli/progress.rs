@@ -1,6 +1,6 @@
-//! A progress bar on stderr, when somebody is there to see it.
+//! Progress bars on stderr, when somebody is there to see them.
 
-use std::io::IsTerminal;
+use std::io::{self, IsTerminal};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -11,6 +11,22 @@ const PARTS: f64 = 1000.0;
 /// How often the bar is brought up to date.
 const INTERVAL: Duration = Duration::from_millis(100);
 
+/// What stands behind a bar from whose length the time to go can be told.
+pub const TIMES: &str = "{percent}%  {elapsed} gone, {eta} to go";
+
+/// A bar of `length`, with `behind` (placeholders of `indicatif`) behind it; silent if `quiet` or if
+/// stderr is no terminal.
+pub fn bar(length: u64, behind: &str, quiet: bool) -> ProgressBar {
+    let bar = ProgressBar::new(length);
+    if quiet || !io::stderr().is_terminal() {
+        bar.set_draw_target(ProgressDrawTarget::hidden());
+    }
+    if let Ok(style) = ProgressStyle::with_template(&format!("{{msg}} [{{bar:32}}] {behind}")) {
+        bar.set_style(style.progress_chars("=> "));
+    }
+    bar
+}
+
 /// The progress of a run in cycles.
 pub struct Progress {
     bar: ProgressBar,
@@ -18,16 +34,9 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// For `cycles` in all; silent if `quiet` or if stderr is no terminal.
+    /// For `cycles` in all.
     pub fn new(cycles: f64, quiet: bool) -> Self {
-        let bar = ProgressBar::new((cycles * PARTS) as u64);
-        if quiet || !std::io::stderr().is_terminal() {
-            bar.set_draw_target(ProgressDrawTarget::hidden());
-        }
-        let template = "{msg} [{bar:32}] {percent}%  {elapsed} gone, {eta} to go";
-        if let Ok(style) = ProgressStyle::with_template(template) {
-            bar.set_style(style.progress_chars("=> "));
-        }
+        let bar = bar((cycles * PARTS) as u64, TIMES, quiet);
         Self {
             bar,
             last: Instant::now(),

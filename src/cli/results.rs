@@ -1,11 +1,45 @@
-//! The file that a study writes its rows to.
+//! What becomes of the rows of a study: a file, or JSON on stdout.
 
+use std::io::Write;
 use std::path::Path;
 
-use super::Misuse;
+use anyhow::Result;
+use serde::Serialize;
 
-/// Finds out before anything is computed whether the file can be written.
-pub fn check(path: &Path, force: bool) -> Result<(), Misuse> {
+use super::Misuse;
+use super::args::Rows;
+use crate::export::file::write_whole;
+
+impl Rows {
+    /// Finds out before anything is computed whether the file can be written.
+    pub(super) fn check(&self) -> Result<(), Misuse> {
+        match &self.csv {
+            Some(path) => check(path, self.force),
+            None => Ok(()),
+        }
+    }
+
+    /// Writes the file of a study, if it was asked for: the program, the study, `notes`, the table.
+    pub(super) fn write(
+        &self,
+        study: &str,
+        notes: &[String],
+        table: impl FnOnce() -> String,
+    ) -> Result<()> {
+        let Some(path) = &self.csv else {
+            return Ok(());
+        };
+        let version = env!("CARGO_PKG_VERSION");
+        let mut text = format!("# mdr-tui: {version}\n# study: {study}\n");
+        for note in notes {
+            text.push_str(&format!("# {note}\n"));
+        }
+        text.push_str(&table());
+        Ok(write_whole(path, text.as_bytes())?)
+    }
+}
+
+fn check(path: &Path, force: bool) -> Result<(), Misuse> {
     let refuse = |why: &str| Err(Misuse(format!("--csv {}: {why}", path.display())));
     if path.is_dir() || path.file_name().is_none() {
         return refuse("is no name of a file");
@@ -19,4 +53,10 @@ pub fn check(path: &Path, force: bool) -> Result<(), Misuse> {
         }
         _ => Ok(()),
     }
+}
+
+/// Prints rows as JSON.
+pub fn print_json(rows: &impl Serialize, out: &mut impl Write) -> Result<()> {
+    writeln!(out, "{}", serde_json::to_string_pretty(rows)?)?;
+    Ok(())
 }

@@ -2,10 +2,10 @@
 
 use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use anyhow::{Context, Result, anyhow};
 
@@ -15,15 +15,12 @@ use super::progress::Progress;
 use super::{FAILED, complain, stop};
 use crate::export::file::{RUN_CHECKPOINT, RunDirectory, WriteError, free_directory, write_whole};
 use crate::export::header::number;
-use crate::export::keep::{self, Keeper};
+use crate::export::keep::{self, COPY_INTERVAL, Keeper};
 use crate::export::state;
 use crate::scenario::checkpoint;
 use crate::scenario::session::Session;
 use crate::scenario::{Scenario, printable};
 use crate::tui::panics;
-
-/// How old the copy may be that a defect of the program leaves of a run.
-const COPY_INTERVAL: Duration = Duration::from_millis(100);
 
 /// Runs a scenario, or goes on with one, and writes its files.
 pub fn run(options: &Run) -> Result<ExitCode> {
@@ -107,8 +104,7 @@ impl Job {
         let errand = Errand::new(options, &scenario, name)?;
         let session = Session::start(scenario).with_context(|| printable(name))?;
         let path = options.out.clone();
-        let path =
-            path.unwrap_or_else(|| free_directory(&format!("{}-run", session.loaded().stem())));
+        let path = path.unwrap_or_else(|| new_directory(&session));
         let directory = RunDirectory::claim(&path, options.force)?;
         Ok(Self::new(name, session, errand, directory, options))
     }
@@ -128,7 +124,7 @@ impl Job {
         let path = match (&options.out, home) {
             (Some(out), _) => out.clone(),
             (None, Some(home)) => home.to_owned(),
-            (None, None) => free_directory(&format!("{}-run", session.loaded().stem())),
+            (None, None) => new_directory(&session),
         };
         let real = |path: &Path| path.canonicalize().ok();
         let directory = match home {
@@ -377,6 +373,11 @@ fn table_at(snapshot: &CycleAsGiven, session: &Session) -> Result<String> {
     let mut glimpse = session.clone();
     glimpse.advance_to(snapshot.cycle)?;
     Ok(state::table(&glimpse))
+}
+
+/// A directory that is not there yet, named after the scenario.
+fn new_directory(session: &Session) -> PathBuf {
+    free_directory(&format!("{}-run", session.loaded().stem()))
 }
 
 /// The name of a snapshot's file.

@@ -1,15 +1,13 @@
 //! `mdr-tui stability`: how harsh a wear each method bears.
 
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, Write};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::Result;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::args::{Guard, Stability};
-use super::{FAILED, Misuse, results, stop};
-use crate::export::file::write_whole;
+use super::{FAILED, Misuse, progress, results, stop};
 use crate::export::header::number;
 use crate::math::abel::AbelMethod;
 use crate::scenario::Scenario;
@@ -18,9 +16,7 @@ use crate::studies::stability::{Line, Setting, Study};
 
 /// Runs the study and prints, draws and writes what was asked for.
 pub fn stability(options: &Stability) -> Result<ExitCode> {
-    if let Some(path) = &options.csv {
-        results::check(path, options.force)?;
-    }
+    options.rows.check()?;
     let scenario = Scenario::load(&options.scenario, &options.changes.set)?;
     let title = scenario.title().to_owned();
     let Some(study) = Study::new(scenario, options.cycles)? else {
@@ -40,20 +36,11 @@ pub fn stability(options: &Stability) -> Result<ExitCode> {
     if interrupted {
         notes.push("interrupted: the last line is not complete".to_owned());
     }
-    if let Some(path) = &options.csv {
-        let mut text = format!(
-            "# mdr-tui: {}\n# study: stability\n",
-            env!("CARGO_PKG_VERSION")
-        );
-        for note in &notes {
-            text.push_str(&format!("# {note}\n"));
-        }
-        text.push_str(&runs(&lines).csv());
-        write_whole(path, text.as_bytes())?;
-    }
+    let table = || runs(&lines).csv();
+    options.rows.write("stability", &notes, table)?;
     let mut out = io::stdout().lock();
-    if options.json {
-        writeln!(out, "{}", serde_json::to_string_pretty(&runs(&lines))?)?;
+    if options.printing.json {
+        results::print_json(&runs(&lines), &mut out)?;
     } else {
         for note in &notes {
             writeln!(out, "{note}")?;
@@ -75,7 +62,9 @@ fn lines(study: &Study, options: &Stability, stop: &AtomicBool) -> Result<(Vec<L
     let settings = settings(options);
     let mut wear_numbers = options.wear_numbers.clone();
     wear_numbers.sort_by(f64::total_cmp);
-    let bar = bar((settings.len() * wear_numbers.len()) as u64, options.quiet);
+    let length = settings.len() * wear_numbers.len();
+    let behind = "{pos} of {len}  {elapsed} gone";
+    let bar = progress::bar(length as u64, behind, options.printing.quiet);
     let go_on = || !stop.load(Ordering::Relaxed);
     let (mut lines, mut interrupted) = (Vec::new(), false);
     for setting in settings {
@@ -116,16 +105,4 @@ fn settings(options: &Stability) -> Vec<Setting> {
         }
     }
     settings
-}
-
-fn bar(runs: u64, quiet: bool) -> ProgressBar {
-    let bar = ProgressBar::new(runs);
-    if quiet || !io::stderr().is_terminal() {
-        bar.set_draw_target(ProgressDrawTarget::hidden());
-    }
-    let template = "{msg} [{bar:32}] {pos} of {len}  {elapsed} gone";
-    if let Ok(style) = ProgressStyle::with_template(template) {
-        bar.set_style(style.progress_chars("=> "));
-    }
-    bar
 }

@@ -1,16 +1,14 @@
 //! `mdr-tui trade`: speed against accuracy, measured on this machine.
 
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, Write};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::{Context, Result};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use ratatui::style::Style;
 
 use super::args::Trade;
-use super::{FAILED, Misuse, complain, results, small_multiples, stop};
-use crate::export::file::write_whole;
+use super::{FAILED, Misuse, complain, progress, results, small_multiples, stop};
 use crate::export::header::number;
 use crate::math::abel::AbelMethod;
 use crate::scenario::Scenario;
@@ -20,9 +18,7 @@ use crate::tui::plot::{Axis, Curve, Plot, Scale};
 
 /// Runs the study and prints, draws and writes what was asked for.
 pub fn trade(options: &Trade) -> Result<ExitCode> {
-    if let Some(path) = &options.csv {
-        results::check(path, options.force)?;
-    }
+    options.rows.check()?;
     let scenario = Scenario::load(&options.scenario, &options.changes.set)?;
     let cycles = options.cycles.or(scenario.run().cycles).ok_or_else(|| {
         Misuse(format!(
@@ -52,27 +48,21 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
         cycles,
     };
     let stop = stop::signal()?;
-    let Some(found) = study.run(&stop, options.quiet)? else {
+    let Some(found) = study.run(&stop, options.printing.quiet)? else {
         complain("interrupted before the reference was there: there is nothing to tell");
         return Ok(ExitCode::from(FAILED));
     };
-    if let Some(path) = &options.csv {
-        let text = format!(
-            "{}{}",
-            study.header(&found),
-            table(&found.trials, &found.trials).csv()
-        );
-        write_whole(path, text.as_bytes())?;
-    }
+    let rows = || table(&found.trials, &found.trials);
+    let notes = study.notes(&found);
+    options.rows.write("trade", &notes, || rows().csv())?;
     let mut out = io::stdout().lock();
     if let Some(accuracy) = options.accuracy {
-        return recommend(&found, accuracy, options.json, &mut out);
+        return recommend(&found, accuracy, options.printing.json, &mut out);
     }
-    if options.json {
-        let rows = table(&found.trials, &found.trials);
-        writeln!(out, "{}", serde_json::to_string_pretty(&rows)?)?;
+    if options.printing.json {
+        results::print_json(&rows(), &mut out)?;
     } else {
-        write!(out, "{}", study.text(&found, options))?;
+        write!(out, "{}", text(&notes, &found, options))?;
     }
     Ok(match found.interrupted {
         true => ExitCode::from(FAILED),
@@ -89,8 +79,7 @@ fn recommend(found: &Found, accuracy: f64, json: bool, out: &mut impl Write) -> 
         return Ok(ExitCode::from(FAILED));
     };
     if json {
-        let row = table([trial], &found.trials);
-        writeln!(out, "{}", serde_json::to_string_pretty(&row)?)?;
+        results::print_json(&table([trial], &found.trials), out)?;
         return Ok(ExitCode::SUCCESS);
     }
     if let Ok((sample, errors)) = &trial.outcome {
@@ -133,10 +122,8 @@ impl Study {
         let efforts = [self.reference, half]
             .into_iter()
             .chain(self.settings.iter().copied());
-        let bar = bar(
-            efforts.map(|setting| setting.effort(self.cycles)).sum(),
-            quiet,
-        );
+        let length = efforts.map(|setting| setting.effort(self.cycles)).sum();
+        let bar = progress::bar(length, progress::TIMES, quiet);
         let run = |setting: &Setting, what: &str| {
             bar.set_message(format!(
                 "{what}{} {}, N = {}, {} steps",
@@ -210,32 +197,25 @@ impl Study {
         }
         notes
     }
+}
 
-    fn header(&self, found: &Found) -> String {
-        let mut text = format!("# mdr-tui: {}\n# study: trade\n", env!("CARGO_PKG_VERSION"));
-        for note in self.notes(found) {
-            text.push_str(&format!("# {note}\n"));
-        }
-        text
+/// The table under what was compared, and the plots under it.
+fn text(notes: &[String], found: &Found, options: &Trade) -> String {
+    let mut text = String::new();
+    for note in notes {
+        text.push_str(note);
+        text.push('\n');
     }
-
-    fn text(&self, found: &Found, options: &Trade) -> String {
-        let mut text = String::new();
-        for note in self.notes(found) {
-            text.push_str(&note);
-            text.push('\n');
-        }
-        let shown: Vec<&Trial> = if options.all {
-            found.trials.iter().collect()
-        } else {
-            front(&found.trials)
-        };
-        text.push_str(&table(shown, &found.trials).text());
-        if options.plot {
-            text.push_str(&plots(found, options));
-        }
-        text
+    let shown: Vec<&Trial> = if options.all {
+        found.trials.iter().collect()
+    } else {
+        front(&found.trials)
+    };
+    text.push_str(&table(shown, &found.trials).text());
+    if options.drawing.plot {
+        text.push_str(&plots(found, options));
     }
+    text
 }
 
 /// Times and errors.
@@ -275,20 +255,8 @@ fn plots(found: &Found, options: &Trade) -> String {
             )
             .curve(Curve::new("", &all.0, &all.1, Style::new()).dashed())
             .curve(Curve::new("", &mine.0, &mine.1, Style::new()))
-            .marker(options.marker.into())
+            .marker(options.drawing.marker.into())
         })
         .collect();
     small_multiples::draw(&plots)
-}
-
-fn bar(effort: u64, quiet: bool) -> ProgressBar {
-    let bar = ProgressBar::new(effort);
-    if quiet || !io::stderr().is_terminal() {
-        bar.set_draw_target(ProgressDrawTarget::hidden());
-    }
-    let template = "{msg} [{bar:32}] {percent}%  {elapsed} gone, {eta} to go";
-    if let Ok(style) = ProgressStyle::with_template(template) {
-        bar.set_style(style.progress_chars("=> "));
-    }
-    bar
 }

@@ -1,22 +1,18 @@
 //! `mdr-tui verify`: the error of every method against closed forms.
 
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, Write};
 use std::process::ExitCode;
 
 use anyhow::Result;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::args::Verify;
-use super::{Misuse, error_curves, results};
-use crate::export::file::write_whole;
+use super::{Misuse, error_curves, progress, results};
 use crate::studies::verify::report::{all_nodes, all_rows, problem_table};
 use crate::studies::verify::{Outcome, Problem, Study, Task};
 
 /// Runs the study and prints, draws and writes what was asked for.
 pub fn verify(options: &Verify) -> Result<ExitCode> {
-    if let Some(path) = &options.csv {
-        results::check(path, options.force)?;
-    }
+    options.rows.check()?;
     let study = Study {
         problems: if options.problem.is_empty() {
             Problem::ALL.to_vec()
@@ -31,18 +27,13 @@ pub fn verify(options: &Verify) -> Result<ExitCode> {
         let message = "--points: nothing to try without --long on so many cells";
         return Err(Misuse(message.into()).into());
     }
-    let outcomes = run(&tasks, options.quiet);
+    let outcomes = run(&tasks, options.printing.quiet);
     // The file first: a closed pipe on stdout must not cost it.
-    if let Some(path) = &options.csv {
-        write_whole(path, csv(&outcomes).as_bytes())?;
-    }
+    let table = || all_nodes(&outcomes).csv();
+    options.rows.write("verify", &notes(&outcomes), table)?;
     let mut out = io::stdout().lock();
-    if options.json {
-        writeln!(
-            out,
-            "{}",
-            serde_json::to_string_pretty(&all_rows(&outcomes))?
-        )?;
+    if options.printing.json {
+        results::print_json(&all_rows(&outcomes), &mut out)?;
     } else {
         write!(out, "{}", text(&study, &outcomes, options))?;
     }
@@ -51,13 +42,9 @@ pub fn verify(options: &Verify) -> Result<ExitCode> {
 
 fn run(tasks: &[Task], quiet: bool) -> Vec<Outcome> {
     let effort = |task: &Task| task.problem.effort(task.points);
-    let bar = ProgressBar::new(tasks.iter().map(effort).sum());
-    if quiet || !io::stderr().is_terminal() {
-        bar.set_draw_target(ProgressDrawTarget::hidden());
-    }
-    if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:32}] {percent}%  {elapsed} gone") {
-        bar.set_style(style.progress_chars("=> "));
-    }
+    // Without the time to go: the effort is too rough for it.
+    let length = tasks.iter().map(effort).sum();
+    let bar = progress::bar(length, "{percent}%  {elapsed} gone", quiet);
     let outcomes = tasks.iter().map(|task| {
         bar.set_message(format!(
             "{}, {}, N = {}",
@@ -75,7 +62,7 @@ fn run(tasks: &[Task], quiet: bool) -> Vec<Outcome> {
 
 /// Every table under what it shows, and the curves under their table.
 fn text(study: &Study, outcomes: &[Outcome], options: &Verify) -> String {
-    let marker = options.marker.into();
+    let marker = options.drawing.marker.into();
     let mut text = String::new();
     for problem in Problem::ALL {
         if !outcomes.iter().any(|o| o.task.problem == problem) {
@@ -95,27 +82,19 @@ fn text(study: &Study, outcomes: &[Outcome], options: &Verify) -> String {
         if !left.is_empty() {
             text.push_str(&format!("N = {} only with --long\n", left.join(", ")));
         }
-        if options.plot {
+        if options.drawing.plot {
             text.push_str(&error_curves::draw(problem, outcomes, marker));
         }
     }
     text
 }
 
-/// All nodes, under lines that say what the errors are.
-fn csv(outcomes: &[Outcome]) -> String {
-    let mut text = format!(
-        "# mdr-tui: {}\n# study: verify\n",
-        env!("CARGO_PKG_VERSION")
-    );
-    for problem in Problem::ALL {
-        if outcomes.iter().any(|o| o.task.problem == problem) {
-            text.push_str(&format!(
-                "# {problem}: {}\n",
-                problem.description().join(" ")
-            ));
-        }
-    }
-    text.push_str(&all_nodes(outcomes).csv());
-    text
+/// What the errors of each problem are.
+fn notes(outcomes: &[Outcome]) -> Vec<String> {
+    let shown = |problem: &Problem| outcomes.iter().any(|o| o.task.problem == *problem);
+    Problem::ALL
+        .into_iter()
+        .filter(shown)
+        .map(|problem| format!("{problem}: {}", problem.description().join(" ")))
+        .collect()
 }

@@ -7,6 +7,9 @@ use std::time::{Duration, Instant};
 
 use super::file::{WriteError, sweep, write_whole};
 
+/// How old the copy in memory may be that a defect of the program leaves of a session.
+pub const COPY_INTERVAL: Duration = Duration::from_millis(100);
+
 /// The ending of a checkpoint's name.
 pub const ENDING: &str = "checkpoint";
 

@@ -189,7 +189,12 @@ impl Scenario {
 
     /// The value at a dotted path as TOML, where the scenario gives one.
     pub fn value(&self, path: &str) -> Option<String> {
-        write::at(&self.whole(), path).map(write::value)
+        let value = |table: &Table| write::at(table, path).map(write::value);
+        match path.split('.').next() {
+            // These two stand apart; the other keys are looked up as they are, for every frame.
+            Some("run" | "changes") => value(&self.whole()),
+            _ => value(&self.table),
+        }
     }
 
     /// The whole scenario as it is run. Read back, it gives an equal one, to the last bit. What

@@ -1,5 +1,8 @@
 //! The scenarios that ship: ordinary TOML files, embedded in the program, without private powers.
 
+use std::collections::HashMap;
+use std::sync::LazyLock;
+
 use super::error::printable;
 use super::nearest::nearest;
 
@@ -62,24 +65,38 @@ pub(super) fn hint(name: &str) -> String {
 
 impl Preset {
     /// The scenario's title.
-    pub fn title(&self) -> String {
-        self.text_of("title")
+    pub fn title(&self) -> &'static str {
+        self.about(0)
     }
 
     /// What it shows, on one line.
-    pub fn summary(&self) -> String {
-        self.text_of("description")
+    pub fn summary(&self) -> &'static str {
+        self.about(1)
     }
 
-    fn text_of(&self, key: &str) -> String {
-        let table = self.text.parse::<toml::Table>().unwrap_or_default();
-        let text = table
-            .get(key)
-            .and_then(toml::Value::as_str)
-            .unwrap_or_default();
-        let words: Vec<&str> = text.split_whitespace().collect();
-        printable(&words.join(" "))
+    fn about(&self, at: usize) -> &'static str {
+        ABOUT.get(self.name).map_or("", |texts| &texts[at])
     }
+}
+
+/// Title and summary by name, read once: a list of presets is drawn with every frame.
+static ABOUT: LazyLock<HashMap<&'static str, [String; 2]>> = LazyLock::new(|| {
+    let about = |preset: &Preset| {
+        let table = preset.text.parse::<toml::Table>().unwrap_or_default();
+        let texts = ["title", "description"].map(|key| text_of(&table, key));
+        (preset.name, texts)
+    };
+    ALL.iter().map(about).collect()
+});
+
+/// A text of a scenario on one line.
+fn text_of(table: &toml::Table, key: &str) -> String {
+    let text = table
+        .get(key)
+        .and_then(toml::Value::as_str)
+        .unwrap_or_default();
+    let words: Vec<&str> = text.split_whitespace().collect();
+    printable(&words.join(" "))
 }
 
 #[cfg(test)]

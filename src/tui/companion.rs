@@ -38,7 +38,6 @@ pub fn run(session: &Session) -> Result<Companion, SessionError> {
         coarse.observe(Curves::PROFILE),
     );
     let differences = differences(&there, &here);
-    let mean = differences.iter().map(|d| d * d).sum::<f64>() / differences.len() as f64;
     let largest = differences
         .iter()
         .fold(0.0, |largest: f64, d| largest.max(d.abs()));
@@ -51,7 +50,7 @@ pub fn run(session: &Session) -> Result<Companion, SessionError> {
     Ok(Companion {
         cells,
         cycle: fine.cycle(),
-        profile: [mean.sqrt() / depth, largest / depth],
+        profile: [rms(&differences) / depth, largest / depth],
         stick_radius: sticks
             .filter(|(here, _)| *here > 0.0)
             .map(|(here, there)| there / here - 1.0),
@@ -67,4 +66,10 @@ pub fn differences(there: &Observation, here: &Observation) -> Vec<f64> {
     points
         .map(|(&r, wear)| wear - interpolate(&here.radii, &here.wear, r))
         .collect()
+}
+
+/// Root mean square of differences; 0 of none.
+pub fn rms(differences: &[f64]) -> f64 {
+    let squares: f64 = differences.iter().map(|d| d * d).sum();
+    (squares / differences.len().max(1) as f64).sqrt()
 }

@@ -5,12 +5,9 @@ use std::time::{Duration, Instant};
 
 use crate::export::file::WriteError;
 use crate::export::header::number;
-use crate::export::keep::{Keeper, place, shell_word};
+use crate::export::keep::{COPY_INTERVAL, Keeper, place, shell_word};
 use crate::scenario::checkpoint;
 use crate::scenario::session::Session;
-
-/// How old the copy may be that a defect of the program leaves of a session.
-const COPY_INTERVAL: Duration = Duration::from_millis(100);
 
 /// Keeps a session.
 #[derive(Debug)]

@@ -253,6 +253,16 @@ mod tests {
         Session::start(scenario).expect("a contact")
     }
 
+    /// A run whose every cycle up to `end` is kept.
+    fn run_to(end: u32) -> (Session, Past) {
+        let (mut session, mut past) = (session(), Past::default());
+        for cycle in 0..=end {
+            session.advance_to(f64::from(cycle)).expect("a step");
+            past.keep(&session, &Trend::default());
+        }
+        (session, past)
+    }
+
     fn cycles(past: &Past) -> Vec<f64> {
         past.kept.iter().map(|kept| kept.cycle()).collect()
     }
@@ -285,12 +295,7 @@ mod tests {
 
     #[test]
     fn back_and_forth_end_at_the_ends() {
-        let (mut session, trend) = (session(), Trend::default());
-        let mut past = Past::default();
-        for cycle in 0..4 {
-            session.advance_to(f64::from(cycle)).expect("a step");
-            past.keep(&session, &trend);
-        }
+        let (_, mut past) = run_to(3);
         let at = |kept: Option<Arc<Kept>>| kept.map(|kept| kept.cycle());
         assert!(past.forth().is_none());
         assert_eq!(at(past.back()), Some(2.0));
@@ -311,12 +316,8 @@ mod tests {
 
     #[test]
     fn a_bookmark_on_another_branch_brings_its_own_past() {
-        let (mut session, trend) = (session(), Trend::default());
-        let mut past = Past::default();
-        for cycle in 0..3 {
-            session.advance_to(f64::from(cycle)).expect("a step");
-            past.keep(&session, &trend);
-        }
+        let (mut session, mut past) = run_to(2);
+        let trend = Trend::default();
         past.mark(&session, &trend);
         past.mark(&session, &trend);
         assert_eq!(past.marks(), 1);

@@ -25,20 +25,8 @@ impl Theory {
     /// What applies to the parts of a simulation.
     pub fn of(setup: &Setup) -> Self {
         let e_star = setup.material.normal_modulus();
-        let unworn = match setup.indenter {
-            Indenter::Paraboloid { radius } => Some(PowerLaw::paraboloid(radius)),
-            Indenter::Cone { angle } => Some(PowerLaw::cone(angle.tan())),
-            Indenter::Power {
-                coefficient,
-                exponent,
-            } => Some(PowerLaw {
-                coefficient,
-                exponent,
-            }),
-            _ => None,
-        };
         let mut theory = Self {
-            unworn: unworn.map(|shape| (shape, e_star)),
+            unworn: power_law(setup.indenter).map(|shape| (shape, e_star)),
             ..Self::default()
         };
         let (Control::Displacement(normal), Some(Control::Displacement(tangential))) =
@@ -144,23 +132,34 @@ fn motion(setup: &Setup, normal: &Oscillation, tangential: &Oscillation) -> Dual
     }
 }
 
+/// The profile as a power of r, where it is one.
+fn power_law(indenter: Indenter) -> Option<PowerLaw> {
+    match indenter {
+        Indenter::Paraboloid { radius } => Some(PowerLaw::paraboloid(radius)),
+        Indenter::Cone { angle } => Some(PowerLaw::cone(angle.tan())),
+        Indenter::Power {
+            coefficient,
+            exponent,
+        } => Some(PowerLaw {
+            coefficient,
+            exponent,
+        }),
+        Indenter::FlatPunch { .. }
+        | Indenter::TruncatedParaboloid { .. }
+        | Indenter::TruncatedCone { .. } => None,
+    }
+}
+
 /// The radius at which the unworn g₀ reaches `depth`, m.
 fn radius_at(setup: &Setup, depth: f64) -> Option<f64> {
     if depth.is_nan() || depth <= 0.0 {
         return None;
     }
+    if let Some(shape) = power_law(setup.indenter) {
+        return Some(shape.contact_radius(depth));
+    }
     let e_star = setup.material.normal_modulus();
     let radius = match setup.indenter {
-        Indenter::Paraboloid { radius } => PowerLaw::paraboloid(radius).contact_radius(depth),
-        Indenter::Cone { angle } => PowerLaw::cone(angle.tan()).contact_radius(depth),
-        Indenter::Power {
-            coefficient,
-            exponent,
-        } => PowerLaw {
-            coefficient,
-            exponent,
-        }
-        .contact_radius(depth),
         Indenter::TruncatedParaboloid { radius, tip_radius } => TruncatedParaboloid {
             e_star,
             radius,
@@ -173,7 +172,7 @@ fn radius_at(setup: &Setup, depth: f64) -> Option<f64> {
             tip_radius,
         }
         .contact_radius(depth),
-        Indenter::FlatPunch { .. } => return None,
+        _ => return None,
     };
     Some(radius)
 }

@@ -1,6 +1,4 @@
 //! A dimensionless contact for the tests: R = d = E* = 1, so that a₀ = 1 and K = kE*d/a₀ = k.
-//!
-//! Every item here is used by every test file that includes it.
 
 #![allow(dead_code, reason = "not every file of tests needs all of it")]
 
@@ -67,6 +65,17 @@ impl From<Scene> for Setup {
     }
 }
 
+/// The scene with the default numerics in place of the paper's.
+pub fn ours(scene: Scene) -> Setup {
+    Setup {
+        method: AbelMethod::Product,
+        spacing: Spacing::Graded,
+        scheme: Scheme::Trapezoid,
+        stability: Stability::SubStep,
+        ..Setup::from(scene)
+    }
+}
+
 /// A prescribed displacement mean + amplitude · sin(ωt + φ).
 pub fn swing(mean: f64, amplitude: f64, frequency: f64, phase: f64) -> Control {
     Control::Displacement(Oscillation::new(mean, amplitude, frequency, phase).expect("a motion"))
@@ -79,9 +88,7 @@ pub fn archard(coefficient: f64) -> Option<WearLaw> {
 
 /// The contact after `cycles`; a breakdown fails the test.
 pub fn run(scene: Scene, cycles: f64) -> Simulation {
-    let mut simulation = Simulation::new(scene.into()).expect("a contact");
-    simulation.advance_to(cycles).expect("a run to the end");
-    simulation
+    run_setup(scene.into(), cycles)
 }
 
 /// The contact of a whole setup after `cycles`.

@@ -60,6 +60,13 @@ pub fn program(arguments: &[&str]) -> CommandBuilder {
     command
 }
 
+/// The cycle in the explorer's status line.
+pub fn cycle(screen: &Screen) -> Option<f64> {
+    let text = screen.contents();
+    let (_, after) = text.lines().next()?.split_once("cycle ")?;
+    after.split_once('/')?.0.parse().ok()
+}
+
 impl Terminal {
     /// Starts `command` in a terminal of `columns` by `rows`.
     pub fn start(command: CommandBuilder, columns: u16, rows: u16) -> Self {

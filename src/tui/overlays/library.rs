@@ -52,17 +52,17 @@ impl Entry {
         }
     }
 
-    fn title(&self) -> String {
+    fn title(&self) -> &'static str {
         match self {
             Self::Preset(preset) => preset.title(),
-            Self::Directory(_) | Self::File(_) => String::new(),
+            Self::Directory(_) | Self::File(_) => "",
         }
     }
 
     /// What it shows, or why it cannot be run.
     fn about(&self) -> String {
         match self {
-            Self::Preset(preset) => preset.summary(),
+            Self::Preset(preset) => preset.summary().to_owned(),
             Self::Directory(path) => format!("the scenarios in {}", path.display()),
             Self::File(path) => match Scenario::load(&path.to_string_lossy(), &[]) {
                 Ok(scenario) if scenario.description().is_empty() => scenario.title().to_owned(),

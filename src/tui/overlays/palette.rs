@@ -174,7 +174,7 @@ fn loads(typed: &str) -> Vec<Completion> {
         .iter()
         .filter(|preset| preset.name.contains(typed));
     let mut list: Vec<_> = fitting
-        .map(|preset| load(preset.name, preset.title()))
+        .map(|preset| load(preset.name, preset.title().to_owned()))
         .collect();
     if list.is_empty() && !typed.is_empty() {
         list.push(load(

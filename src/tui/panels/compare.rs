@@ -5,11 +5,11 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::Line;
 use ratatui::widgets::Widget;
 
-use super::{App, Frame, Panel, curve, edge_marks, panel_block, radial_plot};
-use crate::tui::companion::differences;
+use super::{App, Frame, Panel, bare_plot, curve, edge_marks, panel_block, radial_plot};
+use crate::tui::companion::{differences, rms};
 use crate::tui::frame::Rival;
 use crate::tui::plot::units::{format_number, format_value_in};
-use crate::tui::plot::{Axis, Plot, Scale};
+use crate::tui::plot::{Axis, Scale};
 use crate::tui::theme::Role;
 
 /// What the table of both runs' numbers needs, columns.
@@ -55,10 +55,8 @@ pub fn draw(frame: &Frame, rival: &Rival, app: &App, area: Rect, buffer: &mut Bu
     }
     plot.render(inside, buffer);
     let inside = panel_block("pressure", app, right, buffer);
-    Plot::new(Axis::new("r", "m"), Axis::new("p", "Pa"))
+    bare_plot(app, Axis::new("r", "m"), Axis::new("p", "Pa"))
         .cursor(app.cursor_radius(frame))
-        .marker(theme.marker)
-        .axis_style(theme.style(Role::Quiet))
         .curve(curve(names.1, &other.radii, &other.pressure, theme, Role::Slip).dashed())
         .curve(curve(
             &names.0,
@@ -82,11 +80,9 @@ pub fn draw(frame: &Frame, rival: &Rival, app: &App, area: Rect, buffer: &mut Bu
     let ordinate = Axis::new("|difference|", "m")
         .scale(Scale::Log)
         .bounds(bounds);
-    Plot::new(Axis::new("r", "m").bounds([0.0, edge]), ordinate)
-        .curve(curve("", &other.radii, &difference, theme, Role::Slip))
+    bare_plot(app, Axis::new("r", "m").bounds([0.0, edge]), ordinate)
         .cursor(app.cursor_radius(frame))
-        .marker(theme.marker)
-        .axis_style(theme.style(Role::Quiet))
+        .curve(curve("", &other.radii, &difference, theme, Role::Slip))
         .render(inside, buffer);
     let inside = panel_block("both", app, numbers, buffer);
     let rows = rows(frame, rival, &difference, theme.ascii());
@@ -113,8 +109,7 @@ fn rows(
     let value = |value: f64, unit: &str| format_value_in(value, unit, 4, ascii);
     let maybe =
         |number: Option<f64>, unit: &str| number.map_or_else(|| "-".into(), |v| value(v, unit));
-    let mean =
-        (difference.iter().map(|d| d * d).sum::<f64>() / difference.len().max(1) as f64).sqrt();
+    let residual = |number: Option<f64>| number.map_or_else(|| "-".into(), |v| format_number(v, 2));
     let mut rows = vec![
         ("", this_name(frame), rival.name.clone()),
         (
@@ -134,18 +129,15 @@ fn rows(
         ),
         (
             "1 - V/(k E_d)",
-            here.energy_residual
-                .map_or_else(|| "-".into(), |v| format_number(v, 2)),
-            there
-                .energy_residual
-                .map_or_else(|| "-".into(), |v| format_number(v, 2)),
+            residual(here.energy_residual),
+            residual(there.energy_residual),
         ),
         (
             "a step costs",
             maybe(frame.step_cost, "s"),
             maybe(rival.step_cost, "s"),
         ),
-        ("rms difference", value(mean, "m"), String::new()),
+        ("rms difference", value(rms(difference), "m"), String::new()),
     ];
     if let Some(stopped) = &rival.stopped {
         rows.insert(1, ("", String::new(), stopped.clone()));

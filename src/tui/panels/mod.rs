@@ -238,6 +238,11 @@ fn plot<'a>(panel: Panel, app: &App, x: Axis<'a>, y: Axis<'a>) -> Plot<'a> {
     if let Some(bounds) = app.bounds(panel) {
         y = y.bounds(bounds);
     }
+    bare_plot(app, x, y)
+}
+
+/// A plot in the app's look, without the bounds and the scale of a panel.
+fn bare_plot<'a>(app: &App, x: Axis<'a>, y: Axis<'a>) -> Plot<'a> {
     Plot::new(x, y)
         .marker(app.theme.marker)
         .axis_style(app.theme.style(Role::Quiet))

@@ -1,128 +1,9 @@
-//! The one table of commands: it makes the keys, the footer and the help.
+//! The one table of commands: it makes the keys, the footer, the help and the manual.
 
-use super::keys::{Key, Named};
-
-/// What a key can ask for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Command {
-    /// Leave.
-    Quit,
-    /// Leave, and leave the last screen in the terminal.
-    QuitKeepingScreen,
-    /// Stop, and give the terminal back to the shell for a while.
-    Suspend,
-    /// Close what is open, or leave the zoomed panel.
-    Back,
-    /// Show or hide the help.
-    Help,
-    /// Run or pause.
-    RunPause,
-    /// One step of the simulation.
-    Step,
-    /// To the end of the cycle.
-    Cycle,
-    /// The next transform method.
-    NextMethod,
-    /// The transform method before.
-    PreviousMethod,
-    /// The next wear law.
-    NextLaw,
-    /// The wear law before.
-    PreviousLaw,
-    /// More cycles a second.
-    Faster,
-    /// Fewer cycles a second.
-    Slower,
-    /// Coarser, and cheaper.
-    Coarser,
-    /// Finer, and dearer.
-    Finer,
-    /// Focus the next panel.
-    NextPanel,
-    /// Focus the panel before.
-    PreviousPanel,
-    /// The next page of panels.
-    NextPage,
-    /// The focused panel alone, or all of them.
-    Zoom,
-    /// Write the present state to files.
-    Snapshot,
-    /// The same with a note.
-    SnapshotNote,
-    /// Edit the parameters.
-    Edit,
-    /// Back in time.
-    TimeBack,
-    /// Forth in time.
-    TimeForth,
-    /// Mark the state on the screen.
-    Mark,
-    /// Go to a marked state.
-    Visit,
-    /// Choose another preset.
-    Presets,
-    /// Start again.
-    Restart,
-    /// Logarithmic ordinate of the focused panel.
-    LogScale,
-    /// Theory over the plots.
-    Theory,
-    /// Other colours.
-    Theme,
-    /// Two methods side by side.
-    Compare,
-    /// How far to trust the run.
-    Accuracy,
-    /// Read the curves at a radius.
-    Cursor,
-    /// Every command by its name.
-    Palette,
-    /// Search in the help.
-    Search,
-    /// Left: the cursor, or the focus.
-    Left,
-    /// Right.
-    Right,
-    /// Up in a list.
-    Up,
-    /// Down in a list.
-    Down,
-    /// Take what is selected.
-    Accept,
-}
-
-/// A command, the keys that call it, and what help says of it.
-pub struct Binding {
-    /// The command.
-    pub command: Command,
-    /// Its keys; the first is shown in the footer.
-    pub keys: &'static [Key],
-    /// Its name, in a word or two.
-    pub name: &'static str,
-    /// What it does, in a line.
-    pub help: &'static str,
-    /// Whether the footer shows it.
-    pub in_footer: bool,
-}
-
-const fn bind(
-    command: Command,
-    keys: &'static [Key],
-    name: &'static str,
-    help: &'static str,
-    in_footer: bool,
-) -> Binding {
-    Binding {
-        command,
-        keys,
-        name,
-        help,
-        in_footer,
-    }
-}
-
-use Command as C;
-use Key::{Char, Ctrl};
+use super::Binding;
+use super::Command::{self, self as C};
+use crate::tui::keys::Key::{self, Char, Ctrl};
+use crate::tui::keys::Named;
 
 /// Every command of the explorer, in the order of the help.
 pub static BINDINGS: &[Binding] = &[
@@ -422,36 +303,18 @@ pub static BINDINGS: &[Binding] = &[
     ),
 ];
 
-/// The command of a key.
-pub fn of_key(key: Key) -> Option<Command> {
-    BINDINGS
-        .iter()
-        .find(|binding| binding.keys.contains(&key))
-        .map(|binding| binding.command)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn no_key_has_two_commands() {
-        let keys: Vec<Key> = BINDINGS
-            .iter()
-            .flat_map(|binding| binding.keys)
-            .copied()
-            .collect();
-        for (i, key) in keys.iter().enumerate() {
-            assert!(!keys[..i].contains(key), "{key} is bound twice");
-        }
-    }
-
-    #[test]
-    fn every_command_says_what_it_does() {
-        for binding in BINDINGS {
-            assert!(
-                !binding.keys.is_empty() && !binding.help.is_empty() && binding.help.len() < 60
-            );
-        }
+const fn bind(
+    command: Command,
+    keys: &'static [Key],
+    name: &'static str,
+    help: &'static str,
+    in_footer: bool,
+) -> Binding {
+    Binding {
+        command,
+        keys,
+        name,
+        help,
+        in_footer,
     }
 }

@@ -1,0 +1,182 @@
+//! What can be typed: the whole command line, with its help.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+
+use crate::tui::Size;
+
+mod studies;
+mod values;
+
+pub use studies::{Guard, Rows, Stability, Trade, Verify};
+pub use values::{ColorChoice, CycleAsGiven, HistoryChoice, Interval, MarkerChoice, ThemeChoice};
+use values::{cycles, interval};
+
+/// Watch a fretting contact wear away, live in the terminal.
+#[derive(Debug, Parser)]
+#[command(
+    name = "mdr-tui",
+    version,
+    args_conflicts_with_subcommands = true,
+    subcommand_negates_reqs = true,
+    disable_help_subcommand = true,
+    after_help = "Examples:\n  \
+        mdr-tui                                     open the explorer on the preset li2019-fig3\n  \
+        mdr-tui gross-slip --set numerics.points=200  another preset, with one value changed\n  \
+        mdr-tui presets li2019-fig3 > mine.toml     start a scenario of one's own\n  \
+        mdr-tui run mine.toml --cycles 200 --out X  the same simulation without a screen"
+)]
+pub struct Arguments {
+    /// What to do instead of opening the explorer.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+    /// The explorer's options.
+    #[command(flatten)]
+    pub explore: Explore,
+}
+
+/// Everything but the explorer.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Run a scenario without a screen and write its files.
+    Run(Run),
+    /// List the presets, or print one as TOML.
+    Presets(Presets),
+    /// Compare every method with closed forms, over a ladder of N.
+    Verify(Verify),
+    /// Measure speed against accuracy: one scenario by many settings.
+    Trade(Trade),
+    /// Map the wear coefficients that each method bears: stable, teeth, exploded.
+    Stability(Stability),
+    /// Print a completion script for a shell.
+    #[command(
+        after_help = "Example:\n  mdr-tui completions bash > ~/.local/share/bash-completion/completions/mdr-tui"
+    )]
+    Completions {
+        /// The shell.
+        shell: clap_complete::Shell,
+    },
+    /// Print the manual page.
+    #[command(after_help = "Example:\n  mdr-tui man | man -l -")]
+    Man,
+}
+
+/// A scenario and changes to it.
+#[derive(Debug, Args)]
+pub struct Changes {
+    /// Change a key of the scenario, by its dotted path; can be repeated.
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+}
+
+/// Options of the explorer.
+#[derive(Debug, Args)]
+pub struct Explore {
+    /// A preset's name, or a path to a .toml file.
+    #[arg(default_value = "li2019-fig3")]
+    pub scenario: String,
+    /// Changes to the scenario.
+    #[command(flatten)]
+    pub changes: Changes,
+    /// The most frames drawn in a second.
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u16).range(1..=120))]
+    pub fps: u16,
+    /// How curves are drawn; the default is braille where the locale is UTF-8, else ascii.
+    #[arg(long, value_enum)]
+    pub marker: Option<MarkerChoice>,
+    /// When to use colour; auto obeys NO_COLOR.
+    #[arg(long, value_enum, default_value_t = ColorChoice::Auto)]
+    pub color: ColorChoice,
+    /// Which colours: for a dark or a light background, or none; the default is what the terminal
+    /// says of its background, else dark.
+    #[arg(long, value_enum)]
+    pub theme: Option<ThemeChoice>,
+    /// Use the mouse: a click focuses a panel, a second one zooms it, the wheel moves in lists; without
+    /// this, the terminal keeps it for selecting text.
+    #[arg(long)]
+    pub mouse: bool,
+    /// Press these keys instead of reading the keyboard, print the last screen and exit.
+    #[arg(
+        long,
+        value_name = "SCRIPT",
+        requires = "print",
+        long_help = "Press these keys instead of reading the keyboard, print the last screen and exit.\n\n\
+            Ordinary characters stand for themselves; <Space>, <Tab>, <Esc>, <Enter>, <Left>, ... for \
+            keys, <lt> for \"<\". Every key waits until the simulation has answered the one before."
+    )]
+    pub keys: Option<String>,
+    /// Go on where an explorer or a run was put away; the simulation starts paused.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["scenario", "set"])]
+    pub resume: Option<PathBuf>,
+    /// How often the session is put away so that it can be resumed, in seconds; 0: only at the end.
+    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = interval)]
+    pub checkpoint_every: Interval,
+    /// Print the screen at this size after the last key; the simulation starts paused.
+    #[arg(long, value_name = "COLUMNSxROWS")]
+    pub print: Option<Size>,
+}
+
+/// Options of `run`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    mdr-tui run li2019-fig3 --cycles 199.24 --snapshot-at 50.72,100 --out fig3\n  \
+    mdr-tui run mine.toml --set numerics.method=b --out with-b\n  \
+    mdr-tui run fig3/scenario.toml --out again    the same numbers to the last bit\n  \
+    mdr-tui run --resume fig3/run.checkpoint      go on with a run that was interrupted")]
+pub struct Run {
+    /// A preset's name, or a path to a .toml file.
+    #[arg(required_unless_present = "resume")]
+    pub scenario: Option<String>,
+    /// Changes to the scenario.
+    #[command(flatten)]
+    pub changes: Changes,
+    /// Go on with a run that was interrupted, or one that the explorer put away.
+    #[arg(
+        long,
+        value_name = "FILE",
+        conflicts_with_all = ["scenario", "set", "snapshot_at", "history"]
+    )]
+    pub resume: Option<PathBuf>,
+    /// How many cycles to run; default: the scenario's run.cycles.
+    #[arg(long, value_name = "X", value_parser = cycles, allow_hyphen_values = true)]
+    pub cycles: Option<f64>,
+    /// Write the state at these cycles as well; default: the scenario's run.snapshot_at.
+    #[arg(
+        long,
+        value_name = "C1,C2,...",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
+    pub snapshot_at: Option<Vec<CycleAsGiven>>,
+    /// The directory for the files; default: a new one named after the scenario, with --resume the
+    /// run's own.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Write into a directory that holds files already.
+    #[arg(long)]
+    pub force: bool,
+    /// Which moments the history records.
+    #[arg(long, value_enum, default_value_t = HistoryChoice::Cycle)]
+    pub history: HistoryChoice,
+    /// How often the run is put away so that it can be resumed, in seconds; 0: only when it stops.
+    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = interval)]
+    pub checkpoint_every: Interval,
+    /// Print the last moment as JSON.
+    #[arg(long)]
+    pub json: bool,
+    /// Print nothing but errors.
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+/// Options of `presets`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  mdr-tui presets\n  mdr-tui presets cone > mine.toml")]
+pub struct Presets {
+    /// Print this preset.
+    pub name: Option<String>,
+    /// Print the list as JSON.
+    #[arg(long)]
+    pub json: bool,
+}

@@ -1,0 +1,220 @@
+//! The studies: what each tries, and what becomes of its rows, which is asked for alike in all.
+
+use std::path::PathBuf;
+
+use clap::{Arg, Args, ValueEnum};
+
+use super::Changes;
+use super::values::{
+    MarkerChoice, accuracy, cycles, method_parser, points, problem_parser, wear_number,
+};
+use crate::math::abel::AbelMethod;
+use crate::studies::verify::{LADDER, Problem};
+use crate::studies::{stability, trade};
+
+/// Options of `verify`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    mdr-tui verify                                  the error tables of all problems\n  \
+    mdr-tui verify --problem hertz --csv fig2.csv   Fig. 2 of the paper, node by node\n  \
+    mdr-tui verify --problem hertz --points 100 --plot")]
+#[command(mut_args = in_words(&[
+    ("csv", "Write the error at every node to this file"),
+    ("plot", "Draw the errors over r/a, on the finest grid of each method"),
+    ("json", "Print all rows as JSON instead of tables"),
+]))]
+pub struct Verify {
+    /// Only this problem; can be repeated.
+    #[arg(long, value_name = "NAME", value_parser = problem_parser())]
+    pub problem: Vec<Problem>,
+    /// The numbers of grid cells N to try; default: 50,100,200,400,800.
+    #[arg(
+        long,
+        value_name = "N1,N2,...",
+        value_delimiter = ',',
+        value_parser = points,
+        allow_hyphen_values = true,
+        default_values_t = LADDER,
+        hide_default_value = true
+    )]
+    pub points: Vec<usize>,
+    /// Also the runs that take minutes: the limiting profile on more than 200 cells.
+    #[arg(long)]
+    pub long: bool,
+    /// The file of the rows.
+    #[command(flatten)]
+    pub rows: Rows,
+    /// What is drawn.
+    #[command(flatten)]
+    pub drawing: Drawing,
+    /// What is said.
+    #[command(flatten)]
+    pub printing: Printing,
+}
+
+/// Options of `trade`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    mdr-tui trade li2019-fig3 --plot            the Pareto front, as a table and drawn\n  \
+    mdr-tui trade mine.toml --accuracy 1e-3     the cheapest setting that errs by 1e-3 at most\n  \
+    mdr-tui trade mine.toml --methods product,a --points 50,100,200 --csv trade.csv")]
+#[command(mut_args = in_words(&[
+    ("csv", "Write all settings to this file"),
+    ("plot", "Draw error over time, a plot a method, the front of all dashed"),
+    ("json", "Print all settings as JSON instead of a table"),
+]))]
+pub struct Trade {
+    /// A preset's name, or a path to a .toml file.
+    pub scenario: String,
+    /// Changes to the scenario.
+    #[command(flatten)]
+    pub changes: Changes,
+    /// How many cycles to run; default: the scenario's run.cycles.
+    #[arg(long, value_name = "X", value_parser = cycles, allow_hyphen_values = true)]
+    pub cycles: Option<f64>,
+    /// The methods to try; default: all.
+    #[arg(long, value_name = "M1,M2,...", value_delimiter = ',', value_parser = method_parser())]
+    pub methods: Vec<AbelMethod>,
+    /// The numbers of grid cells N to try.
+    #[arg(
+        long,
+        value_name = "N1,N2,...",
+        value_delimiter = ',',
+        value_parser = points,
+        allow_hyphen_values = true,
+        default_values_t = trade::POINTS
+    )]
+    pub points: Vec<usize>,
+    /// The steps a cycle to try.
+    #[arg(
+        long,
+        value_name = "S1,S2,...",
+        value_delimiter = ',',
+        value_parser = clap::value_parser!(u32).range(1..=100_000),
+        default_values_t = trade::STEPS
+    )]
+    pub steps: Vec<u32>,
+    /// Print only the cheapest setting whose error is at most E, in largest depths.
+    #[arg(long, value_name = "E", value_parser = accuracy)]
+    pub accuracy: Option<f64>,
+    /// Print all settings, not only the front.
+    #[arg(long)]
+    pub all: bool,
+    /// The file of the rows.
+    #[command(flatten)]
+    pub rows: Rows,
+    /// What is drawn.
+    #[command(flatten)]
+    pub drawing: Drawing,
+    /// What is said.
+    #[command(flatten)]
+    pub printing: Printing,
+}
+
+/// Options of `stability`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    mdr-tui stability li2019-fig3                         every method as it was published\n  \
+    mdr-tui stability li2019-fig3 --guard both --methods product,b\n  \
+    mdr-tui stability mine.toml --points 100 --wear-numbers 1,3,10,30 --csv map.csv")]
+#[command(mut_args = in_words(&[
+    ("csv", "Write all runs to this file"),
+    ("json", "Print all runs as JSON instead of maps"),
+]))]
+pub struct Stability {
+    /// A preset's name, or a path to a .toml file.
+    pub scenario: String,
+    /// Changes to the scenario.
+    #[command(flatten)]
+    pub changes: Changes,
+    /// How many cycles to run.
+    #[arg(long, value_name = "X", value_parser = cycles, allow_hyphen_values = true, default_value_t = 20.0)]
+    pub cycles: f64,
+    /// The methods to try; default: all.
+    #[arg(long, value_name = "M1,M2,...", value_delimiter = ',', value_parser = method_parser())]
+    pub methods: Vec<AbelMethod>,
+    /// The numbers of grid cells N to try.
+    #[arg(
+        long,
+        value_name = "N1,N2,...",
+        value_delimiter = ',',
+        value_parser = points,
+        allow_hyphen_values = true,
+        default_values_t = stability::POINTS
+    )]
+    pub points: Vec<usize>,
+    /// The wear numbers K = k E* d/a to try, d and a at the beginning.
+    #[arg(
+        long,
+        value_name = "K1,K2,...",
+        value_delimiter = ',',
+        value_parser = wear_number,
+        allow_hyphen_values = true,
+        default_values_t = stability::WEAR_NUMBERS
+    )]
+    pub wear_numbers: Vec<f64>,
+    /// The steps a cycle.
+    #[arg(long, value_name = "S", value_parser = clap::value_parser!(u32).range(1..=100_000), default_value_t = 100)]
+    pub steps: u32,
+    /// Whether steps that are too harsh are taken in parts.
+    #[arg(long, value_enum, default_value_t = Guard::Off)]
+    pub guard: Guard,
+    /// The file of the rows.
+    #[command(flatten)]
+    pub rows: Rows,
+    /// What is said.
+    #[command(flatten)]
+    pub printing: Printing,
+}
+
+/// What `stability` does about harsh steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Guard {
+    /// The raw method.
+    Off,
+    /// Parts.
+    On,
+    /// One after the other.
+    Both,
+}
+
+/// The file that a study writes its rows to.
+#[derive(Debug, Args)]
+pub struct Rows {
+    /// Write all rows to this file.
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+    /// Write over a file that is there already.
+    #[arg(long, requires = "csv")]
+    pub force: bool,
+}
+
+/// Curves below the tables of a study.
+#[derive(Debug, Args)]
+pub struct Drawing {
+    /// Draw the rows.
+    #[arg(long, conflicts_with = "json")]
+    pub plot: bool,
+    /// What the curves of --plot are made of.
+    #[arg(long, value_enum, default_value_t = MarkerChoice::Braille, requires = "plot")]
+    pub marker: MarkerChoice,
+}
+
+/// What a study says on stdout and stderr.
+#[derive(Debug, Args)]
+pub struct Printing {
+    /// Print all rows as JSON.
+    #[arg(long)]
+    pub json: bool,
+    /// Show no progress.
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+/// Help of options that the studies share, in the words of one of them.
+fn in_words(help: &'static [(&'static str, &'static str)]) -> impl Fn(Arg) -> Arg {
+    |arg| match help.iter().find(|(name, _)| arg.get_id() == name) {
+        Some((_, words)) => arg.help(*words),
+        None => arg,
+    }
+}

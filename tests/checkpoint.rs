@@ -6,6 +6,7 @@ use mdr_tui::export::state;
 use mdr_tui::scenario::checkpoint::{CheckpointError, encode, from_bytes, sealed};
 use mdr_tui::scenario::session::Session;
 use mdr_tui::scenario::{Scenario, preset};
+use mdr_tui::simulation::Simulation;
 
 fn session(preset: &str, sets: &[&str]) -> Session {
     let sets: Vec<String> = sets.iter().map(ToString::to_string).collect();
@@ -240,4 +241,41 @@ fn what_is_no_checkpoint_of_this_version_is_refused() {
     }
     let huge = b"mdr-tui checkpoint 1\n99999999999999 bytes, CRC-32 00000000\nx";
     assert!(refusal(huge).to_string().contains("larger than 4 GiB"));
+}
+
+/// The entry of a CBOR map.
+fn entry<'a>(value: &'a mut Value, name: &str) -> &'a mut Value {
+    let map = value.as_map_mut().expect("a map");
+    let entry = map.iter_mut().find(|(key, _)| key.as_text() == Some(name));
+    &mut entry.expect("an entry").1
+}
+
+#[test]
+fn saved_breaks_that_lie_outside_of_the_grid_are_refused() {
+    let scenario = Scenario::load("li2019-fig3", &[]).expect("a preset");
+    let mut simulation = Simulation::new(scenario.setup().clone()).expect("a contact");
+    simulation.advance_to(0.3).expect("steps");
+    let whole = Value::serialized(&simulation.save()).expect("a value");
+    let restored = |saved: Value| {
+        let saved = saved.deserialized().expect("a saved run");
+        Simulation::restore(simulation.setup().clone(), saved)
+    };
+    assert!(restored(whole.clone()).is_ok());
+    for at in [-1.0, 1.0, f64::NAN, f64::INFINITY] {
+        for (breaks, what) in [
+            ("spring_breaks", "springs' breaks"),
+            ("normal_breaks", "line load's breaks"),
+        ] {
+            let mut bent = whole.clone();
+            let last = entry(entry(&mut bent, "state"), "last");
+            let breaks = entry(last, breaks).as_array_mut();
+            *entry(&mut breaks.expect("a list")[0], "at") = Value::Float(at);
+            let refusal = restored(bent).expect_err("a refusal").to_string();
+            assert_eq!(
+                refusal,
+                format!("the saved {what} do not lie in the grid"),
+                "{at}"
+            );
+        }
+    }
 }

@@ -3,13 +3,13 @@
 mod common;
 
 use common::{Scene, archard, holds, run_setup, swing};
-use mdr_tui::math::abel::AbelMethod::{self, A, Product};
+use mdr_tui::math::abel::AbelMethod::{self, A, APlusB, Product};
 use mdr_tui::math::abel::worn;
 use mdr_tui::oracle::limiting_profile::LimitingProfile;
 use mdr_tui::oracle::partial_slip::stiffness_ratio;
-use mdr_tui::scenario::Scenario;
+use mdr_tui::scenario::{Scenario, preset};
 use mdr_tui::simulation::{Scheme, Setup, Simulation, Spacing, Stability};
-use mdr_tui::studies::stability::{Outcome, Setting, Study};
+use mdr_tui::studies::stability::{Outcome, Setting, Study, VISIBLE, teeth};
 use std::f64::consts::FRAC_PI_4;
 
 /// Fig. 3 with the default numerics.
@@ -103,7 +103,44 @@ fn raw_steps_explode_with_a_plain_word() {
     );
 }
 
-/// Measured over N = 25 to 200 on the motion of Fig. 3: 0.46 to 1.32 for product, 1.42 to 1.79 for a.
+/// Whether the border of stick is the same in every finer step: 1000 steps a cycle against 100, and 2000.
+#[test]
+fn the_core_of_the_first_pass_is_no_matter_of_the_step() {
+    for method in [Product, A] {
+        let wear = |steps_per_cycle: u32| {
+            let setup = Setup {
+                method,
+                steps_per_cycle,
+                ..fig3(1e3, 100)
+            };
+            run_setup(setup, 3.0).state().wear.clone()
+        };
+        let finest = wear(2000);
+        for steps in [100, 1000] {
+            let pairs = wear(steps).into_iter().zip(&finest);
+            let sum: f64 = pairs.map(|(wear, finest)| (wear - finest).powi(2)).sum();
+            let name = format!("{method}, {steps} steps");
+            holds(&name, (sum / finest.len() as f64).sqrt(), 1e-3);
+        }
+    }
+}
+
+#[test]
+fn smooth_presets_have_no_teeth() {
+    for preset in preset::ALL.iter().filter(|p| p.name != "harsh-wear") {
+        let scenario = Scenario::load(preset.name, &[]).expect("a preset");
+        let cycles = scenario.run().cycles.unwrap_or(20.0).min(20.0);
+        let simulation = run_setup(scenario.setup().clone(), cycles);
+        let depth = simulation.setup().largest_depth();
+        let depth = depth.unwrap_or(simulation.state().depth);
+        let height = teeth(&simulation.state().wear) / depth;
+        holds(preset.name, height, 0.2 * VISIBLE);
+    }
+}
+
+/// Measured over N = 25 to 200 on the motion of Fig. 3: 1.00 to 1.42 for a, 1.18 to 1.34 for a+b. For
+/// product 0.66, 1.52, 0.97 and, at N = 200, 0.46: there a spike at the border of stick comes first, where wear
+/// has raised the stiffness since.
 #[test]
 fn teeth_are_seen_where_they_were_predicted() {
     let scenario = Scenario::load("li2019-fig3", &[]).expect("a preset");
@@ -122,10 +159,10 @@ fn teeth_are_seen_where_they_were_predicted() {
             .expect("runs")
             .0
     };
-    for (method, points) in [(Product, 100), (A, 100)] {
+    for (method, points) in [(Product, 100), (A, 50), (A, 100), (APlusB, 100)] {
         let ratio = line(method, points, false).ratio().expect("a boundary");
         eprintln!("{method}: seen/predicted {ratio:.2}");
-        assert!((0.5..2.0).contains(&ratio), "{method}: {ratio}");
+        assert!((1.0 / 1.5..1.5).contains(&ratio), "{method}: {ratio}");
         let guarded = line(method, points, true);
         let stable = |(_, outcome): &(f64, Outcome)| *outcome == Outcome::Stable;
         assert!(guarded.outcomes.iter().all(stable), "{guarded:?}");

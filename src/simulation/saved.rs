@@ -10,6 +10,7 @@ use thiserror::Error;
 
 use super::workspace::{Contact, Workspace};
 use super::{Setup, Simulation, State};
+use crate::math::abel::bend::are_hats;
 use crate::math::grid::RadialGrid;
 
 /// A simulation at rest, without the setup that it runs on.
@@ -121,6 +122,14 @@ fn check(setup: &Setup, state: &State, contact: &Contact) -> Result<(), Unfit> {
     ] {
         if values.iter().any(|value| !value.is_finite()) {
             return Err(Unfit::new(what, "is not finite"));
+        }
+    }
+    for (what, breaks) in [
+        ("springs' breaks", &state.last.spring_breaks),
+        ("line load's breaks", &state.last.normal_breaks),
+    ] {
+        if !are_hats(breaks, setup.grid.squares()) {
+            return Err(Unfit::new(what, "do not lie in the grid"));
         }
     }
     if contact.normal.nodes > nodes {

@@ -97,6 +97,20 @@ pub fn by_cell<'a>(
     })
 }
 
+/// Whether [`by_cell`] can tell the cells of bends that come from a file: each hat begins inside the grid and
+/// goes on to the outer node of its cell at most.
+pub fn are_hats(bends: &[Bend], squares: &[f64]) -> bool {
+    let mut hat = None;
+    bends.iter().all(|bend| {
+        let end = hat.or_else(|| {
+            let next = squares.partition_point(|&t| t <= bend.at);
+            squares.get(next).copied()
+        });
+        hat = end.filter(|&end| bend.at < end);
+        bend.at >= 0.0 && bend.jump.is_finite() && end.is_some_and(|end| bend.at <= end)
+    })
+}
+
 /// Eq. (1): adds what bends of f do to the 1D profile `g` on nodes with the given `squares` (m²).
 pub fn add_to_profile(bends: &[Bend], squares: &[f64], g: &mut [f64]) {
     for bend in bends {
@@ -132,20 +146,15 @@ pub fn add_to_stress(bends: &[Bend], squares: &[f64], p: &mut [f64]) {
     }
 }
 
-/// ∫ p dt and ∫ p (t − t₀) dt, N and N m², over the cell from `cell[0]` = t₀ to `cell[1]` (m²), of the
-/// stress p of Eq. (3) that bends of q (N/m) make.
-pub fn stress_moments(bends: impl IntoIterator<Item = Bend>, cell: [f64; 2]) -> [f64; 2] {
+/// ∫ p dt and ∫ p (t − t₀) dt, N and N m², beyond the square `t` (m²), of the stress p of Eq. (3) that bends of
+/// q (N/m) make; `origin` is t₀. A cell has the difference between its ends.
+pub fn stress_beyond(bends: impl IntoIterator<Item = Bend>, t: f64, origin: f64) -> [f64; 2] {
     let (mut sum, mut first) = (0.0, 0.0);
     for bend in bends {
-        let far = bend.at - cell[0];
-        if far <= 0.0 {
-            continue;
-        }
-        let near = (bend.at - cell[1]).max(0.0);
-        let thirds = far * far.sqrt() - near * near.sqrt();
-        let fifths = far * far * far.sqrt() - near * near * near.sqrt();
-        sum += bend.jump * thirds;
-        first += bend.jump * (far * thirds - 0.6 * fifths);
+        let far = (bend.at - t).max(0.0);
+        let area = bend.jump * far * far.sqrt();
+        sum += area;
+        first += area * (bend.at - origin - 0.6 * far);
     }
     [sum, first].map(|moment| FRAC_2_PI * 2.0 / 3.0 * moment)
 }
@@ -190,7 +199,8 @@ mod tests {
             let sum: f64 = p.iter().map(|p| p * step).sum();
             let arm = squares.iter().map(|t| t - cell[0]);
             let first: f64 = arm.zip(&p).map(|(arm, p)| arm * p * step).sum();
-            let found = stress_moments(bends, cell);
+            let [inner, outer] = cell.map(|t| stress_beyond(bends, t, cell[0]));
+            let found = [inner[0] - outer[0], inner[1] - outer[1]];
             assert!((found[0] - sum).abs() < 1e-7, "{cell:?}: {found:?} {sum}");
             assert!(
                 (found[1] - first).abs() < 1e-8,

@@ -205,23 +205,21 @@ impl RimEdge {
         }
     }
 
-    /// What the tail adds to the [moments](bend::stress_moments) of the stress in a cell, beside those of the
+    /// What the tail adds to the [stress beyond](bend::stress_beyond) the square `t`, beside that of the
     /// bends.
-    pub fn tail_moments(&self, modulus: f64, cell: [f64; 2]) -> [f64; 2] {
-        let Some(tail) = self.tail else {
+    pub fn tail_beyond(&self, modulus: f64, t: f64, origin: f64) -> [f64; 2] {
+        let Some(tail) = self.tail.filter(|_| t < self.at) else {
             return [0.0; 2];
         };
         let length = self.at - tail.rim;
-        let offset = tail.rim - cell[0];
-        let [lo, hi] = cell.map(|t| t.min(tail.rim));
-        let inside = [hi, lo].map(|t| inner_moments(length, tail.rim - t));
-        let [lo, hi] = cell.map(|t| t.clamp(tail.rim, self.at));
-        let outside = [lo, hi].map(|t| outer_moments(length, t - tail.rim));
-        let of = |moment: usize, from: &[[f64; 2]; 2]| from[1][moment] - from[0][moment];
-        let sum = of(0, &inside) + of(0, &outside);
-        let first = offset * sum - of(1, &inside) + of(1, &outside);
+        let ([sum, arm], side) = if t < tail.rim {
+            let [sum, arm] = asinh_moments(length, tail.rim - t);
+            ([sum + length, arm - length * length / 3.0], -1.0)
+        } else {
+            (acosh_moments(length, t - tail.rim), 1.0)
+        };
         let weight = modulus * tail.steepness * FRAC_1_PI;
-        [weight * sum, weight * first]
+        [sum, (tail.rim - origin) * sum + side * arm].map(|moment| weight * moment)
     }
 
     /// ∫ of the compression dx over the cell (m²), less that of the chord from its value at the
@@ -245,29 +243,26 @@ impl RimEdge {
     }
 }
 
-/// ∫₀ʸ asinh √(L/y) dy and ∫₀ʸ y asinh √(L/y) dy, but for constants.
-fn inner_moments(length: f64, y: f64) -> [f64; 2] {
-    if y <= 0.0 {
-        return [length, -length * length / 3.0];
-    }
+/// ∫₀ʸ asinh √(L/y) dy and ∫₀ʸ y asinh √(L/y) dy.
+fn asinh_moments(length: f64, y: f64) -> [f64; 2] {
     let arc = (length / y).sqrt().asinh();
     let root = (length * (y + length)).sqrt();
     [
-        y * arc + root,
-        0.5 * y * y * arc + root * (y - 2.0 * length) / 6.0,
+        y * arc + root - length,
+        0.5 * y * y * arc + root * (y - 2.0 * length) / 6.0 + length * length / 3.0,
     ]
 }
 
-/// ∫₀ʸ acosh √(L/y) dy and ∫₀ʸ y acosh √(L/y) dy for y ≤ L, but for constants.
-fn outer_moments(length: f64, y: f64) -> [f64; 2] {
-    if y <= 0.0 {
-        return [-length, -length * length / 3.0];
-    }
-    let arc = (length / y).sqrt().max(1.0).acosh();
-    let root = (length * (length - y)).max(0.0).sqrt();
+/// The integrals of acosh √(L/y) and of y acosh √(L/y) from y to L.
+fn acosh_moments(length: f64, y: f64) -> [f64; 2] {
+    let arc = match y {
+        0.0 => 0.0,
+        y => (length / y).sqrt().acosh(),
+    };
+    let root = (length * (length - y)).sqrt();
     [
-        y * arc - root,
-        0.5 * y * y * arc - root * (y + 2.0 * length) / 6.0,
+        root - y * arc,
+        root * (y + 2.0 * length) / 6.0 - 0.5 * y * y * arc,
     ]
 }
 
@@ -382,7 +377,8 @@ mod tests {
                 sum += p;
                 first += p * (t - cell[0]);
             }
-            let found = edge.tail_moments(modulus, cell);
+            let [inner, outer] = cell.map(|t| edge.tail_beyond(modulus, t, cell[0]));
+            let found = [inner[0] - outer[0], inner[1] - outer[1]];
             assert!((found[0] / sum - 1.0).abs() < 1e-4, "{found:?} {sum}");
             assert!((found[1] / first - 1.0).abs() < 1e-4, "{found:?} {first}");
         }

@@ -25,7 +25,7 @@ use crate::math::abel::worn;
 const CELLS: usize = 3;
 
 /// What the step wears beyond its nodes' interpolant, m³; none where the law or the method does not tell.
-/// From the spring `zone` on, all slip in the direction of `sign`.
+/// From the spring `zone` on, all slip in one direction.
 pub(super) fn beyond_nodes(
     setup: &Setup,
     state: &State,
@@ -46,35 +46,33 @@ pub(super) fn beyond_nodes(
     if first >= end {
         return Some(0.0);
     }
-    let bends = bends_beyond(setup, state, work, first, end);
-    let volume = |cell: usize| {
-        let (a, b) = (grid.squares()[cell], grid.squares()[cell + 1]);
-        let [mut sum, mut moment] = bend::stress_moments(bends.iter().copied(), [a, b]);
-        let friction = 0.5 * setup.material.friction() * setup.material.normal_modulus();
-        for edge in [&work.rim_edge, &state.last.rim_edge].into_iter().flatten() {
-            let [more, further] = edge.tail_moments(friction, [a, b]);
-            sum += more;
-            moment += further;
-        }
-        let outer = moment / (b - a);
+    let t = grid.squares();
+    let moments = |node: usize| stress_beyond(setup, state, work, first, end, t[node]);
+    let scale = law.coefficient() * std::f64::consts::PI;
+    let (mut inner, mut beyond) = (moments(first), 0.0);
+    for cell in first..end {
+        let outer = moments(cell + 1);
+        let (sum, arm) = (inner[0] - outer[0], inner[1] - outer[1]);
+        let at_outer = (arm - (t[cell] - t[first]) * sum) / (t[cell + 1] - t[cell]);
         let slip = |node: usize| work.surface_slip[node].abs();
-        let exact = law.coefficient()
-            * std::f64::consts::PI
-            * (slip(cell) * (sum - outer) + slip(cell + 1) * outer);
+        beyond += scale * (slip(cell) * (sum - at_outer) + slip(cell + 1) * at_outer);
         let nodal = worn::cell_weights(grid, cell).map(|(node, weight)| weight * work.worn[node]);
-        exact - nodal.iter().sum::<f64>()
-    };
-    Some((first..end).map(volume).sum())
+        beyond -= nodal.iter().sum::<f64>();
+        inner = outer;
+    }
+    Some(beyond)
 }
 
-/// The bends of μ(q_n + q_{n+1})/2 beyond the node `first`, those between nodes among them, N/m³.
-fn bends_beyond(
+/// ∫ μp̄ dt and ∫ μp̄ (t − t₀) dt beyond the square `from`, t₀ that of the node `first`, for a contact that ends in
+/// the cell before the node `end`.
+fn stress_beyond(
     setup: &Setup,
     state: &State,
     work: &Workspace,
     first: usize,
     end: usize,
-) -> Vec<Bend> {
+    from: f64,
+) -> [f64; 2] {
     let (t, load) = (work.planned.grid.squares(), &work.friction_work);
     let slope = |k: usize| (load[k + 1] - load[k]) / (t[k + 1] - t[k]);
     let nodal = (first + 1..=end.min(t.len() - 2)).map(|j| Bend {
@@ -83,14 +81,19 @@ fn bends_beyond(
     });
     let half = 0.5 * setup.material.friction();
     let modulus = setup.material.normal_modulus();
-    let of_edges = [&work.rim_edge, &state.last.rim_edge]
-        .into_iter()
-        .flatten()
-        .flat_map(|edge| edge.load_bends(modulus));
+    let edges = || [&work.rim_edge, &state.last.rim_edge].into_iter().flatten();
     let between = work.normal_breaks.iter().chain(&state.last.normal_breaks);
-    let between = between.copied().chain(of_edges).map(|bend| Bend {
+    let between = between.copied();
+    let between = between.chain(edges().flat_map(|edge| edge.load_bends(modulus)));
+    let between = between.map(|bend| Bend {
         jump: half * bend.jump,
         ..bend
     });
-    nodal.chain(between).collect()
+    let [mut sum, mut arm] = bend::stress_beyond(nodal.chain(between), from, t[first]);
+    for edge in edges() {
+        let [more, further] = edge.tail_beyond(half * modulus, from, t[first]);
+        sum += more;
+        arm += further;
+    }
+    [sum, arm]
 }

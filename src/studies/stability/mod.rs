@@ -7,7 +7,9 @@ use crate::math::abel::AbelMethod;
 use crate::scenario::session::{Session, SessionError};
 use crate::scenario::{Change, Scenario};
 use crate::simulation::stability;
+use growth::growing_from;
 
+mod growth;
 pub mod report;
 mod teeth;
 
@@ -19,18 +21,15 @@ pub const POINTS: [usize; 4] = [25, 50, 100, 200];
 /// Wear numbers K that are tried: half decades.
 pub const WEAR_NUMBERS: [f64; 9] = [0.1, 0.316, 1.0, 3.16, 10.0, 31.6, 100.0, 316.0, 1000.0];
 
-/// Teeth are what exceeds this over N², in largest depths. The bends of smooth profiles come to 12/N²:
-/// that is what runs with the guard end with, at any wear number and N from 25 to 200.
-pub const VISIBLE: f64 = 36.0;
+/// Teeth that are higher than this, in largest depths, are seen. The presets come to 7e-5 at most, and runs
+/// with the guard to 3e-4, next to the border of stick: one node, no comb.
+pub const VISIBLE: f64 = 5e-4;
 
 /// The wear number at which the stiffness of a step is read: nothing has changed shape by then.
 const MILD: f64 = 1e-3;
 
 /// Halvings of the interval, on the scale of ratios, in which the boundary lies.
 const HALVINGS: u32 = 3;
-
-/// Steps of one percent in which the boundary is looked for, from where the stiffest step has its limit.
-const REACH: i32 = 300;
 
 /// What is run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,7 +49,7 @@ pub struct Setting {
 pub enum Outcome {
     /// Smooth to the end.
     Stable,
-    /// At the end, with teeth of this height together, in largest depths.
+    /// At the end, with teeth of this height, in largest depths.
     Teeth(f64),
     /// After some cycles, for a reason.
     Exploded {
@@ -148,15 +147,15 @@ impl Study {
         let depth = simulation.setup().largest_depth();
         let depth = depth.unwrap_or(simulation.state().depth);
         let height = teeth(&simulation.state().wear) / depth;
-        ControlFlow::Continue(Ok(if height > VISIBLE / (setting.points as f64).powi(2) {
+        ControlFlow::Continue(Ok(if height > VISIBLE {
             Outcome::Teeth(height)
         } else {
             Outcome::Stable
         }))
     }
 
-    /// The wear number from which the stiffest error grows over a cycle: z rises and falls with the
-    /// speed of the slip, and steps that damp an error make up for some that do not.
+    /// The wear number from which the stiffest error grows over a cycle of the unworn contact: z rises and
+    /// falls with the speed of the slip, and steps that damp an error make up for some that do not.
     fn predict(&self, setting: Setting) -> Result<Option<f64>, SessionError> {
         let mut session = self.start(setting, MILD)?;
         let mut stiffness = Vec::new();
@@ -169,22 +168,11 @@ impl Study {
             }
         }
         let setup = session.simulation().setup();
-        let stiffest = stiffness.iter().copied().fold(0.0, f64::max);
-        if !stability::follows_steps(setup.method) || stiffest <= 0.0 {
+        if stability::beyond_steps(setup.method).is_some() {
             return Ok(None);
         }
-        let grows = |factor: f64| {
-            let logs = stiffness
-                .iter()
-                .map(|z| stability::amplification(setup.scheme, factor * z).ln());
-            logs.sum::<f64>() > 0.0
-        };
-        let at_limit = stability::limit(setup.scheme) / stiffest;
-        let rungs = (0..REACH).map(|rung| at_limit * 1.01_f64.powi(rung));
-        Ok(rungs
-            .into_iter()
-            .find(|&factor| grows(factor))
-            .map(|factor| MILD * factor))
+        let factor = growing_from(setup.scheme, &stiffness);
+        Ok(factor.map(|factor| MILD * factor))
     }
 
     /// Runs the ladder, and then between its last stable and its first other rung to find the boundary.

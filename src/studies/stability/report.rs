@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::{Line, Outcome};
+use crate::simulation::stability;
 use crate::studies::table::{Cell, Column, Format, Table};
 
 impl Outcome {
@@ -127,7 +128,11 @@ pub fn maps(lines: &[Line]) -> String {
             .iter()
             .map(|(k, _)| format!("{:<RUNG$}", short(*k)));
         let rungs: String = rungs.collect();
-        let _ = writeln!(text, "  N  K={}\n", rungs.trim_end());
+        let _ = writeln!(text, "  N  K={}", rungs.trim_end());
+        if let Some(why) = stability::beyond_steps(first.setting.method) {
+            let _ = writeln!(text, "  No limit is predicted: {why}.");
+        }
+        text.push('\n');
     }
     text
 }
@@ -190,6 +195,16 @@ mod tests {
         let expected = "a, guard off\n    50 ......|~~~~~~ ######\n  N  K=1      10     100\n\n";
         assert_eq!(maps(&[line()]), expected);
         assert_eq!(line().ratio(), Some(0.5));
+    }
+
+    #[test]
+    fn a_map_says_in_words_where_no_limit_is_predicted() {
+        let mut line = line();
+        line.predicted = None;
+        for method in [AbelMethod::B, AbelMethod::Benad] {
+            line.setting.method = method;
+            assert!(maps(&[line.clone()]).contains("\n  No limit is predicted: its "));
+        }
     }
 
     #[test]

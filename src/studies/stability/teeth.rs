@@ -1,51 +1,97 @@
-//! How much of a profile's ups and downs is teeth.
+//! How high the teeth of a profile are.
+//!
+//! # Formula
+//!
+//! With the second differences D_j = v_{j−1} − 2v_j + v_{j+1} of the nodal values, the teeth around a node
+//! where D changes its sign twice, from the node before and to the node after, are as high as
+//!
+//! ```text
+//! ½ min(|D_{j−1}|, |D_j|, |D_{j+1}|)       the height of the teeth is the largest of these
+//! ```
+//!
+//! An even comb, every second node higher by H, has D = ±2H and so teeth of H. A kink, as at the border of
+//! stick and at the contact's edge, is one large D among small ones, and a jump two: neither has teeth.
 
-/// The total variation of `values` above that of their envelope, the median of every five neighbours:
-/// peaks and gaps one or two nodes wide, whatever the shape on which they stand. Monotone values have
-/// none, a single tooth of height 1 has 2.
-///
-/// Known failure: an even comb, every second node by one height, is its own median and is seen at its ends
-/// alone.
+/// From tooth to gap, of the highest teeth of `values`, in their unit; 0 where they are smooth.
 pub fn teeth(values: &[f64]) -> f64 {
-    let last = values.len().saturating_sub(1);
-    let envelope: Vec<f64> = (0..values.len())
-        .map(|j| {
-            // At the ends fewer neighbours on both sides, so that a slope stays as it is.
-            let reach = 2.min(j).min(last - j);
-            let mut near = values[j - reach..=j + reach].to_vec();
-            near.sort_by(f64::total_cmp);
-            near[reach]
-        })
+    let bends: Vec<f64> = values
+        .windows(3)
+        .map(|v| (v[0] - v[1]) + (v[2] - v[1]))
         .collect();
-    (variation(values) - variation(&envelope)).max(0.0)
-}
-
-fn variation(values: &[f64]) -> f64 {
-    values
-        .windows(2)
-        .map(|pair| (pair[1] - pair[0]).abs())
-        .sum()
+    bends
+        .windows(3)
+        .filter(|d| d[0] * d[1] < 0.0 && d[1] * d[2] < 0.0)
+        .map(|d| 0.5 * d.iter().fold(f64::INFINITY, |least, d| least.min(d.abs())))
+        .fold(0.0, f64::max)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[test]
-    fn slopes_and_hills_have_no_teeth_and_each_tooth_counts_twice() {
-        let slope: Vec<f64> = (0..40).map(|j| f64::from(j) * 0.1).collect();
-        assert_eq!(teeth(&slope), 0.0);
-        let step: Vec<f64> = (0..40).map(|j| f64::from(u8::from(j > 20))).collect();
-        assert_eq!(teeth(&step), 0.0);
-        let hill = |j: i32| 1.0 - (f64::from(j - 20) / 20.0).powi(2);
-        let hills: Vec<f64> = (0..40).map(hill).collect();
-        assert!(teeth(&hills) < 0.03, "{}", teeth(&hills));
-        let mut toothed = slope.clone();
-        for j in [10, 20, 30] {
-            toothed[j] += 1.0;
+    /// A limiting profile: nothing worn inside the border, a root outside of it, a kink where the worn
+    /// zone ends; on equal cells.
+    fn worn(cells: i32) -> Vec<f64> {
+        let radius = |j: i32| f64::from(j) * 1.5 / f64::from(cells);
+        let depth = |r: f64| {
+            (0.8 * (r * r - 0.16_f64).max(0.0).sqrt())
+                .min(1.4 - r)
+                .max(0.0)
+        };
+        (0..=cells).map(|j| depth(radius(j))).collect()
+    }
+
+    /// Every `pitch`-th node from `from` to `to` higher by `height`.
+    fn comb(values: &[f64], from: usize, to: usize, pitch: usize, height: f64) -> Vec<f64> {
+        let mut toothed = values.to_vec();
+        for j in (from..to).step_by(pitch) {
+            toothed[j] += height;
         }
-        assert!((teeth(&toothed) - 6.0).abs() < 0.7, "{}", teeth(&toothed));
-        assert_eq!(teeth(&[]), 0.0);
-        assert_eq!(teeth(&[1.0]), 0.0);
+        toothed
+    }
+
+    #[test]
+    fn smooth_profiles_with_kinks_and_jumps_have_none() {
+        for cells in [25, 60, 100, 200, 1000] {
+            assert!(teeth(&worn(cells)) < 1e-15, "{cells}");
+        }
+        let jump: Vec<f64> = (0..40).map(|j| f64::from(u8::from(j > 20))).collect();
+        assert_eq!(teeth(&jump), 0.0);
+        let hills: Vec<f64> = (0..100).map(|j| (0.2 * f64::from(j)).sin()).collect();
+        assert_eq!(teeth(&hills), 0.0);
+        for few in 0..5 {
+            assert_eq!(teeth(&vec![1.0; few]), 0.0);
+        }
+    }
+
+    #[test]
+    fn an_even_comb_is_as_high_as_it_is() {
+        for height in [1e-3, 0.1, 3.0] {
+            let found = teeth(&comb(&[0.5; 60], 10, 50, 2, height));
+            assert!((found / height - 1.0).abs() < 1e-9, "{height}: {found}");
+        }
+    }
+
+    /// One spike has second differences of H, −2H and H.
+    #[test]
+    fn single_teeth_count_half() {
+        let slope: Vec<f64> = (0..60).map(|j| f64::from(j) * 0.1).collect();
+        for pitch in [3, 5, 100] {
+            let found = teeth(&comb(&slope, 30, 50, pitch, 1.0));
+            assert!((found - 0.5).abs() < 1e-9, "{pitch}: {found}");
+        }
+    }
+
+    #[test]
+    fn small_combs_are_seen_on_a_worn_profile() {
+        for pitch in [2, 3] {
+            let found = teeth(&comb(&worn(100), 40, 80, pitch, 2e-3));
+            assert!((0.4e-3..2.1e-3).contains(&found), "{pitch}: {found}");
+        }
+        // Teeth at the border and at the end of the worn zone.
+        for from in [26, 66] {
+            let found = teeth(&comb(&worn(100), from, from + 8, 2, 0.2));
+            assert!(found > 0.1, "{from}: {found}");
+        }
     }
 }

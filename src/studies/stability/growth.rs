@@ -1,0 +1,49 @@
+//! Whether errors grow over a cycle.
+
+use crate::simulation::Scheme;
+use crate::simulation::stability::{amplification, limit};
+
+/// Steps of one percent in which the boundary is looked for, from where the stiffest step has its limit.
+const REACH: i32 = 300;
+
+/// By what the stiffness z of every step of a cycle is to be multiplied for the product of their
+/// amplifications to exceed 1. None if that cannot be.
+pub(super) fn growing_from(scheme: Scheme, stiffness: &[f64]) -> Option<f64> {
+    let stiffest = stiffness.iter().copied().fold(0.0, f64::max);
+    if stiffest <= 0.0 {
+        return None;
+    }
+    let at_limit = limit(scheme) / stiffest;
+    let grows = |factor: &f64| {
+        let logs = stiffness
+            .iter()
+            .map(|z| amplification(scheme, factor * z).ln());
+        logs.sum::<f64>() > 0.0
+    };
+    (0..REACH)
+        .map(|rung| at_limit * 1.01_f64.powi(rung))
+        .find(grows)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_steps_grow_from_their_limit() {
+        for scheme in Scheme::ALL {
+            for z in [1e-3, 1.0] {
+                let factor = growing_from(scheme, &[z; 10]).expect("a factor");
+                assert!((factor * z / limit(scheme) - 1.0).abs() < 0.02, "{scheme}");
+            }
+        }
+    }
+
+    #[test]
+    fn steps_that_damp_make_up_for_others() {
+        let mixed = growing_from(Scheme::Euler, &[1.0, 0.3, 0.3]).expect("a factor");
+        assert!(mixed > 2.02, "{mixed}");
+        assert_eq!(growing_from(Scheme::Euler, &[0.0, 0.0]), None);
+        assert_eq!(growing_from(Scheme::Euler, &[]), None);
+    }
+}

@@ -89,7 +89,7 @@ pub struct Moment {
     /// and under laws that do not follow energy.
     pub energy_residual: Option<f64>,
     /// The largest stiffness that the method bears, over that of the last step, or of its harshest part:
-    /// below 1 wear grows teeth. None before anything has worn.
+    /// below 1 wear grows teeth. None where nothing has worn in it, and after a jump.
     pub stability_margin: Option<f64>,
 }
 

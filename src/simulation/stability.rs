@@ -37,14 +37,8 @@ pub fn response(method: AbelMethod) -> f64 {
 pub fn beyond_steps(method: AbelMethod) -> Option<&'static str> {
     match method {
         AbelMethod::Product | AbelMethod::A | AbelMethod::APlusB => None,
-        AbelMethod::B => Some(
-            "its differences look across the border of stick, and its pressure hardly answers to the teeth \
-             that wear into the core: they grow with K x cycles, whatever the step",
-        ),
-        AbelMethod::Benad => Some(
-            "its slip of the surface amplifies what is uneven in the springs: teeth are worn anew in every \
-             cycle and grow with K x cycles, whatever the step",
-        ),
+        AbelMethod::B => Some("its differences look across the border of stick and wear the core"),
+        AbelMethod::Benad => Some("its Eq. (2) adds what is uneven in the springs to every cycle"),
     }
 }
 

@@ -288,6 +288,8 @@ fn accept(setup: &Setup, state: &mut State, work: &mut Workspace, memory: State,
     close_period(state, work);
     state.effort.jumps += 1;
     state.last.duration = 0.0;
+    // A jump has as many stages as it needs: the limit of a step is not its own.
+    state.last.stiffness = 0.0;
     state.last.growth.fill(0.0);
     state.last.wear.fill(0.0);
     state.jump = JumpMemory {

@@ -130,7 +130,10 @@ pub fn maps(lines: &[Line]) -> String {
         let rungs: String = rungs.collect();
         let _ = writeln!(text, "  N  K={}", rungs.trim_end());
         if let Some(why) = stability::beyond_steps(first.setting.method) {
-            let _ = writeln!(text, "  No limit is predicted: {why}.");
+            let _ = writeln!(
+                text,
+                "  No limit is predicted: teeth grow with K x cycles, whatever the step;\n  {why}."
+            );
         }
         text.push('\n');
     }
@@ -203,7 +206,7 @@ mod tests {
         line.predicted = None;
         for method in [AbelMethod::B, AbelMethod::Benad] {
             line.setting.method = method;
-            assert!(maps(&[line.clone()]).contains("\n  No limit is predicted: its "));
+            assert!(maps(&[line.clone()]).contains("\n  No limit is predicted: teeth "));
         }
     }
 

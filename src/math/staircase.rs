@@ -1,8 +1,8 @@
 //! A linear operator on nodal values, stored in panels of rows with the zeros at both ends left out.
 //!
 //! The Abel transforms are triangular, or nearly so: g(x) and w(r) look inwards, p(r) looks
-//! outwards. A panel is eight rows over the columns that any of them has. Their sums stay in the
-//! registers of the processor's vector unit while one pass goes through the panel's entries, and the pass
+//! outwards. A panel is eight rows over the columns that any of them has, in two runs where there is a gap:
+//! the cusp of a load at the tip goes into the stress of every row. Their sums stay in the registers of the processor's vector unit while one pass goes through the panel's entries, and the pass
 //! covers only the columns where the input is not zero (within the contact, outside the stick zone).
 //! Cost: at most N²/2 multiply-adds.
 //!
@@ -18,6 +18,9 @@ use nalgebra::DMatrix;
 const ROWS: usize = 8;
 const LANES: usize = 4;
 
+/// Parts of a run that are summed side by side.
+const QUARTERS: usize = 4;
+
 /// A square matrix whose rows each hold one contiguous run of entries.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Staircase {
@@ -29,51 +32,62 @@ pub struct Staircase {
 
 #[derive(Debug, Clone, PartialEq)]
 struct Panel {
+    runs: [Run; 2],
+}
+
+/// Columns of a panel that follow each other; possibly none.
+#[derive(Debug, Clone, PartialEq)]
+struct Run {
     columns: Range<usize>,
     /// Its first column in the entries.
     start: usize,
 }
 
-impl Panel {
+impl Run {
     /// Where the entries of those of its `columns` are that lie within `input`, and which ones these are.
     fn within(&self, input: &Range<usize>) -> (Range<usize>, Range<usize>) {
-        let first = self.columns.start.max(input.start);
+        let first = input.start.clamp(self.columns.start, self.columns.end);
         let end = self.columns.end.min(input.end).max(first);
         let start = self.start + first - self.columns.start;
         (start..start + (end - first), first..end)
     }
 }
 
-/// The sums of a panel's rows over its `columns`, each times its value.
+/// The sums of a panel's rows over the `columns` of a run, each times its value.
 #[inline(always)]
-fn sum_panel<S: Simd>(simd: S, columns: &[[f64; ROWS]], values: &[f64]) -> [f64; ROWS] {
+fn sum_run<S: Simd>(simd: S, columns: &[[f64; ROWS]], values: &[f64]) -> [f64; ROWS] {
     let halves = |column: &[f64; ROWS]| {
         let (lanes, _) = column.as_chunks::<LANES>();
         [0, 1].map(|half| f64x4::from_slice(simd, &lanes[half]))
     };
-    // Every other column has sums of its own: the processor need not wait for the last addition.
-    let mut sums = [[f64x4::splat(simd, 0.0); 2]; 2];
-    let (pairs, last) = columns.as_chunks::<2>();
-    let (paired, value_of_last) = values.as_chunks::<2>();
-    for (pair, values) in pairs.iter().zip(paired) {
-        for ((sums, column), value) in sums.iter_mut().zip(pair).zip(values) {
-            let value = f64x4::splat(simd, *value);
-            for (sum, entries) in sums.iter_mut().zip(halves(column)) {
+    // Each quarter of the run has sums of its own: the processor need not wait for the last addition,
+    // and fetches four streams from its outer caches where the run does not fit the inner one.
+    let quarter = columns.len() / QUARTERS;
+    let streams: [_; QUARTERS] = std::array::from_fn(|i| {
+        let part = i * quarter..(i + 1) * quarter;
+        (&columns[part.clone()], &values[part])
+    });
+    let mut sums = [[f64x4::splat(simd, 0.0); 2]; QUARTERS];
+    for k in 0..quarter {
+        for (sums, (columns, values)) in sums.iter_mut().zip(&streams) {
+            let value = f64x4::splat(simd, values[k]);
+            for (sum, entries) in sums.iter_mut().zip(halves(&columns[k])) {
                 *sum = entries.mul_add(value, *sum);
             }
         }
     }
-    for (column, value) in last.iter().zip(value_of_last) {
+    let rest = QUARTERS * quarter;
+    for (column, value) in columns[rest..].iter().zip(&values[rest..]) {
         let value = f64x4::splat(simd, *value);
         for (sum, entries) in sums[0].iter_mut().zip(halves(column)) {
             *sum = entries.mul_add(value, *sum);
         }
     }
     let mut rows = [0.0; ROWS];
-    let [even, odd] = sums;
+    let [a, b, c, d] = sums;
     let (lanes, _) = rows.as_chunks_mut::<LANES>();
-    for ((lanes, even), odd) in lanes.iter_mut().zip(even).zip(odd) {
-        (even + odd).store_slice(lanes);
+    for (half, lanes) in lanes.iter_mut().enumerate() {
+        ((a[half] + b[half]) + (c[half] + d[half])).store_slice(lanes);
     }
     rows
 }
@@ -98,13 +112,16 @@ impl Staircase {
             let any = |k: &usize| (row..row + rows).any(|j| dense[(j, *k)] != 0.0);
             let first = (0..size).find(any).unwrap_or(0);
             let end = (0..size).rfind(any).map_or(first, |k| k + 1);
-            panels.push(Panel {
-                columns: first..end,
-                start: entries.len(),
+            let gap = (first..end).find(|k| !any(k)).unwrap_or(end);
+            let behind = (gap..end).find(any).unwrap_or(end);
+            let runs = [first..gap, behind..end].map(|columns| {
+                let start = entries.len();
+                entries.extend(columns.clone().map(|k| {
+                    std::array::from_fn(|i| if i < rows { dense[(row + i, k)] } else { 0.0 })
+                }));
+                Run { columns, start }
             });
-            entries.extend((first..end).map(|k| {
-                std::array::from_fn(|i| if i < rows { dense[(row + i, k)] } else { 0.0 })
-            }));
+            panels.push(Panel { runs });
         }
         Self {
             size,
@@ -148,8 +165,13 @@ impl Staircase {
                 output.fill(0.0);
                 continue;
             }
-            let (at, columns) = panel.within(&support);
-            let sums = sum_panel(simd, &self.entries[at], &input[columns]);
+            let [mut sums, more] = panel.runs.each_ref().map(|run| {
+                let (at, columns) = run.within(&support);
+                sum_run(simd, &self.entries[at], &input[columns])
+            });
+            for (sum, more) in sums.iter_mut().zip(more) {
+                *sum += more;
+            }
             for (zero, sum) in zeros.iter_mut().zip(&sums) {
                 *zero += 0.0 * sum;
             }
@@ -161,25 +183,27 @@ impl Staircase {
     /// Zero times a value that is not finite is no zero: it is passed on to the rows that have an entry
     /// for it, and not to all rows of their panels. Such a step fails: this need not be quick.
     fn apply_not_finite(&self, input: &[f64], output: &mut [f64]) {
-        for ((output, panel), row) in output.iter_mut().zip(self.rows()).zip(0..) {
-            let columns = &self.entries[panel.start..][..panel.columns.len()];
-            let terms = columns.iter().zip(&input[panel.columns.clone()]);
-            let seen = terms.filter(|(column, _)| column[row % ROWS] != 0.0);
-            *output = seen.map(|(column, value)| column[row % ROWS] * value).sum();
+        for (row, output) in output.iter_mut().enumerate() {
+            let seen = self.row(row).filter(|(_, entry)| *entry != 0.0);
+            *output = seen.map(|(k, entry)| entry * input[k]).sum();
         }
     }
 
-    /// The panel of every row.
-    fn rows(&self) -> impl Iterator<Item = &Panel> {
-        (0..self.size).map(|row| &self.panels[row / ROWS])
+    /// The entries of a row, each with its column.
+    fn row(&self, row: usize) -> impl Iterator<Item = (usize, f64)> {
+        self.panels[row / ROWS].runs.iter().flat_map(move |run| {
+            let entries = self.entries[run.start..].iter();
+            let columns = run.columns.clone().zip(entries);
+            columns.map(move |(k, column)| (k, column[row % ROWS]))
+        })
     }
 
     /// The operator as a dense matrix, for eigenvalues and norms.
     pub fn to_dense(&self) -> DMatrix<f64> {
         let mut dense = DMatrix::zeros(self.size, self.size);
-        for (row, panel) in self.rows().enumerate() {
-            for (k, column) in panel.columns.clone().zip(&self.entries[panel.start..]) {
-                dense[(row, k)] = column[row % ROWS];
+        for row in 0..self.size {
+            for (k, entry) in self.row(row) {
+                dense[(row, k)] = entry;
             }
         }
         dense
@@ -247,6 +271,28 @@ mod tests {
         packed.apply(&[0.0, f64::NAN, 0.0], &mut output);
         assert_eq!(output[0], 0.0);
         assert!(output[1].is_nan() && output[2].is_nan());
+    }
+
+    /// Rows with two runs of entries, and inputs in either, between them and in none.
+    #[test]
+    fn a_gap_in_the_rows_is_passed_over() {
+        let dense = DMatrix::from_fn(45, 45, |i, j| {
+            if j < 3 || (i..i + 6).contains(&j) {
+                (1 + i + 2 * j) as f64
+            } else {
+                0.0
+            }
+        });
+        let packed = Staircase::pack(&dense);
+        assert_eq!(packed.to_dense(), dense);
+        for support in [0..45, 0..2, 4..5, 2..9, 20..30, 44..45, 7..7] {
+            let mut input = vec![0.0; 45];
+            input[support.clone()].fill(1.5);
+            let mut output = vec![f64::NAN; 45];
+            packed.apply(&input, &mut output);
+            let expected = &dense * nalgebra::DVector::from_column_slice(&input);
+            assert_eq!(output, expected.as_slice(), "{support:?}");
+        }
     }
 
     #[test]

@@ -93,6 +93,15 @@ mod tests {
     use super::super::worn;
     use super::*;
 
+    /// The cell in which the load ends, at a = 1, and its breaks there.
+    fn ending_at_one(t: &[f64], load: &[f64]) -> (usize, Vec<Bend>) {
+        let cell = t.partition_point(|&t| t <= 1.0) - 1;
+        let mut breaks = Vec::new();
+        let (ends, values) = ([t[cell], t[cell + 1]], [load[cell], 0.0]);
+        bend::polyline(ends, values, &[(1.0, 0.0)], &mut breaks);
+        (cell, breaks)
+    }
+
     /// q = 1 − t², as under f ∝ r⁴, that ends at a = 1 between nodes: the stress with its edge.
     fn quartic(cells: usize, corrected: bool) -> Vec<(f64, f64)> {
         // a = 1 a third of a cell behind a node, for every N.
@@ -100,14 +109,7 @@ mod tests {
         let grid = RadialGrid::uniform(cells, domain).expect("a grid");
         let t = grid.squares();
         let load: Vec<f64> = t.iter().map(|t| (1.0 - t * t).max(0.0)).collect();
-        let cell = t.partition_point(|&t| t <= 1.0) - 1;
-        let mut breaks = Vec::new();
-        bend::polyline(
-            [t[cell], t[cell + 1]],
-            [load[cell], 0.0],
-            &[(1.0, 0.0)],
-            &mut breaks,
-        );
+        let (cell, breaks) = ending_at_one(t, &load);
         let mut p = apply(&product::stress(grid.nodes()), &load);
         bend::add_to_stress(&breaks, t, &mut p);
         if corrected {
@@ -147,14 +149,7 @@ mod tests {
             .iter()
             .map(|x| (1.0 - 0.3 * x - 0.7 * x * x).max(0.0))
             .collect();
-        let cell = t.partition_point(|&t| t <= 1.0) - 1;
-        let mut breaks = Vec::new();
-        bend::polyline(
-            [t[cell], t[cell + 1]],
-            [load[cell], 0.0],
-            &[(1.0, 0.0)],
-            &mut breaks,
-        );
+        let (cell, breaks) = ending_at_one(t, &load);
         let mut p = vec![0.0; t.len()];
         add_to_stress(&grid, &load, -0.3, breaks.iter().copied(), |_| true, &mut p);
         // The cusp is not linear in t in the edge's cell.

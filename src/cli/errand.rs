@@ -184,10 +184,10 @@ impl Errand {
 }
 
 /// The end of a run, which must be known.
-fn end(cycles: Option<f64>, name: &str) -> Result<f64, Misuse> {
+pub(super) fn end(cycles: Option<f64>, name: &str) -> Result<f64, Misuse> {
     cycles.ok_or_else(|| {
         Misuse(format!(
-            "{name}: has no run.cycles to go to; say how many with --cycles X"
+            "{name}: has no run.cycles; say how many with --cycles X"
         ))
     })
 }

@@ -13,7 +13,9 @@ use super::args::{CycleAsGiven, Run};
 use super::errand::{Errand, Mark};
 use super::progress::Progress;
 use super::{FAILED, complain, stop};
-use crate::export::file::{RUN_CHECKPOINT, RunDirectory, WriteError, free_directory, write_whole};
+use crate::export::file::{
+    RUN_CHECKPOINT, RunDirectory, WriteError, free_directory, shell_word, write_whole,
+};
 use crate::export::header::number;
 use crate::export::keep::{self, COPY_INTERVAL, Keeper};
 use crate::export::state;
@@ -248,7 +250,7 @@ impl Job {
     fn way_on(&self) -> String {
         match self.keeper.path() {
             path if path.exists() => {
-                format!("mdr-tui run --resume {} goes on", path.display())
+                format!("mdr-tui run --resume {} goes on", shell_word(path))
             }
             _ => "there is no checkpoint".into(),
         }

@@ -8,6 +8,7 @@ use anyhow::{Context, Result};
 use ratatui::style::Style;
 
 use super::args::Trade;
+use super::errand::end;
 use super::{FAILED, Misuse, complain, progress, results, small_multiples, stop};
 use crate::export::header::number;
 use crate::math::abel::AbelMethod;
@@ -20,12 +21,7 @@ use crate::tui::plot::{Axis, Curve, Plot, Scale};
 pub fn trade(options: &Trade) -> Result<ExitCode> {
     options.rows.check()?;
     let scenario = Scenario::load(&options.scenario, &options.changes.set)?;
-    let cycles = options.cycles.or(scenario.run().cycles).ok_or_else(|| {
-        Misuse(format!(
-            "{}: has no run.cycles; say how many with --cycles X",
-            options.scenario
-        ))
-    })?;
+    let cycles = end(options.cycles.or(scenario.run().cycles), &options.scenario)?;
     if scenario.setup().wear.is_none() {
         let message = format!(
             "{}: nothing wears, so there is no worn profile to be right about; see verify",

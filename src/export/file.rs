@@ -18,7 +18,7 @@ pub enum WriteError {
         "{}: holds a run that was interrupted; mdr-tui run --resume {} goes on with it, --force \
          starts anew",
         .0.parent().unwrap_or(.0).display(),
-        .0.display()
+        shell_word(.0)
     )]
     Interrupted(PathBuf),
     /// The path of a directory is taken by something else.
@@ -38,6 +38,17 @@ impl WriteError {
     /// Whether another choice of directory by the user would have avoided it.
     pub fn is_misuse(&self) -> bool {
         !matches!(self, Self::Io { cause, .. } if cause.kind() == io::ErrorKind::StorageFull)
+    }
+}
+
+/// A path as a shell reads it back.
+pub fn shell_word(path: &Path) -> String {
+    let text = path.display().to_string();
+    let plain = |c: char| c.is_alphanumeric() || "/._-+,:@%".contains(c);
+    if text.chars().all(plain) {
+        text
+    } else {
+        format!("'{}'", text.replace('\'', "'\\''"))
     }
 }
 
@@ -228,5 +239,20 @@ mod tests {
         assert_eq!(fs::read(&path).expect("the file"), b"new");
         assert_eq!(fs::read_dir(base.path()).expect("the directory").count(), 1);
         assert!(write_whole(&base.path().join("no/such/place.csv"), b"").is_err());
+    }
+
+    #[test]
+    fn a_shell_reads_the_word_back() {
+        for (path, word) in [
+            ("/a/b-1.checkpoint", "/a/b-1.checkpoint"),
+            ("/a b", "'/a b'"),
+            ("it's", "'it'\\''s'"),
+            ("$(x)", "'$(x)'"),
+        ] {
+            assert_eq!(shell_word(Path::new(path)), word);
+        }
+        let interrupted = WriteError::Interrupted("a b/run.checkpoint".into());
+        let hint = "mdr-tui run --resume 'a b/run.checkpoint' goes on";
+        assert!(interrupted.to_string().contains(hint));
     }
 }

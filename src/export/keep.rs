@@ -118,17 +118,6 @@ pub fn state_directory() -> Option<PathBuf> {
     base.map(|base| base.join("mdr-tui"))
 }
 
-/// A path as a shell reads it back.
-pub fn shell_word(path: &Path) -> String {
-    let text = path.display().to_string();
-    let plain = |c: char| c.is_alphanumeric() || "/._-+,:@%".contains(c);
-    if text.chars().all(plain) {
-        text
-    } else {
-        format!("'{}'", text.replace('\'', "'\\''"))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -149,18 +138,6 @@ mod tests {
         fs::write(directory.join("notes.txt"), b"mine").expect("a file");
         place(&directory, "cone").expect("a place");
         assert!(directory.join("notes.txt").exists());
-    }
-
-    #[test]
-    fn a_shell_reads_the_word_back() {
-        for (path, word) in [
-            ("/a/b-1.checkpoint", "/a/b-1.checkpoint"),
-            ("/a b", "'/a b'"),
-            ("it's", "'it'\\''s'"),
-            ("$(x)", "'$(x)'"),
-        ] {
-            assert_eq!(shell_word(Path::new(path)), word);
-        }
     }
 
     #[test]

@@ -532,7 +532,7 @@ fn the_accuracy_panel_waits_for_the_companion_and_shows_what_it_found() {
         ("V against k E_d over the last period", 5e-3),
         ("F_z of the springs against", 5e-3),
         ("permanent stick radius against theory", 5e-2),
-        ("V against k E_d over the whole run", 5e-3),
+        ("V of the profile against k E_d since the start", 5e-3),
         ("rms difference of f", 1e-4),
         ("permanent stick radius  ", 5e-2),
         ("worn volume", 5e-2),

@@ -39,11 +39,6 @@ pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
             certificate.error, certificate.meaning
         )));
     }
-    if let Some(residual) = frame.observation.moment.energy_residual {
-        lines.push(Line::raw(format!(
-            "   {residual:9.1e}  V against k E_d over the whole run"
-        )));
-    }
     lines.push(Line::raw(""));
     lines.push(Line::styled(
         " the same run on half the cells:",

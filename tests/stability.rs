@@ -2,33 +2,27 @@
 
 mod common;
 
-use common::{Scene, archard, holds, run_setup, swing};
+use common::{Scene, archard, holds, ours, run_setup, swing};
 use mdr_tui::math::abel::AbelMethod::{self, A, APlusB, Product};
 use mdr_tui::math::abel::worn;
 use mdr_tui::oracle::limiting_profile::LimitingProfile;
 use mdr_tui::oracle::partial_slip::stiffness_ratio;
 use mdr_tui::scenario::{Scenario, preset};
-use mdr_tui::simulation::{Scheme, Setup, Simulation, Spacing, Stability};
+use mdr_tui::simulation::{Scheme, Setup, Simulation, Stability};
 use mdr_tui::studies::stability::{Outcome, Setting, Study, VISIBLE, teeth};
 use std::f64::consts::FRAC_PI_4;
 
 /// Fig. 3 with the default numerics.
 fn fig3(wear_number: f64, cells: usize) -> Setup {
-    Setup {
-        spacing: Spacing::Graded,
-        scheme: Scheme::Trapezoid,
-        stability: Stability::SubStep,
-        ..Setup::from(Scene {
-            method: Product,
-            cells,
-            domain: 2.2f64.sqrt(),
-            steps: 100,
-            normal: swing(1.0, 0.1, 1.0, 0.0),
-            tangential: Some(swing(0.0, 0.1, 1.0, FRAC_PI_4)),
-            law: archard(wear_number),
-            ..Scene::default()
-        })
-    }
+    ours(Scene {
+        cells,
+        domain: 2.2f64.sqrt(),
+        steps: 100,
+        normal: swing(1.0, 0.1, 1.0, 0.0),
+        tangential: Some(swing(0.0, 0.1, 1.0, FRAC_PI_4)),
+        law: archard(wear_number),
+        ..Scene::default()
+    })
 }
 
 /// The stick radius of the first pass, before the springs have settled: where d ± κu_x from springs that

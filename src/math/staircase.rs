@@ -1,10 +1,10 @@
-//! A linear operator on nodal values, stored in panels of rows with the zeros at both ends left out.
+//! A linear operator on nodal values, stored in panels of rows with the zeros around their entries left out.
 //!
 //! The Abel transforms are triangular, or nearly so: g(x) and w(r) look inwards, p(r) looks
 //! outwards. A panel is eight rows over the columns that any of them has, in two runs where there is a gap:
-//! the cusp of a load at the tip goes into the stress of every row. Their sums stay in the registers of the processor's vector unit while one pass goes through the panel's entries, and the pass
-//! covers only the columns where the input is not zero (within the contact, outside the stick zone).
-//! Cost: at most N²/2 multiply-adds.
+//! the cusp of a load at the tip goes into the stress of every row. The sums of a panel stay in the registers of
+//! the processor's vector unit while one pass goes through its entries, and the pass covers only the
+//! columns where the input is not zero (within the contact, outside the stick zone). Cost: at most N²/2 multiply-adds.
 //!
 //! Processors that fuse multiplication and addition give other last digits than those that do not; on
 //! one machine they are always the same.
@@ -21,7 +21,7 @@ const LANES: usize = 4;
 /// Parts of a run that are summed side by side.
 const QUARTERS: usize = 4;
 
-/// A square matrix whose rows each hold one contiguous run of entries.
+/// A square matrix whose rows each hold their entries in one run or two.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Staircase {
     size: usize,
@@ -103,7 +103,7 @@ fn support(values: &[f64]) -> Range<usize> {
 }
 
 impl Staircase {
-    /// Packs a square dense matrix; entries between the first and the last non-zero of a row stay.
+    /// Packs a square dense matrix; of a panel's columns of zeros, those at its ends and in its first gap go.
     pub fn pack(dense: &DMatrix<f64>) -> Self {
         let size = dense.nrows();
         let (mut panels, mut entries) = (Vec::new(), Vec::new());

@@ -287,11 +287,6 @@ impl Simulation {
         Ok(())
     }
 
-    /// The integral of the rate of wear over surface and time, m³.
-    pub(crate) fn wear_volume_by_rate(&self) -> f64 {
-        volume_by_rate(&self.state, &self.workspace)
-    }
-
     /// Worn volume 2π∫(f − f₀) r dr, m³.
     pub fn wear_volume(&self) -> f64 {
         worn_volume(&self.workspace)

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bitflags::bitflags;
 use serde::Serialize;
 
-use super::{Simulation, solve, stability};
+use super::{Simulation, solve, stability, volume_by_rate};
 use crate::contact::tangential::Hold;
 use crate::math::abel::AbelMethod;
 use crate::math::quadrature::volume_of_revolution;
@@ -149,7 +149,7 @@ impl Simulation {
                 .stick_radius
                 .map(|stick| state.permanent_stick_radius().min(stick)),
             wear_volume,
-            wear_volume_by_rate: self.wear_volume_by_rate(),
+            wear_volume_by_rate: volume_by_rate(state, &self.workspace),
             dissipated_energy: state.dissipated_energy,
             period_residual: state.period.residual,
             energy_residual: (state.expected_volume > 0.0).then_some(residual),

@@ -33,8 +33,8 @@ impl Line {
     }
 }
 
-fn guard(line: &Line) -> Cell {
-    Cell::Words(if line.setting.guard { "on" } else { "off" }.to_owned())
+fn guard(line: &Line) -> &'static str {
+    if line.setting.guard { "on" } else { "off" }
 }
 
 /// A row a run.
@@ -64,7 +64,7 @@ pub fn runs(lines: &[Line]) -> Table {
             }
             table.push(vec![
                 Cell::Words(line.setting.method.name().to_owned()),
-                guard(line),
+                Cell::Words(guard(line).to_owned()),
                 Cell::Count(line.setting.points),
                 Cell::Count(line.setting.steps as usize),
                 Cell::Number(*wear_number),
@@ -92,7 +92,7 @@ pub fn boundaries(lines: &[Line]) -> Table {
     for line in lines {
         table.push(vec![
             Cell::Words(line.setting.method.name().to_owned()),
-            guard(line),
+            Cell::Words(guard(line).to_owned()),
             Cell::Count(line.setting.points),
             line.predicted.into(),
             line.seen.into(),
@@ -113,8 +113,7 @@ pub fn maps(lines: &[Line]) -> String {
         let Some(first) = group.iter().max_by_key(|line| line.outcomes.len()) else {
             continue;
         };
-        let guard = if first.setting.guard { "on" } else { "off" };
-        let _ = writeln!(text, "{}, guard {guard}", first.setting.method);
+        let _ = writeln!(text, "{}, guard {}", first.setting.method, guard(first));
         for line in group {
             let _ = writeln!(
                 text,
@@ -123,10 +122,7 @@ pub fn maps(lines: &[Line]) -> String {
                 strip(line).trim_end()
             );
         }
-        let rungs = first
-            .outcomes
-            .iter()
-            .map(|(k, _)| format!("{:<RUNG$}", short(*k)));
+        let rungs = first.outcomes.iter().map(|(k, _)| format!("{k:<RUNG$}"));
         let rungs: String = rungs.collect();
         let _ = writeln!(text, "  N  K={}", rungs.trim_end());
         if let Some(why) = stability::beyond_steps(first.setting.method) {
@@ -159,10 +155,6 @@ fn strip(line: &Line) -> String {
         }
     }
     strip.into_iter().collect()
-}
-
-fn short(value: f64) -> String {
-    format!("{value}")
 }
 
 #[cfg(test)]

@@ -6,4 +6,6 @@ pub mod grid;
 pub mod invalid;
 pub mod quadrature;
 pub mod root;
+pub mod scan;
 pub mod staircase;
+pub mod vector;

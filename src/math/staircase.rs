@@ -14,6 +14,8 @@ use std::ops::Range;
 use fearless_simd::{Level, dispatch, f64x4, prelude::*};
 use nalgebra::DMatrix;
 
+use super::scan::support;
+
 /// Rows of a panel, and of one vector.
 const ROWS: usize = 8;
 const LANES: usize = 4;
@@ -27,8 +29,13 @@ pub struct Staircase {
     size: usize,
     panels: Vec<Panel>,
     /// The panels' entries, column by column, zero where a row has none.
-    entries: Vec<[f64; ROWS]>,
+    entries: Vec<Column>,
 }
+
+/// The entries of a panel in one column: no vector of them straddles two cache lines.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(align(64))]
+struct Column([f64; ROWS]);
 
 #[derive(Debug, Clone, PartialEq)]
 struct Panel {
@@ -53,10 +60,10 @@ impl Run {
     }
 }
 
-/// The sums of a panel's rows over the `columns` of a run, each times its value.
+/// The sums of a panel's rows over `columns`, each times its value.
 #[inline(always)]
-fn sum_run<S: Simd>(simd: S, columns: &[[f64; ROWS]], values: &[f64]) -> [f64; ROWS] {
-    let halves = |column: &[f64; ROWS]| {
+fn sum_columns<S: Simd>(simd: S, columns: &[Column], values: &[f64]) -> [f64; ROWS] {
+    let halves = |Column(column): &Column| {
         let (lanes, _) = column.as_chunks::<LANES>();
         [0, 1].map(|half| f64x4::from_slice(simd, &lanes[half]))
     };
@@ -92,16 +99,6 @@ fn sum_run<S: Simd>(simd: S, columns: &[[f64; ROWS]], values: &[f64]) -> [f64; R
     rows
 }
 
-/// The smallest range outside which `values` are zero.
-fn support(values: &[f64]) -> Range<usize> {
-    let first = values.iter().position(|&value| value != 0.0);
-    let last = values.iter().rposition(|&value| value != 0.0);
-    match (first, last) {
-        (Some(first), Some(last)) => first..last + 1,
-        _ => 0..0,
-    }
-}
-
 impl Staircase {
     /// Packs a square dense matrix; of a panel's columns of zeros, those at its ends and in its first gap go.
     pub fn pack(dense: &DMatrix<f64>) -> Self {
@@ -117,7 +114,8 @@ impl Staircase {
             let runs = [first..gap, behind..end].map(|columns| {
                 let start = entries.len();
                 entries.extend(columns.clone().map(|k| {
-                    std::array::from_fn(|i| if i < rows { dense[(row + i, k)] } else { 0.0 })
+                    let entry = |i| if i < rows { dense[(row + i, k)] } else { 0.0 };
+                    Column(std::array::from_fn(entry))
                 }));
                 Run { columns, start }
             });
@@ -159,25 +157,42 @@ impl Staircase {
     ) -> bool {
         let support = support(input);
         let mut zeros = [0.0; ROWS];
-        let outputs = output.chunks_mut(ROWS).zip((0..).step_by(ROWS));
-        for ((output, row), panel) in outputs.zip(&self.panels) {
-            if row >= rows.end || row + ROWS <= rows.start {
-                output.fill(0.0);
-                continue;
-            }
-            let [mut sums, more] = panel.runs.each_ref().map(|run| {
-                let (at, columns) = run.within(&support);
-                sum_run(simd, &self.entries[at], &input[columns])
-            });
-            for (sum, more) in sums.iter_mut().zip(more) {
-                *sum += more;
+        let panels = rows.start / ROWS..rows.end.div_ceil(ROWS);
+        let end = output.len().min(ROWS * panels.end);
+        output[end..].fill(0.0);
+        let (before, output) = output[..end].split_at_mut(end.min(ROWS * panels.start));
+        before.fill(0.0);
+        for (output, panel) in output.chunks_mut(ROWS).zip(&self.panels[panels.start..]) {
+            let [first, second] = &panel.runs;
+            let mut sums = self.sum(simd, first, &support, input);
+            if !second.columns.is_empty() {
+                let more = self.sum(simd, second, &support, input);
+                for (sum, more) in sums.iter_mut().zip(more) {
+                    *sum += more;
+                }
             }
             for (zero, sum) in zeros.iter_mut().zip(&sums) {
                 *zero += 0.0 * sum;
             }
-            output.copy_from_slice(&sums[..output.len()]);
+            match output.first_chunk_mut() {
+                Some(output) => *output = sums,
+                None => output.copy_from_slice(&sums[..output.len()]),
+            }
         }
         zeros == [0.0; ROWS]
+    }
+
+    /// The sums of a panel's rows over those columns of a run that lie within the `support` of the input.
+    #[inline(always)]
+    fn sum<S: Simd>(
+        &self,
+        simd: S,
+        run: &Run,
+        support: &Range<usize>,
+        input: &[f64],
+    ) -> [f64; ROWS] {
+        let (at, columns) = run.within(support);
+        sum_columns(simd, &self.entries[at], &input[columns])
     }
 
     /// Zero times a value that is not finite is no zero: it is passed on to the rows that have an entry
@@ -194,7 +209,7 @@ impl Staircase {
         self.panels[row / ROWS].runs.iter().flat_map(move |run| {
             let entries = self.entries[run.start..].iter();
             let columns = run.columns.clone().zip(entries);
-            columns.map(move |(k, column)| (k, column[row % ROWS]))
+            columns.map(move |(k, column)| (k, column.0[row % ROWS]))
         })
     }
 

@@ -1,0 +1,97 @@
+//! Scans along a row of nodal values.
+
+use std::ops::Range;
+
+/// The largest of `values`, or 0 where none is above it; what is not a number is passed over.
+///
+/// Eight maxima side by side, so that no comparison waits for the one before.
+#[inline(always)]
+pub fn largest(values: &[f64]) -> f64 {
+    let larger = |a: f64, b: f64| if b > a { b } else { a };
+    let (eights, rest) = values.as_chunks::<8>();
+    let mut maxima = [0.0; 8];
+    for eight in eights {
+        for (maximum, &value) in maxima.iter_mut().zip(eight) {
+            *maximum = larger(*maximum, value);
+        }
+    }
+    maxima.iter().chain(rest).copied().fold(0.0, larger)
+}
+
+/// How many of `values` from the first one on have a property: up to the first that has not.
+///
+/// Eight at a time, without a branch between them.
+#[inline(always)]
+pub fn leading<T>(values: &[T], has: impl Fn(&T) -> bool) -> usize {
+    let (eights, _) = values.as_chunks::<8>();
+    let all = |eight: &&[T; 8]| eight.iter().fold(true, |all, value| all & has(value));
+    let whole = 8 * eights.iter().take_while(all).count();
+    whole
+        + values[whole..]
+            .iter()
+            .take_while(|value| has(value))
+            .count()
+}
+
+/// Where a row changes its `kind`: the first index behind each change.
+pub fn changes<T, K: PartialEq>(
+    values: &[T],
+    kind: impl Fn(&T) -> K,
+) -> impl Iterator<Item = usize> {
+    let mut at = 0;
+    std::iter::from_fn(move || {
+        let now = kind(values.get(at)?);
+        at += leading(&values[at..], |value| kind(value) == now);
+        (at < values.len()).then_some(at)
+    })
+}
+
+/// The smallest range outside which `values` are zero.
+#[inline(always)]
+pub fn support(values: &[f64]) -> Range<usize> {
+    let first = leading(values, |&value| value == 0.0);
+    let last = values.iter().rposition(|&value| value != 0.0);
+    match last {
+        Some(last) => first..last + 1,
+        None => 0..0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_largest_is_found_wherever_it_stands() {
+        for count in [1, 7, 8, 9, 30] {
+            for at in 0..count {
+                let mut values = vec![-1.0; count];
+                values[at] = 2.0;
+                assert_eq!(largest(&values), 2.0);
+                values[(at + 1) % count] = f64::NAN;
+                assert_eq!(largest(&values), if count > 1 { 2.0 } else { 0.0 });
+                values[at] = f64::INFINITY;
+                assert_eq!(largest(&values), f64::INFINITY);
+            }
+        }
+        assert_eq!(largest(&[-1.0, f64::NAN]), 0.0);
+        assert_eq!(largest(&[]), 0.0);
+    }
+
+    #[test]
+    fn every_change_is_found() {
+        let row: Vec<bool> = (0..40).map(|i| [3, 4, 20, 39].contains(&i)).collect();
+        let ends: Vec<usize> = changes(&row, |&value| value).collect();
+        assert_eq!(ends, [3, 5, 20, 21, 39]);
+        assert_eq!(changes(&row[5..20], |&value| value).next(), None);
+        assert_eq!(changes(&row[..0], |&value| value).next(), None);
+    }
+
+    #[test]
+    fn the_support_ends_where_only_zeros_follow() {
+        assert_eq!(support(&[0.0, 1.0, 0.0, f64::NAN, -0.0]), 1..4);
+        assert_eq!(support(&[3.0]), 0..1);
+        assert_eq!(support(&[0.0; 4]), 0..0);
+        assert_eq!(support(&[]), 0..0);
+    }
+}

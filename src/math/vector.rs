@@ -1,0 +1,31 @@
+//! Loops compiled for the vector unit that the processor has, beside the one that every processor has.
+
+use fearless_simd::{Level, dispatch};
+
+/// Runs `pass`, compiled once for every instruction set, for that of this processor.
+///
+/// Only what is inlined gains by it: the closure, and what it calls, should be `#[inline(always)]`. The results
+/// are the same to the last bit on all of them: the compiler fuses no multiplication with an addition.
+#[inline(always)]
+pub fn vectorized<R>(pass: impl FnOnce() -> R) -> R {
+    dispatch!(Level::new(), _simd => pass())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pass_is_run_once_and_gives_what_it_gives() {
+        let mut runs = 0;
+        let values = [1.0, 2.0, 4.0];
+        let sum: f64 = vectorized(
+            #[inline(always)]
+            || {
+                runs += 1;
+                values.iter().sum()
+            },
+        );
+        assert_eq!((sum, runs), (7.0, 1));
+    }
+}

@@ -123,6 +123,9 @@ impl Foundation {
     /// ∫ of what the cusp of `values` adds to them up to `edge`, in their unit times m.
     fn cusp_integral(&self, values: &[f64], edge: f64) -> f64 {
         let cusp = self.cusp(values, edge);
+        if cusp == 0.0 {
+            return 0.0;
+        }
         let last = self.nodes.partition_point(|&x| x <= edge) - 1;
         let whole = self.bubbles[last];
         if edge > self.nodes[last] {

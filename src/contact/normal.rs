@@ -13,6 +13,7 @@ use super::foundation::Foundation;
 use crate::math::abel::bend::{self, Bend};
 use crate::math::abel::product;
 use crate::math::root;
+use crate::math::scan::changes;
 
 /// An edge this close to a spring, in parts of the cell, stands on it.
 const ON_A_SPRING: f64 = 1e-9;
@@ -68,16 +69,13 @@ pub fn touch(
     }
     let cusp = row.cusp(&[0, 1, 2].map(compression), f64::INFINITY);
     // One side of an edge carries nothing, the other does.
-    for (k, pair) in (1..).zip(q.windows(2)) {
-        if (pair[0] == 0.0) == (pair[1] == 0.0) {
-            continue;
-        }
+    for k in changes(q, |&load| is_open(load)) {
         let ends = [compression(k - 1), compression(k)];
         let edge = product::edge_square(&xs[k - 1..=k], &ends, 0, cusp);
         let (left, right) = (squares[k - 1], squares[k]);
         let share = (edge - left) / (right - left);
         if share > ON_A_SPRING && share < 1.0 - ON_A_SPRING {
-            bend::polyline([left, right], [pair[0], pair[1]], &[(edge, 0.0)], breaks);
+            bend::polyline([left, right], [q[k - 1], q[k]], &[(edge, 0.0)], breaks);
         }
         if is_open(ends[1]) {
             contact.radius = edge.sqrt().max(xs[k - 1]);

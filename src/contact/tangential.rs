@@ -4,10 +4,14 @@
 //! the indenter; where G*|u| ≤ μ q_z it does (stick), elsewhere u = ±μ q_z/G* with the
 //! predictor's sign (slip). A spring out of contact carries nothing and remembers nothing: u = 0.
 
+use std::hint::select_unpredictable as select;
+
 use serde::{Deserialize, Serialize};
 
 use super::foundation::Foundation;
 use crate::math::abel::bend::{self, Bend};
+use crate::math::scan::{changes, largest};
+use crate::math::vector::vectorized;
 
 /// How far beyond its limit, in parts of the limit, a spring still sticks.
 ///
@@ -80,31 +84,37 @@ pub fn slide(
     slip: &mut [f64],
     hold: &mut [Hold],
 ) {
-    let dead_band =
-        TOUCH_OF_LARGEST * grip.reach * grip.normal_load.iter().copied().fold(0.0, f64::max);
+    vectorized(
+        #[inline(always)]
+        || slide_each(grip, increment, before, spring, slip, hold),
+    );
+}
+
+/// The springs without branches, so that the processor takes several at a time.
+#[inline(always)]
+fn slide_each(
+    grip: Grip<'_>,
+    increment: f64,
+    before: &[f64],
+    spring: &mut [f64],
+    slip: &mut [f64],
+    hold: &mut [Hold],
+) {
+    let dead_band = TOUCH_OF_LARGEST * grip.reach * largest(grip.normal_load);
     let springs = spring.iter_mut().zip(slip).zip(hold).zip(before);
-    // Without branches: the processor takes several springs at a time.
     for ((((after, slip), hold), &before), &load) in springs.zip(grip.normal_load) {
         let limit = grip.reach * load;
         let predicted = before + increment;
-        let sign = predicted.signum();
+        let strain = predicted.abs();
         let open = load <= 0.0;
-        let sticks = predicted.abs() <= limit * (1.0 + TOUCH) + dead_band && limit > 0.0;
-        let within = sticks && predicted.abs() <= limit;
-        let held = if within { predicted } else { sign * limit };
-        let slipped = if sticks {
-            0.0
-        } else {
-            increment - (held - before)
-        };
-        *after = if open { 0.0 } else { held };
-        *slip = if open { increment } else { slipped };
-        *hold = match (open, sticks, sign > 0.0) {
-            (true, ..) => Hold::Open,
-            (_, true, _) => Hold::Stick,
-            (.., true) => Hold::Forward,
-            (.., false) => Hold::Backward,
-        };
+        let sticks = (strain <= limit * (1.0 + TOUCH) + dead_band) & (limit > 0.0);
+        let within = sticks & (strain <= limit);
+        let held = select(within, predicted, limit.copysign(predicted));
+        let slipped = select(sticks, 0.0, increment - (held - before));
+        *after = select(open, 0.0, held);
+        *slip = select(open, increment, slipped);
+        let slips = select(predicted > 0.0, Hold::Forward, Hold::Backward);
+        *hold = select(open, Hold::Open, select(sticks, Hold::Stick, slips));
     }
 }
 
@@ -127,10 +137,7 @@ pub fn borders(
     if hold.first().is_some_and(|&first| first != Hold::Stick) {
         stick_radius = Some(0.0);
     }
-    for k in 0..hold.len().saturating_sub(1) {
-        if hold[k] == hold[k + 1] {
-            continue;
-        }
+    for k in changes(hold, |&hold| hold).map(|behind| behind - 1) {
         let cell = Cell {
             grip,
             motion,

@@ -171,10 +171,14 @@ impl Drive {
         } else {
             (normal.amplitude * ratio, tangential.amplitude * stick_ratio)
         };
-        let rate = |sign: f64, cycles: f64| {
+        let rates = |cycles: f64| {
             let down = (TAU * (cycles * ratio).fract() + normal.phase).cos();
             let along = (TAU * cycles.fract() + tangential.phase).cos();
-            normal_weight * down + sign * tangential_weight * along
+            (normal_weight * down, tangential_weight * along)
+        };
+        let rate = |sign: f64, cycles: f64| {
+            let (down, along) = rates(cycles);
+            down + sign * along
         };
         // Most steps lie so far from every turn that the steepest rate does not reach zero within them.
         let steepest = TAU * (normal_weight * ratio + tangential_weight);
@@ -182,9 +186,10 @@ impl Drive {
         let pieces = (PIECES_OF_A_CYCLE * ratio.max(1.0) * (until - from))
             .ceil()
             .max(4.0);
+        let (down, along) = rates(from);
         [1.0, -1.0]
             .into_iter()
-            .filter(|&sign| rate(sign, from).abs() <= reach)
+            .filter(|&sign| (down + sign * along).abs() <= reach)
             .filter_map(|sign| {
                 (0..pieces as u32).find_map(|i| {
                     let at = |i: u32| from + (until - from) * f64::from(i) / pieces;

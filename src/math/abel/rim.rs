@@ -17,6 +17,7 @@ use serde::{Deserialize, Serialize};
 
 use super::bend::{self, Bend, CLOSEST};
 use crate::math::grid::RadialGrid;
+use crate::math::scan::largest;
 
 /// A node counts as worn from this share of the deepest wear on.
 const WORN: f64 = 1e-12;
@@ -48,7 +49,7 @@ pub struct Rim {
 /// Without it a fretting run errs three to four times as much.
 pub fn find_rim(grid: &RadialGrid, wear: &[f64]) -> Option<Rim> {
     let t = grid.squares();
-    let deepest = wear.iter().copied().fold(0.0, f64::max);
+    let deepest = largest(wear);
     let worn = wear.iter().rposition(|&depth| depth > WORN * deepest)?;
     if worn < 3 || worn + 2 > grid.cells() {
         return None;
@@ -200,7 +201,7 @@ impl RimEdge {
             let weight = modulus * tail.steepness * FRAC_1_PI;
             let end = squares.partition_point(|&t| t < tail.rim);
             for (value, &t) in p[..end].iter_mut().zip(squares) {
-                *value += weight * (length / (tail.rim - t)).sqrt().asinh();
+                *value += weight * asinh_root(length / (tail.rim - t));
             }
         }
     }
@@ -241,6 +242,23 @@ impl RimEdge {
         });
         inside + beyond - straight(chord, b)
     }
+}
+
+/// asinh √z; by its series at all but the few nodes next to the rim, where z is not small.
+fn asinh_root(z: f64) -> f64 {
+    if z > 0.01 {
+        return z.sqrt().asinh();
+    }
+    let terms = [
+        -1.0 / 6.0,
+        3.0 / 40.0,
+        -5.0 / 112.0,
+        35.0 / 1152.0,
+        -63.0 / 2816.0,
+        231.0 / 13312.0,
+    ];
+    let sum = terms.iter().rfold(0.0, |sum, term| z * (term + sum));
+    z.sqrt() * (1.0 + sum)
 }
 
 /// ∫₀ʸ asinh √(L/y) dy and ∫₀ʸ y asinh √(L/y) dy.
@@ -398,6 +416,14 @@ mod tests {
         }
         let found = edge.line_integral();
         assert!((found / missing - 1.0).abs() < 1e-5, "{found} {missing}");
+    }
+
+    #[test]
+    fn the_series_goes_on_where_the_function_ends() {
+        for z in [0.0, 1e-9, 1e-4, 0.003, 0.01, 0.011, 2.0] {
+            let exact = f64::sqrt(z).asinh();
+            assert!((asinh_root(z) - exact).abs() <= 4e-16 * exact, "{z}");
+        }
     }
 
     #[test]

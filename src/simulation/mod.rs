@@ -238,7 +238,7 @@ impl Simulation {
 
     /// What is looked at now must be the last good state, not the contact that failed.
     fn broken(&mut self, cause: Cause) -> Breakdown {
-        self.workspace.show_last_good(&self.setup, &self.state);
+        self.workspace.show_last_good(&self.state);
         Breakdown {
             cycle: self.state.cycle,
             cause,
@@ -289,18 +289,18 @@ impl Simulation {
 
     /// Worn volume 2π∫(f − f₀) r dr, m³.
     pub fn wear_volume(&self) -> f64 {
-        worn_volume(&self.workspace)
+        worn_volume(&self.state, &self.workspace)
     }
 }
 
 /// 2π∫(f − f₀) r dr of the profile as it stands, m³.
-fn worn_volume(work: &Workspace) -> f64 {
-    weighted(&work.planned.volume_weights, &work.wear) + at_rim(work)
+fn worn_volume(state: &State, work: &Workspace) -> f64 {
+    weighted(&work.planned.volume_weights, &state.wear) + at_rim(work)
 }
 
 /// The integral of the rate of wear over surface and time, m³.
 fn volume_by_rate(state: &State, work: &Workspace) -> f64 {
-    weighted(&work.planned.volume_weights, &work.wear) + state.volume_between_nodes
+    weighted(&work.planned.volume_weights, &state.wear) + state.volume_between_nodes
 }
 
 /// What the kink at the rim of the worn zone adds to the interpolant of the nodes, m³.

@@ -226,7 +226,10 @@ impl Simulation {
             wear: when(Curves::PROFILE, &|| self.state().wear.clone()),
             profile_1d: when(Curves::PROFILE_1D, &|| work.g.clone()),
             normal_load: when(Curves::SPRINGS, &|| work.normal_load.clone()),
-            tangential_load: when(Curves::SPRINGS, &|| or_zero(&work.tangential_load)),
+            tangential_load: when(Curves::SPRINGS, &|| {
+                let springs = or_zero(&work.spring);
+                springs.iter().map(|u| modulus * u).collect()
+            }),
             spring: when(Curves::SPRINGS, &|| or_zero(&work.spring)),
             pressure: when(Curves::PRESSURE, &|| self.pressure()),
             shear: when(Curves::SHEAR, &|| {

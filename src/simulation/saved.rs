@@ -70,7 +70,7 @@ impl Simulation {
         check(&setup, &saved.state, &saved.contact)?;
         let mut workspace = Workspace::new(&setup, None);
         workspace.good = saved.contact;
-        workspace.show_last_good(&setup, &saved.state);
+        workspace.show_last_good(&saved.state);
         workspace.transforms = saved.transforms;
         let mut simulation = Self {
             setup,

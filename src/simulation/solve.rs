@@ -8,8 +8,9 @@ use super::workspace::{Contact, Workspace};
 use crate::contact::normal;
 use crate::contact::tangential::{self, Grip, Hold, Motion};
 use crate::math::abel::bend::{self, Bend};
-use crate::math::abel::{curvature, product, rim};
+use crate::math::abel::{product, rim};
 use crate::math::root;
+use crate::math::scan::largest;
 
 /// Brings g up to date with the worn depth `wear` (m) by Eq. (1).
 pub(super) fn update_profile(work: &mut Workspace, wear: &[f64]) {
@@ -132,7 +133,7 @@ fn depth_at(setup: &Setup, work: &mut Workspace, cycle: f64) -> Result<f64, Caus
                 // A punch carries any load; its springs yield at most what the load needs.
                 Some(rim) => {
                     let flat = force / (2.0 * setup.material.normal_modulus() * rim);
-                    work.predicted.iter().copied().fold(0.0, f64::max) + 2.0 * flat.abs()
+                    largest(&work.predicted) + 2.0 * flat.abs()
                 }
                 None => work.predicted[setup.grid.cells()],
             };
@@ -181,9 +182,6 @@ fn shift_by(setup: &Setup, state: &State, work: &mut Workspace, increment: f64) 
         &mut work.spring_breaks,
     );
     let modulus = setup.material.tangential_modulus();
-    for (load, u) in work.tangential_load.iter_mut().zip(&work.spring) {
-        *load = modulus * u;
-    }
     work.contact.stick_radius = Some(stick);
     work.contact.tangential_force = modulus
         * work.planned.row.force(
@@ -208,7 +206,7 @@ fn increment_for_force(
         });
     }
     // Twice the largest strain a spring can hold turns every spring over.
-    let stiffest = work.normal_load.iter().copied().fold(0.0, f64::max);
+    let stiffest = largest(&work.normal_load);
     let span = 2.0 * stiffest * setup.material.friction() / setup.material.tangential_modulus();
     root::bracketed(
         |increment| {
@@ -241,13 +239,13 @@ pub(super) fn pressure(work: &Workspace, modulus: f64, out: &mut [f64]) {
 /// springs stick, and at the first one that slips.
 fn curve(work: &Workspace, load: &[f64], breaks: impl Iterator<Item = Bend>, out: &mut [f64]) {
     let planned = &work.planned;
-    if planned.has_breaks() {
+    if let Some(curvature) = &planned.curvature {
         let contact = &work.contact.normal;
         let cusp = planned.row.cusp(load, contact.radius);
         let sticks = |j: usize| work.hold.get(j) == Some(&Hold::Stick);
         let smooth = |j: usize| !sticks(j - 1) && !sticks(j);
         let out = &mut out[..contact.nodes];
-        curvature::add_to_stress(&planned.grid, load, cusp, breaks, smooth, out);
+        curvature.add_to_stress(load, cusp, breaks, smooth, out);
     }
 }
 
@@ -261,7 +259,7 @@ pub(super) fn shear_from(first: usize, work: &Workspace, modulus: f64, out: &mut
     stress(work, &work.spring, &work.spring_breaks, first, out);
     curve(work, &work.spring, work.spring_breaks.iter().copied(), out);
     out[..first].fill(0.0);
-    for stress in out {
+    for stress in &mut out[first..] {
         *stress *= modulus;
     }
 }

@@ -11,6 +11,7 @@ use crate::contact::foundation::Foundation;
 use crate::contact::normal::NormalContact;
 use crate::contact::tangential::Hold;
 use crate::math::abel::bend::Bend;
+use crate::math::abel::curvature::Curvature;
 use crate::math::abel::rim::{Rim, RimEdge};
 use crate::math::abel::worn;
 use crate::math::abel::{AbelMethod, AbelPlan, WornPlan};
@@ -39,8 +40,6 @@ pub(super) struct Workspace {
     pub slip: Vec<f64>,
     /// Where the slip bends between springs, and in which cell.
     pub slip_kinks: Vec<(usize, Bend)>,
-    /// q_x, N/m.
-    pub tangential_load: Vec<f64>,
     /// The work of friction, J/m, and its breaks.
     pub friction_work: Vec<f64>,
     pub work_breaks: Vec<Bend>,
@@ -60,7 +59,7 @@ pub(super) struct Workspace {
     pub worn: Vec<f64>,
     /// What the step wears between nodes beyond their interpolant, m³; none where that is not known.
     pub beyond_nodes: Option<f64>,
-    /// f − f₀ after the step, m.
+    /// f − f₀ after the step, m, until the state has it.
     pub wear: Vec<f64>,
     /// Transforms computed since they were last counted.
     pub transforms: u64,
@@ -76,9 +75,11 @@ pub(super) struct Planned {
     /// From the worn depth to its share of g, where that is not the plan's Eq. (1).
     pub worn: Option<WornPlan>,
     pub row: Foundation,
+    /// What the stress lacks between nodes, where the method takes it into account.
+    pub curvature: Option<Curvature>,
     pub grid: RadialGrid,
-    /// Width of the cell around each node, m.
-    pub widths: Vec<f64>,
+    /// 1/h, h the width of the cell around each node, 1/m.
+    pub per_width: Vec<f64>,
     /// Weights of 2π∫ y r dr, m².
     pub volume_weights: Vec<f64>,
     /// f₀ and its 1D image g₀, m.
@@ -119,7 +120,8 @@ impl Planned {
         Self {
             worn,
             row: Foundation::new(&setup.grid),
-            widths: widths(nodes),
+            curvature: (setup.method == AbelMethod::Product).then(|| Curvature::new(&setup.grid)),
+            per_width: widths(nodes).map(f64::recip).collect(),
             volume_weights: worn::volume_weights(&setup.grid),
             grid: setup.grid.clone(),
             plan,
@@ -135,15 +137,13 @@ impl Planned {
 }
 
 /// Half the distance between the neighbours of each node; at the ends, the width of the cell.
-fn widths(nodes: &[f64]) -> Vec<f64> {
+fn widths(nodes: &[f64]) -> impl Iterator<Item = f64> {
     let end = nodes.len() - 1;
-    (0..=end)
-        .map(|j| match j {
-            0 => nodes[1],
-            j if j == end => nodes[end] - nodes[end - 1],
-            j => 0.5 * (nodes[j + 1] - nodes[j - 1]),
-        })
-        .collect()
+    (0..=end).map(move |j| match j {
+        0 => nodes[1],
+        j if j == end => nodes[end] - nodes[end - 1],
+        j => 0.5 * (nodes[j + 1] - nodes[j - 1]),
+    })
 }
 
 /// The steps of a period, where periods are to be jumped.
@@ -179,7 +179,6 @@ impl Workspace {
             spring_breaks: Vec::new(),
             slip: vec![0.0; springs],
             slip_kinks: Vec::new(),
-            tangential_load: vec![0.0; springs],
             friction_work: vec![0.0; springs],
             work_breaks: Vec::new(),
             pressure: vec![0.0; wearing],
@@ -203,7 +202,7 @@ impl Workspace {
     }
 
     /// Takes the contact of the last good step back, after one that failed.
-    pub fn show_last_good(&mut self, setup: &Setup, state: &State) {
+    pub fn show_last_good(&mut self, state: &State) {
         self.contact = self.good;
         self.normal_breaks.clone_from(&state.last.normal_breaks);
         self.spring_breaks.clone_from(&state.last.spring_breaks);
@@ -211,10 +210,6 @@ impl Workspace {
         self.normal_load.copy_from_slice(&state.last.normal_load);
         self.spring.copy_from_slice(&state.spring);
         self.hold.copy_from_slice(&state.hold);
-        self.wear.copy_from_slice(&state.wear);
-        for (load, u) in self.tangential_load.iter_mut().zip(&state.spring) {
-            *load = setup.material.tangential_modulus() * u;
-        }
         // That is no work of the run.
         let counted = self.transforms;
         super::solve::update_profile(self, &state.wear);

@@ -42,42 +42,71 @@ const ENDLESS: f64 = 0.207_886_224_977_354_57;
 /// The same of a single cell: ⅔ − ½.
 const SINGLE: f64 = 1.0 / 6.0;
 
-/// Eq. (3): adds to the stress `p` (N/m²) what the curvature of a `load` (N/m) does, beside
-/// [`product::stress`](super::product::stress) and the `breaks` of the load (N/m, from the tip outwards).
-/// `p` ends with the nodes in contact; `cusp` is the slope of the load at the tip, which is no curvature;
-/// `smooth` tells whether a load may be seen as smooth from the node before a node to the one behind it.
-pub fn add_to_stress(
-    grid: &RadialGrid,
-    load: &[f64],
-    cusp: f64,
-    breaks: impl IntoIterator<Item = Bend>,
-    smooth: impl Fn(usize) -> bool,
-    p: &mut [f64],
-) {
-    let (nodes, t) = (grid.nodes(), grid.squares());
-    let mut breaks = breaks.into_iter().peekable();
-    let mut before = 0.0;
-    for j in 0..p.len().min(t.len() - 1) {
-        let mut behind = (load[j + 1] - load[j]) / (t[j + 1] - t[j]);
-        if cusp != 0.0 {
-            behind -= cusp / (nodes[j] + nodes[j + 1]);
+/// What the term takes from the grid, computed once.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curvature {
+    nodes: Vec<f64>,
+    squares: Vec<f64>,
+    /// 1/h_j of the cell behind each node, 1/m².
+    per_cell: Vec<f64>,
+    /// (2/π) 2/(h_{j−1} + h_j) of each node, 1/m²; 0 where nothing is added.
+    per_pair: Vec<f64>,
+    /// 0.2079 h_j^{3/2} of the cell behind each node, m³.
+    lacks: Vec<f64>,
+}
+
+impl Curvature {
+    /// For loads on the nodes of a grid.
+    pub fn new(grid: &RadialGrid) -> Self {
+        let squares = grid.squares().to_vec();
+        let cells = || squares.windows(2).map(|t| t[1] - t[0]);
+        let pairs = squares.windows(3).map(|t| FRAC_2_PI * 2.0 / (t[2] - t[0]));
+        Self {
+            nodes: grid.nodes().to_vec(),
+            per_cell: cells().map(f64::recip).collect(),
+            per_pair: [0.0; 2].into_iter().chain(pairs.skip(1)).collect(),
+            lacks: cells().map(|cell| root_cubed(cell) * ENDLESS).collect(),
+            squares,
         }
-        let mut jump = behind - before;
-        before = behind;
-        while let Some(bend) = breaks.next_if(|bend| bend.at <= t[j]) {
-            if bend.at == t[j] {
-                jump += bend.jump;
+    }
+
+    /// Eq. (3): adds to the stress `p` (N/m²) what the curvature of a `load` (N/m) does, beside
+    /// [`product::stress`](super::product::stress) and the `breaks` of the load (N/m, from the tip outwards).
+    /// `p` ends with the nodes in contact; `cusp` is the slope of the load at the tip, which is no curvature;
+    /// `smooth` tells whether a load may be seen as smooth from the node before a node to the one behind it.
+    pub fn add_to_stress(
+        &self,
+        load: &[f64],
+        cusp: f64,
+        breaks: impl IntoIterator<Item = Bend>,
+        smooth: impl Fn(usize) -> bool,
+        p: &mut [f64],
+    ) {
+        let t = &self.squares[..];
+        let mut breaks = breaks.into_iter().peekable();
+        let mut before = 0.0;
+        let cells = self.per_cell.iter().zip(&self.per_pair).zip(&self.lacks);
+        for (j, (p, ((per_cell, per_pair), &lack))) in p.iter_mut().zip(cells).enumerate() {
+            let mut behind = (load[j + 1] - load[j]) * per_cell;
+            if cusp != 0.0 {
+                behind -= cusp / (self.nodes[j] + self.nodes[j + 1]);
             }
+            let mut jump = behind - before;
+            before = behind;
+            while let Some(bend) = breaks.next_if(|bend| bend.at <= t[j]) {
+                if bend.at == t[j] {
+                    jump += bend.jump;
+                }
+            }
+            if j < 2 || !smooth(j) {
+                continue;
+            }
+            let lack = match breaks.peek() {
+                Some(bend) if bend.at < t[j + 1] => root_cubed(bend.at - t[j]) * SINGLE,
+                _ => lack,
+            };
+            *p += per_pair * lack * jump;
         }
-        if j < 2 || !smooth(j) {
-            continue;
-        }
-        let cell = t[j + 1] - t[j];
-        let lack = match breaks.peek() {
-            Some(bend) if bend.at < t[j + 1] => root_cubed(bend.at - t[j]) * SINGLE,
-            _ => root_cubed(cell) * ENDLESS,
-        };
-        p[j] += FRAC_2_PI * lack * 2.0 * jump / (t[j + 1] - t[j - 1]);
     }
 }
 
@@ -113,7 +142,7 @@ mod tests {
         let mut p = apply(&product::stress(grid.nodes()), &load);
         bend::add_to_stress(&breaks, t, &mut p);
         if corrected {
-            add_to_stress(&grid, &load, 0.0, breaks, |_| true, &mut p);
+            Curvature::new(&grid).add_to_stress(&load, 0.0, breaks, |_| true, &mut p);
         }
         let exact = |s: f64| FRAC_2_PI * (1.0 - s).sqrt() * ((1.0 - s) / 1.5 + 2.0 * s);
         let inside = t.iter().zip(&p).take(cell + 1);
@@ -151,11 +180,12 @@ mod tests {
             .collect();
         let (cell, breaks) = ending_at_one(t, &load);
         let mut p = vec![0.0; t.len()];
-        add_to_stress(&grid, &load, -0.3, breaks.iter().copied(), |_| true, &mut p);
+        let curvature = Curvature::new(&grid);
+        curvature.add_to_stress(&load, -0.3, breaks.iter().copied(), |_| true, &mut p);
         // The cusp is not linear in t in the edge's cell.
         assert!(p[..cell].iter().all(|p| p.abs() < 1e-13), "{p:?}");
         let mut q = vec![0.0; t.len()];
-        add_to_stress(&grid, &load, 0.0, breaks, |_| true, &mut q);
+        curvature.add_to_stress(&load, 0.0, breaks, |_| true, &mut q);
         assert!(q[1..cell].iter().any(|p| p.abs() > 1e-6));
     }
 
@@ -169,11 +199,12 @@ mod tests {
             RadialGrid::uniform(60, 1.5).expect("a grid"),
         ] {
             let mut stress = product::stress(grid.nodes());
+            let curvature = Curvature::new(&grid);
             for (i, mut column) in stress.column_iter_mut().enumerate() {
                 let mut load = vec![0.0; grid.len()];
                 load[i] = 1.0;
                 let outside = |j: usize| grid.border().is_none_or(|border| j > border + 1);
-                add_to_stress(&grid, &load, 0.0, [], outside, column.as_mut_slice());
+                curvature.add_to_stress(&load, 0.0, [], outside, column.as_mut_slice());
             }
             // What wears: the nodes outside the border, up to the last but one.
             let response = stress * worn::profile(&grid);

@@ -98,7 +98,7 @@ pub(in super::super) fn jump(
         }
         None => {
             state.effort = memory.effort;
-            work.show_last_good(setup, state);
+            work.show_last_good(state);
             Ok(Jumped::NotWorthIt)
         }
     }

@@ -21,6 +21,7 @@ use super::super::workspace::Workspace;
 use super::parts::{self, Outcome, Part};
 use super::{commit, stiffness};
 use crate::math::abel::bend;
+use crate::math::scan::leading;
 
 /// The stiffness beyond which a step is taken in parts, and that of the parts, in limits: an explicit
 /// step at its limit rings, at half of it no error changes its sign.
@@ -66,22 +67,22 @@ pub(super) fn worn(setup: &Setup, state: &State, work: &mut Workspace, cycle: f6
     if setup.drive.tangential().is_none() {
         return 0.0;
     }
-    let loads = work.tangential_load.iter().zip(&work.slip);
-    for (work, (load, slip)) in work.friction_work.iter_mut().zip(loads) {
-        *work = load * slip;
+    let modulus = setup.material.tangential_modulus();
+    let springs = work.spring.iter().zip(&work.slip);
+    for (work, (u, slip)) in work.friction_work.iter_mut().zip(springs) {
+        *work = modulus * u * slip;
     }
     if let Some(law) = &setup.wear {
         // Method B's stress looks one node across.
         solve::surface_slip(work, work.contact.normal.nodes + 1);
-        let slips = work.surface_slip.iter().position(|&slip| slip != 0.0);
-        let first = slips.unwrap_or(work.surface_slip.len());
-        let mut tau = std::mem::take(&mut work.shear);
-        solve::shear_from(first, work, setup.material.tangential_modulus(), &mut tau);
-        work.shear = tau;
+        let first = leading(&work.surface_slip, |&slip| slip == 0.0);
+        let mut tau = std::mem::take(&mut work.working_shear);
+        solve::shear_from(first, work, modulus, &mut tau);
+        work.working_shear = tau;
         work.transforms += 1;
-        work.working_shear.copy_from_slice(&work.shear);
         let seconds = (cycle - state.cycle) * setup.drive.period();
-        law.wear(&work.shear, &work.surface_slip, seconds, &mut work.worn);
+        let (tau, slip) = (&work.working_shear[first..], &work.surface_slip[first..]);
+        law.wear(tau, slip, seconds, &mut work.worn[first..]);
     }
     work_of_friction(work)
 }

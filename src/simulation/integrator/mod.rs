@@ -8,6 +8,7 @@ use super::state::{LastStep, State};
 use super::workspace::Workspace;
 use super::{Setup, at_rim, cycles_to_settle, volume_by_rate};
 use crate::math::quadrature::weighted;
+use crate::math::scan::largest;
 
 mod cycle_jump;
 mod edge_volume;
@@ -27,7 +28,6 @@ pub(super) fn settle(setup: &Setup, state: &mut State, work: &mut Workspace) -> 
     update_profile(work, &state.wear);
     work.predicted.copy_from_slice(&work.g);
     solve_contact(setup, state, work, state.cycle)?;
-    work.wear.copy_from_slice(&state.wear);
     let nodes = work.g.len();
     let mut last = LastStep {
         normal_load: vec![0.0; nodes],
@@ -80,6 +80,7 @@ fn commit(
         *after = before + worn;
     }
     check(setup, work)?;
+    std::mem::swap(&mut state.wear, &mut work.wear);
     if let Some(law) = &setup.wear {
         // The two sides of V = k E_d: what work explains, and what other laws wore.
         if law.follows_energy() {
@@ -95,12 +96,7 @@ fn commit(
     }
     state.dissipated_energy += friction_work;
     keep_smallest_stick(setup, state, work, cycle);
-    state.wear.copy_from_slice(&work.wear);
     take_over(state, work, cycle);
-    if setup.wear.is_some() && setup.drive.tangential().is_some() {
-        state.last.pressure.copy_from_slice(&work.pressure);
-        state.last.shear.copy_from_slice(&work.shear);
-    }
     // The profile has changed: what a settled cycle wore on the old one is out of date.
     state.jump.settled = None;
     Ok(())
@@ -108,20 +104,19 @@ fn commit(
 
 /// Brings g up to date and notes by how much it has grown.
 fn update_profile_keeping_growth(state: &mut State, work: &mut Workspace) {
-    state.last.growth.copy_from_slice(&work.g);
-    let wear = std::mem::take(&mut work.wear);
-    update_profile(work, &wear);
-    work.wear = wear;
+    // What they held is overwritten.
+    std::mem::swap(&mut state.last.growth, &mut work.g);
+    update_profile(work, &state.wear);
     for (growth, g) in state.last.growth.iter_mut().zip(&work.g) {
         *growth = g - *growth;
     }
-    state.last.wear.copy_from_slice(&work.worn);
+    std::mem::swap(&mut state.last.wear, &mut work.worn);
 }
 
 /// Refuses a worn profile that is not finite or far above anything that can touch.
 fn check(setup: &Setup, work: &Workspace) -> Result<(), Cause> {
     let (method, stability) = (setup.method, setup.stability);
-    let highest = work.wear.iter().copied().fold(0.0, f64::max);
+    let highest = largest(&work.wear);
     let deepest = setup.largest_depth().unwrap_or(work.contact.depth);
     let worn = highest / deepest;
     // Only a finite profile has a finite volume.
@@ -174,6 +169,10 @@ fn keep_smallest_stick(setup: &Setup, state: &mut State, work: &Workspace, cycle
         return;
     };
     state.smallest_stick_radius = state.smallest_stick_radius.min(stick);
+    // A period is a whole number of cycles.
+    if cycle.floor() == state.cycle.floor() {
+        return;
+    }
     let period = f64::from(cycles_to_settle(&setup.drive));
     if (cycle / period).floor() > (state.cycle / period).floor() {
         state.settled_stick_radius = Some(state.smallest_stick_radius);

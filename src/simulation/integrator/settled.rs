@@ -34,7 +34,6 @@ pub(super) fn cycle(
     work: &mut Workspace,
     wear: &[f64],
 ) -> Result<SettledCycle, Cause> {
-    work.wear.copy_from_slice(wear);
     update_profile(work, wear);
     work.predicted.copy_from_slice(&work.g);
     let now = memory.cycle;

@@ -14,6 +14,8 @@ use super::super::Setup;
 use super::super::stability::response;
 use super::super::workspace::Workspace;
 use crate::math::quadrature::weighted;
+use crate::math::scan::largest;
+use crate::math::vector::vectorized;
 
 /// The stiffness z of every node in the step of `duration` cycles that has just been worn, into
 /// `work.stiffness`; returns the largest.
@@ -22,21 +24,18 @@ pub(super) fn of_step(setup: &Setup, work: &mut Workspace, duration: f64) -> f64
     let seconds = duration * setup.drive.period();
     let scale =
         response(setup.method) * setup.material.friction() * setup.material.normal_modulus();
-    let points = work.working_shear.iter().zip(&work.surface_slip);
-    let mut stiffest: f64 = 0.0;
-    for ((z, width), (&tau, &slip)) in work
-        .stiffness
-        .iter_mut()
-        .zip(&work.planned.widths)
-        .zip(points)
-    {
-        *z = 0.0;
-        if tau != 0.0 && slip != 0.0 {
-            *z = scale / width * law.sensitivity(tau, slip, seconds);
-            stiffest = stiffest.max(*z);
-        }
-    }
-    stiffest
+    let (tau, slip) = (&work.working_shear, &work.surface_slip);
+    let (stiffness, per_width) = (&mut work.stiffness[..], &work.planned.per_width);
+    vectorized(
+        #[inline(always)]
+        || {
+            law.sensitivity(tau, slip, seconds, stiffness);
+            for (z, per_width) in stiffness.iter_mut().zip(per_width) {
+                *z *= scale * per_width;
+            }
+            largest(stiffness)
+        },
+    )
 }
 
 /// Lets every node wear what an implicit step with its own response alone would, Δf/(1 + z): monotone for

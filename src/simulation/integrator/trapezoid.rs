@@ -28,6 +28,8 @@
 //!   explicit Euler at 800.
 //! - **Cost**: four transforms a step.
 
+use std::hint::select_unpredictable as select;
+
 use super::super::Setup;
 use super::super::breakdown::Cause;
 use super::super::solve::{pressure, shear, solve_contact, surface_slip};
@@ -37,6 +39,7 @@ use super::parts::{self, Outcome, Part};
 use super::{commit, edge_volume, stiffness};
 use crate::contact::tangential::Hold;
 use crate::math::abel::bend::{self, Bend};
+use crate::math::scan::leading;
 
 /// The most that the profile is looked ahead, in lengths of the step before.
 const FARTHEST: f64 = 4.0;
@@ -95,6 +98,10 @@ fn attempt(
         }
     }
     commit(setup, state, work, cycle, friction_work)?;
+    if setup.wear.is_some() && setup.drive.tangential().is_some() {
+        std::mem::swap(&mut state.last.pressure, &mut work.pressure);
+        std::mem::swap(&mut state.last.shear, &mut work.shear);
+    }
     Ok(Outcome::Done(stiffness))
 }
 
@@ -168,11 +175,7 @@ fn stresses(setup: &Setup, state: &State, work: &mut Workspace) {
     let nodes = before.map_or(0, |last| last + 1);
     surface_slip(work, nodes.max(work.contact.normal.nodes + 1));
     // Nothing slips within the innermost spring that does.
-    let core = work
-        .hold
-        .iter()
-        .take_while(|&&hold| hold == Hold::Stick)
-        .count();
+    let core = leading(&work.hold, |&hold| hold == Hold::Stick);
     work.surface_slip[..core].fill(0.0);
 }
 
@@ -193,12 +196,8 @@ fn mean_shear(setup: &Setup, state: &State, work: &mut Workspace) -> usize {
     let (inner, outer) = work.working_shear.split_at_mut(zone);
     let shears = state.last.shear.iter().zip(&work.shear);
     for ((mean, (was, is)), slip) in inner.iter_mut().zip(shears).zip(&work.surface_slip) {
-        let with_slip = if is * slip > 0.0 { 0.5 * is } else { 0.0 };
-        *mean = if was * is > 0.0 {
-            0.5 * (was + is)
-        } else {
-            with_slip
-        };
+        let with_slip = select(is * slip > 0.0, 0.5 * is, 0.0);
+        *mean = select(was * is > 0.0, 0.5 * (was + is), with_slip);
     }
     let pressures = state.last.pressure[zone..].iter();
     for (mean, (was, is)) in outer.iter_mut().zip(pressures.zip(&work.pressure[zone..])) {

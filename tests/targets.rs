@@ -423,35 +423,47 @@ fn what_has_worn_is_what_friction_has_worked() {
     holds("rate of wear at N = 100", errors.fold(0.0, f64::max), 1e-3);
 }
 
-/// So do the presets in every period in which more than 1e-4 of all wear is worn. Left out: the flat
-/// punch, whose pressure is infinite at its rim; explicit steps of method a; jumps over cycles.
+/// So do the presets in every period in which more than 1e-4 of all wear is worn, be it stepped or jumped.
+/// Left out: `harsh-wear`, whose explicit steps at their limit are to be seen failing.
 #[test]
 fn every_period_of_the_presets_wears_what_it_has_worked() {
-    for (name, bound) in [
-        ("li2019-fig3", 1e-3),
-        // With 40 steps a cycle, at K = 3.
-        ("limit-shape", 1.4e-3),
-        ("gross-slip", 1e-3),
-        ("separation", 1e-3),
-        ("two-frequencies", 1e-3),
-        ("cone", 1e-3),
-        ("truncated-paraboloid", 1e-3),
-        ("truncated-cone", 1e-3),
-        ("strong-wear", 1e-3),
+    for name in [
+        "li2019-fig3",
+        "limit-shape",
+        "mild-million",
+        "flat-punch",
+        "gross-slip",
+        "separation",
+        "two-frequencies",
+        "cone",
+        "truncated-paraboloid",
+        "truncated-cone",
+        "strong-wear",
     ] {
         let scenario = Scenario::load(name, &[]).expect("a preset");
         let mut simulation = Simulation::new(scenario.setup().clone()).expect("a contact");
-        let (mut worst, mut volume) = (0.0_f64, 0.0);
-        for cycle in 1..=100 {
-            simulation.advance_to(f64::from(cycle)).expect("a cycle");
+        let end = scenario.run().cycles.expect("a length");
+        let end = if simulation.may_jump() || end > 1e5 {
+            end
+        } else {
+            end.min(100.0)
+        };
+        let (mut worst, mut volume, mut periods) = (0.0_f64, 0.0, 0);
+        while simulation.cycle() < end {
+            simulation.step_until(end).expect("a step");
+            if simulation.cycle().fract() != 0.0 {
+                continue;
+            }
             let moment = simulation.moment();
             let worn = moment.wear_volume_by_rate - volume;
             volume = moment.wear_volume_by_rate;
             if worn > 1e-4 * volume {
                 worst = worst.max(moment.period_residual.map_or(0.0, f64::abs));
+                periods += 1;
             }
         }
-        holds(&format!("largest residual of {name}"), worst, bound);
+        assert!(periods >= 40, "{name}: {periods} periods with wear");
+        holds(&format!("largest residual of {name}"), worst, 1e-3);
     }
 }
 

@@ -164,6 +164,7 @@ impl Simulation {
         solve::pressure(
             &self.workspace,
             self.setup().material.normal_modulus(),
+            self.state.core_radius(),
             &mut pressure,
         );
         pressure

@@ -223,8 +223,12 @@ fn increment_for_force(
     })
 }
 
-/// p(r), Pa, of the solved contact by Eq. (3); `modulus` is E*.
-pub(super) fn pressure(work: &Workspace, modulus: f64, out: &mut [f64]) {
+/// Springs beyond the core whose load still drops like a root.
+const STEEP: usize = 3;
+
+/// p(r), Pa, of the solved contact by Eq. (3); `modulus` is E*, and nothing slips within the radius
+/// `core` (m).
+pub(super) fn pressure(work: &Workspace, modulus: f64, core: f64, out: &mut [f64]) {
     stress(work, &work.normal_load, &work.normal_breaks, 0, out);
     if let Some(edge) = &work.rim_edge {
         edge.add_to_stress(modulus, work.planned.grid.squares(), out);
@@ -232,18 +236,23 @@ pub(super) fn pressure(work: &Workspace, modulus: f64, out: &mut [f64]) {
     let at_rim = work.rim_edge.iter();
     let at_rim = at_rim.flat_map(|edge| edge.load_bends(modulus));
     let breaks = work.normal_breaks.iter().copied().chain(at_rim);
-    curve(work, &work.normal_load, breaks, out);
+    let core = work.planned.grid.nodes().partition_point(|&x| x <= core);
+    let smooth = |j: usize| j + 1 < core || j >= core + STEEP;
+    curve(work, &work.normal_load, breaks, smooth, out);
 }
 
-/// Adds what the curvature of a line load between the nodes does to its stress: everywhere but where
-/// springs stick, and at the first one that slips.
-fn curve(work: &Workspace, load: &[f64], breaks: impl Iterator<Item = Bend>, out: &mut [f64]) {
+/// Adds what the curvature of a line load between the nodes does to its stress where that is `smooth`.
+fn curve(
+    work: &Workspace,
+    load: &[f64],
+    breaks: impl Iterator<Item = Bend>,
+    smooth: impl Fn(usize) -> bool,
+    out: &mut [f64],
+) {
     let planned = &work.planned;
     if let Some(curvature) = &planned.curvature {
         let contact = &work.contact.normal;
         let cusp = planned.row.cusp(load, contact.radius);
-        let sticks = |j: usize| work.hold.get(j) == Some(&Hold::Stick);
-        let smooth = |j: usize| !sticks(j - 1) && !sticks(j);
         let out = &mut out[..contact.nodes];
         curvature.add_to_stress(load, cusp, breaks, smooth, out);
     }
@@ -257,7 +266,11 @@ pub(super) fn shear(work: &Workspace, modulus: f64, out: &mut [f64]) {
 /// The same from the node `first` on; zero further in.
 pub(super) fn shear_from(first: usize, work: &Workspace, modulus: f64, out: &mut [f64]) {
     stress(work, &work.spring, &work.spring_breaks, first, out);
-    curve(work, &work.spring, work.spring_breaks.iter().copied(), out);
+    let breaks = work.spring_breaks.iter().copied();
+    // What sticks keeps the kinks of its history.
+    let sticks = |j: usize| work.hold[j] == Hold::Stick;
+    let smooth = |j: usize| !sticks(j - 1) && !sticks(j);
+    curve(work, &work.spring, breaks, smooth, out);
     out[..first].fill(0.0);
     for stress in &mut out[first..] {
         *stress *= modulus;

@@ -31,7 +31,7 @@
 //! - **Known failure**: (3) takes the load as even about the far field it is given: only hats, whose
 //!   bends cancel beyond their cell, leave the load's end where it was.
 
-use std::f64::consts::FRAC_2_PI;
+use std::f64::consts::{FRAC_1_PI, FRAC_2_PI};
 
 use serde::{Deserialize, Serialize};
 
@@ -157,6 +157,14 @@ pub fn stress_beyond(bends: impl IntoIterator<Item = Bend>, t: f64, origin: f64)
         first += area * (bend.at - origin - 0.6 * far);
     }
     [sum, first].map(|moment| FRAC_2_PI * 2.0 / 3.0 * moment)
+}
+
+/// The same of the stress q_b/(π√(t_b − r²)) that a load makes which ends with the value `load` (N/m), at the
+/// square `end`.
+pub fn jump_beyond(end: f64, load: f64, t: f64, origin: f64) -> [f64; 2] {
+    let far = (end - t).max(0.0);
+    let sum = 2.0 * FRAC_1_PI * load * far.sqrt();
+    [sum, sum * (end - origin - far / 3.0)]
 }
 
 /// ∫ of the bends dx from x = 0 to `radius`, half of what they add to the force of the springs.

@@ -27,7 +27,8 @@
 //!   the next are no even rule, and the term would turn the response of the pressure to wear round.
 //! - **At a stick border**: a worn contact drops its load like a root behind the permanent stick zone. A
 //!   second difference across its border is no curvature, and would let the core reach into the
-//!   slip zone and dig there without end: the caller says where the load is smooth.
+//!   slip zone and dig there without end: the caller says where the load is smooth, three nodes
+//!   behind the core and within it.
 //! - **Known failure**: next to a kink between nodes that no [`Bend`] tells of, the jump at
 //!   the nodes is none of a curvature. The error there is of order ½ with this term and without.
 

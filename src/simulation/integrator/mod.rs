@@ -11,12 +11,12 @@ use crate::math::quadrature::weighted;
 use crate::math::scan::largest;
 
 mod cycle_jump;
-mod edge_volume;
 mod euler;
 mod parts;
 mod settled;
 mod stiffness;
 mod trapezoid;
+mod worn_volume;
 
 pub(super) use cycle_jump::{Jumped, is_possible, jump};
 
@@ -37,7 +37,8 @@ pub(super) fn settle(setup: &Setup, state: &mut State, work: &mut Workspace) -> 
         shear: vec![0.0; nodes],
         ..LastStep::default()
     };
-    pressure(work, setup.material.normal_modulus(), &mut last.pressure);
+    let modulus = setup.material.normal_modulus();
+    pressure(work, modulus, state.core_radius(), &mut last.pressure);
     if setup.drive.tangential().is_some() {
         shear(work, setup.material.tangential_modulus(), &mut last.shear);
     }

@@ -22,7 +22,7 @@ use super::super::drive::{Control, Oscillation};
 use super::super::solve::{pressure, shear, solve_contact, update_profile};
 use super::super::state::{SettledCycle, State};
 use super::super::workspace::Workspace;
-use super::{edge_volume, euler, stiffness, take_over, trapezoid};
+use super::{euler, stiffness, take_over, trapezoid, worn_volume};
 use crate::math::abel::bend;
 
 /// What a cycle does once the springs have settled on the worn depth `wear` (m), on average over the
@@ -73,7 +73,8 @@ fn period(
         take_over(memory, work, moment);
     }
     let (modulus, shear_modulus) = moduli(setup);
-    pressure(work, modulus, &mut memory.last.pressure);
+    let core = memory.core_radius();
+    pressure(work, modulus, core, &mut memory.last.pressure);
     shear(work, shear_modulus, &mut memory.last.shear);
     work.transforms += 2;
     memory.cycle = 0.0;
@@ -148,7 +149,8 @@ fn plain_cycle(
     solve_contact(setup, memory, work, 0.0)?;
     take_over(memory, work, 0.0);
     let (modulus, shear_modulus) = moduli(setup);
-    pressure(work, modulus, &mut memory.last.pressure);
+    let core = memory.core_radius();
+    pressure(work, modulus, core, &mut memory.last.pressure);
     shear(work, shear_modulus, &mut memory.last.shear);
 
     let reach = setup.material.friction() / shear_modulus;
@@ -191,7 +193,7 @@ fn plain_cycle(
         let (tau, slip) = (&work.working_shear, &work.surface_slip);
         law.wear(tau, slip, 1.0, &mut work.worn);
     }
-    let beyond_nodes = edge_volume::beyond_nodes(setup, memory, work, core);
+    let beyond_nodes = worn_volume::beyond_nodes(setup, memory, work, core);
     let wear = work.worn.iter().map(|worn| 2.0 * worn).collect();
     let kinks: Vec<_> = bend::by_cell(&kinks, squares).collect();
     let contact = &work.contact;

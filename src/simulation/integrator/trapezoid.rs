@@ -36,7 +36,7 @@ use super::super::solve::{pressure, shear, solve_contact, surface_slip};
 use super::super::state::State;
 use super::super::workspace::Workspace;
 use super::parts::{self, Outcome, Part};
-use super::{commit, edge_volume, stiffness};
+use super::{commit, stiffness, worn_volume};
 use crate::contact::tangential::Hold;
 use crate::math::abel::bend::{self, Bend};
 use crate::math::scan::leading;
@@ -120,7 +120,7 @@ pub(super) fn worn(setup: &Setup, state: &State, work: &mut Workspace, cycle: f6
         let seconds = (cycle - state.cycle) * setup.drive.period();
         let (tau, slip) = (&work.working_shear, &work.surface_slip);
         law.wear(tau, slip, seconds, &mut work.worn);
-        work.beyond_nodes = edge_volume::beyond_nodes(setup, state, work, zone);
+        work.beyond_nodes = worn_volume::beyond_nodes(setup, state, work, zone);
     }
     friction_work
 }
@@ -166,7 +166,8 @@ fn stresses(setup: &Setup, state: &State, work: &mut Workspace) {
         std::mem::take(&mut work.pressure),
         std::mem::take(&mut work.shear),
     );
-    pressure(work, setup.material.normal_modulus(), &mut p);
+    let modulus = setup.material.normal_modulus();
+    pressure(work, modulus, state.core_radius(), &mut p);
     shear(work, setup.material.tangential_modulus(), &mut tau);
     (work.pressure, work.shear) = (p, tau);
     work.transforms += 2;

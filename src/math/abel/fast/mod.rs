@@ -63,7 +63,9 @@ pub struct FastProduct {
     nodes: Vec<f64>,
     /// 1/Δt of every cell.
     inverse: Vec<f64>,
-    decay: Decay,
+    /// Of the powers of profile and stress, and of the displacement.
+    root: Decay,
+    arc: Decay,
     profile: Outward,
     displacement: Outward,
     stress: Inward,
@@ -127,21 +129,21 @@ impl FastProduct {
     pub fn new(grid: &RadialGrid, tolerance: f64) -> Option<Self> {
         let nodes = grid.nodes().to_vec();
         let nearest = nearest(&nodes);
-        let powers = fit(&[Kernel::Root, Kernel::Arc], nearest, tolerance)?;
-        let decay = Decay::new(&nodes, &powers.exponents);
+        let [root, arc] = [Kernel::Root, Kernel::Arc].map(|kernel| {
+            let powers = fit(kernel, nearest, tolerance)?;
+            Some((Decay::new(&nodes, &powers.exponents), powers))
+        });
+        let ((root, roots), (arc, arcs)) = (root?, arc?);
         let squares = grid.squares().to_vec();
-        let outward = |kernel, factors: &[f64]| {
-            Outward::new(&nodes, squares.clone(), kernel, factors, &decay, nearest)
-        };
-        let (root, arc) = (&powers.factors[0], &powers.factors[1]);
         let mut fast = Self {
             inverse: inverse_widths(&nodes),
-            profile: outward(Kernel::Root, root),
-            displacement: outward(Kernel::Arc, arc),
-            stress: Inward::new(&nodes, Kernel::Root, root, &decay, nearest),
+            profile: Outward::new(&nodes, squares.clone(), &roots, &root, nearest),
+            displacement: Outward::new(&nodes, squares, &arcs, &arc, nearest),
+            stress: Inward::new(&nodes, &roots, &root, nearest),
             cusps: [const { Vec::new() }; 3],
             nodes,
-            decay,
+            root,
+            arc,
         };
         fast.cusps = fast.images_of_a_cusp();
         Some(fast)
@@ -156,11 +158,11 @@ impl FastProduct {
             image
         });
         self.profile
-            .add(&self.decay, slopes(x, &self.inverse), &mut g);
+            .add(&self.root, slopes(x, &self.inverse), &mut g);
         self.displacement
-            .add(&self.decay, slopes(x, &self.inverse), &mut w);
+            .add(&self.arc, slopes(x, &self.inverse), &mut w);
         self.stress
-            .add(x, &self.decay, slopes(x, &self.inverse), &mut p);
+            .add(x, &self.root, slopes(x, &self.inverse), &mut p);
         for (j, &r) in x.iter().enumerate() {
             g[j] = FRAC_PI_2 * r - g[j];
             w[j] = FRAC_2_PI * r - w[j];
@@ -181,21 +183,21 @@ impl FastProduct {
     /// Eq. (1), as [`product::profile`](super::product::profile).
     pub fn profile(&self, f: &[f64], g: &mut [f64]) {
         self.start(&self.cusps[0], f, f[0], g);
-        self.profile.add(&self.decay, slopes(f, &self.inverse), g);
+        self.profile.add(&self.root, slopes(f, &self.inverse), g);
     }
 
     /// Eq. (2), as [`product::displacement`](super::product::displacement).
     pub fn displacement(&self, u: &[f64], w: &mut [f64]) {
         self.start(&self.cusps[1], u, u[0], w);
         self.displacement
-            .add(&self.decay, slopes(u, &self.inverse), w);
+            .add(&self.arc, slopes(u, &self.inverse), w);
     }
 
     /// Eq. (3), as [`product::stress`](super::product::stress).
     pub fn stress(&self, q: &[f64], p: &mut [f64]) {
         self.start(&self.cusps[2], q, 0.0, p);
         self.stress
-            .add(&self.nodes, &self.decay, slopes(q, &self.inverse), p);
+            .add(&self.nodes, &self.root, slopes(q, &self.inverse), p);
         let last = self.nodes.len() - 1;
         let jump = FRAC_1_PI * q[last];
         if jump != 0.0 {
@@ -224,23 +226,21 @@ impl FastWorn {
         let nodes = grid.nodes();
         let inner = {
             let nearest = nearest(nodes);
-            let powers = fit(&[Kernel::Root], nearest, tolerance)?;
+            let powers = fit(Kernel::Root, nearest, tolerance)?;
             let decay = Decay::new(nodes, &powers.exponents);
             let scale = grid.squares().to_vec();
-            let factors = &powers.factors[0];
             FastInner {
                 inverse: inverse_widths(&nodes[..=border]),
-                profile: Outward::new(nodes, scale, Kernel::Root, factors, &decay, nearest),
+                profile: Outward::new(nodes, scale, &powers, &decay, nearest),
                 decay,
             }
         };
         let x = nodes[border..].to_vec();
         let z: Vec<f64> = x.iter().map(|&r| leg(x[0], r)).collect();
         let nearest = nearest(&z);
-        let powers = fit(&[Kernel::Worn], nearest, tolerance)?;
+        let powers = fit(Kernel::Worn, nearest, tolerance)?;
         let decay = Decay::new(&z, &powers.exponents);
         let scale = x.iter().zip(&z).map(|(x, z)| x * z).collect();
-        let factors = &powers.factors[0];
         Some(Self {
             inner,
             border,
@@ -249,7 +249,7 @@ impl FastWorn {
                 .map(|&z| if z > 0.0 { 1.0 / z } else { 0.0 })
                 .collect(),
             inverse: z.windows(2).map(|cell| 1.0 / (cell[1] - cell[0])).collect(),
-            outer: Outward::new(&z, scale, Kernel::Worn, factors, &decay, nearest),
+            outer: Outward::new(&z, scale, &powers, &decay, nearest),
             decay,
             x,
         })

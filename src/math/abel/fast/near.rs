@@ -1,16 +1,16 @@
 //! What the sum of powers lacks between near neighbours.
 
 use super::decay::Decay;
-use super::powers::{Kernel, LANES};
+use super::powers::{LANES, Powers};
 
 /// Rows are worked on in blocks of this many.
 pub(super) const BLOCK: usize = 32;
 
 /// A node's near neighbours are at most this many.
-pub(super) const REACH: usize = 16;
+pub(super) const REACH: usize = 8;
 
 /// Weights of the bends at the nearest nodes, exact less what the powers give, by blocks and there by
-/// distance, so that the rows of a block lie side by side. Memory: at most 16 N numbers.
+/// distance, so that the rows of a block lie side by side. Memory: at most 8 N numbers.
 #[derive(Debug, PartialEq)]
 pub(super) struct Near {
     /// Where the weights of each block begin; one entry more than there are blocks.
@@ -32,8 +32,7 @@ impl Near {
     pub fn new(
         radii: &[f64],
         side: Side,
-        kernel: Kernel,
-        factors: &[f64],
+        powers: &Powers,
         decay: &Decay,
         nearest: f64,
     ) -> Self {
@@ -42,13 +41,13 @@ impl Near {
             weights: Vec::new(),
         };
         let nodes = radii.len();
-        let mut left = vec![0.0; factors.len()];
+        let mut left = vec![0.0; powers.factors.len()];
         for first in (0..nodes).step_by(BLOCK) {
             let end = (first + BLOCK).min(nodes);
             let mut block = Vec::new();
             let mut reach = 0;
             for j in first..end {
-                left.copy_from_slice(factors);
+                left.copy_from_slice(&powers.factors);
                 for distance in 1..=REACH {
                     let (inner, outer, row) = match side {
                         Side::Inside if distance <= j => (j - distance, j, j + 1 - distance),
@@ -69,9 +68,10 @@ impl Near {
                         reach = distance;
                         block.resize(reach * BLOCK, 0.0);
                     }
-                    let powers = kernel.whole() - left.iter().sum::<f64>();
+                    let kernel = powers.kernel;
+                    let served = kernel.whole() - left.iter().sum::<f64>();
                     block[(distance - 1) * BLOCK + j - first] =
-                        kernel.bend(inner / outer, apart.sqrt()) - powers;
+                        kernel.bend(inner / outer, apart.sqrt()) - served;
                 }
             }
             near.weights.extend(block);

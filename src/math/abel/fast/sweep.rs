@@ -15,7 +15,7 @@ use fearless_simd::{Level, dispatch, f64x4, prelude::*};
 
 use super::decay::Decay;
 use super::near::{BLOCK, Near, REACH, Side};
-use super::powers::{Kernel, LANES, MOST_GROUPS};
+use super::powers::{LANES, MOST_GROUPS, Powers};
 
 /// S of every power.
 type State = [[f64; LANES]; MOST_GROUPS];
@@ -48,20 +48,18 @@ fn grouped(factors: &[f64], scale: f64) -> Vec<[f64; LANES]> {
 }
 
 impl Outward {
-    /// For nodes at `radii`, the first of them 0, and row factors T_j in `scale`. `which` of the
-    /// powers' kernels is `kernel`.
+    /// For nodes at `radii`, the first of them 0, and row factors T_j in `scale`. 
     pub fn new(
         radii: &[f64],
         scale: Vec<f64>,
-        kernel: Kernel,
-        factors: &[f64],
+        powers: &Powers,
         decay: &Decay,
         nearest: f64,
     ) -> Self {
-        let near = Near::new(radii, Side::Inside, kernel, factors, decay, nearest);
+        let near = Near::new(radii, Side::Inside, powers, decay, nearest);
         Self {
-            whole: kernel.whole(),
-            factors: grouped(factors, 1.0),
+            whole: powers.kernel.whole(),
+            factors: grouped(&powers.factors, 1.0),
             near: near.scaled(&scale),
             scale,
         }
@@ -133,16 +131,15 @@ impl Inward {
     /// For nodes at `radii`, the first of them 0.
     pub fn new(
         radii: &[f64],
-        kernel: Kernel,
-        factors: &[f64],
+        powers: &Powers,
         decay: &Decay,
         nearest: f64,
     ) -> Self {
         let inverse = std::f64::consts::FRAC_1_PI;
-        let near = Near::new(radii, Side::Outside, kernel, factors, decay, nearest);
+        let near = Near::new(radii, Side::Outside, powers, decay, nearest);
         Self {
-            whole: kernel.whole() * inverse,
-            factors: grouped(factors, inverse),
+            whole: powers.kernel.whole() * inverse,
+            factors: grouped(&powers.factors, inverse),
             near: near.scaled(&vec![inverse; radii.len()]),
         }
     }

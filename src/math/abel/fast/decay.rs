@@ -3,7 +3,7 @@
 use super::powers::LANES;
 
 /// (t_{j−1}/t_j)^μ for every node j and exponent μ, a row a node; nodes counted from the origin, whose
-/// own row and the next are zero. Memory: N K numbers.
+/// own row and the next are zero, as are those beyond the last. Memory: N K numbers.
 #[derive(Debug, PartialEq)]
 pub(super) struct Decay {
     groups: usize,
@@ -30,12 +30,11 @@ impl Decay {
                 rows.push(lanes);
             }
         }
-        // Nothing comes in from beyond the last node.
-        rows.extend(vec![[0.0; LANES]; exponents.len() / LANES]);
-        Self {
-            groups: exponents.len() / LANES,
-            rows,
-        }
+        // Nothing comes in from beyond the last node; rows are worked on four at a time.
+        let groups = exponents.len() / LANES;
+        let padded = radii.len().next_multiple_of(LANES) + 1;
+        rows.resize(padded * groups, [0.0; LANES]);
+        Self { groups, rows }
     }
 
     /// The rows of nodes `first` to `end`.

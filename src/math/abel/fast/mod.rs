@@ -49,7 +49,7 @@ mod tests;
 use decay::Decay;
 use near::REACH;
 use powers::{Kernel, fit};
-use sweep::{Inward, Outward};
+use sweep::{Data, Inward, Outward};
 
 /// The tolerance of a run. Errors of a result are about a thirtieth of it.
 pub const TOLERANCE: f64 = 1e-8;
@@ -114,13 +114,37 @@ fn inverse_widths(nodes: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Writes (values_{k+1} − values_k) × inverse_k for the cells from `first` on.
-fn slopes<'a>(values: &'a [f64], inverse: &'a [f64]) -> impl Fn(usize, &mut [f64]) + 'a {
-    move |first, out| {
-        let pairs = values[first..].windows(2).zip(&inverse[first..]);
-        for (slope, (pair, inverse)) in out.iter_mut().zip(pairs) {
-            *slope = (pair[1] - pair[0]) * inverse;
+/// Nodal values with the slopes of their cells, and the image that a sweep adds to: a constant and that of a cusp.
+struct Nodal<'a> {
+    values: &'a [f64],
+    /// 1/Δt of every cell.
+    inverse: &'a [f64],
+    constant: f64,
+    cusp: f64,
+    /// Of a cusp of slope one.
+    image: &'a [f64],
+}
+
+impl Data for Nodal<'_> {
+    #[inline(always)]
+    fn slopes(&self, first: usize, slopes: &mut [f64]) {
+        write_slopes(&self.values[first..], &self.inverse[first..], slopes);
+    }
+
+    #[inline(always)]
+    fn begin(&self, first: usize, rows: &mut [f64]) {
+        for (row, image) in rows.iter_mut().zip(&self.image[first..]) {
+            *row = self.constant + self.cusp * image;
         }
+    }
+}
+
+/// Writes (values_{k+1} − values_k) × inverse_k.
+#[inline(always)]
+fn write_slopes(values: &[f64], inverse: &[f64], slopes: &mut [f64]) {
+    let pairs = values.windows(2).zip(inverse);
+    for (slope, (pair, inverse)) in slopes.iter_mut().zip(pairs) {
+        *slope = (pair[1] - pair[0]) * inverse;
     }
 }
 
@@ -153,16 +177,15 @@ impl FastProduct {
     fn images_of_a_cusp(&self) -> [Vec<f64>; 3] {
         let x = &self.nodes;
         let last = x.len() - 1;
+        let zeros = vec![0.0; x.len()];
         let [mut g, mut w, mut p] = [const { Vec::new() }; 3].map(|mut image: Vec<f64>| {
             image.resize(x.len(), 0.0);
             image
         });
-        self.profile
-            .add(&self.root, slopes(x, &self.inverse), &mut g);
-        self.displacement
-            .add(&self.arc, slopes(x, &self.inverse), &mut w);
-        self.stress
-            .add(x, &self.root, slopes(x, &self.inverse), &mut p);
+        let radius = self.data(x, 0.0, &zeros);
+        self.profile.apply(&self.root, &radius, &mut g);
+        self.displacement.apply(&self.arc, &radius, &mut w);
+        self.stress.apply(x, &self.root, &radius, &mut p);
         for (j, &r) in x.iter().enumerate() {
             g[j] = FRAC_PI_2 * r - g[j];
             w[j] = FRAC_2_PI * r - w[j];
@@ -182,22 +205,20 @@ impl FastProduct {
 
     /// Eq. (1), as [`product::profile`](super::product::profile).
     pub fn profile(&self, f: &[f64], g: &mut [f64]) {
-        self.start(&self.cusps[0], f, f[0], g);
-        self.profile.add(&self.root, slopes(f, &self.inverse), g);
+        self.profile
+            .apply(&self.root, &self.data(f, f[0], &self.cusps[0]), g);
     }
 
     /// Eq. (2), as [`product::displacement`](super::product::displacement).
     pub fn displacement(&self, u: &[f64], w: &mut [f64]) {
-        self.start(&self.cusps[1], u, u[0], w);
         self.displacement
-            .add(&self.arc, slopes(u, &self.inverse), w);
+            .apply(&self.arc, &self.data(u, u[0], &self.cusps[1]), w);
     }
 
     /// Eq. (3), as [`product::stress`](super::product::stress).
     pub fn stress(&self, q: &[f64], p: &mut [f64]) {
-        self.start(&self.cusps[2], q, 0.0, p);
-        self.stress
-            .add(&self.nodes, &self.root, slopes(q, &self.inverse), p);
+        let data = self.data(q, 0.0, &self.cusps[2]);
+        self.stress.apply(&self.nodes, &self.root, &data, p);
         let last = self.nodes.len() - 1;
         let jump = FRAC_1_PI * q[last];
         if jump != 0.0 {
@@ -209,11 +230,14 @@ impl FastProduct {
         }
     }
 
-    /// A constant and the image of the cusp of `values`.
-    fn start(&self, image: &[f64], values: &[f64], constant: f64, out: &mut [f64]) {
-        let cusp = cusp(&self.nodes[..3], &values[..3]);
-        for (out, image) in out.iter_mut().zip(image) {
-            *out = constant + cusp * image;
+    /// What a sweep needs of nodal values; `image` is that of a cusp.
+    fn data<'a>(&'a self, values: &'a [f64], constant: f64, image: &'a [f64]) -> Nodal<'a> {
+        Nodal {
+            values,
+            inverse: &self.inverse,
+            constant,
+            cusp: cusp(&self.nodes[..3], &values[..3]),
+            image,
         }
     }
 }
@@ -257,31 +281,78 @@ impl FastWorn {
 
     /// Eq. (1) on the worn depth, as [`worn::profile`](super::worn::profile).
     pub fn profile(&self, depth: &[f64], g: &mut [f64]) {
-        g.fill(depth[0]);
         let (border, inner) = (self.border, &self.inner);
-        let within = |first: usize, out: &mut [f64]| {
-            let values = &depth[..=border];
-            let cells = border.saturating_sub(first).min(out.len());
-            let (inside, outside) = out.split_at_mut(cells);
-            if !inside.is_empty() {
-                slopes(values, &inner.inverse)(first, inside);
-            }
-            outside.fill(0.0);
+        let within = Within {
+            depth: &depth[..=border],
+            inverse: &inner.inverse,
         };
-        inner.profile.add(&inner.decay, within, g);
-        // F, which is that of the next node at the border.
-        let (depth, at_border) = (&depth[border..], depth[border]);
-        let share = |i: usize| (depth[i] - at_border) * self.inverse_z[i];
-        let first = share(1);
-        for (g, x) in g[border..].iter_mut().zip(&self.x).skip(1) {
-            *g += FRAC_PI_2 * first * x;
+        inner.profile.apply(&inner.decay, &within, g);
+        let outside = Outside {
+            depth: &depth[border..],
+            first: (depth[border + 1] - depth[border]) * self.inverse_z[1],
+            worn: self,
+        };
+        self.outer.apply(&self.decay, &outside, &mut g[border..]);
+    }
+}
+
+/// The worn depth up to the border, and none beyond.
+struct Within<'a> {
+    depth: &'a [f64],
+    inverse: &'a [f64],
+}
+
+impl Data for Within<'_> {
+    #[inline(always)]
+    fn slopes(&self, first: usize, slopes: &mut [f64]) {
+        let cells = self.inverse.len().saturating_sub(first).min(slopes.len());
+        let (inside, outside) = slopes.split_at_mut(cells);
+        if !inside.is_empty() {
+            write_slopes(&self.depth[first..], &self.inverse[first..], inside);
         }
-        let outside = |from: usize, out: &mut [f64]| {
-            for (i, slope) in (from..).zip(out) {
-                let left = if i == 0 { first } else { share(i) };
-                *slope = (share(i + 1) - left) * self.inverse[i];
-            }
-        };
-        self.outer.add(&self.decay, outside, &mut g[border..]);
+        outside.fill(0.0);
+    }
+
+    #[inline(always)]
+    fn begin(&self, _: usize, rows: &mut [f64]) {
+        rows.fill(self.depth[0]);
+    }
+}
+
+/// F = (depth − that at the border)/z from the border on, and there that of the next node.
+struct Outside<'a> {
+    depth: &'a [f64],
+    first: f64,
+    worn: &'a FastWorn,
+}
+
+impl Data for Outside<'_> {
+    #[inline(always)]
+    fn slopes(&self, from: usize, slopes: &mut [f64]) {
+        let shares = self.depth[from..].windows(2);
+        let shares = shares.zip(self.worn.inverse_z[from..].windows(2));
+        for ((slope, inverse), (depth, share)) in slopes
+            .iter_mut()
+            .zip(&self.worn.inverse[from..])
+            .zip(shares)
+        {
+            let left = (depth[0] - self.depth[0]) * share[0];
+            let right = (depth[1] - self.depth[0]) * share[1];
+            *slope = (right - left) * inverse;
+        }
+        // F at the border is that of the next node: flat.
+        if from == 0 {
+            slopes[0] = 0.0;
+        }
+    }
+
+    #[inline(always)]
+    fn begin(&self, from: usize, rows: &mut [f64]) {
+        // Nothing at the border itself.
+        let border = usize::from(from == 0);
+        let radii = &self.worn.x[from + border..];
+        for (row, x) in rows[border..].iter_mut().zip(radii) {
+            *row += FRAC_PI_2 * self.first * x;
+        }
     }
 }

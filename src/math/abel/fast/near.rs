@@ -50,11 +50,7 @@ impl Near {
                     if inner == 0.0 || -(-apart).ln_1p() >= nearest {
                         break;
                     }
-                    for (lanes, row) in left.chunks_exact_mut(LANES).zip(decay.row(row)) {
-                        for (left, decay) in lanes.iter_mut().zip(row) {
-                            *left *= decay;
-                        }
-                    }
+                    decay.carry(row, &mut left);
                     if distance > reach {
                         reach = distance;
                         strip.resize(reach, [0.0; LANES]);

@@ -19,12 +19,9 @@ use std::f64::consts::FRAC_1_PI;
 
 use fearless_simd::{Level, dispatch, f64x4, prelude::*};
 
-use super::decay::Decay;
+use super::decay::{BLOCK, Decay, Piece, place};
 use super::near::{Near, REACH, Side};
 use super::powers::{LANES, MOST_GROUPS, Powers};
-
-/// Rows of a pass.
-const BLOCK: usize = 64;
 
 /// S of every power.
 type State = [[f64; LANES]; MOST_GROUPS];
@@ -110,7 +107,7 @@ impl Outward {
             powers_block::<false>(
                 level,
                 &mut state,
-                decay.rows(first, first + padded),
+                decay.piece(block),
                 &self.factors,
                 (&self.near, first),
                 &jumps,
@@ -177,7 +174,7 @@ impl Inward {
             powers_block::<true>(
                 level,
                 &mut state,
-                decay.rows(first + 1, first + padded + 1),
+                decay.piece(block),
                 &self.factors,
                 (&self.near, first),
                 &moments,
@@ -217,17 +214,27 @@ impl Inward {
 fn powers_block<const REVERSED: bool>(
     level: Level,
     state: &mut State,
-    decay: &[[f64; LANES]],
+    decay: Piece,
     factors: &[[f64; LANES]],
     near: (&Near, usize),
     sources: &[f64; REACH + BLOCK],
     sums: &mut [f64],
 ) {
+    let rows = match decay {
+        // Inwards the decay is that towards the node before.
+        Piece::Rows(rows) if REVERSED => &rows[factors.len()..],
+        Piece::Rows(rows) => rows,
+        Piece::Cubics(cubics) => {
+            return dispatch!(level, simd => cubics_block::<_, REVERSED>(
+                simd, state, cubics, factors, near, sources, sums
+            ));
+        }
+    };
     macro_rules! by_groups {
         ($($groups:literal),*) => {
             match factors.len() {
                 $($groups => dispatch!(level, simd => groups_block::<_, $groups, REVERSED>(
-                    simd, state, decay, factors, near, sources, sums
+                    simd, state, rows, factors, near, sources, sums
                 )),)*
                 // A fit has from 2 to MOST_GROUPS groups.
                 _ => unreachable!("no such number of groups"),
@@ -271,22 +278,83 @@ fn groups_block<S: Simd, const GROUPS: usize, const REVERSED: bool>(
                 powers[group] = factors[group].mul_add(source, decayed);
             }
         }
-        let mut sum = f64x4::splat(simd, 0.0);
-        let add = |(weights, sources): (&[f64; LANES], &[f64])| {
-            sum = load(weights).mul_add(f64x4::from_slice(simd, sources), sum);
-        };
-        let weights = near.strip(first / LANES + strip).iter();
-        if REVERSED {
-            weights.zip(window[1..].windows(LANES)).for_each(add);
-        } else {
-            let inner = window[..REACH + LANES - 1].windows(LANES).rev();
-            weights.zip(inner).for_each(add);
-        }
-        (sum - sum_lanes(simd, rows)).store_slice(&mut sums[strip]);
+        let near = near_field::<_, REVERSED>(simd, near.strip(first / LANES + strip), window);
+        (near - sum_lanes(simd, rows)).store_slice(&mut sums[strip]);
     }
     for (lanes, power) in state.iter_mut().zip(&powers) {
         power.store_slice(lanes);
     }
+}
+
+/// The same with decays from cubics, group by group through the same four rows: more arithmetic, and
+/// hardly a number to be read.
+#[inline(always)]
+fn cubics_block<S: Simd, const REVERSED: bool>(
+    simd: S,
+    state: &mut State,
+    cubics: &[[[f64; LANES]; 4]],
+    factors: &[[f64; LANES]],
+    (near, first): (&Near, usize),
+    sources: &[f64; REACH + BLOCK],
+    sums: &mut [f64],
+) {
+    let load = |lanes: &[f64; LANES]| f64x4::from_slice(simd, lanes);
+    let (sums, _) = sums.as_chunks_mut::<LANES>();
+    for strip in 0..sums.len() {
+        let strip = if REVERSED {
+            sums.len() - 1 - strip
+        } else {
+            strip
+        };
+        let window = &sources[strip * LANES..][..REACH + LANES];
+        let own = if REVERSED { window } else { &window[REACH..] };
+        let places: [f64x4<S>; LANES] = std::array::from_fn(|i| {
+            f64x4::splat(simd, place(strip * LANES + i + usize::from(REVERSED)))
+        });
+        let mut rows = [f64x4::splat(simd, 0.0); LANES];
+        for ((power, group), factor) in state.iter_mut().zip(cubics).zip(factors) {
+            let (a, b, c, d) = (
+                load(&group[0]),
+                load(&group[1]),
+                load(&group[2]),
+                load(&group[3]),
+            );
+            let (mut lanes, factor) = (load(power), load(factor));
+            for i in 0..LANES {
+                let i = if REVERSED { LANES - 1 - i } else { i };
+                let u = places[i];
+                let loss = d.mul_add(u, c).mul_add(u, b).mul_add(u, a);
+                let decayed = loss.mul_add(lanes, lanes);
+                rows[i] += decayed;
+                lanes = factor.mul_add(f64x4::splat(simd, own[i]), decayed);
+            }
+            lanes.store_slice(power);
+        }
+        let near = near_field::<_, REVERSED>(simd, near.strip(first / LANES + strip), window);
+        (near - sum_lanes(simd, rows)).store_slice(&mut sums[strip]);
+    }
+}
+
+/// Weights by distance times the sources, for four rows; `window` holds their own sources and those of their neighbours
+/// on the one side.
+#[inline(always)]
+fn near_field<S: Simd, const REVERSED: bool>(
+    simd: S,
+    weights: &[[f64; LANES]],
+    window: &[f64],
+) -> f64x4<S> {
+    let mut sum = f64x4::splat(simd, 0.0);
+    let add = |(weights, sources): (&[f64; LANES], &[f64])| {
+        sum = f64x4::from_slice(simd, weights).mul_add(f64x4::from_slice(simd, sources), sum);
+    };
+    let weights = weights.iter();
+    if REVERSED {
+        weights.zip(window[1..].windows(LANES)).for_each(add);
+    } else {
+        let inner = window[..REACH + LANES - 1].windows(LANES).rev();
+        weights.zip(inner).for_each(add);
+    }
+    sum
 }
 
 /// The sum over the lanes of each of four.

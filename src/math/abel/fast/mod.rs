@@ -38,6 +38,7 @@
 //! - **Known failure**: none; below some hundred nodes the dense form is faster.
 
 use std::f64::consts::{FRAC_1_PI, FRAC_2_PI, FRAC_PI_2};
+use std::ops::Range;
 
 use super::kernel::{acosh_step, leg};
 use super::product::cusp;
@@ -187,9 +188,11 @@ impl FastProduct {
             image
         });
         let radius = self.data(x, 0.0, &zeros);
-        self.profile.apply(&self.root, &radius, &mut g);
-        self.displacement.apply(&self.arc, &radius, &mut w);
-        self.stress.apply(x, &self.root, &radius, &mut p);
+        self.profile.apply(&self.root, &radius, &mut g, 0..x.len());
+        self.displacement
+            .apply(&self.arc, &radius, &mut w, 0..x.len());
+        self.stress
+            .apply(x, &self.root, &radius, &mut p, 0..x.len());
         for (j, &r) in x.iter().enumerate() {
             g[j] = FRAC_PI_2 * r - g[j];
             w[j] = FRAC_2_PI * r - w[j];
@@ -209,20 +212,30 @@ impl FastProduct {
 
     /// Eq. (1), as [`product::profile`](super::product::profile).
     pub fn profile(&self, f: &[f64], g: &mut [f64]) {
-        self.profile
-            .apply(&self.root, &self.data(f, f[0], &self.cusps[0]), g);
+        let data = self.data(f, f[0], &self.cusps[0]);
+        self.profile.apply(&self.root, &data, g, 0..f.len());
     }
 
     /// Eq. (2), as [`product::displacement`](super::product::displacement).
     pub fn displacement(&self, u: &[f64], w: &mut [f64]) {
-        self.displacement
-            .apply(&self.arc, &self.data(u, u[0], &self.cusps[1]), w);
+        self.displacement_rows(u, w, 0..u.len());
+    }
+
+    /// The same for a caller who needs some `rows` alone; the others hold something finite.
+    pub fn displacement_rows(&self, u: &[f64], w: &mut [f64], rows: Range<usize>) {
+        let data = self.data(u, u[0], &self.cusps[1]);
+        self.displacement.apply(&self.arc, &data, w, rows);
     }
 
     /// Eq. (3), as [`product::stress`](super::product::stress).
     pub fn stress(&self, q: &[f64], p: &mut [f64]) {
+        self.stress_rows(q, p, 0..q.len());
+    }
+
+    /// The same for a caller who needs some `rows` alone; the others hold something finite.
+    pub fn stress_rows(&self, q: &[f64], p: &mut [f64], rows: Range<usize>) {
         let data = self.data(q, 0.0, &self.cusps[2]);
-        self.stress.apply(&self.nodes, &self.root, &data, p);
+        self.stress.apply(&self.nodes, &self.root, &data, p, rows);
         let last = self.nodes.len() - 1;
         let jump = FRAC_1_PI * q[last];
         if jump != 0.0 {
@@ -290,13 +303,17 @@ impl FastWorn {
             depth: &depth[..=border],
             inverse: &inner.inverse,
         };
-        inner.profile.apply(&inner.decay, &within, g);
+        inner
+            .profile
+            .apply(&inner.decay, &within, g, 0..depth.len());
         let outside = Outside {
             depth: &depth[border..],
             first: (depth[border + 1] - depth[border]) * self.inverse_z[1],
             worn: self,
         };
-        self.outer.apply(&self.decay, &outside, &mut g[border..]);
+        let rows = 0..depth.len() - border;
+        self.outer
+            .apply(&self.decay, &outside, &mut g[border..], rows);
     }
 }
 

@@ -16,6 +16,7 @@
 //! addition, the last digits differ from one where it does not; on one machine they are always the same.
 
 use std::f64::consts::FRAC_1_PI;
+use std::ops::Range;
 
 use fearless_simd::{Level, dispatch, f64x4, prelude::*};
 
@@ -75,8 +76,8 @@ impl Outward {
         }
     }
 
-    /// Begins the rows of `output` and adds the sums.
-    pub fn apply(&self, decay: &Decay, data: &impl Data, output: &mut [f64]) {
+    /// Begins the `rows` of `output` and adds the sums; those farther out become zero.
+    pub fn apply(&self, decay: &Decay, data: &impl Data, output: &mut [f64], rows: Range<usize>) {
         let level = Level::new();
         let nodes = self.scale.len();
         let mut state: State = [[0.0; LANES]; MOST_GROUPS];
@@ -86,6 +87,10 @@ impl Outward {
         let mut sums = [0.0; BLOCK];
         let mut quiet = true;
         for (block, output) in output[..nodes].chunks_mut(BLOCK).enumerate() {
+            if block * BLOCK >= rows.end {
+                output.fill(0.0);
+                continue;
+            }
             let (first, rows) = (block * BLOCK, output.len());
             slope[0] = slope[BLOCK];
             // The last node has no cell behind it.
@@ -138,8 +143,15 @@ impl Inward {
         }
     }
 
-    /// Begins the rows of `output` and adds the sums.
-    pub fn apply(&self, radii: &[f64], decay: &Decay, data: &impl Data, output: &mut [f64]) {
+    /// Begins the `rows` of `output` and adds the sums; those nearer to the origin become zero.
+    pub fn apply(
+        &self,
+        radii: &[f64],
+        decay: &Decay,
+        data: &impl Data,
+        output: &mut [f64],
+        rows: Range<usize>,
+    ) {
         let level = Level::new();
         let nodes = radii.len();
         let mut state: State = [[0.0; LANES]; MOST_GROUPS];
@@ -150,6 +162,10 @@ impl Inward {
         let mut total = 0.0;
         let mut quiet = true;
         for (block, output) in output[..nodes].chunks_mut(BLOCK).enumerate().rev() {
+            if (block + 1) * BLOCK <= rows.start {
+                output.fill(0.0);
+                continue;
+            }
             let (first, rows) = (block * BLOCK, output.len());
             // The last node has no cell behind it, the first none before it.
             let cells = rows.min(nodes - 1 - first);

@@ -31,7 +31,7 @@
 //! - **Cost**: K multiply-adds twice and 8 more a node, K = 12 … 28 from N = 100 to 100 000; O(N) to set up. The
 //!   products follow each other from node to node, seven cycles each on Zen 3, and up to K = 24 all else but the
 //!   slopes is done meanwhile.
-//! - **Memory**: O(N): 2 K + 40 numbers a node for the three operators. A sweep reads K + 13 of them a node; on more
+//! - **Memory**: O(N): 2 K + 31 numbers a node for the three operators. A sweep reads K + 13 of them a node; on more
 //!   than 16 384 nodes K/16 + 13, as the decays are then stored as cubics (see `decay`).
 //! - **Causality**: strict, as that of the dense form: row j is read before its own bend is added.
 //! - **At r = 0**: g = f(0), w = u(0), p = (2/π) Σ J_k x_k.

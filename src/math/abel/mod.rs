@@ -268,7 +268,7 @@ impl AbelPlan {
     pub fn displacement_rows(&self, u: &[f64], w: &mut [f64], rows: Range<usize>) {
         match &self.operators {
             Operators::Dense { displacement, .. } => displacement.apply_rows(u, w, rows),
-            Operators::Fast(fast) => fast.displacement(u, w),
+            Operators::Fast(fast) => fast.displacement_rows(u, w, rows),
         }
     }
 
@@ -285,7 +285,7 @@ impl AbelPlan {
     pub fn stress_rows(&self, q: &[f64], p: &mut [f64], rows: Range<usize>) {
         match &self.operators {
             Operators::Dense { stress, .. } => stress.apply_rows(q, p, rows),
-            Operators::Fast(fast) => fast.stress(q, p),
+            Operators::Fast(fast) => fast.stress_rows(q, p, rows),
         }
     }
 }

@@ -14,7 +14,7 @@
 //! p_j = (1/π) { 2 Σ_{k>j} J_k x_k − Σ_m S_m },   S_m = Σ_{k>j} a_m J_k x_k (t_j/t_k)^(μ_m)
 //! ```
 //!
-//! each with the nearest nodes (at most 16) put right by weights of their own, exact less what the
+//! each with the nearest nodes (at most 8) put right by weights of their own, exact less what the
 //! powers give. The cusp of the product method is one number for a whole profile, and its image one
 //! vector. The worn depth outside its border is the same in z = √(r² − c²), whose bends are z (z − z_k)₊:
 //!
@@ -28,12 +28,17 @@
 //! - **Accuracy**: the tolerance bounds the relative error of the kernel (for w: the error in units of its
 //!   largest value), so that of a result in units of the same sum with all signs made alike. Rounding
 //!   adds about 1e-15 N^½ of that. The tests hold every operator to it.
-//! - **Cost**: K + 16 multiply-adds a node, K = 20 … 40; O(N) to set up and in memory: 10 K + 50 numbers a node.
+//! - **Cost**: K multiply-adds twice and 8 more a node, K = 12 … 28 from N = 100 to 100 000; O(N) to set up. The
+//!   products follow each other from node to node, seven cycles each on Zen 3, and up to K = 24 all else but the
+//!   slopes is done meanwhile.
+//! - **Memory**: O(N): 2 K + 31 numbers a node for the three operators. A sweep reads K + 13 of them a node; on more
+//!   than 16 384 nodes K/16 + 13, as the decays are then stored as cubics (see `decay`).
 //! - **Causality**: strict, as that of the dense form: row j is read before its own bend is added.
 //! - **At r = 0**: g = f(0), w = u(0), p = (2/π) Σ J_k x_k.
 //! - **Known failure**: none; below some hundred nodes the dense form is faster.
 
 use std::f64::consts::{FRAC_1_PI, FRAC_2_PI, FRAC_PI_2};
+use std::ops::Range;
 
 use super::kernel::{acosh_step, leg};
 use super::product::cusp;
@@ -49,7 +54,7 @@ mod tests;
 use decay::Decay;
 use near::REACH;
 use powers::{Kernel, fit};
-use sweep::{Inward, Outward};
+use sweep::{Data, Inward, Outward};
 
 /// The tolerance of a run. Errors of a result are about a thirtieth of it.
 pub const TOLERANCE: f64 = 1e-8;
@@ -63,7 +68,9 @@ pub struct FastProduct {
     nodes: Vec<f64>,
     /// 1/Δt of every cell.
     inverse: Vec<f64>,
-    decay: Decay,
+    /// Of the powers of profile and stress, and of the displacement.
+    root: Decay,
+    arc: Decay,
     profile: Outward,
     displacement: Outward,
     stress: Inward,
@@ -112,13 +119,37 @@ fn inverse_widths(nodes: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Writes (values_{k+1} − values_k) × inverse_k for the cells from `first` on.
-fn slopes<'a>(values: &'a [f64], inverse: &'a [f64]) -> impl Fn(usize, &mut [f64]) + 'a {
-    move |first, out| {
-        let pairs = values[first..].windows(2).zip(&inverse[first..]);
-        for (slope, (pair, inverse)) in out.iter_mut().zip(pairs) {
-            *slope = (pair[1] - pair[0]) * inverse;
+/// Nodal values with the slopes of their cells, and the image that a sweep adds to: a constant and that of a cusp.
+struct Nodal<'a> {
+    values: &'a [f64],
+    /// 1/Δt of every cell.
+    inverse: &'a [f64],
+    constant: f64,
+    cusp: f64,
+    /// Of a cusp of slope one.
+    image: &'a [f64],
+}
+
+impl Data for Nodal<'_> {
+    #[inline(always)]
+    fn slopes(&self, first: usize, slopes: &mut [f64]) {
+        write_slopes(&self.values[first..], &self.inverse[first..], slopes);
+    }
+
+    #[inline(always)]
+    fn begin(&self, first: usize, rows: &mut [f64]) {
+        for (row, image) in rows.iter_mut().zip(&self.image[first..]) {
+            *row = self.constant + self.cusp * image;
         }
+    }
+}
+
+/// Writes (values_{k+1} − values_k) × inverse_k.
+#[inline(always)]
+fn write_slopes(values: &[f64], inverse: &[f64], slopes: &mut [f64]) {
+    let pairs = values.windows(2).zip(inverse);
+    for (slope, (pair, inverse)) in slopes.iter_mut().zip(pairs) {
+        *slope = (pair[1] - pair[0]) * inverse;
     }
 }
 
@@ -127,21 +158,21 @@ impl FastProduct {
     pub fn new(grid: &RadialGrid, tolerance: f64) -> Option<Self> {
         let nodes = grid.nodes().to_vec();
         let nearest = nearest(&nodes);
-        let powers = fit(&[Kernel::Root, Kernel::Arc], nearest, tolerance)?;
-        let decay = Decay::new(&nodes, &powers.exponents);
+        let [root, arc] = [Kernel::Root, Kernel::Arc].map(|kernel| {
+            let powers = fit(kernel, nearest, tolerance)?;
+            Some((Decay::new(&nodes, &powers.exponents, tolerance), powers))
+        });
+        let ((root, roots), (arc, arcs)) = (root?, arc?);
         let squares = grid.squares().to_vec();
-        let outward = |kernel, factors: &[f64]| {
-            Outward::new(&nodes, squares.clone(), kernel, factors, &decay, nearest)
-        };
-        let (root, arc) = (&powers.factors[0], &powers.factors[1]);
         let mut fast = Self {
             inverse: inverse_widths(&nodes),
-            profile: outward(Kernel::Root, root),
-            displacement: outward(Kernel::Arc, arc),
-            stress: Inward::new(&nodes, Kernel::Root, root, &decay, nearest),
+            profile: Outward::new(&nodes, squares.clone(), &roots, &root, nearest),
+            displacement: Outward::new(&nodes, squares, &arcs, &arc, nearest),
+            stress: Inward::new(&nodes, &roots, &root, nearest),
             cusps: [const { Vec::new() }; 3],
             nodes,
-            decay,
+            root,
+            arc,
         };
         fast.cusps = fast.images_of_a_cusp();
         Some(fast)
@@ -151,16 +182,17 @@ impl FastProduct {
     fn images_of_a_cusp(&self) -> [Vec<f64>; 3] {
         let x = &self.nodes;
         let last = x.len() - 1;
+        let zeros = vec![0.0; x.len()];
         let [mut g, mut w, mut p] = [const { Vec::new() }; 3].map(|mut image: Vec<f64>| {
             image.resize(x.len(), 0.0);
             image
         });
-        self.profile
-            .add(&self.decay, slopes(x, &self.inverse), &mut g);
+        let radius = self.data(x, 0.0, &zeros);
+        self.profile.apply(&self.root, &radius, &mut g, 0..x.len());
         self.displacement
-            .add(&self.decay, slopes(x, &self.inverse), &mut w);
+            .apply(&self.arc, &radius, &mut w, 0..x.len());
         self.stress
-            .add(x, &self.decay, slopes(x, &self.inverse), &mut p);
+            .apply(x, &self.root, &radius, &mut p, 0..x.len());
         for (j, &r) in x.iter().enumerate() {
             g[j] = FRAC_PI_2 * r - g[j];
             w[j] = FRAC_2_PI * r - w[j];
@@ -180,22 +212,30 @@ impl FastProduct {
 
     /// Eq. (1), as [`product::profile`](super::product::profile).
     pub fn profile(&self, f: &[f64], g: &mut [f64]) {
-        self.start(&self.cusps[0], f, f[0], g);
-        self.profile.add(&self.decay, slopes(f, &self.inverse), g);
+        let data = self.data(f, f[0], &self.cusps[0]);
+        self.profile.apply(&self.root, &data, g, 0..f.len());
     }
 
     /// Eq. (2), as [`product::displacement`](super::product::displacement).
     pub fn displacement(&self, u: &[f64], w: &mut [f64]) {
-        self.start(&self.cusps[1], u, u[0], w);
-        self.displacement
-            .add(&self.decay, slopes(u, &self.inverse), w);
+        self.displacement_rows(u, w, 0..u.len());
+    }
+
+    /// The same for a caller who needs some `rows` alone; the others hold something finite.
+    pub fn displacement_rows(&self, u: &[f64], w: &mut [f64], rows: Range<usize>) {
+        let data = self.data(u, u[0], &self.cusps[1]);
+        self.displacement.apply(&self.arc, &data, w, rows);
     }
 
     /// Eq. (3), as [`product::stress`](super::product::stress).
     pub fn stress(&self, q: &[f64], p: &mut [f64]) {
-        self.start(&self.cusps[2], q, 0.0, p);
-        self.stress
-            .add(&self.nodes, &self.decay, slopes(q, &self.inverse), p);
+        self.stress_rows(q, p, 0..q.len());
+    }
+
+    /// The same for a caller who needs some `rows` alone; the others hold something finite.
+    pub fn stress_rows(&self, q: &[f64], p: &mut [f64], rows: Range<usize>) {
+        let data = self.data(q, 0.0, &self.cusps[2]);
+        self.stress.apply(&self.nodes, &self.root, &data, p, rows);
         let last = self.nodes.len() - 1;
         let jump = FRAC_1_PI * q[last];
         if jump != 0.0 {
@@ -207,11 +247,14 @@ impl FastProduct {
         }
     }
 
-    /// A constant and the image of the cusp of `values`.
-    fn start(&self, image: &[f64], values: &[f64], constant: f64, out: &mut [f64]) {
-        let cusp = cusp(&self.nodes[..3], &values[..3]);
-        for (out, image) in out.iter_mut().zip(image) {
-            *out = constant + cusp * image;
+    /// What a sweep needs of nodal values; `image` is that of a cusp.
+    fn data<'a>(&'a self, values: &'a [f64], constant: f64, image: &'a [f64]) -> Nodal<'a> {
+        Nodal {
+            values,
+            inverse: &self.inverse,
+            constant,
+            cusp: cusp(&self.nodes[..3], &values[..3]),
+            image,
         }
     }
 }
@@ -224,23 +267,21 @@ impl FastWorn {
         let nodes = grid.nodes();
         let inner = {
             let nearest = nearest(nodes);
-            let powers = fit(&[Kernel::Root], nearest, tolerance)?;
-            let decay = Decay::new(nodes, &powers.exponents);
+            let powers = fit(Kernel::Root, nearest, tolerance)?;
+            let decay = Decay::new(nodes, &powers.exponents, tolerance);
             let scale = grid.squares().to_vec();
-            let factors = &powers.factors[0];
             FastInner {
                 inverse: inverse_widths(&nodes[..=border]),
-                profile: Outward::new(nodes, scale, Kernel::Root, factors, &decay, nearest),
+                profile: Outward::new(nodes, scale, &powers, &decay, nearest),
                 decay,
             }
         };
         let x = nodes[border..].to_vec();
         let z: Vec<f64> = x.iter().map(|&r| leg(x[0], r)).collect();
         let nearest = nearest(&z);
-        let powers = fit(&[Kernel::Worn], nearest, tolerance)?;
-        let decay = Decay::new(&z, &powers.exponents);
+        let powers = fit(Kernel::Worn, nearest, tolerance)?;
+        let decay = Decay::new(&z, &powers.exponents, tolerance);
         let scale = x.iter().zip(&z).map(|(x, z)| x * z).collect();
-        let factors = &powers.factors[0];
         Some(Self {
             inner,
             border,
@@ -249,7 +290,7 @@ impl FastWorn {
                 .map(|&z| if z > 0.0 { 1.0 / z } else { 0.0 })
                 .collect(),
             inverse: z.windows(2).map(|cell| 1.0 / (cell[1] - cell[0])).collect(),
-            outer: Outward::new(&z, scale, Kernel::Worn, factors, &decay, nearest),
+            outer: Outward::new(&z, scale, &powers, &decay, nearest),
             decay,
             x,
         })
@@ -257,31 +298,82 @@ impl FastWorn {
 
     /// Eq. (1) on the worn depth, as [`worn::profile`](super::worn::profile).
     pub fn profile(&self, depth: &[f64], g: &mut [f64]) {
-        g.fill(depth[0]);
         let (border, inner) = (self.border, &self.inner);
-        let within = |first: usize, out: &mut [f64]| {
-            let values = &depth[..=border];
-            let cells = border.saturating_sub(first).min(out.len());
-            let (inside, outside) = out.split_at_mut(cells);
-            if !inside.is_empty() {
-                slopes(values, &inner.inverse)(first, inside);
-            }
-            outside.fill(0.0);
+        let within = Within {
+            depth: &depth[..=border],
+            inverse: &inner.inverse,
         };
-        inner.profile.add(&inner.decay, within, g);
-        // F, which is that of the next node at the border.
-        let (depth, at_border) = (&depth[border..], depth[border]);
-        let share = |i: usize| (depth[i] - at_border) * self.inverse_z[i];
-        let first = share(1);
-        for (g, x) in g[border..].iter_mut().zip(&self.x).skip(1) {
-            *g += FRAC_PI_2 * first * x;
+        inner
+            .profile
+            .apply(&inner.decay, &within, g, 0..depth.len());
+        let outside = Outside {
+            depth: &depth[border..],
+            first: (depth[border + 1] - depth[border]) * self.inverse_z[1],
+            worn: self,
+        };
+        let rows = 0..depth.len() - border;
+        self.outer
+            .apply(&self.decay, &outside, &mut g[border..], rows);
+    }
+}
+
+/// The worn depth up to the border, and none beyond.
+struct Within<'a> {
+    depth: &'a [f64],
+    inverse: &'a [f64],
+}
+
+impl Data for Within<'_> {
+    #[inline(always)]
+    fn slopes(&self, first: usize, slopes: &mut [f64]) {
+        let cells = self.inverse.len().saturating_sub(first).min(slopes.len());
+        let (inside, outside) = slopes.split_at_mut(cells);
+        if !inside.is_empty() {
+            write_slopes(&self.depth[first..], &self.inverse[first..], inside);
         }
-        let outside = |from: usize, out: &mut [f64]| {
-            for (i, slope) in (from..).zip(out) {
-                let left = if i == 0 { first } else { share(i) };
-                *slope = (share(i + 1) - left) * self.inverse[i];
-            }
-        };
-        self.outer.add(&self.decay, outside, &mut g[border..]);
+        outside.fill(0.0);
+    }
+
+    #[inline(always)]
+    fn begin(&self, _: usize, rows: &mut [f64]) {
+        rows.fill(self.depth[0]);
+    }
+}
+
+/// F = (depth − that at the border)/z from the border on, and there that of the next node.
+struct Outside<'a> {
+    depth: &'a [f64],
+    first: f64,
+    worn: &'a FastWorn,
+}
+
+impl Data for Outside<'_> {
+    #[inline(always)]
+    fn slopes(&self, from: usize, slopes: &mut [f64]) {
+        let shares = self.depth[from..].windows(2);
+        let shares = shares.zip(self.worn.inverse_z[from..].windows(2));
+        for ((slope, inverse), (depth, share)) in slopes
+            .iter_mut()
+            .zip(&self.worn.inverse[from..])
+            .zip(shares)
+        {
+            let left = (depth[0] - self.depth[0]) * share[0];
+            let right = (depth[1] - self.depth[0]) * share[1];
+            *slope = (right - left) * inverse;
+        }
+        // F at the border is that of the next node: flat.
+        if from == 0 {
+            slopes[0] = 0.0;
+        }
+    }
+
+    #[inline(always)]
+    fn begin(&self, from: usize, rows: &mut [f64]) {
+        // Nothing at the border itself.
+        let border = usize::from(from == 0);
+        let radii = &self.worn.x[from + border..];
+        for (row, x) in rows[border..].iter_mut().zip(radii) {
+            *row += FRAC_PI_2 * self.first * x;
+        }
     }
 }

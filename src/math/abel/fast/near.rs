@@ -1,21 +1,18 @@
 //! What the sum of powers lacks between near neighbours.
 
 use super::decay::Decay;
-use super::powers::{Kernel, LANES};
-
-/// Rows are worked on in blocks of this many.
-pub(super) const BLOCK: usize = 32;
+use super::powers::{LANES, Powers};
 
 /// A node's near neighbours are at most this many.
-pub(super) const REACH: usize = 16;
+pub(super) const REACH: usize = 8;
 
-/// Weights of the bends at the nearest nodes, exact less what the powers give, by blocks and there by
-/// distance, so that the rows of a block lie side by side. Memory: at most 16 N numbers.
+/// Weights of the bends at the nearest nodes, exact less what the powers give, by strips of four rows and
+/// there by distance, so that the rows of a strip lie side by side. Memory: at most 8 N numbers.
 #[derive(Debug, PartialEq)]
 pub(super) struct Near {
-    /// Where the weights of each block begin; one entry more than there are blocks.
+    /// Where the weights of each strip begin; one entry more than there are strips.
     starts: Vec<usize>,
-    weights: Vec<f64>,
+    weights: Vec<[f64; LANES]>,
 }
 
 /// Which side of a row its bends lie on.
@@ -29,26 +26,19 @@ pub(super) enum Side {
 
 impl Near {
     /// For nodes at `radii`, the first of them 0, and neighbours whose ln v is less than `nearest`.
-    pub fn new(
-        radii: &[f64],
-        side: Side,
-        kernel: Kernel,
-        factors: &[f64],
-        decay: &Decay,
-        nearest: f64,
-    ) -> Self {
+    pub fn new(radii: &[f64], side: Side, powers: &Powers, decay: &Decay, nearest: f64) -> Self {
         let mut near = Self {
             starts: vec![0],
             weights: Vec::new(),
         };
         let nodes = radii.len();
-        let mut left = vec![0.0; factors.len()];
-        for first in (0..nodes).step_by(BLOCK) {
-            let end = (first + BLOCK).min(nodes);
-            let mut block = Vec::new();
+        let mut left = vec![0.0; powers.factors.len()];
+        for first in (0..nodes).step_by(LANES) {
+            let end = (first + LANES).min(nodes);
+            let mut strip = Vec::new();
             let mut reach = 0;
             for j in first..end {
-                left.copy_from_slice(factors);
+                left.copy_from_slice(&powers.factors);
                 for distance in 1..=REACH {
                     let (inner, outer, row) = match side {
                         Side::Inside if distance <= j => (j - distance, j, j + 1 - distance),
@@ -60,42 +50,26 @@ impl Near {
                     if inner == 0.0 || -(-apart).ln_1p() >= nearest {
                         break;
                     }
-                    for (lanes, row) in left.chunks_exact_mut(LANES).zip(decay.row(row)) {
-                        for (left, decay) in lanes.iter_mut().zip(row) {
-                            *left *= decay;
-                        }
-                    }
+                    decay.carry(row, &mut left);
                     if distance > reach {
                         reach = distance;
-                        block.resize(reach * BLOCK, 0.0);
+                        strip.resize(reach, [0.0; LANES]);
                     }
-                    let powers = kernel.whole() - left.iter().sum::<f64>();
-                    block[(distance - 1) * BLOCK + j - first] =
-                        kernel.bend(inner / outer, apart.sqrt()) - powers;
+                    let kernel = powers.kernel;
+                    let served = kernel.whole() - left.iter().sum::<f64>();
+                    strip[distance - 1][j - first] =
+                        kernel.bend(inner / outer, apart.sqrt()) - served;
                 }
             }
-            near.weights.extend(block);
+            near.weights.extend(strip);
             near.starts.push(near.weights.len());
         }
         near
     }
 
-    /// Multiplies the weights of row j by `scale[j]`.
-    pub fn scaled(mut self, scale: &[f64]) -> Self {
-        for (block, rows) in scale.chunks(BLOCK).enumerate() {
-            let (start, end) = (self.starts[block], self.starts[block + 1]);
-            for weights in self.weights[start..end].chunks_exact_mut(BLOCK) {
-                for (weight, scale) in weights.iter_mut().zip(rows) {
-                    *weight *= scale;
-                }
-            }
-        }
-        self
-    }
-
-    /// The weights of a block: those at distance 1, then 2, …, each [`BLOCK`] rows.
-    pub fn block(&self, block: usize) -> impl Iterator<Item = &[f64; BLOCK]> {
-        let (start, end) = (self.starts[block], self.starts[block + 1]);
-        self.weights[start..end].as_chunks::<BLOCK>().0.iter()
+    /// The weights of a strip: those at distance 1, then 2, …, each for its four rows.
+    #[inline(always)]
+    pub fn strip(&self, strip: usize) -> &[[f64; LANES]] {
+        &self.weights[self.starts[strip]..self.starts[strip + 1]]
     }
 }

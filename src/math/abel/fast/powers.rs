@@ -11,9 +11,8 @@
 //! worn depth        s/√(1 − s²) + acos s                 over ds
 //! ```
 //!
-//! are smooth in ln v away from v = 1, so that for v ≤ exp(−y_min) each is Σ A_m v^(ν_m), on one set of
-//! exponents: 0, 1/2 and 1, with which their series about v = 0 begin, the others in geometric
-//! progression up to about 10/y_min. The A_m are those of least squares over ln v. What a bend needs (see [`super::bend`](super::super::bend)) is the integral,
+//! are smooth in ln v away from v = 1, so that for v ≤ exp(−y_min) each is Σ A_m v^(ν_m). What a bend needs (see
+//! [`super::bend`](super::super::bend)) is the integral,
 //!
 //! ```text
 //! ∫ᵥ¹ = κ − Σ a_m v^(μ_m),   a = A/(ν + 1), μ = ν + 1    (over ds: a = A/(2ν + 1), μ = ν + ½)
@@ -21,14 +20,35 @@
 //!
 //! with the exact κ = ∫₀¹: 2 for profile, stress and worn depth, 1/2 for the displacement.
 //!
-//! Geometric exponents are within a few of the fewest possible (D. Braess, W. Hackbusch (2009), On the
-//! efficient computation of high-dimensional integrals and the approximation by exponential sums, in
-//! Multiscale, Nonlinear and Adaptive Approximation, Springer, doi 10.1007/978-3-642-03413-8_3: an error that falls
-//! like exp(−π²K/ln(8/y_min))), and need no table and no nonlinear search.
+//! # Exponents
+//!
+//! But for their constant, all three kernels (the second with its sign turned) are power series with positive
+//! terms only, from c_n = (2n)!/(4ⁿ n!²):
+//!
+//! ```text
+//! profile, stress   1 + Σ_{n≥1} c_n vⁿ
+//! displacement      1 − (2/π) Σ_{n≥0} c_n/(2n+1) v^(n+½)
+//! worn depth        π/2 + Σ_{n≥1} c_n 2n/(2n+1) v^(n+½)
+//! ```
+//!
+//! With v = e^(−y) such a series is the impulse response of a symmetric system, b′ exp(−y diag ν) b with
+//! b = √w, and balanced truncation gives the few modes that matter for y ≥ y_min (B. C. Moore (1981), IEEE
+//! Trans. Autom. Control 26, 17–32, doi 10.1109/TAC.1981.1102568): with the eigenvectors V of its Gramian
+//!
+//! ```text
+//! P_ik = b_i b_k/(ν_i + ν_k),   b_i² = w_i exp(−ν_i y_min),
+//! ```
+//!
+//! taken from the largest eigenvalue on, the new exponents are the eigenvalues of V′ diag(ν) V. The norm is that over dy,
+//! which for a kernel like y^(−1/2) is that of the relative error over ln y; the displacement is weighted like
+//! its derivative. Terms far out in the series are gathered beforehand, those of each octave by Gauss's rule. The
+//! A_m are then those of least squares over ln v of the kernel itself. K exponents leave an error near
+//! that of the best ones, exp(−π²K/ln(8/y_min)) (D. Braess, W. Hackbusch (2009), in Multiscale, Nonlinear and
+//! Adaptive Approximation, Springer, doi 10.1007/978-3-642-03413-8_3), with no table and no search.
 
-use std::f64::consts::FRAC_2_PI;
+use std::f64::consts::{FRAC_1_PI, FRAC_2_PI, PI};
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 /// Exponents come in groups of this many: one vector register.
 pub(super) const LANES: usize = 4;
@@ -42,8 +62,19 @@ const SAMPLES: usize = 24;
 /// ln v beyond which every power but ν = 0 has died.
 const FARTHEST: f64 = 60.0;
 
-/// The exponents with which the series of the kernels about v = 0 begin.
-const FIRST: [f64; 3] = [0.0, 0.5, 1.0];
+/// Terms of the series that are taken one by one.
+const SINGLE: usize = 32;
+
+/// Terms whose exponent times y_min is beyond this are left out.
+const LAST: f64 = 30.0;
+
+/// Points and weights of Gauss's rule on (−1, 1), those right of the middle.
+const GAUSS: [(f64, f64); 4] = [
+    (0.183_434_642_495_649_8, 0.362_683_783_378_362),
+    (0.525_532_409_916_329, 0.313_706_645_877_887_3),
+    (0.796_666_477_413_626_7, 0.222_381_034_453_374_47),
+    (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
+];
 
 /// A kernel to be fitted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -92,6 +123,22 @@ impl Kernel {
         }
     }
 
+    /// The term n of the power series, its constant apart: the exponent and its weight for the truncation.
+    fn term(self, n: f64) -> (f64, f64) {
+        // c_n by Stirling's series; the exponents need no more than a few digits of it.
+        let c = if n < 1.0 {
+            1.0
+        } else {
+            let inverse = 1.0 / n;
+            (1.0 - inverse * (0.125 - inverse * 0.007_812_5)) / (PI * n).sqrt()
+        };
+        match self {
+            Self::Root => (n, c),
+            Self::Arc => (n + 0.5, c * FRAC_1_PI),
+            Self::Worn => (n + 0.5, c * n / (n + 0.5)),
+        }
+    }
+
     /// a and μ from A and ν.
     fn integrated(self, exponent: f64, factor: f64) -> (f64, f64) {
         match self {
@@ -101,19 +148,21 @@ impl Kernel {
     }
 }
 
-/// κ − Σ a_m v^(μ_m), for several kernels on one set of exponents.
+/// κ − Σ a_m v^(μ_m).
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Powers {
-    /// μ, a multiple of [`LANES`] of them.
+    /// The kernel that they stand for.
+    pub kernel: Kernel,
+    /// μ, a multiple of [`LANES`] of them, in rising order.
     pub exponents: Vec<f64>,
-    /// a, for each kernel.
-    pub factors: Vec<Vec<f64>>,
+    /// a of each.
+    pub factors: Vec<f64>,
 }
 
-/// The fewest powers that hold every kernel to `tolerance` for v ≤ exp(−`nearest`).
+/// The fewest powers that hold `kernel` to `tolerance` for v ≤ exp(−`nearest`).
 ///
-/// None if [`MOST_GROUPS`] do not suffice. The kernels must integrate alike.
-pub(super) fn fit(kernels: &[Kernel], nearest: f64, tolerance: f64) -> Option<Powers> {
+/// None if [`MOST_GROUPS`] do not suffice.
+pub(super) fn fit(kernel: Kernel, nearest: f64, tolerance: f64) -> Option<Powers> {
     let decades = (FARTHEST / nearest).ln();
     let points = |number: f64| {
         let number = number.ceil();
@@ -124,42 +173,63 @@ pub(super) fn fit(kernels: &[Kernel], nearest: f64, tolerance: f64) -> Option<Po
     let samples = points(SAMPLES as f64 * decades);
     // Elsewhere than where it was fitted.
     let checks = points(1.37 * SAMPLES as f64 * decades);
-    let digits = -tolerance.ln();
-    for groups in 2..=MOST_GROUPS {
-        let ends = [1.3, 1.5, 2.0].map(|low| [0.35, 0.45, 0.55].map(|high| (low, high)));
-        for (smallest, largest) in ends.into_iter().flatten() {
-            let free = groups * LANES - FIRST.len();
-            let ratio = (largest * digits / nearest / smallest).ln() / (free - 1) as f64;
-            let others = (0..free).map(|i| smallest * (ratio * i as f64).exp());
-            let exponents: Vec<f64> = FIRST.into_iter().chain(others).collect();
-            let fitted: Option<Vec<Vec<f64>>> = kernels
-                .iter()
-                .map(|&kernel| {
-                    let factors = least_squares(kernel, &exponents, &samples)?;
-                    let worst = residual(kernel, &exponents, &factors, &checks);
-                    (worst <= tolerance).then_some(factors)
-                })
-                .collect();
-            if let (Some(fitted), Some(&first)) = (fitted, kernels.first()) {
-                let integrated = |kernel: Kernel, factors: &[f64]| -> Vec<f64> {
-                    let pairs = exponents.iter().zip(factors);
-                    pairs.map(|(&nu, &a)| kernel.integrated(nu, a).0).collect()
-                };
-                return Some(Powers {
-                    factors: kernels
-                        .iter()
-                        .zip(&fitted)
-                        .map(|(&kernel, factors)| integrated(kernel, factors))
-                        .collect(),
-                    exponents: exponents
-                        .iter()
-                        .map(|&nu| first.integrated(nu, 0.0).1)
-                        .collect(),
-                });
+    let balanced = balanced(kernel, nearest);
+    (2..=MOST_GROUPS).find_map(|groups| {
+        let exponents = truncated(&balanced, groups * LANES - 1)?;
+        let factors = least_squares(kernel, &exponents, &samples)?;
+        let worst = residual(kernel, &exponents, &factors, &checks);
+        (worst <= tolerance).then(|| {
+            let pairs = exponents.iter().zip(&factors);
+            let (factors, exponents) = pairs.map(|(&nu, &a)| kernel.integrated(nu, a)).unzip();
+            Powers {
+                kernel,
+                exponents,
+                factors,
+            }
+        })
+    })
+}
+
+/// V′ diag(ν) V of all modes, the weightiest first.
+fn balanced(kernel: Kernel, nearest: f64) -> DMatrix<f64> {
+    let first = usize::from(kernel != Kernel::Arc);
+    let mut terms: Vec<(f64, f64)> = (first..SINGLE).map(|n| kernel.term(n as f64)).collect();
+    let mut from = SINGLE as f64 - 0.5;
+    while from * nearest < LAST {
+        let half = 0.5 * from;
+        for (point, weight) in GAUSS {
+            for side in [-point, point] {
+                let (exponent, factor) = kernel.term(from + half * (1.0 + side));
+                terms.push((exponent, factor * weight * half));
             }
         }
+        from *= 2.0;
     }
-    None
+    let root = |(exponent, weight): (f64, f64)| (weight * (-exponent * nearest).exp()).sqrt();
+    let gramian = DMatrix::from_fn(terms.len(), terms.len(), |i, k| {
+        root(terms[i]) * root(terms[k]) / (terms[i].0 + terms[k].0)
+    });
+    let eigen = SymmetricEigen::new(gramian);
+    let mut order: Vec<usize> = (0..terms.len()).collect();
+    order.sort_by(|&i, &k| eigen.eigenvalues[k].total_cmp(&eigen.eigenvalues[i]));
+    let modes = eigen.eigenvectors.select_columns(&order);
+    let mut weighted = modes.clone();
+    for (mut row, (exponent, _)) in weighted.row_iter_mut().zip(&terms) {
+        row *= *exponent;
+    }
+    modes.tr_mul(&weighted)
+}
+
+/// The exponents of the first `number` modes, and 0; none if there are not so many.
+fn truncated(balanced: &DMatrix<f64>, number: usize) -> Option<Vec<f64>> {
+    if number > balanced.nrows() {
+        return None;
+    }
+    let block = balanced.view((0, 0), (number, number)).into_owned();
+    let mut exponents: Vec<f64> = block.symmetric_eigenvalues().iter().copied().collect();
+    exponents.push(0.0);
+    exponents.sort_by(f64::total_cmp);
+    Some(exponents)
 }
 
 fn least_squares(kernel: Kernel, exponents: &[f64], samples: &[f64]) -> Option<Vec<f64>> {
@@ -206,7 +276,7 @@ mod tests {
 
     #[test]
     fn the_impossible_is_refused() {
-        assert_eq!(fit(&[Kernel::Root], 3e-4, 1e-16), None);
+        assert_eq!(fit(Kernel::Root, 3e-4, 1e-16), None);
     }
 
     #[test]
@@ -216,16 +286,15 @@ mod tests {
                 if tolerance < 1e-10 && nearest < 1e-3 {
                     continue;
                 }
-                let kernels = [Kernel::Root, Kernel::Arc];
-                let powers = fit(&kernels, nearest, tolerance)
-                    .unwrap_or_else(|| panic!("no fit to {tolerance:e} at {nearest}"));
-                assert!(powers.exponents.len() <= MOST_GROUPS * LANES);
-                // The bends, which the densities add up to, at places of their own.
-                for (kernel, factors) in kernels.iter().zip(&powers.factors) {
+                for kernel in [Kernel::Root, Kernel::Arc, Kernel::Worn] {
+                    let powers = fit(kernel, nearest, tolerance)
+                        .unwrap_or_else(|| panic!("no fit to {tolerance:e} at {nearest}"));
+                    assert!(powers.exponents.len() <= MOST_GROUPS * LANES);
+                    // The bends, which the densities add up to, at places of their own.
                     for i in 0..400 {
                         let y = nearest * 1.02_f64.powi(i);
                         let (s, c) = ((-0.5 * y).exp(), (-(-y).exp_m1()).sqrt());
-                        let pairs = powers.exponents.iter().zip(factors);
+                        let pairs = powers.exponents.iter().zip(&powers.factors);
                         let sum: f64 = pairs.map(|(mu, a)| a * (-mu * y).exp()).sum();
                         let error = kernel.whole() - sum - kernel.bend(s, c);
                         // ∫₀¹ of the kernel's scale is at most 2.

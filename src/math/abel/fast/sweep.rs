@@ -8,14 +8,21 @@
 //!
 //! Row j is read before its own source is added, so that causality is strict.
 //!
+//! A pass takes [`BLOCK`] rows at a time, all of it in the innermost cache: what the rows begin with and the jumps
+//! of the slope, then the recurrences with the near field in their shade, then the part of κ. Four rows share the
+//! sum over the lanes.
+//!
 //! The instructions are those of the processor that runs it. Where it fuses multiplication and
 //! addition, the last digits differ from one where it does not; on one machine they are always the same.
 
+use std::f64::consts::FRAC_1_PI;
+use std::ops::Range;
+
 use fearless_simd::{Level, dispatch, f64x4, prelude::*};
 
-use super::decay::Decay;
-use super::near::{BLOCK, Near, REACH, Side};
-use super::powers::{Kernel, LANES, MOST_GROUPS};
+use super::decay::{BLOCK, Decay, Piece, place};
+use super::near::{Near, REACH, Side};
+use super::powers::{LANES, MOST_GROUPS, Powers};
 
 /// S of every power.
 type State = [[f64; LANES]; MOST_GROUPS];
@@ -39,121 +46,111 @@ pub(super) struct Inward {
     near: Near,
 }
 
-fn grouped(factors: &[f64], scale: f64) -> Vec<[f64; LANES]> {
-    let (groups, _) = factors.as_chunks::<LANES>();
-    groups
-        .iter()
-        .map(|group| group.map(|a| a * scale))
-        .collect()
+/// What a sweep works on, piece by piece.
+pub(super) trait Data {
+    /// Writes the slopes of the cells from the given one on.
+    fn slopes(&self, first: usize, slopes: &mut [f64]);
+
+    /// Makes the rows from the given one on what they are before the sums are added.
+    fn begin(&self, first: usize, rows: &mut [f64]);
+}
+
+fn grouped(factors: &[f64]) -> Vec<[f64; LANES]> {
+    factors.as_chunks::<LANES>().0.to_vec()
 }
 
 impl Outward {
-    /// For nodes at `radii`, the first of them 0, and row factors T_j in `scale`. `which` of the
-    /// powers' kernels is `kernel`.
+    /// For nodes at `radii`, the first of them 0, and row factors T_j in `scale`.
     pub fn new(
         radii: &[f64],
         scale: Vec<f64>,
-        kernel: Kernel,
-        factors: &[f64],
+        powers: &Powers,
         decay: &Decay,
         nearest: f64,
     ) -> Self {
-        let near = Near::new(radii, Side::Inside, kernel, factors, decay, nearest);
         Self {
-            whole: kernel.whole(),
-            factors: grouped(factors, 1.0),
-            near: near.scaled(&scale),
+            whole: powers.kernel.whole(),
+            factors: grouped(&powers.factors),
             scale,
+            near: Near::new(radii, Side::Inside, powers, decay, nearest),
         }
     }
 
-    /// Adds the sums to `output`. `slopes` writes the slopes of the cells from the given one on.
-    pub fn add(&self, decay: &Decay, slopes: impl Fn(usize, &mut [f64]), output: &mut [f64]) {
+    /// Begins the `rows` of `output` and adds the sums; those farther out become zero.
+    pub fn apply(&self, decay: &Decay, data: &impl Data, output: &mut [f64], rows: Range<usize>) {
         let level = Level::new();
         let nodes = self.scale.len();
         let mut state: State = [[0.0; LANES]; MOST_GROUPS];
         let mut jumps = [0.0; REACH + BLOCK];
         // One slope more: that of the cell before the block.
         let mut slope = [0.0; BLOCK + 1];
+        let mut sums = [0.0; BLOCK];
         let mut quiet = true;
         for (block, output) in output[..nodes].chunks_mut(BLOCK).enumerate() {
+            if block * BLOCK >= rows.end {
+                output.fill(0.0);
+                continue;
+            }
             let (first, rows) = (block * BLOCK, output.len());
             slope[0] = slope[BLOCK];
-            slope[1..].fill(0.0);
             // The last node has no cell behind it.
             let cells = rows.min(nodes - 1 - first);
-            slopes(first, &mut slope[1..=cells]);
+            slope[cells + 1..].fill(0.0);
             jumps.copy_within(BLOCK.., 0);
-            for (jump, pair) in jumps[REACH..].iter_mut().zip(slope.windows(2)) {
-                *jump = pair[1] - pair[0];
-            }
-            quiet = quiet && jumps[REACH..].iter().all(|&jump| jump == 0.0);
+            dispatch!(level, _simd => {
+                data.begin(first, output);
+                data.slopes(first, &mut slope[1..=cells]);
+                for (jump, pair) in jumps[REACH..].iter_mut().zip(slope.windows(2)) {
+                    *jump = pair[1] - pair[0];
+                }
+            });
+            quiet = quiet && slope.iter().all(|&slope| slope == 0.0);
             if quiet {
                 continue;
             }
-            let mut sums = [0.0; BLOCK];
+            let padded = rows.next_multiple_of(LANES);
             powers_block::<false>(
                 level,
                 &mut state,
-                decay.rows(first, first + rows),
+                decay.piece(block),
                 &self.factors,
-                &jumps[REACH..REACH + rows],
-                &mut sums[..rows],
+                (&self.near, first),
+                &jumps,
+                &mut sums[..padded],
             );
-            dispatch!(level, simd => finish_outward(
-                simd,
-                self, block, &slope, &jumps, &sums, output,
-            ));
+            dispatch!(level, _simd => self.finish(first, &slope, &sums, output));
         }
     }
-}
 
-/// The near field and the part of κ of one block.
-#[inline(always)]
-fn finish_outward<S: Simd>(
-    simd: S,
-    sweep: &Outward,
-    block: usize,
-    slope: &[f64; BLOCK + 1],
-    jumps: &[f64; REACH + BLOCK],
-    sums: &[f64; BLOCK],
-    output: &mut [f64],
-) {
-    let first = block * BLOCK;
-    let near = near_field(simd, &sweep.near, block, |distance| {
-        &jumps[REACH - distance..][..BLOCK]
-    });
-    let scale = &sweep.scale[first..first + output.len()];
-    for (i, (out, scale)) in output.iter_mut().zip(scale).enumerate() {
-        *out += scale * (sweep.whole * slope[i] - sums[i]) + near[i];
+    /// Adds the sums of one block with the part of κ.
+    #[inline(always)]
+    fn finish(&self, first: usize, slope: &[f64], sums: &[f64], output: &mut [f64]) {
+        let scale = &self.scale[first..first + output.len()];
+        let rows = slope.iter().zip(sums).zip(scale);
+        for (out, ((slope, sum), scale)) in output.iter_mut().zip(rows) {
+            *out += scale * (self.whole * slope + sum);
+        }
     }
 }
 
 impl Inward {
     /// For nodes at `radii`, the first of them 0.
-    pub fn new(
-        radii: &[f64],
-        kernel: Kernel,
-        factors: &[f64],
-        decay: &Decay,
-        nearest: f64,
-    ) -> Self {
-        let inverse = std::f64::consts::FRAC_1_PI;
-        let near = Near::new(radii, Side::Outside, kernel, factors, decay, nearest);
+    pub fn new(radii: &[f64], powers: &Powers, decay: &Decay, nearest: f64) -> Self {
         Self {
-            whole: kernel.whole() * inverse,
-            factors: grouped(factors, inverse),
-            near: near.scaled(&vec![inverse; radii.len()]),
+            whole: powers.kernel.whole(),
+            factors: grouped(&powers.factors),
+            near: Near::new(radii, Side::Outside, powers, decay, nearest),
         }
     }
 
-    /// Adds the sums to `output`. `slopes` writes the slopes of the cells from the given one on.
-    pub fn add(
+    /// Begins the `rows` of `output` and adds the sums; those nearer to the origin become zero.
+    pub fn apply(
         &self,
         radii: &[f64],
         decay: &Decay,
-        slopes: impl Fn(usize, &mut [f64]),
+        data: &impl Data,
         output: &mut [f64],
+        rows: Range<usize>,
     ) {
         let level = Level::new();
         let nodes = radii.len();
@@ -161,110 +158,100 @@ impl Inward {
         let mut moments = [0.0; BLOCK + REACH];
         // slope[i + 1] is that of the cell behind row i, slope[0] that of the cell before the block.
         let mut slope = [0.0; BLOCK + 1];
+        let mut sums = [0.0; BLOCK];
         let mut total = 0.0;
         let mut quiet = true;
         for (block, output) in output[..nodes].chunks_mut(BLOCK).enumerate().rev() {
+            if (block + 1) * BLOCK <= rows.start {
+                output.fill(0.0);
+                continue;
+            }
             let (first, rows) = (block * BLOCK, output.len());
-            slope.fill(0.0);
-            // The last node has no cell behind it.
+            // The last node has no cell behind it, the first none before it.
             let cells = rows.min(nodes - 1 - first);
-            if first > 0 {
-                slopes(first - 1, &mut slope[..=cells]);
-            } else {
-                slopes(0, &mut slope[1..=cells]);
-            }
+            let before = usize::from(first > 0);
+            slope.fill(0.0);
             moments.copy_within(..REACH, BLOCK);
-            moments[..BLOCK].fill(0.0);
+            moments[rows..BLOCK].fill(0.0);
             let radii = &radii[first..first + rows];
-            for ((moment, pair), radius) in moments.iter_mut().zip(slope.windows(2)).zip(radii) {
-                *moment = (pair[1] - pair[0]) * radius;
-            }
-            quiet = quiet && moments[..BLOCK].iter().all(|&moment| moment == 0.0);
+            dispatch!(level, _simd => {
+                data.begin(first, output);
+                data.slopes(first - before, &mut slope[1 - before..=cells]);
+                let jumps = slope.windows(2).map(|pair| pair[1] - pair[0]);
+                for ((moment, jump), radius) in moments.iter_mut().zip(jumps).zip(radii) {
+                    *moment = jump * radius;
+                }
+            });
+            quiet = quiet && slope.iter().all(|&slope| slope == 0.0);
             if quiet {
                 continue;
             }
-            let mut sums = [0.0; BLOCK];
+            let padded = rows.next_multiple_of(LANES);
             powers_block::<true>(
                 level,
                 &mut state,
-                decay.rows(first + 1, first + rows + 1),
+                decay.piece(block),
                 &self.factors,
-                &moments[..rows],
-                &mut sums[..rows],
+                (&self.near, first),
+                &moments,
+                &mut sums[..padded],
             );
-            dispatch!(level, simd => finish_inward(
-                simd,
-                self, block, &mut total, &moments, &sums, output,
-            ));
+            dispatch!(level, _simd => self.finish(&mut total, &moments, &sums, output));
+        }
+    }
+
+    /// Adds the sums of one block with the part of κ; `total` is the sum of the moments outside of it.
+    #[inline(always)]
+    fn finish(
+        &self,
+        total: &mut f64,
+        moments: &[f64; BLOCK + REACH],
+        sums: &[f64; BLOCK],
+        output: &mut [f64],
+    ) {
+        // The only part in sequence: four rows at a time.
+        let mut beyond = [0.0; BLOCK];
+        let (fours, _) = moments[..BLOCK].as_chunks::<4>();
+        let rows = beyond.as_chunks_mut::<4>().0.iter_mut().zip(fours);
+        for (beyond, &[a, b, c, d]) in rows.rev() {
+            let two = c + d;
+            *beyond = [*total + (b + two), *total + two, *total + d, *total];
+            *total += (a + b) + two;
+        }
+        for (out, (beyond, sum)) in output.iter_mut().zip(beyond.iter().zip(sums)) {
+            *out += FRAC_1_PI * (self.whole * beyond + sum);
         }
     }
 }
 
-/// The near field and the part of κ of one block.
-#[inline(always)]
-fn finish_inward<S: Simd>(
-    simd: S,
-    sweep: &Inward,
-    block: usize,
-    total: &mut f64,
-    moments: &[f64; BLOCK + REACH],
-    sums: &[f64; BLOCK],
-    output: &mut [f64],
-) {
-    let near = near_field(simd, &sweep.near, block, |distance| {
-        &moments[distance..][..BLOCK]
-    });
-    // Σ_{k>j} of the block, the only part in sequence.
-    let mut beyond = [0.0; BLOCK];
-    for (beyond, moment) in beyond.iter_mut().zip(moments).rev() {
-        *beyond = *total;
-        *total += moment;
-    }
-    for (i, out) in output.iter_mut().enumerate() {
-        *out += sweep.whole * beyond[i] - sums[i] + near[i];
-    }
-}
-
-/// Weights times the sources at every distance, for the rows of one block side by side.
-#[inline(always)]
-fn near_field<'a, S: Simd>(
-    simd: S,
-    near: &Near,
-    block: usize,
-    sources: impl Fn(usize) -> &'a [f64],
-) -> [f64; BLOCK] {
-    let mut sums = [f64x4::splat(simd, 0.0); BLOCK / LANES];
-    for (distance, weights) in (1..).zip(near.block(block)) {
-        let (weights, _) = weights.as_chunks::<LANES>();
-        let (sources, _) = sources(distance).as_chunks::<LANES>();
-        for ((sum, weight), source) in sums.iter_mut().zip(weights).zip(sources) {
-            let weight = f64x4::from_slice(simd, weight);
-            *sum = weight.mul_add(f64x4::from_slice(simd, source), *sum);
-        }
-    }
-    let mut rows = [0.0; BLOCK];
-    for (lanes, sum) in rows.as_chunks_mut::<LANES>().0.iter_mut().zip(&sums) {
-        sum.store_slice(lanes);
-    }
-    rows
-}
-
-/// The recurrences over one block of rows, from its end if `REVERSED`; the number of groups is fixed
-/// at compile time, so that the state stays in registers.
+/// Near field less recurrences over one block of rows, from its end if `REVERSED`; the number of groups is fixed
+/// at compile time, so that the state stays in registers. `near` says which row is the first, the sources have
+/// those of [`REACH`] more rows on the side where they come from.
 fn powers_block<const REVERSED: bool>(
     level: Level,
     state: &mut State,
-    decay: &[[f64; LANES]],
+    decay: Piece,
     factors: &[[f64; LANES]],
-    sources: &[f64],
+    near: (&Near, usize),
+    sources: &[f64; REACH + BLOCK],
     sums: &mut [f64],
 ) {
+    let rows = match decay {
+        // Inwards the decay is that towards the node before.
+        Piece::Rows(rows) if REVERSED => &rows[factors.len()..],
+        Piece::Rows(rows) => rows,
+        Piece::Cubics(cubics) => {
+            return dispatch!(level, simd => cubics_block::<_, REVERSED>(
+                simd, state, cubics, factors, near, sources, sums
+            ));
+        }
+    };
     macro_rules! by_groups {
         ($($groups:literal),*) => {
             match factors.len() {
-                $($groups => dispatch!(level, simd => {
-                    groups_block::<_, $groups, REVERSED>(simd, state, decay, factors, sources, sums)
-                }),)*
+                $($groups => dispatch!(level, simd => groups_block::<_, $groups, REVERSED>(
+                    simd, state, rows, factors, near, sources, sums
+                )),)*
                 // A fit has from 2 to MOST_GROUPS groups.
                 _ => unreachable!("no such number of groups"),
             }
@@ -279,30 +266,119 @@ fn groups_block<S: Simd, const GROUPS: usize, const REVERSED: bool>(
     state: &mut State,
     decay: &[[f64; LANES]],
     factors: &[[f64; LANES]],
-    sources: &[f64],
+    (near, first): (&Near, usize),
+    sources: &[f64; REACH + BLOCK],
     sums: &mut [f64],
 ) {
     let load = |lanes: &[f64; LANES]| f64x4::from_slice(simd, lanes);
     let mut powers: [f64x4<S>; GROUPS] = std::array::from_fn(|group| load(&state[group]));
     let factors: [f64x4<S>; GROUPS] = std::array::from_fn(|group| load(&factors[group]));
-    let rows = decay.as_chunks::<GROUPS>().0.iter();
-    let rows = rows.zip(sources).zip(sums);
-    let step = |((decay, source), row): ((&[[f64; LANES]; GROUPS], &f64), &mut f64)| {
-        let source = f64x4::splat(simd, *source);
-        let mut sum = [f64x4::splat(simd, 0.0); 2];
-        for group in 0..GROUPS {
-            let decayed = load(&decay[group]) * powers[group];
-            sum[group % 2] += decayed;
-            powers[group] = factors[group].mul_add(source, decayed);
+    let (decay, _) = decay.as_chunks::<GROUPS>();
+    let (decay, _) = decay.as_chunks::<LANES>();
+    let (sums, _) = sums.as_chunks_mut::<LANES>();
+    for strip in 0..sums.len() {
+        let strip = if REVERSED {
+            sums.len() - 1 - strip
+        } else {
+            strip
+        };
+        // Four rows together, and their neighbours on the one side.
+        let window = &sources[strip * LANES..][..REACH + LANES];
+        let mut rows = [f64x4::splat(simd, 0.0); LANES];
+        for i in 0..LANES {
+            let i = if REVERSED { LANES - 1 - i } else { i };
+            let source = f64x4::splat(simd, window[if REVERSED { i } else { REACH + i }]);
+            for group in 0..GROUPS {
+                let decayed = load(&decay[strip][i][group]) * powers[group];
+                rows[i] += decayed;
+                powers[group] = factors[group].mul_add(source, decayed);
+            }
         }
-        *row = simd.reduce_sum_f64x4(sum[0] + sum[1]);
-    };
-    if REVERSED {
-        rows.rev().for_each(step);
-    } else {
-        rows.for_each(step);
+        let near = near_field::<_, REVERSED>(simd, near.strip(first / LANES + strip), window);
+        (near - sum_lanes(simd, rows)).store_slice(&mut sums[strip]);
     }
     for (lanes, power) in state.iter_mut().zip(&powers) {
         power.store_slice(lanes);
     }
+}
+
+/// The same with decays from cubics, group by group through the same four rows: more arithmetic, and
+/// hardly a number to be read.
+#[inline(always)]
+fn cubics_block<S: Simd, const REVERSED: bool>(
+    simd: S,
+    state: &mut State,
+    cubics: &[[[f64; LANES]; 4]],
+    factors: &[[f64; LANES]],
+    (near, first): (&Near, usize),
+    sources: &[f64; REACH + BLOCK],
+    sums: &mut [f64],
+) {
+    let load = |lanes: &[f64; LANES]| f64x4::from_slice(simd, lanes);
+    let (sums, _) = sums.as_chunks_mut::<LANES>();
+    for strip in 0..sums.len() {
+        let strip = if REVERSED {
+            sums.len() - 1 - strip
+        } else {
+            strip
+        };
+        let window = &sources[strip * LANES..][..REACH + LANES];
+        let own = if REVERSED { window } else { &window[REACH..] };
+        let places: [f64x4<S>; LANES] = std::array::from_fn(|i| {
+            f64x4::splat(simd, place(strip * LANES + i + usize::from(REVERSED)))
+        });
+        let mut rows = [f64x4::splat(simd, 0.0); LANES];
+        for ((power, group), factor) in state.iter_mut().zip(cubics).zip(factors) {
+            let (a, b, c, d) = (
+                load(&group[0]),
+                load(&group[1]),
+                load(&group[2]),
+                load(&group[3]),
+            );
+            let (mut lanes, factor) = (load(power), load(factor));
+            for i in 0..LANES {
+                let i = if REVERSED { LANES - 1 - i } else { i };
+                let u = places[i];
+                let loss = d.mul_add(u, c).mul_add(u, b).mul_add(u, a);
+                let decayed = loss.mul_add(lanes, lanes);
+                rows[i] += decayed;
+                lanes = factor.mul_add(f64x4::splat(simd, own[i]), decayed);
+            }
+            lanes.store_slice(power);
+        }
+        let near = near_field::<_, REVERSED>(simd, near.strip(first / LANES + strip), window);
+        (near - sum_lanes(simd, rows)).store_slice(&mut sums[strip]);
+    }
+}
+
+/// Weights by distance times the sources, for four rows; `window` holds their own sources and those of their neighbours
+/// on the one side.
+#[inline(always)]
+fn near_field<S: Simd, const REVERSED: bool>(
+    simd: S,
+    weights: &[[f64; LANES]],
+    window: &[f64],
+) -> f64x4<S> {
+    let mut sum = f64x4::splat(simd, 0.0);
+    let add = |(weights, sources): (&[f64; LANES], &[f64])| {
+        sum = f64x4::from_slice(simd, weights).mul_add(f64x4::from_slice(simd, sources), sum);
+    };
+    let weights = weights.iter();
+    if REVERSED {
+        weights.zip(window[1..].windows(LANES)).for_each(add);
+    } else {
+        let inner = window[..REACH + LANES - 1].windows(LANES).rev();
+        weights.zip(inner).for_each(add);
+    }
+    sum
+}
+
+/// The sum over the lanes of each of four.
+#[inline(always)]
+fn sum_lanes<S: Simd>(simd: S, [a, b, c, d]: [f64x4<S>; LANES]) -> f64x4<S> {
+    // Lanes a, b, a, b and c, d, c, d.
+    let first = simd.zip_low_f64x4(a, b) + simd.zip_high_f64x4(a, b);
+    let second = simd.zip_low_f64x4(c, d) + simd.zip_high_f64x4(c, d);
+    let ((ab, ba), (cd, dc)) = (simd.split_f64x4(first), simd.split_f64x4(second));
+    simd.combine_f64x2(ab, cd) + simd.combine_f64x2(ba, dc)
 }

@@ -161,6 +161,27 @@ fn the_worn_depth_is_the_dense_one_within_its_tolerance() {
     }
 }
 
+/// Rows that are asked for are those of the whole, to the last bit; the others are finite.
+#[test]
+fn rows_that_are_asked_for_are_those_of_the_whole() {
+    for grid in grids(200) {
+        let fast = FastProduct::new(&grid, TOLERANCE).expect("a plan");
+        for values in data(&grid) {
+            let (mut whole, mut part) = (vec![f64::NAN; grid.len()], vec![f64::NAN; grid.len()]);
+            for rows in [0..201, 0..64, 0..130, 64..201, 130..201, 200..201, 0..0] {
+                fast.displacement(&values, &mut whole);
+                fast.displacement_rows(&values, &mut part, rows.clone());
+                assert_eq!(part[rows.clone()], whole[rows.clone()]);
+                assert!(part.iter().all(|w| w.is_finite()));
+                fast.stress(&values, &mut whole);
+                fast.stress_rows(&values, &mut part, rows.clone());
+                assert_eq!(part[rows.clone()], whole[rows]);
+                assert!(part.iter().all(|p| p.is_finite()));
+            }
+        }
+    }
+}
+
 /// What happens outside reaches nothing inside, to the last bit.
 #[test]
 fn causality_is_strict() {

@@ -80,6 +80,16 @@ impl WearLaw {
         matches!(self, Self::Archard { .. })
     }
 
+    /// By which power of the stress a surface wears: m.
+    pub fn stress_exponent(&self) -> f64 {
+        match *self {
+            Self::Archard { .. } => 1.0,
+            Self::Power {
+                stress_exponent, ..
+            } => stress_exponent,
+        }
+    }
+
     /// ∂Δf/∂τ of one step, m/Pa, into `answers`: how strongly the wear of each node answers to its
     /// stress `tau` (Pa) at a slip `slip` (m) over `duration` (s); 0 where nothing works.
     #[inline(always)]

@@ -3,13 +3,13 @@
 mod common;
 
 use common::{Scene, archard, holds, ours, run_setup, swing};
-use mdr_tui::math::abel::AbelMethod::{self, A, APlusB, Product};
+use mdr_tui::math::abel::AbelMethod::{A, APlusB, B, Benad, Product};
 use mdr_tui::math::abel::worn;
 use mdr_tui::oracle::limiting_profile::LimitingProfile;
 use mdr_tui::oracle::partial_slip::stiffness_ratio;
 use mdr_tui::scenario::{Scenario, preset};
 use mdr_tui::simulation::{Scheme, Setup, Simulation, Stability};
-use mdr_tui::studies::stability::{Outcome, Setting, Study, VISIBLE, teeth};
+use mdr_tui::studies::stability::{Setting, Study, VISIBLE, teeth};
 use std::f64::consts::FRAC_PI_4;
 
 /// Fig. 3 with the default numerics.
@@ -132,34 +132,78 @@ fn smooth_presets_have_no_teeth() {
     }
 }
 
-/// Measured over N = 25 to 200 on the motion of Fig. 3: 1.00 to 1.42 for a, 1.18 to 1.34 for a+b. For
-/// product 0.66, 1.52, 0.97 and, at N = 200, 0.46: there a spike at the border of stick comes first, where wear
-/// has raised the stiffness since.
+/// Over N = 25 to 200 and 50 to 200 steps a cycle, the boundary was seen at 1.00 to 1.16 of what is predicted for a and
+/// at 0.69 to 1.16 for product, but for 0.55 at N = 200 with 200 steps.
 #[test]
 fn teeth_are_seen_where_they_were_predicted() {
+    let cases = [
+        (Product, 50, 50, 20.0),
+        (Product, 50, 400, 10.0),
+        (Product, 100, 100, 20.0),
+        (A, 50, 100, 20.0),
+        (A, 100, 50, 10.0),
+        (APlusB, 50, 50, 20.0),
+    ];
+    for (method, points, steps, cycles) in cases {
+        let setting = Setting {
+            method,
+            points,
+            steps,
+            guard: false,
+        };
+        seen_where_predicted(cycles, setting);
+    }
+}
+
+/// The constants of b and benad were fitted to Fig. 3 with 20 cycles and amplitudes of 0.1 d: other numbers of
+/// cycles. On another motion they are not right: at an amplitude of 0.07 d, teeth of b come at less than 2/3 of what they
+/// say.
+#[test]
+fn methods_that_no_step_helps_show_teeth_where_they_did_before() {
+    for (method, cycles) in [(B, 5.0), (B, 40.0), (Benad, 5.0), (Benad, 60.0)] {
+        let setting = Setting {
+            method,
+            points: 50,
+            steps: 50,
+            guard: false,
+        };
+        seen_where_predicted(cycles, setting);
+    }
+}
+
+/// Smooth at K a factor of 1.5 below the prediction, and not at one above.
+fn seen_where_predicted(cycles: f64, setting: Setting) {
+    let scenario = Scenario::load("li2019-fig3", &[]).expect("a preset");
+    let study = Study::new(scenario, cycles).expect("a contact");
+    let study = study.expect("it wears");
+    let run = |rungs: &[f64]| {
+        study
+            .line(setting, rungs, &|| true, |_| {})
+            .expect("runs")
+            .0
+    };
+    let predicted = run(&[]).predicted.expect("a boundary");
+    let below = run(&[predicted / 1.5]);
+    assert_eq!(below.seen, None, "{setting:?}: {predicted}, {below:?}");
+    let above = run(&[predicted * 1.5]);
+    assert!(above.seen.is_some(), "{setting:?}: {predicted}, {above:?}");
+}
+
+#[test]
+fn with_the_guard_no_wear_leaves_teeth() {
     let scenario = Scenario::load("li2019-fig3", &[]).expect("a preset");
     let study = Study::new(scenario, 20.0).expect("a contact");
     let study = study.expect("it wears");
-    let line = |method: AbelMethod, points, guard| {
+    for (method, points) in [(Product, 100), (A, 50), (A, 100), (APlusB, 100)] {
         let setting = Setting {
             method,
             points,
             steps: 100,
-            guard,
+            guard: true,
         };
         let rungs = [31.6, 100.0, 316.0, 1000.0];
-        study
-            .line(setting, &rungs, &|| true, |_| {})
-            .expect("runs")
-            .0
-    };
-    for (method, points) in [(Product, 100), (A, 50), (A, 100), (APlusB, 100)] {
-        let ratio = line(method, points, false).ratio().expect("a boundary");
-        eprintln!("{method}: seen/predicted {ratio:.2}");
-        assert!((1.0 / 1.5..1.5).contains(&ratio), "{method}: {ratio}");
-        let guarded = line(method, points, true);
-        let stable = |(_, outcome): &(f64, Outcome)| *outcome == Outcome::Stable;
-        assert!(guarded.outcomes.iter().all(stable), "{guarded:?}");
-        assert_eq!(guarded.seen, None);
+        let line = study.line(setting, &rungs, &|| true, |_| {});
+        let line = line.expect("runs").0;
+        assert_eq!(line.seen, None, "{line:?}");
     }
 }

@@ -124,7 +124,8 @@ impl Foundation {
     fn cusp_integral(&self, values: &[f64], edge: f64) -> f64 {
         let cusp = self.cusp(values, edge);
         if cusp == 0.0 {
-            return 0.0;
+            // Lengths beyond all numbers are to be seen: 0 · ∞ is none.
+            return 0.0 * self.bubbles[self.bubbles.len() - 1];
         }
         let last = self.nodes.partition_point(|&x| x <= edge) - 1;
         let whole = self.bubbles[last];

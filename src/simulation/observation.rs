@@ -163,7 +163,7 @@ impl Simulation {
         let mut pressure = vec![0.0; self.setup().grid.len()];
         solve::pressure(
             &self.workspace,
-            self.setup().material.normal_modulus(),
+            &self.setup().material,
             self.state.core_radius(),
             &mut pressure,
         );
@@ -234,7 +234,8 @@ impl Simulation {
             spring: when(Curves::SPRINGS, &|| or_zero(&work.spring)),
             pressure: when(Curves::PRESSURE, &|| self.pressure()),
             shear: when(Curves::SHEAR, &|| {
-                transformed(&|out| solve::shear(work, modulus, out))
+                let material = &self.setup().material;
+                transformed(&|out| solve::shear(work, material, self.state.core_radius(), out))
             }),
             surface: when(Curves::SURFACE, &|| {
                 transformed(&|out| solve::surface_displacement(work, out))

@@ -5,6 +5,7 @@ use super::breakdown::Cause;
 use super::drive::Target;
 use super::state::State;
 use super::workspace::{Contact, Workspace};
+use crate::contact::material::Material;
 use crate::contact::normal;
 use crate::contact::tangential::{self, Grip, Hold, Motion};
 use crate::math::abel::bend::{self, Bend};
@@ -224,57 +225,60 @@ fn increment_for_force(
 }
 
 /// Springs beyond the core whose load still drops like a root.
-const STEEP: usize = 3;
+const STEEP: usize = 4;
 
-/// p(r), Pa, of the solved contact by Eq. (3); `modulus` is E*, and nothing slips within the radius
-/// `core` (m).
-pub(super) fn pressure(work: &Workspace, modulus: f64, core: f64, out: &mut [f64]) {
+/// p(r), Pa, of the solved contact by Eq. (3). Nothing slips within the radius `core` (m).
+pub(super) fn pressure(work: &Workspace, material: &Material, core: f64, out: &mut [f64]) {
     stress(work, &work.normal_load, &work.normal_breaks, 0, out);
+    let modulus = material.normal_modulus();
     if let Some(edge) = &work.rim_edge {
         edge.add_to_stress(modulus, work.planned.grid.squares(), out);
     }
+    curve(work, modulus, core, |_| 1.0, out);
+}
+
+/// Adds what the curvature of the line load between the nodes does to p: to each node its `share`, and nothing next to
+/// the core or behind a border of stick, where wear may just have made the load steep.
+fn curve(work: &Workspace, modulus: f64, core: f64, share: impl Fn(usize) -> f64, out: &mut [f64]) {
+    let planned = &work.planned;
+    let Some(curvature) = &planned.curvature else {
+        return;
+    };
     let at_rim = work.rim_edge.iter();
     let at_rim = at_rim.flat_map(|edge| edge.load_bends(modulus));
     let breaks = work.normal_breaks.iter().copied().chain(at_rim);
-    let core = work.planned.grid.nodes().partition_point(|&x| x <= core);
-    let smooth = |j: usize| j + 1 < core || j >= core + STEEP;
-    curve(work, &work.normal_load, breaks, smooth, out);
+    let core = planned.grid.nodes().partition_point(|&x| x <= core);
+    let sticks = |j: usize| work.hold.get(j) == Some(&Hold::Stick);
+    let behind_border = |j: usize| sticks(j - 1) != sticks(j) || sticks(j - 2) != sticks(j);
+    let smooth = |j: usize| (j + 1 < core || j >= core + STEEP) && !behind_border(j);
+    let share = |j: usize| if smooth(j) { share(j) } else { 0.0 };
+    let (contact, load) = (&work.contact.normal, &work.normal_load);
+    let cusp = planned.row.cusp(load, contact.radius);
+    curvature.add_to_stress(load, cusp, breaks, share, &mut out[..contact.nodes]);
 }
 
-/// Adds what the curvature of a line load between the nodes does to its stress where that is `smooth`.
-fn curve(
-    work: &Workspace,
-    load: &[f64],
-    breaks: impl Iterator<Item = Bend>,
-    smooth: impl Fn(usize) -> bool,
-    out: &mut [f64],
-) {
-    let planned = &work.planned;
-    if let Some(curvature) = &planned.curvature {
-        let contact = &work.contact.normal;
-        let cusp = planned.row.cusp(load, contact.radius);
-        let out = &mut out[..contact.nodes];
-        curvature.add_to_stress(load, cusp, breaks, smooth, out);
-    }
-}
-
-/// τ(r), Pa, of the solved contact by Eq. (3); `modulus` is G*.
-pub(super) fn shear(work: &Workspace, modulus: f64, out: &mut [f64]) {
-    shear_from(0, work, modulus, out);
+/// τ(r), Pa, of the solved contact by Eq. (3).
+pub(super) fn shear(work: &Workspace, material: &Material, core: f64, out: &mut [f64]) {
+    shear_from(0, work, material, core, out);
 }
 
 /// The same from the node `first` on; zero further in.
-pub(super) fn shear_from(first: usize, work: &Workspace, modulus: f64, out: &mut [f64]) {
+pub(super) fn shear_from(
+    first: usize,
+    work: &Workspace,
+    material: &Material,
+    core: f64,
+    out: &mut [f64],
+) {
     stress(work, &work.spring, &work.spring_breaks, first, out);
-    let breaks = work.spring_breaks.iter().copied();
-    // What sticks keeps the kinks of its history.
-    let sticks = |j: usize| work.hold[j] == Hold::Stick;
-    let smooth = |j: usize| !sticks(j - 1) && !sticks(j);
-    curve(work, &work.spring, breaks, smooth, out);
     out[..first].fill(0.0);
     for stress in &mut out[first..] {
-        *stress *= modulus;
+        *stress *= material.tangential_modulus();
     }
+    // What slips is curved like μq; what sticks keeps the kinks of its history.
+    let slips = |j: usize| work.hold[j].sign().filter(|_| j >= first);
+    let share = |j: usize| slips(j).map_or(0.0, |sign| sign * material.friction());
+    curve(work, material.normal_modulus(), core, share, out);
 }
 
 /// Eq. (3) with the breaks of the load and the end of its cusp, and nothing outside the contact; of use

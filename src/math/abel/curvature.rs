@@ -27,8 +27,7 @@
 //!   the next are no even rule, and the term would turn the response of the pressure to wear round.
 //! - **At a stick border**: a worn contact drops its load like a root behind the permanent stick zone. A
 //!   second difference across its border is no curvature, and would let the core reach into the
-//!   slip zone and dig there without end: the caller says where the load is smooth, three nodes
-//!   behind the core and within it.
+//!   slip zone and dig there without end: the caller says where the load is smooth.
 //! - **Known failure**: next to a kink between nodes that no [`Bend`] tells of, the jump at
 //!   the nodes is none of a curvature. The error there is of order ½ with this term and without.
 
@@ -74,13 +73,14 @@ impl Curvature {
     /// Eq. (3): adds to the stress `p` (N/m²) what the curvature of a `load` (N/m) does, beside
     /// [`product::stress`](super::product::stress) and the `breaks` of the load (N/m, from the tip outwards).
     /// `p` ends with the nodes in contact; `cusp` is the slope of the load at the tip, which is no curvature;
-    /// `smooth` tells whether a load may be seen as smooth from the node before a node to the one behind it.
+    /// `share` says how much of it a node's stress takes: nothing where the load is not smooth from the node before
+    /// to the one behind it.
     pub fn add_to_stress(
         &self,
         load: &[f64],
         cusp: f64,
         breaks: impl IntoIterator<Item = Bend>,
-        smooth: impl Fn(usize) -> bool,
+        share: impl Fn(usize) -> f64,
         p: &mut [f64],
     ) {
         let t = &self.squares[..];
@@ -99,14 +99,15 @@ impl Curvature {
                     jump += bend.jump;
                 }
             }
-            if j < 2 || !smooth(j) {
+            let share = if j < 2 { 0.0 } else { share(j) };
+            if share == 0.0 {
                 continue;
             }
             let lack = match breaks.peek() {
                 Some(bend) if bend.at < t[j + 1] => root_cubed(bend.at - t[j]) * SINGLE,
                 _ => lack,
             };
-            *p += per_pair * lack * jump;
+            *p += share * per_pair * lack * jump;
         }
     }
 }
@@ -143,7 +144,7 @@ mod tests {
         let mut p = apply(&product::stress(grid.nodes()), &load);
         bend::add_to_stress(&breaks, t, &mut p);
         if corrected {
-            Curvature::new(&grid).add_to_stress(&load, 0.0, breaks, |_| true, &mut p);
+            Curvature::new(&grid).add_to_stress(&load, 0.0, breaks, |_| 1.0, &mut p);
         }
         let exact = |s: f64| FRAC_2_PI * (1.0 - s).sqrt() * ((1.0 - s) / 1.5 + 2.0 * s);
         let inside = t.iter().zip(&p).take(cell + 1);
@@ -182,11 +183,11 @@ mod tests {
         let (cell, breaks) = ending_at_one(t, &load);
         let mut p = vec![0.0; t.len()];
         let curvature = Curvature::new(&grid);
-        curvature.add_to_stress(&load, -0.3, breaks.iter().copied(), |_| true, &mut p);
+        curvature.add_to_stress(&load, -0.3, breaks.iter().copied(), |_| 1.0, &mut p);
         // The cusp is not linear in t in the edge's cell.
         assert!(p[..cell].iter().all(|p| p.abs() < 1e-13), "{p:?}");
         let mut q = vec![0.0; t.len()];
-        curvature.add_to_stress(&load, 0.0, breaks, |_| true, &mut q);
+        curvature.add_to_stress(&load, 0.0, breaks, |_| 1.0, &mut q);
         assert!(q[1..cell].iter().any(|p| p.abs() > 1e-6));
     }
 
@@ -204,7 +205,8 @@ mod tests {
             for (i, mut column) in stress.column_iter_mut().enumerate() {
                 let mut load = vec![0.0; grid.len()];
                 load[i] = 1.0;
-                let outside = |j: usize| grid.border().is_none_or(|border| j > border + 1);
+                let outside =
+                    |j: usize| f64::from(grid.border().is_none_or(|border| j > border + 1));
                 curvature.add_to_stress(&load, 0.0, [], outside, column.as_mut_slice());
             }
             // What wears: the nodes outside the border, up to the last but one.

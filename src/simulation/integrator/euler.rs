@@ -77,7 +77,8 @@ pub(super) fn worn(setup: &Setup, state: &State, work: &mut Workspace, cycle: f6
         solve::surface_slip(work, work.contact.normal.nodes + 1);
         let first = leading(&work.surface_slip, |&slip| slip == 0.0);
         let mut tau = std::mem::take(&mut work.working_shear);
-        solve::shear_from(first, work, modulus, &mut tau);
+        let core = state.core_radius();
+        solve::shear_from(first, work, &setup.material, core, &mut tau);
         work.working_shear = tau;
         work.transforms += 1;
         let seconds = (cycle - state.cycle) * setup.drive.period();

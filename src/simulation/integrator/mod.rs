@@ -37,10 +37,10 @@ pub(super) fn settle(setup: &Setup, state: &mut State, work: &mut Workspace) -> 
         shear: vec![0.0; nodes],
         ..LastStep::default()
     };
-    let modulus = setup.material.normal_modulus();
-    pressure(work, modulus, state.core_radius(), &mut last.pressure);
+    let core = state.core_radius();
+    pressure(work, &setup.material, core, &mut last.pressure);
     if setup.drive.tangential().is_some() {
-        shear(work, setup.material.tangential_modulus(), &mut last.shear);
+        shear(work, &setup.material, core, &mut last.shear);
     }
     state.last = last;
     take_over(state, work, state.cycle);

@@ -72,10 +72,9 @@ fn period(
         solve_contact(setup, memory, work, moment)?;
         take_over(memory, work, moment);
     }
-    let (modulus, shear_modulus) = moduli(setup);
     let core = memory.core_radius();
-    pressure(work, modulus, core, &mut memory.last.pressure);
-    shear(work, shear_modulus, &mut memory.last.shear);
+    pressure(work, &setup.material, core, &mut memory.last.pressure);
+    shear(work, &setup.material, core, &mut memory.last.shear);
     work.transforms += 2;
     memory.cycle = 0.0;
     let mut settled = SettledCycle {
@@ -120,11 +119,6 @@ fn period(
     Ok(settled)
 }
 
-fn moduli(setup: &Setup) -> (f64, f64) {
-    let material = &setup.material;
-    (material.normal_modulus(), material.tangential_modulus())
-}
-
 /// The tangential motion, where a cycle needs no steps.
 fn plain_swing(setup: &Setup) -> Option<&Oscillation> {
     let still = setup.drive.normal().oscillation().amplitude() == 0.0;
@@ -148,12 +142,11 @@ fn plain_cycle(
     settle_springs(setup, memory, work, swing);
     solve_contact(setup, memory, work, 0.0)?;
     take_over(memory, work, 0.0);
-    let (modulus, shear_modulus) = moduli(setup);
     let core = memory.core_radius();
-    pressure(work, modulus, core, &mut memory.last.pressure);
-    shear(work, shear_modulus, &mut memory.last.shear);
+    pressure(work, &setup.material, core, &mut memory.last.pressure);
+    shear(work, &setup.material, core, &mut memory.last.shear);
 
-    let reach = setup.material.friction() / shear_modulus;
+    let reach = setup.material.friction() / setup.material.tangential_modulus();
     let (load, squares) = (&work.normal_load, work.planned.grid.squares());
     let excess = |j: usize| swing.amplitude() - reach * load[j];
     for (j, slip) in work.slip.iter_mut().enumerate() {

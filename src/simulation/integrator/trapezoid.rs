@@ -166,9 +166,9 @@ fn stresses(setup: &Setup, state: &State, work: &mut Workspace) {
         std::mem::take(&mut work.pressure),
         std::mem::take(&mut work.shear),
     );
-    let modulus = setup.material.normal_modulus();
-    pressure(work, modulus, state.core_radius(), &mut p);
-    shear(work, setup.material.tangential_modulus(), &mut tau);
+    let core = state.core_radius();
+    pressure(work, &setup.material, core, &mut p);
+    shear(work, &setup.material, core, &mut tau);
     (work.pressure, work.shear) = (p, tau);
     work.transforms += 2;
     // What carried a stress before or carries one now wears; method B's stress looks one node across.

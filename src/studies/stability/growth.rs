@@ -14,15 +14,24 @@ pub(super) fn growing_from(scheme: Scheme, stiffness: &[f64]) -> Option<f64> {
         return None;
     }
     let at_limit = limit(scheme) / stiffest;
-    let grows = |factor: &f64| {
+    let factor = |rung: i32| at_limit * 1.01_f64.powi(rung);
+    let grows = |rung: i32| {
         let logs = stiffness
             .iter()
-            .map(|z| amplification(scheme, factor * z).ln());
+            .map(|z| amplification(scheme, factor(rung) * z).ln());
         logs.sum::<f64>() > 0.0
     };
-    (0..REACH)
-        .map(|rung| at_limit * 1.01_f64.powi(rung))
-        .find(grows)
+    // Beyond its limit, the stiffest step alone grows more and more.
+    let (mut below, mut above) = (-1, REACH);
+    while above - below > 1 {
+        let middle = (below + above) / 2;
+        if grows(middle) {
+            above = middle;
+        } else {
+            below = middle;
+        }
+    }
+    (above < REACH).then(|| factor(above))
 }
 
 #[cfg(test)]

@@ -1,15 +1,18 @@
 //! Where wear grows teeth: a scenario run over a ladder of wear coefficients, by every method and on
-//! every grid, and what the largest eigenvalue of the method's response had predicted.
+//! every grid, and what was [predicted](predict).
+//!
+//! Teeth are looked for at the end of every cycle. In harsh wear they wear off again, so that the last profile
+//! alone would tell nothing of them.
 
 use std::ops::ControlFlow;
 
 use crate::math::abel::AbelMethod;
 use crate::scenario::session::{Session, SessionError};
 use crate::scenario::{Change, Scenario};
-use crate::simulation::stability;
-use growth::growing_from;
+use predict::predict;
 
 mod growth;
+pub mod predict;
 pub mod report;
 mod teeth;
 
@@ -22,11 +25,8 @@ pub const POINTS: [usize; 4] = [25, 50, 100, 200];
 pub const WEAR_NUMBERS: [f64; 9] = [0.1, 0.316, 1.0, 3.16, 10.0, 31.6, 100.0, 316.0, 1000.0];
 
 /// Teeth that are higher than this, in largest depths, are seen. The presets come to 7e-5 at most, and runs
-/// with the guard to 3e-4, next to the border of stick: one node, no comb.
+/// with the guard end with 3e-4, next to the border of stick: one node, no comb.
 pub const VISIBLE: f64 = 5e-4;
-
-/// The wear number at which the stiffness of a step is read: nothing has changed shape by then.
-const MILD: f64 = 1e-3;
 
 /// Halvings of the interval, on the scale of ratios, in which the boundary lies.
 const HALVINGS: u32 = 3;
@@ -49,7 +49,7 @@ pub struct Setting {
 pub enum Outcome {
     /// Smooth to the end.
     Stable,
-    /// At the end, with teeth of this height, in largest depths.
+    /// To the end, with teeth as high as this at the end of a cycle, in largest depths.
     Teeth(f64),
     /// After some cycles, for a reason.
     Exploded {
@@ -76,8 +76,7 @@ pub struct Line {
     pub setting: Setting,
     /// The wear numbers of the ladder that were tried, and what came of them.
     pub outcomes: Vec<(f64, Outcome)>,
-    /// The wear number from which the stiffest error grows over a cycle; none where nothing slips, and
-    /// for methods whose limit is no matter of the step.
+    /// The wear number from which teeth were [predicted](predict); none where nothing slips.
     pub predicted: Option<f64>,
     /// The smallest wear number at which teeth were seen, to a seventh; none if they never were.
     pub seen: Option<f64>,
@@ -128,51 +127,32 @@ impl Study {
             Ok(session) => session,
             Err(error) => return ControlFlow::Continue(Err(error)),
         };
+        let depth = predict::depth(session.simulation());
+        let mut highest = 0.0_f64;
         while session.simulation().cycle() < self.cycles {
-            if !go_on() {
-                return ControlFlow::Break(());
-            }
-            match session.step_until(self.cycles) {
-                Ok(()) => {}
-                Err(SessionError::Breakdown(breakdown)) => {
-                    return ControlFlow::Continue(Ok(Outcome::Exploded {
-                        cycle: breakdown.cycle,
-                        reason: breakdown.cause.to_string(),
-                    }));
+            let end = (session.simulation().cycle().floor() + 1.0).min(self.cycles);
+            while session.simulation().cycle() < end {
+                if !go_on() {
+                    return ControlFlow::Break(());
                 }
-                Err(error) => return ControlFlow::Continue(Err(error)),
+                match session.step_until(end) {
+                    Ok(()) => {}
+                    Err(SessionError::Breakdown(breakdown)) => {
+                        return ControlFlow::Continue(Ok(Outcome::Exploded {
+                            cycle: breakdown.cycle,
+                            reason: breakdown.cause.to_string(),
+                        }));
+                    }
+                    Err(error) => return ControlFlow::Continue(Err(error)),
+                }
             }
+            highest = highest.max(teeth(&session.simulation().state().wear) / depth);
         }
-        let simulation = session.simulation();
-        let depth = simulation.setup().largest_depth();
-        let depth = depth.unwrap_or(simulation.state().depth);
-        let height = teeth(&simulation.state().wear) / depth;
-        ControlFlow::Continue(Ok(if height > VISIBLE {
-            Outcome::Teeth(height)
+        ControlFlow::Continue(Ok(if highest > VISIBLE {
+            Outcome::Teeth(highest)
         } else {
             Outcome::Stable
         }))
-    }
-
-    /// The wear number from which the stiffest error grows over a cycle of the unworn contact: z rises and
-    /// falls with the speed of the slip, and steps that damp an error make up for some that do not.
-    fn predict(&self, setting: Setting) -> Result<Option<f64>, SessionError> {
-        let mut session = self.start(setting, MILD)?;
-        let mut stiffness = Vec::new();
-        // The first cycle lets the springs settle.
-        while session.simulation().cycle() < 2.0 {
-            session.step_until(2.0)?;
-            let simulation = session.simulation();
-            if simulation.cycle() > 1.0 {
-                stiffness.push(simulation.state().last.stiffness);
-            }
-        }
-        let setup = session.simulation().setup();
-        if stability::beyond_steps(setup.method).is_some() {
-            return Ok(None);
-        }
-        let factor = growing_from(setup.scheme, &stiffness);
-        Ok(factor.map(|factor| MILD * factor))
     }
 
     /// Runs the ladder, and then between its last stable and its first other rung to find the boundary.
@@ -187,7 +167,7 @@ impl Study {
         let mut line = Line {
             setting,
             outcomes: Vec::new(),
-            predicted: self.predict(setting)?,
+            predicted: predict(self, setting)?,
             seen: None,
         };
         let (mut below, mut above) = (None, None);

@@ -128,7 +128,7 @@ pub fn maps(lines: &[Line]) -> String {
         if let Some(why) = stability::beyond_steps(first.setting.method) {
             let _ = writeln!(
                 text,
-                "  No limit is predicted: teeth grow with K x cycles, whatever the step;\n  {why}."
+                "  Measured, not derived: teeth grow with K x cycles, whatever the step;\n  {why}."
             );
         }
         text.push('\n');
@@ -193,12 +193,12 @@ mod tests {
     }
 
     #[test]
-    fn a_map_says_in_words_where_no_limit_is_predicted() {
+    fn a_map_says_in_words_where_the_limit_is_measured() {
         let mut line = line();
-        line.predicted = None;
+        assert!(!maps(&[line.clone()]).contains("Measured"));
         for method in [AbelMethod::B, AbelMethod::Benad] {
             line.setting.method = method;
-            assert!(maps(&[line.clone()]).contains("\n  No limit is predicted: teeth "));
+            assert!(maps(&[line.clone()]).contains("\n  Measured, not derived: teeth "));
         }
     }
 

@@ -1,0 +1,197 @@
+//! From which wear number teeth are expected, and what the contact was asked for it.
+//!
+//! # Formula
+//!
+//! Three things grow teeth, and the smallest K of the three is the predicted boundary.
+//!
+//! **Steps.** Errors grow over a cycle in which the amplifications of its steps, by the
+//! [stiffness](crate::simulation::stability) z, multiply to more than 1. In an unworn contact that is so from some K
+//! on. As the contact wears, z rises: what no longer bears, slips all the way. A run at a small K, with the guard,
+//! goes through the same shapes as one at a large K, X = K × cycles being the same. So each of its cycles tells
+//! the K(X) from which errors grow over it, and the boundary of explicit Euler is the smallest of
+//! max{K(X), X/cycles}. A node counts where a comb of teeth that are [seen](super::VISIBLE), of the amplitude A, would
+//! stay in contact: where p > ρ E* A/h. The trapezoid is asked on the unworn contact alone: a worn one is seen to
+//! bear up to twice K(X), perhaps because it slips in the few steps after the motion has turned, in the
+//! first of which nothing is looked ahead.
+//!
+//! **Springs that let go.** A spring that slips holds u = μq/G*, so that wear by δ lets the surface slip by
+//! μE*δ/G* more (Eq. (2) after Eq. (1) is the identity), and that wears G times as much as δ did:
+//!
+//! ```text
+//! G = k μ² p E*/G*
+//! ```
+//!
+//! Where G exceeds 1 a spring lets go at once, however short the step; the trapezoid, which looks ahead,
+//! shoots beyond. The pressure on what slips rises as the ring around it wears: the boundary is the K at
+//! which G reaches 1 in the first cycle, at X = K. Later, at smaller K, it does so next to the border alone, and
+//! that node's tooth is worn off by the end of the cycle. Explicit Euler shoots beyond only at a G that depends on
+//! the cell; nothing is predicted of that, and with many short steps it comes first (400 a cycle: at 0.4 to
+//! 0.9 of what is predicted).
+//!
+//! **Methods that no step keeps from teeth.** For b and benad, a constant of the method that was
+//! [measured](crate::simulation::stability::teeth_from), not derived.
+
+use super::growth::growing_from;
+use super::{Setting, Study, VISIBLE};
+use crate::contact::tangential::Hold;
+use crate::scenario::session::{Session, SessionError};
+use crate::simulation::stability::{response, teeth_from};
+use crate::simulation::{Scheme, Simulation};
+
+/// The wear number at which an unworn contact is looked at: nothing has changed shape by then.
+const MILD: f64 = 1e-3;
+
+/// The small K is that from which an unworn contact would fail, divided by this.
+const SMALLER: f64 = 8.0;
+
+/// Nodes that wear less than this, in parts of the largest wear of a step, are not asked.
+const LEAST: f64 = 1e-3;
+
+/// What a cycle tells, at K = 1.
+#[derive(Default)]
+struct Cycle {
+    /// The largest z of each step.
+    stiffness: Vec<f64>,
+    /// The largest G.
+    gain: f64,
+    /// The deepest wear, in largest depths.
+    worn: f64,
+}
+
+impl Cycle {
+    /// The K from which errors grow over the cycle.
+    fn growing(&self, scheme: Scheme) -> f64 {
+        growing_from(scheme, &self.stiffness).unwrap_or(f64::INFINITY)
+    }
+}
+
+/// The wear number from which `setting` is expected to show teeth within the cycles of the study; none where
+/// nothing slips.
+pub(super) fn predict(study: &Study, setting: Setting) -> Result<Option<f64>, SessionError> {
+    let guarded = Setting {
+        guard: true,
+        ..setting
+    };
+    let mut mild = study.start(guarded, MILD)?;
+    // The first cycle lets the springs settle.
+    cycle(&mut mild, MILD, 0.0)?;
+    let unworn = cycle(&mut mild, MILD, 0.0)?;
+    if let Some(depth) = teeth_from(setting.method) {
+        let worn = unworn.worn * study.cycles;
+        return Ok((worn > 0.0).then(|| depth / worn));
+    }
+    let scheme = mild.simulation().setup().scheme;
+    let boundary = unworn.growing(scheme);
+    let small = boundary.min(unworn.gain.recip()) / SMALLER;
+    if !small.is_finite() {
+        return Ok(None);
+    }
+    let run = study.start(guarded, small)?;
+    match scheme {
+        Scheme::Euler => while_it_wears(run, small, boundary, study.cycles),
+        Scheme::Trapezoid => letting_go(run, small, boundary),
+    }
+    .map(Some)
+}
+
+/// The smallest K from which errors grow over a cycle of a `run` at the wear number `small`, and not above
+/// `boundary`.
+fn while_it_wears(
+    mut run: Session,
+    small: f64,
+    mut boundary: f64,
+    cycles: f64,
+) -> Result<f64, SessionError> {
+    let scheme = run.simulation().setup().scheme;
+    let mut worn = small;
+    while worn < boundary * cycles {
+        let now = cycle(&mut run, small, VISIBLE)?;
+        boundary = boundary.min(now.growing(scheme).max(worn / cycles));
+        worn += small;
+    }
+    Ok(boundary)
+}
+
+/// The K at which springs let go at once in the first cycle, as a `run` at the wear number `small` tells; not above
+/// `boundary`.
+fn letting_go(mut run: Session, small: f64, boundary: f64) -> Result<f64, SessionError> {
+    let (mut worn, mut before) = (0.0, 0.0);
+    while worn < boundary {
+        let now = (worn + small) * cycle(&mut run, small, 0.0)?.gain;
+        if now > 1.0 {
+            let share = (1.0 - before) / (now - before);
+            return Ok(boundary.min(worn + small * share));
+        }
+        (worn, before) = (worn + small, now);
+    }
+    Ok(boundary)
+}
+
+/// Runs one cycle at `wear_number`; of the nodes that bear more than teeth of `height` (in largest depths) need.
+fn cycle(session: &mut Session, wear_number: f64, height: f64) -> Result<Cycle, SessionError> {
+    let mut told = Cycle::default();
+    let before = session.simulation().state().wear.clone();
+    let mut last = session.simulation().pressure();
+    let end = session.simulation().cycle().floor() + 1.0;
+    while session.simulation().cycle() < end {
+        session.step_until(end)?;
+        let simulation = session.simulation();
+        let pressure = simulation.pressure();
+        let (stiffness, gain) = step(simulation, &last, &pressure, height);
+        told.stiffness.push(stiffness / wear_number);
+        told.gain = told.gain.max(gain / wear_number);
+        last = pressure;
+    }
+    let wear = &session.simulation().state().wear;
+    let deepest = wear.iter().zip(&before).map(|(now, was)| now - was);
+    let deepest = deepest.fold(0.0, f64::max);
+    told.worn = deepest / (wear_number * depth(session.simulation()));
+    Ok(told)
+}
+
+/// The largest z and G of the step that has just been taken, from the pressures before and after it.
+fn step(simulation: &Simulation, before: &[f64], after: &[f64], height: f64) -> (f64, f64) {
+    let (setup, state) = (simulation.setup(), simulation.state());
+    let Some(law) = &setup.wear else {
+        return (0.0, 0.0);
+    };
+    let (normal, tangential) = (
+        setup.material.normal_modulus(),
+        setup.material.tangential_modulus(),
+    );
+    let friction = setup.material.friction();
+    let scale = response(setup.method) * normal;
+    let share = if law.follows_energy() {
+        law.coefficient() * friction * friction * normal / tangential
+    } else {
+        0.0
+    };
+    let amplitude = 0.5 * height * depth(simulation);
+    let nodes = setup.grid.nodes();
+    let worn = &state.last.wear;
+    let least = LEAST * worn.iter().copied().fold(0.0, f64::max);
+    let (mut stiffest, mut most) = (0.0_f64, 0.0_f64);
+    for j in 1..nodes.len() - 1 {
+        let slips = matches!(state.hold[j], Hold::Forward | Hold::Backward);
+        if !slips || worn[j] <= least {
+            continue;
+        }
+        let width = 0.5 * (nodes[j + 1] - nodes[j - 1]);
+        // The pressure by which the step wore.
+        let pressure = match setup.scheme {
+            Scheme::Euler => after[j],
+            Scheme::Trapezoid => 0.5 * (before[j] + after[j]),
+        };
+        if pressure > scale * amplitude / width {
+            stiffest = stiffest.max(scale * law.stress_exponent() * worn[j] / (pressure * width));
+        }
+        most = most.max(share * pressure);
+    }
+    (stiffest, most)
+}
+
+/// The largest depth of the motion, m; the present one under a prescribed force.
+pub(super) fn depth(simulation: &Simulation) -> f64 {
+    let depth = simulation.setup().largest_depth();
+    depth.unwrap_or(simulation.state().depth)
+}

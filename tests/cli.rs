@@ -604,8 +604,8 @@ fn stability_draws_a_map_and_writes_its_runs() {
     let said = desk.say(&arguments);
     assert_eq!(said.code, 0, "{}", said.err);
     for map in [
-        "a, guard off\n    25 .....| ######\n",
-        "a, guard on\n    25 .....| ......\n",
+        "a, guard off\n    25 ....|. ######\n",
+        "a, guard on\n    25 ....|. ......\n",
     ] {
         assert!(said.out.contains(map), "{}", said.out);
     }

@@ -58,7 +58,7 @@ at_cycle = 11.5
 set = "numerics.points = 71"
 "#;
 
-const ORDER: &str = "run mine.toml --cycles 40.125 --snapshot-at 10.123,2,30 --history every-step";
+const ORDER: &str = "run mine.toml --cycles 120.125 --snapshot-at 10.123,2,30 --history every-step";
 
 fn desk() -> Desk {
     let desk = Desk::new();

@@ -217,6 +217,26 @@ mod tests {
         }
     }
 
+    /// With y = √(t_b − t) the stress of the jump has no singularity left.
+    #[test]
+    fn the_stress_of_a_jump_at_the_rim_sums_to_its_moments() {
+        let (end, load, origin) = (0.81_f64, 1.7, 0.3);
+        for t in [0.3, 0.6, 0.8, 0.81] {
+            let (parts, far) = (1000, (end - t).sqrt());
+            let step = far / f64::from(parts);
+            let stress_by_y = 2.0 * FRAC_1_PI * load * step;
+            let (mut sum, mut first) = (0.0, 0.0);
+            for i in 0..parts {
+                let y = step * (f64::from(i) + 0.5);
+                sum += stress_by_y;
+                first += stress_by_y * (end - y * y - origin);
+            }
+            let found = jump_beyond(end, load, t, origin);
+            assert!((found[0] - sum).abs() < 1e-12, "{t}: {found:?} {sum}");
+            assert!((found[1] - first).abs() < 1e-6, "{t}: {found:?} {first}");
+        }
+    }
+
     /// The coarse grid with hats against a grid that has nodes at the kinks.
     #[test]
     fn hats_are_as_good_as_nodes() {

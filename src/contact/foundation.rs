@@ -4,6 +4,7 @@ use crate::math::abel::bend::{self, Bend};
 use crate::math::abel::product;
 use crate::math::grid::RadialGrid;
 use crate::math::quadrature::{gauss, line_weights, product_weights, weighted};
+use crate::math::scan::leading;
 
 /// A cusp that changes the load by less than this part of it over two cells is rounding.
 const NO_CUSP: f64 = 1e-9;
@@ -76,8 +77,7 @@ impl Foundation {
     /// Both are linear in x² in each cell; the slip has `kinks` inside cells besides, each with its cell.
     pub fn work(&self, load: &[f64], slip: &[f64], kinks: &[(usize, Bend)], edge: f64) -> f64 {
         // Most springs stick or carry nothing.
-        let first = slip.iter().position(|&slip| slip != 0.0);
-        let first = first.unwrap_or(slip.len()).saturating_sub(1);
+        let first = leading(slip, |&slip| slip == 0.0).saturating_sub(1);
         let end = load.iter().rposition(|&load| load != 0.0);
         let end = end.map_or(first, |last| (last + 2).min(load.len()).max(first));
         let cells = load[first..end].windows(2).zip(slip[first..end].windows(2));

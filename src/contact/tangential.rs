@@ -84,38 +84,28 @@ pub fn slide(
     slip: &mut [f64],
     hold: &mut [Hold],
 ) {
+    // Without branches, so that the processor takes several springs at a time.
     vectorized(
         #[inline(always)]
-        || slide_each(grip, increment, before, spring, slip, hold),
+        || {
+            let dead_band = TOUCH_OF_LARGEST * grip.reach * largest(grip.normal_load);
+            let springs = spring.iter_mut().zip(slip).zip(hold).zip(before);
+            for ((((after, slip), hold), &before), &load) in springs.zip(grip.normal_load) {
+                let limit = grip.reach * load;
+                let predicted = before + increment;
+                let strain = predicted.abs();
+                let open = load <= 0.0;
+                let sticks = (strain <= limit * (1.0 + TOUCH) + dead_band) & (limit > 0.0);
+                let within = sticks & (strain <= limit);
+                let held = select(within, predicted, limit.copysign(predicted));
+                let slipped = select(sticks, 0.0, increment - (held - before));
+                *after = select(open, 0.0, held);
+                *slip = select(open, increment, slipped);
+                let slips = select(predicted > 0.0, Hold::Forward, Hold::Backward);
+                *hold = select(open, Hold::Open, select(sticks, Hold::Stick, slips));
+            }
+        },
     );
-}
-
-/// The springs without branches, so that the processor takes several at a time.
-#[inline(always)]
-fn slide_each(
-    grip: Grip<'_>,
-    increment: f64,
-    before: &[f64],
-    spring: &mut [f64],
-    slip: &mut [f64],
-    hold: &mut [Hold],
-) {
-    let dead_band = TOUCH_OF_LARGEST * grip.reach * largest(grip.normal_load);
-    let springs = spring.iter_mut().zip(slip).zip(hold).zip(before);
-    for ((((after, slip), hold), &before), &load) in springs.zip(grip.normal_load) {
-        let limit = grip.reach * load;
-        let predicted = before + increment;
-        let strain = predicted.abs();
-        let open = load <= 0.0;
-        let sticks = (strain <= limit * (1.0 + TOUCH) + dead_band) & (limit > 0.0);
-        let within = sticks & (strain <= limit);
-        let held = select(within, predicted, limit.copysign(predicted));
-        let slipped = select(sticks, 0.0, increment - (held - before));
-        *after = select(open, 0.0, held);
-        *slip = select(open, increment, slipped);
-        let slips = select(predicted > 0.0, Hold::Forward, Hold::Backward);
-        *hold = select(open, Hold::Open, select(sticks, Hold::Stick, slips));
-    }
 }
 
 /// Finds the borders of stick and slip between springs: writes the breaks of u_x (m) that they and

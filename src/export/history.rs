@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::header::{lines, number, optional};
+use crate::math::scan::largest;
 use crate::scenario::session::Session;
 
 /// The columns, in order.
@@ -103,7 +104,7 @@ fn row(session: &Session) -> String {
         number(moment.wear_volume),
         number(moment.dissipated_energy),
         optional(moment.energy_residual),
-        number(pressure.iter().copied().fold(0.0, f64::max)),
+        number(largest(&pressure)),
         optional(moment.period_residual),
         optional(simulation.force_residual(&pressure)),
         state.steps.to_string(),

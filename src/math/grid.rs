@@ -157,6 +157,17 @@ impl RadialGrid {
         self.nodes.len() - 1
     }
 
+    /// The width of the cell around each node, half the distance between its neighbours; at the ends, that of the
+    /// cell there.
+    pub fn widths(&self) -> impl Iterator<Item = f64> {
+        let (nodes, end) = (&self.nodes, self.cells());
+        (0..=end).map(move |j| match j {
+            0 => nodes[1],
+            j if j == end => nodes[end] - nodes[end - 1],
+            j => 0.5 * (nodes[j + 1] - nodes[j - 1]),
+        })
+    }
+
     /// The domain's edge L.
     pub fn radius(&self) -> f64 {
         self.nodes[self.cells()]

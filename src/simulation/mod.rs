@@ -70,6 +70,12 @@ impl Setup {
             drive::Control::Force(_) => None,
         }
     }
+
+    /// The depth that wear is measured in, m: the largest of the motion, or the `present` one where the
+    /// force is prescribed.
+    pub fn depth_scale(&self, present: f64) -> f64 {
+        self.largest_depth().unwrap_or(present)
+    }
 }
 
 /// A running simulation.

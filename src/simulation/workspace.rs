@@ -121,7 +121,7 @@ impl Planned {
             worn,
             row: Foundation::new(&setup.grid),
             curvature: (setup.method == AbelMethod::Product).then(|| Curvature::new(&setup.grid)),
-            per_width: widths(nodes).map(f64::recip).collect(),
+            per_width: setup.grid.widths().map(f64::recip).collect(),
             volume_weights: worn::volume_weights(&setup.grid),
             grid: setup.grid.clone(),
             plan,
@@ -134,16 +134,6 @@ impl Planned {
     pub fn has_breaks(&self) -> bool {
         self.plan.method() == AbelMethod::Product
     }
-}
-
-/// Half the distance between the neighbours of each node; at the ends, the width of the cell.
-fn widths(nodes: &[f64]) -> impl Iterator<Item = f64> {
-    let end = nodes.len() - 1;
-    (0..=end).map(move |j| match j {
-        0 => nodes[1],
-        j if j == end => nodes[end] - nodes[end - 1],
-        j => 0.5 * (nodes[j + 1] - nodes[j - 1]),
-    })
 }
 
 /// The steps of a period, where periods are to be jumped.

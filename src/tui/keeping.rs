@@ -3,8 +3,7 @@
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use crate::export::file::WriteError;
-use crate::export::file::shell_word;
+use crate::export::file::{WriteError, shell_word};
 use crate::export::header::number;
 use crate::export::keep::{COPY_INTERVAL, Keeper, place};
 use crate::scenario::checkpoint;

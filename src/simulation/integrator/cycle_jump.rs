@@ -25,6 +25,7 @@ use super::super::workspace::Workspace;
 use super::{check, close_period, settled};
 use crate::math::chebyshev;
 use crate::math::quadrature::weighted;
+use crate::math::scan::largest;
 
 /// A jump must save this much: the cycles it covers over what its evaluation costs, in cycles.
 const WORTH: f64 = 1.5;
@@ -118,8 +119,8 @@ fn search(
         return None;
     };
     let period = f64::from(setup.drive.repeats_after()?);
-    let deepest = setup.largest_depth().unwrap_or(state.depth);
-    let largest = first.wear.iter().copied().fold(0.0, f64::max);
+    let deepest = setup.depth_scale(state.depth);
+    let largest = largest(&first.wear);
     let mut length = if state.jump.length > 0.0 {
         state.jump.length
     } else {

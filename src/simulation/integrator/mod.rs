@@ -118,7 +118,7 @@ fn update_profile_keeping_growth(state: &mut State, work: &mut Workspace) {
 fn check(setup: &Setup, work: &Workspace) -> Result<(), Cause> {
     let (method, stability) = (setup.method, setup.stability);
     let highest = largest(&work.wear);
-    let deepest = setup.largest_depth().unwrap_or(work.contact.depth);
+    let deepest = setup.depth_scale(work.contact.depth);
     let worn = highest / deepest;
     // Only a finite profile has a finite volume.
     let volume = weighted(&work.planned.volume_weights, &work.wear);

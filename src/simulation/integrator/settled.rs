@@ -24,6 +24,7 @@ use super::super::state::{SettledCycle, State};
 use super::super::workspace::Workspace;
 use super::{euler, stiffness, take_over, trapezoid, worn_volume};
 use crate::math::abel::bend;
+use crate::math::scan::{largest, leading};
 
 /// What a cycle does once the springs have settled on the worn depth `wear` (m), on average over the
 /// period of the motion. `memory` lends the springs and keeps them; its profile, its counters of energy
@@ -115,7 +116,7 @@ fn period(
     }
     settled.friction_work /= cycles;
     settled.beyond_nodes = settled.beyond_nodes.map(|volume| volume / cycles);
-    settled.stiffness = stiffness.iter().copied().fold(0.0, f64::max) / cycles;
+    settled.stiffness = largest(&stiffness) / cycles;
     Ok(settled)
 }
 
@@ -152,7 +153,7 @@ fn plain_cycle(
     for (j, slip) in work.slip.iter_mut().enumerate() {
         *slip = 2.0 * excess(j).max(0.0);
     }
-    let core = work.slip.iter().take_while(|&&slip| slip == 0.0).count();
+    let core = leading(&work.slip, |&slip| slip == 0.0);
     let mut kinks = Vec::new();
     let mut stick_radius = work.contact.normal.radius;
     if core == 0 {

@@ -23,6 +23,7 @@ use super::super::workspace::Workspace;
 use crate::math::abel::bend::{self, Bend};
 use crate::math::abel::worn;
 use crate::math::quadrature::weighted;
+use crate::math::scan::leading;
 
 /// Cells inside that of the contact's edge whose stress is steep.
 const CELLS: usize = 3;
@@ -50,8 +51,8 @@ pub(super) fn beyond_nodes(
     let inside = between_nodes(work, zone..first);
     let at_edge = to_edge(setup, state, work, first..end);
     // Further in, wear is what the nodes say: next to the border it rises like no line.
-    let slips = work.surface_slip.iter().position(|&slip| slip != 0.0);
-    let inner = slips.map_or(zone, |first| first.saturating_sub(1).min(zone))..zone;
+    let still = leading(&work.surface_slip, |&slip| slip == 0.0);
+    let inner = still.saturating_sub(1).min(zone)..zone;
     let inner = inner.flat_map(|cell| worn::cell_weights(grid, cell));
     let inner: f64 = inner.map(|(node, weight)| weight * work.worn[node]).sum();
     let nodal = weighted(&work.planned.volume_weights, &work.worn);

@@ -1,5 +1,6 @@
 //! Whether errors grow over a cycle.
 
+use crate::math::scan::largest;
 use crate::simulation::Scheme;
 use crate::simulation::stability::{amplification, limit};
 
@@ -9,7 +10,7 @@ const REACH: i32 = 300;
 /// By what the stiffness z of every step of a cycle is to be multiplied for the product of their
 /// amplifications to exceed 1. None if that cannot be.
 pub(super) fn growing_from(scheme: Scheme, stiffness: &[f64]) -> Option<f64> {
-    let stiffest = stiffness.iter().copied().fold(0.0, f64::max);
+    let stiffest = largest(stiffness);
     if stiffest <= 0.0 {
         return None;
     }

@@ -127,26 +127,27 @@ impl Study {
             Ok(session) => session,
             Err(error) => return ControlFlow::Continue(Err(error)),
         };
-        let depth = predict::depth(session.simulation());
+        let simulation = session.simulation();
+        let depth = simulation.setup().depth_scale(simulation.state().depth);
         let mut highest = 0.0_f64;
         while session.simulation().cycle() < self.cycles {
-            let end = (session.simulation().cycle().floor() + 1.0).min(self.cycles);
-            while session.simulation().cycle() < end {
-                if !go_on() {
-                    return ControlFlow::Break(());
-                }
-                match session.step_until(end) {
-                    Ok(()) => {}
-                    Err(SessionError::Breakdown(breakdown)) => {
-                        return ControlFlow::Continue(Ok(Outcome::Exploded {
-                            cycle: breakdown.cycle,
-                            reason: breakdown.cause.to_string(),
-                        }));
-                    }
-                    Err(error) => return ControlFlow::Continue(Err(error)),
-                }
+            if !go_on() {
+                return ControlFlow::Break(());
             }
-            highest = highest.max(teeth(&session.simulation().state().wear) / depth);
+            let end = (session.simulation().cycle().floor() + 1.0).min(self.cycles);
+            match session.step_until(end) {
+                Ok(()) => {}
+                Err(SessionError::Breakdown(breakdown)) => {
+                    return ControlFlow::Continue(Ok(Outcome::Exploded {
+                        cycle: breakdown.cycle,
+                        reason: breakdown.cause.to_string(),
+                    }));
+                }
+                Err(error) => return ControlFlow::Continue(Err(error)),
+            }
+            if session.simulation().cycle() >= end {
+                highest = highest.max(teeth(&session.simulation().state().wear) / depth);
+            }
         }
         ControlFlow::Continue(Ok(if highest > VISIBLE {
             Outcome::Teeth(highest)

@@ -33,7 +33,7 @@
 
 use super::growth::growing_from;
 use super::{Setting, Study, VISIBLE};
-use crate::contact::tangential::Hold;
+use crate::math::scan::largest;
 use crate::scenario::session::{Session, SessionError};
 use crate::simulation::stability::{response, teeth_from};
 use crate::simulation::{Scheme, Simulation};
@@ -167,16 +167,20 @@ fn step(simulation: &Simulation, before: &[f64], after: &[f64], height: f64) -> 
         0.0
     };
     let amplitude = 0.5 * height * depth(simulation);
-    let nodes = setup.grid.nodes();
     let worn = &state.last.wear;
-    let least = LEAST * worn.iter().copied().fold(0.0, f64::max);
+    let least = LEAST * largest(worn);
     let (mut stiffest, mut most) = (0.0_f64, 0.0_f64);
-    for j in 1..nodes.len() - 1 {
-        let slips = matches!(state.hold[j], Hold::Forward | Hold::Backward);
-        if !slips || worn[j] <= least {
+    let inner = 1..setup.grid.cells();
+    for (j, width) in setup
+        .grid
+        .widths()
+        .enumerate()
+        .take(inner.end)
+        .skip(inner.start)
+    {
+        if state.hold[j].sign().is_none() || worn[j] <= least {
             continue;
         }
-        let width = 0.5 * (nodes[j + 1] - nodes[j - 1]);
         // The pressure by which the step wore.
         let pressure = match setup.scheme {
             Scheme::Euler => after[j],
@@ -190,8 +194,6 @@ fn step(simulation: &Simulation, before: &[f64], after: &[f64], height: f64) -> 
     (stiffest, most)
 }
 
-/// The largest depth of the motion, m; the present one under a prescribed force.
-pub(super) fn depth(simulation: &Simulation) -> f64 {
-    let depth = simulation.setup().largest_depth();
-    depth.unwrap_or(simulation.state().depth)
+fn depth(simulation: &Simulation) -> f64 {
+    simulation.setup().depth_scale(simulation.state().depth)
 }

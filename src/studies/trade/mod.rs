@@ -137,7 +137,7 @@ fn sample(session: &Session, seconds: f64) -> Sample {
     let simulation = session.simulation();
     let (setup, state) = (simulation.setup(), simulation.state());
     let moment = simulation.moment();
-    let depth = setup.largest_depth().unwrap_or(moment.depth);
+    let depth = setup.depth_scale(moment.depth);
     let radius = |i: usize| setup.grid.radius() * (i as f64 / (RADII - 1) as f64);
     Sample {
         worn: (0..RADII)

@@ -6,6 +6,7 @@ use ratatui::text::Line;
 use ratatui::widgets::Widget;
 
 use super::{App, Frame, Panel, bare_plot, curve, edge_marks, panel_block, radial_plot};
+use crate::math::scan::largest;
 use crate::tui::companion::{differences, rms};
 use crate::tui::frame::Rival;
 use crate::tui::plot::units::{format_number, format_value_in};
@@ -68,7 +69,7 @@ pub fn draw(frame: &Frame, rival: &Rival, app: &App, area: Rect, buffer: &mut Bu
         .render(inside, buffer);
     let inside = panel_block("difference of f", app, below, buffer);
     let difference: Vec<f64> = differences(other, seen).into_iter().map(f64::abs).collect();
-    let largest = difference.iter().copied().fold(0.0, f64::max);
+    let largest = largest(&difference);
     let edge = seen.radii.last().copied().unwrap_or(0.0);
     // Six decades: what lies below is rounding.
     let decade = largest.log10().ceil();

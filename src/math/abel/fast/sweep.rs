@@ -266,7 +266,7 @@ fn groups_block<S: Simd, const GROUPS: usize, const REVERSED: bool>(
     state: &mut State,
     decay: &[[f64; LANES]],
     factors: &[[f64; LANES]],
-    (near, first): (&Near, usize),
+    near: (&Near, usize),
     sources: &[f64; REACH + BLOCK],
     sums: &mut [f64],
 ) {
@@ -275,28 +275,26 @@ fn groups_block<S: Simd, const GROUPS: usize, const REVERSED: bool>(
     let factors: [f64x4<S>; GROUPS] = std::array::from_fn(|group| load(&factors[group]));
     let (decay, _) = decay.as_chunks::<GROUPS>();
     let (decay, _) = decay.as_chunks::<LANES>();
-    let (sums, _) = sums.as_chunks_mut::<LANES>();
-    for strip in 0..sums.len() {
-        let strip = if REVERSED {
-            sums.len() - 1 - strip
-        } else {
-            strip
-        };
-        // Four rows together, and their neighbours on the one side.
-        let window = &sources[strip * LANES..][..REACH + LANES];
-        let mut rows = [f64x4::splat(simd, 0.0); LANES];
-        for i in 0..LANES {
-            let i = if REVERSED { LANES - 1 - i } else { i };
-            let source = f64x4::splat(simd, window[if REVERSED { i } else { REACH + i }]);
-            for group in 0..GROUPS {
-                let decayed = load(&decay[strip][i][group]) * powers[group];
-                rows[i] += decayed;
-                powers[group] = factors[group].mul_add(source, decayed);
+    each_strip::<_, REVERSED>(
+        simd,
+        near,
+        sources,
+        sums,
+        #[inline(always)]
+        |strip, own| {
+            let mut rows = [f64x4::splat(simd, 0.0); LANES];
+            for i in 0..LANES {
+                let i = if REVERSED { LANES - 1 - i } else { i };
+                let source = f64x4::splat(simd, own[i]);
+                for group in 0..GROUPS {
+                    let decayed = load(&decay[strip][i][group]) * powers[group];
+                    rows[i] += decayed;
+                    powers[group] = factors[group].mul_add(source, decayed);
+                }
             }
-        }
-        let near = near_field::<_, REVERSED>(simd, near.strip(first / LANES + strip), window);
-        (near - sum_lanes(simd, rows)).store_slice(&mut sums[strip]);
-    }
+            rows
+        },
+    );
     for (lanes, power) in state.iter_mut().zip(&powers) {
         power.store_slice(lanes);
     }
@@ -310,11 +308,55 @@ fn cubics_block<S: Simd, const REVERSED: bool>(
     state: &mut State,
     cubics: &[[[f64; LANES]; 4]],
     factors: &[[f64; LANES]],
-    (near, first): (&Near, usize),
+    near: (&Near, usize),
     sources: &[f64; REACH + BLOCK],
     sums: &mut [f64],
 ) {
     let load = |lanes: &[f64; LANES]| f64x4::from_slice(simd, lanes);
+    each_strip::<_, REVERSED>(
+        simd,
+        near,
+        sources,
+        sums,
+        #[inline(always)]
+        |strip, own| {
+            let places: [f64x4<S>; LANES] = std::array::from_fn(|i| {
+                f64x4::splat(simd, place(strip * LANES + i + usize::from(REVERSED)))
+            });
+            let mut rows = [f64x4::splat(simd, 0.0); LANES];
+            for ((power, group), factor) in state.iter_mut().zip(cubics).zip(factors) {
+                let (a, b, c, d) = (
+                    load(&group[0]),
+                    load(&group[1]),
+                    load(&group[2]),
+                    load(&group[3]),
+                );
+                let (mut lanes, factor) = (load(power), load(factor));
+                for i in 0..LANES {
+                    let i = if REVERSED { LANES - 1 - i } else { i };
+                    let u = places[i];
+                    let loss = d.mul_add(u, c).mul_add(u, b).mul_add(u, a);
+                    let decayed = loss.mul_add(lanes, lanes);
+                    rows[i] += decayed;
+                    lanes = factor.mul_add(f64x4::splat(simd, own[i]), decayed);
+                }
+                lanes.store_slice(power);
+            }
+            rows
+        },
+    );
+}
+
+/// Goes through a block four rows at a time: `recurrences` gives the powers of the four, lane by lane, from their number
+/// in the block and their own sources; near field less those becomes their sums.
+#[inline(always)]
+fn each_strip<S: Simd, const REVERSED: bool>(
+    simd: S,
+    (near, first): (&Near, usize),
+    sources: &[f64; REACH + BLOCK],
+    sums: &mut [f64],
+    mut recurrences: impl FnMut(usize, &[f64]) -> [f64x4<S>; LANES],
+) {
     let (sums, _) = sums.as_chunks_mut::<LANES>();
     for strip in 0..sums.len() {
         let strip = if REVERSED {
@@ -322,30 +364,10 @@ fn cubics_block<S: Simd, const REVERSED: bool>(
         } else {
             strip
         };
+        // Four rows together, and their neighbours on the one side.
         let window = &sources[strip * LANES..][..REACH + LANES];
         let own = if REVERSED { window } else { &window[REACH..] };
-        let places: [f64x4<S>; LANES] = std::array::from_fn(|i| {
-            f64x4::splat(simd, place(strip * LANES + i + usize::from(REVERSED)))
-        });
-        let mut rows = [f64x4::splat(simd, 0.0); LANES];
-        for ((power, group), factor) in state.iter_mut().zip(cubics).zip(factors) {
-            let (a, b, c, d) = (
-                load(&group[0]),
-                load(&group[1]),
-                load(&group[2]),
-                load(&group[3]),
-            );
-            let (mut lanes, factor) = (load(power), load(factor));
-            for i in 0..LANES {
-                let i = if REVERSED { LANES - 1 - i } else { i };
-                let u = places[i];
-                let loss = d.mul_add(u, c).mul_add(u, b).mul_add(u, a);
-                let decayed = loss.mul_add(lanes, lanes);
-                rows[i] += decayed;
-                lanes = factor.mul_add(f64x4::splat(simd, own[i]), decayed);
-            }
-            lanes.store_slice(power);
-        }
+        let rows = recurrences(strip, own);
         let near = near_field::<_, REVERSED>(simd, near.strip(first / LANES + strip), window);
         (near - sum_lanes(simd, rows)).store_slice(&mut sums[strip]);
     }

@@ -37,6 +37,13 @@ pub(super) fn update_profile(work: &mut Workspace, wear: &[f64]) {
     }
 }
 
+/// Presses the indenter to what the drive asks for at `cycle` on the 1D profile `work.predicted`. Writes the
+/// normal loads; the springs stay where they are.
+pub(super) fn press_at(setup: &Setup, work: &mut Workspace, cycle: f64) -> Result<(), Cause> {
+    let depth = depth_at(setup, work, cycle)?;
+    press(setup, work, depth)
+}
+
 /// Presses and shifts the indenter to what the drive asks for at `cycle`, from the springs and the
 /// shift of `state`, with the 1D profile `work.predicted`. Writes the loads, the springs, their slip
 /// and the scalars.
@@ -46,8 +53,7 @@ pub(super) fn solve_contact(
     work: &mut Workspace,
     cycle: f64,
 ) -> Result<(), Cause> {
-    let depth = depth_at(setup, work, cycle)?;
-    press(setup, work, depth)?;
+    press_at(setup, work, cycle)?;
     work.contact.shift = state.shift;
     match setup.drive.tangential_at(cycle) {
         None => Ok(()),

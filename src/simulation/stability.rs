@@ -22,6 +22,7 @@
 
 use nalgebra::Matrix3;
 
+use super::Setup;
 use super::choices::Scheme;
 use crate::math::abel::AbelMethod;
 
@@ -57,6 +58,15 @@ pub fn teeth_from(method: AbelMethod) -> Option<f64> {
         AbelMethod::B => Some(0.4),
         AbelMethod::Benad => Some(0.045),
     }
+}
+
+/// G for p = 1 Pa: a spring that slips holds u = μq/G*, so that wear by δ lets the surface slip by μE*δ/G* more,
+/// and that wears G = kμ²pE*/G* times δ. None under a law that is not in proportion to friction work.
+pub fn gain(setup: &Setup) -> Option<f64> {
+    let law = setup.wear.filter(|law| law.follows_energy())?;
+    let (material, friction) = (&setup.material, setup.material.friction());
+    let moduli = material.normal_modulus() / material.tangential_modulus();
+    Some(law.coefficient() * friction * friction * moduli)
 }
 
 /// The largest z of a stable step.

@@ -19,13 +19,16 @@ use super::super::state::State;
 /// By how much a part may be longer than the one before it.
 const GROWTH: f64 = 1.5;
 
-/// The smallest part of a step: a snap in smaller ones ends the same, and a step stays quick at any wear.
-const SMALLEST: f64 = 1e-3;
+/// The smallest part of a step: a snap in smaller ones ends the same to 1e-3 of the depth, and a step stays quick
+/// at any wear.
+const SMALLEST: f64 = 3e-3;
 
 /// What came of a try.
 pub(super) enum Outcome {
     /// It is the state, at this stiffness.
     Done(f64),
+    /// It is the state, and its stiffness did not matter.
+    Relaxed,
     /// It would be, at this stiffness: nothing is changed.
     TooHarsh(f64),
 }
@@ -61,7 +64,9 @@ pub(super) fn step(
         let left = cycle - state.cycle;
         let in_parts = part * whole < left * (1.0 - 1e-9);
         let reach = if in_parts {
-            state.cycle + part * whole
+            // Parts of one length: from a short rest nothing is to be looked ahead.
+            let parts = (left / (part * whole) - 1e-9).ceil();
+            state.cycle + left / parts
         } else {
             cycle
         };
@@ -86,6 +91,12 @@ pub(super) fn step(
                 if !snaps {
                     part = (part * aim / stiffness).max(SMALLEST);
                 }
+            }
+            Ok(Outcome::Relaxed) => {
+                parts += 1;
+                (failed, snaps) = (None, false);
+                stiffest = stiffest.max(aim);
+                part = (part * GROWTH).min(1.0);
             }
             Ok(Outcome::Done(stiffness)) => {
                 parts += 1;

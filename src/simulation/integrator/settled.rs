@@ -22,7 +22,7 @@ use super::super::drive::{Control, Oscillation};
 use super::super::solve::{pressure, shear, solve_contact, update_profile};
 use super::super::state::{SettledCycle, State};
 use super::super::workspace::Workspace;
-use super::{euler, stiffness, take_over, trapezoid, worn_volume};
+use super::{euler, steady_load, stiffness, take_over, trapezoid};
 use crate::math::abel::bend;
 use crate::math::scan::{largest, leading};
 
@@ -175,36 +175,15 @@ fn plain_cycle(
     }
     work.surface_slip[..core].fill(0.0);
     work.transforms += 3;
-    let friction = setup.material.friction();
-    for (tau, p) in work.working_shear.iter_mut().zip(&memory.last.pressure) {
-        *tau = friction * p;
-    }
-    for (limit, load) in work.friction_work.iter_mut().zip(&work.normal_load) {
-        *limit = friction * load;
-    }
-    work.worn.fill(0.0);
-    if let Some(law) = &setup.wear {
-        let (tau, slip) = (&work.working_shear, &work.surface_slip);
-        law.wear(tau, slip, 1.0, &mut work.worn);
-    }
-    let beyond_nodes = worn_volume::beyond_nodes(setup, memory, work, core);
-    let wear = work.worn.iter().map(|worn| 2.0 * worn).collect();
+    work.pressure.copy_from_slice(&memory.last.pressure);
+    work.working_shear[..core].fill(0.0);
     let kinks: Vec<_> = bend::by_cell(&kinks, squares).collect();
-    let contact = &work.contact;
-    let at_edge = match contact.normal.nodes {
-        0 => 0.0,
-        nodes => 2.0 * friction * contact.edge_load * work.slip[nodes - 1],
-    };
-    let half = work.planned.row.work(
-        &work.friction_work,
-        &work.slip,
-        &kinks,
-        contact.normal.radius,
-    );
+    let friction_work = steady_load::wear(setup, work, core, 1.0, 1.0, &kinks);
+    let wear = work.worn.iter().map(|worn| 2.0 * worn).collect();
     Ok(SettledCycle {
         wear,
-        friction_work: 2.0 * (half + at_edge),
-        beyond_nodes: beyond_nodes.map(|volume| 2.0 * volume),
+        friction_work: 2.0 * friction_work,
+        beyond_nodes: work.beyond_nodes.map(|volume| 2.0 * volume),
         stiffness: 2.0 * stiffness::of_step(setup, work, 1.0 / setup.drive.period()),
         stick_radius,
     })

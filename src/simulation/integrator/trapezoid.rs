@@ -18,9 +18,9 @@
 //!
 //! # Stability
 //!
-//! At the [stiffness](super::stiffness) z, explicit steps stay clean up to z = 0.7. Beyond, the increment
-//! leans on the one before, Δf ← (Δf + ζρ Δf_prev)/(1 + ζ), which keeps the order; a step with z above 2.5
-//! is taken in [parts](super::parts).
+//! At the [stiffness](super::stiffness) z, steps stay clean up to z = 0.7. One beyond is taken whole in
+//! [stages](super::relaxed) where it is stiff and hardly changes anything, and in [parts](super::parts)
+//! elsewhere.
 //!
 //! - **Order**: second. Fig. 3 shows 1.9 to 2.0 from 25 to 400 steps a cycle at K = 0.3, and from 50 to 400
 //!   at K = 1: with longer steps wear next to the border is stiff, z near 1. Turning points cut steps at
@@ -36,7 +36,8 @@ use super::super::solve::{pressure, shear, solve_contact, surface_slip};
 use super::super::state::State;
 use super::super::workspace::Workspace;
 use super::parts::{self, Outcome, Part};
-use super::{commit, stiffness, worn_volume};
+use super::worn_volume::{self, LoadEnd};
+use super::{commit, relaxed, stiffness};
 use crate::contact::tangential::Hold;
 use crate::math::abel::bend::{self, Bend};
 use crate::math::scan::leading;
@@ -44,9 +45,10 @@ use crate::math::scan::leading;
 /// The most that the profile is looked ahead, in lengths of the step before.
 const FARTHEST: f64 = 4.0;
 
-/// Stiffness up to which a step is explicit, as parts are, and beyond which it is taken in parts.
-const MILD: f64 = 0.7;
-const HARSH: f64 = 2.5;
+/// The stiffness beyond which a step is not taken as it is, and that of its parts. Closer to the limit errors
+/// ring, and make springs let go that would not have.
+const HARSH: f64 = 0.7;
+const AIM: f64 = 0.35;
 
 /// One step from the state's cycle to `cycle`, in parts where wear is harsh.
 pub(super) fn step(
@@ -55,7 +57,7 @@ pub(super) fn step(
     work: &mut Workspace,
     cycle: f64,
 ) -> Result<(), Cause> {
-    parts::step(setup.stability, MILD, state, cycle, |state, reach, part| {
+    parts::step(setup.stability, AIM, state, cycle, |state, reach, part| {
         attempt(setup, state, work, reach, part)
     })
 }
@@ -85,11 +87,14 @@ fn attempt(
     solve_contact(setup, state, work, cycle)?;
     let mut friction_work = worn(setup, state, work, cycle);
     let stiffness = stiffness::of_step(setup, work, duration);
-    if stiffness > HARSH && part == Part::Guarded {
-        return Ok(Outcome::TooHarsh(stiffness));
-    }
+    let mut outcome = Outcome::Done(stiffness);
     match part {
-        Part::Guarded if stiffness > MILD => soften(state, work, ahead),
+        Part::Guarded if stiffness > HARSH => {
+            match relaxed::step(setup, state, work, cycle, stiffness) {
+                Some(relaxed) => (friction_work, outcome) = (relaxed, Outcome::Relaxed),
+                None => return Ok(Outcome::TooHarsh(stiffness)),
+            }
+        }
         Part::Guarded | Part::Raw => {}
         Part::Snap => {
             let share = stiffness::damp(work);
@@ -102,7 +107,7 @@ fn attempt(
         std::mem::swap(&mut state.last.pressure, &mut work.pressure);
         std::mem::swap(&mut state.last.shear, &mut work.shear);
     }
-    Ok(Outcome::Done(stiffness))
+    Ok(outcome)
 }
 
 /// What the step that the contact has been solved for wears (m, into `work.worn`), and its work of
@@ -120,7 +125,8 @@ pub(super) fn worn(setup: &Setup, state: &State, work: &mut Workspace, cycle: f6
         let seconds = (cycle - state.cycle) * setup.drive.period();
         let (tau, slip) = (&work.working_shear, &work.surface_slip);
         law.wear(tau, slip, seconds, &mut work.worn);
-        work.beyond_nodes = worn_volume::beyond_nodes(setup, state, work, zone);
+        let ends = [LoadEnd::before(&state.last), LoadEnd::now(work)];
+        work.beyond_nodes = worn_volume::beyond_nodes(setup, work, ends, zone);
     }
     friction_work
 }
@@ -146,7 +152,7 @@ fn work_of_friction(setup: &Setup, state: &State, work: &mut Workspace) -> f64 {
 
 /// Where the slip of the step bends between springs: where a border of stick is now, and where one was
 /// before. A cell that sticks does not slip, wherever its border was.
-fn kinks_of_slip(work: &mut Workspace, before: &[Bend]) {
+pub(super) fn kinks_of_slip(work: &mut Workspace, before: &[Bend]) {
     let squares = work.planned.grid.squares();
     work.slip_kinks.clear();
     for (breaks, sign) in [(&work.spring_breaks[..], -1.0), (before, 1.0)] {
@@ -161,7 +167,7 @@ fn kinks_of_slip(work: &mut Workspace, before: &[Bend]) {
 }
 
 /// p and τ at the end of the step, and the slip of the surface in it.
-fn stresses(setup: &Setup, state: &State, work: &mut Workspace) {
+pub(super) fn stresses(setup: &Setup, state: &State, work: &mut Workspace) {
     let (mut p, mut tau) = (
         std::mem::take(&mut work.pressure),
         std::mem::take(&mut work.shear),
@@ -180,18 +186,8 @@ fn stresses(setup: &Setup, state: &State, work: &mut Workspace) {
     work.surface_slip[..core].fill(0.0);
 }
 
-/// Lets nodes with a stiff response wear less than explicitly.
-fn soften(state: &State, work: &mut Workspace, ahead: f64) {
-    for (j, (worn, &z)) in work.worn.iter_mut().zip(&work.stiffness).enumerate() {
-        if z > MILD {
-            let lean = 0.625 * (z - MILD);
-            *worn = (*worn + lean * ahead * state.last.wear[j]) / (1.0 + lean);
-        }
-    }
-}
-
 /// The stress that wears: its mean over the step, by zones; returns where the outer slip zone begins.
-fn mean_shear(setup: &Setup, state: &State, work: &mut Workspace) -> usize {
+pub(super) fn mean_shear(setup: &Setup, state: &State, work: &mut Workspace) -> usize {
     let (zone, sign) = outer_slip_zone(&work.hold);
     let friction = sign * setup.material.friction();
     let (inner, outer) = work.working_shear.split_at_mut(zone);
@@ -209,7 +205,7 @@ fn mean_shear(setup: &Setup, state: &State, work: &mut Workspace) -> usize {
 
 /// The first node from which outwards every spring in contact slips in one direction, and that
 /// direction. Springs out of contact belong to it.
-fn outer_slip_zone(hold: &[Hold]) -> (usize, f64) {
+pub(super) fn outer_slip_zone(hold: &[Hold]) -> (usize, f64) {
     let Some(outermost) = hold.iter().rposition(|&hold| hold != Hold::Open) else {
         return (hold.len(), 0.0);
     };

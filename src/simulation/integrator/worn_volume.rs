@@ -18,9 +18,10 @@
 use std::ops::Range;
 
 use super::super::Setup;
-use super::super::state::State;
+use super::super::state::LastStep;
 use super::super::workspace::Workspace;
 use crate::math::abel::bend::{self, Bend};
+use crate::math::abel::rim::RimEdge;
 use crate::math::abel::worn;
 use crate::math::quadrature::weighted;
 use crate::math::scan::leading;
@@ -28,12 +29,44 @@ use crate::math::scan::leading;
 /// Cells inside that of the contact's edge whose stress is steep.
 const CELLS: usize = 3;
 
-/// What the step wears beyond its nodes' interpolant, m³; none where the law or the method does not tell.
-/// From the spring `zone` on, all slip in one direction.
+/// Where a line load ends that is one of the two whose mean wears.
+#[derive(Clone, Copy)]
+pub(super) struct LoadEnd<'a> {
+    /// How many springs carry it.
+    pub nodes: usize,
+    /// Its breaks, N/m.
+    pub breaks: &'a [Bend],
+    /// Its edge, where that lies in the cell of the rim.
+    pub rim_edge: Option<&'a RimEdge>,
+}
+
+impl<'a> LoadEnd<'a> {
+    /// That of the load as solved.
+    pub fn now(work: &'a Workspace) -> Self {
+        Self {
+            nodes: work.contact.normal.nodes,
+            breaks: &work.normal_breaks,
+            rim_edge: work.rim_edge.as_ref(),
+        }
+    }
+
+    /// That of the load at the end of the step before.
+    pub fn before(last: &'a LastStep) -> Self {
+        let outermost = last.normal_load.iter().rposition(|&q| q != 0.0);
+        Self {
+            nodes: outermost.map_or(0, |last| last + 1),
+            breaks: &last.normal_breaks,
+            rim_edge: last.rim_edge.as_ref(),
+        }
+    }
+}
+
+/// What wears by the mean of two loads, `work.friction_work` μ times it, beyond the nodes' interpolant, m³;
+/// none where the law or the method does not tell. From the spring `zone` on, all slip in one direction.
 pub(super) fn beyond_nodes(
     setup: &Setup,
-    state: &State,
     work: &Workspace,
+    ends: [LoadEnd<'_>; 2],
     zone: usize,
 ) -> Option<f64> {
     let law = setup.wear.filter(|law| law.follows_energy())?;
@@ -41,15 +74,13 @@ pub(super) fn beyond_nodes(
         return None;
     }
     let grid = &work.planned.grid;
-    let was = state.last.normal_load.iter().rposition(|&q| q != 0.0);
-    let was = was.map_or(0, |last| last + 1);
-    let now = work.contact.normal.nodes;
+    let [was, now] = ends.map(|end| end.nodes);
     let end = was.max(now).min(grid.cells());
     let first = was.min(now).saturating_sub(1 + CELLS);
     let first = first.max(zone).min(end);
     let zone = zone.min(first);
     let inside = between_nodes(work, zone..first);
-    let at_edge = to_edge(setup, state, work, first..end);
+    let at_edge = to_edge(setup, work, ends, first..end);
     // Further in, wear is what the nodes say: next to the border it rises like no line.
     let still = leading(&work.surface_slip, |&slip| slip == 0.0);
     let inner = still.saturating_sub(1).min(zone)..zone;
@@ -79,7 +110,12 @@ fn between_nodes(work: &Workspace, cells: Range<usize>) -> f64 {
 }
 
 /// The same over the `cells` to where the contact ends, or to the rim of a punch, J.
-fn to_edge(setup: &Setup, state: &State, work: &Workspace, cells: Range<usize>) -> f64 {
+fn to_edge(
+    setup: &Setup,
+    work: &Workspace,
+    ends: [LoadEnd<'_>; 2],
+    cells: Range<usize>,
+) -> f64 {
     let t = work.planned.grid.squares();
     let (first, last) = (cells.start, t.len() - 1);
     let (origin, load) = (t[first], &work.friction_work);
@@ -92,19 +128,16 @@ fn to_edge(setup: &Setup, state: &State, work: &Workspace, cells: Range<usize>) 
     };
     let half = 0.5 * setup.material.friction();
     let modulus = setup.material.normal_modulus();
-    let ends = [
-        (&state.last.normal_breaks, &state.last.rim_edge),
-        (&work.normal_breaks, &work.rim_edge),
-    ];
     // ∫ μp̄ dt and ∫ μp̄ (t − t₀) dt beyond a node, t₀ that of the first.
     let beyond = |node: usize| {
         let nodal = (first + 1..=cells.end).map(|j| Bend {
             at: t[j],
             jump: slope(j) - slope(j - 1),
         });
-        let between = ends.iter().flat_map(|(breaks, edge)| {
-            let at_rim = edge.iter().flat_map(|edge| edge.load_bends(modulus));
-            let bends = breaks.iter().copied().chain(at_rim);
+        let between = ends.iter().flat_map(|end| {
+            let edge = end.rim_edge.iter();
+            let at_rim = edge.flat_map(|edge| edge.load_bends(modulus));
+            let bends = end.breaks.iter().copied().chain(at_rim);
             bends.map(move |bend| Bend {
                 jump: half * bend.jump,
                 ..bend
@@ -113,8 +146,8 @@ fn to_edge(setup: &Setup, state: &State, work: &Workspace, cells: Range<usize>) 
         let bends = bend::stress_beyond(nodal.chain(between), t[node], origin);
         // Only a punch carries anything where the domain ends.
         let rim = bend::jump_beyond(t[last], load[last], t[node], origin);
-        let tails = ends.iter().flat_map(|(_, edge)| {
-            let edge = edge.iter();
+        let tails = ends.iter().flat_map(|end| {
+            let edge = end.rim_edge.iter();
             edge.map(move |edge| edge.tail_beyond(half * modulus, t[node], origin))
         });
         let parts = tails.chain([bends, rim]);

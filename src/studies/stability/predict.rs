@@ -35,7 +35,7 @@ use super::growth::growing_from;
 use super::{Setting, Study, VISIBLE};
 use crate::math::scan::largest;
 use crate::scenario::session::{Session, SessionError};
-use crate::simulation::stability::{response, teeth_from};
+use crate::simulation::stability::{gain, response, teeth_from};
 use crate::simulation::{Scheme, Simulation};
 
 /// The wear number at which an unworn contact is looked at: nothing has changed shape by then.
@@ -155,17 +155,8 @@ fn step(simulation: &Simulation, before: &[f64], after: &[f64], height: f64) -> 
     let Some(law) = &setup.wear else {
         return (0.0, 0.0);
     };
-    let (normal, tangential) = (
-        setup.material.normal_modulus(),
-        setup.material.tangential_modulus(),
-    );
-    let friction = setup.material.friction();
-    let scale = response(setup.method) * normal;
-    let share = if law.follows_energy() {
-        law.coefficient() * friction * friction * normal / tangential
-    } else {
-        0.0
-    };
+    let scale = response(setup.method) * setup.material.normal_modulus();
+    let share = gain(setup).unwrap_or_default();
     let amplitude = 0.5 * height * depth(simulation);
     let worn = &state.last.wear;
     let least = LEAST * largest(worn);

@@ -9,7 +9,7 @@ use crate::contact::material::Material;
 use crate::contact::normal;
 use crate::contact::tangential::{self, Grip, Hold, Motion};
 use crate::math::abel::bend::{self, Bend};
-use crate::math::abel::{product, rim};
+use crate::math::abel::{product, rim, rim_edge};
 use crate::math::root;
 use crate::math::scan::largest;
 
@@ -103,7 +103,7 @@ fn press(setup: &Setup, work: &mut Workspace, depth: f64) -> Result<(), Cause> {
     work.rim_edge = None;
     if let Some(rim) = &work.rim {
         let compression = |j: usize| depth - work.predicted[j];
-        if let Some(edge) = rim::edge_at_rim(rim, &planned.grid, compression) {
+        if let Some(edge) = rim_edge::edge_at_rim(rim, &planned.grid, compression) {
             // It takes the place of the edge that was found in its cell, if one was.
             let end = planned.grid.squares()[rim.cell + 1];
             if breaks.last().is_some_and(|last| last.at == end) {

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::tangential::Hold;
 use crate::math::abel::bend::Bend;
-use crate::math::abel::rim::RimEdge;
+use crate::math::abel::rim_edge::RimEdge;
 
 /// What is saved, restored, and carried over when a method or a law is switched.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

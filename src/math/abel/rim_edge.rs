@@ -160,7 +160,7 @@ impl RimEdge {
 /// asinh √z; by its series at all but the few nodes next to the rim, where z is not small.
 fn asinh_root(z: f64) -> f64 {
     if z > 0.01 {
-        return z.sqrt().asinh();
+        return (z.sqrt() + z / (1.0 + (1.0 + z).sqrt())).ln_1p();
     }
     let terms = [
         -1.0 / 6.0,
@@ -176,7 +176,7 @@ fn asinh_root(z: f64) -> f64 {
 
 /// ∫₀ʸ asinh √(L/y) dy and ∫₀ʸ y asinh √(L/y) dy.
 fn asinh_moments(length: f64, y: f64) -> [f64; 2] {
-    let arc = (length / y).sqrt().asinh();
+    let arc = asinh_root(length / y);
     let root = (length * (y + length)).sqrt();
     [
         y * arc + root - length,

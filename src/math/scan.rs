@@ -99,5 +99,10 @@ mod tests {
         assert_eq!(support(&[3.0]), 0..1);
         assert_eq!(support(&[0.0; 4]), 0..0);
         assert_eq!(support(&[]), 0..0);
+        for (first, last) in [(0, 39), (3, 11), (8, 15), (17, 17), (31, 38)] {
+            let mut values = [0.0; 40];
+            (values[first], values[last]) = (1.0, 1.0);
+            assert_eq!(support(&values), first..last + 1);
+        }
     }
 }

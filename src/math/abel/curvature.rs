@@ -110,19 +110,13 @@ impl Curvature {
                 continue;
             }
             let lack = if next.at < t[j + 1] {
-                lack_of_one(next.at - t[j])
+                root_cubed(next.at - t[j]) * SINGLE
             } else {
                 lack
             };
             add(j, per_pair * lack * jump);
         }
     }
-}
-
-/// What one cell of this width lacks, m³. Few do: no root is to be taken for the others.
-#[cold]
-fn lack_of_one(width: f64) -> f64 {
-    root_cubed(width) * SINGLE
 }
 
 fn root_cubed(width: f64) -> f64 {

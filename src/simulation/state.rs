@@ -117,7 +117,7 @@ pub struct LastStep {
     pub duration: f64,
     /// The largest stiffness z of a node in it, or in its harshest part; 0 without wear.
     pub stiffness: f64,
-    /// What g grew by, m, nodal.
+    /// What g grew by, m, nodal; 0 in steps of first order, which do not look ahead.
     pub growth: Vec<f64>,
     /// What f grew by, m, nodal.
     pub wear: Vec<f64>,

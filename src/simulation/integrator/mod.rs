@@ -94,6 +94,7 @@ fn commit(
             Scheme::Euler => update_profile(work, &state.wear),
             Scheme::Trapezoid => update_profile_keeping_growth(state, work),
         }
+        std::mem::swap(&mut state.last.wear, &mut work.worn);
         state.volume_between_nodes = match work.beyond_nodes {
             Some(volume) => state.volume_between_nodes + volume,
             None => at_rim(work),
@@ -115,7 +116,6 @@ fn update_profile_keeping_growth(state: &mut State, work: &mut Workspace) {
     for (growth, g) in state.last.growth.iter_mut().zip(&work.g) {
         *growth = g - *growth;
     }
-    std::mem::swap(&mut state.last.wear, &mut work.worn);
 }
 
 /// Refuses a worn profile that is not finite or far above anything that can touch.

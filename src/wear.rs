@@ -125,7 +125,7 @@ impl WearLaw {
         }
     }
 
-    /// Adds the wear (m) of one step to `wear`: stress `tau` (Pa) and slip `slip` (m) at the nodes,
+    /// Writes the wear (m) of one step into `wear`: stress `tau` (Pa) and slip `slip` (m) at the nodes,
     /// over a time of `duration` (s).
     ///
     /// Friction resists slip, so τ·s is never negative; where rounding or a transform's own error
@@ -135,7 +135,7 @@ impl WearLaw {
         match *self {
             Self::Archard { coefficient } => {
                 for (worn, (tau, slip)) in points {
-                    *worn += coefficient * positive_part(tau * slip);
+                    *worn = coefficient * positive_part(tau * slip);
                 }
             }
             Self::Power {
@@ -148,8 +148,9 @@ impl WearLaw {
                 let scale = coefficient * reference_stress * reference_slip_rate * duration;
                 let per_rate = (reference_slip_rate * duration).recip();
                 for (worn, (tau, slip)) in points {
+                    *worn = 0.0;
                     if tau * slip > 0.0 {
-                        *worn += scale
+                        *worn = scale
                             * (tau.abs() / reference_stress).powf(stress_exponent)
                             * (slip.abs() * per_rate).powf(slip_rate_exponent);
                     } else if !(tau * slip).is_finite() {
@@ -172,15 +173,9 @@ mod tests {
 
     fn worn(law: WearLaw, steps: usize) -> f64 {
         let mut wear = [0.0];
-        for _ in 0..steps {
-            law.wear(
-                &[2e8],
-                &[1e-7 / steps as f64],
-                1e-3 / steps as f64,
-                &mut wear,
-            );
-        }
-        wear[0]
+        let (slip, duration) = (1e-7 / steps as f64, 1e-3 / steps as f64);
+        law.wear(&[2e8], &[slip], duration, &mut wear);
+        wear[0] * steps as f64
     }
 
     #[test]

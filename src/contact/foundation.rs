@@ -3,11 +3,20 @@
 use crate::math::abel::bend::{self, Bend};
 use crate::math::abel::product;
 use crate::math::grid::RadialGrid;
-use crate::math::quadrature::{gauss, line_weights, product_weights, weighted};
-use crate::math::scan::leading;
+use crate::math::quadrature::{gauss, line_weights, product_weights, weighted_first};
+use crate::math::scan::{leading, trailing};
 
 /// A cusp that changes the load by less than this part of it over two cells is rounding.
 const NO_CUSP: f64 = 1e-9;
+
+/// Where the contact ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Edge {
+    /// The contact radius a, m.
+    pub radius: f64,
+    /// How many springs lie within it: what is further out carries nothing.
+    pub nodes: usize,
+}
 
 /// Where the springs stand, and how loads on them add up.
 ///
@@ -15,8 +24,7 @@ const NO_CUSP: f64 = 1e-9;
 /// ends between two of them: [`Bend`]s hold those breaks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Foundation {
-    nodes: Vec<f64>,
-    squares: Vec<f64>,
+    grid: RadialGrid,
     weights: Vec<f64>,
     /// Of the slope at the tip.
     cusp_weights: [f64; 3],
@@ -37,8 +45,7 @@ impl Foundation {
             products[border] = [inner + mixed, 0.0, mixed + outer];
         }
         Self {
-            nodes: grid.nodes().to_vec(),
-            squares: grid.squares().to_vec(),
+            grid: grid.clone(),
             weights: line_weights(grid.nodes()),
             cusp_weights: product::cusp_weights(grid.nodes()),
             products,
@@ -48,38 +55,38 @@ impl Foundation {
 
     /// x, m.
     pub fn nodes(&self) -> &[f64] {
-        &self.nodes
+        self.grid.nodes()
     }
 
     /// x², m².
     pub fn squares(&self) -> &[f64] {
-        &self.squares
+        self.grid.squares()
     }
 
-    /// 2∫ q dx over the row: the force (N) of a line load (N/m) with its breaks, that ends at `edge` (m).
+    /// 2∫ q dx over the row: the force (N) of a line load (N/m) with its breaks, that ends at `edge`.
     ///
     /// A load with a cusp at the tip, as under a cone, is linear in x and not in x²: what that adds is
     /// added.
-    pub fn force(&self, load: &[f64], breaks: &[Bend], edge: f64) -> f64 {
+    pub fn force(&self, load: &[f64], breaks: &[Bend], edge: Edge) -> f64 {
         self.forces(load, breaks, edge).0
     }
 
     /// [`force`](Self::force), and what it would be without the breaks.
-    pub fn forces(&self, load: &[f64], breaks: &[Bend], edge: f64) -> (f64, f64) {
-        let end = self.nodes[self.nodes.len() - 1];
-        let nodal = weighted(&self.weights, load);
+    pub fn forces(&self, load: &[f64], breaks: &[Bend], edge: Edge) -> (f64, f64) {
+        let nodal = weighted_first(&self.weights, load, edge.nodes);
         let cusp = self.cusp_integral(load, edge);
-        let broken = nodal + bend::line_integral(breaks, end);
+        let broken = nodal + bend::line_integral(breaks, self.grid.radius());
         (2.0 * (broken + cusp), 2.0 * (nodal + cusp))
     }
 
-    /// 2∫ q |s| dx over the row: the work (J) of a line load (N/m) that ends at `edge` (m) on a slip (m).
+    /// 2∫ q |s| dx over the row: the work (J) of a line load (N/m) that ends at `edge` on a slip (m).
     /// Both are linear in x² in each cell; the slip has `kinks` inside cells besides, each with its cell.
-    pub fn work(&self, load: &[f64], slip: &[f64], kinks: &[(usize, Bend)], edge: f64) -> f64 {
+    pub fn work(&self, load: &[f64], slip: &[f64], kinks: &[(usize, Bend)], edge: Edge) -> f64 {
+        let (xs, squares) = (self.nodes(), self.squares());
         // Most springs stick or carry nothing.
         let first = leading(slip, |&slip| slip == 0.0).saturating_sub(1);
-        let end = load.iter().rposition(|&load| load != 0.0);
-        let end = end.map_or(first, |last| (last + 2).min(load.len()).max(first));
+        let end = load.len() + 1 - trailing(load, |&load| load == 0.0);
+        let end = end.min(load.len()).max(first);
         let cells = load[first..end].windows(2).zip(slip[first..end].windows(2));
         let smooth: f64 = cells
             .zip(&self.products[first..])
@@ -91,11 +98,11 @@ impl Foundation {
         let kinked: f64 = kinks
             .iter()
             .map(|&(k, kink)| {
-                let (t, width) = (self.squares[k], self.squares[k + 1] - self.squares[k]);
+                let (t, width) = (squares[k], squares[k + 1] - squares[k]);
                 let sign = (slip[k] + slip[k + 1]).signum();
                 let slope = (load[k + 1] - load[k]) / width;
                 sign * kink.jump
-                    * gauss(kink.at.sqrt(), self.nodes[k + 1], |x| {
+                    * gauss(kink.at.sqrt(), xs[k + 1], |x| {
                         (load[k] + slope * (x * x - t)) * (x * x - kink.at)
                     })
             })
@@ -107,13 +114,13 @@ impl Foundation {
     /// The slope of `values` at the tip, x → 0, where there is a cusp worth the name and the contact
     /// goes on beyond it; 0 else.
     pub fn cusp(&self, values: &[f64], edge: f64) -> f64 {
-        if edge <= self.nodes[3] {
+        if edge <= self.nodes()[3] {
             return 0.0;
         }
         let tip = self.cusp_weights.iter().zip(values);
         let cusp: f64 = tip.map(|(weight, value)| weight * value).sum();
         let rounding = NO_CUSP * values[0].abs();
-        if (cusp * self.nodes[2]).abs() > rounding {
+        if (cusp * self.nodes()[2]).abs() > rounding {
             cusp
         } else {
             0.0
@@ -121,19 +128,15 @@ impl Foundation {
     }
 
     /// ∫ of what the cusp of `values` adds to them up to `edge`, in their unit times m.
-    fn cusp_integral(&self, values: &[f64], edge: f64) -> f64 {
-        let cusp = self.cusp(values, edge);
+    fn cusp_integral(&self, values: &[f64], edge: Edge) -> f64 {
+        let cusp = self.cusp(values, edge.radius);
         if cusp == 0.0 {
             // Lengths beyond all numbers are to be seen: 0 · ∞ is none.
             return 0.0 * self.bubbles[self.bubbles.len() - 1];
         }
-        let last = self.nodes.partition_point(|&x| x <= edge) - 1;
-        let whole = self.bubbles[last];
-        if edge > self.nodes[last] {
-            cusp * (whole + bubble(self.nodes[last], edge))
-        } else {
-            cusp * whole
-        }
+        let last = edge.nodes - 1;
+        let inner = self.nodes()[last];
+        cusp * (self.bubbles[last] + bubble(inner, edge.radius))
     }
 }
 
@@ -179,9 +182,13 @@ mod tests {
             let primitive =
                 |x: f64| -x.powi(5) / 5.0 + (1.0 + border) * x.powi(3) / 3.0 - border * x;
             let exact = 2.0 * (primitive(1.0) - primitive(border.sqrt()));
-            let found = row.work(&load, &slip, &kinks, 1.0);
+            let edge = Edge {
+                radius: 1.0,
+                nodes: grid.cells(),
+            };
+            let found = row.work(&load, &slip, &kinks, edge);
             assert!((found / exact - 1.0).abs() < 1e-12, "{found} {exact}");
-            let without = row.work(&load, &slip, &[], 1.0);
+            let without = row.work(&load, &slip, &[], edge);
             assert!((without / exact - 1.0).abs() > 1e-4);
         }
     }

@@ -7,13 +7,16 @@
 //! it, negative outside, so it is interpolated there, never extrapolated: exact for a paraboloid and a
 //! cone.
 
+use std::hint::select_unpredictable as select;
+
 use serde::{Deserialize, Serialize};
 
-use super::foundation::Foundation;
+use super::foundation::{Edge, Foundation};
 use crate::math::abel::bend::{self, Bend};
 use crate::math::abel::product;
 use crate::math::root;
 use crate::math::scan::changes;
+use crate::math::vector::vectorized;
 
 /// An edge this close to a spring, in parts of the cell, stands on it.
 const ON_A_SPRING: f64 = 1e-9;
@@ -29,6 +32,16 @@ pub struct NormalContact {
     pub nodes: usize,
 }
 
+impl NormalContact {
+    /// Where it ends.
+    pub fn edge(&self) -> Edge {
+        Edge {
+            radius: self.radius,
+            nodes: self.nodes,
+        }
+    }
+}
+
 /// Presses the 1D profile `g` (m) to `depth` (m) on springs of stiffness E* = `modulus` (Pa) a length:
 /// writes the line load `q` (N/m) and its breaks.
 pub fn press(
@@ -40,7 +53,7 @@ pub fn press(
     breaks: &mut Vec<Bend>,
 ) -> NormalContact {
     let mut contact = touch(row, g, depth, modulus, q, breaks);
-    contact.force = row.force(q, breaks, contact.radius);
+    contact.force = row.force(q, breaks, contact.edge());
     contact
 }
 
@@ -59,14 +72,15 @@ pub fn touch(
     let compression = |k: usize| modulus * (depth - g[k]);
     // Written so that NaN counts as contact and is seen, instead of passing as an open gap.
     let is_open = |compression: f64| compression <= 0.0;
-    for (load, gap) in q.iter_mut().zip(g) {
-        let compression = modulus * (depth - gap);
-        *load = if is_open(compression) {
-            0.0
-        } else {
-            compression
-        };
-    }
+    vectorized(
+        #[inline(always)]
+        || {
+            for (load, gap) in q.iter_mut().zip(g) {
+                let compression = modulus * (depth - gap);
+                *load = select(is_open(compression), 0.0, compression);
+            }
+        },
+    );
     let cusp = row.cusp(&[0, 1, 2].map(compression), f64::INFINITY);
     // One side of an edge carries nothing, the other does.
     for k in changes(q, |&load| is_open(load)) {

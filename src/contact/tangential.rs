@@ -8,7 +8,7 @@ use std::hint::select_unpredictable as select;
 
 use serde::{Deserialize, Serialize};
 
-use super::foundation::Foundation;
+use super::foundation::{Edge, Foundation};
 use crate::math::abel::bend::{self, Bend};
 use crate::math::scan::{changes, largest};
 use crate::math::vector::vectorized;
@@ -56,8 +56,8 @@ pub struct Grip<'a> {
     pub row: &'a Foundation,
     /// The normal line load q_z, N/m, nodal.
     pub normal_load: &'a [f64],
-    /// The contact radius a, m.
-    pub contact_radius: f64,
+    /// Where the contact ends.
+    pub edge: Edge,
     /// μ/G*, 1/Pa: how far a spring of unit load can be strained.
     pub reach: f64,
 }
@@ -84,13 +84,18 @@ pub fn slide(
     slip: &mut [f64],
     hold: &mut [Hold],
 ) {
+    let nodes = grip.edge.nodes;
+    let load = &grip.normal_load[..nodes];
+    spring[nodes..].fill(0.0);
+    slip[nodes..].fill(increment);
+    hold[nodes..].fill(Hold::Open);
     // Without branches, so that the processor takes several springs at a time.
     vectorized(
         #[inline(always)]
         || {
-            let dead_band = TOUCH_OF_LARGEST * grip.reach * largest(grip.normal_load);
+            let dead_band = TOUCH_OF_LARGEST * grip.reach * largest(load);
             let springs = spring.iter_mut().zip(slip).zip(hold).zip(before);
-            for ((((after, slip), hold), &before), &load) in springs.zip(grip.normal_load) {
+            for ((((after, slip), hold), &before), &load) in springs.zip(load) {
                 let limit = grip.reach * load;
                 let predicted = before + increment;
                 let strain = predicted.abs();
@@ -137,7 +142,7 @@ pub fn borders(
         };
         let width = squares[k + 1] - squares[k];
         let edge = (hold[k] == Hold::Open || hold[k + 1] == Hold::Open)
-            .then_some(grip.contact_radius * grip.contact_radius)
+            .then_some(grip.edge.radius * grip.edge.radius)
             .filter(|&at| {
                 at > squares[k] + ON_A_SPRING * width && at < squares[k + 1] - ON_A_SPRING * width
             });
@@ -161,8 +166,8 @@ pub fn borders(
         }
     }
     stick_radius
-        .unwrap_or(grip.contact_radius)
-        .min(grip.contact_radius)
+        .unwrap_or(grip.edge.radius)
+        .min(grip.edge.radius)
 }
 
 /// A cell whose two springs do different things.
@@ -232,6 +237,11 @@ mod tests {
     }
 
     impl Bench {
+        const EDGE: Edge = Edge {
+            radius: 1.0,
+            nodes: 200,
+        };
+
         fn new() -> Self {
             let grid = RadialGrid::uniform(300, 1.5).expect("a grid");
             let load: Vec<f64> = grid.squares().iter().map(|t| (1.0 - t).max(0.0)).collect();
@@ -251,7 +261,7 @@ mod tests {
             let grip = Grip {
                 row: &self.row,
                 normal_load: &self.load,
-                contact_radius: 1.0,
+                edge: Self::EDGE,
                 reach,
             };
             let (before, held) = (self.spring.clone(), self.hold.clone());
@@ -281,7 +291,7 @@ mod tests {
                 stick = bench.slide(0.05 / f64::from(steps), 0.1);
             }
             assert!((stick - 0.5f64.sqrt()).abs() < 1e-13, "{stick}");
-            let force = bench.row.force(&bench.spring, &bench.breaks, 1.0);
+            let force = bench.row.force(&bench.spring, &bench.breaks, Bench::EDGE);
             let expected = 0.1 * 4.0 / 3.0 * (1.0 - 0.5f64.powf(1.5));
             assert!((force / expected - 1.0).abs() < 1e-12, "{force} {expected}");
             assert!(

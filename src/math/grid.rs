@@ -4,6 +4,8 @@
 //! (r_i = x_i, §2 of the paper). Node 0 is always r = 0 exactly and the last node is the
 //! edge of the domain exactly, so that no other file has to ask what happens there.
 
+use std::sync::Arc;
+
 use super::invalid::{Invalid, positive};
 
 /// The fewest cells a grid may have.
@@ -23,11 +25,11 @@ const GRADING: f64 = 1.5;
 /// 1e-4 contact radii for a domain of 1.5 of them.
 const NARROWEST: f64 = 1e-4 / 1.5;
 
-/// Nodes r₀ = 0 < r₁ < … < r_N = L, in metres or in any other unit of length.
+/// Nodes r₀ = 0 < r₁ < … < r_N = L, in metres or in any other unit of length. Clones share them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RadialGrid {
-    nodes: Vec<f64>,
-    squares: Vec<f64>,
+    nodes: Arc<[f64]>,
+    squares: Arc<[f64]>,
     border: Option<usize>,
 }
 
@@ -110,7 +112,7 @@ impl RadialGrid {
     fn from_nodes(nodes: Vec<f64>, border: Option<usize>) -> Self {
         let squares = nodes.iter().map(|r| r * r).collect();
         Self {
-            nodes,
+            nodes: nodes.into(),
             squares,
             border,
         }

@@ -1,5 +1,7 @@
 //! Integrals of nodal values that stay in one dimension: no singular kernel, no physics.
 
+use super::vector::vectorized;
+
 /// ∫ y dx from x₀ to the last node, trapezoidal: exact for a piecewise linear y.
 pub fn trapezoid(xs: &[f64], ys: &[f64]) -> f64 {
     xs.windows(2)
@@ -50,6 +52,20 @@ pub fn product_weights(xs: &[f64]) -> Vec<[f64; 3]> {
 /// Eight sums, so that no addition waits for the one before.
 pub fn weighted(weights: &[f64], values: &[f64]) -> f64 {
     debug_assert_eq!(weights.len(), values.len());
+    vectorized(
+        #[inline(always)]
+        || eight_sums(weights, values),
+    )
+}
+
+/// The same where only the first `count` values are not zero: to the last bit.
+pub fn weighted_first(weights: &[f64], values: &[f64], count: usize) -> f64 {
+    let end = count.next_multiple_of(8).min(values.len());
+    weighted(&weights[..end], &values[..end])
+}
+
+#[inline(always)]
+fn eight_sums(weights: &[f64], values: &[f64]) -> f64 {
     let (weights, last_weights) = weights.as_chunks::<8>();
     let (values, last_values) = values.as_chunks::<8>();
     let mut sums = [0.0; 8];

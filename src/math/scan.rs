@@ -33,6 +33,16 @@ pub fn leading<T>(values: &[T], has: impl Fn(&T) -> bool) -> usize {
             .count()
 }
 
+/// How many of `values` from the last one back have a property.
+#[inline(always)]
+pub fn trailing<T>(values: &[T], has: impl Fn(&T) -> bool) -> usize {
+    let (_, eights) = values.as_rchunks::<8>();
+    let all = |eight: &&[T; 8]| eight.iter().fold(true, |all, value| all & has(value));
+    let whole = 8 * eights.iter().rev().take_while(all).count();
+    let rest = values[..values.len() - whole].iter().rev();
+    whole + rest.take_while(|value| has(value)).count()
+}
+
 /// Where a row changes its `kind`: the first index behind each change.
 pub fn changes<T, K: PartialEq>(
     values: &[T],
@@ -49,12 +59,8 @@ pub fn changes<T, K: PartialEq>(
 /// The smallest range outside which `values` are zero.
 #[inline(always)]
 pub fn support(values: &[f64]) -> Range<usize> {
-    let first = leading(values, |&value| value == 0.0);
-    let last = values.iter().rposition(|&value| value != 0.0);
-    match last {
-        Some(last) => first..last + 1,
-        None => 0..0,
-    }
+    let end = values.len() - trailing(values, |&value| value == 0.0);
+    leading(&values[..end], |&value| value == 0.0)..end
 }
 
 #[cfg(test)]
@@ -93,5 +99,10 @@ mod tests {
         assert_eq!(support(&[3.0]), 0..1);
         assert_eq!(support(&[0.0; 4]), 0..0);
         assert_eq!(support(&[]), 0..0);
+        for (first, last) in [(0, 39), (3, 11), (8, 15), (17, 17), (31, 38)] {
+            let mut values = [0.0; 40];
+            (values[first], values[last]) = (1.0, 1.0);
+            assert_eq!(support(&values), first..last + 1);
+        }
     }
 }

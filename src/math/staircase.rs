@@ -60,9 +60,12 @@ impl Run {
     }
 }
 
+/// The rows of a panel: as many vectors as hold them.
+type Sums<S> = [f64x4<S>; ROWS / LANES];
+
 /// The sums of a panel's rows over `columns`, each times its value.
 #[inline(always)]
-fn sum_columns<S: Simd>(simd: S, columns: &[Column], values: &[f64]) -> [f64; ROWS] {
+fn sum_columns<S: Simd>(simd: S, columns: &[Column], values: &[f64]) -> Sums<S> {
     let halves = |Column(column): &Column| {
         let (lanes, _) = column.as_chunks::<LANES>();
         [0, 1].map(|half| f64x4::from_slice(simd, &lanes[half]))
@@ -90,11 +93,20 @@ fn sum_columns<S: Simd>(simd: S, columns: &[Column], values: &[f64]) -> [f64; RO
             *sum = entries.mul_add(value, *sum);
         }
     }
-    let mut rows = [0.0; ROWS];
     let [a, b, c, d] = sums;
+    let mut all = a;
+    for (half, all) in all.iter_mut().enumerate() {
+        *all = (a[half] + b[half]) + (c[half] + d[half]);
+    }
+    all
+}
+
+#[inline(always)]
+fn rows_of<S: Simd>(sums: Sums<S>) -> [f64; ROWS] {
+    let mut rows = [0.0; ROWS];
     let (lanes, _) = rows.as_chunks_mut::<LANES>();
-    for (half, lanes) in lanes.iter_mut().enumerate() {
-        ((a[half] + b[half]) + (c[half] + d[half])).store_slice(lanes);
+    for (sum, lanes) in sums.iter().zip(lanes) {
+        sum.store_slice(lanes);
     }
     rows
 }
@@ -156,43 +168,53 @@ impl Staircase {
         rows: &Range<usize>,
     ) -> bool {
         let support = support(input);
-        let mut zeros = [0.0; ROWS];
         let panels = rows.start / ROWS..rows.end.div_ceil(ROWS);
         let end = output.len().min(ROWS * panels.end);
         output[end..].fill(0.0);
         let (before, output) = output[..end].split_at_mut(end.min(ROWS * panels.start));
         before.fill(0.0);
-        for (output, panel) in output.chunks_mut(ROWS).zip(&self.panels[panels.start..]) {
-            let [first, second] = &panel.runs;
-            let mut sums = self.sum(simd, first, &support, input);
-            if !second.columns.is_empty() {
-                let more = self.sum(simd, second, &support, input);
-                for (sum, more) in sums.iter_mut().zip(more) {
-                    *sum += more;
+        let zero = f64x4::splat(simd, 0.0);
+        let mut zeros = [zero; ROWS / LANES];
+        let mut sums = self.panels[panels.start..].iter().map(
+            #[inline(always)]
+            |panel| {
+                let sums = self.sum(simd, panel, &support, input);
+                for (zeros, sum) in zeros.iter_mut().zip(sums) {
+                    *zeros += zero * sum;
                 }
-            }
-            for (zero, sum) in zeros.iter_mut().zip(&sums) {
-                *zero += 0.0 * sum;
-            }
-            match output.first_chunk_mut() {
-                Some(output) => *output = sums,
-                None => output.copy_from_slice(&sums[..output.len()]),
-            }
+                rows_of(sums)
+            },
+        );
+        let (whole, rest) = output.as_chunks_mut();
+        for (output, sums) in whole.iter_mut().zip(sums.by_ref()) {
+            *output = sums;
         }
-        zeros == [0.0; ROWS]
+        if let Some(sums) = sums.next().filter(|_| !rest.is_empty()) {
+            rest.copy_from_slice(&sums[..rest.len()]);
+        }
+        rows_of(zeros) == [0.0; ROWS]
     }
 
-    /// The sums of a panel's rows over those columns of a run that lie within the `support` of the input.
+    /// The sums of a panel's rows over those columns that lie within the `support` of the input.
     #[inline(always)]
     fn sum<S: Simd>(
         &self,
         simd: S,
-        run: &Run,
+        panel: &Panel,
         support: &Range<usize>,
         input: &[f64],
-    ) -> [f64; ROWS] {
-        let (at, columns) = run.within(support);
-        sum_columns(simd, &self.entries[at], &input[columns])
+    ) -> Sums<S> {
+        let [first, second] = &panel.runs;
+        let (at, columns) = first.within(support);
+        let mut sums = sum_columns(simd, &self.entries[at], &input[columns]);
+        if !second.columns.is_empty() {
+            let (at, columns) = second.within(support);
+            let more = sum_columns(simd, &self.entries[at], &input[columns]);
+            for (sum, more) in sums.iter_mut().zip(more) {
+                *sum += more;
+            }
+        }
+        sums
     }
 
     /// Zero times a value that is not finite is no zero: it is passed on to the rows that have an entry

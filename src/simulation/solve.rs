@@ -1,5 +1,7 @@
 //! One contact problem: the worn profile and the springs' memory in, loads and displacements out.
 
+use std::ops::Range;
+
 use super::Setup;
 use super::breakdown::Cause;
 use super::drive::Target;
@@ -9,7 +11,7 @@ use crate::contact::material::Material;
 use crate::contact::normal;
 use crate::contact::tangential::{self, Grip, Hold, Motion};
 use crate::math::abel::bend::{self, Bend};
-use crate::math::abel::{product, rim};
+use crate::math::abel::{product, rim, rim_edge};
 use crate::math::root;
 use crate::math::scan::largest;
 
@@ -77,7 +79,7 @@ fn press(setup: &Setup, work: &mut Workspace, depth: f64) -> Result<(), Cause> {
     let (load, breaks) = (&mut work.normal_load, &mut work.normal_breaks);
     let mut normal = normal::touch(&planned.row, &work.predicted, depth, modulus, load, breaks);
     let nodal;
-    (normal.force, nodal) = planned.row.forces(load, breaks, normal.radius);
+    (normal.force, nodal) = planned.row.forces(load, breaks, normal.edge());
     let mut edge_load = 0.5 * (normal.force - nodal);
     if !normal.force.is_finite() {
         if work.predicted.iter().all(|g| g.is_finite()) {
@@ -109,14 +111,14 @@ fn press(setup: &Setup, work: &mut Workspace, depth: f64) -> Result<(), Cause> {
     work.rim_edge = None;
     if let Some(rim) = &work.rim {
         let compression = |j: usize| depth - work.predicted[j];
-        if let Some(edge) = rim::edge_at_rim(rim, &planned.grid, compression) {
+        if let Some(edge) = rim_edge::edge_at_rim(rim, &planned.grid, compression) {
             // It takes the place of the edge that was found in its cell, if one was.
             let end = planned.grid.squares()[rim.cell + 1];
             if breaks.last().is_some_and(|last| last.at == end) {
                 breaks.truncate(breaks.len().saturating_sub(3));
             }
             normal.radius = edge.at.sqrt();
-            let (force, nodal) = planned.row.forces(load, breaks, normal.radius);
+            let (force, nodal) = planned.row.forces(load, breaks, normal.edge());
             normal.force = force + 2.0 * modulus * edge.line_integral();
             edge_load = 0.5 * (normal.force - nodal);
             work.rim_edge = Some(edge);
@@ -166,7 +168,7 @@ fn shift_by(setup: &Setup, state: &State, work: &mut Workspace, increment: f64) 
     let grip = Grip {
         row: &work.planned.row,
         normal_load: &work.normal_load,
-        contact_radius: work.contact.normal.radius,
+        edge: work.contact.normal.edge(),
         reach: setup.material.friction() / setup.material.tangential_modulus(),
     };
     tangential::slide(
@@ -194,7 +196,7 @@ fn shift_by(setup: &Setup, state: &State, work: &mut Workspace, increment: f64) 
         * work.planned.row.force(
             &work.spring,
             &work.spring_breaks,
-            work.contact.normal.radius,
+            work.contact.normal.edge(),
         );
 }
 
@@ -235,63 +237,98 @@ const STEEP: usize = 4;
 
 /// p(r), Pa, of the solved contact by Eq. (3). Nothing slips within the radius `core` (m).
 pub(super) fn pressure(work: &Workspace, material: &Material, core: f64, out: &mut [f64]) {
-    stress(work, &work.normal_load, &work.normal_breaks, 0, out);
-    let modulus = material.normal_modulus();
-    if let Some(edge) = &work.rim_edge {
-        edge.add_to_stress(modulus, work.planned.grid.squares(), out);
-    }
-    curve(work, modulus, core, |_| 1.0, out);
-}
-
-/// Adds what the curvature of the line load between the nodes does to p: to each node its `share`, and nothing next to
-/// the core or behind a border of stick, where wear may just have made the load steep.
-fn curve(work: &Workspace, modulus: f64, core: f64, share: impl Fn(usize) -> f64, out: &mut [f64]) {
-    let planned = &work.planned;
-    let Some(curvature) = &planned.curvature else {
-        return;
-    };
-    let at_rim = work.rim_edge.iter();
-    let at_rim = at_rim.flat_map(|edge| edge.load_bends(modulus));
-    let breaks = work.normal_breaks.iter().copied().chain(at_rim);
-    let core = planned.grid.nodes().partition_point(|&x| x <= core);
-    let sticks = |j: usize| work.hold.get(j) == Some(&Hold::Stick);
-    let behind_border = |j: usize| sticks(j - 1) != sticks(j) || sticks(j - 2) != sticks(j);
-    let smooth = |j: usize| (j + 1 < core || j >= core + STEEP) && !behind_border(j);
-    let share = |j: usize| if smooth(j) { share(j) } else { 0.0 };
-    let (contact, load) = (&work.contact.normal, &work.normal_load);
-    let cusp = planned.row.cusp(load, contact.radius);
-    curvature.add_to_stress(load, cusp, breaks, share, &mut out[..contact.nodes]);
+    pressure_of_chords(work, material, out);
+    curve(work, material, core, |j, more| out[j] += more);
 }
 
 /// τ(r), Pa, of the solved contact by Eq. (3).
 pub(super) fn shear(work: &Workspace, material: &Material, core: f64, out: &mut [f64]) {
-    shear_from(0, work, material, core, out);
+    shear_of(0..out.len(), work, material, core, out);
 }
 
-/// The same from the node `first` on; zero further in.
-pub(super) fn shear_from(
-    first: usize,
+/// The same of those `nodes` alone; zero elsewhere.
+pub(super) fn shear_of(
+    nodes: Range<usize>,
     work: &Workspace,
     material: &Material,
     core: f64,
     out: &mut [f64],
 ) {
-    stress(work, &work.spring, &work.spring_breaks, first, out);
-    out[..first].fill(0.0);
-    for stress in &mut out[first..] {
+    shear_of_chords(nodes.clone(), work, material, out);
+    curve(work, material, core, |j, more| {
+        if nodes.contains(&j) {
+            out[j] += share_of_shear(work, material, j) * more;
+        }
+    });
+}
+
+/// Both.
+pub(super) fn stresses(
+    work: &Workspace,
+    material: &Material,
+    core: f64,
+    p: &mut [f64],
+    tau: &mut [f64],
+) {
+    pressure_of_chords(work, material, p);
+    shear_of_chords(0..tau.len(), work, material, tau);
+    curve(work, material, core, |j, more| {
+        p[j] += more;
+        tau[j] += share_of_shear(work, material, j) * more;
+    });
+}
+
+/// p of a line load that is linear in x² between the nodes and its breaks.
+fn pressure_of_chords(work: &Workspace, material: &Material, out: &mut [f64]) {
+    let all = 0..out.len();
+    stress(work, &work.normal_load, &work.normal_breaks, all, out);
+    if let Some(edge) = &work.rim_edge {
+        let modulus = material.normal_modulus();
+        edge.add_to_stress(modulus, work.planned.grid.squares(), out);
+    }
+}
+
+/// τ of such a load, of those `nodes` alone; zero elsewhere.
+fn shear_of_chords(nodes: Range<usize>, work: &Workspace, material: &Material, out: &mut [f64]) {
+    stress(work, &work.spring, &work.spring_breaks, nodes.clone(), out);
+    out[..nodes.start].fill(0.0);
+    out[nodes.end..].fill(0.0);
+    for stress in &mut out[nodes] {
         *stress *= material.tangential_modulus();
     }
-    // What slips is curved like μq; what sticks keeps the kinks of its history.
-    let slips = |j: usize| work.hold[j].sign().filter(|_| j >= first);
-    let share = |j: usize| slips(j).map_or(0.0, |sign| sign * material.friction());
-    curve(work, material.normal_modulus(), core, share, out);
+}
+
+/// How much of what the curvature of the load adds to p it adds to τ at a node: what slips is curved like μq, what
+/// sticks keeps the kinks of its history.
+fn share_of_shear(work: &Workspace, material: &Material, node: usize) -> f64 {
+    let sign = work.hold[node].sign();
+    sign.map_or(0.0, |sign| sign * material.friction())
+}
+
+/// Gives to `add`, node by node, what the curvature of the line load between the nodes adds to p: nothing next to the
+/// core or behind a border of stick, where wear may just have made the load steep.
+fn curve(work: &Workspace, material: &Material, core: f64, add: impl FnMut(usize, f64)) {
+    let planned = &work.planned;
+    let Some(curvature) = &planned.curvature else {
+        return;
+    };
+    let at_rim = work.rim_edge.iter();
+    let at_rim = at_rim.flat_map(|edge| edge.load_bends(material.normal_modulus()));
+    let breaks = work.normal_breaks.iter().copied().chain(at_rim);
+    let core = planned.grid.nodes().partition_point(|&x| x <= core);
+    let sticks = |j: usize| work.hold.get(j) == Some(&Hold::Stick);
+    let behind_border = |j: usize| sticks(j - 1) != sticks(j) || sticks(j - 2) != sticks(j);
+    let smooth = |j: usize| (j + 1 < core || j >= core + STEEP) && !behind_border(j);
+    let (contact, load) = (&work.contact.normal, &work.normal_load);
+    let cusp = planned.row.cusp(load, contact.radius);
+    curvature.for_each(load, cusp, breaks, contact.nodes, smooth, add);
 }
 
 /// Eq. (3) with the breaks of the load and the end of its cusp, and nothing outside the contact; of use
-/// from the node `first` on.
-fn stress(work: &Workspace, load: &[f64], breaks: &[Bend], first: usize, out: &mut [f64]) {
+/// on those `nodes` alone.
+fn stress(work: &Workspace, load: &[f64], breaks: &[Bend], nodes: Range<usize>, out: &mut [f64]) {
     let planned = &work.planned;
-    planned.plan.stress_rows(load, out, first..load.len());
+    planned.plan.stress_rows(load, out, nodes);
     if !planned.has_breaks() {
         return;
     }

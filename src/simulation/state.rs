@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::tangential::Hold;
 use crate::math::abel::bend::Bend;
-use crate::math::abel::rim::RimEdge;
+use crate::math::abel::rim_edge::RimEdge;
 
 /// What is saved, restored, and carried over when a method or a law is switched.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -117,7 +117,7 @@ pub struct LastStep {
     pub duration: f64,
     /// The largest stiffness z of a node in it, or in its harshest part; 0 without wear.
     pub stiffness: f64,
-    /// What g grew by, m, nodal.
+    /// What g grew by, m, nodal; 0 in steps of first order, which do not look ahead.
     pub growth: Vec<f64>,
     /// What f grew by, m, nodal.
     pub wear: Vec<f64>,

@@ -36,6 +36,7 @@ use std::f64::consts::{FRAC_1_PI, FRAC_2_PI};
 use serde::{Deserialize, Serialize};
 
 use crate::math::grid::RadialGrid;
+use crate::math::vector::vectorized;
 
 /// A break point closer to a node than this share of its cell is taken to be the node.
 pub(super) const CLOSEST: f64 = 1e-9;
@@ -113,12 +114,17 @@ pub fn are_hats(bends: &[Bend], squares: &[f64]) -> bool {
 
 /// Eq. (1): adds what bends of f do to the 1D profile `g` on nodes with the given `squares` (m²).
 pub fn add_to_profile(bends: &[Bend], squares: &[f64], g: &mut [f64]) {
-    for bend in bends {
-        let first = squares.partition_point(|&t| t <= bend.at);
-        for (value, &t) in g[first..].iter_mut().zip(&squares[first..]) {
-            *value += 2.0 * bend.jump * (t * (t - bend.at)).sqrt();
-        }
-    }
+    vectorized(
+        #[inline(always)]
+        || {
+            for bend in bends {
+                let first = squares.partition_point(|&t| t <= bend.at);
+                for (value, &t) in g[first..].iter_mut().zip(&squares[first..]) {
+                    *value += 2.0 * bend.jump * (t * (t - bend.at)).sqrt();
+                }
+            }
+        },
+    );
 }
 
 /// Eq. (2): adds what bends of u do to the surface displacement `w`.
@@ -137,13 +143,18 @@ pub fn add_to_displacement(bends: &[Bend], grid: &RadialGrid, w: &mut [f64]) {
 
 /// Eq. (3): adds what bends of q (N/m) do to the stress `p` (N/m²) on nodes with the given `squares`.
 pub fn add_to_stress(bends: &[Bend], squares: &[f64], p: &mut [f64]) {
-    for bend in bends {
-        let weight = FRAC_2_PI * bend.jump;
-        let end = squares.partition_point(|&t| t < bend.at);
-        for (value, &t) in p[..end].iter_mut().zip(squares) {
-            *value += weight * (bend.at - t).sqrt();
-        }
-    }
+    vectorized(
+        #[inline(always)]
+        || {
+            for bend in bends {
+                let weight = FRAC_2_PI * bend.jump;
+                let end = squares.partition_point(|&t| t < bend.at);
+                for (value, &t) in p[..end].iter_mut().zip(squares) {
+                    *value += weight * (bend.at - t).sqrt();
+                }
+            }
+        },
+    );
 }
 
 /// ∫ p dt and ∫ p (t − t₀) dt, N and N m², beyond the square `t` (m²), of the stress p of Eq. (3) that bends of

@@ -42,11 +42,16 @@ const ENDLESS: f64 = 0.207_886_224_977_354_57;
 /// The same of a single cell: ⅔ − ½.
 const SINGLE: f64 = 1.0 / 6.0;
 
+/// Behind the last break.
+const NO_MORE: Bend = Bend {
+    at: f64::INFINITY,
+    jump: 0.0,
+};
+
 /// What the term takes from the grid, computed once.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curvature {
-    nodes: Vec<f64>,
-    squares: Vec<f64>,
+    grid: RadialGrid,
     /// 1/h_j of the cell behind each node, 1/m².
     per_cell: Vec<f64>,
     /// (2/π) 2/(h_{j−1} + h_j) of each node, 1/m²; 0 where nothing is added.
@@ -58,56 +63,58 @@ pub struct Curvature {
 impl Curvature {
     /// For loads on the nodes of a grid.
     pub fn new(grid: &RadialGrid) -> Self {
-        let squares = grid.squares().to_vec();
+        let squares = grid.squares();
         let cells = || squares.windows(2).map(|t| t[1] - t[0]);
         let pairs = squares.windows(3).map(|t| FRAC_2_PI * 2.0 / (t[2] - t[0]));
         Self {
-            nodes: grid.nodes().to_vec(),
+            grid: grid.clone(),
             per_cell: cells().map(f64::recip).collect(),
             per_pair: [0.0; 2].into_iter().chain(pairs.skip(1)).collect(),
             lacks: cells().map(|cell| root_cubed(cell) * ENDLESS).collect(),
-            squares,
         }
     }
 
-    /// Eq. (3): adds to the stress `p` (N/m²) what the curvature of a `load` (N/m) does, beside
-    /// [`product::stress`](super::product::stress) and the `breaks` of the load (N/m, from the tip outwards).
-    /// `p` ends with the nodes in contact; `cusp` is the slope of the load at the tip, which is no curvature;
-    /// `share` says how much of it a node's stress takes: nothing where the load is not smooth from the node before
-    /// to the one behind it.
-    pub fn add_to_stress(
+    /// Eq. (3): what the curvature of a `load` (N/m) does to the stress (N/m²) of the first `nodes`, those in contact,
+    /// beside [`product::stress`](super::product::stress) and the `breaks` of the load (N/m, from the tip outwards).
+    /// It is given to `add`, node by node, for nodes that are `smooth`: where the load is, from the node before to
+    /// the one behind. `cusp` is the slope of the load at the tip, which is no curvature.
+    pub fn for_each(
         &self,
         load: &[f64],
         cusp: f64,
         breaks: impl IntoIterator<Item = Bend>,
-        share: impl Fn(usize) -> f64,
-        p: &mut [f64],
+        nodes: usize,
+        smooth: impl Fn(usize) -> bool,
+        mut add: impl FnMut(usize, f64),
     ) {
-        let t = &self.squares[..];
-        let mut breaks = breaks.into_iter().peekable();
+        let (x, t) = (self.grid.nodes(), self.grid.squares());
+        let mut breaks = breaks.into_iter();
+        let mut next_break = || breaks.next().unwrap_or(NO_MORE);
+        let mut next = next_break();
         let mut before = 0.0;
         let cells = self.per_cell.iter().zip(&self.per_pair).zip(&self.lacks);
-        for (j, (p, ((per_cell, per_pair), &lack))) in p.iter_mut().zip(cells).enumerate() {
+        for (j, ((per_cell, per_pair), &lack)) in cells.enumerate().take(nodes) {
             let mut behind = (load[j + 1] - load[j]) * per_cell;
             if cusp != 0.0 {
-                behind -= cusp / (self.nodes[j] + self.nodes[j + 1]);
+                behind -= cusp / (x[j] + x[j + 1]);
             }
             let mut jump = behind - before;
             before = behind;
-            while let Some(bend) = breaks.next_if(|bend| bend.at <= t[j]) {
-                if bend.at == t[j] {
-                    jump += bend.jump;
+            while next.at <= t[j] {
+                if next.at == t[j] {
+                    jump += next.jump;
                 }
+                next = next_break();
             }
-            let share = if j < 2 { 0.0 } else { share(j) };
-            if share == 0.0 {
+            if j < 2 || !smooth(j) {
                 continue;
             }
-            let lack = match breaks.peek() {
-                Some(bend) if bend.at < t[j + 1] => root_cubed(bend.at - t[j]) * SINGLE,
-                _ => lack,
+            let lack = if next.at < t[j + 1] {
+                root_cubed(next.at - t[j]) * SINGLE
+            } else {
+                lack
             };
-            *p += share * per_pair * lack * jump;
+            add(j, per_pair * lack * jump);
         }
     }
 }
@@ -144,7 +151,8 @@ mod tests {
         let mut p = apply(&product::stress(grid.nodes()), &load);
         bend::add_to_stress(&breaks, t, &mut p);
         if corrected {
-            Curvature::new(&grid).add_to_stress(&load, 0.0, breaks, |_| 1.0, &mut p);
+            let add = |j: usize, more| p[j] += more;
+            Curvature::new(&grid).for_each(&load, 0.0, breaks, t.len(), |_| true, add);
         }
         let exact = |s: f64| FRAC_2_PI * (1.0 - s).sqrt() * ((1.0 - s) / 1.5 + 2.0 * s);
         let inside = t.iter().zip(&p).take(cell + 1);
@@ -183,11 +191,13 @@ mod tests {
         let (cell, breaks) = ending_at_one(t, &load);
         let mut p = vec![0.0; t.len()];
         let curvature = Curvature::new(&grid);
-        curvature.add_to_stress(&load, -0.3, breaks.iter().copied(), |_| 1.0, &mut p);
+        let add = |j: usize, more| p[j] += more;
+        curvature.for_each(&load, -0.3, breaks.iter().copied(), t.len(), |_| true, add);
         // The cusp is not linear in t in the edge's cell.
         assert!(p[..cell].iter().all(|p| p.abs() < 1e-13), "{p:?}");
         let mut q = vec![0.0; t.len()];
-        curvature.add_to_stress(&load, 0.0, breaks, |_| 1.0, &mut q);
+        let add = |j: usize, more| q[j] += more;
+        curvature.for_each(&load, 0.0, breaks, t.len(), |_| true, add);
         assert!(q[1..cell].iter().any(|p| p.abs() > 1e-6));
     }
 
@@ -205,9 +215,9 @@ mod tests {
             for (i, mut column) in stress.column_iter_mut().enumerate() {
                 let mut load = vec![0.0; grid.len()];
                 load[i] = 1.0;
-                let outside =
-                    |j: usize| f64::from(grid.border().is_none_or(|border| j > border + 1));
-                curvature.add_to_stress(&load, 0.0, [], outside, column.as_mut_slice());
+                let outside = |j: usize| grid.border().is_none_or(|border| j > border + 1);
+                let add = |j: usize, more| column[j] += more;
+                curvature.for_each(&load, 0.0, [], grid.len(), outside, add);
             }
             // What wears: the nodes outside the border, up to the last but one.
             let response = stress * worn::profile(&grid);

@@ -14,8 +14,8 @@
 //! The term f(0) in (1) is ours: a tip that wears recedes, and a constant must map to itself.
 //!
 //! [`bend`] adds what a kink between two nodes does and [`curvature`] what a curved load does, [`worn`]
-//! transforms the worn part of a profile that has a permanent stick zone, and [`rim`] finds where it
-//! ends.
+//! transforms the worn part of a profile that has a permanent stick zone, [`rim`] finds where it
+//! ends and [`rim_edge`] where the contact ends beside it.
 //!
 //! All methods here are linear in the nodal values, so an [`AbelPlan`] holds three operators, made
 //! once for a grid and applied with the caller's buffers. A method is what is computed, its [`Form`] is
@@ -48,6 +48,7 @@ pub mod fast;
 mod kernel;
 pub mod product;
 pub mod rim;
+pub mod rim_edge;
 #[cfg(test)]
 mod testing;
 pub mod worn;

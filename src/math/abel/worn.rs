@@ -25,7 +25,7 @@
 //! - **Cost**: that of [`product::profile`].
 //! - **At r = 0**: g = δ(0); a constant maps to itself.
 //! - **At the contact edge**: late in a run δ has a kink at the rim b of the worn zone and the
-//!   contact ends just outside it, in the same cell: see [`rim`](super::rim).
+//!   contact ends just outside it, in the same cell: see [`rim_edge`](super::rim_edge).
 //! - **Known failure**: for c below a third of the contact radius the region next to c dominates the
 //!   error (7e-4 of the depth at c = 0.17 and N = 100).
 //!

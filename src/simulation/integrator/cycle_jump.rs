@@ -220,7 +220,7 @@ fn attempt(
     let beyond_nodes = end.pop().unwrap_or_default();
     let friction_work = end.pop().unwrap_or_default();
     let settled = settled::cycle(setup, memory, work, &end)?;
-    check(setup, work)?;
+    check(setup, work, &end)?;
     Ok(After {
         wear: end,
         friction_work,

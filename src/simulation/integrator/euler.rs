@@ -42,8 +42,11 @@ pub(super) fn step(
         state,
         cycle,
         |state, reach, part| {
-            work.predicted.copy_from_slice(&work.g);
-            solve_contact(setup, state, work, reach)?;
+            // The contact is solved on the profile as it stands.
+            std::mem::swap(&mut work.g, &mut work.predicted);
+            let solved = solve_contact(setup, state, work, reach);
+            std::mem::swap(&mut work.g, &mut work.predicted);
+            solved?;
             let mut friction_work = worn(setup, state, work, reach);
             let stiffness = stiffness::of_step(setup, work, reach - state.cycle);
             match part {
@@ -67,29 +70,33 @@ pub(super) fn worn(setup: &Setup, state: &State, work: &mut Workspace, cycle: f6
     if setup.drive.tangential().is_none() {
         return 0.0;
     }
+    if let Some(law) = &setup.wear {
+        // Method B's stress looks one node across.
+        let end = (work.contact.normal.nodes + 1).min(work.worn.len());
+        solve::surface_slip(work, end);
+        let first = leading(&work.surface_slip[..end], |&slip| slip == 0.0);
+        let mut tau = std::mem::take(&mut work.working_shear);
+        let core = state.core_radius();
+        solve::shear_of(first..end, work, &setup.material, core, &mut tau);
+        work.working_shear = tau;
+        work.transforms += 1;
+        let seconds = (cycle - state.cycle) * setup.drive.period();
+        let (tau, slip) = (
+            &work.working_shear[first..end],
+            &work.surface_slip[first..end],
+        );
+        law.wear(tau, slip, seconds, &mut work.worn[first..end]);
+    }
+    work_of_friction(setup, work)
+}
+
+/// 2∫ q_x Δs dx, the integrand falling to zero at the contact's edge.
+fn work_of_friction(setup: &Setup, work: &mut Workspace) -> f64 {
     let modulus = setup.material.tangential_modulus();
     let springs = work.spring.iter().zip(&work.slip);
     for (work, (u, slip)) in work.friction_work.iter_mut().zip(springs) {
         *work = modulus * u * slip;
     }
-    if let Some(law) = &setup.wear {
-        // Method B's stress looks one node across.
-        solve::surface_slip(work, work.contact.normal.nodes + 1);
-        let first = leading(&work.surface_slip, |&slip| slip == 0.0);
-        let mut tau = std::mem::take(&mut work.working_shear);
-        let core = state.core_radius();
-        solve::shear_from(first, work, &setup.material, core, &mut tau);
-        work.working_shear = tau;
-        work.transforms += 1;
-        let seconds = (cycle - state.cycle) * setup.drive.period();
-        let (tau, slip) = (&work.working_shear[first..], &work.surface_slip[first..]);
-        law.wear(tau, slip, seconds, &mut work.worn[first..]);
-    }
-    work_of_friction(work)
-}
-
-/// 2∫ q_x Δs dx, the integrand falling to zero at the contact's edge.
-fn work_of_friction(work: &mut Workspace) -> f64 {
     let (normal, squares) = (&work.contact.normal, work.planned.grid.squares());
     work.work_breaks.clear();
     if normal.nodes > 0 && normal.nodes < squares.len() {
@@ -105,5 +112,5 @@ fn work_of_friction(work: &mut Workspace) -> f64 {
     }
     work.planned
         .row
-        .force(&work.friction_work, &work.work_breaks, normal.radius)
+        .force(&work.friction_work, &work.work_breaks, normal.edge())
 }

@@ -9,6 +9,7 @@ use super::workspace::Workspace;
 use super::{Setup, at_rim, cycles_to_settle, volume_by_rate};
 use crate::math::quadrature::weighted;
 use crate::math::scan::largest;
+use crate::math::vector::vectorized;
 
 mod cycle_jump;
 mod euler;
@@ -82,7 +83,7 @@ fn commit(
     for ((after, before), worn) in work.wear.iter_mut().zip(&state.wear).zip(&work.worn) {
         *after = before + worn;
     }
-    check(setup, work)?;
+    check(setup, work, &work.wear)?;
     std::mem::swap(&mut state.wear, &mut work.wear);
     if let Some(law) = &setup.wear {
         // The two sides of V = k E_d: what work explains, and what other laws wore.
@@ -91,7 +92,11 @@ fn commit(
         } else {
             state.unexplained_volume += weighted(&work.planned.volume_weights, &work.worn);
         }
-        update_profile_keeping_growth(state, work);
+        match setup.scheme {
+            Scheme::Euler => update_profile(work, &state.wear),
+            Scheme::Trapezoid => update_profile_keeping_growth(state, work),
+        }
+        std::mem::swap(&mut state.last.wear, &mut work.worn);
         state.volume_between_nodes = match work.beyond_nodes {
             Some(volume) => state.volume_between_nodes + volume,
             None => at_rim(work),
@@ -113,18 +118,21 @@ fn update_profile_keeping_growth(state: &mut State, work: &mut Workspace) {
     for (growth, g) in state.last.growth.iter_mut().zip(&work.g) {
         *growth = g - *growth;
     }
-    std::mem::swap(&mut state.last.wear, &mut work.worn);
 }
 
 /// Refuses a worn profile that is not finite or far above anything that can touch.
-fn check(setup: &Setup, work: &Workspace) -> Result<(), Cause> {
+fn check(setup: &Setup, work: &Workspace, wear: &[f64]) -> Result<(), Cause> {
     let (method, stability) = (setup.method, setup.stability);
-    let highest = largest(&work.wear);
+    let (highest, finite) = vectorized(
+        #[inline(always)]
+        || {
+            let finite = wear.iter().fold(true, |all, worn| all & worn.is_finite());
+            (largest(wear), finite)
+        },
+    );
     let deepest = setup.depth_scale(work.contact.depth);
     let worn = highest / deepest;
-    // Only a finite profile has a finite volume.
-    let volume = weighted(&work.planned.volume_weights, &work.wear);
-    if !volume.is_finite() || worn == f64::INFINITY && deepest > 0.0 {
+    if !finite || worn == f64::INFINITY && deepest > 0.0 {
         return Err(Cause::NotFinite {
             quantity: "worn profile",
             method,
@@ -132,7 +140,7 @@ fn check(setup: &Setup, work: &Workspace) -> Result<(), Cause> {
         });
     }
     if worn > RUNAWAY && deepest > 0.0 {
-        let at = work.wear.iter().position(|&worn| worn == highest);
+        let at = wear.iter().position(|&worn| worn == highest);
         return Err(Cause::Runaway {
             worn,
             radius: setup.grid.nodes()[at.unwrap_or_default()],

@@ -19,7 +19,7 @@ use super::super::Setup;
 use super::super::breakdown::Cause;
 use super::super::choices::Scheme;
 use super::super::drive::{Control, Oscillation};
-use super::super::solve::{pressure, shear, solve_contact, update_profile};
+use super::super::solve::{solve_contact, stresses, update_profile};
 use super::super::state::{SettledCycle, State};
 use super::super::workspace::Workspace;
 use super::{euler, steady_load, stiffness, take_over, trapezoid};
@@ -74,8 +74,14 @@ fn period(
         take_over(memory, work, moment);
     }
     let core = memory.core_radius();
-    pressure(work, &setup.material, core, &mut memory.last.pressure);
-    shear(work, &setup.material, core, &mut memory.last.shear);
+    let last = &mut memory.last;
+    stresses(
+        work,
+        &setup.material,
+        core,
+        &mut last.pressure,
+        &mut last.shear,
+    );
     work.transforms += 2;
     memory.cycle = 0.0;
     let mut settled = SettledCycle {
@@ -144,8 +150,14 @@ fn plain_cycle(
     solve_contact(setup, memory, work, 0.0)?;
     take_over(memory, work, 0.0);
     let core = memory.core_radius();
-    pressure(work, &setup.material, core, &mut memory.last.pressure);
-    shear(work, &setup.material, core, &mut memory.last.shear);
+    let last = &mut memory.last;
+    stresses(
+        work,
+        &setup.material,
+        core,
+        &mut last.pressure,
+        &mut last.shear,
+    );
 
     let reach = setup.material.friction() / setup.material.tangential_modulus();
     let (load, squares) = (&work.normal_load, work.planned.grid.squares());

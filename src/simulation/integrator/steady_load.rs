@@ -32,10 +32,12 @@ pub(super) fn wear(
     for (limit, load) in work.friction_work.iter_mut().zip(&work.normal_load) {
         *limit = friction * load;
     }
-    work.worn.fill(0.0);
-    if let Some(law) = &setup.wear {
-        let (tau, slip) = (&work.working_shear, &work.surface_slip);
-        law.wear(tau, slip, seconds, &mut work.worn);
+    match &setup.wear {
+        Some(law) => {
+            let (tau, slip) = (&work.working_shear, &work.surface_slip);
+            law.wear(tau, slip, seconds, &mut work.worn);
+        }
+        None => work.worn.fill(0.0),
     }
     let end = LoadEnd::now(work);
     work.beyond_nodes = worn_volume::beyond_nodes(setup, work, [end, end], zone);
@@ -46,5 +48,5 @@ pub(super) fn wear(
     };
     let row = &work.planned.row;
     let (limit, slip) = (&work.friction_work, &work.slip);
-    at_edge + row.work(limit, slip, kinks, contact.normal.radius)
+    at_edge + row.work(limit, slip, kinks, contact.normal.edge())
 }

@@ -32,7 +32,7 @@ use std::hint::select_unpredictable as select;
 
 use super::super::Setup;
 use super::super::breakdown::Cause;
-use super::super::solve::{pressure, shear, solve_contact, surface_slip};
+use super::super::solve::{self, solve_contact, surface_slip};
 use super::super::state::State;
 use super::super::workspace::Workspace;
 use super::parts::{self, Outcome, Part};
@@ -147,7 +147,7 @@ fn work_of_friction(setup: &Setup, state: &State, work: &mut Workspace) -> f64 {
     let edge = friction * (work.contact.edge_load + state.last.edge_load) * at_edge;
     let row = &work.planned.row;
     let (limit, slip) = (&work.friction_work, &work.slip);
-    edge + row.work(limit, slip, &work.slip_kinks, normal.radius)
+    edge + row.work(limit, slip, &work.slip_kinks, normal.edge())
 }
 
 /// Where the slip of the step bends between springs: where a border of stick is now, and where one was
@@ -173,8 +173,7 @@ pub(super) fn stresses(setup: &Setup, state: &State, work: &mut Workspace) {
         std::mem::take(&mut work.shear),
     );
     let core = state.core_radius();
-    pressure(work, &setup.material, core, &mut p);
-    shear(work, &setup.material, core, &mut tau);
+    solve::stresses(work, &setup.material, core, &mut p, &mut tau);
     (work.pressure, work.shear) = (p, tau);
     work.transforms += 2;
     // What carried a stress before or carries one now wears; method B's stress looks one node across.

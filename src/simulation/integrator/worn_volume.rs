@@ -21,7 +21,7 @@ use super::super::Setup;
 use super::super::state::LastStep;
 use super::super::workspace::Workspace;
 use crate::math::abel::bend::{self, Bend};
-use crate::math::abel::rim::RimEdge;
+use crate::math::abel::rim_edge::RimEdge;
 use crate::math::abel::worn;
 use crate::math::quadrature::weighted;
 use crate::math::scan::leading;

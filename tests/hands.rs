@@ -455,7 +455,7 @@ fn finer_and_coarser_walk_along_the_front() {
     let text = shot_of(&desk, "li2019-fig3", ",>");
     assert_eq!(
         foot(&text),
-        "expected error 1e-4 of the depth: N = 207, 40 steps a cycle"
+        "expected error 1e-4 of the depth: N = 147, 21 steps a cycle"
     );
     let text = shot_of(&desk, "li2019-fig3", ",<lt><lt>,s");
     assert!(text.contains("li2019-fig3-cycle-2"), "{text}");
@@ -465,7 +465,7 @@ fn finer_and_coarser_walk_along_the_front() {
     }
     let state = desk.read("li2019-fig3-cycle-2/state.csv");
     let rows = state.lines().filter(|line| !line.starts_with('#')).count();
-    assert_eq!(rows, 1 + 31 + 1);
+    assert_eq!(rows, 1 + 17 + 1);
     let said = desk.say(&[
         "run",
         "li2019-fig3-cycle-2/scenario.toml",

@@ -9,7 +9,7 @@ use mdr_tui::math::abel::AbelMethod;
 use mdr_tui::scenario::session::Session;
 use mdr_tui::scenario::{Change, RunPlan, Scenario, preset};
 use mdr_tui::simulation::drive::Control;
-use mdr_tui::simulation::{Scheme, Simulation, Spacing};
+use mdr_tui::simulation::{Integrator, Scheme, Simulation, Spacing};
 use mdr_tui::wear::WearLaw;
 use proptest::prelude::*;
 
@@ -387,6 +387,7 @@ fn a_run_written_out_keeps_its_plan_and_its_changes() {
         cycles: Some(12.345),
         snapshot_at: vec![0.1 + 0.2, 7.0],
         note: Some("a \"remark\"\nin two lines".into()),
+        ..RunPlan::default()
     };
     let changes = vec![
         Change::new(1.0, "numerics.method", "\"b\""),
@@ -418,27 +419,62 @@ fn an_accuracy_chooses_cells_and_steps() {
         let setup = scenario.setup();
         (setup.grid.cells(), setup.steps_per_cycle)
     };
-    let fine = load("limit-shape", &["numerics.accuracy=1e-4"]);
-    assert_eq!(chosen(&fine), (207, 40));
+    let jumps = |tolerance| Integrator::CycleJump { tolerance };
+    let fine = load("li2019-fig3", &["numerics.accuracy=1e-4"]);
+    assert_eq!(chosen(&fine), (147, 21));
+    assert_eq!(fine.setup().integrator, jumps(7e-5));
     assert_eq!(fine.expected_error(), Some(1e-4));
     let text = fine.to_toml();
     for line in [
         "accuracy = 1e-4",
-        "# points = 207  # what the accuracy asks for",
-        "# steps_per_cycle = 40  # what the accuracy asks for",
+        "# points = 147  # what the accuracy asks for",
+        "# steps_per_cycle = 21  # what the accuracy asks for",
+        "# integrator = \"cycle-jump\"  # what the accuracy asks for",
+        "# tolerance = 7e-5  # what the accuracy asks for",
     ] {
         assert_line(&text, line);
     }
     assert_eq!(again(&fine), fine);
     let coarse = fine.with("numerics.accuracy", "1e-2").expect("coarser");
-    assert_eq!(chosen(&coarse), (16, 12));
+    assert_eq!(chosen(&coarse), (12, 8));
     let by_hand = coarse.with("numerics.points", "50").expect("by hand");
-    assert_eq!(chosen(&by_hand), (50, 12));
+    assert_eq!(chosen(&by_hand), (50, 8));
+    assert_eq!(by_hand.setup().integrator, jumps(7e-3));
     assert_eq!(by_hand.value("numerics.accuracy"), None);
     assert_eq!(again(&by_hand), by_hand);
     let published = fine.with("numerics.method", "b").expect("another method");
-    assert_eq!(chosen(&published), (207, 40));
+    assert_eq!(chosen(&published), (147, 21));
     assert_eq!(published.expected_error(), None);
+    // It chooses by the length of the run.
+    let short = fine.with("run.cycles", "5").expect("a short run");
+    assert!(chosen(&short) < chosen(&coarse) || chosen(&short).0 < 40);
+}
+
+/// The integrator is chosen only where none is given; its tolerance always goes with the accuracy.
+#[test]
+fn an_accuracy_leaves_the_integrator_that_is_given() {
+    let integrator = |sets: &[&str]| load("li2019-fig3", sets).setup().integrator;
+    let direct = ["numerics.integrator=direct", "numerics.accuracy=1e-3"];
+    assert_eq!(integrator(&direct), Integrator::Direct);
+    let [first, second] = direct;
+    assert_eq!(integrator(&[second, first]), Integrator::Direct);
+    // A scenario that is loaded has one, so that a live run goes on as it went.
+    let live = load("li2019-fig3", &[]).with("numerics.accuracy", "1e-3");
+    let live = live.expect("an accuracy");
+    assert_eq!(live.setup().integrator, Integrator::Direct);
+    let million = load("mild-million", &[]).with("numerics.accuracy", "1e-3");
+    let million = million.expect("an accuracy");
+    assert_eq!(
+        million.setup().integrator,
+        Integrator::CycleJump { tolerance: 7e-4 }
+    );
+    // By hand, the tolerance takes the place of the accuracy.
+    let by_hand = million
+        .with("numerics.tolerance", "1.4e-3")
+        .expect("by hand");
+    assert_eq!(by_hand.value("numerics.accuracy"), None);
+    let expected = by_hand.expected_error().expect("an error");
+    assert_relative_eq!(expected, 2e-3, max_relative = 1e-12);
 }
 
 #[test]
@@ -592,7 +628,7 @@ proptest! {
         let scenario = load(preset::ALL[preset].name, &[])
             .with_all(&assignments)
             .map_err(|error| TestCaseError::fail(error.to_string()))?
-            .with_run(RunPlan { cycles, snapshot_at, note: None })
+            .with_run(RunPlan { cycles, snapshot_at, ..RunPlan::default() })
             .with_changes(vec![Change::new(at_cycle, "friction.coefficient", &number(phase.abs()))]);
         let text = scenario.to_toml();
         let read = Scenario::from_toml(&text, scenario.origin(), &[])

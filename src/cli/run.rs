@@ -102,7 +102,13 @@ struct Job {
 
 impl Job {
     fn start(options: &Run, name: &str) -> Result<Self> {
-        let scenario = Scenario::load(name, &options.changes.set)?;
+        let mut scenario = Scenario::load(name, &options.changes.set)?;
+        if let Some(cycles) = options.cycles
+            && scenario.value("numerics.accuracy").is_some()
+        {
+            // An accuracy chooses by the length of this run.
+            scenario = scenario.with("run.cycles", &cycles.to_string())?;
+        }
         let errand = Errand::new(options, &scenario, name)?;
         let session = Session::start(scenario).with_context(|| printable(name))?;
         let path = options.out.clone();

@@ -2,11 +2,10 @@
 
 use toml::{Table, Value};
 
-use super::accuracy;
 use super::check::unknown;
 use super::error::{Origin, ScenarioError, echo};
 use super::parameters::{self, Kind, Parameter};
-use super::validate::CHOSEN_BY_ACCURACY;
+use super::validate::{self, CHOSEN_BY_ACCURACY};
 use super::write;
 
 /// Splits `KEY=VALUE`; `flag` stands before it in messages.
@@ -61,6 +60,9 @@ pub(super) fn assign(
 /// made by hand leaves the others as they were chosen.
 fn trade_accuracy_for_choices(table: &mut Table, path: &str) {
     let given = write::at(table, "numerics.accuracy").and_then(Value::as_float);
+    let chosen = given
+        .filter(|_| CHOSEN_BY_ACCURACY.contains(&path))
+        .map(|accuracy| validate::chosen(table, accuracy));
     let Some(Value::Table(numerics)) = table.get_mut("numerics") else {
         return;
     };
@@ -69,11 +71,14 @@ fn trade_accuracy_for_choices(table: &mut Table, path: &str) {
         for chosen in CHOSEN_BY_ACCURACY {
             numerics.remove(&key(chosen));
         }
-    } else if let (true, Some(given)) = (CHOSEN_BY_ACCURACY.contains(&path), given) {
-        let (points, steps) = accuracy::choices(given);
+    } else if let Some(chosen) = chosen {
         numerics.remove("accuracy");
-        numerics.insert("points".into(), Value::Integer(points));
-        numerics.insert("steps_per_cycle".into(), Value::Integer(steps));
+        numerics.insert("points".into(), Value::Integer(chosen.points));
+        numerics.insert("steps_per_cycle".into(), Value::Integer(chosen.steps));
+        numerics.insert("tolerance".into(), Value::Float(chosen.tolerance));
+        numerics
+            .entry("integrator")
+            .or_insert_with(|| chosen.integrator().into());
     }
 }
 

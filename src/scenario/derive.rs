@@ -58,6 +58,23 @@ pub(super) fn domain_radius(
     }
 }
 
+/// The radius that the unworn contact has where it is deepest, or reaches when it has worn there, m: the rim, or
+/// where f₀ is the largest depth.
+pub(super) fn touching_radius(
+    indenter: &Indenter,
+    material: &Material,
+    control: &Control,
+) -> Option<f64> {
+    if let Some(rim) = indenter.rim() {
+        return Some(rim);
+    }
+    let depth = match control {
+        Control::Displacement(depth) => depth.highest(),
+        Control::Force(force) => press_by(indenter, material, force.highest())?.depth,
+    };
+    Some(indenter.radius_at(depth))
+}
+
 /// τ_ref, Pa, and v_ref, m/s, of the power law where the scenario gives none: μ times the mean
 /// pressure at the mean normal position, and the greatest tangential velocity of the indenter.
 pub(super) fn references(

@@ -9,7 +9,7 @@ use std::path::Path;
 use toml::Table;
 
 use crate::math::abel::AbelMethod;
-use crate::simulation::{Scheme, Setup};
+use crate::simulation::{Integrator, Scheme, Setup};
 
 pub mod accuracy;
 mod assign;
@@ -28,6 +28,7 @@ mod table;
 mod validate;
 mod write;
 
+use accuracy::Scene;
 use error::{Origin, echo};
 pub use error::{ScenarioError, printable};
 pub use run::{Change, MOST_CYCLES, MOST_SNAPSHOTS, RunPlan};
@@ -42,6 +43,8 @@ pub struct Scenario {
     /// but for those that follow the method.
     table: Table,
     setup: Setup,
+    /// What is known of its accuracy.
+    scene: Scene,
     run: RunPlan,
     changes: Vec<Change>,
 }
@@ -179,12 +182,23 @@ impl Scenario {
     pub fn expected_error(&self) -> Option<f64> {
         let setup = &self.setup;
         let known = setup.method == AbelMethod::Product && setup.scheme == Scheme::Trapezoid;
-        if !known || setup.wear.is_none() {
-            return None;
-        }
+        (known && setup.wear.is_some()).then(|| self.present_accuracy())
+    }
+
+    /// The accuracy that is asked for, or that would choose the finest of the present cells, steps and tolerance
+    /// or a coarser one.
+    pub fn present_accuracy(&self) -> f64 {
+        let setup = &self.setup;
+        let tolerance = match setup.integrator {
+            Integrator::Direct => None,
+            Integrator::CycleJump { tolerance } => Some(tolerance),
+        };
         let asked = self.value("numerics.accuracy");
         let asked = asked.and_then(|value| value.parse().ok());
-        asked.or_else(|| Some(accuracy::expected(setup.grid.cells())))
+        asked.unwrap_or_else(|| {
+            self.scene
+                .expected(setup.grid.cells(), setup.steps_per_cycle, tolerance)
+        })
     }
 
     /// The value at a dotted path as TOML, where the scenario gives one.
@@ -215,7 +229,11 @@ impl Scenario {
                         "numerics.steps_per_cycle",
                         setup.steps_per_cycle.to_string(),
                     ),
+                    ("numerics.integrator", quoted(setup.integrator.name())),
                 ]);
+                if let Integrator::CycleJump { tolerance } = setup.integrator {
+                    follows.push(("numerics.tolerance", write::number(tolerance)));
+                }
                 "what the accuracy asks for".to_owned()
             }
             None => format!("default of method \"{}\"", setup.method),
@@ -228,10 +246,10 @@ impl Scenario {
         check::keys(&table, from)?;
         let mut raw = read::mirror(table.clone(), from)?;
         raw.fill_in();
-        let run = std::mem::take(&mut raw.run);
         let changes = std::mem::take(&mut raw.changes);
         validate::accuracy(&raw, &table, from)?;
-        let setup = validate::setup(&raw.resolved(), &table, from)?;
+        let (setup, scene) = validate::setup(&raw, &table, from)?;
+        let run = std::mem::take(&mut raw.run);
         let mut table = Table::try_from(&raw).map_err(|error| from.broken(&error))?;
         table.remove("run");
         table.remove("changes");
@@ -251,6 +269,7 @@ impl Scenario {
             description: lines.join("\n"),
             table,
             setup,
+            scene,
             run,
             changes: Vec::new(),
         };

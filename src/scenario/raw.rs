@@ -5,7 +5,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Change, RunPlan, accuracy};
+use super::accuracy::Scene;
+use super::{Change, RunPlan};
 use crate::math::abel::AbelMethod;
 
 /// A whole scenario.
@@ -124,9 +125,9 @@ impl Raw {
             or(&mut wear.law, "archard");
         }
         or(&mut self.numerics.stability, "sub-step");
-        or(&mut self.numerics.integrator, "direct");
         // An accuracy chooses these, and goes on choosing them when it is changed.
         if self.numerics.accuracy.is_none() {
+            or(&mut self.numerics.integrator, "direct");
             or(&mut self.numerics.method, DEFAULT_METHOD.name());
             self.numerics.points.get_or_insert(DEFAULT_POINTS);
             self.numerics
@@ -135,14 +136,19 @@ impl Raw {
         }
     }
 
-    /// The same with what an accuracy chooses filled in.
-    pub fn resolved(&self) -> Self {
+    /// The same with what an accuracy chooses for `scene` filled in; an integrator that is given stays.
+    pub fn resolved(&self, scene: &Scene) -> Self {
         let mut raw = self.clone();
         if let Some(accuracy) = raw.numerics.accuracy {
-            let (points, steps) = accuracy::choices(accuracy);
-            raw.numerics.method = Some(DEFAULT_METHOD.name().into());
-            raw.numerics.points = Some(points);
-            raw.numerics.steps_per_cycle = Some(steps);
+            let chosen = scene.choices(accuracy);
+            let numerics = &mut raw.numerics;
+            numerics.method = Some(DEFAULT_METHOD.name().into());
+            numerics.points = Some(chosen.points);
+            numerics.steps_per_cycle = Some(chosen.steps);
+            numerics.tolerance = Some(chosen.tolerance);
+            numerics
+                .integrator
+                .get_or_insert_with(|| chosen.integrator().to_owned());
         }
         raw
     }

@@ -19,6 +19,9 @@ pub struct RunPlan {
     pub cycles: Option<f64>,
     /// Cycles at which the state is written; those after the end of the run are never reached.
     pub snapshot_at: Vec<f64>,
+    /// How long the run was to be, in cycles, where it was stopped before or went further: what an accuracy has
+    /// chosen by.
+    pub planned: Option<f64>,
     /// A remark that is kept with the files.
     pub note: Option<String>,
 }
@@ -26,11 +29,12 @@ pub struct RunPlan {
 impl RunPlan {
     /// Refuses cycles that are negative, not finite or absurdly many; the field is that of `[run]`.
     pub fn check(&self) -> Result<(), Invalid> {
-        if let Some(cycles) = self.cycles {
-            non_negative("cycles", cycles)?;
+        for (field, cycles) in [("cycles", self.cycles), ("planned", self.planned)] {
+            let Some(cycles) = cycles else { continue };
+            non_negative(field, cycles)?;
             if cycles > MOST_CYCLES {
                 let rule = format!("must be {MOST_CYCLES:e} or less");
-                return Err(Invalid::new("cycles", cycles, rule));
+                return Err(Invalid::new(field, cycles, rule));
             }
         }
         let snapshots = self.snapshot_at.len();
@@ -52,6 +56,9 @@ impl RunPlan {
             table.insert("cycles".into(), Value::Float(cycles));
         }
         table.insert("snapshot_at".into(), self.snapshot_at.clone().into());
+        if let Some(planned) = self.planned {
+            table.insert("planned".into(), Value::Float(planned));
+        }
         if let Some(note) = &self.note {
             table.insert("note".into(), Value::String(note.clone()));
         }
@@ -76,6 +83,11 @@ impl Change {
             at_cycle,
             set: format!("{key} = {value}"),
         }
+    }
+
+    /// The dotted path of what changes.
+    pub fn key(&self) -> &str {
+        self.set.split_once('=').map_or("", |(key, _)| key.trim())
     }
 
     pub(super) fn to_table(&self) -> Table {

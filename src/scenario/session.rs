@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 
 use thiserror::Error;
 
-use super::{Change, RunPlan, Scenario, ScenarioError};
+use super::{Change, RunPlan, Scenario, ScenarioError, accuracy};
 use crate::simulation::{Breakdown, Saved, Simulation, Unfit};
 
 /// Why a session could not start, change or go on.
@@ -169,10 +169,16 @@ impl Session {
 
     /// The run so far as a scenario of its own: what was loaded, each change, and where it stands.
     pub fn as_run(&self, snapshot_at: Vec<f64>) -> Scenario {
+        let loaded = self.loaded.run();
+        // What an accuracy chooses depends on the length of the run.
+        let by_accuracy = |change: &Change| change.key() == "numerics.accuracy";
+        let chosen = self.loaded.value("numerics.accuracy").is_some()
+            || self.changes.iter().any(by_accuracy);
         let plan = RunPlan {
             cycles: Some(self.simulation.cycle()),
             snapshot_at,
-            note: self.loaded.run().note.clone(),
+            planned: chosen.then(|| accuracy::planned(loaded)),
+            note: loaded.note.clone(),
         };
         self.loaded
             .with_changes(self.changes.clone())

@@ -280,7 +280,7 @@ pub const PARAMETERS: &[Parameter] = &[
             "numerics.accuracy",
             "",
             POSITIVE,
-            "error of the worn profile, in largest depths: chooses method, points and steps",
+            "error of the worn profile, in largest depths: chooses method, points, steps and jumps",
         )
     },
     key(
@@ -348,6 +348,12 @@ pub const PARAMETERS: &[Parameter] = &[
             "moments at which the state is written",
         )
     },
+    number(
+        "run.planned",
+        "cycles",
+        NOT_NEGATIVE,
+        "length that an accuracy has chosen by, where the run ended elsewhere",
+    ),
     key(
         "run.note",
         "",

@@ -3,12 +3,13 @@
 
 use toml::{Table, Value};
 
-use super::accuracy::RUNGS;
+use super::accuracy::{self, Choices, RUNGS, Scene};
 use super::check::{missing, show};
 use super::derive;
 use super::error::{Origin, ScenarioError};
 use super::parameters::{self, PARAMETERS};
 use super::raw::{Raw, RawBody, RawOscillation};
+use super::read;
 use super::run::RunPlan;
 use super::write;
 use crate::contact::indenter::Indenter;
@@ -26,20 +27,33 @@ const MOST_STEPS: i64 = 1_000_000;
 /// The most periods of the normal motion in a cycle.
 const HIGHEST_RATIO: f64 = 1000.0;
 
-/// Makes the parts of a scenario; `table` is what `raw` mirrors.
-pub(super) fn setup(raw: &Raw, table: &Table, origin: &Origin) -> Result<Setup, ScenarioError> {
+/// Makes the parts of a scenario, and what is known of its accuracy; `table` is what `raw` mirrors.
+pub(super) fn setup(
+    raw: &Raw,
+    table: &Table,
+    origin: &Origin,
+) -> Result<(Setup, Scene), ScenarioError> {
     let parts = Parts { raw, table, origin };
     let indenter = parts.indenter()?;
     let drive = parts.drive()?;
     let material = parts.material()?;
     let wear = parts.wear(&indenter, &material, &drive)?;
-    let numerics = &raw.numerics;
+    let cycles = accuracy::planned(&raw.run);
+    let domain = parts.domain_radius(&indenter, &material, &drive);
+    let scene = Scene::of(&indenter, &material, &drive, wear.as_ref(), domain, cycles);
+    let resolved = &raw.resolved(&scene);
+    let parts = Parts {
+        raw: resolved,
+        table,
+        origin,
+    };
+    let numerics = &resolved.numerics;
     let refused = |invalid| parts.refused("numerics", invalid);
     let method = parts.require(numerics.method.as_deref(), "numerics.method")?;
     let method: AbelMethod = method.parse().map_err(refused)?;
     let (spacing, scheme) = derive::choices(method);
-    Ok(Setup {
-        grid: parts.grid(method, &indenter, &material, &drive)?,
+    let setup = Setup {
+        grid: parts.grid(method, &indenter, domain)?,
         material,
         indenter,
         drive,
@@ -63,7 +77,19 @@ pub(super) fn setup(raw: &Raw, table: &Table, origin: &Origin) -> Result<Setup, 
             numerics.tolerance.unwrap_or(Integrator::DEFAULT_TOLERANCE),
         )
         .map_err(refused)?,
-    })
+    };
+    Ok((setup, scene))
+}
+
+/// What an accuracy chooses in a table; as for any scene where the table makes none yet.
+pub(super) fn chosen(table: &Table, accuracy: f64) -> Choices {
+    let origin = Origin::new("");
+    let scene = read::mirror(table.clone(), &origin).and_then(|mut raw| {
+        raw.fill_in();
+        setup(&raw, table, &origin)
+    });
+    let scene = scene.map_or(Scene::ANY, |(_, scene)| scene);
+    scene.choices(accuracy)
 }
 
 /// Refuses an accuracy out of range, and one beside what it is to choose.
@@ -86,10 +112,11 @@ pub(super) fn accuracy(raw: &Raw, table: &Table, origin: &Origin) -> Result<(), 
 }
 
 /// What `numerics.accuracy` stands for.
-pub(super) const CHOSEN_BY_ACCURACY: [&str; 3] = [
+pub(super) const CHOSEN_BY_ACCURACY: [&str; 4] = [
     "numerics.method",
     "numerics.points",
     "numerics.steps_per_cycle",
+    "numerics.tolerance",
 ];
 
 /// Checks `[run]`.
@@ -316,12 +343,22 @@ impl Parts<'_> {
         Ok(Some(law))
     }
 
+    /// The domain's edge, m, as given or as derived.
+    fn domain_radius(
+        &self,
+        indenter: &Indenter,
+        material: &Material,
+        drive: &Drive,
+    ) -> Option<f64> {
+        let given = self.raw.numerics.domain_radius;
+        given.or_else(|| derive::domain_radius(indenter, material, drive.normal()))
+    }
+
     fn grid(
         &self,
         method: AbelMethod,
         indenter: &Indenter,
-        material: &Material,
-        drive: &Drive,
+        domain: Option<f64>,
     ) -> Result<RadialGrid, ScenarioError> {
         let numerics = &self.raw.numerics;
         let points = self.require(numerics.points, "numerics.points")?;
@@ -339,16 +376,13 @@ impl Parts<'_> {
                 format!("does not go with shape = \"{shape}\", whose rim is the domain's edge");
             return Err(self.refuse("numerics.domain_radius", "", rule));
         }
-        let radius = numerics
-            .domain_radius
-            .or_else(|| derive::domain_radius(indenter, material, drive.normal()))
-            .ok_or_else(|| {
-                self.refuse(
-                    "motion.normal.mean",
-                    "",
-                    "no contact carries this force; must be smaller",
-                )
-            })?;
+        let radius = domain.ok_or_else(|| {
+            self.refuse(
+                "motion.normal.mean",
+                "",
+                "no contact carries this force; must be smaller",
+            )
+        })?;
         if indenter
             .kink()
             .is_some_and(|tip_radius| tip_radius >= radius)

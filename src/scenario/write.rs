@@ -92,7 +92,7 @@ fn escaped(text: &str) -> String {
 }
 
 /// The shortest form that reads back to the same bits, and as a float.
-fn number(number: f64) -> String {
+pub(super) fn number(number: f64) -> String {
     let size = number.abs();
     if number != 0.0 && number.is_finite() && !(1e-3..1e6).contains(&size) {
         format!("{number:e}")

@@ -10,8 +10,8 @@ use super::choices::{Integrator, Spacing};
 use super::{Setup, Simulation};
 use crate::math::grid::RadialGrid;
 
-/// The most cells and steps a cycle of a pilot run.
-const PILOT_CELLS: usize = 200;
+/// The fewest and the most cells of a pilot run, and its most steps a cycle.
+const PILOT_CELLS: [usize; 2] = [64, 200];
 const PILOT_STEPS: u32 = 200;
 
 /// How far inside the border its node stands: in parts of the domain, in parts of the cell outside it,
@@ -43,11 +43,14 @@ pub(super) fn graded(setup: &Setup, from: Option<&Simulation>) -> Setup {
         return uniform;
     }
     let graded = melan(&uniform).and_then(|(depth, unworn)| {
-        let first = with_border(&uniform, unworn, 0.0, PILOT_CELLS)?;
+        let cells = uniform.grid.cells();
+        let [fewest, most] = PILOT_CELLS;
+        let of_pilot = cells.clamp(fewest, most);
+        let first = with_border(&uniform, unworn, 0.0, of_pilot)?;
         let second = pilot(&first, from, depth)?;
-        let second = with_border(&uniform, second, 0.0, PILOT_CELLS)?;
+        let second = with_border(&uniform, second, 0.0, of_pilot)?;
         let border = pilot(&second, from, depth)?;
-        with_border(&uniform, border, unworn - border, usize::MAX)
+        with_border(&uniform, border, unworn - border, cells)
     });
     graded.unwrap_or(uniform)
 }
@@ -85,9 +88,9 @@ fn melan(setup: &Setup) -> Option<(f64, f64)> {
     Some((depth, outside))
 }
 
-/// A setup with at most `cells` cells and a node a hair inside `border`, which wear has `moved` inwards (m).
+/// A setup with `cells` cells and a node a hair inside `border`, which wear has `moved` inwards (m).
 fn with_border(setup: &Setup, border: f64, moved: f64, cells: usize) -> Option<Setup> {
-    let (cells, radius) = (setup.grid.cells().min(cells), setup.grid.radius());
+    let radius = setup.grid.radius();
     let rough = RadialGrid::graded(cells, border, radius).ok()?;
     let at = rough.border()?;
     let cell = rough.nodes()[at + 1] - rough.nodes()[at];

@@ -213,7 +213,7 @@ const EFFECTS: &[(&str, &str)] = &[
     ),
     (
         "numerics.accuracy",
-        "less: finer and slower; chooses method, points and steps",
+        "less: finer and slower; chooses method, points, steps, jumps",
     ),
     ("numerics.method", "how the three transforms are computed"),
     ("numerics.points", "more: finer and slower"),

@@ -5,7 +5,7 @@
 //! radius, in contact radii, and of the worn volume, in parts of it. The reference is the best method,
 //! twice as fine as the finest that is tried; how far it is itself from half as fine is told with it.
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use crate::math::abel::worn;
 use crate::scenario::Scenario;
@@ -19,8 +19,8 @@ pub use setting::{Ladder, POINTS, STEPS, Setting, TOLERANCES};
 /// Radii at which profiles are compared.
 const RADII: usize = 401;
 
-/// A run is repeated until it has taken this long, and its median time counts.
-const LONG_ENOUGH: Duration = Duration::from_millis(60);
+/// A run is repeated until it has taken this long, s, and its median time counts.
+const LONG_ENOUGH: f64 = 0.06;
 
 /// The most repetitions.
 const REPETITIONS: usize = 5;
@@ -85,25 +85,39 @@ pub fn run(
     cycles: f64,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Option<Result<Sample, SessionError>> {
+    let (mut times, mut all) = (Vec::new(), 0.0);
+    loop {
+        let sample = match run_once(scenario, setting, cycles, go_on)? {
+            Ok(sample) => sample,
+            Err(error) => return Some(Err(error)),
+        };
+        all += sample.seconds;
+        times.push(sample.seconds);
+        if all >= LONG_ENOUGH || times.len() == REPETITIONS {
+            times.sort_by(f64::total_cmp);
+            return Some(Ok(Sample {
+                seconds: times[times.len() / 2],
+                ..sample
+            }));
+        }
+    }
+}
+
+/// The same once, for who counts work and not time.
+pub fn run_once(
+    scenario: &Scenario,
+    setting: &Setting,
+    cycles: f64,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Option<Result<Sample, SessionError>> {
     let scenario = match setting.of(scenario) {
         Ok(scenario) => scenario,
         Err(error) => return Some(Err(error.into())),
     };
-    let (mut times, mut all) = (Vec::new(), Duration::ZERO);
-    loop {
-        let start = Instant::now();
-        let session = match one_run(&scenario, cycles, go_on)? {
-            Ok(session) => session,
-            Err(error) => return Some(Err(error)),
-        };
-        let taken = start.elapsed();
-        all += taken;
-        times.push(taken.as_secs_f64());
-        if all >= LONG_ENOUGH || times.len() == REPETITIONS {
-            times.sort_by(f64::total_cmp);
-            return Some(Ok(sample(&session, times[times.len() / 2])));
-        }
-    }
+    let start = Instant::now();
+    let session = one_run(&scenario, cycles, go_on)?;
+    let seconds = start.elapsed().as_secs_f64();
+    Some(session.map(|session| sample(&session, seconds)))
 }
 
 fn one_run(

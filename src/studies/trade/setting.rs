@@ -8,12 +8,12 @@ use crate::simulation::{Integrator, Scheme};
 pub const POINTS: [usize; 6] = [12, 25, 50, 100, 200, 400];
 
 /// Steps a cycle that are tried.
-pub const STEPS: [u32; 5] = [12, 25, 50, 100, 200];
+pub const STEPS: [u32; 6] = [8, 12, 25, 50, 100, 200];
 
 /// Tolerances of jumps that are tried.
-pub const TOLERANCES: [f64; 4] = [1e-2, 1e-3, 1e-4, 1e-5];
+pub const TOLERANCES: [f64; 5] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5];
 
-/// Steps a cycle under jumps.
+/// Steps a cycle under jumps by another method than the best.
 const STEPS_UNDER_JUMPS: u32 = 50;
 
 /// A method, its scheme, and how fine.
@@ -101,7 +101,7 @@ impl Ladder {
     /// the best method; a scenario that asks for jumps is not tried without.
     pub fn settings(&self, scenario: &Scenario) -> Vec<Setting> {
         let setup = scenario.setup();
-        let wants_jumps = setup.integrator != Integrator::Direct;
+        let wants_jumps = wants_jumps(scenario);
         let repeats = setup.drive.repeats_after().is_some() && setup.wear.is_some();
         let mut settings = Vec::new();
         for &method in &self.methods {
@@ -119,10 +119,15 @@ impl Ladder {
                     }
                     let best = method == AbelMethod::Product && scheme == Scheme::Trapezoid;
                     if repeats && (best || wants_jumps) {
-                        let jumps = self.tolerances.iter();
-                        settings.extend(
-                            jumps.map(|&tolerance| setting(STEPS_UNDER_JUMPS, Some(tolerance))),
-                        );
+                        let steps = if best {
+                            &self.steps[..]
+                        } else {
+                            &[STEPS_UNDER_JUMPS]
+                        };
+                        for &tolerance in &self.tolerances {
+                            let jumps = steps.iter();
+                            settings.extend(jumps.map(|&steps| setting(steps, Some(tolerance))));
+                        }
                     }
                 }
             }
@@ -133,7 +138,7 @@ impl Ladder {
 
     /// The reference: twice as fine as the finest of the ladder, by the best method.
     pub fn reference(&self, scenario: &Scenario) -> Setting {
-        let wants_jumps = scenario.setup().integrator != Integrator::Direct;
+        let wants_jumps = wants_jumps(scenario);
         let finest = |ladder: &[f64]| ladder.iter().copied().fold(1.0, f64::min);
         Setting {
             method: AbelMethod::Product,
@@ -143,4 +148,10 @@ impl Ladder {
             tolerance: wants_jumps.then(|| 0.1 * finest(&self.tolerances)),
         }
     }
+}
+
+/// Whether the user asks for jumps; an accuracy that chooses them does not.
+fn wants_jumps(scenario: &Scenario) -> bool {
+    scenario.setup().integrator != Integrator::Direct
+        && scenario.value("numerics.integrator").is_some()
 }

@@ -8,6 +8,7 @@ use crate::scenario::Scenario;
 use crate::scenario::accuracy;
 use crate::scenario::parameters::{Kind, find};
 use crate::scenario::session::Session;
+use crate::simulation::Integrator;
 use crate::tui::frame::Activity;
 use crate::tui::past::Past;
 use crate::tui::settings::Setting;
@@ -39,9 +40,7 @@ impl Worker {
     /// Goes along the front of speed and accuracy, from where the present numerics stand on it.
     pub(super) fn refine(&mut self, places: isize) {
         let scenario = self.session.scenario();
-        let cells = scenario.setup().grid.cells();
-        let now = scenario.expected_error();
-        let now = now.unwrap_or_else(|| accuracy::expected(cells));
+        let now = scenario.present_accuracy();
         let next = accuracy::rung(now, places);
         if scenario.value("numerics.accuracy").is_some() && next == now {
             let end = if places > 0 { "finest" } else { "coarsest" };
@@ -50,8 +49,12 @@ impl Worker {
         self.change("numerics.accuracy", &format!("{next:e}"));
         let setup = self.session.scenario().setup();
         if self.session.scenario().expected_error() == Some(next) {
+            let jumps = match setup.integrator {
+                Integrator::Direct => String::new(),
+                Integrator::CycleJump { tolerance } => format!(", jumps to {tolerance:.0e}"),
+            };
             self.notice(&format!(
-                "expected error {next:e} of the depth: N = {}, {} steps a cycle",
+                "expected error {next:e} of the depth: N = {}, {} steps a cycle{jumps}",
                 setup.grid.cells(),
                 setup.steps_per_cycle
             ));

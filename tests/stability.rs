@@ -52,15 +52,69 @@ fn limit_error(simulation: &Simulation) -> f64 {
 #[test]
 fn the_guard_takes_the_harshest_wear_to_its_limit() {
     holds("c", (first_stick_radius() - 0.3206).abs(), 1e-3);
-    // In the first cycle nearly all is worn, and by its work; later work at the border wears hardly
-    // anything, and the residual of the period says so.
-    let mut simulation = run_setup(fig3(1e3, 100), 1.0);
-    let residual = simulation.moment().energy_residual.expect("worn").abs();
-    holds("energy residual of the first cycle", residual, 2e-2);
-    simulation.advance_to(20.0).expect("a run to the end");
+    let simulation = run_setup(fig3(1e3, 100), 20.0);
     holds("rms of f", limit_error(&simulation), 1e-2);
     assert!(simulation.state().effort.parts > simulation.state().steps / 2);
     assert!(simulation.state().wear.iter().all(|&worn| worn >= 0.0));
+}
+
+/// The work of springs that let go is known to a tenth only: at N = 200 and 400, and not to 100 alone, where errors
+/// happen to cancel. Where they do not let go, V = kE_d.
+#[test]
+fn harsh_wear_costs_its_work() {
+    for (wear_number, allowed) in [(40.0, 1e-3), (60.0, 1e-3), (1e3, 0.1)] {
+        for cells in [200, 400] {
+            let simulation = run_setup(fig3(wear_number, cells), 1.0);
+            let residual = simulation.moment().energy_residual.expect("worn").abs();
+            holds(
+                &format!("K = {wear_number}, N = {cells}"),
+                residual,
+                allowed,
+            );
+        }
+    }
+}
+
+/// Parts that ring let springs go that hold with fine steps, and the core is lost.
+#[test]
+fn parts_of_harsh_steps_end_where_fine_steps_do() {
+    for (wear_number, cells) in [(50.0, 100), (60.0, 100), (40.0, 200), (60.0, 200)] {
+        let fine = Setup {
+            steps_per_cycle: 1600,
+            ..fig3(wear_number, cells)
+        };
+        let fine = run_setup(fine, 3.0);
+        let mut parts = run_setup(fig3(wear_number, cells), 1.0);
+        let mut highest = 0.0_f64;
+        for cycle in 1..=3 {
+            parts.advance_to(f64::from(cycle)).expect("a run");
+            highest = highest.max(teeth(&parts.state().wear));
+        }
+        assert!(parts.state().effort.parts > 100);
+        let radii = (0..=400).map(|i| fine.setup().grid.radius() * f64::from(i) / 400.0);
+        let worn = |run: &Simulation, r| worn::interpolate(&run.setup().grid, &run.state().wear, r);
+        let squares = radii.map(|r| (worn(&parts, r) - worn(&fine, r)).powi(2));
+        let rms = (squares.sum::<f64>() / 401.0).sqrt();
+        holds(
+            &format!("rms of f, K = {wear_number}, N = {cells}"),
+            rms,
+            2e-3,
+        );
+        holds("teeth", highest, VISIBLE);
+    }
+}
+
+/// What has worn until it bears next to nothing slips all the way, z in the tens: such steps go whole.
+#[test]
+fn stiff_steps_that_change_nothing_are_taken_whole() {
+    let mut run = run_setup(fig3(100.0, 200), 10.0);
+    let before = run.state().effort;
+    run.advance_to(11.0).expect("a cycle");
+    let after = run.state().effort;
+    // In parts the cycle would take 1500 of them, and 6300 transforms.
+    assert!(after.parts - before.parts < 40, "{after:?}");
+    let transforms = after.transforms - before.transforms;
+    assert!(transforms < 2000, "{transforms}");
 }
 
 #[test]

@@ -7,7 +7,7 @@
 //! ```text
 //! cells   E = 8.8e-4 c f (R'/R · 50/N)^1.55      f = (M/3.7)^0.7 ≤ 1.1
 //!         E = 8.8e-3 f 50/N                      a punch, whose pressure is infinite at its rim
-//! steps   E = 2.2e-4 t g (12/steps)²             g = (M/1.6)^0.8 ≤ 1, times M/3 where that is above 1
+//! steps   E = 2.2e-4 t g (12/steps)²             g = (M/1.6)^0.8 ≤ 1, times M/2.2 where that is above 1
 //! jumps   E ≤ tolerance, and the less the smaller M is
 //! ```
 //!
@@ -18,7 +18,7 @@
 //! - **c**: 4.5 for a tip sharper than a paraboloid, 1.5 for a truncated cone; 2 where a force is prescribed,
 //!   0.8 where the depth is held.
 //! - **t**: (11 Δd/d)², at least 0.5, with Δd the amplitude of the depth; where it is 0, each spring moves one
-//!   way from turn to turn, and M/3 is left out. 20 where a force is prescribed: steps do not meet the turns.
+//!   way from turn to turn, and M/2.2 is left out. 20 where a force is prescribed: steps do not meet the turns.
 //!
 //! Whether cycles are jumped is decided on the way: a jump that costs more than it saves is not made, and trying
 //! costs 7 %. Only motions that never repeat are known before to be stepped.
@@ -132,7 +132,7 @@ impl Scene {
             false => ((11.0 * swing).powi(2).max(0.5), STEPS.0),
         };
         let of_cells = (worn / 3.7).powf(0.7).min(1.1) * room.powf(order);
-        let late = if is_held { 1.0 } else { worn / 3.0 };
+        let late = if is_held { 1.0 } else { worn / 2.2 };
         let of_steps = (worn / 1.6).powf(0.8).min(1.0) * late.clamp(1.0, 30.0);
         Self {
             cells: (8.8e-4 * by_shape * cells * of_cells, order),

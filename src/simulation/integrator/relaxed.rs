@@ -27,8 +27,8 @@ use super::super::solve::{press_at, pressure, solve_contact, update_profile};
 use super::super::stability;
 use super::super::state::State;
 use super::super::workspace::Workspace;
-use super::trapezoid::{kinks_of_slip, mean_shear, outer_slip_zone, stresses};
 use super::steady_load;
+use super::trapezoid::{kinks_of_slip, mean_shear, outer_slip_zone, stresses};
 use crate::math::chebyshev;
 
 /// Less stiff steps are cheaper in parts.

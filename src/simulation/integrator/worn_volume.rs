@@ -110,12 +110,7 @@ fn between_nodes(work: &Workspace, cells: Range<usize>) -> f64 {
 }
 
 /// The same over the `cells` to where the contact ends, or to the rim of a punch, J.
-fn to_edge(
-    setup: &Setup,
-    work: &Workspace,
-    ends: [LoadEnd<'_>; 2],
-    cells: Range<usize>,
-) -> f64 {
+fn to_edge(setup: &Setup, work: &Workspace, ends: [LoadEnd<'_>; 2], cells: Range<usize>) -> f64 {
     let t = work.planned.grid.squares();
     let (first, last) = (cells.start, t.len() - 1);
     let (origin, load) = (t[first], &work.friction_work);

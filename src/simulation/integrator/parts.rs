@@ -65,8 +65,8 @@ pub(super) fn step(
         let in_parts = part * whole < left * (1.0 - 1e-9);
         let reach = if in_parts {
             // Parts of one length: from a short rest nothing is to be looked ahead.
-            let parts = (left / (part * whole) - 1e-9).ceil();
-            state.cycle + left / parts
+            let left_over = (left / (part * whole) - 1e-9).ceil();
+            state.cycle + left / left_over
         } else {
             cycle
         };

@@ -46,16 +46,7 @@ pub(super) fn domain_radius(
     material: &Material,
     control: &Control,
 ) -> Option<f64> {
-    if let Some(rim) = indenter.rim() {
-        return Some(rim);
-    }
-    match control {
-        Control::Displacement(depth) => Some(indenter.radius_at(depth.highest())),
-        Control::Force(force) => {
-            let pressed = press_by(indenter, material, force.highest())?;
-            Some(indenter.radius_at(ROOM_TO_SINK * pressed.depth))
-        }
-    }
+    radius_at_deepest(indenter, material, control, ROOM_TO_SINK)
 }
 
 /// The radius that the unworn contact has where it is deepest, or reaches when it has worn there, m: the rim, or
@@ -65,12 +56,22 @@ pub(super) fn touching_radius(
     material: &Material,
     control: &Control,
 ) -> Option<f64> {
+    radius_at_deepest(indenter, material, control, 1.0)
+}
+
+/// The rim, or where f₀ is the largest depth, m: under a force, so many times that of the unworn contact.
+fn radius_at_deepest(
+    indenter: &Indenter,
+    material: &Material,
+    control: &Control,
+    room: f64,
+) -> Option<f64> {
     if let Some(rim) = indenter.rim() {
         return Some(rim);
     }
     let depth = match control {
         Control::Displacement(depth) => depth.highest(),
-        Control::Force(force) => press_by(indenter, material, force.highest())?.depth,
+        Control::Force(force) => room * press_by(indenter, material, force.highest())?.depth,
     };
     Some(indenter.radius_at(depth))
 }

@@ -73,16 +73,7 @@ fn period(
         solve_contact(setup, memory, work, moment)?;
         take_over(memory, work, moment);
     }
-    let core = memory.core_radius();
-    let last = &mut memory.last;
-    stresses(
-        work,
-        &setup.material,
-        core,
-        &mut last.pressure,
-        &mut last.shear,
-    );
-    work.transforms += 2;
+    keep_stresses(setup, memory, work);
     memory.cycle = 0.0;
     let mut settled = SettledCycle {
         wear: vec![0.0; work.worn.len()],
@@ -126,6 +117,15 @@ fn period(
     Ok(settled)
 }
 
+/// p and τ of the solved contact, for the next step to begin with.
+fn keep_stresses(setup: &Setup, memory: &mut State, work: &mut Workspace) {
+    let core = memory.core_radius();
+    let last = &mut memory.last;
+    let (p, tau) = (&mut last.pressure, &mut last.shear);
+    stresses(work, &setup.material, core, p, tau);
+    work.transforms += 2;
+}
+
 /// The tangential motion, where a cycle needs no steps.
 fn plain_swing(setup: &Setup) -> Option<&Oscillation> {
     let still = setup.drive.normal().oscillation().amplitude() == 0.0;
@@ -149,15 +149,7 @@ fn plain_cycle(
     settle_springs(setup, memory, work, swing);
     solve_contact(setup, memory, work, 0.0)?;
     take_over(memory, work, 0.0);
-    let core = memory.core_radius();
-    let last = &mut memory.last;
-    stresses(
-        work,
-        &setup.material,
-        core,
-        &mut last.pressure,
-        &mut last.shear,
-    );
+    keep_stresses(setup, memory, work);
 
     let reach = setup.material.friction() / setup.material.tangential_modulus();
     let (load, squares) = (&work.normal_load, work.planned.grid.squares());
@@ -186,7 +178,7 @@ fn plain_cycle(
         bend::add_to_displacement(&kinks, &work.planned.grid, &mut work.surface_slip);
     }
     work.surface_slip[..core].fill(0.0);
-    work.transforms += 3;
+    work.transforms += 1;
     work.pressure.copy_from_slice(&memory.last.pressure);
     work.working_shear[..core].fill(0.0);
     let kinks: Vec<_> = bend::by_cell(&kinks, squares).collect();

@@ -40,7 +40,7 @@ use super::worn_volume::{self, LoadEnd};
 use super::{commit, relaxed, stiffness};
 use crate::contact::tangential::Hold;
 use crate::math::abel::bend::{self, Bend};
-use crate::math::scan::leading;
+use crate::math::scan::{leading, trailing};
 
 /// The most that the profile is looked ahead, in lengths of the step before.
 const FARTHEST: f64 = 4.0;
@@ -177,8 +177,8 @@ pub(super) fn stresses(setup: &Setup, state: &State, work: &mut Workspace) {
     (work.pressure, work.shear) = (p, tau);
     work.transforms += 2;
     // What carried a stress before or carries one now wears; method B's stress looks one node across.
-    let before = state.last.pressure.iter().rposition(|&p| p != 0.0);
-    let nodes = before.map_or(0, |last| last + 1);
+    let before = &state.last.pressure;
+    let nodes = before.len() - trailing(before, |&p| p == 0.0);
     surface_slip(work, nodes.max(work.contact.normal.nodes + 1));
     // Nothing slips within the innermost spring that does.
     let core = leading(&work.hold, |&hold| hold == Hold::Stick);

@@ -24,7 +24,7 @@ use crate::math::abel::bend::{self, Bend};
 use crate::math::abel::rim_edge::RimEdge;
 use crate::math::abel::worn;
 use crate::math::quadrature::weighted;
-use crate::math::scan::leading;
+use crate::math::scan::{leading, trailing};
 
 /// Cells inside that of the contact's edge whose stress is steep.
 const CELLS: usize = 3;
@@ -52,9 +52,9 @@ impl<'a> LoadEnd<'a> {
 
     /// That of the load at the end of the step before.
     pub fn before(last: &'a LastStep) -> Self {
-        let outermost = last.normal_load.iter().rposition(|&q| q != 0.0);
+        let load = &last.normal_load;
         Self {
-            nodes: outermost.map_or(0, |last| last + 1),
+            nodes: load.len() - trailing(load, |&q| q == 0.0),
             breaks: &last.normal_breaks,
             rim_edge: last.rim_edge.as_ref(),
         }

@@ -130,6 +130,7 @@ impl WearLaw {
     ///
     /// Friction resists slip, so τ·s is never negative; where rounding or a transform's own error
     /// makes it so, nothing wears.
+    #[inline(always)]
     pub fn wear(&self, tau: &[f64], slip: &[f64], duration: f64, wear: &mut [f64]) {
         let points = wear.iter_mut().zip(tau.iter().zip(slip));
         match *self {
@@ -163,6 +164,7 @@ impl WearLaw {
 }
 
 /// max(v, 0), but NaN stays NaN: a broken state must be seen, not hidden.
+#[inline(always)]
 fn positive_part(value: f64) -> f64 {
     if value < 0.0 { 0.0 } else { value }
 }

@@ -68,15 +68,15 @@ impl Foundation {
     /// A load with a cusp at the tip, as under a cone, is linear in x and not in x²: what that adds is
     /// added.
     pub fn force(&self, load: &[f64], breaks: &[Bend], edge: Edge) -> f64 {
-        self.forces(load, breaks, edge).0
+        let nodal = weighted_first(&self.weights, load, edge.nodes);
+        let broken = nodal + bend::line_integral(breaks, self.grid.radius());
+        2.0 * (broken + self.cusp_integral(load, edge))
     }
 
-    /// [`force`](Self::force), and what it would be without the breaks.
-    pub fn forces(&self, load: &[f64], breaks: &[Bend], edge: Edge) -> (f64, f64) {
-        let nodal = weighted_first(&self.weights, load, edge.nodes);
-        let cusp = self.cusp_integral(load, edge);
-        let broken = nodal + bend::line_integral(breaks, self.grid.radius());
-        (2.0 * (broken + cusp), 2.0 * (nodal + cusp))
+    /// What no force (N) of a line load of up to `strongest` (N/m) exceeds: finite where an f64 holds the force.
+    pub fn most_force(&self, strongest: f64) -> f64 {
+        // Cusps are integrated by their bubbles: 0 · ∞ is none.
+        2.0 * strongest * self.grid.radius() + 0.0 * self.bubbles[self.bubbles.len() - 1]
     }
 
     /// 2∫ q |s| dx over the row: the work (J) of a line load (N/m) that ends at `edge` on a slip (m).
@@ -131,8 +131,7 @@ impl Foundation {
     fn cusp_integral(&self, values: &[f64], edge: Edge) -> f64 {
         let cusp = self.cusp(values, edge.radius);
         if cusp == 0.0 {
-            // Lengths beyond all numbers are to be seen: 0 · ∞ is none.
-            return 0.0 * self.bubbles[self.bubbles.len() - 1];
+            return 0.0;
         }
         let last = edge.nodes - 1;
         let inner = self.nodes()[last];

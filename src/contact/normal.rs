@@ -15,7 +15,7 @@ use super::foundation::{Edge, Foundation};
 use crate::math::abel::bend::{self, Bend};
 use crate::math::abel::product;
 use crate::math::root;
-use crate::math::scan::changes;
+use crate::math::scan::{changes, largest};
 use crate::math::vector::vectorized;
 
 /// An edge this close to a spring, in parts of the cell, stands on it.
@@ -24,8 +24,9 @@ const ON_A_SPRING: f64 = 1e-9;
 /// What pressing the profile g to a depth gives, beside the line load itself.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct NormalContact {
-    /// F_z, N.
-    pub force: f64,
+    /// The largest load of a spring, N/m; NaN where one is not finite.
+    #[serde(default)]
+    pub strongest: f64,
     /// The contact radius a, m; 0 without contact.
     pub radius: f64,
     /// How many springs, counted from r = 0, lie within the contact radius.
@@ -52,33 +53,22 @@ pub fn press(
     q: &mut [f64],
     breaks: &mut Vec<Bend>,
 ) -> NormalContact {
-    let mut contact = touch(row, g, depth, modulus, q, breaks);
-    contact.force = row.force(q, breaks, contact.edge());
-    contact
-}
-
-/// The same without the sum of the forces, which stays 0.
-pub fn touch(
-    row: &Foundation,
-    g: &[f64],
-    depth: f64,
-    modulus: f64,
-    q: &mut [f64],
-    breaks: &mut Vec<Bend>,
-) -> NormalContact {
     breaks.clear();
     let (xs, squares) = (row.nodes(), row.squares());
     let mut contact = NormalContact::default();
     let compression = |k: usize| modulus * (depth - g[k]);
     // Written so that NaN counts as contact and is seen, instead of passing as an open gap.
     let is_open = |compression: f64| compression <= 0.0;
-    vectorized(
+    contact.strongest = vectorized(
         #[inline(always)]
         || {
+            let mut finite = true;
             for (load, gap) in q.iter_mut().zip(g) {
                 let compression = modulus * (depth - gap);
                 *load = select(is_open(compression), 0.0, compression);
+                finite &= load.is_finite();
             }
+            if finite { largest(q) } else { f64::NAN }
         },
     );
     let cusp = row.cusp(&[0, 1, 2].map(compression), f64::INFINITY);
@@ -118,7 +108,10 @@ pub fn depth_for_load(
         return Some(shallowest);
     }
     root::bracketed(
-        |depth| press(row, g, depth, modulus, q, breaks).force / load - 1.0,
+        |depth| {
+            let contact = press(row, g, depth, modulus, q, breaks);
+            row.force(q, breaks, contact.edge()) / load - 1.0
+        },
         shallowest,
         deepest,
         1e-15 * deepest,
@@ -143,7 +136,9 @@ mod tests {
             let (row, g) = hertz(cells);
             let (mut q, mut breaks) = (vec![f64::NAN; g.len()], Vec::new());
             let contact = press(&row, &g, 1.0, 1.0, &mut q, &mut breaks);
-            assert!((contact.force - 4.0 / 3.0).abs() < 1e-14, "{contact:?}");
+            let force = row.force(&q, &breaks, contact.edge());
+            assert!((force - 4.0 / 3.0).abs() < 1e-14, "{force}");
+            assert!((contact.strongest - 1.0).abs() < 1e-15);
             assert!((contact.radius - 1.0).abs() < 1e-14);
             assert!(q[contact.nodes..].iter().all(|&load| load == 0.0));
         }
@@ -153,7 +148,8 @@ mod tests {
     fn a_load_finds_its_depth() {
         let (row, g) = hertz(200);
         let (mut q, mut breaks) = (vec![0.0; g.len()], Vec::new());
-        let load = press(&row, &g, 0.8, 1.0, &mut q, &mut breaks).force;
+        let contact = press(&row, &g, 0.8, 1.0, &mut q, &mut breaks);
+        let load = row.force(&q, &breaks, contact.edge());
         let mut depth = |load| depth_for_load(&row, &g, load, 1.0, 1.5, &mut q, &mut breaks);
         assert!((depth(load).expect("a depth") - 0.8).abs() < 1e-12);
         assert_eq!(depth(0.0), Some(0.0));

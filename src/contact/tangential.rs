@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::foundation::{Edge, Foundation};
 use crate::math::abel::bend::{self, Bend};
-use crate::math::scan::{changes, largest};
+use crate::math::scan::changes;
 use crate::math::vector::vectorized;
 
 /// How far beyond its limit, in parts of the limit, a spring still sticks.
@@ -56,6 +56,8 @@ pub struct Grip<'a> {
     pub row: &'a Foundation,
     /// The normal line load q_z, N/m, nodal.
     pub normal_load: &'a [f64],
+    /// The largest of it, N/m.
+    pub strongest: f64,
     /// Where the contact ends.
     pub edge: Edge,
     /// μ/G*, 1/Pa: how far a spring of unit load can be strained.
@@ -93,7 +95,7 @@ pub fn slide(
     vectorized(
         #[inline(always)]
         || {
-            let dead_band = TOUCH_OF_LARGEST * grip.reach * largest(load);
+            let dead_band = TOUCH_OF_LARGEST * grip.reach * grip.strongest;
             let springs = spring.iter_mut().zip(slip).zip(hold).zip(before);
             for ((((after, slip), hold), &before), &load) in springs.zip(load) {
                 let limit = grip.reach * load;
@@ -261,6 +263,7 @@ mod tests {
             let grip = Grip {
                 row: &self.row,
                 normal_load: &self.load,
+                strongest: 1.0,
                 edge: Self::EDGE,
                 reach,
             };

@@ -11,6 +11,18 @@ pub fn vectorized<R>(pass: impl FnOnce() -> R) -> R {
     dispatch!(Level::new(), _simd => pass())
 }
 
+/// Adds `more` to `values`, as many of the one as of the other.
+pub fn add_to(values: &mut [f64], more: &[f64]) {
+    vectorized(
+        #[inline(always)]
+        || {
+            for (value, more) in values.iter_mut().zip(more) {
+                *value += more;
+            }
+        },
+    );
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -116,20 +116,14 @@ pub(super) fn references(
 /// Presses to a depth, m.
 fn press_to(indenter: &Indenter, material: &Material, depth: f64) -> Option<Pressed> {
     let (grid, g) = unworn(indenter, indenter.radius_at(depth))?;
-    let mut load = vec![0.0; grid.len()];
+    let (mut load, mut breaks) = (vec![0.0; grid.len()], Vec::new());
     let row = Foundation::new(&grid);
-    let contact = normal::press(
-        &row,
-        &g,
-        depth,
-        material.normal_modulus(),
-        &mut load,
-        &mut Vec::new(),
-    );
+    let modulus = material.normal_modulus();
+    let contact = normal::press(&row, &g, depth, modulus, &mut load, &mut breaks);
     Some(Pressed {
         depth,
         radius: contact.radius,
-        force: contact.force,
+        force: row.force(&load, &breaks, contact.edge()),
     })
 }
 

@@ -141,8 +141,8 @@ impl Simulation {
             time: state.cycle * self.setup().drive.period(),
             depth: contact.depth,
             shift: contact.shift,
-            normal_force: contact.normal.force,
-            tangential_force: contact.tangential_force,
+            normal_force: solve::normal_force(&self.workspace, &self.setup().material),
+            tangential_force: solve::tangential_force(&self.workspace, &self.setup().material),
             contact_radius: contact.normal.radius,
             stick_radius: contact.stick_radius,
             permanent_stick_radius: contact
@@ -174,7 +174,8 @@ impl Simulation {
     /// of the 1D side. None without load. Between nodes p is linear in r², and a root towards the edge.
     pub fn force_residual(&self, pressure: &[f64]) -> Option<f64> {
         let contact = &self.workspace.contact.normal;
-        if contact.force <= 0.0 || contact.nodes == 0 {
+        let force = solve::normal_force(&self.workspace, &self.setup().material);
+        if force <= 0.0 || contact.nodes == 0 {
             return None;
         }
         let nodes = self.setup().grid.nodes();
@@ -182,7 +183,7 @@ impl Simulation {
         let inside = volume_of_revolution(&nodes[..=last], &pressure[..=last]);
         let ring = (contact.radius - nodes[last]) * (contact.radius + nodes[last]);
         let edge = std::f64::consts::PI * ring * 2.0 / 3.0 * pressure[last];
-        Some(1.0 - (inside + edge) / contact.force)
+        Some(1.0 - (inside + edge) / force)
     }
 
     /// The present moment with the curves of `curves`.

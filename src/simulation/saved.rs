@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::workspace::{Contact, Workspace};
-use super::{Setup, Simulation, State};
+use super::{Setup, Simulation, State, solve};
 use crate::math::abel::bend::are_hats;
 use crate::math::grid::RadialGrid;
 
@@ -69,12 +69,18 @@ impl Simulation {
         let setup = Setup { grid, ..setup };
         check(&setup, &saved.state, &saved.contact)?;
         let mut workspace = Workspace::new(&setup, None);
+        let mut state = saved.state;
+        if state.image.is_empty() {
+            // Put away before steps kept it.
+            solve::update_profile(&mut workspace, &state.wear);
+            state.image.clone_from(&workspace.image);
+        }
         workspace.good = saved.contact;
-        workspace.show_last_good(&saved.state);
+        workspace.show_last_good(&state);
         workspace.transforms = saved.transforms;
         let mut simulation = Self {
             setup,
-            state: saved.state,
+            state,
             workspace,
             next: (0.0, false),
         };
@@ -91,8 +97,10 @@ fn check(setup: &Setup, state: &State, contact: &Contact) -> Result<(), Unfit> {
         None => 0,
     };
     let settled = state.jump.settled.as_ref();
+    let image = if state.image.is_empty() { 0 } else { nodes };
     for (what, length, due) in [
         ("wear", state.wear.len(), nodes),
+        ("image of the wear", state.image.len(), image),
         ("springs", state.spring.len(), springs),
         ("springs' holds", state.hold.len(), springs),
         ("growth of g", state.last.growth.len(), nodes),
@@ -116,6 +124,7 @@ fn check(setup: &Setup, state: &State, contact: &Contact) -> Result<(), Unfit> {
     }
     for (what, values) in [
         ("wear", &state.wear[..]),
+        ("image of the wear", &state.image),
         ("springs", &state.spring),
         ("depth", &[state.depth]),
         ("shift", &[state.shift]),

@@ -13,19 +13,48 @@ use crate::contact::tangential::{self, Grip, Hold, Motion};
 use crate::math::abel::bend::{self, Bend};
 use crate::math::abel::{product, rim, rim_edge};
 use crate::math::root;
+use crate::math::vector::{add_to, vectorized};
 use crate::math::scan::largest;
 
-/// Brings g up to date with the worn depth `wear` (m) by Eq. (1).
+/// g of the worn depth `wear` (m), whose image by Eq. (1) is left in `work.image`.
 pub(super) fn update_profile(work: &mut Workspace, wear: &[f64]) {
+    transform(work, wear);
+    let image = std::mem::take(&mut work.image);
+    set_profile(work, &image, wear);
+    work.image = image;
+}
+
+/// g of the worn depth `wear` (m), which has grown by `work.worn` (m) since its `image` (m) was made. Eq. (1) is linear:
+/// only the growth is transformed, and that is zero outside of where anything slipped.
+pub(super) fn grow_profile(work: &mut Workspace, image: &mut [f64], wear: &[f64]) {
+    let worn = std::mem::take(&mut work.worn);
+    transform(work, &worn);
+    work.worn = worn;
+    add_to(image, &work.image);
+    set_profile(work, image, wear);
+}
+
+/// Eq. (1) of a worn depth (m), into `work.image`.
+fn transform(work: &mut Workspace, depth: &[f64]) {
     work.transforms += 1;
+    match &work.planned.worn {
+        Some(operator) => operator.apply(depth, &mut work.image),
+        None => work.planned.plan.profile(depth, &mut work.image),
+    }
+}
+
+/// g of the worn depth `wear` (m) with its `image` (m).
+pub(super) fn set_profile(work: &mut Workspace, image: &[f64], wear: &[f64]) {
     let planned = &work.planned;
-    match &planned.worn {
-        Some(operator) => operator.apply(wear, &mut work.g),
-        None => planned.plan.profile(wear, &mut work.g),
-    }
-    for (g, unworn) in work.g.iter_mut().zip(&planned.unworn_1d) {
-        *g += unworn;
-    }
+    let (g, unworn) = (&mut work.g, &planned.unworn_1d);
+    vectorized(
+        #[inline(always)]
+        || {
+            for (g, (unworn, image)) in g.iter_mut().zip(unworn.iter().zip(image)) {
+                *g = unworn + image;
+            }
+        },
+    );
     work.rim = None;
     if planned.has_breaks() {
         work.rim = rim::find_rim(&planned.grid, wear);
@@ -77,11 +106,8 @@ fn press(setup: &Setup, work: &mut Workspace, depth: f64) -> Result<(), Cause> {
     let planned = &work.planned;
     let modulus = setup.material.normal_modulus();
     let (load, breaks) = (&mut work.normal_load, &mut work.normal_breaks);
-    let mut normal = normal::touch(&planned.row, &work.predicted, depth, modulus, load, breaks);
-    let nodal;
-    (normal.force, nodal) = planned.row.forces(load, breaks, normal.edge());
-    let mut edge_load = 0.5 * (normal.force - nodal);
-    if !normal.force.is_finite() {
+    let mut normal = normal::press(&planned.row, &work.predicted, depth, modulus, load, breaks);
+    if !planned.row.most_force(normal.strongest).is_finite() {
         if work.predicted.iter().all(|g| g.is_finite()) {
             return Err(Cause::Overflow { depth });
         }
@@ -118,16 +144,12 @@ fn press(setup: &Setup, work: &mut Workspace, depth: f64) -> Result<(), Cause> {
                 breaks.truncate(breaks.len().saturating_sub(3));
             }
             normal.radius = edge.at.sqrt();
-            let (force, nodal) = planned.row.forces(load, breaks, normal.edge());
-            normal.force = force + 2.0 * modulus * edge.line_integral();
-            edge_load = 0.5 * (normal.force - nodal);
             work.rim_edge = Some(edge);
         }
     }
     work.contact = Contact {
         depth,
         normal,
-        edge_load,
         ..Contact::default()
     };
     Ok(())
@@ -168,6 +190,7 @@ fn shift_by(setup: &Setup, state: &State, work: &mut Workspace, increment: f64) 
     let grip = Grip {
         row: &work.planned.row,
         normal_load: &work.normal_load,
+        strongest: work.contact.normal.strongest,
         edge: work.contact.normal.edge(),
         reach: setup.material.friction() / setup.material.tangential_modulus(),
     };
@@ -190,14 +213,25 @@ fn shift_by(setup: &Setup, state: &State, work: &mut Workspace, increment: f64) 
         &work.hold,
         &mut work.spring_breaks,
     );
-    let modulus = setup.material.tangential_modulus();
     work.contact.stick_radius = Some(stick);
-    work.contact.tangential_force = modulus
-        * work.planned.row.force(
-            &work.spring,
-            &work.spring_breaks,
-            work.contact.normal.edge(),
-        );
+}
+
+/// F_z, N, of the solved contact.
+pub(super) fn normal_force(work: &Workspace, material: &Material) -> f64 {
+    let (load, breaks) = (&work.normal_load, &work.normal_breaks);
+    let force = work.planned.row.force(load, breaks, work.contact.normal.edge());
+    let at_rim = work.rim_edge.map_or(0.0, |edge| edge.line_integral());
+    force + 2.0 * material.normal_modulus() * at_rim
+}
+
+/// F_x, N, of the solved contact; 0 without tangential motion.
+pub(super) fn tangential_force(work: &Workspace, material: &Material) -> f64 {
+    if work.spring.is_empty() {
+        return 0.0;
+    }
+    let (spring, breaks) = (&work.spring, &work.spring_breaks);
+    let edge = work.contact.normal.edge();
+    material.tangential_modulus() * work.planned.row.force(spring, breaks, edge)
 }
 
 /// The increment of displacement (m) that brings the tangential force to `target` (N).
@@ -207,7 +241,7 @@ fn increment_for_force(
     work: &mut Workspace,
     target: f64,
 ) -> Result<f64, Cause> {
-    let limit = setup.material.friction() * work.contact.normal.force;
+    let limit = setup.material.friction() * normal_force(work, &setup.material);
     if target.abs() >= limit {
         return Err(Cause::FrictionExceeded {
             force: target,
@@ -215,12 +249,11 @@ fn increment_for_force(
         });
     }
     // Twice the largest strain a spring can hold turns every spring over.
-    let stiffest = largest(&work.normal_load);
-    let span = 2.0 * stiffest * setup.material.friction() / setup.material.tangential_modulus();
+    let span = 2.0 * work.contact.normal.strongest * setup.material.friction() / setup.material.tangential_modulus();
     root::bracketed(
         |increment| {
             shift_by(setup, state, work, increment);
-            (work.contact.tangential_force - target) / limit
+            (tangential_force(work, &setup.material) - target) / limit
         },
         -span,
         span,

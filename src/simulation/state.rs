@@ -20,6 +20,9 @@ pub struct State {
     /// Worn depth f − f₀, m, at the nodes. Kept by itself: a mild step adds 1e-20 m to it, which
     /// would be lost in f.
     pub wear: Vec<f64>,
+    /// Its 1D image by Eq. (1), m, as the steps have added it up.
+    #[serde(default)]
+    pub image: Vec<f64>,
     /// Displacement of the tangential springs u_x, m, at the nodes; empty without tangential motion.
     pub spring: Vec<f64>,
     /// What each spring did in the last step; empty without tangential motion.
@@ -127,8 +130,6 @@ pub struct LastStep {
     pub normal_breaks: Vec<Bend>,
     /// The contact's edge at its end, where it lies in the cell of the rim.
     pub rim_edge: Option<RimEdge>,
-    /// ∫ of the breaks of q_z at its end, N.
-    pub edge_load: f64,
     /// The breaks of u_x at its end, m.
     pub spring_breaks: Vec<Bend>,
     /// p and τ at its end, Pa, nodal.
@@ -146,6 +147,7 @@ impl State {
             depth: 0.0,
             shift: 0.0,
             wear: vec![0.0; nodes],
+            image: vec![0.0; nodes],
             spring: vec![0.0; if has_springs { nodes } else { 0 }],
             hold: vec![Hold::Stick; if has_springs { nodes } else { 0 }],
             last: LastStep::default(),

@@ -24,6 +24,8 @@ pub(super) struct Workspace {
     pub planned: Arc<Planned>,
     /// g, m, of the profile as it stands.
     pub g: Vec<f64>,
+    /// What Eq. (1) was last computed of, m: a worn depth or its growth.
+    pub image: Vec<f64>,
     /// g, m, that the contact was solved with: the scheme may look ahead.
     pub predicted: Vec<f64>,
     /// The rim of the worn zone, where the worn profile has a kink.
@@ -94,9 +96,6 @@ pub(super) struct Contact {
     pub depth: f64,
     pub shift: f64,
     pub normal: NormalContact,
-    /// ∫ of what the breaks of q_z add to its nodal values, N.
-    pub edge_load: f64,
-    pub tangential_force: f64,
     /// The stick radius, m; none without tangential motion.
     pub stick_radius: Option<f64>,
 }
@@ -159,6 +158,7 @@ impl Workspace {
         let wearing = if setup.wear.is_some() { springs } else { 0 };
         Self {
             g: planned.unworn_1d.clone(),
+            image: vec![0.0; nodes],
             predicted: planned.unworn_1d.clone(),
             planned,
             rim: None,
@@ -201,9 +201,6 @@ impl Workspace {
         self.normal_load.copy_from_slice(&state.last.normal_load);
         self.spring.copy_from_slice(&state.spring);
         self.hold.copy_from_slice(&state.hold);
-        // That is no work of the run.
-        let counted = self.transforms;
-        super::solve::update_profile(self, &state.wear);
-        self.transforms = counted;
+        super::solve::set_profile(self, &state.image, &state.wear);
     }
 }

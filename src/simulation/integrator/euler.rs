@@ -22,6 +22,7 @@ use super::parts::{self, Outcome, Part};
 use super::{commit, stiffness};
 use crate::math::abel::bend;
 use crate::math::scan::leading;
+use crate::math::vector::vectorized;
 
 /// The stiffness beyond which a step is taken in parts, and that of the parts, in limits: an explicit
 /// step at its limit rings, at half of it no error changes its sign.
@@ -65,7 +66,6 @@ pub(super) fn step(
 /// What the step that the contact has been solved for wears (m, into `work.worn`), and its work of
 /// friction (J).
 pub(super) fn worn(setup: &Setup, state: &State, work: &mut Workspace, cycle: f64) -> f64 {
-    work.worn.fill(0.0);
     work.beyond_nodes = None;
     if setup.drive.tangential().is_none() {
         return 0.0;
@@ -85,7 +85,13 @@ pub(super) fn worn(setup: &Setup, state: &State, work: &mut Workspace, cycle: f6
             &work.working_shear[first..end],
             &work.surface_slip[first..end],
         );
-        law.wear(tau, slip, seconds, &mut work.worn[first..end]);
+        work.worn[..first].fill(0.0);
+        work.worn[end..].fill(0.0);
+        let worn = &mut work.worn[first..end];
+        vectorized(
+            #[inline(always)]
+            || law.wear(tau, slip, seconds, worn),
+        );
     }
     work_of_friction(setup, work)
 }
@@ -94,9 +100,15 @@ pub(super) fn worn(setup: &Setup, state: &State, work: &mut Workspace, cycle: f6
 fn work_of_friction(setup: &Setup, work: &mut Workspace) -> f64 {
     let modulus = setup.material.tangential_modulus();
     let springs = work.spring.iter().zip(&work.slip);
-    for (work, (u, slip)) in work.friction_work.iter_mut().zip(springs) {
-        *work = modulus * u * slip;
-    }
+    let friction_work = work.friction_work.iter_mut();
+    vectorized(
+        #[inline(always)]
+        || {
+            for (work, (u, slip)) in friction_work.zip(springs) {
+                *work = modulus * u * slip;
+            }
+        },
+    );
     let (normal, squares) = (&work.contact.normal, work.planned.grid.squares());
     work.work_breaks.clear();
     if normal.nodes > 0 && normal.nodes < squares.len() {

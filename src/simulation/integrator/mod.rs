@@ -3,7 +3,7 @@
 
 use super::breakdown::Cause;
 use super::choices::Scheme;
-use super::solve::{pressure, shear, solve_contact, update_profile};
+use super::solve::{grow_profile, pressure, shear, solve_contact, update_profile};
 use super::state::{LastStep, State};
 use super::workspace::Workspace;
 use super::{Setup, at_rim, cycles_to_settle, volume_by_rate};
@@ -29,6 +29,7 @@ const RUNAWAY: f64 = 10.0;
 /// Solves the contact at the present cycle: pressed to u_z, shifted to u_x, nothing worn.
 pub(super) fn settle(setup: &Setup, state: &mut State, work: &mut Workspace) -> Result<(), Cause> {
     update_profile(work, &state.wear);
+    state.image.clone_from(&work.image);
     work.predicted.copy_from_slice(&work.g);
     solve_contact(setup, state, work, state.cycle)?;
     let nodes = work.g.len();
@@ -80,10 +81,7 @@ fn commit(
     cycle: f64,
     friction_work: f64,
 ) -> Result<(), Cause> {
-    for ((after, before), worn) in work.wear.iter_mut().zip(&state.wear).zip(&work.worn) {
-        *after = before + worn;
-    }
-    check(setup, work, &work.wear)?;
+    wear_down(setup, state, work)?;
     std::mem::swap(&mut state.wear, &mut work.wear);
     if let Some(law) = &setup.wear {
         // The two sides of V = k E_d: what work explains, and what other laws wore.
@@ -93,8 +91,8 @@ fn commit(
             state.unexplained_volume += weighted(&work.planned.volume_weights, &work.worn);
         }
         match setup.scheme {
-            Scheme::Euler => update_profile(work, &state.wear),
-            Scheme::Trapezoid => update_profile_keeping_growth(state, work),
+            Scheme::Euler => grow_profile(work, &mut state.image, &state.wear),
+            Scheme::Trapezoid => grow_profile_keeping_growth(state, work),
         }
         std::mem::swap(&mut state.last.wear, &mut work.worn);
         state.volume_between_nodes = match work.beyond_nodes {
@@ -111,36 +109,66 @@ fn commit(
 }
 
 /// Brings g up to date and notes by how much it has grown.
-fn update_profile_keeping_growth(state: &mut State, work: &mut Workspace) {
+fn grow_profile_keeping_growth(state: &mut State, work: &mut Workspace) {
     // What they held is overwritten.
     std::mem::swap(&mut state.last.growth, &mut work.g);
-    update_profile(work, &state.wear);
-    for (growth, g) in state.last.growth.iter_mut().zip(&work.g) {
-        *growth = g - *growth;
-    }
+    grow_profile(work, &mut state.image, &state.wear);
+    vectorized(
+        #[inline(always)]
+        || {
+            for (growth, g) in state.last.growth.iter_mut().zip(&work.g) {
+                *growth = g - *growth;
+            }
+        },
+    );
+}
+
+/// Adds what the step has worn to the wear of the state, into `work.wear`.
+fn wear_down(setup: &Setup, state: &State, work: &mut Workspace) -> Result<(), Cause> {
+    let (wear, worn) = (&mut work.wear[..], &work.worn);
+    let deepest = vectorized(
+        #[inline(always)]
+        || {
+            for ((after, before), worn) in wear.iter_mut().zip(&state.wear).zip(worn) {
+                *after = before + worn;
+            }
+            deepest(wear)
+        },
+    );
+    refuse(setup, work, &work.wear, deepest)
 }
 
 /// Refuses a worn profile that is not finite or far above anything that can touch.
 fn check(setup: &Setup, work: &Workspace, wear: &[f64]) -> Result<(), Cause> {
+    refuse(setup, work, wear, deepest(wear))
+}
+
+/// The largest of the worn depths; none where one is not finite.
+#[inline(always)]
+fn deepest(wear: &[f64]) -> Option<f64> {
+    let finite = wear.iter().fold(true, |all, worn| all & worn.is_finite());
+    finite.then(|| largest(wear))
+}
+
+/// Refuses the worn depths `wear` (m) if the `deepest` of them says so.
+fn refuse(
+    setup: &Setup,
+    work: &Workspace,
+    wear: &[f64],
+    deepest: Option<f64>,
+) -> Result<(), Cause> {
     let (method, stability) = (setup.method, setup.stability);
-    let (highest, finite) = vectorized(
-        #[inline(always)]
-        || {
-            let finite = wear.iter().fold(true, |all, worn| all & worn.is_finite());
-            (largest(wear), finite)
-        },
-    );
-    let deepest = setup.depth_scale(work.contact.depth);
-    let worn = highest / deepest;
-    if !finite || worn == f64::INFINITY && deepest > 0.0 {
+    let depth = setup.depth_scale(work.contact.depth);
+    let worn = deepest.map_or(f64::INFINITY, |deepest| deepest / depth);
+    if deepest.is_none() || worn == f64::INFINITY && depth > 0.0 {
         return Err(Cause::NotFinite {
             quantity: "worn profile",
             method,
             stability,
         });
     }
-    if worn > RUNAWAY && deepest > 0.0 {
-        let at = wear.iter().position(|&worn| worn == highest);
+    if worn > RUNAWAY && depth > 0.0 {
+        let at = wear.iter().position(|&worn| Some(worn) == deepest);
         return Err(Cause::Runaway {
             worn,
             radius: setup.grid.nodes()[at.unwrap_or_default()],
@@ -160,7 +188,6 @@ fn take_over(state: &mut State, work: &mut Workspace, cycle: f64) {
     state.last.normal_load.copy_from_slice(&work.normal_load);
     state.last.normal_breaks.clone_from(&work.normal_breaks);
     state.last.rim_edge = work.rim_edge;
-    state.last.edge_load = work.contact.edge_load;
     state.last.spring_breaks.clone_from(&work.spring_breaks);
     state.last.duration = cycle - state.cycle;
     state.cycle = cycle;

@@ -40,13 +40,15 @@ pub(super) fn wear(
         None => work.worn.fill(0.0),
     }
     let end = LoadEnd::now(work);
+    let between_springs =
+        end.between_springs(setup.grid.radius(), setup.material.normal_modulus());
     work.beyond_nodes = worn_volume::beyond_nodes(setup, work, [end, end], zone);
-    let contact = &work.contact;
-    let at_edge = match contact.normal.nodes {
+    let contact = &work.contact.normal;
+    let at_edge = match contact.nodes {
         0 => 0.0,
-        nodes => 2.0 * friction * contact.edge_load * work.slip[nodes - 1].abs(),
+        nodes => 2.0 * friction * between_springs * work.slip[nodes - 1].abs(),
     };
     let row = &work.planned.row;
     let (limit, slip) = (&work.friction_work, &work.slip);
-    at_edge + row.work(limit, slip, kinks, contact.normal.edge())
+    at_edge + row.work(limit, slip, kinks, contact.edge())
 }

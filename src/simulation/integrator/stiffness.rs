@@ -14,7 +14,7 @@ use super::super::Setup;
 use super::super::stability::response;
 use super::super::workspace::Workspace;
 use crate::math::quadrature::weighted;
-use crate::math::scan::largest;
+use crate::math::scan::{largest, leading, trailing};
 use crate::math::vector::vectorized;
 
 /// The stiffness z of every node in the step of `duration` cycles that has just been worn, into
@@ -25,12 +25,18 @@ pub(super) fn of_step(setup: &Setup, work: &mut Workspace, duration: f64) -> f64
     let scale =
         response(setup.method) * setup.material.friction() * setup.material.normal_modulus();
     let (tau, slip) = (&work.working_shear, &work.surface_slip);
-    let (stiffness, per_width) = (&mut work.stiffness[..], &work.planned.per_width);
+    // Nothing answers within the stick zone and outside of the contact.
+    let end = tau.len() - trailing(tau, |&tau| tau == 0.0);
+    let first = leading(&slip[..end], |&slip| slip == 0.0);
+    work.stiffness[..first].fill(0.0);
+    work.stiffness[end..].fill(0.0);
+    let (tau, slip) = (&tau[first..end], &slip[first..end]);
+    let (stiffness, per_width) = (&mut work.stiffness[first..end], &work.planned.per_width);
     vectorized(
         #[inline(always)]
         || {
             law.sensitivity(tau, slip, seconds, stiffness);
-            for (z, per_width) in stiffness.iter_mut().zip(per_width) {
+            for (z, per_width) in stiffness.iter_mut().zip(&per_width[first..]) {
                 *z *= scale * per_width;
             }
             largest(stiffness)

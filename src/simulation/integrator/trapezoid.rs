@@ -41,6 +41,7 @@ use super::{commit, relaxed, stiffness};
 use crate::contact::tangential::Hold;
 use crate::math::abel::bend::{self, Bend};
 use crate::math::scan::{leading, trailing};
+use crate::math::vector::vectorized;
 
 /// The most that the profile is looked ahead, in lengths of the step before.
 const FARTHEST: f64 = 4.0;
@@ -76,14 +77,16 @@ fn attempt(
     } else {
         0.0
     };
-    for ((predicted, g), growth) in work
-        .predicted
-        .iter_mut()
-        .zip(&work.g)
-        .zip(&state.last.growth)
-    {
-        *predicted = g + ahead * growth;
-    }
+    let profile = work.g.iter().zip(&state.last.growth);
+    let predicted = work.predicted.iter_mut();
+    vectorized(
+        #[inline(always)]
+        || {
+            for (predicted, (g, growth)) in predicted.zip(profile) {
+                *predicted = g + ahead * growth;
+            }
+        },
+    );
     solve_contact(setup, state, work, cycle)?;
     let mut friction_work = worn(setup, state, work, cycle);
     let stiffness = stiffness::of_step(setup, work, duration);
@@ -113,7 +116,6 @@ fn attempt(
 /// What the step that the contact has been solved for wears (m, into `work.worn`), and its work of
 /// friction (J).
 pub(super) fn worn(setup: &Setup, state: &State, work: &mut Workspace, cycle: f64) -> f64 {
-    work.worn.fill(0.0);
     work.beyond_nodes = None;
     if setup.drive.tangential().is_none() {
         return 0.0;
@@ -123,8 +125,11 @@ pub(super) fn worn(setup: &Setup, state: &State, work: &mut Workspace, cycle: f6
         stresses(setup, state, work);
         let zone = mean_shear(setup, state, work);
         let seconds = (cycle - state.cycle) * setup.drive.period();
-        let (tau, slip) = (&work.working_shear, &work.surface_slip);
-        law.wear(tau, slip, seconds, &mut work.worn);
+        let (tau, slip, worn) = (&work.working_shear, &work.surface_slip, &mut work.worn);
+        vectorized(
+            #[inline(always)]
+            || law.wear(tau, slip, seconds, worn),
+        );
         let ends = [LoadEnd::before(&state.last), LoadEnd::now(work)];
         work.beyond_nodes = worn_volume::beyond_nodes(setup, work, ends, zone);
     }
@@ -135,16 +140,25 @@ pub(super) fn worn(setup: &Setup, state: &State, work: &mut Workspace, cycle: f6
 fn work_of_friction(setup: &Setup, state: &State, work: &mut Workspace) -> f64 {
     let friction = setup.material.friction();
     let loads = work.normal_load.iter().zip(&state.last.normal_load);
-    for (limit, (after, before)) in work.friction_work.iter_mut().zip(loads) {
-        *limit = 0.5 * friction * (after + before);
-    }
+    let limits = work.friction_work.iter_mut();
+    vectorized(
+        #[inline(always)]
+        || {
+            for (limit, (after, before)) in limits.zip(loads) {
+                *limit = 0.5 * friction * (after + before);
+            }
+        },
+    );
     kinks_of_slip(work, &state.last.spring_breaks);
     let normal = &work.contact.normal;
     let at_edge = match normal.nodes {
         0 => 0.0,
         nodes => work.slip[nodes - 1].abs(),
     };
-    let edge = friction * (work.contact.edge_load + state.last.edge_load) * at_edge;
+    let (radius, modulus) = (setup.grid.radius(), setup.material.normal_modulus());
+    let ends = [LoadEnd::before(&state.last), LoadEnd::now(work)];
+    let broken = ends.map(|end| end.between_springs(radius, modulus));
+    let edge = friction * (broken[0] + broken[1]) * at_edge;
     let row = &work.planned.row;
     let (limit, slip) = (&work.friction_work, &work.slip);
     edge + row.work(limit, slip, &work.slip_kinks, normal.edge())
@@ -191,14 +205,21 @@ pub(super) fn mean_shear(setup: &Setup, state: &State, work: &mut Workspace) -> 
     let friction = sign * setup.material.friction();
     let (inner, outer) = work.working_shear.split_at_mut(zone);
     let shears = state.last.shear.iter().zip(&work.shear);
-    for ((mean, (was, is)), slip) in inner.iter_mut().zip(shears).zip(&work.surface_slip) {
-        let with_slip = select(is * slip > 0.0, 0.5 * is, 0.0);
-        *mean = select(was * is > 0.0, 0.5 * (was + is), with_slip);
-    }
     let pressures = state.last.pressure[zone..].iter();
-    for (mean, (was, is)) in outer.iter_mut().zip(pressures.zip(&work.pressure[zone..])) {
-        *mean = 0.5 * friction * (was + is);
-    }
+    let pressures = pressures.zip(&work.pressure[zone..]);
+    let slips = &work.surface_slip;
+    vectorized(
+        #[inline(always)]
+        || {
+            for ((mean, (was, is)), slip) in inner.iter_mut().zip(shears).zip(slips) {
+                let with_slip = select(is * slip > 0.0, 0.5 * is, 0.0);
+                *mean = select(was * is > 0.0, 0.5 * (was + is), with_slip);
+            }
+            for (mean, (was, is)) in outer.iter_mut().zip(pressures) {
+                *mean = 0.5 * friction * (was + is);
+            }
+        },
+    );
     zone
 }
 

@@ -50,6 +50,12 @@ impl<'a> LoadEnd<'a> {
         }
     }
 
+    /// ∫ of what the breaks add to its nodal values, N; `modulus` is E*.
+    pub fn between_springs(&self, radius: f64, modulus: f64) -> f64 {
+        let at_rim = self.rim_edge.map_or(0.0, RimEdge::line_integral);
+        bend::line_integral(self.breaks, radius) + modulus * at_rim
+    }
+
     /// That of the load at the end of the step before.
     pub fn before(last: &'a LastStep) -> Self {
         let load = &last.normal_load;

@@ -146,8 +146,8 @@ impl Staircase {
         self.apply_rows(input, output, 0..self.size);
     }
 
-    /// The same for those rows alone that are asked for; what the others receive does not
-    /// matter to the caller: zero, or what they would in [`apply`](Self::apply).
+    /// The same for those rows alone that are asked for; the others keep what they hold, or receive what they
+    /// would in [`apply`](Self::apply).
     pub fn apply_rows(&self, input: &[f64], output: &mut [f64], rows: Range<usize>) {
         debug_assert_eq!(input.len(), self.size);
         debug_assert_eq!(output.len(), self.size);
@@ -170,9 +170,7 @@ impl Staircase {
         let support = support(input);
         let panels = rows.start / ROWS..rows.end.div_ceil(ROWS);
         let end = output.len().min(ROWS * panels.end);
-        output[end..].fill(0.0);
-        let (before, output) = output[..end].split_at_mut(end.min(ROWS * panels.start));
-        before.fill(0.0);
+        let output = &mut output[end.min(ROWS * panels.start)..end];
         let zero = f64x4::splat(simd, 0.0);
         let mut zeros = [zero; ROWS / LANES];
         let mut sums = self.panels[panels.start..].iter().map(
@@ -340,10 +338,15 @@ mod tests {
         let mut whole = vec![f64::NAN; 40];
         packed.apply(&input, &mut whole);
         for rows in [0..40, 3..17, 16..24, 39..40, 5..5] {
-            let mut part = vec![f64::NAN; 40];
+            let mut part = vec![0.25; 40];
             packed.apply_rows(&input, &mut part, rows.clone());
             assert_eq!(part[rows.clone()], whole[rows]);
-            assert!(part.iter().all(|value| value.is_finite()));
+            let others = part.iter().zip(&whole);
+            assert!(
+                others
+                    .clone()
+                    .all(|(part, whole)| [0.25, *whole].contains(part))
+            );
         }
     }
 

@@ -13,8 +13,8 @@ use crate::contact::tangential::{self, Grip, Hold, Motion};
 use crate::math::abel::bend::{self, Bend};
 use crate::math::abel::{product, rim, rim_edge};
 use crate::math::root;
-use crate::math::vector::{add_to, vectorized};
 use crate::math::scan::largest;
+use crate::math::vector::vectorized;
 
 /// g of the worn depth `wear` (m), whose image by Eq. (1) is left in `work.image`.
 pub(super) fn update_profile(work: &mut Workspace, wear: &[f64]) {
@@ -30,8 +30,18 @@ pub(super) fn grow_profile(work: &mut Workspace, image: &mut [f64], wear: &[f64]
     let worn = std::mem::take(&mut work.worn);
     transform(work, &worn);
     work.worn = worn;
-    add_to(image, &work.image);
-    set_profile(work, image, wear);
+    let (g, grown, unworn) = (&mut work.g, &work.image, &work.planned.unworn_1d);
+    vectorized(
+        #[inline(always)]
+        || {
+            let parts = image.iter_mut().zip(grown).zip(unworn);
+            for (g, ((image, grown), unworn)) in g.iter_mut().zip(parts) {
+                *image += grown;
+                *g = unworn + *image;
+            }
+        },
+    );
+    bend_at_rim(work, wear);
 }
 
 /// Eq. (1) of a worn depth (m), into `work.image`.
@@ -45,16 +55,16 @@ fn transform(work: &mut Workspace, depth: &[f64]) {
 
 /// g of the worn depth `wear` (m) with its `image` (m).
 pub(super) fn set_profile(work: &mut Workspace, image: &[f64], wear: &[f64]) {
+    let unworn = work.planned.unworn_1d.iter();
+    for (g, (unworn, image)) in work.g.iter_mut().zip(unworn.zip(image)) {
+        *g = unworn + image;
+    }
+    bend_at_rim(work, wear);
+}
+
+/// Adds to g what the kink at the rim of the worn zone does.
+fn bend_at_rim(work: &mut Workspace, wear: &[f64]) {
     let planned = &work.planned;
-    let (g, unworn) = (&mut work.g, &planned.unworn_1d);
-    vectorized(
-        #[inline(always)]
-        || {
-            for (g, (unworn, image)) in g.iter_mut().zip(unworn.iter().zip(image)) {
-                *g = unworn + image;
-            }
-        },
-    );
     work.rim = None;
     if planned.has_breaks() {
         work.rim = rim::find_rim(&planned.grid, wear);
@@ -219,7 +229,10 @@ fn shift_by(setup: &Setup, state: &State, work: &mut Workspace, increment: f64) 
 /// F_z, N, of the solved contact.
 pub(super) fn normal_force(work: &Workspace, material: &Material) -> f64 {
     let (load, breaks) = (&work.normal_load, &work.normal_breaks);
-    let force = work.planned.row.force(load, breaks, work.contact.normal.edge());
+    let force = work
+        .planned
+        .row
+        .force(load, breaks, work.contact.normal.edge());
     let at_rim = work.rim_edge.map_or(0.0, |edge| edge.line_integral());
     force + 2.0 * material.normal_modulus() * at_rim
 }
@@ -249,7 +262,8 @@ fn increment_for_force(
         });
     }
     // Twice the largest strain a spring can hold turns every spring over.
-    let span = 2.0 * work.contact.normal.strongest * setup.material.friction() / setup.material.tangential_modulus();
+    let span = 2.0 * work.contact.normal.strongest * setup.material.friction()
+        / setup.material.tangential_modulus();
     root::bracketed(
         |increment| {
             shift_by(setup, state, work, increment);
@@ -279,7 +293,7 @@ pub(super) fn shear(work: &Workspace, material: &Material, core: f64, out: &mut 
     shear_of(0..out.len(), work, material, core, out);
 }
 
-/// The same of those `nodes` alone; zero elsewhere.
+/// The same of those `nodes` alone; the others hold something finite.
 pub(super) fn shear_of(
     nodes: Range<usize>,
     work: &Workspace,
@@ -321,14 +335,18 @@ fn pressure_of_chords(work: &Workspace, material: &Material, out: &mut [f64]) {
     }
 }
 
-/// τ of such a load, of those `nodes` alone; zero elsewhere.
+/// τ of such a load, of those `nodes` alone.
 fn shear_of_chords(nodes: Range<usize>, work: &Workspace, material: &Material, out: &mut [f64]) {
     stress(work, &work.spring, &work.spring_breaks, nodes.clone(), out);
-    out[..nodes.start].fill(0.0);
-    out[nodes.end..].fill(0.0);
-    for stress in &mut out[nodes] {
-        *stress *= material.tangential_modulus();
-    }
+    let (modulus, stresses) = (material.tangential_modulus(), &mut out[nodes]);
+    vectorized(
+        #[inline(always)]
+        || {
+            for stress in stresses {
+                *stress *= modulus;
+            }
+        },
+    );
 }
 
 /// How much of what the curvature of the load adds to p it adds to τ at a node: what slips is curved like μq, what
@@ -379,7 +397,7 @@ pub(super) fn surface_slip(work: &mut Workspace, nodes: usize) {
     work.transforms += 1;
     let (slip, surface) = (&work.slip, &mut work.surface_slip);
     let plan = &work.planned.plan;
-    plan.displacement_rows(slip, surface, 0..nodes.min(slip.len()));
+    plan.displacement_rows(slip, surface, 0..nodes);
 }
 
 /// u_x(r), m, of the surface by Eq. (2).

@@ -1,5 +1,6 @@
 //! Buffers of a run: planned once, overwritten in every step, never saved.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
@@ -54,15 +55,17 @@ pub(super) struct Workspace {
     pub working_shear: Vec<f64>,
     /// Slip of the surface in the step, m.
     pub surface_slip: Vec<f64>,
-    /// How stiffly each node answers to its wear, of a step.
+    /// How stiffly each node that slides answers to its wear, of a step.
     pub stiffness: Vec<f64>,
     /// The ends of the steps of a period, in cycles, for jumps.
     pub moments: Vec<f64>,
-    /// What the step wears, m.
+    /// The nodes that may wear in the step: further in nothing slips, further out nothing presses.
+    pub sliding: Range<usize>,
+    /// What the step wears, m; 0 but for the nodes that slide.
     pub worn: Vec<f64>,
     /// What the step wears between nodes beyond their interpolant, m³; none where that is not known.
     pub beyond_nodes: Option<f64>,
-    /// f − f₀ after the step, m, until the state has it.
+    /// f − f₀ after the step, m, of the nodes that slide, until the state has it.
     pub wear: Vec<f64>,
     /// Transforms computed since they were last counted.
     pub transforms: u64,
@@ -178,6 +181,7 @@ impl Workspace {
             surface_slip: vec![0.0; wearing],
             stiffness: vec![0.0; wearing],
             moments: jump_moments(setup),
+            sliding: 0..0,
             worn: vec![0.0; nodes],
             beyond_nodes: None,
             wear: vec![0.0; nodes],

@@ -265,7 +265,7 @@ impl AbelPlan {
     }
 
     /// [`displacement`](Self::displacement) for a caller who needs some `rows` of `w` alone; the others
-    /// hold something finite.
+    /// keep what they hold, or something finite.
     pub fn displacement_rows(&self, u: &[f64], w: &mut [f64], rows: Range<usize>) {
         match &self.operators {
             Operators::Dense { displacement, .. } => displacement.apply_rows(u, w, rows),
@@ -281,8 +281,8 @@ impl AbelPlan {
         }
     }
 
-    /// [`stress`](Self::stress) for a caller who needs some `rows` of `p` alone; the others hold something
-    /// finite.
+    /// [`stress`](Self::stress) for a caller who needs some `rows` of `p` alone; the others keep what they
+    /// hold, or something finite.
     pub fn stress_rows(&self, q: &[f64], p: &mut [f64], rows: Range<usize>) {
         match &self.operators {
             Operators::Dense { stress, .. } => stress.apply_rows(q, p, rows),

@@ -20,6 +20,7 @@ use super::super::state::State;
 use super::super::workspace::Workspace;
 use super::parts::{self, Outcome, Part};
 use super::{commit, stiffness};
+use crate::contact::tangential::Hold;
 use crate::math::abel::bend;
 use crate::math::scan::leading;
 use crate::math::vector::vectorized;
@@ -75,6 +76,7 @@ pub(super) fn worn(setup: &Setup, state: &State, work: &mut Workspace, cycle: f6
         let end = (work.contact.normal.nodes + 1).min(work.worn.len());
         solve::surface_slip(work, end);
         let first = leading(&work.surface_slip[..end], |&slip| slip == 0.0);
+        work.sliding = first..end;
         let mut tau = std::mem::take(&mut work.working_shear);
         let core = state.core_radius();
         solve::shear_of(first..end, work, &setup.material, core, &mut tau);
@@ -99,8 +101,13 @@ pub(super) fn worn(setup: &Setup, state: &State, work: &mut Workspace, cycle: f6
 /// 2∫ q_x Δs dx, the integrand falling to zero at the contact's edge.
 fn work_of_friction(setup: &Setup, work: &mut Workspace) -> f64 {
     let modulus = setup.material.tangential_modulus();
-    let springs = work.spring.iter().zip(&work.slip);
-    let friction_work = work.friction_work.iter_mut();
+    // Springs that stick do no work, those out of contact bear nothing.
+    let end = work.contact.normal.nodes;
+    let first = leading(&work.hold[..end], |&hold| hold == Hold::Stick);
+    work.friction_work[..first].fill(0.0);
+    work.friction_work[end..].fill(0.0);
+    let springs = work.spring[first..end].iter().zip(&work.slip[first..end]);
+    let friction_work = work.friction_work[first..end].iter_mut();
     vectorized(
         #[inline(always)]
         || {

@@ -82,7 +82,6 @@ fn commit(
     friction_work: f64,
 ) -> Result<(), Cause> {
     wear_down(setup, state, work)?;
-    std::mem::swap(&mut state.wear, &mut work.wear);
     if let Some(law) = &setup.wear {
         // The two sides of V = k E_d: what work explains, and what other laws wore.
         if law.follows_energy() {
@@ -123,24 +122,36 @@ fn grow_profile_keeping_growth(state: &mut State, work: &mut Workspace) {
     );
 }
 
-/// Adds what the step has worn to the wear of the state, into `work.wear`.
-fn wear_down(setup: &Setup, state: &State, work: &mut Workspace) -> Result<(), Cause> {
-    let (wear, worn) = (&mut work.wear[..], &work.worn);
+/// Adds what the step has worn to the wear of the state, if that can be.
+fn wear_down(setup: &Setup, state: &mut State, work: &mut Workspace) -> Result<(), Cause> {
+    let nodes = work.sliding.clone();
+    let (after, worn) = (&mut work.wear[nodes.clone()], &work.worn[nodes.clone()]);
+    let before = &state.wear[nodes.clone()];
     let deepest = vectorized(
         #[inline(always)]
         || {
-            for ((after, before), worn) in wear.iter_mut().zip(&state.wear).zip(worn) {
+            for (after, (before, worn)) in after.iter_mut().zip(before.iter().zip(worn)) {
                 *after = before + worn;
             }
-            deepest(wear)
+            deepest(after)
         },
     );
-    refuse(setup, work, &work.wear, deepest)
+    let after = &work.wear[nodes.clone()];
+    let radii = &setup.grid.nodes()[nodes.clone()];
+    refuse(setup, work.contact.depth, after, radii, deepest)?;
+    state.wear[nodes].copy_from_slice(after);
+    Ok(())
 }
 
 /// Refuses a worn profile that is not finite or far above anything that can touch.
 fn check(setup: &Setup, work: &Workspace, wear: &[f64]) -> Result<(), Cause> {
-    refuse(setup, work, wear, deepest(wear))
+    refuse(
+        setup,
+        work.contact.depth,
+        wear,
+        setup.grid.nodes(),
+        deepest(wear),
+    )
 }
 
 /// The largest of the worn depths; none where one is not finite.
@@ -150,15 +161,16 @@ fn deepest(wear: &[f64]) -> Option<f64> {
     finite.then(|| largest(wear))
 }
 
-/// Refuses the worn depths `wear` (m) if the `deepest` of them says so.
+/// Refuses the worn depths `wear` (m) at some `radii` (m) if the `deepest` of them says so.
 fn refuse(
     setup: &Setup,
-    work: &Workspace,
+    depth: f64,
     wear: &[f64],
+    radii: &[f64],
     deepest: Option<f64>,
 ) -> Result<(), Cause> {
     let (method, stability) = (setup.method, setup.stability);
-    let depth = setup.depth_scale(work.contact.depth);
+    let depth = setup.depth_scale(depth);
     let worn = deepest.map_or(f64::INFINITY, |deepest| deepest / depth);
     if deepest.is_none() || worn == f64::INFINITY && depth > 0.0 {
         return Err(Cause::NotFinite {
@@ -171,7 +183,7 @@ fn refuse(
         let at = wear.iter().position(|&worn| Some(worn) == deepest);
         return Err(Cause::Runaway {
             worn,
-            radius: setup.grid.nodes()[at.unwrap_or_default()],
+            radius: radii[at.unwrap_or_default()],
             method,
             stability,
         });

@@ -94,6 +94,7 @@ fn pass_by_pass(
         let depth = setup.depth_scale(work.contact.depth);
         if gain * sliding(work, &work.pressure) * missed <= TOLERANCE * depth {
             let wear = end.wear.iter().zip(&state.wear);
+            work.sliding = 0..work.worn.len();
             for (worn, (after, before)) in work.worn.iter_mut().zip(wear) {
                 *worn = after - before;
             }

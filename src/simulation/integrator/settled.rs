@@ -25,6 +25,7 @@ use super::super::workspace::Workspace;
 use super::{euler, steady_load, stiffness, take_over, trapezoid};
 use crate::math::abel::bend;
 use crate::math::scan::{largest, leading};
+use crate::math::vector::add_to;
 
 /// What a cycle does once the springs have settled on the worn depth `wear` (m), on average over the
 /// period of the motion. `memory` lends the springs and keeps them; its profile, its counters of energy
@@ -93,12 +94,12 @@ fn period(
             .zip(work.beyond_nodes)
             .map(|(sum, more)| sum + more);
         stiffness::of_step(setup, work, moment - memory.cycle);
-        for (sum, z) in stiffness.iter_mut().zip(&work.stiffness) {
-            *sum += z;
-        }
-        for (sum, worn) in settled.wear.iter_mut().zip(&work.worn) {
-            *sum += worn;
-        }
+        let nodes = work.sliding.clone();
+        add_to(
+            &mut stiffness[nodes.clone()],
+            &work.stiffness[nodes.clone()],
+        );
+        add_to(&mut settled.wear[nodes.clone()], &work.worn[nodes]);
         if let Some(stick) = work.contact.stick_radius {
             settled.stick_radius = settled.stick_radius.min(stick);
         }
@@ -178,6 +179,7 @@ fn plain_cycle(
         bend::add_to_displacement(&kinks, &work.planned.grid, &mut work.surface_slip);
     }
     work.surface_slip[..core].fill(0.0);
+    work.sliding = core..work.surface_slip.len();
     work.transforms += 1;
     work.pressure.copy_from_slice(&memory.last.pressure);
     work.working_shear[..core].fill(0.0);

@@ -40,8 +40,7 @@ pub(super) fn wear(
         None => work.worn.fill(0.0),
     }
     let end = LoadEnd::now(work);
-    let between_springs =
-        end.between_springs(setup.grid.radius(), setup.material.normal_modulus());
+    let between_springs = end.between_springs(setup.grid.radius(), setup.material.normal_modulus());
     work.beyond_nodes = worn_volume::beyond_nodes(setup, work, [end, end], zone);
     let contact = &work.contact.normal;
     let at_edge = match contact.nodes {

@@ -14,29 +14,27 @@ use super::super::Setup;
 use super::super::stability::response;
 use super::super::workspace::Workspace;
 use crate::math::quadrature::weighted;
-use crate::math::scan::{largest, leading, trailing};
+use crate::math::scan::largest;
 use crate::math::vector::vectorized;
 
-/// The stiffness z of every node in the step of `duration` cycles that has just been worn, into
+/// The stiffness z of every node that slides in the step of `duration` cycles that has just been worn, into
 /// `work.stiffness`; returns the largest.
 pub(super) fn of_step(setup: &Setup, work: &mut Workspace, duration: f64) -> f64 {
     let Some(law) = &setup.wear else { return 0.0 };
     let seconds = duration * setup.drive.period();
     let scale =
         response(setup.method) * setup.material.friction() * setup.material.normal_modulus();
-    let (tau, slip) = (&work.working_shear, &work.surface_slip);
-    // Nothing answers within the stick zone and outside of the contact.
-    let end = tau.len() - trailing(tau, |&tau| tau == 0.0);
-    let first = leading(&slip[..end], |&slip| slip == 0.0);
-    work.stiffness[..first].fill(0.0);
-    work.stiffness[end..].fill(0.0);
-    let (tau, slip) = (&tau[first..end], &slip[first..end]);
-    let (stiffness, per_width) = (&mut work.stiffness[first..end], &work.planned.per_width);
+    let nodes = || work.sliding.clone();
+    let (tau, slip) = (&work.working_shear[nodes()], &work.surface_slip[nodes()]);
+    let (stiffness, per_width) = (
+        &mut work.stiffness[nodes()],
+        &work.planned.per_width[nodes()],
+    );
     vectorized(
         #[inline(always)]
         || {
             law.sensitivity(tau, slip, seconds, stiffness);
-            for (z, per_width) in stiffness.iter_mut().zip(&per_width[first..]) {
+            for (z, per_width) in stiffness.iter_mut().zip(per_width) {
                 *z *= scale * per_width;
             }
             largest(stiffness)
@@ -49,7 +47,9 @@ pub(super) fn of_step(setup: &Setup, work: &mut Workspace, duration: f64) -> f64
 /// step, and so that of the work of friction.
 pub(super) fn damp(work: &mut Workspace) -> f64 {
     let explicit = weighted(&work.planned.volume_weights, &work.worn);
-    for (worn, z) in work.worn.iter_mut().zip(&work.stiffness) {
+    let nodes = work.sliding.clone();
+    let stiffness = &work.stiffness[nodes.clone()];
+    for (worn, z) in work.worn[nodes].iter_mut().zip(stiffness) {
         *worn /= 1.0 + z;
     }
     if explicit > 0.0 {

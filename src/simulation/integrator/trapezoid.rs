@@ -125,7 +125,14 @@ pub(super) fn worn(setup: &Setup, state: &State, work: &mut Workspace, cycle: f6
         stresses(setup, state, work);
         let zone = mean_shear(setup, state, work);
         let seconds = (cycle - state.cycle) * setup.drive.period();
-        let (tau, slip, worn) = (&work.working_shear, &work.surface_slip, &mut work.worn);
+        let nodes = work.sliding.clone();
+        let (tau, slip) = (
+            &work.working_shear[nodes.clone()],
+            &work.surface_slip[nodes.clone()],
+        );
+        work.worn[..nodes.start].fill(0.0);
+        work.worn[nodes.end..].fill(0.0);
+        let worn = &mut work.worn[nodes];
         vectorized(
             #[inline(always)]
             || law.wear(tau, slip, seconds, worn),
@@ -190,13 +197,16 @@ pub(super) fn stresses(setup: &Setup, state: &State, work: &mut Workspace) {
     solve::stresses(work, &setup.material, core, &mut p, &mut tau);
     (work.pressure, work.shear) = (p, tau);
     work.transforms += 2;
-    // What carried a stress before or carries one now wears; method B's stress looks one node across.
+    // What carried a stress before or carries one now wears, up to an edge behind the last of these nodes; method
+    // B's stress looks one node across.
     let before = &state.last.pressure;
     let nodes = before.len() - trailing(before, |&p| p == 0.0);
-    surface_slip(work, nodes.max(work.contact.normal.nodes + 1));
+    let nodes = (nodes.max(work.contact.normal.nodes) + 1).min(before.len());
+    surface_slip(work, nodes);
     // Nothing slips within the innermost spring that does.
     let core = leading(&work.hold, |&hold| hold == Hold::Stick);
     work.surface_slip[..core].fill(0.0);
+    work.sliding = core.min(nodes)..nodes;
 }
 
 /// The stress that wears: its mean over the step, by zones; returns where the outer slip zone begins.

@@ -18,6 +18,9 @@ use nalgebra::DVector;
 const ENOUGH: Duration = Duration::from_millis(200);
 const FEWEST: usize = 5;
 
+/// How often each size has its turn.
+const TURNS: usize = 20;
+
 #[allow(clippy::print_stdout, reason = "a program whose output is its result")]
 fn report(name: &str, n: usize, mut run: impl FnMut()) {
     run();
@@ -45,19 +48,7 @@ fn main() {
             black_box(simulation.wear_volume());
         });
     }
-    for cells in [100, 1000, 3000, 10_000, 30_000, 100_000] {
-        let points = cells.to_string();
-        let scenario = Scenario::load("li2019-fig3", &[])
-            .and_then(|scenario| scenario.with("numerics.points", &points))
-            // So mild that no step is taken in parts: on 100 000 cells they would be.
-            .and_then(|scenario| scenario.with("wear.coefficient", "1.3e-13"))
-            .expect("the preset");
-        let mut simulation = Simulation::new(scenario.setup().clone()).expect("a contact");
-        for _ in 0..20 {
-            simulation.step().expect("a step");
-        }
-        report("step", cells, || simulation.step().expect("a step"));
-    }
+    steps(&[100, 1000, 3000, 10_000, 30_000, 100_000]);
     let mut literal = Literal::fig3();
     let start = Instant::now();
     for step in 1..=20_000 {
@@ -65,6 +56,42 @@ fn main() {
     }
     black_box(&literal.f);
     report_once("fig3 literal", 100, start.elapsed());
+}
+
+/// A step of Fig. 3 on so many cells, turn by turn: what else runs on the machine hits all sizes alike.
+#[allow(clippy::print_stdout, reason = "a program whose output is its result")]
+fn steps(sizes: &[usize]) {
+    let simulation = |cells: &usize| {
+        let points = cells.to_string();
+        let scenario = Scenario::load("li2019-fig3", &[])
+            .and_then(|scenario| scenario.with("numerics.points", &points))
+            // So mild that no step is taken in parts: on 100 000 cells they would be.
+            .and_then(|scenario| scenario.with("wear.coefficient", "1.3e-13"))
+            .expect("the preset");
+        Simulation::new(scenario.setup().clone()).expect("a contact")
+    };
+    let mut runs: Vec<_> = sizes
+        .iter()
+        .map(|cells| (simulation(cells), Vec::new()))
+        .collect();
+    for _ in 0..TURNS {
+        for (simulation, times) in &mut runs {
+            // The first ones fetch the run back into the caches.
+            for _ in 0..3 {
+                simulation.step().expect("a step");
+            }
+            let begin = Instant::now();
+            while begin.elapsed() < ENOUGH / 4 {
+                let start = Instant::now();
+                simulation.step().expect("a step");
+                times.push(start.elapsed());
+            }
+        }
+    }
+    for (cells, (_, times)) in sizes.iter().zip(&mut runs) {
+        times.sort();
+        println!("step,{cells},{:e}", times[times.len() / 10].as_secs_f64());
+    }
 }
 
 #[allow(clippy::print_stdout, reason = "a program whose output is its result")]

@@ -32,7 +32,7 @@
 //!   products follow each other from node to node, seven cycles each on Zen 3, and up to K = 24 all else but the
 //!   slopes is done meanwhile.
 //! - **Memory**: O(N): 2 K + 31 numbers a node for the three operators. A sweep reads K + 13 of them a node; on more
-//!   than 16 384 nodes K/16 + 13, as the decays are then stored as cubics (see `decay`).
+//!   than 16 384 nodes K/16 + 6, as what is smooth over a block is then stored as cubics (see `cubic`).
 //! - **Causality**: strict, as that of the dense form: row j is read before its own bend is added.
 //! - **At r = 0**: g = f(0), w = u(0), p = (2/π) Σ J_k x_k.
 //! - **Known failure**: none; below some hundred nodes the dense form is faster.
@@ -44,6 +44,7 @@ use super::kernel::{acosh_step, leg};
 use super::product::cusp;
 use crate::math::grid::RadialGrid;
 
+mod cubic;
 mod decay;
 mod near;
 mod powers;
@@ -138,6 +139,9 @@ impl Data for Nodal<'_> {
 
     #[inline(always)]
     fn begin(&self, first: usize, rows: &mut [f64]) {
+        if self.cusp == 0.0 {
+            return rows.fill(self.constant);
+        }
         for (row, image) in rows.iter_mut().zip(&self.image[first..]) {
             *row = self.constant + self.cusp * image;
         }

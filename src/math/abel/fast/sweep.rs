@@ -20,8 +20,9 @@ use std::ops::Range;
 
 use fearless_simd::{Level, dispatch, f64x4, prelude::*};
 
-use super::decay::{BLOCK, Decay, Piece, place};
-use super::near::{Near, REACH, Side};
+use super::cubic::{BLOCK, place};
+use super::decay::{self, Decay};
+use super::near::{self, Near, REACH, Side, Weights};
 use super::powers::{LANES, MOST_GROUPS, Powers};
 
 /// S of every power.
@@ -114,7 +115,7 @@ impl Outward {
                 &mut state,
                 decay.piece(block),
                 &self.factors,
-                (&self.near, first),
+                self.near.piece(block),
                 &jumps,
                 &mut sums[..padded],
             );
@@ -192,7 +193,7 @@ impl Inward {
                 &mut state,
                 decay.piece(block),
                 &self.factors,
-                (&self.near, first),
+                self.near.piece(block),
                 &moments,
                 &mut sums[..padded],
             );
@@ -225,25 +226,35 @@ impl Inward {
 }
 
 /// Near field less recurrences over one block of rows, from its end if `REVERSED`; the number of groups is fixed
-/// at compile time, so that the state stays in registers. `near` says which row is the first, the sources have
+/// at compile time, so that the state stays in registers. The sources have
 /// those of [`REACH`] more rows on the side where they come from.
 fn powers_block<const REVERSED: bool>(
     level: Level,
     state: &mut State,
-    decay: Piece,
+    decay: decay::Piece,
     factors: &[[f64; LANES]],
-    near: (&Near, usize),
+    near: near::Piece,
     sources: &[f64; REACH + BLOCK],
     sums: &mut [f64],
 ) {
-    let rows = match decay {
+    let (rows, near) = match (decay, near) {
         // Inwards the decay is that towards the node before.
-        Piece::Rows(rows) if REVERSED => &rows[factors.len()..],
-        Piece::Rows(rows) => rows,
-        Piece::Cubics(cubics) => {
-            return dispatch!(level, simd => cubics_block::<_, REVERSED>(
+        (decay::Piece::Rows(rows), near::Piece::Table(table)) if REVERSED => {
+            (&rows[factors.len()..], table)
+        }
+        (decay::Piece::Rows(rows), near::Piece::Table(table)) => (rows, table),
+        (decay::Piece::Cubics(cubics), near::Piece::Table(near)) => {
+            return dispatch!(level, simd => cubics_block::<_, _, REVERSED>(
                 simd, state, cubics, factors, near, sources, sums
             ));
+        }
+        (decay::Piece::Cubics(cubics), near::Piece::Cubics(near)) => {
+            return dispatch!(level, simd => cubics_block::<_, _, REVERSED>(
+                simd, state, cubics, factors, near, sources, sums
+            ));
+        }
+        (decay::Piece::Rows(_), near::Piece::Cubics(_)) => {
+            unreachable!("a block with a table of decays has one of weights")
         }
     };
     macro_rules! by_groups {
@@ -266,7 +277,7 @@ fn groups_block<S: Simd, const GROUPS: usize, const REVERSED: bool>(
     state: &mut State,
     decay: &[[f64; LANES]],
     factors: &[[f64; LANES]],
-    near: (&Near, usize),
+    near: near::Table,
     sources: &[f64; REACH + BLOCK],
     sums: &mut [f64],
 ) {
@@ -275,7 +286,7 @@ fn groups_block<S: Simd, const GROUPS: usize, const REVERSED: bool>(
     let factors: [f64x4<S>; GROUPS] = std::array::from_fn(|group| load(&factors[group]));
     let (decay, _) = decay.as_chunks::<GROUPS>();
     let (decay, _) = decay.as_chunks::<LANES>();
-    each_strip::<_, REVERSED>(
+    each_strip::<_, _, REVERSED>(
         simd,
         near,
         sources,
@@ -303,17 +314,17 @@ fn groups_block<S: Simd, const GROUPS: usize, const REVERSED: bool>(
 /// The same with decays from cubics, group by group through the same four rows: more arithmetic, and
 /// hardly a number to be read.
 #[inline(always)]
-fn cubics_block<S: Simd, const REVERSED: bool>(
+fn cubics_block<S: Simd, N: Weights, const REVERSED: bool>(
     simd: S,
     state: &mut State,
     cubics: &[[[f64; LANES]; 4]],
     factors: &[[f64; LANES]],
-    near: (&Near, usize),
+    near: N,
     sources: &[f64; REACH + BLOCK],
     sums: &mut [f64],
 ) {
     let load = |lanes: &[f64; LANES]| f64x4::from_slice(simd, lanes);
-    each_strip::<_, REVERSED>(
+    each_strip::<_, _, REVERSED>(
         simd,
         near,
         sources,
@@ -350,9 +361,9 @@ fn cubics_block<S: Simd, const REVERSED: bool>(
 /// Goes through a block four rows at a time: `recurrences` gives the powers of the four, lane by lane, from their number
 /// in the block and their own sources; near field less those becomes their sums.
 #[inline(always)]
-fn each_strip<S: Simd, const REVERSED: bool>(
+fn each_strip<S: Simd, N: Weights, const REVERSED: bool>(
     simd: S,
-    (near, first): (&Near, usize),
+    near: N,
     sources: &[f64; REACH + BLOCK],
     sums: &mut [f64],
     mut recurrences: impl FnMut(usize, &[f64]) -> [f64x4<S>; LANES],
@@ -368,7 +379,8 @@ fn each_strip<S: Simd, const REVERSED: bool>(
         let window = &sources[strip * LANES..][..REACH + LANES];
         let own = if REVERSED { window } else { &window[REACH..] };
         let rows = recurrences(strip, own);
-        let near = near_field::<_, REVERSED>(simd, near.strip(first / LANES + strip), window);
+        let weights = near.strip(simd, strip);
+        let near = near_field::<_, REVERSED>(simd, weights, window);
         (near - sum_lanes(simd, rows)).store_slice(&mut sums[strip]);
     }
 }
@@ -378,14 +390,13 @@ fn each_strip<S: Simd, const REVERSED: bool>(
 #[inline(always)]
 fn near_field<S: Simd, const REVERSED: bool>(
     simd: S,
-    weights: &[[f64; LANES]],
+    weights: impl Iterator<Item = f64x4<S>>,
     window: &[f64],
 ) -> f64x4<S> {
     let mut sum = f64x4::splat(simd, 0.0);
-    let add = |(weights, sources): (&[f64; LANES], &[f64])| {
-        sum = f64x4::from_slice(simd, weights).mul_add(f64x4::from_slice(simd, sources), sum);
+    let add = |(weights, sources): (f64x4<S>, &[f64])| {
+        sum = weights.mul_add(f64x4::from_slice(simd, sources), sum);
     };
-    let weights = weights.iter();
     if REVERSED {
         weights.zip(window[1..].windows(LANES)).for_each(add);
     } else {

@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 
 use super::super::testing::apply;
-use super::super::{product, worn};
+use super::super::{kernel, product, worn};
 use super::*;
 
 const LADDER: [usize; 8] = [4, 8, 15, 16, 33, 100, 257, 700];
@@ -244,6 +244,55 @@ fn large_grids_are_no_trouble() {
     let load: Vec<f64> = grid.squares().iter().map(|t| 1.0 - t).collect();
     fast.stress(&load, &mut out);
     assert!(is(&out, &|t| 2.0 * FRAC_1_PI * (1.0 - t).sqrt()));
+}
+
+/// Where cubics stand for the tables: rows of noise, each against its own sum of closed forms.
+#[test]
+fn large_grids_keep_the_tolerance_node_by_node() {
+    let cells = 40_000;
+    let uniform = RadialGrid::uniform(cells, 1.0);
+    for grid in [uniform, RadialGrid::graded(cells, 0.3, 1.0)] {
+        let grid = grid.expect("a grid");
+        let (x, t) = (grid.nodes(), grid.squares());
+        let fast = FastProduct::new(&grid, TOLERANCE).expect("a plan");
+        let noise = data(&grid).pop().expect("data");
+        // No cusp at the tip, and no jump at the end.
+        let values: Vec<f64> = (0..=cells)
+            .map(|j| if j < 3 || j == cells { 0.0 } else { noise[j] })
+            .collect();
+        let (mut g, mut w, mut p) = (vec![0.0; t.len()], vec![0.0; t.len()], vec![0.0; t.len()]);
+        fast.profile(&values, &mut g);
+        fast.displacement(&values, &mut w);
+        fast.stress(&values, &mut p);
+        for j in [700, 4321, 14_000, 20_011, 30_002, 35_555, cells - 1] {
+            let r = x[j];
+            let sums = |from: usize, to: usize, image: &dyn Fn(f64, f64) -> f64| {
+                let mut sums = [0.0; 2];
+                for k in from..to {
+                    let slope = (values[k + 1] - values[k]) / (t[k + 1] - t[k]);
+                    let part = slope * image(x[k], x[k + 1]);
+                    sums = [sums[0] + part, sums[1] + part.abs()];
+                }
+                sums
+            };
+            let profile = sums(0, j, &|a, b| 2.0 * r * kernel::root_step(a, b, r));
+            let stress = sums(j, cells, &|a, b| {
+                -2.0 * FRAC_1_PI * kernel::outer_root_step(a, b, r)
+            });
+            let surface = sums(0, j, &|a, b| {
+                // The ramp of the cell, and its rise beyond.
+                let rise = (b - a) * (b + a);
+                let beyond = FRAC_PI_2 - (b / r).min(1.0).asin();
+                FRAC_2_PI * (kernel::square_step(a, b, r) + rise * beyond)
+            });
+            for (found, [exact, all]) in [(g[j], profile), (w[j], surface), (p[j], stress)] {
+                assert!(
+                    (found - exact).abs() < TOLERANCE * all,
+                    "{j}: {found} {exact}"
+                );
+            }
+        }
+    }
 }
 
 /// Hertz and Cattaneo with the edge and the stick border between nodes, by [`bend`](super::super::bend).

@@ -279,3 +279,50 @@ fn saved_breaks_that_lie_outside_of_the_grid_are_refused() {
         }
     }
 }
+
+/// Checkpoints of before hold no image of the wear: it is computed anew, and the run goes on as it would have.
+#[test]
+fn a_run_saved_without_the_image_of_its_wear_goes_on() {
+    for method in ["product", "a"] {
+        let scenario = Scenario::load("li2019-fig3", &[])
+            .and_then(|scenario| scenario.with("numerics.method", method))
+            .expect("a preset");
+        let mut simulation = Simulation::new(scenario.setup().clone()).expect("a contact");
+        simulation.advance_to(1.3).expect("steps");
+        let mut saved = Value::serialized(&simulation.save()).expect("a value");
+        let state = entry(&mut saved, "state").as_map_mut().expect("a map");
+        state.retain(|(key, _)| key.as_text() != Some("image"));
+        let saved = saved.deserialized().expect("a saved run");
+        let restored = Simulation::restore(simulation.setup().clone(), saved);
+        let mut restored = restored.expect("a run");
+        simulation.advance_to(2.0).expect("steps");
+        restored.advance_to(2.0).expect("steps");
+        let largest = simulation.state().wear.iter().copied().fold(0.0, f64::max);
+        assert!(largest > 0.0);
+        for (was, is) in simulation.state().wear.iter().zip(&restored.state().wear) {
+            assert!((was - is).abs() < 1e-12 * largest, "{method}: {was} {is}");
+        }
+    }
+}
+
+/// What the steps have added up is the image of the wear as a whole.
+#[test]
+fn the_image_that_steps_add_up_is_that_of_the_wear() {
+    for method in ["product", "a", "benad"] {
+        let scenario = Scenario::load("li2019-fig3", &[])
+            .and_then(|scenario| scenario.with("numerics.method", method))
+            .expect("a preset");
+        let mut simulation = Simulation::new(scenario.setup().clone()).expect("a contact");
+        simulation.advance_to(20.0).expect("steps");
+        let added_up = simulation.state().image.clone();
+        let mut saved = Value::serialized(&simulation.save()).expect("a value");
+        *entry(entry(&mut saved, "state"), "image") = Value::Array(Vec::new());
+        let saved = saved.deserialized().expect("a saved run");
+        let restored = Simulation::restore(simulation.setup().clone(), saved).expect("a run");
+        let largest = added_up.iter().map(|g| g.abs()).fold(0.0, f64::max);
+        assert!(largest > 0.0);
+        for (added_up, whole) in added_up.iter().zip(&restored.state().image) {
+            assert!((added_up - whole).abs() < 1e-12 * largest, "{method}");
+        }
+    }
+}

@@ -5,8 +5,8 @@
 
 Makes a virtual environment of its own in the system's temporary directory and installs NumPy, PyAbel and
 openAbel there (openAbel 0.7 asks for Python 3.12 or later: give one with --python). Builds and runs
-`cargo bench --bench rivals`. Times are lower deciles of many repetitions: what the machine does when
-nothing else runs on it.
+`cargo bench --bench rivals`. Times are lower deciles of many repetitions, the least of those of a few
+rounds in which all take their turns: what the machine does when nothing else runs on it.
 """
 
 import argparse
@@ -186,6 +186,14 @@ def ours():
     return times
 
 
+def least(times, more):
+    """Keeps the lesser of two times for everything that was measured."""
+    for name, row in more.items():
+        kept = times.setdefault(name, {})
+        for n, seconds in row.items():
+            kept[n] = min(seconds, kept.get(n, seconds))
+
+
 def shown(seconds):
     for unit, size in [("s", 1.0), ("ms", 1e-3), ("µs", 1e-6)]:
         if seconds >= size:
@@ -224,19 +232,22 @@ def instructions():
 def main():
     arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     arguments.add_argument("--python", default=sys.executable, help="the interpreter for the rivals")
+    arguments.add_argument("--rounds", type=int, default=3, help="how often all are measured (3)")
     arguments.add_argument("--inside", action="store_true", help=argparse.SUPPRESS)
     chosen = arguments.parse_args()
     if chosen.inside:
         rivals()
         return
     inside = environment(chosen.python)
-    times = ours()
     single = dict(os.environ, OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")
-    done = subprocess.run(
-        [inside, __file__, "--inside"], check=True, stdout=subprocess.PIPE, text=True, env=single
-    )
-    found = json.loads(done.stdout)
-    times.update(found["times"])
+    times = {}
+    for _ in range(chosen.rounds):
+        least(times, ours())
+        done = subprocess.run(
+            [inside, __file__, "--inside"], check=True, stdout=subprocess.PIPE, text=True, env=single
+        )
+        found = json.loads(done.stdout)
+        least(times, found["times"])
     versions = ", ".join(f"{name} {version}" for name, version in found["versions"].items())
     print(f"\n{processor()} ({instructions()}), one thread; {versions}; `python3 benches/compare.py`.\n")
 

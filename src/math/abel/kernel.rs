@@ -35,15 +35,9 @@ pub(super) fn acosh_step(a: f64, b: f64, r: f64) -> f64 {
 
 /// ∫ₐᵇ (x² − a²) dx/√(r² − x²) = (r²/2 − a²) [asin(b/r) − asin(a/r)] − ½ [b√(r²−b²) − a√(r²−a²)],
 /// for 0 ≤ a ≤ b ≤ r.
-#[cfg(test)]
 pub(super) fn square_step(a: f64, b: f64, r: f64) -> f64 {
-    square_step_of(asin_step(a, b, r), root_step(a, b, r), a, b, r)
-}
-
-/// The same from the [`asin_step`] and the [`root_step`] of the cell.
-pub(super) fn square_step_of(arc: f64, root: f64, a: f64, b: f64, r: f64) -> f64 {
-    let ends = (b - a) * leg(b, r) - a * root;
-    (0.5 * r * r - a * a) * arc - 0.5 * ends
+    let ends = (b - a) * leg(b, r) - a * root_step(a, b, r);
+    (0.5 * r * r - a * a) * asin_step(a, b, r) - 0.5 * ends
 }
 
 /// ∫ₐᵇ x dx/√(x² − r²) = √(b² − r²) − √(a² − r²), for 0 ≤ r ≤ a < b.

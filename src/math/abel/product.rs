@@ -61,12 +61,12 @@
 //! | b, uniform cells | 4.5e-2 | 3.6e-2 | 2.9e-2 | 2.3e-2 |
 //! | benad, uniform cells | 1.3e-1 | 1.1e-1 | 6.9e-1 | 1.9 |
 
-use std::f64::consts::{FRAC_1_PI, FRAC_2_PI, FRAC_PI_2};
+use std::f64::consts::{FRAC_1_PI, FRAC_2_PI};
 
 use nalgebra::DMatrix;
 
 use super::kernel::{
-    acosh_step, add_jump_at_rim, asin_step, leg, outer_root_step, root_step, square_step_of,
+    acosh_step, add_jump_at_rim, asin_step, leg, outer_root_step, root_step, square_step,
 };
 
 /// Eq. (1): weights of the 1D profile.
@@ -75,17 +75,15 @@ pub fn profile(nodes: &[f64]) -> DMatrix<f64> {
     let mut weights = DMatrix::zeros(nodes.len(), nodes.len());
     for (j, &x) in nodes.iter().enumerate() {
         weights[(j, 0)] = 1.0;
-        let mut chords = 0.0;
+        let mut bubbles = 0.0;
         for k in 0..j {
             let (a, b) = (nodes[k], nodes[k + 1]);
             let root = root_step(a, b, x);
             let weight = 2.0 * x * root / ((b - a) * (b + a));
             weights[(j, k)] -= weight;
             weights[(j, k + 1)] += weight;
-            chords += 2.0 * root / (a + b);
+            bubbles += asin_step(a, b, x) - 2.0 * root / (a + b);
         }
-        // The arcs of neighbouring cells join into one.
-        let bubbles = if j > 0 { FRAC_PI_2 - chords } else { 0.0 };
         for (i, weight) in cusp.iter().enumerate() {
             weights[(j, i)] += x * bubbles * weight;
         }
@@ -102,12 +100,12 @@ pub fn displacement(nodes: &[f64]) -> DMatrix<f64> {
         let mut bubbles = 0.0;
         for k in 0..j {
             let (a, b) = (nodes[k], nodes[k + 1]);
-            let (arc, root) = (asin_step(a, b, r), root_step(a, b, r));
-            let square = square_step_of(arc, root, a, b, r);
+            let arc = asin_step(a, b, r);
+            let square = square_step(a, b, r);
             let right = square / ((b - a) * (b + a));
             weights[(j, k)] += FRAC_2_PI * (arc - right);
             weights[(j, k + 1)] += FRAC_2_PI * right;
-            bubbles += root - a * arc - square / (a + b);
+            bubbles += root_step(a, b, r) - a * arc - square / (a + b);
         }
         for (i, weight) in cusp.iter().enumerate() {
             weights[(j, i)] += FRAC_2_PI * bubbles * weight;
@@ -123,21 +121,13 @@ pub fn stress(nodes: &[f64]) -> DMatrix<f64> {
     let cusp = cusp_weights(nodes);
     let mut weights = DMatrix::zeros(nodes.len(), nodes.len());
     for (j, &r) in nodes.iter().enumerate() {
-        // As in `outer_bubble`; the logarithms of neighbouring cells join into one.
-        let start = j.max(1);
         let mut bubbles = 0.0;
-        if start < last {
-            bubbles = acosh_step(nodes[start], nodes[last], r);
-        }
         for k in j..last {
             let (a, b) = (nodes[k], nodes[k + 1]);
-            let root = outer_root_step(a, b, r);
-            let weight = FRAC_2_PI * root / ((b - a) * (b + a));
+            let weight = FRAC_2_PI * outer_root_step(a, b, r) / ((b - a) * (b + a));
             weights[(j, k)] += weight;
             weights[(j, k + 1)] -= weight;
-            if k >= start {
-                bubbles -= 2.0 * root / (a + b);
-            }
+            bubbles += outer_bubble(a, b, r);
         }
         for (i, weight) in cusp.iter().enumerate() {
             weights[(j, i)] -= FRAC_1_PI * bubbles * weight;

@@ -21,7 +21,6 @@ const FEWEST: usize = 5;
 /// How often each size has its turn.
 const TURNS: usize = 20;
 
-#[allow(clippy::print_stdout, reason = "a program whose output is its result")]
 fn report(name: &str, n: usize, mut run: impl FnMut()) {
     run();
     let (begin, mut times) = (Instant::now(), Vec::new());
@@ -30,8 +29,12 @@ fn report(name: &str, n: usize, mut run: impl FnMut()) {
         run();
         times.push(start.elapsed());
     }
+    report_decile(name, n, times);
+}
+
+fn report_decile(name: &str, n: usize, mut times: Vec<Duration>) {
     times.sort();
-    println!("{name},{n},{:e}", times[times.len() / 10].as_secs_f64());
+    report_once(name, n, times[times.len() / 10]);
 }
 
 fn main() {
@@ -59,7 +62,6 @@ fn main() {
 }
 
 /// A step of Fig. 3 on so many cells, turn by turn: what else runs on the machine hits all sizes alike.
-#[allow(clippy::print_stdout, reason = "a program whose output is its result")]
 fn steps(sizes: &[usize]) {
     let simulation = |cells: &usize| {
         let points = cells.to_string();
@@ -88,9 +90,8 @@ fn steps(sizes: &[usize]) {
             }
         }
     }
-    for (cells, (_, times)) in sizes.iter().zip(&mut runs) {
-        times.sort();
-        println!("step,{cells},{:e}", times[times.len() / 10].as_secs_f64());
+    for (cells, (_, times)) in sizes.iter().zip(runs) {
+        report_decile("step", *cells, times);
     }
 }
 

@@ -243,6 +243,16 @@ fn what_is_no_checkpoint_of_this_version_is_refused() {
     assert!(refusal(huge).to_string().contains("larger than 4 GiB"));
 }
 
+/// Fig. 3 under a `method` after so many cycles.
+fn fig3(method: &str, cycles: f64) -> Simulation {
+    let scenario = Scenario::load("li2019-fig3", &[])
+        .and_then(|scenario| scenario.with("numerics.method", method))
+        .expect("a preset");
+    let mut simulation = Simulation::new(scenario.setup().clone()).expect("a contact");
+    simulation.advance_to(cycles).expect("steps");
+    simulation
+}
+
 /// The entry of a CBOR map.
 fn entry<'a>(value: &'a mut Value, name: &str) -> &'a mut Value {
     let map = value.as_map_mut().expect("a map");
@@ -252,9 +262,7 @@ fn entry<'a>(value: &'a mut Value, name: &str) -> &'a mut Value {
 
 #[test]
 fn saved_breaks_that_lie_outside_of_the_grid_are_refused() {
-    let scenario = Scenario::load("li2019-fig3", &[]).expect("a preset");
-    let mut simulation = Simulation::new(scenario.setup().clone()).expect("a contact");
-    simulation.advance_to(0.3).expect("steps");
+    let simulation = fig3("product", 0.3);
     let whole = Value::serialized(&simulation.save()).expect("a value");
     let restored = |saved: Value| {
         let saved = saved.deserialized().expect("a saved run");
@@ -284,11 +292,7 @@ fn saved_breaks_that_lie_outside_of_the_grid_are_refused() {
 #[test]
 fn a_run_saved_without_the_image_of_its_wear_goes_on() {
     for method in ["product", "a"] {
-        let scenario = Scenario::load("li2019-fig3", &[])
-            .and_then(|scenario| scenario.with("numerics.method", method))
-            .expect("a preset");
-        let mut simulation = Simulation::new(scenario.setup().clone()).expect("a contact");
-        simulation.advance_to(1.3).expect("steps");
+        let mut simulation = fig3(method, 1.3);
         let mut saved = Value::serialized(&simulation.save()).expect("a value");
         let state = entry(&mut saved, "state").as_map_mut().expect("a map");
         state.retain(|(key, _)| key.as_text() != Some("image"));
@@ -309,11 +313,7 @@ fn a_run_saved_without_the_image_of_its_wear_goes_on() {
 #[test]
 fn the_image_that_steps_add_up_is_that_of_the_wear() {
     for method in ["product", "a", "benad"] {
-        let scenario = Scenario::load("li2019-fig3", &[])
-            .and_then(|scenario| scenario.with("numerics.method", method))
-            .expect("a preset");
-        let mut simulation = Simulation::new(scenario.setup().clone()).expect("a contact");
-        simulation.advance_to(20.0).expect("steps");
+        let simulation = fig3(method, 20.0);
         let added_up = simulation.state().image.clone();
         let mut saved = Value::serialized(&simulation.save()).expect("a value");
         *entry(entry(&mut saved, "state"), "image") = Value::Array(Vec::new());

@@ -341,12 +341,8 @@ mod tests {
             let mut part = vec![0.25; 40];
             packed.apply_rows(&input, &mut part, rows.clone());
             assert_eq!(part[rows.clone()], whole[rows]);
-            let others = part.iter().zip(&whole);
-            assert!(
-                others
-                    .clone()
-                    .all(|(part, whole)| [0.25, *whole].contains(part))
-            );
+            let mut all = part.iter().zip(&whole);
+            assert!(all.all(|(part, whole)| [0.25, *whole].contains(part)));
         }
     }
 

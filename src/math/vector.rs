@@ -11,6 +11,19 @@ pub fn vectorized<R>(pass: impl FnOnce() -> R) -> R {
     dispatch!(Level::new(), _simd => pass())
 }
 
+/// Writes what `of` makes of each pair of values into `out`, as many of the one as of the others.
+#[inline(always)]
+pub fn write_each(out: &mut [f64], a: &[f64], b: &[f64], of: impl Fn(f64, f64) -> f64) {
+    vectorized(
+        #[inline(always)]
+        || {
+            for (out, (a, b)) in out.iter_mut().zip(a.iter().zip(b)) {
+                *out = of(*a, *b);
+            }
+        },
+    );
+}
+
 /// Adds `more` to `values`, as many of the one as of the other.
 pub fn add_to(values: &mut [f64], more: &[f64]) {
     vectorized(

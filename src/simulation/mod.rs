@@ -19,6 +19,7 @@ pub mod drive;
 mod integrator;
 mod moments;
 pub mod observation;
+mod profile;
 mod saved;
 mod solve;
 pub mod stability;

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::workspace::{Contact, Workspace};
-use super::{Setup, Simulation, State, solve};
+use super::{Setup, Simulation, State, profile};
 use crate::math::abel::bend::are_hats;
 use crate::math::grid::RadialGrid;
 
@@ -72,7 +72,7 @@ impl Simulation {
         let mut state = saved.state;
         if state.image.is_empty() {
             // Put away before steps kept it.
-            solve::update_profile(&mut workspace, &state.wear);
+            profile::update_profile(&mut workspace, &state.wear);
             state.image.clone_from(&workspace.image);
         }
         workspace.good = saved.contact;

@@ -205,6 +205,6 @@ impl Workspace {
         self.normal_load.copy_from_slice(&state.last.normal_load);
         self.spring.copy_from_slice(&state.spring);
         self.hold.copy_from_slice(&state.hold);
-        super::solve::set_profile(self, &state.image, &state.wear);
+        super::profile::set_profile(self, &state.image, &state.wear);
     }
 }

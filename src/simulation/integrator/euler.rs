@@ -23,7 +23,7 @@ use super::{commit, stiffness};
 use crate::contact::tangential::Hold;
 use crate::math::abel::bend;
 use crate::math::scan::leading;
-use crate::math::vector::vectorized;
+use crate::math::vector::{vectorized, write_each};
 
 /// The stiffness beyond which a step is taken in parts, and that of the parts, in limits: an explicit
 /// step at its limit rings, at half of it no error changes its sign.
@@ -106,15 +106,12 @@ fn work_of_friction(setup: &Setup, work: &mut Workspace) -> f64 {
     let first = leading(&work.hold[..end], |&hold| hold == Hold::Stick);
     work.friction_work[..first].fill(0.0);
     work.friction_work[end..].fill(0.0);
-    let springs = work.spring[first..end].iter().zip(&work.slip[first..end]);
-    let friction_work = work.friction_work[first..end].iter_mut();
-    vectorized(
+    write_each(
+        &mut work.friction_work[first..end],
+        &work.spring[first..end],
+        &work.slip[first..end],
         #[inline(always)]
-        || {
-            for (work, (u, slip)) in friction_work.zip(springs) {
-                *work = modulus * u * slip;
-            }
-        },
+        |u, slip| modulus * u * slip,
     );
     let (normal, squares) = (&work.contact.normal, work.planned.grid.squares());
     work.work_breaks.clear();

@@ -3,7 +3,8 @@
 
 use super::breakdown::Cause;
 use super::choices::Scheme;
-use super::solve::{grow_profile, pressure, shear, solve_contact, update_profile};
+use super::profile::{grow_profile, update_profile};
+use super::solve::{pressure, shear, solve_contact};
 use super::state::{LastStep, State};
 use super::workspace::Workspace;
 use super::{Setup, at_rim, cycles_to_settle, volume_by_rate};

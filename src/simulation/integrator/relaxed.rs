@@ -23,7 +23,8 @@
 
 use super::super::Setup;
 use super::super::breakdown::Cause;
-use super::super::solve::{press_at, pressure, solve_contact, update_profile};
+use super::super::profile::{set_profile, update_profile};
+use super::super::solve::{press_at, pressure, solve_contact};
 use super::super::stability;
 use super::super::state::State;
 use super::super::workspace::Workspace;
@@ -62,10 +63,9 @@ pub(super) fn step(
     if stiffness < STIFF || stages > MOST_STAGES || gain * pressure > MOST_GAIN {
         return None;
     }
-    let profile = (work.g.clone(), work.rim);
     // What fails on the way may go well in parts, and says what is wrong if it does not.
     let relaxed = pass_by_pass(setup, state, work, cycle, stages, gain);
-    (work.g, work.rim) = profile;
+    set_profile(work, &state.image, &state.wear);
     relaxed.ok().flatten()
 }
 

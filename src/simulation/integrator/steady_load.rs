@@ -40,9 +40,9 @@ pub(super) fn wear(
         None => work.worn.fill(0.0),
     }
     let end = LoadEnd::now(work);
-    let between_springs = end.between_springs(setup.grid.radius(), setup.material.normal_modulus());
     work.beyond_nodes = worn_volume::beyond_nodes(setup, work, [end, end], zone);
-    let contact = &work.contact.normal;
+    let (contact, rim_edge) = (&work.contact.normal, work.rim_edge.as_ref());
+    let between_springs = worn_volume::between_springs(setup, &work.normal_breaks, rim_edge);
     let at_edge = match contact.nodes {
         0 => 0.0,
         nodes => 2.0 * friction * between_springs * work.slip[nodes - 1].abs(),

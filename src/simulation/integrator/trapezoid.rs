@@ -41,7 +41,7 @@ use super::{commit, relaxed, stiffness};
 use crate::contact::tangential::Hold;
 use crate::math::abel::bend::{self, Bend};
 use crate::math::scan::{leading, trailing};
-use crate::math::vector::vectorized;
+use crate::math::vector::{vectorized, write_each};
 
 /// The most that the profile is looked ahead, in lengths of the step before.
 const FARTHEST: f64 = 4.0;
@@ -77,15 +77,13 @@ fn attempt(
     } else {
         0.0
     };
-    let profile = work.g.iter().zip(&state.last.growth);
-    let predicted = work.predicted.iter_mut();
-    vectorized(
+    let (predicted, growth) = (&mut work.predicted, &state.last.growth);
+    write_each(
+        predicted,
+        &work.g,
+        growth,
         #[inline(always)]
-        || {
-            for (predicted, (g, growth)) in predicted.zip(profile) {
-                *predicted = g + ahead * growth;
-            }
-        },
+        |g, growth| g + ahead * growth,
     );
     solve_contact(setup, state, work, cycle)?;
     let mut friction_work = worn(setup, state, work, cycle);
@@ -146,15 +144,12 @@ pub(super) fn worn(setup: &Setup, state: &State, work: &mut Workspace, cycle: f6
 /// 2∫ μ (q_n + q_{n+1})/2 |Δs| dx: what each spring that slips turns into heat.
 fn work_of_friction(setup: &Setup, state: &State, work: &mut Workspace) -> f64 {
     let friction = setup.material.friction();
-    let loads = work.normal_load.iter().zip(&state.last.normal_load);
-    let limits = work.friction_work.iter_mut();
-    vectorized(
+    write_each(
+        &mut work.friction_work,
+        &work.normal_load,
+        &state.last.normal_load,
         #[inline(always)]
-        || {
-            for (limit, (after, before)) in limits.zip(loads) {
-                *limit = 0.5 * friction * (after + before);
-            }
-        },
+        |after, before| 0.5 * friction * (after + before),
     );
     kinks_of_slip(work, &state.last.spring_breaks);
     let normal = &work.contact.normal;
@@ -162,10 +157,10 @@ fn work_of_friction(setup: &Setup, state: &State, work: &mut Workspace) -> f64 {
         0 => 0.0,
         nodes => work.slip[nodes - 1].abs(),
     };
-    let (radius, modulus) = (setup.grid.radius(), setup.material.normal_modulus());
-    let ends = [LoadEnd::before(&state.last), LoadEnd::now(work)];
-    let broken = ends.map(|end| end.between_springs(radius, modulus));
-    let edge = friction * (broken[0] + broken[1]) * at_edge;
+    let last = &state.last;
+    let before = worn_volume::between_springs(setup, &last.normal_breaks, last.rim_edge.as_ref());
+    let now = worn_volume::between_springs(setup, &work.normal_breaks, work.rim_edge.as_ref());
+    let edge = friction * (before + now) * at_edge;
     let row = &work.planned.row;
     let (limit, slip) = (&work.friction_work, &work.slip);
     edge + row.work(limit, slip, &work.slip_kinks, normal.edge())

@@ -50,12 +50,6 @@ impl<'a> LoadEnd<'a> {
         }
     }
 
-    /// ∫ of what the breaks add to its nodal values, N; `modulus` is E*.
-    pub fn between_springs(&self, radius: f64, modulus: f64) -> f64 {
-        let at_rim = self.rim_edge.map_or(0.0, RimEdge::line_integral);
-        bend::line_integral(self.breaks, radius) + modulus * at_rim
-    }
-
     /// That of the load at the end of the step before.
     pub fn before(last: &'a LastStep) -> Self {
         let load = &last.normal_load;
@@ -65,6 +59,12 @@ impl<'a> LoadEnd<'a> {
             rim_edge: last.rim_edge.as_ref(),
         }
     }
+}
+
+/// ∫ of what its breaks, and its edge in the cell of the rim, add to the nodal values of a line load, N.
+pub(super) fn between_springs(setup: &Setup, breaks: &[Bend], rim_edge: Option<&RimEdge>) -> f64 {
+    let at_rim = rim_edge.map_or(0.0, RimEdge::line_integral);
+    bend::line_integral(breaks, setup.grid.radius()) + setup.material.normal_modulus() * at_rim
 }
 
 /// What wears by the mean of two loads, `work.friction_work` μ times it, beyond the nodes' interpolant, m³;

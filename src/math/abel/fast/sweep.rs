@@ -226,8 +226,8 @@ impl Inward {
 }
 
 /// Near field less recurrences over one block of rows, from its end if `REVERSED`; the number of groups is fixed
-/// at compile time, so that the state stays in registers. The sources have
-/// those of [`REACH`] more rows on the side where they come from.
+/// at compile time, so that the state stays in registers. The sources have those of [`REACH`] more rows on the side
+/// where they come from.
 fn powers_block<const REVERSED: bool>(
     level: Level,
     state: &mut State,
@@ -238,11 +238,11 @@ fn powers_block<const REVERSED: bool>(
     sums: &mut [f64],
 ) {
     let (rows, near) = match (decay, near) {
-        // Inwards the decay is that towards the node before.
-        (decay::Piece::Rows(rows), near::Piece::Table(table)) if REVERSED => {
-            (&rows[factors.len()..], table)
+        (decay::Piece::Rows(rows), near::Piece::Table(table)) => {
+            // Inwards the decay is that towards the node before.
+            let first = if REVERSED { factors.len() } else { 0 };
+            (&rows[first..], table)
         }
-        (decay::Piece::Rows(rows), near::Piece::Table(table)) => (rows, table),
         (decay::Piece::Cubics(cubics), near::Piece::Table(near)) => {
             return dispatch!(level, simd => cubics_block::<_, _, REVERSED>(
                 simd, state, cubics, factors, near, sources, sums

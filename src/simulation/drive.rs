@@ -191,9 +191,12 @@ impl Drive {
             .into_iter()
             .filter(|&sign| (down + sign * along).abs() <= reach)
             .filter_map(|sign| {
-                (0..pieces as u32).find_map(|i| {
-                    let at = |i: u32| from + (until - from) * f64::from(i) / pieces;
-                    sign_change(|cycles| rate(sign, cycles), at(i), at(i + 1))
+                let at = |i: u32| from + (until - from) * f64::from(i) / pieces;
+                let mut low = (at(0), rate(sign, at(0)));
+                (1..=pieces as u32).find_map(|i| {
+                    let high = (at(i), rate(sign, at(i)));
+                    let low = std::mem::replace(&mut low, high);
+                    sign_change(|cycles| rate(sign, cycles), low, high)
                 })
             })
             .reduce(f64::min)
@@ -245,25 +248,30 @@ impl Drive {
     }
 }
 
-/// Where `function` crosses zero between `a` and `b`, `b` included.
-fn sign_change(function: impl Fn(f64) -> f64, a: f64, b: f64) -> Option<f64> {
-    let (mut low, mut high) = (a, b);
-    let (at_low, at_high) = (function(low), function(high));
+/// Where `function` crosses zero between two points given with their values, the second included.
+fn sign_change(
+    function: impl Fn(f64) -> f64,
+    (mut low, at_low): (f64, f64),
+    (mut high, at_high): (f64, f64),
+) -> Option<f64> {
     if at_high == 0.0 && at_low != 0.0 {
         return Some(high);
     }
     if at_low * at_high >= 0.0 {
         return None;
     }
-    for _ in 0..60 {
+    loop {
         let middle = 0.5 * (low + high);
+        // No number lies between the two.
+        if middle == low || middle == high {
+            return Some(high);
+        }
         if function(middle) * at_low > 0.0 {
             low = middle;
         } else {
             high = middle;
         }
     }
-    Some(high)
 }
 
 fn at(control: &Control, turns: f64) -> Target {

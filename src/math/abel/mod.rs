@@ -33,6 +33,9 @@
 use std::fmt;
 use std::ops::Range;
 use std::str::FromStr;
+use std::sync::OnceLock;
+
+use nalgebra::DMatrix;
 
 use super::grid::{MAX_CELLS, RadialGrid};
 use super::invalid::Invalid;
@@ -136,6 +139,25 @@ impl FromStr for AbelMethod {
     }
 }
 
+/// The weights of an operator on its nodes.
+type Weights = fn(&[f64]) -> DMatrix<f64>;
+
+/// A dense operator whose weights are computed when it is first applied: a run that has a [`WornPlan`] never needs
+/// the Eq. (1) of its method.
+#[derive(Debug)]
+struct Deferred {
+    weights: Weights,
+    nodes: Vec<f64>,
+    packed: OnceLock<Staircase>,
+}
+
+impl Deferred {
+    fn packed(&self) -> &Staircase {
+        self.packed
+            .get_or_init(|| Staircase::pack(&(self.weights)(&self.nodes)))
+    }
+}
+
 /// How a method is computed; what it computes is the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Form {
@@ -162,16 +184,16 @@ impl Form {
 }
 
 /// The three transforms of one method on one grid, ready to apply.
-#[derive(Debug, PartialEq)]
+#[derive(Debug)]
 pub struct AbelPlan {
     method: AbelMethod,
     operators: Operators,
 }
 
-#[derive(Debug, PartialEq)]
+#[derive(Debug)]
 enum Operators {
     Dense {
-        profile: Staircase,
+        profile: Deferred,
         displacement: Staircase,
         stress: Staircase,
     },
@@ -201,36 +223,24 @@ impl AbelPlan {
 
     /// `method` on `grid` in the dense form.
     pub fn dense(method: AbelMethod, grid: &RadialGrid) -> Self {
-        let nodes = grid.nodes();
-        let (profile, displacement, stress) = match method {
-            AbelMethod::Product => (
-                product::profile(nodes),
-                product::displacement(nodes),
-                product::stress(nodes),
-            ),
-            AbelMethod::Benad => (
-                benad::profile(nodes),
-                benad::displacement(nodes),
-                benad::stress(nodes),
-            ),
-            AbelMethod::A => (
-                benad::profile(nodes),
-                a::displacement(nodes),
-                benad::stress(nodes),
-            ),
-            AbelMethod::B => (b::profile(nodes), b::displacement(nodes), b::stress(nodes)),
-            AbelMethod::APlusB => (
-                benad::profile(nodes),
-                b::displacement(nodes),
-                benad::stress(nodes),
-            ),
+        let (profile, displacement, stress): (Weights, Weights, Weights) = match method {
+            AbelMethod::Product => (product::profile, product::displacement, product::stress),
+            AbelMethod::Benad => (benad::profile, benad::displacement, benad::stress),
+            AbelMethod::A => (benad::profile, a::displacement, benad::stress),
+            AbelMethod::B => (b::profile, b::displacement, b::stress),
+            AbelMethod::APlusB => (benad::profile, b::displacement, benad::stress),
         };
+        let nodes = grid.nodes();
         Self {
             method,
             operators: Operators::Dense {
-                profile: Staircase::pack(&profile),
-                displacement: Staircase::pack(&displacement),
-                stress: Staircase::pack(&stress),
+                profile: Deferred {
+                    weights: profile,
+                    nodes: nodes.to_vec(),
+                    packed: OnceLock::new(),
+                },
+                displacement: Staircase::pack(&displacement(nodes)),
+                stress: Staircase::pack(&stress(nodes)),
             },
         }
     }
@@ -251,7 +261,7 @@ impl AbelPlan {
     /// Eq. (1): the 1D profile `g` of the 3D profile `f`, both nodal, in the same unit.
     pub fn profile(&self, f: &[f64], g: &mut [f64]) {
         match &self.operators {
-            Operators::Dense { profile, .. } => profile.apply(f, g),
+            Operators::Dense { profile, .. } => profile.packed().apply(f, g),
             Operators::Fast(fast) => fast.profile(f, g),
         }
     }
@@ -353,7 +363,7 @@ mod tests {
             else {
                 panic!("so few cells are dense");
             };
-            let causal = profile.looks_inwards_only()
+            let causal = profile.packed().looks_inwards_only()
                 && displacement.looks_inwards_only()
                 && stress.looks_outwards_only();
             assert_eq!(

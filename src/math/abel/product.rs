@@ -101,7 +101,7 @@ pub fn displacement(nodes: &[f64]) -> DMatrix<f64> {
         for k in 0..j {
             let (a, b) = (nodes[k], nodes[k + 1]);
             let arc = asin_step(a, b, r);
-            let square = square_step(a, b, r);
+            let square = square_step(a, b, r, arc);
             let right = square / ((b - a) * (b + a));
             weights[(j, k)] += FRAC_2_PI * (arc - right);
             weights[(j, k + 1)] += FRAC_2_PI * right;

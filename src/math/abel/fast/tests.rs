@@ -283,7 +283,8 @@ fn large_grids_keep_the_tolerance_node_by_node() {
                 // The ramp of the cell, and its rise beyond.
                 let rise = (b - a) * (b + a);
                 let beyond = FRAC_PI_2 - (b / r).min(1.0).asin();
-                FRAC_2_PI * (kernel::square_step(a, b, r) + rise * beyond)
+                let square = kernel::square_step(a, b, r, kernel::asin_step(a, b, r));
+                FRAC_2_PI * (square + rise * beyond)
             });
             for (found, [exact, all]) in [(g[j], profile), (w[j], surface), (p[j], stress)] {
                 assert!(

@@ -29,6 +29,9 @@ use crate::math::scan::{leading, trailing};
 /// Cells inside that of the contact's edge whose stress is steep.
 const CELLS: usize = 3;
 
+/// Cells from the edges of both loads beyond which the stress is a line in each cell.
+const FAR: usize = 12;
+
 /// Where a line load ends that is one of the two whose mean wears.
 #[derive(Clone, Copy)]
 pub(super) struct LoadEnd<'a> {
@@ -86,14 +89,21 @@ pub(super) fn beyond_nodes(
     let first = first.max(zone).min(end);
     let zone = zone.min(first);
     let inside = between_nodes(work, zone..first);
-    let at_edge = to_edge(setup, work, ends, first..end);
+    let to_edge = |cells: Range<usize>| to_edge(setup, work, ends, cells, end);
+    // On a fine grid many cells lie between the two edges, and most of them far from either.
+    let far = (was.min(now) + FAR).max(first)..was.max(now).saturating_sub(FAR).min(end);
+    let at_edges = if far.is_empty() {
+        to_edge(first..end)
+    } else {
+        to_edge(first..far.start) + between_nodes(work, far.clone()) + to_edge(far.end..end)
+    };
     // Further in, wear is what the nodes say: next to the border it rises like no line.
     let still = leading(&work.surface_slip, |&slip| slip == 0.0);
     let inner = still.saturating_sub(1).min(zone)..zone;
     let inner = inner.flat_map(|cell| worn::cell_weights(grid, cell));
     let inner: f64 = inner.map(|(node, weight)| weight * work.worn[node]).sum();
     let nodal = weighted(&work.planned.volume_weights, &work.worn);
-    let volume = std::f64::consts::PI * law.coefficient() * (inside + at_edge);
+    let volume = std::f64::consts::PI * law.coefficient() * (inside + at_edges);
     Some(volume - (nodal - inner))
 }
 
@@ -115,8 +125,15 @@ fn between_nodes(work: &Workspace, cells: Range<usize>) -> f64 {
     pairs.map(cell).sum::<f64>() / 6.0
 }
 
-/// The same over the `cells` to where the contact ends, or to the rim of a punch, J.
-fn to_edge(setup: &Setup, work: &Workspace, ends: [LoadEnd<'_>; 2], cells: Range<usize>) -> f64 {
+/// The same over `cells` next to where one of the two loads ends, or to the rim of a punch, J. Nothing is loaded
+/// beyond the node `end`.
+fn to_edge(
+    setup: &Setup,
+    work: &Workspace,
+    ends: [LoadEnd<'_>; 2],
+    cells: Range<usize>,
+    end: usize,
+) -> f64 {
     let t = work.planned.grid.squares();
     let (first, last) = (cells.start, t.len() - 1);
     let (origin, load) = (t[first], &work.friction_work);
@@ -131,7 +148,7 @@ fn to_edge(setup: &Setup, work: &Workspace, ends: [LoadEnd<'_>; 2], cells: Range
     let modulus = setup.material.normal_modulus();
     // ∫ μp̄ dt and ∫ μp̄ (t − t₀) dt beyond a node, t₀ that of the first.
     let beyond = |node: usize| {
-        let nodal = (first + 1..=cells.end).map(|j| Bend {
+        let nodal = (first + 1..=end).map(|j| Bend {
             at: t[j],
             jump: slope(j) - slope(j - 1),
         });

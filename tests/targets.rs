@@ -423,6 +423,27 @@ fn what_has_worn_is_what_friction_has_worked() {
     holds("rate of wear at N = 100", errors.fold(0.0, f64::max), 1e-3);
 }
 
+/// So does a fine grid, where the edge passes many cells in a step, and where contact begins anew in it: the
+/// second cycle, as it has no first contact in it.
+#[test]
+fn an_edge_that_passes_many_cells_in_a_step_wears_what_it_has_worked() {
+    for (name, cells, steps, bound) in [
+        ("li2019-fig3", "1000", "8", 2e-5),
+        ("separation", "2000", "12", 2e-4),
+    ] {
+        let keys = [
+            ("numerics.points", cells),
+            ("numerics.steps_per_cycle", steps),
+        ];
+        let scenario = Scenario::load(name, &[]).and_then(|preset| preset.with_all(&keys));
+        let scenario = scenario.expect("a scenario");
+        let mut simulation = Simulation::new(scenario.setup().clone()).expect("a contact");
+        simulation.advance_to(2.0).expect("two cycles");
+        let residual = simulation.moment().period_residual.expect("wear");
+        holds(&format!("residual of {name}"), residual.abs(), bound);
+    }
+}
+
 /// So do the presets in every period in which more than 1e-4 of all wear is worn, be it stepped or jumped.
 /// Left out: `harsh-wear`, whose explicit steps at their limit are to be seen failing.
 #[test]

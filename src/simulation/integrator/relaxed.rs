@@ -19,7 +19,9 @@
 //!
 //! - **Order**: second.
 //! - **Cost**: two transforms a stage, four a pass, one to three passes.
-//! - **Known failure**: where springs let go, G near 1, the slip of the step is no given. Such steps are refused.
+//! - **Known failure**: where springs let go, G near 1, the slip of the step is no given, and where the edge of the
+//!   contact passes many cells, wear that begins or ends within the step is no polynomial in θ: stages overshoot
+//!   there by up to a tenth of it. Such steps are refused.
 
 use super::super::Setup;
 use super::super::breakdown::Cause;
@@ -40,6 +42,9 @@ const MOST_STAGES: usize = 40;
 
 /// The largest gain at which slip is looked at as given.
 const MOST_GAIN: f64 = 0.2;
+
+/// The most that stages may overshoot by at a node, in depths.
+const MOST_OVERSHOOT: f64 = 1e-4;
 
 /// What the slip may err by, in terms of what it wears, in depths.
 const TOLERANCE: f64 = 1e-5;
@@ -80,6 +85,10 @@ fn pass_by_pass(
     for _ in 0..MOST_PASSES {
         let supposed = work.predicted.clone();
         let end = pass(setup, state, work, cycle - state.cycle, stages)?;
+        let depth = setup.depth_scale(work.contact.depth);
+        if end.overshoot > MOST_OVERSHOOT * depth {
+            return Ok(None);
+        }
         update_profile(work, &end.wear);
         work.predicted.copy_from_slice(&work.g);
         solve_contact(setup, state, work, cycle)?;
@@ -91,7 +100,6 @@ fn pass_by_pass(
             .filter(|(_, hold)| hold.sign().is_some())
             .map(|((supposed, found), _)| (supposed - found).abs())
             .fold(0.0, f64::max);
-        let depth = setup.depth_scale(work.contact.depth);
         if gain * sliding(work, &work.pressure) * missed <= TOLERANCE * depth {
             let wear = end.wear.iter().zip(&state.wear);
             work.sliding = 0..work.worn.len();
@@ -114,6 +122,8 @@ struct End {
     friction_work: f64,
     /// m³; none where that is not known.
     beyond_nodes: Option<f64>,
+    /// The most that the stages grew back anywhere and should not have, m.
+    overshoot: f64,
 }
 
 /// Wears the slip of the step in `stages`. The last entries of y are the work of friction, the volume between
@@ -154,13 +164,16 @@ fn pass(
     let (friction_work, beyond_nodes) = (end[nodes], end[nodes + 1]);
     end.truncate(nodes);
     // Stages overshoot by their error where all has worn off: nothing grows back.
+    let mut overshoot = 0.0_f64;
     for (after, before) in end.iter_mut().zip(&state.wear) {
+        overshoot = overshoot.max(before - *after);
         *after = after.max(*before);
     }
     Ok(End {
         wear: end,
         friction_work,
         beyond_nodes: tells.then_some(beyond_nodes),
+        overshoot,
     })
 }
 

@@ -8,6 +8,7 @@ use serde::Serialize;
 use super::{Simulation, solve, stability, volume_by_rate};
 use crate::contact::tangential::Hold;
 use crate::math::abel::AbelMethod;
+use crate::math::abel::cone::Rest;
 use crate::math::quadrature::volume_of_revolution;
 
 bitflags! {
@@ -165,6 +166,7 @@ impl Simulation {
             &self.workspace,
             &self.setup().material,
             self.state.core_radius(),
+            &mut Rest::default(),
             &mut pressure,
         );
         pressure
@@ -236,7 +238,8 @@ impl Simulation {
             pressure: when(Curves::PRESSURE, &|| self.pressure()),
             shear: when(Curves::SHEAR, &|| {
                 let material = &self.setup().material;
-                transformed(&|out| solve::shear(work, material, self.state.core_radius(), out))
+                let core = self.state.core_radius();
+                transformed(&|out| solve::shear(work, material, core, &mut Rest::default(), out))
             }),
             surface: when(Curves::SURFACE, &|| {
                 transformed(&|out| solve::surface_displacement(work, out))

@@ -11,7 +11,8 @@ use crate::contact::material::Material;
 use crate::contact::normal;
 use crate::contact::tangential::{self, Grip, Hold, Motion};
 use crate::math::abel::bend::{self, Bend};
-use crate::math::abel::{product, rim_edge};
+use crate::math::abel::cone::{Cone, Rest};
+use crate::math::abel::rim_edge;
 use crate::math::root;
 use crate::math::scan::largest;
 use crate::math::vector::vectorized;
@@ -221,14 +222,26 @@ fn increment_for_force(
 const STEEP: usize = 4;
 
 /// p(r), Pa, of the solved contact by Eq. (3). Nothing slips within the radius `core` (m).
-pub(super) fn pressure(work: &Workspace, material: &Material, core: f64, out: &mut [f64]) {
-    pressure_of_chords(work, material, out);
+pub(super) fn pressure(
+    work: &Workspace,
+    material: &Material,
+    core: f64,
+    rest: &mut Rest,
+    out: &mut [f64],
+) {
+    pressure_of_chords(work, material, rest, out);
     curve(work, material, core, |j, more| out[j] += more);
 }
 
 /// τ(r), Pa, of the solved contact by Eq. (3).
-pub(super) fn shear(work: &Workspace, material: &Material, core: f64, out: &mut [f64]) {
-    shear_of(0..out.len(), work, material, core, out);
+pub(super) fn shear(
+    work: &Workspace,
+    material: &Material,
+    core: f64,
+    rest: &mut Rest,
+    out: &mut [f64],
+) {
+    shear_of(0..out.len(), work, material, core, rest, out);
 }
 
 /// The same of those `nodes` alone; the others hold something finite.
@@ -237,9 +250,10 @@ pub(super) fn shear_of(
     work: &Workspace,
     material: &Material,
     core: f64,
+    rest: &mut Rest,
     out: &mut [f64],
 ) {
-    shear_of_chords(nodes.clone(), work, material, out);
+    shear_of_chords(nodes.clone(), work, material, rest, out);
     curve(work, material, core, |j, more| {
         if nodes.contains(&j) {
             out[j] += share_of_shear(work, material, j) * more;
@@ -252,11 +266,12 @@ pub(super) fn stresses(
     work: &Workspace,
     material: &Material,
     core: f64,
+    rest: &mut Rest,
     p: &mut [f64],
     tau: &mut [f64],
 ) {
-    pressure_of_chords(work, material, p);
-    shear_of_chords(0..tau.len(), work, material, tau);
+    pressure_of_chords(work, material, rest, p);
+    shear_of_chords(0..tau.len(), work, material, rest, tau);
     curve(work, material, core, |j, more| {
         p[j] += more;
         tau[j] += share_of_shear(work, material, j) * more;
@@ -264,9 +279,9 @@ pub(super) fn stresses(
 }
 
 /// p of a line load that is linear in x² between the nodes and its breaks.
-fn pressure_of_chords(work: &Workspace, material: &Material, out: &mut [f64]) {
-    let all = 0..out.len();
-    stress(work, &work.normal_load, &work.normal_breaks, all, out);
+fn pressure_of_chords(work: &Workspace, material: &Material, rest: &mut Rest, out: &mut [f64]) {
+    let (load, breaks) = (&work.normal_load, &work.normal_breaks);
+    stress(work, load, breaks, 0..out.len(), rest, out);
     if let Some(edge) = &work.rim_edge {
         let modulus = material.normal_modulus();
         edge.add_to_stress(modulus, work.planned.grid.squares(), out);
@@ -274,8 +289,15 @@ fn pressure_of_chords(work: &Workspace, material: &Material, out: &mut [f64]) {
 }
 
 /// τ of such a load, of those `nodes` alone.
-fn shear_of_chords(nodes: Range<usize>, work: &Workspace, material: &Material, out: &mut [f64]) {
-    stress(work, &work.spring, &work.spring_breaks, nodes.clone(), out);
+fn shear_of_chords(
+    nodes: Range<usize>,
+    work: &Workspace,
+    material: &Material,
+    rest: &mut Rest,
+    out: &mut [f64],
+) {
+    let (load, breaks) = (&work.spring, &work.spring_breaks);
+    stress(work, load, breaks, nodes.clone(), rest, out);
     let (modulus, stresses) = (material.tangential_modulus(), &mut out[nodes]);
     vectorized(
         #[inline(always)]
@@ -314,18 +336,33 @@ fn curve(work: &Workspace, material: &Material, core: f64, add: impl FnMut(usize
 }
 
 /// Eq. (3) with the breaks of the load and the end of its cusp, and nothing outside the contact; of use
-/// on those `nodes` alone.
-fn stress(work: &Workspace, load: &[f64], breaks: &[Bend], nodes: Range<usize>, out: &mut [f64]) {
+/// on those `nodes` alone. `rest` is overwritten where the load has a cusp.
+fn stress(
+    work: &Workspace,
+    load: &[f64],
+    breaks: &[Bend],
+    nodes: Range<usize>,
+    rest: &mut Rest,
+    out: &mut [f64],
+) {
     let planned = &work.planned;
-    planned.plan.stress_rows(load, out, nodes);
     if !planned.has_breaks() {
+        planned.plan.stress_rows(load, out, nodes);
         return;
     }
-    bend::add_to_stress(breaks, planned.grid.squares(), out);
-    let contact = &work.contact.normal;
-    if planned.row.cusp(load, contact.radius) != 0.0 {
-        product::stress_edge(planned.grid.nodes(), load, contact.radius, out);
+    let (grid, contact) = (&planned.grid, &work.contact.normal);
+    let edge = contact.radius;
+    let slope = planned.row.cusp(load, edge);
+    if slope == 0.0 || edge >= grid.radius() {
+        planned.plan.stress_rows(load, out, nodes);
+    } else {
+        let cone = Cone { slope, edge };
+        cone.take_off(grid, load, rest);
+        planned.plan.stress_rows(&rest.load, out, nodes);
+        bend::add_to_stress(&rest.breaks, grid.squares(), out);
+        cone.add_to_stress(grid, out);
     }
+    bend::add_to_stress(breaks, grid.squares(), out);
     // The cusp's operator is not causal to the last bit.
     out[contact.nodes..].fill(0.0);
 }

@@ -12,6 +12,7 @@ use crate::contact::foundation::Foundation;
 use crate::contact::normal::NormalContact;
 use crate::contact::tangential::Hold;
 use crate::math::abel::bend::Bend;
+use crate::math::abel::cone::Rest;
 use crate::math::abel::curvature::Curvature;
 use crate::math::abel::rim::Rim;
 use crate::math::abel::rim_edge::RimEdge;
@@ -51,6 +52,8 @@ pub(super) struct Workspace {
     pub pressure: Vec<f64>,
     /// τ at the end of the step, Pa.
     pub shear: Vec<f64>,
+    /// A load without its cusp, while its stress is computed.
+    pub rest: Rest,
     /// τ by which the step wears, Pa.
     pub working_shear: Vec<f64>,
     /// Slip of the surface in the step, m.
@@ -177,6 +180,7 @@ impl Workspace {
             work_breaks: Vec::new(),
             pressure: vec![0.0; wearing],
             shear: vec![0.0; wearing],
+            rest: Rest::default(),
             working_shear: vec![0.0; wearing],
             surface_slip: vec![0.0; wearing],
             stiffness: vec![0.0; wearing],

@@ -46,6 +46,7 @@ pub mod a;
 pub mod b;
 pub mod benad;
 pub mod bend;
+pub mod cone;
 pub mod curvature;
 pub mod fast;
 mod kernel;

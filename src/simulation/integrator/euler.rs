@@ -77,10 +77,13 @@ pub(super) fn worn(setup: &Setup, state: &State, work: &mut Workspace, cycle: f6
         solve::surface_slip(work, end);
         let first = leading(&work.surface_slip[..end], |&slip| slip == 0.0);
         work.sliding = first..end;
-        let mut tau = std::mem::take(&mut work.working_shear);
+        let (mut tau, mut rest) = (
+            std::mem::take(&mut work.working_shear),
+            std::mem::take(&mut work.rest),
+        );
         let core = state.core_radius();
-        solve::shear_of(first..end, work, &setup.material, core, &mut tau);
-        work.working_shear = tau;
+        solve::shear_of(first..end, work, &setup.material, core, &mut rest, &mut tau);
+        (work.working_shear, work.rest) = (tau, rest);
         work.transforms += 1;
         let seconds = (cycle - state.cycle) * setup.drive.period();
         let (tau, slip) = (

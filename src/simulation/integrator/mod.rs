@@ -8,6 +8,7 @@ use super::solve::{pressure, shear, solve_contact};
 use super::state::{LastStep, State};
 use super::workspace::Workspace;
 use super::{Setup, at_rim, cycles_to_settle, volume_by_rate};
+use crate::math::abel::cone::Rest;
 use crate::math::quadrature::weighted;
 use crate::math::scan::largest;
 use crate::math::vector::vectorized;
@@ -43,9 +44,10 @@ pub(super) fn settle(setup: &Setup, state: &mut State, work: &mut Workspace) -> 
         ..LastStep::default()
     };
     let core = state.core_radius();
-    pressure(work, &setup.material, core, &mut last.pressure);
+    let mut rest = Rest::default();
+    pressure(work, &setup.material, core, &mut rest, &mut last.pressure);
     if setup.drive.tangential().is_some() {
-        shear(work, &setup.material, core, &mut last.shear);
+        shear(work, &setup.material, core, &mut rest, &mut last.shear);
     }
     state.last = last;
     take_over(state, work, state.cycle);

@@ -145,9 +145,12 @@ fn pass(
         update_profile(work, &y[..nodes]);
         work.predicted.copy_from_slice(&work.g);
         press_at(setup, work, state.cycle + y[nodes + 2] * duration)?;
-        let mut p = std::mem::take(&mut work.pressure);
-        pressure(work, &setup.material, core, &mut p);
-        work.pressure = p;
+        let (mut p, mut rest) = (
+            std::mem::take(&mut work.pressure),
+            std::mem::take(&mut work.rest),
+        );
+        pressure(work, &setup.material, core, &mut rest, &mut p);
+        (work.pressure, work.rest) = (p, rest);
         work.transforms += 1;
         let heat = steady_load::wear(setup, work, zone, sign, seconds, &kinks);
         tells &= work.beyond_nodes.is_some();

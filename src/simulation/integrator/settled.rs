@@ -124,7 +124,9 @@ fn keep_stresses(setup: &Setup, memory: &mut State, work: &mut Workspace) {
     let core = memory.core_radius();
     let last = &mut memory.last;
     let (p, tau) = (&mut last.pressure, &mut last.shear);
-    stresses(work, &setup.material, core, p, tau);
+    let mut rest = std::mem::take(&mut work.rest);
+    stresses(work, &setup.material, core, &mut rest, p, tau);
+    work.rest = rest;
     work.transforms += 2;
 }
 

@@ -184,13 +184,14 @@ pub(super) fn kinks_of_slip(work: &mut Workspace, before: &[Bend]) {
 
 /// p and τ at the end of the step, and the slip of the surface in it.
 pub(super) fn stresses(setup: &Setup, state: &State, work: &mut Workspace) {
-    let (mut p, mut tau) = (
+    let (mut p, mut tau, mut rest) = (
         std::mem::take(&mut work.pressure),
         std::mem::take(&mut work.shear),
+        std::mem::take(&mut work.rest),
     );
     let core = state.core_radius();
-    solve::stresses(work, &setup.material, core, &mut p, &mut tau);
-    (work.pressure, work.shear) = (p, tau);
+    solve::stresses(work, &setup.material, core, &mut rest, &mut p, &mut tau);
+    (work.pressure, work.shear, work.rest) = (p, tau, rest);
     work.transforms += 2;
     // What carried a stress before or carries one now wears, up to an edge behind the last of these nodes; method
     // B's stress looks one node across.

@@ -3,10 +3,11 @@
 //! # Formula
 //!
 //! ```text
-//! S_m ← (t_{j−1}/t_j)^μ_m S_m,   sum_j = Σ_m S_m,   S_m ← S_m + a_m source_j
+//! S_m ← (t_{j−1}/t_j)^μ_m S_m + source_j,   sum_j = Σ_m a_m S_m − source_j Σ_m a_m
 //! ```
 //!
-//! Row j is read before its own source is added, so that causality is strict.
+//! Two operations a power. A row looks at its own source by rounding alone, and the first row with a source not even
+//! by that: what is zero up to there stays zero, so that causality is strict.
 //!
 //! A pass takes [`BLOCK`] rows at a time, all of it in the innermost cache: what the rows begin with and the jumps
 //! of the slope, then the recurrences with the near field in their shade, then the part of κ. Four rows share the
@@ -25,6 +26,14 @@ use super::decay::{self, Decay};
 use super::near::{self, Near, REACH, Side, Weights};
 use super::powers::{LANES, MOST_GROUPS, Powers};
 
+/// a of every power.
+#[derive(Debug, PartialEq)]
+struct Factors {
+    groups: Vec<[f64; LANES]>,
+    /// Σ a.
+    total: f64,
+}
+
 /// S of every power.
 type State = [[f64; LANES]; MOST_GROUPS];
 
@@ -33,7 +42,7 @@ type State = [[f64; LANES]; MOST_GROUPS];
 #[derive(Debug, PartialEq)]
 pub(super) struct Outward {
     whole: f64,
-    factors: Vec<[f64; LANES]>,
+    factors: Factors,
     scale: Vec<f64>,
     near: Near,
 }
@@ -43,7 +52,7 @@ pub(super) struct Outward {
 #[derive(Debug, PartialEq)]
 pub(super) struct Inward {
     whole: f64,
-    factors: Vec<[f64; LANES]>,
+    factors: Factors,
     near: Near,
 }
 
@@ -56,8 +65,13 @@ pub(super) trait Data {
     fn begin(&self, first: usize, rows: &mut [f64]);
 }
 
-fn grouped(factors: &[f64]) -> Vec<[f64; LANES]> {
-    factors.as_chunks::<LANES>().0.to_vec()
+impl Factors {
+    fn of(powers: &Powers) -> Self {
+        Self {
+            groups: powers.factors.as_chunks::<LANES>().0.to_vec(),
+            total: powers.factors.iter().sum(),
+        }
+    }
 }
 
 impl Outward {
@@ -71,7 +85,7 @@ impl Outward {
     ) -> Self {
         Self {
             whole: powers.kernel.whole(),
-            factors: grouped(&powers.factors),
+            factors: Factors::of(powers),
             scale,
             near: Near::new(radii, Side::Inside, powers, decay, nearest),
         }
@@ -105,8 +119,8 @@ impl Outward {
                     *jump = pair[1] - pair[0];
                 }
             });
-            quiet = quiet && slope.iter().all(|&slope| slope == 0.0);
-            if quiet {
+            let first_source = jumps[REACH..].iter().position(|&jump| jump != 0.0);
+            if quiet && first_source.is_none() {
                 continue;
             }
             let padded = rows.next_multiple_of(LANES);
@@ -119,6 +133,10 @@ impl Outward {
                 &jumps,
                 &mut sums[..padded],
             );
+            if let Some(row) = first_source.filter(|_| quiet) {
+                sums[row] = 0.0;
+            }
+            quiet = false;
             dispatch!(level, _simd => self.finish(first, &slope, &sums, output));
         }
     }
@@ -139,7 +157,7 @@ impl Inward {
     pub fn new(radii: &[f64], powers: &Powers, decay: &Decay, nearest: f64) -> Self {
         Self {
             whole: powers.kernel.whole(),
-            factors: grouped(&powers.factors),
+            factors: Factors::of(powers),
             near: Near::new(radii, Side::Outside, powers, decay, nearest),
         }
     }
@@ -183,8 +201,8 @@ impl Inward {
                     *moment = jump * radius;
                 }
             });
-            quiet = quiet && slope.iter().all(|&slope| slope == 0.0);
-            if quiet {
+            let first_source = moments[..BLOCK].iter().rposition(|&moment| moment != 0.0);
+            if quiet && first_source.is_none() {
                 continue;
             }
             let padded = rows.next_multiple_of(LANES);
@@ -197,6 +215,10 @@ impl Inward {
                 &moments,
                 &mut sums[..padded],
             );
+            if let Some(row) = first_source.filter(|_| quiet) {
+                sums[row] = 0.0;
+            }
+            quiet = false;
             dispatch!(level, _simd => self.finish(&mut total, &moments, &sums, output));
         }
     }
@@ -232,7 +254,7 @@ fn powers_block<const REVERSED: bool>(
     level: Level,
     state: &mut State,
     decay: decay::Piece,
-    factors: &[[f64; LANES]],
+    factors: &Factors,
     near: near::Piece,
     sources: &[f64; REACH + BLOCK],
     sums: &mut [f64],
@@ -240,7 +262,7 @@ fn powers_block<const REVERSED: bool>(
     let (rows, near) = match (decay, near) {
         (decay::Piece::Rows(rows), near::Piece::Table(table)) => {
             // Inwards the decay is that towards the node before.
-            let first = if REVERSED { factors.len() } else { 0 };
+            let first = if REVERSED { factors.groups.len() } else { 0 };
             (&rows[first..], table)
         }
         (decay::Piece::Cubics(cubics), near::Piece::Table(near)) => {
@@ -259,7 +281,7 @@ fn powers_block<const REVERSED: bool>(
     };
     macro_rules! by_groups {
         ($($groups:literal),*) => {
-            match factors.len() {
+            match factors.groups.len() {
                 $($groups => dispatch!(level, simd => groups_block::<_, $groups, REVERSED>(
                     simd, state, rows, factors, near, sources, sums
                 )),)*
@@ -276,18 +298,20 @@ fn groups_block<S: Simd, const GROUPS: usize, const REVERSED: bool>(
     simd: S,
     state: &mut State,
     decay: &[[f64; LANES]],
-    factors: &[[f64; LANES]],
+    factors: &Factors,
     near: near::Table,
     sources: &[f64; REACH + BLOCK],
     sums: &mut [f64],
 ) {
     let load = |lanes: &[f64; LANES]| f64x4::from_slice(simd, lanes);
     let mut powers: [f64x4<S>; GROUPS] = std::array::from_fn(|group| load(&state[group]));
-    let factors: [f64x4<S>; GROUPS] = std::array::from_fn(|group| load(&factors[group]));
+    let total = factors.total;
+    let factors: [f64x4<S>; GROUPS] = std::array::from_fn(|group| load(&factors.groups[group]));
     let (decay, _) = decay.as_chunks::<GROUPS>();
     let (decay, _) = decay.as_chunks::<LANES>();
     each_strip::<_, _, REVERSED>(
         simd,
+        total,
         near,
         sources,
         sums,
@@ -298,9 +322,8 @@ fn groups_block<S: Simd, const GROUPS: usize, const REVERSED: bool>(
                 let i = if REVERSED { LANES - 1 - i } else { i };
                 let source = f64x4::splat(simd, own[i]);
                 for group in 0..GROUPS {
-                    let decayed = load(&decay[strip][i][group]) * powers[group];
-                    rows[i] += decayed;
-                    powers[group] = factors[group].mul_add(source, decayed);
+                    powers[group] = load(&decay[strip][i][group]).mul_add(powers[group], source);
+                    rows[i] = factors[group].mul_add(powers[group], rows[i]);
                 }
             }
             rows
@@ -318,7 +341,7 @@ fn cubics_block<S: Simd, N: Weights, const REVERSED: bool>(
     simd: S,
     state: &mut State,
     cubics: &[[[f64; LANES]; 4]],
-    factors: &[[f64; LANES]],
+    factors: &Factors,
     near: N,
     sources: &[f64; REACH + BLOCK],
     sums: &mut [f64],
@@ -326,6 +349,7 @@ fn cubics_block<S: Simd, N: Weights, const REVERSED: bool>(
     let load = |lanes: &[f64; LANES]| f64x4::from_slice(simd, lanes);
     each_strip::<_, _, REVERSED>(
         simd,
+        factors.total,
         near,
         sources,
         sums,
@@ -335,7 +359,7 @@ fn cubics_block<S: Simd, N: Weights, const REVERSED: bool>(
                 f64x4::splat(simd, place(strip * LANES + i + usize::from(REVERSED)))
             });
             let mut rows = [f64x4::splat(simd, 0.0); LANES];
-            for ((power, group), factor) in state.iter_mut().zip(cubics).zip(factors) {
+            for ((power, group), factor) in state.iter_mut().zip(cubics).zip(&factors.groups) {
                 let (a, b, c, d) = (
                     load(&group[0]),
                     load(&group[1]),
@@ -343,13 +367,13 @@ fn cubics_block<S: Simd, N: Weights, const REVERSED: bool>(
                     load(&group[3]),
                 );
                 let (mut lanes, factor) = (load(power), load(factor));
+                let a = a + f64x4::splat(simd, 1.0);
                 for i in 0..LANES {
                     let i = if REVERSED { LANES - 1 - i } else { i };
                     let u = places[i];
-                    let loss = d.mul_add(u, c).mul_add(u, b).mul_add(u, a);
-                    let decayed = loss.mul_add(lanes, lanes);
-                    rows[i] += decayed;
-                    lanes = factor.mul_add(f64x4::splat(simd, own[i]), decayed);
+                    let decay = d.mul_add(u, c).mul_add(u, b).mul_add(u, a);
+                    lanes = decay.mul_add(lanes, f64x4::splat(simd, own[i]));
+                    rows[i] = factor.mul_add(lanes, rows[i]);
                 }
                 lanes.store_slice(power);
             }
@@ -359,10 +383,12 @@ fn cubics_block<S: Simd, N: Weights, const REVERSED: bool>(
 }
 
 /// Goes through a block four rows at a time: `recurrences` gives the powers of the four, lane by lane, from their number
-/// in the block and their own sources; near field less those becomes their sums.
+/// in the block and their own sources, which are in them by the factor `total`; near field less those becomes their
+/// sums.
 #[inline(always)]
 fn each_strip<S: Simd, N: Weights, const REVERSED: bool>(
     simd: S,
+    total: f64,
     near: N,
     sources: &[f64; REACH + BLOCK],
     sums: &mut [f64],
@@ -381,7 +407,9 @@ fn each_strip<S: Simd, N: Weights, const REVERSED: bool>(
         let rows = recurrences(strip, own);
         let weights = near.strip(simd, strip);
         let near = near_field::<_, REVERSED>(simd, weights, window);
-        (near - sum_lanes(simd, rows)).store_slice(&mut sums[strip]);
+        let own = f64x4::from_slice(simd, &own[..LANES]);
+        let far = sum_lanes(simd, rows) - own * f64x4::splat(simd, total);
+        (near - far).store_slice(&mut sums[strip]);
     }
 }
 

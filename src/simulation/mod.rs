@@ -24,6 +24,7 @@ mod saved;
 mod solve;
 pub mod stability;
 pub mod state;
+mod stress;
 mod workspace;
 
 pub use breakdown::{Breakdown, Cause};

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bitflags::bitflags;
 use serde::Serialize;
 
-use super::{Simulation, solve, stability, volume_by_rate};
+use super::{Simulation, solve, stability, stress, volume_by_rate};
 use crate::contact::tangential::Hold;
 use crate::math::abel::AbelMethod;
 use crate::math::abel::cone::Rest;
@@ -162,7 +162,7 @@ impl Simulation {
     /// p(r), Pa, of the present moment: one transform.
     pub fn pressure(&self) -> Vec<f64> {
         let mut pressure = vec![0.0; self.setup().grid.len()];
-        solve::pressure(
+        stress::pressure(
             &self.workspace,
             &self.setup().material,
             self.state.core_radius(),
@@ -239,7 +239,7 @@ impl Simulation {
             shear: when(Curves::SHEAR, &|| {
                 let material = &self.setup().material;
                 let core = self.state.core_radius();
-                transformed(&|out| solve::shear(work, material, core, &mut Rest::default(), out))
+                transformed(&|out| stress::shear(work, material, core, &mut Rest::default(), out))
             }),
             surface: when(Curves::SURFACE, &|| {
                 transformed(&|out| solve::surface_displacement(work, out))

@@ -1,7 +1,5 @@
 //! One contact problem: the worn profile and the springs' memory in, loads and displacements out.
 
-use std::ops::Range;
-
 use super::Setup;
 use super::breakdown::Cause;
 use super::drive::Target;
@@ -9,13 +7,11 @@ use super::state::State;
 use super::workspace::{Contact, Workspace};
 use crate::contact::material::Material;
 use crate::contact::normal;
-use crate::contact::tangential::{self, Grip, Hold, Motion};
-use crate::math::abel::bend::{self, Bend};
-use crate::math::abel::cone::{Cone, Rest};
+use crate::contact::tangential::{self, Grip, Motion};
+use crate::math::abel::bend;
 use crate::math::abel::rim_edge;
 use crate::math::root;
 use crate::math::scan::largest;
-use crate::math::vector::vectorized;
 
 /// Presses the indenter to what the drive asks for at `cycle` on the 1D profile `work.predicted`. Writes the
 /// normal loads; the springs stay where they are.
@@ -216,155 +212,6 @@ fn increment_for_force(
         force: target,
         limit,
     })
-}
-
-/// Springs beyond the core whose load still drops like a root.
-const STEEP: usize = 4;
-
-/// p(r), Pa, of the solved contact by Eq. (3). Nothing slips within the radius `core` (m).
-pub(super) fn pressure(
-    work: &Workspace,
-    material: &Material,
-    core: f64,
-    rest: &mut Rest,
-    out: &mut [f64],
-) {
-    pressure_of_chords(work, material, rest, out);
-    curve(work, material, core, |j, more| out[j] += more);
-}
-
-/// τ(r), Pa, of the solved contact by Eq. (3).
-pub(super) fn shear(
-    work: &Workspace,
-    material: &Material,
-    core: f64,
-    rest: &mut Rest,
-    out: &mut [f64],
-) {
-    shear_of(0..out.len(), work, material, core, rest, out);
-}
-
-/// The same of those `nodes` alone; the others hold something finite.
-pub(super) fn shear_of(
-    nodes: Range<usize>,
-    work: &Workspace,
-    material: &Material,
-    core: f64,
-    rest: &mut Rest,
-    out: &mut [f64],
-) {
-    shear_of_chords(nodes.clone(), work, material, rest, out);
-    curve(work, material, core, |j, more| {
-        if nodes.contains(&j) {
-            out[j] += share_of_shear(work, material, j) * more;
-        }
-    });
-}
-
-/// Both.
-pub(super) fn stresses(
-    work: &Workspace,
-    material: &Material,
-    core: f64,
-    rest: &mut Rest,
-    p: &mut [f64],
-    tau: &mut [f64],
-) {
-    pressure_of_chords(work, material, rest, p);
-    shear_of_chords(0..tau.len(), work, material, rest, tau);
-    curve(work, material, core, |j, more| {
-        p[j] += more;
-        tau[j] += share_of_shear(work, material, j) * more;
-    });
-}
-
-/// p of a line load that is linear in x² between the nodes and its breaks.
-fn pressure_of_chords(work: &Workspace, material: &Material, rest: &mut Rest, out: &mut [f64]) {
-    let (load, breaks) = (&work.normal_load, &work.normal_breaks);
-    stress(work, load, breaks, 0..out.len(), rest, out);
-    if let Some(edge) = &work.rim_edge {
-        let modulus = material.normal_modulus();
-        edge.add_to_stress(modulus, work.planned.grid.squares(), out);
-    }
-}
-
-/// τ of such a load, of those `nodes` alone.
-fn shear_of_chords(
-    nodes: Range<usize>,
-    work: &Workspace,
-    material: &Material,
-    rest: &mut Rest,
-    out: &mut [f64],
-) {
-    let (load, breaks) = (&work.spring, &work.spring_breaks);
-    stress(work, load, breaks, nodes.clone(), rest, out);
-    let (modulus, stresses) = (material.tangential_modulus(), &mut out[nodes]);
-    vectorized(
-        #[inline(always)]
-        || {
-            for stress in stresses {
-                *stress *= modulus;
-            }
-        },
-    );
-}
-
-/// How much of what the curvature of the load adds to p it adds to τ at a node: what slips is curved like μq, what
-/// sticks keeps the kinks of its history.
-fn share_of_shear(work: &Workspace, material: &Material, node: usize) -> f64 {
-    let sign = work.hold[node].sign();
-    sign.map_or(0.0, |sign| sign * material.friction())
-}
-
-/// Gives to `add`, node by node, what the curvature of the line load between the nodes adds to p: nothing next to the
-/// core or behind a border of stick, where wear may just have made the load steep.
-fn curve(work: &Workspace, material: &Material, core: f64, add: impl FnMut(usize, f64)) {
-    let planned = &work.planned;
-    let Some(curvature) = &planned.curvature else {
-        return;
-    };
-    let at_rim = work.rim_edge.iter();
-    let at_rim = at_rim.flat_map(|edge| edge.load_bends(material.normal_modulus()));
-    let breaks = work.normal_breaks.iter().copied().chain(at_rim);
-    let core = planned.grid.nodes().partition_point(|&x| x <= core);
-    let sticks = |j: usize| work.hold.get(j) == Some(&Hold::Stick);
-    let behind_border = |j: usize| sticks(j - 1) != sticks(j) || sticks(j - 2) != sticks(j);
-    let smooth = |j: usize| (j + 1 < core || j >= core + STEEP) && !behind_border(j);
-    let (contact, load) = (&work.contact.normal, &work.normal_load);
-    let cusp = planned.row.cusp(load, contact.radius);
-    curvature.for_each(load, cusp, breaks, contact.nodes, smooth, add);
-}
-
-/// Eq. (3) with the breaks of the load and the end of its cusp, and nothing outside the contact; of use
-/// on those `nodes` alone. `rest` is overwritten where the load has a cusp.
-fn stress(
-    work: &Workspace,
-    load: &[f64],
-    breaks: &[Bend],
-    nodes: Range<usize>,
-    rest: &mut Rest,
-    out: &mut [f64],
-) {
-    let planned = &work.planned;
-    if !planned.has_breaks() {
-        planned.plan.stress_rows(load, out, nodes);
-        return;
-    }
-    let (grid, contact) = (&planned.grid, &work.contact.normal);
-    let edge = contact.radius;
-    let slope = planned.row.cusp(load, edge);
-    if slope == 0.0 || edge >= grid.radius() {
-        planned.plan.stress_rows(load, out, nodes);
-    } else {
-        let cone = Cone { slope, edge };
-        cone.take_off(grid, load, rest);
-        planned.plan.stress_rows(&rest.load, out, nodes);
-        bend::add_to_stress(&rest.breaks, grid.squares(), out);
-        cone.add_to_stress(grid, out);
-    }
-    bend::add_to_stress(breaks, grid.squares(), out);
-    // The cusp's operator is not causal to the last bit.
-    out[contact.nodes..].fill(0.0);
 }
 
 /// The slip of the surface in the step, m, by Eq. (2), into `work.surface_slip`, on the first `nodes`.

@@ -35,12 +35,16 @@ use std::f64::consts::FRAC_2_PI;
 
 use super::bend::Bend;
 use crate::math::grid::RadialGrid;
+use crate::math::vector::vectorized;
 
 /// −ζ(−½).
 const ENDLESS: f64 = 0.207_886_224_977_354_57;
 
 /// The same of a single cell: ⅔ − ½.
 const SINGLE: f64 = 1.0 / 6.0;
+
+/// Nodes that are gone through at a time.
+const PIECE: usize = 32;
 
 /// Behind the last break.
 const NO_MORE: Bend = Bend {
@@ -76,46 +80,90 @@ impl Curvature {
 
     /// Eq. (3): what the curvature of a `load` (N/m) does to the stress (N/m²) of the first `nodes`, those in contact,
     /// beside [`product::stress`](super::product::stress) and the `breaks` of the load (N/m, from the tip outwards).
-    /// It is given to `add`, node by node, for nodes that are `smooth`: where the load is, from the node before to
-    /// the one behind. `cusp` is the slope of the load at the tip, which is no curvature.
+    /// It is given to `add` in pieces, each with its first node; of use only where the load is smooth from the node
+    /// before to the one behind. `cusp` is the slope of the load at the tip, which is no curvature.
     pub fn for_each(
         &self,
         load: &[f64],
         cusp: f64,
         breaks: impl IntoIterator<Item = Bend>,
         nodes: usize,
-        smooth: impl Fn(usize) -> bool,
-        mut add: impl FnMut(usize, f64),
+        mut add: impl FnMut(usize, &mut [f64]),
     ) {
-        let (x, t) = (self.grid.nodes(), self.grid.squares());
+        let t = self.grid.squares();
+        let nodes = nodes.min(self.per_cell.len());
         let mut breaks = breaks.into_iter();
         let mut next_break = || breaks.next().unwrap_or(NO_MORE);
         let mut next = next_break();
-        let mut before = 0.0;
-        let cells = self.per_cell.iter().zip(&self.per_pair).zip(&self.lacks);
-        for (j, ((per_cell, per_pair), &lack)) in cells.enumerate().take(nodes) {
-            let mut behind = (load[j + 1] - load[j]) * per_cell;
-            if cusp != 0.0 {
-                behind -= cusp / (x[j] + x[j + 1]);
+        let mut terms = [0.0; PIECE];
+        // Goes from node to node, past many at a time that no break concerns.
+        let mut first = 0;
+        while first < nodes {
+            // The next node with a break, in its place or in the cell behind.
+            let bent = first + t[first..nodes].partition_point(|&t| t <= next.at);
+            let bent = bent.saturating_sub(1).max(first);
+            let plain = if next.at < f64::INFINITY { bent } else { nodes };
+            while first < plain {
+                let terms = &mut terms[..PIECE.min(plain - first)];
+                self.write_terms(load, cusp, first, terms);
+                add(first, terms);
+                first += terms.len();
             }
+            if first == nodes {
+                break;
+            }
+            let [before, behind] = self.slopes::<2>(load, cusp, first);
             let mut jump = behind - before;
-            before = behind;
-            while next.at <= t[j] {
-                if next.at == t[j] {
+            while next.at <= t[first] {
+                if next.at == t[first] {
                     jump += next.jump;
                 }
                 next = next_break();
             }
-            if j < 2 || !smooth(j) {
-                continue;
-            }
-            let lack = if next.at < t[j + 1] {
-                root_cubed(next.at - t[j]) * SINGLE
+            let lack = if next.at < t[first + 1] {
+                root_cubed(next.at - t[first]) * SINGLE
             } else {
-                lack
+                self.lacks[first]
             };
-            add(j, per_pair * lack * jump);
+            add(first, &mut [self.per_pair[first] * lack * jump]);
+            first += 1;
         }
+    }
+
+    /// The terms from the node `first` on, of nodes that no break concerns.
+    fn write_terms(&self, load: &[f64], cusp: f64, first: usize, terms: &mut [f64]) {
+        vectorized(
+            #[inline(always)]
+            || {
+                let slopes = self.slopes::<{ PIECE + 1 }>(load, cusp, first);
+                let factors = self.per_pair[first..].iter().zip(&self.lacks[first..]);
+                for ((term, pair), (per_pair, lack)) in
+                    terms.iter_mut().zip(slopes.windows(2)).zip(factors)
+                {
+                    *term = per_pair * lack * (pair[1] - pair[0]);
+                }
+            },
+        );
+    }
+
+    /// The slopes of the load from the cell before the node `first` on, without that of its cusp; 0 where there
+    /// is no cell.
+    #[inline(always)]
+    fn slopes<const COUNT: usize>(&self, load: &[f64], cusp: f64, first: usize) -> [f64; COUNT] {
+        let mut slopes = [0.0; COUNT];
+        let start = first.saturating_sub(1);
+        let out = &mut slopes[start + 1 - first..];
+        let cells = load[start..].windows(2).zip(&self.per_cell[start..]);
+        for (slope, (load, per_cell)) in out.iter_mut().zip(cells) {
+            *slope = (load[1] - load[0]) * per_cell;
+        }
+        if cusp != 0.0 {
+            let cells = self.grid.nodes()[start..].windows(2);
+            for (slope, x) in out.iter_mut().zip(cells) {
+                *slope -= cusp / (x[0] + x[1]);
+            }
+        }
+        slopes
     }
 }
 
@@ -130,6 +178,7 @@ mod tests {
     use super::super::testing::apply;
     use super::super::worn;
     use super::*;
+    use crate::math::vector::add_to;
 
     /// The cell in which the load ends, at a = 1, and its breaks there.
     fn ending_at_one(t: &[f64], load: &[f64]) -> (usize, Vec<Bend>) {
@@ -151,8 +200,8 @@ mod tests {
         let mut p = apply(&product::stress(grid.nodes()), &load);
         bend::add_to_stress(&breaks, t, &mut p);
         if corrected {
-            let add = |j: usize, more| p[j] += more;
-            Curvature::new(&grid).for_each(&load, 0.0, breaks, t.len(), |_| true, add);
+            let add = |first: usize, terms: &mut [f64]| add_to(&mut p[first..], terms);
+            Curvature::new(&grid).for_each(&load, 0.0, breaks, t.len(), add);
         }
         let exact = |s: f64| FRAC_2_PI * (1.0 - s).sqrt() * ((1.0 - s) / 1.5 + 2.0 * s);
         let inside = t.iter().zip(&p).take(cell + 1);
@@ -191,13 +240,13 @@ mod tests {
         let (cell, breaks) = ending_at_one(t, &load);
         let mut p = vec![0.0; t.len()];
         let curvature = Curvature::new(&grid);
-        let add = |j: usize, more| p[j] += more;
-        curvature.for_each(&load, -0.3, breaks.iter().copied(), t.len(), |_| true, add);
+        let add = |first: usize, terms: &mut [f64]| add_to(&mut p[first..], terms);
+        curvature.for_each(&load, -0.3, breaks.iter().copied(), t.len(), add);
         // The cusp is not linear in t in the edge's cell.
         assert!(p[..cell].iter().all(|p| p.abs() < 1e-13), "{p:?}");
         let mut q = vec![0.0; t.len()];
-        let add = |j: usize, more| q[j] += more;
-        curvature.for_each(&load, 0.0, breaks, t.len(), |_| true, add);
+        let add = |first: usize, terms: &mut [f64]| add_to(&mut q[first..], terms);
+        curvature.for_each(&load, 0.0, breaks, t.len(), add);
         assert!(q[1..cell].iter().any(|p| p.abs() > 1e-6));
     }
 
@@ -215,9 +264,12 @@ mod tests {
             for (i, mut column) in stress.column_iter_mut().enumerate() {
                 let mut load = vec![0.0; grid.len()];
                 load[i] = 1.0;
-                let outside = |j: usize| grid.border().is_none_or(|border| j > border + 1);
-                let add = |j: usize, more| column[j] += more;
-                curvature.for_each(&load, 0.0, [], grid.len(), outside, add);
+                let outside = grid.border().map_or(0, |border| border + 2);
+                curvature.for_each(&load, 0.0, [], grid.len(), |first, terms| {
+                    for (j, term) in (first..).zip(terms).filter(|(j, _)| *j >= outside) {
+                        column[j] += *term;
+                    }
+                });
             }
             // What wears: the nodes outside the border, up to the last but one.
             let response = stress * worn::profile(&grid);

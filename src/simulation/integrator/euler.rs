@@ -17,6 +17,7 @@ use super::super::breakdown::Cause;
 use super::super::solve::{self, solve_contact};
 use super::super::stability;
 use super::super::state::State;
+use super::super::stress;
 use super::super::workspace::Workspace;
 use super::parts::{self, Outcome, Part};
 use super::{commit, stiffness};
@@ -82,7 +83,7 @@ pub(super) fn worn(setup: &Setup, state: &State, work: &mut Workspace, cycle: f6
             std::mem::take(&mut work.rest),
         );
         let core = state.core_radius();
-        solve::shear_of(first..end, work, &setup.material, core, &mut rest, &mut tau);
+        stress::shear_of(first..end, work, &setup.material, core, &mut rest, &mut tau);
         (work.working_shear, work.rest) = (tau, rest);
         work.transforms += 1;
         let seconds = (cycle - state.cycle) * setup.drive.period();

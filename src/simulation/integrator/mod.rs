@@ -4,8 +4,9 @@
 use super::breakdown::Cause;
 use super::choices::Scheme;
 use super::profile::{grow_profile, update_profile};
-use super::solve::{pressure, shear, solve_contact};
+use super::solve::solve_contact;
 use super::state::{LastStep, State};
+use super::stress::{pressure, shear};
 use super::workspace::Workspace;
 use super::{Setup, at_rim, cycles_to_settle, volume_by_rate};
 use crate::math::abel::cone::Rest;

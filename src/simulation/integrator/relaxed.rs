@@ -26,9 +26,10 @@
 use super::super::Setup;
 use super::super::breakdown::Cause;
 use super::super::profile::{set_profile, update_profile};
-use super::super::solve::{press_at, pressure, solve_contact};
+use super::super::solve::{press_at, solve_contact};
 use super::super::stability;
 use super::super::state::State;
+use super::super::stress::pressure;
 use super::super::workspace::Workspace;
 use super::steady_load;
 use super::trapezoid::{kinks_of_slip, mean_shear, outer_slip_zone, stresses};

@@ -32,8 +32,9 @@ use std::hint::select_unpredictable as select;
 
 use super::super::Setup;
 use super::super::breakdown::Cause;
-use super::super::solve::{self, solve_contact, surface_slip};
+use super::super::solve::{solve_contact, surface_slip};
 use super::super::state::State;
+use super::super::stress;
 use super::super::workspace::Workspace;
 use super::parts::{self, Outcome, Part};
 use super::worn_volume::{self, LoadEnd};
@@ -190,7 +191,7 @@ pub(super) fn stresses(setup: &Setup, state: &State, work: &mut Workspace) {
         std::mem::take(&mut work.rest),
     );
     let core = state.core_radius();
-    solve::stresses(work, &setup.material, core, &mut rest, &mut p, &mut tau);
+    stress::stresses(work, &setup.material, core, &mut rest, &mut p, &mut tau);
     (work.pressure, work.shear, work.rest) = (p, tau, rest);
     work.transforms += 2;
     // What carried a stress before or carries one now wears, up to an edge behind the last of these nodes; method

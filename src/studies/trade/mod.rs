@@ -23,7 +23,7 @@ const RADII: usize = 401;
 const LONG_ENOUGH: f64 = 0.06;
 
 /// The most repetitions.
-const REPETITIONS: usize = 5;
+const REPETITIONS: usize = 25;
 
 /// How a run ended.
 #[derive(Debug, Clone, PartialEq)]

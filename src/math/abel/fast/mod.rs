@@ -47,6 +47,7 @@ mod cubic;
 mod decay;
 mod near;
 mod powers;
+mod recurrence;
 mod sweep;
 #[cfg(test)]
 mod tests;

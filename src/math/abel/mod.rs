@@ -13,9 +13,9 @@
 //!
 //! The term f(0) in (1) is ours: a tip that wears recedes, and a constant must map to itself.
 //!
-//! [`bend`] adds what a kink between two nodes does and [`curvature`] what a curved load does, [`worn`]
-//! transforms the worn part of a profile that has a permanent stick zone, [`rim`] finds where it
-//! ends and [`rim_edge`] where the contact ends beside it.
+//! [`bend`] adds what a kink between two nodes does and [`curvature`] what a curved load does, [`cone`] ends a
+//! load's cusp at the edge of the contact, [`worn`] transforms the worn part of a profile that has a permanent
+//! stick zone, [`rim`] finds where it ends and [`rim_edge`] where the contact ends beside it.
 //!
 //! All methods here are linear in the nodal values, so an [`AbelPlan`] holds three operators, made
 //! once for a grid and applied with the caller's buffers. A method is what is computed, its [`Form`] is

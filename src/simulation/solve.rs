@@ -8,8 +8,7 @@ use super::workspace::{Contact, Workspace};
 use crate::contact::material::Material;
 use crate::contact::normal;
 use crate::contact::tangential::{self, Grip, Motion};
-use crate::math::abel::bend;
-use crate::math::abel::rim_edge;
+use crate::math::abel::{bend, rim_edge};
 use crate::math::root;
 use crate::math::scan::largest;
 

@@ -49,11 +49,10 @@ pub(super) fn shear_of(
 ) {
     shear_of_chords(nodes.clone(), work, material, rest, out);
     curve(work, material, core, |first, terms| {
-        let start = nodes.start.clamp(first, first + terms.len());
-        let end = nodes.end.clamp(start, first + terms.len());
-        let (asked, terms) = (start..end, &terms[start - first..end - first]);
-        let (tau, hold) = (&mut out[asked.clone()], &work.hold[asked]);
-        add_to_shear(tau, hold, material.friction(), terms);
+        let asked = within(&nodes, first, terms.len());
+        let nodes = first + asked.start..first + asked.end;
+        let (tau, hold) = (&mut out[nodes.clone()], &work.hold[nodes]);
+        add_to_shear(tau, hold, material.friction(), &terms[asked]);
     });
 }
 
@@ -126,12 +125,17 @@ fn curve(work: &Workspace, material: &Material, core: f64, mut add: impl FnMut(u
     let (contact, load) = (&work.contact.normal, &work.normal_load);
     let cusp = planned.row.cusp(load, contact.radius);
     curvature.for_each(load, cusp, breaks, contact.nodes, |first, terms| {
-        let within = |j: usize| j.clamp(first, first + terms.len()) - first;
-        let steep = within(steep.start)..within(steep.end);
+        let steep = within(&steep, first, terms.len());
         terms[steep].fill(0.0);
         drop_behind_borders(&work.hold, first, terms);
         add(first, terms);
     });
+}
+
+/// Which of a piece of `count` nodes from `first` on are among `nodes`, counted from the first.
+fn within(nodes: &Range<usize>, first: usize, count: usize) -> Range<usize> {
+    let [start, end] = [nodes.start, nodes.end].map(|j| j.clamp(first, first + count) - first);
+    start..end
 }
 
 /// Makes the `terms` of nodes from `first` on zero where a border of stick lies within the two cells before.

@@ -76,6 +76,7 @@ impl Cone {
 
 #[cfg(test)]
 mod tests {
+    use super::super::testing::ending_at_one;
     use super::super::{AbelMethod, AbelPlan, product};
     use super::*;
 
@@ -91,11 +92,7 @@ mod tests {
                 let (x, t) = (grid.nodes(), grid.squares());
                 let load = |x: f64| 0.7 * (1.0 - x) + 0.2 * (1.0 - x * x);
                 let q: Vec<f64> = x.iter().map(|&x| load(x).max(0.0)).collect();
-                let cell = x.partition_point(|&x| x < 1.0) - 1;
-                let mut breaks = Vec::new();
-                let (ends, edge) = ([t[cell], t[cell + 1]], [(1.0, 0.0)]);
-                bend::polyline(ends, [q[cell], 0.0], &edge, &mut breaks);
-
+                let (_, breaks) = ending_at_one(t, &q);
                 let slope = product::cusp(x, &q);
                 assert!((slope + 0.7).abs() < 1e-9, "{slope}");
                 let (cone, mut rest) = (Cone { slope, edge: 1.0 }, Rest::default());

@@ -175,19 +175,10 @@ fn root_cubed(width: f64) -> f64 {
 mod tests {
     use super::super::bend;
     use super::super::product;
-    use super::super::testing::apply;
+    use super::super::testing::{apply, ending_at_one};
     use super::super::worn;
     use super::*;
     use crate::math::vector::add_to;
-
-    /// The cell in which the load ends, at a = 1, and its breaks there.
-    fn ending_at_one(t: &[f64], load: &[f64]) -> (usize, Vec<Bend>) {
-        let cell = t.partition_point(|&t| t <= 1.0) - 1;
-        let mut breaks = Vec::new();
-        let (ends, values) = ([t[cell], t[cell + 1]], [load[cell], 0.0]);
-        bend::polyline(ends, values, &[(1.0, 0.0)], &mut breaks);
-        (cell, breaks)
-    }
 
     /// q = 1 − t², as under f ∝ r⁴, that ends at a = 1 between nodes: the stress with its edge.
     fn quartic(cells: usize, corrected: bool) -> Vec<(f64, f64)> {

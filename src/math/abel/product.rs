@@ -137,10 +137,17 @@ pub fn stress(nodes: &[f64]) -> DMatrix<f64> {
     weights
 }
 
-/// The cusp A of nodal `values`: their slope d/dx at the tip, x → 0.
+/// A cusp that changes the values by less than this part of them over two cells is rounding.
+const NO_CUSP: f64 = 1e-14;
+
+/// The cusp A of nodal `values`: their slope d/dx at the tip, x → 0; 0 where it is rounding.
 pub fn cusp(nodes: &[f64], values: &[f64]) -> f64 {
     let weights = cusp_weights(nodes);
-    weights.iter().zip(values).map(|(w, v)| w * v).sum()
+    let cusp: f64 = weights.iter().zip(values).map(|(w, v)| w * v).sum();
+    let tip = values.iter().take(weights.len());
+    let size = tip.fold(0.0, |size: f64, value| size.max(value.abs()));
+    let none = (cusp * nodes[2]).abs() <= NO_CUSP * size;
+    if none { 0.0 } else { cusp }
 }
 
 /// Where `values`, of the given sign on both sides, pass through zero within `cell`: the square t of

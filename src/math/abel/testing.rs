@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::bend::{self, Bend};
 use crate::math::grid::RadialGrid;
 
 /// The product of weights and nodal values.
@@ -10,6 +11,15 @@ pub(super) fn apply(weights: &DMatrix<f64>, values: &[f64]) -> Vec<f64> {
         .iter()
         .copied()
         .collect()
+}
+
+/// The cell in which a load on nodes with the squares `t` ends, at a = 1, and its breaks there.
+pub(super) fn ending_at_one(t: &[f64], load: &[f64]) -> (usize, Vec<Bend>) {
+    let cell = t.partition_point(|&t| t <= 1.0) - 1;
+    let mut breaks = Vec::new();
+    let (ends, values) = ([t[cell], t[cell + 1]], [load[cell], 0.0]);
+    bend::polyline(ends, values, &[(1.0, 0.0)], &mut breaks);
+    (cell, breaks)
 }
 
 /// Worn flat between c and b, unworn beyond: falling in t to a rim, where it ends.

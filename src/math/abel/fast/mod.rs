@@ -63,9 +63,6 @@ pub const TOLERANCE: f64 = 1e-8;
 /// Tolerances to try in turn, should neighbouring nodes be so close that the first takes too many powers.
 pub(super) const TOLERANCES: [f64; 4] = [TOLERANCE, 1e-7, 1e-6, 1e-5];
 
-/// A cusp that changes the values by less than this part of them over two cells is rounding.
-const NO_CUSP: f64 = 1e-14;
-
 /// The three operators of the product method in O(N).
 #[derive(Debug, PartialEq)]
 pub struct FastProduct {
@@ -256,18 +253,11 @@ impl FastProduct {
 
     /// What a sweep needs of nodal values; `image` is that of a cusp.
     fn data<'a>(&'a self, values: &'a [f64], constant: f64, image: &'a [f64]) -> Nodal<'a> {
-        let (tip, radii) = (&values[..3], &self.nodes[..3]);
-        let cusp = cusp(radii, tip);
-        let size = tip
-            .iter()
-            .fold(0.0, |size: f64, value| size.max(value.abs()));
-        // One that is rounding need not be looked up at every node.
-        let none = (cusp * radii[2]).abs() <= NO_CUSP * size;
         Nodal {
             values,
             inverse: &self.inverse,
             constant,
-            cusp: if none { 0.0 } else { cusp },
+            cusp: cusp(&self.nodes, values),
             image,
         }
     }

@@ -90,9 +90,13 @@ impl Outward {
                     *jump = pair[1] - pair[0];
                 }
             });
-            let first_source = jumps[REACH..].iter().position(|&jump| jump != 0.0);
-            if quiet && first_source.is_none() {
-                continue;
+            let mut first_source = None;
+            if quiet {
+                first_source = jumps[REACH..].iter().position(|&jump| jump != 0.0);
+                if first_source.is_none() {
+                    continue;
+                }
+                quiet = false;
             }
             let padded = rows.next_multiple_of(LANES);
             powers_block::<false>(
@@ -105,10 +109,9 @@ impl Outward {
                 &mut sums[..padded],
             );
             // The first source is nothing to its own row, not even by rounding: what is zero up to it stays so.
-            if let Some(row) = first_source.filter(|_| quiet) {
+            if let Some(row) = first_source {
                 sums[row] = 0.0;
             }
-            quiet = false;
             dispatch!(level, _simd => self.finish(first, &slope, &sums, output));
         }
     }
@@ -173,9 +176,13 @@ impl Inward {
                     *moment = jump * radius;
                 }
             });
-            let first_source = moments[..BLOCK].iter().rposition(|&moment| moment != 0.0);
-            if quiet && first_source.is_none() {
-                continue;
+            let mut first_source = None;
+            if quiet {
+                first_source = moments[..BLOCK].iter().rposition(|&moment| moment != 0.0);
+                if first_source.is_none() {
+                    continue;
+                }
+                quiet = false;
             }
             let padded = rows.next_multiple_of(LANES);
             powers_block::<true>(
@@ -188,10 +195,9 @@ impl Inward {
                 &mut sums[..padded],
             );
             // The first source is nothing to its own row, not even by rounding: what is zero up to it stays so.
-            if let Some(row) = first_source.filter(|_| quiet) {
+            if let Some(row) = first_source {
                 sums[row] = 0.0;
             }
-            quiet = false;
             dispatch!(level, _simd => self.finish(&mut total, &moments, &sums, output));
         }
     }

@@ -1,7 +1,7 @@
 //! What the explorer costs: a frame drawn and sent, a key answered, the first frame of a start, and
 //! the simulation under it against the same simulation alone.
 //!
-//! `cargo bench --bench frame`. The bytes of a frame are counted by a test, `tests/wire.rs`.
+//! `cargo bench --bench frame`. The bytes of a frame are counted by a test, `tests/suite/wire.rs`.
 
 use std::io::{self, Read, Write};
 use std::sync::Arc;
@@ -10,17 +10,17 @@ use std::thread;
 use std::time::Duration;
 
 use divan::Bencher;
+use mdr_tui::plot::Marker;
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
 use mdr_tui::tui::Event;
+use mdr_tui::tui::ansi_backend::AnsiBackend;
 use mdr_tui::tui::app::App;
 use mdr_tui::tui::frame::{Activity, Slot};
 use mdr_tui::tui::keys::parse_script;
 use mdr_tui::tui::order::Order;
-use mdr_tui::tui::plot::Marker;
 use mdr_tui::tui::screen;
 use mdr_tui::tui::theme::{Look, Theme};
-use mdr_tui::tui::wire::Wire;
 use mdr_tui::tui::worker::Worker;
 use portable_pty::{CommandBuilder, PtySize, native_pty_system};
 use ratatui::Terminal;
@@ -45,7 +45,7 @@ struct Stage {
     slot: Arc<Slot>,
     orders: Sender<Order>,
     events: Receiver<Event>,
-    line: Terminal<Wire<io::Sink>>,
+    line: Terminal<AnsiBackend<io::Sink>>,
 }
 
 impl Stage {
@@ -67,7 +67,7 @@ impl Stage {
             slot,
             orders,
             events,
-            line: Terminal::new(Wire::new(io::sink(), tell)).expect("a terminal"),
+            line: Terminal::new(AnsiBackend::new(io::sink(), tell)).expect("a terminal"),
         }
     }
 

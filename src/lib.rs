@@ -17,7 +17,11 @@
 //! | [`scenario`] | TOML in and out, presets, a session with its changes and checkpoints | no screen |
 //! | [`studies`] | errors against theory, speed against accuracy, stability, as tables | no file, no screen |
 //! | [`export`] | CSV files, whole or not at all | runs nothing |
+//! | [`plot`] | curves as text: ticks, axes, legends, raster | no physics, no screen |
+//! | [`figure`] | charts on sheets: SVG, PNG and PDF, with their data | no screen |
 //! | [`cli`], [`tui`] | the command line; the explorer | everything below |
+//!
+//! [`guide`] holds the long documentation, topic by topic.
 //!
 //! Beside them stands [`oracle`]: closed forms, written with `std` alone, that judge the rest.
 //!
@@ -44,8 +48,14 @@
 pub mod cli;
 pub mod contact;
 pub mod export;
+#[cfg(debug_assertions)]
+mod failpoint;
+pub mod figure;
+pub mod guide;
 pub mod math;
 pub mod oracle;
+mod panics;
+pub mod plot;
 pub mod scenario;
 pub mod simulation;
 pub mod studies;

@@ -75,6 +75,14 @@ impl WearLaw {
         }
     }
 
+    /// The same law with another k, 1/Pa, 0 or greater.
+    #[must_use]
+    pub fn with_coefficient(mut self, k: f64) -> Self {
+        let (Self::Archard { coefficient } | Self::Power { coefficient, .. }) = &mut self;
+        *coefficient = k;
+        self
+    }
+
     /// Whether wear is k times the frictional work, so that V = k E_d can be watched.
     pub fn follows_energy(&self) -> bool {
         matches!(self, Self::Archard { .. })
@@ -87,6 +95,16 @@ impl WearLaw {
             Self::Power {
                 stress_exponent, ..
             } => stress_exponent,
+        }
+    }
+
+    /// By which power of the slip rate a surface wears: n.
+    pub fn slip_rate_exponent(&self) -> f64 {
+        match *self {
+            Self::Archard { .. } => 1.0,
+            Self::Power {
+                slip_rate_exponent, ..
+            } => slip_rate_exponent,
         }
     }
 

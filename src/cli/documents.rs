@@ -3,17 +3,23 @@
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use clap::CommandFactory;
+use clap_complete::env::Shells;
 use clap_mangen::Man;
 
 use super::args::Arguments;
+use super::complete::VARIABLE;
 use crate::tui::manual;
 
-/// Prints a completion script.
+/// Prints a script with which the shell asks this program for completions.
 pub fn completions(shell: clap_complete::Shell) -> Result<ExitCode> {
     let mut script = Vec::new();
-    clap_complete::generate(shell, &mut Arguments::command(), "mdr-tui", &mut script);
+    let shells = Shells::builtins();
+    let completer = shells
+        .completer(&shell.to_string())
+        .with_context(|| format!("no completions for {shell}"))?;
+    completer.write_registration(VARIABLE, "mdr-tui", "mdr-tui", "mdr-tui", &mut script)?;
     io::stdout().write_all(&script)?;
     Ok(ExitCode::SUCCESS)
 }

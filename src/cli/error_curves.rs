@@ -12,9 +12,9 @@ use ratatui::style::Style;
 
 use super::small_multiples;
 use crate::math::abel::AbelMethod;
+use crate::plot::{Axis, Curve, Marker, Plot, Scale};
 use crate::studies::verify::errors::Errors;
 use crate::studies::verify::{Outcome, Problem};
-use crate::tui::plot::{Axis, Curve, Marker, Plot, Scale};
 
 /// The least error that is drawn: smaller ones are rounding.
 const FLOOR: f64 = 1e-17;

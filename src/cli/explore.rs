@@ -1,58 +1,93 @@
 //! The explorer, opened from the command line.
 
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
+use std::sync::atomic::AtomicBool;
 
 use anyhow::Result;
 use serde::de::IgnoredAny;
 
-use super::args::{ColorChoice, Explore, ThemeChoice};
-use super::{Misuse, complain};
-use crate::export::keep;
+use super::args::{ColorChoice, Explore, FormatChoice, ThemeChoice};
+use super::config::Config;
+use super::{Misuse, accuracy, complain, patiently};
+use crate::export::autosave;
+use crate::plot::Marker;
 use crate::scenario::session::Session;
 use crate::scenario::{Scenario, checkpoint};
-use crate::tui::plot::Marker;
+use crate::studies::refinement::SCREEN_PATIENCE;
 use crate::tui::theme::Look;
-use crate::tui::{self, Capture, Options, keys};
+use crate::tui::{self, Capture, Cast, Format, Options, Script, Stroke, command};
+
+/// The largest number of frames per second.
+const DEFAULT_FPS: u16 = 10;
 
 /// Opens the explorer.
 pub fn explore(options: &Explore) -> Result<ExitCode> {
-    let keys = keys::parse_script(options.keys.as_deref().unwrap_or("")).map_err(Misuse)?;
-    let colored = match options.color {
-        ColorChoice::Always => Some(true),
-        ColorChoice::Never => Some(false),
-        ColorChoice::Auto => None,
+    let strokes = Stroke::script(options.keys.as_deref().unwrap_or("")).map_err(Misuse)?;
+    let config = Config::load()?;
+    let colored = match options.color.or(config.color) {
+        Some(ColorChoice::Always) => Some(true),
+        Some(ColorChoice::Never) => Some(false),
+        Some(ColorChoice::Auto) | None => None,
     };
+    command::bind(config.keys);
     let session = match &options.resume {
         Some(file) => checkpoint::read::<IgnoredAny>(file)?.session,
-        None => Session::start(Scenario::load(&options.scenario, &options.changes.set)?)?,
+        None => {
+            let scenario = Scenario::load(&options.scenario, &options.changes.set)?;
+            let never = AtomicBool::new(false);
+            let found = accuracy::resolve(&scenario, None, SCREEN_PATIENCE, false, &never)?;
+            if let Some(word) = found.warning {
+                complain(&word);
+            }
+            Session::start(found.scenario)?
+        }
     };
-    let keep_in = keep::state_directory();
+    let keep_in = autosave::state_directory();
+    let record = options.record.as_deref().map(|path| {
+        Cast::create(path, options.print.is_some()).map_err(|error| {
+            let why = match error.kind() {
+                io::ErrorKind::AlreadyExists => "exists already; choose another name".to_owned(),
+                _ => error.to_string(),
+            };
+            Misuse(format!("--record {}: {why}", path.display()))
+        })
+    });
     let farewell = tui::run(Options {
+        record: record.transpose()?,
         session,
         running: options.resume.is_none(),
         keep_in,
         keep_every: options.checkpoint_every.0,
-        fps: options.fps,
-        marker: options.marker.map(Marker::from),
+        fps: options.fps.or(config.fps).unwrap_or(DEFAULT_FPS),
+        marker: options.marker.or(config.marker).map(Marker::from),
         colored,
-        look: options.theme.map(|choice| match choice {
+        look: options.theme.or(config.theme).map(|choice| match choice {
             ThemeChoice::Dark => Look::Dark,
             ThemeChoice::Light => Look::Light,
             ThemeChoice::Mono => Look::Mono,
         }),
-        mouse: if options.mouse {
+        mouse: if options.mouse || config.mouse == Some(true) {
             Capture::Clicks
         } else {
             Capture::None
         },
-        script: options.print.map(|size| (keys, size)),
+        script: options.print.map(|size| Script {
+            strokes,
+            size,
+            format: match options.format {
+                FormatChoice::Text => Format::Text,
+                FormatChoice::Svg => Format::Svg,
+            },
+        }),
     })?;
     if let Some(word) = farewell.word {
         complain(&word);
     }
     if let Some(screen) = farewell.screen {
-        io::stdout().write_all(screen.as_bytes())?;
+        patiently(io::stdout().is_terminal(), move || {
+            let _ = io::stdout().write_all(screen.as_bytes());
+        });
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -1,22 +1,37 @@
 //! The command line: arguments in, one line on stderr and an exit code out.
 
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::mpsc::channel;
+use std::thread;
+use std::time::Duration;
 
-use clap::Parser;
 use clap::error::ErrorKind;
+use clap::{CommandFactory, Parser};
+use clap_complete::CompleteEnv;
 
 use crate::export::file::WriteError;
 use crate::scenario::checkpoint::CheckpointError;
 use crate::scenario::session::SessionError;
 use crate::scenario::{ScenarioError, printable};
+use crate::studies::refinement::RefinementError;
+use crate::studies::sweep::StudyError;
 use crate::tui::NoTerminal;
 
+mod accuracy;
 mod args;
+mod complete;
+mod config;
 mod documents;
-mod errand;
 mod error_curves;
 mod explore;
+mod figure;
+mod fit;
+mod guide;
+mod job;
+mod keeper;
 mod presets;
 mod progress;
 mod results;
@@ -24,6 +39,7 @@ mod run;
 mod small_multiples;
 mod stability;
 mod stop;
+mod sweep;
 mod trade;
 mod verify;
 
@@ -34,6 +50,9 @@ const FAILED: u8 = 1;
 /// Exit code of wrong use or wrong input.
 const MISUSED: u8 = 2;
 
+/// Exit code of a study that was interrupted: its rows are kept, and `--resume` goes on (EX_TEMPFAIL).
+const UNFINISHED: u8 = 75;
+
 /// Wrong use that no other error type stands for.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
@@ -41,11 +60,23 @@ pub(crate) struct Misuse(pub String);
 
 /// Runs the program on the arguments of the process.
 pub fn main() -> ExitCode {
+    // A shell that asks for completions gets them, and nothing else happens.
+    CompleteEnv::with_factory(Arguments::command)
+        .var(complete::VARIABLE)
+        .complete();
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => return refuse(&error),
     };
-    match dispatch(arguments) {
+    crate::panics::keep();
+    // Nothing asks for SIGXFSZ: a file that has grown to its limit is an error like a full disk.
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
+    let Ok(outcome) = catch_unwind(AssertUnwindSafe(|| dispatch(arguments))) else {
+        let word = crate::panics::word().unwrap_or_default();
+        complain(&format!("a defect in mdr-tui: {word}"));
+        return ExitCode::from(FAILED);
+    };
+    match outcome {
         Ok(code) => code,
         Err(error) if is_closed_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
@@ -56,21 +87,47 @@ pub fn main() -> ExitCode {
 }
 
 fn dispatch(arguments: Arguments) -> anyhow::Result<ExitCode> {
+    #[cfg(debug_assertions)]
+    crate::failpoint::hit("command");
     match arguments.command {
         None => explore::explore(&arguments.explore),
         Some(Command::Run(options)) => run::run(&options),
         Some(Command::Presets(options)) => presets::presets(&options),
         Some(Command::Verify(options)) => verify::verify(&options),
         Some(Command::Trade(options)) => trade::trade(&options),
+        Some(Command::Fit(options)) => fit::fit(&options),
         Some(Command::Stability(options)) => stability::stability(&options),
+        Some(Command::Guide(options)) => guide::guide(&options),
+        Some(Command::Sweep(options)) => sweep::sweep(&options),
+        Some(Command::Figure(options)) => figure::figure(&options),
         Some(Command::Completions { shell }) => documents::completions(shell),
         Some(Command::Man) => documents::man(),
     }
 }
 
+/// The longest wait for a terminal that takes no more.
+const PATIENCE: Duration = Duration::from_millis(400);
+
 /// Prints one line on stderr, whatever names the user gave.
 pub(crate) fn complain(message: &str) {
-    let _ = writeln!(io::stderr(), "mdr-tui: {}", printable(message.trim_end()));
+    let line = format!("mdr-tui: {}\n", printable(message.trim_end()));
+    let is_terminal = io::stderr().is_terminal();
+    patiently(is_terminal, move || {
+        let _ = io::stderr().write_all(line.as_bytes());
+    });
+}
+
+/// Writes to where somebody reads. A terminal that has stopped reading is not waited for.
+pub(crate) fn patiently(is_terminal: bool, write: impl FnOnce() + Send + 'static) {
+    if !is_terminal {
+        return write();
+    }
+    let (tell, told) = channel();
+    thread::spawn(move || {
+        write();
+        let _ = tell.send(());
+    });
+    let _ = told.recv_timeout(PATIENCE);
 }
 
 /// Wrong use and wrong input are 2, a run that failed is 1.
@@ -79,8 +136,12 @@ fn exit_code(error: &anyhow::Error) -> u8 {
         if cause.is::<Misuse>()
             || cause.is::<ScenarioError>()
             || cause.is::<CheckpointError>()
+            || cause.is::<StudyError>()
             || cause.is::<NoTerminal>()
         {
+            return MISUSED;
+        }
+        if let Some(RefinementError::Scenario(_)) = cause.downcast_ref() {
             return MISUSED;
         }
         if let Some(SessionError::Scenario(_)) = cause.downcast_ref() {

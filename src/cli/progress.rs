@@ -1,7 +1,11 @@
 //! Progress bars on stderr, when somebody is there to see them.
 
 use std::io::{self, IsTerminal};
-use std::time::{Duration, Instant};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::thread;
+use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
@@ -27,33 +31,71 @@ pub fn bar(length: u64, behind: &str, quiet: bool) -> ProgressBar {
     bar
 }
 
-/// The progress of a run in cycles.
+/// What turns while nobody knows how long something takes.
+pub fn spinner(message: &'static str, quiet: bool) -> ProgressBar {
+    // Every locale can show these.
+    let style = ProgressStyle::default_spinner().tick_chars("-\\|/ ");
+    let spinner = ProgressBar::new_spinner()
+        .with_style(style)
+        .with_message(message);
+    if quiet || !io::stderr().is_terminal() {
+        spinner.set_draw_target(ProgressDrawTarget::hidden());
+        return spinner;
+    }
+    spinner.enable_steady_tick(INTERVAL);
+    spinner
+}
+
+/// The longest wait for a terminal that takes no more.
+const PATIENCE: Duration = Duration::from_millis(200);
+
+/// The progress of a run in cycles, drawn by a thread of its own: a terminal that stops reading does
+/// not stop the run.
 pub struct Progress {
-    bar: ProgressBar,
-    last: Instant,
+    /// The bits of the cycle that is reached.
+    cycle: Arc<AtomicU64>,
+    /// Told when the run has ended; none where nothing is drawn.
+    end: Option<Sender<()>>,
+    /// Tells when the bar is gone.
+    gone: Receiver<()>,
 }
 
 impl Progress {
     /// For `cycles` in all.
     pub fn new(cycles: f64, quiet: bool) -> Self {
         let bar = bar((cycles * PARTS) as u64, TIMES, quiet);
+        let reached = Arc::new(AtomicU64::new(0));
+        let (end, ended) = channel::<()>();
+        let (tell, gone) = channel();
+        let is_drawn = !bar.is_hidden();
+        let cycle = Arc::clone(&reached);
+        if is_drawn {
+            thread::spawn(move || {
+                while ended.recv_timeout(INTERVAL) == Err(RecvTimeoutError::Timeout) {
+                    let cycle = f64::from_bits(reached.load(Ordering::Relaxed));
+                    bar.set_message(format!("cycle {cycle:.1}"));
+                    bar.set_position((cycle * PARTS) as u64);
+                }
+                bar.finish_and_clear();
+                let _ = tell.send(());
+            });
+        }
         Self {
-            bar,
-            last: Instant::now(),
+            cycle,
+            end: is_drawn.then_some(end),
+            gone,
         }
     }
 
     /// Says that `cycle` is reached.
-    pub fn at(&mut self, cycle: f64) {
-        if self.last.elapsed() >= INTERVAL {
-            self.last = Instant::now();
-            self.bar.set_message(format!("cycle {cycle:.1}"));
-            self.bar.set_position((cycle * PARTS) as u64);
-        }
+    pub fn at(&self, cycle: f64) {
+        self.cycle.store(cycle.to_bits(), Ordering::Relaxed);
     }
 
     /// Takes the bar away.
-    pub fn finish(&self) {
-        self.bar.finish_and_clear();
+    pub fn finish(&mut self) {
+        if self.end.take().is_some() {
+            let _ = self.gone.recv_timeout(PATIENCE);
+        }
     }
 }

@@ -2,46 +2,76 @@
 
 use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread;
+use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, anyhow};
 
 use super::args::{CycleAsGiven, Run};
-use super::errand::{Errand, Mark};
+use super::job::RunJob;
+use super::keeper::Keeper;
 use super::progress::Progress;
-use super::{FAILED, complain, stop};
-use crate::export::file::{
-    RUN_CHECKPOINT, RunDirectory, WriteError, free_directory, shell_word, write_whole,
-};
+use super::{FAILED, Misuse, accuracy, complain, stop};
+use crate::export::autosave::COPY_INTERVAL;
+use crate::export::file::{RUN_CHECKPOINT, RunDirectory, WriteError, write_whole};
 use crate::export::header::number;
-use crate::export::keep::{self, COPY_INTERVAL, Keeper};
-use crate::export::state;
+use crate::export::{field, state};
 use crate::scenario::checkpoint;
 use crate::scenario::session::Session;
 use crate::scenario::{Scenario, printable};
-use crate::tui::panics;
+use crate::simulation::verdict;
+
+/// How often a signal is looked for beside the run.
+const GLANCE: Duration = Duration::from_millis(20);
+
+/// How long a signal waits for the step under way to end.
+const PATIENCE: Duration = Duration::from_millis(500);
+
+/// How long rows that a disk has not taken wait for another try.
+const ANOTHER_TRY: Duration = Duration::from_secs(1);
 
 /// Runs a scenario, or goes on with one, and writes its files.
 pub fn run(options: &Run) -> Result<ExitCode> {
+    let stop = stop::signal()?;
     let mut job = match (&options.resume, &options.scenario) {
         (Some(path), _) => Job::resume(options, path)?,
-        (None, scenario) => Job::start(options, scenario.as_deref().unwrap_or_default())?,
+        (None, scenario) => {
+            let name = scenario.as_deref().unwrap_or_default();
+            Job::start(options, name, &stop)?
+        }
     };
     if let Some(why) = job.session.simulation().why_never_jumped()
         && !options.quiet
     {
         complain(&format!("every cycle is stepped directly: {why}"));
     }
-    let stop = stop::signal()?;
-    panics::keep();
+    if let Some(remark) = job.session.scenario().setup().indenter.remark()
+        && !options.quiet
+    {
+        complain(&format!("indenter: {remark}"));
+    }
+    if !options.quiet {
+        for warning in job.session.simulation().warnings() {
+            complain(&warning);
+        }
+    }
+    let is_over = job.watch(Arc::clone(&stop));
     // A defect must not take hours of computing with it.
     let outcome = catch_unwind(AssertUnwindSafe(|| job.advance(&stop)));
+    while is_over.swap(true, Ordering::SeqCst) {
+        // The copy is being kept, and the process ends.
+        thread::park();
+    }
     let outcome = outcome.unwrap_or_else(|_| Ok(Ended::Broken(job.go_back())));
     if matches!(outcome, Ok(Ended::Interrupted | Ended::Broken(_))) {
         job.put_away();
+    }
+    if options.estimate_error && matches!(outcome, Ok(Ended::Done)) {
+        job.estimate(&stop);
     }
     // Whatever happened, what was computed is kept.
     if let Err(error) = job.write_end() {
@@ -51,6 +81,8 @@ pub fn run(options: &Run) -> Result<ExitCode> {
     if matches!(outcome, Ok(Ended::Done) | Err(_)) {
         job.directory.close()?;
     }
+    // All is done: whoever waits for a reader of the summary is not to wait for a second signal.
+    stop.store(true, Ordering::SeqCst);
     match outcome {
         Ok(Ended::Done) => {
             if !options.quiet {
@@ -87,59 +119,86 @@ struct Job {
     /// What messages call the run.
     name: String,
     session: Session,
-    errand: Errand,
+    job: RunJob,
     directory: RunDirectory,
-    keeper: Keeper,
-    /// Whether the user knows that checkpoints fail.
-    has_warned: bool,
+    keeper: Arc<Mutex<Keeper>>,
     /// The run a moment ago, and the moment.
-    copy: (Session, Mark),
+    copy: Arc<Mutex<(Session, RunJob)>>,
     copied: Instant,
+    /// When rows of the history could last not be written.
+    unwritten: Option<Instant>,
     /// Snapshots that could not be written when their cycle came, to be tried again at the end.
     owed: Vec<(String, String)>,
     quiet: bool,
+    /// Whether the stresses inside the half-space are wanted.
+    field: bool,
 }
 
 impl Job {
-    fn start(options: &Run, name: &str) -> Result<Self> {
+    fn start(options: &Run, name: &str, stop: &AtomicBool) -> Result<Self> {
         let mut scenario = Scenario::load(name, &options.changes.set)?;
-        if let Some(cycles) = options.cycles
-            && scenario.value("numerics.accuracy").is_some()
-        {
-            // An accuracy chooses by the length of this run.
-            scenario = scenario.with("run.cycles", &cycles.to_string())?;
+        let mut job = RunJob::new(options, &scenario, name)?;
+        if options.budget.is_some() && scenario.accuracy().is_none() {
+            let message = "--budget: limits the search for numerics.accuracy, which is not given";
+            return Err(Misuse(message.into()).into());
         }
-        let errand = Errand::new(options, &scenario, name)?;
+        let directory = match &options.out {
+            Some(path) => RunDirectory::claim(path, options.force)?,
+            None => new_directory(&scenario)?,
+        };
+        if scenario.accuracy().is_some() {
+            let budget = options.budget.unwrap_or(f64::INFINITY);
+            let found = accuracy::resolve(&scenario, Some(job.cycles), budget, options.quiet, stop);
+            let found = found.with_context(|| printable(name))?;
+            scenario = found.scenario;
+            job.statements = found.statements;
+            if let Some(word) = found.warning {
+                complain(&word);
+            }
+        }
         let session = Session::start(scenario).with_context(|| printable(name))?;
-        let path = options.out.clone();
-        let path = path.unwrap_or_else(|| new_directory(&session));
-        let directory = RunDirectory::claim(&path, options.force)?;
-        Ok(Self::new(name, session, errand, directory, options))
+        Ok(Self::new(name, session, job, None, directory, options))
     }
 
-    /// Goes on where a run was put away: in its own directory, or in another one, into which the
-    /// snapshots that it has written are copied.
+    /// Goes on where a run was put away: in its own directory, or in another one, into which what it
+    /// has written so far is copied.
     fn resume(options: &Run, file: &Path) -> Result<Self> {
         let name = printable(&file.display().to_string());
-        let kept = checkpoint::read::<Errand>(file)?;
-        let session = kept.session;
-        let errand = Errand::resumed(kept.errand, &session, options.cycles, &name)?;
-        let home = file.parent().map(|home| match home.as_os_str().is_empty() {
+        let real = |path: &Path| path.canonicalize().ok();
+        let elsewhere = |home: &Path| {
+            let out = options.out.as_deref();
+            out.filter(|out| real(out).is_none() || real(out) != real(home))
+        };
+        let beside = file.parent().map(|home| match home.as_os_str().is_empty() {
             true => Path::new("."),
             false => home,
         });
-        let home = home.filter(|_| file.file_name().is_some_and(|name| name == RUN_CHECKPOINT));
-        let path = match (&options.out, home) {
-            (Some(out), _) => out.clone(),
-            (None, Some(home)) => home.to_owned(),
-            (None, None) => new_directory(&session),
+        let is_at_home =
+            file.is_file() && file.file_name().is_some_and(|name| name == RUN_CHECKPOINT);
+        let beside = beside.filter(|_| is_at_home);
+        // Whoever comes first goes on with it, and nobody beside.
+        let claimed = beside.filter(|home| elsewhere(home).is_none());
+        let claimed = claimed.map(RunDirectory::reopen).transpose()?;
+        let kept = checkpoint::read::<RunJob>(file)?;
+        let session = kept.session;
+        let mut job = RunJob::resumed(kept.job, &session, options.cycles, &name)?;
+        let home = beside.or(job.home()).map(Path::to_owned);
+        let directory = match (claimed, &home) {
+            (Some(directory), _) => directory,
+            (None, Some(home)) if elsewhere(home).is_none() && home.is_dir() => {
+                if home.join(RUN_CHECKPOINT).exists() {
+                    RunDirectory::reopen(home)?
+                } else {
+                    RunDirectory::claim(home, options.force)?
+                }
+            }
+            (None, _) => match &options.out {
+                Some(out) => RunDirectory::claim(out, options.force)?,
+                None => new_directory(session.loaded())?,
+            },
         };
-        let real = |path: &Path| path.canonicalize().ok();
-        let directory = match home {
-            Some(home) if real(home) == real(&path) => RunDirectory::reopen(&path)?,
-            _ => RunDirectory::claim(&path, options.force)?,
-        };
-        for snapshot in errand.taken() {
+        let home = home.as_deref();
+        for snapshot in job.taken() {
             let (name, home) = (file_of(&snapshot), home.unwrap_or(Path::new(".")));
             let (from, to) = (home.join(&name), directory.path().join(&name));
             if to.exists() {
@@ -150,42 +209,114 @@ impl Job {
                 Err(_) => complain(&format!("{}: is not there any more", from.display())),
             }
         }
-        Ok(Self::new(&name, session, errand, directory, options))
+        if let Err(error) = job.settle_in(home, directory.path()) {
+            let cycle = number(session.simulation().cycle());
+            complain(&format!(
+                "{name}: the history before cycle {cycle} is not there any more: {error}"
+            ));
+        }
+        Ok(Self::new(
+            &name,
+            session,
+            job,
+            Some(file),
+            directory,
+            options,
+        ))
     }
 
     fn new(
         name: &str,
         session: Session,
-        errand: Errand,
+        mut job: RunJob,
+        from: Option<&Path>,
         directory: RunDirectory,
         options: &Run,
     ) -> Self {
+        let mut session = session;
+        for (key, value) in &job.statements {
+            session.state(key, value);
+        }
+        let mut keeper = Keeper::new(directory.checkpoint(), options.checkpoint_every.0);
+        match from {
+            Some(file) => keeper.remember(file, session.simulation().cycle()),
+            None => job.live_in(directory.path()),
+        }
         Self {
             name: name.to_owned(),
-            keeper: Keeper::new(directory.checkpoint(), options.checkpoint_every.0),
+            keeper: Arc::new(Mutex::new(keeper)),
             directory,
-            has_warned: false,
-            copy: (session.clone(), errand.mark()),
+            copy: Arc::new(Mutex::new((session.clone(), job.clone()))),
             session,
-            errand,
+            job,
             copied: Instant::now(),
+            unwritten: None,
             owed: Vec::new(),
             quiet: options.quiet,
+            field: options.field,
         }
+    }
+
+    /// Estimates the error at the end, which the headers of the files then state. An accuracy has stated it before.
+    fn estimate(&mut self, stop: &AtomicBool) {
+        if !self.job.statements.is_empty() {
+            return;
+        }
+        match accuracy::estimated(&self.session, stop) {
+            Ok(statements) => {
+                for (key, value) in statements {
+                    self.session.state(&key, &value);
+                }
+            }
+            Err(word) => complain(&word),
+        }
+    }
+
+    /// Has the copy kept and the process end when a signal finds the run in a step that takes longer
+    /// than anybody waits. Whoever sets the flag that is returned first, brings the run to its end.
+    fn watch(&self, stop: Arc<AtomicBool>) -> Arc<AtomicBool> {
+        let is_over = Arc::new(AtomicBool::new(false));
+        let (copy, keeper, over) = (
+            Arc::clone(&self.copy),
+            Arc::clone(&self.keeper),
+            Arc::clone(&is_over),
+        );
+        thread::spawn(move || {
+            while !stop.load(Ordering::Relaxed) {
+                thread::sleep(GLANCE);
+            }
+            thread::sleep(PATIENCE);
+            if over.swap(true, Ordering::SeqCst) {
+                return;
+            }
+            let (session, job) = &*locked(&copy);
+            let mut keeper = locked(&keeper);
+            if let Some(word) = keeper.keep(session, job) {
+                complain(&word);
+            }
+            let cycle = session.simulation().cycle();
+            complain(&format!(
+                "interrupted at cycle {}, in the middle of a long step; {}",
+                number(cycle),
+                keeper.way_on(cycle)
+            ));
+            std::process::exit(FAILED.into());
+        });
+        is_over
     }
 
     /// Steps to the end, taking snapshots on the way.
     fn advance(&mut self, stop: &AtomicBool) -> Result<Ended> {
-        let mut progress = Progress::new(self.errand.cycles, self.quiet);
-        self.errand.record(&self.session);
+        let mut progress = Progress::new(self.job.cycles, self.quiet);
+        self.job.record(&self.session);
         loop {
             let simulation = self.session.simulation();
             let (cycle, close) = (simulation.cycle(), simulation.rounding());
-            while let Some(snapshot) = self.errand.next_snapshot(cycle + close) {
+            while let Some(snapshot) = self.job.next_snapshot(cycle + close) {
                 let table = table_at(&snapshot, &self.session)?;
                 self.keep_snapshot(&snapshot, table);
             }
-            if cycle >= self.errand.cycles {
+            if cycle >= self.job.cycles {
                 break;
             }
             if stop.load(Ordering::Relaxed) {
@@ -193,7 +324,13 @@ impl Job {
                 return Ok(Ended::Interrupted);
             }
             #[cfg(debug_assertions)]
-            crate::tui::fault::strike("run");
+            {
+                crate::failpoint::hit("run");
+                // Far enough for a first checkpoint.
+                if cycle > 500.0 {
+                    crate::failpoint::stall("long step");
+                }
+            }
             let simulation = self.session.simulation();
             let reach = if simulation.may_jump() {
                 f64::INFINITY
@@ -201,17 +338,18 @@ impl Job {
                 simulation.next_moment()
             };
             // Between two steps a copy takes the fraction of a step: looking does not change the run.
-            let copied = self.errand.has_snapshot_before(reach);
+            let copied = self.job.has_snapshot_before(reach);
             let before = copied.then(|| self.session.clone());
-            self.session.step_until(self.errand.cycles)?;
+            let goal = self.session.heading(self.job.cycles);
+            self.session.step_until(goal)?;
             let now = self.session.simulation().cycle() - close;
             if let Some(before) = before {
-                while let Some(snapshot) = self.errand.next_snapshot(now) {
+                while let Some(snapshot) = self.job.next_snapshot(now) {
                     let table = table_at(&snapshot, &before)?;
                     self.keep_snapshot(&snapshot, table);
                 }
             }
-            self.errand.record(&self.session);
+            self.job.record(&self.session);
             self.look_after();
             progress.at(cycle);
         }
@@ -222,44 +360,39 @@ impl Job {
     /// Keeps a copy in memory and a checkpoint on the disk up to date.
     fn look_after(&mut self) {
         if self.copied.elapsed() >= COPY_INTERVAL {
-            self.copy = (self.session.clone(), self.errand.mark());
+            *locked(&self.copy) = (self.session.clone(), self.job.clone());
             self.copied = Instant::now();
         }
-        if self.keeper.is_due() {
+        if self.unwritten.is_none_or(|at| at.elapsed() >= ANOTHER_TRY) {
+            // Rows that no disk takes are kept in memory.
+            let written = self.job.spill(&self.directory.rows());
+            self.unwritten = written.is_err().then(Instant::now);
+        }
+        if locked(&self.keeper).is_due() {
             self.put_away();
         }
     }
 
     /// Writes a checkpoint. Where that fails, the user is told once, and the run goes on.
     fn put_away(&mut self) {
-        let bytes = checkpoint::encode(&self.session, Some(&self.errand));
-        match self.keeper.keep(&bytes) {
-            Ok(()) => self.has_warned = false,
-            Err(error) if !self.has_warned => {
-                self.has_warned = true;
-                complain(&format!("{error}; the run goes on without a checkpoint"));
-            }
-            Err(_) => {}
+        if let Some(word) = locked(&self.keeper).keep(&self.session, &self.job) {
+            complain(&word);
         }
     }
 
     /// After a defect: back to the copy, for a step that was cut short has left half a state.
     fn go_back(&mut self) -> String {
-        self.session = self.copy.0.clone();
-        self.errand.rewind(self.copy.1);
+        let (session, job) = &*locked(&self.copy);
+        self.session = session.clone();
+        self.job.rewind(job);
         let cycle = number(self.session.simulation().cycle());
-        let word = panics::word().unwrap_or_default();
+        let word = crate::panics::word().unwrap_or_default();
         format!("a defect in mdr-tui: {word}; kept at cycle {cycle}")
     }
 
     /// How to go on with a run that has stopped.
     fn way_on(&self) -> String {
-        match self.keeper.path() {
-            path if path.exists() => {
-                format!("mdr-tui run --resume {} goes on", shell_word(path))
-            }
-            _ => "there is no checkpoint".into(),
-        }
+        locked(&self.keeper).way_on(self.session.simulation().cycle())
     }
 
     /// Writes a snapshot. What cannot be written is owed.
@@ -279,13 +412,20 @@ impl Job {
         let files = [
             (
                 "scenario.toml".to_owned(),
-                self.session.as_run(self.errand.snapshot_at()).to_toml(),
+                self.session.as_run(self.job.snapshot_at()).to_toml(),
             ),
-            ("history.csv".to_owned(), self.errand.table(&self.session)),
             ("state.csv".to_owned(), state::table(&self.session)),
         ];
-        let mut outcome = Ok(());
-        for (name, text) in owed.chain(files) {
+        let field = self
+            .field
+            .then(|| ("field.csv".to_owned(), field::table(&self.session)));
+        let rows = self.directory.rows();
+        let mut outcome = self.directory.write_with("history.csv", |file| {
+            let mut out = io::BufWriter::new(file);
+            self.job.write_history(&self.session, &rows, &mut out)?;
+            out.flush()
+        });
+        for (name, text) in owed.chain(files).chain(field) {
             let written = self.directory.write(&name, text.as_bytes());
             outcome = outcome.and(written.map(|_| ()));
         }
@@ -295,33 +435,23 @@ impl Job {
     /// Where the files cannot be written, a checkpoint may: in their place, or where explorers keep
     /// theirs. Says where it is.
     fn rescue(&mut self) -> String {
-        let bytes = checkpoint::encode(&self.session, Some(&self.errand));
-        let stem = self.session.loaded().stem();
-        let elsewhere = || keep::place(&keep::state_directory()?, &stem).ok();
-        for path in std::iter::once_with(|| Some(self.directory.checkpoint()))
-            .chain(std::iter::once_with(elsewhere))
-            .flatten()
-        {
-            let mut keeper = Keeper::new(path, None);
-            if keeper.keep(&bytes).is_ok() {
-                self.keeper = keeper;
-                return self.way_on();
-            }
-            // A checkpoint that was kept before is better than none.
-            if let Some(keeper) = keeper.if_ever() {
-                self.keeper = keeper;
-                return self.way_on();
-            }
-        }
-        "there is no checkpoint".into()
+        let mut keeper = locked(&self.keeper);
+        keeper.keep(&self.session, &self.job);
+        keeper.way_on(self.session.simulation().cycle())
     }
 
     fn summarize(&self, as_json: bool) -> Result<()> {
         let simulation = self.session.simulation();
-        let (moment, state) = (simulation.moment(), simulation.state());
+        let (moment, stats) = (simulation.moment(), simulation.stats());
         let mut out = io::stdout().lock();
         if as_json {
             let mut summary = serde_json::to_value(moment)?;
+            for (key, value) in self.session.statements() {
+                summary[key.as_str()] = match value.parse::<f64>() {
+                    Ok(number) => number.into(),
+                    Err(_) => value.as_str().into(),
+                };
+            }
             summary["directory"] = self.directory.path().display().to_string().into();
             writeln!(out, "{summary}")?;
             return Ok(());
@@ -356,7 +486,22 @@ impl Job {
                 "  energy residual         {residual:.1e}   (1 - V/(k E_d))"
             )?;
         }
-        let (parts, steps) = (state.effort.parts, state.steps);
+        let stated = self.session.statements().iter();
+        for (key, value) in stated.filter(|(key, _)| key.starts_with("estimated_error")) {
+            let words = match key.as_str() {
+                "estimated_error" => "of the worn depth (rms, relative to the largest)",
+                "estimated_error_volume" => "of the worn volume",
+                "estimated_error_force" => "of F_x",
+                _ => "of p, away from borders",
+            };
+            writeln!(out, "  estimated error         {value}   {words}")?;
+        }
+        let checks = simulation.checks(&simulation.pressure());
+        if let Some(verdict) = verdict(&checks) {
+            let verdict = verdict.trim_start_matches("checks ");
+            writeln!(out, "  checks                  {verdict}")?;
+        }
+        let (parts, steps) = (stats.parts, simulation.steps());
         if parts > 0 {
             writeln!(
                 out,
@@ -384,8 +529,13 @@ fn table_at(snapshot: &CycleAsGiven, session: &Session) -> Result<String> {
 }
 
 /// A directory that is not there yet, named after the scenario.
-fn new_directory(session: &Session) -> PathBuf {
-    free_directory(&format!("{}-run", session.loaded().stem()))
+fn new_directory(scenario: &Scenario) -> Result<RunDirectory, WriteError> {
+    RunDirectory::claim_new(&format!("{}-run", scenario.stem()))
+}
+
+/// What a thread that has panicked leaves behind is whole: it is replaced, never changed in place.
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// The name of a snapshot's file.

@@ -5,7 +5,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 
-use crate::tui::plot::Plot;
+use crate::plot::Plot;
 
 /// Cells of one plot.
 const SIZE: (u16, u16) = (39, 11);

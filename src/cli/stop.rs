@@ -4,19 +4,26 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use anyhow::{Context, Result};
-use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::consts::{
+    SIGABRT, SIGALRM, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU,
+};
 
 use super::FAILED;
 
-/// Set by the first Ctrl-C, SIGTERM or SIGHUP: stop after the step and keep what is done. A second
-/// one ends the process at once. Under `nohup` a run outlives its terminal, as is meant.
+/// What asks a program to end. Queueing systems send SIGUSR1 or SIGUSR2 when the time is nearly up, and
+/// the system SIGXCPU.
+pub const ENDING: [i32; 9] = [
+    SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGABRT, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU,
+];
+
+/// Set by the first signal that asks to end: stop after the step and keep what is done. A second one
+/// ends the process at once. Under `nohup` a run outlives its terminal, as is meant.
 pub fn signal() -> Result<Arc<AtomicBool>> {
     let stop = Arc::new(AtomicBool::new(false));
-    let mut signals = vec![SIGINT, SIGTERM];
-    if !is_ignored(SIGHUP) {
-        signals.push(SIGHUP);
-    }
-    for signal in signals {
+    for signal in ENDING {
+        if signal == SIGHUP && is_ignored(SIGHUP) {
+            continue;
+        }
         signal_hook::flag::register_conditional_shutdown(
             signal,
             i32::from(FAILED),
@@ -24,6 +31,21 @@ pub fn signal() -> Result<Arc<AtomicBool>> {
         )
         .and_then(|_| signal_hook::flag::register(signal, Arc::clone(&stop)))
         .context("cannot listen for signals")?;
+    }
+    Ok(stop)
+}
+
+/// Like [`signal`], but only a second Ctrl-C ends the process at once: a scheduler may send SIGTERM
+/// twice.
+pub fn patient_signal() -> Result<Arc<AtomicBool>> {
+    let stop = Arc::new(AtomicBool::new(false));
+    signal_hook::flag::register_conditional_shutdown(SIGINT, i32::from(FAILED), Arc::clone(&stop))
+        .context("cannot listen for signals")?;
+    for signal in [SIGINT, SIGTERM, SIGHUP] {
+        if signal != SIGHUP || !is_ignored(SIGHUP) {
+            signal_hook::flag::register(signal, Arc::clone(&stop))
+                .context("cannot listen for signals")?;
+        }
     }
     Ok(stop)
 }

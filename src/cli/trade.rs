@@ -8,14 +8,14 @@ use anyhow::{Context, Result};
 use ratatui::style::Style;
 
 use super::args::Trade;
-use super::errand::end;
+use super::job::end;
 use super::{FAILED, Misuse, complain, progress, results, small_multiples, stop};
 use crate::export::header::number;
 use crate::math::abel::AbelMethod;
+use crate::plot::{Axis, Curve, Plot, Scale};
 use crate::scenario::Scenario;
 use crate::studies::trade::report::{Trial, cheapest, front, points, table};
 use crate::studies::trade::{self, Errors, Ladder, Sample, Setting};
-use crate::tui::plot::{Axis, Curve, Plot, Scale};
 
 /// Runs the study and prints, draws and writes what was asked for.
 pub fn trade(options: &Trade) -> Result<ExitCode> {

@@ -1,6 +1,7 @@
 //! The Winkler foundation: the row of springs that stands for the half-space.
 
-use crate::math::abel::bend::{self, Bend};
+use crate::math::abel::field::Field;
+use crate::math::abel::kink::Kink;
 use crate::math::abel::product;
 use crate::math::grid::RadialGrid;
 use crate::math::quadrature::{gauss, line_weights, product_weights, weighted_first};
@@ -20,10 +21,10 @@ pub struct Edge {
 
 /// Where the springs stand, and how loads on them add up.
 ///
-/// Loads are taken as linear in x² between springs, and broken where the contact or the stick zone
-/// ends between two of them: [`Bend`]s hold those breaks.
+/// Loads are taken as linear in x² between springs, and kinked where the contact or the stick zone
+/// ends between two of them: the kinks of a [`Field`] say where.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Foundation {
+pub struct WinklerFoundation {
     grid: RadialGrid,
     weights: Vec<f64>,
     /// Of the slope at the tip.
@@ -34,7 +35,7 @@ pub struct Foundation {
     bubbles: Vec<f64>,
 }
 
-impl Foundation {
+impl WinklerFoundation {
     /// Springs at the nodes of a grid.
     pub fn new(grid: &RadialGrid) -> Self {
         let mut products = product_weights(grid.nodes());
@@ -63,14 +64,14 @@ impl Foundation {
         self.grid.squares()
     }
 
-    /// 2∫ q dx over the row: the force (N) of a line load (N/m) with its breaks, that ends at `edge`.
+    /// 2∫ q dx over the row: the force (N) of a line load (N/m) with its kinks, that ends at `edge`.
     ///
     /// A load with a cusp at the tip, as under a cone, is linear in x and not in x²: what that adds is
     /// added.
-    pub fn force(&self, load: &[f64], breaks: &[Bend], edge: Edge) -> f64 {
-        let nodal = weighted_first(&self.weights, load, edge.nodes);
-        let broken = nodal + bend::line_integral(breaks, self.grid.radius());
-        2.0 * (broken + self.cusp_integral(load, edge))
+    pub fn force(&self, load: &Field, edge: Edge) -> f64 {
+        let nodal = weighted_first(&self.weights, &load.nodal, edge.nodes);
+        let kinked = nodal + load.between_nodes(self.grid.radius());
+        2.0 * (kinked + self.cusp_integral(&load.nodal, edge))
     }
 
     /// What no force (N) of a line load of up to `strongest` (N/m) exceeds: finite where an f64 holds the force.
@@ -81,7 +82,7 @@ impl Foundation {
 
     /// 2∫ q |s| dx over the row: the work (J) of a line load (N/m) that ends at `edge` on a slip (m).
     /// Both are linear in x² in each cell; the slip has `kinks` inside cells besides, each with its cell.
-    pub fn work(&self, load: &[f64], slip: &[f64], kinks: &[(usize, Bend)], edge: Edge) -> f64 {
+    pub fn work(&self, load: &[f64], slip: &[f64], kinks: &[(usize, Kink)], edge: Edge) -> f64 {
         let (xs, squares) = (self.nodes(), self.squares());
         // Most springs stick or carry nothing.
         let first = leading(slip, |&slip| slip == 0.0).saturating_sub(1);
@@ -157,12 +158,13 @@ fn bubbles(nodes: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::abel::kink;
 
     /// A Hertzian load on a slip that sets in between two springs, of either sign.
     #[test]
     fn the_work_on_a_kinked_slip_is_exact() {
         let grid = RadialGrid::uniform(20, 1.0).expect("a grid");
-        let row = Foundation::new(&grid);
+        let row = WinklerFoundation::new(&grid);
         let squares = grid.squares();
         let load: Vec<f64> = squares.iter().map(|t| 1.0 - t).collect();
         let border: f64 = 0.52;
@@ -174,8 +176,8 @@ mod tests {
             let k = squares.partition_point(|&t| t <= border) - 1;
             let mut kinks = Vec::new();
             let ends = [squares[k], squares[k + 1]];
-            bend::polyline(ends, [slip[k], slip[k + 1]], &[(border, 0.0)], &mut kinks);
-            let kinks: Vec<(usize, Bend)> = bend::by_cell(&kinks, squares).collect();
+            kink::polyline(ends, [slip[k], slip[k + 1]], &[(border, 0.0)], &mut kinks);
+            let kinks: Vec<(usize, Kink)> = kink::by_cell(&kinks, squares).collect();
             assert!(kinks.iter().all(|&(cell, _)| cell == k), "{kinks:?}");
             // ∫ (1 − x²)(x² − b) dx from √b to 1.
             let primitive =

@@ -6,10 +6,11 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use super::measured::MeasuredProfile;
 use crate::math::invalid::{Invalid, positive};
 
 /// A shape of revolution.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Indenter {
     /// f = r²/(2R).
     Paraboloid {
@@ -47,6 +48,15 @@ pub enum Indenter {
         /// b, m.
         tip_radius: f64,
     },
+    /// f = (r − b)²/(2R) outside a flat face of radius b: a punch whose edge is rounded.
+    RoundedPunch {
+        /// R, m: the radius of the rounding.
+        radius: f64,
+        /// b, m.
+        tip_radius: f64,
+    },
+    /// A measured profile.
+    Table(MeasuredProfile),
 }
 
 impl Indenter {
@@ -94,9 +104,23 @@ impl Indenter {
         })
     }
 
+    /// A punch with a flat face of radius `tip_radius` (m) and an edge rounded by `radius` (m).
+    pub fn rounded_punch(radius: f64, tip_radius: f64) -> Result<Self, Invalid> {
+        Ok(Self::RoundedPunch {
+            radius: positive("radius", radius)?,
+            tip_radius: positive("tip_radius", tip_radius)?,
+        })
+    }
+
+    /// A profile from a table: see [`MeasuredProfile::new`].
+    pub fn table(radii: &[f64], heights: &[f64], smoothing: f64) -> Result<Self, Invalid> {
+        MeasuredProfile::new(radii, heights, smoothing).map(Self::Table)
+    }
+
     /// f₀(r), m. A flat punch ends at its rim: there is nothing to ask beyond.
     pub fn profile(&self, r: f64) -> f64 {
         match *self {
+            Self::Table(ref measured) => measured.profile(r),
             Self::Paraboloid { radius } => r * r / (2.0 * radius),
             Self::Cone { angle } => r * angle.tan(),
             Self::Power {
@@ -110,13 +134,19 @@ impl Indenter {
             Self::TruncatedCone { angle, tip_radius } if r > tip_radius => {
                 (r - tip_radius) * angle.tan()
             }
-            Self::TruncatedParaboloid { .. } | Self::TruncatedCone { .. } => 0.0,
+            Self::RoundedPunch { radius, tip_radius } if r > tip_radius => {
+                (r - tip_radius).powi(2) / (2.0 * radius)
+            }
+            Self::TruncatedParaboloid { .. }
+            | Self::TruncatedCone { .. }
+            | Self::RoundedPunch { .. } => 0.0,
         }
     }
 
     /// g₀(x), m: Eq. (1) of the paper in closed form.
     pub fn profile_1d(&self, x: f64) -> f64 {
         match *self {
+            Self::Table(ref measured) => measured.profile_1d(x),
             Self::Paraboloid { radius } => x * x / radius,
             Self::Cone { angle } => FRAC_PI_2 * x * angle.tan(),
             Self::Power {
@@ -130,7 +160,13 @@ impl Indenter {
             Self::TruncatedCone { angle, tip_radius } if x > tip_radius => {
                 x * angle.tan() * (tip_radius / x).acos()
             }
-            Self::TruncatedParaboloid { .. } | Self::TruncatedCone { .. } => 0.0,
+            Self::RoundedPunch { radius, tip_radius } if x > tip_radius => {
+                let root = ((x - tip_radius) * (x + tip_radius)).sqrt();
+                x / radius * (root - tip_radius * (tip_radius / x).acos())
+            }
+            Self::TruncatedParaboloid { .. }
+            | Self::TruncatedCone { .. }
+            | Self::RoundedPunch { .. } => 0.0,
         }
     }
 
@@ -139,6 +175,7 @@ impl Indenter {
     pub fn radius_at(&self, height: f64) -> f64 {
         let height = height.max(0.0);
         match *self {
+            Self::Table(ref measured) => measured.radius_at(height),
             Self::Paraboloid { radius } => (2.0 * radius * height).sqrt(),
             Self::Cone { angle } => height / angle.tan(),
             Self::Power {
@@ -150,6 +187,9 @@ impl Indenter {
                 tip_radius.hypot((2.0 * radius * height).sqrt())
             }
             Self::TruncatedCone { angle, tip_radius } => tip_radius + height / angle.tan(),
+            Self::RoundedPunch { radius, tip_radius } => {
+                tip_radius + (2.0 * radius * height).sqrt()
+            }
         }
     }
 
@@ -161,11 +201,20 @@ impl Indenter {
         }
     }
 
-    /// The radius at which f₀ has a kink, m, where it has one.
-    pub fn kink(&self) -> Option<f64> {
+    /// The radius of the flat face, m, where there is one.
+    pub fn flat_face(&self) -> Option<f64> {
         match *self {
             Self::TruncatedParaboloid { tip_radius, .. }
-            | Self::TruncatedCone { tip_radius, .. } => Some(tip_radius),
+            | Self::TruncatedCone { tip_radius, .. }
+            | Self::RoundedPunch { tip_radius, .. } => Some(tip_radius),
+            _ => None,
+        }
+    }
+
+    /// What was made of a measured profile, in a line.
+    pub fn remark(&self) -> Option<String> {
+        match self {
+            Self::Table(measured) => Some(measured.summary()),
             _ => None,
         }
     }
@@ -179,6 +228,8 @@ impl Indenter {
             Self::FlatPunch { .. } => "flat-punch",
             Self::TruncatedParaboloid { .. } => "truncated-paraboloid",
             Self::TruncatedCone { .. } => "truncated-cone",
+            Self::RoundedPunch { .. } => "rounded-punch",
+            Self::Table(_) => "table",
         }
     }
 }
@@ -212,6 +263,7 @@ mod tests {
             Indenter::power(0.5, 1.0),
             Indenter::truncated_paraboloid(0.01, 2e-5),
             Indenter::truncated_cone(0.02, 2e-5),
+            Indenter::rounded_punch(0.01, 2e-5),
         ]
         .into_iter()
         .map(|shape| shape.expect("a shape"))
@@ -271,5 +323,6 @@ mod tests {
         assert!(Indenter::flat_punch(0.0).is_err());
         assert!(Indenter::truncated_paraboloid(0.01, -1.0).is_err());
         assert!(Indenter::truncated_cone(2.0, 1e-5).is_err());
+        assert!(Indenter::rounded_punch(0.01, 0.0).is_err());
     }
 }

@@ -25,6 +25,14 @@ impl Body {
         })
     }
 
+    /// ν; `None` if the body is rigid.
+    fn poisson(self) -> Option<f64> {
+        match self {
+            Self::Elastic { poisson, .. } => Some(poisson),
+            Self::Rigid => None,
+        }
+    }
+
     /// (1 − ν²)/E, this body's share of 1/E*, 1/Pa.
     fn normal_compliance(self) -> f64 {
         match self {
@@ -54,6 +62,7 @@ pub struct Material {
     normal_modulus: f64,
     tangential_modulus: f64,
     friction: f64,
+    poisson: f64,
 }
 
 impl Material {
@@ -68,6 +77,7 @@ impl Material {
             normal_modulus,
             tangential_modulus: normal_modulus * 2.0 * (1.0 - poisson) / (2.0 - poisson),
             friction: non_negative("coefficient", friction)?,
+            poisson,
         })
     }
 
@@ -90,7 +100,19 @@ impl Material {
             normal_modulus: normal.recip(),
             tangential_modulus: tangential.recip(),
             friction: non_negative("coefficient", friction)?,
+            poisson: half_space.poisson().or(indenter.poisson()).unwrap_or(0.0),
         })
+    }
+
+    /// ν of the half-space, or of the elastic body where that is rigid: what stresses inside depend on.
+    pub fn poisson(&self) -> f64 {
+        self.poisson
+    }
+
+    /// The same with another μ, 0 or greater.
+    #[must_use]
+    pub fn with_friction(self, friction: f64) -> Self {
+        Self { friction, ..self }
     }
 
     /// E*, Pa.

@@ -3,5 +3,7 @@
 pub mod foundation;
 pub mod indenter;
 pub mod material;
+pub mod measured;
 pub mod normal;
+pub mod subsurface;
 pub mod tangential;

@@ -11,8 +11,9 @@ use std::hint::select_unpredictable as select;
 
 use serde::{Deserialize, Serialize};
 
-use super::foundation::{Edge, Foundation};
-use crate::math::abel::bend::{self, Bend};
+use super::foundation::{Edge, WinklerFoundation};
+use crate::math::abel::field::Field;
+use crate::math::abel::kink;
 use crate::math::abel::product;
 use crate::math::root;
 use crate::math::scan::{changes, largest};
@@ -44,16 +45,16 @@ impl NormalContact {
 }
 
 /// Presses the 1D profile `g` (m) to `depth` (m) on springs of stiffness E* = `modulus` (Pa) a length:
-/// writes the line load `q` (N/m) and its breaks.
+/// writes the line `load` (N/m).
 pub fn press(
-    row: &Foundation,
+    row: &WinklerFoundation,
     g: &[f64],
     depth: f64,
     modulus: f64,
-    q: &mut [f64],
-    breaks: &mut Vec<Bend>,
+    load: &mut Field,
 ) -> NormalContact {
-    breaks.clear();
+    let Field { nodal: q, kinks } = load;
+    kinks.clear();
     let (xs, squares) = (row.nodes(), row.squares());
     let mut contact = NormalContact::default();
     let compression = |k: usize| modulus * (depth - g[k]);
@@ -79,7 +80,7 @@ pub fn press(
         let (left, right) = (squares[k - 1], squares[k]);
         let share = (edge - left) / (right - left);
         if share > ON_A_SPRING && share < 1.0 - ON_A_SPRING {
-            bend::polyline([left, right], [q[k - 1], q[k]], &[(edge, 0.0)], breaks);
+            kink::polyline([left, right], [q[k - 1], q[k]], &[(edge, 0.0)], kinks);
         }
         if is_open(ends[1]) {
             contact.radius = edge.sqrt().max(xs[k - 1]);
@@ -95,13 +96,12 @@ pub fn press(
 /// The depth (m) at which the profile carries `load` (N), to about 1e-14 of the depth.
 /// `None` where the load is beyond what the row can carry at a depth below `deepest`.
 pub fn depth_for_load(
-    row: &Foundation,
+    row: &WinklerFoundation,
     g: &[f64],
     load: f64,
     modulus: f64,
     deepest: f64,
-    q: &mut [f64],
-    breaks: &mut Vec<Bend>,
+    carried: &mut Field,
 ) -> Option<f64> {
     let shallowest = g.iter().copied().fold(f64::INFINITY, f64::min);
     if load <= 0.0 {
@@ -109,8 +109,8 @@ pub fn depth_for_load(
     }
     root::bracketed(
         |depth| {
-            let contact = press(row, g, depth, modulus, q, breaks);
-            row.force(q, breaks, contact.edge()) / load - 1.0
+            let contact = press(row, g, depth, modulus, carried);
+            row.force(carried, contact.edge()) / load - 1.0
         },
         shallowest,
         deepest,
@@ -124,33 +124,34 @@ mod tests {
     use crate::math::grid::RadialGrid;
 
     /// Hertz in units of R = E* = d = 1: g = x², a = 1, F = 4/3.
-    fn hertz(cells: usize) -> (Foundation, Vec<f64>) {
+    fn hertz(cells: usize) -> (WinklerFoundation, Vec<f64>) {
         let grid = RadialGrid::uniform(cells, 1.23).expect("a grid");
         let g = grid.squares().to_vec();
-        (Foundation::new(&grid), g)
+        (WinklerFoundation::new(&grid), g)
     }
 
     #[test]
     fn hertz_is_exact_wherever_the_edge_falls() {
         for cells in [7, 50, 123] {
             let (row, g) = hertz(cells);
-            let (mut q, mut breaks) = (vec![f64::NAN; g.len()], Vec::new());
-            let contact = press(&row, &g, 1.0, 1.0, &mut q, &mut breaks);
-            let force = row.force(&q, &breaks, contact.edge());
+            let mut q = Field::zeros(g.len());
+            q.nodal.fill(f64::NAN);
+            let contact = press(&row, &g, 1.0, 1.0, &mut q);
+            let force = row.force(&q, contact.edge());
             assert!((force - 4.0 / 3.0).abs() < 1e-14, "{force}");
             assert!((contact.strongest - 1.0).abs() < 1e-15);
             assert!((contact.radius - 1.0).abs() < 1e-14);
-            assert!(q[contact.nodes..].iter().all(|&load| load == 0.0));
+            assert!(q.nodal[contact.nodes..].iter().all(|&load| load == 0.0));
         }
     }
 
     #[test]
     fn a_load_finds_its_depth() {
         let (row, g) = hertz(200);
-        let (mut q, mut breaks) = (vec![0.0; g.len()], Vec::new());
-        let contact = press(&row, &g, 0.8, 1.0, &mut q, &mut breaks);
-        let load = row.force(&q, &breaks, contact.edge());
-        let mut depth = |load| depth_for_load(&row, &g, load, 1.0, 1.5, &mut q, &mut breaks);
+        let mut q = Field::zeros(g.len());
+        let contact = press(&row, &g, 0.8, 1.0, &mut q);
+        let load = row.force(&q, contact.edge());
+        let mut depth = |load| depth_for_load(&row, &g, load, 1.0, 1.5, &mut q);
         assert!((depth(load).expect("a depth") - 0.8).abs() < 1e-12);
         assert_eq!(depth(0.0), Some(0.0));
         assert_eq!(depth(1e9), None);
@@ -159,12 +160,10 @@ mod tests {
     #[test]
     fn no_contact_carries_nothing() {
         let (row, g) = hertz(20);
-        let (mut q, mut breaks) = (vec![1.0; g.len()], Vec::new());
-        assert_eq!(
-            press(&row, &g, -0.1, 1.0, &mut q, &mut breaks),
-            NormalContact::default()
-        );
-        assert!(q.iter().all(|&load| load == 0.0) && breaks.is_empty());
+        let mut q = Field::zeros(g.len());
+        q.nodal.fill(1.0);
+        assert_eq!(press(&row, &g, -0.1, 1.0, &mut q), NormalContact::default());
+        assert!(q.nodal.iter().all(|&load| load == 0.0) && q.kinks.is_empty());
     }
 
     #[test]
@@ -172,10 +171,10 @@ mod tests {
         let (row, g) = hertz(100);
         // A tip that has receded: contact in a ring.
         let g: Vec<f64> = g.iter().map(|t| t + 2.0 * (0.3 - t).max(0.0)).collect();
-        let (mut q, mut breaks) = (vec![0.0; g.len()], Vec::new());
-        let contact = press(&row, &g, 0.5, 1.0, &mut q, &mut breaks);
+        let mut q = Field::zeros(g.len());
+        let contact = press(&row, &g, 0.5, 1.0, &mut q);
         assert!((contact.radius - 0.5f64.sqrt()).abs() < 1e-12);
-        assert_eq!(q[0], 0.0);
-        assert_eq!(breaks.len(), 6);
+        assert_eq!(q.nodal[0], 0.0);
+        assert_eq!(q.kinks.len(), 6);
     }
 }

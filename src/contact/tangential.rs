@@ -8,8 +8,9 @@ use std::hint::select_unpredictable as select;
 
 use serde::{Deserialize, Serialize};
 
-use super::foundation::{Edge, Foundation};
-use crate::math::abel::bend::{self, Bend};
+use super::foundation::{Edge, WinklerFoundation};
+use crate::math::abel::field::Field;
+use crate::math::abel::kink;
 use crate::math::scan::changes;
 use crate::math::vector::vectorized;
 
@@ -27,7 +28,7 @@ const ON_A_SPRING: f64 = 1e-9;
 
 /// What a spring does in a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Hold {
+pub enum SpringState {
     /// Moves with the indenter.
     Stick,
     /// Slips, strained in the direction of x.
@@ -38,7 +39,7 @@ pub enum Hold {
     Open,
 }
 
-impl Hold {
+impl SpringState {
     /// +1 or −1 for a spring that slips.
     pub fn sign(self) -> Option<f64> {
         match self {
@@ -51,9 +52,9 @@ impl Hold {
 
 /// The part of the contact that the tangential springs need to know.
 #[derive(Debug, Clone, Copy)]
-pub struct Grip<'a> {
+pub struct SlipInput<'a> {
     /// Where the springs stand.
-    pub row: &'a Foundation,
+    pub foundation: &'a WinklerFoundation,
     /// The normal line load q_z, N/m, nodal.
     pub normal_load: &'a [f64],
     /// The largest of it, N/m.
@@ -70,7 +71,7 @@ pub struct Motion<'a> {
     /// u_x before, m.
     pub before: &'a [f64],
     /// What the springs did in the step before.
-    pub held: &'a [Hold],
+    pub states: &'a [SpringState],
 }
 
 /// Moves the indenter by `increment` (m): `spring` (m) receives the displacement of every spring
@@ -79,26 +80,26 @@ pub struct Motion<'a> {
 /// The slip is exactly zero where a spring sticks, so that a transform that looks inwards gives a
 /// surface slip of exactly zero inside the stick zone.
 pub fn slide(
-    grip: Grip<'_>,
+    input: SlipInput<'_>,
     increment: f64,
     before: &[f64],
     spring: &mut [f64],
     slip: &mut [f64],
-    hold: &mut [Hold],
+    hold: &mut [SpringState],
 ) {
-    let nodes = grip.edge.nodes;
-    let load = &grip.normal_load[..nodes];
+    let nodes = input.edge.nodes;
+    let load = &input.normal_load[..nodes];
     spring[nodes..].fill(0.0);
     slip[nodes..].fill(increment);
-    hold[nodes..].fill(Hold::Open);
+    hold[nodes..].fill(SpringState::Open);
     // Without branches, so that the processor takes several springs at a time.
     vectorized(
         #[inline(always)]
         || {
-            let dead_band = TOUCH_OF_LARGEST * grip.reach * grip.strongest;
+            let dead_band = TOUCH_OF_LARGEST * input.reach * input.strongest;
             let springs = spring.iter_mut().zip(slip).zip(hold).zip(before);
             for ((((after, slip), hold), &before), &load) in springs.zip(load) {
-                let limit = grip.reach * load;
+                let limit = input.reach * load;
                 let predicted = before + increment;
                 let strain = predicted.abs();
                 let open = load <= 0.0;
@@ -108,49 +109,92 @@ pub fn slide(
                 let slipped = select(sticks, 0.0, increment - (held - before));
                 *after = select(open, 0.0, held);
                 *slip = select(open, increment, slipped);
-                let slips = select(predicted > 0.0, Hold::Forward, Hold::Backward);
-                *hold = select(open, Hold::Open, select(sticks, Hold::Stick, slips));
+                let slips = select(predicted > 0.0, SpringState::Forward, SpringState::Backward);
+                *hold = select(
+                    open,
+                    SpringState::Open,
+                    select(sticks, SpringState::Stick, slips),
+                );
             }
         },
     );
 }
 
-/// Finds the borders of stick and slip between springs: writes the breaks of u_x (m) that they and
+/// Corrects what [`slide`] did to springs that came into contact in the step, from the depth `before` to the depth
+/// `now` (m) with the 1D profile `g` (m): the indenter takes a spring along from where it touches it, in the
+/// middle of the step, and not over the whole `increment` (m).
+pub fn take_along_late(
+    input: SlipInput<'_>,
+    increment: f64,
+    [before, now]: [f64; 2],
+    g: &[f64],
+    held: &[SpringState],
+    springs: (&mut [f64], &mut [f64], &mut [SpringState]),
+) {
+    if now <= before {
+        return;
+    }
+    let (spring, slip, hold) = springs;
+    for j in 0..input.edge.nodes {
+        if held[j] != SpringState::Open || hold[j] == SpringState::Open {
+            continue;
+        }
+        let limit = input.reach * input.normal_load[j];
+        let share = ((now - g[j]) / (now - before)).clamp(0.0, 1.0);
+        let taken = share * increment;
+        let sticks = taken.abs() <= limit;
+        spring[j] = if sticks { taken } else { limit.copysign(taken) };
+        slip[j] = increment - spring[j];
+        hold[j] = match (sticks, taken > 0.0) {
+            (true, _) => SpringState::Stick,
+            (false, true) => SpringState::Forward,
+            (false, false) => SpringState::Backward,
+        };
+    }
+}
+
+/// Finds the borders of stick and slip between springs: writes the kinks of u_x (m) that they and
 /// the contact's edge make, and returns the radius within which every spring sticks, m.
 ///
 /// At a border the line of the springs that stick meets the line of the limits, μ q_z/G*. A spring
 /// that stuck in the step before and slips now tells the slope of the first line by where it stood;
 /// else the last cell that sticks does.
 pub fn borders(
-    grip: Grip<'_>,
+    input: SlipInput<'_>,
     motion: Motion<'_>,
-    spring: &[f64],
-    hold: &[Hold],
-    breaks: &mut Vec<Bend>,
+    spring: &mut Field,
+    states: &[SpringState],
 ) -> f64 {
-    breaks.clear();
-    let squares = grip.row.squares();
+    let Field {
+        nodal: spring,
+        kinks,
+    } = spring;
+    kinks.clear();
+    let squares = input.foundation.squares();
     let mut stick_radius = None;
-    if hold.first().is_some_and(|&first| first != Hold::Stick) {
+    if states
+        .first()
+        .is_some_and(|&first| first != SpringState::Stick)
+    {
         stick_radius = Some(0.0);
     }
-    for k in changes(hold, |&hold| hold).map(|behind| behind - 1) {
+    for k in changes(states, |&state| state).map(|behind| behind - 1) {
         let cell = Cell {
-            grip,
+            input,
             motion,
             spring,
-            hold,
+            states,
             k,
         };
         let width = squares[k + 1] - squares[k];
-        let edge = (hold[k] == Hold::Open || hold[k + 1] == Hold::Open)
-            .then_some(grip.edge.radius * grip.edge.radius)
+        let edge = (states[k] == SpringState::Open || states[k + 1] == SpringState::Open)
+            .then_some(input.edge.radius * input.edge.radius)
             .filter(|&at| {
                 at > squares[k] + ON_A_SPRING * width && at < squares[k + 1] - ON_A_SPRING * width
             });
         let border = cell.border(edge);
-        if stick_radius.is_none() && hold[k] == Hold::Stick {
-            let outside = if hold[k + 1] == Hold::Open {
+        if stick_radius.is_none() && states[k] == SpringState::Stick {
+            let outside = if states[k + 1] == SpringState::Open {
                 edge.unwrap_or(squares[k + 1])
             } else {
                 squares[k + 1]
@@ -159,7 +203,7 @@ pub fn borders(
         }
         let mut bend = |inner: &[(f64, f64)]| {
             let (t, v) = ([squares[k], squares[k + 1]], [spring[k], spring[k + 1]]);
-            bend::polyline(t, v, inner, breaks);
+            kink::polyline(t, v, inner, kinks);
         };
         match (border, edge.map(|at| (at, 0.0))) {
             (Some(border), Some(edge)) => bend(&[border, edge]),
@@ -168,44 +212,46 @@ pub fn borders(
         }
     }
     stick_radius
-        .unwrap_or(grip.edge.radius)
-        .min(grip.edge.radius)
+        .unwrap_or(input.edge.radius)
+        .min(input.edge.radius)
 }
 
 /// A cell whose two springs do different things.
 struct Cell<'a> {
-    grip: Grip<'a>,
+    input: SlipInput<'a>,
     motion: Motion<'a>,
     spring: &'a [f64],
-    hold: &'a [Hold],
+    states: &'a [SpringState],
     k: usize,
 }
 
 impl Cell<'_> {
     /// Where stick ends in this cell: x² and u_x there.
     fn border(&self, edge: Option<f64>) -> Option<(f64, f64)> {
-        let (k, t) = (self.k, self.grip.row.squares());
+        let (k, t) = (self.k, self.input.foundation.squares());
         let width = t[k + 1] - t[k];
-        let limit = |j: usize| self.grip.reach * self.grip.normal_load[j];
+        let limit = |j: usize| self.input.reach * self.input.normal_load[j];
         // The limit falls to zero at the contact's edge.
         let end = edge.unwrap_or(t[k + 1]);
         let limit_slope = (limit(k + 1) - limit(k)) / (end - t[k]);
-        let (from, sign, stick_slope) = match (self.hold[k], self.hold[k + 1]) {
-            (Hold::Stick, other) => {
+        let (from, sign, stick_slope) = match (self.states[k], self.states[k + 1]) {
+            (SpringState::Stick, other) => {
                 let sign = other.sign().unwrap_or(self.spring[k].signum());
-                let slope = if other != Hold::Open && self.motion.held[k + 1] == Hold::Stick {
+                let slope = if other != SpringState::Open
+                    && self.motion.states[k + 1] == SpringState::Stick
+                {
                     (self.motion.before[k + 1] - self.motion.before[k]) / width
-                } else if k > 0 && self.hold[k - 1] == Hold::Stick {
+                } else if k > 0 && self.states[k - 1] == SpringState::Stick {
                     (self.spring[k] - self.spring[k - 1]) / (t[k] - t[k - 1])
                 } else {
                     0.0
                 };
                 (k, sign, slope)
             }
-            (other, Hold::Stick) => {
-                let slope = if self.motion.held[k] == Hold::Stick {
+            (other, SpringState::Stick) => {
+                let slope = if self.motion.states[k] == SpringState::Stick {
                     (self.motion.before[k + 1] - self.motion.before[k]) / width
-                } else if self.hold.get(k + 2) == Some(&Hold::Stick) {
+                } else if self.states.get(k + 2) == Some(&SpringState::Stick) {
                     (self.spring[k + 2] - self.spring[k + 1]) / (t[k + 2] - t[k + 1])
                 } else {
                     0.0
@@ -230,12 +276,11 @@ mod tests {
 
     /// Springs under a Hertzian load in units of d = a = E* = G* = 1, μ = 0.1.
     struct Bench {
-        row: Foundation,
+        row: WinklerFoundation,
         load: Vec<f64>,
-        spring: Vec<f64>,
+        spring: Field,
         slip: Vec<f64>,
-        hold: Vec<Hold>,
-        breaks: Vec<Bend>,
+        states: Vec<SpringState>,
     }
 
     impl Bench {
@@ -249,38 +294,37 @@ mod tests {
             let load: Vec<f64> = grid.squares().iter().map(|t| (1.0 - t).max(0.0)).collect();
             let n = load.len();
             Self {
-                row: Foundation::new(&grid),
+                row: WinklerFoundation::new(&grid),
                 load,
-                spring: vec![0.0; n],
+                spring: Field::zeros(n),
                 slip: vec![f64::NAN; n],
-                hold: vec![Hold::Stick; n],
-                breaks: Vec::new(),
+                states: vec![SpringState::Stick; n],
             }
         }
 
         /// Moves by `increment` with `reach`; returns the stick radius.
         fn slide(&mut self, increment: f64, reach: f64) -> f64 {
-            let grip = Grip {
-                row: &self.row,
+            let input = SlipInput {
+                foundation: &self.row,
                 normal_load: &self.load,
                 strongest: 1.0,
                 edge: Self::EDGE,
                 reach,
             };
-            let (before, held) = (self.spring.clone(), self.hold.clone());
+            let (before, held) = (self.spring.nodal.clone(), self.states.clone());
             slide(
-                grip,
+                input,
                 increment,
                 &before,
-                &mut self.spring,
+                &mut self.spring.nodal,
                 &mut self.slip,
-                &mut self.hold,
+                &mut self.states,
             );
             let motion = Motion {
                 before: &before,
-                held: &held,
+                states: &held,
             };
-            borders(grip, motion, &self.spring, &self.hold, &mut self.breaks)
+            borders(input, motion, &mut self.spring, &self.states)
         }
     }
 
@@ -294,15 +338,15 @@ mod tests {
                 stick = bench.slide(0.05 / f64::from(steps), 0.1);
             }
             assert!((stick - 0.5f64.sqrt()).abs() < 1e-13, "{stick}");
-            let force = bench.row.force(&bench.spring, &bench.breaks, Bench::EDGE);
+            let force = bench.row.force(&bench.spring, Bench::EDGE);
             let expected = 0.1 * 4.0 / 3.0 * (1.0 - 0.5f64.powf(1.5));
             assert!((force / expected - 1.0).abs() < 1e-12, "{force} {expected}");
             assert!(
                 bench
                     .slip
                     .iter()
-                    .zip(&bench.hold)
-                    .all(|(&s, &hold)| (s == 0.0) == (hold == Hold::Stick))
+                    .zip(&bench.states)
+                    .all(|(&s, &state)| (s == 0.0) == (state == SpringState::Stick))
             );
         }
     }
@@ -311,12 +355,13 @@ mod tests {
     fn history_is_kept_and_a_reversal_sticks_everywhere() {
         let mut bench = Bench::new();
         bench.slide(0.05, 0.1);
-        let there = bench.spring.clone();
+        let there = bench.spring.nodal.clone();
         // All but the springs at the very edge, which carry less than the increment, stick.
         assert!(bench.slide(-1e-9, 0.1) > 0.99);
         assert!(
             bench
                 .spring
+                .nodal
                 .iter()
                 .zip(&there)
                 .take(190)
@@ -337,11 +382,12 @@ mod tests {
     #[test]
     fn an_open_spring_forgets() {
         let mut bench = Bench::new();
-        bench.spring.fill(0.02);
+        bench.spring.nodal.fill(0.02);
         bench.slide(0.0, 0.1);
         assert!(
             bench
                 .spring
+                .nodal
                 .iter()
                 .zip(&bench.load)
                 .all(|(&u, &q)| q > 0.0 || u == 0.0)
@@ -349,6 +395,7 @@ mod tests {
         assert!(
             bench
                 .spring
+                .nodal
                 .iter()
                 .zip(&bench.load)
                 .all(|(&u, &q)| u.abs() <= 0.1 * q)
@@ -359,7 +406,7 @@ mod tests {
     fn without_friction_everything_slips() {
         let mut bench = Bench::new();
         assert_eq!(bench.slide(0.05, 0.0), 0.0);
-        assert!(bench.spring.iter().all(|&u| u == 0.0));
+        assert!(bench.spring.nodal.iter().all(|&u| u == 0.0));
         assert!(bench.slip.iter().all(|&s| s == 0.05));
     }
 }

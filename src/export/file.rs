@@ -7,6 +7,9 @@ use std::time::Duration;
 
 use thiserror::Error;
 
+use super::claim::{Claim, Owner, Refusal};
+use crate::scenario::printable;
+
 /// A file or directory that could not be written; nothing half-written is left behind.
 #[derive(Debug, Error)]
 pub enum WriteError {
@@ -21,6 +24,15 @@ pub enum WriteError {
         shell_word(.0)
     )]
     Interrupted(PathBuf),
+    /// The directory that another process writes into.
+    #[error(
+        "{}: another run writes there{}; wait for its end, or choose another directory",
+        .0.display(),
+        .1.as_ref().map_or_else(String::new, |owner| format!(
+            " (process {} on {})", owner.process, printable(&owner.host)
+        ))
+    )]
+    Busy(PathBuf, Option<Owner>),
     /// The path of a directory is taken by something else.
     #[error("{}: is not a directory", .0.display())]
     NotADirectory(PathBuf),
@@ -55,6 +67,15 @@ pub fn shell_word(path: &Path) -> String {
 /// Writes `contents` to `path`: to a temporary file in the same directory, flushed to the disk and
 /// renamed over `path`, so that a reader sees the old file or the new one and never a torn one.
 pub fn write_whole(path: &Path, contents: &[u8]) -> Result<(), WriteError> {
+    write_with(path, |file| file.write_all(contents)).map(|_| ())
+}
+
+/// [`write_whole`] with what `fill` writes, which need not be in memory at once. The new file is
+/// locked, as the sign of a living process, as long as what is returned is not dropped.
+pub fn write_with(
+    path: &Path,
+    fill: impl FnOnce(&mut fs::File) -> io::Result<()>,
+) -> Result<fs::File, WriteError> {
     let failed = |cause| WriteError::Io {
         path: path.to_owned(),
         cause,
@@ -64,7 +85,7 @@ pub fn write_whole(path: &Path, contents: &[u8]) -> Result<(), WriteError> {
         .filter(|parent| !parent.as_os_str().is_empty())
         .unwrap_or(Path::new("."));
     let mut builder = tempfile::Builder::new();
-    builder.prefix(TEMPORARY).suffix(".tmp");
+    builder.prefix(INTERNAL).suffix(TEMPORARY);
     #[cfg(unix)]
     {
         // Results are ordinary files, not secrets: what the umask leaves of 0666.
@@ -72,18 +93,26 @@ pub fn write_whole(path: &Path, contents: &[u8]) -> Result<(), WriteError> {
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
     let mut file = builder.tempfile_in(directory).map_err(failed)?;
-    file.write_all(contents).map_err(failed)?;
+    fill(file.as_file_mut()).map_err(failed)?;
     file.as_file().sync_all().map_err(failed)?;
-    file.persist(path).map_err(|error| failed(error.error))?;
-    Ok(())
+    // Not every file system has locks; the file is as good without.
+    let _ = file.as_file().try_lock();
+    file.persist(path).map_err(|error| failed(error.error))
 }
 
-/// What the name of a file that is not yet whole begins with.
-const TEMPORARY: &str = ".mdr-tui-";
+/// What the name of a file begins with that is no result: one that is not yet whole, or a lock.
+const INTERNAL: &str = ".mdr-tui-";
+
+/// What the name of a file ends with that is not yet whole.
+const TEMPORARY: &str = ".tmp";
+
+fn is_internal(path: &Path) -> bool {
+    let name = path.file_name().map(|name| name.to_string_lossy());
+    name.is_some_and(|name| name.starts_with(INTERNAL))
+}
 
 fn is_temporary(path: &Path) -> bool {
-    let name = path.file_name().map(|name| name.to_string_lossy());
-    name.is_some_and(|name| name.starts_with(TEMPORARY))
+    is_internal(path) && path.to_string_lossy().ends_with(TEMPORARY)
 }
 
 /// Removes temporary files of at least this age, which processes that were killed have left behind.
@@ -104,62 +133,81 @@ pub fn sweep(directory: &Path, age: Duration) {
 /// The name of the checkpoint in the directory of a run that is not at its end.
 pub const RUN_CHECKPOINT: &str = "run.checkpoint";
 
-/// The directory of one run's files.
+/// The name of the file with the rows of the history, until the run is at its end.
+const RUN_ROWS: &str = ".mdr-tui-history";
+
+/// The directory of one run's files. No other process claims it before this is dropped.
 #[derive(Debug)]
 pub struct RunDirectory {
     path: PathBuf,
+    claim: Claim,
 }
 
 impl RunDirectory {
     /// Takes `path` for the files of a run: makes it where there is none, and refuses one that holds
-    /// anything already unless `force` is set.
+    /// anything already unless `force` is set. A directory that a living process writes into is
+    /// refused in any case.
     pub fn claim(path: &Path, force: bool) -> Result<Self, WriteError> {
         let failed = |cause| WriteError::Io {
             path: path.to_owned(),
             cause,
         };
-        match fs::read_dir(path) {
-            Ok(entries) => {
-                let checkpoint = path.join(RUN_CHECKPOINT);
-                let mut others = entries
-                    .flatten()
-                    .filter(|entry| !is_temporary(&entry.path()));
-                if force {
-                    // It would outlive the results that it belongs to.
-                    remove(&checkpoint)?;
-                } else if checkpoint.exists() {
-                    return Err(WriteError::Interrupted(checkpoint));
-                } else if others.next().is_some() {
-                    return Err(WriteError::Occupied(path.to_owned()));
-                }
-            }
-            Err(error) if error.kind() == io::ErrorKind::NotFound => {
-                fs::create_dir_all(path).map_err(failed)?;
-            }
-            Err(_) if path.is_file() => return Err(WriteError::NotADirectory(path.to_owned())),
-            Err(error) => return Err(failed(error)),
+        if path.is_file() {
+            return Err(WriteError::NotADirectory(path.to_owned()));
         }
-        Self::reopen(path)
+        let is_new = !path.exists();
+        fs::create_dir_all(path).map_err(failed)?;
+        let mut run = Self::reopen(path)?;
+        run.claim.is_new = is_new;
+        let entries = fs::read_dir(path).map_err(failed)?;
+        let mut others = entries
+            .flatten()
+            .filter(|entry| !is_internal(&entry.path()));
+        if force {
+            // It would outlive the results that it belongs to.
+            remove(&run.checkpoint())?;
+        } else if run.checkpoint().exists() {
+            return Err(WriteError::Interrupted(run.checkpoint()));
+        } else if others.next().is_some() {
+            return Err(WriteError::Occupied(path.to_owned()));
+        }
+        Ok(run)
     }
 
-    /// Goes on in the directory of a run that was interrupted; what a kill has left there goes.
+    /// Takes a directory that is not there yet: `stem`, or `stem-2`, `stem-3`, … in the working
+    /// directory.
+    pub fn claim_new(stem: &str) -> Result<Self, WriteError> {
+        for number in 1_u32.. {
+            let path = match number {
+                1 => PathBuf::from(stem),
+                number => PathBuf::from(format!("{stem}-{number}")),
+            };
+            match fs::create_dir(&path) {
+                Ok(()) => {
+                    let mut run = Self::claim(&path, false)?;
+                    run.claim.is_new = true;
+                    return Ok(run);
+                }
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+                Err(cause) => return Err(WriteError::Io { path, cause }),
+            }
+        }
+        unreachable!("numbers do not end")
+    }
+
+    /// Goes on in the directory of a run that was interrupted; what a kill has left there goes. Finds
+    /// out now, not after an hour of computing, whether files can be made there.
     pub fn reopen(path: &Path) -> Result<Self, WriteError> {
-        sweep(path, Duration::ZERO);
-        Self::try_out(path)
-    }
-
-    /// Finds out now, not after an hour of computing, whether files can be made here.
-    fn try_out(path: &Path) -> Result<Self, WriteError> {
-        tempfile::Builder::new()
-            .prefix(TEMPORARY)
-            .tempfile_in(path)
-            .map_err(|cause| WriteError::Io {
-                path: path.to_owned(),
+        let path = path.to_owned();
+        let claim = Claim::take(&path).map_err(|refusal| match refusal {
+            Refusal::Taken(owner) => WriteError::Busy(path.clone(), owner),
+            Refusal::Io(cause) => WriteError::Io {
+                path: path.clone(),
                 cause,
-            })?;
-        Ok(Self {
-            path: path.to_owned(),
-        })
+            },
+        })?;
+        sweep(&path, Duration::ZERO);
+        Ok(Self { path, claim })
     }
 
     /// Where the checkpoint of the run is until it is at its end.
@@ -167,9 +215,15 @@ impl RunDirectory {
         self.path.join(RUN_CHECKPOINT)
     }
 
+    /// Where the rows of the history are until the run is at its end.
+    pub fn rows(&self) -> PathBuf {
+        rows_in(&self.path)
+    }
+
     /// The run is at its end: its checkpoint goes.
     pub fn close(&self) -> Result<(), WriteError> {
-        remove(&self.checkpoint())
+        remove(&self.checkpoint())?;
+        remove(&self.rows())
     }
 
     /// Writes one of the run's files, whole.
@@ -179,10 +233,24 @@ impl RunDirectory {
         Ok(path)
     }
 
+    /// Writes one of the run's files, whole, with what `fill` writes.
+    pub fn write_with(
+        &self,
+        name: &str,
+        fill: impl FnOnce(&mut fs::File) -> io::Result<()>,
+    ) -> Result<(), WriteError> {
+        write_with(&self.path.join(name), fill).map(|_| ())
+    }
+
     /// Where the files stand.
     pub fn path(&self) -> &Path {
         &self.path
     }
+}
+
+/// Where the rows of the history are of a run that was interrupted in `directory`.
+pub fn rows_in(directory: &Path) -> PathBuf {
+    directory.join(RUN_ROWS)
 }
 
 /// Removes a file, if it is there.
@@ -196,18 +264,6 @@ fn remove(path: &Path) -> Result<(), WriteError> {
     }
 }
 
-/// A directory name that is free: `stem`, or `stem-2`, `stem-3`, … in the working directory.
-pub fn free_directory(stem: &str) -> PathBuf {
-    let plain = PathBuf::from(stem);
-    if !plain.exists() {
-        return plain;
-    }
-    (2..)
-        .map(|n| PathBuf::from(format!("{stem}-{n}")))
-        .find(|path| !path.exists())
-        .unwrap_or(plain)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -217,9 +273,21 @@ mod tests {
         let base = tempfile::tempdir().expect("a directory");
         let path = base.path().join("deep/run");
         let run = RunDirectory::claim(&path, false).expect("a new directory");
+        // Not even by force, while the run is alive.
+        for force in [false, true] {
+            let refusal = RunDirectory::claim(&path, force).expect_err("a claimed directory");
+            assert!(matches!(refusal, WriteError::Busy(..)), "{refusal}");
+            assert!(refusal.is_misuse() && refusal.to_string().contains("(process "));
+        }
+        drop(run);
+        // What nothing was written into goes, unless it was there before.
+        assert!(!path.exists());
+        fs::create_dir(&path).expect("a directory");
+        drop(RunDirectory::claim(&path, false).expect("an empty directory"));
         assert_eq!(fs::read_dir(&path).expect("the directory").count(), 0);
-        RunDirectory::claim(&path, false).expect("an empty directory");
+        let run = RunDirectory::claim(&path, false).expect("an empty directory");
         run.write("state.csv", b"r_m\n0\n").expect("a file");
+        drop(run);
         let refusal = RunDirectory::claim(&path, false).expect_err("an occupied directory");
         assert!(refusal.to_string().ends_with("add --force"), "{refusal}");
         RunDirectory::claim(&path, true).expect("a forced directory");

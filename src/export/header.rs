@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use crate::scenario::printable;
+pub use crate::scenario::scalars::{number, optional};
 use crate::scenario::session::Session;
 
 /// The header lines for the present state of `session`.
@@ -20,12 +21,29 @@ pub fn lines(session: &Session) -> String {
     line("cycle", &number(session.simulation().cycle()));
     line("method", setup.method.name());
     line("law", law);
+    if let Some(law) = &setup.wear {
+        // 1/Pa = m³/J = m³/(N·m), with respect to the work of friction.
+        let k = law.coefficient();
+        line("wear_coefficient_per_Pa", &number(k));
+        line("wear_coefficient_mm3_per_Nm", &number(k * 1e9));
+        line("wear_coefficient_um3_per_J", &number(k * 1e18));
+    }
     line("points", &setup.grid.cells().to_string());
     line("steps_per_cycle", &setup.steps_per_cycle.to_string());
     line("grid", setup.spacing.name());
     line("scheme", setup.scheme.name());
+    if let Some(remark) = setup.indenter.remark() {
+        line("table", &remark);
+    }
+    line("checks", &checks(session));
+    for warning in session.simulation().warnings() {
+        line("warning", &warning);
+    }
     if let Some(note) = &session.loaded().run().note {
         line("note", note);
+    }
+    for (key, value) in session.statements() {
+        line(key, value);
     }
     for change in session.changes() {
         line(
@@ -36,21 +54,19 @@ pub fn lines(session: &Session) -> String {
     text
 }
 
-/// The shortest decimal form that reads back to the same bits.
-pub fn number(value: f64) -> String {
-    let size = value.abs();
-    if value == 0.0 {
-        "0".into()
-    } else if (1e-4..1e15).contains(&size) || !value.is_finite() {
-        format!("{value}")
-    } else {
-        format!("{value:e}")
+/// `ok`, or each check that fails with its size.
+fn checks(session: &Session) -> String {
+    let simulation = session.simulation();
+    let checks = simulation.checks(&simulation.pressure());
+    let failing: Vec<String> = checks
+        .iter()
+        .filter(|check| !check.holds())
+        .map(|check| format!("{} {:.1e}", check.subject.name(), check.error.abs()))
+        .collect();
+    if failing.is_empty() {
+        return "ok".into();
     }
-}
-
-/// A number, or an empty field where there is none.
-pub fn optional(value: Option<f64>) -> String {
-    value.map_or_else(String::new, number)
+    failing.join(", ")
 }
 
 #[cfg(test)]

@@ -1,13 +1,22 @@
 //! `history.csv`: a row a recorded moment.
+//!
+//! Rows go to a file of their own while the run is under way, so that neither memory nor checkpoints
+//! grow with them; the header tells of the end of the run and is put before them then. A checkpoint
+//! holds the newest rows and how many bytes of the others are in the file. Rows that no disk takes
+//! stay in memory and in the checkpoint.
+
+use std::fs::OpenOptions;
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::header::{lines, number, optional};
-use crate::math::scan::largest;
+use super::header::lines;
+use crate::scenario::scalars::{self, Reading};
 use crate::scenario::session::Session;
 
 /// The columns, in order.
-pub const COLUMNS: [&str; 21] = [
+pub const COLUMNS: [&str; 30] = [
     "cycle",
     "time_s",
     "u_z_m",
@@ -29,39 +38,62 @@ pub const COLUMNS: [&str; 21] = [
     "rejected_jumps",
     "stability_margin",
     "parts",
+    "energy_per_cycle_J",
+    "force_ratio",
+    "slip_ratio",
+    "sliding_ratio",
+    "energy_ratio",
+    "energy_ratio_B",
+    "regime",
+    "wear_per_energy_m3_per_J",
+    "rig_displacement_m",
 ];
+
+/// Rows that are kept in memory before they go to the file, in bytes.
+const CHUNK: usize = 64 << 10;
 
 /// The rows recorded so far, as text.
 #[derive(Debug, Default, Clone, Serialize, Deserialize)]
 pub struct History {
+    /// The newest rows, which are not in the file yet.
     rows: String,
+    /// How much of the file belongs to this history, in bytes.
+    #[serde(default)]
+    written: u64,
     last_cycle: Option<f64>,
 }
 
 /// A place in a history to go back to.
 #[derive(Debug, Clone, Copy)]
 pub struct Mark {
-    length: usize,
+    length: u64,
     last_cycle: Option<f64>,
 }
 
 impl History {
     /// Whether nothing is recorded yet.
     pub fn is_empty(&self) -> bool {
-        self.rows.is_empty()
+        self.length() == 0
+    }
+
+    /// All that is recorded, in bytes.
+    fn length(&self) -> u64 {
+        self.written + self.rows.len() as u64
     }
 
     /// How much is recorded.
     pub fn mark(&self) -> Mark {
         Mark {
-            length: self.rows.len(),
+            length: self.length(),
             last_cycle: self.last_cycle,
         }
     }
 
     /// Forgets what was recorded after `mark`.
     pub fn rewind(&mut self, mark: Mark) {
-        self.rows.truncate(mark.length);
+        self.rows
+            .truncate(mark.length.saturating_sub(self.written) as usize);
+        self.written = self.written.min(mark.length);
         self.last_cycle = mark.last_cycle;
     }
 
@@ -76,43 +108,109 @@ impl History {
         self.rows.push('\n');
     }
 
-    /// The whole file up to the present state of `session`, of which its header tells.
-    pub fn table(&self, session: &Session) -> String {
-        let mut table = format!("{}{}\n{}", lines(session), COLUMNS.join(","), self.rows);
-        if self.last_cycle != Some(session.simulation().cycle()) {
-            table.push_str(&row(session));
-            table.push('\n');
+    /// Whether so many rows are in memory that they should go to the file.
+    pub fn is_due(&self) -> bool {
+        self.rows.len() >= CHUNK
+    }
+
+    /// Puts the rows in memory behind those in the file at `path`. On an error they stay in memory, and
+    /// the file is as good as before.
+    pub fn spill(&mut self, path: &Path) -> io::Result<()> {
+        let mut options = OpenOptions::new();
+        let mut file = options
+            .write(true)
+            .create(true)
+            .truncate(false)
+            .open(path)?;
+        // What stands there beyond belongs to a run that was killed.
+        file.set_len(self.written)?;
+        file.seek(SeekFrom::Start(self.written))?;
+        file.write_all(self.rows.as_bytes())?;
+        // A checkpoint that counts on them may be written at any time from now on.
+        file.sync_data()?;
+        self.written += self.rows.len() as u64;
+        // Not only cleared: while the disk was full, it may have become large.
+        self.rows = String::new();
+        Ok(())
+    }
+
+    /// Copies the rows that are in the file at `from` to the one at `to`.
+    ///
+    /// # Errors
+    ///
+    /// If they are not all there. The history then begins with the rows in memory.
+    pub fn move_rows(&mut self, from: &Path, to: &Path) -> io::Result<()> {
+        if self.written == 0 {
+            return Ok(());
         }
-        table
+        let whole = self.copied(from, to);
+        if whole.is_err() {
+            self.written = 0;
+        }
+        whole
+    }
+
+    fn copied(&self, from: &Path, to: &Path) -> io::Result<()> {
+        let rows = std::fs::File::open(from)?;
+        if rows.metadata()?.len() < self.written {
+            return Err(io::ErrorKind::UnexpectedEof.into());
+        }
+        if from != to {
+            let mut copy = std::fs::File::create(to)?;
+            io::copy(&mut rows.take(self.written), &mut copy)?;
+            copy.sync_data()?;
+        }
+        Ok(())
+    }
+
+    /// The whole table up to the present state of `session`, of rows that are all in memory, as they are
+    /// until the first [`spill`](Self::spill).
+    pub fn table(&self, session: &Session) -> String {
+        let header = format!("{}{}\n", lines(session), COLUMNS.join(","));
+        [header.as_str(), &self.rows, &self.last_row(session)].concat()
+    }
+
+    /// The row of the present moment with its end of line, if it is not recorded yet.
+    fn last_row(&self, session: &Session) -> String {
+        if self.last_cycle == Some(session.simulation().cycle()) {
+            return String::new();
+        }
+        row(session) + "\n"
+    }
+
+    /// Writes the whole table up to the present state of `session`, of which its header tells; the
+    /// rows that are not in memory are read from the file at `rows`.
+    pub fn write(&self, session: &Session, rows: &Path, out: &mut impl Write) -> io::Result<()> {
+        writeln!(out, "{}{}", lines(session), COLUMNS.join(","))?;
+        if self.written > 0 {
+            let file = std::fs::File::open(rows)?;
+            let copied = io::copy(&mut file.take(self.written), out)?;
+            if copied < self.written {
+                return Err(io::ErrorKind::UnexpectedEof.into());
+            }
+        }
+        out.write_all(self.rows.as_bytes())?;
+        out.write_all(self.last_row(session).as_bytes())
     }
 }
 
 fn row(session: &Session) -> String {
-    let simulation = session.simulation();
-    let (moment, state) = (simulation.moment(), simulation.state());
-    let pressure = simulation.pressure();
-    [
-        number(moment.cycle),
-        number(moment.time),
-        number(moment.depth),
-        number(moment.shift),
-        number(moment.normal_force),
-        number(moment.tangential_force),
-        number(moment.contact_radius),
-        optional(moment.stick_radius),
-        optional(moment.permanent_stick_radius),
-        number(moment.wear_volume),
-        number(moment.dissipated_energy),
-        optional(moment.energy_residual),
-        number(largest(&pressure)),
-        optional(moment.period_residual),
-        optional(simulation.force_residual(&pressure)),
-        state.steps.to_string(),
-        state.effort.transforms.to_string(),
-        state.effort.evaluated_cycles.to_string(),
-        state.effort.rejected_jumps.to_string(),
-        optional(moment.stability_margin),
-        state.effort.parts.to_string(),
-    ]
-    .join(",")
+    let reading = Reading::new(session);
+    let field = |name| scalars::find(name).map_or_else(String::new, |s| s.read(&reading).field());
+    COLUMNS.map(field).join(",")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_column_is_a_scalar_that_studies_can_name() {
+        for name in COLUMNS {
+            assert!(
+                scalars::find(name).is_some(),
+                "scenario/scalars.rs lacks {name}"
+            );
+        }
+    }
 }

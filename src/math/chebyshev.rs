@@ -95,8 +95,8 @@ fn coefficients(stages: usize) -> Coefficients {
     }
     let w1 = t[stages][1] / t[stages][2];
     let b = |j: usize| {
-        let [_, slope, bend] = t[j.max(2)];
-        bend / (slope * slope)
+        let [_, slope, kink] = t[j.max(2)];
+        kink / (slope * slope)
     };
     let later = (2..=stages).map(|j| {
         let mu_tilde = 2.0 * b(j) * w1 / b(j - 1);

@@ -16,7 +16,7 @@ pub const MIN_CELLS: usize = 4;
 pub const MAX_CELLS: usize = 100_000;
 
 /// The share of the cells of a graded grid that lie inside its border.
-const SHARE_INSIDE: f64 = 0.2;
+const SHARE_INSIDE: f64 = 0.18;
 
 /// The exponent with which the cells of a graded grid shrink towards its border.
 const GRADING: f64 = 1.5;
@@ -53,7 +53,7 @@ impl RadialGrid {
     /// outside  r = c + (L − c) (i/(N − n))^γ    i = 1 … N − n
     /// ```
     ///
-    /// A fifth of the cells lies inside, at least two on either side, and γ = 3/2: the worn profile
+    /// 18 % of the cells lie inside, where nothing wears, at least two on either side, and γ = 3/2: the worn profile
     /// rises like √(r − c) outside a permanent stick zone of radius c. On each side γ is lowered, to 1
     /// at the least, where the cell next to c would fall below 1e-4/1.5 of L: narrower cells
     /// magnify rounding and the uncertainty of c itself.
@@ -88,6 +88,59 @@ impl RadialGrid {
             ));
         }
         Ok(Self::from_nodes(nodes, Some(inside)))
+    }
+
+    /// N = `cells` cells from r = 0 to L = `radius`, `within` of them in the ring from c = `border` to a = `edge`,
+    /// where they shrink towards c; the others grow away from it on both sides. A node stands on c and on a.
+    ///
+    /// For rings of slip so thin that a grid [graded](Self::graded) by its cells alone would miss them.
+    pub fn ringed(
+        cells: usize,
+        [border, edge]: [f64; 2],
+        within: usize,
+        radius: f64,
+    ) -> Result<Self, Invalid> {
+        Self::check(cells, radius)?;
+        positive("border", border)?;
+        let ordered = border < edge && edge < radius;
+        if !ordered || within == 0 || within + 4 > cells {
+            return Err(Invalid::new(
+                "edge",
+                edge,
+                format!("must lie between {border} and {radius}, with cells to spare"),
+            ));
+        }
+        let inside = (cells - within).div_ceil(2);
+        let outside = cells - within - inside;
+        let ring = edge - border;
+        let share = |i: usize, n: usize| i as f64 / n as f64;
+        // The cells next to the ring are about as wide as its own.
+        let cell = ring / within as f64;
+        let of_side = |width: f64, n: usize| ((width / cell).ln() / (n as f64).ln()).max(1.0);
+        let (power, outer) = (of_side(border, inside), of_side(radius - edge, outside));
+        let nodes: Vec<f64> = (0..inside)
+            .map(|i| border - border * (1.0 - share(i, inside)).powf(power))
+            .chain((0..within).map(|i| border + ring * share(i, within).powf(GRADING)))
+            .chain((0..outside).map(|i| edge + (radius - edge) * share(i, outside).powf(outer)))
+            .chain([radius])
+            .collect();
+        if nodes.windows(2).any(|pair| pair[0] >= pair[1]) {
+            return Err(Invalid::new(
+                "border",
+                border,
+                format!("leaves no room for nodes before {edge}"),
+            ));
+        }
+        Ok(Self::from_nodes(nodes, Some(inside)))
+    }
+
+    /// The same nodes, none of which stands for a border.
+    #[must_use]
+    pub fn without_border(&self) -> Self {
+        Self {
+            border: None,
+            ..self.clone()
+        }
     }
 
     /// The grid that once had these nodes and this [`border`](Self::border), to the last bit.
@@ -216,6 +269,30 @@ mod tests {
             assert_eq!(grid.cells(), cells);
             assert!(grid.nodes().windows(2).all(|pair| pair[0] < pair[1]));
         }
+    }
+
+    #[test]
+    fn a_thin_ring_has_its_cells() {
+        for (ring, cells) in [
+            (0.1, 100),
+            (5e-4, 100),
+            (1e-6, 100),
+            (1e-5, 30),
+            (1e-3, 1000),
+        ] {
+            let grid = RadialGrid::ringed(cells, [1.0, 1.0 + ring], 20, 1.5).expect("a grid");
+            let inside = |r: f64| r > 1.0 && r <= 1.0 + ring;
+            let count = grid.nodes().iter().filter(|&&r| inside(r)).count();
+            assert_eq!((count, grid.cells()), (20, cells), "{ring}");
+            assert_eq!(grid.nodes()[grid.border().expect("a border")], 1.0);
+            let widths: Vec<f64> = grid.nodes().windows(2).map(|r| r[1] - r[0]).collect();
+            for pair in widths.windows(2) {
+                let ratio = pair[1] / pair[0];
+                assert!((1e-3..=1e3).contains(&ratio), "{ring}: {ratio}");
+            }
+        }
+        assert!(RadialGrid::ringed(22, [1.0, 1.1], 20, 1.5).is_err());
+        assert!(RadialGrid::ringed(100, [1.0, 1.6], 20, 1.5).is_err());
     }
 
     #[test]

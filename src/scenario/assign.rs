@@ -4,9 +4,8 @@ use toml::{Table, Value};
 
 use super::check::unknown;
 use super::error::{Origin, ScenarioError, echo};
-use super::parameters::{self, Kind, Parameter};
-use super::validate::{self, CHOSEN_BY_ACCURACY};
-use super::write;
+use super::keys::{self, CHOSEN_BY_ACCURACY};
+use super::schema::{self, Kind, Parameter};
 
 /// Splits `KEY=VALUE`; `flag` stands before it in messages.
 pub(super) fn split<'a>(text: &'a str, flag: &str) -> Result<(&'a str, &'a str), ScenarioError> {
@@ -36,11 +35,11 @@ pub(super) fn assign(
     if key == "changes" || key.starts_with("changes.") {
         return Err(refuse("changes are recorded during a run, not set".into()));
     }
-    let Some(parameter) = parameters::find(key) else {
-        return Err(if parameters::is_section(key) {
+    let Some(parameter) = schema::find(key) else {
+        return Err(if schema::is_section(key) {
             refuse(format!(
                 "{key} is a table; {}",
-                parameters::hint(&format!("{key}.*"))
+                schema::hint(&format!("{key}.*"))
             ))
         } else {
             unknown(written, key, key)
@@ -52,33 +51,23 @@ pub(super) fn assign(
     }
     trade_accuracy_for_choices(table, parameter.path);
     origin.assign(parameter.path, written);
-    insert(table, parameter.path, value);
+    schema::insert(table, parameter.path, value);
     Ok(())
 }
 
-/// An accuracy takes the place of what it chooses, and the other way round: one of its choices that is
-/// made by hand leaves the others as they were chosen.
+/// An accuracy takes the place of what is chosen for it, and the other way round.
 fn trade_accuracy_for_choices(table: &mut Table, path: &str) {
-    let given = write::at(table, "numerics.accuracy").and_then(Value::as_float);
-    let chosen = given
-        .filter(|_| CHOSEN_BY_ACCURACY.contains(&path))
-        .map(|accuracy| validate::chosen(table, accuracy));
-    let Some(Value::Table(numerics)) = table.get_mut("numerics") else {
-        return;
+    let removed: &[&str] = if path == keys::ACCURACY.path() {
+        &CHOSEN_BY_ACCURACY
+    } else if CHOSEN_BY_ACCURACY.contains(&path) {
+        &[keys::ACCURACY.path()]
+    } else {
+        &[]
     };
-    let key = |path: &str| path.trim_start_matches("numerics.").to_owned();
-    if path == "numerics.accuracy" {
-        for chosen in CHOSEN_BY_ACCURACY {
-            numerics.remove(&key(chosen));
+    if let Some(Value::Table(numerics)) = table.get_mut("numerics") {
+        for path in removed {
+            numerics.remove(schema::split(path).1);
         }
-    } else if let Some(chosen) = chosen {
-        numerics.remove("accuracy");
-        numerics.insert("points".into(), Value::Integer(chosen.points));
-        numerics.insert("steps_per_cycle".into(), Value::Integer(chosen.steps));
-        numerics.insert("tolerance".into(), Value::Float(chosen.tolerance));
-        numerics
-            .entry("integrator")
-            .or_insert_with(|| chosen.integrator().into());
     }
 }
 
@@ -96,9 +85,7 @@ fn parse(parameter: &Parameter, text: &str) -> Value {
 /// none of curvature. What was assigned together with the shape stays.
 fn drop_keys_of_other_shapes(table: &mut Table, shape: &Value, origin: &Origin) {
     const PUNCH: &str = "flat-punch";
-    let known = shape
-        .as_str()
-        .filter(|shape| parameters::SHAPES.contains(shape));
+    let known = shape.as_str().filter(|shape| keys::SHAPES.contains(shape));
     let (Some(shape), Some(Value::Table(indenter))) = (known, table.get_mut("indenter")) else {
         return;
     };
@@ -108,7 +95,7 @@ fn drop_keys_of_other_shapes(table: &mut Table, shape: &Value, origin: &Origin) 
         let path = format!("indenter.{key}");
         let misread = key == "radius" && other_radius && !origin.assigns(&path);
         let takes = |known: &Parameter| known.shapes.is_empty() || known.shapes.contains(&shape);
-        !misread && parameters::find(&path).is_none_or(takes)
+        !misread && schema::find(&path).is_none_or(takes)
     });
     // A punch brings its own edge of the domain.
     if shape == PUNCH
@@ -116,24 +103,6 @@ fn drop_keys_of_other_shapes(table: &mut Table, shape: &Value, origin: &Origin) 
         && let Some(Value::Table(numerics)) = table.get_mut("numerics")
     {
         numerics.remove("domain_radius");
-    }
-}
-
-/// Writes the value, making the tables on the way. Where something else stands in the way of a
-/// table, it stays, and the check of all keys will find it.
-fn insert(table: &mut Table, path: &str, value: Value) {
-    match path.split_once('.') {
-        None => {
-            table.insert(path.to_owned(), value);
-        }
-        Some((first, rest)) => {
-            let entry = table
-                .entry(first)
-                .or_insert_with(|| Value::Table(Table::new()));
-            if let Value::Table(inner) = entry {
-                insert(inner, rest, value);
-            }
-        }
     }
 }
 

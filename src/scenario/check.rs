@@ -1,10 +1,11 @@
-//! Every key of a scenario held against the table of parameters: is it known, is its value of the
-//! right kind. What the values mean together is the business of `validate`.
+//! Every key of a scenario held against the schema: is it known, is its value of the right kind and
+//! within its range. What the values mean together is the business of `validate`.
 
 use toml::{Table, Value};
 
 use super::error::{Origin, ScenarioError, echo};
-use super::parameters::{self, Kind, PARAMETERS, Parameter};
+use super::keys::PARAMETERS;
+use super::schema::{self, Parameter};
 use super::write;
 
 /// Refuses the first key that is not in the table of parameters or has a value of the wrong kind.
@@ -18,11 +19,16 @@ fn section(table: &Table, path: &str, shown: &str, origin: &Origin) -> Result<()
         let (path, shown) = (join(path, name), join(shown, name));
         if path == "changes" {
             changes(value, origin)?;
-        } else if let Some(parameter) = parameters::find(&path) {
-            if !fits(parameter, value) {
+        } else if let Some(parameter) = schema::find(&path) {
+            if !parameter.kind.fits(value) {
                 return Err(origin.refuse(&shown, &show(value), parameter.rule()));
             }
-        } else if parameters::is_section(&path) {
+            if !parameter.allows(value) {
+                let each = if value.is_array() { "each " } else { "" };
+                let rule = format!("{each}must be {}", parameter.range);
+                return Err(origin.refuse(&shown, &show(value), rule));
+            }
+        } else if schema::is_section(&path) {
             match value {
                 Value::Table(inner) => section(inner, &path, &shown, origin)?,
                 other => {
@@ -64,34 +70,12 @@ fn changes(value: &Value, origin: &Origin) -> Result<(), ScenarioError> {
     Ok(())
 }
 
-/// Whether the value is of the parameter's kind. Numbers must be finite, words known.
-fn fits(parameter: &Parameter, value: &Value) -> bool {
-    match parameter.kind {
-        Kind::Number => is_number(value),
-        Kind::Whole => value.is_integer(),
-        Kind::Flag => value.is_bool(),
-        Kind::Text => value.is_str(),
-        Kind::Choice(words) => value.as_str().is_some_and(|word| words.contains(&word)),
-        Kind::Numbers => value
-            .as_array()
-            .is_some_and(|list| list.iter().all(is_number)),
-    }
-}
-
-fn is_number(value: &Value) -> bool {
-    match value {
-        Value::Integer(_) => true,
-        Value::Float(number) => number.is_finite(),
-        _ => false,
-    }
-}
-
 /// The error for a key that nobody knows, named at `place`.
 pub(super) fn unknown(place: &str, path: &str, shown: &str) -> ScenarioError {
     ScenarioError::UnknownKey {
         place: place.to_owned(),
         key: echo(shown),
-        hint: parameters::hint(path),
+        hint: schema::hint(path),
     }
 }
 

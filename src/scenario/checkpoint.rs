@@ -26,7 +26,7 @@ use super::{Change, Scenario, printable};
 use crate::simulation::Saved;
 
 /// The version of the format that is written, and the only one that is read.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// What the first line begins with.
 const MAGIC: &str = "mdr-tui checkpoint ";
@@ -86,7 +86,7 @@ pub struct Checkpoint<E> {
     /// The session, ready to go on.
     pub session: Session,
     /// What the driver needs to go on, where it put anything away.
-    pub errand: Option<E>,
+    pub job: Option<E>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -96,12 +96,17 @@ struct Body<'a, E> {
     scenario: String,
     changes: Cow<'a, [Change]>,
     pending: Vec<Change>,
+    #[serde(default)]
+    goals: Vec<f64>,
     saved: Saved,
-    errand: Option<E>,
+    /// The run before the changes of the present cycle.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    unchanged: Option<Saved>,
+    job: Option<E>,
 }
 
-/// The bytes of a checkpoint of `session`, with the `errand` of who drives it.
-pub fn encode<E: Serialize>(session: &Session, errand: Option<&E>) -> Vec<u8> {
+/// The bytes of a checkpoint of `session`, with the `job` of who drives it.
+pub fn encode<E: Serialize>(session: &Session, job: Option<&E>) -> Vec<u8> {
     let parts = session.parts();
     let cycle = parts.saved.cycle();
     let body = Body {
@@ -109,8 +114,10 @@ pub fn encode<E: Serialize>(session: &Session, errand: Option<&E>) -> Vec<u8> {
         scenario: parts.loaded.to_toml(),
         changes: parts.changes,
         pending: parts.pending,
+        goals: parts.goals,
         saved: parts.saved,
-        errand,
+        unchanged: parts.unchanged,
+        job,
     };
     let version = env!("CARGO_PKG_VERSION");
     let mut contents = format!("written by mdr-tui {version} at cycle {cycle}\n").into_bytes();
@@ -253,11 +260,13 @@ fn decode<E: DeserializeOwned>(
         loaded: Cow::Owned(loaded),
         changes: body.changes,
         pending: body.pending,
+        goals: body.goals,
         saved: body.saved,
+        unchanged: body.unchanged,
     };
     let session = Session::restore(parts).map_err(|error| refuse(error.to_string()))?;
     Ok(Checkpoint {
         session,
-        errand: body.errand,
+        job: body.job,
     })
 }

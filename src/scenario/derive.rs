@@ -3,11 +3,12 @@
 
 use std::f64::consts::PI;
 
-use crate::contact::foundation::Foundation;
+use crate::contact::foundation::WinklerFoundation;
 use crate::contact::indenter::Indenter;
 use crate::contact::material::Material;
 use crate::contact::normal;
 use crate::math::abel::AbelMethod;
+use crate::math::abel::field::Field;
 use crate::math::grid::RadialGrid;
 use crate::simulation::drive::{Control, Drive};
 use crate::simulation::{Scheme, Spacing};
@@ -46,32 +47,14 @@ pub(super) fn domain_radius(
     material: &Material,
     control: &Control,
 ) -> Option<f64> {
-    radius_at_deepest(indenter, material, control, ROOM_TO_SINK)
-}
-
-/// The radius that the unworn contact has where it is deepest, or reaches when it has worn there, m: the rim, or
-/// where f₀ is the largest depth.
-pub(super) fn touching_radius(
-    indenter: &Indenter,
-    material: &Material,
-    control: &Control,
-) -> Option<f64> {
-    radius_at_deepest(indenter, material, control, 1.0)
-}
-
-/// The rim, or where f₀ is the largest depth, m: under a force, so many times that of the unworn contact.
-fn radius_at_deepest(
-    indenter: &Indenter,
-    material: &Material,
-    control: &Control,
-    room: f64,
-) -> Option<f64> {
     if let Some(rim) = indenter.rim() {
         return Some(rim);
     }
     let depth = match control {
         Control::Displacement(depth) => depth.highest(),
-        Control::Force(force) => room * press_by(indenter, material, force.highest())?.depth,
+        Control::Force(force) => {
+            ROOM_TO_SINK * press_by(indenter, material, force.highest())?.depth
+        }
     };
     Some(indenter.radius_at(depth))
 }
@@ -103,27 +86,32 @@ pub(super) fn references(
     };
     let velocity = match drive.tangential() {
         None => 0.0,
-        Some(Control::Displacement(shift)) => shift.amplitude() * shift.angular_frequency(),
+        Some(Control::Displacement(shift)) => shift.greatest_speed(),
         Some(Control::Force(force)) => {
             let stiffness = 2.0 * material.tangential_modulus() * pressed.radius;
-            force.amplitude() / stiffness * force.angular_frequency()
+            force.greatest_speed() / stiffness
         }
     };
     let slip_rate = if velocity > 0.0 { velocity } else { 1.0 };
     Some((friction * mean_pressure, slip_rate))
 }
 
+/// A number rounded to three digits, for messages.
+pub(super) fn three_digits(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
+}
+
 /// Presses to a depth, m.
 fn press_to(indenter: &Indenter, material: &Material, depth: f64) -> Option<Pressed> {
     let (grid, g) = unworn(indenter, indenter.radius_at(depth))?;
-    let (mut load, mut breaks) = (vec![0.0; grid.len()], Vec::new());
-    let row = Foundation::new(&grid);
+    let mut load = Field::zeros(grid.len());
+    let foundation = WinklerFoundation::new(&grid);
     let modulus = material.normal_modulus();
-    let contact = normal::press(&row, &g, depth, modulus, &mut load, &mut breaks);
+    let contact = normal::press(&foundation, &g, depth, modulus, &mut load);
     Some(Pressed {
         depth,
         radius: contact.radius,
-        force: row.force(&load, &breaks, contact.edge()),
+        force: foundation.force(&load, contact.edge()),
     })
 }
 
@@ -143,11 +131,11 @@ fn press_by(indenter: &Indenter, material: &Material, force: f64) -> Option<Pres
         .take_while(|radius| *radius < 1e15)
         .find(|&radius| modulus * indenter.profile(radius) * radius >= force)?;
     let (grid, g) = unworn(indenter, radius)?;
-    let mut load = vec![0.0; grid.len()];
+    let mut load = Field::zeros(grid.len());
     let deepest = g[grid.cells()];
-    let (row, mut breaks) = (Foundation::new(&grid), Vec::new());
-    let depth = normal::depth_for_load(&row, &g, force, modulus, deepest, &mut load, &mut breaks)?;
-    let contact = normal::press(&row, &g, depth, modulus, &mut load, &mut breaks);
+    let foundation = WinklerFoundation::new(&grid);
+    let depth = normal::depth_for_load(&foundation, &g, force, modulus, deepest, &mut load)?;
+    let contact = normal::press(&foundation, &g, depth, modulus, &mut load);
     Some(Pressed {
         depth,
         radius: contact.radius,
@@ -253,7 +241,7 @@ mod tests {
             |mean, amplitude| Oscillation::new(mean, amplitude, 100.0, 0.0).expect("a motion");
         let normal = Control::Displacement(swing(1e-6, 0.0));
         let tangential = Some(Control::Displacement(swing(0.0, 1e-7)));
-        let drive = Drive::new(normal, tangential);
+        let drive = Drive::new(normal.clone(), tangential);
         let (stress, rate) = references(&indenter, &material, &drive).expect("references");
         assert!((stress / (0.1 * force / (PI * 1e-8)) - 1.0).abs() < 1e-3);
         assert!((rate / 1e-5 - 1.0).abs() < 1e-12);

@@ -147,14 +147,6 @@ impl Origin {
             rule: rule.into(),
         }
     }
-
-    /// Refuses a text that passed every check and still cannot be taken over.
-    pub fn broken(&self, error: &impl std::fmt::Display) -> ScenarioError {
-        ScenarioError::Refused {
-            place: self.name.clone(),
-            rule: printable(error.to_string().trim()),
-        }
-    }
 }
 
 #[cfg(test)]

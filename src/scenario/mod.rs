@@ -1,37 +1,40 @@
 //! Scenarios: from a TOML text, and what the command line adds to it, to parts that can be run.
 //!
 //! The way of a scenario: text → TOML table → assignments (`--set`) → every key held against the
-//! table of [`parameters`] → the serde mirror → the parts' own constructors → [`Scenario`]. Each
+//! [`schema`] → defaults filled in → the parts' own constructors → [`Scenario`]. Each
 //! step refuses with one line that names the origin, the dotted path, the value and the rule.
 
 use std::path::Path;
 
 use toml::Table;
 
-use crate::math::abel::AbelMethod;
-use crate::simulation::{Integrator, Scheme, Setup};
+use crate::simulation::{Domain, Setup};
 
-pub mod accuracy;
 mod assign;
+mod blocks;
 mod check;
 pub mod checkpoint;
+pub mod columns;
+mod complete;
 mod derive;
+mod embed;
 mod error;
-mod nearest;
-pub mod parameters;
+pub mod keys;
+pub mod nearest;
 pub mod preset;
-mod raw;
 mod read;
 mod run;
+mod running_in;
+pub mod scalars;
+pub mod schema;
 pub mod session;
-mod table;
+pub mod units;
 mod validate;
 mod write;
 
-use accuracy::Scene;
 use error::{Origin, echo};
 pub use error::{ScenarioError, printable};
-pub use run::{Change, MOST_CYCLES, MOST_SNAPSHOTS, RunPlan};
+pub use run::{Change, MOST_CHANGES, MOST_CYCLES, MOST_SNAPSHOTS, RunPlan};
 
 /// A validated scenario: parts that are ready to run, and the text they can be made from again.
 #[derive(Debug, Clone)]
@@ -43,8 +46,6 @@ pub struct Scenario {
     /// but for those that follow the method.
     table: Table,
     setup: Setup,
-    /// What is known of its accuracy.
-    scene: Scene,
     run: RunPlan,
     changes: Vec<Change>,
 }
@@ -86,7 +87,7 @@ impl Scenario {
             let written = format!("--set {}", echo(set));
             assign::assign(&mut table, &mut from, key, value, &written)?;
         }
-        Self::build(table, &from, origin)
+        Self::build(table, from, origin)
     }
 
     /// The same scenario with one key changed, by the rules of `--set`: `value` is TOML or a bare
@@ -105,13 +106,30 @@ impl Scenario {
             let written = assign::written(key, value);
             assign::assign(&mut table, &mut origin, key.trim(), value.trim(), &written)?;
         }
-        Self::build(table, &origin, &self.origin)
+        Self::build(table, origin, &self.origin)
     }
 
     /// The scenario that holds from `change` on; it has no changes of its own. Applied to one
     /// change after the other, it gives the stages of a run.
     pub fn after(&self, change: &Change) -> Result<Self, ScenarioError> {
-        self.changed(&change.set, &echo(&change.set))
+        self.after_all(std::slice::from_ref(change))
+    }
+
+    /// [`after`](Self::after) for the changes of one cycle, which are only right together.
+    pub fn after_all(&self, changes: &[Change]) -> Result<Self, ScenarioError> {
+        let written = |change: &Change| echo(&change.set);
+        let places: Vec<String> = changes.iter().map(written).collect();
+        self.changed(changes, &places)
+    }
+
+    /// Who says where the domain ends.
+    pub fn domain(&self) -> Domain {
+        let is_given = self.value("numerics.domain_radius").is_some();
+        if is_given || self.setup.indenter.rim().is_some() {
+            Domain::Given
+        } else {
+            Domain::Derived
+        }
     }
 
     /// The same scenario with another `[run]`, which is taken as it is.
@@ -177,33 +195,15 @@ impl Scenario {
         &self.changes
     }
 
-    /// The error that the worn profile must be expected to have at the end, rms in largest depths: what was
-    /// asked for, or what is known of the default numerics on so many cells.
-    pub fn expected_error(&self) -> Option<f64> {
-        let setup = &self.setup;
-        let known = setup.method == AbelMethod::Product && setup.scheme == Scheme::Trapezoid;
-        (known && setup.wear.is_some()).then(|| self.present_accuracy())
-    }
-
-    /// The accuracy that is asked for, or that would choose the finest of the present cells, steps and tolerance
-    /// or a coarser one.
-    pub fn present_accuracy(&self) -> f64 {
-        let setup = &self.setup;
-        let tolerance = match setup.integrator {
-            Integrator::Direct => None,
-            Integrator::CycleJump { tolerance } => Some(tolerance),
-        };
-        let asked = self.value("numerics.accuracy");
-        let asked = asked.and_then(|value| value.parse().ok());
-        asked.unwrap_or_else(|| {
-            self.scene
-                .expected(setup.grid.cells(), setup.steps_per_cycle, tolerance)
-        })
+    /// `numerics.accuracy`, where it is given: then points, steps and tolerance are still to be found, by
+    /// [`refinement`](crate::studies::refinement), and assigning one of them takes its place.
+    pub fn accuracy(&self) -> Option<f64> {
+        keys::ACCURACY.get(&self.table)
     }
 
     /// The value at a dotted path as TOML, where the scenario gives one.
     pub fn value(&self, path: &str) -> Option<String> {
-        let value = |table: &Table| write::at(table, path).map(write::value);
+        let value = |table: &Table| schema::at(table, path).map(write::value);
         match path.split('.').next() {
             // These two stand apart; the other keys are looked up as they are, for every frame.
             Some("run" | "changes") => value(&self.whole()),
@@ -216,60 +216,46 @@ impl Scenario {
     pub fn to_toml(&self) -> String {
         let setup = &self.setup;
         let quoted = |word: &str| format!("{word:?}");
-        let mut follows = vec![
+        let follows = [
             ("numerics.grid", quoted(setup.spacing.name())),
             ("numerics.scheme", quoted(setup.scheme.name())),
         ];
-        let source = match self.value("numerics.accuracy") {
-            Some(_) => {
-                follows.extend([
-                    ("numerics.method", quoted(setup.method.name())),
-                    ("numerics.points", setup.grid.cells().to_string()),
-                    (
-                        "numerics.steps_per_cycle",
-                        setup.steps_per_cycle.to_string(),
-                    ),
-                    ("numerics.integrator", quoted(setup.integrator.name())),
-                ]);
-                if let Integrator::CycleJump { tolerance } = setup.integrator {
-                    follows.push(("numerics.tolerance", write::number(tolerance)));
-                }
-                "what the accuracy asks for".to_owned()
-            }
-            None => format!("default of method \"{}\"", setup.method),
-        };
+        let source = format!("default of method \"{}\"", setup.method);
         write::scenario(&self.whole(), &follows, &source)
     }
 
     /// Checks a table and makes its parts; errors show its values as they were written.
-    fn build(table: Table, from: &Origin, origin: &str) -> Result<Self, ScenarioError> {
+    fn build(mut table: Table, mut from: Origin, origin: &str) -> Result<Self, ScenarioError> {
+        blocks::expand(&mut table, &from)?;
+        embed::files(&mut table, origin, &mut from)?;
+        let from = &from;
+        units::to_si(&mut table, from)?;
         check::keys(&table, from)?;
-        let mut raw = read::mirror(table.clone(), from)?;
-        raw.fill_in();
-        let changes = std::mem::take(&mut raw.changes);
-        validate::accuracy(&raw, &table, from)?;
-        let (setup, scene) = validate::setup(&raw, &table, from)?;
-        let run = std::mem::take(&mut raw.run);
-        let mut table = Table::try_from(&raw).map_err(|error| from.broken(&error))?;
-        table.remove("run");
-        table.remove("changes");
-        let given = raw
-            .title
-            .as_deref()
+        let changes = Change::all(&table);
+        if changes.len() > MOST_CHANGES {
+            let rule = format!("must be {MOST_CHANGES} of them or fewer");
+            return Err(from.refuse("changes", &changes.len().to_string(), rule));
+        }
+        validate::accuracy(&table, from)?;
+        let complete = complete::table(&table);
+        let setup = validate::setup(&complete, &table, from)?;
+        let run = RunPlan::of(&table);
+        let table = complete;
+        let given = keys::TITLE
+            .get(&table)
             .filter(|title| !title.trim().is_empty());
-        let lines: Vec<String> = raw
-            .description
+        let lines: Vec<String> = keys::DESCRIPTION
+            .get(&table)
             .iter()
             .flat_map(|text| text.lines())
             .map(printable)
             .collect();
         let scenario = Self {
             origin: origin.to_owned(),
-            title: printable(given.unwrap_or(origin)),
+            title: printable(given.as_deref().unwrap_or(origin)),
             description: lines.join("\n"),
             table,
             setup,
-            scene,
             run,
             changes: Vec::new(),
         };
@@ -280,39 +266,88 @@ impl Scenario {
 
     /// Walks through the stages of a run, so that a change that cannot be made is found before it.
     fn check_changes(&self, changes: &[Change], from: &Origin) -> Result<(), ScenarioError> {
-        let mut stage = self.clone();
         let mut before = 0.0;
         for (i, change) in changes.iter().enumerate() {
-            let at = format!("changes[{i}].at_cycle");
             if change.at_cycle < before {
+                let at = format!("changes[{i}].at_cycle");
                 let rule =
                     format!("must be {before} or greater: changes stand in the order of the run");
                 return Err(from.refuse(&at, &change.at_cycle.to_string(), rule));
             }
             before = change.at_cycle;
-            let set = from.place(
-                &format!("changes[{i}].set"),
-                &format!("\"{}\"", echo(&change.set)),
-            );
-            stage = stage.changed(&change.set, &set)?;
+        }
+        let (mut stage, mut first) = (self.clone(), 0);
+        for together in session::at_one_cycle(changes) {
+            let place = |(i, change): (usize, &Change)| {
+                let path = format!("changes[{}].set", first + i);
+                from.place(&path, &format!("\"{}\"", echo(&change.set)))
+            };
+            let places: Vec<String> = together.iter().enumerate().map(place).collect();
+            stage = stage.changed(together, &places)?;
+            first += together.len();
         }
         Ok(())
     }
 
-    fn changed(&self, set: &str, written: &str) -> Result<Self, ScenarioError> {
-        let (key, value) = assign::split(set, "").map_err(|_| ScenarioError::NotAnAssignment {
-            given: written.to_owned(),
-        })?;
-        if ["title", "description"].contains(&key) || key.starts_with("run.") {
-            return Err(ScenarioError::Refused {
-                place: written.to_owned(),
-                rule: format!("{key} cannot change during a run"),
-            });
-        }
+    /// The scenario after `changes` of one cycle; messages name each by its entry of `written`.
+    fn changed(&self, changes: &[Change], written: &[String]) -> Result<Self, ScenarioError> {
         let mut origin = Origin::new(&self.origin);
         let mut table = self.with_changes(Vec::new()).whole();
-        assign::assign(&mut table, &mut origin, key, value, written)?;
-        Self::build(table, &origin, &self.origin)
+        for (change, written) in changes.iter().zip(written) {
+            let (key, value) =
+                assign::split(&change.set, "").map_err(|_| ScenarioError::NotAnAssignment {
+                    given: written.clone(),
+                })?;
+            let fixed = key.starts_with("run.") || key.ends_with(".file");
+            if ["title", "description", "numerics.accuracy"].contains(&key) || fixed {
+                return Err(ScenarioError::Refused {
+                    place: written.clone(),
+                    rule: format!("{key} cannot change during a run"),
+                });
+            }
+            assign::assign(&mut table, &mut origin, key, value, written)?;
+        }
+        self.refuse_values_in_other_units(&table, changes, written)?;
+        Self::build(table, origin, &self.origin)
+    }
+
+    /// A control that changes measures the motion in another unit: metres that were given for the old one
+    /// must not be read as newtons.
+    fn refuse_values_in_other_units(
+        &self,
+        table: &Table,
+        changes: &[Change],
+        written: &[String],
+    ) -> Result<(), ScenarioError> {
+        for (change, written) in changes.iter().zip(written) {
+            let Some(section) = change.key().strip_suffix(".control") else {
+                continue;
+            };
+            let control = |table: &Table| {
+                let value = schema::at(table, change.key());
+                value.and_then(toml::Value::as_str).map(str::to_owned)
+            };
+            let now = control(table);
+            if now == control(&self.table) {
+                continue;
+            }
+            let unit = match now.as_deref() {
+                Some("force") => "N",
+                _ => "m",
+            };
+            for key in ["mean", "amplitude"] {
+                let path = format!("{section}.{key}");
+                let value = schema::at(&self.table, &path).and_then(toml::Value::as_float);
+                let is_given = changes.iter().any(|change| change.key() == path);
+                if !is_given && value.is_some_and(|value| value != 0.0) {
+                    return Err(ScenarioError::Refused {
+                        place: written.clone(),
+                        rule: format!("needs {path} in {unit}, changed at the same cycle"),
+                    });
+                }
+            }
+        }
+        Ok(())
     }
 
     /// All keys, `[run]` and `[[changes]]` included.

@@ -2,14 +2,14 @@
 
 use strsim::normalized_damerau_levenshtein as likeness;
 
-use super::parameters::split;
+use super::schema::split;
 
 /// Below this, two names are taken to have nothing to do with each other.
 const LIKELY: f64 = 0.5;
 
 /// The name among `known` that `typed` most likely stands for; dotted paths are compared with regard
 /// to their tables.
-pub(super) fn nearest<'a>(typed: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+pub fn nearest<'a>(typed: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let mut best = None;
     let mut highest = LIKELY;
     for candidate in known {

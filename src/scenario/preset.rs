@@ -41,6 +41,9 @@ pub const ALL: &[Preset] = presets![
     "strong-wear",
     "harsh-wear",
     "mild-million",
+    "cattaneo-kalker",
+    "julia2022-gross-slip",
+    "julia2022-partial-slip",
 ];
 
 /// The preset of this name.

@@ -1,4 +1,4 @@
-//! From a file to a text, to a TOML table, to the serde mirror.
+//! From a file to a text, to a TOML table.
 
 use std::fs::File;
 use std::io::Read;
@@ -7,7 +7,6 @@ use std::path::Path;
 use toml::Table;
 
 use super::error::{Origin, ScenarioError, printable};
-use super::raw::Raw;
 
 /// The largest file that is read as a scenario, in bytes.
 const LARGEST_FILE: u64 = 1 << 20;
@@ -60,10 +59,4 @@ pub(super) fn table(text: &str, origin: &Origin) -> Result<Table, ScenarioError>
             message: printable(&error.message().replace('\n', "; ")),
         }
     })
-}
-
-/// The table as its serde mirror. After the check of all keys little can go wrong here.
-pub(super) fn mirror(table: Table, origin: &Origin) -> Result<Raw, ScenarioError> {
-    serde_path_to_error::deserialize(table)
-        .map_err(|error: serde_path_to_error::Error<toml::de::Error>| origin.broken(&error))
 }

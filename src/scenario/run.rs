@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
+use super::keys;
 use crate::math::invalid::{Invalid, non_negative};
 
 /// The longest run, in cycles.
@@ -10,6 +11,9 @@ pub const MOST_CYCLES: f64 = 1e9;
 
 /// The most snapshots of a run.
 pub const MOST_SNAPSHOTS: usize = 10_000;
+
+/// The most changes of a run. Each is checked by assembling the scenario that holds from it on.
+pub const MOST_CHANGES: usize = 1_000;
 
 /// `[run]`: how far a run goes and where it is written out.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -19,33 +23,46 @@ pub struct RunPlan {
     pub cycles: Option<f64>,
     /// Cycles at which the state is written; those after the end of the run are never reached.
     pub snapshot_at: Vec<f64>,
-    /// How long the run was to be, in cycles, where it was stopped before or went further: what an accuracy has
-    /// chosen by.
-    pub planned: Option<f64>,
+    /// Cycles that a step or a jump was cut short for although the run went on, as the planned end is
+    /// that the explorer went past. Without them, a replay would take other steps.
+    pub shortened_at: Vec<f64>,
     /// A remark that is kept with the files.
     pub note: Option<String>,
 }
 
 impl RunPlan {
+    /// What a scenario's table says of its run.
+    pub(super) fn of(table: &Table) -> Self {
+        Self {
+            cycles: keys::CYCLES.get(table),
+            snapshot_at: keys::SNAPSHOT_AT.get(table).unwrap_or_default(),
+            shortened_at: keys::SHORTENED_AT.get(table).unwrap_or_default(),
+            note: keys::NOTE.get(table),
+        }
+    }
+
     /// Refuses cycles that are negative, not finite or absurdly many; the field is that of `[run]`.
     pub fn check(&self) -> Result<(), Invalid> {
-        for (field, cycles) in [("cycles", self.cycles), ("planned", self.planned)] {
-            let Some(cycles) = cycles else { continue };
-            non_negative(field, cycles)?;
+        if let Some(cycles) = self.cycles {
+            non_negative("cycles", cycles)?;
             if cycles > MOST_CYCLES {
                 let rule = format!("must be {MOST_CYCLES:e} or less");
-                return Err(Invalid::new(field, cycles, rule));
+                return Err(Invalid::new("cycles", cycles, rule));
             }
         }
-        let snapshots = self.snapshot_at.len();
-        if snapshots > MOST_SNAPSHOTS {
-            let rule = format!("must be {MOST_SNAPSHOTS} of them or fewer");
-            return Err(Invalid::new("snapshot_at", snapshots, rule));
-        }
-        for &cycle in &self.snapshot_at {
-            non_negative("snapshot_at", cycle).map_err(|invalid| {
-                Invalid::new("snapshot_at", invalid.value, "each must be 0 or greater")
-            })?;
+        for (field, cycles) in [
+            ("snapshot_at", &self.snapshot_at),
+            ("shortened_at", &self.shortened_at),
+        ] {
+            if cycles.len() > MOST_SNAPSHOTS {
+                let rule = format!("must be {MOST_SNAPSHOTS} of them or fewer");
+                return Err(Invalid::new(field, cycles.len(), rule));
+            }
+            for &cycle in cycles {
+                non_negative(field, cycle).map_err(|invalid| {
+                    Invalid::new(field, invalid.value, "each must be 0 or greater")
+                })?;
+            }
         }
         Ok(())
     }
@@ -56,8 +73,8 @@ impl RunPlan {
             table.insert("cycles".into(), Value::Float(cycles));
         }
         table.insert("snapshot_at".into(), self.snapshot_at.clone().into());
-        if let Some(planned) = self.planned {
-            table.insert("planned".into(), Value::Float(planned));
+        if !self.shortened_at.is_empty() {
+            table.insert("shortened_at".into(), self.shortened_at.clone().into());
         }
         if let Some(note) = &self.note {
             table.insert("note".into(), Value::String(note.clone()));
@@ -85,9 +102,29 @@ impl Change {
         }
     }
 
+    /// The changes in a scenario's table, in the order of the list.
+    pub(super) fn all(table: &Table) -> Vec<Self> {
+        let list = table.get("changes").and_then(Value::as_array);
+        let entries = list.into_iter().flatten().filter_map(Value::as_table);
+        let change = |entry: &Table| {
+            let whole = Table::from_iter([("changes".to_owned(), entry.clone().into())]);
+            let at_cycle = keys::AT_CYCLE.get(&whole)?;
+            let set = keys::SET.get(&whole)?;
+            Some(Self { at_cycle, set })
+        };
+        entries.filter_map(change).collect()
+    }
+
     /// The dotted path of what changes.
     pub fn key(&self) -> &str {
         self.set.split_once('=').map_or("", |(key, _)| key.trim())
+    }
+
+    /// The new value, as TOML or as a bare word.
+    pub fn value(&self) -> &str {
+        self.set
+            .split_once('=')
+            .map_or("", |(_, value)| value.trim())
     }
 
     pub(super) fn to_table(&self) -> Table {

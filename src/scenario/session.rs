@@ -8,8 +8,9 @@ use std::collections::VecDeque;
 
 use thiserror::Error;
 
-use super::{Change, RunPlan, Scenario, ScenarioError, accuracy};
-use crate::simulation::{Breakdown, Saved, Simulation, Unfit};
+use super::{Change, MOST_CHANGES, RunPlan, Scenario, ScenarioError};
+use crate::math::grid::RadialGrid;
+use crate::simulation::{Breakdown, Domain, Saved, Simulation, Unfit};
 
 /// Why a session could not start, change or go on.
 #[derive(Debug, Error)]
@@ -20,6 +21,12 @@ pub enum SessionError {
     /// A contact that cannot go on.
     #[error(transparent)]
     Breakdown(#[from] Breakdown),
+    /// An accuracy for which nothing has been chosen yet.
+    #[error(
+        "numerics.accuracy = {0:e}: points and steps that meet it have to be found before a run; \
+         give numerics.points and numerics.steps_per_cycle here"
+    )]
+    Unresolved(f64),
 }
 
 /// A saved run that cannot be taken up.
@@ -38,7 +45,10 @@ pub(super) struct Parts<'a> {
     pub loaded: Cow<'a, Scenario>,
     pub changes: Cow<'a, [Change]>,
     pub pending: Vec<Change>,
+    pub goals: Vec<f64>,
     pub saved: Saved,
+    /// The run before the changes of the present cycle, if there are any.
+    pub unchanged: Option<Saved>,
 }
 
 /// A scenario being run.
@@ -51,12 +61,36 @@ pub struct Session {
     simulation: Simulation,
     changes: Vec<Change>,
     pending: VecDeque<Change>,
+    /// What steps were cut short for so far, in cycles.
+    goals: Vec<f64>,
+    /// The run before the changes of the present cycle.
+    unchanged: Option<Box<Unchanged>>,
+    /// What the files say of this run beside its numbers, such as its estimated error.
+    statements: Vec<(String, String)>,
+}
+
+/// A run before the changes of one cycle, which are made together: each further one is made again with
+/// those before it, from here.
+#[derive(Debug, Clone)]
+struct Unchanged {
+    scenario: Scenario,
+    simulation: Simulation,
+    /// How many changes were made before.
+    changes: usize,
 }
 
 impl Session {
     /// Starts `scenario` from the unworn contact. Changes it has recorded are made again when their
     /// cycle comes.
+    ///
+    /// # Errors
+    ///
+    /// A contact that cannot be made, or a `numerics.accuracy` for which no points and steps have been found yet:
+    /// see [`refinement`](crate::studies::refinement).
     pub fn start(scenario: Scenario) -> Result<Self, SessionError> {
+        if let Some(accuracy) = scenario.accuracy() {
+            return Err(SessionError::Unresolved(accuracy));
+        }
         let simulation = Simulation::new(scenario.setup().clone())?;
         let mut pending: Vec<Change> = scenario.changes().to_vec();
         pending.sort_by(|a, b| a.at_cycle.total_cmp(&b.at_cycle));
@@ -66,6 +100,9 @@ impl Session {
             simulation,
             changes: Vec::new(),
             pending: pending.into(),
+            unchanged: None,
+            statements: Vec::new(),
+            goals: Vec::new(),
         };
         session.make_due_changes()?;
         Ok(session)
@@ -77,24 +114,39 @@ impl Session {
             loaded: Cow::Borrowed(&self.loaded),
             changes: Cow::Borrowed(&self.changes),
             pending: self.pending.iter().cloned().collect(),
+            goals: self.goals.clone(),
             saved: self.simulation.save(),
+            unchanged: self.unchanged().map(|before| before.simulation.save()),
         }
     }
 
     /// Goes on where a session was put away.
     pub(super) fn restore(parts: Parts) -> Result<Self, RestoreError> {
         let loaded = parts.loaded.into_owned();
-        let mut scenario = loaded.clone();
-        for change in parts.changes.iter() {
-            scenario = scenario.after(change)?;
+        let (mut scenario, mut unchanged) = (loaded.clone(), None);
+        let mut made = 0;
+        for together in at_one_cycle(&parts.changes) {
+            let after = scenario.after_all(together)?;
+            let before = std::mem::replace(&mut scenario, after);
+            let is_last = made + together.len() == parts.changes.len();
+            if let Some(saved) = parts.unchanged.as_ref().filter(|_| is_last) {
+                unchanged = Some(Box::new(Unchanged {
+                    simulation: taken_up(&before, saved.clone())?,
+                    scenario: before,
+                    changes: made,
+                }));
+            }
+            made += together.len();
         }
-        let simulation = Simulation::restore(scenario.setup().clone(), parts.saved)?;
         Ok(Self {
+            simulation: taken_up(&scenario, parts.saved)?,
             loaded,
             scenario,
-            simulation,
             changes: parts.changes.into_owned(),
             pending: parts.pending.into(),
+            unchanged,
+            statements: Vec::new(),
+            goals: parts.goals,
         })
     }
 
@@ -128,8 +180,35 @@ impl Session {
     pub fn step_until(&mut self, cycle: f64) -> Result<(), SessionError> {
         let change = self.pending.front().map(|change| change.at_cycle);
         let end = change.map_or(cycle, |at| cycle.min(at));
-        self.simulation.step_until(end)?;
+        let goal = self.recorded_goal().map_or(end, |goal| end.min(goal));
+        self.simulation.step_until(goal)?;
+        if self.unchanged().is_none() {
+            self.unchanged = None;
+        }
+        // A change is a record of its own.
+        let is_new = !self.goals.contains(&goal);
+        if self.simulation.was_shortened() && is_new && change != Some(goal) {
+            self.goals.push(goal);
+        }
         self.make_due_changes()
+    }
+
+    /// The next moment that the scenario says a step was cut short for when the run was recorded.
+    fn recorded_goal(&self) -> Option<f64> {
+        let now = self.simulation.cycle();
+        let goals = self.loaded.run().shortened_at.iter().copied();
+        goals.filter(|&goal| goal > now).reduce(f64::min)
+    }
+
+    /// Where a run that ends at the cycle `end` is headed. That is further on for a scenario that
+    /// records a run which was stopped on its way there: its jumps were made with that goal.
+    pub fn heading(&self, end: f64) -> f64 {
+        let plan = self.loaded.run();
+        let beyond = plan.shortened_at.iter().copied().filter(|&goal| goal > end);
+        match plan.cycles {
+            Some(cycles) if cycles == end => beyond.reduce(f64::min).unwrap_or(end),
+            _ => end,
+        }
     }
 
     /// Steps to `cycle` exactly, making recorded changes on the way.
@@ -143,15 +222,67 @@ impl Session {
     /// Changes one key of the scenario now, carrying the state over, and records it.
     /// On an error nothing has changed.
     pub fn change(&mut self, key: &str, value: &str) -> Result<(), SessionError> {
-        self.make(Change::new(self.simulation.cycle(), key, value))
+        self.change_all(&[(key, value)])
     }
 
-    fn make(&mut self, change: Change) -> Result<(), SessionError> {
-        let scenario = self.scenario.after(&change)?;
-        self.simulation.reconfigure(scenario.setup().clone())?;
+    /// Changes several keys of the scenario at once, such as a control and the force that it is to hold.
+    ///
+    /// # Errors
+    ///
+    /// A value that is refused, a contact that cannot be held, or wear that would be lost; then nothing
+    /// has changed.
+    pub fn change_all(&mut self, assignments: &[(&str, &str)]) -> Result<(), SessionError> {
+        let cycle = self.simulation.cycle();
+        let changes = assignments.iter();
+        self.make(changes.map(|(key, value)| Change::new(cycle, key, value)))
+    }
+
+    /// Makes changes together with those that were made at this cycle already.
+    fn make(&mut self, changes: impl Iterator<Item = Change>) -> Result<(), SessionError> {
+        let before = match self.unchanged() {
+            Some(before) => before.clone(),
+            None => Unchanged {
+                scenario: self.scenario.clone(),
+                simulation: self.simulation.clone(),
+                changes: self.changes.len(),
+            },
+        };
+        let mut made = self.changes.clone();
+        made.extend(changes);
+        if made.len() > MOST_CHANGES {
+            let last = made.last().map(|change| change.set.clone());
+            return Err(ScenarioError::Refused {
+                place: last.unwrap_or_default(),
+                rule: format!("a run takes {MOST_CHANGES} changes or fewer"),
+            }
+            .into());
+        }
+        let scenario = before.scenario.after_all(&made[before.changes..])?;
+        let mut simulation = before.simulation.clone();
+        simulation.reconfigure(scenario.setup().clone(), scenario.domain())?;
+        self.simulation = simulation;
         self.scenario = scenario;
-        self.changes.push(change);
+        self.changes = made;
+        self.unchanged = Some(Box::new(before));
         Ok(())
+    }
+
+    /// The run before the changes of the present cycle, if there are any.
+    fn unchanged(&self) -> Option<&Unchanged> {
+        let before = self.unchanged.as_deref()?;
+        (before.simulation.cycle() == self.simulation.cycle()).then_some(before)
+    }
+
+    /// Notes a statement that the files of this run carry in their headers, as `# key: value`; one of the same
+    /// key is replaced.
+    pub fn state(&mut self, key: &str, value: &str) {
+        self.statements.retain(|(known, _)| known != key);
+        self.statements.push((key.to_owned(), value.to_owned()));
+    }
+
+    /// The statements that files carry, in order.
+    pub fn statements(&self) -> &[(String, String)] {
+        &self.statements
     }
 
     /// The same run with a remark that its files carry.
@@ -170,14 +301,10 @@ impl Session {
     /// The run so far as a scenario of its own: what was loaded, each change, and where it stands.
     pub fn as_run(&self, snapshot_at: Vec<f64>) -> Scenario {
         let loaded = self.loaded.run();
-        // What an accuracy chooses depends on the length of the run.
-        let by_accuracy = |change: &Change| change.key() == "numerics.accuracy";
-        let chosen = self.loaded.value("numerics.accuracy").is_some()
-            || self.changes.iter().any(by_accuracy);
         let plan = RunPlan {
             cycles: Some(self.simulation.cycle()),
             snapshot_at,
-            planned: chosen.then(|| accuracy::planned(loaded)),
+            shortened_at: self.goals_but(self.simulation.cycle()),
             note: loaded.note.clone(),
         };
         self.loaded
@@ -185,17 +312,40 @@ impl Session {
             .with_run(plan)
     }
 
+    /// What steps were cut short for, but for the end of the run, which does so again.
+    fn goals_but(&self, end: f64) -> Vec<f64> {
+        let goals = self.goals.iter().copied();
+        goals.filter(|&goal| goal != end).collect()
+    }
+
+    /// Makes the recorded changes whose cycle has come. Those of one cycle are made together: a force and
+    /// the control that it belongs to are wrong one after the other.
     fn make_due_changes(&mut self) -> Result<(), SessionError> {
-        let due = |change: &Change, cycle| change.at_cycle <= cycle;
-        while self
+        let now = self.simulation.cycle();
+        let due = self
             .pending
-            .front()
-            .is_some_and(|change| due(change, self.simulation.cycle()))
-        {
-            if let Some(change) = self.pending.pop_front() {
-                self.make(change)?;
-            }
+            .iter()
+            .take_while(|change| change.at_cycle <= now);
+        let due = due.count();
+        if due > 0 {
+            let changes: Vec<Change> = self.pending.drain(..due).collect();
+            self.make(changes.into_iter())?;
         }
         Ok(())
     }
+}
+
+/// Takes up a saved simulation of `scenario`. A domain that held wear may be wider than the scenario's own.
+fn taken_up(scenario: &Scenario, saved: Saved) -> Result<Simulation, Unfit> {
+    let mut setup = scenario.setup().clone();
+    if scenario.domain() == Domain::Derived && saved.radius() > setup.grid.radius() {
+        let wider = RadialGrid::uniform(setup.grid.cells(), saved.radius());
+        setup.grid = wider.unwrap_or(setup.grid);
+    }
+    Simulation::restore(setup, saved)
+}
+
+/// Changes in their order, those of one cycle together.
+pub(super) fn at_one_cycle(changes: &[Change]) -> impl Iterator<Item = &[Change]> {
+    changes.chunk_by(|a, b| a.at_cycle == b.at_cycle)
 }

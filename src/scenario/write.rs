@@ -1,10 +1,11 @@
-//! A scenario as TOML: all numbers to the last bit, keys in the order of the table of parameters.
+//! A scenario as TOML: all numbers to the last bit, keys in the order of the schema.
 
 use std::fmt::Write;
 
 use toml::{Table, Value};
 
-use super::parameters::{Kind, PARAMETERS};
+use super::keys::PARAMETERS;
+use super::schema::{Kind, at};
 
 /// Writes `table`, which has passed [`check::keys`](super::check::keys). Each of `follows`, a path
 /// and a value, becomes a comment where the table does not give it, which ends with its `source`.
@@ -47,14 +48,6 @@ pub(super) fn scenario(table: &Table, follows: &[(&str, String)], source: &str) 
         }
     }
     text.trim_start().to_owned()
-}
-
-/// The value at a dotted path.
-pub(super) fn at<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
-    match path.split_once('.') {
-        None => table.get(path),
-        Some((first, rest)) => at(table.get(first)?.as_table()?, rest),
-    }
 }
 
 /// One value, as it may stand after `=`.

@@ -7,12 +7,18 @@
 //! would wear and drag the cell before it along.
 
 use super::choices::{Integrator, Spacing};
+use super::drive::Control;
+use super::unworn::Unworn;
 use super::{Setup, Simulation};
 use crate::math::grid::RadialGrid;
 
 /// The fewest and the most cells of a pilot run, and its most steps a cycle.
 const PILOT_CELLS: [usize; 2] = [64, 200];
 const PILOT_STEPS: u32 = 200;
+
+/// The most steps of a pilot run in all, where it still has the fewest a cycle.
+const PILOT_WORK: u32 = 20_000;
+const FEWEST_PILOT_STEPS: u32 = 24;
 
 /// How far inside the border its node stands: in parts of the domain, in parts of the cell outside it,
 /// and in parts of what wear has moved the border by, of which the pilot errs by 2 %. Were the node outside, it
@@ -21,6 +27,12 @@ const INSIDE_DOMAIN: f64 = 2e-6;
 const INSIDE_CELL: f64 = 0.02;
 const INSIDE_MOVED: f64 = 0.05;
 
+/// The fewest cells between the stick border and the contact's edge, as far as there are cells.
+const RING_CELLS: usize = 20;
+
+/// The thinnest ring of slip that cells are made for, in units of the domain.
+const THINNEST: f64 = 1e-7;
+
 /// Whether a grid graded for `before` serves `after` as well.
 pub(super) fn stays(before: &Setup, after: &Setup) -> bool {
     let alike = |setup: &Setup| {
@@ -28,11 +40,12 @@ pub(super) fn stays(before: &Setup, after: &Setup) -> bool {
             setup.grid.cells(),
             setup.grid.radius().to_bits(),
             setup.spacing,
-            setup.indenter,
-            setup.drive,
         )
     };
-    alike(before) == alike(after) && before.material == after.material
+    alike(before) == alike(after)
+        && before.material == after.material
+        && before.indenter == after.indenter
+        && before.drive == after.drive
 }
 
 /// The same setup, its grid graded towards the stick border where it asks for that and where there
@@ -42,7 +55,10 @@ pub(super) fn graded(setup: &Setup, from: Option<&Simulation>) -> Setup {
     if setup.spacing == Spacing::Uniform {
         return uniform;
     }
-    let graded = melan(&uniform).and_then(|(depth, unworn)| {
+    let Some((depth, unworn)) = melan(&uniform) else {
+        return towards_ring(&uniform).unwrap_or(uniform);
+    };
+    let graded = || {
         let cells = uniform.grid.cells();
         let [fewest, most] = PILOT_CELLS;
         let of_pilot = cells.clamp(fewest, most);
@@ -51,8 +67,49 @@ pub(super) fn graded(setup: &Setup, from: Option<&Simulation>) -> Setup {
         let second = with_border(&uniform, second, 0.0, of_pilot)?;
         let border = pilot(&second, from, depth)?;
         with_border(&uniform, border, unworn - border, cells)
-    });
-    graded.unwrap_or(uniform)
+    };
+    graded().unwrap_or(uniform)
+}
+
+/// The grid for a held normal load whose stick zone does not stay as it is, or where nothing wears: graded
+/// towards the border of the unworn contact where wear will move it, and where the ring of slip is thin. No node
+/// is the border's own.
+fn towards_ring(uniform: &Setup) -> Option<Setup> {
+    let ring = Unworn(uniform).ring()?;
+    let border = ring.stick_radius;
+    let is_held = matches!(uniform.drive.normal(), Control::Force(_));
+    let moves = uniform.wear.is_some() && is_held;
+    let cells = uniform.grid.cells();
+    let grid = match thin_ring(&uniform.grid, border, ring.contact_radius) {
+        Some(within) => {
+            let ends = [border, ring.contact_radius];
+            RadialGrid::ringed(cells, ends, within, uniform.grid.radius()).ok()?
+        }
+        None if moves => RadialGrid::graded(cells, border, uniform.grid.radius()).ok()?,
+        None => return None,
+    };
+    Some(Setup {
+        grid: grid.without_border(),
+        ..uniform.clone()
+    })
+}
+
+/// How many cells a ring from `border` to `edge` (m) is to get that has fewer than [`RING_CELLS`] on a `grid`; none
+/// where it has enough, or is thinner than any cell.
+fn thin_ring(grid: &RadialGrid, border: f64, edge: f64) -> Option<usize> {
+    let (cells, radius) = (grid.cells(), grid.radius());
+    let seen = grid.nodes().iter().filter(|&&r| r > border && r <= edge);
+    let room = border > 0.0 && edge < radius && edge - border >= THINNEST * radius;
+    let within = RING_CELLS.max(2 * cells / 5).min(cells / 2);
+    // On a coarse grid, cells taken from elsewhere would cost more than they bring.
+    (room && seen.count() < RING_CELLS.min(cells / 5)).then_some(within)
+}
+
+/// The width, m, of the ring of slip of a held load, where it is thinner than any cell can be.
+pub(super) fn unseen_ring(setup: &Setup) -> Option<f64> {
+    let ring = Unworn(setup).ring()?;
+    let width = ring.contact_radius - ring.stick_radius;
+    (setup.indenter.rim().is_none() && width < THINNEST * setup.grid.radius()).then_some(width)
 }
 
 fn uniform(setup: &Setup) -> Setup {
@@ -66,6 +123,12 @@ fn uniform(setup: &Setup) -> Setup {
 /// g at the border of the permanent stick zone, and the radius at which the unworn indenter has it.
 fn melan(setup: &Setup) -> Option<(f64, f64)> {
     setup.wear?;
+    // The border moves while friction runs in.
+    if let Some(running_in) = &setup.running_in
+        && running_in.friction.is_some()
+    {
+        return None;
+    }
     let depth = setup
         .drive
         .shakedown_depth(setup.material.stick_ratio())
@@ -88,10 +151,22 @@ fn melan(setup: &Setup) -> Option<(f64, f64)> {
     Some((depth, outside))
 }
 
-/// A setup with `cells` cells and a node a hair inside `border`, which wear has `moved` inwards (m).
+/// A setup with `cells` cells and a node a hair inside `border`, which wear has `moved` inwards (m). A ring of
+/// slip that is thin gets cells of its own.
 fn with_border(setup: &Setup, border: f64, moved: f64, cells: usize) -> Option<Setup> {
     let radius = setup.grid.radius();
     let rough = RadialGrid::graded(cells, border, radius).ok()?;
+    let unworn = Unworn(setup);
+    let edge = unworn.radius(unworn.deepest());
+    if let Some(within) = thin_ring(&rough, border, edge) {
+        let hair = INSIDE_CELL * (edge - border) / RING_CELLS as f64;
+        let inside = border - hair.max(INSIDE_MOVED * moved);
+        let grid = RadialGrid::ringed(cells, [inside, edge], within, radius).ok()?;
+        return Some(Setup {
+            grid,
+            ..setup.clone()
+        });
+    }
     let at = rough.border()?;
     let cell = rough.nodes()[at + 1] - rough.nodes()[at];
     let hair = f64::max(INSIDE_DOMAIN * radius, INSIDE_CELL * cell);
@@ -106,12 +181,15 @@ fn with_border(setup: &Setup, border: f64, moved: f64, cells: usize) -> Option<S
 /// Runs one period and reads where g reaches `depth`: by a parabola in x² through the last three
 /// nodes inside, which no longer wear.
 fn pilot(setup: &Setup, from: Option<&Simulation>, depth: f64) -> Option<f64> {
+    let period = super::cycles_to_settle(&setup.drive);
+    let affordable = PILOT_WORK / (period * setup.drive.turns_of_the_faster());
+    let most = affordable.clamp(FEWEST_PILOT_STEPS, PILOT_STEPS);
     let setup = Setup {
-        steps_per_cycle: setup.steps_per_cycle.min(PILOT_STEPS),
+        steps_per_cycle: setup.steps_per_cycle.min(most),
         integrator: Integrator::Direct,
         ..setup.clone()
     };
-    let period = f64::from(super::cycles_to_settle(&setup.drive));
+    let period = f64::from(period);
     let mut run = match from {
         None => {
             let state = super::State::new(setup.grid.len(), true);
@@ -123,7 +201,7 @@ fn pilot(setup: &Setup, from: Option<&Simulation>, depth: f64) -> Option<f64> {
         }
     };
     run.advance_to(run.cycle() + period).ok()?;
-    let (g, t) = (&run.workspace.g, run.setup.grid.squares());
+    let (g, t) = (&run.profile_1d(), run.setup().grid.squares());
     let k = g
         .iter()
         .position(|&g| g >= depth * (1.0 - 1e-7))?
@@ -133,11 +211,11 @@ fn pilot(setup: &Setup, from: Option<&Simulation>, depth: f64) -> Option<f64> {
     }
     let slope = (g[k] - g[k - 1]) / (t[k] - t[k - 1]);
     let before = (g[k - 1] - g[k - 2]) / (t[k - 1] - t[k - 2]);
-    let bend = (slope - before) / (t[k] - t[k - 2]);
+    let kink = (slope - before) / (t[k] - t[k - 2]);
     let mut square = t[k] + (depth - g[k]) / slope;
     for _ in 0..20 {
-        square = t[k] + (depth - g[k]) / (slope + bend * (square - t[k - 1]));
+        square = t[k] + (depth - g[k]) / (slope + kink * (square - t[k - 1]));
     }
     let radius = square.sqrt();
-    (radius.is_finite() && radius > 0.0 && radius < run.setup.grid.radius()).then_some(radius)
+    (radius.is_finite() && radius > 0.0 && radius < run.setup().grid.radius()).then_some(radius)
 }

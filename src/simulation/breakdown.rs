@@ -86,6 +86,29 @@ pub enum Cause {
         /// L, m.
         domain_radius: f64,
     },
+    /// A change to a domain that does not hold the wear there is.
+    #[error(
+        "the domain would end at {radius:.4e} m and cut off wear, which reaches {reach:.4e} m; \
+         a numerics.domain_radius or an indenter of at least that size would keep it"
+    )]
+    WearCutOff {
+        /// The outermost radius that is worn, m.
+        reach: f64,
+        /// The end of the new domain, m.
+        radius: f64,
+    },
+    /// A change to a grid too coarse for the wear there is.
+    #[error(
+        "{cells} cells are too few for the worn profile: its volume would change by {:.1} %; \
+         more numerics.points would keep it",
+        100.0 * share
+    )]
+    WearBlurred {
+        /// Cells of the new grid.
+        cells: usize,
+        /// By how much the volume would differ, relative to it.
+        share: f64,
+    },
     /// A prescribed tangential force beyond friction.
     #[error(
         "the tangential force {force:.4e} N exceeds what friction holds, {limit:.4e} N; \

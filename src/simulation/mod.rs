@@ -1,40 +1,91 @@
 //! The simulation: the loop of Fig. 1 of the paper, one step at a time.
 //!
 //! It takes parts that are already valid and knows nothing of scenarios, files or screens.
-
-use std::sync::Arc;
+//!
+//! Four values go round: the worn profile and its 1D image in the [`State`], the [`Contact`](contact::Contact) of the
+//! springs on it, their [`Traction`](traction::Traction), and what these wear. A [`step`] makes the next state of the
+//! last one and of a `Model`, all that is planned once; a step that fails has changed nothing.
+//!
+//! ```
+//! use mdr_tui::contact::{indenter::Indenter, material::Material};
+//! use mdr_tui::math::{abel::AbelMethod, grid::RadialGrid};
+//! use mdr_tui::simulation::drive::{Control, Drive, Oscillation};
+//! use mdr_tui::simulation::{Integrator, Scheme, Setup, Simulation, Spacing, Stability};
+//! use mdr_tui::wear::WearLaw;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! // A sphere of 1 cm radius pressed by 1 µm into steel, and moved to and fro by 0.05 µm.
+//! let setup = Setup {
+//!     grid: RadialGrid::uniform(100, 1.5e-4)?,
+//!     material: Material::new(2.3e11, 0.3, 0.1)?,
+//!     indenter: Indenter::paraboloid(1e-2)?,
+//!     drive: Drive::new(
+//!         Control::Displacement(Oscillation::new(1e-6, 0.0, 100.0, 0.0)?),
+//!         Some(Control::Displacement(Oscillation::new(0.0, 5e-8, 100.0, 0.0)?)),
+//!     ),
+//!     wear: Some(WearLaw::archard(1e-10)?),
+//!     running_in: None,
+//!     method: AbelMethod::Product,
+//!     spacing: Spacing::Graded,
+//!     scheme: Scheme::Trapezoid,
+//!     stability: Stability::SubStep,
+//!     steps_per_cycle: 40,
+//!     integrator: Integrator::Direct,
+//! };
+//! let mut simulation = Simulation::new(setup)?;
+//! simulation.advance_to(3.0)?;
+//! let now = simulation.moment();
+//! // What has worn is k times the work of friction.
+//! let expected = 1e-10 * now.dissipated_energy;
+//! assert!((now.wear_volume / expected - 1.0).abs() < 0.01);
+//! // The middle of the contact never slips, and never wears.
+//! let stuck = now.permanent_stick_radius.expect("a tangential motion");
+//! assert!((stuck / 7.67e-5 - 1.0).abs() < 0.01, "{stuck}");
+//! assert_eq!(simulation.worn_depth()[0], 0.0);
+//! # Ok(())
+//! # }
+//! ```
 
 use crate::contact::indenter::Indenter;
 use crate::contact::material::Material;
-use crate::contact::tangential::Hold;
-use crate::math::abel::AbelMethod;
+use crate::math::abel::cone::Rest;
+use crate::math::abel::{AbelMethod, worn};
 use crate::math::grid::RadialGrid;
-use crate::math::quadrature::weighted;
 use crate::wear::WearLaw;
 
 mod border;
 pub mod breakdown;
+mod checks;
 mod choices;
+pub mod contact;
+mod cycle_figures;
 pub mod drive;
-mod integrator;
+mod limits;
+mod model;
 mod moments;
 pub mod observation;
-mod profile;
+pub mod running_in;
 mod saved;
-mod solve;
 pub mod stability;
 pub mod state;
-mod stress;
-mod workspace;
+mod step;
+pub mod traction;
+mod unworn;
+pub mod waveform;
+mod wear;
 
 pub use breakdown::{Breakdown, Cause};
+pub use checks::{Check, Subject, verdict};
 pub use choices::{Integrator, Scheme, Spacing, Stability};
-use drive::{Drive, LONGEST_REPEAT};
+pub use cycle_figures::{CycleFigures, LoopTally, Regime};
+use drive::{Drive, WITHOUT_REPEAT};
+use model::Model;
 pub use observation::{Curves, Moment, Observation, Zone};
+use running_in::RunningIn;
 pub use saved::{Saved, Unfit};
 use state::JumpMemory;
-pub use state::{Effort, State};
-use workspace::Workspace;
+pub use state::{State, Stats};
+use wear::Increment;
 
 /// The parts that a run is assembled from, each validated on its own floor.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,6 +100,8 @@ pub struct Setup {
     pub drive: Drive,
     /// The law of wear; none: nothing wears, and no stress is computed for it.
     pub wear: Option<WearLaw>,
+    /// What changes with use; none: friction and wear stay as they are.
+    pub running_in: Option<RunningIn>,
     /// The way to compute the transforms.
     pub method: AbelMethod,
     /// Whether the grid is to be graded towards the stick border; [`grid`](Self::grid) then only
@@ -58,19 +111,34 @@ pub struct Setup {
     pub scheme: Scheme,
     /// What is done about steps that are too harsh.
     pub stability: Stability,
-    /// Steps a cycle, at least 1.
+    /// Steps per period of the faster of the two motions, at least 1.
     pub steps_per_cycle: u32,
     /// How cycles are gone through.
     pub integrator: Integrator,
 }
 
 impl Setup {
+    /// Tangential springs: one a node, none without tangential motion.
+    pub fn springs(&self) -> usize {
+        if self.drive.tangential().is_some() {
+            self.grid.len()
+        } else {
+            0
+        }
+    }
+
     /// The largest depth of the motion, m, where the displacement is prescribed.
     pub fn largest_depth(&self) -> Option<f64> {
         match self.drive.normal() {
             drive::Control::Displacement(oscillation) => Some(oscillation.highest()),
             drive::Control::Force(_) => None,
         }
+    }
+
+    /// Steps in a cycle, but for those that end where the motion turns: a normal motion that is faster than the
+    /// tangential one is resolved as well.
+    pub fn steps_in_a_cycle(&self) -> f64 {
+        f64::from(self.steps_per_cycle) * f64::from(self.drive.turns_of_the_faster())
     }
 
     /// The depth that wear is measured in, m: the largest of the motion, or the `present` one where the
@@ -80,14 +148,54 @@ impl Setup {
     }
 }
 
+/// Who says where the domain of a [`Setup`] ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Domain {
+    /// The scenario, by a radius or by the rim of a punch: it ends there.
+    Given,
+    /// The program, by what can touch: it may end further out.
+    Derived,
+}
+
+/// The most that the worn volume may differ on another grid, relative to it.
+const MOST_LOST: f64 = 0.02;
+
 /// A running simulation.
 #[derive(Debug, Clone)]
 pub struct Simulation {
-    setup: Setup,
+    model: Model,
+    /// After the last good step.
     state: State,
-    workspace: Workspace,
+    /// What the next step is written into.
+    spare: State,
+    scratch: Scratch,
     /// Where the next step ends, and whether the motion turns there.
     next: (f64, bool),
+    /// Whether the last step or jump would have ended elsewhere without its goal.
+    is_shortened: bool,
+}
+
+/// What the phases of a step write into and nobody reads afterwards.
+#[derive(Debug, Clone)]
+struct Scratch {
+    /// The 1D profile that the contact is solved on, m.
+    g: Vec<f64>,
+    increment: Increment,
+    /// A load without its cusp.
+    rest: Rest,
+    /// Transforms computed since they were last counted.
+    transforms: u64,
+}
+
+impl Scratch {
+    fn new(model: &Model) -> Self {
+        Self {
+            g: vec![0.0; model.nodes()],
+            increment: Increment::new(model),
+            rest: Rest::default(),
+            transforms: 0,
+        }
+    }
 }
 
 impl Simulation {
@@ -100,79 +208,143 @@ impl Simulation {
 
     /// Goes on from a saved state, on the grid of `setup` as it is.
     pub fn resume(setup: Setup, state: State) -> Result<Self, Breakdown> {
-        let workspace = Workspace::new(&setup, None);
-        let mut simulation = Self {
-            setup,
-            state,
-            workspace,
-            next: (0.0, false),
-        };
+        let mut simulation = Self::with(Model::new(setup, None), state);
         simulation.settle()?;
         Ok(simulation)
     }
 
+    fn with(model: Model, state: State) -> Self {
+        Self {
+            spare: state.clone(),
+            scratch: Scratch::new(&model),
+            next: (0.0, false),
+            is_shortened: false,
+            model,
+            state,
+        }
+    }
+
     /// Replaces the parts mid-run. The worn profile, the springs and the counters are carried over;
-    /// on another grid they are interpolated. Where the new parts cannot hold the contact, the
-    /// simulation stays as it was.
-    pub fn reconfigure(&mut self, setup: Setup) -> Result<(), Breakdown> {
-        let setup = if border::stays(&self.setup, &setup) {
+    /// on another grid they are interpolated. A derived domain does not shrink while wear lies outside
+    /// of the new one.
+    ///
+    /// # Errors
+    ///
+    /// The new parts cannot hold the contact, or would lose wear; the simulation stays as it was.
+    pub fn reconfigure(&mut self, setup: Setup, domain: Domain) -> Result<(), Breakdown> {
+        let setup = self.holding_wear(setup, domain)?;
+        let setup = if border::stays(self.setup(), &setup) {
             Setup {
-                grid: self.setup.grid.clone(),
+                grid: self.setup().grid.clone(),
                 ..setup
             }
         } else {
             border::graded(&setup, Some(self))
         };
         let state = self.state_on(&setup);
-        let same = setup.grid == self.setup.grid
-            && setup.method == self.setup.method
-            && setup.indenter == self.setup.indenter;
-        let planned = same.then(|| Arc::clone(&self.workspace.planned));
-        let workspace = Workspace::new(&setup, planned);
-        let mut changed = Self {
-            setup,
-            state,
-            workspace,
-            next: (0.0, false),
-        };
+        let mut changed = Self::with(Model::new(setup, Some(&self.model)), state);
+        let worn = self.wear_volume();
         changed.settle()?;
+        let lost = worn - changed.wear_volume();
+        if lost.abs() > MOST_LOST * worn {
+            return Err(self.refused(Cause::WearBlurred {
+                cells: changed.setup().grid.cells(),
+                share: lost.abs() / worn,
+            }));
+        }
+        // What the nodes of the new grid say otherwise is not worn nor taken back.
+        changed.state.unexplained_volume -= lost;
         *self = changed;
         Ok(())
     }
 
+    /// The setup on a domain that all wear fits into.
+    fn holding_wear(&self, setup: Setup, domain: Domain) -> Result<Setup, Breakdown> {
+        let (nodes, wear) = (self.setup().grid.nodes(), &self.state.wear);
+        let reach = match wear.iter().rposition(|&worn| worn != 0.0) {
+            // Between the last node that is worn and the next one, wear falls to zero.
+            Some(last) => nodes[(last + 1).min(nodes.len() - 1)],
+            None => 0.0,
+        };
+        let radius = setup.grid.radius();
+        if radius >= reach {
+            return Ok(setup);
+        }
+        let wider = RadialGrid::uniform(setup.grid.cells(), self.setup().grid.radius());
+        match (domain, wider) {
+            (Domain::Derived, Ok(grid)) => Ok(Setup { grid, ..setup }),
+            _ => Err(self.refused(Cause::WearCutOff { reach, radius })),
+        }
+    }
+
+    /// The state is still that of the last good step.
+    fn refused(&self, cause: Cause) -> Breakdown {
+        Breakdown {
+            cycle: self.state.cycle,
+            cause,
+        }
+    }
+
     /// The present state on the grid of another setup.
     fn state_on(&self, setup: &Setup) -> State {
-        let mut state = self.state.clone();
-        state.jump = JumpMemory::default();
-        let nodes = setup.grid.len();
-        if setup.grid != self.setup.grid {
-            let onto = |values: &[f64]| {
-                setup
-                    .grid
-                    .nodes()
-                    .iter()
-                    .map(|&r| self.setup.grid.interpolate(values, r))
-                    .collect()
+        let (grid, springs) = (&self.setup().grid, setup.springs());
+        if setup.grid == *grid && springs == self.model.springs() {
+            return State {
+                jump: JumpMemory::default(),
+                ..self.state.clone()
             };
-            state.wear = onto(&self.state.wear);
-            if !state.spring.is_empty() {
-                state.spring = onto(&self.state.spring);
-                state.hold = vec![Hold::Stick; nodes];
+        }
+        let before = &self.state.contact;
+        let fresh = State::new(setup.grid.len(), springs > 0);
+        let mut state = State {
+            contact: contact::Contact {
+                depth: before.depth,
+                shift: before.shift,
+                ..fresh.contact
+            },
+            wear: fresh.wear,
+            image: fresh.image,
+            traction: fresh.traction,
+            last: fresh.last,
+            jump: JumpMemory::default(),
+            ..self.state.clone()
+        };
+        let nodes = setup.grid.nodes();
+        for (worn, &r) in state.wear.iter_mut().zip(nodes) {
+            // Between nodes the interpolant may swing below zero by a little.
+            *worn = worn::interpolate(grid, &self.state.wear, r).max(0.0);
+        }
+        if springs > 0 && self.model.springs() > 0 {
+            for (u, &r) in state.contact.spring.nodal.iter_mut().zip(nodes) {
+                *u = grid.interpolate(&before.spring.nodal, r);
             }
         }
-        let springs = if setup.drive.tangential().is_some() {
-            nodes
-        } else {
-            0
-        };
-        state.spring.resize(springs, 0.0);
-        state.hold.resize(springs, Hold::Stick);
         state
     }
 
     /// The parts in use; the grid is the one that is computed on.
     pub fn setup(&self) -> &Setup {
-        &self.setup
+        &self.model.setup
+    }
+
+    /// Worn depth f − f₀, m, at the nodes.
+    pub fn worn_depth(&self) -> &[f64] {
+        &self.state.wear
+    }
+
+    /// What f has grown by in the last step, m, at the nodes; 0 after a jump.
+    pub fn last_wear(&self) -> &[f64] {
+        &self.state.last.wear
+    }
+
+    /// Steps taken since the start.
+    pub fn steps(&self) -> u64 {
+        self.state.steps
+    }
+
+    /// How much has been computed so far.
+    pub fn stats(&self) -> Stats {
+        self.state.stats
     }
 
     /// The state after the last good step.
@@ -192,14 +364,23 @@ impl Simulation {
 
     /// Takes one step or jump that ends at `cycle` at the latest; nothing if that has been reached.
     pub fn step_until(&mut self, cycle: f64) -> Result<(), Breakdown> {
+        self.is_shortened = false;
         if self.state.cycle >= cycle || self.jump(cycle - self.state.cycle)? {
             return Ok(());
         }
         let (next, turns) = self.next;
         // A step that would end within rounding of the goal ends at the goal.
         let reached = next > cycle - self.rounding();
+        self.is_shortened |= reached && next.to_bits() != cycle.to_bits();
         let at_turn = turns && next < cycle + self.rounding();
         self.step_to(if reached { cycle } else { next }, at_turn)
+    }
+
+    /// Whether the goal of the last [`step_until`](Self::step_until) has changed that step or jump:
+    /// without it, the run would have gone on in other steps. A run is repeated to the last bit only
+    /// with the same goal.
+    pub fn was_shortened(&self) -> bool {
+        self.is_shortened
     }
 
     /// Steps until `cycle` is reached exactly.
@@ -212,7 +393,7 @@ impl Simulation {
 
     /// Whether the next step may be a jump over many cycles.
     pub fn may_jump(&self) -> bool {
-        integrator::is_possible(&self.setup, &self.state)
+        step::is_possible(self.setup(), &self.state)
     }
 
     /// Why cycles that were to be jumped are all stepped directly; none where they are jumped.
@@ -222,7 +403,7 @@ impl Simulation {
             wear,
             integrator,
             ..
-        } = &self.setup;
+        } = self.setup();
         match integrator {
             Integrator::Direct => None,
             _ if drive.tangential().is_none() || wear.is_none() => Some("nothing wears"),
@@ -238,24 +419,26 @@ impl Simulation {
         if !self.may_jump() {
             return Ok(false);
         }
-        let jumped = integrator::jump(&self.setup, &mut self.state, &mut self.workspace, most)
-            .map_err(|cause| self.broken(cause))?;
-        self.next = self.look_ahead();
-        Ok(jumped == integrator::Jumped::Done)
-    }
-
-    /// What is looked at now must be the last good state, not the contact that failed.
-    fn broken(&mut self, cause: Cause) -> Breakdown {
-        self.workspace.show_last_good(&self.state);
-        Breakdown {
-            cycle: self.state.cycle,
-            cause,
+        let (state, spare) = (&self.state, &mut self.spare);
+        let jumped = step::jump(&self.model, state, spare, &mut self.scratch, most)
+            .map_err(|cause| self.refused(cause))?;
+        std::mem::swap(&mut self.state, &mut self.spare);
+        // A jump leaves buffers of its own.
+        self.spare.clone_from(&self.state);
+        use step::Jumped;
+        self.is_shortened = matches!(jumped, Jumped::Shortened | Jumped::TooNear);
+        let jumped = matches!(jumped, Jumped::Done | Jumped::Shortened);
+        if jumped {
+            cycle_figures::forget(&self.model, &mut self.state);
         }
+        self.run_in();
+        self.next = self.look_ahead();
+        Ok(jumped)
     }
 
     /// Cycles that are less than this apart are the same moment.
     pub fn rounding(&self) -> f64 {
-        moments::rounding(&self.setup, self.state.cycle)
+        moments::rounding(self.setup(), self.state.cycle)
     }
 
     /// The cycle at which the next step ends, if it is not a jump: the next multiple of
@@ -266,58 +449,55 @@ impl Simulation {
 
     /// Looks for the end of the next step.
     fn look_ahead(&self) -> (f64, bool) {
-        moments::next(&self.setup, self.state.cycle, self.state.steps > 0)
+        let touch = moments::Touch::on(&self.state, &self.profile_1d());
+        moments::next(self.setup(), touch, self.state.cycle, self.state.steps > 0)
     }
 
-    /// One step of the integrator; the state changes only if all went well.
+    /// One step into the spare state, which becomes the present one if all went well.
     fn step_to(&mut self, cycle: f64, turns: bool) -> Result<(), Breakdown> {
-        integrator::step(
-            &self.setup,
-            &mut self.state,
-            &mut self.workspace,
-            cycle,
-            turns,
-        )
-        .map_err(|cause| self.broken(cause))?;
+        let (state, spare) = (&self.state, &mut self.spare);
+        step::step(&self.model, state, spare, &mut self.scratch, cycle, turns)
+            .map_err(|cause| self.refused(cause))?;
+        std::mem::swap(&mut self.state, &mut self.spare);
+        cycle_figures::follow(&self.model, &mut self.state);
+        self.run_in();
         self.next = self.look_ahead();
         Ok(())
     }
 
+    /// Brings friction and wear to what use has made of them.
+    fn run_in(&mut self) {
+        let Setup {
+            running_in,
+            material,
+            wear,
+            ..
+        } = &mut self.model.setup;
+        if let Some(running_in) = running_in {
+            let state = &self.state;
+            running_in.apply(state.cycle, state.dissipated_energy, material, wear);
+        }
+    }
+
     /// Solves the contact at the present cycle, without wear and without passing time.
     fn settle(&mut self) -> Result<(), Breakdown> {
-        integrator::settle(&self.setup, &mut self.state, &mut self.workspace).map_err(|cause| {
-            Breakdown {
-                cycle: self.state.cycle,
-                cause,
-            }
-        })?;
+        self.run_in();
+        step::settle(&self.model, &mut self.state, &mut self.scratch)
+            .map_err(|cause| self.refused(cause))?;
+        cycle_figures::forget(&self.model, &mut self.state);
+        self.spare.clone_from(&self.state);
+        self.run_in();
         self.next = self.look_ahead();
         Ok(())
     }
 
     /// Worn volume 2π∫(f − f₀) r dr, m³.
     pub fn wear_volume(&self) -> f64 {
-        worn_volume(&self.state, &self.workspace)
+        self.model.volume(&self.state.wear)
     }
-}
-
-/// 2π∫(f − f₀) r dr of the profile as it stands, m³.
-fn worn_volume(state: &State, work: &Workspace) -> f64 {
-    weighted(&work.planned.volume_weights, &state.wear) + at_rim(work)
-}
-
-/// The integral of the rate of wear over surface and time, m³.
-fn volume_by_rate(state: &State, work: &Workspace) -> f64 {
-    weighted(&work.planned.volume_weights, &state.wear) + state.volume_between_nodes
-}
-
-/// What the kink at the rim of the worn zone adds to the interpolant of the nodes, m³.
-fn at_rim(work: &Workspace) -> f64 {
-    let rim = work.rim.as_ref();
-    rim.map_or(0.0, |rim| rim.volume(&work.planned.grid))
 }
 
 /// Cycles after which the permanent stick radius is read anew: the common period of the motion.
 fn cycles_to_settle(drive: &Drive) -> u32 {
-    drive.repeats_after().unwrap_or(LONGEST_REPEAT)
+    drive.repeats_after().unwrap_or(WITHOUT_REPEAT)
 }

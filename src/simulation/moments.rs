@@ -1,22 +1,42 @@
-//! When steps end: at multiples of 1/steps-per-cycle, and where the motion turns.
+//! When steps end: at even parts of a period of the faster motion, where the motion turns, and where contact is
+//! made or lost.
 
 use super::Setup;
 use super::choices::Scheme;
+use super::state::State;
 
 /// A turning point this close to a regular moment, in steps, takes its place.
 const SLIVER: f64 = 0.1;
 
-/// Cycles that are less than this apart are the same moment.
-pub(super) fn rounding(setup: &Setup, cycle: f64) -> f64 {
-    let steps = f64::from(setup.steps_per_cycle);
-    (1e-6 / steps).max(8.0 * f64::EPSILON * cycle)
+/// What the contact has to do with when the motion turns.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Touch {
+    /// The contact radius a, m.
+    pub radius: f64,
+    /// The lowest point of the 1D profile, m.
+    pub tip: f64,
 }
 
-/// The end of the step that begins at the cycle `now`, and whether the motion turns there: the next
-/// multiple of 1/steps-per-cycle, or before it the next turning point, if the scheme minds. Only a run
-/// `under_way` passes over a multiple that is very near.
-pub(super) fn next(setup: &Setup, now: f64, under_way: bool) -> (f64, bool) {
-    let steps = f64::from(setup.steps_per_cycle);
+impl Touch {
+    /// That of the contact after a step, on the 1D profile `g` (m).
+    pub fn on(state: &State, g: &[f64]) -> Self {
+        Self {
+            radius: state.contact.normal.radius,
+            tip: g.iter().copied().fold(f64::INFINITY, f64::min),
+        }
+    }
+}
+
+/// Cycles that are less than this apart are the same moment.
+pub(super) fn rounding(setup: &Setup, cycle: f64) -> f64 {
+    (1e-6 / setup.steps_in_a_cycle()).max(8.0 * f64::EPSILON * cycle)
+}
+
+/// The end of the step that begins at the cycle `now`, and whether the motion turns or touches there: the next
+/// even part of a cycle, or before it the next such point, if the scheme minds. Only a run `under_way` passes
+/// over a part that is very near.
+pub(super) fn next(setup: &Setup, touch: Touch, now: f64, under_way: bool) -> (f64, bool) {
+    let steps = setup.steps_in_a_cycle();
     let rounding = rounding(setup, now);
     // The tolerance outgrows the rounding of late cycles, so that every step gets on.
     let multiple = ((now + rounding) * steps).floor() + 1.0;
@@ -24,12 +44,11 @@ pub(super) fn next(setup: &Setup, now: f64, under_way: bool) -> (f64, bool) {
     if setup.scheme == Scheme::Euler {
         return (regular, false);
     }
-    let (drive, ratio) = (&setup.drive, setup.material.stick_ratio());
     let sliver = SLIVER / steps;
     // The end of a cycle is never passed over: histories count on it.
     let passable = |moment: f64| moment.fract() != 0.0;
     let next = |regular: f64| {
-        let turn = drive.turning_point(ratio, now + rounding, regular + sliver);
+        let turn = turn(setup, touch, now + rounding, regular + sliver);
         match turn {
             Some(turn) if (turn - regular).abs() <= rounding => (regular, true),
             Some(turn) if turn < regular || passable(regular) => (turn, true),
@@ -42,13 +61,22 @@ pub(super) fn next(setup: &Setup, now: f64, under_way: bool) -> (f64, bool) {
     next(regular)
 }
 
+/// The first point at which the motion turns, or contact is made or lost.
+fn turn(setup: &Setup, touch: Touch, from: f64, until: f64) -> Option<f64> {
+    let (drive, material) = (&setup.drive, &setup.material);
+    let yields = drive.yields(material, touch.radius);
+    let turn = drive.turning_point(material.stick_ratio(), yields, from, until);
+    let touching = drive.touching_point(touch.tip, from, turn.unwrap_or(until));
+    touching.or(turn)
+}
+
 /// The ends of all steps of one period of the motion, in cycles from its beginning.
-pub(super) fn of_period(setup: &Setup, cycles: u32) -> Vec<f64> {
+pub(super) fn of_period(setup: &Setup, touch: Touch, cycles: u32) -> Vec<f64> {
     let end = f64::from(cycles);
     let mut moments = Vec::new();
     let mut now = 0.0;
     while now < end {
-        now = next(setup, now, true).0.min(end);
+        now = next(setup, touch, now, true).0.min(end);
         moments.push(now);
     }
     moments

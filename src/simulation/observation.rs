@@ -5,10 +5,13 @@ use std::sync::Arc;
 use bitflags::bitflags;
 use serde::Serialize;
 
-use super::{Simulation, solve, stability, stress, volume_by_rate};
-use crate::contact::tangential::Hold;
+use super::{Simulation, cycle_figures, stability, traction};
+use crate::contact::subsurface::SpringLoad;
+use crate::contact::tangential::SpringState;
 use crate::math::abel::AbelMethod;
 use crate::math::abel::cone::Rest;
+use crate::math::abel::worn;
+use crate::math::grid::RadialGrid;
 use crate::math::quadrature::volume_of_revolution;
 
 bitflags! {
@@ -67,6 +70,9 @@ pub struct Moment {
     pub depth: f64,
     /// u_x⁽⁰⁾, m.
     pub shift: f64,
+    /// The displacement of the rig's actuator, m, which its sensor sees: that of the indenter and of
+    /// the rig; none where the rig is stiff.
+    pub rig_displacement: Option<f64>,
     /// F_z, N.
     pub normal_force: f64,
     /// F_x, N; 0 without tangential motion.
@@ -79,12 +85,9 @@ pub struct Moment {
     pub permanent_stick_radius: Option<f64>,
     /// V of the profile, m³.
     pub wear_volume: f64,
-    /// V as the rates of wear add up to, those between the nodes at the contact's edge included, m³: it
-    /// grows evenly, where that of the profile leaps when the rim of the worn zone passes a node.
-    pub wear_volume_by_rate: f64,
     /// E_d, J.
     pub dissipated_energy: f64,
-    /// 1 − ΔV/∫k dE_d over the last complete period of the motion, V by its rate.
+    /// 1 − ΔV/∫k dE_d over the last complete period of the motion.
     pub period_residual: Option<f64>,
     /// 1 − V/∫k dE_d: how far the 3D side and the 1D side disagree. None before anything has worn
     /// and under laws that do not follow energy.
@@ -92,6 +95,14 @@ pub struct Moment {
     /// The largest stiffness that the method bears, over that of the last step, or of its harshest part:
     /// below 1 wear grows teeth. None where nothing has worn in it, and after a jump.
     pub stability_margin: Option<f64>,
+}
+
+impl Moment {
+    /// V/E_d, m³/J = 1/Pa: what the wear coefficient of the whole test amounts to. None before any
+    /// work of friction.
+    pub fn wear_per_energy(&self) -> Option<f64> {
+        (self.dissipated_energy > 0.0).then(|| self.wear_volume / self.dissipated_energy)
+    }
 }
 
 /// The scalars and the curves that were asked for; a curve that was not is empty.
@@ -103,6 +114,8 @@ pub struct Observation {
     pub method: AbelMethod,
     /// The wear law's name; none without wear.
     pub law: Option<&'static str>,
+    /// Nodes r = x, and where the permanent stick zone ends among them.
+    pub grid: RadialGrid,
     /// Nodes r = x, m.
     pub radii: Arc<[f64]>,
     /// f₀, m.
@@ -131,10 +144,31 @@ pub struct Observation {
     pub zones: Vec<Zone>,
 }
 
+impl Observation {
+    /// The worn depth f − f₀ at the radius `r`, m, as the transforms take it between nodes; needs
+    /// [`Curves::PROFILE`].
+    pub fn worn_depth_at(&self, r: f64) -> f64 {
+        // Between nodes the interpolant may swing below zero by a little.
+        worn::interpolate(&self.grid, &self.wear, r).max(0.0)
+    }
+
+    /// The springs' load on a half-space of Poisson's ratio `poisson`, which its stresses follow from;
+    /// needs [`Curves::SPRINGS`], without which nothing is loaded.
+    pub fn spring_load(&self, poisson: f64) -> SpringLoad {
+        SpringLoad::new(
+            &self.radii,
+            &self.normal_load,
+            &self.tangential_load,
+            self.moment.contact_radius,
+            poisson,
+        )
+    }
+}
+
 impl Simulation {
     /// The scalars of the present moment.
     pub fn moment(&self) -> Moment {
-        let (state, contact) = (self.state(), &self.workspace.contact);
+        let (state, contact) = (&self.state, &self.state.contact);
         let wear_volume = self.wear_volume();
         let residual = 1.0 - (wear_volume - state.unexplained_volume) / state.expected_volume;
         Moment {
@@ -142,15 +176,18 @@ impl Simulation {
             time: state.cycle * self.setup().drive.period(),
             depth: contact.depth,
             shift: contact.shift,
-            normal_force: solve::normal_force(&self.workspace, &self.setup().material),
-            tangential_force: solve::tangential_force(&self.workspace, &self.setup().material),
+            rig_displacement: (self.setup().drive.rig_compliance() > 0.0).then(|| {
+                let force = contact.tangential_force(&self.model);
+                cycle_figures::sensed(self.setup(), contact.shift, force)
+            }),
+            normal_force: contact.normal_force(&self.model),
+            tangential_force: contact.tangential_force(&self.model),
             contact_radius: contact.normal.radius,
             stick_radius: contact.stick_radius,
             permanent_stick_radius: contact
                 .stick_radius
                 .map(|stick| state.permanent_stick_radius().min(stick)),
             wear_volume,
-            wear_volume_by_rate: volume_by_rate(state, &self.workspace),
             dissipated_energy: state.dissipated_energy,
             period_residual: state.period.residual,
             energy_residual: (state.expected_volume > 0.0).then_some(residual),
@@ -162,21 +199,17 @@ impl Simulation {
     /// p(r), Pa, of the present moment: one transform.
     pub fn pressure(&self) -> Vec<f64> {
         let mut pressure = vec![0.0; self.setup().grid.len()];
-        stress::pressure(
-            &self.workspace,
-            &self.setup().material,
-            self.state.core_radius(),
-            &mut Rest::default(),
-            &mut pressure,
-        );
+        let (contact, stuck) = (&self.state.contact, self.state.stuck_radius());
+        let rest = &mut Rest::default();
+        traction::pressure(&self.model, contact, stuck, rest, &mut pressure);
         pressure
     }
 
     /// 1 − ∫p dA/F_z with the `pressure` p (Pa) of the present moment: the 3D side against the springs
     /// of the 1D side. None without load. Between nodes p is linear in r², and a root towards the edge.
     pub fn force_residual(&self, pressure: &[f64]) -> Option<f64> {
-        let contact = &self.workspace.contact.normal;
-        let force = solve::normal_force(&self.workspace, &self.setup().material);
+        let contact = &self.state.contact.normal;
+        let force = self.state.contact.normal_force(&self.model);
         if force <= 0.0 || contact.nodes == 0 {
             return None;
         }
@@ -190,9 +223,9 @@ impl Simulation {
 
     /// The present moment with the curves of `curves`.
     pub fn observe(&self, curves: Curves) -> Observation {
-        let work = &self.workspace;
-        let nodes = self.setup().grid.len();
-        let with_springs = self.setup().drive.tangential().is_some();
+        let (model, contact) = (&self.model, &self.state.contact);
+        let nodes = model.nodes();
+        let with_springs = model.springs() > 0;
         // Springs that the scene does not have carry nothing.
         let or_zero = |values: &[f64]| {
             if with_springs {
@@ -208,47 +241,48 @@ impl Simulation {
                 Vec::new()
             }
         };
-        let transformed = |transform: &dyn Fn(&mut [f64])| {
-            let mut out = vec![0.0; nodes];
-            if with_springs {
-                transform(&mut out);
-            }
-            out
-        };
         let modulus = self.setup().material.tangential_modulus();
         let worn = || -> Vec<f64> {
-            let unworn = work.planned.unworn.iter();
-            unworn.zip(&self.state().wear).map(|(f, w)| f + w).collect()
+            let unworn = model.unworn.iter();
+            unworn.zip(&self.state.wear).map(|(f, w)| f + w).collect()
         };
         Observation {
             moment: self.moment(),
             method: self.setup().method,
             law: self.setup().wear.map(|law| law.name()),
+            grid: self.setup().grid.clone(),
             radii: self.setup().grid.nodes().into(),
-            unworn: Arc::clone(&work.planned.unworn),
+            unworn: Arc::clone(&model.unworn),
             profile: when(Curves::PROFILE, &worn),
-            wear: when(Curves::PROFILE, &|| self.state().wear.clone()),
-            profile_1d: when(Curves::PROFILE_1D, &|| work.g.clone()),
-            normal_load: when(Curves::SPRINGS, &|| work.normal_load.clone()),
+            wear: when(Curves::PROFILE, &|| self.state.wear.clone()),
+            profile_1d: when(Curves::PROFILE_1D, &|| self.profile_1d()),
+            normal_load: when(Curves::SPRINGS, &|| contact.load.nodal.clone()),
             tangential_load: when(Curves::SPRINGS, &|| {
-                let springs = or_zero(&work.spring);
+                let springs = or_zero(&contact.spring.nodal);
                 springs.iter().map(|u| modulus * u).collect()
             }),
-            spring: when(Curves::SPRINGS, &|| or_zero(&work.spring)),
+            spring: when(Curves::SPRINGS, &|| or_zero(&contact.spring.nodal)),
             pressure: when(Curves::PRESSURE, &|| self.pressure()),
             shear: when(Curves::SHEAR, &|| {
-                let material = &self.setup().material;
-                let core = self.state.core_radius();
-                transformed(&|out| stress::shear(work, material, core, &mut Rest::default(), out))
+                let stuck = self.state.stuck_radius();
+                let rest = &mut Rest::default();
+                let mut out = vec![0.0; nodes];
+                if with_springs {
+                    traction::shear(model, contact, stuck, 0..nodes, rest, &mut out);
+                }
+                out
             }),
             surface: when(Curves::SURFACE, &|| {
-                transformed(&|out| solve::surface_displacement(work, out))
+                let mut out = vec![0.0; nodes];
+                if with_springs {
+                    contact.surface_displacement(model, &mut out);
+                }
+                out
             }),
             depression: when(Curves::DEPRESSION, &|| {
                 let mut out = vec![0.0; nodes];
-                let modulus = self.setup().material.normal_modulus();
-                solve::depression(work, modulus, &mut out);
-                let (depth, inside) = (work.contact.depth, work.contact.normal.nodes);
+                contact.depression(model, &mut out);
+                let (depth, inside) = (contact.depth, contact.normal.nodes);
                 for (out, f) in out.iter_mut().zip(worn()).take(inside) {
                     *out = depth - f;
                 }
@@ -262,13 +296,20 @@ impl Simulation {
         }
     }
 
+    /// g, m, of the profile as it stands.
+    pub(super) fn profile_1d(&self) -> Vec<f64> {
+        let mut g = vec![0.0; self.model.nodes()];
+        self.model.profile(&self.state.image, 0.0, &[], &mut g);
+        g
+    }
+
     fn zones(&self) -> Vec<Zone> {
-        let work = &self.workspace;
-        let zone = |(j, &load): (usize, &f64)| match work.hold.get(j) {
+        let contact = &self.state.contact;
+        let zone = |(j, &load): (usize, &f64)| match contact.spring_state.get(j) {
             _ if load <= 0.0 => Zone::Open,
-            Some(Hold::Forward | Hold::Backward) => Zone::Slip,
+            Some(SpringState::Forward | SpringState::Backward) => Zone::Slip,
             _ => Zone::Stick,
         };
-        work.normal_load.iter().enumerate().map(zone).collect()
+        contact.load.nodal.iter().enumerate().map(zone).collect()
     }
 }

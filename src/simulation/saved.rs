@@ -8,9 +8,10 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::workspace::{Contact, Workspace};
-use super::{Setup, Simulation, State, profile};
-use crate::math::abel::bend::are_hats;
+use super::contact::Contact;
+use super::model::Model;
+use super::{Setup, Simulation, State};
+use crate::math::abel::kink::are_hats;
 use crate::math::grid::RadialGrid;
 
 /// A simulation at rest, without the setup that it runs on.
@@ -19,15 +20,17 @@ pub struct Saved {
     nodes: Vec<f64>,
     border: Option<usize>,
     state: State,
-    contact: Contact,
-    /// Transforms not yet counted as effort.
-    transforms: u64,
 }
 
 impl Saved {
     /// Cycles since the start.
     pub fn cycle(&self) -> f64 {
         self.state.cycle
+    }
+
+    /// The domain's edge, m.
+    pub fn radius(&self) -> f64 {
+        self.nodes.last().copied().unwrap_or_default()
     }
 }
 
@@ -50,11 +53,9 @@ impl Simulation {
     /// Puts the run away as it stands.
     pub fn save(&self) -> Saved {
         Saved {
-            nodes: self.setup.grid.nodes().to_vec(),
-            border: self.setup.grid.border(),
+            nodes: self.setup().grid.nodes().to_vec(),
+            border: self.setup().grid.border(),
             state: self.state.clone(),
-            contact: self.workspace.good,
-            transforms: self.workspace.transforms,
         }
     }
 
@@ -67,42 +68,31 @@ impl Simulation {
             return Err(Unfit::new("grid", "is not that of the scenario"));
         }
         let setup = Setup { grid, ..setup };
-        check(&setup, &saved.state, &saved.contact)?;
-        let mut workspace = Workspace::new(&setup, None);
+        check(&setup, &saved.state)?;
+        let model = Model::new(setup, None);
         let mut state = saved.state;
         if state.image.is_empty() {
-            // Put away before steps kept it.
-            profile::update_profile(&mut workspace, &state.wear);
-            state.image.clone_from(&workspace.image);
+            state.image.resize(model.nodes(), 0.0);
+            model.image(&state.wear, &mut state.image);
         }
-        workspace.good = saved.contact;
-        workspace.show_last_good(&state);
-        workspace.transforms = saved.transforms;
-        let mut simulation = Self {
-            setup,
-            state,
-            workspace,
-            next: (0.0, false),
-        };
+        let mut simulation = Self::with(model, state);
+        simulation.run_in();
         simulation.next = simulation.look_ahead();
         Ok(simulation)
     }
 }
 
 /// Refuses what cannot have come out of a step on this setup.
-fn check(setup: &Setup, state: &State, contact: &Contact) -> Result<(), Unfit> {
-    let nodes = setup.grid.len();
-    let springs = match setup.drive.tangential() {
-        Some(_) => nodes,
-        None => 0,
-    };
+fn check(setup: &Setup, state: &State) -> Result<(), Unfit> {
+    let (contact, traction): (&Contact, _) = (&state.contact, &state.traction);
+    let (nodes, springs) = (setup.grid.len(), setup.springs());
     let settled = state.jump.settled.as_ref();
     let image = if state.image.is_empty() { 0 } else { nodes };
     for (what, length, due) in [
         ("wear", state.wear.len(), nodes),
         ("image of the wear", state.image.len(), image),
-        ("springs", state.spring.len(), springs),
-        ("springs' holds", state.hold.len(), springs),
+        ("springs", contact.spring.nodal.len(), springs),
+        ("springs' states", contact.spring_state.len(), springs),
         ("growth of g", state.last.growth.len(), nodes),
         ("growth of f", state.last.wear.len(), nodes),
         (
@@ -110,9 +100,9 @@ fn check(setup: &Setup, state: &State, contact: &Contact) -> Result<(), Unfit> {
             settled.map_or(nodes, |settled| settled.wear.len()),
             nodes,
         ),
-        ("line load", state.last.normal_load.len(), nodes),
-        ("pressure", state.last.pressure.len(), nodes),
-        ("shear stress", state.last.shear.len(), nodes),
+        ("line load", contact.load.nodal.len(), nodes),
+        ("pressure", traction.pressure.len(), springs),
+        ("shear stress", traction.shear.len(), springs),
     ] {
         if length != due {
             let rule = format!("has {length} values, where the scenario has {due}");
@@ -125,19 +115,19 @@ fn check(setup: &Setup, state: &State, contact: &Contact) -> Result<(), Unfit> {
     for (what, values) in [
         ("wear", &state.wear[..]),
         ("image of the wear", &state.image),
-        ("springs", &state.spring),
-        ("depth", &[state.depth]),
-        ("shift", &[state.shift]),
+        ("springs", &contact.spring.nodal),
+        ("depth", &[contact.depth]),
+        ("shift", &[contact.shift]),
     ] {
         if values.iter().any(|value| !value.is_finite()) {
             return Err(Unfit::new(what, "is not finite"));
         }
     }
-    for (what, breaks) in [
-        ("springs' breaks", &state.last.spring_breaks),
-        ("line load's breaks", &state.last.normal_breaks),
+    for (what, kinks) in [
+        ("springs' kinks", &contact.spring.kinks),
+        ("line load's kinks", &contact.load.kinks),
     ] {
-        if !are_hats(breaks, setup.grid.squares()) {
+        if !are_hats(kinks, setup.grid.squares()) {
             return Err(Unfit::new(what, "do not lie in the grid"));
         }
     }

@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::contact::tangential::Hold;
-use crate::math::abel::bend::Bend;
-use crate::math::abel::rim_edge::RimEdge;
+use super::contact::Contact;
+use super::cycle_figures::{CycleFigures, LoopTally};
+use super::traction::Traction;
 
 /// What is saved, restored, and carried over when a method or a law is switched.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -13,52 +13,53 @@ pub struct State {
     pub cycle: f64,
     /// Steps taken since the start.
     pub steps: u64,
-    /// Depth d = u_z, m.
-    pub depth: f64,
-    /// Tangential displacement of the indenter u_x⁽⁰⁾, m.
-    pub shift: f64,
     /// Worn depth f − f₀, m, at the nodes. Kept by itself: a mild step adds 1e-20 m to it, which
     /// would be lost in f.
     pub wear: Vec<f64>,
     /// Its 1D image by Eq. (1), m, as the steps have added it up.
     #[serde(default)]
     pub image: Vec<f64>,
-    /// Displacement of the tangential springs u_x, m, at the nodes; empty without tangential motion.
-    pub spring: Vec<f64>,
-    /// What each spring did in the last step; empty without tangential motion.
-    pub hold: Vec<Hold>,
+    /// The contact as the last step solved it.
+    pub contact: Contact,
+    /// Its stresses.
+    pub traction: Traction,
     /// What a step of second order remembers of the one before.
     pub last: LastStep,
     /// What jumps over cycles go on from.
     pub jump: JumpMemory,
     /// How much has been done so far.
-    pub effort: Effort,
+    pub stats: Stats,
     /// The energy balance of the last period of the motion.
     pub period: PeriodBalance,
     /// Work of friction since the start, E_d, J.
     pub dissipated_energy: f64,
     /// The part of the volume that a law in proportion to friction work must have worn, ∫k dE_d, m³.
     pub expected_volume: f64,
-    /// What the rates of wear have taken between nodes beyond the interpolant of the nodes, m³.
-    pub volume_between_nodes: f64,
-    /// Volume worn under other laws, m³: left out where wear is compared with work.
+    /// Volume that no work of friction explains, m³: worn under other laws, or by a change of grid. Left out
+    /// where wear is compared with work.
     pub unexplained_volume: f64,
-    /// The smallest stick radius since the cycle began, m.
+    /// The smallest stick radius since the period of the motion began, m.
     pub smallest_stick_radius: f64,
-    /// The smallest stick radius of the last complete cycle, m; none before there is one.
+    /// The smallest stick radius of the last complete period, m; none before there is one.
     pub settled_stick_radius: Option<f64>,
+    /// The present period of the motion so far.
+    #[serde(default)]
+    pub tally: LoopTally,
+    /// What the last complete period was like; none before there is one, or where it was jumped over.
+    #[serde(default)]
+    pub figures: Option<CycleFigures>,
 }
 
 /// The work done since the start, in counts that do not depend on the machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub struct Effort {
+pub struct Stats {
     /// Contact problems solved.
     pub contacts: u64,
     /// Transforms between the 3D contact and its 1D image.
     pub transforms: u64,
-    /// Parts of steps that were too harsh to be taken whole.
+    /// Sub-steps of steps that were too stiff to be taken whole.
     pub parts: u64,
-    /// Cycles gone through on a frozen profile, for jumps.
+    /// Cycles stepped through on a frozen profile, for jumps.
     pub evaluated_cycles: u64,
     /// Jumps made.
     pub jumps: u64,
@@ -75,19 +76,17 @@ pub struct JumpMemory {
     pub rest_until: f64,
     /// Periods to rest the next time that a jump does not pay.
     pub patience: u32,
-    /// What a settled cycle wears and does at the present state; none if it has changed since.
-    pub settled: Option<SettledCycle>,
+    /// What a steady-state cycle wears and does at the present state; none if it has changed since.
+    pub settled: Option<SteadyCycle>,
 }
 
-/// What a settled cycle does on a frozen profile, per cycle.
+/// What a steady-state cycle does on a frozen profile, per cycle.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct SettledCycle {
+pub struct SteadyCycle {
     /// Wear, m, nodal.
     pub wear: Vec<f64>,
     /// Work of friction, J.
     pub friction_work: f64,
-    /// Wear between nodes beyond their interpolant, m³; none where that is not known.
-    pub beyond_nodes: Option<f64>,
     /// The largest stiffness of a node: h cycles at once are explicitly stable for h times this < 2.
     pub stiffness: f64,
     /// The smallest stick radius, m.
@@ -118,59 +117,71 @@ pub struct LastStep {
     /// Its length in cycles; 0 where the motion turned, or something else broke the smoothness, so
     /// that nothing is to be extrapolated from it.
     pub duration: f64,
-    /// The largest stiffness z of a node in it, or in its harshest part; 0 without wear.
+    /// The largest stiffness z of a node in it, or in its stiffest sub-step; 0 without wear.
     pub stiffness: f64,
-    /// What g grew by, m, nodal; 0 in steps of first order, which do not look ahead.
-    pub growth: Vec<f64>,
     /// What f grew by, m, nodal.
     pub wear: Vec<f64>,
-    /// q_z at its end, N/m, nodal.
-    pub normal_load: Vec<f64>,
-    /// The breaks of q_z at its end, N/m.
-    pub normal_breaks: Vec<Bend>,
-    /// The contact's edge at its end, where it lies in the cell of the rim.
-    pub rim_edge: Option<RimEdge>,
-    /// The breaks of u_x at its end, m.
-    pub spring_breaks: Vec<Bend>,
-    /// p and τ at its end, Pa, nodal.
-    pub pressure: Vec<f64>,
-    /// τ.
-    pub shear: Vec<f64>,
+    /// What g grew by, m, nodal.
+    pub growth: Vec<f64>,
 }
 
 impl State {
     /// An unworn, unloaded contact.
     pub fn new(nodes: usize, has_springs: bool) -> Self {
+        let springs = if has_springs { nodes } else { 0 };
         Self {
             cycle: 0.0,
             steps: 0,
-            depth: 0.0,
-            shift: 0.0,
             wear: vec![0.0; nodes],
             image: vec![0.0; nodes],
-            spring: vec![0.0; if has_springs { nodes } else { 0 }],
-            hold: vec![Hold::Stick; if has_springs { nodes } else { 0 }],
-            last: LastStep::default(),
+            contact: Contact::new(nodes, springs),
+            traction: Traction::zeros(springs),
+            last: LastStep {
+                wear: vec![0.0; nodes],
+                growth: vec![0.0; nodes],
+                ..LastStep::default()
+            },
             jump: JumpMemory::default(),
-            effort: Effort::default(),
+            stats: Stats::default(),
             period: PeriodBalance::default(),
             dissipated_energy: 0.0,
             expected_volume: 0.0,
-            volume_between_nodes: 0.0,
             unexplained_volume: 0.0,
             smallest_stick_radius: f64::INFINITY,
             settled_stick_radius: None,
+            tally: LoopTally::default(),
+            figures: None,
         }
     }
 
-    /// The permanent stick radius, m: the smallest of the last complete cycle, or so far in the first.
+    /// Takes over the counters and sums of another state, but not its nodal values.
+    pub(super) fn carry_sums(&mut self, from: &Self) {
+        self.cycle = from.cycle;
+        self.steps = from.steps;
+        self.stats = from.stats;
+        self.period = from.period;
+        self.dissipated_energy = from.dissipated_energy;
+        self.expected_volume = from.expected_volume;
+        self.unexplained_volume = from.unexplained_volume;
+        self.smallest_stick_radius = from.smallest_stick_radius;
+        self.settled_stick_radius = from.settled_stick_radius;
+        self.tally.clone_from(&from.tally);
+        self.figures = from.figures;
+        // The profile changes: what a steady-state cycle wore on the old one is out of date.
+        self.jump = JumpMemory {
+            settled: None,
+            ..from.jump
+        };
+    }
+
+    /// The permanent stick radius, m: the smallest of the last complete period, or so far in the first.
     pub fn permanent_stick_radius(&self) -> f64 {
         self.settled_stick_radius
             .unwrap_or(self.smallest_stick_radius)
     }
 
-    /// The radius within which nothing has slipped since the last complete cycle began, m.
-    pub fn core_radius(&self) -> f64 {
+    /// The radius within which nothing has slipped since the last complete period began, m.
+    pub fn stuck_radius(&self) -> f64 {
         self.permanent_stick_radius()
             .min(self.smallest_stick_radius)
     }

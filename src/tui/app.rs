@@ -9,19 +9,20 @@ use std::sync::mpsc::Sender;
 use ratatui::layout::Rect;
 
 use super::command::Command;
-use super::companion::Companion;
 use super::frame::Frame;
 use super::keys::Key;
 use super::layout;
 use super::line::LineEdit;
 use super::order::Order;
 use super::overlays::{Answer, Form, Help, Library, Overlay, Palette};
-use super::panels::Panel;
-use super::plot::{Scale, sticky_bounds};
+use super::panels::{Panel, Shown};
+use super::refinement_check::RefinementCheck;
 use super::theme::Theme;
-use super::theory::Theory;
+use super::tour::Tour;
+use crate::plot::{Scale, sticky_bounds};
 use crate::scenario::Scenario;
 use crate::simulation::Curves;
+use crate::studies::theory::Theory;
 
 /// The places of the cursor over the domain, and where it first stands.
 const CURSOR_PLACES: i16 = 100;
@@ -46,6 +47,8 @@ pub struct App {
     pub zoomed: bool,
     /// What lies over the panels.
     pub overlay: Overlay,
+    /// The tour under way, if there is one.
+    pub tour: Option<Tour>,
     /// A line for the user, until the next key.
     pub notice: Option<String>,
     /// Whether no key has been pressed yet.
@@ -58,8 +61,11 @@ pub struct App {
     pub suspend: bool,
     /// Whether theory lies over the plots.
     pub with_theory: bool,
-    /// What the companion has shown, once it has; none while it runs or before it was asked.
-    pub companion: Option<Result<Companion, String>>,
+    /// What the refinement_check has shown, once it has; none while it runs or before it was asked.
+    pub refinement_check: Option<Result<RefinementCheck, String>>,
+    /// Which stress the half-space shows.
+    pub stress: Shown,
+    stress_bounds: Option<[f64; 2]>,
     /// Where the cursor stands, in hundredths of the domain.
     cursor: Option<i16>,
     log_panels: Vec<Panel>,
@@ -82,13 +88,16 @@ impl App {
             focus: Panel::Profile,
             zoomed: false,
             overlay: Overlay::None,
+            tour: None,
             notice: None,
             is_new: true,
             theme,
             leave: None,
             suspend: false,
             with_theory: false,
-            companion: None,
+            refinement_check: None,
+            stress: Shown::default(),
+            stress_bounds: None,
             cursor: None,
             log_panels: Vec::new(),
             bounds: HashMap::new(),
@@ -109,6 +118,9 @@ impl App {
                 self.bounds.insert(key, bounds);
             }
         }
+        // Another scenario has another tour.
+        self.tour = self.tour.take().filter(|tour| tour.is_of(&frame.origin));
+        self.follow_stress(&frame);
         self.frame = Some(frame);
         self.tell_what_shows();
     }
@@ -118,9 +130,34 @@ impl App {
         self.bounds.get(&(panel, self.scale(panel))).copied()
     }
 
+    /// The range of the colours of the stress in the half-space, Pa; `None` where none is shown.
+    pub fn stress_bounds(&self) -> Option<[f64; 2]> {
+        self.stress_bounds
+    }
+
+    /// The colours follow the stress as the scales of the plots follow their data.
+    fn follow_stress(&mut self, frame: &Frame) {
+        let extent = self.stress.extent(frame);
+        self.stress_bounds = extent.map(|extent| {
+            let [low, high] = self.stress.quantity.colors().range(extent);
+            let [low, high] = sticky_bounds(self.stress_bounds, low, high);
+            self.stress.quantity.colors().range([low, high])
+        });
+    }
+
+    /// Another stress in the half-space, or its largest value in a cycle.
+    fn show_stress(&mut self, shown: Shown) {
+        self.stress = shown;
+        self.stress_bounds = None;
+        if let Some(frame) = self.frame.clone() {
+            self.follow_stress(&frame);
+        }
+        self.notice = Some(format!("cross-section: {}", self.stress.name()));
+    }
+
     /// Whether a panel's ordinate is logarithmic.
     pub fn scale(&self, panel: Panel) -> Scale {
-        if panel == Panel::Residual || self.log_panels.contains(&panel) {
+        if self.log_panels.contains(&panel) {
             Scale::Log
         } else {
             Scale::Linear
@@ -195,11 +232,27 @@ impl App {
         self.tell_what_shows();
     }
 
+    /// Takes pasted text where a line is typed.
+    pub fn paste(&mut self, text: &str) {
+        self.is_new = false;
+        let fits = self.overlay.line().map(|line| line.paste(text));
+        self.notice = match fits {
+            Some(true) => None,
+            Some(false) => Some("what was pasted is longer than a line; it is cut".into()),
+            None => Some("pasted text goes where a line is typed; : opens one".into()),
+        };
+    }
+
     fn command(&mut self, command: Command) {
         match command {
             Command::Quit => self.leave = Some(Leave::Clean),
             Command::QuitKeepingScreen => self.leave = Some(Leave::KeepScreen),
-            Command::Back => self.zoomed = false,
+            Command::Back if self.zoomed => self.zoomed = false,
+            Command::Back => self.tour = None,
+            Command::Tour => self.continue_tour(),
+            Command::Accept => self.overlay = Overlay::Explain,
+            Command::CompareFromStart => self.order(Order::CompareFromStart),
+            Command::HoldPhase => self.order(Order::HoldPhase),
             Command::Suspend => self.suspend = true,
             Command::Help => self.overlay = Overlay::Help(Help::default()),
             Command::Search => self.overlay = Overlay::Help(Help::searching()),
@@ -218,7 +271,7 @@ impl App {
             Command::NextPage => self.turn_page(),
             Command::NextPanel | Command::Down => self.focus = self.focus.shifted(1),
             Command::PreviousPanel | Command::Up => self.focus = self.focus.shifted(-1),
-            Command::Zoom | Command::Accept => self.zoomed = !self.zoomed,
+            Command::Zoom => self.zoomed = !self.zoomed,
             Command::Snapshot => self.order(Order::Snapshot(None)),
             Command::TimeBack => self.order(Order::Back),
             Command::TimeForth => self.order(Order::Forth),
@@ -244,12 +297,51 @@ impl App {
             Command::Right => self.move_sideways(1),
             Command::Compare => self.order(Order::Compare),
             Command::Accuracy => {
-                self.companion = None;
+                self.refinement_check = None;
                 self.overlay = Overlay::Accuracy;
-                self.order(Order::Companion);
+                self.order(Order::RefinementCheck);
             }
             Command::Restart => self.restart(),
             Command::LogScale => self.toggle_log(),
+            Command::Stress => self.show_stress(Shown {
+                quantity: self.stress.quantity.next(),
+                ..self.stress
+            }),
+            Command::StressOfCycle => self.show_stress(Shown {
+                over_cycle: !self.stress.over_cycle,
+                ..self.stress
+            }),
+        }
+    }
+
+    /// Begins the tour of the scenario, whatever is on the screen.
+    pub fn begin_tour(&mut self, origin: &str) {
+        self.tour = Tour::of(origin);
+        self.follow_tour();
+    }
+
+    /// Begins the tour, or goes on to its next caption.
+    fn continue_tour(&mut self) {
+        if let Some(tour) = self.tour.take() {
+            self.tour = tour.next();
+            if self.tour.is_none() {
+                self.notice =
+                    Some("end of the tour; Enter explains a panel, p has more presets".into());
+            }
+        } else if let Some(frame) = self.frame.clone() {
+            self.begin_tour(&frame.origin);
+            if self.tour.is_none() {
+                self.notice = Some("tours come with the presets: p lists them".into());
+            }
+        }
+        self.follow_tour();
+    }
+
+    /// The panel that the caption is about gets the focus.
+    fn follow_tour(&mut self) {
+        let caption = self.tour.as_ref().and_then(Tour::caption);
+        if let Some(panel) = caption.and_then(|caption| caption.panel()) {
+            self.focus = panel;
         }
     }
 
@@ -286,9 +378,9 @@ impl App {
         self.with_theory.then_some(&*frame.theory)
     }
 
-    /// Whether the accuracy panel waits for the companion.
+    /// Whether the accuracy panel waits for the refinement_check.
     pub fn awaits_companion(&self) -> bool {
-        self.overlay == Overlay::Accuracy && self.companion.is_none()
+        self.overlay == Overlay::Accuracy && self.refinement_check.is_none()
     }
 
     fn load(&mut self, name: &str) {
@@ -325,11 +417,12 @@ impl App {
 
     fn forget_scales(&mut self) {
         self.bounds.clear();
+        self.stress_bounds = None;
     }
 
     /// Hidden panels cost no transform.
     pub(super) fn tell_what_shows(&mut self) {
-        // The trust in the status line rests on the pressure, whatever panel shows it.
+        // The checks of the status line need the pressure, whatever panel shows it.
         let mut shown = Curves::PRESSURE;
         for panel in self.visible() {
             shown |= panel.curves();
@@ -338,7 +431,7 @@ impl App {
         if self
             .frame
             .as_ref()
-            .is_some_and(|frame| frame.rival.is_some())
+            .is_some_and(|frame| frame.comparison.is_some())
         {
             shown |= Curves::PROFILE;
         }

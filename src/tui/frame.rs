@@ -4,10 +4,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::pace::Pace;
 use super::settings::Setting;
-use super::theory::Theory;
 use super::trend::Trend;
 use crate::contact::indenter::Indenter;
-use crate::simulation::Observation;
+use crate::contact::subsurface::{Peak, SpringLoad};
+use crate::simulation::{Check, CycleFigures, Observation};
+use crate::studies::theory::Theory;
 
 /// What the worker is doing.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,7 +25,7 @@ pub enum Activity {
 
 /// A second run in lockstep with the first.
 #[derive(Debug, Clone)]
-pub struct Rival {
+pub struct Comparison {
     /// Method and cells.
     pub name: String,
     /// Its curves and scalars.
@@ -40,6 +41,12 @@ pub struct Rival {
 pub struct Frame {
     /// The curves and scalars.
     pub observation: Observation,
+    /// What a fretting test reports of the last cycle.
+    pub figures: Option<CycleFigures>,
+    /// The wear coefficient k, 1/Pa; none without wear.
+    pub wear_coefficient: Option<f64>,
+    /// The phase of the tangential motion at which frames are taken, degrees; none while the motion is shown.
+    pub phase: Option<f64>,
     /// The past.
     pub trend: Trend,
     /// What the worker does.
@@ -50,8 +57,6 @@ pub struct Frame {
     pub speed: Option<f64>,
     /// What a step costs, s.
     pub step_cost: Option<f64>,
-    /// The error of the worn profile to expect at the end, in largest depths, where it is known.
-    pub expected_error: Option<f64>,
     /// The scenario's title.
     pub title: String,
     /// The preset's name or the file.
@@ -68,12 +73,22 @@ pub struct Frame {
     pub indenter: Indenter,
     /// μ, for the scale of τ.
     pub friction: f64,
-    /// 1 − ∫p dA/F_z, where p is computed and something carries load.
-    pub force_residual: Option<f64>,
+    /// The load on the half-space, where its stresses are shown.
+    pub load: Option<Arc<SpringLoad>>,
+    /// The loads of the last cycle, where they are shown.
+    pub cycle_loads: Vec<Arc<SpringLoad>>,
+    /// The largest von Mises and the largest principal stress in the half-space, where they are shown.
+    pub peaks: Option<[Peak; 2]>,
+    /// The amplitude of u_x from which the present profile slips as a whole, m, where it is shown.
+    pub slip_border: Option<f64>,
+    /// The certificates of the moment; none where p is not computed.
+    pub checks: Vec<Check>,
+    /// Where the scene lies outside of the theory.
+    pub warnings: Arc<Vec<String>>,
     /// What theory says of the scene.
     pub theory: Arc<Theory>,
     /// The run beside this one.
-    pub rival: Option<Rival>,
+    pub comparison: Option<Comparison>,
 }
 
 /// The place where the latest frame waits to be taken.

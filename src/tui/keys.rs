@@ -5,8 +5,6 @@
 
 use std::fmt;
 
-use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
-
 /// One key press.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Key {
@@ -51,40 +49,24 @@ pub enum Named {
     Delete,
 }
 
-const NAMED: [(Named, &str, KeyCode); 14] = [
-    (Named::Tab, "Tab", KeyCode::Tab),
-    (Named::BackTab, "S-Tab", KeyCode::BackTab),
-    (Named::Esc, "Esc", KeyCode::Esc),
-    (Named::Enter, "Enter", KeyCode::Enter),
-    (Named::Backspace, "Backspace", KeyCode::Backspace),
-    (Named::Up, "Up", KeyCode::Up),
-    (Named::Down, "Down", KeyCode::Down),
-    (Named::Left, "Left", KeyCode::Left),
-    (Named::Right, "Right", KeyCode::Right),
-    (Named::Home, "Home", KeyCode::Home),
-    (Named::End, "End", KeyCode::End),
-    (Named::PageUp, "PageUp", KeyCode::PageUp),
-    (Named::PageDown, "PageDown", KeyCode::PageDown),
-    (Named::Delete, "Delete", KeyCode::Delete),
+const NAMED: [(Named, &str); 14] = [
+    (Named::Tab, "Tab"),
+    (Named::BackTab, "S-Tab"),
+    (Named::Esc, "Esc"),
+    (Named::Enter, "Enter"),
+    (Named::Backspace, "Backspace"),
+    (Named::Up, "Up"),
+    (Named::Down, "Down"),
+    (Named::Left, "Left"),
+    (Named::Right, "Right"),
+    (Named::Home, "Home"),
+    (Named::End, "End"),
+    (Named::PageUp, "PageUp"),
+    (Named::PageDown, "PageDown"),
+    (Named::Delete, "Delete"),
 ];
 
 impl Key {
-    /// The key of a terminal event; none for keys that no command uses.
-    pub fn of_event(event: &KeyEvent) -> Option<Self> {
-        if let KeyCode::Char(character) = event.code {
-            let with_control = event.modifiers.contains(KeyModifiers::CONTROL);
-            return Some(if with_control {
-                Self::Ctrl(character.to_ascii_lowercase())
-            } else {
-                Self::Char(character)
-            });
-        }
-        NAMED
-            .iter()
-            .find(|(_, _, code)| *code == event.code)
-            .map(|(named, _, _)| Self::Named(*named))
-    }
-
     /// The key with a name as it stands between angle brackets.
     fn of_name(name: &str) -> Option<Self> {
         match name {
@@ -101,8 +83,8 @@ impl Key {
         }
         NAMED
             .iter()
-            .find(|(_, text, _)| *text == name)
-            .map(|(named, _, _)| Self::Named(*named))
+            .find(|(_, text)| *text == name)
+            .map(|(named, _)| Self::Named(*named))
     }
 }
 
@@ -117,8 +99,8 @@ impl fmt::Display for Key {
             Self::Named(named) => {
                 let name = NAMED
                     .iter()
-                    .find(|(key, _, _)| key == named)
-                    .map_or("", |(_, name, _)| name);
+                    .find(|(key, _)| key == named)
+                    .map_or("", |(_, name)| name);
                 formatter.write_str(name)
             }
         }

@@ -1,7 +1,7 @@
 //! Where everything stands: the drawing and the mouse ask here.
 //!
-//! Two panels side by side on a narrow screen, three or four on a wide one; the others are on further
-//! pages.
+//! Four panels of a size that reads on a small screen, nine or twelve on a large one; the others are
+//! on further pages. While a tour is on, its captions have the lowest rows.
 
 use ratatui::layout::{Constraint, Layout, Rect};
 
@@ -14,8 +14,17 @@ const WIDE: u16 = 110;
 /// From this width on, four.
 const VERY_WIDE: u16 = 160;
 
-/// From this height on, there are three rows of them on a wide screen.
+/// From this height on, there are three rows of them.
 const TALL: u16 = 33;
+
+/// Below this width one panel fills the row.
+const NARROW: u16 = 56;
+
+/// Rows that a tour takes, its title included.
+pub const TOUR: u16 = 4;
+
+/// The fewest rows that the panels keep beside a tour.
+const LEAST: u16 = 10;
 
 /// Below this size there is a message instead of panels.
 pub const SMALLEST: (u16, u16) = (40, 10);
@@ -41,19 +50,32 @@ pub fn room(columns: u16, rows: u16) -> usize {
 
 /// Columns and rows of panels in an area.
 fn grid(area: Rect) -> (usize, usize) {
+    let down = if area.height >= TALL { 3 } else { 2 };
     match area.width {
-        VERY_WIDE.. => (4, if area.height >= TALL { 3 } else { 2 }),
-        WIDE.. => (3, if area.height >= TALL { 3 } else { 2 }),
-        _ => (2, 3),
+        VERY_WIDE.. => (4, down),
+        WIDE.. => (3, down),
+        NARROW.. => (2, down),
+        _ => (1, down),
     }
+}
+
+/// The area of the panels, and that of a tour's caption below them while there is one.
+pub fn with_tour(app: &App, area: Rect) -> (Rect, Option<Rect>) {
+    if app.tour.is_none() || area.height < LEAST + TOUR {
+        return (area, None);
+    }
+    let rows = [Constraint::Min(0), Constraint::Length(TOUR)];
+    let [above, below] = Layout::vertical(rows).areas(area);
+    (above, Some(below))
 }
 
 /// The panels in their area, each with its place.
 pub fn places(app: &App, area: Rect) -> Vec<(Panel, Rect)> {
+    let (columns, rows) = grid(area);
+    let (area, _) = with_tour(app, area);
     if app.zoomed {
         return vec![(app.focus, area)];
     }
-    let (columns, rows) = grid(area);
     let shown = app.page(columns * rows);
     // The last page may be shorter; its panels are then higher.
     let rows = shown.len().div_ceil(columns);

@@ -2,6 +2,9 @@
 
 use super::keys::{Key, Named};
 
+/// The longest line, in characters: a path fits, and a pasted document does not.
+pub const LONGEST: usize = 4096;
+
 /// The text and where the next character goes.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct LineEdit {
@@ -12,9 +15,21 @@ pub struct LineEdit {
 impl LineEdit {
     /// A line that holds `text`, the cursor behind it.
     pub fn new(text: &str) -> Self {
-        let text: Vec<char> = text.chars().filter(|c| !c.is_control()).collect();
-        let at = text.len();
-        Self { text, at }
+        let mut line = Self::default();
+        line.paste(text);
+        line
+    }
+
+    /// Puts a text in as if it were typed, but for control characters, as far as the line has room.
+    /// False if not all of it fits.
+    pub fn paste(&mut self, text: &str) -> bool {
+        let mut characters = text.chars().filter(|c| !c.is_control());
+        let room = LONGEST.saturating_sub(self.text.len());
+        let fitting: Vec<char> = characters.by_ref().take(room).collect();
+        let end = self.at + fitting.len();
+        self.text.splice(self.at..self.at, fitting);
+        self.at = end;
+        characters.next().is_none()
     }
 
     /// The whole line.
@@ -37,6 +52,7 @@ impl LineEdit {
     /// for all before the cursor and Ctrl-W for the word before it. False for keys that are not its own.
     pub fn press(&mut self, key: Key) -> bool {
         match key {
+            Key::Char(_) if self.text.len() >= LONGEST => {}
             Key::Char(character) => {
                 self.text.insert(self.at, character);
                 self.at += 1;
@@ -88,6 +104,19 @@ mod tests {
             line.press(key);
         }
         line.halves()
+    }
+
+    #[test]
+    fn a_line_is_bounded_and_takes_what_is_pasted_where_the_cursor_is() {
+        let mut line = LineEdit::new("ab");
+        line.press(Key::Named(Named::Left));
+        assert!(line.paste("1\n2\x1b3"));
+        assert_eq!(line.halves(), ("a123".into(), "b".into()));
+        assert!(!line.paste(&"x".repeat(1_000_000)));
+        assert_eq!(line.text().len(), LONGEST);
+        line.press(Key::Char('y'));
+        assert_eq!(line.text().len(), LONGEST);
+        assert!(line.text().ends_with("xb"));
     }
 
     #[test]

@@ -21,129 +21,131 @@ impl Entry {
     }
 }
 
-/// Commands that share a line of the help where space is short.
-const GROUPS: &[(&[Command], &str)] = &[
+/// The groups of the help and of the manual page, in their order.
+const GROUPS: &[(&str, &[Command])] = &[
     (
-        &[Command::Step, Command::Cycle],
-        "pause and take one step; go on to the end of the cycle",
-    ),
-    (
-        &[Command::Faster, Command::Slower],
-        "more, fewer cycles a second, up to as fast as it can",
-    ),
-    (
-        &[Command::Coarser, Command::Finer],
-        "faster, more accurate: fewer, more cells and steps",
-    ),
-    (
-        &[Command::NextMethod, Command::PreviousMethod],
-        "next, previous transform method; the state stays",
-    ),
-    (
-        &[Command::NextLaw, Command::PreviousLaw],
-        "next, previous wear law; the state stays",
-    ),
-    (
+        "run",
         &[
-            Command::NextPage,
+            Command::RunPause,
+            Command::Step,
+            Command::Cycle,
+            Command::Faster,
+            Command::Slower,
+            Command::HoldPhase,
+            Command::Restart,
+        ],
+    ),
+    (
+        "look",
+        &[
+            Command::Accept,
+            Command::Tour,
             Command::NextPanel,
             Command::PreviousPanel,
+            Command::NextPage,
+            Command::Zoom,
+            Command::LogScale,
+            Command::Cursor,
+            Command::Left,
+            Command::Right,
+            Command::Up,
+            Command::Down,
+            Command::Theory,
+            Command::Stress,
+            Command::StressOfCycle,
+            Command::Theme,
+            Command::Back,
         ],
-        "more panels; focus the next, previous panel",
     ),
     (
-        &[Command::Zoom, Command::LogScale, Command::Theme],
-        "the focused panel alone; its log scale; colours",
+        "change",
+        &[
+            Command::Presets,
+            Command::Edit,
+            Command::NextMethod,
+            Command::PreviousMethod,
+            Command::NextLaw,
+            Command::PreviousLaw,
+            Command::Coarser,
+            Command::Finer,
+        ],
     ),
     (
-        &[Command::Snapshot, Command::SnapshotNote],
-        "state and scenario to a new directory; with a note",
+        "compare and check",
+        &[
+            Command::Compare,
+            Command::CompareFromStart,
+            Command::Accuracy,
+        ],
     ),
     (
+        "time and files",
         &[
             Command::TimeBack,
             Command::TimeForth,
             Command::Mark,
             Command::Visit,
+            Command::Snapshot,
+            Command::SnapshotNote,
         ],
-        "back and forth in time; mark a state, go to a mark",
-    ),
-    (
-        &[Command::Presets, Command::Restart],
-        "choose another scenario; start this one again",
-    ),
-    (
-        &[Command::Theory, Command::Accuracy, Command::Compare],
-        "closed forms; how far to trust; a second method (m M)",
-    ),
-    (
-        &[Command::Cursor, Command::Left, Command::Right],
-        "a cursor that reads all curves at r; it moves",
-    ),
-    (
-        &[Command::Up, Command::Down, Command::Accept, Command::Back],
-        "up, down; take what is selected; close what is open",
-    ),
-    (
-        &[Command::Help, Command::Search],
-        "show or hide this help; search in it",
     ),
 ];
+
+/// The group of what is in no other one.
+const OTHERS: &str = "program";
+
+/// Every group with its commands: each command once, those of no group in the last.
+pub fn groups() -> Vec<(&'static str, Vec<&'static Binding>)> {
+    let of = |command: &Command| BINDINGS.iter().find(|binding| binding.command == *command);
+    let mut groups: Vec<(&str, Vec<&Binding>)> = GROUPS
+        .iter()
+        .map(|(name, commands)| (*name, commands.iter().filter_map(of).collect()))
+        .collect();
+    let others = BINDINGS.iter().filter(|binding| {
+        let command = &binding.command;
+        !GROUPS
+            .iter()
+            .any(|(_, commands)| commands.contains(command))
+    });
+    groups.push((OTHERS, others.collect()));
+    groups
+}
 
 /// The names of a command's keys.
 pub fn keys(binding: &Binding) -> Vec<String> {
     binding.keys.iter().map(ToString::to_string).collect()
 }
 
-/// Every command, one a line.
-pub fn long() -> Vec<Entry> {
-    BINDINGS.iter().map(Entry::of).collect()
-}
-
-/// Every command, those that belong together in one line.
-pub fn short() -> Vec<Entry> {
-    let mut lines = Vec::new();
-    for binding in BINDINGS {
-        let mut groups = GROUPS.iter();
-        match groups.find(|(group, _)| group.contains(&binding.command)) {
-            None => lines.push(Entry::of(binding)),
-            Some((group, help)) if group[0] == binding.command => {
-                let members = group
-                    .iter()
-                    .filter_map(|command| BINDINGS.iter().find(|other| other.command == *command));
-                let keys = members.flat_map(keys).collect();
-                lines.push(Entry { keys, help });
-            }
-            Some(_) => {}
-        }
-    }
-    lines
-}
-
 /// The table of keys for the README.
 pub fn markdown() -> String {
-    let rows = short().into_iter().map(|entry| {
-        let keys: Vec<String> = entry.keys.iter().map(|key| format!("`{key}`")).collect();
-        format!("| {} | {} |\n", keys.join(" "), entry.help)
+    let rows = groups().into_iter().flat_map(|(group, bindings)| {
+        bindings.into_iter().enumerate().map(move |(i, binding)| {
+            let Entry { keys, help } = Entry::of(binding);
+            let keys: Vec<String> = keys.iter().map(|key| format!("`{key}`")).collect();
+            let group = if i == 0 { group } else { "" };
+            format!("| {group} | {} | {help} |\n", keys.join(" "))
+        })
     });
     let rows: String = rows.collect();
-    format!("| key | does |\n|---|---|\n{rows}")
+    format!("| | key | does |\n|---|---|---|\n{rows}")
 }
 
 /// The section on keys of the manual page, in roff.
 pub fn roff() -> String {
     let plain = |text: &str| text.replace('\\', "\\e").replace('-', "\\-");
-    let rows = long().into_iter().map(|entry| {
-        let keys: Vec<String> = entry
-            .keys
-            .iter()
-            .map(|key| format!("\\fB{}\\fR", plain(key)))
-            .collect();
-        // A line that begins with a dot would be a request.
-        format!(".TP\n\\&{}\n\\&{}\n", keys.join(" "), plain(entry.help))
-    });
-    let rows: String = rows.collect();
-    format!(".SH KEYS\nThe explorer obeys these keys.\n{rows}")
+    let mut text = ".SH KEYS\nThe keys of the explorer.\n".to_owned();
+    for (group, bindings) in groups() {
+        text.push_str(&format!(".SS {group}\n"));
+        for Entry { keys, help } in bindings.into_iter().map(Entry::of) {
+            let keys: Vec<String> = keys
+                .iter()
+                .map(|key| format!("\\fB{}\\fR", plain(key)))
+                .collect();
+            // A line that begins with a dot would be a request.
+            text.push_str(&format!(".TP\n\\&{}\n\\&{}\n", keys.join(" "), plain(help)));
+        }
+    }
+    text
 }
 
 #[cfg(test)]
@@ -151,19 +153,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn nothing_is_cut_in_the_help() {
-        for entry in long().into_iter().chain(short()) {
-            assert!(entry.keys.join(" ").chars().count() <= 21, "{entry:?}");
-            assert!(entry.help.chars().count() <= 54, "{entry:?}");
+    fn every_command_stands_in_one_group_and_is_not_cut() {
+        let mut seen = 0;
+        for (_, bindings) in groups() {
+            for entry in bindings.into_iter().map(Entry::of) {
+                assert!(entry.keys.join(" ").chars().count() <= 15, "{entry:?}");
+                assert!(entry.help.chars().count() <= 58, "{entry:?}");
+                seen += 1;
+            }
         }
-        assert!(short().len() <= 20);
+        assert_eq!(seen, BINDINGS.len());
     }
 
     #[test]
     fn every_key_stands_in_every_text() {
-        let (short, markdown, roff) = (short(), markdown(), roff());
+        let (markdown, roff) = (markdown(), roff());
         for key in BINDINGS.iter().flat_map(keys) {
-            assert!(short.iter().any(|entry| entry.keys.contains(&key)), "{key}");
             assert!(markdown.contains(&format!("`{key}`")), "{key}");
             let key = key.replace('-', "\\-");
             assert!(roff.contains(&format!("\\fB{key}\\fR")), "{key}");

@@ -1,48 +1,59 @@
-//! The explorer: a worker thread steps the simulation, an input thread reads the keys, and the
-//! screen is drawn when one of them has something new.
+//! The explorer: a worker thread steps the simulation, an input thread reads the keys, an output
+//! thread writes to the terminal, and the thread between them decides and waits for none of them.
 //!
 //! ```text
-//! keys ── Event ──▶ App ── Order ──▶ worker (Session)
-//!                    ▲                  │
-//!                    └── Event, Frame ──┘
+//!              keys ── Event ──▶ App ── Order ──▶ worker (Session)
+//!                               ▲ │ ▲                │
+//! terminal ◀── output ◀── bytes ──┘ └─ Event, Frame ─┘
 //! ```
+//!
+//! At the end the session is kept within a second, whatever the terminal and the worker are at: the
+//! terminal gets a moment to take its last words, and a worker in the middle of a long step is left
+//! there, with its copy of a moment ago kept in its place.
 
+use std::fs;
 use std::io::{self, IsTerminal};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::sync::atomic::Ordering;
-use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::{Arc, Mutex, TryLockError};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, bail};
-use crossterm::event::{self, KeyEventKind};
-use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGTERM, SIGTSTP};
+use signal_hook::consts::{
+    SIGABRT, SIGALRM, SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SIGUSR1, SIGUSR2,
+    SIGWINCH, SIGXCPU,
+};
 use signal_hook::iterator::Signals;
 
 use crate::scenario::session::Session;
 
+pub mod ansi_backend;
 pub mod app;
+pub mod autosave;
+mod cast;
 pub mod command;
-pub mod companion;
-#[cfg(debug_assertions)]
-pub(crate) mod fault;
+mod comparison;
+mod cycle_loads;
+mod figure;
+mod flow;
 pub mod frame;
-pub mod keeping;
+mod input;
 pub mod keys;
 pub mod layout;
 pub mod line;
 pub mod manual;
+pub mod map;
 pub mod mouse;
 pub mod order;
+mod output;
 pub mod overlays;
 pub mod pace;
 pub mod panels;
-pub(crate) mod panics;
-mod past;
-pub mod plot;
 mod readout;
-mod rival;
+pub mod refinement_check;
 pub mod screen;
 mod script;
 pub mod settings;
@@ -50,40 +61,60 @@ mod snapshot;
 mod suspend;
 mod terminal;
 pub mod theme;
-pub mod theory;
+pub mod tour;
 pub mod trend;
-pub mod trust;
-pub mod wire;
+mod undo;
 pub mod worker;
 
+use crate::plot::Marker;
 use app::{App, Leave};
-use companion::Companion;
+use autosave::ScreenAutosave;
+pub use cast::Cast;
+use flow::When;
 use frame::Slot;
-use keeping::Keeping;
+use input::Waiting;
 use keys::Key;
-use mouse::{Gesture, Mouse};
+use mouse::Gesture;
 use order::Order;
-use plot::Marker;
-pub use script::Size;
+use overlays::Overlay;
+use refinement_check::RefinementCheck;
+pub use script::{Format, Script, Size, Stroke, rehearse};
 pub use terminal::Capture;
-use theme::{Look, Theme};
+use theme::{Depth, Look, Theme};
 use worker::Worker;
+
+/// The preset that is shown where none is named.
+const FIRST: &str = "li2019-fig3";
+
+/// How long the worker may take for the step under way when it is to end.
+const PATIENCE: Duration = Duration::from_millis(500);
+
+/// How long a checkpoint may take that is being written then.
+const PATIENCE_WITH_DISKS: Duration = Duration::from_secs(5);
 
 /// What can happen while the screen waits.
 #[derive(Debug)]
 pub enum Event {
     /// A key was pressed.
     Key(Key),
+    /// Text was pasted.
+    Paste(String),
     /// The mouse was used.
     Point(Gesture),
+    /// The terminal has read a frame.
+    Ready,
+    /// A frame was written.
+    Written,
     /// The terminal has another size.
     Resize,
     /// A frame waits in the slot.
     Frame,
     /// A word for the user.
     Notice(String),
-    /// The companion has come to its end.
-    Companion(Result<Companion, String>),
+    /// The refinement_check has come to its end.
+    RefinementCheck(Result<RefinementCheck, String>),
+    /// A study has begun.
+    Sweep(map::live::Live),
     /// The process is asked to stop for a while.
     Suspend,
     /// The process goes on after it was stopped.
@@ -95,7 +126,6 @@ pub enum Event {
 }
 
 /// What the explorer is opened with.
-#[derive(Debug)]
 pub struct Options {
     /// The session to show.
     pub session: Session,
@@ -113,10 +143,12 @@ pub struct Options {
     pub colored: Option<bool>,
     /// Which colours; by the terminal's own word on its background if not said.
     pub look: Option<Look>,
+    /// Where the session is recorded.
+    pub record: Option<Cast>,
     /// Whom the mouse belongs to.
     pub mouse: Capture,
-    /// Keys to press instead of reading the keyboard, and the size of the screen to print.
-    pub script: Option<(Vec<Key>, Size)>,
+    /// Keys to press instead of reading the keyboard, and the screen to print.
+    pub script: Option<Script>,
 }
 
 /// There is nothing here that the explorer could be shown on.
@@ -139,6 +171,8 @@ pub fn run(options: Options) -> Result<Farewell> {
         refuse_what_is_no_terminal()?;
     }
     let theme = theme(&options);
+    let tour = first_tour(&options);
+    let waiting = Arc::new(Waiting::default());
     let (orders, to_worker) = channel();
     let (events, from_threads) = channel();
     let slot = Arc::new(Slot::default());
@@ -146,7 +180,8 @@ pub fn run(options: Options) -> Result<Farewell> {
     let keeping = options
         .keep_in
         .filter(|_| options.script.is_none())
-        .map(|directory| Keeping::new(directory, options.keep_every, &options.session));
+        .map(|directory| ScreenAutosave::new(directory, options.keep_every, &options.session))
+        .map(|keeping| Arc::new(Mutex::new(keeping)));
     let worker = Worker::new(
         options.session,
         Arc::clone(&slot),
@@ -156,18 +191,32 @@ pub fn run(options: Options) -> Result<Farewell> {
     );
     let halt = worker.halt();
     let mut app = App::new(theme, orders.clone());
-    panics::keep();
-    let thread = spawn_worker(worker, keeping, to_worker, events.clone())?;
-    let outcome = match options.script {
-        Some((keys, size)) => {
-            script::play(&mut app, &keys, size, &orders, &from_threads).map(|()| None)
-        }
-        None => converse(&mut app, options.mouse, &slot, &events, &from_threads),
+    if let Some(origin) = tour {
+        app.begin_tour(&origin);
+    }
+    crate::panics::keep();
+    let kept = spawn_worker(worker, keeping.clone(), to_worker, events.clone())?;
+    let end_worker = || {
+        halt.store(true, Ordering::SeqCst);
+        let _ = orders.send(Order::Quit);
     };
-    halt.store(true, Ordering::Relaxed);
-    let _ = orders.send(Order::Quit);
-    let kept = thread.join().unwrap_or_default();
-    if let Some(word) = panics::word() {
+    let outcome = match options.script {
+        Some(script) => survive(|| {
+            script::play(&mut app, &script, &orders, &from_threads, options.record).map(|()| None)
+        }),
+        None => {
+            let ways = Ways {
+                slot: &slot,
+                events: &events,
+                inbox: &from_threads,
+                waiting: &waiting,
+            };
+            converse(&mut app, options.mouse, &ways, options.record, end_worker)
+        }
+    };
+    end_worker();
+    let kept = farewell(&kept, keeping.as_deref());
+    if let Some(word) = crate::panics::word() {
         let kept = kept.unwrap_or_else(|| "nothing was to be kept".into());
         bail!("a defect in mdr-tui: {word}; {kept}");
     }
@@ -177,36 +226,86 @@ pub fn run(options: Options) -> Result<Farewell> {
     }
 }
 
-/// Draws and listens until told to leave; returns the last screen if it is to stay.
+/// The preset whose tour begins by itself: the default one, the first time that it is on a screen.
+fn first_tour(options: &Options) -> Option<String> {
+    let origin = options.session.loaded().origin();
+    let is_new = options.script.is_none() && options.running && origin == FIRST;
+    let seen = options
+        .keep_in
+        .as_ref()
+        .filter(|_| is_new)?
+        .join("tour-seen");
+    // Where no file can be written, it would begin each time.
+    let first = !seen.exists()
+        && seen
+            .parent()
+            .is_some_and(|parent| fs::create_dir_all(parent).is_ok())
+        && fs::write(&seen, "The tour of the default preset has begun once.\n").is_ok();
+    first.then(|| origin.to_owned())
+}
+
+/// What the worker has to say of what it has kept. One that is in the middle of a long step is not
+/// waited for: its copy of a moment ago is kept.
+fn farewell(
+    kept: &Receiver<Option<String>>,
+    keeping: Option<&Mutex<ScreenAutosave>>,
+) -> Option<String> {
+    match kept.recv_timeout(PATIENCE) {
+        Ok(word) => return word,
+        Err(RecvTimeoutError::Disconnected) => return None,
+        Err(RecvTimeoutError::Timeout) => {}
+    }
+    match keeping?.try_lock() {
+        Ok(mut keeping) => keeping.finish(None),
+        Err(TryLockError::Poisoned(keeping)) => keeping.into_inner().finish(None),
+        // It is being kept: on a slow disk that takes a while.
+        Err(TryLockError::WouldBlock) => kept.recv_timeout(PATIENCE_WITH_DISKS).ok().flatten(),
+    }
+}
+
+/// How those who decide hear of the others.
+struct Ways<'a> {
+    slot: &'a Slot,
+    events: &'a Sender<Event>,
+    inbox: &'a Receiver<Event>,
+    waiting: &'a Arc<Waiting>,
+}
+
+/// Draws and listens until told to leave, and then has the worker end beside what the terminal still
+/// needs; returns the last screen if it is to stay.
 fn converse(
     app: &mut App,
     mouse: Capture,
-    slot: &Slot,
-    events: &Sender<Event>,
-    inbox: &Receiver<Event>,
+    ways: &Ways,
+    record: Option<Cast>,
+    end_worker: impl Fn(),
 ) -> Result<Option<String>> {
-    listen_for_signals(events.clone())?;
-    let mut screen = terminal::Screen::open(mouse).context("cannot take over the terminal")?;
-    listen_for_hands(events.clone(), mouse);
-    let outcome = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
-        attend(app, slot, inbox, &mut screen)
-    }));
-    drop(screen);
-    let Ok(outcome) = outcome else {
-        // The panic's own word is told by the caller.
-        return Ok(None);
-    };
+    listen_for_signals(ways.events.clone(), Arc::clone(ways.waiting))?;
+    let screen = terminal::Screen::open(mouse, ways.events.clone());
+    let mut screen = screen.context("cannot take over the terminal")?;
+    let (events, waiting) = (ways.events.clone(), Arc::clone(ways.waiting));
+    thread::spawn(move || input::listen(&events, &waiting, mouse));
+    let outcome = survive(|| attend(app, ways, &mut screen, record));
+    end_worker();
+    hear_out(&mut screen, ways.inbox);
+    let is_restored = screen.give_back();
     match outcome {
         // A terminal that goes away while it is drawn on has hung up; nothing has failed.
         Err(_) if !io::stdout().is_terminal() => return Ok(None),
         outcome => outcome?,
     }
-    if app.leave != Some(Leave::KeepScreen) {
+    if app.leave != Some(Leave::KeepScreen) || !is_restored {
         return Ok(None);
     }
     let (columns, rows) = crossterm::terminal::size()?;
     let rows = rows.saturating_sub(1);
     Ok(Some(script::text(app, Size { columns, rows })))
+}
+
+/// Carries out `action`. A panic in it is told by the caller of [`converse`], when the terminal is
+/// itself again.
+fn survive<T: Default>(action: impl FnOnce() -> Result<T>) -> Result<T> {
+    catch_unwind(AssertUnwindSafe(action)).unwrap_or_else(|_| Ok(T::default()))
 }
 
 /// Fits the screen and the app to the terminal's present size.
@@ -217,32 +316,79 @@ fn refit(app: &mut App, screen: &mut terminal::Screen) -> Result<()> {
     Ok(())
 }
 
+/// Waits for what the terminal is to answer yet, so that no shell gets it.
+fn hear_out(screen: &mut terminal::Screen, inbox: &Receiver<Event>) {
+    let end = Instant::now() + PATIENCE;
+    while screen.flow().is_awaited(Instant::now()) {
+        match inbox.recv_timeout(end.saturating_duration_since(Instant::now())) {
+            Ok(Event::Ready) => screen.flow().answered(Instant::now()),
+            Ok(_) => {}
+            Err(_) => return,
+        }
+    }
+}
+
 fn attend(
     app: &mut App,
-    slot: &Slot,
-    inbox: &Receiver<Event>,
+    ways: &Ways,
     screen: &mut terminal::Screen,
+    mut record: Option<Cast>,
 ) -> Result<()> {
     let (columns, rows) = crossterm::terminal::size()?;
     app.resize(columns, rows);
-    screen.draw(app)?;
+    let mut is_due = !screen.draw(app)?;
     // Between the order to stop and the word that the process goes on, the screen is the shell's.
     let mut is_away = false;
-    while let Ok(first) = inbox.recv() {
+    loop {
+        let wait = match screen.when() {
+            When::At(then) if is_due && !is_away => {
+                Some(then.saturating_duration_since(Instant::now()))
+            }
+            _ => None,
+        };
+        let first = match wait {
+            Some(wait) => match ways.inbox.recv_timeout(wait) {
+                Err(RecvTimeoutError::Disconnected) => return Ok(()),
+                event => event.ok(),
+            },
+            None => match ways.inbox.recv() {
+                Err(_) => return Ok(()),
+                event => event.ok(),
+            },
+        };
         #[cfg(debug_assertions)]
-        fault::strike("screen");
+        crate::failpoint::hit("screen");
         // Whatever else has come in is answered with the same drawing.
-        for event in std::iter::once(first).chain(inbox.try_iter()) {
+        for event in first.into_iter().chain(ways.inbox.try_iter()) {
+            if ways.waiting.is_over() {
+                return Ok(());
+            }
+            is_due |= !matches!(event, Event::Ready | Event::Written);
             match event {
-                Event::Key(key) => app.press(key),
-                Event::Point(gesture) => app.point(gesture),
+                Event::Key(key) => {
+                    ways.waiting.leave();
+                    screen.flow().hurry(Instant::now());
+                    app.press(key);
+                }
+                Event::Paste(text) => {
+                    ways.waiting.leave();
+                    screen.flow().hurry(Instant::now());
+                    app.paste(&text);
+                }
+                Event::Point(gesture) => {
+                    screen.flow().hurry(Instant::now());
+                    app.point(gesture);
+                }
+                Event::Ready => screen.flow().answered(Instant::now()),
+                Event::Written => screen.flow().written(),
                 Event::Frame => {
-                    if let Some(frame) = slot.take() {
+                    if let Some(frame) = ways.slot.take() {
                         app.take_frame(frame);
                     }
                 }
                 Event::Notice(text) => app.notice = Some(text),
-                Event::Companion(answer) => app.companion = Some(answer),
+                Event::RefinementCheck(answer) => app.refinement_check = Some(answer),
+                Event::Sweep(live) => app.overlay = Overlay::Sweep(live),
                 Event::Resize if is_away => {}
                 Event::Suspend => app.suspend = true,
                 Event::Resize => refit(app, screen)?,
@@ -253,11 +399,18 @@ fn attend(
                 }
                 Event::HangUp | Event::WorkerGone => return Ok(()),
             }
+            if app.leave.is_some() {
+                return Ok(());
+            }
         }
-        if app.leave.is_some() {
-            return Ok(());
+        if ways.waiting.has_dropped() {
+            app.notice = Some("more keys came than could be answered; some were dropped".into());
         }
         if std::mem::take(&mut app.suspend) && !is_away {
+            hear_out(screen, ways.inbox);
+            if ways.waiting.is_over() {
+                return Ok(());
+            }
             screen.give_back();
             is_away = suspend::stop();
             if !is_away {
@@ -265,11 +418,15 @@ fn attend(
                 screen.take_back()?;
             }
         }
-        if !is_away {
-            screen.draw(app)?;
+        if !is_away && is_due && screen.when() == When::Now {
+            is_due = !screen.draw(app)?;
+            // A recording that fails ends; the session goes on.
+            if let Some(Err(error)) = record.as_mut().map(|cast| cast.frame(app)) {
+                app.notice = Some(format!("the recording has ended: {error}"));
+                record = None;
+            }
         }
     }
-    Ok(())
 }
 
 /// Says so when it ends, whichever way it ends.
@@ -281,56 +438,42 @@ impl Drop for LastWord {
     }
 }
 
+/// Starts the worker; what it has to say at its end of what it has kept comes from what is returned.
 fn spawn_worker(
     worker: Worker,
-    keeping: Option<Keeping>,
+    keeping: Option<Arc<Mutex<ScreenAutosave>>>,
     orders: Receiver<Order>,
     events: Sender<Event>,
-) -> Result<thread::JoinHandle<Option<String>>> {
+) -> Result<Receiver<Option<String>>> {
+    let (tell, kept) = channel();
     thread::Builder::new()
         .name("simulation".into())
         .spawn(move || {
             let _last_word = LastWord(events);
-            worker.serve_and_keep(&orders, keeping)
+            let _ = tell.send(worker.serve_and_keep(&orders, keeping));
         })
-        .context("cannot start the simulation's thread")
+        .context("cannot start the simulation's thread")?;
+    Ok(kept)
 }
 
-/// Reads keyboard and mouse until the terminal is gone. The thread ends with the process.
-fn listen_for_hands(events: Sender<Event>, capture: Capture) {
-    thread::spawn(move || {
-        let mut mouse = Mouse::default();
-        loop {
-            let event = match event::read() {
-                Ok(event::Event::Key(key)) if key.kind != KeyEventKind::Release => {
-                    Key::of_event(&key).map(Event::Key)
-                }
-                Ok(event::Event::Mouse(event)) if capture == Capture::Clicks => {
-                    mouse.gesture(&event, Instant::now()).map(Event::Point)
-                }
-                Ok(event::Event::Resize(_, _)) => Some(Event::Resize),
-                Ok(_) => None,
-                Err(_) => Some(Event::HangUp),
-            };
-            let over = matches!(event, Some(Event::HangUp));
-            if event.is_some_and(|event| events.send(event).is_err()) || over {
-                return;
-            }
-        }
-    });
-}
-
-/// SIGTERM, SIGINT and SIGHUP end the explorer as `q` does; SIGTSTP and SIGCONT stop it and have it
-/// go on.
-fn listen_for_signals(events: Sender<Event>) -> Result<()> {
-    let mut signals = Signals::new([SIGTERM, SIGINT, SIGHUP, SIGTSTP, SIGCONT])
-        .context("cannot listen for signals")?;
+/// Signals that ask a process to end do so as `q` does, before all keys that wait; SIGTSTP and SIGCONT
+/// stop it and have it go on.
+fn listen_for_signals(events: Sender<Event>, waiting: Arc<Waiting>) -> Result<()> {
+    let mut signals = Signals::new([
+        SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGABRT, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU, SIGTSTP,
+        SIGCONT, SIGWINCH,
+    ])
+    .context("cannot listen for signals")?;
     thread::spawn(move || {
         for signal in signals.forever() {
             let event = match signal {
                 SIGTSTP => Event::Suspend,
                 SIGCONT => Event::Continue,
-                _ => Event::HangUp,
+                SIGWINCH => Event::Resize,
+                _ => {
+                    waiting.end();
+                    Event::HangUp
+                }
             };
             if events.send(event).is_err() {
                 return;
@@ -353,22 +496,34 @@ fn refuse_what_is_no_terminal() -> Result<(), NoTerminal> {
 }
 
 fn theme(options: &Options) -> Theme {
+    let theme = theme_of(options.marker, options.colored, options.look);
+    let is_picture = |script: &Script| script.format == Format::Svg;
+    match options.script.as_ref().is_some_and(is_picture) {
+        true => theme.with_depth(Depth::True),
+        false => theme,
+    }
+}
+
+/// The theme of this terminal, as far as nothing else is asked for.
+pub fn theme_of(marker: Option<Marker>, colored: Option<bool>, look: Option<Look>) -> Theme {
     let no_color = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
-    let colored = options.colored.unwrap_or(!no_color);
+    let colored = colored.unwrap_or(!no_color);
     // The console of Linux has half blocks in its fonts, but no Braille.
     let is_console = std::env::var("TERM").is_ok_and(|term| term == "linux");
-    let marker = options.marker.unwrap_or(match utf8_locale() {
+    let marker = marker.unwrap_or(match utf8_locale() {
         true if is_console => Marker::HalfBlock,
         true => Marker::Braille,
         false => Marker::Ascii,
     });
-    let look = match options.look {
+    let look = match look {
         _ if !colored => Look::Mono,
         Some(look) => look,
         None if light_background() => Look::Light,
         None => Look::Dark,
     };
-    Theme::new(look, marker)
+    let variable = |name: &str| std::env::var(name).unwrap_or_default();
+    let depth = Depth::of(&variable("COLORTERM"), &variable("TERM"));
+    Theme::new(look, marker).with_depth(depth)
 }
 
 /// Whether the terminal says that its background is light: the last number of COLORFGBG.

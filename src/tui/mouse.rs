@@ -65,7 +65,10 @@ impl App {
     /// Answers the mouse.
     pub fn point(&mut self, gesture: Gesture) {
         match (gesture, &self.overlay) {
-            (Gesture::WheelUp | Gesture::WheelDown, Overlay::None | Overlay::Accuracy) => {}
+            (
+                Gesture::WheelUp | Gesture::WheelDown,
+                Overlay::None | Overlay::Accuracy | Overlay::Checks,
+            ) => {}
             (Gesture::WheelUp, _) => self.press(Key::Named(Named::Up)),
             (Gesture::WheelDown, _) => self.press(Key::Named(Named::Down)),
             (Gesture::Click(at), Overlay::None) => self.click(at, false),
@@ -79,7 +82,11 @@ impl App {
     fn click(&mut self, at: Position, is_second: bool) {
         self.notice = None;
         self.is_new = false;
-        let Some(frame) = self.frame.clone().filter(|frame| frame.rival.is_none()) else {
+        let Some(frame) = self
+            .frame
+            .clone()
+            .filter(|frame| frame.comparison.is_none())
+        else {
             return;
         };
         let Some([_, area, _]) = layout::bands(self.area) else {

@@ -1,9 +1,11 @@
 //! What the explorer can ask of the worker: the only arrow back from the screen.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
 
 use super::frame::Frame;
+use super::map::live::Range;
 use crate::scenario::Scenario;
 use crate::simulation::Curves;
 
@@ -45,10 +47,18 @@ pub enum Order {
     Load(Box<Scenario>),
     /// Write the state to files, with a note if there is one.
     Snapshot(Option<String>),
+    /// Draw a figure of the state into a file, its data beside it.
+    Figure(PathBuf),
     /// Begin or end the comparison with another method.
     Compare,
-    /// Run the companion on half the cells.
-    Companion,
+    /// The same, begun at the start of the scenario.
+    CompareFromStart,
+    /// Take the frames of a fast run at one phase of the motion, or as they come.
+    HoldPhase,
+    /// Run the refinement_check on half the cells.
+    RefinementCheck,
+    /// Run a study over a range of one key, up to the present cycle.
+    Sweep(Range),
     /// Compute these curves from now on.
     Show(Curves),
     /// Answer with a frame when all orders before are carried out.

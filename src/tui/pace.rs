@@ -14,8 +14,19 @@ pub enum Pace {
 impl Pace {
     /// The slowest rung.
     pub const SLOWEST: i32 = -3;
+    /// The rung to begin with: half a cycle per second, at which one sees it rub.
+    pub const START: i32 = -1;
     /// The rung without limit.
     pub const UNLIMITED: i32 = 15;
+
+    /// Whether frames at this pace would show an arbitrary phase of the motion each, so that it seems to
+    /// creep or to run backwards: above two cycles per second.
+    pub fn blurs_motion(self) -> bool {
+        match self {
+            Self::Cycles(pace) => pace > 2.0,
+            Self::Unlimited => true,
+        }
+    }
 
     /// 1, 2, 5, 10, … cycles a second by rung; the last rung is without limit.
     pub fn of_rung(rung: i32) -> Self {
@@ -113,5 +124,7 @@ mod tests {
         assert_eq!(paces, expected);
         assert_eq!(Pace::of_rung(-1), Pace::Cycles(0.5));
         assert_eq!(Pace::of_rung(Pace::UNLIMITED), Pace::Unlimited);
+        assert_eq!(Pace::of_rung(Pace::START), Pace::Cycles(0.5));
+        assert!(!Pace::of_rung(1).blurs_motion() && Pace::of_rung(2).blurs_motion());
     }
 }

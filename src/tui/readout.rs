@@ -1,8 +1,8 @@
 //! The values of all curves at the cursor, in a line.
 
 use super::frame::Frame;
-use super::plot::Curve;
-use super::plot::units::{format_value_in, to_ascii};
+use crate::plot::Curve;
+use crate::plot::units::{format_value_in, to_ascii};
 use crate::simulation::Zone;
 
 /// Significant digits.

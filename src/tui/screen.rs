@@ -1,7 +1,7 @@
 //! The whole screen: a status line, the panels, a line of keys, and what lies over them.
 //!
 //! ```text
-//! Fig. 3 ...    a | archard | cycle 50.72 of 199.24 | 10 cycles/s | running
+//! running | cycle 50.72/199.24 | 0.5 cycles/s | product | archard        Fig. 3 ...
 //! - 3D profile ----------------------- - stresses ---------------------------
 //!   plot                                 plot
 //! - 1D profile ----------------------- - fretting loop ----------------------
@@ -17,7 +17,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Paragraph, Widget};
 
 use super::app::App;
-use super::command::BINDINGS;
+use super::command::{BINDINGS, Binding, Command};
 use super::frame::{Activity, Frame};
 use super::layout;
 use super::overlays::Overlay;
@@ -25,10 +25,11 @@ use super::pace::Pace;
 use super::panels::compare;
 use super::readout;
 use super::theme::Role;
-use super::trust;
+use crate::simulation::verdict;
 
 /// What somebody sees who has not pressed a key yet.
-const HINT: &str = " New here? Space pauses, v shows more, : lists all commands.   ? help   q quit";
+const HINT: &str =
+    " Space pauses, + runs faster, Enter explains a panel, n: a tour.   ? help   q quit";
 
 /// Draws everything.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
@@ -52,17 +53,20 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
 }
 
 fn panels(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
-    if let Some(rival) = &frame.rival {
-        compare::draw(frame, rival, app, area, buffer);
+    if let Some(comparison) = &frame.comparison {
+        compare::draw(frame, comparison, app, area, buffer);
         return;
     }
     for (panel, place) in layout::places(app, area) {
         panel.draw(frame, app, place, buffer);
     }
+    if let (Some(tour), (_, Some(place))) = (&app.tour, layout::with_tour(app, area)) {
+        tour.draw(app, place, buffer);
+    }
 }
 
-/// Title on the left, what runs and how on the right. On a narrow screen the title gives way, then
-/// the parts that are missed least.
+/// What runs and how on the left, each in a slot of a fixed width, and the title on the right. On a narrow
+/// screen the title gives way, then the parts that are missed least.
 fn status(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     let bar = app.theme.style(Role::Bar);
     buffer.set_style(area, bar);
@@ -75,23 +79,38 @@ fn status(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
         let least = parts
             .iter()
             .enumerate()
-            .min_by_key(|(_, (weight, _))| *weight)
+            .min_by_key(|(_, part)| part.weight)
             .map_or(0, |(at, _)| at);
         parts.remove(least);
     }
-    let right = parts_text(&parts, separator);
-    let room = usize::from(area.width).saturating_sub(Line::raw(right.as_str()).width() + 3);
+    let left = parts_text(&parts, separator);
+    let room = usize::from(area.width).saturating_sub(Line::raw(left.as_str()).width() + 4);
     let title = shortened(app.theme.printable(&frame.title), room);
-    Line::styled(format!(" {title}"), bar).render(area, buffer);
-    Line::styled(format!("{right} "), bar)
+    Line::styled(format!(" {left}"), bar).render(area, buffer);
+    Line::styled(format!("{title} "), bar)
         .right_aligned()
-        .render(area, buffer);
+        .render(
+            Rect {
+                x: area.right() - (room as u16 + 1).min(area.width),
+                width: (room as u16 + 1).min(area.width),
+                ..area
+            },
+            buffer,
+        );
 }
 
-fn parts_text(parts: &[(u8, String)], separator: &str) -> String {
+/// A part of the status line: the parts of least weight give way first.
+struct Part {
+    weight: u8,
+    text: String,
+    /// The least width of its slot, cells.
+    width: usize,
+}
+
+fn parts_text(parts: &[Part], separator: &str) -> String {
     parts
         .iter()
-        .map(|(_, text)| text.as_str())
+        .map(|part| format!("{:1$}", part.text, part.width))
         .collect::<Vec<_>>()
         .join(separator)
 }
@@ -110,21 +129,25 @@ fn shortened(mut text: String, room: usize) -> String {
     text + ".."
 }
 
-/// What the status line says, each part with its weight.
-fn status_parts(frame: &Frame, ascii: bool) -> Vec<(u8, String)> {
+/// What the status line says, the state first.
+fn status_parts(frame: &Frame, ascii: bool) -> Vec<Part> {
     let moment = &frame.observation.moment;
-    let law = frame.observation.law.unwrap_or("no wear");
     let mut cycle = format!("cycle {:.2}", moment.cycle);
+    let mut widest = "cycle 0000.00".len();
     if let Some(planned) = frame.planned_cycles {
         cycle.push_str(&format!("/{planned}"));
+        widest = format!("cycle {planned:.2}/{planned}").len();
     }
-    let pace = match (frame.speed, frame.pace) {
+    let mut pace = match (frame.speed, frame.pace) {
         (Some(speed), _) => format!("{} cycles/s", short(speed)),
         (None, Pace::Cycles(pace)) => format!("{} cycles/s", short(pace)),
         (None, Pace::Unlimited) => "unlimited".into(),
     };
-    if let Some(present) = frame.present {
-        cycle.push_str(&format!(" (present {present:.2})"));
+    let mut pace_width = "0.5 cycles/s".len();
+    if let Some(phase) = frame.phase {
+        let degrees = if ascii { " deg" } else { "°" };
+        pace.push_str(&format!(", phase {phase:.0}{degrees}"));
+        pace_width = pace.len().max("1000 cycles/s, phase 90°".len());
     }
     let activity = match (&frame.activity, ascii) {
         (Activity::Paused, false) if frame.present.is_some() => "◂ past",
@@ -137,14 +160,27 @@ fn status_parts(frame: &Frame, ascii: bool) -> Vec<(u8, String)> {
         (Activity::Done, true) => "# done",
         (Activity::Stopped(_), _) => "! stopped",
     };
+    let part = |weight, text: String, width| Part {
+        weight,
+        text,
+        width,
+    };
+    let law = frame.observation.law.unwrap_or("no wear");
     let mut parts = vec![
-        (4, frame.observation.method.to_string()),
-        (3, law.into()),
-        (5, cycle),
-        (1, pace),
+        part(6, activity.into(), 9),
+        part(5, cycle, widest),
+        part(4, pace, pace_width),
+        part(3, frame.observation.method.to_string(), 7),
+        part(1, law.into(), 7),
     ];
-    parts.extend(trust::figure(frame).map(|figure| (2, format!("trust {figure}"))));
-    parts.push((6, activity.into()));
+    parts.extend(verdict(&frame.checks).map(|verdict| part(2, verdict, 12)));
+    let outside = |warning: &String| warning.starts_with("outside");
+    if frame.warnings.iter().any(outside) {
+        parts.push(part(2, "! outside of the theory".into(), 0));
+    }
+    if let Some(present) = frame.present {
+        parts.insert(2, part(4, format!("present {present:.2}"), 0));
+    }
     parts
 }
 
@@ -179,7 +215,7 @@ fn footer(app: &App, area: Rect, buffer: &mut Buffer) {
         Line::styled(format!(" {text}"), app.theme.style(role)).render(area, buffer);
         return;
     }
-    if app.is_new && HINT.len() <= usize::from(area.width) {
+    if app.is_new && app.tour.is_none() && HINT.len() <= usize::from(area.width) {
         Line::styled(HINT, app.theme.style(Role::Notice)).render(area, buffer);
         return;
     }
@@ -191,17 +227,17 @@ fn footer(app: &App, area: Rect, buffer: &mut Buffer) {
     }
     let mut spans = Vec::new();
     let mut left = usize::from(area.width);
-    // Help and quit are always there; the others as far as they fit.
-    let in_footer = || BINDINGS.iter().filter(|binding| binding.in_footer);
-    let reserved: usize = in_footer()
+    let commands = footer_commands(app);
+    // Help and quit, the last two, are always there; the others as far as they fit.
+    let reserved: usize = commands
+        .iter()
         .rev()
         .take(2)
-        .map(|binding| footer_width(binding.name, binding.keys))
+        .map(|(binding, name)| footer_width(name, binding.keys))
         .sum();
-    let count = in_footer().count();
-    for (i, binding) in in_footer().enumerate() {
-        let width = footer_width(binding.name, binding.keys);
-        if i + 2 < count && width + reserved > left {
+    for (i, (binding, name)) in commands.iter().enumerate() {
+        let width = footer_width(name, binding.keys);
+        if i + 2 < commands.len() && width + reserved > left {
             continue;
         }
         left = left.saturating_sub(width);
@@ -215,11 +251,62 @@ fn footer(app: &App, area: Rect, buffer: &mut Buffer) {
             app.theme.style(Role::Title),
         ));
         spans.push(Span::styled(
-            format!(" {}", binding.name),
+            format!(" {name}"),
             app.theme.style(Role::Quiet),
         ));
     }
     Line::from(spans).render(area, buffer);
+}
+
+/// The commands that the footer shows in the present mode, with the name they have in it.
+fn footer_commands(app: &App) -> Vec<(&'static Binding, &'static str)> {
+    let frame = app.frame.as_deref();
+    let past: &[(Command, &str)] = &[
+        (Command::TimeBack, "back"),
+        (Command::TimeForth, "forward"),
+        (Command::RunPause, "run on from here"),
+        (Command::Edit, "change from here"),
+        (Command::Mark, "mark"),
+        (Command::Visit, "go to a mark"),
+    ];
+    let compare: &[(Command, &str)] = &[
+        (Command::NextMethod, "other method"),
+        (Command::CompareFromStart, "from the start"),
+        (Command::Compare, "end comparison"),
+        (Command::RunPause, "run/pause"),
+        (Command::Step, "step"),
+        (Command::Cycle, "cycle"),
+    ];
+    let tour: &[(Command, &str)] = &[
+        (Command::Tour, "next caption"),
+        (Command::Back, "close the tour"),
+        (Command::RunPause, "run/pause"),
+        (Command::Faster, "faster"),
+        (Command::Accept, "explain"),
+    ];
+    let mode = match frame {
+        Some(frame) if frame.comparison.is_some() => Some(compare),
+        Some(frame) if frame.present.is_some() => Some(past),
+        _ if app.tour.is_some() => Some(tour),
+        _ => None,
+    };
+    let of = |command: Command| BINDINGS.iter().find(|binding| binding.command == command);
+    let always = [Command::Help, Command::Quit];
+    let Some(mode) = mode else {
+        return BINDINGS
+            .iter()
+            .filter(|binding| binding.in_footer)
+            .map(|binding| (binding, binding.name))
+            .collect();
+    };
+    let named = mode
+        .iter()
+        .filter_map(|&(command, name)| Some((of(command)?, name)));
+    let always = always
+        .into_iter()
+        .filter_map(of)
+        .map(|binding| (binding, binding.name));
+    named.chain(always).collect()
 }
 
 fn footer_width(name: &str, keys: &[super::keys::Key]) -> usize {

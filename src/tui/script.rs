@@ -2,7 +2,9 @@
 
 use std::io::{self, Write};
 use std::str::FromStr;
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
+use std::time::Duration;
 
 use anyhow::{Context, Result};
 use ratatui::buffer::Buffer;
@@ -11,9 +13,16 @@ use ratatui::text::Line;
 
 use super::Event;
 use super::app::App;
-use super::keys::Key;
+use super::cast::Cast;
+use super::frame::Slot;
+use super::keys::{self, Key};
 use super::order::Order;
+use super::overlays::Overlay;
 use super::screen;
+use super::theme::{Look, Theme};
+use super::worker::Worker;
+use crate::plot::screen_svg::{self, Ground};
+use crate::scenario::session::Session;
 
 /// A size of the screen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,26 +52,146 @@ impl FromStr for Size {
     }
 }
 
+/// What is printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// The text of the screen.
+    Text,
+    /// A picture of it, with its colours.
+    Svg,
+}
+
+/// Keys to press, and the screen to print after them.
+#[derive(Debug, Clone)]
+pub struct Script {
+    /// The keys.
+    pub strokes: Vec<Stroke>,
+    /// The size of the screen.
+    pub size: Size,
+    /// Text or picture.
+    pub format: Format,
+}
+
+/// What a script does: press a key, paste a text, give the screen another size.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Stroke {
+    /// A key.
+    Key(Key),
+    /// `<paste:TEXT>`
+    Paste(String),
+    /// `<resize:COLUMNSxROWS>`
+    Resize(Size),
+}
+
+impl Stroke {
+    /// Reads a script in the notation of [`keys`], with `<paste:TEXT>` and `<resize:80x24>` beside; an
+    /// error says what could not be read.
+    pub fn script(script: &str) -> Result<Vec<Self>, String> {
+        let mut strokes = Vec::new();
+        let mut rest = script;
+        loop {
+            let marks = ["<paste:", "<resize:"].map(|mark| (mark, rest.find(mark)));
+            let next = marks.into_iter().filter_map(|(mark, at)| Some((at?, mark)));
+            let Some((at, mark)) = next.min() else {
+                break;
+            };
+            strokes.extend(keys::parse_script(&rest[..at])?.into_iter().map(Self::Key));
+            let (given, after) = rest[at + mark.len()..]
+                .split_once('>')
+                .ok_or_else(|| format!("--keys: {mark} has no end; it ends with >"))?;
+            strokes.push(match mark {
+                "<paste:" => Self::Paste(given.to_owned()),
+                _ => Self::Resize(given.parse().map_err(|error| format!("--keys: {error}"))?),
+            });
+            rest = after;
+        }
+        strokes.extend(keys::parse_script(rest)?.into_iter().map(Self::Key));
+        Ok(strokes)
+    }
+}
+
+/// Plays a script to an explorer of its own and returns its last screen. A panic in it goes on here.
+///
+/// # Errors
+///
+/// If the explorer cannot be started or ends too soon.
+pub fn rehearse(session: Session, theme: Theme, strokes: &[Stroke], size: Size) -> Result<String> {
+    let (orders, to_worker) = channel();
+    let (events, inbox) = channel();
+    let slot = Arc::new(Slot::default());
+    let worker = Worker::new(session, slot, events, Duration::MAX, false);
+    let thread = std::thread::spawn(move || worker.serve(&to_worker));
+    let mut app = App::new(theme, orders.clone());
+    let outcome = press(&mut app, strokes, size, &orders, &inbox, &mut None);
+    let _ = orders.send(Order::Quit);
+    if let Err(panic) = thread.join() {
+        std::panic::resume_unwind(panic);
+    }
+    outcome.map(|size| text(&app, size))
+}
+
 /// Presses the keys one by one, each after the simulation has answered the one before, and prints
 /// the last screen.
 pub fn play(
     app: &mut App,
-    keys: &[Key],
-    size: Size,
+    script: &Script,
     orders: &Sender<Order>,
     events: &Receiver<Event>,
+    mut record: Option<Cast>,
 ) -> Result<()> {
+    #[cfg(debug_assertions)]
+    crate::failpoint::hit("script");
+    let size = press(
+        app,
+        &script.strokes,
+        script.size,
+        orders,
+        events,
+        &mut record,
+    )?;
+    let screen = match script.format {
+        Format::Text => text(app, size),
+        Format::Svg => picture(app, size),
+    };
+    io::stdout().lock().write_all(screen.as_bytes())?;
+    Ok(())
+}
+
+/// Does what the script says, draws the screen after each stroke as a terminal would have it, and
+/// returns the size that it has in the end.
+fn press(
+    app: &mut App,
+    strokes: &[Stroke],
+    mut size: Size,
+    orders: &Sender<Order>,
+    events: &Receiver<Event>,
+    record: &mut Option<Cast>,
+) -> Result<Size> {
+    let mut seen = |app: &App| -> Result<()> {
+        let recorded = record.as_mut().map(|cast| cast.frame(app));
+        recorded.transpose().context("the recording has ended")?;
+        Ok(())
+    };
     app.resize(size.columns, size.rows);
     catch_up(app, orders, events)?;
-    for key in keys {
-        app.press(*key);
+    seen(app)?;
+    for stroke in strokes {
+        match stroke {
+            Stroke::Key(key) => app.press(*key),
+            Stroke::Paste(text) => app.paste(text),
+            Stroke::Resize(other) => {
+                size = *other;
+                app.resize(size.columns, size.rows);
+            }
+        }
         catch_up(app, orders, events)?;
+        seen(app)?;
         if app.leave.is_some() {
             break;
         }
+        text(app, size);
     }
-    io::stdout().lock().write_all(text(app, size).as_bytes())?;
-    Ok(())
+    Ok(size)
 }
 
 fn catch_up(app: &mut App, orders: &Sender<Order>, events: &Receiver<Event>) -> Result<()> {
@@ -71,29 +200,53 @@ fn catch_up(app: &mut App, orders: &Sender<Order>, events: &Receiver<Event>) -> 
         .send(Order::Sync(reply))
         .context("the simulation has ended")?;
     app.take_frame(answer.recv().context("the simulation has ended")?);
-    // The companion is waited for, so that a script always sees its answer.
+    // The refinement_check is waited for, so that a script always sees its answer.
     while app.awaits_companion() {
-        if let Event::Companion(answer) = events.recv().context("the simulation has ended")? {
-            app.companion = Some(answer);
+        if let Event::RefinementCheck(answer) = events.recv().context("the simulation has ended")? {
+            app.refinement_check = Some(answer);
         }
     }
     while let Ok(event) = events.try_recv() {
         match event {
             Event::Notice(text) => app.notice = Some(text),
-            Event::Companion(answer) => app.companion = Some(answer),
+            Event::RefinementCheck(answer) => app.refinement_check = Some(answer),
+            Event::Sweep(live) => {
+                // A script sees all points.
+                live.finish();
+                app.overlay = Overlay::Sweep(live);
+            }
             _ => {}
         }
     }
     Ok(())
 }
 
-/// The screen as lines of text, trailing blanks cut.
-pub fn text(app: &App, size: Size) -> String {
+/// The screen as it is drawn.
+fn drawn(app: &App, size: Size) -> Buffer {
     let area = Rect::new(0, 0, size.columns, size.rows);
     let mut buffer = Buffer::empty(area);
     screen::draw(app, area, &mut buffer);
+    buffer
+}
+
+/// The screen as an SVG picture.
+fn picture(app: &App, size: Size) -> String {
+    let ground = match app.theme.look {
+        Look::Light => Ground::LIGHT,
+        Look::Dark | Look::Mono => Ground::DARK,
+    };
+    screen_svg::picture(&drawn(app, size), ground)
+}
+
+/// The screen as lines of text, trailing blanks cut.
+pub fn text(app: &App, size: Size) -> String {
+    lines(&drawn(app, size))
+}
+
+/// A drawn screen as lines of text, trailing blanks cut.
+pub fn lines(buffer: &Buffer) -> String {
     let mut text = String::new();
-    for row in area.rows() {
+    for row in buffer.area.rows() {
         let mut line = String::new();
         let mut covered = 0;
         for at in row.positions() {
@@ -110,4 +263,28 @@ pub fn text(app: &App, size: Size) -> String {
         text.push('\n');
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scripts_paste_and_resize() {
+        let strokes = Stroke::script(":<paste:set a=<1><Enter><resize:40x10>q").expect("a script");
+        let expected = [
+            Stroke::Key(Key::Char(':')),
+            Stroke::Paste("set a=<1".into()),
+            Stroke::Key(Key::Named(keys::Named::Enter)),
+            Stroke::Resize(Size {
+                columns: 40,
+                rows: 10,
+            }),
+            Stroke::Key(Key::Char('q')),
+        ];
+        assert_eq!(strokes, expected);
+        for script in ["<paste:no end", "<resize:0x10>", "a<Nope>", "<resize:"] {
+            Stroke::script(script).expect_err(script);
+        }
+    }
 }

@@ -1,7 +1,8 @@
 //! The keys of a scenario that can be changed while it runs, with their present values.
 
-use crate::scenario::Scenario;
-use crate::scenario::parameters::{Kind, PARAMETERS, Parameter};
+use crate::scenario::keys::{PARAMETERS, PRESCRIBED};
+use crate::scenario::schema::{Kind, Parameter};
+use crate::scenario::{Scenario, units};
 
 /// A key of the scenario as the explorer shows it.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,6 +22,8 @@ impl Setting {
         PARAMETERS
             .iter()
             .filter(|parameter| !fixed.contains(&parameter.section()))
+            // Long lists come from files and are no values to type.
+            .filter(|parameter| parameter.kind != Kind::Numbers)
             .map(|parameter| Self::of(parameter, scenario))
             .filter(|setting| setting.value.is_some() || setting.parameter.section() == "numerics")
             .collect()
@@ -34,8 +37,8 @@ impl Setting {
         let is_force =
             || word(&format!("{}.control", parameter.section())).as_deref() == Some("force");
         let unit = match parameter.unit {
-            "m, or N where control = \"force\"" if is_force() => "N",
-            "m, or N where control = \"force\"" => "m",
+            PRESCRIBED if is_force() => "N",
+            PRESCRIBED => "m",
             unit => unit,
         };
         Self {
@@ -45,27 +48,31 @@ impl Setting {
         }
     }
 
-    /// The value with its unit, as a reader expects it.
-    pub fn shown(&self) -> String {
-        let value = self.value.as_deref().unwrap_or("default");
-        format!("{value} {}", self.unit).trim_end().to_owned()
+    /// The value with its unit, as an engineer reads it: `230.77 GPa`.
+    pub fn shown(&self, ascii: bool) -> String {
+        match (self.reading(ascii), &self.value) {
+            (Some((number, unit)), _) => format!("{number} {unit}").trim_end().to_owned(),
+            (None, Some(value)) => format!("{value} {}", self.unit).trim_end().to_owned(),
+            (None, None) => "default".to_owned(),
+        }
     }
 
-    /// What a greater value, or another word, does to the contact.
-    pub fn effect(&self) -> &'static str {
-        let found = EFFECTS
-            .iter()
-            .find(|(path, _)| *path == self.parameter.path);
-        found.map_or("", |(_, effect)| effect)
+    /// The number, and the unit it is shown in, of a value that has a unit.
+    fn reading(&self, ascii: bool) -> Option<(String, String)> {
+        let value: f64 = self.value.as_deref()?.parse().ok()?;
+        let has_unit = self.parameter.kind == Kind::Number && !self.unit.is_empty();
+        has_unit.then(|| units::reading(value, self.unit, ascii))
     }
 
     /// What a value must be, in a line.
     pub fn rule(&self) -> String {
-        let range = self.parameter.range;
         match self.parameter.kind {
             Kind::Choice(words) => words.join(", "),
-            Kind::Whole if !range.is_empty() => format!("a whole number {range}"),
-            Kind::Number if !range.is_empty() => format!("a number {range}"),
+            Kind::Whole => format!("a whole number{}", self.parameter.allowed()),
+            Kind::Number => match self.parameter.allowed().as_str() {
+                "" => Kind::Number.wanted(),
+                allowed => format!("a number{allowed}"),
+            },
             kind => kind.wanted(),
         }
     }
@@ -85,164 +92,18 @@ impl Setting {
                 let next = next_number(value.parse().ok()?, up);
                 Some(if up { next.ceil() } else { next.floor() }.to_string())
             }
-            Kind::Number => Some(plain(next_number(value.parse().ok()?, up))),
+            // A step of the number that is shown: 46 degrees follow 45.
+            Kind::Number => match self.reading(true) {
+                Some((number, unit)) => {
+                    let next = plain(next_number(number.parse().ok()?, up));
+                    Some(format!("{next} {unit}"))
+                }
+                None => Some(plain(next_number(value.parse().ok()?, up))),
+            },
             Kind::Text | Kind::Numbers => None,
         }
     }
 }
-
-/// What the keys do.
-const EFFECTS: &[(&str, &str)] = &[
-    (
-        "indenter.shape",
-        "where pressure concentrates: a rim, a tip, or the middle",
-    ),
-    (
-        "indenter.radius",
-        "more: a wider contact and less pressure at the same depth",
-    ),
-    (
-        "indenter.angle",
-        "more: a sharper tip, a smaller contact, more pressure",
-    ),
-    (
-        "indenter.tip_radius",
-        "more: the contact begins wider, its rim carries more",
-    ),
-    (
-        "indenter.coefficient",
-        "more: a steeper profile, a smaller contact",
-    ),
-    (
-        "indenter.exponent",
-        "more: flatter in the middle, steeper outside",
-    ),
-    (
-        "material.effective_modulus",
-        "more: more pressure and force at the same depth",
-    ),
-    (
-        "material.poisson",
-        "more: softer sideways, so a wider stick zone",
-    ),
-    ("material.indenter.youngs_modulus", "more: a stiffer pair"),
-    (
-        "material.indenter.poisson",
-        "more: softer sideways, so a wider stick zone",
-    ),
-    (
-        "material.indenter.rigid",
-        "rigid: only the half-space yields",
-    ),
-    ("material.half_space.youngs_modulus", "more: a stiffer pair"),
-    (
-        "material.half_space.poisson",
-        "more: softer sideways, so a wider stick zone",
-    ),
-    (
-        "material.half_space.rigid",
-        "rigid: only the indenter yields",
-    ),
-    (
-        "friction.coefficient",
-        "more: a wider stick zone, higher shear where it slips",
-    ),
-    (
-        "motion.normal.control",
-        "displacement: wear unloads the contact; force: it sinks in",
-    ),
-    (
-        "motion.normal.mean",
-        "more: a wider contact, a wider stick zone",
-    ),
-    (
-        "motion.normal.amplitude",
-        "more: the edge of the contact opens and closes further",
-    ),
-    (
-        "motion.normal.angular_frequency",
-        "another ratio to the tangential one: another loop",
-    ),
-    (
-        "motion.normal.phase",
-        "when the contact is deepest, relative to the shaking",
-    ),
-    (
-        "motion.tangential.control",
-        "displacement or force is what swings",
-    ),
-    (
-        "motion.tangential.mean",
-        "where the shaking is centred; forgotten after a cycle",
-    ),
-    (
-        "motion.tangential.amplitude",
-        "more: a wider slip ring, then gross slip",
-    ),
-    (
-        "motion.tangential.angular_frequency",
-        "one period is a cycle; powers of slip rate feel it",
-    ),
-    (
-        "motion.tangential.phase",
-        "when the shift is largest, relative to the depth",
-    ),
-    (
-        "wear.law",
-        "archard follows the work of friction; power weighs stress and speed",
-    ),
-    (
-        "wear.coefficient",
-        "more: the same wear in fewer cycles, until steps are too coarse",
-    ),
-    (
-        "wear.stress_exponent",
-        "more: wear gathers where the stress is high",
-    ),
-    (
-        "wear.slip_rate_exponent",
-        "more: wear gathers where slip is fast",
-    ),
-    (
-        "wear.reference_stress",
-        "more: less wear where stress has a power above 1",
-    ),
-    (
-        "wear.reference_slip_rate",
-        "more: less wear where slip rate has a power above 1",
-    ),
-    (
-        "numerics.accuracy",
-        "less: finer and slower; chooses method, points, steps, jumps",
-    ),
-    ("numerics.method", "how the three transforms are computed"),
-    ("numerics.points", "more: finer and slower"),
-    ("numerics.steps_per_cycle", "more: finer in time and slower"),
-    (
-        "numerics.domain_radius",
-        "more: room to grow, coarser at the same points",
-    ),
-    (
-        "numerics.grid",
-        "graded: narrow cells where the worn profile is steep",
-    ),
-    (
-        "numerics.scheme",
-        "trapezoid: second order in time; euler: the paper's",
-    ),
-    (
-        "numerics.stability",
-        "sub-step: harsh steps in parts; off: the raw method",
-    ),
-    (
-        "numerics.integrator",
-        "direct: every step; cycle-jump: over cycles that are alike",
-    ),
-    (
-        "numerics.tolerance",
-        "more: longer jumps over cycles, less accurate",
-    ),
-];
 
 /// The next number of two significant digits, up or down from `value`. Zero stays: it has no size.
 fn next_number(value: f64, up: bool) -> f64 {
@@ -296,22 +157,6 @@ mod tests {
     }
 
     #[test]
-    fn every_key_that_can_change_says_what_it_does() {
-        for parameter in PARAMETERS
-            .iter()
-            .filter(|known| !["", "run", "changes"].contains(&known.section()))
-        {
-            let found = EFFECTS.iter().filter(|(path, _)| *path == parameter.path);
-            assert_eq!(found.count(), 1, "{}", parameter.path);
-        }
-        assert!(
-            EFFECTS
-                .iter()
-                .all(|(_, effect)| effect.chars().count() <= 68)
-        );
-    }
-
-    #[test]
     fn settings_show_what_can_be_changed() {
         let scenario = Scenario::load("li2019-fig3", &[]).expect("a preset");
         let settings = Setting::all(&scenario);
@@ -319,7 +164,20 @@ mod tests {
             let found = settings.iter().find(|known| known.parameter.path == path);
             found.unwrap_or_else(|| panic!("no {path}"))
         };
-        assert_eq!(of("motion.normal.mean").shown(), "1e-6 m");
+        assert_eq!(of("motion.normal.mean").shown(false), "1 µm");
+        assert_eq!(of("motion.tangential.phase").shown(true), "45 deg");
+        let next = of("motion.tangential.phase").next(true);
+        assert_eq!(next.as_deref(), Some("46 deg"));
+        let modulus = of("material.effective_modulus");
+        assert_eq!(modulus.shown(true), "230.77 GPa");
+        // What is shown is taken back.
+        for setting in &settings {
+            let (path, shown) = (setting.parameter.path, setting.shown(true));
+            if setting.value.is_some() {
+                let again = scenario.with(path, &shown);
+                assert!(again.is_ok(), "{path} = {shown}: {again:?}");
+            }
+        }
         assert_eq!(of("numerics.method").next(true).as_deref(), Some("a"));
         assert_eq!(of("numerics.method").next(false).as_deref(), Some("benad"));
         assert_eq!(of("numerics.points").next(true).as_deref(), Some("110"));

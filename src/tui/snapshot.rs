@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::export::file::{RunDirectory, WriteError, free_directory};
+use crate::export::file::{RunDirectory, WriteError};
 use crate::export::header::number;
 use crate::export::state;
 use crate::scenario::session::Session;
@@ -14,8 +14,7 @@ pub(super) fn write(session: &Session, note: Option<&str>) -> Result<PathBuf, Wr
     let session = noted.as_ref().unwrap_or(session);
     let cycle = number(session.simulation().cycle());
     let stem = session.loaded().stem();
-    let directory = free_directory(&format!("{stem}-cycle-{cycle}"));
-    let directory = RunDirectory::claim(&directory, false)?;
+    let directory = RunDirectory::claim_new(&format!("{stem}-cycle-{cycle}"))?;
     let scenario = session.as_run(Vec::new()).to_toml();
     directory.write("scenario.toml", scenario.as_bytes())?;
     let path = directory.write("state.csv", state::table(session).as_bytes())?;

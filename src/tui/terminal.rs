@@ -1,23 +1,28 @@
 //! The terminal's life: taken over on start, given back on every way out.
 
-use std::io::{self, BufWriter, Stdout, stdout};
+use std::io;
 use std::mem::ManuallyDrop;
+use std::sync::mpsc::Sender;
+use std::time::Instant;
 
 use crossterm::cursor::Show;
-use crossterm::execute;
+use crossterm::event::{DisableBracketedPaste, EnableBracketedPaste};
+use crossterm::queue;
 use crossterm::style::{Attribute, Print, SetAttribute};
 use crossterm::terminal::{
     Clear, ClearType, EndSynchronizedUpdate, EnterAlternateScreen, LeaveAlternateScreen,
     disable_raw_mode, enable_raw_mode,
 };
 use ratatui::Terminal;
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Rect, Size};
 
+use super::Event;
+use super::ansi_backend::AnsiBackend;
 use super::app::App;
+use super::flow::{Flow, When};
+use super::output::Output;
 use super::screen;
-use super::wire::Wire;
-
-/// Output is collected so that a frame goes out in one write.
-const OUTPUT_BUFFER: usize = 64 * 1024;
 
 /// Asks for presses, releases and the wheel (mode 1000), in numbers that hold on any screen (1006).
 /// The terminal is not asked for the mouse's movements: each would be bytes on the wire.
@@ -35,7 +40,7 @@ pub enum Capture {
     Clicks,
 }
 
-type Backend = Wire<BufWriter<Stdout>>;
+type Backend = AnsiBackend<Output>;
 
 /// The terminal in raw mode on its alternate screen, until dropped.
 pub struct Screen {
@@ -43,17 +48,30 @@ pub struct Screen {
     /// where the terminal is gone.
     terminal: ManuallyDrop<Terminal<Backend>>,
     mouse: Capture,
+    flow: Flow,
+    /// What the terminal shows.
+    shown: Buffer,
+    /// Whether the terminal was given back and took that.
+    is_restored: bool,
 }
 
 impl Screen {
-    /// Takes the terminal over, and the mouse as well if it was asked for.
-    pub fn open(mouse: Capture) -> io::Result<Self> {
-        let restore = take_over(mouse)?;
-        let terminal = fresh()?;
+    /// Takes the terminal over, and the mouse as well if it was asked for. `events` is told when the
+    /// terminal has taken what was drawn, and when it is gone.
+    pub fn open(mouse: Capture, events: Sender<Event>) -> io::Result<Self> {
+        enable_raw_mode()?;
+        let restore = RestoreOnFailure;
+        let size: fn() -> io::Result<Size> = || Ok(crossterm::terminal::size()?.into());
+        let backend = AnsiBackend::new(Output::open(events)?, size);
+        backend.get_ref().send(&taking_over(mouse)?);
+        let terminal = ManuallyDrop::new(Terminal::new(backend)?);
         std::mem::forget(restore);
         Ok(Self {
-            terminal: ManuallyDrop::new(terminal),
+            terminal,
             mouse,
+            flow: Flow::default(),
+            shown: Buffer::empty(Rect::ZERO),
+            is_restored: false,
         })
     }
 
@@ -61,72 +79,194 @@ impl Screen {
     /// become smaller and large again, so that its size says nothing of what is left on it.
     pub fn start_afresh(&mut self) -> io::Result<()> {
         let size = self.terminal.size()?;
+        self.shown = Buffer::empty(Rect::ZERO);
         self.terminal.resize(size.into())
     }
 
-    /// Gives the terminal back for a while.
-    pub fn give_back(&mut self) {
-        restore(self.mouse);
+    /// Gives the terminal back, for a while or for good. True if it has taken that.
+    pub fn give_back(&mut self) -> bool {
+        let output = self.terminal.backend().get_ref();
+        self.is_restored = giving_back(self.mouse).is_ok_and(|bytes| output.finish(&bytes));
+        let _ = disable_raw_mode();
+        self.is_restored
     }
 
     /// Takes the terminal over again, as it may be anything by now.
     pub fn take_back(&mut self) -> io::Result<()> {
-        std::mem::forget(take_over(self.mouse)?);
+        enable_raw_mode()?;
+        let output = self.terminal.backend().get_ref();
+        output.send(&taking_over(self.mouse)?);
         // What the backend knew of the terminal holds no more.
-        self.terminal = ManuallyDrop::new(fresh()?);
-        Ok(())
+        self.flow.forget();
+        self.is_restored = false;
+        self.start_afresh()
     }
 
-    /// Draws the app: only what changed goes over the wire.
-    pub fn draw(&mut self, app: &App) -> io::Result<()> {
-        self.terminal
-            .draw(|frame| screen::draw(app, frame.area(), frame.buffer_mut()))?;
+    /// When the next drawing may be made.
+    pub fn when(&self) -> When {
+        self.flow.when(Instant::now())
+    }
+
+    /// What happens on the way to the terminal.
+    pub fn flow(&mut self) -> &mut Flow {
+        &mut self.flow
+    }
+
+    /// Draws the app: only what changed goes over the wire, and on a slow line as many rows of it as
+    /// keep no key waiting. False if rows are left for the next drawing.
+    pub fn draw(&mut self, app: &App) -> io::Result<bool> {
+        self.paint(|area, buffer| screen::draw(app, area, buffer))
+    }
+
+    /// [`draw`](Self::draw) of something else.
+    pub fn paint(&mut self, draw: impl FnOnce(Rect, &mut Buffer)) -> io::Result<bool> {
+        self.terminal.autoresize()?;
+        let area = self.terminal.get_frame().area();
+        let mut wanted = Buffer::empty(area);
+        draw(area, &mut wanted);
+        if self.shown.area != area {
+            self.shown = Buffer::empty(area);
+        }
+        let now = Instant::now();
+        let room = match self.flow.hurries(now) && !self.flow.answers() {
+            true if self.flow.acknowledges(now) && self.flow.room().is_some() => Some(0),
+            // Where nothing tells how slow the line is, a key is answered whole, but the lines that
+            // tell of the run before the rest.
+            true => {
+                if self.flow.room().is_some() {
+                    let next = rows_within(&self.shown, &wanted, 0);
+                    self.put(next)?;
+                }
+                None
+            }
+            false => self.flow.room(),
+        };
+        let next = match room {
+            Some(room) => rows_within(&self.shown, &wanted, room),
+            None => wanted.clone(),
+        };
+        let before = self.terminal.backend().get_ref().sent();
+        self.put(next)?;
+        let bytes = self.terminal.backend().get_ref().sent() - before;
+        self.flow.sent(now, bytes);
+        Ok(self.shown == wanted)
+    }
+
+    /// Has the terminal show `next`.
+    fn put(&mut self, next: Buffer) -> io::Result<()> {
+        let mut fits = false;
+        self.terminal.draw(|frame| {
+            // Between two looks at its size a terminal may have changed it; a signal tells of that.
+            fits = frame.area() == next.area;
+            if fits {
+                frame.buffer_mut().clone_from(&next);
+            }
+        })?;
+        if fits {
+            self.shown = next;
+        }
         Ok(())
     }
 }
 
 impl Drop for Screen {
     fn drop(&mut self) {
-        restore(self.mouse);
+        if !self.is_restored {
+            self.give_back();
+        }
     }
 }
 
-/// A terminal of which nothing is known.
-fn fresh() -> io::Result<Terminal<Backend>> {
-    let out = BufWriter::with_capacity(OUTPUT_BUFFER, stdout());
-    Terminal::new(Wire::new(out, || Ok(crossterm::terminal::size()?.into())))
-}
-
-fn take_over(mouse: Capture) -> io::Result<RestoreOnFailure> {
-    enable_raw_mode()?;
-    let restore = RestoreOnFailure(mouse);
-    // Not the clear of ratatui: it asks where the cursor is, and not every terminal answers.
-    execute!(stdout(), EnterAlternateScreen, Clear(ClearType::All))?;
-    if mouse == Capture::Clicks {
-        execute!(stdout(), Print(MOUSE_ON))?;
+/// What is shown, with as many rows of what is wanted as fit into so many bytes: the lines above and
+/// below the panels first, and at least one row that differs.
+fn rows_within(shown: &Buffer, wanted: &Buffer, room: usize) -> Buffer {
+    let mut next = shown.clone();
+    let (width, height) = (
+        usize::from(wanted.area.width),
+        usize::from(wanted.area.height),
+    );
+    let mut left = room;
+    let edges = [0, height.saturating_sub(1)];
+    let inner = 1..height.saturating_sub(1);
+    for (i, row) in edges.into_iter().chain(inner).enumerate() {
+        let cells = row * width..((row + 1) * width).min(wanted.content.len());
+        let pairs = wanted.content[cells.clone()]
+            .iter()
+            .zip(&shown.content[cells.clone()]);
+        let changed = pairs.filter(|(wanted, shown)| wanted != shown);
+        let cost: usize = changed.map(|(wanted, _)| wanted.symbol().len() + 1).sum();
+        if cost == 0 {
+            continue;
+        }
+        // A move and a style or two.
+        let cost = cost + 12;
+        if i >= edges.len() && cost > left && next != *shown {
+            break;
+        }
+        left = left.saturating_sub(cost);
+        next.content[cells.clone()].clone_from_slice(&wanted.content[cells]);
     }
-    Ok(restore)
+    next
 }
 
-struct RestoreOnFailure(Capture);
+struct RestoreOnFailure;
 
 impl Drop for RestoreOnFailure {
     fn drop(&mut self) {
-        restore(self.0);
+        let _ = disable_raw_mode();
     }
 }
 
-/// Gives the terminal back. A terminal that is gone cannot be restored; nothing is to be done then.
-fn restore(mouse: Capture) {
+/// The sequences that take a terminal over.
+fn taking_over(mouse: Capture) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    // Not the clear of ratatui: it asks where the cursor is, and not every terminal answers.
+    queue!(
+        bytes,
+        EnterAlternateScreen,
+        Clear(ClearType::All),
+        EnableBracketedPaste
+    )?;
     if mouse == Capture::Clicks {
-        let _ = execute!(stdout(), Print(MOUSE_OFF));
+        queue!(bytes, Print(MOUSE_ON))?;
     }
-    let _ = execute!(
-        stdout(),
+    Ok(bytes)
+}
+
+/// The sequences that give it back.
+fn giving_back(mouse: Capture) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    if mouse == Capture::Clicks {
+        queue!(bytes, Print(MOUSE_OFF))?;
+    }
+    queue!(
+        bytes,
         EndSynchronizedUpdate,
+        DisableBracketedPaste,
         SetAttribute(Attribute::Reset),
         LeaveAlternateScreen,
         Show
-    );
-    let _ = disable_raw_mode();
+    )?;
+    Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn on_a_slow_line_the_lines_around_the_panels_come_first_and_all_rows_at_last() {
+        let wanted = Buffer::with_lines((0..24).map(|row| row.to_string().repeat(30)));
+        let mut shown = Buffer::empty(wanted.area);
+        let first = rows_within(&shown, &wanted, 200);
+        let is_there = |buffer: &Buffer, row: u16| buffer[(0, row)] == wanted[(0, row)];
+        assert!(is_there(&first, 0) && is_there(&first, 23));
+        assert!(!is_there(&first, 5), "too much for one frame");
+        let mut frames = 0;
+        while shown != wanted {
+            shown = rows_within(&shown, &wanted, 200);
+            frames += 1;
+        }
+        assert!((5..=24).contains(&frames), "{frames}");
+    }
 }

@@ -1,6 +1,7 @@
 //! What the explorer remembers of the past: the last loop in full, older cycles ever more coarsely.
 
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 use crate::simulation::Moment;
 
@@ -9,6 +10,11 @@ const CAPACITY: usize = 2048;
 
 /// The most points kept of the fretting loop.
 const LOOP_CAPACITY: usize = 4096;
+
+/// The most loops that are kept, the most points of each, and the fewest that make a loop.
+const MOST_LOOPS: usize = 24;
+const LOOP_POINTS: usize = 64;
+const SHORTEST_LOOP: usize = 9;
 
 /// One cycle, or several that were merged: extremes survive merging.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,8 +27,6 @@ pub struct Cycle {
     pub stick_radius: f64,
     /// Worn volume at the end, m³.
     pub wear_volume: f64,
-    /// The same as the rates of wear add up to, m³.
-    pub volume_by_rate: f64,
     /// What the work of friction says of it, k E_d, m³; NaN where the law does not follow energy.
     pub expected_volume: f64,
     /// Volume worn in a cycle, m³, on average over the entry.
@@ -31,6 +35,18 @@ pub struct Cycle {
     pub residual: f64,
     /// What a step cost, s; NaN where it was not measured.
     pub step_cost: f64,
+    /// Amplitude of u_x (m) and mean of F_z (N) of the last cycle; NaN before there is one.
+    pub amplitude: f64,
+    /// F_z.
+    pub normal_force: f64,
+}
+
+/// The loop of one cycle that is kept.
+#[derive(Debug, Clone, PartialEq)]
+struct Loop {
+    cycle: f64,
+    shifts: Vec<f64>,
+    forces: Vec<f64>,
 }
 
 impl Cycle {
@@ -69,6 +85,11 @@ pub struct Trend {
     stride: f64,
     tip: Tip,
     step_cost: Option<f64>,
+    /// Amplitude and load of the last cycle.
+    condition: Option<[f64; 2]>,
+    /// Loops of cycles so far apart, oldest first.
+    loops: Vec<Arc<Loop>>,
+    loop_stride: f64,
 }
 
 impl Trend {
@@ -77,9 +98,19 @@ impl Trend {
         self.step_cost = step_cost;
     }
 
+    /// The amplitude of u_x (m) and the mean of F_z (N) of the last complete cycle.
+    pub fn note_condition(&mut self, condition: Option<[f64; 2]>) {
+        self.condition = condition;
+    }
+
     /// What is lost when the trend is cut back to an earlier cycle.
     pub fn tip(&self) -> Tip {
         self.tip.clone()
+    }
+
+    /// Memory that it holds, in bytes.
+    pub fn bytes(&self) -> usize {
+        std::mem::size_of_val(self.cycles.as_slice()) + self.tip.bytes()
     }
 
     /// The trend as it was at `cycle`, where it had this tip.
@@ -93,32 +124,42 @@ impl Trend {
             stride: self.stride,
             tip: tip.clone(),
             step_cost: self.step_cost,
+            condition: None,
+            loops: self
+                .loops
+                .iter()
+                .filter(|kept| kept.cycle <= cycle + 1e-9)
+                .cloned()
+                .collect(),
+            loop_stride: self.loop_stride,
         }
     }
 
     /// Takes in the moment after a step.
     pub fn record(&mut self, moment: &Moment) {
         self.record_loop(moment);
+        self.keep_loop(moment.cycle);
         let now = Cycle {
             cycle: moment.cycle,
             contact_radius: moment.contact_radius,
             stick_radius: moment.stick_radius.unwrap_or(f64::NAN),
             wear_volume: moment.wear_volume,
-            volume_by_rate: moment.wear_volume_by_rate,
             expected_volume: moment
                 .energy_residual
                 .map_or(f64::NAN, |residual| moment.wear_volume / (1.0 - residual)),
             wear_rate: 0.0,
             residual: moment.period_residual.map_or(f64::NAN, f64::abs),
             step_cost: self.step_cost.unwrap_or(f64::NAN),
+            amplitude: self.condition.map_or(f64::NAN, |seen| seen[0]),
+            normal_force: self.condition.map_or(f64::NAN, |seen| seen[1]),
         };
         let mut merged = self.tip.open.map_or(now, |open| open.merged(now));
         let (start, volume) = self
             .cycles
             .last()
-            .map_or((0.0, 0.0), |entry| (entry.cycle, entry.volume_by_rate));
+            .map_or((0.0, 0.0), |entry| (entry.cycle, entry.wear_volume));
         merged.wear_rate = if merged.cycle > start {
-            (merged.volume_by_rate - volume) / (merged.cycle - start)
+            (merged.wear_volume - volume) / (merged.cycle - start)
         } else {
             f64::NAN
         };
@@ -153,6 +194,43 @@ impl Trend {
         }
     }
 
+    /// Keeps the loop of a cycle that has just ended; when there are too many, every second one goes.
+    fn keep_loop(&mut self, cycle: f64) {
+        let whole = (cycle + 1e-9).floor();
+        let last = self.loops.last().map_or(0.0, |kept| kept.cycle);
+        let ends = cycle - whole < 1e-9 && whole >= last + self.loop_stride.max(1.0);
+        let (shifts, forces) = self.fretting_loop();
+        if !ends || shifts.len() < SHORTEST_LOOP {
+            return;
+        }
+        let every = shifts.len().div_ceil(LOOP_POINTS);
+        let thinned = |values: Vec<f64>| {
+            let last = values.len() - 1;
+            let kept = values.iter().enumerate();
+            let kept = kept.filter(|(k, _)| k % every == 0 || *k == last);
+            kept.map(|(_, value)| *value).collect()
+        };
+        self.loops.push(Arc::new(Loop {
+            cycle: whole,
+            shifts: thinned(shifts),
+            forces: thinned(forces),
+        }));
+        if self.loops.len() > MOST_LOOPS {
+            let mut k = 0;
+            self.loops.retain(|_| {
+                k += 1;
+                k % 2 == 1
+            });
+            self.loop_stride = 2.0 * self.loop_stride.max(1.0);
+        }
+    }
+
+    /// The loops that are kept, oldest first: the cycle that each ends, u_x⁽⁰⁾ (m) and F_x (N).
+    pub fn loops(&self) -> impl Iterator<Item = (f64, Vec<f64>, Vec<f64>)> + '_ {
+        let kept = self.loops.iter();
+        kept.map(|one| (one.cycle, one.shifts.clone(), one.forces.clone()))
+    }
+
     /// The cycles so far, the unfinished one included, oldest first.
     pub fn cycles(&self) -> impl Iterator<Item = &Cycle> {
         self.cycles.iter().chain(&self.tip.open)
@@ -177,13 +255,13 @@ mod tests {
             time: 0.0,
             depth: 0.0,
             shift: cycle.fract(),
+            rig_displacement: None,
             normal_force: 0.0,
             tangential_force: 1.0,
             contact_radius: 2.0,
             stick_radius: Some(stick),
             permanent_stick_radius: Some(stick),
             wear_volume: cycle,
-            wear_volume_by_rate: cycle,
             dissipated_energy: 0.0,
             period_residual: None,
             energy_residual: None,
@@ -208,6 +286,22 @@ mod tests {
             trend.cycles().last().map(|cycle| cycle.cycle),
             Some(50_000.0)
         );
+    }
+
+    #[test]
+    fn loops_are_kept_ever_further_apart() {
+        let mut trend = Trend::default();
+        for step in 1..=100_000_u32 {
+            trend.record(&moment(f64::from(step) / 100.0, 1.0));
+        }
+        let cycles: Vec<f64> = trend.loops().map(|kept| kept.0).collect();
+        assert!((12..=MOST_LOOPS).contains(&cycles.len()), "{cycles:?}");
+        let steps: Vec<f64> = cycles.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        assert!(steps.iter().all(|step| *step == steps[0]), "{cycles:?}");
+        assert!(1000.0 - cycles[cycles.len() - 1] < steps[0]);
+        assert!(trend.loops().all(|kept| (50..=66).contains(&kept.1.len())));
+        let before = trend.until(500.0, &trend.tip());
+        assert!(before.loops().all(|kept| kept.0 <= 500.0) && before.loops().count() > 3);
     }
 
     #[test]

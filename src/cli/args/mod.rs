@@ -3,15 +3,24 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
+use clap_complete::engine::{ArgValueCandidates, ArgValueCompleter};
+
+use super::complete;
 
 use crate::tui::Size;
 
+mod figure;
 mod studies;
+mod sweep;
 mod values;
 
-pub use studies::{Guard, Rows, Stability, Trade, Verify};
-pub use values::{ColorChoice, CycleAsGiven, HistoryChoice, Interval, MarkerChoice, ThemeChoice};
-use values::{cycles, interval};
+pub use figure::{Figure, PaperFigure, StyleChoice};
+pub use studies::{Fit, Guard, Rows, Stability, Trade, Verify};
+pub use sweep::Sweep;
+pub use values::{
+    ColorChoice, CycleAsGiven, FormatChoice, HistoryChoice, Interval, MarkerChoice, ThemeChoice,
+};
+use values::{budget, cycles, interval};
 
 /// Watch a fretting contact wear away, live in the terminal.
 #[derive(Debug, Parser)]
@@ -49,6 +58,14 @@ pub enum Command {
     Trade(Trade),
     /// Map the wear coefficients that each method bears: stable, teeth, exploded.
     Stability(Stability),
+    /// Read the guide: methods, accuracy, files, every key of a scenario.
+    Guide(Guide),
+    /// Run a study: one scenario for many values of some of its keys.
+    Sweep(Sweep),
+    /// Draw figures for a paper: SVG, PNG or PDF, with their data beside them.
+    Figure(Figure),
+    /// Find parameters from measured scars, loops and histories.
+    Fit(Fit),
     /// Print a completion script for a shell.
     #[command(
         after_help = "Example:\n  mdr-tui completions bash > ~/.local/share/bash-completion/completions/mdr-tui"
@@ -66,7 +83,7 @@ pub enum Command {
 #[derive(Debug, Args)]
 pub struct Changes {
     /// Change a key of the scenario, by its dotted path; can be repeated.
-    #[arg(long = "set", value_name = "KEY=VALUE")]
+    #[arg(long = "set", value_name = "KEY=VALUE", add = ArgValueCompleter::new(complete::assignments))]
     pub set: Vec<String>,
 }
 
@@ -74,20 +91,20 @@ pub struct Changes {
 #[derive(Debug, Args)]
 pub struct Explore {
     /// A preset's name, or a path to a .toml file.
-    #[arg(default_value = "li2019-fig3")]
+    #[arg(default_value = "li2019-fig3", add = ArgValueCompleter::new(complete::scenarios))]
     pub scenario: String,
     /// Changes to the scenario.
     #[command(flatten)]
     pub changes: Changes,
-    /// The most frames drawn in a second.
-    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u16).range(1..=120))]
-    pub fps: u16,
+    /// The largest number of frames per second; default 10.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=120))]
+    pub fps: Option<u16>,
     /// How curves are drawn; the default is braille where the locale is UTF-8, else ascii.
     #[arg(long, value_enum)]
     pub marker: Option<MarkerChoice>,
-    /// When to use colour; auto obeys NO_COLOR.
-    #[arg(long, value_enum, default_value_t = ColorChoice::Auto)]
-    pub color: ColorChoice,
+    /// When to use colour; the default, auto, obeys NO_COLOR.
+    #[arg(long, value_enum)]
+    pub color: Option<ColorChoice>,
     /// Which colours: for a dark or a light background, or none; the default is what the terminal
     /// says of its background, else dark.
     #[arg(long, value_enum)]
@@ -112,9 +129,15 @@ pub struct Explore {
     /// How often the session is put away so that it can be resumed, in seconds; 0: only at the end.
     #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = interval)]
     pub checkpoint_every: Interval,
+    /// Record the session in a new file in asciinema's format (v2), at most 64 MB.
+    #[arg(long, value_name = "FILE")]
+    pub record: Option<PathBuf>,
     /// Print the screen at this size after the last key; the simulation starts paused.
     #[arg(long, value_name = "COLUMNSxROWS")]
     pub print: Option<Size>,
+    /// What is printed: the text of the screen, or a picture of it with its colours.
+    #[arg(long, value_enum, default_value_t = FormatChoice::Text, requires = "print")]
+    pub format: FormatChoice,
 }
 
 /// Options of `run`.
@@ -122,11 +145,13 @@ pub struct Explore {
 #[command(after_help = "Examples:\n  \
     mdr-tui run li2019-fig3 --cycles 199.24 --snapshot-at 50.72,100 --out fig3\n  \
     mdr-tui run mine.toml --set numerics.method=b --out with-b\n  \
+    mdr-tui run mine.toml --set numerics.accuracy=1e-3 --budget 60s\n  \
+    mdr-tui run mindlin --cycles 0.25 --field     the stresses inside the half-space too\n  \
     mdr-tui run fig3/scenario.toml --out again    the same numbers to the last bit\n  \
     mdr-tui run --resume fig3/run.checkpoint      go on with a run that was interrupted")]
 pub struct Run {
     /// A preset's name, or a path to a .toml file.
-    #[arg(required_unless_present = "resume")]
+    #[arg(required_unless_present = "resume", add = ArgValueCompleter::new(complete::scenarios))]
     pub scenario: Option<String>,
     /// Changes to the scenario.
     #[command(flatten)]
@@ -149,6 +174,15 @@ pub struct Run {
         allow_hyphen_values = true
     )]
     pub snapshot_at: Option<Vec<CycleAsGiven>>,
+    /// Estimate the error of the result from coarser runs, and state it in the headers of the files.
+    #[arg(long)]
+    pub estimate_error: bool,
+    /// With numerics.accuracy: the time to look for numerics that meet it, e.g. 60s or 5min; past it, the best found so far.
+    #[arg(long, value_name = "TIME", value_parser = budget)]
+    pub budget: Option<f64>,
+    /// Write field.csv as well: the stresses inside the half-space at the end, in the plane of motion.
+    #[arg(long)]
+    pub field: bool,
     /// The directory for the files; default: a new one named after the scenario, with --resume the
     /// run's own.
     #[arg(long, value_name = "DIR")]
@@ -170,11 +204,21 @@ pub struct Run {
     pub quiet: bool,
 }
 
+/// Options of `guide`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  mdr-tui guide\n  mdr-tui guide scenarios")]
+pub struct Guide {
+    /// The topic; without one, all topics are listed.
+    #[arg(add = ArgValueCandidates::new(complete::topics))]
+    pub topic: Option<String>,
+}
+
 /// Options of `presets`.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  mdr-tui presets\n  mdr-tui presets cone > mine.toml")]
 pub struct Presets {
     /// Print this preset.
+    #[arg(add = ArgValueCandidates::new(complete::presets))]
     pub name: Option<String>,
     /// Print the list as JSON.
     #[arg(long)]

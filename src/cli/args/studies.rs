@@ -167,6 +167,63 @@ pub struct Stability {
     pub printing: Printing,
 }
 
+/// Options of `fit`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    mdr-tui fit mine.toml --scar scar.csv --loop loop.csv --free wear.coefficient,friction.coefficient\n  \
+    mdr-tui fit mine.toml --history volume.csv --free wear.coefficient --out fitted.toml --plot\n\n\
+    A scar has columns r_m and wear_m or f_m, a loop u_m and F_N through one closed cycle, a history\n\
+    cycle and wear_volume_m3 or depth_m. Standard errors stand in error_m, error_N or error_m3. Other\n\
+    units may be named: r_mm, f_um, F_kN. A scar is compared with the end of the run, a loop with its\n\
+    last cycle.")]
+#[command(mut_args = in_words(&[
+    ("plot", "Draw measured less simulated, a plot for each data set"),
+    ("json", "Print the keys with values, standard errors and correlations as JSON"),
+    ("force", "Write over the file of --out"),
+]))]
+pub struct Fit {
+    /// A preset's name, or a path to a .toml file: its values are where the search starts.
+    pub scenario: String,
+    /// Changes to the scenario.
+    #[command(flatten)]
+    pub changes: Changes,
+    /// A worn profile; can be repeated.
+    #[arg(long, value_name = "FILE", required_unless_present_any = ["fretting_loop", "history"])]
+    pub scar: Vec<PathBuf>,
+    /// A fretting loop; can be repeated.
+    #[arg(long = "loop", value_name = "FILE")]
+    pub fretting_loop: Vec<PathBuf>,
+    /// Worn volume or depth over cycles; can be repeated.
+    #[arg(long, value_name = "FILE")]
+    pub history: Vec<PathBuf>,
+    /// The keys to fit, by their dotted paths.
+    #[arg(
+        long,
+        value_name = "KEY1,KEY2,...",
+        value_delimiter = ',',
+        required = true
+    )]
+    pub free: Vec<String>,
+    /// How many cycles to run; default: the scenario's run.cycles, or to the end of the histories.
+    #[arg(long, value_name = "X", value_parser = cycles, allow_hyphen_values = true)]
+    pub cycles: Option<f64>,
+    /// Let outliers weigh less.
+    #[arg(long)]
+    pub robust: bool,
+    /// Write the fitted scenario to this file.
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Write over a file that is there already.
+    #[arg(long, requires = "out")]
+    pub force: bool,
+    /// What is drawn.
+    #[command(flatten)]
+    pub drawing: Drawing,
+    /// What is said.
+    #[command(flatten)]
+    pub printing: Printing,
+}
+
 /// What `stability` does about harsh steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Guard {

@@ -9,9 +9,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::math::abel::{AbelMethod, MOST_DENSE_CELLS};
 use crate::math::grid::MIN_CELLS;
+use crate::plot::Marker;
 use crate::scenario::MOST_CYCLES;
 use crate::studies::verify::Problem;
-use crate::tui::plot::Marker;
 
 /// Which moments `history.csv` records.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -44,6 +44,15 @@ impl From<MarkerChoice> for Marker {
             MarkerChoice::Ascii => Self::Ascii,
         }
     }
+}
+
+/// What a printed screen is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum FormatChoice {
+    /// Its text.
+    Text,
+    /// A picture with its colours.
+    Svg,
 }
 
 /// When colour is used.
@@ -115,6 +124,22 @@ impl FromStr for CycleAsGiven {
             cycle: cycles(&spelling)?,
             spelling,
         })
+    }
+}
+
+/// Seconds, as `60`, `60s`, `5min` or `1h`.
+pub(super) fn budget(text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    let digits = text.trim_end_matches(|c: char| c.is_ascii_alphabetic());
+    let unit = match &text[digits.len()..] {
+        "" | "s" => Some(1.0),
+        "m" | "min" => Some(60.0),
+        "h" => Some(3600.0),
+        _ => None,
+    };
+    match (digits.trim().parse::<f64>(), unit) {
+        (Ok(number), Some(unit)) if number >= 0.0 && number.is_finite() => Ok(number * unit),
+        _ => Err("a budget is a time of 0 or more, e.g. 60s, 5min or 1h".into()),
     }
 }
 

@@ -17,8 +17,8 @@
 
 use std::f64::consts::FRAC_1_PI;
 
-use super::bend::{self, Bend};
 use super::kernel::leg;
+use super::kink::{self, Kink};
 use crate::math::grid::RadialGrid;
 
 /// The cone that is in a line load.
@@ -35,8 +35,8 @@ pub struct Cone {
 pub struct Rest {
     /// N/m, nodal.
     pub load: Vec<f64>,
-    /// What its breaks are beside those of the whole load, N/m.
-    pub breaks: Vec<Bend>,
+    /// What its kinks are beside those of the whole load, N/m.
+    pub kinks: Vec<Kink>,
 }
 
 impl Cone {
@@ -44,18 +44,18 @@ impl Cone {
     pub fn take_off(&self, grid: &RadialGrid, load: &[f64], rest: &mut Rest) {
         let (x, t) = (grid.nodes(), grid.squares());
         rest.load.clear();
-        rest.breaks.clear();
+        rest.kinks.clear();
         rest.load.extend_from_slice(load);
         let inside = x.partition_point(|&x| x < self.edge);
         for (load, x) in rest.load[..inside].iter_mut().zip(x) {
             *load += self.slope * (self.edge - x);
         }
         if inside < x.len() {
-            // The line to the next node bends where the cone ends.
+            // The line to the next node kinks where the cone ends.
             let cell = [t[inside - 1], t[inside]];
             let height = self.slope * (self.edge - x[inside - 1]);
             let edge = (self.edge * self.edge, 0.0);
-            bend::polyline(cell, [height, 0.0], &[edge], &mut rest.breaks);
+            kink::polyline(cell, [height, 0.0], &[edge], &mut rest.kinks);
         }
     }
 
@@ -92,7 +92,7 @@ mod tests {
                 let (x, t) = (grid.nodes(), grid.squares());
                 let load = |x: f64| 0.7 * (1.0 - x) + 0.2 * (1.0 - x * x);
                 let q: Vec<f64> = x.iter().map(|&x| load(x).max(0.0)).collect();
-                let (_, breaks) = ending_at_one(t, &q);
+                let (_, kinks) = ending_at_one(t, &q);
                 let slope = product::cusp(x, &q);
                 assert!((slope + 0.7).abs() < 1e-9, "{slope}");
                 let (cone, mut rest) = (Cone { slope, edge: 1.0 }, Rest::default());
@@ -101,8 +101,8 @@ mod tests {
 
                 let mut p = vec![f64::NAN; x.len()];
                 AbelPlan::new(AbelMethod::Product, &grid).stress(&rest.load, &mut p);
-                bend::add_to_stress(&breaks, t, &mut p);
-                bend::add_to_stress(&rest.breaks, t, &mut p);
+                kink::add_to_stress(&kinks, t, &mut p);
+                kink::add_to_stress(&rest.kinks, t, &mut p);
                 cone.add_to_stress(&grid, &mut p);
                 for (p, &r) in p.iter().zip(x).skip(1) {
                     let root = (1.0 - r * r).max(0.0).sqrt();

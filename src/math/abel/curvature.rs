@@ -12,7 +12,7 @@
 //! p_j += (2/π) 0.2079 h_j^{3/2} κ_j,   κ_j = 2J_j/(h_{j−1} + h_j),   h_j = t_{j+1} − t_j
 //! ```
 //!
-//! and where the load bends in the cell behind the node, at t_b, the rule has one cell:
+//! and where the load kinks in the cell behind the node, at t_b, the rule has one cell:
 //! (t_b − t_j)^{3/2}/6 in place of 0.2079 h^{3/2}.
 //!
 //! The pressure within a cell, averaged, never had this error; its values at the nodes did. In a
@@ -28,12 +28,12 @@
 //! - **At a stick border**: a worn contact drops its load like a root behind the permanent stick zone. A
 //!   second difference across its border is no curvature, and would let the core reach into the
 //!   slip zone and dig there without end: the caller says where the load is smooth.
-//! - **Known failure**: next to a kink between nodes that no [`Bend`] tells of, the jump at
+//! - **Known failure**: next to a kink between nodes that no [`Kink`] tells of, the jump at
 //!   the nodes is none of a curvature. The error there is of order ½ with this term and without.
 
 use std::f64::consts::FRAC_2_PI;
 
-use super::bend::Bend;
+use super::kink::Kink;
 use crate::math::grid::RadialGrid;
 use crate::math::vector::vectorized;
 
@@ -47,7 +47,7 @@ const SINGLE: f64 = 1.0 / 6.0;
 const PIECE: usize = 32;
 
 /// Behind the last break.
-const NO_MORE: Bend = Bend {
+const NO_MORE: Kink = Kink {
     at: f64::INFINITY,
     jump: 0.0,
 };
@@ -79,22 +79,22 @@ impl Curvature {
     }
 
     /// Eq. (3): what the curvature of a `load` (N/m) does to the stress (N/m²) of the first `nodes`, those in contact,
-    /// beside [`product::stress`](super::product::stress) and the `breaks` of the load (N/m, from the tip outwards).
+    /// beside [`product::stress`](super::product::stress) and the `kinks` of the load (N/m, from the tip outwards).
     /// It is given to `add` in pieces, each with its first node; of use only where the load is smooth from the node
     /// before to the one behind. `cusp` is the slope of the load at the tip, which is no curvature.
     pub fn for_each(
         &self,
         load: &[f64],
         cusp: f64,
-        breaks: impl IntoIterator<Item = Bend>,
+        kinks: impl IntoIterator<Item = Kink>,
         nodes: usize,
         mut add: impl FnMut(usize, &mut [f64]),
     ) {
         let t = self.grid.squares();
         let nodes = nodes.min(self.per_cell.len());
-        let mut breaks = breaks.into_iter();
-        let mut next_break = || breaks.next().unwrap_or(NO_MORE);
-        let mut next = next_break();
+        let mut kinks = kinks.into_iter();
+        let mut next_kink = || kinks.next().unwrap_or(NO_MORE);
+        let mut next = next_kink();
         let mut terms = [0.0; PIECE];
         // Goes from node to node, past many at a time that no break concerns.
         let mut first = 0;
@@ -118,7 +118,7 @@ impl Curvature {
                 if next.at == t[first] {
                     jump += next.jump;
                 }
-                next = next_break();
+                next = next_kink();
             }
             let lack = if next.at < t[first + 1] {
                 root_cubed(next.at - t[first]) * SINGLE
@@ -173,7 +173,7 @@ fn root_cubed(width: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::bend;
+    use super::super::kink;
     use super::super::product;
     use super::super::testing::{apply, ending_at_one};
     use super::super::worn;
@@ -187,12 +187,12 @@ mod tests {
         let grid = RadialGrid::uniform(cells, domain).expect("a grid");
         let t = grid.squares();
         let load: Vec<f64> = t.iter().map(|t| (1.0 - t * t).max(0.0)).collect();
-        let (cell, breaks) = ending_at_one(t, &load);
+        let (cell, kinks) = ending_at_one(t, &load);
         let mut p = apply(&product::stress(grid.nodes()), &load);
-        bend::add_to_stress(&breaks, t, &mut p);
+        kink::add_to_stress(&kinks, t, &mut p);
         if corrected {
             let add = |first: usize, terms: &mut [f64]| add_to(&mut p[first..], terms);
-            Curvature::new(&grid).for_each(&load, 0.0, breaks, t.len(), add);
+            Curvature::new(&grid).for_each(&load, 0.0, kinks, t.len(), add);
         }
         let exact = |s: f64| FRAC_2_PI * (1.0 - s).sqrt() * ((1.0 - s) / 1.5 + 2.0 * s);
         let inside = t.iter().zip(&p).take(cell + 1);
@@ -228,16 +228,16 @@ mod tests {
             .iter()
             .map(|x| (1.0 - 0.3 * x - 0.7 * x * x).max(0.0))
             .collect();
-        let (cell, breaks) = ending_at_one(t, &load);
+        let (cell, kinks) = ending_at_one(t, &load);
         let mut p = vec![0.0; t.len()];
         let curvature = Curvature::new(&grid);
         let add = |first: usize, terms: &mut [f64]| add_to(&mut p[first..], terms);
-        curvature.for_each(&load, -0.3, breaks.iter().copied(), t.len(), add);
+        curvature.for_each(&load, -0.3, kinks.iter().copied(), t.len(), add);
         // The cusp is not linear in t in the edge's cell.
         assert!(p[..cell].iter().all(|p| p.abs() < 1e-13), "{p:?}");
         let mut q = vec![0.0; t.len()];
         let add = |first: usize, terms: &mut [f64]| add_to(&mut q[first..], terms);
-        curvature.for_each(&load, 0.0, breaks, t.len(), add);
+        curvature.for_each(&load, 0.0, kinks, t.len(), add);
         assert!(q[1..cell].iter().any(|p| p.abs() > 1e-6));
     }
 

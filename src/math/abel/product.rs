@@ -33,13 +33,13 @@
 //!
 //! - **Order**: exact for paraboloid and cone, on any nodes. On smooth data second in g and w; p of
 //!   order 3/2 where q is curved in t, and with [`curvature`](super::curvature) second but next to an edge.
-//!   Order ½ at a kink between nodes, unless it is given to [`bend`](super::bend).
+//!   Order ½ at a kink between nodes, unless it is given to [`kink`](super::kink).
 //! - **Cost**: O(N²) kernels to set up, O(N²/2) to apply, as for every method here.
 //! - **At r = 0**: g = f(0), w = u(0). In p(0) the cusp of the first cell is dropped, or the integral
 //!   would be infinite, as a cone's p(0) is.
 //! - **At the contact edge**: q is linear in x² down to zero in the cell that holds the edge, until
-//!   [`bend::polyline`](super::bend::polyline) puts the edge where it is, and [`cone`](super::cone) ends the cusp there.
-//! - **Known failure**: causality bends a little at the tip, because A needs nodes 0, 1 and 2. In g
+//!   [`kink::polyline`](super::kink::polyline) puts the edge where it is, and [`cone`](super::cone) ends the cusp there.
+//! - **Known failure**: causality kinks a little at the tip, because A needs nodes 0, 1 and 2. In g
 //!   and w this is one entry, row 1 column 2, inside the second cell. In p all rows look at
 //!   nodes 0, 1 and 2, as far as the load has a cusp. Everything else is strictly triangular: what
 //!   happens outside the stick zone cannot reach into it.
@@ -55,7 +55,7 @@
 //!
 //! | method | N = 50 | 100 | 200 | 400 |
 //! |---|---|---|---|---|
-//! | this one, graded cells, [`worn`](super::worn), [`bend`](super::bend), [`curvature`](super::curvature) | 7.9e-4 | 3.2e-4 | 8.2e-5 | 3.1e-5 |
+//! | this one, graded cells, [`worn`](super::worn), [`kink`](super::kink), [`curvature`](super::curvature) | 7.9e-4 | 3.2e-4 | 8.2e-5 | 3.1e-5 |
 //! | a, uniform cells | 1.3e-2 | 4.9e-3 | 1.1e-3 | 2.0e-3 |
 //! | a+b, uniform cells | 1.2e-2 | 4.8e-3 | 1.4e-3 | 2.0e-3 |
 //! | b, uniform cells | 4.5e-2 | 3.6e-2 | 2.9e-2 | 2.3e-2 |
@@ -201,8 +201,8 @@ pub(crate) fn cusp_weights(nodes: &[f64]) -> [f64; 3] {
 mod tests {
     use super::super::testing::apply;
 
-    use super::super::bend::{add_to_stress, polyline};
     use super::super::cone::{Cone, Rest};
+    use super::super::kink::{add_to_stress, polyline};
     use super::*;
     use crate::math::grid::RadialGrid;
 
@@ -259,14 +259,14 @@ mod tests {
         let slope = cusp(nodes, &q);
         let at = edge_square(nodes, &signed, cell, slope);
         let edge = at.sqrt();
-        let mut bends = Vec::new();
+        let mut kinks = Vec::new();
         let ends = [squares[cell], squares[cell + 1]];
-        polyline(ends, [q[cell], 0.0], &[(at, 0.0)], &mut bends);
+        polyline(ends, [q[cell], 0.0], &[(at, 0.0)], &mut kinks);
         let (cone, mut rest) = (Cone { slope, edge }, Rest::default());
         cone.take_off(grid, &q, &mut rest);
         let mut p = apply(&stress(nodes), &rest.load);
-        add_to_stress(&bends, squares, &mut p);
-        add_to_stress(&rest.breaks, squares, &mut p);
+        add_to_stress(&kinks, squares, &mut p);
+        add_to_stress(&rest.kinks, squares, &mut p);
         cone.add_to_stress(grid, &mut p);
         (p, edge)
     }

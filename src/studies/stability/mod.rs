@@ -128,7 +128,7 @@ impl Study {
             Err(error) => return ControlFlow::Continue(Err(error)),
         };
         let simulation = session.simulation();
-        let depth = simulation.setup().depth_scale(simulation.state().depth);
+        let depth = simulation.setup().depth_scale(simulation.moment().depth);
         let mut highest = 0.0_f64;
         while session.simulation().cycle() < self.cycles {
             if !go_on() {
@@ -146,7 +146,7 @@ impl Study {
                 Err(error) => return ControlFlow::Continue(Err(error)),
             }
             if session.simulation().cycle() >= end {
-                highest = highest.max(teeth(&session.simulation().state().wear) / depth);
+                highest = highest.max(teeth(session.simulation().worn_depth()) / depth);
             }
         }
         ControlFlow::Continue(Ok(if highest > VISIBLE {

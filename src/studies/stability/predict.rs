@@ -36,7 +36,7 @@ use super::{Setting, Study, VISIBLE};
 use crate::math::scan::largest;
 use crate::scenario::session::{Session, SessionError};
 use crate::simulation::stability::{gain, response, teeth_from};
-use crate::simulation::{Scheme, Simulation};
+use crate::simulation::{Curves, Scheme, Simulation, Zone};
 
 /// The wear number at which an unworn contact is looked at: nothing has changed shape by then.
 const MILD: f64 = 1e-3;
@@ -130,7 +130,7 @@ fn letting_go(mut run: Session, small: f64, boundary: f64) -> Result<f64, Sessio
 /// Runs one cycle at `wear_number`; of the nodes that bear more than teeth of `height` (in largest depths) need.
 fn cycle(session: &mut Session, wear_number: f64, height: f64) -> Result<Cycle, SessionError> {
     let mut told = Cycle::default();
-    let before = session.simulation().state().wear.clone();
+    let before = session.simulation().worn_depth().to_vec();
     let mut last = session.simulation().pressure();
     let end = session.simulation().cycle().floor() + 1.0;
     while session.simulation().cycle() < end {
@@ -142,7 +142,7 @@ fn cycle(session: &mut Session, wear_number: f64, height: f64) -> Result<Cycle, 
         told.gain = told.gain.max(gain / wear_number);
         last = pressure;
     }
-    let wear = &session.simulation().state().wear;
+    let wear = session.simulation().worn_depth();
     let deepest = wear.iter().zip(&before).map(|(now, was)| now - was);
     let deepest = deepest.fold(0.0, f64::max);
     told.worn = deepest / (wear_number * depth(session.simulation()));
@@ -151,14 +151,15 @@ fn cycle(session: &mut Session, wear_number: f64, height: f64) -> Result<Cycle, 
 
 /// The largest z and G of the step that has just been taken, from the pressures before and after it.
 fn step(simulation: &Simulation, before: &[f64], after: &[f64], height: f64) -> (f64, f64) {
-    let (setup, state) = (simulation.setup(), simulation.state());
+    let setup = simulation.setup();
     let Some(law) = &setup.wear else {
         return (0.0, 0.0);
     };
     let scale = response(setup.method) * setup.material.normal_modulus();
     let share = gain(setup).unwrap_or_default();
     let amplitude = 0.5 * height * depth(simulation);
-    let worn = &state.last.wear;
+    let worn = simulation.last_wear();
+    let zones = simulation.observe(Curves::ZONES).zones;
     let least = LEAST * largest(worn);
     let (mut stiffest, mut most) = (0.0_f64, 0.0_f64);
     let inner = 1..setup.grid.cells();
@@ -169,7 +170,7 @@ fn step(simulation: &Simulation, before: &[f64], after: &[f64], height: f64) -> 
         .take(inner.end)
         .skip(inner.start)
     {
-        if state.hold[j].sign().is_none() || worn[j] <= least {
+        if zones[j] != Zone::Slip || worn[j] <= least {
             continue;
         }
         // The pressure by which the step wore.
@@ -186,5 +187,5 @@ fn step(simulation: &Simulation, before: &[f64], after: &[f64], height: f64) -> 
 }
 
 fn depth(simulation: &Simulation) -> f64 {
-    simulation.setup().depth_scale(simulation.state().depth)
+    simulation.setup().depth_scale(simulation.moment().depth)
 }

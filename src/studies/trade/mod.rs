@@ -149,19 +149,19 @@ fn one_run(
 
 fn sample(session: &Session, seconds: f64) -> Sample {
     let simulation = session.simulation();
-    let (setup, state) = (simulation.setup(), simulation.state());
+    let setup = simulation.setup();
     let moment = simulation.moment();
     let depth = setup.depth_scale(moment.depth);
     let radius = |i: usize| setup.grid.radius() * (i as f64 / (RADII - 1) as f64);
     Sample {
         worn: (0..RADII)
-            .map(|i| worn::interpolate(&setup.grid, &state.wear, radius(i)) / depth)
+            .map(|i| worn::interpolate(&setup.grid, simulation.worn_depth(), radius(i)) / depth)
             .collect(),
         stick_radius: moment.permanent_stick_radius.unwrap_or(f64::NAN),
         contact_radius: moment.contact_radius,
         volume: moment.wear_volume,
         seconds,
-        transforms: state.effort.transforms,
-        steps: state.steps,
+        transforms: simulation.stats().transforms,
+        steps: simulation.steps(),
     }
 }

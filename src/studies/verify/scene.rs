@@ -71,7 +71,7 @@ impl Scene {
         Ok(Setup {
             grid: RadialGrid::uniform(self.points, self.domain)?,
             material: Material::new(1.0, POISSON, FRICTION)?,
-            indenter: self.indenter,
+            indenter: self.indenter.clone(),
             drive: Drive::new(swing(self.depth, 0.0)?, tangential.transpose()?),
             wear: self.wear.map(WearLaw::archard).transpose()?,
             method: self.method,
@@ -79,6 +79,7 @@ impl Scene {
             scheme: self.scheme,
             stability: Stability::Off,
             integrator: Integrator::Direct,
+            running_in: None,
             steps_per_cycle: STEPS,
         })
     }

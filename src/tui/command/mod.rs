@@ -1,5 +1,7 @@
 //! Commands: what a key, the palette or a click can ask for, and how a key finds its command.
 
+use std::sync::OnceLock;
+
 use super::keys::Key;
 
 mod table;
@@ -69,13 +71,23 @@ pub enum Command {
     Restart,
     /// Logarithmic ordinate of the focused panel.
     LogScale,
+    /// The next stress in the half-space.
+    Stress,
+    /// Its largest value in a cycle, or the present one.
+    StressOfCycle,
     /// Theory over the plots.
     Theory,
     /// Other colours.
     Theme,
     /// Two methods side by side.
     Compare,
-    /// How far to trust the run.
+    /// The second method from the start of the scenario.
+    CompareFromStart,
+    /// Frames of a fast run at one phase of the motion, or as they come.
+    HoldPhase,
+    /// The next caption of the tour.
+    Tour,
+    /// Checks of the run.
     Accuracy,
     /// Read the curves at a radius.
     Cursor,
@@ -109,12 +121,25 @@ pub struct Binding {
     pub in_footer: bool,
 }
 
+/// Keys of the user's own, which go before those of the table.
+static OWN: OnceLock<Vec<(Key, Command)>> = OnceLock::new();
+
+/// Binds further keys to commands, once, before the explorer opens.
+pub fn bind(keys: Vec<(Key, Command)>) {
+    // A second explorer in one process keeps the keys of the first.
+    let _ = OWN.set(keys);
+}
+
 /// The command of a key.
 pub fn of_key(key: Key) -> Option<Command> {
-    BINDINGS
-        .iter()
-        .find(|binding| binding.keys.contains(&key))
-        .map(|binding| binding.command)
+    let own = OWN.get().into_iter().flatten();
+    let own = own.filter(|(bound, _)| *bound == key);
+    own.map(|(_, command)| *command).next().or_else(|| {
+        BINDINGS
+            .iter()
+            .find(|binding| binding.keys.contains(&key))
+            .map(|binding| binding.command)
+    })
 }
 
 #[cfg(test)]

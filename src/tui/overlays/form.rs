@@ -6,7 +6,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
 use super::{Answer, App, Command, Frame, Key, LineEdit, docked, first_shown, typing};
-use crate::scenario::parameters::Kind;
+use crate::scenario::schema::Kind;
 use crate::tui::command;
 use crate::tui::keys::Named;
 use crate::tui::order::Order;
@@ -18,12 +18,19 @@ use crate::tui::theme::Role;
 pub struct Form {
     at: usize,
     typed: Option<LineEdit>,
+    /// The value before the change that was asked for, until the answer is seen: a refused text stays.
+    sent: Option<Option<String>>,
 }
 
 /// Where the values begin, in cells.
 const VALUES: usize = 38;
 
 impl Form {
+    /// The value being typed, if there is one.
+    pub(super) fn line(&mut self) -> Option<&mut LineEdit> {
+        self.typed.as_mut()
+    }
+
     pub(super) fn press(&mut self, key: Key, frame: Option<&Frame>) -> Answer {
         let settings = frame.map_or(&[][..], |frame| frame.settings.as_slice());
         // Another shape has other keys: the list can have become shorter.
@@ -31,9 +38,13 @@ impl Form {
         let Some(setting) = settings.get(self.at) else {
             return Answer::Close;
         };
+        if self.is_taken(setting) {
+            self.typed = None;
+        }
         if self.typed.is_some() {
             return self.type_on(key, setting);
         }
+        self.sent = None;
         let last = settings.len() - 1;
         match (key, command::of_key(key)) {
             (Key::Named(Named::PageUp), _) => self.at = self.at.saturating_sub(5),
@@ -52,8 +63,8 @@ impl Form {
             (_, Some(Command::Accept)) => match setting.parameter.kind {
                 Kind::Choice(_) | Kind::Flag => return next(setting, true),
                 _ => {
-                    let value = setting.value.as_deref().unwrap_or("");
-                    self.typed = Some(LineEdit::new(value));
+                    let value = setting.value.as_ref().map(|_| setting.shown(true));
+                    self.typed = Some(LineEdit::new(&value.unwrap_or_default()));
                 }
             },
             (_, Some(Command::Back | Command::Edit)) => return Answer::Close,
@@ -76,16 +87,29 @@ impl Form {
         Answer::Stay
     }
 
+    /// Whether the change that was asked for has been made.
+    fn is_taken(&self, setting: &Setting) -> bool {
+        let sent = self.sent.as_ref();
+        sent.is_some_and(|before| *before != setting.value)
+    }
+
     fn type_on(&mut self, key: Key, setting: &Setting) -> Answer {
         let Some(line) = &mut self.typed else {
             return Answer::Stay;
         };
         match key {
-            Key::Named(Named::Esc) => self.typed = None,
+            Key::Named(Named::Esc) => {
+                self.typed = None;
+                self.sent = None;
+            }
             Key::Named(Named::Enter) => {
                 let value = line.text().trim().to_owned();
-                self.typed = None;
-                if !value.is_empty() && setting.value.as_ref() != Some(&value) {
+                let is_same =
+                    setting.value.as_ref() == Some(&value) || setting.shown(true) == value;
+                if value.is_empty() || is_same {
+                    self.typed = None;
+                } else {
+                    self.sent = Some(setting.value.clone());
                     return change(setting, value);
                 }
             }
@@ -118,13 +142,18 @@ impl Form {
         for ((i, setting), row) in shown.zip(list.rows()) {
             let path = format!(" {:1$}", setting.parameter.path, VALUES - 1);
             match &self.typed {
-                Some(line) if i == at => {
+                Some(line) if i == at && !self.is_taken(setting) => {
                     typing(&path, line, app.theme.style(Role::Title)).render(row, buffer);
-                    let unit = Line::raw(format!("{} ", setting.unit));
+                    let unit = match setting.unit {
+                        "" => String::new(),
+                        unit => format!("{unit}, or with a unit "),
+                    };
+                    let unit = Line::raw(app.theme.printable(&unit));
                     unit.right_aligned().render(row, buffer);
                 }
                 _ => {
-                    Line::raw(format!("{path}{}", setting.shown())).render(row, buffer);
+                    Line::raw(format!("{path}{}", setting.shown(app.theme.ascii())))
+                        .render(row, buffer);
                     if i == at {
                         buffer.set_style(row, app.theme.style(Role::Focus));
                     }
@@ -152,7 +181,7 @@ impl Form {
         };
         vec![
             Line::raw(format!(" {}", setting.parameter.meaning)),
-            Line::styled(format!(" {}", setting.effect()), quiet),
+            Line::styled(format!(" {}", setting.parameter.effect), quiet),
             Line::from(vec![Span::raw(" "), told]),
         ]
     }

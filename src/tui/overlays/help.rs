@@ -1,14 +1,14 @@
-//! The keys and what they do, searched by a word.
+//! The keys and what they do, one a row, by groups; searched by a word.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Paragraph, Widget};
 
 use super::{Answer, App, Command, Key, LineEdit, popup, typing};
 use crate::tui::command::{self, BINDINGS};
 use crate::tui::keys::Named;
-use crate::tui::manual::{Entry, keys, long, short};
+use crate::tui::manual::{Entry, groups, keys};
 use crate::tui::theme::Role;
 
 /// The help: scrolled down by some lines, or searched.
@@ -42,6 +42,11 @@ impl Help {
         }
     }
 
+    /// What is searched for, if anything.
+    pub(super) fn line(&mut self) -> Option<&mut LineEdit> {
+        self.search.as_mut()
+    }
+
     pub(super) fn press(&mut self, key: Key) -> Answer {
         let command = command::of_key(key);
         if let Some(line) = &mut self.search {
@@ -55,7 +60,7 @@ impl Help {
         }
         match command {
             Some(Command::Up) => self.first = self.first.saturating_sub(1),
-            Some(Command::Down) => self.first = (self.first + 1).min(BINDINGS.len() as u16 - 1),
+            Some(Command::Down) => self.first = (self.first + 1).min(2 * BINDINGS.len() as u16),
             Some(Command::Search) => self.search = Some(LineEdit::default()),
             Some(Command::Back | Command::Help | Command::Accept) => return Answer::Close,
             Some(other) => return Answer::Through(other),
@@ -65,46 +70,83 @@ impl Help {
     }
 
     pub(super) fn draw(&self, app: &App, area: Rect, buffer: &mut Buffer) {
-        let entries = match &self.search {
-            Some(line) => found(&line.text()),
-            None if usize::from(area.height) < BINDINGS.len() + 2 => short(),
-            None => long(),
-        };
-        let mut lines: Vec<Line> = entries
-            .into_iter()
-            .map(|Entry { keys, help }| {
-                Line::from(vec![
-                    Span::styled(
-                        format!(" {:>21}  ", keys.join(" ")),
-                        app.theme.style(Role::Title),
-                    ),
-                    Span::raw(help),
-                ])
-            })
-            .collect();
-        let mut height = lines.len() as u16 + 2;
-        let mut title = "keys (Esc closes)";
-        if let Some(line) = &self.search {
-            if lines.is_empty() {
-                let text = format!("{:>24}no command has these words", "");
-                lines.push(Line::styled(text, app.theme.style(Role::Quiet)));
-            }
-            lines.insert(
-                0,
-                typing(&format!("{:>24}", "/"), line, app.theme.style(Role::Title)),
-            );
-            // The box keeps its height while the list gets shorter.
-            height = BINDINGS.len() as u16 + 3;
-            title = "search in the help (Esc ends)";
-        } else if height > area.height {
-            title = "keys (up and down scroll, Esc closes)";
+        match &self.search {
+            Some(line) => self.draw_search(line, app, area, buffer),
+            None => self.draw_groups(app, area, buffer),
         }
-        let inside = popup(app, title, (80, height), area, buffer);
-        let first = self
-            .first
-            .min((lines.len() as u16).saturating_sub(inside.height));
-        Paragraph::new(lines)
-            .scroll((first, 0))
-            .render(inside, buffer);
     }
+
+    /// All keys by groups: in two columns where there is room for them, else scrolled.
+    fn draw_groups(&self, app: &App, area: Rect, buffer: &mut Buffer) {
+        let mut lines = Vec::new();
+        for (group, bindings) in groups() {
+            if !lines.is_empty() {
+                lines.push(Line::default());
+            }
+            lines.push(Line::styled(
+                format!(" {group}"),
+                app.theme.style(Role::Title),
+            ));
+            lines.extend(
+                bindings
+                    .into_iter()
+                    .map(|binding| row(&Entry::of(binding), app)),
+            );
+        }
+        let count = lines.len();
+        let columns = if area.width >= 2 * WIDTH && count + 2 > usize::from(area.height) {
+            2
+        } else {
+            1
+        };
+        let rows = count.div_ceil(columns);
+        let fits = rows + 2 <= usize::from(area.height);
+        let title = if fits {
+            "keys (/ searches, Esc closes)"
+        } else {
+            "keys (up and down scroll, / searches, Esc closes)"
+        };
+        let size = (columns as u16 * WIDTH, rows as u16 + 2);
+        let inside = popup(app, title, size, area, buffer);
+        let first = self.first.min((rows as u16).saturating_sub(inside.height));
+        let places = Layout::horizontal(vec![Constraint::Fill(1); columns]).split(inside);
+        for (part, place) in lines.chunks(rows.max(1)).zip(places.iter()) {
+            Paragraph::new(part.to_vec())
+                .scroll((first, 0))
+                .render(*place, buffer);
+        }
+    }
+
+    fn draw_search(&self, search: &LineEdit, app: &App, area: Rect, buffer: &mut Buffer) {
+        let mut lines: Vec<Line> = found(&search.text())
+            .iter()
+            .map(|entry| row(entry, app))
+            .collect();
+        if lines.is_empty() {
+            let text = format!("{:>KEYS$}   no command has these words", "");
+            lines.push(Line::styled(text, app.theme.style(Role::Quiet)));
+        }
+        let prompt = format!("{:>1$}", "/", KEYS + 3);
+        lines.insert(0, typing(&prompt, search, app.theme.style(Role::Title)));
+        // The box keeps its height while the list gets shorter.
+        let height = BINDINGS.len() as u16 + 3;
+        let title = "search in the help (Esc ends)";
+        let inside = popup(app, title, (WIDTH, height), area, buffer);
+        Paragraph::new(lines).render(inside, buffer);
+    }
+}
+
+/// The width of a column, and that of the keys in it.
+const WIDTH: u16 = 80;
+const KEYS: usize = 15;
+
+/// The keys of a command, and what they do.
+fn row(Entry { keys, help }: &Entry, app: &App) -> Line<'static> {
+    Line::from(vec![
+        Span::styled(
+            format!(" {:>KEYS$}  ", keys.join(" ")),
+            app.theme.style(Role::Title),
+        ),
+        Span::raw(*help),
+    ])
 }

@@ -174,7 +174,8 @@ impl Library {
         let first = first_shown(self.at, self.entries.len(), list.height);
         for ((i, entry), row) in shown.skip(first).zip(list.rows()) {
             let name = app.theme.printable(&entry.name());
-            let text = format!(" {name:width$}  {} ", entry.title());
+            let title = app.theme.printable(entry.title());
+            let text = format!(" {name:width$}  {title} ");
             let line = Line::raw(text);
             line.render(row, buffer);
             if i == self.at {

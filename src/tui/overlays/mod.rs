@@ -11,10 +11,12 @@ use super::command::{self, Command};
 use super::frame::Frame;
 use super::keys::{Key, Named};
 use super::line::LineEdit;
+use super::map::live::Live;
 use super::order::Order;
 use super::theme::Role;
 
 mod accuracy;
+mod explain;
 mod form;
 mod help;
 mod library;
@@ -35,14 +37,20 @@ pub enum Overlay {
     Help(Help),
     /// The presets.
     Library(Library),
-    /// Certificates and companion.
+    /// Checks and refinement_check.
     Accuracy,
+    /// What the focused panel shows.
+    Explain,
+    /// The checks, each explained: the second page of the one before.
+    Checks,
     /// Every command by its name.
     Palette(Palette),
     /// The parameters.
     Form(Form),
     /// The note of a snapshot.
     Note(LineEdit),
+    /// A study of one key.
+    Sweep(Live),
 }
 
 /// What an overlay makes of a key.
@@ -73,10 +81,43 @@ impl Overlay {
             Self::None => command::of_key(key).map_or(Answer::Stay, Answer::Through),
             Self::Help(help) => help.press(key),
             Self::Library(library) => library.press(key),
-            Self::Accuracy => command::of_key(key).map_or(Answer::Stay, accuracy::answer),
+            Self::Explain => command::of_key(key).map_or(Answer::Stay, explain::answer),
+            Self::Accuracy | Self::Checks => match command::of_key(key) {
+                None => Answer::Stay,
+                Some(Command::NextPanel | Command::PreviousPanel) => {
+                    *self = match self {
+                        Self::Checks => Self::Accuracy,
+                        _ => Self::Checks,
+                    };
+                    Answer::Stay
+                }
+                Some(command) => accuracy::answer(command),
+            },
             Self::Palette(palette) => palette.press(key, frame),
             Self::Form(form) => form.press(key, frame),
             Self::Note(line) => note(line, key),
+            Self::Sweep(live) => match live.press(key) {
+                None => Answer::Stay,
+                Some(Ok(None)) => Answer::Close,
+                Some(Ok(Some(scenario))) => Answer::Order(Order::Load(Box::new(scenario))),
+                Some(Err(error)) => Answer::Say(error),
+            },
+        }
+    }
+
+    /// The line being typed, if there is one.
+    pub fn line(&mut self) -> Option<&mut LineEdit> {
+        match self {
+            Self::None
+            | Self::Library(_)
+            | Self::Accuracy
+            | Self::Checks
+            | Self::Explain
+            | Self::Sweep(_) => None,
+            Self::Help(help) => help.line(),
+            Self::Palette(palette) => Some(palette.line()),
+            Self::Form(form) => form.line(),
+            Self::Note(line) => Some(line),
         }
     }
 
@@ -87,8 +128,11 @@ impl Overlay {
             Self::Help(help) => help.draw(app, area, buffer),
             Self::Library(library) => library.draw(app, area, buffer),
             Self::Accuracy => accuracy::draw(app, area, buffer),
+            Self::Explain => explain::draw(app, area, buffer),
+            Self::Checks => accuracy::draw_explanations(app, area, buffer),
             Self::Palette(palette) => palette.draw(app, area, buffer),
             Self::Form(form) => form.draw(app, area, buffer),
+            Self::Sweep(live) => live.draw(&app.theme, area, buffer),
             Self::Note(line) => {
                 let title = "snapshot with a note (Enter writes, Esc closes)";
                 let inside = docked(app, title, (100, 3), area, buffer);
@@ -142,8 +186,11 @@ fn boxed(app: &App, title: &str, size: (u16, u16), area: Rect, buffer: &mut Buff
     );
     Clear.render(place, buffer);
     let mut block = Block::bordered()
-        .border_style(app.theme.style(Role::Quiet))
-        .title(format!(" {title} "));
+        .border_style(app.theme.style(Role::Faint))
+        .title(Span::styled(
+            format!(" {title} "),
+            app.theme.style(Role::Title).remove_modifier(Modifier::DIM),
+        ));
     if app.theme.ascii() {
         block = block.border_set(ASCII_BORDER);
     }

@@ -6,10 +6,11 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
 use super::{Answer, App, Command, Frame, Key, LineEdit, docked, first_shown, typing};
-use crate::scenario::parameters::Kind;
 use crate::scenario::preset;
+use crate::scenario::schema::Kind;
 use crate::tui::command::BINDINGS;
 use crate::tui::keys::Named;
+use crate::tui::map::live::Range;
 use crate::tui::order::Order;
 use crate::tui::theme::Role;
 
@@ -31,6 +32,10 @@ enum Act {
     Set(String, String),
     /// Another scenario.
     Load(String),
+    /// Many values of a key.
+    Sweep(Range),
+    /// A figure in a file.
+    Figure(String),
 }
 
 /// One way to go on from what is typed.
@@ -56,13 +61,36 @@ fn completions(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
     if let Some(assignment) = typed.strip_prefix("set ") {
         return settings(assignment.trim_start(), frame);
     }
+    if let Some(range) = typed.strip_prefix("sweep ") {
+        return sweeps(range.trim_start(), frame);
+    }
     if let Some(name) = typed.strip_prefix("load ") {
         return loads(name.trim());
     }
+    if let Some(name) = typed.strip_prefix("figure ").map(str::trim) {
+        let act = match name.is_empty() {
+            true => Act::Complete,
+            false => Act::Figure(name.to_owned()),
+        };
+        return vec![Completion {
+            line: format!("figure {name}"),
+            help: "a figure of this state: a file that ends in .svg, .png or .pdf".into(),
+            right: String::new(),
+            act,
+        }];
+    }
     let mut list: Vec<(usize, Completion)> = Vec::new();
     let words = [
-        ("set ", "change a key of the scenario: set KEY=VALUE"),
+        (
+            "set ",
+            "change keys of the scenario: set KEY=VALUE, KEY=VALUE",
+        ),
         ("load ", "another preset, or a file: load NAME"),
+        (
+            "sweep ",
+            "run many values of a key up to this cycle: sweep KEY FROM..TO",
+        ),
+        ("figure ", "draw this state for a paper: figure FILE.svg"),
     ];
     for (word, help) in words {
         if let Some(rank) = rank(typed, word.trim_end(), help) {
@@ -129,7 +157,7 @@ fn settings(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
             .map(|setting| Completion {
                 line: format!("set {}=", setting.parameter.path),
                 help: setting.parameter.meaning.to_owned(),
-                right: setting.shown(),
+                right: setting.shown(true),
                 act: Act::Complete,
             })
             .collect();
@@ -152,7 +180,7 @@ fn settings(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
     list.extend(begun.map(|word| set(word, String::new(), String::new())));
     if list.is_empty() {
         let help = found.map(|setting| setting.parameter.described());
-        let now = found.map(|setting| format!("now {}", setting.shown()));
+        let now = found.map(|setting| format!("now {}", setting.shown(true)));
         let mut typed = set(value, help.unwrap_or_default(), now.unwrap_or_default());
         if value.is_empty() {
             typed.act = Act::Complete;
@@ -160,6 +188,39 @@ fn settings(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
         list.push(typed);
     }
     list
+}
+
+/// `KEY`, or `KEY FROM..TO`.
+fn sweeps(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
+    if let Some(range) = Range::parse(typed) {
+        return vec![Completion {
+            line: format!("sweep {typed}"),
+            help: "runs the values on all cores; the map shows them".into(),
+            right: String::new(),
+            act: Act::Sweep(range),
+        }];
+    }
+    let known = frame.map_or(&[][..], |frame| frame.settings.as_slice());
+    let key = typed.split_whitespace().next().unwrap_or_default();
+    let numbers = known.iter().filter(|setting| {
+        let kind = setting.parameter.kind;
+        matches!(kind, Kind::Number | Kind::Whole) && setting.parameter.path.contains(key)
+    });
+    let completion = |path: &str, help: &str, right: String| Completion {
+        line: format!("sweep {path} "),
+        help: help.to_owned(),
+        right,
+        act: Act::Complete,
+    };
+    numbers
+        .map(|setting| {
+            completion(
+                setting.parameter.path,
+                setting.parameter.meaning,
+                setting.shown(true),
+            )
+        })
+        .collect()
 }
 
 /// Presets by name; anything else is taken for a file.
@@ -186,6 +247,11 @@ fn loads(typed: &str) -> Vec<Completion> {
 }
 
 impl Palette {
+    /// What is typed.
+    pub(super) fn line(&mut self) -> &mut LineEdit {
+        &mut self.line
+    }
+
     pub(super) fn press(&mut self, key: Key, frame: Option<&Frame>) -> Answer {
         let list = completions(&self.line.text(), frame);
         let selected = list.get(self.at.min(list.len().saturating_sub(1)));
@@ -207,6 +273,8 @@ impl Palette {
                 Act::Complete => self.take(&selected.line),
                 Act::Set(key, value) => return Answer::Order(Order::Change { key, value }),
                 Act::Load(name) => return Answer::Load(name),
+                Act::Sweep(range) => return Answer::Order(Order::Sweep(range)),
+                Act::Figure(name) => return Answer::Order(Order::Figure(name.into())),
             },
             (Key::Named(Named::Enter), None) => {
                 let typed = self.line.text();

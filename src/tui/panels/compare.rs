@@ -5,12 +5,12 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::Line;
 use ratatui::widgets::Widget;
 
-use super::{App, Frame, Panel, bare_plot, curve, edge_marks, panel_block, radial_plot};
+use super::{App, Frame, bare_plot, curve, edge_marks, nothing, panel_block};
 use crate::math::scan::largest;
-use crate::tui::companion::{differences, rms};
-use crate::tui::frame::Rival;
-use crate::tui::plot::units::{format_number, format_value_in};
-use crate::tui::plot::{Axis, Scale};
+use crate::plot::units::{format_number, format_value_in};
+use crate::plot::{Axis, Scale};
+use crate::simulation::Observation;
+use crate::tui::frame::Comparison;
 use crate::tui::theme::Role;
 
 /// What the table of both runs' numbers needs, columns.
@@ -20,7 +20,7 @@ const NUMBERS: u16 = 39;
 const NARROWEST: u16 = 20;
 
 /// Draws the comparison over the whole area of the panels.
-pub fn draw(frame: &Frame, rival: &Rival, app: &App, area: Rect, buffer: &mut Buffer) {
+pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffer: &mut Buffer) {
     let [top, bottom] = Layout::vertical([Constraint::Fill(3), Constraint::Fill(2)]).areas(area);
     let [left, right] = Layout::horizontal([Constraint::Fill(1); 2])
         .spacing(1)
@@ -34,15 +34,16 @@ pub fn draw(frame: &Frame, rival: &Rival, app: &App, area: Rect, buffer: &mut Bu
             .spacing(1)
             .areas(bottom)
     };
-    let names = (this_name(frame), rival.name.as_str());
-    let (seen, other, theme) = (&frame.observation, &rival.observation, &app.theme);
+    let names = (this_name(frame), comparison.name.as_str());
+    let (seen, other, theme) = (&frame.observation, &comparison.observation, &app.theme);
     let inside = panel_block(
         &format!("3D profile: {} and {}", names.0, names.1),
         app,
         left,
         buffer,
     );
-    let mut plot = radial_plot(Panel::Profile, app, frame, "r", ("f", "m"))
+    let mut plot = bare_plot(app, Axis::new("r", "m"), Axis::new("f", "m"))
+        .cursor(app.cursor_radius(frame))
         .curve(curve(names.1, &other.radii, &other.profile, theme, Role::Slip).dashed())
         .curve(curve(
             &names.0,
@@ -81,12 +82,22 @@ pub fn draw(frame: &Frame, rival: &Rival, app: &App, area: Rect, buffer: &mut Bu
     let ordinate = Axis::new("|difference|", "m")
         .scale(Scale::Log)
         .bounds(bounds);
-    bare_plot(app, Axis::new("r", "m").bounds([0.0, edge]), ordinate)
-        .cursor(app.cursor_radius(frame))
-        .curve(curve("", &other.radii, &difference, theme, Role::Slip))
-        .render(inside, buffer);
+    if largest == 0.0 {
+        let told = [
+            "equal so far: both run on from here;",
+            "C compares from the start",
+        ];
+        for (text, row) in told.iter().zip(inside.rows()) {
+            nothing(text, app, row, buffer);
+        }
+    } else {
+        bare_plot(app, Axis::new("r", "m").bounds([0.0, edge]), ordinate)
+            .cursor(app.cursor_radius(frame))
+            .curve(curve("", &other.radii, &difference, theme, Role::Slip))
+            .render(inside, buffer);
+    }
     let inside = panel_block("both", app, numbers, buffer);
-    let rows = rows(frame, rival, &difference, theme.ascii());
+    let rows = rows(frame, comparison, &difference, theme.ascii());
     for ((name, here, there), row) in rows.iter().zip(inside.rows()) {
         Line::raw(format!(" {name:14} {here:>11} {there:>11}")).render(row, buffer);
     }
@@ -102,17 +113,17 @@ fn this_name(frame: &Frame) -> String {
 
 fn rows(
     frame: &Frame,
-    rival: &Rival,
+    comparison: &Comparison,
     difference: &[f64],
     ascii: bool,
 ) -> Vec<(&'static str, String, String)> {
-    let (here, there) = (&frame.observation.moment, &rival.observation.moment);
+    let (here, there) = (&frame.observation.moment, &comparison.observation.moment);
     let value = |value: f64, unit: &str| format_value_in(value, unit, 4, ascii);
     let maybe =
         |number: Option<f64>, unit: &str| number.map_or_else(|| "-".into(), |v| value(v, unit));
     let residual = |number: Option<f64>| number.map_or_else(|| "-".into(), |v| format_number(v, 2));
     let mut rows = vec![
-        ("", this_name(frame), rival.name.clone()),
+        ("", this_name(frame), comparison.name.clone()),
         (
             "stick c",
             maybe(here.permanent_stick_radius, "m"),
@@ -124,7 +135,7 @@ fn rows(
             value(there.contact_radius, "m"),
         ),
         (
-            "worn volume",
+            "wear volume",
             value(here.wear_volume, "m³"),
             value(there.wear_volume, "m³"),
         ),
@@ -134,14 +145,28 @@ fn rows(
             residual(there.energy_residual),
         ),
         (
-            "a step costs",
+            "time per step",
             maybe(frame.step_cost, "s"),
-            maybe(rival.step_cost, "s"),
+            maybe(comparison.step_cost, "s"),
         ),
         ("rms difference", value(rms(difference), "m"), String::new()),
     ];
-    if let Some(stopped) = &rival.stopped {
+    if let Some(stopped) = &comparison.stopped {
         rows.insert(1, ("", String::new(), stopped.clone()));
     }
     rows
+}
+
+/// The worn profile of `there` less that of `here`, m, at the nodes of `there`.
+fn differences(there: &Observation, here: &Observation) -> Vec<f64> {
+    let points = there.radii.iter().zip(&there.wear);
+    points
+        .map(|(&r, wear)| wear - here.worn_depth_at(r))
+        .collect()
+}
+
+/// Root mean square of differences; 0 of none.
+fn rms(differences: &[f64]) -> f64 {
+    let squares: f64 = differences.iter().map(|d| d * d).sum();
+    (squares / differences.len().max(1) as f64).sqrt()
 }

@@ -1,11 +1,11 @@
-//! What a step costs on this machine, over cycles.
+//! Time per step on this machine, over cycles.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 
 use super::{App, Frame, Panel, curve, nothing, over_cycles, series};
-use crate::tui::plot::Axis;
+use crate::plot::Axis;
 use crate::tui::theme::Role;
 
 /// What the ordinate must hold: costs are read from zero.
@@ -21,7 +21,7 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     if !cost.iter().any(|value| value.is_finite()) {
         return nothing("measured while it runs", app, area, buffer);
     }
-    over_cycles(Panel::Cost, frame, app, Axis::new("a step", "s"))
+    over_cycles(Panel::Cost, frame, app, Axis::new("t", "s"))
         .curve(curve("", &cycles, &cost, &app.theme, Role::Shear))
         .render(area, buffer);
 }

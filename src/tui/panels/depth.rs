@@ -1,7 +1,7 @@
 //! The worn depth f − f₀ over the radius.
 
 use super::{App, Frame, Panel, curve, edge_marks, radial_plot, zones};
-use crate::tui::plot::{Band, Plot, Scale};
+use crate::plot::{Band, Plot, Scale};
 use crate::tui::theme::Role;
 
 /// What the ordinate must hold.

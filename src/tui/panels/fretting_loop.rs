@@ -1,12 +1,12 @@
 //! The fretting loop: tangential force over displacement in the last cycle. Its area is the energy
-//! that the cycle dissipates.
+//! that the cycle dissipates. An arrow stands at the present moment and points the way it goes.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 
 use super::{App, Frame, Panel, nothing, plot};
-use crate::tui::plot::{Axis, Curve};
+use crate::plot::{Axis, Curve, Point};
 use crate::tui::theme::Role;
 
 /// What the ordinate must hold.
@@ -25,7 +25,13 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
         return nothing("no tangential motion in this scenario", app, area, buffer);
     }
     let (shifts, forces) = frame.trend.fretting_loop();
-    let here = ([moment.shift; 2], [moment.tangential_force; 2]);
+    let before = shifts.iter().rev().nth(1).copied();
+    let back = before.is_some_and(|before| before > moment.shift);
+    let here = Point {
+        at: [moment.shift, moment.tangential_force],
+        sign: if back { '◀' } else { '▶' },
+        style: theme.style(Role::Alarm),
+    };
     plot(
         Panel::Loop,
         app,
@@ -33,6 +39,6 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
         Axis::new("F_x", "N"),
     )
     .curve(Curve::new("", &shifts, &forces, theme.style(Role::Shear)))
-    .curve(Curve::new("", &here.0, &here.1, theme.style(Role::Alarm)))
+    .point(here)
     .render(area, buffer);
 }

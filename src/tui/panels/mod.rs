@@ -2,29 +2,37 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
+use ratatui::style::Modifier;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Widget};
 
 use super::app::App;
 use super::frame::Frame;
-use super::plot::{Axis, Curve, Plot, Scale, VerticalMark, Zone};
 use super::theme::{Role, Theme};
 use super::trend::Cycle;
+use crate::plot::{Axis, Curve, Plot, Scale, VerticalMark, Zone};
 use crate::simulation::Curves;
 
 pub mod compare;
+mod condition;
 mod cost;
 mod depth;
+mod fretting_log;
 mod fretting_loop;
 mod numbers;
 mod profile;
 mod radii;
 mod rate;
 mod residual;
+mod scar;
 mod section;
 mod springs;
+mod stress_map;
 mod stresses;
 mod volume;
+mod words;
+
+pub use stress_map::Shown;
 
 /// The panels of the explorer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -53,23 +61,32 @@ pub enum Panel {
     Residual,
     /// What a step costs over cycles.
     Cost,
+    /// The scar from above.
+    Scar,
+    /// The loops of earlier cycles.
+    Log,
+    /// Normal load over displacement amplitude.
+    Condition,
 }
 
 impl Panel {
-    /// All panels, in reading order; the first six fill the smallest screen.
-    pub const ALL: [Self; 12] = [
+    /// All panels, in reading order; the first four fill a small screen.
+    pub const ALL: [Self; 15] = [
         Self::Profile,
         Self::Stresses,
-        Self::Springs,
         Self::Loop,
         Self::Radii,
-        Self::Numbers,
         Self::Section,
+        Self::Numbers,
+        Self::Springs,
         Self::Depth,
         Self::Volume,
         Self::Rate,
         Self::Residual,
         Self::Cost,
+        Self::Scar,
+        Self::Log,
+        Self::Condition,
     ];
 
     /// The panel so many places further on.
@@ -95,10 +112,13 @@ impl Panel {
             Self::Numbers => "numbers",
             Self::Section => "cross-section",
             Self::Depth => "worn depth",
-            Self::Volume => "worn volume",
+            Self::Volume => "wear volume",
             Self::Rate => "wear rate",
-            Self::Residual => "energy residual",
-            Self::Cost => "cost of a step",
+            Self::Residual => "V against k E_d",
+            Self::Cost => "time per step",
+            Self::Scar => "scar from above",
+            Self::Log => "fretting log",
+            Self::Condition => "running-condition map",
         }
     }
 
@@ -116,8 +136,10 @@ impl Panel {
             Self::Profile => Curves::PROFILE,
             Self::Stresses => Curves::PRESSURE | Curves::SHEAR,
             Self::Springs => Curves::PROFILE_1D,
-            Self::Section => Curves::PROFILE | Curves::DEPRESSION,
+            Self::Section => Curves::PROFILE | Curves::DEPRESSION | Curves::SPRINGS,
             Self::Depth => Curves::PROFILE,
+            Self::Scar => Curves::PROFILE | Curves::SPRINGS,
+            Self::Condition => Curves::SPRINGS,
             _ => Curves::empty(),
         }
     }
@@ -136,9 +158,15 @@ impl Panel {
             Self::Rate => rate::ordinates(frame),
             Self::Residual => residual::ordinates(frame),
             Self::Cost => cost::ordinates(frame),
+            Self::Scar => scar::ordinates(frame),
+            Self::Log => fretting_log::ordinates(frame),
+            Self::Condition => condition::ordinates(frame),
             Self::Numbers => return None,
         };
         values.retain(|value| value.is_finite() && (scale == Scale::Linear || *value > 0.0));
+        if self.has_spikes() && scale == Scale::Linear {
+            clip_spikes(&mut values);
+        }
         let high = values.iter().copied().reduce(f64::max)?;
         let low = values.iter().copied().reduce(f64::min)?;
         // Five decades say more than the last trace of a stress at the edge of the contact.
@@ -150,6 +178,15 @@ impl Panel {
             },
             high,
         ])
+    }
+
+    /// Whether a few values may be far above all others: a stress that is singular at a border, a step
+    /// that the machine was slow with.
+    fn has_spikes(self) -> bool {
+        matches!(
+            self,
+            Self::Stresses | Self::Rate | Self::Residual | Self::Cost
+        )
     }
 
     /// Draws the panel.
@@ -173,6 +210,9 @@ impl Panel {
             Self::Rate => rate::draw(frame, app, inner, buffer),
             Self::Residual => residual::draw(frame, app, inner, buffer),
             Self::Cost => cost::draw(frame, app, inner, buffer),
+            Self::Scar => scar::draw(frame, app, inner, buffer),
+            Self::Log => fretting_log::draw(frame, app, inner, buffer),
+            Self::Condition => condition::draw(frame, app, inner, buffer),
         }
     }
 
@@ -195,18 +235,38 @@ impl Panel {
     }
 }
 
+/// Values beyond three times the 95 % quantile of the sizes are spikes: they do not count for the bounds,
+/// and the plot marks where they are clipped.
+fn clip_spikes(values: &mut [f64]) {
+    let mut sizes: Vec<f64> = values.iter().map(|value| value.abs()).collect();
+    sizes.retain(|size| *size > 0.0);
+    if sizes.len() < 20 {
+        return;
+    }
+    let at = sizes.len() * 95 / 100;
+    let (_, quantile, _) = sizes.select_nth_unstable_by(at, f64::total_cmp);
+    let most = 3.0 * *quantile;
+    for value in values {
+        if value.abs() > most {
+            *value = 0.5 * most.copysign(*value);
+        }
+    }
+}
+
 /// The frame of a panel that is not focused; returns its inside.
 fn panel_block(title: &str, app: &App, area: Rect, buffer: &mut Buffer) -> Rect {
     titled(title, Role::Title, app, area, buffer)
 }
 
 /// A rule with a title; returns what is below it.
-fn titled(title: &str, role: Role, app: &App, area: Rect, buffer: &mut Buffer) -> Rect {
+pub(super) fn titled(title: &str, role: Role, app: &App, area: Rect, buffer: &mut Buffer) -> Rect {
     let theme = &app.theme;
-    let title = Line::from(vec![Span::styled(format!(" {title} "), theme.style(role))]);
+    // The rule is dim; its title is not.
+    let style = theme.style(role).remove_modifier(Modifier::DIM);
+    let title = Line::from(vec![Span::styled(format!(" {title} "), style)]);
     let mut block = Block::new()
         .borders(Borders::TOP)
-        .border_style(theme.style(Role::Quiet))
+        .border_style(theme.style(Role::Faint))
         .title(title);
     if theme.ascii() {
         block = block.border_set(ratatui::symbols::border::Set {
@@ -246,6 +306,7 @@ fn bare_plot<'a>(app: &App, x: Axis<'a>, y: Axis<'a>) -> Plot<'a> {
     Plot::new(x, y)
         .marker(app.theme.marker)
         .axis_style(app.theme.style(Role::Quiet))
+        .rule_style(app.theme.style(Role::Faint))
 }
 
 /// A quantity of every cycle over the cycles so far.
@@ -298,23 +359,24 @@ fn edge_marks(frame: &Frame, theme: &Theme) -> Vec<VerticalMark<'static>> {
 }
 
 /// Stick, slip and open along the radius.
-fn zones(frame: &Frame, theme: &Theme) -> Vec<Zone> {
+fn zones(frame: &Frame, theme: &Theme) -> Vec<Zone<'static>> {
     let moment = &frame.observation.moment;
     let edge = frame.observation.radii.last().copied().unwrap_or(0.0);
     let contact = moment.contact_radius;
     let stick = moment.stick_radius.unwrap_or(contact).min(contact);
     [
-        (0.0, stick, Role::Stick, 's'),
-        (stick, contact, Role::Slip, '~'),
-        (contact, edge, Role::Open, '.'),
+        (0.0, stick, Role::Stick, 's', "stick"),
+        (stick, contact, Role::Slip, '~', "slip"),
+        (contact, edge, Role::Open, '.', "open"),
     ]
     .into_iter()
-    .filter(|(from, to, _, _)| to > from)
-    .map(|(from, to, role, glyph)| Zone {
+    .filter(|(from, to, ..)| to > from)
+    .map(|(from, to, role, glyph, name)| Zone {
         from,
         to,
         style: theme.style(role),
         glyph,
+        name,
     })
     .collect()
 }
@@ -322,4 +384,22 @@ fn zones(frame: &Frame, theme: &Theme) -> Vec<Zone> {
 /// A solid curve of a role.
 fn curve<'a>(name: &'a str, xs: &'a [f64], ys: &'a [f64], theme: &Theme, role: Role) -> Curve<'a> {
     Curve::new(name, xs, ys, theme.style(role))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_spike_does_not_flatten_the_rest_and_a_smooth_curve_is_whole() {
+        let mut smooth: Vec<f64> = (0..100).map(|i| f64::from(i).sqrt()).collect();
+        let whole = smooth.clone();
+        clip_spikes(&mut smooth);
+        assert_eq!(smooth, whole);
+        let mut spiked = whole.clone();
+        spiked[50] = 1e6;
+        clip_spikes(&mut spiked);
+        let high = spiked.iter().copied().fold(0.0, f64::max);
+        assert!((10.0..30.0).contains(&high), "{high}");
+    }
 }

@@ -6,13 +6,13 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
 use super::{App, Frame};
-use crate::tui::plot::units::{format_number, format_value_in};
+use crate::plot::units::{format_number, format_value_in};
 use crate::tui::theme::Role;
 
 /// Draws the panel.
 pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     let rows = rows(frame, app.theme.ascii());
-    let columns = (area.width / 26).clamp(1, 2);
+    let columns = (area.width / 30).clamp(1, 2);
     let width = area.width / columns;
     for (i, (name, value)) in rows.iter().enumerate() {
         let (column, row) = (i as u16 / area.height.max(1), i as u16 % area.height.max(1));
@@ -41,19 +41,51 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
 fn rows(frame: &Frame, ascii: bool) -> Vec<(&'static str, String)> {
     let moment = &frame.observation.moment;
     let value = |value: f64, unit: &str| format_value_in(value, unit, 4, ascii);
-    let mut rows = vec![("contact a", value(moment.contact_radius, "m"))];
-    if let (Some(stick), Some(permanent)) = (moment.stick_radius, moment.permanent_stick_radius) {
-        rows.push(("stick c, now", value(stick, "m")));
-        rows.push(("stick c, cycle", value(permanent, "m")));
+    let ratio = |value: Option<f64>| value.map(|value| format!("{value:.3}"));
+    let mut rows = Vec::new();
+    if let Some(figures) = &frame.figures {
+        rows.push(("regime", figures.regime.title().to_owned()));
     }
-    rows.push(("depth", value(moment.depth, "m")));
+    rows.push(("contact radius a", value(moment.contact_radius, "m")));
+    if let (Some(stick), Some(permanent)) = (moment.stick_radius, moment.permanent_stick_radius) {
+        rows.push(("stick radius c", value(stick, "m")));
+        rows.push(("c, whole cycle", value(permanent, "m")));
+    }
+    rows.push(("depth d", value(moment.depth, "m")));
     rows.push(("F_z", value(moment.normal_force, "N")));
     if moment.stick_radius.is_some() {
-        rows.push(("shift u_x", value(moment.shift, "m")));
+        rows.push(("u_x", value(moment.shift, "m")));
         rows.push(("F_x", value(moment.tangential_force, "N")));
     }
-    rows.push(("worn volume", value(moment.wear_volume, "m³")));
-    rows.push(("friction work", value(moment.dissipated_energy, "J")));
+    if let Some(figures) = &frame.figures {
+        rows.push(("E_d per cycle", value(figures.energy, "J")));
+        let ratios = [
+            (
+                if ascii { "Q*/(mu P)" } else { "Q*/(μP)" },
+                figures.force_ratio,
+            ),
+            ("slip ratio", figures.slip_ratio),
+            ("sliding ratio D", figures.sliding_ratio),
+            ("energy ratio A", figures.energy_ratio),
+            ("energy ratio B", figures.energy_ratio_b),
+        ];
+        rows.extend(
+            ratios
+                .into_iter()
+                .filter_map(|(name, of)| Some((name, ratio(of)?))),
+        );
+    }
+    rows.push(("wear volume V", value(moment.wear_volume, "m³")));
+    rows.push(("friction work E_d", value(moment.dissipated_energy, "J")));
+    if let Some(per_energy) = moment.wear_per_energy() {
+        rows.push(("V/E_d", cubic_micrometres(per_energy, ascii)));
+    }
+    if let Some(k) = frame.wear_coefficient {
+        let millimetres = if ascii { "mm3/(N*m)" } else { "mm³/(N·m)" };
+        rows.push(("k", format!("{} 1/Pa", format_number(k, 3))));
+        rows.push(("k", format!("{} {millimetres}", format_number(k * 1e9, 3))));
+        rows.push(("k", cubic_micrometres(k, ascii)));
+    }
     if let Some(residual) = moment.energy_residual {
         rows.push(("1 - V/(k E_d)", format_number(residual, 2)));
     }
@@ -61,12 +93,22 @@ fn rows(frame: &Frame, ascii: bool) -> Vec<(&'static str, String)> {
         rows.push(("stability margin", format_number(margin, 2)));
     }
     if let Some(cost) = frame.step_cost {
-        rows.push(("a step costs", value(cost, "s")));
+        rows.push(("time per step", value(cost, "s")));
+    }
+    if let Some([equivalent, tension]) = frame.peaks {
+        let place = |x: f64| format!("{} a", format_number(x / moment.contact_radius, 3));
+        rows.push(("largest von Mises", value(equivalent.value, "Pa")));
+        rows.push(("  at depth", place(equivalent.z)));
+        rows.push(("largest tension", value(tension.value, "Pa")));
+        rows.push(("  at x", place(tension.x)));
     }
     rows.push(("cells", (frame.observation.radii.len() - 1).to_string()));
-    rows.push(("steps a cycle", frame.steps_per_cycle.to_string()));
-    if let Some(error) = frame.expected_error {
-        rows.push(("error expected", format!("{error:.0e} d")));
-    }
+    rows.push(("steps per cycle", frame.steps_per_cycle.to_string()));
     rows
+}
+
+/// A volume per energy (1/Pa) in µm³/J.
+fn cubic_micrometres(per_energy: f64, ascii: bool) -> String {
+    let unit = if ascii { "um3/J" } else { "µm³/J" };
+    format!("{} {unit}", format_number(per_energy * 1e18, 3))
 }

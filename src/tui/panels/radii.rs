@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 
 use super::{App, Frame, Panel, curve, over_cycles, series};
-use crate::tui::plot::Axis;
+use crate::plot::Axis;
 use crate::tui::theme::Role;
 
 /// What the ordinate must hold: radii grow from zero.

@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 
 use super::{App, Frame, Panel, curve, nothing, over_cycles, series};
-use crate::tui::plot::{Axis, Scale};
+use crate::plot::{Axis, Scale};
 use crate::tui::theme::Role;
 
 /// What the ordinate must hold.
@@ -26,7 +26,7 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
         Scale::Linear => now.fill_to(0.0),
         Scale::Log => now,
     };
-    over_cycles(Panel::Rate, frame, app, Axis::new("dV a cycle", "m³"))
+    over_cycles(Panel::Rate, frame, app, Axis::new("V per cycle", "m³"))
         .curve(now)
         .render(area, buffer);
 }

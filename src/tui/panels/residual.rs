@@ -1,26 +1,43 @@
-//! How far V and k E_d disagree over a period of the motion: |1 − ΔV/(k ΔE_d)|.
+//! How far the wear volume and the work of friction disagree: V/(k E_d) − 1 since the start, in parts of a
+//! thousand. Zero is what the wear law says.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 
 use super::{App, Frame, Panel, curve, nothing, over_cycles, series};
-use crate::tui::plot::{Axis, Scale};
+use crate::plot::Axis;
 use crate::tui::theme::Role;
+use crate::tui::trend::Cycle;
 
-/// What the ordinate must hold.
-pub fn ordinates(frame: &Frame) -> Vec<f64> {
-    series(frame, |entry| entry.residual).1
+/// V/(k E_d) − 1 at the end of an entry, in ‰; NaN under laws that do not follow energy.
+fn difference(entry: &Cycle) -> f64 {
+    1e3 * (entry.wear_volume / entry.expected_volume - 1.0)
 }
 
-/// Draws the panel. Errors are read by their decade: the scale is always logarithmic.
+/// What the ordinate must hold: the differences, and zero.
+pub fn ordinates(frame: &Frame) -> Vec<f64> {
+    let mut values = series(frame, difference).1;
+    values.push(0.0);
+    values
+}
+
+/// Draws the panel.
 pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
-    let (cycles, residual) = series(frame, |entry| entry.residual);
-    if !residual.iter().any(|value| *value > 0.0) {
+    let (cycles, differences) = series(frame, difference);
+    if !differences.iter().any(|value| value.is_finite()) {
         return nothing("nothing to compare yet", app, area, buffer);
     }
-    let axis = Axis::new("|1 - V/(k E_d)|", "").scale(Scale::Log);
-    over_cycles(Panel::Residual, frame, app, axis)
-        .curve(curve("", &cycles, &residual, &app.theme, Role::Limit))
-        .render(area, buffer);
+    let theme = &app.theme;
+    let zero = [0.0; 2];
+    let ends = [0.0, cycles.last().copied().unwrap_or(0.0).max(1.0)];
+    over_cycles(
+        Panel::Residual,
+        frame,
+        app,
+        Axis::new("V/(k E_d) - 1", "1e-3"),
+    )
+    .curve(curve("", &ends, &zero, theme, Role::Faint).dashed())
+    .curve(curve("", &cycles, &differences, theme, Role::Profile))
+    .render(area, buffer);
 }

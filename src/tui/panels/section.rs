@@ -1,21 +1,30 @@
-//! A cut through indenter and half-space: two bodies, one pressed into the other, as one sees them.
+//! A cut through indenter and half-space: two bodies, one pressed into the other, as one sees them, and
+//! in the half-space the stress under the contact.
 //!
-//! Heights are exaggerated; the picture is true in r and in z, each on its own scale. A sample is half
-//! a cell high: what stands there is decided by the heights of the surfaces, and the contact is drawn
-//! on the first sample below the indenter in the colours of stick and slip.
+//! Heights of the surfaces are exaggerated, each body's surface to an eighth of a cell. Below the surface
+//! lengths are true: a half cell is about as high as a column is wide, and both stand for the same length,
+//! so the stress lies under the contact as it does in the material. The contact is drawn on the first half
+//! cell below the indenter in the colours of stick and slip.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::style::Style;
+use ratatui::style::{Color, Style};
 use ratatui::text::Line;
 
+use super::stress_map::{self, SHADES, Samples};
 use super::{App, Frame, Panel};
 use crate::math::grid::interpolate;
-use crate::tui::plot::units::format_value_in;
-use crate::tui::theme::{Role, Theme};
+use crate::plot::units::format_value_in;
+use crate::tui::theme::{Depth, Look, Role, Theme};
 
 /// The picture is this many times as wide as the domain: the sides of the bodies are seen.
 const WIDER: f64 = 1.5;
+
+/// Parts of a cell that a surface is drawn to.
+const PARTS: usize = 8;
+
+/// The lower so many eighths of a cell.
+const LOWER: [char; PARTS + 1] = [' ', '▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
 
 /// What is at a place of the cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -120,7 +129,7 @@ pub fn ordinates(frame: &Frame) -> Vec<f64> {
         Some(_) => depth.abs(),
         None => frame.indenter.profile(WIDER * edge),
     };
-    vec![-depth.max(0.0) - 0.6 * flank, flank - depth]
+    vec![-depth.max(0.0) - 1.2 * flank, flank - depth]
 }
 
 /// Draws the panel.
@@ -132,92 +141,205 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     if seen.depression.is_empty() || area.is_empty() {
         return;
     }
-    let ascii = app.theme.ascii();
-    let size = (high - low) / (2.0 * f64::from(area.height));
+    let half = (high - low) / (2.0 * f64::from(area.height));
+    let width = 2.0 * WIDER * edge / f64::from(area.width);
+    let rows = 2 * usize::from(area.height);
+    let samples = Samples::new(app.stress, frame, usize::from(area.width), rows, width);
+    let picture = Picture {
+        theme: &app.theme,
+        half,
+        map: samples.zip(app.stress_bounds()),
+        colors: app.stress.quantity.colors(),
+    };
     for column in 0..area.width {
-        let middle = f64::from(area.width) / 2.0;
-        let x = (f64::from(column) + 0.5 - middle) / middle * WIDER * edge;
+        let x = (f64::from(column) + 0.5 - f64::from(area.width) / 2.0) * width;
         let cut = Cut::at(frame, x.abs());
         for row in 0..area.height {
-            let z = |half: f64| high - (2.0 * f64::from(row) + half) * size;
-            let halves = [0.5, 1.5].map(|half| cut.matter(z(half), size));
-            let (glyph, style) = cell(halves, &app.theme, ascii);
+            let top = high - 2.0 * f64::from(row) * half;
+            let (glyph, style) = picture.cell(&cut, usize::from(column), top);
             if let Some(cell) = buffer.cell_mut((area.x + column, area.y + row)) {
                 cell.set_char(glyph).set_style(style);
             }
         }
     }
-    words(frame, app, area, (low, high), buffer);
+    words(frame, app, area, half, width, buffer);
 }
 
-/// One cell of two samples, the upper one first.
-fn cell([upper, lower]: [Matter; 2], theme: &Theme, ascii: bool) -> (char, Style) {
-    let style = |matter: Matter| theme.style(matter.role());
-    let is_contact = |matter| matches!(matter, Matter::Stick | Matter::Slip);
-    if ascii {
-        // One sample a cell: the contact, where there is one.
-        let shown = if is_contact(lower) { lower } else { upper };
-        return (shown.glyph(ascii), style(shown));
-    }
-    if upper == lower {
-        return (upper.glyph(ascii), style(upper));
-    }
-    match (upper, lower) {
-        (Matter::Air, below) => ('▄', style(below)),
-        (above, Matter::Air) => ('▀', style(above)),
-        (above, below) if theme.colored() => {
-            let ground = style(below).fg.unwrap_or_default();
-            ('▀', style(above).bg(ground))
+/// How the cut becomes cells.
+struct Picture<'a> {
+    theme: &'a Theme,
+    /// The height of half a cell, m, on the scale of the surfaces.
+    half: f64,
+    /// The stress and the range of its colours.
+    map: Option<(Samples, [f64; 2])>,
+    colors: crate::plot::colormap::ColorMap,
+}
+
+impl Picture<'_> {
+    /// The cell whose upper edge is at height `top`.
+    fn cell(&self, cut: &Cut, column: usize, top: f64) -> (char, Style) {
+        if !self.theme.colored() || self.theme.ascii() {
+            return self.plain(cut, column, top);
         }
-        // Without colour the contact is the edge of the solid body.
-        (above, _) => ('▀', style(above)),
+        let part = |k: usize| top - (k as f64 + 0.5) * 2.0 * self.half / PARTS as f64;
+        let matter: [Matter; PARTS] = std::array::from_fn(|k| cut.matter(part(k), self.half));
+        if matter.iter().all(|&m| m == Matter::HalfSpace) {
+            let halves =
+                [0.5, 1.5].map(|at| self.ink(cut, column, top - at * self.half, matter[0]));
+            let [upper, lower] = halves;
+            return ('▀', ground(ink(upper), lower));
+        }
+        // The two that have most of the cell, in their order.
+        let share = |m: Matter| matter.iter().filter(|&&other| other == m).count();
+        let mut found: Vec<Matter> = matter.to_vec();
+        found.dedup();
+        while found.len() > 2 {
+            let least = (0..found.len())
+                .min_by_key(|&k| share(found[k]))
+                .unwrap_or(0);
+            found.remove(least);
+        }
+        let [upper, lower] = match found[..] {
+            [upper, lower] => [upper, lower],
+            _ => [matter[0]; 2],
+        };
+        if upper == lower {
+            return match self.ink(cut, column, part(0), upper) {
+                None => (' ', Style::new()),
+                color => (LOWER[PARTS], ink(color)),
+            };
+        }
+        let count = share(lower) * PARTS / (share(lower) + share(upper)).max(1);
+        let colors = [
+            self.ink(cut, column, part(0), upper),
+            self.ink(cut, column, part(PARTS - 1), lower),
+        ];
+        match colors {
+            // Nothing is drawn in air: the solid part has the ink.
+            [above, None] => ('▀', ink(above)),
+            [above, below] => (LOWER[count.clamp(1, PARTS - 1)], ground(ink(below), above)),
+        }
     }
+
+    /// The colour of what is at height `z`; `None` for air.
+    fn ink(&self, cut: &Cut, column: usize, z: f64, matter: Matter) -> Option<Color> {
+        match matter {
+            Matter::Air => None,
+            Matter::Indenter => Some(body(self.theme)),
+            Matter::HalfSpace => match self.shade(cut, column, z) {
+                Some(shade) => stress_map::color(self.theme, self.colors, shade),
+                None => self.theme.style(Role::Open).fg,
+            },
+            other => self.theme.style(other.role()).fg,
+        }
+    }
+
+    /// The shade of the stress at height `z`.
+    fn shade(&self, cut: &Cut, column: usize, z: f64) -> Option<usize> {
+        let (samples, range) = self.map.as_ref()?;
+        let surface = match cut.contact {
+            Some(_) => cut.indenter,
+            None => cut.surface,
+        };
+        let below = ((surface - z) / self.half).max(0.0) as usize;
+        Some(stress_map::shade(samples.value(column, below), *range))
+    }
+
+    /// A cell without colour: the bodies as signs, one a cell in ASCII.
+    fn plain(&self, cut: &Cut, column: usize, top: f64) -> (char, Style) {
+        let ascii = self.theme.ascii();
+        let [upper, lower] = [0.5, 1.5].map(|at| cut.matter(top - at * self.half, self.half));
+        let is_contact = |matter| matches!(matter, Matter::Stick | Matter::Slip);
+        let shown = match (is_contact(lower) && ascii, upper) {
+            (true, _) => lower,
+            (false, upper) => upper,
+        };
+        if let (Matter::HalfSpace, Some(shade)) = (shown, self.shade(cut, column, top - self.half))
+        {
+            return (stress_map::sign(shade), Style::new());
+        }
+        if ascii || upper == lower {
+            return (shown.glyph(ascii), self.theme.style(shown.role()));
+        }
+        match (upper, lower) {
+            (Matter::Air, below) => ('▄', self.theme.style(below.role())),
+            (above, _) => ('▀', self.theme.style(above.role())),
+        }
+    }
+}
+
+/// The indenter: calm, so that the stress is seen.
+fn body(theme: &Theme) -> Color {
+    match (theme.depth, theme.look) {
+        (Depth::Sixteen, _) => Color::Gray,
+        (_, Look::Light) => Color::Indexed(146),
+        _ => Color::Indexed(60),
+    }
+}
+
+fn ink(color: Option<Color>) -> Style {
+    color.map_or(Style::new(), |color| Style::new().fg(color))
+}
+
+fn ground(style: Style, color: Option<Color>) -> Style {
+    color.map_or(style, |color| style.bg(color))
 }
 
 /// Names of the bodies, load and shift, where there is room for them.
-fn words(frame: &Frame, app: &App, area: Rect, (low, high): (f64, f64), buffer: &mut Buffer) {
+fn words(frame: &Frame, app: &App, area: Rect, half: f64, width: f64, buffer: &mut Buffer) {
     if area.height < 5 || area.width < 36 {
         return;
     }
     let moment = &frame.observation.moment;
     let ascii = app.theme.ascii();
     let value = |value, unit| format_value_in(value, unit, 3, ascii);
-    let mut line = |text: String, y: u16, style: Style| {
+    let mut line = |text: &str, y: u16| -> Option<u16> {
         let text = format!(" {text} ");
-        let width = Line::raw(text.as_str()).width() as u16;
-        if width <= area.width {
-            let place = Rect::new(area.x + (area.width - width) / 2, y, width, 1);
-            buffer.set_stringn(
-                place.x,
-                place.y,
-                &text,
-                usize::from(width),
-                Style::reset().patch(style),
-            );
-        }
+        let cells = Line::raw(text.as_str()).width() as u16;
+        let x = area.x + area.width.checked_sub(cells)? / 2;
+        buffer.set_stringn(x, y, &text, usize::from(cells), Style::reset());
+        Some(x)
     };
-    let plain = Style::new();
     let load = format!("indenter, F_z {}", value(moment.normal_force, "N"));
-    line(load, area.y, plain);
+    line(&load, area.y);
     if moment.stick_radius.is_some() && area.height >= 8 {
         let arrows = if ascii { "<->" } else { "↔" };
         line(
-            format!("{arrows} u_x {}", value(moment.shift, "m")),
+            &format!("{arrows} u_x {}", value(moment.shift, "m")),
             area.y + 1,
-            plain,
         );
     }
-    let edge = frame.observation.radii.last().copied().unwrap_or(0.0);
-    // Cells are about twice as high as wide.
-    let across = 2.0 * WIDER * edge / f64::from(area.width);
-    let down = (high - low) / (2.0 * f64::from(area.height));
     let times = if ascii { "x" } else { "×" };
-    let scale = across / down;
-    let exaggerated = match scale {
+    let exaggerated = match width / half {
         scale if scale >= 1.5 => format!("half-space, heights {times}{scale:.0}"),
         _ => "half-space".to_owned(),
     };
-    line(exaggerated, area.bottom() - 1, plain);
+    let bottom = area.bottom() - 1;
+    let Some([low, high]) = app.stress_bounds().filter(|_| frame.load.is_some()) else {
+        line(&exaggerated, bottom);
+        return;
+    };
+    // The scale of the colours, between its two ends.
+    let ends = [low, high].map(|end| value(end, "Pa"));
+    let name = if app.stress.over_cycle {
+        format!("{}, cycle", app.stress.quantity.short())
+    } else {
+        app.stress.quantity.short().to_owned()
+    };
+    let before = format!("{name} {} ", ends[0]);
+    let scale = format!("{before}{} {}", " ".repeat(SHADES), ends[1]);
+    if let Some(x) = line(&scale, bottom) {
+        let first = x + 1 + before.chars().count() as u16;
+        for shade in 0..SHADES {
+            let color = stress_map::color(&app.theme, app.stress.quantity.colors(), shade);
+            if let Some(cell) = buffer.cell_mut((first + shade as u16, bottom)) {
+                match color.filter(|_| !ascii) {
+                    Some(color) => cell.set_char(' ').set_bg(color),
+                    None => cell.set_char(stress_map::sign(shade)),
+                };
+            }
+        }
+    }
 }
 
 #[cfg(test)]
@@ -264,7 +386,7 @@ mod tests {
         let scenario = Scenario::load("hertz", &sets).expect("a scenario");
         let radius = match scenario.setup().indenter {
             crate::contact::indenter::Indenter::Paraboloid { radius } => radius,
-            other => panic!("{other:?}"),
+            ref other => panic!("{other:?}"),
         };
         let mut setup = scenario.setup().clone();
         setup.grid = crate::math::grid::RadialGrid::uniform(200, 3e-4).expect("a grid");

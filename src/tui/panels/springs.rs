@@ -1,7 +1,7 @@
 //! The 1D profile g(x) against the depth to which it is pressed: springs touch where g is less.
 
 use super::{App, Frame, Panel, curve, edge_marks, radial_plot};
-use crate::tui::plot::Plot;
+use crate::plot::Plot;
 use crate::tui::theme::Role;
 
 /// What the ordinate must hold.

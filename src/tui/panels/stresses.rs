@@ -1,7 +1,7 @@
 //! Pressure p(r) and shear stress τ(r). τ is drawn as τ/μ: it meets ±p where the contact slips.
 
 use super::{App, Frame, Panel, curve, edge_marks, radial_plot};
-use crate::tui::plot::{Plot, Scale};
+use crate::plot::{Plot, Scale};
 use crate::tui::theme::Role;
 
 /// τ/μ; empty without friction or tangential motion.

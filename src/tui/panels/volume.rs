@@ -1,12 +1,13 @@
-//! Worn volume over cycles, and what the work of friction says of it: V = k E_d.
+//! Wear volume V over cycles. What the work of friction says of it, V = k E_d, differs by less than a line
+//! is wide: the panel beside shows the difference.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 
 use super::{App, Frame, Panel, curve, nothing, over_cycles, series};
-use crate::tui::plot::Axis;
-use crate::tui::plot::units::format_value_in;
+use crate::plot::Axis;
+use crate::plot::units::format_value_in;
 use crate::tui::theme::Role;
 
 /// What the ordinate must hold: volumes grow from zero.
@@ -23,14 +24,10 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
         return nothing("no wear in this scenario", app, area, buffer);
     }
     let (cycles, volume) = series(frame, |entry| entry.wear_volume);
-    let expected = series(frame, |entry| entry.expected_volume).1;
     let work = format_value_in(seen.moment.dissipated_energy, "J", 4, theme.ascii());
     let work = format!("E_d {work}");
-    let mut plot = over_cycles(Panel::Volume, frame, app, Axis::new("V", "m³"))
-        .curve(curve("V", &cycles, &volume, theme, Role::Profile))
-        .note(&work);
-    if expected.iter().any(|value| value.is_finite()) {
-        plot = plot.curve(curve("k E_d", &cycles, &expected, theme, Role::Shear).dashed());
-    }
-    plot.render(area, buffer);
+    over_cycles(Panel::Volume, frame, app, Axis::new("V", "m³"))
+        .curve(curve("", &cycles, &volume, theme, Role::Profile))
+        .note(&work)
+        .render(area, buffer);
 }

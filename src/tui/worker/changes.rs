@@ -5,15 +5,20 @@ use std::sync::Arc;
 use super::Worker;
 use crate::math::abel::AbelMethod;
 use crate::scenario::Scenario;
-use crate::scenario::accuracy;
-use crate::scenario::parameters::{Kind, find};
+use crate::scenario::schema::{Kind, find};
 use crate::scenario::session::Session;
-use crate::simulation::Integrator;
+use crate::studies::refinement::{self, Level, SCREEN_PATIENCE};
+use crate::studies::theory::Theory;
 use crate::tui::frame::Activity;
-use crate::tui::past::Past;
 use crate::tui::settings::Setting;
-use crate::tui::theory::Theory;
 use crate::tui::trend::Trend;
+use crate::tui::undo::Past;
+
+/// How much finer each press of the key makes cells and steps.
+const STRIDE: f64 = 1.5;
+
+/// The fewest cells that a key goes down to.
+const COARSEST: usize = 8;
 
 /// Laws that keys step through.
 const LAWS: [&str; 2] = ["archard", "power"];
@@ -37,47 +42,53 @@ impl Worker {
         }
     }
 
-    /// Goes along the front of speed and accuracy, from where the present numerics stand on it.
+    /// Refines or coarsens cells and steps together, by [`STRIDE`] for each place.
     pub(super) fn refine(&mut self, places: isize) {
         let scenario = self.session.scenario();
-        let now = scenario.present_accuracy();
-        let next = accuracy::rung(now, places);
-        if scenario.value("numerics.accuracy").is_some() && next == now {
+        let now = Level::of(scenario);
+        let factor = STRIDE.powf(places as f64);
+        let next = now.scaled(factor, factor);
+        let within = COARSEST..=scenario.setup().method.most_cells();
+        if next == now || !within.contains(&next.points) {
             let end = if places > 0 { "finest" } else { "coarsest" };
-            return self.notice(&format!("{next:e} is the {end} accuracy there is"));
+            let cells = now.points;
+            return self.notice(&format!("N = {cells} is about the {end} level there is"));
         }
-        self.change("numerics.accuracy", &format!("{next:e}"));
-        let setup = self.session.scenario().setup();
-        if self.session.scenario().expected_error() == Some(next) {
-            let jumps = match setup.integrator {
-                Integrator::Direct => String::new(),
-                Integrator::CycleJump { tolerance } => format!(", jumps to {tolerance:.0e}"),
-            };
+        let keys = next.keys();
+        let mut changes = keys.iter().filter(|(key, _)| *key != "numerics.integrator");
+        let Some((key, value)) = changes.next() else {
+            return;
+        };
+        let all = changes.fold(value.clone(), |all, (key, value)| {
+            format!("{all}, {key}={value}")
+        });
+        self.change(key, &all);
+        if Level::of(self.session.scenario()) == next {
             self.notice(&format!(
-                "expected error {next:e} of the depth: N = {}, {} steps a cycle{jumps}",
-                setup.grid.cells(),
-                setup.steps_per_cycle
+                "N = {}, {} steps per cycle; a estimates the error",
+                next.points, next.steps
             ));
         }
     }
 
-    /// Another value for a key, from here on.
+    /// Another value for a key, from here on; further `, KEY=VALUE` behind it hold at once.
     pub(super) fn change(&mut self, key: &str, value: &str) {
         self.keep();
-        let quoted = format!("\"{value}\"");
-        let is_word = find(key).is_some_and(|known| matches!(known.kind, Kind::Choice(_)));
-        match self
-            .session
-            .change(key, if is_word { &quoted } else { value })
-        {
+        let assignments = assignments(key, value);
+        let borrowed: Vec<(&str, &str)> = assignments
+            .iter()
+            .map(|(key, value)| (key.as_str(), value.as_str()))
+            .collect();
+        match self.session.change_all(&borrowed) {
             Ok(()) => {
-                self.branch();
+                let branched = self.branch();
                 self.learn();
                 if matches!(self.activity, Activity::Stopped(_)) {
                     self.activity = Activity::Paused;
                 }
                 let cycle = self.session.simulation().cycle();
-                self.notice(&format!("{key} = {value} from cycle {cycle:.2} on"));
+                let said = format!("{key} = {value} at cycle {cycle:.2}");
+                self.notice(&branched.map_or(said.clone(), |word| format!("{said}; {word}")));
             }
             Err(error) => self.notice(&error.to_string()),
         }
@@ -87,17 +98,25 @@ impl Worker {
     pub(super) fn learn(&mut self) {
         self.theory = Arc::new(Theory::of(self.session.simulation().setup()));
         self.settings = Arc::new(Setting::all(self.session.scenario()));
+        self.warnings = Arc::new(self.session.simulation().warnings());
     }
 
     /// Another scenario, from its beginning.
     pub(super) fn load(&mut self, scenario: Scenario) {
-        match Session::start(scenario) {
+        let resolved = match refinement::resolve(&scenario, None, SCREEN_PATIENCE, &|| true) {
+            Ok(resolved) => resolved,
+            Err(error) => return self.notice(&error.to_string()),
+        };
+        if let Some(word) = resolved.warning {
+            self.notice(&word);
+        }
+        match Session::start(resolved.scenario) {
             Ok(session) => {
-                if let Some(keeping) = &mut self.keeping {
-                    keeping.turn_over(self.past.line(&self.session), &session);
+                if let Some(keeping) = &self.keeping {
+                    super::locked(keeping).turn_over(self.past.line(&self.session), &session);
                 }
                 self.session = session;
-                self.rival = None;
+                self.comparison = None;
                 self.past = Past::default();
                 self.whole_trend = None;
                 self.learn();
@@ -112,6 +131,26 @@ impl Worker {
     }
 }
 
+/// The keys and values of `KEY` and `VALUE, KEY=VALUE, ...`; words that a key knows stand in quotes.
+fn assignments(key: &str, value: &str) -> Vec<(String, String)> {
+    let mut parts: Vec<(String, String)> = Vec::new();
+    let whole = format!("{key}={value}");
+    for part in whole.split(',') {
+        match (part.split_once('='), parts.last_mut()) {
+            (Some((key, value)), _) => parts.push((key.trim().to_owned(), value.trim().to_owned())),
+            // A comma within a value.
+            (None, Some((_, value))) => value.push_str(&format!(",{part}")),
+            (None, None) => {}
+        }
+    }
+    for (key, value) in &mut parts {
+        if find(key).is_some_and(|known| matches!(known.kind, Kind::Choice(_))) {
+            *value = format!("\"{value}\"");
+        }
+    }
+    parts
+}
+
 /// The element so many places after the one that is `now`, around the ends.
 fn shifted<T: Copy>(all: &[T], now: impl Fn(&T) -> bool, places: isize) -> T {
     let at = all.iter().position(now).unwrap_or(0) as isize;
@@ -121,6 +160,18 @@ fn shifted<T: Copy>(all: &[T], now: impl Fn(&T) -> bool, places: isize) -> T {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn several_keys_change_at_once() {
+        let parts = assignments("motion.normal.control", "force, motion.normal.mean=30.0");
+        let pair = |key: &str, value: &str| (key.to_owned(), value.to_owned());
+        let expected = [
+            pair("motion.normal.control", "\"force\""),
+            pair("motion.normal.mean", "30.0"),
+        ];
+        assert_eq!(parts, expected);
+        assert_eq!(assignments("run.note", "a, b"), [pair("run.note", "a, b")]);
+    }
 
     #[test]
     fn methods_go_around() {

@@ -4,26 +4,32 @@
 //! before has been taken, so that a slow terminal costs the simulation nothing.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use super::Event;
-use super::companion;
+use super::autosave::ScreenAutosave;
+use super::comparison::{ComparisonRun, From};
+use super::cycle_loads::CycleLoads;
+use super::figure;
 use super::frame::{Activity, Frame, Slot};
-use super::keeping::Keeping;
+use super::map::live::{Live, Range};
 use super::order::Order;
 use super::pace::{Meter, Pace};
-use super::past::Past;
-use super::rival::RivalRun;
+use super::refinement_check;
 use super::settings::Setting;
 use super::snapshot;
-use super::theory::Theory;
 use super::trend::Trend;
+use super::undo::Past;
+use crate::contact::subsurface::Stress;
+use crate::math::scan::largest;
 use crate::scenario::session::Session;
 use crate::simulation::Curves;
+use crate::studies::theory::Theory;
 
 mod changes;
 mod stepping;
@@ -31,12 +37,17 @@ mod travel;
 
 use travel::ends_cycle;
 
+/// How long a comparison catches up before the worker looks for orders again.
+const CATCH_UP: Duration = Duration::from_millis(10);
+
 /// The worker's side.
 pub struct Worker {
     session: Session,
-    rival: Option<RivalRun>,
+    comparison: Option<ComparisonRun>,
     theory: Arc<Theory>,
+    cycle_loads: CycleLoads,
     settings: Arc<Vec<Setting>>,
+    warnings: Arc<Vec<String>>,
     trend: Trend,
     /// The trend up to the present, while the screen is in the past.
     whole_trend: Option<Trend>,
@@ -44,6 +55,10 @@ pub struct Worker {
     kept_at: Instant,
     curves: Curves,
     activity: Activity,
+    /// Whether the user has been told that the plan is at its end.
+    told_of_end: bool,
+    /// Whether frames of a fast run are taken at one phase of the motion.
+    holds_phase: bool,
     rung: i32,
     meter: Meter,
     slot: Arc<Slot>,
@@ -51,7 +66,8 @@ pub struct Worker {
     interval: Duration,
     published: Instant,
     stepped: Instant,
-    keeping: Option<Keeping>,
+    /// Shared with whoever ends the program while a step takes long.
+    keeping: Option<Arc<Mutex<ScreenAutosave>>>,
     /// Set when orders that take long are to be cut short.
     halt: Arc<AtomicBool>,
 }
@@ -75,15 +91,19 @@ impl Worker {
         Self {
             theory: Arc::new(Theory::of(session.simulation().setup())),
             settings: Arc::new(Setting::all(session.scenario())),
+            warnings: Arc::new(session.simulation().warnings()),
             session,
-            rival: None,
+            comparison: None,
+            cycle_loads: CycleLoads::default(),
             trend,
             whole_trend: None,
             past: Past::default(),
             kept_at: Instant::now(),
             curves: Curves::all(),
             activity,
-            rung: 3,
+            told_of_end: false,
+            holds_phase: true,
+            rung: Pace::START,
             meter: Meter::default(),
             slot,
             events,
@@ -110,32 +130,48 @@ impl Worker {
     pub fn serve_and_keep(
         mut self,
         orders: &Receiver<Order>,
-        keeping: Option<Keeping>,
+        keeping: Option<Arc<Mutex<ScreenAutosave>>>,
     ) -> Option<String> {
         self.keeping = keeping;
         let served = catch_unwind(AssertUnwindSafe(|| self.attend(orders)));
         // A step that was cut short has left half a state.
         let session = served.is_ok().then(|| self.past.line(&self.session));
-        self.keeping.take()?.finish(session)
+        let keeping = self.keeping.take()?;
+        locked(&keeping).finish(session)
     }
 
     fn attend(&mut self, orders: &Receiver<Order>) {
         self.publish();
         loop {
             #[cfg(debug_assertions)]
-            super::fault::strike("worker");
+            crate::failpoint::hit("worker");
             self.look_after();
-            let wait = self.until_next_step();
+            let wait = if self.comparison_lags() {
+                Some(Duration::ZERO)
+            } else {
+                self.until_next_step()
+            };
             match wait.map_or_else(
                 || orders.recv().map_err(RecvTimeoutError::from),
                 |wait| orders.recv_timeout(wait),
             ) {
                 Ok(Order::Quit) | Err(RecvTimeoutError::Disconnected) => return,
                 Ok(order) => {
-                    self.obey(order);
+                    // Of many orders that wait, not every one is shown.
+                    for order in std::iter::once(order).chain(orders.try_iter()) {
+                        if matches!(order, Order::Quit) || self.halt.load(Ordering::Relaxed) {
+                            return;
+                        }
+                        self.obey(order);
+                        if self.published.elapsed() >= self.interval {
+                            self.publish();
+                        }
+                        self.look_after();
+                    }
                     self.meter.restart(self.session.simulation().cycle());
                     self.publish();
                 }
+                Err(RecvTimeoutError::Timeout) if self.comparison_lags() => self.catch_up(),
                 Err(RecvTimeoutError::Timeout) if self.activity != Activity::Running => {}
                 Err(RecvTimeoutError::Timeout) => self.step_for_a_stint(),
             }
@@ -144,32 +180,82 @@ impl Worker {
 
     /// Keeps the session when that is due.
     fn look_after(&mut self) {
-        let keeping = self.keeping.as_mut();
-        if let Some(word) =
-            keeping.and_then(|keeping| keeping.look_after(self.past.line(&self.session)))
-        {
+        let keeping = self.keeping.as_ref();
+        let word =
+            keeping.and_then(|keeping| locked(keeping).look_after(self.past.line(&self.session)));
+        if let Some(word) = word {
             self.notice(&word);
         }
     }
 
-    /// Sets a rival beside this run, so many places after the one before.
-    fn rival(&mut self, places: isize) {
-        match RivalRun::beside(&self.session, self.rival.as_ref(), places) {
-            Ok(rival) => self.rival = Some(rival),
+    /// Sets a comparison beside this run, so many places after the one before, from now on or from the
+    /// start.
+    fn comparison(&mut self, places: isize, from: From) {
+        match ComparisonRun::beside(&self.session, self.comparison.as_ref(), places, from) {
+            Ok(comparison) => {
+                let cycle = self.session.simulation().cycle();
+                let name = comparison.name();
+                self.notice(&match from {
+                    From::Now => format!(
+                        "comparing with {name} from cycle {cycle:.2}; C compares from the start"
+                    ),
+                    From::Start => format!("comparing with {name} from the start"),
+                });
+                self.comparison = Some(comparison);
+            }
             Err(error) => self.notice(&error.to_string()),
         }
     }
 
-    /// Runs the companion beside the worker; its answer comes as an event.
-    fn companion(&self) {
+    /// Whether the comparison is not yet where the run is.
+    fn comparison_lags(&self) -> bool {
+        let cycle = self.session.simulation().cycle();
+        let comparison = self.comparison.as_ref();
+        comparison.is_some_and(|comparison| comparison.lags(cycle))
+    }
+
+    /// Lets the comparison come nearer to the run for a moment.
+    fn catch_up(&mut self) {
+        let cycle = self.session.simulation().cycle();
+        if let Some(comparison) = &mut self.comparison {
+            comparison.follow_for(cycle, CATCH_UP);
+        }
+        if self.published.elapsed() >= self.interval || !self.comparison_lags() {
+            self.publish();
+        }
+    }
+
+    /// Runs the refinement_check beside the worker; its answer comes as an event.
+    fn refinement_check(&self) {
         let (session, events) = (self.session.clone(), self.events.clone());
         thread::spawn(move || {
             // Whatever happens, somebody waits for the answer.
-            let answer = std::panic::catch_unwind(|| companion::run(&session))
-                .map_err(|_| "the companion failed".to_owned())
+            let answer = std::panic::catch_unwind(|| refinement_check::run(&session))
+                .map_err(|_| "the refinement_check failed".to_owned())
                 .and_then(|answer| answer.map_err(|error| error.to_string()));
-            let _ = events.send(Event::Companion(answer));
+            let _ = events.send(Event::RefinementCheck(answer));
         });
+    }
+
+    /// Starts a study around the present scenario, up to the present cycle.
+    fn sweep(&self, range: &Range) {
+        let cycle = self.session.simulation().cycle();
+        let planned = self.session.loaded().run().cycles;
+        let cycles = if cycle > 0.0 {
+            cycle
+        } else {
+            planned.unwrap_or(1.0)
+        };
+        let events = self.events.clone();
+        let tell = move || {
+            let _ = events.send(Event::Frame);
+        };
+        match Live::start(range, self.session.scenario(), cycles, tell) {
+            Ok(live) => {
+                let _ = self.events.send(Event::Sweep(live));
+            }
+            Err(error) => self.notice(&error.to_string()),
+        }
     }
 
     fn obey(&mut self, order: Order) {
@@ -181,12 +267,20 @@ impl Worker {
             Order::Forth => self.travel(Past::forth, "this is the present"),
             Order::Mark => self.mark(),
             Order::Visit => self.visit(),
-            Order::Compare => match self.rival.take() {
+            Order::Compare => match self.comparison.take() {
                 Some(_) => {}
-                None => self.rival(0),
+                None => self.comparison(0, From::Now),
             },
-            Order::Companion => self.companion(),
-            Order::Method(places) if self.rival.is_some() => self.rival(places),
+            Order::CompareFromStart => self.comparison(0, From::Start),
+            Order::HoldPhase => self.hold_or_release_phase(),
+            Order::RefinementCheck => self.refinement_check(),
+            Order::Method(places) if self.comparison.is_some() => {
+                let from = self
+                    .comparison
+                    .as_ref()
+                    .map_or(From::Now, ComparisonRun::from);
+                self.comparison(places, from);
+            }
             Order::Method(places) => self.change_method(places),
             Order::Law(places) => self.change_law(places),
             Order::Change { key, value } => self.change(&key, &value),
@@ -197,8 +291,13 @@ impl Worker {
             Order::Restart => self.load(self.session.loaded().clone()),
             Order::Load(scenario) => self.load(*scenario),
             Order::Snapshot(note) => self.snapshot(note.as_deref()),
+            Order::Sweep(range) => self.sweep(&range),
+            Order::Figure(path) => self.figure(&path),
             Order::Show(curves) => self.curves = curves,
             Order::Sync(reply) => {
+                while self.comparison_lags() && !self.halt.load(Ordering::Relaxed) {
+                    self.catch_up();
+                }
                 let _ = reply.send(Arc::new(self.frame()));
             }
             Order::Quit => {}
@@ -209,6 +308,13 @@ impl Worker {
         match snapshot::write(&self.session, note) {
             Ok(path) => self.notice(&format!("snapshot in {}", path.display())),
             Err(error) => self.notice(&error.to_string()),
+        }
+    }
+
+    fn figure(&self, path: &Path) {
+        match figure::write(&self.session, &self.trend, path) {
+            Ok(()) => self.notice(&format!("figure in {}", path.display())),
+            Err(error) => self.notice(&error),
         }
     }
 
@@ -226,13 +332,43 @@ impl Worker {
     fn frame(&self) -> Frame {
         let simulation = self.session.simulation();
         let scenario = self.session.scenario();
-        let observation = simulation.observe(self.curves);
-        let shown = !observation.pressure.is_empty();
-        let force_residual = shown
-            .then(|| simulation.force_residual(&observation.pressure))
-            .flatten();
+        // A comparison subtracts profiles; the screen that asked for it may not have shown one.
+        let compared = match self.comparison {
+            Some(_) => Curves::PROFILE | Curves::PRESSURE,
+            None => Curves::empty(),
+        };
+        let observation = simulation.observe(self.curves | compared);
+        let load = self.curves.contains(Curves::SPRINGS).then(|| {
+            let poisson = simulation.setup().material.poisson();
+            Arc::new(observation.spring_load(poisson))
+        });
+        let peaks = load
+            .as_ref()
+            .filter(|_| observation.moment.contact_radius > 0.0);
+        let peaks = peaks.map(|load| {
+            [
+                load.largest(Stress::von_mises),
+                load.largest(Stress::max_principal),
+            ]
+        });
+        let material = &simulation.setup().material;
+        let slip_border = (!observation.normal_load.is_empty()).then(|| {
+            largest(&observation.normal_load) / (material.normal_modulus() * material.stick_ratio())
+        });
+        let checks = if observation.pressure.is_empty() {
+            Vec::new()
+        } else {
+            simulation.checks(&observation.pressure)
+        };
         Frame {
+            slip_border,
+            load,
+            cycle_loads: self.cycle_loads.all(),
+            peaks,
             observation,
+            figures: simulation.cycle_figures(),
+            wear_coefficient: simulation.setup().wear.map(|law| law.coefficient()),
+            phase: self.held_phase(),
             trend: self.trend.clone(),
             activity: self.activity.clone(),
             pace: Pace::of_rung(self.rung),
@@ -241,18 +377,23 @@ impl Worker {
                 .speed
                 .filter(|_| self.activity == Activity::Running),
             step_cost: self.meter.step_cost,
-            expected_error: scenario.expected_error(),
             title: scenario.title().to_owned(),
             origin: scenario.origin().to_owned(),
             planned_cycles: self.session.loaded().run().cycles,
-            steps_per_cycle: simulation.setup().steps_per_cycle,
+            steps_per_cycle: simulation.setup().steps_in_a_cycle() as u32,
             present: self.past.present(),
             settings: Arc::clone(&self.settings),
-            indenter: simulation.setup().indenter,
+            indenter: simulation.setup().indenter.clone(),
             friction: simulation.setup().material.friction(),
-            force_residual,
+            checks,
+            warnings: Arc::clone(&self.warnings),
             theory: Arc::clone(&self.theory),
-            rival: self.rival.as_ref().map(RivalRun::seen),
+            comparison: self.comparison.as_ref().map(ComparisonRun::seen),
         }
     }
+}
+
+/// What somebody has left who panicked is replaced or kept, but never half made.
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -3,8 +3,9 @@
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
-use super::Worker;
 use super::travel::ends_cycle;
+use super::{CATCH_UP, Worker};
+use crate::simulation::Curves;
 use crate::tui::frame::Activity;
 use crate::tui::pace::Pace;
 
@@ -14,6 +15,12 @@ const JUMP_EVERY: Duration = Duration::from_millis(100);
 /// How long the worker steps before it looks for orders again.
 const STINT: Duration = Duration::from_millis(4);
 
+/// Frames of a fast run are taken at this part of a cycle: at its end, as the rows of a history are.
+const HELD: f64 = 0.0;
+
+/// A run too slow for a frame at each cycle shows one at least this often.
+const AT_LEAST: Duration = Duration::from_secs(1);
+
 /// What is said when a run that cannot go on is asked to.
 const BROKEN_DOWN: &str = "the run has broken down; r starts again, m changes the method";
 
@@ -22,16 +29,39 @@ impl Worker {
     pub(super) fn run_or_pause(&mut self) {
         match self.activity {
             Activity::Running => self.activity = Activity::Paused,
+            Activity::Done if !self.told_of_end => {
+                self.told_of_end = true;
+                self.notice("this is the planned end; Space again runs on without end, r restarts");
+            }
             Activity::Paused | Activity::Done => self.activity = Activity::Running,
             Activity::Stopped(_) => self.notice(BROKEN_DOWN),
         }
+    }
+
+    /// The phase at which frames are taken, degrees; none while the motion itself is shown.
+    pub(super) fn held_phase(&self) -> Option<f64> {
+        let holds = self.holds_phase
+            && Pace::of_rung(self.rung).blurs_motion()
+            && !self.session.simulation().may_jump();
+        holds.then_some(360.0 * HELD)
+    }
+
+    /// Takes frames at one phase of the motion from now on, or as they come.
+    pub(super) fn hold_or_release_phase(&mut self) {
+        self.holds_phase = !self.holds_phase;
+        self.notice(if self.holds_phase {
+            "above 2 cycles/s, frames are taken at one phase of the motion"
+        } else {
+            "frames are taken as they come: a fast run shows arbitrary phases"
+        });
     }
 
     /// How long to wait for orders before the next step or checkpoint is due; forever when there is
     /// none.
     pub(super) fn until_next_step(&self) -> Option<Duration> {
         if self.activity != Activity::Running {
-            return self.keeping.as_ref()?.wait(self.past.line(&self.session));
+            let line = self.past.line(&self.session);
+            return super::locked(self.keeping.as_ref()?).wait(line);
         }
         Some(Duration::from_secs_f64(self.ahead().clamp(0.0, 0.1)))
     }
@@ -59,37 +89,60 @@ impl Worker {
             let before = self.session.simulation().cycle();
             #[cfg(debug_assertions)]
             if before > 5.0 {
-                crate::tui::fault::strike("sixth cycle");
+                crate::failpoint::hit("sixth cycle");
+                crate::failpoint::stall("long step");
             }
             self.step();
             self.keep_cycle(before);
             self.end_where_planned(before);
+            let now = self.session.simulation().cycle() + 1e-9;
+            let passed = (now - HELD).floor() > (before + 1e-9 - HELD).floor();
+            if passed && self.held_phase().is_some() && self.published.elapsed() >= self.interval {
+                self.publish();
+            }
         }
         self.meter.measure(
             self.session.simulation().cycle(),
-            self.session.simulation().state().steps,
+            self.session.simulation().steps(),
             start.elapsed(),
         );
         self.trend.note_cost(self.meter.step_cost);
-        if self.published.elapsed() >= self.interval || self.activity != Activity::Running {
+        let wait = match self.held_phase() {
+            Some(_) => self.interval.max(AT_LEAST),
+            None => self.interval,
+        };
+        if self.published.elapsed() >= wait || self.activity != Activity::Running {
             self.publish();
         }
     }
 
     fn step(&mut self) {
-        self.branch();
-        if self.session.simulation().state().steps == 0 {
+        if let Some(word) = self.branch() {
+            self.notice(&word);
+        }
+        if self.session.simulation().steps() == 0 {
             self.keep();
         }
         self.stepped = Instant::now();
         let now = self.session.simulation().cycle();
         let end = self.session.loaded().run().cycles;
-        let end = end.filter(|&end| now < end).unwrap_or(f64::INFINITY);
+        let end = end.filter(|&end| now < end);
+        let end = end.map_or(f64::INFINITY, |end| self.session.heading(end));
         match self.session.step_until(end) {
             Ok(()) => {
-                self.trend.record(&self.session.simulation().moment());
-                if let Some(rival) = &mut self.rival {
-                    rival.follow(self.session.simulation().cycle());
+                if self.curves.contains(Curves::SPRINGS) {
+                    self.cycle_loads.note(self.session.simulation());
+                }
+                let simulation = self.session.simulation();
+                if simulation.cycle().floor() > now.floor() {
+                    let figures = simulation.cycle_figures();
+                    self.trend.note_condition(
+                        figures.map(|seen| [seen.displacement_amplitude, seen.normal_force]),
+                    );
+                }
+                self.trend.record(&simulation.moment());
+                if let Some(comparison) = &mut self.comparison {
+                    comparison.follow_for(self.session.simulation().cycle(), CATCH_UP);
                 }
             }
             Err(error) => self.activity = Activity::Stopped(error.to_string()),
@@ -105,6 +158,7 @@ impl Worker {
         let end = end - simulation.rounding();
         if self.activity == Activity::Running && before < end && simulation.cycle() >= end {
             self.activity = Activity::Done;
+            self.told_of_end = false;
         }
     }
 

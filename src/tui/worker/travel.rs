@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 
 use super::Worker;
 use crate::tui::frame::Activity;
-use crate::tui::past::{Kept, Past};
 use crate::tui::trend::Trend;
+use crate::tui::undo::{Kept, Past};
 
 /// States to come back to are kept at least this far apart while it runs.
 const APART: Duration = Duration::from_millis(50);
@@ -25,15 +25,18 @@ impl Worker {
         }
     }
 
-    /// Goes on from the state on the screen, if it is in the past: what came after is dropped.
-    pub(super) fn branch(&mut self) {
-        self.whole_trend = None;
-        if self.past.branch() {
-            let cycle = self.session.simulation().cycle();
-            self.notice(&format!(
-                "a branch from cycle {cycle:.2}: what came after it is dropped"
-            ));
-        }
+    /// Goes on from the state on the screen, if it is in the past. The present that it leaves is marked,
+    /// so that `B` finds it again; returns what there is to say of that.
+    pub(super) fn branch(&mut self) -> Option<String> {
+        let whole_trend = self.whole_trend.take();
+        let present = self.past.present()?;
+        let left = self.past.line(&self.session).clone();
+        self.past.branch();
+        self.past.mark(&left, &whole_trend.unwrap_or_default());
+        let cycle = self.session.simulation().cycle();
+        Some(format!(
+            "branch from cycle {cycle:.2}; the run up to cycle {present:.2} is kept: B goes there"
+        ))
     }
 
     /// Shows another kept state, or says why there is none.
@@ -57,7 +60,7 @@ impl Worker {
         let cycle = self.session.simulation().cycle();
         self.trend = whole_trend.until(cycle, &kept.tip);
         self.whole_trend = self.past.present().is_some().then_some(whole_trend);
-        self.rival = None;
+        self.comparison = None;
         self.activity = Activity::Paused;
         self.learn();
     }
@@ -65,11 +68,19 @@ impl Worker {
     /// Marks the state on the screen.
     pub(super) fn mark(&mut self) {
         self.keep();
-        self.past.mark(&self.session, &self.trend);
+        let dropped = self.past.mark(&self.session, &self.trend);
         let cycle = self.session.simulation().cycle();
         let marks = self.past.marks();
+        let marks = match marks {
+            1 => "1 state is marked".to_owned(),
+            marks => format!("{marks} states are marked"),
+        };
+        let full = match dropped {
+            0 => "",
+            _ => "; memory is full, so the oldest mark was dropped",
+        };
         self.notice(&format!(
-            "cycle {cycle:.2} is marked; B goes to marked states, there are {marks}"
+            "cycle {cycle:.2} is marked; {marks}, B goes to them{full}"
         ));
     }
 

@@ -3,14 +3,15 @@
 use std::cell::OnceCell;
 use std::sync::mpsc::{Receiver, channel};
 
+use mdr_tui::plot::Marker;
 use mdr_tui::scenario::checkpoint::{encode, from_bytes, sealed};
 use mdr_tui::scenario::session::Session;
 use mdr_tui::scenario::{Scenario, preset};
 use mdr_tui::tui::app::App;
 use mdr_tui::tui::keys::parse_script;
-use mdr_tui::tui::plot::Marker;
 use mdr_tui::tui::screen;
 use mdr_tui::tui::theme::{Look, Theme};
+use mdr_tui::tui::{Stroke, rehearse};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
@@ -57,8 +58,11 @@ fn step(mut session: Session) {
             break;
         }
     }
-    let state = session.simulation().state();
-    assert!(state.cycle.is_finite() && state.wear.iter().all(|wear| wear.is_finite()));
+    let simulation = session.simulation();
+    assert!(
+        simulation.cycle().is_finite()
+            && simulation.worn_depth().iter().all(|wear| wear.is_finite())
+    );
 }
 
 /// Any text as a scenario.
@@ -95,6 +99,90 @@ pub fn keys(text: &str) {
         app.press(key);
     }
     screen::draw(&app, area, &mut Buffer::empty(area));
+}
+
+/// What a byte does in a session: nothing that writes files.
+const STROKES: &[&str] = &[
+    "<Space>",
+    ".",
+    ",",
+    "m",
+    "M",
+    "w",
+    "W",
+    "+",
+    "-",
+    "<Tab>",
+    "<S-Tab>",
+    "z",
+    "v",
+    "p",
+    "e",
+    "c",
+    "[",
+    "]",
+    "r",
+    "L",
+    "t",
+    "T",
+    "x",
+    "b",
+    "B",
+    "h",
+    "j",
+    "k",
+    "l",
+    "<Left>",
+    "<Right>",
+    "<Up>",
+    "<Down>",
+    "<Enter>",
+    "<Esc>",
+    "?",
+    "/",
+    ":",
+    "<Home>",
+    "<End>",
+    "<PageUp>",
+    "<PageDown>",
+    "<Delete>",
+    "<Backspace>",
+    "<C-u>",
+    "<C-w>",
+    "<lt>",
+    "<resize:80x24>",
+    "<resize:30x9>",
+    "<resize:1x1>",
+    "<resize:200x60>",
+    "<paste:numerics.points=12>",
+    "<paste:load cone>",
+    "1",
+    "0",
+];
+
+/// A sequence of keys, pastes and resizes, a byte each, in an explorer with its worker; the first byte
+/// chooses the preset.
+pub fn session(bytes: &[u8]) {
+    let Some((first, bytes)) = bytes.split_first() else {
+        return;
+    };
+    let preset = &preset::ALL[usize::from(*first) % preset::ALL.len()];
+    let small = ["numerics.points=12", "numerics.steps_per_cycle=8"].map(String::from);
+    let Ok(scenario) = Scenario::load(preset.name, &small) else {
+        return;
+    };
+    let Ok(session) = Session::start(scenario) else {
+        return;
+    };
+    let script: String = bytes
+        .iter()
+        .take(200)
+        .map(|byte| STROKES[usize::from(*byte) % STROKES.len()])
+        .collect();
+    let strokes = Stroke::script(&script).expect("a script");
+    let theme = Theme::new(Look::Dark, Marker::Braille);
+    let size = "80x24".parse().expect("a size");
+    rehearse(session, theme, &strokes, size).expect("a screen");
 }
 
 thread_local! {

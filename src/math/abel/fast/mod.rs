@@ -3,8 +3,8 @@
 //!
 //! # Formula
 //!
-//! A profile that is linear in t = x² between nodes is a sum of bends J_k (t − t_k)₊, J_k the jump of its
-//! slope, and the image of a bend is a closed form (see [`bend`](super::bend)): a factor of the row times a function
+//! A profile that is linear in t = x² between nodes is a sum of kinks J_k (t − t_k)₊, J_k the jump of its
+//! slope, and the image of a kink is a closed form (see [`kink`](super::kink)): a factor of the row times a function
 //! of the ratio v of the two t alone. Away from v = 1 that function is κ − Σ a_m v^(μ_m) to the
 //! tolerance; and a power is carried from row to row by one multiplication:
 //!
@@ -16,7 +16,7 @@
 //!
 //! each with the nearest nodes (at most 8) put right by weights of their own, exact less what the
 //! powers give. The cusp of the product method is one number for a whole profile, and its image one
-//! vector. The worn depth outside its border is the same in z = √(r² − c²), whose bends are z (z − z_k)₊:
+//! vector. The worn depth outside its border is the same in z = √(r² − c²), whose kinks are z (z − z_k)₊:
 //!
 //! ```text
 //! g_j = g(δ within c) + x_j { (π/2) F_1 + Z_j [2b_{j−1} − Σ_m S_m] },   b = ΔF/Δz
@@ -32,7 +32,7 @@
 //! - **Memory**: O(N): 2 K + 31 numbers a node for the three operators. A sweep reads K + 13 of them a node; on more
 //!   than 16 384 nodes K/16 + 6, as what is smooth over a block is then stored as cubics (see `cubic`).
 //! - **Causality**: strict, as that of the dense form: what is zero up to a node stays zero up to it, and row j looks at
-//!   its own bend by rounding alone.
+//!   its own kink by rounding alone.
 //! - **At r = 0**: g = f(0), w = u(0), p = (2/π) Σ J_k x_k.
 //! - **Known failure**: none; below some hundred nodes the dense form is faster.
 
@@ -44,17 +44,17 @@ use super::product::cusp;
 use crate::math::grid::RadialGrid;
 
 mod cubic;
-mod decay;
 mod near;
 mod powers;
+mod propagator;
 mod recurrence;
 mod sweep;
 #[cfg(test)]
 mod tests;
 
-use decay::Decay;
 use near::REACH;
 use powers::{Kernel, fit};
+use propagator::Propagator;
 use sweep::{Data, Inward, Outward};
 
 /// The tolerance of a run. Errors of a result are about a thirtieth of it.
@@ -70,8 +70,8 @@ pub struct FastProduct {
     /// 1/Δt of every cell.
     inverse: Vec<f64>,
     /// Of the powers of profile and stress, and of the displacement.
-    root: Decay,
-    arc: Decay,
+    root: Propagator,
+    arc: Propagator,
     profile: Outward,
     displacement: Outward,
     stress: Inward,
@@ -89,7 +89,7 @@ pub struct FastWorn {
     x: Vec<f64>,
     inverse_z: Vec<f64>,
     inverse: Vec<f64>,
-    decay: Decay,
+    propagator: Propagator,
     outer: Outward,
 }
 
@@ -97,7 +97,7 @@ pub struct FastWorn {
 #[derive(Debug, PartialEq)]
 struct FastInner {
     inverse: Vec<f64>,
-    decay: Decay,
+    propagator: Propagator,
     profile: Outward,
 }
 
@@ -164,7 +164,10 @@ impl FastProduct {
         let nearest = nearest(&nodes);
         let [root, arc] = [Kernel::Root, Kernel::Arc].map(|kernel| {
             let powers = fit(kernel, nearest, tolerance)?;
-            Some((Decay::new(&nodes, &powers.exponents, tolerance), powers))
+            Some((
+                Propagator::new(&nodes, &powers.exponents, tolerance),
+                powers,
+            ))
         });
         let ((root, roots), (arc, arcs)) = (root?, arc?);
         let squares = grid.squares().to_vec();
@@ -272,19 +275,19 @@ impl FastWorn {
         let inner = {
             let nearest = nearest(nodes);
             let powers = fit(Kernel::Root, nearest, tolerance)?;
-            let decay = Decay::new(nodes, &powers.exponents, tolerance);
+            let propagator = Propagator::new(nodes, &powers.exponents, tolerance);
             let scale = grid.squares().to_vec();
             FastInner {
                 inverse: inverse_widths(&nodes[..=border]),
-                profile: Outward::new(nodes, scale, &powers, &decay, nearest),
-                decay,
+                profile: Outward::new(nodes, scale, &powers, &propagator, nearest),
+                propagator,
             }
         };
         let x = nodes[border..].to_vec();
         let z: Vec<f64> = x.iter().map(|&r| leg(x[0], r)).collect();
         let nearest = nearest(&z);
         let powers = fit(Kernel::Worn, nearest, tolerance)?;
-        let decay = Decay::new(&z, &powers.exponents, tolerance);
+        let propagator = Propagator::new(&z, &powers.exponents, tolerance);
         let scale = x.iter().zip(&z).map(|(x, z)| x * z).collect();
         Some(Self {
             inner,
@@ -294,8 +297,8 @@ impl FastWorn {
                 .map(|&z| if z > 0.0 { 1.0 / z } else { 0.0 })
                 .collect(),
             inverse: z.windows(2).map(|cell| 1.0 / (cell[1] - cell[0])).collect(),
-            outer: Outward::new(&z, scale, &powers, &decay, nearest),
-            decay,
+            outer: Outward::new(&z, scale, &powers, &propagator, nearest),
+            propagator,
             x,
         })
     }
@@ -309,7 +312,7 @@ impl FastWorn {
         };
         inner
             .profile
-            .apply(&inner.decay, &within, g, 0..depth.len());
+            .apply(&inner.propagator, &within, g, 0..depth.len());
         let outside = Outside {
             depth: &depth[border..],
             first: (depth[border + 1] - depth[border]) * self.inverse_z[1],
@@ -317,7 +320,7 @@ impl FastWorn {
         };
         let rows = 0..depth.len() - border;
         self.outer
-            .apply(&self.decay, &outside, &mut g[border..], rows);
+            .apply(&self.propagator, &outside, &mut g[border..], rows);
     }
 }
 

@@ -3,13 +3,13 @@
 use fearless_simd::{f64x4, prelude::*};
 
 use super::cubic::{BLOCK, SHARE, place, through, value};
-use super::decay::{self, Decay};
 use super::powers::{LANES, Powers};
+use super::propagator::{self, Propagator};
 
 /// A node's near neighbours are at most this many.
 pub(super) const REACH: usize = 8;
 
-/// Weights of the bends at the nearest nodes, exact less what the powers give, block by block. Memory: at most 8 N numbers.
+/// Weights of the kinks at the nearest nodes, exact less what the powers give, block by block. Memory: at most 8 N numbers.
 #[derive(Debug, PartialEq)]
 pub(super) struct Near {
     blocks: Vec<Place>,
@@ -78,7 +78,7 @@ impl Weights for Cubics<'_> {
     }
 }
 
-/// Which side of a row its bends lie on.
+/// Which side of a row its kinks lie on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Side {
     /// Nearer to the origin.
@@ -96,7 +96,13 @@ struct Weight {
 
 impl Near {
     /// For nodes at `radii`, the first of them 0, and neighbours whose ln v is less than `nearest`.
-    pub fn new(radii: &[f64], side: Side, powers: &Powers, decay: &Decay, nearest: f64) -> Self {
+    pub fn new(
+        radii: &[f64],
+        side: Side,
+        powers: &Powers,
+        propagator: &Propagator,
+        nearest: f64,
+    ) -> Self {
         let mut near = Self {
             blocks: Vec::new(),
             starts: Vec::new(),
@@ -107,9 +113,9 @@ impl Near {
         for (block, first) in (0..radii.len()).step_by(BLOCK).enumerate() {
             let rows = first..(first + BLOCK).min(radii.len());
             let rows: Vec<Vec<Weight>> = rows
-                .map(|j| row(radii, side, powers, decay, nearest, j, &mut left))
+                .map(|j| row(radii, side, powers, propagator, nearest, j, &mut left))
                 .collect();
-            let smooth = matches!(decay.piece(block), decay::Piece::Cubics(_));
+            let smooth = matches!(propagator.piece(block), propagator::Piece::Cubics(_));
             let cubics = smooth.then(|| cubics(&rows, SHARE * powers.tolerance));
             near.push(&rows, cubics.flatten());
         }
@@ -156,7 +162,7 @@ fn row(
     radii: &[f64],
     side: Side,
     powers: &Powers,
-    decay: &Decay,
+    propagator: &Propagator,
     nearest: f64,
     j: usize,
     left: &mut [f64],
@@ -174,10 +180,10 @@ fn row(
         if inner == 0.0 || -(-apart).ln_1p() >= nearest {
             break;
         }
-        decay.carry(row, left);
+        propagator.carry(row, left);
         let kernel = powers.kernel;
         let served = kernel.whole() - left.iter().sum::<f64>();
-        let exact = kernel.bend(inner / outer, apart.sqrt());
+        let exact = kernel.kink(inner / outer, apart.sqrt());
         weights.push(Weight {
             value: exact - served,
             exact,

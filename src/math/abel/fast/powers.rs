@@ -11,8 +11,8 @@
 //! worn depth        s/√(1 − s²) + acos s                 over ds
 //! ```
 //!
-//! are smooth in ln v away from v = 1, so that for v ≤ exp(−y_min) each is Σ A_m v^(ν_m). What a bend needs (see
-//! [`super::bend`](super::super::bend)) is the integral,
+//! are smooth in ln v away from v = 1, so that for v ≤ exp(−y_min) each is Σ A_m v^(ν_m). What a kink needs (see
+//! [`super::kink`](super::super::kink)) is the integral,
 //!
 //! ```text
 //! ∫ᵥ¹ = κ − Σ a_m v^(μ_m),   a = A/(ν + 1), μ = ν + 1    (over ds: a = A/(2ν + 1), μ = ν + ½)
@@ -115,7 +115,7 @@ impl Kernel {
     }
 
     /// The integral from v to 1, of v = s² and 1 − v = c², both at hand without cancellation.
-    pub fn bend(self, s: f64, c: f64) -> f64 {
+    pub fn kink(self, s: f64, c: f64) -> f64 {
         match self {
             Self::Root => 2.0 * c,
             Self::Arc => FRAC_2_PI * ((0.5 - s * s) * c.atan2(s) + 0.5 * s * c),
@@ -293,13 +293,13 @@ mod tests {
                     let powers = fit(kernel, nearest, tolerance)
                         .unwrap_or_else(|| panic!("no fit to {tolerance:e} at {nearest}"));
                     assert!(powers.exponents.len() <= MOST_GROUPS * LANES);
-                    // The bends, which the densities add up to, at places of their own.
+                    // The kinks, which the densities add up to, at places of their own.
                     for i in 0..400 {
                         let y = nearest * 1.02_f64.powi(i);
                         let (s, c) = ((-0.5 * y).exp(), (-(-y).exp_m1()).sqrt());
                         let pairs = powers.exponents.iter().zip(&powers.factors);
                         let sum: f64 = pairs.map(|(mu, a)| a * (-mu * y).exp()).sum();
-                        let error = kernel.whole() - sum - kernel.bend(s, c);
+                        let error = kernel.whole() - sum - kernel.kink(s, c);
                         // ∫₀¹ of the kernel's scale is at most 2.
                         assert!(
                             error.abs() <= 2.0 * tolerance + 1e-14,

@@ -13,9 +13,9 @@
 use fearless_simd::{Level, dispatch, f64x4, prelude::*};
 
 use super::cubic::{BLOCK, place};
-use super::decay;
 use super::near::{self, REACH, Weights};
 use super::powers::{LANES, MOST_GROUPS, Powers};
+use super::propagator;
 
 /// a of every power.
 #[derive(Debug, PartialEq)]
@@ -43,29 +43,29 @@ impl Factors {
 pub(super) fn powers_block<const REVERSED: bool>(
     level: Level,
     state: &mut State,
-    decay: decay::Piece,
+    propagator: propagator::Piece,
     factors: &Factors,
     near: near::Piece,
     sources: &[f64; REACH + BLOCK],
     sums: &mut [f64],
 ) {
-    let (rows, near) = match (decay, near) {
-        (decay::Piece::Rows(rows), near::Piece::Table(table)) => {
-            // Inwards the decay is that towards the node before.
+    let (rows, near) = match (propagator, near) {
+        (propagator::Piece::Rows(rows), near::Piece::Table(table)) => {
+            // Inwards the propagator is that towards the node before.
             let first = if REVERSED { factors.groups.len() } else { 0 };
             (&rows[first..], table)
         }
-        (decay::Piece::Cubics(cubics), near::Piece::Table(near)) => {
+        (propagator::Piece::Cubics(cubics), near::Piece::Table(near)) => {
             return dispatch!(level, simd => cubics_block::<_, _, REVERSED>(
                 simd, state, cubics, factors, near, sources, sums
             ));
         }
-        (decay::Piece::Cubics(cubics), near::Piece::Cubics(near)) => {
+        (propagator::Piece::Cubics(cubics), near::Piece::Cubics(near)) => {
             return dispatch!(level, simd => cubics_block::<_, _, REVERSED>(
                 simd, state, cubics, factors, near, sources, sums
             ));
         }
-        (decay::Piece::Rows(_), near::Piece::Cubics(_)) => {
+        (propagator::Piece::Rows(_), near::Piece::Cubics(_)) => {
             unreachable!("a block with a table of decays has one of weights")
         }
     };
@@ -87,7 +87,7 @@ pub(super) fn powers_block<const REVERSED: bool>(
 fn groups_block<S: Simd, const GROUPS: usize, const REVERSED: bool>(
     simd: S,
     state: &mut State,
-    decay: &[[f64; LANES]],
+    propagator: &[[f64; LANES]],
     factors: &Factors,
     near: near::Table,
     sources: &[f64; REACH + BLOCK],
@@ -97,8 +97,8 @@ fn groups_block<S: Simd, const GROUPS: usize, const REVERSED: bool>(
     let mut powers: [f64x4<S>; GROUPS] = std::array::from_fn(|group| load(&state[group]));
     let total = factors.total;
     let factors: [f64x4<S>; GROUPS] = std::array::from_fn(|group| load(&factors.groups[group]));
-    let (decay, _) = decay.as_chunks::<GROUPS>();
-    let (decay, _) = decay.as_chunks::<LANES>();
+    let (propagator, _) = propagator.as_chunks::<GROUPS>();
+    let (propagator, _) = propagator.as_chunks::<LANES>();
     each_strip::<_, _, REVERSED>(
         simd,
         total,
@@ -112,7 +112,8 @@ fn groups_block<S: Simd, const GROUPS: usize, const REVERSED: bool>(
                 let i = if REVERSED { LANES - 1 - i } else { i };
                 let source = f64x4::splat(simd, own[i]);
                 for group in 0..GROUPS {
-                    powers[group] = load(&decay[strip][i][group]).mul_add(powers[group], source);
+                    powers[group] =
+                        load(&propagator[strip][i][group]).mul_add(powers[group], source);
                     rows[i] = factors[group].mul_add(powers[group], rows[i]);
                 }
             }
@@ -161,8 +162,8 @@ fn cubics_block<S: Simd, N: Weights, const REVERSED: bool>(
                 for i in 0..LANES {
                     let i = if REVERSED { LANES - 1 - i } else { i };
                     let u = places[i];
-                    let decay = d.mul_add(u, c).mul_add(u, b).mul_add(u, a);
-                    lanes = decay.mul_add(lanes, f64x4::splat(simd, own[i]));
+                    let propagator = d.mul_add(u, c).mul_add(u, b).mul_add(u, a);
+                    lanes = propagator.mul_add(lanes, f64x4::splat(simd, own[i]));
                     rows[i] = factor.mul_add(lanes, rows[i]);
                 }
                 lanes.store_slice(power);

@@ -12,12 +12,12 @@ use std::ops::Range;
 use fearless_simd::{Level, dispatch};
 
 use super::cubic::BLOCK;
-use super::decay::Decay;
 use super::near::{Near, REACH, Side};
 use super::powers::{LANES, MOST_GROUPS, Powers};
+use super::propagator::Propagator;
 use super::recurrence::{Factors, State, powers_block};
 
-/// Sums over the bends inside of every row:
+/// Sums over the kinks inside of every row:
 /// T_j Σ_{k<j} J_k (κ − Σ a v^μ), J_k = slope_k − slope_{k−1}.
 #[derive(Debug, PartialEq)]
 pub(super) struct Outward {
@@ -27,7 +27,7 @@ pub(super) struct Outward {
     near: Near,
 }
 
-/// Sums over the bends outside of every row: Σ_{k>j} J_k x_k (κ − Σ a v^μ)/π, up to the last node, where
+/// Sums over the kinks outside of every row: Σ_{k>j} J_k x_k (κ − Σ a v^μ)/π, up to the last node, where
 /// the slope falls to zero.
 #[derive(Debug, PartialEq)]
 pub(super) struct Inward {
@@ -51,19 +51,25 @@ impl Outward {
         radii: &[f64],
         scale: Vec<f64>,
         powers: &Powers,
-        decay: &Decay,
+        propagator: &Propagator,
         nearest: f64,
     ) -> Self {
         Self {
             whole: powers.kernel.whole(),
             factors: Factors::of(powers),
             scale,
-            near: Near::new(radii, Side::Inside, powers, decay, nearest),
+            near: Near::new(radii, Side::Inside, powers, propagator, nearest),
         }
     }
 
     /// Begins the `rows` of `output` and adds the sums; those farther out become zero.
-    pub fn apply(&self, decay: &Decay, data: &impl Data, output: &mut [f64], rows: Range<usize>) {
+    pub fn apply(
+        &self,
+        propagator: &Propagator,
+        data: &impl Data,
+        output: &mut [f64],
+        rows: Range<usize>,
+    ) {
         let level = Level::new();
         let nodes = self.scale.len();
         let mut state: State = [[0.0; LANES]; MOST_GROUPS];
@@ -102,7 +108,7 @@ impl Outward {
             powers_block::<false>(
                 level,
                 &mut state,
-                decay.piece(block),
+                propagator.piece(block),
                 &self.factors,
                 self.near.piece(block),
                 &jumps,
@@ -129,11 +135,11 @@ impl Outward {
 
 impl Inward {
     /// For nodes at `radii`, the first of them 0.
-    pub fn new(radii: &[f64], powers: &Powers, decay: &Decay, nearest: f64) -> Self {
+    pub fn new(radii: &[f64], powers: &Powers, propagator: &Propagator, nearest: f64) -> Self {
         Self {
             whole: powers.kernel.whole(),
             factors: Factors::of(powers),
-            near: Near::new(radii, Side::Outside, powers, decay, nearest),
+            near: Near::new(radii, Side::Outside, powers, propagator, nearest),
         }
     }
 
@@ -141,7 +147,7 @@ impl Inward {
     pub fn apply(
         &self,
         radii: &[f64],
-        decay: &Decay,
+        propagator: &Propagator,
         data: &impl Data,
         output: &mut [f64],
         rows: Range<usize>,
@@ -188,7 +194,7 @@ impl Inward {
             powers_block::<true>(
                 level,
                 &mut state,
-                decay.piece(block),
+                propagator.piece(block),
                 &self.factors,
                 self.near.piece(block),
                 &moments,

@@ -296,12 +296,12 @@ fn large_grids_keep_the_tolerance_node_by_node() {
     }
 }
 
-/// Hertz and Cattaneo with the edge and the stick border between nodes, by [`bend`](super::super::bend).
+/// Hertz and Cattaneo with the edge and the stick border between nodes, by [`kink`](super::super::kink).
 #[test]
-fn breaks_between_nodes_are_as_exact_as_the_tolerance() {
-    use super::super::bend::{add_to_stress, polyline};
-    let kinks = [0.2345, 0.6131];
-    let load = |t: f64| -> f64 { kinks.iter().map(|kink| (kink - t).max(0.0)).sum() };
+fn kinks_between_nodes_are_as_exact_as_the_tolerance() {
+    use super::super::kink::{add_to_stress, polyline};
+    let places = [0.2345, 0.6131];
+    let load = |t: f64| -> f64 { places.iter().map(|at| (at - t).max(0.0)).sum() };
     for cells in [200, 1000, 20_000] {
         let uniform = RadialGrid::uniform(cells, 1.0);
         for grid in [uniform, RadialGrid::graded(cells, 0.3, 1.0)] {
@@ -311,14 +311,14 @@ fn breaks_between_nodes_are_as_exact_as_the_tolerance() {
             let q: Vec<f64> = t.iter().map(|&t| load(t)).collect();
             let mut p = vec![f64::NAN; grid.len()];
             fast.stress(&q, &mut p);
-            let mut bends = Vec::new();
+            let mut kinks = Vec::new();
             for k in 0..cells {
-                let inner = kinks.map(|kink| (kink, load(kink)));
-                polyline([t[k], t[k + 1]], [q[k], q[k + 1]], &inner, &mut bends);
+                let inner = places.map(|at| (at, load(at)));
+                polyline([t[k], t[k + 1]], [q[k], q[k + 1]], &inner, &mut kinks);
             }
-            add_to_stress(&bends, t, &mut p);
+            add_to_stress(&kinks, t, &mut p);
             let worst = p.iter().zip(t).map(|(p, &t)| {
-                let roots = kinks.iter().map(|kink| (kink - t).max(0.0).sqrt());
+                let roots = places.iter().map(|at| (at - t).max(0.0).sqrt());
                 (p - 2.0 * FRAC_1_PI * roots.sum::<f64>()).abs()
             });
             let worst = worst.fold(0.0, f64::max);

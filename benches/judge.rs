@@ -1,0 +1,203 @@
+//! The judge: time to a verified accuracy over random scenarios, what was missed, and how far estimates are right.
+//!
+//! `cargo bench --bench judge -- [--scenarios 100] [--first 0] [--accuracy 1e-2,1e-3] [--limit SECONDS]
+//! [--budget SECONDS] [--all] [--estimate]`
+//!
+//! Times are CPU times of this thread, so that other work on the machine hardly counts. `--limit` ends
+//! the study after so many seconds; `--all` prints a line per scenario. `--estimate` judges
+//! the estimates of `run --estimate-error` on cells and steps drawn at random, and no accuracy.
+
+#![allow(clippy::print_stdout, reason = "a program whose output is its result")]
+
+use mdr_tui::studies::judge::{Case, judge, judge_estimate, quantile};
+use mdr_tui::studies::refinement::Difference;
+use mdr_tui::studies::refinement::Verdict;
+use nix::time::{ClockId, clock_gettime};
+
+fn cpu_seconds() -> f64 {
+    clock_gettime(ClockId::CLOCK_THREAD_CPUTIME_ID).map_or(0.0, |time| {
+        time.tv_sec() as f64 + 1e-9 * time.tv_nsec() as f64
+    })
+}
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().collect();
+    let option = |name: &str, default: &str| -> String {
+        let at = arguments.iter().position(|argument| argument == name);
+        at.and_then(|at| arguments.get(at + 1))
+            .map_or_else(|| default.to_owned(), Clone::clone)
+    };
+    let number = |name: &str, default: &str| -> f64 {
+        let text = option(name, default);
+        text.parse()
+            .unwrap_or_else(|_| panic!("{name} {text}: not a number"))
+    };
+    let (count, first) = (
+        number("--scenarios", "100") as u64,
+        number("--first", "0") as u64,
+    );
+    let (limit, budget) = (number("--limit", "300"), number("--budget", "20"));
+    let shows_all = arguments.iter().any(|argument| argument == "--all");
+    if arguments.iter().any(|argument| argument == "--estimate") {
+        return estimates(first..first + count, limit, shows_all);
+    }
+    let accuracies: Vec<f64> = option("--accuracy", "1e-2,1e-3")
+        .split(',')
+        .map(|text| text.parse().expect("an accuracy"))
+        .collect();
+    println!(
+        "accuracy  scenarios  median_s  95%_s  worst_s  last_rung_median_s  met  missed  failed  unverified"
+    );
+    let share = limit / accuracies.len() as f64;
+    for accuracy in accuracies {
+        let begin = cpu_seconds();
+        let mut cases = Vec::new();
+        for seed in first..first + count {
+            if cpu_seconds() - begin > share {
+                break;
+            }
+            let case = judge(seed, accuracy, budget, &cpu_seconds);
+            if shows_all {
+                show(&case, accuracy);
+            }
+            cases.push(case);
+        }
+        summarize(&cases, accuracy);
+    }
+}
+
+/// How far the estimates of single runs are right, for each number that a run states.
+fn estimates(seeds: std::ops::Range<u64>, limit: f64, shows_all: bool) {
+    let begin = cpu_seconds();
+    let mut found = Vec::new();
+    for seed in seeds {
+        if cpu_seconds() - begin > limit {
+            break;
+        }
+        match judge_estimate(seed) {
+            Ok((estimate, truth)) => {
+                if shows_all {
+                    println!("  {seed:4}  estimate {estimate:?}\n        truth    {truth:?}");
+                }
+                found.push((estimate, truth));
+            }
+            Err(why) => println!("  {seed:4}  failed: {why}"),
+        }
+    }
+    println!("{} runs estimated", found.len());
+    type Pick = fn(&Difference) -> f64;
+    let quantities: [(&str, Pick); 4] = [
+        ("worn depth", |one| one.worn_depth),
+        ("volume", |one| one.volume),
+        ("F_x", |one| one.force),
+        ("p", |one| one.pressure),
+    ];
+    for (name, pick) in quantities {
+        println!("{name}");
+        let ratios = found
+            .iter()
+            .map(|(estimate, truth)| (pick(estimate), pick(truth)));
+        // What round-off makes is no error of cells and steps.
+        let ratios = ratios.filter(|(_, truth)| *truth > 1e-9);
+        histogram(
+            &ratios
+                .map(|(estimate, truth)| estimate / truth)
+                .collect::<Vec<f64>>(),
+        );
+    }
+}
+
+fn show(case: &Case, accuracy: f64) {
+    match &case.reached {
+        Err(why) => println!("  {:4}  failed: {why}", case.seed),
+        Ok(found) => {
+            let truth = match &found.truth {
+                Ok(truth) => format!(
+                    "depth {:.1e} (est {:.1e})  volume {:.1e} ({:.1e})  force {:.1e} ({:.1e})  p {:.1e} ({:.1e})",
+                    truth.worn_depth,
+                    found.estimate.worn_depth,
+                    truth.volume,
+                    found.estimate.volume,
+                    truth.force,
+                    found.estimate.force,
+                    truth.pressure,
+                    found.estimate.pressure
+                ),
+                Err(why) => why.clone(),
+            };
+            println!(
+                "  {:4}  {:?}  N={} steps={} tol={:?}  {:.3}s ({:.3}s)  {truth}{}",
+                case.seed,
+                found.verdict,
+                found.level.points,
+                found.level.steps,
+                found.level.tolerance,
+                found.seconds,
+                found.last_rung,
+                if found.is_missed(accuracy) {
+                    "  MISSED"
+                } else {
+                    ""
+                }
+            );
+        }
+    }
+}
+
+fn summarize(cases: &[Case], accuracy: f64) {
+    let found: Vec<_> = cases
+        .iter()
+        .filter_map(|case| case.reached.as_ref().ok())
+        .collect();
+    let of = |pick: &dyn Fn(&&&mdr_tui::studies::judge::Found) -> bool| {
+        found.iter().filter(|one| pick(one)).count()
+    };
+    let times: Vec<f64> = found.iter().map(|one| one.seconds).collect();
+    let last: Vec<f64> = found.iter().map(|one| one.last_rung).collect();
+    println!(
+        "{accuracy:8.0e}  {:9}  {:8.4}  {:5.3}  {:7.2}  {:18.4}  {:3}  {:6}  {:6}  {:10}",
+        cases.len(),
+        quantile(&times, 0.5),
+        quantile(&times, 0.95),
+        quantile(&times, 1.0),
+        quantile(&last, 0.5),
+        of(&|one| one.verdict == Verdict::Met),
+        of(&|one| one.is_missed(accuracy)),
+        cases.len() - found.len(),
+        of(&|one| one.truth.is_err()),
+    );
+    histogram(
+        &found
+            .iter()
+            .filter_map(|one| one.reliability())
+            .collect::<Vec<f64>>(),
+    );
+}
+
+/// How often the estimate was so many times the true error.
+fn histogram(ratios: &[f64]) {
+    const EDGES: [f64; 9] = [
+        0.1,
+        1.0 / 3.0,
+        0.5,
+        1.0,
+        2.0,
+        3.0,
+        10.0,
+        30.0,
+        f64::INFINITY,
+    ];
+    println!("          estimate over true error:");
+    let mut low = 0.0;
+    for high in EDGES {
+        let count = ratios
+            .iter()
+            .filter(|ratio| **ratio >= low && **ratio < high)
+            .count();
+        println!(
+            "          {low:6.2} to {high:6.2}  {count:4}  {}",
+            "#".repeat(count.min(100))
+        );
+        low = high;
+    }
+}

@@ -1,0 +1,48 @@
+//! `numerics.accuracy` and `--estimate-error` on the command line.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::progress;
+use crate::scenario::Scenario;
+use crate::scenario::session::Session;
+use crate::studies::refinement::{self, RefinementError, Resolved};
+
+/// Finds the points and steps that meet the accuracy of `scenario`, with a spinner on stderr.
+///
+/// # Errors
+/// If no level runs to its end, or on an interrupt.
+pub(super) fn resolve(
+    scenario: &Scenario,
+    cycles: Option<f64>,
+    budget: f64,
+    quiet: bool,
+    stop: &AtomicBool,
+) -> Result<Resolved, RefinementError> {
+    let spinner = progress::spinner(
+        "looking for points and steps that meet numerics.accuracy",
+        quiet || scenario.accuracy().is_none(),
+    );
+    let go_on = || !stop.load(Ordering::Relaxed);
+    let resolved = refinement::resolve(scenario, cycles, budget, &go_on);
+    // What ticks would draw it once more.
+    spinner.disable_steady_tick();
+    spinner.finish_and_clear();
+    resolved
+}
+
+/// The estimated error of a finished run as lines of its files' headers; one line of why there is none.
+pub(super) fn estimated(
+    session: &Session,
+    stop: &AtomicBool,
+) -> Result<Vec<(String, String)>, String> {
+    if session.simulation().moment().wear_volume <= 0.0 {
+        return Err("nothing has worn: there is no worn depth to estimate the error of".into());
+    }
+    match refinement::estimate(session, &|| !stop.load(Ordering::Relaxed)) {
+        Some(Ok(error)) => Ok(refinement::statements_of(&error)),
+        Some(Err(error)) => Err(format!(
+            "no error could be estimated: a coarser run {error}"
+        )),
+        None => Err("interrupted: no error was estimated".into()),
+    }
+}

@@ -1,0 +1,107 @@
+//! What can be asked of `figure`.
+
+use std::path::PathBuf;
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, ValueEnum};
+
+use super::Changes;
+use super::values::{CycleAsGiven, cycles};
+use crate::figure::panels::Panel;
+
+/// Options of `figure`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    mdr-tui figure --figure fig2 -o fig2.pdf                 Fig. 2 of the paper\n  \
+    mdr-tui figure --figure fig3 -o fig3.svg                 Fig. 3 of the paper\n  \
+    mdr-tui figure fig3-run --panel loop -o loop.svg         one chart of a run's directory\n  \
+    mdr-tui figure mine.toml --at 10,50,200 --panel profile --size 85x60 --style grey -o f.pdf\n\n\
+    Beside FILE, the same name with .csv holds exactly what is drawn, and what a caption needs.")]
+pub struct Figure {
+    /// A run's directory, a CSV file of one, a preset's name, or a path to a .toml file, which is run.
+    pub source: Option<String>,
+    /// Where to: a name that ends in .svg, .png or .pdf.
+    #[arg(short, long, value_name = "FILE")]
+    pub out: PathBuf,
+    /// A figure of the paper: without a source, of the paper's own scene.
+    #[arg(long, value_enum)]
+    pub figure: Option<PaperFigure>,
+    /// A chart; can be repeated; default: profiles, stresses and loop, as far as there are data.
+    #[arg(long, value_name = "NAME", value_parser = panel_parser(), conflicts_with = "figure")]
+    pub panel: Vec<Panel>,
+    /// Changes to the scenario.
+    #[command(flatten)]
+    pub changes: Changes,
+    /// How many cycles to run a scenario; default: its run.cycles.
+    #[arg(long, value_name = "X", value_parser = cycles, allow_hyphen_values = true)]
+    pub cycles: Option<f64>,
+    /// Show the states at these cycles; default: all of a directory, those that a scenario plans.
+    #[arg(
+        long,
+        value_name = "C1,C2,...",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
+    pub at: Option<Vec<CycleAsGiven>>,
+    /// Width and height in mm; default: what fits one or two columns of a journal.
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub size: Option<[f64; 2]>,
+    /// Colours, or greys with dashes for print.
+    #[arg(long, value_enum, default_value_t = StyleChoice::Color)]
+    pub style: StyleChoice,
+    /// The size of the font, in points.
+    #[arg(long, value_name = "PT", default_value = "8", value_parser = font_size)]
+    pub font_size: f64,
+    /// Dots per inch of a PNG.
+    #[arg(long, value_name = "DPI", default_value_t = 300, value_parser = clap::value_parser!(u16).range(20..=2400))]
+    pub dpi: u16,
+    /// Write over files that are there already.
+    #[arg(long)]
+    pub force: bool,
+    /// Print nothing but errors.
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+/// A figure of the paper.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum PaperFigure {
+    /// Errors of methods A and B on a Hertzian contact.
+    Fig2,
+    /// Profiles and stresses of a fretting contact.
+    Fig3,
+}
+
+/// Colours or greys.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum StyleChoice {
+    /// The screen's colours for a light background.
+    Color,
+    /// Greys and dashes.
+    Grey,
+}
+
+fn panel_parser() -> impl TypedValueParser<Value = Panel> {
+    PossibleValuesParser::new(Panel::ALL.map(Panel::name)).map(|name| {
+        let found = Panel::ALL.into_iter().find(|panel| panel.name() == name);
+        // The parser has let through nothing but these names.
+        found.unwrap_or(Panel::Profile)
+    })
+}
+
+fn size(text: &str) -> Result<[f64; 2], String> {
+    let sides = text.split_once('x').and_then(|(width, height)| {
+        let side = |text: &str| text.trim().parse::<f64>().ok();
+        Some([side(width)?, side(height)?])
+    });
+    sides
+        .filter(|sides| sides.iter().all(|side| (20.0..=2000.0).contains(side)))
+        .ok_or_else(|| "a size is WIDTHxHEIGHT in mm, each from 20 to 2000, e.g. 170x120".into())
+}
+
+fn font_size(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(size) if (3.0..=72.0).contains(&size) => Ok(size),
+        _ => Err("a font has from 3 to 72 points, e.g. 8".into()),
+    }
+}

@@ -1,0 +1,192 @@
+//! `$XDG_CONFIG_HOME/mdr-tui/config.toml`: what a user prefers in every session. The command line goes
+//! before it. The file is documented by `config.toml` beside this one, which the guide shows.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+use serde::Deserialize;
+
+use super::Misuse;
+use super::args::{ColorChoice, MarkerChoice, ThemeChoice};
+use crate::scenario::nearest::nearest;
+use crate::scenario::printable;
+use crate::tui::command::{BINDINGS, Command};
+use crate::tui::keys::{Key, parse_script};
+
+/// The preferences, each of which may be left out.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Config {
+    /// Which colours.
+    pub theme: Option<ThemeChoice>,
+    /// When to use colour.
+    pub color: Option<ColorChoice>,
+    /// How curves are drawn.
+    pub marker: Option<MarkerChoice>,
+    /// The largest number of frames per second.
+    pub fps: Option<u16>,
+    /// Whether the mouse belongs to the explorer.
+    pub mouse: Option<bool>,
+    /// Further keys of commands.
+    pub keys: Vec<(Key, Command)>,
+}
+
+/// The file as it is written.
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct Written {
+    theme: Option<String>,
+    color: Option<String>,
+    marker: Option<String>,
+    fps: Option<u16>,
+    mouse: Option<bool>,
+    keys: BTreeMap<String, String>,
+}
+
+impl Config {
+    /// Reads the user's file; without one, nothing is preferred.
+    ///
+    /// # Errors
+    ///
+    /// One line that names the file and what is wrong in it: no TOML, an unknown key, a value that
+    /// is none of its key.
+    pub fn load() -> Result<Self, Misuse> {
+        let Some(path) = path() else {
+            return Ok(Self::default());
+        };
+        match fs::read_to_string(&path) {
+            Ok(text) => Self::read(&text, &path),
+            Err(error) if error.kind() == ErrorKind::NotFound => Ok(Self::default()),
+            Err(error) => Err(Misuse(format!(
+                "{}: cannot be read: {error}",
+                path.display()
+            ))),
+        }
+    }
+
+    fn read(text: &str, path: &Path) -> Result<Self, Misuse> {
+        let refuse = |rule: String| Misuse(format!("{}: {rule}", path.display()));
+        let written: Written = toml::from_str(text).map_err(|error| {
+            let at = error.span().map_or(0, |span| span.start);
+            let line = text.get(..at).unwrap_or(text).matches('\n').count() + 1;
+            refuse(format!("line {line}: {}", printable(error.message())))
+        })?;
+        let mut keys = Vec::new();
+        for (name, key) in &written.keys {
+            keys.push((
+                one_key(name, key).map_err(refuse)?,
+                command(name).map_err(refuse)?,
+            ));
+        }
+        Ok(Self {
+            theme: choice("theme", written.theme).map_err(refuse)?,
+            color: choice("color", written.color).map_err(refuse)?,
+            marker: choice("marker", written.marker).map_err(refuse)?,
+            fps: match written.fps {
+                Some(fps) if !(1..=120).contains(&fps) => {
+                    return Err(refuse(format!("fps = {fps}: must be from 1 to 120")));
+                }
+                fps => fps,
+            },
+            mouse: written.mouse,
+            keys,
+        })
+    }
+}
+
+/// Where the file stands; none without a home.
+fn path() -> Option<PathBuf> {
+    let given = std::env::var_os("XDG_CONFIG_HOME").map(PathBuf::from);
+    // The specification has relative paths ignored.
+    let base = given.filter(|path| path.is_absolute()).or_else(|| {
+        let home = std::env::home_dir().filter(|home| !home.as_os_str().is_empty());
+        home.map(|home| home.join(".config"))
+    });
+    base.map(|base| base.join("mdr-tui/config.toml"))
+}
+
+fn choice<T: ValueEnum>(key: &str, word: Option<String>) -> Result<Option<T>, String> {
+    let Some(word) = word else {
+        return Ok(None);
+    };
+    T::from_str(&word, false).map(Some).map_err(|_| {
+        let known = T::value_variants().iter().filter_map(T::to_possible_value);
+        let known: Vec<String> = known.map(|known| known.get_name().to_owned()).collect();
+        format!("{key} = {word:?}: must be one of {}", known.join(", "))
+    })
+}
+
+fn one_key(name: &str, key: &str) -> Result<Key, String> {
+    match parse_script(key).as_deref() {
+        Ok([key]) => Ok(*key),
+        _ => Err(format!(
+            "keys.{name:?} = {key:?}: must be one key, such as \"n\" or \"<Enter>\""
+        )),
+    }
+}
+
+fn command(name: &str) -> Result<Command, String> {
+    let found = BINDINGS.iter().find(|binding| binding.name == name);
+    found.map(|binding| binding.command).ok_or_else(|| {
+        let hint = match nearest(name, BINDINGS.iter().map(|binding| binding.name)) {
+            Some(near) => format!("did you mean {near:?}?"),
+            None => "the command palette (:) shows the names".to_owned(),
+        };
+        format!("keys: {name:?} is no command; {hint}")
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<Config, String> {
+        Config::read(text, Path::new("config.toml")).map_err(|error| error.to_string())
+    }
+
+    /// The commented default with its comments taken off, up to the explanation behind a value.
+    fn uncommented() -> String {
+        let line = |line: &str| match line.strip_prefix("# ") {
+            Some(key) if key.contains(" = ") => format!("{key}\n"),
+            _ => format!("{line}\n"),
+        };
+        include_str!("config.toml").lines().map(line).collect()
+    }
+
+    #[test]
+    fn the_commented_default_is_a_configuration() {
+        assert_eq!(read(include_str!("config.toml")), Ok(Config::default()));
+        let all = read(&uncommented()).expect("a configuration");
+        assert_eq!(all.theme, Some(ThemeChoice::Dark));
+        assert_eq!(all.color, Some(ColorChoice::Auto));
+        assert_eq!(all.marker, Some(MarkerChoice::Braille));
+        assert_eq!((all.fps, all.mouse), (Some(10), Some(false)));
+        assert!(all.keys.contains(&(Key::Char('R'), Command::RunPause)));
+    }
+
+    #[test]
+    fn what_is_wrong_is_said_in_a_line() {
+        for (text, said) in [
+            (
+                "theme = \"green\"",
+                "config.toml: theme = \"green\": must be one of dark, light, mono",
+            ),
+            ("fps = 0", "config.toml: fps = 0: must be from 1 to 120"),
+            ("\nthem = 1", "config.toml: line 2: unknown field `them`"),
+            (
+                "[keys]\nstep = \"ab\"",
+                "config.toml: keys.\"step\" = \"ab\": must be one key",
+            ),
+            (
+                "[keys]\nstop = \"a\"",
+                "config.toml: keys: \"stop\" is no command; did you mean \"step\"?",
+            ),
+        ] {
+            let error = read(text).expect_err(text);
+            assert!(error.starts_with(said), "{error}");
+            assert!(!error.contains('\n'), "{error}");
+        }
+    }
+}

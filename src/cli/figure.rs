@@ -1,0 +1,220 @@
+//! `mdr-tui figure`: figures for a paper, from a run's files or from a scenario.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use anyhow::{Context, Result};
+
+use super::args::{Figure, PaperFigure, StyleChoice};
+use super::{Misuse, job};
+use crate::export::file::write_whole;
+use crate::figure::data::{Data, Table};
+use crate::figure::ink::{Look, Style};
+use crate::figure::panels::Panel;
+use crate::figure::{Format, Sheet, paper};
+use crate::scenario::session::Session;
+use crate::scenario::{Scenario, printable};
+
+/// The scene of the paper's Fig. 3.
+const OF_THE_PAPER: &str = "li2019-fig3";
+
+/// Millimetres of a point.
+const POINT: f64 = 25.4 / 72.0;
+
+/// What a sheet holds if nothing is asked for, as far as there are data.
+const USUAL: [Panel; 4] = [
+    Panel::Profile,
+    Panel::Profile1d,
+    Panel::Stresses,
+    Panel::Loop,
+];
+
+/// Draws the figure and writes it, with its data beside it.
+pub fn figure(options: &Figure) -> Result<ExitCode> {
+    let format = Format::of(&options.out).ok_or_else(|| {
+        let path = options.out.display();
+        Misuse(format!("-o {path}: must end in .svg, .png or .pdf"))
+    })?;
+    let data_file = options.out.with_extension("csv");
+    for path in [&options.out, &data_file] {
+        check(path, options.force)?;
+    }
+    let sheet = sheet(options)?;
+    let look = Look {
+        font: options.font_size * POINT,
+        style: match options.style {
+            StyleChoice::Color => Style::Color,
+            StyleChoice::Grey => Style::Grey,
+        },
+    };
+    let size = options.size.unwrap_or_else(|| sheet.usual_size());
+    let canvas = sheet.draw(size, &look);
+    let dpi = f64::from(options.dpi);
+    let picture = format
+        .write(&canvas, dpi)
+        .map_err(|error| Misuse(format!("{}: {error}", options.out.display())))?;
+    write_whole(&data_file, sheet.csv().as_bytes())?;
+    write_whole(&options.out, &picture)?;
+    if !options.quiet {
+        let names = [&options.out, &data_file].map(|path| printable(&path.display().to_string()));
+        writeln!(io::stdout().lock(), "{} and {}", names[0], names[1])?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Refuses a file that is in the way, or has no place.
+fn check(path: &Path, force: bool) -> Result<(), Misuse> {
+    let refuse = |why: &str| Err(Misuse(format!("-o {}: {why}", path.display())));
+    if path.is_dir() {
+        return refuse("is a directory");
+    }
+    if path.exists() && !force {
+        return refuse("exists already; choose another name or add --force");
+    }
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() && !parent.is_dir() => {
+            refuse("its directory does not exist")
+        }
+        _ => Ok(()),
+    }
+}
+
+fn sheet(options: &Figure) -> Result<Sheet> {
+    if options.figure == Some(PaperFigure::Fig2) {
+        if let Some(source) = &options.source {
+            let message =
+                format!("{source}: fig2 is the paper's own error study and takes no source");
+            return Err(Misuse(message).into());
+        }
+        return Ok(paper::errors(paper::POINTS)?);
+    }
+    let source = match (&options.source, options.figure) {
+        (Some(source), _) => source.as_str(),
+        (None, Some(_)) => OF_THE_PAPER,
+        (None, None) => {
+            let message = "figure: needs a run's directory, a CSV file of one, or a scenario";
+            return Err(Misuse(message.into()).into());
+        }
+    };
+    let data = data(source, options)?;
+    let refused = |error| Misuse(format!("{source}: {error}"));
+    if options.figure.is_some() {
+        return Ok(paper::fretting(&data).map_err(refused)?);
+    }
+    let charts = if options.panel.is_empty() {
+        let found = |panels: &[Panel]| -> Vec<_> {
+            let charts = panels.iter().map(|panel| panel.chart(&data));
+            charts.filter_map(Result::ok).collect()
+        };
+        let usual = found(&USUAL);
+        if usual.is_empty() {
+            found(&Panel::ALL)
+        } else {
+            usual
+        }
+    } else {
+        let charts = options.panel.iter().map(|panel| panel.chart(&data));
+        charts.collect::<Result<_, _>>().map_err(refused)?
+    };
+    let facts = data.facts();
+    let title = facts.iter().find(|(key, _)| key == "scenario");
+    Ok(Sheet {
+        title: title.map_or_else(|| source.to_owned(), |(_, title)| title.clone()),
+        facts,
+        charts,
+    })
+}
+
+/// The tables of a run that is on the disk, or is run now.
+fn data(source: &str, options: &Figure) -> Result<Data> {
+    let path = Path::new(source);
+    let is_table = path
+        .extension()
+        .is_some_and(|end| end.eq_ignore_ascii_case("csv"));
+    let mut data = if path.is_dir() {
+        from_directory(path)?
+    } else if is_table {
+        let mut data = Data::default();
+        take(&mut data, path)?;
+        data
+    } else {
+        return from_scenario(source, options);
+    };
+    if !options.changes.set.is_empty() || options.cycles.is_some() {
+        let message = format!("{source}: is not run again, so --set and --cycles change nothing");
+        return Err(Misuse(message).into());
+    }
+    if let Some(wanted) = &options.at {
+        let is_at = |state: &Table, cycle: f64| (state.cycle() - cycle).abs() < 1e-9;
+        let here: Vec<String> = data.states.iter().map(|s| s.cycle().to_string()).collect();
+        let absent = wanted
+            .iter()
+            .find(|at| !data.states.iter().any(|s| is_at(s, at.cycle)));
+        if let Some(absent) = absent {
+            let message = format!(
+                "--at {}: {source} has no such state, but those at {}",
+                absent.spelling,
+                here.join(", ")
+            );
+            return Err(Misuse(message).into());
+        }
+        data.states
+            .retain(|state| wanted.iter().any(|at| is_at(state, at.cycle)));
+    }
+    Ok(data)
+}
+
+fn from_directory(directory: &Path) -> Result<Data> {
+    let mut data = Data::default();
+    let entries = fs::read_dir(directory).map_err(|error| unread(directory, &error.to_string()))?;
+    let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    paths.sort();
+    for path in paths {
+        let name = path
+            .file_name()
+            .map(|name| name.to_string_lossy().into_owned());
+        let name = name.unwrap_or_default();
+        let is_state = name.starts_with("state") && name.ends_with(".csv");
+        if is_state || name == "history.csv" || name == "field.csv" {
+            take(&mut data, &path)?;
+        }
+    }
+    if data.states.is_empty() && data.history.is_none() && data.field.is_none() {
+        let why = "holds no state.csv, no history.csv and no field.csv";
+        return Err(unread(directory, why).into());
+    }
+    let scenario = directory.join("scenario.toml");
+    if scenario.is_file() {
+        data.scenario = Some(Scenario::load(&scenario.to_string_lossy(), &[])?);
+    }
+    Ok(data)
+}
+
+/// Reads a table of a run.
+fn take(data: &mut Data, path: &Path) -> Result<(), Misuse> {
+    let text = fs::read_to_string(path).map_err(|error| unread(path, &error.to_string()))?;
+    let table = Table::parse(&text).map_err(|why| unread(path, &why))?;
+    data.take(table).map_err(|why| unread(path, &why))
+}
+
+fn unread(path: &Path, why: &str) -> Misuse {
+    Misuse(format!("{}: {why}", path.display()))
+}
+
+fn from_scenario(name: &str, options: &Figure) -> Result<Data> {
+    let scenario = Scenario::load(name, &options.changes.set)?;
+    let mut cycles: Vec<f64> = match &options.at {
+        Some(at) => at.iter().map(|at| at.cycle).collect(),
+        None => {
+            let end = job::end(options.cycles.or(scenario.run().cycles), name)?;
+            let planned = scenario.run().snapshot_at.iter().copied();
+            planned.filter(|&at| at < end).chain([end]).collect()
+        }
+    };
+    cycles.sort_by(f64::total_cmp);
+    let with_field = options.panel.iter().any(|panel| panel.needs_field());
+    let mut session = Session::start(scenario).with_context(|| printable(name))?;
+    Ok(Data::run(&mut session, &cycles, with_field)?)
+}

@@ -1,0 +1,158 @@
+//! `mdr-tui fit`: parameters from measured scars, loops and histories.
+
+use std::fmt::Write as _;
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use anyhow::Result;
+use ratatui::style::Style;
+
+use super::args;
+use super::{Misuse, progress, results, small_multiples};
+use crate::export::file::write_whole;
+use crate::plot::{Axis, Curve, Marker, Plot};
+use crate::scenario::Scenario;
+use crate::scenario::ScenarioError;
+use crate::scenario::columns::Columns;
+use crate::studies::fit::{Compared, Fit, FitError, Fitted};
+use crate::studies::measured::Measured;
+
+/// Fits, and prints, draws and writes what was asked for.
+pub fn fit(options: &args::Fit) -> Result<ExitCode> {
+    let scenario = Scenario::load(&options.scenario, &options.changes.set)?;
+    let fit = Fit::new(
+        scenario,
+        data(options)?,
+        &options.free,
+        options.cycles,
+        options.robust,
+    )
+    .map_err(misuse)?;
+    if let Some(out) = &options.out
+        && out.exists()
+        && !options.force
+    {
+        let message = format!(
+            "--out {}: exists already; choose another name or add --force",
+            out.display()
+        );
+        return Err(Misuse(message).into());
+    }
+    let bar = progress::bar(0, "{pos} runs  {elapsed} gone", options.printing.quiet);
+    let outcome = fit.run(&mut || bar.inc(1));
+    bar.finish_and_clear();
+    let fitted = outcome.map_err(misuse)?;
+    if let Some(out) = &options.out {
+        write_whole(out, fitted.scenario.to_toml().as_bytes())?;
+    }
+    let mut out = io::stdout().lock();
+    if options.printing.json {
+        results::print_json(&fitted.json(), &mut out)?;
+        for remark in &fitted.remarks {
+            super::complain(remark);
+        }
+    } else {
+        write!(out, "{}", report(&fitted))?;
+        if options.drawing.plot {
+            write!(
+                out,
+                "{}",
+                residual_plots(&fitted, options.drawing.marker.into())
+            )?;
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Everything wrong with keys and data is wrong use; the rest is a fit that failed.
+fn misuse(error: FitError) -> anyhow::Error {
+    match error {
+        FitError::Misuse(message) => Misuse(message).into(),
+        FitError::Scenario(error) => error.into(),
+        other => other.into(),
+    }
+}
+
+/// All data sets that the options name.
+fn data(options: &args::Fit) -> Result<Vec<Measured>> {
+    type Reader = fn(&Columns) -> Result<Measured, ScenarioError>;
+    let groups: [(&[PathBuf], Reader); 3] = [
+        (&options.scar, Measured::scar),
+        (&options.fretting_loop, Measured::fretting_loop),
+        (&options.history, Measured::history),
+    ];
+    let mut data = Vec::new();
+    for (paths, read) in groups {
+        for path in paths {
+            data.push(read(&Columns::read(path)?)?);
+        }
+    }
+    Ok(data)
+}
+
+/// The keys with their errors, how they hang together, and how well each data set is met.
+fn report(fitted: &Fitted) -> String {
+    let mut text = String::new();
+    let width = fitted.values.iter().map(|value| value.key.len()).max();
+    let width = width.unwrap_or(0);
+    for value in &fitted.values {
+        let error = match value.stderr {
+            Some(error) => format!(
+                "± {error:.2e} {} ({:.2} %)",
+                value.unit,
+                100.0 * (error / value.value).abs()
+            ),
+            None => format!("{} (not determined)", value.unit),
+        };
+        let _ = writeln!(text, "{:width$}  {:.6e} {error}", value.key, value.value);
+    }
+    for (i, value) in fitted.values.iter().enumerate() {
+        for (j, other) in fitted.values.iter().enumerate().take(i) {
+            let correlation = fitted.correlations[i][j];
+            let _ = writeln!(
+                text,
+                "correlation {} - {}: {correlation:.3}",
+                other.key, value.key
+            );
+        }
+    }
+    for set in &fitted.compared {
+        let (rms, points) = (set.rms(), set.simulated.len());
+        let (name, unit) = (&set.measured.name, set.measured.kind.unit());
+        let _ = writeln!(
+            text,
+            "{name}: {points} points, residuals {rms:.2e} {unit} rms"
+        );
+    }
+    for remark in &fitted.remarks {
+        let _ = writeln!(text, "{remark}");
+    }
+    let _ = writeln!(text, "{} runs", fitted.runs);
+    text
+}
+
+/// Measured less simulated, a plot a data set.
+fn residual_plots(fitted: &Fitted, marker: Marker) -> String {
+    let residuals: Vec<Vec<f64>> = fitted.compared.iter().map(Compared::residuals).collect();
+    let titles: Vec<String> = fitted
+        .compared
+        .iter()
+        .map(|set| format!("{}: residual", set.measured.name))
+        .collect();
+    let sets = fitted.compared.iter().zip(&residuals).zip(&titles);
+    let plots: Vec<Plot> = sets
+        .map(|((set, residuals), title)| {
+            let (name, unit) = set.measured.kind.abscissa();
+            let at = &set.measured.at;
+            Plot::new(
+                Axis::new(name, unit),
+                Axis::new(title, set.measured.kind.unit()),
+            )
+            .curve(Curve::new("", at, residuals, Style::default()))
+            .marker(marker)
+            .legend(false)
+        })
+        .collect();
+    small_multiples::draw(&plots)
+}

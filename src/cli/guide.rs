@@ -1,0 +1,105 @@
+//! `mdr-tui guide [TOPIC]`: the long documentation, in a pager where stdout is a terminal.
+
+use std::io::{self, IsTerminal, Write};
+use std::process::{Command, ExitCode, Stdio};
+
+use anyhow::Result;
+
+use super::Misuse;
+use super::args::Guide;
+use crate::guide::{TOPICS, Topic};
+use crate::scenario::nearest::nearest;
+
+/// Shows a topic; without one, the list of topics.
+pub fn guide(options: &Guide) -> Result<ExitCode> {
+    let Some(name) = &options.topic else {
+        io::stdout().write_all(list().as_bytes())?;
+        return Ok(ExitCode::SUCCESS);
+    };
+    let topic = Topic::find(name).ok_or_else(|| unknown(name))?;
+    if io::stdout().is_terminal() {
+        page(&emphasised(topic.text))?;
+    } else {
+        io::stdout().write_all(topic.text.as_bytes())?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn list() -> String {
+    let topics = TOPICS
+        .iter()
+        .map(|topic| format!("  {:<12} {}\n", topic.name, topic.about));
+    let topics: String = topics.collect();
+    format!("Topics:\n{topics}\nRead one with: mdr-tui guide TOPIC\n")
+}
+
+fn unknown(name: &str) -> Misuse {
+    let names = || TOPICS.iter().map(|topic| topic.name);
+    let hint = match nearest(name, names()) {
+        Some(near) => format!("did you mean {near}?"),
+        None => format!("topics are {}", names().collect::<Vec<_>>().join(", ")),
+    };
+    Misuse(format!("guide {name}: no such topic; {hint}"))
+}
+
+/// Markdown with its headings in bold: everything else reads well as it is.
+fn emphasised(text: &str) -> String {
+    let (mut out, mut in_code) = (String::new(), false);
+    for line in text.lines() {
+        in_code ^= line.starts_with("```");
+        match line.trim_start_matches('#').strip_prefix(' ') {
+            Some(heading) if !in_code && line.starts_with('#') => {
+                out += &format!("\u{1b}[1m{heading}\u{1b}[0m\n");
+            }
+            _ => out += &format!("{line}\n"),
+        }
+    }
+    out
+}
+
+/// Shows the text in `$PAGER`, or `less`; without either, prints it.
+fn page(text: &str) -> io::Result<()> {
+    let pager = std::env::var("PAGER").unwrap_or_default();
+    let mut words = pager.split_whitespace();
+    let mut command = Command::new(words.next().unwrap_or("less"));
+    command.args(words).stdin(Stdio::piped());
+    if std::env::var_os("LESS").is_none() {
+        // As git does: leave at once if the text fits, keep colours, leave the text on the screen.
+        command.env("LESS", "FRX");
+    }
+    let Ok(mut pager) = command.spawn() else {
+        return io::stdout().write_all(text.as_bytes());
+    };
+    if let Some(mut input) = pager.stdin.take() {
+        // A reader who quits early closes the pipe.
+        let _ = input.write_all(text.as_bytes());
+    }
+    pager.wait().map(|_| ())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn headings_stand_out_and_code_stays() {
+        let text = "# A\n```sh\n# comment\n```\n## B\nplain #1\n";
+        let expected =
+            "\u{1b}[1mA\u{1b}[0m\n```sh\n# comment\n```\n\u{1b}[1mB\u{1b}[0m\nplain #1\n";
+        assert_eq!(emphasised(text), expected);
+    }
+
+    #[test]
+    fn a_mistyped_topic_is_led_to_the_nearest() {
+        assert!(
+            unknown("method")
+                .to_string()
+                .ends_with("did you mean methods?")
+        );
+        assert!(
+            unknown("zzzzzz")
+                .to_string()
+                .contains("topics are physics, ")
+        );
+    }
+}

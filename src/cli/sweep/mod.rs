@@ -1,0 +1,254 @@
+//! `mdr-tui sweep`: a study of many points, whole or in shards.
+
+use std::env;
+use std::io::{self, Write};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::atomic::Ordering;
+
+use anyhow::{Context, Result, anyhow};
+use rayon::ThreadPoolBuilder;
+
+use super::args::Sweep;
+use super::{FAILED, Misuse, UNFINISHED, complain, progress, stop};
+use crate::export::file::shell_word;
+use crate::scenario::printable;
+use crate::studies::sweep::{Shard, Study, engine, record};
+
+mod merge;
+mod output;
+mod sensitivity;
+mod slurm;
+mod view;
+
+use output::Output;
+
+/// The largest file that is read as a study, in bytes.
+const LARGEST_STUDY: u64 = 1 << 26;
+
+/// The variable in which Slurm tells a task of an array its index.
+const SLURM_INDEX: &str = "SLURM_ARRAY_TASK_ID";
+
+/// Does what the options ask for.
+pub fn sweep(options: &Sweep) -> Result<ExitCode> {
+    if let Some(directory) = &options.merge {
+        return merge::merge(directory, options);
+    }
+    if let Some(file) = &options.view {
+        return view::view(file, options);
+    }
+    let path = options.study.clone().unwrap_or_default();
+    let study = read(&path, &options.changes.set)?;
+    if let Some(point) = options.point {
+        return print_point(&study, point);
+    }
+    if options.sensitivity {
+        return sensitivity::sensitivity(options, &study);
+    }
+    if study.axes.is_empty() {
+        let message = format!(
+            "{}: there is no axis; --sensitivity needs none",
+            path.display()
+        );
+        return Err(Misuse(message).into());
+    }
+    if options.slurm {
+        let pool = ThreadPoolBuilder::new()
+            .build()
+            .context("cannot start threads")?;
+        refuse_invalid(
+            options,
+            &study,
+            &(0..study.points()).collect::<Vec<_>>(),
+            &pool,
+        )?;
+        let script = slurm::script(&path, options, study.points());
+        io::stdout().write_all(script.as_bytes())?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    run(options, &path, &study)
+}
+
+/// Reads a study, with the assignments of the command line in its `[set]`.
+fn read(path: &Path, sets: &[String]) -> Result<Study> {
+    let name = printable(&path.display().to_string());
+    let refuse = |why: String| Misuse(format!("{name}: {why}"));
+    let about = std::fs::metadata(path).map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound => refuse("no such file; a study is a TOML file".into()),
+        _ => refuse(format!("cannot be read: {error}")),
+    })?;
+    if about.is_dir() || about.len() > LARGEST_STUDY {
+        return Err(refuse("a study is a TOML file of 64 MiB or less".into()).into());
+    }
+    let text = std::fs::read_to_string(path)
+        .map_err(|error| refuse(format!("cannot be read: {error}")))?;
+    let directory = path.parent().unwrap_or(Path::new(""));
+    let mut study = Study::read(&text, &name, directory)?;
+    for set in sets {
+        study.assign(set)?;
+    }
+    Ok(study)
+}
+
+fn print_point(study: &Study, point: usize) -> Result<ExitCode> {
+    if point >= study.points() {
+        let message = format!(
+            "--point {point}: the study has {} points, counted from 0",
+            study.points()
+        );
+        return Err(Misuse(message).into());
+    }
+    let scenario = study.scenario(point)?;
+    writeln!(
+        io::stdout(),
+        "# {}\n{}",
+        study.name(point),
+        scenario.to_toml()
+    )?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Refuses a study with a point that is no valid scenario, unless it is to be skipped.
+fn refuse_invalid(
+    options: &Sweep,
+    study: &Study,
+    todo: &[usize],
+    pool: &rayon::ThreadPool,
+) -> Result<()> {
+    if options.skip_invalid {
+        return Ok(());
+    }
+    match engine::first_invalid(study, todo, pool) {
+        None => Ok(()),
+        Some(error) => Err(Misuse(format!("{error}; --skip-invalid runs the other points")).into()),
+    }
+}
+
+fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
+    let shard = shard(options)?;
+    let out = options
+        .out
+        .clone()
+        .unwrap_or_else(|| default_out(path, shard));
+    let mut builder = ThreadPoolBuilder::new();
+    if let Some(threads) = options.threads {
+        builder = builder.num_threads(threads.into());
+    }
+    let pool = builder.build().context("cannot start the threads")?;
+    let mine: Vec<usize> = shard.points(study.points()).collect();
+    let mut output = Output::open(&out, study, shard, options)?;
+    let todo = output.missing(&mine);
+    refuse_invalid(options, study, &todo, &pool)?;
+    output.begin()?;
+    let halt = stop::patient_signal()?;
+    crate::panics::keep();
+    let bar = progress::bar(mine.len() as u64, progress::TIMES, options.quiet);
+    bar.set_message(printable(&out.display().to_string()));
+    bar.set_position((mine.len() - todo.len()) as u64);
+    bar.reset_eta();
+    let mut lines = options.json.then(|| JsonLines::new(study, &mine));
+    let mut outcome = lines.as_mut().map_or(Ok(()), |lines| lines.print(&output));
+    if outcome.is_ok() {
+        engine::run(study, &todo, &pool, &halt, |point, row| {
+            outcome = output
+                .add(point, record::fields(study, point, row))
+                .map_err(|error| anyhow!("{error}"))
+                .and_then(|()| lines.as_mut().map_or(Ok(()), |lines| lines.print(&output)));
+            bar.inc(1);
+            match outcome {
+                Ok(()) => ControlFlow::Continue(()),
+                Err(_) => ControlFlow::Break(()),
+            }
+        });
+    }
+    bar.finish_and_clear();
+    let kept = output.close();
+    let (there, failed) = output.count();
+    let go_on = format!(
+        "{there} of {} points are in {}; the same command with --resume goes on",
+        mine.len(),
+        shell_word(&out)
+    );
+    outcome.with_context(|| go_on.clone())?;
+    kept.map_err(|error| anyhow!("{error}; {go_on}"))?;
+    if there < mine.len() {
+        let why = if halt.load(Ordering::Relaxed) {
+            "interrupted"
+        } else {
+            "unfinished"
+        };
+        complain(&format!("{why}: {go_on}"));
+        return Ok(ExitCode::from(UNFINISHED));
+    }
+    if failed > 0 {
+        complain(&format!(
+            "{failed} of {there} points failed; their status says why, and --resume --failed runs \
+             them again"
+        ));
+    } else if !options.quiet && !options.json {
+        writeln!(io::stdout(), "{there} points in {}", shell_word(&out))?;
+    }
+    Ok(match there {
+        0 => ExitCode::SUCCESS,
+        _ if failed == there => ExitCode::from(FAILED),
+        _ => ExitCode::SUCCESS,
+    })
+}
+
+/// The part of the study to run.
+fn shard(options: &Sweep) -> Result<Shard> {
+    let Some(count) = options.shards else {
+        return Ok(options.shard.unwrap_or(Shard::WHOLE));
+    };
+    let Ok(index) = env::var(SLURM_INDEX) else {
+        let message = format!(
+            "--shards {count}: {SLURM_INDEX} is not set, so this is no task of a Slurm array; \
+             --shard i/{count} names the part, --slurm prints a job script"
+        );
+        return Err(Misuse(message).into());
+    };
+    let shard = format!("{index}/{count}").parse();
+    shard.map_err(|why: String| Misuse(format!("{SLURM_INDEX} = {index}: {why}")).into())
+}
+
+/// Where the rows go if nothing is said.
+fn default_out(study: &Path, shard: Shard) -> PathBuf {
+    let stem = study.file_stem().unwrap_or_default().to_string_lossy();
+    match shard {
+        Shard::WHOLE => PathBuf::from(format!("{stem}.csv")),
+        Shard { index, .. } => shards_directory(study).join(format!("shard-{index}.csv")),
+    }
+}
+
+/// The directory for the shards of a study.
+fn shards_directory(study: &Path) -> PathBuf {
+    let stem = study.file_stem().unwrap_or_default().to_string_lossy();
+    PathBuf::from(format!("{stem}.shards"))
+}
+
+/// Rows as JSON lines on stdout, each as soon as all before it are there.
+struct JsonLines<'a> {
+    columns: Vec<&'a str>,
+    points: &'a [usize],
+    printed: usize,
+}
+
+impl<'a> JsonLines<'a> {
+    fn new(study: &'a Study, points: &'a [usize]) -> Self {
+        Self {
+            columns: study.columns(),
+            points,
+            printed: 0,
+        }
+    }
+
+    fn print(&mut self, output: &Output) -> Result<()> {
+        let mut out = io::stdout().lock();
+        while let Some(row) = self.points.get(self.printed).and_then(|&at| output.row(at)) {
+            writeln!(out, "{}", record::json(&self.columns, row))?;
+            self.printed += 1;
+        }
+        Ok(())
+    }
+}

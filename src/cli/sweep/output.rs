@@ -1,0 +1,173 @@
+//! The file that rows go to: a line per row as soon as it is there, all in order at the end.
+
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use anyhow::Result;
+
+use super::super::Misuse;
+use super::super::args::Sweep;
+use crate::export::file::{WriteError, write_whole};
+use crate::studies::sweep::record::{self, Record, Rows};
+use crate::studies::sweep::{Shard, Study};
+
+/// How often rows are flushed to the disk. A process that is killed loses none: they are with the
+/// system by then. A machine that goes down loses this much.
+const FLUSH_INTERVAL: Duration = Duration::from_secs(5);
+
+/// The rows of a study, in memory and in a file.
+pub struct Output {
+    path: PathBuf,
+    head: String,
+    rows: Rows,
+    /// The file while rows are added; locked, so that no other process adds to it.
+    file: Option<File>,
+    /// Its length up to the last whole row.
+    length: u64,
+    flushed: Instant,
+}
+
+impl Output {
+    /// Finds out whether the file can be made, or gone on with; nothing is written yet.
+    pub fn open(path: &Path, study: &Study, shard: Shard, options: &Sweep) -> Result<Self> {
+        let mut output = Self {
+            path: path.to_owned(),
+            head: record::head(study, shard),
+            rows: Rows::new(study),
+            file: None,
+            length: 0,
+            flushed: Instant::now(),
+        };
+        let refuse = |why: &str| Err(Misuse(format!("{}: {why}", path.display())).into());
+        if path.is_dir() || path.file_name().is_none() {
+            return refuse("is a directory; --out names a file");
+        }
+        if !path.exists() || options.force {
+            return Ok(output);
+        }
+        if !options.resume {
+            return refuse(
+                "exists; --resume goes on with it, --force starts anew, --out names another file",
+            );
+        }
+        output.file = Some(lock(path)?);
+        let text = match fs::read_to_string(path) {
+            Ok(text) => text,
+            Err(error) => return refuse(&format!("cannot be read: {error}")),
+        };
+        let name = path.display().to_string();
+        let record = Record::parse(&text, &name)?;
+        record.expect(study, "the study now")?;
+        if record.shard != shard {
+            let (theirs, ours) = (record.shard, shard);
+            return refuse(&format!("holds shard {theirs}, not {ours}"));
+        }
+        for row in record.rows {
+            let begins = row.join(",");
+            if let Err(why) = output.rows.take(row) {
+                return refuse(&format!(
+                    "its row {begins} does not fit the study ({why:?})"
+                ));
+            }
+        }
+        if options.failed {
+            output.rows.forget_failed();
+        }
+        Ok(output)
+    }
+
+    /// Those of `points` that have no row.
+    pub fn missing(&self, points: &[usize]) -> Vec<usize> {
+        let without = |point: &&usize| self.row(**point).is_none();
+        points.iter().filter(without).copied().collect()
+    }
+
+    /// Writes what is there already, so that rows can be added.
+    pub fn begin(&mut self) -> Result<()> {
+        if let Some(directory) = self.path.parent() {
+            fs::create_dir_all(directory).map_err(|cause| self.failed(cause))?;
+        }
+        let text = self.rows.text(&self.head);
+        write_whole(&self.path, text.as_bytes())?;
+        self.length = text.len() as u64;
+        self.file = Some(lock(&self.path)?);
+        Ok(())
+    }
+
+    /// Adds the row of a point. On an error the file ends with the last whole row.
+    pub fn add(&mut self, point: usize, fields: Vec<String>) -> Result<(), WriteError> {
+        let line = record::line(&fields);
+        self.rows.put(point, fields);
+        let Some(file) = &mut self.file else {
+            return Ok(());
+        };
+        let written = file.write_all(line.as_bytes()).and_then(|()| {
+            if self.flushed.elapsed() < FLUSH_INTERVAL {
+                return Ok(());
+            }
+            self.flushed = Instant::now();
+            file.sync_data()
+        });
+        match written {
+            Ok(()) => {
+                self.length += line.len() as u64;
+                Ok(())
+            }
+            Err(cause) => {
+                // What was written of the row goes. Where that fails, a reader drops it.
+                let _ = file.set_len(self.length);
+                self.file = None;
+                Err(self.failed(cause))
+            }
+        }
+    }
+
+    /// Writes the rows in the order of the points. A file that rows could not be added to is left
+    /// as it is: it is whole.
+    pub fn close(&mut self) -> Result<(), WriteError> {
+        if self.file.is_none() {
+            return Ok(());
+        }
+        let written = write_whole(&self.path, self.rows.text(&self.head).as_bytes());
+        self.file = None;
+        written
+    }
+
+    /// The row of a point.
+    pub fn row(&self, point: usize) -> Option<&Vec<String>> {
+        self.rows.rows[point].as_ref()
+    }
+
+    /// The number of rows, and how many of them failed.
+    pub fn count(&self) -> (usize, usize) {
+        self.rows.count()
+    }
+
+    fn failed(&self, cause: io::Error) -> WriteError {
+        WriteError::Io {
+            path: self.path.clone(),
+            cause,
+        }
+    }
+}
+
+/// Opens a file to add to it, for this process alone. On a file system without locks it is not.
+fn lock(path: &Path) -> Result<File> {
+    let failed = |cause| WriteError::Io {
+        path: path.to_owned(),
+        cause,
+    };
+    let file = OpenOptions::new().append(true).open(path).map_err(failed)?;
+    match file.try_lock() {
+        Err(TryLockError::WouldBlock) => {
+            let path = path.display();
+            Err(Misuse(format!(
+                "{path}: another mdr-tui sweep is at work on this file"
+            ))
+            .into())
+        }
+        Ok(()) | Err(TryLockError::Error(_)) => Ok(file),
+    }
+}

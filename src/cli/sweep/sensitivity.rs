@@ -1,0 +1,113 @@
+//! `sweep --sensitivity`: how much the results hang on the keys, as a table.
+
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use anyhow::{Context, Result};
+use rayon::ThreadPoolBuilder;
+
+use super::super::args::Sweep;
+use super::super::{FAILED, Misuse, complain, stop};
+use crate::export::file::write_whole;
+use crate::studies::sweep::Study;
+use crate::studies::sweep::sensitivity::{self, Sensitivity};
+use crate::studies::table::{Cell, Column, Format, Table};
+
+/// Runs the study of sensitivities and prints, or writes, its table.
+pub fn sensitivity(options: &Sweep, study: &Study) -> Result<ExitCode> {
+    if let Some(out) = options
+        .out
+        .as_ref()
+        .filter(|out| out.exists() && !options.force)
+    {
+        let message = format!(
+            "--out {}: exists; choose another name or add --force",
+            out.display()
+        );
+        return Err(Misuse(message).into());
+    }
+    let keys = study.varied();
+    let mut builder = ThreadPoolBuilder::new();
+    if let Some(threads) = options.threads {
+        builder = builder.num_threads(threads.into());
+    }
+    let pool = builder.build().context("cannot start the threads")?;
+    let halt = stop::patient_signal()?;
+    let Some(found) = sensitivity::run(study, &keys, &pool, &halt)? else {
+        complain("interrupted before all runs were there: nothing is kept");
+        return Ok(ExitCode::from(FAILED));
+    };
+    let table = table(&found);
+    if let Some(out) = &options.out {
+        let mut text = format!("# mdr-tui: {}\n", env!("CARGO_PKG_VERSION"));
+        for line in study.to_toml().lines().filter(|line| !line.is_empty()) {
+            text.push_str(&format!("# study: {line}\n"));
+        }
+        text.push_str(&table.csv());
+        write_whole(out, text.as_bytes())?;
+    }
+    let mut stdout = io::stdout().lock();
+    if options.json {
+        writeln!(stdout, "{}", serde_json::to_string_pretty(&table)?)?;
+    } else if !options.quiet {
+        let (cells, steps) = found.numerics;
+        writeln!(
+            stdout,
+            "{}N = {cells}, {steps} steps per cycle",
+            table.text()
+        )?;
+    }
+    if !found.is_resolved {
+        complain(
+            "some elasticities are known to less than 2 %: see their errors; more numerics.points and numerics.steps_per_cycle resolve them",
+        );
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// A row per key and column; at the end the spread that all keys bring about together.
+fn table(found: &Sensitivity) -> Table {
+    let mut table = Table::new(vec![
+        Column::new("key", Format::Words),
+        Column::new("value", Format::Rough),
+        Column::new("column", Format::Words),
+        Column::new("result", Format::Rough),
+        Column::new("elasticity", Format::Fixed),
+        Column::new("error", Format::Rough),
+        Column::new("deviation", Format::Rough),
+        Column::new("relative_spread", Format::Rough),
+    ]);
+    let mut columns: Vec<&str> = Vec::new();
+    for one in &found.elasticities {
+        if !columns.contains(&one.column) {
+            columns.push(one.column);
+        }
+        table.push(vec![
+            Cell::Words(one.key.clone()),
+            Cell::Number(one.value),
+            Cell::Words(one.column.into()),
+            one.result.into(),
+            one.elasticity.map(|[elasticity, _]| elasticity).into(),
+            one.elasticity.map(|[_, error]| error).into(),
+            one.deviation.into(),
+            one.spread().into(),
+        ]);
+    }
+    for column in columns {
+        let Some(spread) = found.spread(column) else {
+            continue;
+        };
+        let result = found.elasticities.iter().find(|one| one.column == column);
+        table.push(vec![
+            Cell::Words("all".into()),
+            Cell::Missing,
+            Cell::Words(column.into()),
+            result.and_then(|one| one.result).into(),
+            Cell::Missing,
+            Cell::Missing,
+            Cell::Missing,
+            Cell::Number(spread),
+        ]);
+    }
+    table
+}

@@ -1,0 +1,101 @@
+//! `sweep --view`: the map, the points it opens, and the way back.
+
+use std::env;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, ExitCode};
+use std::time::SystemTime;
+
+use anyhow::{Context, Result};
+use clap::ValueEnum;
+
+use super::super::Misuse;
+use super::super::args::{ColorChoice, Sweep, ThemeChoice};
+use crate::plot::Marker;
+use crate::studies::sweep::record::Record;
+use crate::tui::map::{self, Leave, View};
+use crate::tui::theme::Look;
+use crate::tui::{self, keys};
+
+/// Shows the table until it is left for good.
+pub fn view(file: &Path, options: &Sweep) -> Result<ExitCode> {
+    let name = file.display().to_string();
+    let keys = keys::parse_script(options.keys.as_deref().unwrap_or("")).map_err(Misuse)?;
+    let mut view = View::new(read(file)?, &name)?;
+    let theme = tui::theme_of(
+        options.marker.map(Marker::from),
+        match options.color {
+            ColorChoice::Always => Some(true),
+            ColorChoice::Never => Some(false),
+            ColorChoice::Auto => None,
+        },
+        options.theme.map(|choice| match choice {
+            ThemeChoice::Dark => Look::Dark,
+            ThemeChoice::Light => Look::Light,
+            ThemeChoice::Mono => Look::Mono,
+        }),
+    );
+    let mut seen = changed(file);
+    loop {
+        let leave = match options.print {
+            Some(size) => map::play(&mut view, &theme, &keys, size)?,
+            None => map::run(&mut view, &theme, |view| {
+                let now = changed(file);
+                if now != seen {
+                    seen = now;
+                    // A file that is being replaced is looked at again the next time.
+                    let _ = read(file).map(|record| view.renew(record));
+                }
+            })?,
+        };
+        let Leave::Open(point) = leave else {
+            return Ok(ExitCode::SUCCESS);
+        };
+        open(&view, point, options)?;
+        if options.print.is_some() {
+            return Ok(ExitCode::SUCCESS);
+        }
+    }
+}
+
+/// Opens a point in the explorer, a process of its own that ends before this goes on.
+fn open(view: &View, point: usize, options: &Sweep) -> Result<()> {
+    let scenario = view.study().scenario(point)?;
+    let directory = tempfile::tempdir().context("cannot make a temporary directory")?;
+    let file = directory.path().join(format!("point-{point}.toml"));
+    fs::write(&file, scenario.to_toml()).context("cannot write the point's scenario")?;
+    let program = env::current_exe().context("cannot find this program")?;
+    let mut explorer = Command::new(program);
+    explorer.arg(&file);
+    if let Some(size) = options.print {
+        explorer.args(["--print", &format!("{}x{}", size.columns, size.rows)]);
+    }
+    let word = |choice: Option<clap::builder::PossibleValue>| {
+        choice.map(|value| value.get_name().to_owned())
+    };
+    let marker = options
+        .marker
+        .and_then(|marker| word(marker.to_possible_value()));
+    let theme = options
+        .theme
+        .and_then(|theme| word(theme.to_possible_value()));
+    let color = word(options.color.to_possible_value());
+    for (flag, value) in [("--marker", marker), ("--theme", theme), ("--color", color)] {
+        explorer.args(value.iter().flat_map(|value| [flag, value.as_str()]));
+    }
+    explorer.status().context("cannot start the explorer")?;
+    Ok(())
+}
+
+fn read(file: &Path) -> Result<Record> {
+    let name = file.display();
+    let text = fs::read_to_string(file)
+        .map_err(|error| Misuse(format!("{name}: cannot be read: {error}")))?;
+    Ok(Record::parse(&text, &name.to_string())?)
+}
+
+/// When the file was changed last, and its length.
+fn changed(file: &Path) -> Option<(SystemTime, u64)> {
+    let about = fs::metadata(file).ok()?;
+    Some((about.modified().ok()?, about.len()))
+}

@@ -1,0 +1,376 @@
+//! A measured profile: from the rows of a table to a shape of revolution, with all that was done to
+//! them said.
+//!
+//! A trace may begin at the axis or run through it (negative radii). In the second case its two sides
+//! are averaged, which removes the tilt of the stage; half of what they differed by is reported, and
+//! so is the tilt. Noise is handled on request only: a local parabola is fitted around each point with
+//! Gaussian weights of standard deviation `smoothing` (W. S. Cleveland, 1979, J. Am. Stat. Assoc. 74,
+//! 829–836), the profile being continued as an even function beyond the axis. A paraboloid passes
+//! unchanged.
+
+use std::sync::Arc;
+
+use crate::math::invalid::{Invalid, finite, non_negative};
+use crate::math::monotone::Monotone;
+
+/// The fewest points of a profile.
+const FEWEST: usize = 4;
+
+/// The most points of a profile: the image of each x sums over all inside it.
+pub const MOST_POINTS: usize = 20_000;
+
+/// By how much of its largest value the 1D image may fall and still counts as level.
+const LEVEL: f64 = 1e-6;
+
+/// A profile f(r) from a table; cheap to clone.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasuredProfile {
+    curve: Arc<Monotone>,
+    treatment: Treatment,
+}
+
+/// What was done to the rows.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Treatment {
+    /// The height at the axis, which was taken off, m.
+    pub offset: f64,
+    /// The tilt that averaging both sides removed, rad; none for a profile that begins at the axis.
+    pub tilt: Option<f64>,
+    /// The rms of half the difference of both sides, the tilt taken off, m.
+    pub asymmetry: f64,
+    /// The rms and the largest change by smoothing, m.
+    pub smoothed: Option<(f64, f64)>,
+}
+
+impl MeasuredProfile {
+    /// From radii (m, strictly increasing, from the axis or through it) and heights (m), smoothed over
+    /// a length of `smoothing` (m), 0 for none.
+    ///
+    /// # Errors
+    /// Rows that are no profile, and one whose contact would be no disc: the 1D image must not fall.
+    pub fn new(radii: &[f64], heights: &[f64], smoothing: f64) -> Result<Self, Invalid> {
+        let smoothing = non_negative("smoothing", smoothing)?;
+        let number = radii.len();
+        if number != heights.len() {
+            let rule = format!("must be as many as the {number} radii");
+            return Err(Invalid::new("heights", heights.len(), rule));
+        }
+        if !(FEWEST..=MOST_POINTS).contains(&number) {
+            let rule = format!("must be from {FEWEST} to {MOST_POINTS} points");
+            return Err(Invalid::new("radii", number, rule));
+        }
+        for (&r, &f) in radii.iter().zip(heights) {
+            finite("radii", r)?;
+            finite("heights", f)?;
+        }
+        if let Some(pair) = radii.windows(2).find(|pair| pair[0] >= pair[1]) {
+            let rule = format!("must increase, and follows {:e}", pair[0]);
+            return Err(Invalid::new("radii", pair[1], rule));
+        }
+        let mut treatment = Treatment::default();
+        let (radii, mut heights) = if radii[0] < 0.0 {
+            fold(radii, heights, &mut treatment)?
+        } else {
+            from_axis(radii, heights)?
+        };
+        if smoothing > 0.0 {
+            let smooth = smoothed(&radii, &heights, smoothing);
+            let changes = smooth.iter().zip(&heights).map(|(a, b)| (a - b).abs());
+            let (mut squares, mut largest) = (0.0, 0.0_f64);
+            for change in changes {
+                squares += change * change;
+                largest = largest.max(change);
+            }
+            let rms = (squares / radii.len() as f64).sqrt();
+            treatment.smoothed = Some((rms, largest));
+            heights = smooth;
+        }
+        treatment.offset = heights[0];
+        for height in &mut heights {
+            *height -= treatment.offset;
+        }
+        let curve = Monotone::new(radii, heights)
+            .ok_or_else(|| Invalid::new("radii", number, "must increase"))?;
+        check_disc(&curve)?;
+        Ok(Self {
+            curve: Arc::new(curve),
+            treatment,
+        })
+    }
+
+    /// f(r), m; beyond the table by its last slope.
+    pub fn profile(&self, r: f64) -> f64 {
+        self.curve.at(r)
+    }
+
+    /// g(x), m: Eq. (1) of the interpolant in closed form.
+    pub fn profile_1d(&self, x: f64) -> f64 {
+        self.curve.image(x)
+    }
+
+    /// The outermost radius at which f reaches `height`, m.
+    pub fn radius_at(&self, height: f64) -> f64 {
+        self.curve.last_at(height)
+    }
+
+    /// Where the table ends, m.
+    pub fn last_radius(&self) -> f64 {
+        self.curve.nodes().last().copied().unwrap_or_default()
+    }
+
+    /// How many points lie within `radius`, m.
+    pub fn points_within(&self, radius: f64) -> usize {
+        self.curve.nodes().partition_point(|&r| r <= radius)
+    }
+
+    /// The table in a line: how many points, and what was done to them.
+    pub fn summary(&self) -> String {
+        let Treatment {
+            offset,
+            tilt,
+            asymmetry,
+            smoothed,
+        } = self.treatment;
+        let mut words = vec![format!("{} points", self.curve.nodes().len())];
+        if offset != 0.0 {
+            words.push(format!("height {offset:.3e} m at the axis taken off"));
+        }
+        if let Some(tilt) = tilt {
+            words.push(format!(
+                "tilt {tilt:.3e} rad taken off by averaging both sides"
+            ));
+            words.push(format!("they differ by {:.2e} m rms", 2.0 * asymmetry));
+        }
+        if let Some((rms, largest)) = smoothed {
+            words.push(format!(
+                "smoothing changed it by {rms:.2e} m rms, {largest:.2e} m at most"
+            ));
+        }
+        words.join(", ")
+    }
+
+    /// What was done to the rows.
+    pub fn treatment(&self) -> Treatment {
+        self.treatment
+    }
+}
+
+/// A profile that begins at the axis: where its first radius is a little off, the parabola through the
+/// first points leads to r = 0.
+fn from_axis(radii: &[f64], heights: &[f64]) -> Result<(Vec<f64>, Vec<f64>), Invalid> {
+    let (mut radii, mut heights) = (radii.to_vec(), heights.to_vec());
+    let (first, second) = (radii[0], radii[1]);
+    if first > 2.0 * (second - first) {
+        let rule = "must begin at the axis, r = 0, or run through it from negative radii";
+        return Err(Invalid::new("radii", format!("{first:e}"), rule));
+    }
+    if first > 0.0 {
+        // Even in r: f = f(0) + b r².
+        let slope = (heights[1] - heights[0]) / (second * second - first * first);
+        heights.insert(0, heights[0] - slope * first * first);
+        radii.insert(0, 0.0);
+    }
+    Ok((radii, heights))
+}
+
+/// Both sides of a trace through the axis, averaged at the union of their radii.
+fn fold(
+    radii: &[f64],
+    heights: &[f64],
+    treatment: &mut Treatment,
+) -> Result<(Vec<f64>, Vec<f64>), Invalid> {
+    let last = radii[radii.len() - 1];
+    let reach = last.min(-radii[0]);
+    let within = radii.iter().filter(|r| r.abs() <= reach).count();
+    if last <= 0.0 || within < FEWEST {
+        let rule = "a trace with negative radii must run through the axis to the other side";
+        return Err(Invalid::new("radii", format!("{last:e}"), rule));
+    }
+    let at = |x: f64| {
+        let k = radii.partition_point(|&r| r <= x).clamp(1, radii.len() - 1);
+        let share = (x - radii[k - 1]) / (radii[k] - radii[k - 1]);
+        heights[k - 1] + share * (heights[k] - heights[k - 1])
+    };
+    let mut folded: Vec<f64> = radii
+        .iter()
+        .map(|r| r.abs())
+        .filter(|r| *r <= reach)
+        .collect();
+    folded.push(0.0);
+    folded.sort_by(f64::total_cmp);
+    // Radii of both sides that all but coincide are one.
+    let closest = 1e-6 * reach;
+    folded.dedup_by(|next, before| *next - *before <= closest);
+    let odd: Vec<f64> = folded.iter().map(|&r| 0.5 * (at(r) - at(-r))).collect();
+    let (moment, square) = folded
+        .iter()
+        .zip(&odd)
+        .fold((0.0, 0.0), |(m, s), (r, f)| (m + r * f, s + r * r));
+    let tilt = moment / square;
+    let rest: f64 = folded
+        .iter()
+        .zip(&odd)
+        .map(|(r, f)| (f - tilt * r).powi(2))
+        .sum();
+    treatment.tilt = Some(tilt.atan());
+    treatment.asymmetry = (rest / folded.len() as f64).sqrt();
+    let even = folded.iter().map(|&r| 0.5 * (at(r) + at(-r))).collect();
+    Ok((folded, even))
+}
+
+/// Local parabolas with Gaussian weights, of the profile continued evenly beyond the axis.
+fn smoothed(radii: &[f64], heights: &[f64], length: f64) -> Vec<f64> {
+    let reach = 4.0 * length;
+    let fitted = |k: usize| {
+        let centre = radii[k];
+        let mut moments = [0.0; 5];
+        let mut products = [0.0; 3];
+        let mut add = |r: f64, f: f64| {
+            let t = (r - centre) / length;
+            let weight = (-0.5 * t * t).exp();
+            let mut power = weight;
+            for (i, moment) in moments.iter_mut().enumerate() {
+                *moment += power;
+                if i < 3 {
+                    products[i] += power * f;
+                }
+                power *= t;
+            }
+        };
+        let from = radii.partition_point(|&r| r < centre - reach);
+        let to = radii.partition_point(|&r| r <= centre + reach);
+        for j in from..to {
+            add(radii[j], heights[j]);
+        }
+        let mirrored = radii.partition_point(|&r| r <= reach - centre);
+        for j in 1..mirrored {
+            add(-radii[j], heights[j]);
+        }
+        let [m0, m1, m2, m3, m4] = moments;
+        let [p0, p1, p2] = products;
+        let determinant =
+            m0 * (m2 * m4 - m3 * m3) - m1 * (m1 * m4 - m2 * m3) + m2 * (m1 * m3 - m2 * m2);
+        let numerator =
+            p0 * (m2 * m4 - m3 * m3) - m1 * (p1 * m4 - p2 * m3) + m2 * (p1 * m3 - p2 * m2);
+        // Too few neighbours for a parabola: the point stays as it is.
+        if determinant > 1e-9 * m0 * m0 * m0 {
+            numerator / determinant
+        } else {
+            heights[k]
+        }
+    };
+    (0..radii.len()).map(fitted).collect()
+}
+
+/// Contact is a disc at every depth only where g rises: a spring that begins outside of one that does
+/// not touch yet would be a ring.
+fn check_disc(curve: &Monotone) -> Result<(), Invalid> {
+    let (nodes, values) = (curve.nodes(), curve.values());
+    let last = nodes.len() - 1;
+    let highest = values.iter().copied().fold(0.0, f64::max);
+    if highest <= 0.0 {
+        let rule = "must rise from the tip outwards: f is the gap, 0 at the tip";
+        return Err(Invalid::new("heights", format!("{:e}", values[last]), rule));
+    }
+    let mut reached = 0.0;
+    for pair in nodes.windows(2) {
+        for x in [0.5 * (pair[0] + pair[1]), pair[1]] {
+            let g = curve.image(x);
+            if g < reached - LEVEL * highest {
+                let rule = format!(
+                    "no disc: the 1D profile g falls by {:.1e} m at x = {x:.3e} m, so the contact \
+                     would be a ring; smooth the table (indenter.smoothing) or mend it",
+                    reached - g
+                );
+                return Err(Invalid::new("heights", format!("{:e}", curve.at(x)), rule));
+            }
+            reached = g.max(reached);
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn radii(from: f64) -> Vec<f64> {
+        (0..=200)
+            .map(|i| from + (1e-3 - from) * f64::from(i) / 200.0)
+            .collect()
+    }
+
+    fn sphere(r: f64) -> f64 {
+        r * r / 0.02
+    }
+
+    #[test]
+    fn a_tilted_trace_through_the_axis_is_levelled_and_says_so() {
+        let radii = radii(-1.2e-3);
+        let heights: Vec<f64> = radii.iter().map(|&r| sphere(r) + 3e-3 * r + 7e-6).collect();
+        let measured = MeasuredProfile::new(&radii, &heights, 0.0).expect("a profile");
+        let treatment = measured.treatment();
+        assert!((treatment.tilt.expect("a tilt") - 3e-3).abs() < 1e-6);
+        assert!((treatment.offset - 7e-6).abs() < 1e-9 && treatment.asymmetry < 1e-9);
+        assert_eq!(treatment.smoothed, None);
+        for r in [1e-4, 5e-4, 9e-4] {
+            // Linear interpolation of each side: an error of h²/16R.
+            assert!((measured.profile(r) / sphere(r) - 1.0).abs() < 4e-3);
+        }
+        assert!((measured.last_radius() - 1e-3).abs() < 1e-12);
+    }
+
+    #[test]
+    fn smoothing_removes_noise_keeps_a_paraboloid_and_tells_the_change() {
+        let radii = radii(0.0);
+        let exact: Vec<f64> = radii.iter().map(|&r| sphere(r)).collect();
+        let kept = MeasuredProfile::new(&radii, &exact, 3e-5).expect("a profile");
+        let (rms, largest) = kept.treatment().smoothed.expect("smoothed");
+        assert!(rms <= largest && largest < 1e-12 * exact[200], "{largest}");
+        // Noise of 1e-7 m with alternating signs makes rings of contact.
+        let noisy: Vec<f64> = exact
+            .iter()
+            .enumerate()
+            .map(|(i, f)| f + if i % 2 == 0 { 1e-7 } else { -1e-7 })
+            .collect();
+        let refused = MeasuredProfile::new(&radii, &noisy, 0.0).expect_err("rings");
+        assert!(refused.rule.contains("would be a ring"), "{}", refused.rule);
+        let smooth = MeasuredProfile::new(&radii, &noisy, 3e-5).expect("a profile");
+        let (rms, _) = smooth.treatment().smoothed.expect("smoothed");
+        assert!((rms / 1e-7 - 1.0).abs() < 0.1, "{rms}");
+        assert!((smooth.profile(5e-4) - sphere(5e-4)).abs() < 3e-8);
+    }
+
+    #[test]
+    fn rows_that_are_no_profile_are_refused_with_the_reason() {
+        let field = |radii: &[f64], heights: &[f64]| {
+            MeasuredProfile::new(radii, heights, 0.0).map_err(|refused| refused.field)
+        };
+        let good = [0.0, 1.0, 4.0, 9.0];
+        assert!(field(&[0.0, 1.0, 2.0, 3.0], &good).is_ok());
+        assert_eq!(field(&[0.0, 1.0, 1.0, 3.0], &good), Err("radii"));
+        assert_eq!(field(&[0.0, 1.0, f64::NAN, 3.0], &good), Err("radii"));
+        assert_eq!(field(&[0.0, 1.0, 2.0, 3.0], &good[..3]), Err("heights"));
+        assert_eq!(field(&[5.0, 6.0, 7.0, 8.0], &good), Err("radii"));
+        assert_eq!(field(&[-9.0, -8.0, -7.0, -6.0], &good), Err("radii"));
+        assert_eq!(field(&[0.0, 1.0, 2.0, 3.0], &[0.0; 4]), Err("heights"));
+        // A scar upside down, and a crater.
+        assert_eq!(
+            field(&[0.0, 1.0, 2.0, 3.0], &[9.0, 4.0, 1.0, 0.0]),
+            Err("heights")
+        );
+        assert_eq!(
+            field(&[0.0, 1.0, 2.0, 3.0], &[0.0, 3.0, 0.5, 9.0]),
+            Err("heights")
+        );
+        assert!(MeasuredProfile::new(&[0.0, 1.0, 2.0, 3.0], &good, -1.0).is_err());
+    }
+
+    #[test]
+    fn a_first_radius_a_little_off_the_axis_is_led_to_it() {
+        let radii: Vec<f64> = (0..100).map(|i| 5e-6 + 1e-5 * f64::from(i)).collect();
+        let heights: Vec<f64> = radii.iter().map(|&r| sphere(r)).collect();
+        let measured = MeasuredProfile::new(&radii, &heights, 0.0).expect("a profile");
+        assert!((measured.profile_1d(5e-4) / (2.0 * sphere(5e-4)) - 1.0).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,394 @@
+//! Stress inside the half-space under the loads of the springs, in the plane of motion y = 0.
+//!
+//! F. Forsbach (2020), *Stress tensor and gradient of hydrostatic pressure in the half-space beneath
+//! axisymmetric bodies in normal and tangential contact*, Frontiers in Mechanical Engineering 6:39,
+//! doi 10.3389/fmech.2020.00039: a step of the line load at x is a rigid punch of radius x, so every
+//! stress is one sum over the springs.
+//!
+//! # Formula
+//! The punch of radius x has the surface stress 1/(π√(x² − r²)). With ζ = z + ix, R = √(r² + ζ²)
+//! (Re R ≥ 0), L = ln(ζ + R), A = 1/R and B = 1/(ζ + R), its potentials are imaginary parts of
+//! products of A, B and ζ:
+//!
+//! - normal, H = ∬p/ρ dS: H_z = 2 Im A, H_zz = −2 Im ζA³, H_rz = −2r Im A³, H_r/r = 2 Im AB,
+//!   χ_r/r = −2 Im B, and H_rr, χ_rr from Laplace's equation; 2πσ_zz = H_z − zH_zz,
+//!   2πσ_xz = −zH_rz, 2πσ_xx = 2νH_z − zH_rr − (1 − 2ν)χ_rr,
+//!   2πσ_yy = 2νH_z − zH_r/r − (1 − 2ν)χ_r/r;
+//! - tangential, traction along x, F harmonic with F_zz = 2 Im L: F_xzz = 2r Im AB,
+//!   F_xxx = r Im B² − 2r Im AB, F_xxxz = 2r Im(A³ − AB²), F_xyyz = 2r Im AB², F_xzzz = −2r Im A³,
+//!   F_zzz = 2 Im A, F_xxzz = 2 Im(ζA³ − AB); 2πσ_xx = 2(1 + ν)F_xzz + 2νF_xxx − zF_xxxz,
+//!   2πσ_yy = −2νF_xxx − zF_xyyz, 2πσ_zz = −zF_xzzz, 2πσ_xz = F_zzz − zF_xxzz.
+//!
+//! Deviation from the sum over springs of the paper: q is taken as linear in x² between two springs,
+//! which is exact for a paraboloid, and the punches of a cell are integrated in closed form: with
+//! x dx = −(ζ − z) dζ each product f gives −2 Im(∫ζf dζ − z∫f dζ), and all primitives are in the same
+//! letters: ∫A = L, ∫AB = −B, ∫B = ½(ζB + L), ∫ζA³ = −A, ∫A³ = −AB, ∫B² = ⅓(ζB² − 2B), ∫AB² = −½B²;
+//! ∫ζA = R, ∫ζAB = ½(L − ζB), ∫ζB = ⅓(R + ζ²B), ∫ζ²A³ = L + r²AB, ∫ζB² = ¼(ζ²B² + L − ζB),
+//! ∫ζAB² = −⅓(ζB² + B). So the stresses hold up to the surface, on coarse grids too.
+//!
+//! Cost: one complex root and one arc tangent per point and kink of the load. Springs on which q is
+//! linear in x² within [`FLAT`] are no kinks: a Hertz contact has one, a worn one some dozens.
+
+use std::f64::consts::PI;
+
+use nalgebra::Complex;
+
+/// How far below the surface a point counts as on it, in contact radii: the formulas are limits there.
+const SURFACE: f64 = 1e-9;
+
+/// How far a spring may lie off the line between the kinks that are kept, in largest loads.
+pub const FLAT: f64 = 1e-6;
+
+/// The stresses of one point of the plane of motion, Pa, tension positive; σ_xy = σ_yz = 0 there.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Stress {
+    /// σ_xx.
+    pub xx: f64,
+    /// σ_yy.
+    pub yy: f64,
+    /// σ_zz.
+    pub zz: f64,
+    /// σ_xz.
+    pub xz: f64,
+}
+
+impl Stress {
+    /// The equivalent stress of von Mises, Pa.
+    pub fn von_mises(&self) -> f64 {
+        let [a, b, c] = [self.xx - self.yy, self.yy - self.zz, self.zz - self.xx];
+        (0.5 * (a * a + b * b + c * c) + 3.0 * self.xz * self.xz).sqrt()
+    }
+
+    /// The largest and the smallest principal stress, Pa.
+    fn principal(&self) -> [f64; 2] {
+        let mean = 0.5 * (self.xx + self.zz);
+        let radius = (0.5 * (self.xx - self.zz)).hypot(self.xz);
+        [(mean + radius).max(self.yy), (mean - radius).min(self.yy)]
+    }
+
+    /// The largest principal stress, Pa; positive is tension, where fretting cracks begin.
+    pub fn max_principal(&self) -> f64 {
+        self.principal()[0]
+    }
+
+    /// The largest shear stress on any plane, Pa.
+    pub fn max_shear(&self) -> f64 {
+        let [high, low] = self.principal();
+        0.5 * (high - low)
+    }
+
+    /// The hydrostatic pressure −(σ_xx + σ_yy + σ_zz)/3, Pa.
+    pub fn pressure(&self) -> f64 {
+        -(self.xx + self.yy + self.zz) / 3.0
+    }
+
+    fn plus(self, other: Self, sign: f64) -> Self {
+        Self {
+            xx: self.xx + sign * other.xx,
+            yy: self.yy + sign * other.yy,
+            zz: self.zz + sign * other.zz,
+            xz: self.xz + sign * other.xz,
+        }
+    }
+}
+
+/// A largest stress and its place.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Peak {
+    /// The stress, Pa.
+    pub value: f64,
+    /// Its place along the motion, m.
+    pub x: f64,
+    /// Its depth, m.
+    pub z: f64,
+}
+
+/// The places to a side of the grid that a largest stress is looked for on, and how often the best place
+/// is looked around from.
+const GRID: usize = 13;
+const REFINEMENTS: usize = 16;
+
+/// What begins at x: by how much the slopes of q_z and q_x over x² rise there (Pa/m).
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Kink {
+    x: f64,
+    normal: f64,
+    tangential: f64,
+}
+
+/// The line loads of one moment, as the half-space feels them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpringLoad {
+    kinks: Vec<Kink>,
+    /// q_z and q_x with which the load ends at a, N/m: not zero under a flat punch.
+    end: [f64; 2],
+    radius: f64,
+    poisson: f64,
+}
+
+impl SpringLoad {
+    /// From q_z and q_x (N/m) at `nodes` (m, from 0 up, of one length), the contact radius a (m) and ν
+    /// of the half-space. Springs outside of the contact count as unloaded.
+    pub fn new(
+        nodes: &[f64],
+        normal: &[f64],
+        tangential: &[f64],
+        contact_radius: f64,
+        poisson: f64,
+    ) -> Self {
+        let loads = nodes.iter().zip(normal.iter().zip(tangential));
+        let mut points: Vec<[f64; 3]> = loads
+            .map(|(&x, (&qz, &qx))| [x, qz, qx])
+            .take_while(|&[x, qz, _]| x <= contact_radius && qz > 0.0)
+            .collect();
+        let last = points.last().copied().unwrap_or_default();
+        // Between two springs the load ends at zero; on a spring it ends with what that one carries.
+        let end = if contact_radius > last[0] * (1.0 + 1e-9) {
+            points.push([contact_radius, 0.0, 0.0]);
+            [0.0, 0.0]
+        } else {
+            [last[1], last[2]]
+        };
+        Self {
+            kinks: kinks(&thinned(&points)),
+            end,
+            radius: contact_radius,
+            poisson,
+        }
+    }
+
+    /// The contact radius, m.
+    pub fn contact_radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// Where in the plane of motion a stress is largest: on a grid over the contact first, then ever closer
+    /// to its best place.
+    pub fn largest(&self, of: impl Fn(&Stress) -> f64) -> Peak {
+        let radius = self.radius;
+        let both = |r: f64, z: f64| {
+            let [right, left] = self.mirrored(r, z).map(|stress| of(&stress));
+            let (value, x) = if left > right { (left, -r) } else { (right, r) };
+            Peak { value, x, z }
+        };
+        let higher = |a: Peak, b: Peak| if b.value > a.value { b } else { a };
+        let mut best = both(0.0, 0.0);
+        for k in 0..GRID {
+            for i in 0..GRID {
+                let place = |n: usize| 1.2 * radius * n as f64 / (GRID - 1) as f64;
+                best = higher(best, both(place(i), place(k)));
+            }
+        }
+        let mut step = 0.6 * radius / (GRID - 1) as f64;
+        for _ in 0..REFINEMENTS {
+            let (x, z) = (best.x, best.z);
+            for (dx, dz) in [(step, 0.0), (-step, 0.0), (0.0, step), (0.0, -step)] {
+                let (x, z) = (x + dx, (z + dz).max(0.0));
+                let value = of(&self.stress(x, z));
+                best = higher(best, Peak { value, x, z });
+            }
+            if (best.x, best.z) == (x, z) {
+                step *= 0.5;
+            }
+        }
+        best
+    }
+
+    /// The stresses at (x, z), m, in the plane of motion; z is the depth below the surface.
+    pub fn stress(&self, x: f64, z: f64) -> Stress {
+        let [right, left] = self.mirrored(x.abs(), z);
+        if x < 0.0 { left } else { right }
+    }
+
+    /// The stresses at (r, z) and at (−r, z): the sum over the springs is the same for both.
+    pub fn mirrored(&self, r: f64, z: f64) -> [Stress; 2] {
+        if self.kinks.len() < 2 {
+            return [Stress::default(); 2];
+        }
+        let z = z.max(SURFACE * self.radius);
+        let (mut normal, mut tangential) = (Products::default(), Products::default());
+        for kink in &self.kinks {
+            let at = Products::of_paraboloid(r, z, kink.x);
+            normal.add(&at, kink.normal);
+            tangential.add(&at, kink.tangential);
+        }
+        if self.end[0] > 0.0 {
+            let at = Products::of_punch(r, z, self.radius);
+            normal.add(&at, self.end[0]);
+            tangential.add(&at, self.end[1]);
+        }
+        let even = normal.pressed(r, z, self.poisson);
+        let odd = tangential.pushed(r, z, self.poisson);
+        // Under p the shear stress is odd in x, under τ all others are.
+        let right = even.plus(odd, 1.0);
+        let left = Stress {
+            xz: odd.xz - even.xz,
+            ..even.plus(odd, -1.0)
+        };
+        [right, left]
+    }
+}
+
+/// The points between which all others lie on lines over x², as far as [`FLAT`] tells. From each point
+/// kept, the slopes that pass all later ones narrow until a point falls out of them.
+fn thinned(points: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let largest = |i: usize| points.iter().fold(0.0, |most: f64, q| most.max(q[i].abs()));
+    let slack = [1, 2].map(|i| FLAT * largest(i));
+    let mut kept: Vec<[f64; 3]> = points.first().copied().into_iter().collect();
+    let (mut anchor, mut reach) = (0, 0);
+    let mut slopes = [[f64::NEG_INFINITY, f64::INFINITY]; 2];
+    while reach + 1 < points.len() {
+        let (from, to) = (points[anchor], points[reach + 1]);
+        let width = (to[0] - from[0]) * (to[0] + from[0]);
+        let slope = [1, 2].map(|i| (to[i] - from[i]) / width);
+        let inside = (0..2).all(|i| (slopes[i][0]..=slopes[i][1]).contains(&slope[i]));
+        if inside {
+            for (bounds, (slope, slack)) in slopes.iter_mut().zip(slope.iter().zip(slack)) {
+                bounds[0] = bounds[0].max(slope - slack / width);
+                bounds[1] = bounds[1].min(slope + slack / width);
+            }
+            reach += 1;
+        } else {
+            kept.push(points[reach]);
+            anchor = reach;
+            slopes = [[f64::NEG_INFINITY, f64::INFINITY]; 2];
+        }
+    }
+    if reach > 0 {
+        kept.push(points[reach]);
+    }
+    kept
+}
+
+/// Where the slopes over x² of the line loads `[x, q_z, q_x]` change: the pieces that add up to them.
+fn kinks(points: &[[f64; 3]]) -> Vec<Kink> {
+    let slope = |k: usize| {
+        let (from, to) = (points[k], points[k + 1]);
+        [1, 2].map(|i| (to[i] - from[i]) / ((to[0] - from[0]) * (to[0] + from[0])))
+    };
+    let last = points.len().saturating_sub(1);
+    let mut before = [0.0, 0.0];
+    let mut kinks = Vec::with_capacity(points.len());
+    for (k, point) in points.iter().enumerate() {
+        let after = if k < last { slope(k) } else { [0.0, 0.0] };
+        kinks.push(Kink {
+            x: point[0],
+            normal: after[0] - before[0],
+            tangential: after[1] - before[1],
+        });
+        before = after;
+    }
+    kinks
+}
+
+/// The imaginary parts of the products that the stresses are made of, or of their primitives in x.
+#[derive(Debug, Clone, Copy, Default)]
+struct Products {
+    a: f64,
+    b: f64,
+    ab: f64,
+    b2: f64,
+    ab2: f64,
+    a3: f64,
+    za3: f64,
+}
+
+impl Products {
+    /// Of a punch of radius `x`.
+    fn of_punch(r: f64, z: f64, x: f64) -> Self {
+        let (zeta, a, b) = letters(r, z, x);
+        let (ab, a3) = (a * b, a * a * a);
+        Self {
+            a: a.im,
+            b: b.im,
+            ab: ab.im,
+            b2: (b * b).im,
+            ab2: (ab * b).im,
+            a3: a3.im,
+            za3: (zeta * a3).im,
+        }
+    }
+
+    /// Of punches of all radii up to `x`, each with 2x as its load: ∫ 2x Im f dx.
+    #[inline]
+    fn of_paraboloid(r: f64, z: f64, x: f64) -> Self {
+        let (zeta, a, b) = letters(r, z, x);
+        let root = b.conj() / b.norm_sqr() - zeta;
+        // Im ln(ζ + R).
+        let angle = -b.im.atan2(b.re);
+        let (ab, zb, b2) = (a * b, zeta * b, b * b);
+        let zb2 = zb * b;
+        Self {
+            a: -2.0 * root.im + 2.0 * z * angle,
+            b: -2.0 / 3.0 * (root + zeta * zb).im + z * (zb.im + angle),
+            ab: zb.im - angle - 2.0 * z * b.im,
+            b2: -0.5 * ((zb * zb).im + angle - zb.im) + 2.0 / 3.0 * z * (zb2 - b * 2.0).im,
+            ab2: 2.0 / 3.0 * (zb2 + b).im - z * b2.im,
+            a3: 2.0 * (a.im - z * ab.im),
+            za3: -2.0 * (angle + r * r * ab.im + z * a.im),
+        }
+    }
+
+    #[inline]
+    fn add(&mut self, other: &Self, weight: f64) {
+        self.a += weight * other.a;
+        self.b += weight * other.b;
+        self.ab += weight * other.ab;
+        self.b2 += weight * other.b2;
+        self.ab2 += weight * other.ab2;
+        self.a3 += weight * other.a3;
+        self.za3 += weight * other.za3;
+    }
+
+    /// The stresses at (r, z) under a normal load.
+    fn pressed(&self, r: f64, z: f64, poisson: f64) -> Stress {
+        let (h_z, h_zz, h_rz) = (2.0 * self.a, -2.0 * self.za3, -2.0 * r * self.a3);
+        let (h_r, chi_r) = (2.0 * self.ab, -2.0 * self.b);
+        let (h_rr, chi_rr) = (-h_zz - h_r, -h_z - chi_r);
+        let soft = 1.0 - 2.0 * poisson;
+        Stress {
+            xx: (2.0 * poisson * h_z - z * h_rr - soft * chi_rr) / (2.0 * PI),
+            yy: (2.0 * poisson * h_z - z * h_r - soft * chi_r) / (2.0 * PI),
+            zz: (h_z - z * h_zz) / (2.0 * PI),
+            xz: -z * h_rz / (2.0 * PI),
+        }
+    }
+
+    /// The stresses at (r, z) under a traction along x.
+    fn pushed(&self, r: f64, z: f64, poisson: f64) -> Stress {
+        let f_xzz = 2.0 * r * self.ab;
+        let f_xxx = r * (self.b2 - 2.0 * self.ab);
+        let f_xxxz = 2.0 * r * (self.a3 - self.ab2);
+        let f_xyyz = 2.0 * r * self.ab2;
+        let f_xzzz = -2.0 * r * self.a3;
+        let (f_zzz, f_xxzz) = (2.0 * self.a, 2.0 * (self.za3 - self.ab));
+        Stress {
+            xx: (2.0 * (1.0 + poisson) * f_xzz + 2.0 * poisson * f_xxx - z * f_xxxz) / (2.0 * PI),
+            yy: (-2.0 * poisson * f_xxx - z * f_xyyz) / (2.0 * PI),
+            zz: -z * f_xzzz / (2.0 * PI),
+            xz: (f_zzz - z * f_xxzz) / (2.0 * PI),
+        }
+    }
+}
+
+/// ζ, A = 1/R and B = 1/(ζ + R).
+#[inline]
+fn letters(r: f64, z: f64, x: f64) -> (Complex<f64>, Complex<f64>, Complex<f64>) {
+    let zeta = Complex::new(z, x);
+    let square = Complex::new(r * r + (z - x) * (z + x), 2.0 * z * x);
+    let size = (square.re * square.re + square.im * square.im).sqrt();
+    // The root in the quarter where both parts are positive, without cancellation.
+    let larger = (0.5 * (size + square.re.abs())).sqrt();
+    let smaller = if larger > 0.0 {
+        0.5 * square.im / larger
+    } else {
+        0.0
+    };
+    let root = if square.re >= 0.0 {
+        Complex::new(larger, smaller)
+    } else {
+        Complex::new(smaller, larger)
+    };
+    let sum = zeta + root;
+    (zeta, root.conj() / size, sum.conj() / sum.norm_sqr())
+}

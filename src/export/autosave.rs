@@ -1,0 +1,247 @@
+//! Checkpoints on a timer: one file, written anew each time, whole or not at all.
+
+use std::fs::{self, File, TryLockError};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant, SystemTime};
+
+use super::claim::is_at;
+use super::file::{WriteError, sweep, write_with};
+
+/// How old the copy in memory may be that a defect of the program leaves of a session.
+pub const COPY_INTERVAL: Duration = Duration::from_millis(100);
+
+/// The ending of a checkpoint's name.
+pub const ENDING: &str = "checkpoint";
+
+/// How many checkpoints of explorers are kept; the oldest give way.
+const KEPT: usize = 20;
+
+/// A temporary file of this age belongs to nobody any more.
+const STALE: Duration = Duration::from_secs(3600);
+
+/// Where a run keeps its checkpoint, and when the next one is due.
+#[derive(Debug)]
+pub struct Autosave {
+    path: PathBuf,
+    every: Option<Duration>,
+    last: Instant,
+    /// Locked as long as it is open: the file is that of a living process.
+    file: Option<File>,
+}
+
+impl Autosave {
+    /// Keeps a checkpoint at `path`, due `every` so often; if none, only when asked for.
+    pub fn new(path: PathBuf, every: Option<Duration>) -> Self {
+        Self {
+            path,
+            every,
+            last: Instant::now(),
+            file: None,
+        }
+    }
+
+    /// Keeps checkpoints of a session on a scenario called `stem` in a file of its own: the directory
+    /// is made, and beside the new file only the newest checkpoints stay there and those of living
+    /// sessions. A number that was given out is not given out again.
+    pub fn in_free_place(
+        directory: &Path,
+        stem: &str,
+        every: Option<Duration>,
+    ) -> Result<Self, WriteError> {
+        let failed = |cause| WriteError::Io {
+            path: directory.to_owned(),
+            cause,
+        };
+        fs::create_dir_all(directory).map_err(failed)?;
+        sweep(directory, STALE);
+        let others = checkpoints(directory).map_err(failed)?;
+        let highest = others.iter().map(|other| other.number).max();
+        prune(others, highest);
+        for number in highest.unwrap_or(0) + 1.. {
+            let path = directory.join(format!("{stem}-{number}.{ENDING}"));
+            // An empty file claims the name, so that two explorers never share one.
+            match File::create_new(&path) {
+                Ok(file) => {
+                    let _ = file.try_lock();
+                    let file = Some(file);
+                    return Ok(Self {
+                        file,
+                        ..Self::new(path, every)
+                    });
+                }
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+                Err(error) => return Err(failed(error)),
+            }
+        }
+        unreachable!("numbers do not end")
+    }
+
+    /// Where the checkpoint is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Whether it is time for the next.
+    pub fn is_due(&self) -> bool {
+        self.every.is_some_and(|every| self.last.elapsed() >= every)
+    }
+
+    /// Puts `checkpoint` in the place of the one before. Well or ill, the next is due an interval on.
+    pub fn keep(&mut self, checkpoint: &[u8]) -> Result<(), WriteError> {
+        let written = write_with(&self.path, |file| file.write_all(checkpoint));
+        self.last = Instant::now();
+        // The new file is locked before the lock on the old one is given up.
+        self.file = Some(written?);
+        Ok(())
+    }
+
+    /// Itself, unless nothing was ever kept: then it gives its place back.
+    pub fn if_ever(self) -> Option<Self> {
+        if fs::metadata(&self.path).is_ok_and(|about| about.len() > 0) {
+            return Some(self);
+        }
+        self.discard();
+        None
+    }
+
+    /// Removes the checkpoint: another one has taken its place.
+    pub fn discard(self) {
+        let _ = fs::remove_file(self.path);
+    }
+}
+
+/// Removes the oldest checkpoints, but none of a living session and not the one with the highest
+/// number, so that the next number is new.
+fn prune(mut others: Vec<Found>, highest: Option<u64>) {
+    others.sort_by_key(|other| other.written);
+    let mut excess = (others.len() + 1).saturating_sub(KEPT);
+    for other in others {
+        if excess == 0 {
+            return;
+        }
+        if Some(other.number) == highest {
+            continue;
+        }
+        let Ok(file) = File::open(&other.path) else {
+            continue;
+        };
+        let is_live = matches!(file.try_lock(), Err(TryLockError::WouldBlock));
+        if !is_live && is_at(&file, &other.path) {
+            // One that cannot be removed is in nobody's way.
+            let _ = fs::remove_file(&other.path);
+            excess -= 1;
+        }
+    }
+}
+
+/// A checkpoint in a directory.
+#[derive(Debug)]
+struct Found {
+    path: PathBuf,
+    written: SystemTime,
+    /// The number at the end of its name; 0 if there is none.
+    number: u64,
+}
+
+/// The checkpoints in a directory.
+fn checkpoints(directory: &Path) -> io::Result<Vec<Found>> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(directory)? {
+        let path = entry?.path();
+        let is_one = path.extension().is_some_and(|ending| ending == ENDING);
+        // What has gone in the meantime is passed over.
+        if let (true, Ok(about)) = (is_one, fs::metadata(&path)) {
+            let stem = path.file_stem().map(|stem| stem.to_string_lossy());
+            let number = stem.and_then(|stem| stem.rsplit_once('-')?.1.parse().ok());
+            found.push(Found {
+                written: about.modified()?,
+                number: number.unwrap_or(0),
+                path,
+            });
+        }
+    }
+    Ok(found)
+}
+
+/// Where explorers keep their checkpoints: `mdr-tui` in `$XDG_STATE_HOME`, or in `~/.local/state`;
+/// none where there is no home.
+pub fn state_directory() -> Option<PathBuf> {
+    let given = std::env::var_os("XDG_STATE_HOME").map(PathBuf::from);
+    // The specification has relative paths ignored.
+    let base = given.filter(|path| path.is_absolute()).or_else(|| {
+        let home = std::env::home_dir().filter(|home| !home.as_os_str().is_empty());
+        home.map(|home| home.join(".local/state"))
+    });
+    base.map(|base| base.join("mdr-tui"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A session that comes, is kept, and goes.
+    fn come_and_go(directory: &Path, stem: &str) -> PathBuf {
+        let mut autosave = Autosave::in_free_place(directory, stem, None).expect("a place");
+        autosave.keep(stem.as_bytes()).expect("a file");
+        autosave.path().to_owned()
+    }
+
+    #[test]
+    fn checkpoints_do_not_pile_up() {
+        let base = tempfile::tempdir().expect("a directory");
+        let directory = base.path().join("state/mdr-tui");
+        let mut places = Vec::new();
+        for _ in 0..50 {
+            places.push(come_and_go(&directory, "hertz"));
+        }
+        let left = checkpoints(&directory).expect("a directory");
+        assert_eq!(left.len(), KEPT);
+        assert!(left.iter().any(|found| Some(&found.path) == places.last()));
+        fs::write(directory.join("notes.txt"), b"mine").expect("a file");
+        come_and_go(&directory, "cone");
+        assert!(directory.join("notes.txt").exists());
+    }
+
+    #[test]
+    fn a_living_session_keeps_its_file_and_no_name_is_given_out_twice() {
+        let base = tempfile::tempdir().expect("a directory");
+        let mut paused = Autosave::in_free_place(base.path(), "hertz", None).expect("a place");
+        paused.keep(b"paused").expect("a file");
+        let unkept = Autosave::in_free_place(base.path(), "hertz", None).expect("a place");
+        let mut names = vec![paused.path().to_owned(), unkept.path().to_owned()];
+        for round in 0..60 {
+            names.push(come_and_go(base.path(), ["hertz", "cone"][round % 2]));
+        }
+        assert_eq!(fs::read(paused.path()).expect("its file"), b"paused");
+        assert!(unkept.path().exists());
+        paused.keep(b"later").expect("a file");
+        come_and_go(base.path(), "hertz");
+        assert_eq!(fs::read(paused.path()).expect("its file"), b"later");
+        let count = names.len();
+        names.sort();
+        names.dedup();
+        assert_eq!(names.len(), count, "a name was given out twice");
+        // Once it is gone, its file is like any other.
+        let path = paused.path().to_owned();
+        drop(paused);
+        for _ in 0..KEPT + 2 {
+            come_and_go(base.path(), "hertz");
+        }
+        assert!(!path.exists());
+    }
+
+    #[test]
+    fn a_checkpoint_is_due_when_its_time_has_come() {
+        let base = tempfile::tempdir().expect("a directory");
+        let path = base.path().join("run.checkpoint");
+        let never = Autosave::new(path.clone(), None);
+        assert!(!never.is_due());
+        let mut always = Autosave::new(path.clone(), Some(Duration::ZERO));
+        assert!(always.is_due());
+        always.keep(b"one").expect("a file");
+        always.keep(b"two").expect("a file");
+        assert_eq!(fs::read(always.path()).expect("the file"), b"two");
+        assert!(!Autosave::new(path, Some(Duration::from_secs(60))).is_due());
+    }
+}

@@ -1,0 +1,67 @@
+//! `field.csv`: the stresses inside the half-space in the plane of motion y = 0, one row a point.
+
+use super::header::{lines, number};
+use crate::contact::subsurface::Stress;
+use crate::scenario::session::Session;
+use crate::simulation::Curves;
+
+/// The columns, in order.
+pub const COLUMNS: [&str; 8] = [
+    "x_m",
+    "z_m",
+    "sigma_xx_Pa",
+    "sigma_yy_Pa",
+    "sigma_zz_Pa",
+    "sigma_xz_Pa",
+    "von_mises_Pa",
+    "max_principal_Pa",
+];
+
+/// Half the intervals along x, and the intervals in depth.
+const HALF_WIDTH: usize = 100;
+const DEPTH: usize = 100;
+
+/// How far the plane reaches to either side and downwards, in contact radii.
+const REACH: f64 = 1.5;
+
+/// The whole file for the present state of `session`: depth by depth from the surface down, x from
+/// −1.5 a to 1.5 a. Without contact the domain stands for a, and all stresses are zero.
+pub fn table(session: &Session) -> String {
+    let simulation = session.simulation();
+    let seen = simulation.observe(Curves::SPRINGS);
+    let load = seen.spring_load(simulation.setup().material.poisson());
+    let radius = match seen.moment.contact_radius {
+        contact if contact > 0.0 => contact,
+        _ => seen.radii.last().copied().unwrap_or_default(),
+    };
+    let step = REACH * radius / HALF_WIDTH as f64;
+    let mut text = lines(session);
+    text.push_str(&COLUMNS.join(","));
+    text.push('\n');
+    for k in 0..=DEPTH {
+        let z = REACH * radius * k as f64 / DEPTH as f64;
+        let row: Vec<[Stress; 2]> = (0..=HALF_WIDTH)
+            .map(|i| load.mirrored(step * i as f64, z))
+            .collect();
+        let left = (1..=HALF_WIDTH)
+            .rev()
+            .map(|i| (-step * i as f64, row[i][1]));
+        let right = (0..=HALF_WIDTH).map(|i| (step * i as f64, row[i][0]));
+        for (x, stress) in left.chain(right) {
+            let Stress { xx, yy, zz, xz } = stress;
+            let values = [
+                x,
+                z,
+                xx,
+                yy,
+                zz,
+                xz,
+                stress.von_mises(),
+                stress.max_principal(),
+            ];
+            text.push_str(&values.map(number).join(","));
+            text.push('\n');
+        }
+    }
+    text
+}

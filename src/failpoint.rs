@@ -1,0 +1,17 @@
+//! Panics on demand, in debug builds only: tests hold that the terminal survives them.
+
+/// Takes longer than anybody waits if the environment variable `MDR_TUI_FAULT` names this place.
+#[cfg(debug_assertions)]
+pub(crate) fn stall(place: &str) {
+    if std::env::var("MDR_TUI_FAULT").as_deref() == Ok(place) {
+        std::thread::sleep(std::time::Duration::from_secs(3600));
+    }
+}
+
+/// Panics if the environment variable `MDR_TUI_FAULT` names this place.
+pub(crate) fn hit(place: &str) {
+    assert!(
+        std::env::var("MDR_TUI_FAULT").as_deref() != Ok(place),
+        "a fault in the {place}, as asked for"
+    );
+}

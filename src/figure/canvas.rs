@@ -1,0 +1,127 @@
+//! What a figure is drawn with: lines, areas and words in millimetres, y downwards, in drawing order.
+
+/// A colour, red, green and blue.
+pub type Rgb = [u8; 3];
+
+/// Black, for axes and words.
+pub const BLACK: Rgb = [0, 0, 0];
+
+/// Where a text stands about its point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Anchor {
+    /// It begins there.
+    Start,
+    /// Its middle is there.
+    Middle,
+    /// It ends there.
+    End,
+}
+
+/// One thing on the paper.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Shape {
+    /// A line through points.
+    Line {
+        /// The points, mm.
+        points: Vec<[f64; 2]>,
+        /// Its colour.
+        ink: Rgb,
+        /// Its width, mm.
+        width: f64,
+        /// Lengths of dashes and gaps, mm; empty for a solid line.
+        dashes: Vec<f64>,
+    },
+    /// A filled rectangle.
+    Area {
+        /// Its upper left corner, mm.
+        at: [f64; 2],
+        /// Width and height, mm.
+        size: [f64; 2],
+        /// Its colour.
+        ink: Rgb,
+    },
+    /// A line of text.
+    Text {
+        /// A point of its baseline, mm.
+        at: [f64; 2],
+        /// The text.
+        words: String,
+        /// The size of the font, mm.
+        size: f64,
+        /// Where it stands about the point.
+        anchor: Anchor,
+        /// Whether it reads upwards instead of to the right.
+        upwards: bool,
+    },
+}
+
+/// A sheet of paper with what is on it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Canvas {
+    /// Width and height, mm.
+    pub size: [f64; 2],
+    /// What is drawn, in order.
+    pub shapes: Vec<Shape>,
+    /// The title, for the file's metadata.
+    pub title: String,
+    /// What a caption needs to know: names and values.
+    pub facts: Vec<(String, String)>,
+}
+
+impl Canvas {
+    /// Empty paper of a width and a height in mm.
+    pub fn new(size: [f64; 2]) -> Self {
+        Self {
+            size,
+            shapes: Vec::new(),
+            title: String::new(),
+            facts: Vec::new(),
+        }
+    }
+
+    /// Draws a line.
+    pub fn line(&mut self, points: Vec<[f64; 2]>, ink: Rgb, width: f64, dashes: &[f64]) {
+        self.shapes.push(Shape::Line {
+            points,
+            ink,
+            width,
+            dashes: dashes.to_vec(),
+        });
+    }
+
+    /// Fills a rectangle.
+    pub fn area(&mut self, at: [f64; 2], size: [f64; 2], ink: Rgb) {
+        self.shapes.push(Shape::Area { at, size, ink });
+    }
+
+    /// Writes a line of text in a font of `size` mm.
+    pub fn text(&mut self, at: [f64; 2], words: &str, size: f64, anchor: Anchor) {
+        self.shapes.push(Shape::Text {
+            at,
+            words: words.to_owned(),
+            size,
+            anchor,
+            upwards: false,
+        });
+    }
+
+    /// Writes a line of text upwards, its middle at `at`.
+    pub fn text_upwards(&mut self, at: [f64; 2], words: &str, size: f64) {
+        self.shapes.push(Shape::Text {
+            at,
+            words: words.to_owned(),
+            size,
+            anchor: Anchor::Middle,
+            upwards: true,
+        });
+    }
+
+    /// The facts as one text, a line each.
+    pub fn caption(&self) -> String {
+        let lines = self.facts.iter();
+        let lines: Vec<String> = lines
+            .map(|(key, value)| format!("{key}: {value}"))
+            .collect();
+        lines.join("\n")
+    }
+}

@@ -1,0 +1,216 @@
+//! The tables of a run that figures are made of: read from its files, or taken from memory.
+
+use crate::export::history::History;
+use crate::export::{field, state};
+use crate::scenario::Scenario;
+use crate::scenario::session::{Session, SessionError};
+
+/// A CSV file of this program: header lines and columns of numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    /// The `# key: value` lines.
+    pub header: Vec<(String, String)>,
+    names: Vec<String>,
+    columns: Vec<Vec<f64>>,
+}
+
+impl Table {
+    /// Reads a text; fields that are no numbers become NaN.
+    ///
+    /// # Errors
+    /// Says in which line there is no column, or another number of fields than of columns.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let mut table = Self {
+            header: Vec::new(),
+            names: Vec::new(),
+            columns: Vec::new(),
+        };
+        for (k, line) in text.lines().enumerate() {
+            if let Some(said) = line.strip_prefix('#') {
+                if let Some((key, value)) = said.split_once(':') {
+                    let entry = (key.trim().to_owned(), value.trim().to_owned());
+                    table.header.push(entry);
+                }
+            } else if table.names.is_empty() {
+                table.names = line.split(',').map(|name| name.trim().to_owned()).collect();
+                table.columns = vec![Vec::new(); table.names.len()];
+            } else if !line.trim().is_empty() {
+                let fields: Vec<&str> = line.split(',').collect();
+                if fields.len() != table.names.len() {
+                    let (seen, wanted) = (fields.len(), table.names.len());
+                    return Err(format!(
+                        "line {}: {seen} fields under {wanted} columns",
+                        k + 1
+                    ));
+                }
+                for (column, field) in table.columns.iter_mut().zip(fields) {
+                    column.push(field.trim().parse().unwrap_or(f64::NAN));
+                }
+            }
+        }
+        if table.columns.first().is_none_or(Vec::is_empty) {
+            return Err("holds no rows of numbers".into());
+        }
+        Ok(table)
+    }
+
+    /// A table from memory: named columns of one length.
+    pub fn of_columns<const N: usize>(columns: [(&str, Vec<f64>); N]) -> Self {
+        let (names, columns) = columns
+            .into_iter()
+            .map(|(name, values)| (name.to_owned(), values))
+            .unzip();
+        Self {
+            header: Vec::new(),
+            names,
+            columns,
+        }
+    }
+
+    /// A column, if there is one of that name.
+    pub fn column(&self, name: &str) -> Option<&[f64]> {
+        let at = self.names.iter().position(|column| column == name)?;
+        Some(&self.columns[at])
+    }
+
+    /// Whether it has all of these columns.
+    pub fn has(&self, names: &[&str]) -> bool {
+        names.iter().all(|name| self.column(name).is_some())
+    }
+
+    /// The value of a header line.
+    pub fn fact(&self, key: &str) -> Option<&str> {
+        let found = self.header.iter().find(|(name, _)| name == key);
+        found.map(|(_, value)| value.as_str())
+    }
+
+    /// The cycle that the header gives.
+    pub fn cycle(&self) -> f64 {
+        let cycle = self.fact("cycle").and_then(|cycle| cycle.parse().ok());
+        cycle.unwrap_or(f64::NAN)
+    }
+}
+
+/// What there is of a run.
+#[derive(Debug, Clone, Default)]
+pub struct Data {
+    /// States, by their cycles.
+    pub states: Vec<Table>,
+    /// The history.
+    pub history: Option<Table>,
+    /// The stresses inside the half-space.
+    pub field: Option<Table>,
+    /// The scenario, for what theory says.
+    pub scenario: Option<Scenario>,
+}
+
+impl Data {
+    /// Takes a table in, by its columns; refuses one that is none of a run.
+    pub fn take(&mut self, table: Table) -> Result<(), String> {
+        if table.has(&["r_m", "f_m"]) {
+            self.states.push(table);
+            self.states.sort_by(|a, b| a.cycle().total_cmp(&b.cycle()));
+            self.states.dedup_by(|a, b| a.cycle() == b.cycle());
+        } else if table.has(&["cycle", "u_x_m", "F_x_N"]) {
+            self.history = Some(table);
+        } else if table.has(&["x_m", "z_m", "von_mises_Pa"]) {
+            self.field = Some(table);
+        } else {
+            return Err(
+                "has the columns neither of a state, nor of a history, nor of a field".into(),
+            );
+        }
+        Ok(())
+    }
+
+    /// Takes the present state of `session` in.
+    pub fn take_state(&mut self, session: &Session) {
+        // What this program has just written, it reads.
+        if let Ok(table) = Table::parse(&state::table(session)) {
+            let _ = self.take(table);
+        }
+    }
+
+    /// Runs `session` to the last of `cycles` (rising) and takes in the states there, with the loop
+    /// before each of them, a row of the history for each cycle, and the field at the end if `with_field`.
+    ///
+    /// # Errors
+    /// What stops the run.
+    pub fn run(
+        session: &mut Session,
+        cycles: &[f64],
+        with_field: bool,
+    ) -> Result<Self, SessionError> {
+        let mut data = Self {
+            scenario: Some(session.scenario().clone()),
+            ..Self::default()
+        };
+        let mut seen = History::default();
+        seen.record(session);
+        for &end in cycles {
+            loop {
+                let now = session.simulation().cycle();
+                if now >= end {
+                    break;
+                }
+                // Whole cycles up to the last one before the end, and that one step by step.
+                let next = (now.floor() + 1.0).min(end);
+                let goal = if now < end - 1.0 {
+                    next.min(end - 1.0)
+                } else {
+                    end
+                };
+                session.step_until(goal)?;
+                let now = session.simulation().cycle();
+                if now >= end - 1.0 || now.fract() == 0.0 {
+                    seen.record(session);
+                }
+            }
+            data.take_state(session);
+        }
+        for text in [
+            Some(seen.table(session)),
+            with_field.then(|| field::table(session)),
+        ] {
+            if let Some(Ok(table)) = text.as_deref().map(Table::parse) {
+                let _ = data.take(table);
+            }
+        }
+        Ok(data)
+    }
+
+    /// What a caption needs to know.
+    pub fn facts(&self) -> Vec<(String, String)> {
+        let Some(last) = self
+            .states
+            .last()
+            .or(self.history.as_ref())
+            .or(self.field.as_ref())
+        else {
+            return Vec::new();
+        };
+        let told = [
+            "scenario",
+            "method",
+            "law",
+            "points",
+            "grid",
+            "scheme",
+            "steps_per_cycle",
+            "estimated_error",
+            "estimated_error_volume",
+            "estimated_error_force",
+            "checks",
+        ];
+        let mut facts: Vec<(String, String)> = told
+            .into_iter()
+            .filter_map(|key| Some((key.to_owned(), last.fact(key)?.to_owned())))
+            .collect();
+        let cycles = self.states.iter().map(|state| state.cycle().to_string());
+        let cycles: Vec<String> = cycles.collect();
+        if !cycles.is_empty() {
+            facts.push(("cycles".into(), cycles.join(", ")));
+        }
+        facts
+    }
+}

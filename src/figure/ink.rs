@@ -1,0 +1,117 @@
+//! How a figure looks: the size of its font, and colours on white paper or shades of grey.
+
+use super::canvas::Rgb;
+use crate::plot::colormap::ColorMap;
+
+/// What a curve stands for: the same quantity has the same colour in every chart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ink {
+    /// The unworn profile, and what is past.
+    Unworn,
+    /// What theory says.
+    Limit,
+    /// f and the worn depth.
+    Profile,
+    /// g.
+    Profile1d,
+    /// p, F_z.
+    Pressure,
+    /// τ, F_x.
+    Shear,
+    /// The contact radius.
+    Contact,
+    /// The stick radius.
+    Stick,
+    /// One of several states or methods.
+    Series(usize),
+}
+
+/// Colours or greys.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Style {
+    /// The screen's colours for a light background, dark enough for print.
+    Color,
+    /// Greys, told apart by dashes.
+    Grey,
+}
+
+/// How a figure looks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Look {
+    /// The size of the font, mm.
+    pub font: f64,
+    /// Colours or greys.
+    pub style: Style,
+}
+
+/// Colours of several states: Okabe and Ito's, told apart by the colour-blind too.
+const SERIES: [Rgb; 6] = [
+    [0, 114, 178],
+    [213, 94, 0],
+    [0, 158, 115],
+    [204, 121, 167],
+    [120, 94, 20],
+    [86, 180, 233],
+];
+
+/// Dashes that tell grey lines apart, mm.
+const DASHES: [&[f64]; 6] = [
+    &[],
+    &[2.0, 0.8],
+    &[0.5, 0.6],
+    &[2.0, 0.6, 0.5, 0.6],
+    &[4.0, 0.8],
+    &[1.0, 1.0],
+];
+
+impl Ink {
+    /// Its place among the greys.
+    fn rank(self) -> usize {
+        match self {
+            Self::Profile | Self::Profile1d | Self::Pressure | Self::Contact => 0,
+            Self::Shear | Self::Stick => 1,
+            Self::Limit => 2,
+            Self::Unworn => 4,
+            Self::Series(k) => k % DASHES.len(),
+        }
+    }
+}
+
+impl Look {
+    /// The colour of a curve.
+    pub fn color(&self, ink: Ink) -> Rgb {
+        if self.style == Style::Grey {
+            return [[0; 3], [90; 3], [130; 3], [60; 3], [150; 3], [30; 3]][ink.rank()];
+        }
+        match ink {
+            Ink::Unworn => [130, 130, 130],
+            Ink::Limit => [0, 140, 60],
+            Ink::Profile => [20, 60, 200],
+            Ink::Profile1d => [60, 110, 230],
+            Ink::Pressure | Ink::Contact => [0, 130, 150],
+            Ink::Shear => [170, 0, 150],
+            Ink::Stick => [0, 140, 60],
+            Ink::Series(k) => SERIES[k % SERIES.len()],
+        }
+    }
+
+    /// Dashes and gaps of a curve, mm.
+    pub fn dashes(&self, ink: Ink, dashed: bool) -> &'static [f64] {
+        match (self.style, dashed) {
+            (Style::Grey, _) if ink.rank() > 0 => DASHES[ink.rank()],
+            (_, true) => DASHES[1],
+            _ => DASHES[0],
+        }
+    }
+
+    /// The colour of a share of a map's range, 0 to 1.
+    pub fn mapped(&self, map: ColorMap, share: f64) -> Rgb {
+        // So many shades are told apart, and neighbours that share one are drawn as one area.
+        const SHADES: f64 = 48.0;
+        let share = ((share.clamp(0.0, 1.0) * SHADES).floor() + 0.5).min(SHADES - 0.5) / SHADES;
+        match self.style {
+            Style::Color => map.color(share),
+            Style::Grey => [(250.0 - 220.0 * share) as u8; 3],
+        }
+    }
+}

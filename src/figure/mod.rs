@@ -1,0 +1,170 @@
+//! Figures for a paper: charts on sheets, as SVG, PNG or PDF, and what they show as CSV.
+//!
+//! One idea a file: `canvas` (lines, areas and words in millimetres), `svg`, `png` and `pdf` (one writer
+//! each), `font`, `ink` (colours and greys), `chart` (axes, curves, map, legend), `data` (the tables of a
+//! run, from its files or from memory), `panels` (one chart of a run each), `paper` (the figures of the
+//! paper). Ticks and units are those of the screen (`plot`).
+
+use std::fmt::Write;
+use std::path::Path;
+
+pub mod canvas;
+pub mod chart;
+pub mod data;
+pub mod font;
+pub mod ink;
+pub mod panels;
+pub mod paper;
+pub mod pdf;
+pub mod png;
+pub mod svg;
+
+use canvas::Canvas;
+use chart::Chart;
+use ink::Look;
+
+use crate::export::header::number;
+use crate::scenario::printable;
+
+/// The kinds of files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// Vectors, words as words.
+    Svg,
+    /// Pixels.
+    Png,
+    /// Vectors, the font embedded.
+    Pdf,
+}
+
+impl Format {
+    /// The format that a name ends in.
+    pub fn of(path: &Path) -> Option<Self> {
+        let end = path.extension()?.to_str()?.to_ascii_lowercase();
+        match end.as_str() {
+            "svg" => Some(Self::Svg),
+            "png" => Some(Self::Png),
+            "pdf" => Some(Self::Pdf),
+            _ => None,
+        }
+    }
+
+    /// The whole file of a figure; `dpi` is for pixels.
+    ///
+    /// # Errors
+    /// A PNG that has no pixel, or more than any reader takes.
+    pub fn write(self, canvas: &Canvas, dpi: f64) -> Result<Vec<u8>, png::PngError> {
+        match self {
+            Self::Svg => Ok(svg::write(canvas).into_bytes()),
+            Self::Png => png::write(canvas, dpi),
+            Self::Pdf => Ok(pdf::write(canvas)),
+        }
+    }
+}
+
+/// Charts on a sheet.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sheet {
+    /// The title, for the file's metadata.
+    pub title: String,
+    /// What a caption needs to know: names and values.
+    pub facts: Vec<(String, String)>,
+    /// The charts, in reading order.
+    pub charts: Vec<Chart>,
+}
+
+impl Sheet {
+    /// How many charts stand side by side.
+    fn columns(&self) -> usize {
+        match self.charts.len() {
+            0 | 1 => 1,
+            3 => 3,
+            _ => 2,
+        }
+    }
+
+    /// The size that fits the columns of a journal, mm.
+    pub fn usual_size(&self) -> [f64; 2] {
+        match self.columns() {
+            1 => [85.0, 64.0],
+            columns => [170.0, 62.0 * self.charts.len().div_ceil(columns) as f64],
+        }
+    }
+
+    /// Draws all charts on paper of a size in mm; several are lettered.
+    pub fn draw(&self, size: [f64; 2], look: &Look) -> Canvas {
+        let mut canvas = Canvas::new(size);
+        canvas.title.clone_from(&self.title);
+        canvas.facts.clone_from(&self.facts);
+        let columns = self.columns();
+        let rows = self.charts.len().div_ceil(columns).max(1);
+        let place = [size[0] / columns as f64, size[1] / rows as f64];
+        for (k, chart) in self.charts.iter().enumerate() {
+            let at = [
+                place[0] * (k % columns) as f64,
+                place[1] * (k / columns) as f64,
+            ];
+            let mut lettered = chart.clone();
+            if self.charts.len() > 1 {
+                lettered.title = format!("({}) {}", letter(k), chart.title);
+            }
+            lettered.draw(&mut canvas, at, place, look);
+        }
+        canvas
+    }
+
+    /// Exactly what is drawn: one row for each point of each curve, and for each place of each map.
+    pub fn csv(&self) -> String {
+        let mut text = format!("# mdr-tui: {}\n", env!("CARGO_PKG_VERSION"));
+        for (key, value) in &self.facts {
+            let _ = writeln!(text, "# {key}: {}", printable(value));
+        }
+        for (k, chart) in self.charts.iter().enumerate() {
+            let _ = write!(
+                text,
+                "# panel {}: {}, x = {}, y = {}",
+                letter(k),
+                chart.title,
+                chart.x.in_data_units(),
+                chart.y.in_data_units()
+            );
+            if let Some(map) = &chart.map {
+                let _ = write!(text, ", value = {}", map.quantity.in_data_units());
+            }
+            text.push('\n');
+        }
+        text.push_str("panel,curve,x,y,value\n");
+        for (k, chart) in self.charts.iter().enumerate() {
+            let panel = letter(k);
+            for curve in &chart.curves {
+                let name = field(&curve.name);
+                for (&x, &y) in curve.xs.iter().zip(&curve.ys) {
+                    let _ = writeln!(text, "{panel},{name},{},{},", number(x), number(y));
+                }
+            }
+            let Some(map) = &chart.map else { continue };
+            let [xs, ys] = &map.places;
+            for (&y, values) in ys.iter().zip(map.values.chunks(xs.len())) {
+                for (&x, &value) in xs.iter().zip(values) {
+                    let [x, y, value] = [x, y, value].map(number);
+                    let _ = writeln!(text, "{panel},map,{x},{y},{value}");
+                }
+            }
+        }
+        text
+    }
+}
+
+/// The letter of a chart.
+fn letter(k: usize) -> char {
+    char::from(b'a' + (k % 26) as u8)
+}
+
+/// A name as a field of CSV.
+fn field(name: &str) -> String {
+    if name.contains([',', '"']) {
+        format!("\"{}\"", name.replace('"', "\"\""))
+    } else {
+        name.to_owned()
+    }
+}

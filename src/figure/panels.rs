@@ -1,0 +1,291 @@
+//! One chart of a run each, from its tables.
+
+use super::chart::{Axis, Chart, Map};
+use super::data::{Data, Table};
+use super::ink::Ink;
+use crate::plot::Scale;
+use crate::plot::colormap::ColorMap;
+use crate::studies::theory::Theory;
+
+/// What a chart shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Panel {
+    /// f(r) at every state, unworn and worn to the limit.
+    Profile,
+    /// g(x) at every state.
+    Profile1d,
+    /// p and τ over r.
+    Stresses,
+    /// f − f₀ at every state.
+    WornDepth,
+    /// F_x over u_x in the cycle before every state.
+    Loop,
+    /// Contact radius and stick radius over cycles.
+    Radii,
+    /// Worn volume over cycles.
+    Volume,
+    /// The von Mises stress inside the half-space.
+    VonMises,
+    /// The largest principal stress inside the half-space.
+    Principal,
+}
+
+/// Why a run has no such chart.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("no chart {name}: {why}")]
+pub struct Missing {
+    name: &'static str,
+    why: &'static str,
+}
+
+/// The fewest points of a loop.
+const SHORTEST_LOOP: usize = 9;
+
+impl Panel {
+    /// All of them.
+    pub const ALL: [Self; 9] = [
+        Self::Profile,
+        Self::Profile1d,
+        Self::Stresses,
+        Self::WornDepth,
+        Self::Loop,
+        Self::Radii,
+        Self::Volume,
+        Self::VonMises,
+        Self::Principal,
+    ];
+
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Profile => "profile",
+            Self::Profile1d => "profile-1d",
+            Self::Stresses => "stresses",
+            Self::WornDepth => "worn-depth",
+            Self::Loop => "loop",
+            Self::Radii => "radii",
+            Self::Volume => "volume",
+            Self::VonMises => "von-mises",
+            Self::Principal => "principal",
+        }
+    }
+
+    /// Whether it needs the stresses inside the half-space.
+    pub fn needs_field(self) -> bool {
+        matches!(self, Self::VonMises | Self::Principal)
+    }
+
+    /// The chart.
+    ///
+    /// # Errors
+    /// What the run does not hold.
+    pub fn chart(self, data: &Data) -> Result<Chart, Missing> {
+        let missing = |why| Missing {
+            name: self.name(),
+            why,
+        };
+        let some_state = || match data.states.is_empty() {
+            true => Err(missing("there is no state.csv")),
+            false => Ok(()),
+        };
+        match self {
+            Self::Profile => some_state().map(|()| profile(data)),
+            Self::Profile1d => {
+                some_state()?;
+                let y = Axis::new("g", "m");
+                Ok(of_states(
+                    "1D profile",
+                    data,
+                    ["r_m", "g_m"],
+                    Axis::new("x", "m"),
+                    y,
+                ))
+            }
+            Self::WornDepth => {
+                some_state()?;
+                let y = Axis::new("worn depth", "m");
+                Ok(of_states(
+                    "worn depth",
+                    data,
+                    ["r_m", "wear_m"],
+                    Axis::new("r", "m"),
+                    y,
+                ))
+            }
+            Self::Stresses => {
+                let last = data.states.last();
+                let last = last.ok_or_else(|| missing("there is no state.csv"))?;
+                stresses(last).ok_or_else(|| missing("the state has no column p_Pa"))
+            }
+            Self::Loop => loops(data).map_err(missing),
+            Self::Radii => radii(data).ok_or_else(|| missing("there is no history.csv")),
+            Self::Volume => volume(data).ok_or_else(|| missing("there is no history.csv")),
+            Self::VonMises | Self::Principal => field(self, data)
+                .ok_or_else(|| missing("there is no field.csv; run --field writes it")),
+        }
+    }
+}
+
+/// The name of a state among others, or of the only one.
+fn name_of(data: &Data, state: &Table, alone: &str) -> String {
+    match data.states.len() {
+        1 => alone.to_owned(),
+        _ => format!("{} cycles", state.cycle()),
+    }
+}
+
+fn ink_of(data: &Data, k: usize, alone: Ink) -> Ink {
+    match data.states.len() {
+        1 => alone,
+        _ => Ink::Series(k),
+    }
+}
+
+fn of_states(title: &str, data: &Data, [xs, ys]: [&str; 2], x: Axis, y: Axis) -> Chart {
+    let mut chart = Chart::new(title, x, y);
+    for (k, state) in data.states.iter().enumerate() {
+        let (Some(xs), Some(ys)) = (state.column(xs), state.column(ys)) else {
+            continue;
+        };
+        let name = name_of(data, state, "");
+        chart.curve(&name, xs, ys, ink_of(data, k, Ink::Profile), false);
+    }
+    chart
+}
+
+fn profile(data: &Data) -> Chart {
+    let (x, y) = (Axis::new("r", "m"), Axis::new("f", "m"));
+    let mut chart = of_states("3D profile", data, ["r_m", "f_m"], x, y);
+    if let [curve] = &mut chart.curves[..] {
+        curve.name = "worn".into();
+    }
+    if let Some(state) = data.states.last()
+        && let (Some(radii), Some(unworn)) = (state.column("r_m"), state.column("f0_m"))
+    {
+        chart.curve("unworn", radii, unworn, Ink::Unworn, true);
+        let theory = data.scenario.as_ref();
+        let theory = theory.map(|scenario| Theory::of(scenario.setup()));
+        if let Some(limit) = theory.and_then(|theory| theory.limiting_profile(radii)) {
+            chart.curve("limit", radii, &limit, Ink::Limit, true);
+        }
+        // Unworn curves come first: the worn ones lie on them.
+        let worn = data.states.len().min(chart.curves.len());
+        chart.curves.rotate_left(worn);
+    }
+    chart
+}
+
+/// p and τ of one state, with its radii marked.
+pub fn stresses(state: &Table) -> Option<Chart> {
+    let radii = state.column("r_m")?;
+    let pressure = state.column("p_Pa")?;
+    let (x, y) = (Axis::new("r", "m"), Axis::new("stress", "Pa"));
+    let mut chart = Chart::new("stresses", x, y);
+    chart.curve("p", radii, pressure, Ink::Pressure, false);
+    if let Some(shear) = state.column("tau_Pa")
+        && shear.iter().any(|&shear| shear != 0.0)
+    {
+        chart.curve("τ", radii, shear, Ink::Shear, false);
+    }
+    Some(chart)
+}
+
+fn loops(data: &Data) -> Result<Chart, &'static str> {
+    let history = data.history.as_ref().ok_or("there is no history.csv")?;
+    let column = |name| history.column(name).ok_or("the history lacks a column");
+    let (cycles, shifts, forces) = (column("cycle")?, column("u_x_m")?, column("F_x_N")?);
+    let mut chart = Chart::new(
+        "fretting loop",
+        Axis::new("u_x", "m"),
+        Axis::new("F_x", "N"),
+    );
+    let ends: Vec<f64> = match &data.states[..] {
+        [] => cycles.last().copied().into_iter().collect(),
+        states => states.iter().map(Table::cycle).collect(),
+    };
+    let count = ends.len();
+    for (k, end) in ends.into_iter().enumerate() {
+        let within = |cycle: f64| cycle > end - 1.0 - 1e-9 && cycle < end + 1e-9;
+        let rows = (0..cycles.len()).filter(|&i| within(cycles[i]));
+        let (xs, ys): (Vec<f64>, Vec<f64>) = rows.map(|i| (shifts[i], forces[i])).unzip();
+        if xs.len() < SHORTEST_LOOP {
+            continue;
+        }
+        let (name, ink) = match count {
+            1 => (String::new(), Ink::Shear),
+            _ => (format!("{end} cycles"), Ink::Series(k)),
+        };
+        chart.curve(&name, &xs, &ys, ink, false);
+    }
+    let moves = chart
+        .curves
+        .iter()
+        .any(|c| c.xs.iter().any(|&x| x != c.xs[0]));
+    match (chart.curves.is_empty(), moves) {
+        (true, _) => {
+            Err("the history has one row a cycle; run --history every-step writes the loop")
+        }
+        (_, false) => Err("the indenter does not move tangentially"),
+        _ => Ok(chart),
+    }
+}
+
+fn radii(data: &Data) -> Option<Chart> {
+    let history = data.history.as_ref()?;
+    let cycles = history.column("cycle")?;
+    let mut y = Axis::new("radius", "m");
+    let contact = history.column("contact_radius_m")?;
+    let largest = contact.iter().copied().fold(0.0, f64::max);
+    y.bounds = Some([0.0, 1.1 * largest]).filter(|_| largest > 0.0);
+    let mut chart = Chart::new("radii", Axis::new("cycles", ""), y);
+    chart.curve("contact radius a", cycles, contact, Ink::Contact, false);
+    if let Some(stick) = history.column("permanent_stick_radius_m") {
+        chart.curve("stick radius c", cycles, stick, Ink::Stick, false);
+    }
+    Some(chart)
+}
+
+fn volume(data: &Data) -> Option<Chart> {
+    let history = data.history.as_ref()?;
+    let (x, y) = (Axis::new("cycles", ""), Axis::new("V", "m³"));
+    let mut chart = Chart::new("worn volume", x, y);
+    let volume = history.column("wear_volume_m3")?;
+    chart.curve("", history.column("cycle")?, volume, Ink::Profile, false);
+    Some(chart)
+}
+
+fn field(panel: Panel, data: &Data) -> Option<Chart> {
+    let table = data.field.as_ref()?;
+    let (all_x, all_z) = (table.column("x_m")?, table.column("z_m")?);
+    let count = all_z.iter().take_while(|&&z| z == all_z[0]).count();
+    let xs = all_x[..count].to_vec();
+    let zs: Vec<f64> = all_z.iter().step_by(count).copied().collect();
+    if xs.len() < 2 || zs.len() < 2 || xs.len() * zs.len() != all_x.len() {
+        return None;
+    }
+    let (name, label, column, colors) = match panel {
+        Panel::Principal => (
+            "largest principal stress",
+            "σ max",
+            "max_principal_Pa",
+            ColorMap::Diverging,
+        ),
+        _ => (
+            "von Mises stress",
+            "σ",
+            "von_mises_Pa",
+            ColorMap::Sequential,
+        ),
+    };
+    let mut depth = Axis::new("z", "m");
+    depth.downwards = true;
+    depth.scale = Scale::Linear;
+    let mut chart = Chart::new(name, Axis::new("x", "m"), depth);
+    chart.map = Some(Map {
+        quantity: Axis::new(label, "Pa"),
+        places: [xs, zs],
+        values: table.column(column)?.to_vec(),
+        colors,
+    });
+    Some(chart)
+}

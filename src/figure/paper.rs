@@ -1,0 +1,77 @@
+//! The figures of Li, Forsbach & Benad (2019), point by point.
+
+use super::Sheet;
+use super::chart::{Axis, Chart};
+use super::data::Data;
+use super::ink::Ink;
+use super::panels::{Missing, Panel, stresses};
+use crate::math::abel::AbelMethod;
+use crate::plot::Scale;
+use crate::studies::verify::{Problem, Stop, Task};
+
+/// N of the paper's figures.
+pub const POINTS: usize = 100;
+
+/// Fig. 2: errors of methods A and B on a Hertzian contact, relative to theory, node by node: (a) 1D
+/// profile, (b) normal stress, (c) normal deformation.
+///
+/// # Errors
+/// What stops one of the methods.
+pub fn errors(points: usize) -> Result<Sheet, Stop> {
+    let titles = ["1D profile", "normal stress", "normal deformation"];
+    let mut charts = titles.map(|title| {
+        let mut y = Axis::new("relative error", "");
+        y.scale = Scale::Log;
+        let mut x = Axis::new("r/a", "");
+        x.bounds = Some([0.0, 1.0]);
+        Chart::new(title, x, y)
+    });
+    for (k, method) in [AbelMethod::A, AbelMethod::B].into_iter().enumerate() {
+        let task = Task {
+            problem: Problem::Hertz,
+            method,
+            points,
+        };
+        for (chart, errors) in charts.iter_mut().zip(task.run().errors?) {
+            let name = format!("method {}", method.name().to_uppercase());
+            chart.curve(&name, &errors.radii, &errors.errors, Ink::Series(k), k > 0);
+        }
+    }
+    Ok(Sheet {
+        title: "Errors on a Hertzian contact (Fig. 2 of Li, Forsbach & Benad 2019)".into(),
+        facts: vec![
+            ("problem".into(), "Hertz".into()),
+            ("methods".into(), "a, b".into()),
+            ("points".into(), points.to_string()),
+            (
+                "error".into(),
+                "|result - theory|/theory at every node".into(),
+            ),
+        ],
+        charts: charts.into(),
+    })
+}
+
+/// Fig. 3: (a) 3D profiles and (b) 1D profiles at all states, stresses at (c) the first and (d) the last.
+///
+/// # Errors
+/// What the run does not hold.
+pub fn fretting(data: &Data) -> Result<Sheet, Missing> {
+    let mut charts = vec![Panel::Profile.chart(data)?, Panel::Profile1d.chart(data)?];
+    // A state without stresses is refused in the words of the panel.
+    Panel::Stresses.chart(data)?;
+    for state in [data.states.first(), data.states.last()]
+        .into_iter()
+        .flatten()
+    {
+        if let Some(mut chart) = stresses(state) {
+            chart.title = format!("stresses at {} cycles", state.cycle());
+            charts.push(chart);
+        }
+    }
+    Ok(Sheet {
+        title: "Fretting wear (Fig. 3 of Li, Forsbach & Benad 2019)".into(),
+        facts: data.facts(),
+        charts,
+    })
+}

@@ -1,0 +1,62 @@
+//! The guide: the long documentation, shown by `mdr-tui guide` and here.
+//!
+//! Each topic is a Markdown file. Its shell examples are parsed by the program's own command line
+//! and its scenarios are loaded, in the tests; blocks marked `sh run` are executed there as well.
+
+/// Makes a module of each topic, and the list of all.
+macro_rules! topics {
+    ($($module:ident = $file:literal: $about:literal;)*) => {
+        $(#[doc = include_str!($file)] pub mod $module {})*
+
+        /// All topics, in the order in which a newcomer reads them.
+        pub const TOPICS: &[Topic] = &[$(Topic {
+            name: Topic::named($file),
+            about: $about,
+            text: include_str!($file),
+        }),*];
+    };
+}
+
+/// One topic.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Topic {
+    /// What `mdr-tui guide NAME` calls it.
+    pub name: &'static str,
+    /// What it is about, in one line.
+    pub about: &'static str,
+    /// The text, Markdown.
+    pub text: &'static str,
+}
+
+impl Topic {
+    /// The name of a file without its ending.
+    const fn named(file: &'static str) -> &'static str {
+        let (name, ending) = file.split_at(file.len() - ".md".len());
+        assert!(matches!(ending.as_bytes(), b".md"));
+        name
+    }
+
+    /// The topic with this name.
+    pub fn find(name: &str) -> Option<&'static Self> {
+        TOPICS.iter().find(|topic| topic.name == name)
+    }
+}
+
+topics! {
+    physics = "physics.md": "the model: what is computed, and what is assumed";
+    explorer = "explorer.md": "the screen and its keys";
+    scenarios = "scenarios.md": "every key of a scenario file";
+    files = "files.md": "what a run writes, and how to read it with pandas";
+    accuracy = "accuracy.md": "asking for an accuracy, estimating errors, and what the method leaves out";
+    methods = "methods.md": "the transform methods and how they compare";
+    figures = "figures.md": "figures for a paper, and the figures of the paper";
+    studies = "studies.md": "many runs at once: maps, sensitivities, clusters";
+    rigs = "rigs.md": "real rigs: waveforms, load blocks, compliance, measured profiles, fits";
+    published = "published.md": "published cases: what papers say, what this program gives";
+    stiff_wear = "stiff-wear.md": "large wear coefficients: why steps have a limit";
+    checks = "checks.md": "what a run checks of itself, and what a failing check means";
+    resuming = "resuming.md": "checkpoints: how to go on after a stop";
+    performance = "performance.md": "speed, and what it was compared with";
+    configuration = "configuration.md": "preferences, further keys, shell completion";
+    glossary = "glossary.md": "symbols and words, with the names other papers use";
+}

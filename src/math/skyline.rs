@@ -1,0 +1,356 @@
+//! A linear operator on nodal values, stored in panels of rows with the zeros around their entries left out.
+//!
+//! The Abel transforms are triangular, or nearly so: g(x) and w(r) look inwards, p(r) looks
+//! outwards. A panel is eight rows over the columns that any of them has, in two runs where there is a gap:
+//! the cusp of a load at the tip goes into the stress of every row. The sums of a panel stay in the registers of
+//! the processor's vector unit while one pass goes through its entries, and the pass covers only the
+//! columns where the input is not zero (within the contact, outside the stick zone). Cost: at most N²/2 multiply-adds.
+//!
+//! Processors that fuse multiplication and addition give other last digits than those that do not; on
+//! one machine they are always the same.
+
+use std::ops::Range;
+
+use fearless_simd::{Level, dispatch, f64x4, prelude::*};
+use nalgebra::DMatrix;
+
+use super::scan::support;
+
+/// Rows of a panel, and of one vector.
+const ROWS: usize = 8;
+const LANES: usize = 4;
+
+/// Parts of a run that are summed side by side.
+const QUARTERS: usize = 4;
+
+/// A square matrix whose rows each hold their entries in one run or two.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Skyline {
+    size: usize,
+    panels: Vec<Panel>,
+    /// The panels' entries, column by column, zero where a row has none.
+    entries: Vec<Column>,
+}
+
+/// The entries of a panel in one column: no vector of them straddles two cache lines.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(align(64))]
+struct Column([f64; ROWS]);
+
+#[derive(Debug, Clone, PartialEq)]
+struct Panel {
+    runs: [Run; 2],
+}
+
+/// Columns of a panel that follow each other; possibly none.
+#[derive(Debug, Clone, PartialEq)]
+struct Run {
+    columns: Range<usize>,
+    /// Its first column in the entries.
+    start: usize,
+}
+
+impl Run {
+    /// Where the entries of those of its `columns` are that lie within `input`, and which ones these are.
+    fn within(&self, input: &Range<usize>) -> (Range<usize>, Range<usize>) {
+        let first = input.start.clamp(self.columns.start, self.columns.end);
+        let end = self.columns.end.min(input.end).max(first);
+        let start = self.start + first - self.columns.start;
+        (start..start + (end - first), first..end)
+    }
+}
+
+/// The rows of a panel: as many vectors as hold them.
+type Sums<S> = [f64x4<S>; ROWS / LANES];
+
+/// The sums of a panel's rows over `columns`, each times its value.
+#[inline(always)]
+fn sum_columns<S: Simd>(simd: S, columns: &[Column], values: &[f64]) -> Sums<S> {
+    let halves = |Column(column): &Column| {
+        let (lanes, _) = column.as_chunks::<LANES>();
+        [0, 1].map(|half| f64x4::from_slice(simd, &lanes[half]))
+    };
+    // Each quarter of the run has sums of its own: the processor need not wait for the last addition,
+    // and fetches four streams from its outer caches where the run does not fit the inner one.
+    let quarter = columns.len() / QUARTERS;
+    let streams: [_; QUARTERS] = std::array::from_fn(|i| {
+        let part = i * quarter..(i + 1) * quarter;
+        (&columns[part.clone()], &values[part])
+    });
+    let mut sums = [[f64x4::splat(simd, 0.0); 2]; QUARTERS];
+    for k in 0..quarter {
+        for (sums, (columns, values)) in sums.iter_mut().zip(&streams) {
+            let value = f64x4::splat(simd, values[k]);
+            for (sum, entries) in sums.iter_mut().zip(halves(&columns[k])) {
+                *sum = entries.mul_add(value, *sum);
+            }
+        }
+    }
+    let rest = QUARTERS * quarter;
+    for (column, value) in columns[rest..].iter().zip(&values[rest..]) {
+        let value = f64x4::splat(simd, *value);
+        for (sum, entries) in sums[0].iter_mut().zip(halves(column)) {
+            *sum = entries.mul_add(value, *sum);
+        }
+    }
+    let [a, b, c, d] = sums;
+    let mut all = a;
+    for (half, all) in all.iter_mut().enumerate() {
+        *all = (a[half] + b[half]) + (c[half] + d[half]);
+    }
+    all
+}
+
+#[inline(always)]
+fn rows_of<S: Simd>(sums: Sums<S>) -> [f64; ROWS] {
+    let mut rows = [0.0; ROWS];
+    let (lanes, _) = rows.as_chunks_mut::<LANES>();
+    for (sum, lanes) in sums.iter().zip(lanes) {
+        sum.store_slice(lanes);
+    }
+    rows
+}
+
+impl Skyline {
+    /// Packs a square dense matrix; of a panel's columns of zeros, those at its ends and in its first gap go.
+    pub fn pack(dense: &DMatrix<f64>) -> Self {
+        let size = dense.nrows();
+        let (mut panels, mut entries) = (Vec::new(), Vec::new());
+        for row in (0..size).step_by(ROWS) {
+            let rows = ROWS.min(size - row);
+            let any = |k: &usize| (row..row + rows).any(|j| dense[(j, *k)] != 0.0);
+            let first = (0..size).find(any).unwrap_or(0);
+            let end = (0..size).rfind(any).map_or(first, |k| k + 1);
+            let gap = (first..end).find(|k| !any(k)).unwrap_or(end);
+            let behind = (gap..end).find(any).unwrap_or(end);
+            let runs = [first..gap, behind..end].map(|columns| {
+                let start = entries.len();
+                entries.extend(columns.clone().map(|k| {
+                    let entry = |i| if i < rows { dense[(row + i, k)] } else { 0.0 };
+                    Column(std::array::from_fn(entry))
+                }));
+                Run { columns, start }
+            });
+            panels.push(Panel { runs });
+        }
+        Self {
+            size,
+            panels,
+            entries,
+        }
+    }
+
+    /// Writes the product with `input` into `output`, both of the operator's size.
+    /// Whatever `output` held before is overwritten.
+    pub fn apply(&self, input: &[f64], output: &mut [f64]) {
+        self.apply_rows(input, output, 0..self.size);
+    }
+
+    /// The same for those rows alone that are asked for; the others keep what they hold, or receive what they
+    /// would in [`apply`](Self::apply).
+    pub fn apply_rows(&self, input: &[f64], output: &mut [f64], rows: Range<usize>) {
+        debug_assert_eq!(input.len(), self.size);
+        debug_assert_eq!(output.len(), self.size);
+        // Compiled once for every instruction set; the processor's own is chosen.
+        let finite = dispatch!(Level::new(), simd => self.multiply(simd, input, output, &rows));
+        if !finite {
+            self.apply_not_finite(input, output);
+        }
+    }
+
+    /// Tells whether all sums are finite.
+    #[inline(always)]
+    fn multiply<S: Simd>(
+        &self,
+        simd: S,
+        input: &[f64],
+        output: &mut [f64],
+        rows: &Range<usize>,
+    ) -> bool {
+        let support = support(input);
+        let panels = rows.start / ROWS..rows.end.div_ceil(ROWS);
+        let end = output.len().min(ROWS * panels.end);
+        let output = &mut output[end.min(ROWS * panels.start)..end];
+        let zero = f64x4::splat(simd, 0.0);
+        let mut zeros = [zero; ROWS / LANES];
+        let mut sums = self.panels[panels.start..].iter().map(
+            #[inline(always)]
+            |panel| {
+                let sums = self.sum(simd, panel, &support, input);
+                for (zeros, sum) in zeros.iter_mut().zip(sums) {
+                    *zeros += zero * sum;
+                }
+                rows_of(sums)
+            },
+        );
+        let (whole, rest) = output.as_chunks_mut();
+        for (output, sums) in whole.iter_mut().zip(sums.by_ref()) {
+            *output = sums;
+        }
+        if let Some(sums) = sums.next().filter(|_| !rest.is_empty()) {
+            rest.copy_from_slice(&sums[..rest.len()]);
+        }
+        rows_of(zeros) == [0.0; ROWS]
+    }
+
+    /// The sums of a panel's rows over those columns that lie within the `support` of the input.
+    #[inline(always)]
+    fn sum<S: Simd>(
+        &self,
+        simd: S,
+        panel: &Panel,
+        support: &Range<usize>,
+        input: &[f64],
+    ) -> Sums<S> {
+        let [first, second] = &panel.runs;
+        let (at, columns) = first.within(support);
+        let mut sums = sum_columns(simd, &self.entries[at], &input[columns]);
+        if !second.columns.is_empty() {
+            let (at, columns) = second.within(support);
+            let more = sum_columns(simd, &self.entries[at], &input[columns]);
+            for (sum, more) in sums.iter_mut().zip(more) {
+                *sum += more;
+            }
+        }
+        sums
+    }
+
+    /// Zero times a value that is not finite is no zero: it is passed on to the rows that have an entry
+    /// for it, and not to all rows of their panels. Such a step fails: this need not be quick.
+    fn apply_not_finite(&self, input: &[f64], output: &mut [f64]) {
+        for (row, output) in output.iter_mut().enumerate() {
+            let seen = self.row(row).filter(|(_, entry)| *entry != 0.0);
+            *output = seen.map(|(k, entry)| entry * input[k]).sum();
+        }
+    }
+
+    /// The entries of a row, each with its column.
+    fn row(&self, row: usize) -> impl Iterator<Item = (usize, f64)> {
+        self.panels[row / ROWS].runs.iter().flat_map(move |run| {
+            let entries = self.entries[run.start..].iter();
+            let columns = run.columns.clone().zip(entries);
+            columns.map(move |(k, column)| (k, column.0[row % ROWS]))
+        })
+    }
+
+    /// The operator as a dense matrix, for eigenvalues and norms.
+    pub fn to_dense(&self) -> DMatrix<f64> {
+        let mut dense = DMatrix::zeros(self.size, self.size);
+        for row in 0..self.size {
+            for (k, entry) in self.row(row) {
+                dense[(row, k)] = entry;
+            }
+        }
+        dense
+    }
+
+    /// Whether row j needs input from columns 0..=j only.
+    pub fn looks_inwards_only(&self) -> bool {
+        let dense = self.to_dense();
+        dense == dense.lower_triangle()
+    }
+
+    /// Whether row j needs input from columns j.. only.
+    pub fn looks_outwards_only(&self) -> bool {
+        let dense = self.to_dense();
+        dense == dense.upper_triangle()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn example() -> DMatrix<f64> {
+        DMatrix::from_row_slice(3, 3, &[1.0, 0.0, 0.0, 2.0, 3.0, 0.0, 0.0, 4.0, 5.0])
+    }
+
+    #[test]
+    fn packing_keeps_every_entry_and_overwrites_dirty_output() {
+        let dense = example();
+        let packed = Skyline::pack(&dense);
+        assert_eq!(packed.to_dense(), dense);
+        let mut output = [f64::NAN; 3];
+        packed.apply(&[1.0, 10.0, 100.0], &mut output);
+        assert_eq!(output, [1.0, 32.0, 540.0]);
+    }
+
+    /// Against nalgebra, over shapes that leave a rest in every way.
+    #[test]
+    fn it_is_the_product_with_the_matrix() {
+        for size in [1, 2, 3, 4, 5, 7, 8, 17, 64, 101] {
+            for (below, above) in [(0, 200), (200, 0), (1, 200), (2, 3), (200, 200)] {
+                let dense = DMatrix::from_fn(size, size, |i, j| {
+                    let inside = i <= j + above && j <= i + below;
+                    if inside {
+                        (1 + 3 * i + 7 * j) as f64 % 11.0 - 5.0
+                    } else {
+                        0.0
+                    }
+                });
+                let input: Vec<f64> = (0..size).map(|j| (j as f64 * 1.7).sin()).collect();
+                let mut output = vec![f64::NAN; size];
+                Skyline::pack(&dense).apply(&input, &mut output);
+                let expected = &dense * nalgebra::DVector::from_column_slice(&input);
+                for (found, expected) in output.iter().zip(&expected) {
+                    assert!((found - expected).abs() < 1e-12 * size as f64);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn not_a_number_is_passed_on_not_skipped() {
+        let packed = Skyline::pack(&example());
+        let mut output = [0.0; 3];
+        packed.apply(&[0.0, f64::NAN, 0.0], &mut output);
+        assert_eq!(output[0], 0.0);
+        assert!(output[1].is_nan() && output[2].is_nan());
+    }
+
+    /// Rows with two runs of entries, and inputs in either, between them and in none.
+    #[test]
+    fn a_gap_in_the_rows_is_passed_over() {
+        let dense = DMatrix::from_fn(45, 45, |i, j| {
+            if j < 3 || (i..i + 6).contains(&j) {
+                (1 + i + 2 * j) as f64
+            } else {
+                0.0
+            }
+        });
+        let packed = Skyline::pack(&dense);
+        assert_eq!(packed.to_dense(), dense);
+        for support in [0..45, 0..2, 4..5, 2..9, 20..30, 44..45, 7..7] {
+            let mut input = vec![0.0; 45];
+            input[support.clone()].fill(1.5);
+            let mut output = vec![f64::NAN; 45];
+            packed.apply(&input, &mut output);
+            let expected = &dense * nalgebra::DVector::from_column_slice(&input);
+            assert_eq!(output, expected.as_slice(), "{support:?}");
+        }
+    }
+
+    #[test]
+    fn rows_that_are_asked_for_are_those_of_the_whole() {
+        let dense = DMatrix::from_fn(40, 40, |i, j| if j <= i { (1 + i * j) as f64 } else { 0.0 });
+        let packed = Skyline::pack(&dense);
+        let input: Vec<f64> = (0..40).map(|j| (j as f64 * 1.7).sin()).collect();
+        let mut whole = vec![f64::NAN; 40];
+        packed.apply(&input, &mut whole);
+        for rows in [0..40, 3..17, 16..24, 39..40, 5..5] {
+            let mut part = vec![0.25; 40];
+            packed.apply_rows(&input, &mut part, rows.clone());
+            assert_eq!(part[rows.clone()], whole[rows]);
+            let mut all = part.iter().zip(&whole);
+            assert!(all.all(|(part, whole)| [0.25, *whole].contains(part)));
+        }
+    }
+
+    #[test]
+    fn causality_is_read_off_the_columns() {
+        let packed = Skyline::pack(&example());
+        assert!(packed.looks_inwards_only());
+        assert!(!packed.looks_outwards_only());
+        assert!(Skyline::pack(&example().transpose()).looks_outwards_only());
+    }
+}

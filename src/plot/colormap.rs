@@ -1,0 +1,85 @@
+//! Colours of a map: shares of a range as red, green and blue.
+
+/// Which colours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ColorMap {
+    /// Dark to bright, for values that begin at zero.
+    Sequential,
+    /// Blue through white to red, for values of both signs.
+    Diverging,
+}
+
+/// The colours of viridis at nine shares.
+const SEQUENTIAL: [[u8; 3]; 9] = [
+    [68, 1, 84],
+    [71, 44, 122],
+    [59, 81, 139],
+    [44, 113, 142],
+    [33, 144, 141],
+    [39, 173, 129],
+    [92, 200, 99],
+    [170, 220, 50],
+    [253, 231, 37],
+];
+
+/// Blue through white to red at seven shares.
+const DIVERGING: [[u8; 3]; 7] = [
+    [33, 102, 172],
+    [103, 169, 207],
+    [209, 229, 240],
+    [247, 247, 247],
+    [253, 219, 199],
+    [239, 138, 98],
+    [178, 24, 43],
+];
+
+impl ColorMap {
+    /// The colour at a share of the range, 0 to 1.
+    pub fn color(self, share: f64) -> [u8; 3] {
+        let stops: &[[u8; 3]] = match self {
+            Self::Sequential => &SEQUENTIAL,
+            Self::Diverging => &DIVERGING,
+        };
+        let last = stops.len() - 1;
+        let at = share.clamp(0.0, 1.0) * last as f64;
+        let before = (at as usize).min(last - 1);
+        let part = at - before as f64;
+        [0, 1, 2].map(|k| {
+            let [from, to] = [stops[before][k], stops[before + 1][k]].map(f64::from);
+            (from + part * (to - from)).round() as u8
+        })
+    }
+
+    /// The range of colours for values from `low` to `high`: colours of both signs have white at zero.
+    pub fn range(self, [low, high]: [f64; 2]) -> [f64; 2] {
+        let size = low.abs().max(high.abs());
+        match self {
+            _ if !(size > 0.0 && size.is_finite()) => [-1.0, 1.0],
+            Self::Diverging => [-size, size],
+            Self::Sequential if high > low => [low, high],
+            Self::Sequential => [0.0, size],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ends_and_zero_have_their_colours() {
+        assert_eq!(ColorMap::Sequential.color(0.0), SEQUENTIAL[0]);
+        assert_eq!(ColorMap::Sequential.color(2.0), SEQUENTIAL[8]);
+        assert_eq!(ColorMap::Diverging.color(0.5), [247, 247, 247]);
+        assert_eq!(ColorMap::Diverging.range([-3.0, 1.0]), [-3.0, 3.0]);
+        // Brightness rises with the share.
+        let light = |share| {
+            ColorMap::Sequential
+                .color(share)
+                .map(u32::from)
+                .iter()
+                .sum::<u32>()
+        };
+        assert!((1..=20).all(|k| light(f64::from(k) / 20.0) >= light(f64::from(k - 1) / 20.0)));
+    }
+}

@@ -1,0 +1,398 @@
+//! The whole widget: what it draws, how exactly, and that nothing makes it panic.
+
+use super::*;
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::Color;
+use ratatui::widgets::Widget;
+
+const MARKERS: [Marker; 4] = [
+    Marker::Braille,
+    Marker::HalfBlock,
+    Marker::Dot,
+    Marker::Ascii,
+];
+
+fn draw(plot: &Plot<'_>, width: u16, height: u16) -> Vec<String> {
+    let mut buf = Buffer::empty(Rect::new(0, 0, width, height));
+    plot.render(buf.area, &mut buf);
+    let row = |y| (0..width).map(|x| buf[(x, y)].symbol()).collect::<String>();
+    (0..height).map(row).collect()
+}
+
+/// Dots of a Braille rendering as (column, row), counted from the bottom left of the plot
+/// area, and the area's size in dots.
+fn braille_dots(lines: &[String]) -> (Vec<(usize, usize)>, (usize, usize)) {
+    let lines: Vec<Vec<char>> = lines.iter().map(|line| line.chars().collect()).collect();
+    let line_row = lines.iter().position(|line| line.contains(&'└'));
+    let bottom = line_row.expect("an axis line");
+    let left = lines[bottom]
+        .iter()
+        .position(|&c| c == '└')
+        .expect("a corner")
+        + 1;
+    let (width, height) = (2 * (lines[0].len() - left), 4 * (bottom - 1));
+    let mut dots = Vec::new();
+    for (y, line) in lines.iter().enumerate().take(bottom).skip(1) {
+        for (x, &c) in line.iter().enumerate().skip(left) {
+            let bits = (c as u32).checked_sub(0x2800).filter(|&bits| bits < 256);
+            let order = [
+                (0, 0),
+                (0, 1),
+                (0, 2),
+                (1, 0),
+                (1, 1),
+                (1, 2),
+                (0, 3),
+                (1, 3),
+            ];
+            for (bit, (dx, dy)) in order.into_iter().enumerate() {
+                if bits.is_some_and(|bits| bits & (1 << bit) != 0) {
+                    dots.push((2 * (x - left) + dx, height - 1 - (4 * (y - 1) + dy)));
+                }
+            }
+        }
+    }
+    (dots, (width, height))
+}
+
+fn axes<'a>(x: [f64; 2], y: [f64; 2]) -> Plot<'a> {
+    Plot::new(Axis::new("x", "m").bounds(x), Axis::new("y", "N").bounds(y)).legend(false)
+}
+
+#[test]
+fn a_value_lands_on_the_nearest_dot() {
+    // On one side of zero, whose line would be dots of its own; and from no tick, where the upper end
+    // moves so that ticks are the same number of rows apart.
+    let (x_bounds, y_bounds) = ([2.0e-6, 5.0e-6], [0.1234, 3.3]);
+    for (width, height) in [(20, 9), (40, 12), (80, 20), (133, 45)] {
+        for i in 0..200 {
+            let share = [f64::from(i) / 199.0, f64::from(i * 37 % 200) / 199.0];
+            let x = x_bounds[0] + share[0] * (x_bounds[1] - x_bounds[0]);
+            let y = y_bounds[0] + share[1] * (y_bounds[1] - y_bounds[0]);
+            let (xs, ys) = ([x], [y]);
+            let plot = axes(x_bounds, y_bounds).curve(Curve::new("", &xs, &ys, Style::new()));
+            let (dots, size) = braille_dots(&draw(&plot, width, height));
+            let exact = [
+                share[0] * (size.0 - 1) as f64,
+                share[1] * (size.1 - 1) as f64,
+            ];
+            assert_eq!(dots.len(), 1);
+            let near = |&(column, row): &(usize, usize)| {
+                (column as f64 - exact[0]).abs() <= 0.5 + 1e-9
+                    && (row as f64 - exact[1]).abs() <= 0.5 + 1e-9
+            };
+            assert!(dots.iter().all(near), "{x} {y}: {dots:?} {exact:?}");
+        }
+    }
+}
+
+#[test]
+fn peaks_survive() {
+    let xs: Vec<f64> = (0..10_000).map(f64::from).collect();
+    for spike in [1, 17, 2500, 5003, 9998] {
+        let mut ys = vec![1.0; xs.len()];
+        ys[spike] = 10.0;
+        let plot =
+            axes([0.0, 9999.0], [0.1234, 10.0]).curve(Curve::new("", &xs, &ys, Style::new()));
+        let (dots, size) = braille_dots(&draw(&plot, 43, 12));
+        let column = (spike as f64 / 9999.0 * (size.0 - 1) as f64).round() as usize;
+        assert!(dots.contains(&(column, size.1 - 1)), "{spike}");
+        let low = ((1.0 - 0.1234) / (10.0 - 0.1234) * (size.1 - 1) as f64).round() as usize;
+        assert!((0..size.0).all(|column| dots.contains(&(column, low))));
+        assert!(dots.iter().all(|&(c, row)| row == low || c == column));
+    }
+}
+
+#[test]
+fn gaps_stay_open() {
+    let xs: Vec<f64> = (0..=100).map(f64::from).collect();
+    let ys = xs.iter().map(|&x| {
+        if (40.0..=60.0).contains(&x) {
+            f64::NAN
+        } else {
+            5.0
+        }
+    });
+    let ys: Vec<f64> = ys.collect();
+    let plot = axes([0.0, 100.0], [0.0, 10.0]).curve(Curve::new("", &xs, &ys, Style::new()));
+    let (dots, size) = braille_dots(&draw(&plot, 60, 12));
+    for column in 0..size.0 {
+        let x = column as f64 / (size.0 - 1) as f64 * 100.0;
+        let drawn = dots.iter().any(|dot| dot.0 == column);
+        assert_eq!(drawn, !(39.5..=60.5).contains(&x), "{x}");
+    }
+}
+
+fn hertz(xs: &[f64], radius: f64, peak: f64) -> Vec<f64> {
+    let share = |x: &f64| (1.0 - (x / radius).powi(2)).max(0.0);
+    xs.iter().map(|x| peak * share(x).sqrt()).collect()
+}
+
+#[test]
+fn snapshot_40x12() {
+    let xs: Vec<f64> = (0..=150).map(|i| f64::from(i) * 1e-6).collect();
+    let ys = hertz(&xs, 1e-4, 2.1e9);
+    let zone = |from, to, glyph| Zone {
+        from,
+        to,
+        style: Style::new(),
+        glyph,
+        name: "",
+    };
+    let zones = [
+        zone(0.0, 6e-5, 's'),
+        zone(6e-5, 1e-4, '~'),
+        zone(1e-4, 1.5e-4, '.'),
+    ];
+    let plot = Plot::new(Axis::new("r", "m"), Axis::new("p", "Pa"))
+        .curve(Curve::new("now", &xs, &ys, Style::new()))
+        .band(Band { zones: &zones })
+        .mark(VerticalMark {
+            x: 1e-4,
+            label: "a",
+            style: Style::new(),
+        })
+        .note("50.72");
+    let expected = [
+        "p [GPa]                    a       50.72",
+        " │                         ⡂       ─ now",
+        "2┤⠤⠤⠤⠤⠤⠤⣄⣀⣀⡀               ⡂            ",
+        " │         ⠈⠉⠙⠒⠢⠤⣀⡀        ⡂            ",
+        " │                ⠉⠓⠦⣄     ⡂            ",
+        "1┤                    ⠙⠢⡀  ⡂            ",
+        " │                      ⠈⢢⡀⡂            ",
+        " │                        ⢱⡀            ",
+        "0┤                         ⣇⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀",
+        " │sssssssssssssss~~~~~~~~~~.............",
+        " └┬────┬────┬────┬────┬────┬────────────",
+        "  0   20   40   60   80   100     r [µm]",
+    ];
+    assert_eq!(draw(&plot, 40, 12), expected);
+    let ascii = plot.marker(Marker::Ascii).cursor(Some(5e-5));
+    let expected = [
+        "p [GPa]             a    50.72",
+        " |         |      r   50.00 um",
+        "2+*************   - now  1.819",
+        " |         |  ***** :         ",
+        " |         |      ***         ",
+        "0+         |        **********",
+        " |sssssssssss~~~~~~~~.........",
+        " ++--------+--------+---------",
+        "  0       50       100  r [um]",
+    ];
+    assert_eq!(draw(&ascii, 30, 9), expected);
+}
+
+#[test]
+fn snapshot_log_log() {
+    let xs: Vec<f64> = (1..=6).map(|i| 10.0 * 2f64.powi(i)).collect();
+    let ys: Vec<f64> = xs.iter().map(|n| 0.5 / n / n).collect();
+    let log = |label| Axis::new(label, "").scale(Scale::Log);
+    let curve = Curve::new("order 2", &xs, &ys, Style::new());
+    let plot = Plot::new(log("N"), log("error")).curve(curve);
+    let expected = [
+        "error                               ",
+        "1e-2┤                      ─ order 2",
+        "    │⠤⣀⡀                            ",
+        "    │  ⠈⠉⠒⠢⠤⣀⡀                      ",
+        "1e-4┤        ⠈⠉⠒⠢⠤⣀⡀                ",
+        "    │              ⠈⠉⠒⠢⠤⣀⡀          ",
+        "    │                    ⠈⠉⠒⠢⠤⣀⡀    ",
+        "1e-6┤                          ⠈⠉⠒⠢⠤",
+        "    └┬───────┬─────┬─────┬──────────",
+        "    20      50    100   200        N",
+    ];
+    assert_eq!(draw(&plot, 36, 10), expected);
+}
+
+#[test]
+fn coloured_bands_are_strips_and_mono_bands_are_letters() {
+    let zone = |from, to, style| Zone {
+        from,
+        to,
+        style,
+        glyph: 's',
+        name: "",
+    };
+    let green = Style::new().fg(Color::Green);
+    let narrow = [zone(0.0, 0.5, green), zone(0.7, 0.7001, Style::new())];
+    let plot = axes([0.0, 1.0], [0.0, 1.0]).band(Band { zones: &narrow });
+    let lines = draw(&plot, 40, 12);
+    assert_eq!(lines[9].matches('▀').count(), 18);
+    assert_eq!(lines[9].matches('s').count(), 1);
+    let lines = draw(&plot.marker(Marker::Ascii), 40, 12);
+    assert_eq!(lines[9].matches('s').count(), 19);
+}
+
+#[test]
+fn the_legend_avoids_the_curve_and_reads_at_the_cursor() {
+    let (xs, ys) = ([0.0, 1.0], [0.0, 1.0]);
+    let falling = [1.0, 0.0];
+    let plot = axes([0.0, 1.0], [0.0, 1.0]).legend(true);
+    let rising = plot.clone().curve(Curve::new("u", &xs, &ys, Style::new()));
+    assert!(draw(&rising, 60, 16)[1].contains("┤─ u"));
+    let falling = plot.curve(Curve::new("u", &xs, &falling, Style::new()));
+    assert!(draw(&falling, 60, 16)[1].ends_with("─ u"));
+    let lines = draw(&rising.cursor(Some(0.25)), 60, 16);
+    assert!(lines.iter().any(|line| line.contains("x    0.2500 m")));
+    assert!(lines.iter().any(|line| line.contains("─ u  0.2500 N")));
+}
+
+#[test]
+fn ascii_is_ascii() {
+    let (xs, ys) = ([0.0, 1e-4, 2e-4], [-1e-12, f64::NAN, 3e-12]);
+    let plot = Plot::new(Axis::new("δ", "m"), Axis::new("τ∂", "m³"))
+        .curve(Curve::new("µ now", &xs, &ys, Style::new()).fill_to(0.0))
+        .cursor(Some(5e-5))
+        .note("é")
+        .marker(Marker::Ascii);
+    for (width, height) in [(12, 4), (40, 12), (90, 25)] {
+        assert!(
+            draw(&plot, width, height)
+                .iter()
+                .all(|line| line.is_ascii())
+        );
+    }
+}
+
+/// Ordinates and abscissae that have made plots fail.
+fn nasty() -> Vec<(Vec<f64>, Vec<f64>)> {
+    let (nan, inf) = (f64::NAN, f64::INFINITY);
+    vec![
+        (vec![], vec![]),
+        (vec![1.0], vec![2.0]),
+        (vec![nan], vec![nan]),
+        (vec![0.0, 0.0, 0.0], vec![7.0, 7.0, 7.0]),
+        (vec![0.0, 1.0, 2.0, 3.0], vec![nan, inf, -inf, 1.0]),
+        (vec![1e-300, 2e-300], vec![-1e-300, 1e-300]),
+        (vec![-1e300, 1e300], vec![1e300, -1e300]),
+        (vec![-f64::MAX, f64::MAX], vec![f64::MIN_POSITIVE, 5e-324]),
+        (vec![inf, nan, 0.0], vec![1.0, 2.0]),
+        (vec![1.0, 1.0 + 1e-15], vec![1e17, 1e17 + 16.0]),
+        (vec![3.0, -1.0, 2.0, 2.0], vec![1e-9, 1e9, -1.0, 0.0]),
+    ]
+}
+
+#[test]
+fn nothing_makes_it_panic() {
+    let bounds = [
+        None,
+        Some([0.0, 1.0]),
+        Some([f64::NAN, 1.0]),
+        Some([1.0, 1.0]),
+        Some([0.0, 1e-300]),
+    ];
+    for (index, (xs, ys)) in nasty().into_iter().enumerate() {
+        let zones = [Zone {
+            from: xs.first().copied().unwrap_or(f64::NAN),
+            to: 1e300,
+            style: Style::new(),
+            glyph: '漢',
+            name: "",
+        }];
+        for (turn, scale) in [Scale::Linear, Scale::Log].into_iter().enumerate() {
+            let markers = if scale == Scale::Log {
+                &MARKERS[..1]
+            } else {
+                &MARKERS
+            };
+            for &marker in markers {
+                let axis = |i: usize| Axis {
+                    label: "τ 漢字",
+                    unit: "m³",
+                    bounds: bounds[(index + turn + i) % bounds.len()],
+                    scale,
+                };
+                let plot = Plot::new(axis(0), axis(1))
+                    .curve(Curve::new("now", &xs, &ys, Style::new()).fill_to(0.5))
+                    .curve(
+                        Curve::new("a name of some length, too long", &ys, &xs, Style::new())
+                            .dashed(),
+                    )
+                    .band(Band { zones: &zones })
+                    .mark(VerticalMark {
+                        x: 0.5,
+                        label: "c",
+                        style: Style::new(),
+                    })
+                    .mark(VerticalMark {
+                        x: f64::NAN,
+                        label: "a",
+                        style: Style::new(),
+                    })
+                    .cursor([None, Some(0.3), Some(f64::INFINITY)][index % 3])
+                    .marker(marker)
+                    .note("a note");
+                for width in 0..=30 {
+                    for height in 0..=12 {
+                        let mut buf = Buffer::empty(Rect::new(3, 2, width, height));
+                        (&plot).render(buf.area, &mut buf);
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn it_stays_in_its_area() {
+    let (xs, ys) = ([0.0, 1.0], [-1e9, 1e9]);
+    let plot = Plot::new(
+        Axis::new("a long title", "m"),
+        Axis::new("another long title", "Pa"),
+    )
+    .curve(Curve::new("curve", &xs, &ys, Style::new()).fill_to(0.0))
+    .mark(VerticalMark {
+        x: 1.0,
+        label: "label",
+        style: Style::new(),
+    })
+    .note("a note");
+    for width in 0..=30 {
+        for height in 0..=12 {
+            let mut buf = Buffer::empty(Rect::new(0, 0, 40, 20));
+            let area = Rect::new(5, 4, width, height);
+            (&plot).render(area, &mut buf);
+            for place in buf.area.positions().filter(|&place| !area.contains(place)) {
+                assert_eq!(buf[place].symbol(), " ", "{width} {height} {place:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn later_curves_win_the_colour_and_backgrounds_stay() {
+    let (xs, ys) = ([0.0, 1.0], [0.5, 0.5]);
+    let mut buf = Buffer::empty(Rect::new(0, 0, 40, 12));
+    buf.set_style(buf.area, Style::new().bg(Color::Black));
+    let style = |colour| Style::new().fg(colour).bg(Color::White);
+    axes([0.0, 1.0], [0.0, 1.0])
+        .legend(true)
+        .curve(Curve::new("a", &xs, &ys, style(Color::Red)))
+        .curve(Curve::new("b", &xs, &ys, style(Color::Blue)))
+        .render(buf.area, &mut buf);
+    let is_dot = |c: char| ('\u{2801}'..='\u{28ff}').contains(&c);
+    let curve = buf
+        .content
+        .iter()
+        .filter(|cell| cell.symbol().starts_with(is_dot));
+    assert!(curve.clone().count() > 30);
+    assert!(curve.clone().all(|cell| cell.fg == Color::Blue));
+    assert!(buf.content.iter().all(|cell| cell.bg == Color::Black));
+}
+
+#[test]
+fn values_between_points() {
+    let (xs, ys) = ([0.0, 1.0, 2.0, 3.0, 5.0], [0.0, 10.0, f64::NAN, 4.0, 0.0]);
+    let curve = Curve::new("", &xs, &ys, Style::new());
+    assert_eq!(curve.value_at(0.25), Some(2.5));
+    assert_eq!(curve.value_at(1.0), Some(10.0));
+    assert_eq!(curve.value_at(1.5), None);
+    assert_eq!(curve.value_at(3.0), Some(4.0));
+    assert_eq!(curve.value_at(4.0), Some(2.0));
+    assert_eq!(curve.value_at(5.1), None);
+    assert_eq!(curve.value_at(f64::NAN), None);
+    let back = Curve::new("", &[2.0, 0.0], &[1e308, -1e308], Style::new());
+    assert_eq!(back.value_at(1.0), Some(0.0));
+}

@@ -1,0 +1,330 @@
+//! Ticks on a 1-2-5 grid whose labels never collide.
+
+use super::axis::Scale;
+use super::step::Step;
+use super::window::Window;
+
+/// A tick: where it is and what is written beside it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tick {
+    /// The value, in the data's unit.
+    pub value: f64,
+    /// The cell that holds the value, counted from the left or from the bottom.
+    pub cell: u16,
+    /// The label, in the axis' unit.
+    pub label: String,
+}
+
+impl Tick {
+    /// The first cell of the label when it is centred on the tick in a row that reaches
+    /// from `before` cells left of the first cell to the last of `cells` cells.
+    pub fn label_start(&self, cells: u16, before: u16) -> i32 {
+        let width = self.label.len() as i32;
+        let centred = i32::from(self.cell) - width / 2;
+        centred
+            .min(i32::from(cells) - width)
+            .max(-i32::from(before))
+    }
+}
+
+/// How the labels of an axis lie.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Labels {
+    /// Side by side in one row.
+    Row {
+        /// Free cells left of the axis' first cell.
+        before: u16,
+        /// The least distance between ticks in cells, beside what the labels need.
+        apart: u16,
+    },
+    /// One below the other, each in a row of its own.
+    Column,
+}
+
+/// The ticks of an axis, in increasing order: as many as fit without their labels coming
+/// close, at least two where there is room for two. `factor` is the axis' unit in the
+/// data's unit (1e-6 for µm), a power of ten on a log axis.
+pub fn ticks(window: &Window, factor: f64, labels: Labels) -> Vec<Tick> {
+    if window.cells() == 0 {
+        return Vec::new();
+    }
+    let log = match window.scale() {
+        Scale::Linear => None,
+        Scale::Log => log_ticks(window, factor, labels),
+    };
+    log.unwrap_or_else(|| linear_ticks(window, factor, labels))
+}
+
+fn linear_ticks(window: &Window, factor: f64, labels: Labels) -> Vec<Tick> {
+    let [lo, hi] = window.bounds().map(|v| v / factor);
+    let span = hi - lo;
+    if !(span > 0.0 && span.is_finite() && span > 1e-12 * lo.abs().max(hi.abs())) {
+        return Vec::new();
+    }
+    // A value up to half a dot outside still lands on the first or last dot.
+    let slack = 0.5 * span / window.dots().max(2) as f64;
+    let range = |step: Step| {
+        let first = ((lo - slack) / step.value()).ceil();
+        let last = ((hi + slack) / step.value()).floor();
+        (first, last)
+    };
+    let tick = |step: Step, count: f64| {
+        let value = step.multiple(count) * factor;
+        let cell = window.cell(value)?;
+        let label = step.label(count);
+        Some(Tick { value, cell, label })
+    };
+
+    let airy = airy(window, labels);
+    let most = f64::from(window.cells() / airy + 2);
+    let mut step = Step::at_most(span / most);
+    loop {
+        let (first, last) = range(step);
+        let count = (last - first).max(-1.0) as usize + 1;
+        if count < 2 {
+            break;
+        }
+        if count <= usize::from(window.cells()) {
+            let found = (0..count).filter_map(|i| tick(step, first + i as f64));
+            let found: Vec<Tick> = found.collect();
+            if found.len() > 1 && fit(&found, window, labels, airy, 2) {
+                return found;
+            }
+        }
+        step = step.coarser();
+    }
+
+    // No step has two multiples far enough apart: two multiples of a finer one may be.
+    let mut single = None;
+    let mut step = Step::at_most(span).coarser();
+    for _ in 0..12 {
+        let (first, last) = range(step);
+        let ends = [first, last].map(|count| tick(step, count).filter(|_| first <= last));
+        if let [Some(a), Some(b)] = ends {
+            let pair = [a, b];
+            if first < last && fit(&pair, window, labels, 1, 1) {
+                return pair.into();
+            }
+            let [a, _] = pair;
+            if fit(std::slice::from_ref(&a), window, labels, 1, 1) {
+                single = single.or(Some(a));
+            }
+        }
+        step = step.finer();
+    }
+    single.into_iter().collect()
+}
+
+/// Decades, with 2 and 5 between them if there is room; `None` if no two of them fit.
+fn log_ticks(window: &Window, factor: f64, labels: Labels) -> Option<Vec<Tick>> {
+    let [lo, hi] = window.bounds();
+    let first = (lo.log10() - 1e-9).floor() as i32;
+    let last = (hi.log10() + 1e-9).floor() as i32;
+    let shift = factor.log10().round() as i32;
+    let plain = lo > 0.9e-3 * factor && hi < 1.1e4 * factor;
+    let tick = |step: Step| {
+        let value = step.value();
+        let cell = window.cell(value)?;
+        let label = if plain {
+            let exponent = step.exponent - shift;
+            Step { exponent, ..step }.label(1.0)
+        } else {
+            format!("{}e{}", step.mantissa, step.exponent - shift)
+        };
+        Some(Tick { value, cell, label })
+    };
+    let apart = match labels {
+        Labels::Row { apart, .. } => apart.max(2),
+        Labels::Column => 2,
+    };
+    let every = [(1, true), (1, false), (2, false), (3, false), (5, false)];
+    let wider = [10, 20, 50, 100, 200].map(|n| (n, false));
+    for (stride, between) in every.into_iter().chain(wider) {
+        let mantissas: &[u8] = if between { &[1, 2, 5] } else { &[1] };
+        // More than the cells can hold need not be tried.
+        if (last - first) / stride * mantissas.len() as i32 > i32::from(window.cells()) {
+            continue;
+        }
+        let decades = (first..=last).filter(|k| k.rem_euclid(stride) == 0);
+        let grid = decades.flat_map(|exponent| {
+            mantissas
+                .iter()
+                .map(move |&mantissa| Step { mantissa, exponent })
+        });
+        let found: Vec<Tick> = grid.filter_map(tick).collect();
+        if found.len() > 1 && fit(&found, window, labels, apart, 2) {
+            return Some(found);
+        }
+    }
+    // The outermost decades, or the outermost of all where there are no two decades.
+    [&[1][..], &[1, 2, 5]].into_iter().find_map(|mantissas| {
+        let mut steps = (first..=last)
+            .flat_map(|exponent| {
+                mantissas
+                    .iter()
+                    .map(move |&mantissa| Step { mantissa, exponent })
+            })
+            .filter_map(tick);
+        let ends = [steps.next()?, steps.next_back()?];
+        fit(&ends, window, labels, 1, 1).then(|| ends.into())
+    })
+}
+
+/// The distance in cells that keeps an axis airy.
+fn airy(window: &Window, labels: Labels) -> u16 {
+    match labels {
+        Labels::Row { apart, .. } => (window.cells() / 10).max(apart).max(2),
+        Labels::Column => (window.cells() / 7).max(2),
+    }
+}
+
+/// Are neighbours `apart` cells apart, with `blanks` cells between labels in a row, and no
+/// label longer than the row?
+fn fit(ticks: &[Tick], window: &Window, labels: Labels, apart: u16, blanks: i32) -> bool {
+    let far = ticks
+        .windows(2)
+        .all(|pair| pair[1].cell >= pair[0].cell + apart);
+    let Labels::Row { before, .. } = labels else {
+        return far;
+    };
+    let cells = window.cells();
+    let room = i32::from(cells) + i32::from(before);
+    far && ticks.iter().all(|tick| tick.label.len() as i32 <= room)
+        && ticks.windows(2).all(|pair| {
+            let end = pair[0].label_start(cells, before) + pair[0].label.len() as i32;
+            end + blanks <= pair[1].label_start(cells, before)
+        })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn labels_of(ticks: &[Tick]) -> Vec<&str> {
+        ticks.iter().map(|tick| tick.label.as_str()).collect()
+    }
+
+    fn row(before: u16) -> Labels {
+        Labels::Row { before, apart: 0 }
+    }
+
+    fn window(lo: f64, hi: f64, cells: u16) -> Window {
+        Window::new([lo, hi], Scale::Linear, cells, 2)
+    }
+
+    #[test]
+    fn labels_have_the_decimals_the_step_needs() {
+        let row = row(3);
+        let text = |lo, hi, cells| {
+            let ticks = ticks(&window(lo, hi, cells), 1.0, row);
+            labels_of(&ticks).join(" ")
+        };
+        assert_eq!(text(0.0, 1.0, 40), "0 0.2 0.4 0.6 0.8 1.0");
+        assert_eq!(text(-150.0, 150.0, 40), "-150 -100 -50 0 50 100 150");
+        assert_eq!(text(0.0, 1.0, 14), "0 0.5 1.0");
+        assert_eq!(text(1.1, 2.9, 8), "1.5 2.5");
+        let micro = ticks(&window(0.0, 1.5e-4, 30), 1e-6, row);
+        assert_eq!(labels_of(&micro), ["0", "50", "100", "150"]);
+    }
+
+    #[test]
+    fn log_labels() {
+        let text = |lo, hi, cells| {
+            let window = Window::new([lo, hi], Scale::Log, cells, 2);
+            let ticks = ticks(&window, 1.0, row(3));
+            labels_of(&ticks).join(" ")
+        };
+        assert_eq!(text(1.0, 100.0, 40), "1 2 5 10 20 50 100");
+        assert_eq!(text(1.0, 100.0, 14), "1 10 100");
+        assert_eq!(text(1e-9, 1e-3, 60), "1e-9 1e-8 1e-7 1e-6 1e-5 1e-4 1e-3");
+        assert_eq!(text(1e-9, 1e-3, 20), "1e-8 1e-6 1e-4");
+        assert_eq!(text(2.2, 4.4, 20), "3 4");
+        assert_eq!(text(1e-300, 1e300, 30), "1e-200 1e0 1e200");
+        // In micrometres.
+        let window = Window::new([1e-9, 1e-6], Scale::Log, 30, 2);
+        assert_eq!(
+            labels_of(&ticks(&window, 1e-6, row(3))),
+            ["0.001", "0.01", "0.1", "1"]
+        );
+        let window = Window::new([1e-12, 1e-6], Scale::Log, 30, 2);
+        assert_eq!(labels_of(&ticks(&window, 1e-6, row(3)))[0], "1e-6");
+    }
+
+    /// Neighbours apart, everything inside, order kept.
+    fn check(ticks: &[Tick], window: &Window, labels: Labels) {
+        let [lo, hi] = window.bounds();
+        for tick in ticks {
+            let slack = 1e-6 * (hi - lo);
+            assert_eq!(Some(tick.cell), window.cell(tick.value));
+            assert!(tick.cell < window.cells());
+            assert!(tick.value.abs() > slack || tick.label == "0" || window.scale() == Scale::Log);
+        }
+        for pair in ticks.windows(2) {
+            assert!(pair[0].value < pair[1].value);
+            assert!(pair[0].cell < pair[1].cell);
+            assert_ne!(pair[0].label, pair[1].label);
+            if let Labels::Row { before, .. } = labels {
+                let start = |tick: &Tick| tick.label_start(window.cells(), before);
+                let end = start(&pair[0]) + pair[0].label.len() as i32;
+                assert!(end < start(&pair[1]), "{ticks:?}");
+                assert!(start(&pair[0]) >= -i32::from(before));
+                let last = start(&pair[1]) + pair[1].label.len() as i32;
+                assert!(last <= i32::from(window.cells()));
+            }
+        }
+    }
+
+    #[test]
+    fn sweep_of_linear_axes() {
+        for lo in [-1e3, -150.0, -7.3, -1.0, -0.02, 0.0, 0.3, 0.97, 12.0, 990.0] {
+            for span in [0.01, 0.033, 0.2, 1.0, 1.7, 2.2, 4.9, 9.0, 33.0, 420.0, 2e3] {
+                for cells in 1..=120 {
+                    let window = window(lo, lo + span, cells);
+                    for before in [0, 4] {
+                        let labels = row(before);
+                        let found = ticks(&window, 1.0, labels);
+                        check(&found, &window, labels);
+                        assert!(found.len() >= 2 || cells < 18, "{lo} {span} {cells}");
+                        assert!(found.len() <= 12);
+                    }
+                    let found = ticks(&window, 1.0, Labels::Column);
+                    check(&found, &window, Labels::Column);
+                    assert!(found.len() >= 2 || cells < 3, "{lo} {span} {cells}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn sweep_of_log_axes() {
+        for lo in [1e-300, 1e-12, 3e-9, 0.004, 0.3, 1.0, 70.0] {
+            for ratio in [1.5, 2.1, 9.0, 10.0, 300.0, 1e6, 1e18, 1e290] {
+                for cells in 1..=120 {
+                    let window = Window::new([lo, lo * ratio], Scale::Log, cells, 4);
+                    for labels in [row(4), Labels::Column] {
+                        let found = ticks(&window, 1.0, labels);
+                        check(&found, &window, labels);
+                        let small = lo < 1e-3 && ratio < 10.0;
+                        assert!(
+                            found.len() >= 2 || cells < 20 || small,
+                            "{lo} {ratio} {cells}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn no_ticks_rather_than_nonsense() {
+        for (lo, hi) in [
+            (1.0, 1.0),
+            (1e17, 1e17 + 32.0),
+            (f64::NAN, 1.0),
+            (0.0, f64::INFINITY),
+        ] {
+            assert_eq!(ticks(&window(lo, hi, 40), 1.0, Labels::Column), []);
+        }
+        assert_eq!(ticks(&window(0.0, 1.0, 0), 1.0, Labels::Column), []);
+    }
+}

@@ -1,0 +1,305 @@
+//! SI prefixes for axes and readings.
+//!
+//! One axis has one prefix, taken from the largest absolute value on it, so that all its
+//! labels share it. A prefix before a power of a unit is raised with it, as SI wants:
+//! 1 µm³ is 10⁻¹⁸ m³. Where no prefix applies (pure numbers, `1/Pa`, cycles), a power of
+//! a thousand is written in its place: `[1e-6 1/Pa]`.
+
+use std::borrow::Cow;
+
+/// An SI prefix: a symbol and the factor it stands for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Prefix {
+    /// What one prefixed unit is worth in plain units (1e-6 for µ; 1e-18 for µ before m³).
+    pub factor: f64,
+    /// `p`, `n`, `µ`, `m`, nothing, `k`, `M` or `G`.
+    pub symbol: &'static str,
+}
+
+/// The prefixes in use, smallest first.
+const PREFIXES: [Prefix; 8] = [
+    prefix(1e-12, "p"),
+    prefix(1e-9, "n"),
+    prefix(1e-6, "µ"),
+    prefix(1e-3, "m"),
+    Prefix::NONE,
+    prefix(1e3, "k"),
+    prefix(1e6, "M"),
+    prefix(1e9, "G"),
+];
+
+/// Units that take a prefix; any other word (cycles, %, deg) stands alone.
+const PREFIXABLE: [&str; 14] = [
+    "m", "s", "N", "Pa", "J", "W", "Hz", "rad", "K", "V", "A", "B", "g", "L",
+];
+
+const fn prefix(factor: f64, symbol: &'static str) -> Prefix {
+    Prefix { factor, symbol }
+}
+
+impl Prefix {
+    /// No prefix: factor 1.
+    pub const NONE: Prefix = prefix(1.0, "");
+
+    /// The prefix that brings `max` (in plain units) into 1..1000, or the nearest there is.
+    /// Zero and non-finite values get none.
+    pub fn for_max(max: f64) -> Prefix {
+        Prefix::for_power(max, 1)
+    }
+
+    /// The prefix for values up to `max` of `unit`, with regard to the unit's power
+    /// (`m³`) and to units that take none (an empty unit, `1/Pa`, `cycles`).
+    pub fn for_unit(max: f64, unit: &str) -> Prefix {
+        match leading_power(unit) {
+            // Nobody reads kiloseconds.
+            Some(_) if matches!(unit, "s" | "rad") && max.abs() >= 1.0 => Prefix::NONE,
+            Some(power) => Prefix::for_power(max, power),
+            None => Prefix::NONE,
+        }
+    }
+
+    fn for_power(max: f64, power: i32) -> Prefix {
+        let size = max.abs() * (1.0 + 1e-9);
+        if size == 0.0 || !size.is_finite() {
+            return Prefix::NONE;
+        }
+        let mut best = PREFIXES[0];
+        for candidate in PREFIXES {
+            if candidate.factor.powi(power) <= size {
+                best = candidate;
+            }
+        }
+        prefix(best.factor.powi(power), best.symbol)
+    }
+
+    /// The symbol, with `u` for `µ` where only ASCII can be shown.
+    pub fn symbol_in(self, ascii: bool) -> &'static str {
+        if ascii && self.symbol == "µ" {
+            "u"
+        } else {
+            self.symbol
+        }
+    }
+}
+
+/// The power of a unit's first symbol (3 for `m³`, 1 for `N/m`); `None` where no prefix applies.
+fn leading_power(unit: &str) -> Option<i32> {
+    let end = unit
+        .find(|c: char| !c.is_alphabetic())
+        .unwrap_or(unit.len());
+    let (symbol, rest) = unit.split_at(end);
+    if !PREFIXABLE.contains(&symbol) {
+        return None;
+    }
+    match rest.trim_start_matches('^').chars().next() {
+        Some('²' | '2') => Some(2),
+        Some('³' | '3') => Some(3),
+        Some('-' | '⁻' | '0'..='9' | '⁰' | '¹' | '⁴'..='⁹') => None,
+        _ => Some(1),
+    }
+}
+
+/// The unit one axis is labelled in.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AxisUnit {
+    /// What one labelled unit is worth in the data's units.
+    pub factor: f64,
+    /// The unit with its prefix or power of ten (`MPa`, `1e-15 N`, `1e6 cycles`, or empty).
+    pub text: String,
+}
+
+/// The common unit of an axis whose largest absolute value is `max` (in `unit`).
+pub fn axis_unit(max: f64, unit: &str, ascii: bool) -> AxisUnit {
+    let prefix = Prefix::for_unit(max, unit);
+    let unit = if ascii { to_ascii(unit) } else { unit.into() };
+    let text = format!("{}{unit}", prefix.symbol_in(ascii));
+    let scaled = max.abs() / prefix.factor;
+    if scaled == 0.0 || !scaled.is_finite() || (0.01..1e5).contains(&scaled) {
+        let factor = prefix.factor;
+        return AxisUnit { factor, text };
+    }
+    let power = 3 * ((scaled * (1.0 + 1e-9)).log10() / 3.0).floor() as i32;
+    AxisUnit {
+        factor: prefix.factor * 10f64.powi(power),
+        text: format!("1e{power} {text}").trim_end().to_owned(),
+    }
+}
+
+/// A reading with its unit, `1.23 µm`: `digits` significant digits (digits before the
+/// point are never rounded away), the prefix chosen after rounding, scientific notation
+/// beyond pico and giga.
+pub fn format_value(value: f64, unit: &str, digits: usize) -> String {
+    format_value_in(value, unit, digits, false)
+}
+
+/// [`format_value`], in ASCII where `ascii` asks for it.
+pub fn format_value_in(value: f64, unit: &str, digits: usize, ascii: bool) -> String {
+    let digits = digits.clamp(1, 17);
+    let rounded = round_to(value, digits);
+    let prefix = Prefix::for_unit(rounded, unit);
+    let mut text = format_number(value / prefix.factor, digits);
+    let mut symbol = prefix.symbol_in(ascii);
+    if text.contains('e') {
+        text = format_number(value, digits);
+        symbol = "";
+    }
+    let unit = if ascii { to_ascii(unit) } else { unit.into() };
+    format!("{text} {symbol}{unit}").trim_end().to_owned()
+}
+
+/// A bare number with `digits` significant digits; scientific outside 1e-3..1e6.
+pub fn format_number(value: f64, digits: usize) -> String {
+    let digits = digits.clamp(1, 17);
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    if !value.is_finite() {
+        return value.to_string();
+    }
+    let rounded = round_to(value, digits);
+    let size = rounded.abs();
+    if (1e-3..1e6).contains(&size) {
+        let decimals = digits as i32 - 1 - (size * (1.0 + 1e-12)).log10().floor() as i32;
+        format!(
+            "{:.*}",
+            decimals.max(0) as usize,
+            if decimals < 0 { value } else { rounded }
+        )
+    } else {
+        format!("{rounded:.*e}", digits - 1)
+    }
+}
+
+/// `value` rounded to `digits` significant decimal digits.
+fn round_to(value: f64, digits: usize) -> f64 {
+    let rounded = format!("{value:.*e}", digits - 1).parse();
+    // Rounding may overflow next to f64::MAX; the value itself is then as good.
+    match rounded {
+        Ok(number) if f64::is_finite(number) => number,
+        _ => value,
+    }
+}
+
+/// `text` with the signs common in units and labels spelled in ASCII (`µm` as `um`, `τ` as
+/// `tau`); any other character becomes `?`.
+pub fn to_ascii(text: &str) -> Cow<'_, str> {
+    if text.is_ascii() {
+        return Cow::Borrowed(text);
+    }
+    let mut folded = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            c if c.is_ascii() => folded.push(c),
+            'µ' | 'μ' => folded.push('u'),
+            '⁰' | '₀' => folded.push('0'),
+            '¹' | '₁' => folded.push('1'),
+            '²' | '₂' => folded.push('2'),
+            '³' | '₃' => folded.push('3'),
+            '⁻' | '−' | '–' | '—' => folded.push('-'),
+            '·' | '×' => folded.push('*'),
+            '∞' => folded.push_str("inf"),
+            'τ' => folded.push_str("tau"),
+            'σ' => folded.push_str("sigma"),
+            'ω' => folded.push_str("omega"),
+            'φ' => folded.push_str("phi"),
+            'ν' => folded.push_str("nu"),
+            'ρ' => folded.push_str("rho"),
+            'ε' => folded.push_str("eps"),
+            'δ' | 'Δ' => folded.push('d'),
+            '°' => folded.push_str("deg"),
+            '∝' => folded.push('~'),
+            '≤' => folded.push_str("<="),
+            '≥' => folded.push_str(">="),
+            '±' => folded.push_str("+-"),
+            '▶' => folded.push('>'),
+            '◀' => folded.push('<'),
+            '▲' => folded.push('^'),
+            _ => folded.push('?'),
+        }
+    }
+    Cow::Owned(folded)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_prefix_follows_the_largest_value() {
+        let cases = [
+            (1e-15, "p"),
+            (3e-12, "p"),
+            (1e-9, "n"),
+            (999e-9, "n"),
+            (1e-6, "µ"),
+            (0.02, "m"),
+            (1.0, ""),
+            (999.0, ""),
+            (1e3, "k"),
+            (-2e6, "M"),
+            (1e12, "G"),
+            (0.0, ""),
+            (f64::NAN, ""),
+            (f64::INFINITY, ""),
+        ];
+        for (max, symbol) in cases {
+            assert_eq!(Prefix::for_max(max).symbol, symbol, "{max}");
+        }
+        assert_eq!(Prefix::for_max(2e-6).symbol_in(true), "u");
+    }
+
+    #[test]
+    fn a_power_of_a_unit_raises_its_prefix() {
+        let volume = Prefix::for_unit(3e-17, "m³");
+        assert_eq!(volume.symbol, "µ");
+        assert!((volume.factor / 1e-18 - 1.0).abs() < 1e-12);
+        assert_eq!(format_value(3e-17, "m³", 3), "30.0 µm³");
+        assert_eq!(format_value(2e-10, "m^2", 2), "200 µm^2");
+        assert_eq!(Prefix::for_unit(1e-10, "1/Pa"), Prefix::NONE);
+        assert_eq!(Prefix::for_unit(1e6, "cycles"), Prefix::NONE);
+        assert_eq!(Prefix::for_unit(2e4, "N/m").symbol, "k");
+        assert_eq!(Prefix::for_unit(2e4, "s"), Prefix::NONE);
+        assert_eq!(Prefix::for_unit(2e-4, "s").symbol, "µ");
+    }
+
+    #[test]
+    fn readings() {
+        assert_eq!(format_value(1.234e-6, "m", 3), "1.23 µm");
+        assert_eq!(format_value_in(1.234e-6, "m", 3, true), "1.23 um");
+        assert_eq!(format_value(999.96e-6, "m", 3), "1.00 mm");
+        assert_eq!(format_value(-2.3077e11, "Pa", 4), "-230.8 GPa");
+        assert_eq!(format_value(0.0, "Pa", 4), "0 Pa");
+        assert_eq!(format_value(199.24, "cycles", 5), "199.24 cycles");
+        assert_eq!(format_value(12345.0, "", 3), "12345");
+        assert_eq!(format_value(1.3e-10, "1/Pa", 2), "1.3e-10 1/Pa");
+        assert_eq!(format_value(1.2e-17, "m", 3), "1.20e-17 m");
+        assert_eq!(format_value(1e300, "m", 3), "1.00e300 m");
+        assert_eq!(format_value(f64::NAN, "m", 3), "NaN m");
+        assert_eq!(format_value(f64::MAX, "m", 2), "1.8e308 m");
+    }
+
+    #[test]
+    fn axis_units_keep_labels_short() {
+        let text = |max, unit| axis_unit(max, unit, false).text;
+        assert_eq!(text(1.5e-4, "m"), "µm");
+        assert_eq!(text(3e9, "Pa"), "GPa");
+        assert_eq!(text(4e-7, ""), "1e-9");
+        assert_eq!(text(1e6, "cycles"), "1e6 cycles");
+        assert_eq!(text(200.0, "cycles"), "cycles");
+        assert_eq!(text(1e-300, "N"), "1e-288 pN");
+        assert_eq!(axis_unit(1e-3, "m³", true).text, "1e6 mm3");
+        for exponent in -300..=300 {
+            let max = 10f64.powi(exponent);
+            for unit in ["", "m", "m²", "m³", "cycles"] {
+                let scaled = max / axis_unit(max, unit, false).factor;
+                assert!((0.009..1.1e5).contains(&scaled), "{max} {unit}: {scaled}");
+            }
+        }
+    }
+
+    #[test]
+    fn ascii_has_no_other_character() {
+        assert_eq!(to_ascii("τ [µm²]"), "tau [um2]");
+        assert!(to_ascii("∂ ⌀ 漢").is_ascii());
+    }
+}

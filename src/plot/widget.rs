@@ -1,0 +1,399 @@
+//! The layout: where title, ticks, plot area, band and labels go.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::{self, Rect};
+use ratatui::style::{Color, Style};
+use ratatui::widgets::Widget;
+
+use super::axis::{Axis, Scale};
+use super::labels::{LabelRow, titled};
+use super::legend::{self, Legend, cells, text};
+use super::marker::{Marker, Under};
+use super::raster::{Position, Raster};
+use super::ticks::{Labels, Tick, ticks};
+use super::units::{AxisUnit, axis_unit};
+use super::window::Window;
+use super::{Band, Plot};
+
+/// The smallest area that gets axes, in cells.
+const SMALLEST: (u16, u16) = (12, 4);
+
+impl Widget for Plot<'_> {
+    fn render(self, area: Rect, buf: &mut Buffer) {
+        (&self).render(area, buf);
+    }
+}
+
+impl Plot<'_> {
+    /// The abscissa, in the x axis' unit, under a cell of the screen where the plot is drawn in `area`;
+    /// none outside of the curves' own part of it.
+    pub fn abscissa_at(&self, area: Rect, cell: layout::Position) -> Option<f64> {
+        if area.is_empty() {
+            return None;
+        }
+        let frame = Frame::of(self, area);
+        let column = cell.x.checked_sub(frame.inner.x)?;
+        let middle = frame.x.cell_middle(column);
+        frame.inner.contains(cell).then(|| frame.x.value(middle))
+    }
+}
+
+impl Widget for &Plot<'_> {
+    fn render(self, area: Rect, buf: &mut Buffer) {
+        let area = area.intersection(buf.area);
+        if area.is_empty() {
+            return;
+        }
+        let frame = Frame::of(self, area);
+        let mut raster = frame.raster();
+        if area.width >= SMALLEST.0 && area.height >= SMALLEST.1 {
+            frame.words(&mut raster, buf);
+            frame.axes(buf);
+        }
+        raster.render(frame.inner.x, frame.inner.y, buf);
+        frame.signs(buf);
+    }
+}
+
+/// The same window with an upper end a little higher, so that the ticks of a linear axis are the same
+/// number of rows apart; as it was where that would leave too much of it empty.
+fn even(window: Window, unit: &AxisUnit) -> Window {
+    let [lo, hi] = window.bounds();
+    let found = ticks(&window, unit.factor, Labels::Column);
+    let [first, second, ..] = &found[..] else {
+        return window;
+    };
+    let dots = window.dots() as f64 - 1.0;
+    let per_cell = (window.dots() / usize::from(window.cells()).max(1)) as f64;
+    let step = second.value - first.value;
+    // The lower end must lie on a tick, or its row would not be the one that the others count from.
+    let on_tick = ((lo / step).round() * step - lo).abs() < 1e-6 * step;
+    if window.scale() == Scale::Log || !on_tick {
+        return window;
+    }
+    [1.0, 2.0, 5.0]
+        .into_iter()
+        .filter_map(|times| {
+            let step = times * step;
+            let rows = (dots / per_cell / ((hi - lo) / step) + 1e-9).floor();
+            let end = lo + step * dots / (per_cell * rows);
+            let aligned = ((lo / step).round() * step - lo).abs() < 1e-6 * step;
+            (rows >= 1.0 && aligned && end <= lo + 1.3 * (hi - lo)).then_some(end)
+        })
+        .reduce(f64::min)
+        .map_or(window, |end| window.up_to(end))
+}
+
+/// The range of the points that will be seen, in x and in y: those with a place on both
+/// axes, and within x bounds that are given. Bases of fills count in y.
+fn extent(plot: &Plot<'_>) -> [Option<[f64; 2]>; 2] {
+    let has_place = |axis: &Axis<'_>, value: f64| {
+        value.is_finite() && (axis.scale == Scale::Linear || value > 0.0)
+    };
+    let limits = plot.x_axis.bounds.map(|[a, b]| [a.min(b), a.max(b)]);
+    let seen = |x: f64| limits.is_none_or(|[lo, hi]| x >= lo && x <= hi);
+    let widen = |range: &mut Option<[f64; 2]>, value: f64| {
+        let [lo, hi] = range.unwrap_or([value; 2]);
+        *range = Some([lo.min(value), hi.max(value)]);
+    };
+    let [mut xs, mut ys] = [None, None];
+    for curve in &plot.curves {
+        for (x, y) in curve.points() {
+            if has_place(&plot.x_axis, x) && has_place(&plot.y_axis, y) && seen(x) {
+                widen(&mut xs, x);
+                widen(&mut ys, y);
+            }
+        }
+        if let Some(base) = curve.fill_to.filter(|&y| has_place(&plot.y_axis, y)) {
+            widen(&mut ys, base);
+        }
+    }
+    [xs, ys]
+}
+
+/// Everything placed: the plot area, the maps on it, and the ticks around it.
+struct Frame<'p, 'a> {
+    plot: &'p Plot<'a>,
+    area: Rect,
+    inner: Rect,
+    /// Rows of the band, the axis line and the tick labels.
+    band_row: Option<u16>,
+    line_row: Option<u16>,
+    label_row: u16,
+    x: Window,
+    y: Window,
+    x_unit: AxisUnit,
+    y_unit: AxisUnit,
+    x_labels: LabelRow,
+    y_ticks: Vec<Tick>,
+}
+
+impl<'p, 'a> Frame<'p, 'a> {
+    fn of(plot: &'p Plot<'a>, area: Rect) -> Self {
+        let [x_data, y_data] = extent(plot);
+        let x_bounds = plot.x_axis.resolve(x_data, false);
+        let y_bounds = plot.y_axis.resolve(y_data, true);
+        Self::new(plot, area, x_bounds, y_bounds)
+    }
+
+    fn new(plot: &'p Plot<'a>, area: Rect, x_bounds: [f64; 2], y_bounds: [f64; 2]) -> Self {
+        let bare = area.width < SMALLEST.0 || area.height < SMALLEST.1;
+        let ascii = plot.marker == Marker::Ascii;
+        let unit = |axis: &Axis<'_>, [lo, hi]: [f64; 2]| {
+            axis_unit(lo.abs().max(hi.abs()), axis.unit, ascii)
+        };
+        let (x_unit, y_unit) = (unit(&plot.x_axis, x_bounds), unit(&plot.y_axis, y_bounds));
+        let (across, down) = plot.marker.dots();
+
+        // Rows, from the bottom up: labels, axis line, band, plot; the title on top.
+        let mut bottom = area.bottom();
+        let mut take = |wanted: bool| {
+            bottom -= u16::from(wanted);
+            wanted.then_some(bottom)
+        };
+        let label_row = take(!bare).unwrap_or(0);
+        let has_band = !bare && plot.band.is_some() && area.height >= 5;
+        let line_row = take(!bare && area.height >= 8 + u16::from(has_band));
+        let band_row = take(has_band);
+        let top = area.y + u16::from(!bare);
+        let rows = bottom.saturating_sub(top);
+
+        let y = even(
+            Window::new(y_bounds, plot.y_axis.scale, rows, down),
+            &y_unit,
+        );
+        let mut y_ticks = ticks(&y, y_unit.factor, Labels::Column);
+        let mut gutter = y_ticks
+            .iter()
+            .map(|tick| cells(&tick.label))
+            .max()
+            .unwrap_or(0);
+        if bare || gutter > area.width / 3 {
+            y_ticks.clear();
+            gutter = 0;
+        }
+        let left = if bare { 0 } else { gutter + 1 };
+        let inner = Rect::new(area.x + left, top, area.width - left, rows);
+        let x = Window::new(x_bounds, plot.x_axis.scale, inner.width, across);
+        let label = text(plot.x_axis.label, ascii);
+        let x_labels = LabelRow::new(&x, &x_unit, &label, left);
+        Frame {
+            plot,
+            area,
+            inner,
+            band_row,
+            line_row,
+            label_row,
+            x,
+            y,
+            x_unit,
+            y_unit,
+            x_labels,
+            y_ticks,
+        }
+    }
+
+    /// The dots: fills, rules, curves in their order.
+    fn raster(&self) -> Raster {
+        let plot = self.plot;
+        let mut raster = Raster::new(self.inner.width, self.inner.height, plot.marker);
+        let place =
+            |(x, y): (f64, f64)| -> Position { Some((self.x.position(x)?, self.y.position(y)?)) };
+        for curve in &plot.curves {
+            if let Some(base) = curve.fill_to {
+                // A base without a place (zero on a log axis) lies below everything.
+                let base = self.y.position(base).unwrap_or(-1.0);
+                raster.fill(curve.points().map(place), base, curve.style);
+            }
+        }
+        let crosses = |[lo, hi]: [f64; 2]| lo < 0.0 && hi > 0.0;
+        if let Some(row) = self.y.dot(0.0).filter(|_| crosses(self.y.bounds())) {
+            raster.zero_line(row, plot.rule_style);
+        }
+        if let Some(column) = self.x.dot(0.0).filter(|_| crosses(self.x.bounds())) {
+            raster.vertical(column, Under::Zero, plot.rule_style);
+        }
+        for mark in &plot.marks {
+            if let Some(column) = self.x.dot(mark.x) {
+                raster.vertical(column, Under::Mark, mark.style);
+            }
+        }
+        if let Some(column) = plot.cursor.and_then(|x| self.x.dot(x)) {
+            raster.vertical(column, Under::Cursor, plot.axis_style);
+        }
+        for curve in &plot.curves {
+            raster.line(curve.points().map(place), curve.style, curve.dashed);
+        }
+        raster
+    }
+
+    /// Points with a sign of their own, and arrows where a curve leaves through the top.
+    fn signs(&self, buf: &mut Buffer) {
+        let ascii = self.plot.marker == Marker::Ascii;
+        let top = self.y.bounds()[1];
+        for curve in &self.plot.curves {
+            let beyond = curve
+                .points()
+                .filter(|(x, y)| x.is_finite() && *y > top * (1.0 + 1e-9));
+            for column in beyond.filter_map(|(x, _)| self.x.cell(x)) {
+                let sign = if ascii { '^' } else { '▲' };
+                glyph(buf, self.inner.x + column, self.inner.y, sign, curve.style);
+            }
+        }
+        for point in &self.plot.points {
+            if let (Some(column), Some(row)) = (self.x.cell(point.at[0]), self.y.cell(point.at[1]))
+            {
+                let y = self.inner.bottom() - 1 - row;
+                let sign = text(point.sign.encode_utf8(&mut [0; 4]), ascii);
+                let sign = sign.chars().next().unwrap_or('o');
+                glyph(buf, self.inner.x + column, y, sign, point.style);
+            }
+        }
+    }
+
+    /// Axis lines, ticks and their labels, the x title, and the band.
+    fn axes(&self, buf: &mut Buffer) {
+        let ascii = self.plot.marker == Marker::Ascii;
+        let [upright, y_tick, level, x_tick, corner] = if ascii {
+            ['|', '+', '-', '+', '+']
+        } else {
+            ['│', '┤', '─', '┬', '└']
+        };
+        let (style, rule, inner) = (self.plot.axis_style, self.plot.rule_style, self.inner);
+        let axis_x = inner.x.saturating_sub(1);
+        for y in inner.y..self.line_row.unwrap_or(self.label_row) {
+            glyph(buf, axis_x, y, upright, rule);
+        }
+        for tick in &self.y_ticks {
+            let y = inner.bottom() - 1 - tick.cell;
+            glyph(buf, axis_x, y, y_tick, rule);
+            let x = axis_x.saturating_sub(cells(&tick.label));
+            self.write(buf, x, y, &tick.label, style);
+        }
+        if let Some(y) = self.line_row {
+            glyph(buf, axis_x, y, corner, rule);
+            for x in inner.left()..inner.right() {
+                glyph(buf, x, y, level, rule);
+            }
+            for tick in &self.x_labels.ticks {
+                glyph(buf, inner.x + tick.cell, y, x_tick, rule);
+            }
+        }
+        if let (Some(y), Some(band)) = (self.band_row, self.plot.band) {
+            self.band(band, y, buf);
+        }
+        for tick in &self.x_labels.ticks {
+            let x = self.area.x + self.x_labels.start(tick);
+            self.write(buf, x, self.label_row, &tick.label, style);
+        }
+        if let Some((start, title)) = &self.x_labels.title {
+            self.write(buf, self.area.x + start, self.label_row, title, style);
+        }
+    }
+
+    fn band(&self, band: Band<'_>, y: u16, buf: &mut Buffer) {
+        let ascii = self.plot.marker == Marker::Ascii;
+        for zone in band.zones {
+            let ends = [zone.from, zone.to].map(|x| self.x.position(x));
+            let [Some(a), Some(b)] = ends else { continue };
+            let (from, to) = (a.min(b), a.max(b));
+            let inside = |cell: &u16| (from..=to).contains(&self.x.cell_middle(*cell));
+            let mut painted: Vec<u16> = (0..self.x.cells()).filter(inside).collect();
+            let last = self.x.dots() as f64 - 0.5;
+            let middle = (from / 2.0 + to / 2.0).round();
+            if painted.is_empty() && from < to && middle >= 0.0 && middle <= last {
+                let (across, _) = self.plot.marker.dots();
+                painted.push(middle as u16 / across);
+            }
+            let coloured = zone.style.fg.is_some_and(|colour| colour != Color::Reset);
+            let letter = text(zone.glyph.encode_utf8(&mut [0; 4]), ascii);
+            let letter = letter.chars().next().unwrap_or(' ');
+            let sign = if coloured && !ascii { '▀' } else { letter };
+            let (first, width) = (painted.first().copied(), painted.len() as u16);
+            for cell in painted {
+                glyph(buf, self.inner.x + cell, y, sign, zone.style);
+            }
+            let name = format!(" {} ", text(zone.name, ascii));
+            if let Some(first) = first.filter(|_| !zone.name.is_empty() && cells(&name) <= width) {
+                let x = self.inner.x + first + (width - cells(&name)) / 2;
+                self.write(buf, x, y, &name, zone.style);
+            }
+        }
+    }
+
+    /// The legend, the title row, and the labels of the marks; the dots below them go.
+    fn words(&self, raster: &mut Raster, buf: &mut Buffer) {
+        let (plot, area, inner) = (self.plot, self.area, self.inner);
+        let local = |spot: Rect| Rect {
+            x: spot.x.saturating_sub(inner.x),
+            y: spot.y.saturating_sub(inner.y),
+            ..spot
+        };
+        let ascii = plot.marker == Marker::Ascii;
+        let legend = Legend::arrange(plot, [&self.x_unit, &self.y_unit], inner, raster);
+        if let Some((legend, block)) = &legend {
+            raster.blank(local(*block));
+            legend.render(*block, buf);
+        }
+
+        let title = titled(&text(plot.y_axis.label, ascii), &self.y_unit);
+        self.write(buf, area.x, area.y, &title, plot.axis_style);
+        let left = (area.x + cells(&title)).min(area.right());
+        let mut free = left + u16::from(left > area.x)..area.right();
+
+        let room = free.end.saturating_sub(free.start + 1);
+        let reading = match &legend {
+            None => legend::short_reading(plot, [self.x_unit.factor, self.y_unit.factor], room),
+            Some(_) => None,
+        };
+        let note = reading.unwrap_or_else(|| text(plot.note, ascii));
+        if !note.is_empty() && cells(&note) <= room {
+            free.end -= cells(&note);
+            self.write(buf, free.end, area.y, &note, plot.axis_style);
+            free.end -= 1;
+        }
+
+        for mark in &plot.marks {
+            let label = text(mark.label, ascii);
+            let Some(cell) = self.x.cell(mark.x).filter(|_| !label.is_empty()) else {
+                continue;
+            };
+            let (column, width) = (inner.x + cell, cells(&label));
+            let x = column.saturating_sub(width / 2);
+            if x >= free.start && x + width <= free.end {
+                self.write(buf, x, area.y, &label, mark.style);
+                free.start = x + width + 1;
+                continue;
+            }
+            // No place above the line: beside its upper end, unless a curve passes there.
+            let beside = [Some(column + 1), column.checked_sub(width)];
+            let place = beside.into_iter().flatten().find(|&x| {
+                let spot = Rect::new(x, inner.y, width, 1);
+                let around = Rect::new(x.saturating_sub(1), inner.y, width + 2, 1);
+                inner.intersection(spot) == spot
+                    && raster.dots_in(local(spot)) == 0
+                    && legend
+                        .as_ref()
+                        .is_none_or(|(_, block)| !block.intersects(around))
+            });
+            if let Some(x) = place {
+                raster.blank(local(Rect::new(x, inner.y, width, 1)));
+                self.write(buf, x, inner.y, &label, mark.style);
+            }
+        }
+    }
+
+    /// Writes `words` from (`x`, `y`) on, no farther than the area.
+    fn write(&self, buf: &mut Buffer, x: u16, y: u16, words: &str, style: Style) {
+        let room = usize::from(self.area.right().saturating_sub(x));
+        if room > 0 && (self.area.top()..self.area.bottom()).contains(&y) {
+            buf.set_stringn(x, y, words, room, style);
+        }
+    }
+}
+
+fn glyph(buf: &mut Buffer, x: u16, y: u16, sign: char, style: Style) {
+    if let Some(cell) = buf.cell_mut((x, y)) {
+        cell.set_char(sign).set_style(style);
+    }
+}

@@ -1,0 +1,166 @@
+//! The map from values to dots.
+
+use super::axis::Scale;
+
+/// One axis laid over a number of cells: the map from values to dots.
+///
+/// Dots are counted from the left or from the bottom; dot `i` has its centre at position
+/// `i`. The bounds lie on the centres of the first and the last dot, so a value lands on
+/// the dot whose centre is nearest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Window {
+    bounds: [f64; 2],
+    scale: Scale,
+    cells: u16,
+    dots_per_cell: u16,
+}
+
+/// Positions farther out than this are brought back to it: a line to there is as steep.
+const FAR: f64 = 1e12;
+
+impl Window {
+    /// `bounds` (increasing, and positive on a log scale) over `cells` cells of
+    /// `dots_per_cell` dots.
+    pub fn new(bounds: [f64; 2], scale: Scale, cells: u16, dots_per_cell: u16) -> Self {
+        Window {
+            bounds,
+            scale,
+            cells,
+            dots_per_cell: dots_per_cell.max(1),
+        }
+    }
+
+    /// The same window with another upper end.
+    #[must_use]
+    pub fn up_to(self, end: f64) -> Self {
+        Window {
+            bounds: [self.bounds[0], end],
+            ..self
+        }
+    }
+
+    /// The values at the two ends, in the data's unit.
+    pub fn bounds(&self) -> [f64; 2] {
+        self.bounds
+    }
+
+    /// Linear or logarithmic.
+    pub fn scale(&self) -> Scale {
+        self.scale
+    }
+
+    /// The number of cells.
+    pub fn cells(&self) -> u16 {
+        self.cells
+    }
+
+    /// The number of dots.
+    pub fn dots(&self) -> usize {
+        usize::from(self.cells) * usize::from(self.dots_per_cell)
+    }
+
+    /// The position of `value` in dots, also outside the window; `None` for values that
+    /// have no place: not finite, or not positive on a log scale.
+    pub fn position(&self, value: f64) -> Option<f64> {
+        if !value.is_finite() || (self.scale == Scale::Log && value <= 0.0) {
+            return None;
+        }
+        let [lo, hi] = self.bounds.map(|v| self.transformed(v) / 2.0);
+        let share = (self.transformed(value) / 2.0 - lo) / (hi - lo);
+        let position = match self.dots() {
+            0 => return None,
+            // A lone dot stands for the whole window, not for everything outside it too.
+            1 => (share - 0.5) * 0.999,
+            dots => share * (dots - 1) as f64,
+        };
+        (!position.is_nan()).then(|| position.clamp(-FAR, FAR))
+    }
+
+    /// The dot nearest to `value`; `None` outside the window.
+    pub fn dot(&self, value: f64) -> Option<usize> {
+        let dot = self.position(value)?.round();
+        (dot >= 0.0 && dot < self.dots() as f64).then_some(dot as usize)
+    }
+
+    /// The cell that holds the dot nearest to `value`; `None` outside the window.
+    pub fn cell(&self, value: f64) -> Option<u16> {
+        let dot = self.dot(value)?;
+        Some((dot / usize::from(self.dots_per_cell)) as u16)
+    }
+
+    /// The value at a position in dots: the inverse of [`position`](Self::position).
+    pub fn value(&self, position: f64) -> f64 {
+        let [lo, hi] = self.bounds.map(|v| self.transformed(v));
+        let share = match self.dots() {
+            0 | 1 => 0.5,
+            dots => position / (dots - 1) as f64,
+        };
+        let value = lo * (1.0 - share) + hi * share;
+        match self.scale {
+            Scale::Linear => value,
+            Scale::Log => 10f64.powf(value),
+        }
+    }
+
+    /// The position in dots of the middle of cell `index`.
+    pub fn cell_middle(&self, index: u16) -> f64 {
+        let dots = f64::from(self.dots_per_cell);
+        (f64::from(index) + 0.5) * dots - 0.5
+    }
+
+    fn transformed(&self, value: f64) -> f64 {
+        match self.scale {
+            Scale::Linear => value,
+            Scale::Log => value.log10(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_land_on_the_nearest_dot() {
+        for (cells, per_cell) in [(1, 1), (1, 2), (7, 1), (40, 2), (200, 4)] {
+            let window = Window::new([-3.0, 5.0], Scale::Linear, cells, per_cell);
+            let last = (window.dots() - 1) as f64;
+            assert_eq!(window.dot(-3.0), Some(0));
+            assert_eq!(window.dot(5.0), Some(window.dots() - 1));
+            for i in 0..=1000 {
+                let value = -3.0 + 8.0 * f64::from(i) / 1000.0;
+                let exact = (value + 3.0) / 8.0 * last;
+                let dot = window.dot(value).expect("a dot") as f64;
+                assert!((dot - exact).abs() <= 0.5 + 1e-9);
+            }
+            assert_eq!(window.dot(14.0), None);
+            assert_eq!(window.dot(-12.0), None);
+        }
+    }
+
+    #[test]
+    fn values_and_positions_are_inverse() {
+        for scale in [Scale::Linear, Scale::Log] {
+            let window = Window::new([2e-3, 5e3], scale, 40, 2);
+            for position in [0.0, 0.5, 17.25, 79.0] {
+                let back = window.position(window.value(position)).expect("a place");
+                assert!((back - position).abs() < 1e-9, "{scale:?}: {back}");
+            }
+        }
+    }
+
+    #[test]
+    fn places_without_meaning() {
+        let log = Window::new([1e-3, 1e3], Scale::Log, 10, 2);
+        assert_eq!(log.position(0.0), None);
+        assert_eq!(log.position(-1.0), None);
+        assert_eq!(log.position(1.0), Some(9.5));
+        let narrow = Window::new([0.0, 1e-300], Scale::Linear, 10, 2);
+        assert_eq!(narrow.position(1e300), Some(FAR));
+        assert_eq!(narrow.position(f64::INFINITY), None);
+        assert_eq!(
+            Window::new([0.0, 1.0], Scale::Linear, 0, 2).position(0.5),
+            None
+        );
+    }
+}

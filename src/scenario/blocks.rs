@@ -1,0 +1,170 @@
+//! Load blocks: `[[blocks]]`, each so many cycles of a motion and a load of its own.
+//!
+//! The first block is the scenario's own beginning, and every later one changes keys where it begins,
+//! so blocks become the `[[changes]]` that a run knows already: the profile is carried over, and a run's
+//! `scenario.toml` holds the changes.
+
+use toml::{Table, Value};
+
+use super::check::show;
+use super::error::{Origin, ScenarioError, echo};
+use super::{schema, write};
+
+/// The tables whose keys a block may change.
+const CHANGEABLE: [&str; 3] = ["motion", "friction", "wear"];
+
+/// Puts the `[[blocks]]` of `table` in place: the keys of the first, changes for the others, and the
+/// length of all together as `run.cycles` where none is given.
+pub(super) fn expand(table: &mut Table, origin: &Origin) -> Result<(), ScenarioError> {
+    let Some(blocks) = table.remove("blocks") else {
+        return Ok(());
+    };
+    let refuse = |at: &str, value: &Value, rule: &str| Err(origin.refuse(at, &show(value), rule));
+    let list = match &blocks {
+        Value::Array(list) if !list.is_empty() => list,
+        other => {
+            let rule = "must be an array of tables, [[blocks]] with cycles and what changes";
+            return refuse("blocks", other, rule);
+        }
+    };
+    if let Some(changes) = table.get("changes") {
+        return refuse(
+            "changes",
+            changes,
+            "does not go with [[blocks]]; give either",
+        );
+    }
+    let mut changes = Vec::new();
+    let mut cycle = 0.0;
+    for (i, block) in list.iter().enumerate() {
+        let at = format!("blocks[{i}]");
+        let Some(block) = block.as_table() else {
+            return refuse(&at, block, "must be a table with cycles and what changes");
+        };
+        let given = block.get("cycles");
+        let cycles = match given {
+            Some(Value::Float(cycles)) => *cycles,
+            Some(Value::Integer(cycles)) => *cycles as f64,
+            _ => f64::NAN,
+        };
+        if !(cycles.is_finite() && cycles > 0.0) {
+            let value = given.map_or_else(|| "nothing".into(), show);
+            let rule = "must be a number of cycles greater than 0";
+            return Err(origin.refuse(&format!("{at}.cycles"), &value, rule));
+        }
+        let mut keys = Vec::new();
+        for (section, value) in block.iter().filter(|(key, _)| *key != "cycles") {
+            if !CHANGEABLE.contains(&section.as_str()) {
+                let rule = format!("a block takes cycles and keys of {}", CHANGEABLE.join(", "));
+                return refuse(&format!("{at}.{}", echo(section)), value, &rule);
+            }
+            flatten(section, value, &mut keys);
+        }
+        for (path, value) in keys {
+            if i == 0 {
+                schema::insert(table, &path, value);
+            } else {
+                let set = format!("{path} = {}", write::value(&value));
+                changes.push(Value::Table(Table::from_iter([
+                    ("at_cycle".to_owned(), Value::Float(cycle)),
+                    ("set".to_owned(), Value::String(set)),
+                ])));
+            }
+        }
+        cycle += cycles;
+    }
+    table.insert("changes".into(), Value::Array(changes));
+    if schema::at(table, "run.cycles").is_none() {
+        schema::insert(table, "run.cycles", Value::Float(cycle));
+    }
+    Ok(())
+}
+
+/// The values of a table with their dotted paths.
+fn flatten(path: &str, value: &Value, found: &mut Vec<(String, Value)>) {
+    match value {
+        Value::Table(table) => {
+            for (key, value) in table {
+                flatten(&format!("{path}.{key}"), value, found);
+            }
+        }
+        value => found.push((path.to_owned(), value.clone())),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::scenario::Scenario;
+    use crate::scenario::preset;
+
+    fn with_blocks(blocks: &str) -> Result<Scenario, String> {
+        let text = preset::find("gross-slip").expect("a preset").text;
+        let text: String = text
+            .lines()
+            .filter(|line| !line.starts_with("cycles"))
+            .map(|l| format!("{l}\n"))
+            .collect();
+        Scenario::from_toml(&format!("{text}\n{blocks}"), "mine.toml", &[])
+            .map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn blocks_are_the_beginning_and_changes_of_it() {
+        let scenario = with_blocks(
+            "[[blocks]]\ncycles = 3\nmotion.tangential.amplitude = 3e-7\n\
+             [[blocks]]\ncycles = 4.5\nmotion.normal.mean = 2e-6\nmotion.tangential.amplitude = 1e-7\n\
+             [[blocks]]\ncycles = 2\nfriction.coefficient = 0.2\n",
+        )
+        .expect("a scenario");
+        assert_eq!(
+            scenario.value("motion.tangential.amplitude").as_deref(),
+            Some("3e-7")
+        );
+        assert_eq!(scenario.run().cycles, Some(9.5));
+        let changes: Vec<(f64, &str)> = scenario
+            .changes()
+            .iter()
+            .map(|change| (change.at_cycle, change.set.as_str()))
+            .collect();
+        assert_eq!(
+            changes,
+            [
+                (3.0, "motion.normal.mean = 2e-6"),
+                (3.0, "motion.tangential.amplitude = 1e-7"),
+                (7.5, "friction.coefficient = 0.2"),
+            ]
+        );
+        let again = Scenario::from_toml(&scenario.to_toml(), "again", &[]).expect("a scenario");
+        assert!(again == scenario);
+    }
+
+    #[test]
+    fn bad_blocks_are_one_line() {
+        for (blocks, expected) in [
+            (
+                "[[blocks]]\n",
+                "blocks[0].cycles = nothing: must be a number of cycles",
+            ),
+            (
+                "[[blocks]]\ncycles = -1\n",
+                "blocks[0].cycles = -1: must be a number",
+            ),
+            ("[blocks]\ncycles = 1\n", "must be an array of tables"),
+            (
+                "[[blocks]]\ncycles = 1\nnumerics.points = 50\n",
+                "blocks[0].numerics = {...}: a block takes",
+            ),
+            (
+                "[[blocks]]\ncycles = 1\n[[blocks]]\ncycles = 1\nmotion.normal.meen = 1\n",
+                "did you mean motion.normal.mean?",
+            ),
+            (
+                "[[changes]]\nat_cycle = 1\nset = \"friction.coefficient = 0.3\"\n[[blocks]]\ncycles = 1\n",
+                "does not go with [[blocks]]",
+            ),
+        ] {
+            let refused = with_blocks(blocks).expect_err("refused");
+            assert!(refused.contains(expected), "{refused}");
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! From the keys of a scenario to what changes with use.
+
+use super::error::ScenarioError;
+use super::keys;
+use super::schema::Key;
+use super::validate::Parts;
+use crate::math::invalid::Invalid;
+use crate::simulation::running_in::{Course, Over, RunningIn};
+
+/// The keys of a coefficient that runs in.
+struct Keys {
+    section: &'static str,
+    first: Key<f64>,
+    settled: Key<f64>,
+    cycles: Key<f64>,
+    energy: Key<f64>,
+    at_cycle: Key<Vec<f64>>,
+    at_energy: Key<Vec<f64>>,
+    values: Key<Vec<f64>>,
+}
+
+const FRICTION: Keys = Keys {
+    section: "friction",
+    first: keys::FRICTION,
+    settled: keys::FRICTION_SETTLED,
+    cycles: keys::FRICTION_CYCLES,
+    energy: keys::FRICTION_ENERGY,
+    at_cycle: keys::FRICTION_AT_CYCLE,
+    at_energy: keys::FRICTION_AT_ENERGY,
+    values: keys::FRICTION_VALUES,
+};
+
+const WEAR: Keys = Keys {
+    section: "wear",
+    first: keys::WEAR_COEFFICIENT,
+    settled: keys::WEAR_SETTLED,
+    cycles: keys::WEAR_CYCLES,
+    energy: keys::WEAR_ENERGY,
+    at_cycle: keys::WEAR_AT_CYCLE,
+    at_energy: keys::WEAR_AT_ENERGY,
+    values: keys::WEAR_VALUES,
+};
+
+impl Parts<'_> {
+    /// What changes with use; none where nothing does.
+    pub(super) fn running_in(&self) -> Result<Option<RunningIn>, ScenarioError> {
+        let mut all = RunningIn {
+            friction: self.course(&FRICTION)?,
+            wear: self.course(&WEAR)?,
+            threshold: match self.has(WEAR.section) {
+                true => self.require(&keys::WEAR_THRESHOLD)?,
+                false => 0.0,
+            },
+        };
+        // Behind the threshold the coefficient is what it is without one.
+        if all.threshold > 0.0 && all.wear.is_none() {
+            let coefficient = self.require(&keys::WEAR_COEFFICIENT)?;
+            let constant = Course::table(&[0.0], &[coefficient], Over::Cycles);
+            all.wear = Some(constant.map_err(|invalid| self.refused(WEAR.section, invalid))?);
+        }
+        Ok((all != RunningIn::default()).then_some(all))
+    }
+
+    fn course(&self, keys: &Keys) -> Result<Option<Course>, ScenarioError> {
+        let table = match (self.get(&keys.at_cycle), self.get(&keys.at_energy)) {
+            (Some(at), None) => Some((at, Over::Cycles, keys.at_cycle.path())),
+            (None, Some(at)) => Some((at, Over::Energy, keys.at_energy.path())),
+            (None, None) => None,
+            (Some(_), Some(_)) => {
+                let rule = format!("does not go with {}; give either", keys.at_cycle.path());
+                return Err(self.refuse(keys.at_energy.path(), "", rule));
+            }
+        };
+        if let Some((at, over, path)) = table {
+            for key in [&keys.settled, &keys.cycles, &keys.energy] {
+                if self.has(key.path()) {
+                    let rule = "does not go with a table of the course; give either";
+                    return Err(self.refuse(key.path(), "", rule));
+                }
+            }
+            let values = self.require(&keys.values)?;
+            let course = Course::table(&at, &values, over).map_err(|invalid| {
+                let path = match invalid.field {
+                    "at" => path,
+                    _ => keys.values.path(),
+                };
+                self.refuse(path, &invalid.value, invalid.rule)
+            })?;
+            return Ok(Some(course));
+        }
+        let constant = match (self.get(&keys.cycles), self.get(&keys.energy)) {
+            (Some(cycles), None) => Some((cycles, Over::Cycles)),
+            (None, Some(energy)) => Some((energy, Over::Energy)),
+            (None, None) => None,
+            (Some(_), Some(_)) => {
+                let rule = format!("does not go with {}; give either", keys.cycles.path());
+                return Err(self.refuse(keys.energy.path(), "", rule));
+            }
+        };
+        let Some((constant, over)) = constant else {
+            return match self.has(keys.settled.path()) {
+                true => {
+                    let rule = format!("needs {} or {}", keys.cycles.path(), keys.energy.path());
+                    Err(self.refuse(keys.settled.path(), "", rule))
+                }
+                false => Ok(None),
+            };
+        };
+        let (first, settled) = (self.require(&keys.first)?, self.require(&keys.settled)?);
+        Course::exponential(first, settled, constant, over)
+            .map(Some)
+            .map_err(|invalid: Invalid| self.refused(keys.section, invalid))
+    }
+}

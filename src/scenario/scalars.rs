@@ -1,0 +1,297 @@
+//! Named scalars of a session's present moment: the columns of histories and of studies.
+//!
+//! Every name is defined once, here, so that a column means the same in every file.
+
+use std::cell::OnceCell;
+
+use crate::math::scan::largest;
+use crate::scenario::session::Session;
+use crate::simulation::{CycleFigures, Moment};
+
+/// A scalar's value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Value {
+    /// A number, in the unit that its name ends with.
+    Number(f64),
+    /// A count.
+    Count(u64),
+    /// One of a few words.
+    Word(&'static str),
+    /// Undefined at this moment.
+    Missing,
+}
+
+impl From<f64> for Value {
+    fn from(value: f64) -> Self {
+        Self::Number(value)
+    }
+}
+
+impl From<u64> for Value {
+    fn from(count: u64) -> Self {
+        Self::Count(count)
+    }
+}
+
+impl From<Option<f64>> for Value {
+    fn from(value: Option<f64>) -> Self {
+        value.map_or(Self::Missing, Self::Number)
+    }
+}
+
+impl Value {
+    /// Returns the value as a field of a CSV file: numbers in the shortest form that reads back to
+    /// the same bits, nothing where the value is missing.
+    pub fn field(self) -> String {
+        match self {
+            Self::Number(value) => number(value),
+            Self::Count(count) => count.to_string(),
+            Self::Word(word) => word.to_owned(),
+            Self::Missing => String::new(),
+        }
+    }
+}
+
+/// Returns the shortest decimal form that reads back to the same bits.
+pub fn number(value: f64) -> String {
+    let size = value.abs();
+    if value == 0.0 {
+        "0".into()
+    } else if (1e-4..1e15).contains(&size) || !value.is_finite() {
+        format!("{value}")
+    } else {
+        format!("{value:e}")
+    }
+}
+
+/// Returns a number, or an empty field where there is none.
+pub fn optional(value: Option<f64>) -> String {
+    value.map_or_else(String::new, number)
+}
+
+/// The present moment of a session, read for some scalars. What several scalars need is computed
+/// once, and the pressure only if a scalar asks for it.
+#[derive(Debug)]
+pub struct Reading<'a> {
+    session: &'a Session,
+    moment: Moment,
+    pressure: OnceCell<Vec<f64>>,
+    figures: OnceCell<Option<CycleFigures>>,
+}
+
+impl<'a> Reading<'a> {
+    /// Reads the present moment of `session`.
+    pub fn new(session: &'a Session) -> Self {
+        Self {
+            session,
+            moment: session.simulation().moment(),
+            pressure: OnceCell::new(),
+            figures: OnceCell::new(),
+        }
+    }
+
+    /// p(r), Pa: one transform the first time.
+    fn pressure(&self) -> &[f64] {
+        self.pressure
+            .get_or_init(|| self.session.simulation().pressure())
+    }
+
+    /// A figure of the last complete period; after a jump, a period is stepped for it.
+    fn figure(&self, of: fn(&CycleFigures) -> Option<f64>) -> Value {
+        self.figures().as_ref().and_then(of).into()
+    }
+
+    fn figures(&self) -> &Option<CycleFigures> {
+        self.figures
+            .get_or_init(|| self.session.simulation().cycle_figures())
+    }
+
+    fn worn(&self) -> &[f64] {
+        self.session.simulation().worn_depth()
+    }
+}
+
+/// A scalar that columns can name.
+#[derive(Debug, Clone, Copy)]
+pub struct Scalar {
+    /// The name of the column; ends with the unit, if there is one.
+    pub name: &'static str,
+    /// What it is, in one line.
+    pub meaning: &'static str,
+    read: fn(&Reading) -> Value,
+}
+
+impl Scalar {
+    /// Returns its value.
+    pub fn read(&self, reading: &Reading) -> Value {
+        (self.read)(reading)
+    }
+}
+
+/// Two scalars are equal if they have the same name.
+impl PartialEq for Scalar {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+/// Finds a scalar by its name.
+pub fn find(name: &str) -> Option<&'static Scalar> {
+    SCALARS.iter().find(|scalar| scalar.name == name)
+}
+
+const fn scalar(name: &'static str, meaning: &'static str, read: fn(&Reading) -> Value) -> Scalar {
+    Scalar {
+        name,
+        meaning,
+        read,
+    }
+}
+
+/// All scalars; those of `history.csv` stand first, in the order of its columns.
+pub const SCALARS: &[Scalar] = &[
+    scalar("cycle", "cycles since the start", |r| r.moment.cycle.into()),
+    scalar("time_s", "time", |r| r.moment.time.into()),
+    scalar("u_z_m", "indentation depth d", |r| r.moment.depth.into()),
+    scalar("u_x_m", "tangential displacement", |r| {
+        r.moment.shift.into()
+    }),
+    scalar("F_z_N", "normal force", |r| r.moment.normal_force.into()),
+    scalar("F_x_N", "tangential force", |r| {
+        r.moment.tangential_force.into()
+    }),
+    scalar("contact_radius_m", "contact radius a", |r| {
+        r.moment.contact_radius.into()
+    }),
+    scalar("stick_radius_m", "stick radius c at this moment", |r| {
+        r.moment.stick_radius.into()
+    }),
+    scalar(
+        "permanent_stick_radius_m",
+        "smallest stick radius of the last period",
+        |r| r.moment.permanent_stick_radius.into(),
+    ),
+    scalar("wear_volume_m3", "worn volume V", |r| {
+        r.moment.wear_volume.into()
+    }),
+    scalar("dissipated_energy_J", "work of friction E_d", |r| {
+        r.moment.dissipated_energy.into()
+    }),
+    scalar("energy_residual", "1 - V/(k E_d)", |r| {
+        r.moment.energy_residual.into()
+    }),
+    scalar("max_pressure_Pa", "largest pressure", |r| {
+        largest(r.pressure()).into()
+    }),
+    scalar(
+        "period_energy_residual",
+        "1 - V/(k E_d) of the last period",
+        |r| r.moment.period_residual.into(),
+    ),
+    scalar("force_residual", "1 - (integral of p)/F_z", |r| {
+        let simulation = r.session.simulation();
+        simulation.force_residual(r.pressure()).into()
+    }),
+    scalar("steps", "steps taken", |r| {
+        r.session.simulation().steps().into()
+    }),
+    scalar("transforms", "transforms computed", |r| {
+        r.session.simulation().stats().transforms.into()
+    }),
+    scalar("evaluated_cycles", "cycles evaluated for jumps", |r| {
+        r.session.simulation().stats().evaluated_cycles.into()
+    }),
+    scalar("rejected_jumps", "jumps rejected for their error", |r| {
+        r.session.simulation().stats().rejected_jumps.into()
+    }),
+    scalar(
+        "stability_margin",
+        "largest stable stiffness over that of the last step",
+        |r| r.moment.stability_margin.into(),
+    ),
+    scalar("parts", "sub-steps of stiff steps", |r| {
+        r.session.simulation().stats().parts.into()
+    }),
+    scalar("energy_per_cycle_J", "work of friction of a cycle", |r| {
+        r.figure(|figures| Some(figures.energy))
+    }),
+    scalar("force_ratio", "Q*/(mu P)", |r| {
+        r.figure(|figures| figures.force_ratio)
+    }),
+    scalar("slip_ratio", "1 - Q*/(2 G* a U)", |r| {
+        r.figure(|figures| figures.slip_ratio)
+    }),
+    scalar("sliding_ratio", "D = delta_0/U", |r| {
+        r.figure(|figures| figures.sliding_ratio)
+    }),
+    scalar("energy_ratio", "A = E_d/(4 Q* U)", |r| {
+        r.figure(|figures| figures.energy_ratio)
+    }),
+    scalar("energy_ratio_B", "B = E_d/(4 Q* delta_0)", |r| {
+        r.figure(|figures| figures.energy_ratio_b)
+    }),
+    scalar("regime", "stick, partial, gross or open", |r| {
+        let regime = r.figures().map(|figures| figures.regime.name());
+        regime.map_or(Value::Missing, Value::Word)
+    }),
+    scalar("wear_per_energy_m3_per_J", "V/E_d", |r| {
+        r.moment.wear_per_energy().into()
+    }),
+    scalar(
+        "rig_displacement_m",
+        "displacement of the rig's actuator",
+        |r| r.moment.rig_displacement.into(),
+    ),
+    scalar("F_x_amplitude_N", "half the range of F_x in a cycle", |r| {
+        r.figure(|figures| Some(figures.force_amplitude))
+    }),
+    scalar("u_x_amplitude_m", "half the range of u_x in a cycle", |r| {
+        r.figure(|figures| Some(figures.displacement_amplitude))
+    }),
+    scalar("mean_F_z_N", "mean normal force of a cycle", |r| {
+        r.figure(|figures| Some(figures.normal_force))
+    }),
+    scalar("scar_depth_m", "largest worn depth", |r| {
+        largest(r.worn()).into()
+    }),
+    scalar("scar_radius_m", "outer radius of the wear scar", |r| {
+        scar_radius(r).into()
+    }),
+    scalar(
+        "estimated_error",
+        "estimated error of the worn depth, rms over the scar, relative to its largest value",
+        |r| {
+            let mut stated = r.session.statements().iter();
+            let error = stated.find(|(key, _)| key == "estimated_error");
+            error.and_then(|(_, value)| value.parse().ok()).into()
+        },
+    ),
+];
+
+/// The outermost radius (m) at which the worn depth is at least a thousandth of the largest one.
+fn scar_radius(reading: &Reading) -> Option<f64> {
+    let worn = reading.worn();
+    let edge = 1e-3 * largest(worn);
+    let outermost = worn.iter().rposition(|&worn| worn >= edge && worn > 0.0)?;
+    let nodes = reading.session.simulation().setup().grid.nodes();
+    let Some(next) = nodes.get(outermost + 1) else {
+        return Some(nodes[outermost]);
+    };
+    // Between this node and the next the depth falls through the edge.
+    let share = (worn[outermost] - edge) / (worn[outermost] - worn[outermost + 1]);
+    Some(nodes[outermost] + share * (next - nodes[outermost]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_scalar_stands_once_and_says_what_it_is() {
+        for (at, scalar) in SCALARS.iter().enumerate() {
+            assert!(!scalar.meaning.is_empty(), "{}", scalar.name);
+            assert!(!SCALARS[..at].contains(scalar), "{} twice", scalar.name);
+            assert_eq!(find(scalar.name), Some(scalar));
+        }
+    }
+}

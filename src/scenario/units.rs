@@ -1,0 +1,452 @@
+//! Numbers with their units, as people write them: `radius = "10 mm"`, `phase = "45°"`.
+//!
+//! A text is a number and a unit made of known ones by `·`, `*`, `/`, powers and parentheses, with SI
+//! prefixes: `230.8 GPa`, `0.13 mm³/(N·m)`, `1.3e8 um^3/J`. It is taken where its dimension is that
+//! of the key. Powers of ten are put into the exponent of the number before it is read, so that
+//! `"10 mm"` is the same float as `0.01`. One hertz is 2π rad/s.
+
+use std::f64::consts::{PI, TAU};
+
+use toml::{Table, Value};
+
+use super::error::{Origin, ScenarioError, echo};
+use super::keys::PRESCRIBED;
+use super::schema::{self, Kind};
+use super::write;
+
+/// Powers of metre, kilogram, second and radian.
+type Dimension = [i32; 4];
+
+/// A product of units: its worth in SI units is `factor`·10^`exponent`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Unit {
+    dimension: Dimension,
+    exponent: i32,
+    factor: f64,
+}
+
+const fn unit(dimension: Dimension, exponent: i32, factor: f64) -> Unit {
+    Unit {
+        dimension,
+        exponent,
+        factor,
+    }
+}
+
+/// Units by symbol, and whether they take a prefix.
+const UNITS: &[(&str, Unit, bool)] = &[
+    ("1", unit([0, 0, 0, 0], 0, 1.0), false),
+    ("m", unit([1, 0, 0, 0], 0, 1.0), true),
+    ("g", unit([0, 1, 0, 0], -3, 1.0), true),
+    ("s", unit([0, 0, 1, 0], 0, 1.0), true),
+    ("min", unit([0, 0, 1, 0], 1, 6.0), false),
+    ("h", unit([0, 0, 1, 0], 2, 36.0), false),
+    ("rad", unit([0, 0, 0, 1], 0, 1.0), true),
+    ("deg", unit([0, 0, 0, 1], 0, PI / 180.0), false),
+    ("°", unit([0, 0, 0, 1], 0, PI / 180.0), false),
+    ("Hz", unit([0, 0, -1, 1], 0, TAU), true),
+    ("N", unit([1, 1, -2, 0], 0, 1.0), true),
+    ("Pa", unit([-1, 1, -2, 0], 0, 1.0), true),
+    ("J", unit([2, 1, -2, 0], 0, 1.0), true),
+    ("W", unit([2, 1, -3, 0], 0, 1.0), true),
+];
+
+/// Prefixes and their powers of ten.
+const PREFIXES: &[(&str, i32)] = &[
+    ("p", -12),
+    ("n", -9),
+    ("µ", -6),
+    ("μ", -6),
+    ("u", -6),
+    ("m", -3),
+    ("c", -2),
+    ("k", 3),
+    ("M", 6),
+    ("G", 9),
+];
+
+impl Unit {
+    fn named(symbol: &str) -> Option<Self> {
+        let known = |symbol: &str| UNITS.iter().find(|(name, ..)| *name == symbol);
+        if let Some((_, unit, _)) = known(symbol) {
+            return Some(*unit);
+        }
+        PREFIXES.iter().find_map(|(prefix, power)| {
+            let (_, unit, _) = known(symbol.strip_prefix(prefix)?).filter(|known| known.2)?;
+            Some(Self {
+                exponent: unit.exponent + power,
+                ..*unit
+            })
+        })
+    }
+
+    fn power(self, power: i32) -> Self {
+        Self {
+            dimension: self.dimension.map(|of| of * power),
+            exponent: self.exponent * power,
+            factor: self.factor.powi(power),
+        }
+    }
+
+    fn times(self, other: Self) -> Self {
+        let mut dimension = self.dimension;
+        for (mine, theirs) in dimension.iter_mut().zip(other.dimension) {
+            *mine += theirs;
+        }
+        Self {
+            dimension,
+            exponent: self.exponent + other.exponent,
+            factor: self.factor * other.factor,
+        }
+    }
+
+    /// Reads a whole unit; none if it is not one.
+    fn read(text: &str) -> Option<Self> {
+        let mut rest = text.trim();
+        let unit = product(&mut rest)?;
+        rest.is_empty().then_some(unit)
+    }
+}
+
+/// Factors up to the end or to a closing parenthesis; `/` holds for the next factor alone.
+fn product(rest: &mut &str) -> Option<Unit> {
+    let mut unit = factor(rest)?;
+    loop {
+        *rest = rest.trim_start();
+        let power = match rest.chars().next() {
+            None | Some(')') => return Some(unit),
+            Some('/') => -1,
+            Some('·' | '*' | '⋅') => 1,
+            Some(_) => return None,
+        };
+        *rest = rest[rest.chars().next()?.len_utf8()..].trim_start();
+        unit = unit.times(factor(rest)?.power(power));
+    }
+}
+
+fn factor(rest: &mut &str) -> Option<Unit> {
+    if let Some(inside) = rest.strip_prefix('(') {
+        *rest = inside;
+        let unit = product(rest)?;
+        *rest = rest.strip_prefix(')')?;
+        return Some(unit.power(power(rest)?));
+    }
+    if let Some(after) = rest.strip_prefix('1') {
+        *rest = after;
+        return Unit::named("1");
+    }
+    let end = rest
+        .find(|c: char| !(c.is_alphabetic() || c == '°'))
+        .unwrap_or(rest.len());
+    let unit = Unit::named(&rest[..end])?;
+    *rest = &rest[end..];
+    Some(unit.power(power(rest)?))
+}
+
+/// The power behind a symbol: `³`, `^3`, `3`, `⁻¹`, `^-1`; 1 where there is none.
+fn power(rest: &mut &str) -> Option<i32> {
+    const RAISED: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+    let plain = rest.strip_prefix('^').unwrap_or(rest);
+    let mut digits = String::new();
+    let mut length = 0;
+    for c in plain.chars() {
+        let digit = match c {
+            '-' | '⁻' if digits.is_empty() => '-',
+            '0'..='9' => c,
+            raised => match RAISED.chars().position(|of| of == raised) {
+                Some(digit) => char::from_digit(digit as u32, 10)?,
+                None => break,
+            },
+        };
+        digits.push(digit);
+        length += c.len_utf8();
+    }
+    if digits.is_empty() {
+        return (plain.len() == rest.len()).then_some(1);
+    }
+    *rest = &plain[length..];
+    digits.parse().ok().filter(|power: &i32| power.abs() <= 9)
+}
+
+/// The number at the beginning of a text, as mantissa and exponent, and what follows it.
+fn number(text: &str) -> Option<(&str, i32, &str)> {
+    let digits =
+        |text: &str| text.len() - text.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+    let sign = usize::from(text.starts_with(['+', '-']));
+    let whole = sign + digits(&text[sign..]);
+    let fraction = match text[whole..].strip_prefix('.') {
+        Some(after) => 1 + digits(after),
+        None => 0,
+    };
+    let end = whole + fraction;
+    if !text[..end].contains(|c: char| c.is_ascii_digit()) {
+        return None;
+    }
+    let (mantissa, rest) = text.split_at(end);
+    if let Some(after) = rest.strip_prefix(['e', 'E']) {
+        let sign = usize::from(after.starts_with(['+', '-']));
+        let end = sign + digits(&after[sign..]);
+        if end > sign {
+            return Some((mantissa, after[..end].parse().ok()?, &after[end..]));
+        }
+    }
+    Some((mantissa, 0, rest))
+}
+
+/// The number that `text` stands for in `unit`: none if the text is no number with a unit, an error if
+/// its unit is unknown or of another dimension.
+fn in_unit(text: &str, unit: &str) -> Option<Result<f64, String>> {
+    let text = text.trim();
+    let (mantissa, exponent, given) = number(text)?;
+    let given = given.trim();
+    let due = Unit::read(unit)?;
+    if given.is_empty() {
+        return None;
+    }
+    let example = example(unit);
+    let Some(found) = Unit::read(given) else {
+        return Some(Err(format!(
+            "{} is no unit; write a number in {unit}, or a text such as {example}",
+            echo(given)
+        )));
+    };
+    if found.dimension != due.dimension {
+        return Some(Err(format!(
+            "must be in {unit} or a multiple of it, such as {example}; {} is of another kind",
+            echo(given)
+        )));
+    }
+    let power = exponent + found.exponent - due.exponent;
+    let value = format!("{mantissa}e{power}").parse::<f64>().ok()?;
+    Some(Ok(value * (found.factor / due.factor)))
+}
+
+/// How a value of a unit may be written.
+fn example(unit: &str) -> &'static str {
+    match unit {
+        "m" => "\"10 mm\"",
+        "N" => "\"5 mN\"",
+        "rad" => "\"45 deg\"",
+        "rad/s" => "\"50 Hz\"",
+        "Pa" => "\"210 GPa\"",
+        "1/Pa" => "\"0.13 mm^3/(N*m)\"",
+        "m/s" => "\"10 um/s\"",
+        _ => "\"10 mm\" for a length",
+    }
+}
+
+/// Replaces every text that is a number with a unit by the number in the unit of its key.
+pub(super) fn to_si(table: &mut Table, origin: &Origin) -> Result<(), ScenarioError> {
+    section(table, "", origin)
+}
+
+fn section(table: &mut Table, path: &str, origin: &Origin) -> Result<(), ScenarioError> {
+    let is_force = table.get("control").and_then(Value::as_str) == Some("force");
+    for (key, value) in table.iter_mut() {
+        let path = if path.is_empty() {
+            key.to_owned()
+        } else {
+            format!("{path}.{key}")
+        };
+        let known = schema::find(&path).filter(|known| known.kind == Kind::Number);
+        match (&mut *value, known) {
+            (Value::Table(inner), _) => section(inner, &path, origin)?,
+            (Value::String(text), Some(known)) => {
+                let unit = match known.unit {
+                    unit if unit != PRESCRIBED => unit,
+                    _ if is_force => "N",
+                    _ => "m",
+                };
+                let written = write::value(&Value::String(text.clone()));
+                match in_unit(text, unit) {
+                    Some(Ok(number)) => *value = Value::Float(number),
+                    Some(Err(rule)) => return Err(origin.refuse(&path, &echo(&written), rule)),
+                    None => {}
+                }
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+/// Significant digits that a reading shows at most.
+const DIGITS: usize = 7;
+
+/// A value (in `unit`) as an engineer reads it: the number, and the unit it is in, which a scenario
+/// takes back: `230.77 GPa`, `1 µm`, `45 deg`, `50 Hz`, `0.13 mm³/(N·m)`.
+pub fn reading(value: f64, unit: &str, ascii: bool) -> (String, String) {
+    let spelled = |text: &str| {
+        if ascii {
+            let plain = text.replace('µ', "u").replace('³', "^3").replace('·', "*");
+            plain.replace('°', "deg")
+        } else {
+            text.to_owned()
+        }
+    };
+    let shown = match unit {
+        "rad" => Some((value * 180.0 / PI, "°".to_owned())),
+        "rad/s" => Some((value / TAU, "Hz".to_owned())),
+        // 1/Pa = m³/(N·m).
+        "1/Pa" => Some((value * 1e9, "mm³/(N·m)".to_owned())),
+        "m" | "N" | "Pa" | "J" | "N/m" | "m/s" => prefixed(value, unit),
+        _ => None,
+    };
+    let (number, unit) = shown.unwrap_or_else(|| (value, unit.to_owned()));
+    (plain(number), spelled(&unit))
+}
+
+fn prefixed(value: f64, unit: &str) -> Option<(f64, String)> {
+    let size = value.abs() * (1.0 + 1e-12);
+    let all = [
+        ("p", 1e-12),
+        ("n", 1e-9),
+        ("µ", 1e-6),
+        ("m", 1e-3),
+        ("", 1.0),
+        ("k", 1e3),
+        ("M", 1e6),
+        ("G", 1e9),
+    ];
+    let fits = |&(_, worth): &(&str, f64)| size >= worth && size < 1e3 * worth;
+    let (prefix, worth) = all.into_iter().find(fits)?;
+    Some((value / worth, format!("{prefix}{unit}")))
+}
+
+/// A number in a few digits, without trailing zeros.
+fn plain(number: f64) -> String {
+    let rounded = format!("{number:.*e}", DIGITS - 1)
+        .parse::<f64>()
+        .unwrap_or(number);
+    let size = rounded.abs();
+    if rounded == 0.0 {
+        "0".to_owned()
+    } else if (1e-3..1e6).contains(&size) {
+        format!("{rounded}")
+    } else {
+        format!("{rounded:e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::Scenario;
+
+    #[test]
+    fn texts_are_the_same_floats_as_numbers() {
+        for (text, unit, expected) in [
+            ("10 mm", "m", 0.01),
+            ("10mm", "m", 0.01),
+            ("1 µm", "m", 1e-6),
+            ("0.1um", "m", 1e-7),
+            ("230.77 GPa", "Pa", 2.3077e11),
+            ("2.3077e5 MPa", "Pa", 2.3077e11),
+            ("210e3 N/mm^2", "Pa", 2.1e11),
+            ("-5 mN", "N", -5e-3),
+            ("45 deg", "rad", std::f64::consts::FRAC_PI_4),
+            ("45°", "rad", std::f64::consts::FRAC_PI_4),
+            ("1 Hz", "rad/s", TAU),
+            ("0.1 krad/s", "rad/s", 100.0),
+            ("0.13 mm³/(N·m)", "1/Pa", 1.3e-10),
+            ("0.13 mm^3/N/m", "1/Pa", 1.3e-10),
+            ("1.3e8 µm³/J", "1/Pa", 1.3e-10),
+            ("1.3e-10 1/Pa", "1/Pa", 1.3e-10),
+            ("1.3e-10 Pa⁻¹", "1/Pa", 1.3e-10),
+            ("0.13 1/GPa", "1/Pa", 1.3e-10),
+            ("10 um/s", "m/s", 1e-5),
+            ("2 N/µm", "N/m", 2e6),
+        ] {
+            assert_eq!(in_unit(text, unit), Some(Ok(expected)), "{text}");
+        }
+    }
+
+    #[test]
+    fn other_units_and_what_is_none_are_refused() {
+        for (text, unit) in [
+            ("10 mn", "m"),
+            ("10 N", "m"),
+            ("10 mm²", "m"),
+            ("5 rad", "rad/s"),
+            ("5 1/s", "rad/s"),
+            ("10 mm)", "m"),
+            ("10 (mm", "m"),
+            ("10 mm/", "m"),
+            ("10 mm^", "m"),
+            ("1 mm^99", "m"),
+        ] {
+            let answer = in_unit(text, unit);
+            assert!(matches!(answer, Some(Err(_))), "{text}: {answer:?}");
+        }
+        // No number with a unit: the check of all keys has its own word.
+        for text in ["ten mm", "", "10", "mm", "nan m"] {
+            assert_eq!(in_unit(text, "m"), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn readings_are_read_back() {
+        for (value, unit, shown) in [
+            (2.3077e11, "Pa", "230.77 GPa"),
+            (1e-6, "m", "1 µm"),
+            (0.01, "m", "10 mm"),
+            (std::f64::consts::FRAC_PI_4, "rad", "45 °"),
+            (1.3e-10, "1/Pa", "0.13 mm³/(N·m)"),
+            (TAU * 50.0, "rad/s", "50 Hz"),
+            (0.3, "", "0.3"),
+            (0.0, "m", "0 m"),
+            (5e-15, "m", "5e-15 m"),
+        ] {
+            let (number, of) = reading(value, unit, false);
+            assert_eq!(format!("{number} {of}").trim_end(), shown);
+            for ascii in [true, false] {
+                let (number, of) = reading(value, unit, ascii);
+                assert!(!ascii || of.is_ascii());
+                if let Some(read) = in_unit(&format!("{number} {of}"), unit) {
+                    let read = read.expect("a unit");
+                    assert!(
+                        (read - value).abs() <= 1e-6 * value.abs(),
+                        "{shown}: {read}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn scenarios_take_units_and_keep_exact_numbers() {
+        let sets = [
+            "indenter.radius=10 mm",
+            "indenter.radius=\"10 mm\"",
+            "indenter.radius=0.01",
+        ];
+        let loaded =
+            sets.map(|set| Scenario::load("li2019-fig3", &[set.into()]).expect("a scenario"));
+        assert!(loaded.iter().all(|scenario| *scenario == loaded[0]));
+        assert!(loaded[0].to_toml().contains("radius = 0.01"));
+        let force = Scenario::load(
+            "li2019-fig3",
+            &[
+                "motion.normal.control=force".into(),
+                "motion.normal.mean=20 N".into(),
+                "motion.normal.amplitude=0 N".into(),
+            ],
+        )
+        .expect("a scenario");
+        assert_eq!(force.value("motion.normal.mean").as_deref(), Some("20.0"));
+        for (set, word) in [
+            ("motion.normal.mean=20 N", "of another kind"),
+            ("indenter.radius=10 mn", "mn is no unit"),
+            ("wear.coefficient=1 mm", "1/Pa"),
+            ("friction.coefficient=0.1 m", "finite number"),
+        ] {
+            let error = Scenario::load("li2019-fig3", &[set.into()]).expect_err(set);
+            let said = error.to_string();
+            assert!(
+                said.contains(word) && said.contains(set.split('=').next().unwrap_or("")),
+                "{said}"
+            );
+            assert!(!said.contains('\n'));
+        }
+    }
+}

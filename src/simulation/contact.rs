@@ -1,0 +1,282 @@
+//! Springs: from the 1D profile g and the springs' memory to loads and displacements.
+
+use serde::{Deserialize, Serialize};
+
+use super::breakdown::Cause;
+use super::choices::Scheme;
+use super::drive::Target;
+use super::model::Model;
+use crate::contact::normal::{self, NormalContact};
+use crate::contact::tangential::{self, Motion, SlipInput, SpringState};
+use crate::math::abel::field::{End, Field};
+use crate::math::root;
+use crate::math::scan::largest;
+
+/// A solved contact: all that the springs are and carry at one moment.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Contact {
+    /// Depth d = u_z, m.
+    pub depth: f64,
+    /// Tangential displacement of the indenter u_x⁽⁰⁾, m.
+    pub shift: f64,
+    /// The edge of the contact and its largest load.
+    pub normal: NormalContact,
+    /// The stick radius, m; none without tangential motion.
+    pub stick_radius: Option<f64>,
+    /// q_z, N/m.
+    pub load: Field,
+    /// u_x of the tangential springs, m; empty without tangential motion.
+    pub spring: Field,
+    /// What each tangential spring did in the last step; empty without tangential motion.
+    pub spring_state: Vec<SpringState>,
+}
+
+impl Contact {
+    /// An unloaded contact with so many nodes and tangential springs.
+    pub(super) fn new(nodes: usize, springs: usize) -> Self {
+        Self {
+            load: Field::zeros(nodes),
+            spring: Field::zeros(springs),
+            spring_state: vec![SpringState::Stick; springs],
+            ..Self::default()
+        }
+    }
+
+    /// Where a load on it ends, `values` being that load.
+    pub(super) fn end(&self, model: &Model, values: &[f64]) -> End {
+        let radius = self.normal.radius;
+        End {
+            cusp: model.foundation.cusp(values, radius),
+            radius,
+            nodes: self.normal.nodes,
+        }
+    }
+
+    /// F_z, N.
+    pub(super) fn normal_force(&self, model: &Model) -> f64 {
+        let edge = self.normal.edge();
+        model.foundation.force(&self.load, edge)
+    }
+
+    /// F_x, N; 0 without tangential motion.
+    pub(super) fn tangential_force(&self, model: &Model) -> f64 {
+        if self.spring.nodal.is_empty() {
+            return 0.0;
+        }
+        let edge = self.normal.edge();
+        model.setup.material.tangential_modulus() * model.foundation.force(&self.spring, edge)
+    }
+
+    /// u_x(r), m, of the surface by Eq. (2).
+    pub(super) fn surface_displacement(&self, model: &Model, out: &mut [f64]) {
+        self.spring.displacement(&model.plan, &model.grid, out);
+    }
+
+    /// u_z(r), m, of the surface by Eq. (2), downwards.
+    pub(super) fn depression(&self, model: &Model, out: &mut [f64]) {
+        self.load.displacement(&model.plan, &model.grid, out);
+        let modulus = model.setup.material.normal_modulus();
+        for depth in out {
+            *depth /= modulus;
+        }
+    }
+}
+
+/// Presses and shifts the indenter to what the drive asks for at `cycle`, on the 1D profile `g` (m), from where
+/// the springs stood `before`. Writes the contact `after`, and how far each tangential spring slips, m.
+pub(super) fn solve(
+    model: &Model,
+    g: &[f64],
+    before: &Contact,
+    cycle: f64,
+    after: &mut Contact,
+    slip: &mut [f64],
+) -> Result<(), Cause> {
+    press_at(model, g, cycle, after)?;
+    after.shift = before.shift;
+    let increment = match model.setup.drive.tangential_at(cycle) {
+        None => return Ok(()),
+        Some(Target::Displacement(target)) if model.setup.drive.rig_compliance() > 0.0 => {
+            increment_on_rig(model, g, before, after, slip, target)?
+        }
+        Some(Target::Displacement(target)) => target - before.shift,
+        Some(Target::Force(target)) => increment_for_force(model, g, before, after, slip, target)?,
+    };
+    shift_by(model, g, before, after, slip, increment);
+    after.shift = match model.setup.drive.tangential_at(cycle) {
+        Some(Target::Displacement(target)) if model.setup.drive.rig_compliance() == 0.0 => target,
+        _ => before.shift + increment,
+    };
+    Ok(())
+}
+
+/// Presses the indenter to what the drive asks for at `cycle` on the 1D profile `g` (m). The tangential springs
+/// stay as they are.
+pub(super) fn press_at(
+    model: &Model,
+    g: &[f64],
+    cycle: f64,
+    contact: &mut Contact,
+) -> Result<(), Cause> {
+    let setup = &model.setup;
+    let depth = depth_at(model, g, cycle, contact)?;
+    let modulus = setup.material.normal_modulus();
+    let normal = normal::press(&model.foundation, g, depth, modulus, &mut contact.load);
+    if !model.foundation.most_force(normal.strongest).is_finite() {
+        if g.iter().all(|g| g.is_finite()) {
+            return Err(Cause::Overflow { depth });
+        }
+        return Err(Cause::NotFinite {
+            quantity: "normal force",
+            method: setup.method,
+            stability: setup.stability,
+        });
+    }
+    let last = setup.grid.cells();
+    let at_end = contact.load.nodal[last];
+    if setup.indenter.rim().is_none() && normal.nodes > last && at_end > 1e-9 * modulus * depth {
+        let radius = setup.grid.radius();
+        // Wear only lowers the surface: where f₀ exceeds the depth, nothing ever touches.
+        return Err(if model.unworn[last] >= depth * (1.0 - 1e-9) {
+            Cause::BlownUp {
+                radius,
+                method: setup.method,
+                stability: setup.stability,
+            }
+        } else {
+            Cause::EdgeReached {
+                domain_radius: radius,
+            }
+        });
+    }
+    contact.depth = depth;
+    contact.normal = normal;
+    Ok(())
+}
+
+/// The depth, m: prescribed, or the one that carries the prescribed force.
+fn depth_at(model: &Model, g: &[f64], cycle: f64, contact: &mut Contact) -> Result<f64, Cause> {
+    let setup = &model.setup;
+    let force = match setup.drive.normal_at(cycle) {
+        Target::Displacement(depth) => return Ok(depth),
+        Target::Force(force) => force,
+    };
+    let modulus = setup.material.normal_modulus();
+    let deepest = match setup.indenter.rim() {
+        // A punch carries any load; its springs yield at most what the load needs.
+        Some(rim) => largest(g) + 2.0 * (force / (2.0 * modulus * rim)).abs(),
+        None => g[setup.grid.cells()],
+    };
+    let load = &mut contact.load;
+    normal::depth_for_load(&model.foundation, g, force, modulus, deepest, load).ok_or(
+        Cause::LoadTooLarge {
+            force,
+            domain_radius: setup.grid.radius(),
+        },
+    )
+}
+
+/// Moves the tangential springs by `increment` (m) from where they stood `before`.
+fn shift_by(
+    model: &Model,
+    g: &[f64],
+    before: &Contact,
+    after: &mut Contact,
+    slip: &mut [f64],
+    increment: f64,
+) {
+    let material = &model.setup.material;
+    let input = SlipInput {
+        foundation: &model.foundation,
+        normal_load: &after.load.nodal,
+        strongest: after.normal.strongest,
+        edge: after.normal.edge(),
+        reach: material.friction() / material.tangential_modulus(),
+    };
+    let motion = Motion {
+        before: &before.spring.nodal,
+        states: &before.spring_state,
+    };
+    let (spring, states) = (&mut after.spring, &mut after.spring_state);
+    tangential::slide(
+        input,
+        increment,
+        motion.before,
+        &mut spring.nodal,
+        slip,
+        states,
+    );
+    // The published scheme is of first order anyway, and stays as it was published.
+    if model.setup.scheme == Scheme::Trapezoid {
+        let depths = [before.depth, after.depth];
+        let springs = (&mut spring.nodal[..], &mut *slip, &mut states[..]);
+        tangential::take_along_late(input, increment, depths, g, motion.states, springs);
+    }
+    after.stick_radius = Some(tangential::borders(input, motion, spring, states));
+}
+
+/// The increment of displacement (m) that a rig leaves to the contact where its actuator stands at
+/// `target` (m): u + C F_x(u) = U. F_x rises with u and never exceeds μF_z, which brackets the root.
+fn increment_on_rig(
+    model: &Model,
+    g: &[f64],
+    before: &Contact,
+    after: &mut Contact,
+    slip: &mut [f64],
+    target: f64,
+) -> Result<f64, Cause> {
+    let setup = &model.setup;
+    let compliance = setup.drive.rig_compliance();
+    let limit = setup.material.friction() * after.normal_force(model);
+    let (wanted, span) = (target - before.shift, 1.1 * compliance * limit);
+    if span == 0.0 {
+        return Ok(wanted);
+    }
+    root::bracketed(
+        |increment| {
+            shift_by(model, g, before, after, slip, increment);
+            (increment - wanted + compliance * after.tangential_force(model)) / span
+        },
+        wanted - span,
+        wanted + span,
+        1e-15 * (span + target.abs()),
+    )
+    .ok_or(Cause::NotFinite {
+        quantity: "tangential force",
+        method: setup.method,
+        stability: setup.stability,
+    })
+}
+
+/// The increment of displacement (m) that brings the tangential force to `target` (N).
+fn increment_for_force(
+    model: &Model,
+    g: &[f64],
+    before: &Contact,
+    after: &mut Contact,
+    slip: &mut [f64],
+    target: f64,
+) -> Result<f64, Cause> {
+    let material = &model.setup.material;
+    let limit = material.friction() * after.normal_force(model);
+    let exceeded = Cause::FrictionExceeded {
+        force: target,
+        limit,
+    };
+    if target.abs() >= limit {
+        return Err(exceeded);
+    }
+    // Twice the largest strain a spring can hold turns every spring over.
+    let reach = material.friction() / material.tangential_modulus();
+    let span = 2.0 * after.normal.strongest * reach;
+    root::bracketed(
+        |increment| {
+            shift_by(model, g, before, after, slip, increment);
+            (after.tangential_force(model) - target) / limit
+        },
+        -span,
+        span,
+        1e-15 * span,
+    )
+    .ok_or(exceeded)
+}

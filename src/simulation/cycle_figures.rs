@@ -1,0 +1,267 @@
+//! What a fretting test reports of a cycle: energy, force and slip ratios, and the running condition.
+//!
+//! The figures describe the last complete period of the motion. Each step adds its end to a
+//! [`LoopTally`]; where the period closes, the tally becomes [`CycleFigures`].
+//!
+//! # Formulas
+//!
+//! With the amplitudes U of u_x⁽⁰⁾, or of the actuator where a rig of finite stiffness moves the
+//! contact, and Q* of F_x, the mean P of F_z and the displacement δ₀ that is
+//! left where F_x passes through zero, of one cycle:
+//!
+//! | figure | formula | 0 | gross slip |
+//! |---|---|---|---|
+//! | force ratio | Q*/(μP) | no tangential force | 1 |
+//! | slip ratio | 1 − Q*/(2 G* a U) | full stick | towards 1 |
+//! | sliding ratio D | δ₀/U | full stick | 0.26 at the border (sphere) |
+//! | energy ratio A | E_d/(4 Q* U) | full stick | 0.2 at the border (sphere) |
+//! | energy ratio B | E_d/(4 Q* δ₀) | | 0.77 at the border (sphere) |
+//!
+//! 2G*a is the tangential stiffness of the contact, so the slip ratio is the mean slip of its springs
+//! in units of U. A, B and D: S. Fouvry, P. Kapsa, L. Vincent (1995), Wear 185, 35–46.
+
+use serde::{Deserialize, Serialize};
+
+use super::choices::Integrator;
+use super::model::Model;
+use super::{Setup, Simulation, State, cycles_to_settle};
+
+/// Below this energy ratio A the loop is a line to any test rig: the contact counts as sticking. A
+/// sphere in partial slip passes it near U = 0.06 of the amplitude of gross slip.
+const CLOSED_LOOP: f64 = 0.005;
+
+/// The running condition of a cycle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Regime {
+    /// Full stick: the loop is closed (A < 0.005).
+    Stick,
+    /// Partial slip: some of the contact never slips.
+    Partial,
+    /// Gross slip: nothing sticks through the whole cycle.
+    Gross,
+    /// The contact opens during a part of the cycle.
+    Open,
+}
+
+impl Regime {
+    /// The name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Stick => "stick",
+            Self::Partial => "partial",
+            Self::Gross => "gross",
+            Self::Open => "open",
+        }
+    }
+
+    /// The name on screens.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Stick => "full stick",
+            Self::Partial => "partial slip",
+            Self::Gross => "gross slip",
+            Self::Open => "lift-off",
+        }
+    }
+}
+
+/// The figures of one cycle; a ratio is none where its denominator vanishes.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct CycleFigures {
+    /// Dissipated energy per cycle, J.
+    pub energy: f64,
+    /// The area of the fretting loop per cycle, ∮F_x du_x⁽⁰⁾, J: in a settled cycle the dissipated energy.
+    #[serde(default)]
+    pub loop_area: f64,
+    /// U, half the range of u_x⁽⁰⁾, or of the rig's actuator, m.
+    pub displacement_amplitude: f64,
+    /// Q*, half the range of F_x, N.
+    pub force_amplitude: f64,
+    /// P, the mean normal force, N.
+    pub normal_force: f64,
+    /// δ₀, half the width of the loop at F_x = 0, m; none where F_x keeps its sign.
+    pub opening: Option<f64>,
+    /// Q*/(μP).
+    pub force_ratio: Option<f64>,
+    /// 1 − Q*/(2G*aU), at least 0.
+    pub slip_ratio: Option<f64>,
+    /// D = δ₀/U.
+    pub sliding_ratio: Option<f64>,
+    /// A = E_d/(4Q*U).
+    pub energy_ratio: Option<f64>,
+    /// B = E_d/(4Q*δ₀).
+    pub energy_ratio_b: Option<f64>,
+    /// The running condition.
+    pub regime: Regime,
+}
+
+/// The present period of the motion so far.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct LoopTally {
+    /// Where it began, in cycles, and E_d there, J; none before the first step.
+    start: Option<[f64; 2]>,
+    /// Cycle, u_x⁽⁰⁾ (m) and F_x (N) of the last step.
+    last: [f64; 3],
+    /// Smallest and largest u_x⁽⁰⁾, m.
+    shift: [f64; 2],
+    /// Smallest and largest F_x, N.
+    force: [f64; 2],
+    /// ∫F_z dn and ∫a dn over the cycles n, N and m.
+    normal_force: f64,
+    contact_radius: f64,
+    /// ∫F_x du_x⁽⁰⁾, J.
+    #[serde(default)]
+    work: f64,
+    /// Whether nothing touched at some moment.
+    opened: bool,
+    /// Sum and number of the u_x⁽⁰⁾ at which F_x falls, or rises, through zero.
+    falling: [f64; 2],
+    rising: [f64; 2],
+}
+
+impl LoopTally {
+    fn begin(state: &State, moment: [f64; 3]) -> Self {
+        Self {
+            start: Some([moment[0], state.dissipated_energy]),
+            last: moment,
+            shift: [moment[1]; 2],
+            force: [moment[2]; 2],
+            ..Self::default()
+        }
+    }
+
+    /// Adds the end of a step: cycle, u_x⁽⁰⁾ and F_x, with F_z (N) and a (m).
+    fn add(&mut self, moment: [f64; 3], normal_force: f64, contact_radius: f64) {
+        let [cycle, shift, force] = moment;
+        let [before, shift_before, force_before] = self.last;
+        self.shift = [self.shift[0].min(shift), self.shift[1].max(shift)];
+        self.force = [self.force[0].min(force), self.force[1].max(force)];
+        self.normal_force += normal_force * (cycle - before);
+        self.contact_radius += contact_radius * (cycle - before);
+        self.work += 0.5 * (force_before + force) * (shift - shift_before);
+        self.opened |= contact_radius == 0.0;
+        let crossing = || {
+            let share = force_before / (force_before - force);
+            shift_before + share * (shift - shift_before)
+        };
+        let into = if force_before > 0.0 && force <= 0.0 {
+            &mut self.falling
+        } else if force_before < 0.0 && force >= 0.0 {
+            &mut self.rising
+        } else {
+            self.last = moment;
+            return;
+        };
+        *into = [into[0] + crossing(), into[1] + 1.0];
+        self.last = moment;
+    }
+
+    /// The figures of the period that ends here; none if it began within the period.
+    fn close(&self, setup: &Setup, state: &State, period: f64) -> Option<CycleFigures> {
+        let [start, energy] = self.start?;
+        let cycles = self.last[0] - start;
+        if start % period != 0.0 || cycles <= 0.0 {
+            return None;
+        }
+        let material = &setup.material;
+        let energy = (state.dissipated_energy - energy) / cycles;
+        let (normal_force, radius) = (self.normal_force / cycles, self.contact_radius / cycles);
+        let amplitude = |[low, high]: [f64; 2]| 0.5 * (high - low);
+        let (shift, force) = (amplitude(self.shift), amplitude(self.force));
+        let opening = (self.falling[1] > 0.0 && self.rising[1] > 0.0).then(|| {
+            let mean = |[sum, count]: [f64; 2]| sum / count;
+            0.5 * (mean(self.falling) - mean(self.rising)).abs()
+        });
+        let ratio = |over: f64, under: f64| (under > 0.0).then(|| over / under);
+        let energy_ratio = ratio(energy, 4.0 * force * shift);
+        // The slip ratio is about the contact alone.
+        let of_contact = shift - setup.drive.rig_compliance() * force;
+        let elastic = 2.0 * material.tangential_modulus() * radius * of_contact;
+        let regime = if self.opened {
+            Regime::Open
+        } else if state.permanent_stick_radius() <= 0.0 && energy > 0.0 {
+            Regime::Gross
+        } else if energy_ratio.is_none_or(|ratio| ratio < CLOSED_LOOP) {
+            Regime::Stick
+        } else {
+            Regime::Partial
+        };
+        Some(CycleFigures {
+            energy,
+            loop_area: self.work / cycles,
+            displacement_amplitude: shift,
+            force_amplitude: force,
+            normal_force,
+            opening,
+            force_ratio: ratio(force, material.friction() * normal_force),
+            slip_ratio: ratio(force, elastic).map(|stuck| (1.0 - stuck).max(0.0)),
+            sliding_ratio: opening.and_then(|opening| ratio(opening, shift)),
+            energy_ratio,
+            energy_ratio_b: opening.and_then(|opening| ratio(energy, 4.0 * force * opening)),
+            regime,
+        })
+    }
+}
+
+/// Adds the end of a step to the tally, and closes it where the period of the motion ends.
+pub(super) fn follow(model: &Model, state: &mut State) {
+    if model.springs() == 0 {
+        return;
+    }
+    let (setup, contact) = (&model.setup, &state.contact);
+    let force = contact.tangential_force(model);
+    let moment = [state.cycle, sensed(setup, contact.shift, force), force];
+    let (normal_force, radius) = (contact.normal_force(model), contact.normal.radius);
+    let before = state.tally.last[0];
+    state.tally.add(moment, normal_force, radius);
+    if state.cycle.floor() == before.floor() {
+        return;
+    }
+    let period = f64::from(cycles_to_settle(&setup.drive));
+    if (state.cycle / period).floor() > (before / period).floor() {
+        state.figures = state.tally.close(setup, state, period);
+        state.tally = LoopTally::begin(state, moment);
+    }
+}
+
+/// The displacement of the actuator, m, where the contact is shifted by `shift` under `force` (N): what
+/// the rig's sensor sees.
+pub(super) fn sensed(setup: &Setup, shift: f64, force: f64) -> f64 {
+    shift + setup.drive.rig_compliance() * force
+}
+
+/// Forgets the figures and begins the tally anew: after a change of the parts, or a jump over cycles.
+pub(super) fn forget(model: &Model, state: &mut State) {
+    state.figures = None;
+    if model.springs() == 0 {
+        state.tally = LoopTally::default();
+        return;
+    }
+    let force = state.contact.tangential_force(model);
+    let shift = sensed(&model.setup, state.contact.shift, force);
+    state.tally = LoopTally::begin(state, [state.cycle, shift, force]);
+}
+
+impl Simulation {
+    /// The figures of the last complete period of the motion. After a jump over cycles, those of the
+    /// next period on the present profile, which is stepped through without wear for that purpose.
+    /// None before the first period has ended, within the period of a change, and without tangential
+    /// motion.
+    pub fn cycle_figures(&self) -> Option<CycleFigures> {
+        let state = &self.state;
+        if state.figures.is_some() || state.jump.settled.is_none() {
+            return state.figures;
+        }
+        let setup = Setup {
+            wear: None,
+            integrator: Integrator::Direct,
+            ..self.setup().clone()
+        };
+        let mut probe = Self::with(Model::new(setup, Some(&self.model)), state.clone());
+        probe.settle().ok()?;
+        let period = f64::from(cycles_to_settle(&self.setup().drive));
+        probe.advance_to(state.cycle + period).ok()?;
+        probe.state.figures
+    }
+}

@@ -1,0 +1,94 @@
+//! Where a scene leaves the theory that the program computes by, told before it runs.
+
+use std::f64::consts::PI;
+
+use super::border;
+use super::drive::Control;
+use super::unworn::Unworn;
+use super::{Setup, Simulation};
+
+/// Slopes and a/R above this one are no half-space any more.
+const STEEP: f64 = 0.3;
+
+/// Pressures above this one, in units of E*, strain the bodies by more than small strains.
+const STRONG: f64 = 0.1;
+
+/// Fewer steps than this lose percents of the wear by a power of the slip rate that is not 1, where slip begins
+/// within a step.
+const STEPS_FOR_POWERS: u32 = 50;
+
+impl Simulation {
+    /// A line for each way in which the scene lies outside of the theory, or beyond what any grid sees.
+    pub fn warnings(&self) -> Vec<String> {
+        warnings(self.setup())
+    }
+}
+
+fn warnings(setup: &Setup) -> Vec<String> {
+    let unworn = Unworn(setup);
+    let depth = unworn.deepest();
+    let radius = unworn.radius(depth);
+    let mut lines = Vec::new();
+    let slope = slope(setup, radius);
+    if slope > STEEP {
+        lines.push(format!(
+            "outside of the theory: the indenter's slope at the contact's edge, a/R of a sphere, is \
+             {slope:.2}; a half-space with small slopes needs less than {STEEP}"
+        ));
+    }
+    let area = (PI * radius * radius).max(f64::MIN_POSITIVE);
+    let pressure = unworn.force(depth) / area / setup.material.normal_modulus();
+    // The largest pressure of a sphere is 3/2 of the mean; tips and rims bear more, in theory without bound.
+    if 1.5 * pressure > STRONG {
+        lines.push(format!(
+            "outside of the theory: the pressure reaches {:.2} E*; linear elasticity needs less than \
+             {STRONG} E*",
+            1.5 * pressure
+        ));
+    }
+    lines.extend(gross_slip_under_force(setup, unworn));
+    let exponent = setup.wear.map_or(1.0, |law| law.slip_rate_exponent());
+    if exponent != 1.0 && setup.steps_per_cycle < STEPS_FOR_POWERS {
+        lines.push(format!(
+            "a power of the slip rate, here {exponent}, on {} steps per cycle may wear wrong by some \
+             percent; numerics.steps_per_cycle = {STEPS_FOR_POWERS} or more would do",
+            setup.steps_per_cycle
+        ));
+    }
+    if let Some(width) = border::unseen_ring(setup) {
+        lines.push(format!(
+            "the ring of slip is {width:.1e} m wide, too thin for any cell: its wear and its work of \
+             friction are not seen"
+        ));
+    }
+    lines
+}
+
+/// The slope of the unworn profile at the contact's edge.
+fn slope(setup: &Setup, radius: f64) -> f64 {
+    if setup.indenter.rim().is_some() || radius <= 0.0 {
+        return 0.0;
+    }
+    let inside = radius * (1.0 - 1e-6);
+    let rise = setup.indenter.profile(radius) - setup.indenter.profile(inside);
+    rise / (radius - inside)
+}
+
+/// A prescribed tangential force that friction cannot hold has no quasi-static motion.
+fn gross_slip_under_force(setup: &Setup, unworn: Unworn<'_>) -> Option<String> {
+    let Some(Control::Force(tangential)) = setup.drive.tangential() else {
+        return None;
+    };
+    let lowest = match setup.drive.normal() {
+        Control::Force(normal) => normal.lowest(),
+        Control::Displacement(normal) => unworn.force(normal.lowest()),
+    };
+    let asked = tangential.mean().abs() + tangential.amplitude();
+    let held = setup.material.friction() * lowest.max(0.0);
+    (asked >= held).then(|| {
+        format!(
+            "outside of the theory: a tangential force of {asked:.3e} N may exceed what friction holds, \
+             {held:.3e} N; gross slip under a prescribed force never stops"
+        )
+    })
+}

@@ -1,0 +1,145 @@
+//! What is planned once for a run: its parts, its operators, and the 1D image of its indenter.
+
+use std::ops::Deref;
+use std::sync::Arc;
+
+use super::Setup;
+use crate::contact::foundation::WinklerFoundation;
+use crate::math::abel::curvature::Curvature;
+use crate::math::abel::field;
+use crate::math::abel::worn;
+use crate::math::abel::{AbelMethod, AbelPlan, WornPlan};
+use crate::math::grid::RadialGrid;
+use crate::math::quadrature::weighted;
+use crate::math::vector::{vectorized, write_each};
+
+/// The parts of a run with the operators that they are computed by.
+#[derive(Debug, Clone)]
+pub(super) struct Model {
+    pub setup: Setup,
+    operators: Arc<Operators>,
+}
+
+/// What depends on the grid, the method and the indenter alone; clones of a [`Model`] share it.
+#[derive(Debug)]
+pub(super) struct Operators {
+    pub plan: AbelPlan,
+    /// From the worn depth to its share of g, where that is not the plan's Eq. (1).
+    worn: Option<WornPlan>,
+    pub foundation: WinklerFoundation,
+    /// What the stress lacks between nodes, where the method takes it into account.
+    pub curvature: Option<Curvature>,
+    pub grid: RadialGrid,
+    /// 1/h, h the width of the cell around each node, 1/m.
+    pub per_width: Vec<f64>,
+    /// Weights of 2π∫ y r dr, m².
+    volume_weights: Vec<f64>,
+    /// f₀ and its 1D image g₀, m.
+    pub unworn: Arc<[f64]>,
+    unworn_1d: Vec<f64>,
+}
+
+impl Operators {
+    fn new(setup: &Setup) -> Self {
+        let plan = AbelPlan::new(setup.method, &setup.grid);
+        let nodes = setup.grid.nodes();
+        let unworn: Arc<[f64]> = nodes.iter().map(|&r| setup.indenter.profile(r)).collect();
+        let (worn, unworn_1d) = if setup.method == AbelMethod::Product {
+            let image = nodes
+                .iter()
+                .map(|&x| setup.indenter.profile_1d(x))
+                .collect();
+            let border = setup.grid.border();
+            (border.map(|_| WornPlan::new(&setup.grid)), image)
+        } else {
+            let mut image = vec![0.0; nodes.len()];
+            plan.profile(&unworn, &mut image);
+            (None, image)
+        };
+        Self {
+            worn,
+            foundation: WinklerFoundation::new(&setup.grid),
+            curvature: field::has_singular_parts(&plan).then(|| Curvature::new(&setup.grid)),
+            per_width: setup.grid.widths().map(f64::recip).collect(),
+            volume_weights: worn::volume_weights(&setup.grid),
+            grid: setup.grid.clone(),
+            plan,
+            unworn,
+            unworn_1d,
+        }
+    }
+}
+
+impl Deref for Model {
+    type Target = Operators;
+
+    fn deref(&self) -> &Operators {
+        &self.operators
+    }
+}
+
+impl Model {
+    /// Plans the operators of a setup; those of a model `before` serve again where they fit.
+    pub fn new(setup: Setup, before: Option<&Self>) -> Self {
+        let fits = |before: &&Self| {
+            before.setup.grid == setup.grid
+                && before.setup.method == setup.method
+                && before.setup.indenter == setup.indenter
+        };
+        let operators = match before.filter(fits) {
+            Some(before) => Arc::clone(&before.operators),
+            None => Arc::new(Operators::new(&setup)),
+        };
+        Self { setup, operators }
+    }
+
+    /// Nodes, N + 1.
+    pub fn nodes(&self) -> usize {
+        self.grid.len()
+    }
+
+    /// Tangential springs: one a node, none without tangential motion.
+    pub fn springs(&self) -> usize {
+        self.setup.springs()
+    }
+
+    /// Eq. (1) of a worn depth, m, into `image`, m.
+    pub fn image(&self, depth: &[f64], image: &mut [f64]) {
+        match &self.worn {
+            Some(operator) => operator.apply(depth, image),
+            None => self.plan.profile(depth, image),
+        }
+    }
+
+    /// g = g₀ + `image`, m, and `ahead` times the `growth` of the image on top of it.
+    pub fn profile(&self, image: &[f64], ahead: f64, growth: &[f64], g: &mut [f64]) {
+        if ahead == 0.0 {
+            return write_each(
+                g,
+                &self.unworn_1d,
+                image,
+                #[inline(always)]
+                |unworn, image| unworn + image,
+            );
+        }
+        vectorized(
+            #[inline(always)]
+            || {
+                let parts = self.unworn_1d.iter().zip(image).zip(growth);
+                for (g, ((unworn, image), growth)) in g.iter_mut().zip(parts) {
+                    *g = unworn + image + ahead * growth;
+                }
+            },
+        );
+    }
+
+    /// 2π∫ r dr of a nodal depth (m), m³.
+    pub fn volume(&self, depth: &[f64]) -> f64 {
+        weighted(&self.volume_weights, depth)
+    }
+
+    /// A length of time in cycles, in s.
+    pub fn seconds(&self, cycles: f64) -> f64 {
+        cycles * self.setup.drive.period()
+    }
+}

@@ -1,0 +1,200 @@
+//! What changes with use: friction and the wear coefficient over accumulated cycles or dissipated
+//! energy, and an energy below which nothing wears.
+//!
+//! Each step is taken with the values that hold where it begins. Cycles are jumped only where nothing
+//! changes any more.
+
+use std::sync::Arc;
+
+use crate::contact::material::Material;
+use crate::math::invalid::{Invalid, finite, non_negative, positive};
+use crate::wear::WearLaw;
+
+/// Closer to its end than this share of its way, an exponential counts as settled.
+const SETTLED: f64 = 1e-6;
+
+/// What a value runs in over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Over {
+    /// Cycles since the start.
+    Cycles,
+    /// Work of friction since the start, J.
+    Energy,
+}
+
+/// How a value changes.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Course {
+    /// last + (first − last) exp(−x/constant).
+    Exponential {
+        /// The value at first.
+        first: f64,
+        /// The value that it approaches.
+        last: f64,
+        /// Cycles or J after which it is nearer by a factor of e.
+        constant: f64,
+        /// What x is.
+        over: Over,
+    },
+    /// Straight lines between the rows of a table; beyond its ends the values there.
+    Table {
+        /// x and the value, by x.
+        rows: Arc<[(f64, f64)]>,
+        /// What x is.
+        over: Over,
+    },
+}
+
+/// Everything that changes with use.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct RunningIn {
+    /// μ; none: it stays as it is.
+    pub friction: Option<Course>,
+    /// k; none: it stays as it is.
+    pub wear: Option<Course>,
+    /// The work of friction below which nothing wears, J.
+    pub threshold: f64,
+}
+
+impl Course {
+    /// From `first` to `last`, both 0 or greater, nearer by a factor of e after each `constant`.
+    ///
+    /// # Errors
+    /// The field `settled`, or `constant`, is out of range.
+    pub fn exponential(first: f64, last: f64, constant: f64, over: Over) -> Result<Self, Invalid> {
+        Ok(Self::Exponential {
+            first,
+            last: non_negative("settled", last)?,
+            constant: positive("constant", constant)?,
+            over,
+        })
+    }
+
+    /// Through `values` (0 or greater) at increasing `at`.
+    ///
+    /// # Errors
+    /// The field is `at` or `values`.
+    pub fn table(at: &[f64], values: &[f64], over: Over) -> Result<Self, Invalid> {
+        if at.is_empty() || at.len() != values.len() {
+            let rule = format!("must be as many as the {} values", values.len());
+            return Err(Invalid::new("at", at.len(), rule));
+        }
+        for (&x, &value) in at.iter().zip(values) {
+            finite("at", x)?;
+            non_negative("values", value)?;
+        }
+        if let Some(pair) = at.windows(2).find(|pair| pair[0] >= pair[1]) {
+            let rule = format!("must increase, and follows {:e}", pair[0]);
+            return Err(Invalid::new("at", pair[1], rule));
+        }
+        let rows = at.iter().copied().zip(values.iter().copied());
+        Ok(Self::Table {
+            rows: rows.collect(),
+            over,
+        })
+    }
+
+    /// The value after so many cycles and J.
+    pub fn after(&self, cycles: f64, energy: f64) -> f64 {
+        match self {
+            Self::Exponential {
+                first,
+                last,
+                constant,
+                over,
+            } => last + (first - last) * (-over.of(cycles, energy) / constant).exp(),
+            Self::Table { rows, over } => {
+                let x = over.of(cycles, energy);
+                let k = rows.partition_point(|row| row.0 <= x);
+                match (k.checked_sub(1).map(|k| rows[k]), rows.get(k)) {
+                    (Some(before), Some(next)) => {
+                        let share = (x - before.0) / (next.0 - before.0);
+                        before.1 + share * (next.1 - before.1)
+                    }
+                    (Some(end), None) | (None, Some(&end)) => end.1,
+                    (None, None) => 0.0,
+                }
+            }
+        }
+    }
+
+    /// Whether it does not change any more.
+    fn is_settled(&self, cycles: f64, energy: f64) -> bool {
+        match self {
+            Self::Exponential { constant, over, .. } => {
+                (-over.of(cycles, energy) / constant).exp() < SETTLED
+            }
+            Self::Table { rows, over } => rows
+                .last()
+                .is_none_or(|last| over.of(cycles, energy) >= last.0),
+        }
+    }
+}
+
+impl Over {
+    fn of(self, cycles: f64, energy: f64) -> f64 {
+        match self {
+            Self::Cycles => cycles,
+            Self::Energy => energy,
+        }
+    }
+}
+
+impl RunningIn {
+    /// Brings friction and wear to what they are after so many cycles and J.
+    pub(super) fn apply(
+        &self,
+        cycles: f64,
+        energy: f64,
+        material: &mut Material,
+        wear: &mut Option<WearLaw>,
+    ) {
+        if let Some(course) = &self.friction {
+            *material = material.with_friction(course.after(cycles, energy));
+        }
+        let Some(law) = wear else { return };
+        let coefficient = match &self.wear {
+            _ if energy < self.threshold => Some(0.0),
+            Some(course) => Some(course.after(cycles, energy)),
+            None => None,
+        };
+        if let Some(coefficient) = coefficient {
+            *law = law.with_coefficient(coefficient);
+        }
+    }
+
+    /// Whether nothing changes any more, so that cycles are alike.
+    pub(super) fn is_settled(&self, cycles: f64, energy: f64) -> bool {
+        let courses = [&self.friction, &self.wear];
+        let mut courses = courses.into_iter().flatten();
+        energy >= self.threshold && courses.all(|course| course.is_settled(cycles, energy))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn courses_go_from_their_first_value_to_their_last() {
+        let course = Course::exponential(0.9, 0.7, 100.0, Over::Cycles).expect("a course");
+        assert_eq!(course.after(0.0, 5.0), 0.9);
+        assert!((course.after(100.0, 5.0) - (0.7 + 0.2 / std::f64::consts::E)).abs() < 1e-15);
+        assert!(!course.is_settled(100.0, 0.0) && course.is_settled(2000.0, 0.0));
+        let rows = ([0.0, 2.0, 6.0], [0.2, 0.6, 0.4]);
+        let table = Course::table(&rows.0, &rows.1, Over::Energy).expect("a course");
+        for (energy, value) in [(0.0, 0.2), (1.0, 0.4), (4.0, 0.5), (9.0, 0.4)] {
+            assert!((table.after(1e9, energy) - value).abs() < 1e-15, "{energy}");
+        }
+        assert!(!table.is_settled(1e9, 5.0) && table.is_settled(0.0, 6.0));
+    }
+
+    #[test]
+    fn impossible_courses_are_refused() {
+        assert!(Course::exponential(0.9, -0.1, 1.0, Over::Cycles).is_err());
+        assert!(Course::exponential(0.9, 0.7, 0.0, Over::Cycles).is_err());
+        assert!(Course::table(&[0.0, 0.0], &[0.1, 0.2], Over::Cycles).is_err());
+        assert!(Course::table(&[0.0], &[-0.1], Over::Cycles).is_err());
+        assert!(Course::table(&[], &[], Over::Cycles).is_err());
+    }
+}

@@ -1,0 +1,324 @@
+//! Jumps over many cycles that are alike.
+//!
+//! # Formula
+//!
+//! Wear changes the profile little in a cycle, so the worn depth δ is a smooth function of the number n
+//! of cycles, dδ/dn = W(δ), W the wear of a [steady-state cycle](super::steady_cycle) on the frozen profile. That
+//! is integrated by [Runge–Kutta–Chebyshev steps](crate::math::chebyshev), whose error is kept at the
+//! tolerance and whose stages follow the stiffness of the response of p to wear. The work of friction
+//! is integrated along with it.
+//!
+//! A jump covers whole periods of the motion. It begins after the first period, in which the springs
+//! shake down, and where it would cost more cycles than it covers, cycles are stepped directly for a
+//! while.
+//!
+//! - **Order**: second in the length of the jump; the wear within one cycle is that of the scheme.
+//! - **Cost**: as many evaluated cycles as stages, whatever the number of cycles covered.
+//! - **Known failure**: none of the motions that never repeat can be jumped; they are stepped directly.
+
+use super::super::Scratch;
+use super::super::Setup;
+use super::super::breakdown::Cause;
+use super::super::choices::Integrator;
+use super::super::model::Model;
+use super::super::state::{JumpMemory, State, SteadyCycle};
+use super::{close_period, deepest, refuse, steady_cycle};
+use crate::math::chebyshev;
+use crate::math::scan::largest;
+
+/// A jump must save this much: the cycles it covers over what its evaluation costs, in cycles.
+const WORTH: f64 = 1.5;
+
+/// The most stages of a jump.
+const MOST_STAGES: usize = 40;
+
+/// The first jump wears this much at most, in depths and in units of the root of the tolerance.
+const FIRST: f64 = 0.3;
+
+/// The most cycles of a jump, also where nothing wears any more.
+const LONGEST: f64 = 1e9;
+
+/// How many times its rms the error of a single node may be.
+const PEAK: f64 = 10.0;
+
+/// Most periods of direct stepping before a jump is tried again.
+const LONGEST_REST: u32 = 16;
+
+/// What came of a try to jump.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in super::super) enum Jumped {
+    /// The state is that after the jump.
+    Done,
+    /// The same, and without a goal the jump would have gone further.
+    Shortened,
+    /// Jumps do not pay here: the state is as it was, and wants direct steps.
+    NotWorthIt,
+    /// No jump before the goal pays: direct steps up to there.
+    TooNear,
+}
+
+/// Whether the state is one that cycles can be jumped from: at the end of a period but the first.
+pub(in super::super) fn is_possible(setup: &Setup, state: &State) -> bool {
+    let (Integrator::CycleJump { .. }, Some(period)) =
+        (setup.integrator, setup.drive.repeats_after())
+    else {
+        return false;
+    };
+    let period = f64::from(period);
+    let running_in = setup.running_in.as_ref();
+    setup.wear.is_some()
+        && setup.drive.tangential().is_some()
+        && running_in.is_none_or(|all| all.is_settled(state.cycle, state.dissipated_energy))
+        && state.cycle >= period.max(state.jump.rest_until)
+        && state.cycle % period == 0.0
+}
+
+/// Jumps over at most `most` cycles, into `next`; where jumps do not pay, `next` is `state` with a rest.
+///
+/// The first try is as long as it would be without a goal, so that a run which is stopped where a jump
+/// has ended, and one that goes there without stopping, are the same.
+pub(in super::super) fn jump(
+    model: &Model,
+    state: &State,
+    next: &mut State,
+    scratch: &mut Scratch,
+    most: f64,
+) -> Result<Jumped, Cause> {
+    let mut memory = state.clone();
+    let first = match memory.jump.settled.take() {
+        Some(first) => first,
+        None => steady_cycle::cycle(model, &mut memory, next, scratch, &state.image)?,
+    };
+    let springs = memory.clone();
+    let mut search = Search {
+        model,
+        state,
+        first: &first,
+        spare: next,
+        scratch,
+    };
+    let mut found = search.search(&mut memory, f64::INFINITY);
+    let pays = found.is_some();
+    let is_short = found.as_ref().is_some_and(|jump| jump.covered > most);
+    if is_short {
+        go_back(&mut memory, &springs);
+        found = search.search(&mut memory, most);
+    }
+    let Some(jump) = found else {
+        next.clone_from(state);
+        next.stats = memory.stats;
+        if !pays {
+            rest(&model.setup, next);
+        }
+        return Ok(match is_short {
+            true => Jumped::TooNear,
+            false => Jumped::NotWorthIt,
+        });
+    };
+    *next = after_jump(model, state, memory, jump);
+    Ok(match is_short {
+        true => Jumped::Shortened,
+        false => Jumped::Done,
+    })
+}
+
+/// The search for a jump from one state.
+struct Search<'a> {
+    model: &'a Model,
+    state: &'a State,
+    /// What a cycle does there.
+    first: &'a SteadyCycle,
+    spare: &'a mut State,
+    scratch: &'a mut Scratch,
+}
+
+impl Search<'_> {
+    /// A jump of at most `most` cycles whose error is allowed; none if direct steps are better.
+    /// `memory` then holds the springs at its end.
+    fn search(&mut self, memory: &mut State, most: f64) -> Option<Jump> {
+        let (state, first, setup) = (self.state, self.first, &self.model.setup);
+        let Integrator::CycleJump { tolerance } = setup.integrator else {
+            return None;
+        };
+        let period = f64::from(setup.drive.repeats_after()?);
+        let depth = setup.depth_scale(state.contact.depth);
+        let mut length = if state.jump.length > 0.0 {
+            state.jump.length
+        } else {
+            FIRST * tolerance.sqrt() * depth / largest(&first.wear)
+        };
+        let springs = memory.clone();
+        loop {
+            let covered = (length.min(most).min(LONGEST) / period).floor() * period;
+            let stages = chebyshev::stages_for(covered * first.stiffness);
+            if stages > MOST_STAGES {
+                length = 0.5 * covered;
+                continue;
+            }
+            let price = stages as f64 * steady_cycle::cost(setup) * period;
+            if covered < (WORTH * price).max(period) {
+                return None;
+            }
+            let tried = self.attempt(memory, covered, stages);
+            let error = match &tried {
+                Ok(after) => error(state, first, after, covered, tolerance * depth, tolerance),
+                // What fails in the middle of a jump is left to a shorter one, or to direct steps.
+                Err(_) => f64::INFINITY,
+            };
+            let factor = (0.75 * error.powf(-1.0 / 3.0)).clamp(0.2, 2.0);
+            match tried {
+                Ok(after) if error <= 1.0 => {
+                    let next = covered * factor;
+                    return Some(Jump {
+                        covered,
+                        // A goal that was near says nothing about the next jump.
+                        next: if most < length {
+                            next.max(length)
+                        } else {
+                            next
+                        },
+                        after,
+                    });
+                }
+                _ => {
+                    go_back(memory, &springs);
+                    memory.stats.rejected_jumps += 1;
+                    length = covered * factor;
+                }
+            }
+        }
+    }
+
+    /// One Runge–Kutta–Chebyshev step over `covered` cycles. The last entry of y is the work of friction.
+    fn attempt(&mut self, memory: &mut State, covered: f64, stages: usize) -> Result<After, Cause> {
+        let (model, nodes) = (self.model, self.model.nodes());
+        let with_work = |wear: &[f64], friction_work: f64| {
+            let mut values = wear.to_vec();
+            values.push(friction_work);
+            values
+        };
+        let rates = |cycle: &SteadyCycle| with_work(&cycle.wear, cycle.friction_work);
+        let start = with_work(&memory.wear, 0.0);
+        let slope = rates(self.first);
+        let (mut end, mut image) = (Vec::new(), vec![0.0; nodes]);
+        let (spare, scratch) = (&mut *self.spare, &mut *self.scratch);
+        let mut look = |memory: &mut State, wear: &[f64], image: &mut [f64]| {
+            model.image(wear, image);
+            memory.stats.transforms += 1;
+            steady_cycle::cycle(model, memory, spare, scratch, image)
+        };
+        chebyshev::step(stages, covered, &start, &slope, &mut end, |y, out| {
+            let steady = look(memory, &y[..nodes], &mut image)?;
+            *out = rates(&steady);
+            Ok::<(), Cause>(())
+        })?;
+        let friction_work = end.pop().unwrap_or_default();
+        let steady = look(memory, &end, &mut image)?;
+        let depth = memory.contact.depth;
+        refuse(model, depth, &end, model.grid.nodes(), deepest(&end))?;
+        Ok(After {
+            wear: end,
+            image,
+            friction_work,
+            steady,
+        })
+    }
+}
+
+/// Takes the springs back to where they stood; the counts of what was done stay.
+fn go_back(memory: &mut State, springs: &State) {
+    let stats = memory.stats;
+    memory.clone_from(springs);
+    memory.stats = stats;
+}
+
+/// A jump that was found.
+struct Jump {
+    covered: f64,
+    /// How many cycles the next one should cover.
+    next: f64,
+    after: After,
+}
+
+/// The state of the profile after a jump.
+struct After {
+    wear: Vec<f64>,
+    image: Vec<f64>,
+    friction_work: f64,
+    steady: SteadyCycle,
+}
+
+/// The error of a jump in units of what is allowed: that of the worn depth, by its rms over the nodes that
+/// wear and its largest value, and that of the friction work relative to all the work so far.
+fn error(
+    state: &State,
+    first: &SteadyCycle,
+    after: &After,
+    covered: f64,
+    allowed: f64,
+    tolerance: f64,
+) -> f64 {
+    let (mut sum, mut largest, mut count) = (0.0, 0.0_f64, 0.0);
+    for (j, (&y, &next)) in state.wear.iter().zip(&after.wear).enumerate() {
+        let (f, last) = (first.wear[j], after.steady.wear[j]);
+        if f != 0.0 || last != 0.0 {
+            let error = chebyshev::error(covered, y, next, f, last).abs();
+            sum += error * error;
+            largest = largest.max(error);
+            count += 1.0;
+        }
+    }
+    let (before, after_work) = (first.friction_work, after.steady.friction_work);
+    let work = chebyshev::error(covered, 0.0, after.friction_work, before, after_work).abs();
+    let total = state.dissipated_energy + after.friction_work;
+    let of_depth = f64::sqrt(sum / f64::max(count, 1.0)).max(largest / PEAK) / allowed;
+    of_depth.max(work / (tolerance * total).max(f64::MIN_POSITIVE))
+}
+
+/// The state after a jump from `state`, with the springs of `memory`.
+fn after_jump(model: &Model, state: &State, memory: State, jump: Jump) -> State {
+    let Jump {
+        covered,
+        next,
+        after,
+    } = jump;
+    // Rounding must not take work back where none is done any more.
+    let friction_work = after.friction_work.max(0.0);
+    let mut end = State {
+        cycle: state.cycle + covered,
+        steps: state.steps + 1,
+        dissipated_energy: state.dissipated_energy + friction_work,
+        smallest_stick_radius: f64::INFINITY,
+        settled_stick_radius: Some(after.steady.stick_radius),
+        jump: JumpMemory {
+            length: next,
+            settled: Some(after.steady),
+            ..JumpMemory::default()
+        },
+        ..memory
+    };
+    if let Some(law) = &model.setup.wear {
+        if law.follows_energy() {
+            end.expected_volume += law.coefficient() * friction_work;
+        } else {
+            end.unexplained_volume += model.volume(&after.wear) - model.volume(&state.wear);
+        }
+    }
+    (end.wear, end.image) = (after.wear, after.image);
+    close_period(model, &mut end);
+    end.stats.jumps += 1;
+    end.last.duration = 0.0;
+    // A jump has as many stages as it needs: the limit of a step is not its own.
+    end.last.stiffness = 0.0;
+    end.last.growth.fill(0.0);
+    end.last.wear.fill(0.0);
+    end
+}
+
+/// Leaves the next periods to direct steps, ever more of them while jumps do not pay.
+fn rest(setup: &Setup, state: &mut State) {
+    let period = f64::from(setup.drive.repeats_after().unwrap_or(1));
+    let patience = state.jump.patience.max(1);
+    state.jump.rest_until = state.cycle + f64::from(patience) * period;
+    state.jump.patience = (2 * patience).min(LONGEST_REST);
+}

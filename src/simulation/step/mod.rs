@@ -1,0 +1,203 @@
+//! One step in time: a function from a state to the next one.
+//!
+//! ```text
+//! g        = model.profile(state.image)            Eq. (1), Model::profile
+//! contact  = contact::solve(g, state.contact)      the springs of both directions
+//! traction = traction::of(contact)                 Eq. (3)
+//! wear     = increment.wear(traction, slip)        Eqs. (2) and (15)
+//! next     = accept(state, contact, traction, wear)
+//! ```
+//!
+//! A step reads `state` and writes into `next`, whose buffers are those of the state before the last: nothing is
+//! allocated, and a step that fails has changed nothing.
+//!
+//! [`euler`] and [`trapezoid`] say by which profile the contact is solved and by which stress it wears. [`substep`]
+//! and [`stabilised`] take steps that are too stiff for them, [`cycle_jump`] many cycles at once by the wear of a
+//! [steady-state cycle](steady_cycle).
+
+use super::breakdown::Cause;
+use super::choices::Scheme;
+use super::model::Model;
+use super::state::State;
+use super::{Scratch, contact, cycles_to_settle, traction};
+use crate::math::scan::largest;
+use crate::math::vector::{vectorized, write_each};
+
+mod cycle_jump;
+mod euler;
+mod stabilised;
+mod steady_cycle;
+mod substep;
+mod trapezoid;
+
+pub(super) use cycle_jump::{Jumped, is_possible, jump};
+
+/// A worn depth of this many times the largest depth of indentation cannot come from contact.
+const RUNAWAY: f64 = 10.0;
+
+/// Solves the contact at the present cycle: pressed to u_z, shifted to u_x, nothing worn.
+pub(super) fn settle(model: &Model, state: &mut State, scratch: &mut Scratch) -> Result<(), Cause> {
+    model.image(&state.wear, &mut state.image);
+    model.profile(&state.image, 0.0, &[], &mut scratch.g);
+    let mut solved = state.contact.clone();
+    let slip = &mut scratch.increment.slip;
+    contact::solve(
+        model,
+        &scratch.g,
+        &state.contact,
+        state.cycle,
+        &mut solved,
+        slip,
+    )?;
+    state.contact = solved;
+    let stuck = state.stuck_radius();
+    state.last.duration = 0.0;
+    state.last.stiffness = 0.0;
+    state.last.wear.fill(0.0);
+    state.last.growth.fill(0.0);
+    // Only steps that wear by a mean need the stress that they begin with.
+    let setup = &model.setup;
+    if model.springs() > 0 && setup.wear.is_some() && setup.scheme == Scheme::Trapezoid {
+        let (contact, traction) = (&state.contact, &mut state.traction);
+        traction::of(model, contact, stuck, &mut scratch.rest, traction);
+    }
+    state.stats.contacts += 1;
+    state.stats.transforms += 1;
+    Ok(())
+}
+
+/// One step from `state` to `cycle`, at which the motion turns or does not, into `next`.
+pub(super) fn step(
+    model: &Model,
+    state: &State,
+    next: &mut State,
+    scratch: &mut Scratch,
+    cycle: f64,
+    turns: bool,
+) -> Result<(), Cause> {
+    match model.setup.scheme {
+        Scheme::Euler => euler::step(model, state, next, scratch, cycle)?,
+        Scheme::Trapezoid => trapezoid::step(model, state, next, scratch, cycle)?,
+    }
+    if turns {
+        next.last.duration = 0.0;
+    }
+    next.steps = state.steps + 1;
+    Ok(())
+}
+
+/// Makes `next`, whose contact and tractions are solved, the state after `state`: adds what the step has worn.
+fn accept(
+    model: &Model,
+    state: &State,
+    next: &mut State,
+    scratch: &mut Scratch,
+    cycle: f64,
+) -> Result<(), Cause> {
+    let increment = &mut scratch.increment;
+    next.carry_sums(state);
+    next.wear.copy_from_slice(&state.wear);
+    next.image.copy_from_slice(&state.image);
+    if let Some(law) = model.setup.wear.filter(|_| model.springs() > 0) {
+        let nodes = increment.nodes.clone();
+        let (after, before) = (&mut next.wear[nodes.clone()], &state.wear[nodes.clone()]);
+        let worn = &increment.depth[nodes.clone()];
+        write_each(after, before, worn, |before, worn| before + worn);
+        let deepest = deepest(after);
+        let radii = &model.grid.nodes()[nodes];
+        refuse(model, next.contact.depth, after, radii, deepest)?;
+        // The two sides of V = k E_d: what work explains, and what other laws wore.
+        if law.follows_energy() {
+            next.expected_volume += law.coefficient() * increment.friction_work;
+        } else {
+            next.unexplained_volume += model.volume(&increment.depth);
+        }
+        // Eq. (1) is linear: only the growth is transformed.
+        model.image(&increment.depth, &mut next.last.growth);
+        write_each(
+            &mut next.image,
+            &state.image,
+            &next.last.growth,
+            #[inline(always)]
+            |image, growth| image + growth,
+        );
+        scratch.transforms += 1;
+        std::mem::swap(&mut next.last.wear, &mut increment.depth);
+    }
+    if model.springs() > 0 {
+        next.dissipated_energy += increment.friction_work;
+        follow_stick(model, next, cycle);
+    }
+    next.last.duration = cycle - state.cycle;
+    next.cycle = cycle;
+    next.stats.contacts += 1;
+    next.stats.transforms += std::mem::take(&mut scratch.transforms);
+    Ok(())
+}
+
+/// The largest of the worn depths; none where one is not finite.
+fn deepest(wear: &[f64]) -> Option<f64> {
+    vectorized(
+        #[inline(always)]
+        || {
+            let finite = wear.iter().fold(true, |all, worn| all & worn.is_finite());
+            finite.then(|| largest(wear))
+        },
+    )
+}
+
+/// Refuses the worn depths `wear` (m) at some `radii` (m) if the `deepest` of them is not finite or far above anything
+/// that can touch.
+fn refuse(
+    model: &Model,
+    depth: f64,
+    wear: &[f64],
+    radii: &[f64],
+    deepest: Option<f64>,
+) -> Result<(), Cause> {
+    let (method, stability) = (model.setup.method, model.setup.stability);
+    let depth = model.setup.depth_scale(depth);
+    let worn = deepest.map_or(f64::INFINITY, |deepest| deepest / depth);
+    if deepest.is_none() || worn == f64::INFINITY && depth > 0.0 {
+        return Err(Cause::NotFinite {
+            quantity: "worn profile",
+            method,
+            stability,
+        });
+    }
+    if worn > RUNAWAY && depth > 0.0 {
+        let at = wear.iter().position(|&worn| Some(worn) == deepest);
+        return Err(Cause::Runaway {
+            worn,
+            radius: radii[at.unwrap_or_default()],
+            method,
+            stability,
+        });
+    }
+    Ok(())
+}
+
+/// Weighs what a period of the motion has worn against its work of friction.
+fn close_period(model: &Model, state: &mut State) {
+    let volume = model.volume(&state.wear) - state.unexplained_volume;
+    state.period.close(volume, state.expected_volume);
+}
+
+/// Follows the smallest stick radius and the energy balance through the period of the motion that `state` is in until
+/// `cycle`.
+fn follow_stick(model: &Model, state: &mut State, cycle: f64) {
+    let Some(stick) = state.contact.stick_radius else {
+        return;
+    };
+    state.smallest_stick_radius = state.smallest_stick_radius.min(stick);
+    // A period is a whole number of cycles.
+    if cycle.floor() == state.cycle.floor() {
+        return;
+    }
+    let period = f64::from(cycles_to_settle(&model.setup.drive));
+    if (cycle / period).floor() > (state.cycle / period).floor() {
+        state.settled_stick_radius = Some(state.smallest_stick_radius);
+        state.smallest_stick_radius = f64::INFINITY;
+        close_period(model, state);
+    }
+}

@@ -1,0 +1,256 @@
+//! The wear of a steady-state cycle on a frozen profile: the slope dδ/dn that jumps over cycles integrate.
+//!
+//! One period of the motion lets the springs shake down: it needs no transform, since nothing wears. The
+//! next one is stepped through like any other, but the profile stays as it is.
+//!
+//! # Formula
+//!
+//! Where the normal direction stands still, the tangential one swings by ±U, and wear is in proportion
+//! to friction work, no steps are needed. Each spring that slips does so by S(x) = 2(U − μq_z/G*)₊ in
+//! each half of a cycle, from the edge of the contact inwards, so that τ = μp where anything slips:
+//!
+//! ```text
+//! W(r) = 2 k μ p(r) s(r),   s the transform (2) of S             E_d per cycle = 2 · 2∫ μ q_z S dx
+//! ```
+//!
+//! On an unworn profile that is the 4μkps of Cattaneo and Mindlin.
+
+use super::super::Setup;
+use super::super::breakdown::Cause;
+use super::super::choices::Scheme;
+use super::super::drive::{Control, Oscillation};
+use super::super::model::Model;
+use super::super::moments;
+use super::super::state::{State, SteadyCycle};
+use super::super::{Scratch, contact, traction};
+use super::{euler, trapezoid};
+use crate::math::abel::field::Field;
+use crate::math::abel::kink;
+use crate::math::scan::{largest, leading};
+use crate::math::vector::add_to;
+
+/// What a cycle does once the springs have shaken down on the worn depth of 1D image `image` (m), on average over the
+/// period of the motion. `memory` lends the springs and keeps them; its profile, its sums and its cycle are left as
+/// they are. `spare` is overwritten.
+pub(super) fn cycle(
+    model: &Model,
+    memory: &mut State,
+    spare: &mut State,
+    scratch: &mut Scratch,
+    image: &[f64],
+) -> Result<SteadyCycle, Cause> {
+    model.profile(image, 0.0, &[], &mut scratch.g);
+    let now = memory.cycle;
+    let outcome = match plain_swing(&model.setup) {
+        Some(swing) => plain_cycle(model, memory, spare, scratch, swing),
+        None => period(model, memory, spare, scratch),
+    };
+    memory.cycle = now;
+    memory.last.duration = 0.0;
+    outcome
+}
+
+/// What looking at a steady-state period costs, in periods stepped directly.
+pub(super) fn cost(setup: &Setup) -> f64 {
+    if plain_swing(setup).is_some() {
+        2.0 / setup.steps_in_a_cycle()
+    } else {
+        4.0 / 3.0
+    }
+}
+
+/// Solves the contact at `cycle` on the profile in `scratch`, into `spare`.
+fn solve(
+    model: &Model,
+    memory: &State,
+    spare: &mut State,
+    scratch: &mut Scratch,
+    cycle: f64,
+) -> Result<(), Cause> {
+    let (after, slip) = (&mut spare.contact, &mut scratch.increment.slip);
+    contact::solve(model, &scratch.g, &memory.contact, cycle, after, slip)
+}
+
+/// Makes the contact in `spare` that of `memory`, at `cycle`.
+fn take_over(memory: &mut State, spare: &mut State, cycle: f64) {
+    std::mem::swap(&mut memory.contact, &mut spare.contact);
+    memory.cycle = cycle;
+    memory.stats.contacts += 1;
+}
+
+/// p and τ of the solved contact, for the next step to begin with.
+fn find_tractions(model: &Model, memory: &mut State, scratch: &mut Scratch) {
+    let stuck = memory.stuck_radius();
+    let (contact, traction) = (&memory.contact, &mut memory.traction);
+    traction::of(model, contact, stuck, &mut scratch.rest, traction);
+    memory.stats.transforms += 2;
+}
+
+fn period(
+    model: &Model,
+    memory: &mut State,
+    spare: &mut State,
+    scratch: &mut Scratch,
+) -> Result<SteadyCycle, Cause> {
+    let cycles = model.setup.drive.repeats_after().unwrap_or(1);
+    let touch = moments::Touch::on(memory, &scratch.g);
+    let moments = moments::of_period(&model.setup, touch, cycles);
+    memory.cycle = 0.0;
+    for &moment in moments.iter() {
+        solve(model, memory, spare, scratch, moment)?;
+        take_over(memory, spare, moment);
+    }
+    let by_mean = model.setup.scheme == Scheme::Trapezoid;
+    if by_mean {
+        find_tractions(model, memory, scratch);
+    }
+    memory.cycle = 0.0;
+    let mut steady = SteadyCycle {
+        wear: vec![0.0; model.nodes()],
+        stick_radius: f64::INFINITY,
+        ..SteadyCycle::default()
+    };
+    let mut stiffness = vec![0.0; model.nodes()];
+    for &moment in moments.iter() {
+        solve(model, memory, spare, scratch, moment)?;
+        match model.setup.scheme {
+            Scheme::Euler => euler::wear(model, memory, spare, scratch, moment),
+            Scheme::Trapezoid => trapezoid::wear(model, memory, spare, scratch, moment),
+        }
+        let increment = &mut scratch.increment;
+        steady.friction_work += increment.friction_work;
+        increment.stiffness(model, model.seconds(moment - memory.cycle));
+        let nodes = increment.nodes.clone();
+        let summands = &increment.stiffness[nodes.clone()];
+        add_to(&mut stiffness[nodes.clone()], summands);
+        add_to(&mut steady.wear[nodes.clone()], &increment.depth[nodes]);
+        if let Some(stick) = spare.contact.stick_radius {
+            steady.stick_radius = steady.stick_radius.min(stick);
+        }
+        take_over(memory, spare, moment);
+        if by_mean {
+            std::mem::swap(&mut memory.traction, &mut spare.traction);
+        }
+        memory.stats.transforms += std::mem::take(&mut scratch.transforms);
+    }
+    let cycles = memory.cycle;
+    memory.stats.evaluated_cycles += cycles as u64;
+    for worn in &mut steady.wear {
+        *worn /= cycles;
+    }
+    steady.friction_work /= cycles;
+    steady.stiffness = largest(&stiffness) / cycles;
+    Ok(steady)
+}
+
+/// The tangential motion, where a cycle needs no steps.
+fn plain_swing(setup: &Setup) -> Option<&Oscillation> {
+    let still = setup.drive.normal().oscillation().amplitude() == 0.0;
+    let energetic = setup.wear.is_some_and(|law| law.follows_energy());
+    match setup.drive.tangential() {
+        Some(Control::Displacement(swing)) if still && energetic => Some(swing),
+        _ => None,
+    }
+    .filter(|swing| {
+        setup.scheme == Scheme::Trapezoid
+            && setup.drive.rig_compliance() == 0.0
+            && swing.waveform().has_two_strokes()
+    })
+}
+
+/// A steady-state cycle of ±U at a depth that is held.
+fn plain_cycle(
+    model: &Model,
+    memory: &mut State,
+    spare: &mut State,
+    scratch: &mut Scratch,
+    swing: &Oscillation,
+) -> Result<SteadyCycle, Cause> {
+    memory.stats.evaluated_cycles += 1;
+    // First the normal contact, whatever the springs do; then the springs where the cycle ends.
+    solve(model, memory, spare, scratch, 0.0)?;
+    settle_springs(&model.setup, memory, &spare.contact.load, swing);
+    solve(model, memory, spare, scratch, 0.0)?;
+    take_over(memory, spare, 0.0);
+    find_tractions(model, memory, scratch);
+
+    let increment = &mut scratch.increment;
+    let material = &model.setup.material;
+    let reach = material.friction() / material.tangential_modulus();
+    let (contact, squares) = (&memory.contact, model.grid.squares());
+    let excess = |j: usize| swing.amplitude() - reach * contact.load.nodal[j];
+    let mut slip = Field::zeros(model.nodes());
+    for (j, slip) in slip.nodal.iter_mut().enumerate() {
+        *slip = 2.0 * excess(j).max(0.0);
+    }
+    let stuck = leading(&slip.nodal, |&slip| slip == 0.0);
+    let mut stick_radius = contact.normal.radius;
+    if stuck == 0 {
+        stick_radius = 0.0;
+    } else if stuck < contact.normal.nodes {
+        let k = stuck - 1;
+        let share = excess(k) / (excess(k) - excess(stuck));
+        let border = squares[k] + share * (squares[stuck] - squares[k]);
+        let ends = [squares[k], squares[stuck]];
+        let slips = [slip.nodal[k], slip.nodal[stuck]];
+        kink::polyline(ends, slips, &[(border, 0.0)], &mut slip.kinks);
+        stick_radius = border.sqrt();
+    }
+    slip.displacement(&model.plan, &model.grid, &mut increment.surface_slip);
+    increment.surface_slip[..stuck].fill(0.0);
+    memory.stats.transforms += 1;
+    increment.shear[..stuck].fill(0.0);
+    increment.slip_kinks.clear();
+    increment
+        .slip_kinks
+        .extend(kink::by_cell(&slip.kinks, squares));
+    increment.slip.copy_from_slice(&slip.nodal);
+    let p = &memory.traction.pressure;
+    let mut without_drop = contact.clone();
+    flatten_at_border(&mut without_drop.load.nodal, squares, stuck);
+    increment.wear_by_load(model, &without_drop, p, (stuck, 1.0), 1.0);
+    increment.nodes = stuck..model.nodes();
+    Ok(SteadyCycle {
+        wear: increment.depth.iter().map(|worn| 2.0 * worn).collect(),
+        friction_work: 2.0 * increment.friction_work,
+        stiffness: 2.0 * increment.stiffness(model, 1.0),
+        stick_radius,
+    })
+}
+
+/// Takes the drop next to the border from the `load` (N/m) of the springs that slip, of which `stuck` is the first.
+///
+/// Wear makes the load drop at the border within a cell. A line from what sticks to what slips would do work in
+/// that cell where the slipping surface bears nothing and wears nothing.
+fn flatten_at_border(load: &mut [f64], squares: &[f64], stuck: usize) {
+    let (Some(k), Some(&first)) = (stuck.checked_sub(1), load.get(stuck)) else {
+        return;
+    };
+    let slope = match load.get(stuck + 1) {
+        Some(next) if first > 0.0 => (next - first) / (squares[stuck + 1] - squares[stuck]),
+        _ => 0.0,
+    };
+    let from_outside = first - slope * (squares[stuck] - squares[k]);
+    load[k] = from_outside.clamp(first.min(load[k]), load[k]);
+}
+
+/// Brings the springs that slip in a steady-state cycle to where they stand at its end under a normal `load` (N/m):
+/// those that do not stay where they are.
+fn settle_springs(setup: &Setup, memory: &mut State, load: &Field, swing: &Oscillation) {
+    let reach = setup.material.friction() / setup.material.tangential_modulus();
+    let rising = swing.rises_at_start();
+    // How far the indenter has come since its last turn.
+    let shift = swing.after_turns(0.0) - swing.mean();
+    let since = if rising {
+        swing.amplitude() + shift
+    } else {
+        swing.amplitude() - shift
+    };
+    let sign = if rising { 1.0 } else { -1.0 };
+    for (u, load) in memory.contact.spring.nodal.iter_mut().zip(&load.nodal) {
+        let limit = reach * load;
+        if limit < swing.amplitude() {
+            *u = sign * (since - limit).min(limit);
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! Second order in time: the profile extrapolated, the stress of a step its mean.
+//!
+//! # Formula
+//!
+//! ```text
+//! g*      = g_n + ρ (g_n − g_{n−1}),   ρ = Δt_n / Δt_{n−1}; ρ = 0 where the motion has turned
+//! springs at n+1 by g*;  p_{n+1} by Eq. (3), slip Δs by Eq. (2)
+//! τ̄      = ± μ (p_n + p_{n+1})/2       in the outermost slip zone
+//!        = (τ_n + τ_{n+1})/2           elsewhere, where both have one sign
+//!        = τ_{n+1}/2                   where it turned and now works with the slip, else 0
+//! f_{n+1} = f_n + wear(τ̄, Δs)
+//! ```
+//!
+//! Steps end at every turning point of d ± κu_x, where stick and slip change. A spring that begins to
+//! slip inside the step carries τ = μp while it slips, and not the mean of what it carried before and
+//! after: that is why the outer zone takes the mean of μp. It alone is worth a factor of 16 at 100
+//! steps per cycle.
+//!
+//! # Stability
+//!
+//! At the [stiffness](super::super::wear::Increment::stiffness) z, steps stay clean up to z = 0.7. One beyond is
+//! taken whole in [stages](super::stabilised) where it is stiff and hardly changes anything, and in
+//! [sub-steps](super::substep) elsewhere.
+//!
+//! - **Order**: second. Fig. 3 shows 1.9 to 2.0 from 25 to 400 steps per cycle at K = 0.3, and from 50 to 400
+//!   at K = 1: with longer steps wear next to the border is stiff, z near 1. Turning points cut steps at
+//!   odd places, so neighbouring rungs scatter by a third. The error at 100 steps is below that of
+//!   explicit Euler at 800.
+//! - **Cost**: four transforms per step.
+
+use super::super::breakdown::Cause;
+use super::super::model::Model;
+use super::super::state::State;
+use super::super::wear::outer_slip_zone;
+use super::super::{Scratch, contact, traction};
+use super::substep::{self, Outcome, Part};
+use super::{accept, stabilised};
+
+/// The farthest extrapolation of the profile, in lengths of the step before.
+const FARTHEST: f64 = 4.0;
+
+/// The stiffness beyond which a step is not taken as it is, and that of its sub-steps. Closer to the limit errors
+/// ring, and make springs slip that would not have.
+const STIFF: f64 = 0.7;
+const AIM: f64 = 0.35;
+
+/// One step from `state` to `cycle`, into `next`, in sub-steps where wear is stiff.
+pub(super) fn step(
+    model: &Model,
+    state: &State,
+    next: &mut State,
+    scratch: &mut Scratch,
+    cycle: f64,
+) -> Result<(), Cause> {
+    let guard = model.setup.stability;
+    substep::step(
+        guard,
+        AIM,
+        state,
+        next,
+        cycle,
+        |state, next, reach, part| attempt(model, state, next, scratch, reach, part),
+    )
+}
+
+fn attempt(
+    model: &Model,
+    state: &State,
+    next: &mut State,
+    scratch: &mut Scratch,
+    cycle: f64,
+    part: Part,
+) -> Result<Outcome, Cause> {
+    let duration = cycle - state.cycle;
+    let smooth = state.last.duration > 0.0 && part != Part::Unstable;
+    let ahead = if smooth {
+        (duration / state.last.duration).min(FARTHEST)
+    } else {
+        0.0
+    };
+    model.profile(&state.image, ahead, &state.last.growth, &mut scratch.g);
+    let (contact, slip) = (&mut next.contact, &mut scratch.increment.slip);
+    contact::solve(model, &scratch.g, &state.contact, cycle, contact, slip)?;
+    wear(model, state, next, scratch, cycle);
+    let stiffness = scratch.increment.stiffness(model, model.seconds(duration));
+    let mut outcome = Outcome::Done(stiffness);
+    match part {
+        Part::Guarded if stiffness > STIFF => {
+            if !stabilised::step(model, state, next, scratch, cycle, stiffness) {
+                return Ok(Outcome::TooStiff(stiffness));
+            }
+            outcome = Outcome::Stabilised;
+        }
+        Part::Guarded | Part::Raw => {}
+        Part::Unstable => scratch.increment.damp(model),
+    }
+    accept(model, state, next, scratch, cycle)?;
+    Ok(outcome)
+}
+
+/// What a step wears whose contact has been solved, into `scratch.increment`, and its tractions at the end.
+pub(super) fn wear(
+    model: &Model,
+    state: &State,
+    next: &mut State,
+    scratch: &mut Scratch,
+    cycle: f64,
+) {
+    if model.springs() == 0 {
+        return;
+    }
+    let contacts = [&state.contact, &next.contact];
+    let increment = &mut scratch.increment;
+    increment.find_slip_kinks(model, contacts[0], contacts[1]);
+    increment.rub(model, contacts);
+    if model.setup.wear.is_some() {
+        tractions(model, state, next, scratch);
+        mean_shear(model, state, next, scratch);
+        let seconds = model.seconds(cycle - state.cycle);
+        scratch.increment.wear(model, seconds);
+        let exponent = model.setup.wear.map_or(1.0, |law| law.slip_rate_exponent());
+        if exponent != 1.0 {
+            let uneven = model.setup.drive.unevenness(exponent, state.cycle, cycle);
+            let nodes = scratch.increment.nodes.clone();
+            let worn = &mut scratch.increment.depth[nodes];
+            worn.iter_mut().for_each(|worn| *worn *= uneven);
+        }
+    }
+}
+
+/// p and τ at the end of the step, and the slip of the surface in it.
+pub(super) fn tractions(model: &Model, state: &State, next: &mut State, scratch: &mut Scratch) {
+    let (contact, stuck) = (&next.contact, state.stuck_radius());
+    traction::of(model, contact, stuck, &mut scratch.rest, &mut next.traction);
+    scratch
+        .increment
+        .find_sliding(model, &state.traction, contact);
+    scratch.transforms += 3;
+}
+
+/// The stress by which the step wears.
+pub(super) fn mean_shear(model: &Model, state: &State, next: &State, scratch: &mut Scratch) {
+    let zone = outer_slip_zone(&next.contact.spring_state);
+    let friction = model.setup.material.friction();
+    let tractions = [&state.traction, &next.traction];
+    scratch
+        .increment
+        .mean_shear(friction, tractions[0], tractions[1], zone);
+}

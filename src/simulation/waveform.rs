@@ -1,0 +1,289 @@
+//! How a motion swings between its ends: a sine, or straight lines between corners.
+//!
+//! A waveform has period 1, values from −1 to 1, and the phase of a sine: triangle and trapezoid cross
+//! zero upwards at 0. Coulomb friction and wear by friction work know no rate, so at constant depth
+//! the turning points alone count, and triangle, trapezoid and sine wear alike.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use crate::math::invalid::{Invalid, finite};
+
+/// The most corners of a waveform.
+const MOST_CORNERS: usize = 100_000;
+
+/// By how much of its span a table may miss its beginning and still counts as closed.
+const CLOSED: f64 = 1e-6;
+
+/// A periodic motion between −1 and 1.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub enum Waveform {
+    /// sin 2πt.
+    #[default]
+    Sine,
+    /// Straight lines between corners; cheap to clone.
+    Polyline(Arc<Polyline>),
+}
+
+/// Straight lines between corners, periodic.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Polyline {
+    name: &'static str,
+    /// Phases of the corners, from 0 to below 1, increasing.
+    phases: Vec<f64>,
+    /// Values there.
+    values: Vec<f64>,
+}
+
+/// A table of one period: its shape, and the motion that it was taken from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tabled {
+    /// The shape, between −1 and 1.
+    pub waveform: Waveform,
+    /// Half the sum of the lowest and the highest value.
+    pub mean: f64,
+    /// Half their difference.
+    pub amplitude: f64,
+    /// 2π over the time from the first row to the last, rad/s.
+    pub angular_frequency: f64,
+}
+
+impl Waveform {
+    /// Constant speed there and back.
+    pub fn triangle() -> Self {
+        Self::polyline("triangle", vec![0.25, 0.75], vec![1.0, -1.0])
+    }
+
+    /// Constant speed, with rests at both ends that take the share `hold` of a period, between 0 and 1.
+    ///
+    /// # Errors
+    /// Another share.
+    pub fn trapezoid(hold: f64) -> Result<Self, Invalid> {
+        if !(hold > 0.0 && hold < 1.0) {
+            let rule = "must be greater than 0 and less than 1";
+            return Err(Invalid::new("hold", hold, rule));
+        }
+        let half = 0.25 * hold;
+        let phases = vec![0.25 - half, 0.25 + half, 0.75 - half, 0.75 + half];
+        let values = vec![1.0, 1.0, -1.0, -1.0];
+        Ok(Self::polyline("trapezoid", phases, values))
+    }
+
+    /// One period from a table: `times` (s) that increase, and `values`, of which the last is the first.
+    ///
+    /// # Errors
+    /// Rows that are no closed motion; the field is `times` or `values`.
+    pub fn table(times: &[f64], values: &[f64]) -> Result<Tabled, Invalid> {
+        let number = times.len();
+        if !(3..=MOST_CORNERS).contains(&number) {
+            let rule = format!("must be from 3 to {MOST_CORNERS} rows");
+            return Err(Invalid::new("times", number, rule));
+        }
+        if values.len() != number {
+            let rule = format!("must be as many as the {number} times");
+            return Err(Invalid::new("values", values.len(), rule));
+        }
+        for (&time, &value) in times.iter().zip(values) {
+            finite("times", time)?;
+            finite("values", value)?;
+        }
+        if let Some(pair) = times.windows(2).find(|pair| pair[0] >= pair[1]) {
+            let rule = format!("must increase, and follows {:e}", pair[0]);
+            return Err(Invalid::new("times", pair[1], rule));
+        }
+        let lowest = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let highest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let (mean, amplitude) = (0.5 * (lowest + highest), 0.5 * (highest - lowest));
+        if amplitude <= 0.0 {
+            return Err(Invalid::new("values", highest, "must not all be the same"));
+        }
+        let (first, last) = (values[0], values[number - 1]);
+        if (last - first).abs() > CLOSED * amplitude {
+            let rule = format!("must end where it begins, at {first:e}: the table is one period");
+            return Err(Invalid::new("values", format!("{last:e}"), rule));
+        }
+        let (begin, period) = (times[0], times[number - 1] - times[0]);
+        let inner = 0..number - 1;
+        let phases = times[inner.clone()]
+            .iter()
+            .map(|time| (time - begin) / period)
+            .collect();
+        let shape = values[inner]
+            .iter()
+            .map(|value| (value - mean) / amplitude)
+            .collect();
+        Ok(Tabled {
+            waveform: Self::polyline("table", phases, shape),
+            mean,
+            amplitude,
+            angular_frequency: TAU / period,
+        })
+    }
+
+    fn polyline(name: &'static str, phases: Vec<f64>, values: Vec<f64>) -> Self {
+        Self::Polyline(Arc::new(Polyline {
+            name,
+            phases,
+            values,
+        }))
+    }
+
+    /// The name in scenarios.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Sine => "sine",
+            Self::Polyline(line) => line.name,
+        }
+    }
+
+    /// Whether it goes from one end to the other and back, resting there or not: one stroke each way.
+    pub fn has_two_strokes(&self) -> bool {
+        match self {
+            Self::Sine => true,
+            Self::Polyline(line) => line.turns() == 2,
+        }
+    }
+
+    /// The fastest that it moves, relative to a sine.
+    pub fn fastest(&self) -> f64 {
+        match self {
+            Self::Sine => 1.0,
+            Self::Polyline(line) => {
+                let slopes = (0..line.phases.len()).map(|k| line.slope(k).abs());
+                slopes.fold(0.0, f64::max) / TAU
+            }
+        }
+    }
+}
+
+impl Polyline {
+    /// The value at a phase from 0 to 1.
+    pub fn at(&self, phase: f64) -> f64 {
+        let k = self.segment(phase);
+        let since = (phase - self.phases[k]).rem_euclid(1.0);
+        self.values[k] + self.slope(k) * since
+    }
+
+    /// The slope per period at a phase, behind a corner that stands there.
+    pub fn rate(&self, phase: f64) -> f64 {
+        self.slope(self.segment(phase))
+    }
+
+    /// The slope per period at a phase, or the last one before a rest that it lies in.
+    pub fn last_rate(&self, phase: f64) -> f64 {
+        let (corners, k) = (self.phases.len(), self.segment(phase));
+        let mut slopes = (0..corners).map(|back| self.slope((k + corners - back) % corners));
+        slopes.find(|slope| *slope != 0.0).unwrap_or(0.0)
+    }
+
+    /// How far ahead of `phase` the next corner is, in periods: greater than 0, at most 1.
+    pub fn to_next_corner(&self, phase: f64) -> f64 {
+        let next = self.phases.partition_point(|&corner| corner <= phase);
+        match self.phases.get(next) {
+            Some(corner) => corner - phase,
+            None => 1.0 - phase + self.phases[0],
+        }
+    }
+
+    /// The segment, named by the corner at which it begins, that holds a phase.
+    fn segment(&self, phase: f64) -> usize {
+        let behind = self.phases.partition_point(|&corner| corner <= phase);
+        (behind + self.phases.len() - 1) % self.phases.len()
+    }
+
+    fn slope(&self, k: usize) -> f64 {
+        let next = (k + 1) % self.phases.len();
+        let mut width = self.phases[next] - self.phases[k];
+        if width <= 0.0 {
+            width += 1.0;
+        }
+        (self.values[next] - self.values[k]) / width
+    }
+
+    /// How often it turns in a period.
+    fn turns(&self) -> usize {
+        let slopes = (0..self.phases.len()).map(|k| self.slope(k));
+        let signs: Vec<f64> = slopes.filter(|s| *s != 0.0).map(f64::signum).collect();
+        let after = signs.iter().cycle().skip(1);
+        signs.iter().zip(after).filter(|(a, b)| a != b).count()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(waveform: &Waveform) -> &Polyline {
+        match waveform {
+            Waveform::Polyline(line) => line,
+            Waveform::Sine => panic!("a sine has no corners"),
+        }
+    }
+
+    #[test]
+    fn a_triangle_has_the_phase_of_a_sine() {
+        let triangle = Waveform::triangle();
+        let line = line(&triangle);
+        for (phase, value) in [
+            (0.0, 0.0),
+            (0.125, 0.5),
+            (0.25, 1.0),
+            (0.5, 0.0),
+            (0.875, -0.5),
+        ] {
+            assert!((line.at(phase) - value).abs() < 1e-15, "{phase}");
+        }
+        assert_eq!(
+            [0.0, 0.25, 0.5, 0.75].map(|p| line.rate(p)),
+            [4.0, -4.0, -4.0, 4.0]
+        );
+        assert!((line.to_next_corner(0.8) - 0.45).abs() < 1e-15);
+        assert_eq!(line.to_next_corner(0.25), 0.5);
+        assert!((triangle.fastest() - 4.0 / TAU).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_trapezoid_rests_at_its_ends() {
+        let trapezoid = Waveform::trapezoid(0.4).expect("a trapezoid");
+        let line = line(&trapezoid);
+        for phase in [0.16, 0.25, 0.34] {
+            assert!((line.at(phase) - 1.0).abs() < 1e-15 && line.rate(phase) == 0.0);
+        }
+        assert!(line.at(0.0).abs() < 1e-15 && line.at(0.5).abs() < 1e-15);
+        assert!(trapezoid.has_two_strokes());
+        assert!(line.last_rate(0.2) > 0.0 && line.last_rate(0.8) < 0.0);
+        for hold in [0.0, 1.0, f64::NAN] {
+            assert!(Waveform::trapezoid(hold).is_err());
+        }
+    }
+
+    #[test]
+    fn a_table_keeps_its_shape_its_size_and_its_period() {
+        let tabled =
+            Waveform::table(&[1.0, 1.5, 2.0, 3.0], &[2e-6, 6e-6, 2e-6, 2e-6]).expect("a motion");
+        assert_eq!(tabled.angular_frequency, TAU / 2.0);
+        assert!((tabled.mean - 4e-6).abs() < 1e-20 && (tabled.amplitude - 2e-6).abs() < 1e-20);
+        let line = line(&tabled.waveform);
+        assert!((line.at(0.125) - 0.0).abs() < 1e-12);
+        assert!((line.at(0.75) + 1.0).abs() < 1e-12);
+        assert!(tabled.waveform.has_two_strokes());
+        let double = Waveform::table(&[0.0, 1.0, 2.0, 3.0, 4.0], &[0.0, 1.0, 0.5, 1.0, 0.0]);
+        assert!(!double.expect("a motion").waveform.has_two_strokes());
+    }
+
+    #[test]
+    fn a_table_that_is_no_closed_motion_is_refused() {
+        let field = |times: &[f64], values: &[f64]| {
+            Waveform::table(times, values).map_err(|refused| refused.field)
+        };
+        assert_eq!(field(&[0.0, 1.0, 2.0], &[0.0, 1.0, 0.5]), Err("values"));
+        assert_eq!(field(&[0.0, 1.0, 1.0], &[0.0, 1.0, 0.0]), Err("times"));
+        assert_eq!(field(&[0.0, 1.0], &[0.0, 0.0]), Err("times"));
+        assert_eq!(field(&[0.0, 1.0, 2.0], &[1.0, 1.0, 1.0]), Err("values"));
+        assert_eq!(
+            field(&[0.0, 1.0, 2.0], &[1.0, f64::NAN, 1.0]),
+            Err("values")
+        );
+        assert_eq!(field(&[0.0, 1.0, 2.0], &[1.0, 1.0]), Err("values"));
+    }
+}

@@ -1,0 +1,299 @@
+//! Wear: from tractions and slip to what a step takes off the surface, Eqs. (2) and (15).
+//!
+//! # Formula
+//!
+//! ```text
+//! Δf = wear(τ, Δs)          Δs by Eq. (2) of the slip of the springs, τ by Eq. (3)
+//! ΔE_d = 2∫ q_x Δs dx       the work of friction of the springs
+//! ```
+//!
+//! The slip of the springs is what Eq. (2) transforms, not their displacement: the two are the same by linearity,
+//! since a rigid shift maps to itself, but the slip is exactly zero inside the stick zone and stays so under a causal
+//! transform.
+//!
+//! Which τ a step wears by is the scheme's: see [`euler`](super::step) and its neighbours.
+
+use std::hint::select_unpredictable as select;
+use std::ops::Range;
+
+use super::contact::Contact;
+use super::model::Model;
+use super::stability::response;
+use super::traction::Traction;
+use crate::contact::tangential::SpringState;
+use crate::math::abel::field::Field;
+use crate::math::abel::kink::{self, Kink};
+use crate::math::scan::{largest, leading, trailing};
+use crate::math::vector::{vectorized, write_each};
+
+/// What a step wears, and by what.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Increment {
+    /// Slip of the springs, m.
+    pub slip: Vec<f64>,
+    /// Where it kinks between springs, and in which cell.
+    pub slip_kinks: Vec<(usize, Kink)>,
+    /// Slip of the surface, m.
+    pub surface_slip: Vec<f64>,
+    /// The stress that wears, Pa.
+    pub shear: Vec<f64>,
+    /// The nodes that may wear: further in nothing slips, further out nothing presses.
+    pub nodes: Range<usize>,
+    /// Worn depth, m; 0 but for these nodes.
+    pub depth: Vec<f64>,
+    /// How stiffly each of these nodes answers to its wear.
+    pub stiffness: Vec<f64>,
+    /// Work of friction, J.
+    pub friction_work: f64,
+    /// What rubs: a line load, N/m, or its work on the slip, J/m.
+    rubbing: Field,
+}
+
+impl Increment {
+    pub fn new(model: &Model) -> Self {
+        let springs = model.springs();
+        // Without wear no stress is needed to wear by.
+        let wearing = if model.setup.wear.is_some() {
+            springs
+        } else {
+            0
+        };
+        Self {
+            slip: vec![0.0; springs],
+            surface_slip: vec![0.0; wearing],
+            shear: vec![0.0; wearing],
+            depth: vec![0.0; model.nodes()],
+            stiffness: vec![0.0; wearing],
+            rubbing: Field::zeros(springs),
+            ..Self::default()
+        }
+    }
+
+    /// Wears by `shear` and `surface_slip` in a time of `seconds`.
+    pub fn wear(&mut self, model: &Model, seconds: f64) {
+        let nodes = self.nodes.clone();
+        self.depth[..nodes.start].fill(0.0);
+        self.depth[nodes.end..].fill(0.0);
+        let Some(law) = &model.setup.wear else {
+            return self.depth[nodes].fill(0.0);
+        };
+        let (tau, slip) = (
+            &self.shear[nodes.clone()],
+            &self.surface_slip[nodes.clone()],
+        );
+        let depth = &mut self.depth[nodes];
+        vectorized(
+            #[inline(always)]
+            || law.wear(tau, slip, seconds, depth),
+        );
+    }
+
+    /// The slip of the surface by Eq. (2), on the first `nodes`.
+    pub fn slip_of_surface(&mut self, model: &Model, nodes: usize) {
+        let (slip, surface) = (&self.slip, &mut self.surface_slip);
+        model.plan.displacement_rows(slip, surface, 0..nodes);
+    }
+
+    /// The stiffness z = ρ μ E* ∂Δf/∂τ / h of every node that wears, into `stiffness`; returns the largest.
+    ///
+    /// Wear that answers to the stress with ∂Δf/∂τ feeds back with z at a node with cells of the width h, ρ the
+    /// [largest eigenvalue](response) of the response of p to wear. That is what limits an explicit step.
+    pub fn stiffness(&mut self, model: &Model, seconds: f64) -> f64 {
+        let setup = &model.setup;
+        let Some(law) = &setup.wear else { return 0.0 };
+        let material = &setup.material;
+        let scale = response(setup.method) * material.friction() * material.normal_modulus();
+        let nodes = || self.nodes.clone();
+        let (tau, slip) = (&self.shear[nodes()], &self.surface_slip[nodes()]);
+        let (per_width, at) = (&model.per_width[nodes()], nodes());
+        let stiffness = &mut self.stiffness[at];
+        vectorized(
+            #[inline(always)]
+            || {
+                law.sensitivity(tau, slip, seconds, stiffness);
+                for (z, per_width) in stiffness.iter_mut().zip(per_width) {
+                    *z *= scale * per_width;
+                }
+                largest(stiffness)
+            },
+        )
+    }
+
+    /// Lets every node wear what an implicit step with its own response alone would, Δf/(1 + z): monotone for any z.
+    /// The work of friction goes down with the stress that is left at the end of the step.
+    pub fn damp(&mut self, model: &Model) {
+        let explicit = model.volume(&self.depth);
+        let nodes = self.nodes.clone();
+        let stiffness = &self.stiffness[nodes.clone()];
+        for (worn, z) in self.depth[nodes].iter_mut().zip(stiffness) {
+            *worn /= 1.0 + z;
+        }
+        if explicit > 0.0 {
+            self.friction_work *= model.volume(&self.depth) / explicit;
+        }
+    }
+
+    /// What the slip so far wears by the pressure `p` (Pa) of a `contact`, which stays as it is, in `seconds`, and the
+    /// work of friction: τ = ±μp and ΔE_d = 2∫ μq |Δs| dx. From the node `zone` on τ is `sign` times μp; further in,
+    /// it is what `shear` says.
+    pub fn wear_by_load(
+        &mut self,
+        model: &Model,
+        contact: &Contact,
+        p: &[f64],
+        (zone, sign): (usize, f64),
+        seconds: f64,
+    ) {
+        let friction = model.setup.material.friction();
+        for (tau, p) in self.shear[zone..].iter_mut().zip(&p[zone..]) {
+            *tau = sign * friction * p;
+        }
+        self.nodes = 0..self.depth.len();
+        self.wear(model, seconds);
+        self.rub(model, [contact, contact]);
+    }
+
+    /// The work of friction 2∫ μ (q_n + q_{n+1})/2 |Δs| dx: what each spring that slips turns into heat.
+    pub fn rub(&mut self, model: &Model, [before, after]: [&Contact; 2]) {
+        let friction = model.setup.material.friction();
+        write_each(
+            &mut self.rubbing.nodal,
+            &after.load.nodal,
+            &before.load.nodal,
+            #[inline(always)]
+            |after, before| 0.5 * friction * (after + before),
+        );
+        let at_edge = match after.normal.nodes {
+            0 => 0.0,
+            nodes => self.slip[nodes - 1].abs(),
+        };
+        let between = |contact: &Contact| contact.load.between_nodes(model.grid.radius());
+        let between_springs = between(before) + between(after);
+        let (row, edge) = (&model.foundation, after.normal.edge());
+        self.friction_work = friction * between_springs * at_edge
+            + row.work(&self.rubbing.nodal, &self.slip, &self.slip_kinks, edge);
+    }
+
+    /// The work of friction 2∫ q_x Δs dx of explicit Euler, the integrand falling to zero at the contact's edge.
+    pub fn rub_explicitly(&mut self, model: &Model, contact: &Contact) {
+        let modulus = model.setup.material.tangential_modulus();
+        // Springs that stick do no work, those out of contact bear nothing.
+        let end = contact.normal.nodes;
+        let states = &contact.spring_state[..end];
+        let first = leading(states, |&state| state == SpringState::Stick);
+        let Field { nodal, kinks } = &mut self.rubbing;
+        nodal[..first].fill(0.0);
+        nodal[end..].fill(0.0);
+        write_each(
+            &mut nodal[first..end],
+            &contact.spring.nodal[first..end],
+            &self.slip[first..end],
+            #[inline(always)]
+            |u, slip| modulus * u * slip,
+        );
+        kinks.clear();
+        let (normal, squares) = (&contact.normal, model.grid.squares());
+        if end > 0 && end < squares.len() {
+            let cell = [squares[end - 1], squares[end]];
+            let ends = [nodal[end - 1], nodal[end]];
+            let edge = (normal.radius * normal.radius, 0.0);
+            kink::polyline(cell, ends, &[edge], kinks);
+        }
+        self.friction_work = model.foundation.force(&self.rubbing, normal.edge());
+    }
+
+    /// Where the slip of a step kinks between springs: where a border of stick is now, and where one was before. A
+    /// cell that sticks does not slip, wherever its border was.
+    pub fn find_slip_kinks(&mut self, model: &Model, before: &Contact, after: &Contact) {
+        let squares = model.grid.squares();
+        self.slip_kinks.clear();
+        let states = &after.spring_state;
+        for (kinks, sign) in [(&after.spring.kinks, -1.0), (&before.spring.kinks, 1.0)] {
+            for (k, kink) in kink::by_cell(kinks, squares) {
+                let slips = |j: usize| states[j].sign().is_some();
+                if (slips(k) || slips(k + 1)) && states[k + 1] != SpringState::Open {
+                    let jump = sign * kink.jump;
+                    self.slip_kinks.push((k, Kink { jump, ..kink }));
+                }
+            }
+        }
+    }
+
+    /// The nodes that wear between two contacts, with the slip of their surface: up to an edge behind the last node
+    /// that carried a stress before or carries one now; method B's stress looks one node across.
+    pub fn find_sliding(&mut self, model: &Model, before: &Traction, after: &Contact) {
+        let p = &before.pressure;
+        let nodes = p.len() - trailing(p, |&p| p == 0.0);
+        let nodes = (nodes.max(after.normal.nodes) + 1).min(p.len());
+        self.slip_of_surface(model, nodes);
+        // Nothing slips within the innermost spring that does.
+        let states = &after.spring_state;
+        let stuck = leading(states, |&state| state == SpringState::Stick);
+        self.surface_slip[..stuck].fill(0.0);
+        self.nodes = stuck.min(nodes)..nodes;
+    }
+
+    /// The mean of the stress over a step, by zones: of μp in the outermost slip zone, and of τ elsewhere, where both
+    /// have one sign; half of τ where it turned and now works with the slip.
+    pub fn mean_shear(
+        &mut self,
+        friction: f64,
+        before: &Traction,
+        after: &Traction,
+        (zone, sign): (usize, f64),
+    ) {
+        let friction = sign * friction;
+        let (inner, outer) = self.shear.split_at_mut(zone);
+        let shears = before.shear.iter().zip(&after.shear);
+        let pressures = before.pressure[zone..].iter();
+        let pressures = pressures.zip(&after.pressure[zone..]);
+        let slips = &self.surface_slip;
+        vectorized(
+            #[inline(always)]
+            || {
+                for ((mean, (was, is)), slip) in inner.iter_mut().zip(shears).zip(slips) {
+                    let with_slip = select(is * slip > 0.0, 0.5 * is, 0.0);
+                    *mean = select(was * is > 0.0, 0.5 * (was + is), with_slip);
+                }
+                for (mean, (was, is)) in outer.iter_mut().zip(pressures) {
+                    *mean = 0.5 * friction * (was + is);
+                }
+            },
+        );
+    }
+}
+
+/// The first node from which outwards every spring in contact slips in one direction, and that direction. Springs out
+/// of contact belong to it.
+pub(super) fn outer_slip_zone(states: &[SpringState]) -> (usize, f64) {
+    let outermost = states.iter().rposition(|&state| state != SpringState::Open);
+    let Some((outermost, sign)) = outermost.and_then(|j| Some((j, states[j].sign()?))) else {
+        return (states.len(), 0.0);
+    };
+    let direction = states[outermost];
+    let inner = states[..outermost]
+        .iter()
+        .rposition(|&state| state != direction && state != SpringState::Open);
+    (inner.map_or(0, |j| j + 1), sign)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use SpringState::{Backward, Forward, Open, Stick};
+
+    #[test]
+    fn the_outer_zone_ends_where_something_else_begins() {
+        assert_eq!(
+            outer_slip_zone(&[Stick, Stick, Forward, Forward, Open]),
+            (2, 1.0)
+        );
+        assert_eq!(
+            outer_slip_zone(&[Forward, Stick, Backward, Open, Open]),
+            (2, -1.0)
+        );
+        assert_eq!(outer_slip_zone(&[Forward, Forward]), (0, 1.0));
+        assert_eq!(outer_slip_zone(&[Stick, Stick, Open]), (3, 0.0));
+        assert_eq!(outer_slip_zone(&[Open, Open]), (2, 0.0));
+    }
+}

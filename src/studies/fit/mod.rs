@@ -1,0 +1,433 @@
+//! Parameters from measured data: least squares over any keys of a scenario.
+//!
+//! Every data set is compared with the same run: scars with its end, loops with its last cycle,
+//! histories with their cycles. Keys that must be positive are fitted by their logarithms. Where a file
+//! gives no errors, all its values share one, which is found from what the fit leaves, so that scars in
+//! nanometres and loops in newtons weigh as their noise allows.
+//!
+//! # Formula
+//!
+//! ```text
+//! minimise Σ ρ(z²),  z = (measured − simulated)/σ
+//! ρ(z²) = z², or 2(√(1 + z²) − 1) against outliers
+//! covariance = s² (JᵀJ)⁻¹,  s² = Σ ρ/(points − keys)
+//! ```
+//!
+//! The minimum is sought by `rmpfit`, MINPACK's Levenberg–Marquardt with bounds and derivatives by
+//! differences; it depends on nothing else. (`levenberg-marquardt` brings a second nalgebra and wants
+//! derivatives; `basin` minimises in general and gives no covariance.)
+
+use std::collections::BTreeMap;
+
+use thiserror::Error;
+
+use crate::scenario::schema::{self, Kind as KeyKind, Range};
+use crate::scenario::session::SessionError;
+use crate::scenario::{Scenario, ScenarioError};
+use crate::studies::measured::{Kind, Measured};
+use solver::{Free, Solved};
+
+mod model;
+mod solver;
+
+/// Fits, each with the errors that the one before has left.
+const ROUNDS: usize = 3;
+
+/// The least error of a data set, relative to its own size: exact data must not weigh without end.
+const LEAST_ERROR: f64 = 1e-4;
+
+/// Beyond this standard error of a logarithm, or correlation, the data determine a key hardly.
+const VAGUE: f64 = 0.5;
+const ALIKE: f64 = 0.99;
+
+/// The standard deviation of normal noise in medians of its size.
+const OF_MEDIAN: f64 = 1.4826;
+
+/// Why nothing could be fitted.
+#[derive(Debug, Error)]
+pub enum FitError {
+    /// A key or its value that is refused.
+    #[error(transparent)]
+    Scenario(#[from] ScenarioError),
+    /// Keys or data that make no fit.
+    #[error("{0}")]
+    Misuse(String),
+    /// The scenario as given cannot run.
+    #[error("at the start values: {0}")]
+    Start(SessionError),
+    /// The minimum was not found.
+    #[error("no minimum was found: {0}")]
+    Failed(String),
+}
+
+/// What is to be fitted to what.
+#[derive(Debug)]
+pub struct Fit {
+    scenario: Scenario,
+    data: Vec<Measured>,
+    free: Vec<Free>,
+    cycles: f64,
+    robust: bool,
+}
+
+/// A key that was fitted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Value {
+    /// The dotted path.
+    pub key: String,
+    /// Its unit.
+    pub unit: &'static str,
+    /// The value at the minimum.
+    pub value: f64,
+    /// Its standard error; none where the data do not determine it.
+    pub stderr: Option<f64>,
+}
+
+/// A data set beside what the fitted scenario gives for it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Compared {
+    /// As it was measured.
+    pub measured: Measured,
+    /// The same points, simulated.
+    pub simulated: Vec<f64>,
+}
+
+impl Compared {
+    /// Measured less simulated.
+    pub fn residuals(&self) -> Vec<f64> {
+        let pairs = self.measured.values.iter().zip(&self.simulated);
+        pairs
+            .map(|(measured, simulated)| measured - simulated)
+            .collect()
+    }
+
+    /// The root of their mean square.
+    pub fn rms(&self) -> f64 {
+        rms(&self.residuals())
+    }
+}
+
+/// What came of a fit.
+#[derive(Debug)]
+pub struct Fitted {
+    /// The keys in the order in which they were asked for.
+    pub values: Vec<Value>,
+    /// Their correlations, row by row; 0 with a key that is not determined.
+    pub correlations: Vec<Vec<f64>>,
+    /// The data sets.
+    pub compared: Vec<Compared>,
+    /// Where data do not determine a key, in a line each.
+    pub remarks: Vec<String>,
+    /// How often the scenario was run.
+    pub runs: usize,
+    /// The scenario with the fitted values.
+    pub scenario: Scenario,
+}
+
+impl Fit {
+    /// Fits the keys `free` of `scenario` to `data`, in runs of `cycles` (default: `run.cycles`, or the
+    /// last cycle of the histories); `robust` against outliers.
+    ///
+    /// # Errors
+    /// Keys that are no numbers or have no value to start from, fewer points than keys, data that lie
+    /// outside of what is simulated.
+    pub fn new(
+        scenario: Scenario,
+        data: Vec<Measured>,
+        free: &[String],
+        cycles: Option<f64>,
+        robust: bool,
+    ) -> Result<Self, FitError> {
+        let free: Vec<Free> = free
+            .iter()
+            .map(|key| start(&scenario, key))
+            .collect::<Result<_, _>>()?;
+        let points: usize = data.iter().map(|set| set.values.len()).sum();
+        if free.is_empty() || data.is_empty() {
+            let message = "needs a key to fit and a data set to fit it to";
+            return Err(FitError::Misuse(message.into()));
+        }
+        if points <= free.len() {
+            return Err(FitError::Misuse(format!(
+                "{points} points cannot determine {} keys",
+                free.len()
+            )));
+        }
+        for (i, key) in free.iter().enumerate() {
+            if free[..i].iter().any(|other| other.key == key.key) {
+                return Err(FitError::Misuse(format!("{} is named twice", key.key)));
+            }
+        }
+        let histories = data
+            .iter()
+            .filter(|set| matches!(set.kind, Kind::Volume | Kind::Depth))
+            .flat_map(|set| set.at.iter().copied());
+        let last = histories.fold(0.0, f64::max);
+        let planned = cycles.or(scenario.run().cycles).unwrap_or(0.0);
+        let cycles = planned.max(last);
+        let has_loop = data.iter().any(|set| set.kind == Kind::Loop);
+        if cycles <= 0.0 || has_loop && cycles < 1.0 {
+            let message = "the run's length is not known, or less than a cycle; give --cycles";
+            return Err(FitError::Misuse(message.into()));
+        }
+        let domain = scenario.setup().grid.radius();
+        for set in &data {
+            if !matches!(set.kind, Kind::Profile | Kind::Wear) {
+                continue;
+            }
+            let widest = set.at.iter().copied().fold(0.0, f64::max);
+            if widest > 100.0 * domain || widest < 0.01 * domain {
+                return Err(FitError::Misuse(format!(
+                    "{}: radii up to {widest:.1e} m, where contact reaches {domain:.1e} m: are they in m?",
+                    set.name
+                )));
+            }
+        }
+        Ok(Self {
+            scenario,
+            data,
+            free,
+            cycles,
+            robust,
+        })
+    }
+
+    /// Seeks the minimum; `on_run` hears of every run.
+    ///
+    /// # Errors
+    /// A scenario that cannot run with its start values, and a search that fails.
+    pub fn run(&self, on_run: &mut dyn FnMut()) -> Result<Fitted, FitError> {
+        let mut runs = 0;
+        let simulate = |theta: &[f64], runs: &mut usize, on_run: &mut dyn FnMut()| {
+            *runs += 1;
+            on_run();
+            model::simulate(&self.at(theta)?, &self.data, self.cycles)
+        };
+        let mut theta: Vec<f64> = self.free.iter().map(Free::start).collect();
+        let mut simulated = simulate(&theta, &mut runs, on_run).map_err(FitError::Start)?;
+        let mut errors: Vec<Vec<f64>> = self.data.iter().map(first_errors).collect();
+        let mut solved = None;
+        for round in 0..ROUNDS {
+            let mut residuals = |theta: &[f64]| {
+                let simulated = simulate(theta, &mut runs, on_run).ok()?;
+                Some(self.residuals(&simulated, &errors))
+            };
+            let points = self.data.iter().map(|set| set.values.len()).sum();
+            let found: Solved = solver::solve(&self.free, &theta, points, &mut residuals)
+                .map_err(|reason| FitError::Failed(reason.into()))?;
+            theta.clone_from(&found.theta);
+            simulated = simulate(&theta, &mut runs, on_run)
+                .map_err(|error| FitError::Failed(error.to_string()))?;
+            solved = Some(found);
+            let given = self.data.iter().all(|set| set.errors.is_some());
+            if round + 1 == ROUNDS || given && !self.robust {
+                break;
+            }
+            self.update_errors(&simulated, &mut errors);
+        }
+        let solved = solved.ok_or_else(|| FitError::Failed("no round".into()))?;
+        let scenario = self
+            .at(&theta)
+            .map_err(|error| FitError::Failed(error.to_string()))?;
+        Ok(self.told(&theta, &solved, simulated, scenario, runs))
+    }
+
+    /// The scenario with these values of the keys.
+    fn at(&self, theta: &[f64]) -> Result<Scenario, SessionError> {
+        let texts: Vec<(&str, String)> = self
+            .free
+            .iter()
+            .zip(theta)
+            .map(|(free, theta)| (free.key.as_str(), format!("{:e}", free.value(*theta))))
+            .collect();
+        let assignments: Vec<(&str, &str)> = texts
+            .iter()
+            .map(|(key, text)| (*key, text.as_str()))
+            .collect();
+        Ok(self.scenario.with_all(&assignments)?)
+    }
+
+    /// z, or the root of ρ with its sign, of all points.
+    fn residuals(&self, simulated: &[Vec<f64>], errors: &[Vec<f64>]) -> Vec<f64> {
+        let mut all = Vec::new();
+        for ((set, simulated), errors) in self.data.iter().zip(simulated).zip(errors) {
+            for ((value, simulated), error) in set.values.iter().zip(simulated).zip(errors) {
+                let z = (value - simulated) / error;
+                all.push(if self.robust {
+                    (2.0 * (z.hypot(1.0) - 1.0)).sqrt().copysign(z)
+                } else {
+                    z
+                });
+            }
+        }
+        all
+    }
+
+    /// The error that all values of a data set share, from what the fit leaves.
+    fn update_errors(&self, simulated: &[Vec<f64>], errors: &mut [Vec<f64>]) {
+        for ((set, simulated), errors) in self.data.iter().zip(simulated).zip(errors) {
+            if set.errors.is_some() {
+                continue;
+            }
+            let pairs = set.values.iter().zip(simulated);
+            let left: Vec<f64> = pairs.map(|(value, simulated)| value - simulated).collect();
+            let size = if self.robust {
+                let mut sizes: Vec<f64> = left.iter().map(|left| left.abs()).collect();
+                sizes.sort_by(f64::total_cmp);
+                OF_MEDIAN * sizes[sizes.len() / 2]
+            } else {
+                rms(&left)
+            };
+            errors.fill(
+                size.max(LEAST_ERROR * rms(&set.values))
+                    .max(f64::MIN_POSITIVE),
+            );
+        }
+    }
+
+    fn told(
+        &self,
+        theta: &[f64],
+        solved: &Solved,
+        simulated: Vec<Vec<f64>>,
+        scenario: Scenario,
+        runs: usize,
+    ) -> Fitted {
+        let mut remarks = Vec::new();
+        let keys = self.free.len();
+        let mut values = Vec::new();
+        for (i, free) in self.free.iter().enumerate() {
+            let error = solved.covariance[i][i].sqrt();
+            let is_known = error.is_finite() && error > 0.0 && !solved.at_bound[i];
+            let key = free.key.clone();
+            if solved.at_bound[i] {
+                remarks.push(format!("{key} ran into the end of its range"));
+            } else if !is_known {
+                remarks.push(format!("the data do not determine {key}"));
+            } else if error > VAGUE * free.vague_at(theta[i]) {
+                remarks.push(format!(
+                    "the data hardly determine {key}: its standard error is as large as itself"
+                ));
+            }
+            values.push(Value {
+                unit: free.unit,
+                value: free.value(theta[i]),
+                stderr: is_known.then(|| free.error(theta[i], error)),
+                key,
+            });
+        }
+        let correlation = |i: usize, j: usize| {
+            let norm = (solved.covariance[i][i] * solved.covariance[j][j]).sqrt();
+            if norm > 0.0 {
+                solved.covariance[i][j] / norm
+            } else {
+                0.0
+            }
+        };
+        let correlations: Vec<Vec<f64>> = (0..keys)
+            .map(|i| (0..keys).map(|j| correlation(i, j)).collect())
+            .collect();
+        for (i, row) in correlations.iter().enumerate() {
+            for (j, correlation) in row.iter().enumerate().take(i) {
+                if correlation.abs() > ALIKE {
+                    remarks.push(format!(
+                        "the data hardly tell {} from {}: their correlation is {correlation:.4}",
+                        self.free[j].key, self.free[i].key
+                    ));
+                }
+            }
+        }
+        let compared = self.data.iter().cloned().zip(simulated);
+        Fitted {
+            values,
+            correlations,
+            compared: compared
+                .map(|(measured, simulated)| Compared {
+                    measured,
+                    simulated,
+                })
+                .collect(),
+            remarks,
+            runs,
+            scenario,
+        }
+    }
+}
+
+impl Fitted {
+    /// `{key: {value, stderr, correlations: {key: …}}}`, as JSON has it; no error: `null`.
+    pub fn json(&self) -> BTreeMap<String, serde_json::Value> {
+        let others = |i: usize| {
+            let pairs = self.values.iter().zip(&self.correlations[i]).enumerate();
+            pairs
+                .filter(|(j, _)| *j != i)
+                .map(|(_, (value, correlation))| (value.key.clone(), (*correlation).into()))
+                .collect::<serde_json::Map<_, _>>()
+        };
+        let entry = |(i, value): (usize, &Value)| {
+            let told = serde_json::json!({
+                "value": value.value,
+                "stderr": value.stderr,
+                "correlations": others(i),
+            });
+            (value.key.clone(), told)
+        };
+        self.values.iter().enumerate().map(entry).collect()
+    }
+}
+
+/// A key and where its search starts.
+fn start(scenario: &Scenario, key: &str) -> Result<Free, FitError> {
+    let misuse = |message: String| FitError::Misuse(message);
+    let Some(parameter) = schema::find(key) else {
+        // The scenario's own words for a key that is unknown.
+        scenario.with(key, "1.0")?;
+        return Err(misuse(format!("{key}: no such key")));
+    };
+    if parameter.kind != KeyKind::Number {
+        return Err(misuse(format!("{key} is no number that can be fitted")));
+    }
+    if ["run", "changes", "numerics"].contains(&parameter.section()) {
+        return Err(misuse(format!(
+            "{key} is no property of the contact that data could tell"
+        )));
+    }
+    let value = scenario
+        .value(key)
+        .and_then(|value| value.parse::<f64>().ok());
+    let value = value.ok_or_else(|| {
+        misuse(format!(
+            "{key} has no value to start from; give one with --set {key}=..."
+        ))
+    })?;
+    let positive = match parameter.range {
+        Range::Positive | Range::UpTo(_) | Range::Acute => true,
+        Range::NotNegative | Range::Any => value > 0.0 && parameter.range == Range::NotNegative,
+        Range::Within(least, _) => least > 0.0,
+    };
+    if parameter.range == Range::NotNegative && value == 0.0 {
+        return Err(misuse(format!(
+            "{key} starts at 0; give a value greater than 0 with --set"
+        )));
+    }
+    let limits = match parameter.range {
+        Range::Within(least, most) => (least, most),
+        Range::UpTo(most) => (0.0, most),
+        Range::Acute => (0.0, std::f64::consts::FRAC_PI_2),
+        _ => (f64::NEG_INFINITY, f64::INFINITY),
+    };
+    Ok(Free::new(key, parameter.unit, value, positive, limits))
+}
+
+/// The errors of a data set: its own, or its size until a fit tells more.
+fn first_errors(set: &Measured) -> Vec<f64> {
+    let size = rms(&set.values).max(f64::MIN_POSITIVE);
+    set.errors
+        .clone()
+        .unwrap_or_else(|| vec![size; set.values.len()])
+}
+
+fn rms(values: &[f64]) -> f64 {
+    let squares: f64 = values.iter().map(|value| value * value).sum();
+    (squares / values.len().max(1) as f64).sqrt()
+}

@@ -1,0 +1,221 @@
+//! The search for the minimum, and what it tells of the keys.
+
+use rmpfit::{MPConfig, MPError, MPFitter, MPPar, MPResult, MPSuccess};
+
+/// By how many e-folds a positive key may move.
+const FARTHEST: f64 = 12.0;
+
+/// The step of differences, of a logarithm or relative to a value: the scenario is planned anew for
+/// each run, and its grid follows the keys, which leaves roughness below 1e-5.
+const STEP: f64 = 3e-3;
+
+/// The residual of every point where the contact cannot be computed: no minimum lies there.
+const HOPELESS: f64 = 1e6;
+
+/// A key that is fitted.
+#[derive(Debug, Clone)]
+pub(super) struct Free {
+    /// The dotted path.
+    pub key: String,
+    /// Its unit.
+    pub unit: &'static str,
+    start: f64,
+    /// Fitted by its logarithm.
+    positive: bool,
+    limits: (f64, f64),
+}
+
+/// The minimum.
+#[derive(Debug)]
+pub(super) struct Solved {
+    /// The keys there, positive ones by their logarithms.
+    pub theta: Vec<f64>,
+    /// Their covariance, scaled by what the fit leaves; 0 where a key is not determined.
+    pub covariance: Vec<Vec<f64>>,
+    /// Whether a key ran into the end of its range.
+    pub at_bound: Vec<bool>,
+}
+
+impl Free {
+    pub fn new(
+        key: &str,
+        unit: &'static str,
+        start: f64,
+        positive: bool,
+        limits: (f64, f64),
+    ) -> Self {
+        Self {
+            key: key.to_owned(),
+            unit,
+            start,
+            positive,
+            limits,
+        }
+    }
+
+    /// Where the search starts.
+    pub fn start(&self) -> f64 {
+        if self.positive {
+            self.start.ln()
+        } else {
+            self.start
+        }
+    }
+
+    /// The value of the key.
+    pub fn value(&self, theta: f64) -> f64 {
+        if self.positive { theta.exp() } else { theta }
+    }
+
+    /// The standard error of the value.
+    pub fn error(&self, theta: f64, error: f64) -> f64 {
+        if self.positive {
+            theta.exp() * error
+        } else {
+            error
+        }
+    }
+
+    /// The size against which an error is vague.
+    pub fn vague_at(&self, theta: f64) -> f64 {
+        if self.positive {
+            1.0
+        } else {
+            2.0 * theta.abs()
+        }
+    }
+
+    fn bounds(&self) -> (f64, f64) {
+        let (least, most) = self.limits;
+        if !self.positive {
+            return self.limits;
+        }
+        let start = self.start.ln();
+        let low = if least > 0.0 {
+            least.ln()
+        } else {
+            f64::NEG_INFINITY
+        };
+        (low.max(start - FARTHEST), most.ln().min(start + FARTHEST))
+    }
+}
+
+struct Problem<'a> {
+    points: usize,
+    parameters: Vec<MPPar>,
+    config: MPConfig,
+    residuals: &'a mut dyn FnMut(&[f64]) -> Option<Vec<f64>>,
+}
+
+impl MPFitter for Problem<'_> {
+    fn eval(&mut self, theta: &[f64], deviates: &mut [f64]) -> MPResult<()> {
+        match (self.residuals)(theta) {
+            Some(found) if found.iter().all(|z| z.is_finite()) => deviates.copy_from_slice(&found),
+            _ => deviates.fill(HOPELESS),
+        }
+        Ok(())
+    }
+
+    fn number_of_points(&self) -> usize {
+        self.points
+    }
+
+    fn config(&self) -> &MPConfig {
+        &self.config
+    }
+
+    fn parameters(&self) -> &[MPPar] {
+        &self.parameters
+    }
+}
+
+/// Seeks the minimum of the sum of squares of `residuals`, of which there are `points`, from `theta`.
+///
+/// # Errors
+/// In words, where the search cannot begin or does not end.
+pub(super) fn solve(
+    free: &[Free],
+    theta: &[f64],
+    points: usize,
+    residuals: &mut dyn FnMut(&[f64]) -> Option<Vec<f64>>,
+) -> Result<Solved, &'static str> {
+    let parameters = free.iter().zip(theta).map(|(free, theta)| {
+        let (low, up) = free.bounds();
+        let mut parameter = MPPar::new();
+        (parameter.limited_low, parameter.limited_up) = (low.is_finite(), up.is_finite());
+        parameter.limit_low = if low.is_finite() { low } else { 0.0 };
+        parameter.limit_up = if up.is_finite() { up } else { 0.0 };
+        parameter.step = if free.positive {
+            STEP
+        } else {
+            STEP * theta.abs().max(1e-12)
+        };
+        parameter
+    });
+    let mut config = MPConfig::new();
+    (config.ftol, config.xtol, config.gtol) = (1e-7, 1e-6, 1e-10);
+    config.max_iter = 60;
+    let mut problem = Problem {
+        points,
+        parameters: parameters.collect(),
+        config,
+        residuals,
+    };
+    let mut theta = theta.to_vec();
+    let status = problem.mpfit(&mut theta).map_err(|error| match error {
+        MPError::InitBounds => "a start value lies outside of its range",
+        MPError::DoF => "there are fewer points than keys",
+        _ => "the residuals are not finite",
+    })?;
+    if status.success == MPSuccess::MaxIter {
+        return Err("it was still moving after 60 iterations; try nearer start values");
+    }
+    let keys = free.len();
+    let scale = status.best_norm / (points - keys) as f64;
+    let covariance = (0..keys)
+        .map(|i| {
+            (0..keys)
+                .map(|j| scale * status.covar[i * keys + j])
+                .collect()
+        })
+        .collect();
+    let at_bound = free.iter().zip(&theta).map(|(free, theta)| {
+        let (low, up) = free.bounds();
+        *theta <= low || *theta >= up
+    });
+    Ok(Solved {
+        at_bound: at_bound.collect(),
+        covariance,
+        theta,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_key_without_influence_has_no_covariance() {
+        let free = ["a", "b"].map(|key| Free::new(key, "", 1.0, true, (0.0, f64::INFINITY)));
+        let mut residuals = |theta: &[f64]| {
+            Some(
+                (1..9)
+                    .map(|i| f64::from(i) * (theta[0].exp() - 2.0))
+                    .collect(),
+            )
+        };
+        let solved = solve(&free, &[0.0, 0.0], 8, &mut residuals).expect("a minimum");
+        assert!((solved.theta[0].exp() - 2.0).abs() < 1e-6);
+        assert_eq!(solved.covariance[1][1], 0.0);
+    }
+
+    #[test]
+    fn a_range_is_kept_and_its_end_is_told() {
+        let free = [Free::new("a", "", 0.3, false, (0.0, 0.5))];
+        let mut residuals =
+            |theta: &[f64]| Some((1..9).map(|i| f64::from(i) * (theta[0] - 2.0)).collect());
+        let solved = solve(&free, &[0.3], 8, &mut residuals).expect("a minimum");
+        assert_eq!(solved.theta[0], 0.5);
+        assert!(solved.at_bound[0]);
+    }
+}

@@ -1,0 +1,116 @@
+//! The judge of the numerics: random scenarios, each brought to an accuracy by the ladder and held against a
+//! much finer run.
+//!
+//! A change of a method, a special case or a tuned constant is worth what it changes in this table.
+
+use super::random_scenarios::{self, Random};
+use super::refinement::{self, Difference, Level, Outcome, Verdict};
+
+/// The fine run has so many times the cells and steps of the rung that it judges.
+const FINER: f64 = 3.0;
+
+/// What the judge saw of one scenario at one accuracy.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// The seed of the scenario.
+    pub seed: u64,
+    /// How the ladder ended; a reason if it had no result at all.
+    pub reached: Result<Found, String>,
+}
+
+/// A rung and the truth.
+#[derive(Debug, Clone)]
+pub struct Found {
+    /// The last rung.
+    pub level: Level,
+    /// Why it was the last.
+    pub verdict: Verdict,
+    /// The time of the whole ladder, s.
+    pub seconds: f64,
+    /// The time of its last rung, s.
+    pub last_rung: f64,
+    /// What the ladder estimated.
+    pub estimate: Difference,
+    /// How far the rung is from the fine run; a reason if there is none.
+    pub truth: Result<Difference, String>,
+}
+
+impl Found {
+    /// Whether the accuracy was promised and not kept.
+    pub fn is_missed(&self, accuracy: f64) -> bool {
+        let truth = self.truth.as_ref().map_or(0.0, Difference::promised);
+        self.verdict == Verdict::Met && truth > accuracy
+    }
+
+    /// The estimated error over the true one: below 1 it was understated.
+    pub fn reliability(&self) -> Option<f64> {
+        let truth = self.truth.as_ref().ok()?.promised();
+        (truth > 0.0).then(|| self.estimate.promised() / truth)
+    }
+}
+
+/// Judges the scenario of a seed at one accuracy; `clock` tells seconds of computing.
+pub fn judge(seed: u64, accuracy: f64, budget: f64, clock: &dyn Fn() -> f64) -> Case {
+    let scenario = random_scenarios::scenario(seed);
+    let cycles = scenario.run().cycles.unwrap_or(0.0);
+    let go_on = || true;
+    let climbed = refinement::climb(&scenario, cycles, accuracy, budget, &go_on, clock);
+    let reached = climbed.map_err(|error| error.to_string()).map(|reached| {
+        let level = reached.rung.level;
+        let fine = level.scaled(FINER, FINER);
+        let truth = fine
+            .of_scenario(&scenario)
+            .map_err(|error| error.to_string())
+            .and_then(|fine| match refinement::run(&fine, cycles, &go_on) {
+                Some(Ok(session)) => Ok(reached.rung.outcome.against(&Outcome::of(&session))),
+                Some(Err(error)) => Err(error.to_string()),
+                None => Err("interrupted".into()),
+            });
+        Found {
+            level,
+            verdict: reached.verdict,
+            seconds: reached.seconds,
+            last_rung: reached.rung.seconds,
+            estimate: reached.error,
+            truth,
+        }
+    });
+    Case { seed, reached }
+}
+
+/// Runs the scenario of a seed on cells and steps drawn at random and estimates its error with
+/// [`refinement::estimate`]: the estimate and the difference from a much finer run.
+///
+/// # Errors
+/// A reason, if one of the runs does not come to its end.
+pub fn judge_estimate(seed: u64) -> Result<(Difference, Difference), String> {
+    let scenario = random_scenarios::scenario(seed);
+    let cycles = scenario.run().cycles.unwrap_or(0.0);
+    let mut draw = Random::new(!seed);
+    let turns = scenario.setup().drive.frequency_ratio().max(1.0);
+    let level = Level {
+        points: draw.log_between(24.0, 160.0).round() as usize,
+        steps: (draw.log_between(12.0, 120.0) * turns).round() as u32,
+        ..Level::of(&scenario)
+    };
+    let go_on = || true;
+    let run = |level: &Level| {
+        let scenario = level.of_scenario(&scenario);
+        let scenario = scenario.map_err(|error| error.to_string())?;
+        let ended = refinement::run(&scenario, cycles, &go_on).ok_or("interrupted")?;
+        ended.map_err(|error| error.to_string())
+    };
+    let session = run(&level)?;
+    let estimate = refinement::estimate(&session, &go_on).ok_or("interrupted")?;
+    let estimate = estimate.map_err(|error| error.to_string())?;
+    let fine = Outcome::of(&run(&level.scaled(FINER, FINER))?);
+    Ok((estimate, Outcome::of(&session).against(&fine)))
+}
+
+/// The value at a share (0 to 1) of sorted numbers; NaN without any.
+pub fn quantile(values: &[f64], share: f64) -> f64 {
+    let mut sorted: Vec<f64> = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let at = (share * (sorted.len().max(1) - 1) as f64).round() as usize;
+    sorted.get(at).copied().unwrap_or(f64::NAN)
+}

@@ -1,0 +1,319 @@
+//! Results that somebody measured, to be laid beside simulated ones: scars, fretting loops, histories.
+
+use crate::scenario::ScenarioError;
+use crate::scenario::columns::{Columns, Quantity};
+
+/// The fewest rows of a data set.
+const FEWEST: usize = 3;
+
+/// The fewest rows of a loop.
+const FEWEST_OF_LOOP: usize = 8;
+
+/// By how many times the distance between its rows a loop may miss its beginning.
+const OPEN: f64 = 3.0;
+
+/// What a data set holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// The worn profile f over r, m.
+    Profile,
+    /// The worn depth over r, m.
+    Wear,
+    /// The tangential force, N, over the displacement, m, through one closed cycle.
+    Loop,
+    /// The worn volume, m³, over cycles.
+    Volume,
+    /// The largest worn depth, m, over cycles.
+    Depth,
+}
+
+impl Kind {
+    /// The unit of the values.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Profile | Self::Wear | Self::Depth => "m",
+            Self::Loop => "N",
+            Self::Volume => "m³",
+        }
+    }
+
+    /// The abscissa and its unit.
+    pub fn abscissa(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Profile | Self::Wear => ("r", "m"),
+            Self::Loop => ("u_x", "m"),
+            Self::Volume | Self::Depth => ("cycle", ""),
+        }
+    }
+}
+
+/// A data set.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measured {
+    /// The file.
+    pub name: String,
+    /// What it holds.
+    pub kind: Kind,
+    /// r in m (0 or greater), u_x in m, or cycles.
+    pub at: Vec<f64>,
+    /// What was measured there, in the unit of the kind.
+    pub values: Vec<f64>,
+    /// Standard errors of the values, where the file gives them.
+    pub errors: Option<Vec<f64>>,
+}
+
+impl Measured {
+    /// A scar: columns `r_m` and `wear_m`, or `f_m` for the worn profile; standard errors in `error_m`.
+    ///
+    /// # Errors
+    /// What is no such table; fewer than 3 rows.
+    pub fn scar(columns: &Columns) -> Result<Self, ScenarioError> {
+        let (name, kind) = match columns.has("wear", Quantity::Length) {
+            true => ("wear", Kind::Wear),
+            false => ("f", Kind::Profile),
+        };
+        let mut scar = read(
+            columns,
+            ("r", Quantity::Length),
+            (name, Quantity::Length),
+            kind,
+        )?;
+        for r in &mut scar.at {
+            *r = r.abs();
+        }
+        Ok(scar)
+    }
+
+    /// A loop: columns `u_m` and `F_N`, through one closed cycle in the order of time; `error_N`.
+    ///
+    /// # Errors
+    /// What is no such table; fewer than 8 rows; a loop that does not close.
+    pub fn fretting_loop(columns: &Columns) -> Result<Self, ScenarioError> {
+        let measured = read(
+            columns,
+            ("u", Quantity::Length),
+            ("F", Quantity::Force),
+            Kind::Loop,
+        )?;
+        if measured.at.len() < FEWEST_OF_LOOP {
+            let reason = format!("a loop needs {FEWEST_OF_LOOP} rows or more");
+            return Err(columns.refuse(reason));
+        }
+        let (spans, rows) = (
+            [span(&measured.at), span(&measured.values)],
+            measured.at.len(),
+        );
+        if spans.contains(&0.0) {
+            return Err(columns.refuse("is no loop: displacement or force never changes"));
+        }
+        let distance = |i: usize, j: usize| {
+            let du = (measured.at[i] - measured.at[j]) / spans[0];
+            let df = (measured.values[i] - measured.values[j]) / spans[1];
+            du.hypot(df)
+        };
+        let mut steps: Vec<f64> = (1..rows).map(|i| distance(i, i - 1)).collect();
+        steps.sort_by(f64::total_cmp);
+        let gap = distance(rows - 1, 0);
+        if gap > OPEN * steps[(rows - 1) / 2].max(1e-3) && gap > steps[rows - 2] {
+            return Err(columns.refuse(format!(
+                "the loop does not close: it begins at u = {:e} m, F = {:e} N and ends at {:e} m, {:e} N; \
+                 give one whole cycle",
+                measured.at[0], measured.values[0], measured.at[rows - 1], measured.values[rows - 1]
+            )));
+        }
+        Ok(measured)
+    }
+
+    /// A history: columns `cycle` and `wear_volume_m3`, or `depth_m`; `error_m3` or `error_m`.
+    ///
+    /// # Errors
+    /// What is no such table; fewer than 3 rows; negative cycles.
+    pub fn history(columns: &Columns) -> Result<Self, ScenarioError> {
+        let cycle = ("cycle", Quantity::Number);
+        let measured = match columns.has("depth", Quantity::Length) {
+            true => read(columns, cycle, ("depth", Quantity::Length), Kind::Depth)?,
+            false => read(
+                columns,
+                cycle,
+                ("wear_volume", Quantity::Volume),
+                Kind::Volume,
+            )?,
+        };
+        if let Some(row) = measured.at.iter().position(|cycle| *cycle < 0.0) {
+            let line = columns.line(row);
+            return Err(columns.refuse(format!("line {line}: cycle must be 0 or greater")));
+        }
+        Ok(measured)
+    }
+}
+
+fn read(
+    columns: &Columns,
+    at: (&str, Quantity),
+    values: (&str, Quantity),
+    kind: Kind,
+) -> Result<Measured, ScenarioError> {
+    let measured = Measured {
+        name: columns.path().to_owned(),
+        kind,
+        at: columns.column(at.0, at.1)?,
+        values: columns.column(values.0, values.1)?,
+        errors: match columns.has("error", values.1) {
+            true => Some(columns.column("error", values.1)?),
+            false => None,
+        },
+    };
+    if measured.at.len() < FEWEST {
+        return Err(columns.refuse(format!("has fewer than {FEWEST} rows of data")));
+    }
+    let errors = measured.errors.iter().flatten();
+    if let Some(row) = errors.clone().position(|error| *error <= 0.0) {
+        let line = columns.line(row);
+        return Err(columns.refuse(format!("line {line}: an error must be greater than 0")));
+    }
+    Ok(measured)
+}
+
+fn span(values: &[f64]) -> f64 {
+    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+    values.iter().copied().fold(f64::NEG_INFINITY, f64::max) - least
+}
+
+/// A loop as two functions of the displacement: the stroke there, and the one back.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Strokes {
+    /// (u, F) of the rising displacement, by u.
+    rising: Vec<(f64, f64)>,
+    /// (u, F) of the falling one, by u.
+    falling: Vec<(f64, f64)>,
+}
+
+/// Which points of a closed loop belong to the rising stroke: those from its least displacement on to
+/// its largest.
+pub fn rises(displacements: &[f64]) -> Vec<bool> {
+    let by_value = |a: &usize, b: &usize| displacements[*a].total_cmp(&displacements[*b]);
+    let indices = 0..displacements.len();
+    let (Some(least), Some(most)) = (indices.clone().min_by(by_value), indices.max_by(by_value))
+    else {
+        return Vec::new();
+    };
+    let rises = |i: usize| match least <= most {
+        true => (least..=most).contains(&i),
+        false => i >= least || i <= most,
+    };
+    (0..displacements.len()).map(rises).collect()
+}
+
+impl Strokes {
+    /// The strokes of a closed loop of displacements and forces.
+    pub fn new(points: &[(f64, f64)]) -> Self {
+        let displacements: Vec<f64> = points.iter().map(|point| point.0).collect();
+        let rises = rises(&displacements);
+        let turning = |all: Vec<(f64, f64)>| {
+            let mut all = all;
+            all.sort_by(|a, b| a.0.total_cmp(&b.0));
+            all
+        };
+        let of = |rising: bool| {
+            let points = points.iter().zip(&rises);
+            turning(
+                points
+                    .filter(|(_, r)| **r == rising)
+                    .map(|(p, _)| *p)
+                    .collect(),
+            )
+        };
+        let (rising, mut falling) = (of(true), of(false));
+        // Both strokes share the points at which the motion turns.
+        if let (Some(first), Some(last)) = (rising.first(), rising.last()) {
+            falling.insert(0, *first);
+            falling.push(*last);
+        }
+        Self { rising, falling }
+    }
+
+    /// The force at a displacement on one of the strokes; beyond their ends the one there.
+    pub fn force(&self, displacement: f64, rising: bool) -> f64 {
+        let stroke = if rising { &self.rising } else { &self.falling };
+        let k = stroke.partition_point(|point| point.0 <= displacement);
+        let (Some(last), Some(first)) = (stroke.last(), stroke.first()) else {
+            return 0.0;
+        };
+        if k == 0 {
+            return first.1;
+        }
+        let Some(next) = stroke.get(k) else {
+            return last.1;
+        };
+        let before = stroke[k - 1];
+        let share = (displacement - before.0) / (next.0 - before.0);
+        before.1 + share * (next.1 - before.1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn columns(text: &str) -> Columns {
+        Columns::parse(text, "data.csv").expect("columns")
+    }
+
+    #[test]
+    fn scars_loops_and_histories_are_read_with_their_errors() {
+        let scar = Measured::scar(&columns("r_um,wear_nm,error_nm\n-1,5,1\n0,7,1\n1,5,2\n"));
+        let scar = scar.expect("a scar");
+        assert_eq!((scar.kind, scar.at[0]), (Kind::Wear, 1e-6));
+        assert!((scar.errors.expect("errors")[2] / 2e-9 - 1.0).abs() < 1e-12);
+        let profile = Measured::scar(&columns("r_m,f_m\n0,0\n1,1\n2,4\n")).expect("a scar");
+        assert_eq!((profile.kind, profile.errors), (Kind::Profile, None));
+        let history = Measured::history(&columns("cycle,wear_volume_m3\n0,0\n1,1\n2,4\n"));
+        assert_eq!(history.expect("a history").kind, Kind::Volume);
+        let history = Measured::history(&columns("cycle,depth_um\n0,0\n1,1\n2,4\n"));
+        assert_eq!(history.expect("a history").values[2], 4e-6);
+    }
+
+    #[test]
+    fn bad_data_are_one_line() {
+        let scar = |text: &str| {
+            Measured::scar(&columns(text))
+                .expect_err("refused")
+                .to_string()
+        };
+        assert!(scar("r_m,f_m\n0,0\n1,1\n").contains("fewer than 3 rows"));
+        assert!(scar("r_m,f_m,error_m\n0,0,1\n1,1,0\n2,4,1\n").contains("line 3: an error must"));
+        let history = Measured::history(&columns("cycle,depth_m\n0,0\n-1,1\n2,4\n"));
+        assert!(
+            history
+                .expect_err("refused")
+                .to_string()
+                .contains("line 3: cycle must")
+        );
+        let mut open = "u_m,F_N\n".to_owned();
+        for i in 0..20 {
+            open.push_str(&format!("{},{}\n", i, 2 * i));
+        }
+        let refused = Measured::fretting_loop(&columns(&open)).expect_err("refused");
+        assert!(
+            refused.to_string().contains("the loop does not close"),
+            "{refused}"
+        );
+    }
+
+    #[test]
+    fn strokes_are_told_apart_and_interpolated() {
+        // An ellipse-like loop that begins in the middle of its rising stroke.
+        let points: Vec<(f64, f64)> = (0..400)
+            .map(|i| std::f64::consts::TAU * f64::from(i) / 400.0)
+            .map(|t| (t.sin(), (t + 0.5).sin()))
+            .collect();
+        let strokes = Strokes::new(&points);
+        for u in [-0.9f64, -0.2, 0.0, 0.6] {
+            let t = u.asin();
+            let back = std::f64::consts::PI - t;
+            assert!((strokes.force(u, true) - (t + 0.5).sin()).abs() < 1e-3);
+            assert!((strokes.force(u, false) - (back + 0.5).sin()).abs() < 1e-3);
+        }
+        assert_eq!(strokes.force(5.0, true), strokes.force(5.0, false));
+    }
+}

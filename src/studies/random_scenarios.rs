@@ -1,0 +1,352 @@
+//! Random scenarios that a rig could run: the ground on which claims about errors are tested.
+//!
+//! Each seed gives one scenario, the same on every machine and in every version: the generator is
+//! SplitMix64 (G. L. Steele, D. Lea, C. H. Flood, 2014, OOPSLA, doi 10.1145/2660193.2660195), written out here
+//! because the random numbers of library crates may change from version to version.
+//!
+//! What is drawn are dimensionless numbers, in the ranges of real fretting tests:
+//!
+//! | number | range |
+//! |---|---|
+//! | contact radius over size of the indenter | 0.003 to 0.1 |
+//! | amplitude of the depth over its mean | 0, or 0.01 to 0.5; above 1 with lift-off |
+//! | amplitude of the shift over that of gross slip | 0.15 to 2 |
+//! | amplitude of the tangential force over μF_z | 0.3 to 0.85 |
+//! | ω₁/ω₂ | 1, 2, 3, 5, 1/2, 1/3, 3/2, √2 |
+//! | rubbed-off depth in depths, 4kμE*Uz/a over the run | 0.05 to 3 |
+//! | cycles z | 3 to 100, up to 3000 where cycles are jumped |
+
+use std::f64::consts::{PI, SQRT_2, TAU};
+
+use crate::contact::indenter::Indenter;
+use crate::scenario::Scenario;
+
+/// SplitMix64.
+#[derive(Debug, Clone)]
+pub struct Random(u64);
+
+impl Random {
+    /// The sequence of a seed.
+    pub fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// A number from 0 to 1, 1 excluded, on 53 bits.
+    pub fn unit(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// A number between two, all alike.
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    /// A number between two positive ones, all orders of magnitude alike.
+    pub fn log_between(&mut self, low: f64, high: f64) -> f64 {
+        self.between(low.ln(), high.ln()).exp()
+    }
+
+    /// True with this probability.
+    pub fn chance(&mut self, probability: f64) -> bool {
+        self.unit() < probability
+    }
+
+    /// One of these.
+    pub fn pick<T: Copy>(&mut self, from: &[T]) -> T {
+        from[(self.unit() * from.len() as f64) as usize % from.len()]
+    }
+}
+
+/// The scenario of a seed.
+///
+/// # Panics
+/// If the scenario is refused, which the tests rule out for the first thousand seeds.
+pub fn scenario(seed: u64) -> Scenario {
+    let text = text(seed);
+    match Scenario::from_toml(&text, &format!("random-{seed}"), &[]) {
+        Ok(scenario) => scenario,
+        Err(error) => panic!("random scenario {seed}: {error}\n{text}"),
+    }
+}
+
+/// The scenario of a seed as TOML.
+pub fn text(seed: u64) -> String {
+    let mut draw = Random::new(seed);
+    let shape = Shape::draw(&mut draw);
+    let poisson = draw.between(0.0, 0.5);
+    let modulus = draw.log_between(1e9, 4e11);
+    let friction = draw.log_between(0.05, 1.0);
+    // G*/E* and κ = G*/(μE*): a shift of d/κ makes the whole unworn contact slip.
+    let stiffness_ratio = 2.0 * (1.0 - poisson) / (2.0 - poisson);
+    let stick_ratio = stiffness_ratio / friction;
+    let pressed = shape.pressed(modulus);
+
+    let by_force = draw.chance(0.3);
+    let tangential_by_force = by_force && draw.chance(0.4);
+    let lifts = !tangential_by_force && draw.chance(0.1);
+    let swing = match (lifts, draw.chance(0.35)) {
+        (true, _) => draw.between(1.1, 2.5),
+        (false, true) => 0.0,
+        (false, false) => draw.log_between(0.01, if tangential_by_force { 0.2 } else { 0.5 }),
+    };
+    let ratio = match (swing > 0.0, draw.chance(0.55)) {
+        (true, false) => draw.pick(&[2.0, 3.0, 5.0, 0.5, 1.0 / 3.0, 1.5, SQRT_2]),
+        _ => 1.0,
+    };
+    // The deepest moment is the one that was pressed.
+    let most = if by_force {
+        pressed.force
+    } else {
+        pressed.depth
+    };
+    let mean = most / (1.0 + swing);
+    let least = (mean * (1.0 - swing)).max(0.0);
+
+    let gross_slip = pressed.depth / stick_ratio;
+    let (amplitude, shift) = if tangential_by_force {
+        let share = draw.between(0.3, 0.85);
+        let force = share * friction * least;
+        let compliance = 1.0 / (2.0 * stiffness_ratio * modulus * pressed.radius);
+        (force, force * compliance)
+    } else {
+        let shift = gross_slip * draw.log_between(0.15, 2.0);
+        (shift, shift)
+    };
+    // Partial slip rubs by a small part of the shift alone.
+    let rubbed = shift * (shift / gross_slip).clamp(0.1, 1.0);
+
+    let jumps = draw.chance(0.25) && ratio != SQRT_2;
+    let cycles = draw.log_between(3.0, if jumps { 3000.0 } else { 100.0 });
+    let cycles = if draw.chance(0.5) {
+        cycles.round()
+    } else {
+        cycles
+    };
+    let most_worn = if by_force { 1.0 } else { 3.0 };
+    let worn = draw.log_between(0.05, most_worn).min(0.5 * cycles);
+    let coefficient = worn * pressed.radius / (4.0 * friction * modulus * rubbed * cycles);
+
+    let frequency = draw.log_between(1.0, 1e3);
+    let mut toml = format!(
+        "title = \"Random scenario {seed}\"\n[indenter]\n{}[material]\neffective_modulus = {modulus:e}\n\
+         poisson = {poisson}\n[friction]\ncoefficient = {friction}\n",
+        shape.toml()
+    );
+    let control = |force: bool| if force { "force" } else { "displacement" };
+    let mut motion = |name: &str, force: bool, mean: f64, amplitude: f64, frequency: f64, phase| {
+        toml += &format!(
+            "[motion.{name}]\ncontrol = \"{}\"\nmean = {mean:e}\namplitude = {amplitude:e}\n\
+             angular_frequency = {frequency}\nphase = {phase}\n",
+            control(force)
+        );
+    };
+    let phases = [draw.between(0.0, TAU), draw.between(0.0, TAU)];
+    motion(
+        "normal",
+        by_force,
+        mean,
+        mean * swing,
+        frequency * ratio,
+        phases[0],
+    );
+    motion(
+        "tangential",
+        tangential_by_force,
+        0.0,
+        amplitude,
+        frequency,
+        phases[1],
+    );
+    toml += &format!("[wear]\ncoefficient = {coefficient:e}\n");
+    if draw.chance(0.25) {
+        toml += &format!(
+            "law = \"power\"\nstress_exponent = {}\nslip_rate_exponent = {}\n",
+            draw.between(0.7, 2.0),
+            draw.between(0.7, 1.5)
+        );
+    }
+    if jumps {
+        toml += "[numerics]\nintegrator = \"cycle-jump\"\n";
+    }
+    toml += &format!("[run]\ncycles = {cycles}\n");
+    if draw.chance(0.15) {
+        let at = cycles * draw.between(0.2, 0.7);
+        // What is prescribed grows at most by a tenth, so that no force runs out of contact.
+        let (key, value) = match draw.pick(&[0, 1, 2, 3]) {
+            0 => ("motion.normal.mean", mean * draw.between(0.7, 1.1)),
+            1 => (
+                "motion.tangential.amplitude",
+                amplitude * draw.between(0.5, 1.1),
+            ),
+            2 => ("wear.coefficient", coefficient * draw.log_between(0.3, 3.0)),
+            _ => ("friction.coefficient", friction * draw.between(0.95, 1.3)),
+        };
+        toml += &format!("[[changes]]\nat_cycle = {at}\nset = \"{key} = {value:e}\"\n");
+    }
+    toml
+}
+
+/// An indenter and how far it is pressed in at the deepest moment.
+struct Shape {
+    indenter: Indenter,
+    /// The lines of `[indenter]`.
+    keys: String,
+    /// Contact radius where it is deepest, m.
+    radius: f64,
+}
+
+/// An unworn contact.
+struct Pressed {
+    depth: f64,
+    radius: f64,
+    force: f64,
+}
+
+impl Shape {
+    fn draw(draw: &mut Random) -> Self {
+        let size = draw.log_between(1e-3, 0.1);
+        // a/R, and for a flank its slope.
+        let slope = draw.log_between(3e-3, 0.1);
+        let radius = size * slope;
+        let kind = draw.pick(&[0, 0, 0, 0, 1, 1, 2, 3, 4, 5]);
+        let flat = radius * draw.between(0.1, 0.8);
+        let made = match kind {
+            1 => (
+                Indenter::cone(slope),
+                format!("shape = \"cone\"\nangle = {slope}\n"),
+            ),
+            2 => {
+                let exponent = draw.between(1.3, 6.0);
+                let coefficient = slope * radius.powf(1.0 - exponent);
+                (
+                    Indenter::power(coefficient, exponent),
+                    format!(
+                        "shape = \"power\"\ncoefficient = {coefficient:e}\nexponent = {exponent}\n"
+                    ),
+                )
+            }
+            3 => (
+                Indenter::flat_punch(radius),
+                format!("shape = \"flat-punch\"\nradius = {radius:e}\n"),
+            ),
+            4 => (
+                Indenter::truncated_paraboloid(size, flat),
+                format!(
+                    "shape = \"truncated-paraboloid\"\nradius = {size:e}\ntip_radius = {flat:e}\n"
+                ),
+            ),
+            5 => (
+                Indenter::truncated_cone(slope, flat),
+                format!("shape = \"truncated-cone\"\nangle = {slope}\ntip_radius = {flat:e}\n"),
+            ),
+            _ => (
+                Indenter::paraboloid(size),
+                format!("shape = \"paraboloid\"\nradius = {size:e}\n"),
+            ),
+        };
+        let (Ok(indenter), keys) = made else {
+            panic!("sizes are positive");
+        };
+        Self {
+            indenter,
+            keys,
+            radius,
+        }
+    }
+
+    fn toml(&self) -> &str {
+        &self.keys
+    }
+
+    /// d = g(a) and F = 2E*∫(d − g) dx; a punch is pressed by a thousandth of its radius.
+    fn pressed(&self, modulus: f64) -> Pressed {
+        let radius = self.radius;
+        if self.indenter.rim().is_some() {
+            let depth = 1e-3 * radius;
+            return Pressed {
+                depth,
+                radius,
+                force: 2.0 * modulus * radius * depth,
+            };
+        }
+        let depth = self.indenter.profile_1d(radius);
+        // The midpoint rule in θ, x = a sin θ, is smooth at the edge.
+        let parts = 400;
+        let sum: f64 = (0..parts)
+            .map(|i| {
+                let angle = 0.5 * PI * (f64::from(i) + 0.5) / f64::from(parts);
+                (depth - self.indenter.profile_1d(radius * angle.sin())) * angle.cos()
+            })
+            .sum();
+        Pressed {
+            depth,
+            radius,
+            force: 2.0 * modulus * radius * sum * 0.5 * PI / f64::from(parts),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulation::drive::Control;
+
+    #[test]
+    fn the_sequence_is_that_of_splitmix64() {
+        // The published test vector of the seed 1234567.
+        let mut random = Random::new(1_234_567);
+        let found: Vec<u64> = (0..3).map(|_| random.next()).collect();
+        assert_eq!(
+            found,
+            [
+                6_457_827_717_110_365_317,
+                3_203_168_211_198_807_973,
+                9_817_491_932_198_370_423
+            ]
+        );
+    }
+
+    #[test]
+    fn a_thousand_seeds_are_valid_and_cover_every_kind() {
+        let all: Vec<Scenario> = (0..1000).map(scenario).collect();
+        let count = |is: &dyn Fn(&Scenario) -> bool| all.iter().filter(|one| is(one)).count();
+        let drive = |one: &Scenario| one.setup().drive.clone();
+        for shape in [
+            "paraboloid",
+            "cone",
+            "power",
+            "flat-punch",
+            "truncated-paraboloid",
+            "truncated-cone",
+        ] {
+            let seen = count(&|one| one.setup().indenter.name() == shape);
+            assert!(seen >= 50, "{shape}: {seen}");
+        }
+        let force = |one: &Scenario| matches!(drive(one).normal(), Control::Force(_));
+        let both = |one: &Scenario| matches!(drive(one).tangential(), Some(Control::Force(_)));
+        let lifts = |one: &Scenario| drive(one).normal().oscillation().lowest() < 0.0;
+        let changes = |one: &Scenario| !one.changes().is_empty();
+        let never = |one: &Scenario| drive(one).repeats_after().is_none();
+        let power = |one: &Scenario| one.setup().wear.is_some_and(|law| law.name() == "power");
+        for (is, least) in [
+            (&force as &dyn Fn(&Scenario) -> bool, 200),
+            (&both, 80),
+            (&lifts, 50),
+            (&changes, 100),
+            (&never, 15),
+            (&power, 200),
+        ] {
+            assert!(count(is) >= least, "{}", count(is));
+        }
+        assert_eq!(text(7), text(7));
+        assert_ne!(text(7), text(8));
+    }
+}

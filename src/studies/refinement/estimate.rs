@@ -1,0 +1,126 @@
+//! The error of a run as it was made, estimated from coarser twins of it.
+//!
+//! Two twins with a half and a quarter of the cells and of the steps give two differences, and these the order:
+//!
+//! ```text
+//! D₁ = |run − half|,  D₂ = |half − quarter|,  p = log₂(D₂/D₁),  e = D₁/(2ᵖ − 1)
+//! ```
+//!
+//! p is kept within what is ever seen, since two runs may agree by chance. A run too coarse to be halved is held
+//! against a finer twin instead.
+
+use super::level::Level;
+use super::outcome::{Difference, Outcome};
+use super::run;
+use crate::scenario::session::{Session, SessionError};
+use crate::scenario::{Change, Scenario};
+
+/// The orders that are believed, and the one assumed where it is not measured.
+const ORDERS: (f64, f64) = (0.8, 1.7);
+const ASSUMED: f64 = 1.3;
+
+/// The fewest cells and steps that a twin is any good with.
+const COARSEST: (usize, u32) = (8, 4);
+
+/// No error falls faster than this from the quarter to the half, and from the half to the run.
+const FASTEST: f64 = 16.0;
+
+/// Estimates the error of a run at its present moment; `None` if `go_on` said no on the way.
+///
+/// # Errors
+/// If the twin cannot be run.
+pub fn estimate(
+    session: &Session,
+    go_on: &dyn Fn() -> bool,
+) -> Option<Result<Difference, SessionError>> {
+    let level = Level::of(session.loaded());
+    let cycle = session.simulation().cycle();
+    let here = Outcome::of(session);
+    let twin = |factor: f64| -> Option<Result<Outcome, SessionError>> {
+        let ended = match twin_of(session, factor) {
+            Ok(scenario) => run(&scenario, cycle, go_on)?,
+            Err(error) => Err(error),
+        };
+        Some(ended.map(|twin| Outcome::of(&twin)))
+    };
+    let can_have = |factor: f64| {
+        level.points as f64 * factor >= COARSEST.0 as f64
+            && f64::from(level.steps) * factor >= f64::from(COARSEST.1)
+    };
+    if !can_have(0.5) {
+        let fine = match twin(2.0)? {
+            Ok(fine) => fine,
+            Err(error) => return Some(Err(error)),
+        };
+        let ratio = 2f64.powf(ASSUMED);
+        let difference = here.against(&fine);
+        return Some(Ok(
+            difference.with(&difference, |d, _| d * ratio / (ratio - 1.0))
+        ));
+    }
+    let half = match twin(0.5)? {
+        Ok(half) => half,
+        Err(error) => return Some(Err(error)),
+    };
+    let first = half.against(&here);
+    // A quarter that breaks down leaves the order unknown, and no more.
+    let second = match can_have(0.25).then(|| twin(0.25)) {
+        None => None,
+        Some(twin) => twin?.ok().map(|quarter| quarter.against(&half)),
+    };
+    Some(Ok(match second {
+        None => first.with(&first, |d, _| d / (2f64.powf(ASSUMED) - 1.0)),
+        Some(second) => first.with(&second, by_observed_order),
+    }))
+}
+
+/// The error of the finest of three levels, from their two differences.
+fn by_observed_order(first: f64, second: f64) -> f64 {
+    let order = match first > 0.0 && second > 0.0 {
+        true => (second / first).log2().clamp(ORDERS.0, ORDERS.1),
+        false => ASSUMED,
+    };
+    first.max(second / FASTEST) / (2f64.powf(order) - 1.0)
+}
+
+/// The run as a scenario with so many times its cells and steps, the changes made to it included.
+fn twin_of(session: &Session, factor: f64) -> Result<Scenario, SessionError> {
+    let loaded = session.loaded();
+    let level = Level::of(loaded);
+    let changes = session.changes().iter().map(|change| {
+        let value = change.value().parse::<f64>();
+        let scaled = match (change.key(), value) {
+            ("numerics.points", Ok(points)) => (points * factor).round().max(8.0).to_string(),
+            ("numerics.steps_per_cycle", Ok(steps)) => {
+                (steps * factor).round().max(4.0).to_string()
+            }
+            ("numerics.tolerance", Ok(tolerance)) => {
+                format!("{:e}", (tolerance / (factor * factor)).min(0.1))
+            }
+            _ => return change.clone(),
+        };
+        Change::new(change.at_cycle, change.key(), &scaled)
+    });
+    let changes: Vec<Change> = changes.collect();
+    let scenario = level.scaled(factor, factor).of_scenario(loaded)?;
+    Ok(scenario.with_changes(changes))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn three_levels_give_the_error_of_the_finest() {
+        // e(h) = h^p: D₁ = 2ᵖ − 1, D₂ = 4ᵖ − 2ᵖ for an error of 1.
+        for order in [0.8f64, 1.0, 1.5, 1.7] {
+            let half = 2f64.powf(order);
+            let found = by_observed_order(half - 1.0, half * half - half);
+            assert!((found - 1.0).abs() < 1e-12, "{order}: {found}");
+        }
+        // A coincidence of the two finer ones is not believed.
+        assert!(by_observed_order(0.0, 1.0) > 0.5 / FASTEST);
+        // Runs that do not come nearer have an error of about their distance.
+        assert!(by_observed_order(1.0, 0.5) > 1.0);
+    }
+}

@@ -1,0 +1,444 @@
+//! The ladder: levels from coarse to fine until the measured error is as small as asked for.
+//!
+//! The first rung comes with two twins, one on fewer cells and one of fewer steps, so that the errors
+//! of cells and of time are known apart. Each further rung refines what dominates, and its distance
+//! from the rung before is what its own error is estimated from:
+//!
+//! ```text
+//! D = |rung − rung before|,   e = D/(ρᵖ − 1)      ρ: how much finer
+//! D₀/D = (ρ₀ᵖ − 1)/(1 − ρ⁻ᵖ)                      p from the difference before, at most 1.3
+//! ```
+//!
+//! Where both are refined, D is shared out as the errors stood before. The error of time may depend on
+//! the cells: one that was measured on cells much wider is measured again, by a twin of the last rung.
+
+use super::level::Level;
+use super::outcome::{Difference, Outcome};
+use crate::scenario::Scenario;
+
+/// The orders that are believed. What is usually seen is 1.5 to 2; less where the pressure is singular at a rim.
+const ORDERS: (f64, f64) = (0.85, 1.3);
+
+/// The order assumed of a difference that both cells and time have a share in.
+const SHARED: f64 = 1.1;
+
+/// The order by which the next rung is chosen.
+const EXPECTED_ORDER: f64 = 1.4;
+
+/// No error falls faster than with this order; what seems to is a coincidence of two runs.
+const HIGHEST_ORDER: f64 = 2.0;
+
+/// The estimate must be below this part of the accuracy: it is a measurement with an error of its own.
+const MARGIN: f64 = 0.8;
+
+/// The part of the accuracy that each of cells and time may use up.
+const SHARE: f64 = 0.4;
+
+/// How much finer the next rung is, at least and at most.
+const STRIDE: (f64, f64) = (1.6, 2.5);
+
+/// The twins of a rung are this much coarser.
+const TWIN: f64 = 2.0;
+
+/// An error in time is measured again when the cells have become this much narrower since, and the other way round.
+const STALE: f64 = 2.0;
+
+/// The finest level that is tried.
+const MOST_POINTS: usize = 20_000;
+const MOST_STEPS: u32 = 100_000;
+
+/// So many rungs in a row that do not come nearer end the ladder.
+const PATIENCE: u32 = 3;
+
+/// One run of the ladder.
+#[derive(Debug, Clone)]
+pub struct Rung {
+    /// How finely it was computed.
+    pub level: Level,
+    /// How it ended.
+    pub outcome: Outcome,
+    /// What it cost, s.
+    pub seconds: f64,
+}
+
+/// Why a ladder ends.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Verdict {
+    /// The accuracy is met.
+    Met,
+    /// The time is up.
+    OutOfTime,
+    /// The finest level is reached.
+    Finest,
+    /// Finer levels come no nearer.
+    Stalled,
+    /// Nothing has worn: there is no scar to be right about.
+    Unworn,
+    /// No level could be run to the end, for this reason.
+    Failed(String),
+}
+
+/// What is to be done next.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Next {
+    /// Run this level and report it: it may be the result.
+    Run(Level),
+    /// Run this level and report it: a coarser twin, which only tells an error.
+    Twin(Level),
+    /// The last rung that was run is the result.
+    Done(Verdict),
+}
+
+/// The error of cells or of time.
+#[derive(Debug, Clone, Copy)]
+struct Source {
+    /// The estimate.
+    error: Difference,
+    /// The difference that it was estimated from, and the ratio of the two levels.
+    measured: (Difference, f64),
+    /// The level that it was measured at.
+    level: Level,
+}
+
+impl Source {
+    /// From two levels alone.
+    fn measured(difference: Difference, ratio: f64, level: Level) -> Self {
+        let error = difference.with(&difference, |d, _| d / (ratio.powf(ORDERS.1) - 1.0));
+        Self {
+            error,
+            measured: (difference, ratio),
+            level,
+        }
+    }
+
+    /// From a level `ratio` times finer, by its difference from the one before.
+    /// Of a difference that was shared out, the order is not read.
+    fn refined(&self, difference: Difference, is_shared: bool, ratio: f64, level: Level) -> Self {
+        let (before, ratio_before) = self.measured;
+        let found = before.with(&difference, |before, now| {
+            let order = match is_shared {
+                true => SHARED,
+                false => order(before / now, ratio_before, ratio),
+            };
+            now / (ratio.powf(order) - 1.0)
+        });
+        Self {
+            error: found.with(&self.error, |found, before| {
+                found.max(0.3 * before * ratio.powf(-HIGHEST_ORDER))
+            }),
+            measured: (difference, ratio),
+            level,
+        }
+    }
+}
+
+/// The order p of two differences: their quotient is (ρ₀ᵖ − 1)/(1 − ρ⁻ᵖ), which grows with p.
+fn order(quotient: f64, ratio_before: f64, ratio: f64) -> f64 {
+    let of = |p: f64| (ratio_before.powf(p) - 1.0) / (1.0 - ratio.powf(-p));
+    let (mut low, mut high) = ORDERS;
+    if quotient.is_nan() || quotient >= of(high) {
+        return high;
+    }
+    for _ in 0..20 {
+        let middle = 0.5 * (low + high);
+        if of(middle) < quotient {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    high
+}
+
+/// A rung and its errors.
+#[derive(Debug, Clone)]
+struct Top {
+    rung: Rung,
+    cells: Source,
+    time: Source,
+}
+
+impl Top {
+    fn error(&self) -> Difference {
+        self.cells
+            .error
+            .with(&self.time.error, |cells, time| cells + time)
+    }
+}
+
+/// Chooses levels and judges them; whoever drives it does the running.
+#[derive(Debug, Clone)]
+pub struct Ladder {
+    accuracy: f64,
+    budget: f64,
+    spent: f64,
+    base: Level,
+    /// The twins that have been run for the present base.
+    twins: Vec<Rung>,
+    top: Option<Top>,
+    planned: Level,
+    failures: u32,
+    stalls: u32,
+    last_failure: String,
+}
+
+impl Ladder {
+    /// A ladder for `scenario` to a worn depth and a volume with errors of at most `accuracy`, that begins no
+    /// rung that would end after `budget` seconds.
+    pub fn new(scenario: &Scenario, accuracy: f64, budget: f64) -> Self {
+        let base = first(scenario, accuracy);
+        Self {
+            accuracy,
+            budget,
+            spent: 0.0,
+            base,
+            twins: Vec::new(),
+            top: None,
+            planned: base.scaled(1.0 / TWIN, 1.0),
+            failures: 0,
+            stalls: 0,
+            last_failure: String::new(),
+        }
+    }
+
+    /// The level to run now, or that the last rung is the result.
+    pub fn next(&self) -> Next {
+        let failed = || Next::Done(Verdict::Failed(self.last_failure.clone()));
+        let Some(top) = &self.top else {
+            return match (self.failures > PATIENCE, self.twins.len()) {
+                (true, _) => failed(),
+                (false, 2) => Next::Run(self.planned),
+                (false, _) => Next::Twin(self.planned),
+            };
+        };
+        let is_unworn = top.rung.outcome.volume <= 0.0;
+        let met = top.error().promised() <= MARGIN * self.accuracy && !is_unworn;
+        if met {
+            return match self.stale() {
+                Some(twin) if self.affords(&twin) => Next::Twin(twin),
+                _ => Next::Done(Verdict::Met),
+            };
+        }
+        if self.failures > PATIENCE {
+            return failed();
+        }
+        Next::Done(
+            if self.planned.points > MOST_POINTS || self.planned.steps > MOST_STEPS {
+                Verdict::Finest
+            } else if self.stalls >= PATIENCE && is_unworn {
+                Verdict::Unworn
+            } else if self.stalls >= PATIENCE {
+                Verdict::Stalled
+            } else if self.affords(&self.planned) {
+                return Next::Run(self.planned);
+            } else {
+                Verdict::OutOfTime
+            },
+        )
+    }
+
+    /// Takes a run of the level that was asked for, which took so many seconds.
+    pub fn report(&mut self, outcome: Outcome, seconds: f64) {
+        let next = self.next();
+        self.spent += seconds;
+        self.failures = 0;
+        let (Next::Run(level) | Next::Twin(level)) = next else {
+            return;
+        };
+        let rung = Rung {
+            level,
+            outcome,
+            seconds,
+        };
+        match (self.top.take(), self.twins.len()) {
+            (Some(top), _) if matches!(next, Next::Twin(_)) => self.check(top, &rung),
+            (Some(top), _) => self.climb(&top, rung),
+            (None, 0) => {
+                self.settle_tolerance(&rung.outcome);
+                self.twins.push(rung);
+                self.planned = self.base.scaled(1.0, 1.0 / TWIN);
+            }
+            (None, 1) => {
+                self.twins.push(rung);
+                self.planned = self.base;
+            }
+            (None, _) => self.stand(rung),
+        }
+    }
+
+    /// Takes word that the level could not be run to its end: the next one is finer.
+    pub fn fail(&mut self, why: String, seconds: f64) {
+        let next = self.next();
+        self.spent += seconds;
+        self.failures += 1;
+        self.last_failure = why;
+        match self.top.take() {
+            None => {
+                self.base = self.base.scaled(2.0, 2.0);
+                self.twins.clear();
+                self.planned = self.base.scaled(1.0 / TWIN, 1.0);
+            }
+            // Where a coarser twin breaks down, nothing is known of the error but by a finer rung.
+            Some(mut top) if matches!(next, Next::Twin(_)) => {
+                top.time.error = top
+                    .time
+                    .error
+                    .with(&top.time.error, |e, _| e.max(self.accuracy));
+                self.settle(top);
+            }
+            Some(top) => {
+                self.planned = self.planned.scaled(1.0, TWIN);
+                self.top = Some(top);
+            }
+        }
+    }
+
+    /// The rung reached and its estimated error, once there is one.
+    pub fn reached(&self) -> Option<(&Rung, Difference)> {
+        let top = self.top.as_ref()?;
+        Some((&top.rung, top.error()))
+    }
+
+    /// The time that all runs took, s.
+    pub fn spent(&self) -> f64 {
+        self.spent
+    }
+
+    /// Whether there is time for a level, as far as the last rung tells.
+    fn affords(&self, level: &Level) -> bool {
+        self.top.as_ref().is_none_or(|top| {
+            let (cells, time) = level.ratio(&top.rung.level);
+            self.spent + top.rung.seconds * cells * time <= self.budget
+        })
+    }
+
+    /// The twin that measures again what was measured at another level of the other refinement.
+    fn stale(&self) -> Option<Level> {
+        let top = self.top.as_ref()?;
+        let (cells, _) = top.rung.level.ratio(&top.time.level);
+        let (_, time) = top.rung.level.ratio(&top.cells.level);
+        if cells >= STALE {
+            Some(top.rung.level.scaled(1.0, 1.0 / TWIN))
+        } else if time >= STALE {
+            Some(top.rung.level.scaled(1.0 / TWIN, 1.0))
+        } else {
+            None
+        }
+    }
+
+    /// The tolerance of jumps is measured in depths, the accuracy in the depth of the scar.
+    fn settle_tolerance(&mut self, outcome: &Outcome) {
+        let scar = outcome.scar_depth() / outcome.depth;
+        if let Some(tolerance) = &mut self.base.tolerance
+            && scar > 0.0
+        {
+            *tolerance = (0.3 * self.accuracy * scar).clamp(1e-9, 0.05);
+        }
+    }
+
+    /// The first rung, both of whose twins are there.
+    fn stand(&mut self, rung: Rung) {
+        let source = |twin: &Rung, pick: fn((f64, f64)) -> f64| {
+            let ratio = pick(rung.level.ratio(&twin.level));
+            Source::measured(twin.outcome.against(&rung.outcome), ratio, rung.level)
+        };
+        let (cells, time) = (
+            source(&self.twins[0], |ratio| ratio.0),
+            source(&self.twins[1], |ratio| ratio.1),
+        );
+        self.settle(Top { rung, cells, time });
+    }
+
+    /// A twin of the top: its error of cells or of time is measured again.
+    fn check(&mut self, mut top: Top, twin: &Rung) {
+        let (cells, time) = top.rung.level.ratio(&twin.level);
+        let difference = twin.outcome.against(&top.rung.outcome);
+        if time > cells {
+            top.time = Source::measured(difference, time, top.rung.level);
+        } else {
+            top.cells = Source::measured(difference, cells, top.rung.level);
+        }
+        self.settle(top);
+    }
+
+    /// A rung above another one.
+    fn climb(&mut self, before: &Top, rung: Rung) {
+        let (cells, time) = rung.level.ratio(&before.rung.level);
+        let difference = before.rung.outcome.against(&rung.outcome);
+        let total = before.error();
+        // Where only one is refined, the whole difference is its own.
+        let alone = cells <= 1.0 || time <= 1.0;
+        let refined = |source: &Source, ratio: f64| {
+            if ratio <= 1.0 {
+                return *source;
+            }
+            let share = source.error.with(&total, |error, total| {
+                if alone || total == 0.0 {
+                    1.0
+                } else {
+                    error / total
+                }
+            });
+            let own = share.with(&difference, |share, d| share * d);
+            source.refined(own, !alone, ratio, rung.level)
+        };
+        let top = Top {
+            cells: refined(&before.cells, cells),
+            time: refined(&before.time, time),
+            rung,
+        };
+        let nearer = top.error().promised() < 0.9 * total.promised();
+        self.stalls = if nearer { 0 } else { self.stalls + 1 };
+        self.settle(top);
+    }
+
+    /// Takes a rung and plans the next one: finer in what uses up more than its share.
+    fn settle(&mut self, top: Top) {
+        let allowed = SHARE * self.accuracy;
+        let ratio = |source: &Source| match source.error.promised() / allowed {
+            excess if excess > 1.0 => (1.1 * excess)
+                .powf(1.0 / EXPECTED_ORDER)
+                .clamp(STRIDE.0, STRIDE.1),
+            _ => 1.0,
+        };
+        let (mut cells, mut time) = (ratio(&top.cells), ratio(&top.time));
+        if top.rung.outcome.volume <= 0.0 {
+            (cells, time) = (STRIDE.1, 1.0);
+            self.stalls += 1;
+        }
+        self.planned = top.rung.level.scaled(cells, time);
+        self.top = Some(top);
+    }
+}
+
+/// The first rung that is any good for a scene.
+fn first(scenario: &Scenario, accuracy: f64) -> Level {
+    let setup = scenario.setup();
+    let level = Level::of(scenario);
+    let finer = (1e-2 / accuracy).max(1.0);
+    let turns = setup.drive.frequency_ratio().max(1.0);
+    Level {
+        points: (20.0 * finer.powf(0.4)).round() as usize,
+        steps: (12.0 * finer.powf(0.3) * turns).round() as u32,
+        tolerance: level.tolerance.map(|_| (0.1 * accuracy).min(0.05)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_order_of_two_differences() {
+        // e = h^p on levels 1, 1/2, 1/6.
+        for p in [0.9, 1.0, 1.2] {
+            let e = |h: f64| h.powf(p);
+            let (before, now) = (e(1.0) - e(0.5), e(0.5) - e(1.0 / 6.0));
+            let found = order(before / now, 2.0, 3.0);
+            assert!((found - p).abs() < 1e-4, "{p}: {found}");
+        }
+        assert_eq!(order(1e3, 2.0, 2.0), ORDERS.1);
+        assert!((order(0.1, 2.0, 2.0) - ORDERS.0).abs() < 1e-5);
+        assert_eq!(order(f64::NAN, 2.0, 2.0), ORDERS.1);
+    }
+}

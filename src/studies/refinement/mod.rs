@@ -1,0 +1,137 @@
+//! Errors measured by refinement: the same scenario on other levels of cells and steps.
+//!
+//! Nothing here is known beforehand of a scenario. [`Ladder`] climbs from coarse to fine until the
+//! measured error is as small as `numerics.accuracy` asks for.
+
+use std::time::Instant;
+
+use thiserror::Error;
+
+use crate::scenario::session::{Session, SessionError};
+use crate::scenario::{Scenario, ScenarioError};
+
+mod estimate;
+mod ladder;
+mod level;
+mod outcome;
+mod resolve;
+
+pub use estimate::estimate;
+pub use ladder::{Ladder, Next, Rung, Verdict};
+pub use level::Level;
+pub use outcome::{Difference, Outcome};
+pub use resolve::{Resolved, SCREEN_PATIENCE, resolve, statements_of};
+
+/// Why a run to an accuracy has no result at all.
+#[derive(Debug, Error)]
+pub enum RefinementError {
+    /// A level that the scenario does not take.
+    #[error(transparent)]
+    Scenario(#[from] ScenarioError),
+    /// No level could be run to its end.
+    #[error("no level of refinement ran to its end; the last one: {0}")]
+    Failed(String),
+    /// The caller wanted it to stop.
+    #[error("interrupted")]
+    Interrupted,
+}
+
+/// The end of a ladder.
+#[derive(Debug, Clone)]
+pub struct Reached {
+    /// The last rung, at its end.
+    pub session: Session,
+    /// How finely it was computed, and how it ended.
+    pub rung: Rung,
+    /// Its estimated error.
+    pub error: Difference,
+    /// Whether the accuracy is met, or why the ladder ended before.
+    pub verdict: Verdict,
+    /// The time of all rungs, s.
+    pub seconds: f64,
+}
+
+/// Runs `scenario` over `cycles` on finer and finer levels until the worn depth and the volume have an
+/// estimated error of at most `accuracy`, or the next level would take longer than `budget` seconds in total.
+/// `go_on` is asked often; if it says no, there is no result. `clock` tells the time in seconds.
+///
+/// # Errors
+/// If a level is refused, if no level runs to its end, or on an interrupt.
+pub fn run_to_accuracy(
+    scenario: &Scenario,
+    cycles: f64,
+    accuracy: f64,
+    budget: f64,
+    go_on: &dyn Fn() -> bool,
+) -> Result<Reached, RefinementError> {
+    let begin = Instant::now();
+    let clock = || begin.elapsed().as_secs_f64();
+    climb(scenario, cycles, accuracy, budget, go_on, &clock)
+}
+
+/// The same by another clock.
+pub(super) fn climb(
+    scenario: &Scenario,
+    cycles: f64,
+    accuracy: f64,
+    budget: f64,
+    go_on: &dyn Fn() -> bool,
+    clock: &dyn Fn() -> f64,
+) -> Result<Reached, RefinementError> {
+    let mut ladder = Ladder::new(scenario, accuracy, budget);
+    let mut last = None;
+    loop {
+        let next = ladder.next();
+        let level = match next {
+            Next::Run(level) | Next::Twin(level) => level,
+            Next::Done(verdict) => {
+                let (Some(session), Some((rung, error))) = (last, ladder.reached()) else {
+                    return Err(match verdict {
+                        Verdict::Failed(why) => RefinementError::Failed(why),
+                        _ => RefinementError::Interrupted,
+                    });
+                };
+                return Ok(Reached {
+                    session,
+                    rung: rung.clone(),
+                    error,
+                    verdict,
+                    seconds: ladder.spent(),
+                });
+            }
+        };
+        let start = clock();
+        let ended = run(&level.of_scenario(scenario)?, cycles, go_on);
+        let seconds = clock() - start;
+        match ended.ok_or(RefinementError::Interrupted)? {
+            Ok(session) => {
+                ladder.report(Outcome::of(&session), seconds);
+                if matches!(next, Next::Run(_)) {
+                    last = Some(session);
+                }
+            }
+            Err(error) => ladder.fail(error.to_string(), seconds),
+        }
+    }
+}
+
+/// Runs a scenario to `cycles`; `None` if `go_on` said no on the way.
+pub fn run(
+    scenario: &Scenario,
+    cycles: f64,
+    go_on: &dyn Fn() -> bool,
+) -> Option<Result<Session, SessionError>> {
+    let mut session = match Session::start(scenario.clone()) {
+        Ok(session) => session,
+        Err(error) => return Some(Err(error)),
+    };
+    while session.simulation().cycle() < cycles {
+        if !go_on() {
+            return None;
+        }
+        if let Err(error) = session.step_until(cycles) {
+            return Some(Err(error));
+        }
+    }
+    Some(Ok(session))
+}

@@ -1,0 +1,179 @@
+//! What two runs of one scenario are compared by: the scar, its volume, and the forces and pressures at the end.
+
+use crate::math::abel::worn;
+use crate::math::grid::RadialGrid;
+use crate::scenario::session::Session;
+use crate::simulation::drive::Control;
+
+/// Radii at which scars are compared.
+const RADII: usize = 401;
+
+/// Shallower than this part of the largest worn depth, the surface does not count as scar.
+const SCAR: f64 = 1e-3;
+
+/// p is compared up to this part of the contact radius, and this far from the stick border: at both, p
+/// or its slope is singular, and what a node shows depends on where it lies.
+const INSIDE: f64 = 0.95;
+
+/// How a run ended.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    grid: RadialGrid,
+    /// Worn depth at the nodes, m.
+    wear: Vec<f64>,
+    /// V, m³.
+    pub volume: f64,
+    /// F_x at the end, N.
+    pub force: f64,
+    /// What F_x is compared in, N: μF_z, or what the whole contact would carry without slip if that is less.
+    force_scale: f64,
+    pressure: Vec<f64>,
+    /// a, m.
+    radius: f64,
+    /// c, m.
+    stick_radius: f64,
+    /// d or the present depth, m: what the tolerance of jumps is measured in.
+    pub depth: f64,
+}
+
+/// How far a run is from another one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Difference {
+    /// Of the worn depth, rms over the scar, relative to its largest value.
+    pub worn_depth: f64,
+    /// Of V, relative.
+    pub volume: f64,
+    /// Of F_x, relative to μF_z, or to what the whole contact would carry without slip if that is less.
+    pub force: f64,
+    /// Of p away from borders, rms, relative to its largest value there.
+    pub pressure: f64,
+}
+
+impl Difference {
+    /// No difference.
+    pub const NONE: Self = Self {
+        worn_depth: 0.0,
+        volume: 0.0,
+        force: 0.0,
+        pressure: 0.0,
+    };
+
+    /// The larger of the two that an accuracy promises: worn depth and volume.
+    pub fn promised(&self) -> f64 {
+        self.worn_depth.max(self.volume)
+    }
+
+    /// Combines two differences, number by number.
+    pub(super) fn with(&self, other: &Self, combine: impl Fn(f64, f64) -> f64) -> Self {
+        Self {
+            worn_depth: combine(self.worn_depth, other.worn_depth),
+            volume: combine(self.volume, other.volume),
+            force: combine(self.force, other.force),
+            pressure: combine(self.pressure, other.pressure),
+        }
+    }
+}
+
+impl Outcome {
+    /// The present moment of a run.
+    pub fn of(session: &Session) -> Self {
+        let simulation = session.simulation();
+        let (setup, moment) = (simulation.setup(), simulation.moment());
+        let material = &setup.material;
+        let sliding = material.friction() * moment.normal_force;
+        let sticking = match setup.drive.tangential() {
+            Some(Control::Displacement(shift)) => {
+                2.0 * material.tangential_modulus() * moment.contact_radius * shift.amplitude()
+            }
+            _ => f64::INFINITY,
+        };
+        Self {
+            grid: setup.grid.clone(),
+            wear: simulation.worn_depth().to_vec(),
+            volume: moment.wear_volume,
+            force: moment.tangential_force,
+            force_scale: sliding.min(sticking).max(moment.tangential_force.abs()),
+            pressure: simulation.pressure(),
+            radius: moment.contact_radius,
+            stick_radius: moment.stick_radius.unwrap_or(0.0),
+            depth: setup.depth_scale(moment.depth),
+        }
+    }
+
+    /// The largest worn depth, m.
+    pub fn scar_depth(&self) -> f64 {
+        self.wear.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// Where the scar begins and ends, m, if there is one.
+    fn scar(&self) -> Option<(f64, f64)> {
+        let least = SCAR * self.scar_depth();
+        let is_worn = |&wear: &f64| wear > least;
+        let first = self.wear.iter().position(is_worn)?;
+        let last = self.wear.iter().rposition(is_worn)?;
+        let nodes = self.grid.nodes();
+        Some((
+            nodes[first.saturating_sub(1)],
+            nodes[(last + 1).min(self.grid.cells())],
+        ))
+    }
+
+    /// How far this run is from a finer one, in the finer one's measures.
+    pub fn against(&self, fine: &Self) -> Difference {
+        let relative = |difference: f64, scale: f64| match difference.abs() {
+            0.0 => 0.0,
+            size => size / scale.abs(),
+        };
+        let inside = INSIDE * self.radius.min(fine.radius);
+        let stick = fine.stick_radius;
+        let away = (1.0 - INSIDE) * fine.radius;
+        Difference {
+            worn_depth: relative(self.worn_difference(fine), fine.scar_depth()),
+            volume: relative(self.volume - fine.volume, fine.volume),
+            force: relative(self.force - fine.force, fine.force_scale),
+            pressure: rms((1..RADII)
+                .map(|i| inside * i as f64 / (RADII - 1) as f64)
+                .filter(|r| (r - stick).abs() > away && *r > away)
+                .map(|r| {
+                    let here = self.grid.interpolate(&self.pressure, r);
+                    (here, fine.grid.interpolate(&fine.pressure, r))
+                })),
+        }
+    }
+
+    /// The rms difference of the worn depth over both scars, m.
+    fn worn_difference(&self, fine: &Self) -> f64 {
+        let (here, there) = (self.scar(), fine.scar());
+        let Some((from, to)) = here
+            .into_iter()
+            .chain(there)
+            .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+        else {
+            return 0.0;
+        };
+        let sum: f64 = (0..RADII)
+            .map(|i| from + (to - from) * i as f64 / (RADII - 1) as f64)
+            .map(|r| {
+                let here = worn::interpolate(&self.grid, &self.wear, r);
+                let there = worn::interpolate(&fine.grid, &fine.wear, r);
+                (here - there).powi(2)
+            })
+            .sum();
+        (sum / RADII as f64).sqrt()
+    }
+}
+
+/// The rms difference of pairs, relative to the largest of the second ones; 0 without any.
+fn rms(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
+    let (mut sum, mut count, mut largest) = (0.0, 0, 0.0_f64);
+    for (here, there) in pairs {
+        sum += (here - there).powi(2);
+        count += 1;
+        largest = largest.max(there.abs());
+    }
+    if largest > 0.0 {
+        (sum / f64::from(count)).sqrt() / largest
+    } else {
+        0.0
+    }
+}

@@ -1,0 +1,169 @@
+//! An axis: a key of the scenario and the values it takes, and the keys that follow it.
+
+use toml::Value;
+
+use crate::scenario::scalars::number;
+use crate::scenario::schema::{self, Kind};
+
+/// How the values of an axis are spread, for plots.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Spread {
+    /// Evenly, or as listed.
+    Linear,
+    /// Evenly in their logarithms.
+    Logarithmic,
+}
+
+/// A key that a study varies.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axis {
+    /// The dotted path of the key.
+    pub key: String,
+    /// Its values: numbers, words or flags, in order.
+    pub values: Vec<Value>,
+    /// How they are spread.
+    pub spread: Spread,
+    /// Keys that move with it, each with its value in units of the axis's.
+    pub tied: Vec<(String, f64)>,
+}
+
+impl Axis {
+    /// The value at `index` as `--set` takes it and as its column shows it: numbers in the shortest
+    /// form that reads back to the same bits, words bare.
+    pub fn text(&self, index: usize) -> String {
+        match &self.values[index] {
+            Value::Float(value) => number(*value),
+            Value::String(word) => word.clone(),
+            other => other.to_string(),
+        }
+    }
+
+    /// The value at `index` as a number, if it is one.
+    pub fn number(&self, index: usize) -> Option<f64> {
+        numeric(&self.values[index])
+    }
+
+    /// Where on the axis a value lies: between the indices of its neighbours, as the axis is
+    /// spread. None outside, and without numbers.
+    pub fn place_of(&self, value: f64) -> Option<f64> {
+        let of = |value: f64| match self.spread {
+            Spread::Linear => value,
+            Spread::Logarithmic => value.ln(),
+        };
+        (1..self.values.len()).find_map(|index| {
+            let (low, high) = (self.number(index - 1)?, self.number(index)?);
+            let inside = (low.min(high)..=low.max(high)).contains(&value) && low != high;
+            let share = (of(value) - of(low)) / (of(high) - of(low));
+            (inside && share.is_finite()).then(|| (index - 1) as f64 + share)
+        })
+    }
+
+    /// What another number assigns, as [`assignments`](Self::assignments) does.
+    pub fn assignments_of(&self, value: f64) -> Vec<(&str, String)> {
+        let own = (self.key.as_str(), number(whole(&self.key, value)));
+        let tied = self.tied.iter();
+        let tied = tied.map(|(key, factor)| (key.as_str(), number(whole(key, value * factor))));
+        std::iter::once(own).chain(tied).collect()
+    }
+
+    /// What the value at `index` assigns: the key's own value, then those of the tied keys.
+    pub fn assignments(&self, index: usize) -> Vec<(&str, String)> {
+        let own = (self.key.as_str(), self.text(index));
+        let value = self.number(index);
+        let tied = self.tied.iter().filter_map(|(key, factor)| {
+            let value = value? * factor;
+            Some((key.as_str(), number(whole(key, value))))
+        });
+        std::iter::once(own).chain(tied).collect()
+    }
+}
+
+/// The number that a TOML value is, if it is one.
+pub(super) fn numeric(value: &Value) -> Option<f64> {
+    match value {
+        Value::Integer(value) => Some(*value as f64),
+        Value::Float(value) => Some(*value),
+        _ => None,
+    }
+}
+
+/// `value`, rounded if `key` takes whole numbers.
+fn whole(key: &str, value: f64) -> f64 {
+    match schema::find(key).map(|parameter| parameter.kind) {
+        Some(Kind::Whole) => value.round(),
+        _ => value,
+    }
+}
+
+/// A number as a value of `key`: an integer where the key takes whole numbers.
+pub(super) fn value_of(key: &str, value: f64) -> Value {
+    match schema::find(key).map(|parameter| parameter.kind) {
+        Some(Kind::Whole) => Value::Integer(value.round() as i64),
+        _ => Value::Float(value),
+    }
+}
+
+/// The place `share` (0 to 1) of the way from `from` to `to`; both ends are met exactly.
+pub(super) fn between(spread: Spread, from: f64, to: f64, share: f64) -> f64 {
+    if share <= 0.0 {
+        return from;
+    }
+    if share >= 1.0 {
+        return to;
+    }
+    match spread {
+        Spread::Linear => from + (to - from) * share,
+        Spread::Logarithmic => from * (to / from).powf(share),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_ends_are_met_to_the_bit() {
+        for spread in [Spread::Linear, Spread::Logarithmic] {
+            assert_eq!(between(spread, 0.1, 0.7, 0.0), 0.1);
+            assert_eq!(between(spread, 0.1, 0.7, 1.0), 0.7);
+        }
+        let middle = between(Spread::Logarithmic, 1e-8, 1e-6, 0.5);
+        assert!((middle / 1e-7 - 1.0).abs() < 1e-14, "{middle:e}");
+    }
+
+    #[test]
+    fn values_between_points_lie_between_places() {
+        let values = [1e-8, 1e-7, 1e-6].map(Value::Float).to_vec();
+        let axis = |spread| Axis {
+            key: "wear.coefficient".into(),
+            values: values.clone(),
+            spread,
+            tied: Vec::new(),
+        };
+        let log = axis(Spread::Logarithmic);
+        assert_eq!(log.place_of(1e-7), Some(1.0));
+        let place = log.place_of(10f64.powf(-6.5)).expect("a place");
+        assert!((place - 1.5).abs() < 1e-12);
+        let place = axis(Spread::Linear).place_of(5.5e-8).expect("a place");
+        assert!((place - 0.5).abs() < 1e-12);
+        assert_eq!(log.place_of(2e-6), None);
+    }
+
+    #[test]
+    fn tied_keys_follow_by_their_factor_and_whole_keys_are_rounded() {
+        let axis = Axis {
+            key: "motion.normal.mean".into(),
+            values: vec![Value::Float(2e-6)],
+            spread: Spread::Linear,
+            tied: vec![
+                ("motion.normal.amplitude".into(), 0.25),
+                ("numerics.points".into(), 50.2e6),
+            ],
+        };
+        let set = axis.assignments(0);
+        assert_eq!(set[0], ("motion.normal.mean", "2e-6".to_owned()));
+        assert_eq!(set[1], ("motion.normal.amplitude", "5e-7".to_owned()));
+        assert_eq!(set[2], ("numerics.points", "100".to_owned()));
+        assert_eq!(value_of("numerics.points", 9.7), Value::Integer(10));
+    }
+}

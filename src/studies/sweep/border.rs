@@ -1,0 +1,149 @@
+//! Where the running condition changes, in closed form: the borders of a running-condition map.
+//!
+//! # Formulas
+//!
+//! - **Gross slip** begins where no spring sticks through the whole cycle. With both displacements
+//!   prescribed, Melan's theorem gives the depth g(c) at the border of the permanent stick zone, and
+//!   gross slip begins where it reaches 0. At a depth d that is held this is U = d/κ, κ = G*/(μE*), for
+//!   any shape. With a normal force prescribed, d is the depth at the smallest force on the unworn
+//!   shape.
+//! - **Lift-off** begins where the depth, or the normal force, passes through 0.
+//!
+//! Both hold for the unworn shape. Wear moves the border of gross slip where a force is prescribed.
+
+use super::Study;
+use crate::contact::indenter::Indenter;
+use crate::contact::material::Material;
+use crate::math::root;
+use crate::scenario::Scenario;
+use crate::simulation::drive::Control;
+
+/// A border.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Border {
+    /// Between partial and gross slip.
+    GrossSlip,
+    /// Between a contact that stays closed and one that opens.
+    LiftOff,
+}
+
+impl Border {
+    /// All borders.
+    pub const ALL: [Self; 2] = [Self::GrossSlip, Self::LiftOff];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::GrossSlip => "gross slip",
+            Self::LiftOff => "lift-off",
+        }
+    }
+
+    /// How far (m, or N for the lift-off of a prescribed force) a scenario is from the border:
+    /// negative beyond it, none where there is no closed form.
+    pub fn distance(self, scenario: &Scenario) -> Option<f64> {
+        let setup = scenario.setup();
+        let normal = setup.drive.normal();
+        if self == Self::LiftOff {
+            return Some(normal.oscillation().lowest());
+        }
+        let ratio = setup.material.stick_ratio();
+        if let Some(depth) = setup.drive.shakedown_depth(ratio) {
+            return Some(depth);
+        }
+        match (normal, setup.drive.tangential()?) {
+            (Control::Force(force), Control::Displacement(shift)) => {
+                let depth = depth_under(force.lowest(), &setup.indenter, &setup.material)?;
+                Some(depth - ratio * shift.amplitude())
+            }
+            _ => None,
+        }
+    }
+
+    /// The value of axis `along` at which the border is crossed, the other axes standing at
+    /// `places`; none if it is not crossed between the ends of the axis, or the axis holds no numbers.
+    pub fn crossing(self, study: &Study, places: &[usize], along: usize) -> Option<f64> {
+        let axis = &study.axes[along];
+        let ends = [axis.number(0)?, axis.number(axis.values.len() - 1)?];
+        let distance = |value: f64| {
+            let scenario = study.scenario_at(places, along, value).ok()?;
+            self.distance(&scenario)
+        };
+        let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+        let (at_low, at_high) = (distance(low)?, distance(high)?);
+        if at_low * at_high > 0.0 {
+            return None;
+        }
+        // A value for which there is no scenario is beyond the border.
+        let sign = |value| distance(value).unwrap_or(at_high);
+        root::bracketed(sign, low, high, 1e-9 * (high - low))
+    }
+}
+
+/// The depth (m) at which an unworn indenter carries `force` (N): F = 2E*∫(d − g) dx.
+fn depth_under(force: f64, indenter: &Indenter, material: &Material) -> Option<f64> {
+    let modulus = material.normal_modulus();
+    if force <= 0.0 {
+        return Some(0.0);
+    }
+    if let Some(rim) = indenter.rim() {
+        return Some(force / (2.0 * modulus * rim));
+    }
+    let carried = |radius: f64| {
+        let depth = indenter.profile_1d(radius);
+        // Simpson's rule in x = a sin φ, which is smooth at the tip and at the edge.
+        let cells = 200;
+        let at = |i: u32| {
+            let angle = f64::from(i) / f64::from(cells) * std::f64::consts::FRAC_PI_2;
+            let compression = depth - indenter.profile_1d(radius * angle.sin());
+            let weight = match i {
+                0 => 1.0,
+                i if i == cells => 1.0,
+                i if i % 2 == 1 => 4.0,
+                _ => 2.0,
+            };
+            weight * compression * radius * angle.cos()
+        };
+        let sum: f64 = (0..=cells).map(at).sum();
+        2.0 * modulus * sum * std::f64::consts::FRAC_PI_2 / f64::from(cells) / 3.0
+    };
+    let mut wide = 1e-9;
+    while carried(wide) < force {
+        wide *= 2.0;
+        if wide > 1e6 {
+            return None;
+        }
+    }
+    let radius = root::bracketed(
+        |radius| carried(radius) / force - 1.0,
+        0.0,
+        wide,
+        1e-13 * wide,
+    )?;
+    Some(indenter.profile_1d(radius))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_depth_under_a_force_is_that_of_the_closed_forms() {
+        let material = Material::new(2e11, 0.3, 0.1).expect("a material");
+        for (indenter, depth_per_force) in [
+            // F = 2n/(n+1) E* d a.
+            (Indenter::paraboloid(0.01).expect("a shape"), 4.0 / 3.0),
+            (Indenter::cone(0.02).expect("a shape"), 1.0),
+            (Indenter::power(3e5, 4.0).expect("a shape"), 8.0 / 5.0),
+        ] {
+            let radius = 1.3e-4;
+            let depth = indenter.profile_1d(radius);
+            let force = depth_per_force * 2e11 * depth * radius;
+            let found = depth_under(force, &indenter, &material).expect("a depth");
+            assert!(
+                (found / depth - 1.0).abs() < 1e-6,
+                "{indenter:?}: {found:e} {depth:e}"
+            );
+        }
+    }
+}

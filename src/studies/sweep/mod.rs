@@ -1,0 +1,31 @@
+//! Studies of many points: one scenario, run for many values of some of its keys.
+//!
+//! A [`Study`] is read from a TOML file: a base scenario, what is set for all points, the axes, the
+//! columns and when a point ends. Its points are numbered in the order of the axes, the last one
+//! fastest. [`engine::run`] runs some of them on several threads, and a [`record::Record`] is the
+//! table of their rows as text, which can be read back, put together with others and gone on with.
+//!
+//! A point knows nothing of the other points and of the threads, so its row is the same to the last
+//! bit in whatever order, on however many threads and in however many pieces the study is run.
+
+mod axis;
+pub mod border;
+mod design;
+pub mod engine;
+mod point;
+mod read;
+pub mod record;
+pub mod sensitivity;
+mod shard;
+mod study;
+
+pub use axis::{Axis, Spread};
+pub use design::Design;
+pub use point::{OK, Row};
+pub use shard::Shard;
+pub use study::{Stop, Study};
+
+/// A study that cannot be run, in one line: what is wrong, where, and what would be right.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct StudyError(pub String);

@@ -1,0 +1,162 @@
+//! One point of a study, run from beginning to end.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::{Stop, Study};
+use crate::math::scan::largest;
+use crate::scenario::scalars::Reading;
+use crate::scenario::session::{Session, SessionError};
+use crate::scenario::{Scenario, printable};
+use crate::studies::refinement::{self, RefinementError};
+
+/// The status of a point that went well.
+pub const OK: &str = "ok";
+
+/// What a point has come to: its fields after those of the axes, without the status.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Row {
+    /// The columns; all empty if the point failed before its start.
+    pub fields: Vec<String>,
+    /// [`OK`], or why the point failed.
+    pub status: String,
+}
+
+/// Runs `point`; none if `halt` was set before its end. A failure, even a defect of the program, is
+/// the status of the row, which then shows the last good state if there is one.
+pub(super) fn run(study: &Study, point: usize, halt: &AtomicBool) -> Option<Row> {
+    match study.scenario(point) {
+        Ok(scenario) => run_scenario(study, scenario, halt),
+        Err(error) => Some(failed(study, &format!("invalid: {error}"))),
+    }
+}
+
+fn failed(study: &Study, why: &str) -> Row {
+    Row {
+        fields: vec![String::new(); study.columns.len()],
+        status: printable(why),
+    }
+}
+
+/// Runs `scenario` as a point of `study`: for its columns, until one of its ends.
+pub(super) fn run_scenario(study: &Study, scenario: Scenario, halt: &AtomicBool) -> Option<Row> {
+    let mut session = match started(&scenario, halt)? {
+        Ok(session) => session,
+        Err(error) => return Some(failed(study, &error)),
+    };
+    let ended = catch_unwind(AssertUnwindSafe(|| {
+        #[cfg(debug_assertions)]
+        crate::failpoint::hit("point");
+        let ended = advance(&mut session, &study.stop, halt);
+        let reading = Reading::new(&session);
+        let columns = study.columns.iter();
+        (
+            ended,
+            columns
+                .map(|column| column.read(&reading).field())
+                .collect(),
+        )
+    }));
+    match ended {
+        Err(_) => Some(failed(study, "a defect in mdr-tui")),
+        Ok((Ok(Ended::Halted), _)) => None,
+        Ok((Ok(Ended::Done), fields)) => Some(Row {
+            fields,
+            status: OK.to_owned(),
+        }),
+        Ok((Err(error), fields)) => Some(Row {
+            fields,
+            ..failed(study, &error.to_string())
+        }),
+    }
+}
+
+/// A session at its start, with the points and steps that meet the accuracy of the scenario if it asks for one;
+/// none if `halt` was set meanwhile.
+fn started(scenario: &Scenario, halt: &AtomicBool) -> Option<Result<Session, String>> {
+    let go_on = || !halt.load(Ordering::Relaxed);
+    let found = match refinement::resolve(scenario, None, f64::INFINITY, &go_on) {
+        Ok(found) => found,
+        Err(RefinementError::Interrupted) => return None,
+        Err(error) => return Some(Err(error.to_string())),
+    };
+    let session = Session::start(found.scenario).map_err(|error| error.to_string());
+    Some(session.map(|mut session| {
+        for (key, value) in &found.statements {
+            session.state(key, value);
+        }
+        session
+    }))
+}
+
+enum Ended {
+    Done,
+    Halted,
+}
+
+/// Runs to the end of the scenario, or until `stop` is reached, with the steps that `mdr-tui run` takes.
+fn advance(session: &mut Session, stop: &Stop, halt: &AtomicBool) -> Result<Ended, SessionError> {
+    let end = session.loaded().run().cycles.unwrap_or_default();
+    let drive = &session.simulation().setup().drive;
+    let period = f64::from(drive.repeats_after().unwrap_or(1));
+    let mut worn = Worn::default();
+    loop {
+        let simulation = session.simulation();
+        let cycle = simulation.cycle();
+        if cycle >= end {
+            return Ok(Ended::Done);
+        }
+        if halt.load(Ordering::Relaxed) {
+            return Ok(Ended::Halted);
+        }
+        if (cycle % period == 0.0 || simulation.may_jump()) && worn.reaches(session, stop) {
+            return Ok(Ended::Done);
+        }
+        session.step_until(end)?;
+    }
+}
+
+/// The worn volume over the cycles, for [`Stop::settled`].
+#[derive(Default)]
+struct Worn(Vec<[f64; 2]>);
+
+impl Worn {
+    /// Whether one of the ends in `stop` is reached at the present moment.
+    fn reaches(&mut self, session: &Session, stop: &Stop) -> bool {
+        if *stop == Stop::default() {
+            return false;
+        }
+        let simulation = session.simulation();
+        let (cycle, volume) = (simulation.cycle(), simulation.wear_volume());
+        self.0.push([cycle, volume]);
+        let deepest = || largest(simulation.worn_depth());
+        let settled = |share: f64| cycle >= 2.0 && volume - self.at(0.5 * cycle) <= share * volume;
+        stop.worn_depth.is_some_and(|depth| deepest() >= depth)
+            || stop.volume.is_some_and(|most| volume >= most)
+            || stop.settled.is_some_and(settled)
+    }
+
+    /// The worn volume at an earlier cycle, m³, on straight lines between those that were noted.
+    fn at(&self, cycle: f64) -> f64 {
+        let after = self.0.partition_point(|[at, _]| *at < cycle);
+        let (Some([end, high]), before) = (self.0.get(after), after.checked_sub(1)) else {
+            return self.0.last().map_or(0.0, |[_, volume]| *volume);
+        };
+        let [start, low] = before.map_or([0.0, 0.0], |before| self.0[before]);
+        low + (high - low) * (cycle - start) / (end - start).max(f64::MIN_POSITIVE)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn volumes_in_between_lie_on_lines() {
+        let worn = Worn(vec![[2.0, 4.0], [10.0, 12.0]]);
+        assert_eq!(worn.at(1.0), 2.0);
+        assert_eq!(worn.at(2.0), 4.0);
+        assert_eq!(worn.at(6.0), 8.0);
+        assert_eq!(worn.at(11.0), 12.0);
+    }
+}

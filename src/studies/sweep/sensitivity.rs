@@ -1,0 +1,258 @@
+//! How much the results of a scenario hang on its keys.
+//!
+//! # Formula
+//!
+//! The elasticity of a result y with respect to a key x, E = d ln y/d ln x, by the central difference
+//! D(h) = [ln y(x eʰ) − ln y(x e⁻ʰ)]/2h and one step of Richardson's extrapolation,
+//! E = [4 D(h) − D(2h)]/3. |E − D(h)| tells both what is left of the truncation and the noise of the
+//! runs, and is the error of E. Where an error is above [`WANTED`], all runs are repeated on a finer
+//! grid with more steps, at most [`LEVELS`] times.
+//!
+//! With standard deviations σ of the keys, which are taken as independent, the relative spread of y
+//! is √Σ(E σ/x)².
+//!
+//! The numerics are those of the scenario in the middle for all runs: an accuracy chooses by the
+//! values of the keys, and each other choice would be noise in the difference.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rayon::ThreadPool;
+use rayon::prelude::*;
+
+use super::point::{self, OK};
+use super::{Study, StudyError};
+use crate::scenario::Scenario;
+use crate::scenario::scalars::number;
+use crate::simulation::Integrator;
+
+/// h, in ln x.
+const STEP: f64 = 0.01;
+
+/// The errors of elasticities that are good enough: absolute, and relative to the elasticity.
+const WANTED: (f64, f64) = (0.01, 0.02);
+
+/// The most levels of refinement; each halves cells and steps.
+const LEVELS: u32 = 3;
+
+/// Where the runs of a key stand, in units of the step.
+const PLACES: [f64; 4] = [-2.0, -1.0, 1.0, 2.0];
+
+/// A key that is varied.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Varied {
+    /// The dotted path.
+    pub key: String,
+    /// Its standard deviation, in its unit; none: elasticities alone.
+    pub deviation: Option<f64>,
+}
+
+/// How a result hangs on a key.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Elasticity {
+    /// The key.
+    pub key: String,
+    /// Its value.
+    pub value: f64,
+    /// Its standard deviation.
+    pub deviation: Option<f64>,
+    /// The column.
+    pub column: &'static str,
+    /// The result with all keys at their values; none where it is undefined.
+    pub result: Option<f64>,
+    /// d ln y/d ln x, and its error; none where y is undefined, or not positive, in one of the runs.
+    pub elasticity: Option<[f64; 2]>,
+}
+
+impl Elasticity {
+    /// The relative spread of the result that the key's deviation brings about.
+    pub fn spread(&self) -> Option<f64> {
+        let [elasticity, _] = self.elasticity?;
+        Some((elasticity * self.deviation? / self.value).abs())
+    }
+
+    fn is_resolved(&self) -> bool {
+        let good = |[found, error]: [f64; 2]| error <= WANTED.0.max(WANTED.1 * found.abs());
+        self.elasticity.is_none_or(good)
+    }
+}
+
+/// What a study of sensitivities has found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sensitivity {
+    /// Keys by columns, keys first.
+    pub elasticities: Vec<Elasticity>,
+    /// Cells and steps per cycle of the last runs.
+    pub numerics: (usize, u32),
+    /// Whether every elasticity is known as well as wanted.
+    pub is_resolved: bool,
+}
+
+impl Sensitivity {
+    /// The relative spread of a column that all deviations bring about together.
+    pub fn spread(&self, column: &str) -> Option<f64> {
+        let of_column = self.elasticities.iter().filter(|one| one.column == column);
+        let squares: Vec<f64> = of_column
+            .filter(|one| one.deviation.is_some())
+            .map(|one| one.spread().map(|spread| spread * spread))
+            .collect::<Option<_>>()?;
+        (!squares.is_empty()).then(|| squares.iter().sum::<f64>().sqrt())
+    }
+}
+
+/// Finds the elasticities of the study's columns with respect to `keys`, around its base with what it
+/// sets. None if `halt` was set before the end.
+///
+/// # Errors
+///
+/// Refuses a key that is no number greater than 0 in the scenario, and reports a run that failed.
+pub fn run(
+    study: &Study,
+    keys: &[Varied],
+    pool: &ThreadPool,
+    halt: &AtomicBool,
+) -> Result<Option<Sensitivity>, StudyError> {
+    let middle = study
+        .middle()
+        .map_err(|error| StudyError(error.to_string()))?;
+    let mut values = Vec::new();
+    for varied in keys {
+        let value = middle
+            .value(&varied.key)
+            .and_then(|value| value.parse::<f64>().ok());
+        let Some(value) = value.filter(|value| *value > 0.0 && value.is_finite()) else {
+            return Err(StudyError(format!(
+                "sensitivity: {}: must be a number greater than 0 in the base or in [set]",
+                varied.key
+            )));
+        };
+        values.push(value);
+    }
+    let mut found = None;
+    for level in 0..=LEVELS {
+        let Some(next) = on_level(study, &middle, keys, &values, level, pool, halt)? else {
+            return Ok(None);
+        };
+        let is_resolved = next.is_resolved;
+        found = Some(next);
+        if is_resolved {
+            break;
+        }
+    }
+    Ok(found)
+}
+
+fn on_level(
+    study: &Study,
+    middle: &Scenario,
+    keys: &[Varied],
+    values: &[f64],
+    level: u32,
+    pool: &ThreadPool,
+    halt: &AtomicBool,
+) -> Result<Option<Sensitivity>, StudyError> {
+    let broken = |error: &dyn std::fmt::Display| StudyError(format!("sensitivity: {error}"));
+    let fixed = refined(middle, level).map_err(|error| broken(&error))?;
+    let mut scenarios = vec![fixed.clone()];
+    for (varied, value) in keys.iter().zip(values) {
+        for place in PLACES {
+            let value = number(value * (STEP * place).exp());
+            let scenario = fixed
+                .with(&varied.key, &value)
+                .map_err(|error| broken(&error))?;
+            scenarios.push(scenario);
+        }
+    }
+    let runs: Vec<_> = pool.install(|| {
+        let runs = scenarios.into_par_iter();
+        runs.map(|scenario| point::run_scenario(study, scenario, halt))
+            .collect()
+    });
+    if halt.load(Ordering::Relaxed) {
+        return Ok(None);
+    }
+    let mut results: Vec<Vec<Option<f64>>> = Vec::new();
+    for row in runs.into_iter().flatten() {
+        if row.status != OK {
+            return Err(broken(&row.status));
+        }
+        let numbers = row.fields.iter().map(|field| field.parse::<f64>().ok());
+        results.push(numbers.collect());
+    }
+    let mut elasticities = Vec::new();
+    for (at, (varied, value)) in keys.iter().zip(values).enumerate() {
+        for (column, scalar) in study.columns.iter().enumerate() {
+            let first = 1 + at * PLACES.len();
+            let around = &results[first..first + PLACES.len()];
+            let around: Option<Vec<f64>> = around.iter().map(|run| run[column]).collect();
+            elasticities.push(Elasticity {
+                key: varied.key.clone(),
+                value: *value,
+                deviation: varied.deviation,
+                column: scalar.name,
+                result: results[0][column],
+                elasticity: around.as_deref().and_then(difference),
+            });
+        }
+    }
+    let setup = fixed.setup();
+    Ok(Some(Sensitivity {
+        is_resolved: elasticities.iter().all(Elasticity::is_resolved),
+        numerics: (setup.grid.cells(), setup.steps_per_cycle),
+        elasticities,
+    }))
+}
+
+/// E and its error from the results at [`PLACES`]; none if one of them is not positive.
+fn difference(results: &[f64]) -> Option<[f64; 2]> {
+    let &[far_below, below, above, far_above] = results else {
+        return None;
+    };
+    if results
+        .iter()
+        .any(|result| *result <= 0.0 || !result.is_finite())
+    {
+        return None;
+    }
+    let near = (above / below).ln() / (2.0 * STEP);
+    let far = (far_above / far_below).ln() / (4.0 * STEP);
+    let extrapolated = (4.0 * near - far) / 3.0;
+    Some([extrapolated, (extrapolated - near).abs()])
+}
+
+/// The scenario with its numerics written down, cells and steps doubled `level` times.
+fn refined(middle: &Scenario, level: u32) -> Result<Scenario, crate::scenario::ScenarioError> {
+    let setup = middle.setup();
+    let cells = (setup.grid.cells() << level).to_string();
+    let steps = (setup.steps_per_cycle << level).to_string();
+    let tolerance = match setup.integrator {
+        Integrator::Direct => None,
+        Integrator::CycleJump { tolerance } => {
+            Some(number(tolerance / f64::from(1 << (2 * level))))
+        }
+    };
+    let mut set = vec![
+        ("numerics.points", cells.as_str()),
+        ("numerics.steps_per_cycle", steps.as_str()),
+    ];
+    if let Some(tolerance) = &tolerance {
+        set.push(("numerics.tolerance", tolerance));
+    }
+    middle.with_all(&set)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_power_has_its_exponent_as_elasticity() {
+        let results = PLACES.map(|place| 7.0 * (STEP * place).exp().powf(1.5));
+        let [elasticity, error] = difference(&results).expect("an elasticity");
+        assert!((elasticity - 1.5).abs() < 1e-10 && error < 1e-10);
+        // Noise shows as an error of its own size.
+        let noisy = [results[0], results[1], results[2] * 1.001, results[3]];
+        let [elasticity, error] = difference(&noisy).expect("an elasticity");
+        assert!(error > 0.2 * (elasticity - 1.5).abs() && error > 0.01);
+        assert_eq!(difference(&[1.0, 0.0, 1.0, 1.0]), None);
+    }
+}

@@ -1,0 +1,277 @@
+//! A study: the scenario of every point, and what is read of it.
+
+use toml::{Table, Value};
+
+use super::axis::{self, Axis};
+use super::sensitivity::Varied;
+use super::{Design, StudyError};
+use crate::scenario::scalars::Scalar;
+use crate::scenario::schema;
+use crate::scenario::{Scenario, ScenarioError, printable};
+
+/// When a point ends before its `run.cycles`: at the end of the first cycle in which one of these is
+/// reached.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Stop {
+    /// The largest worn depth, m.
+    pub worn_depth: Option<f64>,
+    /// The worn volume, m³.
+    pub volume: Option<f64>,
+    /// The wear has come to rest: the second half of the cycles has added at most this share of
+    /// the worn volume.
+    pub settled: Option<f64>,
+}
+
+impl Stop {
+    /// Names and values, as in `[stop]`.
+    pub(super) fn named(&self) -> [(&'static str, Option<f64>); 3] {
+        [
+            ("worn_depth", self.worn_depth),
+            ("volume", self.volume),
+            ("settled", self.settled),
+        ]
+    }
+}
+
+/// One scenario for many values of some of its keys.
+#[derive(Debug, Clone)]
+pub struct Study {
+    /// What stands in `title`, if anything does.
+    pub title: Option<String>,
+    /// The base as the study names it: a preset, or a path relative to the study.
+    pub base_name: String,
+    /// The base.
+    pub base: Scenario,
+    /// What is set for all points, as `--set` takes it.
+    pub set: Vec<(String, Value)>,
+    /// What is varied.
+    pub axes: Vec<Axis>,
+    /// How the axes make points.
+    pub design: Design,
+    /// Number of samples and seed of a sampled design.
+    pub samples: Option<(usize, u32)>,
+    /// The columns after those of the axes.
+    pub columns: Vec<&'static Scalar>,
+    /// When a point ends.
+    pub stop: Stop,
+    /// Keys whose sensitivities are asked for.
+    pub sensitivity: Vec<Varied>,
+}
+
+impl Study {
+    /// The number of points.
+    pub fn points(&self) -> usize {
+        match self.design {
+            Design::Grid => self.axes.iter().map(|axis| axis.values.len()).product(),
+            _ => self.axes.first().map_or(1, |axis| axis.values.len()),
+        }
+    }
+
+    /// The place of `point` on each axis.
+    pub fn places(&self, point: usize) -> Vec<usize> {
+        if self.design != Design::Grid {
+            return vec![point; self.axes.len()];
+        }
+        let mut rest = point;
+        let mut places: Vec<usize> = self
+            .axes
+            .iter()
+            .rev()
+            .map(|axis| {
+                let place = rest % axis.values.len();
+                rest /= axis.values.len();
+                place
+            })
+            .collect();
+        places.reverse();
+        places
+    }
+
+    /// The values of the axes at `point`, as its row shows them.
+    pub fn values(&self, point: usize) -> Vec<String> {
+        let places = self.places(point);
+        let axes = self.axes.iter().zip(places);
+        axes.map(|(axis, place)| axis.text(place)).collect()
+    }
+
+    /// `point` in words: its number and its values.
+    pub fn name(&self, point: usize) -> String {
+        let values = self.axes.iter().zip(self.values(point));
+        let values: Vec<String> = values
+            .map(|(axis, value)| format!("{} = {value}", axis.key))
+            .collect();
+        format!("point {point} ({})", values.join(", "))
+    }
+
+    /// The names of all columns, in order: the keys of the axes, the columns, `status`.
+    pub fn columns(&self) -> Vec<&str> {
+        let axes = self.axes.iter().map(|axis| axis.key.as_str());
+        let columns = self.columns.iter().map(|column| column.name);
+        axes.chain(columns).chain(["status"]).collect()
+    }
+
+    /// The scenario of `point`.
+    ///
+    /// # Errors
+    ///
+    /// Refuses values that make no valid scenario, and one without an end.
+    pub fn scenario(&self, point: usize) -> Result<Scenario, ScenarioError> {
+        let places = self.places(point);
+        let axes = self.axes.iter().zip(places);
+        self.build(axes.flat_map(|(axis, place)| axis.assignments(place)))
+    }
+
+    /// The scenario with the axes at `places`, but for axis `along`, which has `value`.
+    ///
+    /// # Errors
+    ///
+    /// As [`scenario`](Self::scenario).
+    pub fn scenario_at(
+        &self,
+        places: &[usize],
+        along: usize,
+        value: f64,
+    ) -> Result<Scenario, ScenarioError> {
+        let axes = self.axes.iter().zip(places).enumerate();
+        self.build(axes.flat_map(|(at, (axis, &place))| match at == along {
+            true => axis.assignments_of(value),
+            false => axis.assignments(place),
+        }))
+    }
+
+    /// The base with what is set for all points, and nothing of the axes.
+    ///
+    /// # Errors
+    ///
+    /// As [`scenario`](Self::scenario).
+    pub fn middle(&self) -> Result<Scenario, ScenarioError> {
+        self.build(std::iter::empty())
+    }
+
+    /// The keys whose sensitivities are asked for: those of `[sensitivity]`, or those of the axes.
+    pub fn varied(&self) -> Vec<Varied> {
+        if !self.sensitivity.is_empty() {
+            return self.sensitivity.clone();
+        }
+        let axes = self.axes.iter().map(|axis| Varied {
+            key: axis.key.clone(),
+            deviation: None,
+        });
+        axes.collect()
+    }
+
+    fn build<'a>(
+        &'a self,
+        axes: impl Iterator<Item = (&'a str, String)>,
+    ) -> Result<Scenario, ScenarioError> {
+        let set = self.set.iter();
+        let set = set.map(|(key, value)| (key.as_str(), assigned(value)));
+        let all: Vec<(&str, String)> = set.chain(axes).collect();
+        let all: Vec<(&str, &str)> = all.iter().map(|(key, value)| (*key, &**value)).collect();
+        let scenario = self.base.with_all(&all)?;
+        match scenario.run().cycles {
+            Some(_) => Ok(scenario),
+            None => Err(ScenarioError::Missing {
+                origin: self.base_name.clone(),
+                path: "run.cycles".into(),
+                meaning: "how many cycles a point runs; [set] \"run.cycles\" = 100 gives it".into(),
+            }),
+        }
+    }
+
+    /// Sets a key for all points, as `--set` does: `KEY=VALUE`. It takes the place of what `[set]`
+    /// says.
+    ///
+    /// # Errors
+    ///
+    /// Refuses what is no assignment, an unknown key, and a key of an axis.
+    pub fn assign(&mut self, set: &str) -> Result<(), StudyError> {
+        let refuse = |why: String| StudyError(format!("--set {}: {why}", printable(set)));
+        let halves = set
+            .split_once('=')
+            .map(|(key, value)| (key.trim(), value.trim()));
+        let Some((key, value)) = halves.filter(|(key, value)| !key.is_empty() && !value.is_empty())
+        else {
+            return Err(refuse(
+                "must be KEY=VALUE, as in numerics.points=400".into(),
+            ));
+        };
+        if schema::find(key).is_none() {
+            return Err(refuse(format!("unknown key {key}; {}", schema::hint(key))));
+        }
+        let varied = |axis: &Axis| axis.key == key || axis.tied.iter().any(|(tied, _)| tied == key);
+        if self.axes.iter().any(varied) {
+            return Err(refuse(format!("{key} is varied by an axis of the study")));
+        }
+        let value: Value = value.parse().unwrap_or_else(|_| value.into());
+        match self.set.iter_mut().find(|(known, _)| known == key) {
+            Some((_, known)) => *known = value,
+            None => self.set.push((key.to_owned(), value)),
+        }
+        Ok(())
+    }
+
+    /// The study as TOML, in one form for all ways to write it.
+    pub fn to_toml(&self) -> String {
+        let mut table = Table::new();
+        let mut insert = |key: &str, value: Value| table.insert(key.into(), value);
+        if let Some(title) = &self.title {
+            insert("title", title.clone().into());
+        }
+        insert("base", self.base_name.clone().into());
+        let columns = self.columns.iter().map(|column| Value::from(column.name));
+        insert("columns", Value::Array(columns.collect()));
+        insert("design", self.design.name().into());
+        if let Some((samples, seed)) = self.samples {
+            insert("samples", (samples as i64).into());
+            insert("seed", i64::from(seed).into());
+        }
+        if !self.set.is_empty() {
+            insert("set", Value::Table(self.set.iter().cloned().collect()));
+        }
+        let stop: Table = self
+            .stop
+            .named()
+            .into_iter()
+            .filter_map(|(name, value)| Some((name.to_owned(), Value::Float(value?))))
+            .collect();
+        if !stop.is_empty() {
+            insert("stop", Value::Table(stop));
+        }
+        let sensitivity: Table = self
+            .sensitivity
+            .iter()
+            .map(|varied| (varied.key.clone(), varied.deviation.unwrap_or(0.0).into()))
+            .collect();
+        if !sensitivity.is_empty() {
+            insert("sensitivity", Value::Table(sensitivity));
+        }
+        let axes = self.axes.iter().map(|axis| Value::Table(written(axis)));
+        insert("axis", Value::Array(axes.collect()));
+        toml::to_string(&table).unwrap_or_default()
+    }
+}
+
+/// An axis as it stands in a study, its values listed.
+fn written(axis: &Axis) -> Table {
+    let mut table = Table::new();
+    table.insert("key".into(), axis.key.clone().into());
+    table.insert("values".into(), Value::Array(axis.values.clone()));
+    if axis.spread == axis::Spread::Logarithmic {
+        table.insert("scale".into(), "log".into());
+    }
+    if !axis.tied.is_empty() {
+        let tied = axis.tied.iter().cloned();
+        let tied: Table = tied.map(|(key, factor)| (key, factor.into())).collect();
+        table.insert("tied".into(), Value::Table(tied));
+    }
+    table
+}
+
+/// A TOML value as `--set` takes it.
+fn assigned(value: &Value) -> String {
+    match value {
+        Value::String(word) => word.clone(),
+        other => other.to_string(),
+    }
+}

@@ -1,0 +1,255 @@
+//! What theory says of the scene on the screen, where it says anything: closed forms to lay over
+//! the plots and to measure the run by.
+
+use crate::contact::indenter::Indenter;
+use crate::oracle::cattaneo_mindlin::CattaneoMindlin;
+use crate::oracle::dual_oscillation::{DualOscillation, Frequencies};
+use crate::oracle::fretting_loop::Branch;
+use crate::oracle::limiting_profile::LimitingProfile;
+use crate::oracle::power_law::PowerLaw;
+use crate::oracle::truncated::{TruncatedCone, TruncatedParaboloid};
+use crate::simulation::Setup;
+use crate::simulation::drive::{Control, Oscillation};
+use crate::simulation::waveform::Waveform;
+
+/// The closed forms that apply.
+#[derive(Debug, Clone, Default)]
+pub struct Theory {
+    /// The permanent stick radius by Melan's theorem, m; none if there is no such zone.
+    pub stick_radius: Option<f64>,
+    limit: Option<LimitingProfile>,
+    unworn: Option<(PowerLaw, f64)>,
+    cattaneo: Option<CattaneoMindlin>,
+    /// 1/κ = μE*/G*.
+    slip_per_depth: f64,
+}
+
+impl Theory {
+    /// What applies to the parts of a simulation.
+    pub fn of(setup: &Setup) -> Self {
+        let e_star = setup.material.normal_modulus();
+        let mut theory = Self {
+            slip_per_depth: setup.material.stick_ratio().recip(),
+            unworn: power_law(&setup.indenter).map(|shape| (shape, e_star)),
+            ..Self::default()
+        };
+        let (Control::Displacement(normal), Some(Control::Displacement(tangential))) =
+            (setup.drive.normal(), setup.drive.tangential())
+        else {
+            return theory;
+        };
+        if setup.drive.rig_compliance() > 0.0 {
+            return theory;
+        }
+        // The closed forms are those of sines; of others the turning points alone would be.
+        if [normal, tangential]
+            .iter()
+            .any(|swing| *swing.waveform() != Waveform::Sine && swing.amplitude() > 0.0)
+        {
+            return theory;
+        }
+        let motion = motion(setup, normal, tangential);
+        theory.stick_radius = radius_at(setup, motion.stick_depth());
+        if let Indenter::Paraboloid { radius } = setup.indenter {
+            let wears = setup.wear.is_some_and(|law| law.coefficient() > 0.0);
+            theory.limit =
+                theory
+                    .stick_radius
+                    .filter(|_| wears)
+                    .map(|stick_radius| LimitingProfile {
+                        e_star,
+                        radius,
+                        depth: motion.largest_depth(),
+                        stick_radius,
+                    });
+            let from_rest =
+                normal.amplitude() == 0.0 && tangential.mean() == 0.0 && tangential.phase() == 0.0;
+            theory.cattaneo = from_rest
+                .then_some(CattaneoMindlin {
+                    e_star,
+                    g_star: motion.g_star,
+                    mu: motion.mu,
+                    radius,
+                    depth: normal.mean(),
+                    amplitude: tangential.amplitude(),
+                })
+                .filter(|cattaneo| !cattaneo.is_gross_slip());
+        }
+        theory
+    }
+
+    /// f∞(r), m: what wear leads to.
+    pub fn limiting_profile(&self, radii: &[f64]) -> Option<Vec<f64>> {
+        self.limit
+            .as_ref()
+            .map(|limit| radii.iter().map(|&r| limit.profile(r)).collect())
+    }
+
+    /// The amplitude of u_x, m, from which the unworn indenter slips as a whole under `load` (N):
+    /// u_t = d/κ with F ∝ d^((n+1)/n) for a tip ∝ rⁿ.
+    pub fn gross_slip_amplitude(&self, load: f64) -> Option<f64> {
+        let (shape, e_star) = self.unworn.as_ref()?;
+        let depth = 1e-6;
+        let share = load.max(0.0) / shape.force(*e_star, depth);
+        let power = shape.exponent / (shape.exponent + 1.0);
+        Some(depth * share.powf(power) * self.slip_per_depth)
+    }
+
+    /// p(r), Pa, of the unworn indenter at a depth (m).
+    pub fn unworn_pressure(&self, depth: f64, radii: &[f64]) -> Option<Vec<f64>> {
+        let (shape, e_star) = self.unworn.as_ref()?;
+        let radius = shape.contact_radius(depth.max(0.0));
+        Some(
+            radii
+                .iter()
+                .map(|&r| shape.pressure(*e_star, radius, r))
+                .collect(),
+        )
+    }
+
+    /// τ(r), Pa, of the unworn paraboloid at constant depth, at a cycle and a shift (m).
+    pub fn unworn_shear(&self, cycle: f64, shift: f64, radii: &[f64]) -> Option<Vec<f64>> {
+        let cattaneo = self.cattaneo.as_ref()?;
+        let branch = match cycle {
+            first if first <= 0.25 => Branch::Loading,
+            later if (0.25..0.75).contains(&later.fract()) => Branch::Unloading,
+            _ => Branch::Reloading,
+        };
+        Some(
+            radii
+                .iter()
+                .map(|&r| cattaneo.loop_shear(branch, shift, r))
+                .collect(),
+        )
+    }
+}
+
+fn motion(setup: &Setup, normal: &Oscillation, tangential: &Oscillation) -> DualOscillation {
+    let frequencies = match setup.drive.repeats_after() {
+        None => Frequencies::Incommensurate,
+        Some(cycles) => {
+            let normal = (f64::from(cycles) * setup.drive.frequency_ratio()).round() as u32;
+            if normal == cycles {
+                Frequencies::Equal
+            } else {
+                Frequencies::Rational {
+                    tangential: cycles,
+                    normal,
+                }
+            }
+        }
+    };
+    DualOscillation {
+        e_star: setup.material.normal_modulus(),
+        g_star: setup.material.tangential_modulus(),
+        mu: setup.material.friction(),
+        depth: normal.mean(),
+        normal_amplitude: normal.amplitude(),
+        normal_phase: normal.phase(),
+        tangential_amplitude: tangential.amplitude(),
+        tangential_phase: tangential.phase(),
+        frequencies: if normal.amplitude() == 0.0 {
+            Frequencies::Equal
+        } else {
+            frequencies
+        },
+    }
+}
+
+/// The profile as a power of r, where it is one.
+fn power_law(indenter: &Indenter) -> Option<PowerLaw> {
+    match *indenter {
+        Indenter::Paraboloid { radius } => Some(PowerLaw::paraboloid(radius)),
+        Indenter::Cone { angle } => Some(PowerLaw::cone(angle.tan())),
+        Indenter::Power {
+            coefficient,
+            exponent,
+        } => Some(PowerLaw {
+            coefficient,
+            exponent,
+        }),
+        Indenter::FlatPunch { .. }
+        | Indenter::TruncatedParaboloid { .. }
+        | Indenter::TruncatedCone { .. }
+        | Indenter::RoundedPunch { .. }
+        | Indenter::Table(_) => None,
+    }
+}
+
+/// The radius at which the unworn g₀ reaches `depth`, m.
+fn radius_at(setup: &Setup, depth: f64) -> Option<f64> {
+    if depth.is_nan() || depth <= 0.0 {
+        return None;
+    }
+    if let Some(shape) = power_law(&setup.indenter) {
+        return Some(shape.contact_radius(depth));
+    }
+    let e_star = setup.material.normal_modulus();
+    let radius = match setup.indenter {
+        Indenter::TruncatedParaboloid { radius, tip_radius } => TruncatedParaboloid {
+            e_star,
+            radius,
+            tip_radius,
+        }
+        .contact_radius(depth),
+        Indenter::TruncatedCone { angle, tip_radius } => TruncatedCone {
+            e_star,
+            slope: angle.tan(),
+            tip_radius,
+        }
+        .contact_radius(depth),
+        _ => return None,
+    };
+    Some(radius)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::Scenario;
+
+    fn of(preset: &str) -> Theory {
+        Theory::of(Scenario::load(preset, &[]).expect("a preset").setup())
+    }
+
+    #[test]
+    fn figure_three_has_a_stick_radius_and_a_limit() {
+        let theory = of("li2019-fig3");
+        let stick = theory.stick_radius.expect("a stick zone");
+        assert!((stick / 1e-4 - 0.4164).abs() < 1e-4, "{stick}");
+        let limit = theory.limiting_profile(&[0.2e-4, 0.8e-4]).expect("a limit");
+        assert!((limit[0] - 0.2e-4f64.powi(2) / 0.02).abs() < 1e-15);
+        assert!(limit[1] > 0.8e-4f64.powi(2) / 0.02);
+        assert!(theory.unworn_shear(0.1, 1e-9, &[0.0]).is_none());
+    }
+
+    /// u_t = 3μN/(4aG*) for a sphere.
+    #[test]
+    fn the_border_of_gross_slip_is_that_of_mindlin() {
+        let scenario = Scenario::load("mindlin", &[]).expect("a preset");
+        let setup = scenario.setup();
+        let Indenter::Paraboloid { radius } = setup.indenter else {
+            panic!("no paraboloid");
+        };
+        let material = &setup.material;
+        for load in [0.1, 20.0, 300.0] {
+            let a = (3.0 * load * radius / (4.0 * material.normal_modulus())).cbrt();
+            let exact =
+                3.0 * material.friction() * load / (4.0 * a * material.tangential_modulus());
+            let border = Theory::of(setup)
+                .gross_slip_amplitude(load)
+                .expect("a border");
+            assert!((border / exact - 1.0).abs() < 1e-12, "{load}");
+        }
+    }
+
+    #[test]
+    fn gross_slip_and_normal_contact_have_none() {
+        for preset in ["gross-slip", "hertz", "flat-punch"] {
+            assert!(of(preset).stick_radius.is_none(), "{preset}");
+            assert!(of(preset).limiting_profile(&[0.0]).is_none(), "{preset}");
+        }
+        assert!(of("hertz").unworn_pressure(1e-6, &[0.0]).is_some());
+        assert!(of("mindlin").unworn_shear(0.1, 1e-9, &[0.0]).is_some());
+    }
+}

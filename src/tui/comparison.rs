@@ -1,0 +1,129 @@
+//! A second run in lockstep with the first: another method, or the same on half the cells.
+
+use std::time::{Duration, Instant};
+
+use super::frame::Comparison;
+use crate::math::abel::AbelMethod;
+use crate::math::grid::MIN_CELLS;
+use crate::scenario::session::{Session, SessionError};
+use crate::simulation::Curves;
+
+/// Where a comparison begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum From {
+    /// At the present state of the run.
+    Now,
+    /// At the start of the scenario.
+    Start,
+}
+
+/// The worker's side of a comparison.
+#[derive(Debug)]
+pub(super) struct ComparisonRun {
+    session: Session,
+    /// Which of [`choices`] it is.
+    choice: usize,
+    /// Where it has begun.
+    from: From,
+    busy: Duration,
+    steps: u64,
+    stopped: Option<String>,
+}
+
+impl ComparisonRun {
+    /// The choice so many places after that of the comparison `before`, the first one where there was
+    /// none. It begins where `session` stands, or at the start with the changes made to `session` since.
+    pub fn beside(
+        session: &Session,
+        before: Option<&Self>,
+        places: isize,
+        from: From,
+    ) -> Result<Self, SessionError> {
+        let choices = choices(session);
+        let now = before.map_or(0, |comparison| comparison.choice) as isize;
+        let choice = (now + places).rem_euclid(choices.len() as isize) as usize;
+        let (key, value) = &choices[choice];
+        let session = match from {
+            From::Now => {
+                let mut session = session.clone();
+                session.change(key, value)?;
+                session
+            }
+            From::Start => {
+                let run = session.as_run(Vec::new());
+                let changes = run.changes().iter();
+                let others = changes.filter(|change| change.key() != *key).cloned();
+                let others = others.collect();
+                let scenario = run.with_changes(Vec::new()).with(key, value)?;
+                Session::start(scenario.with_changes(others))?
+            }
+        };
+        Ok(Self {
+            session,
+            choice,
+            from,
+            busy: Duration::ZERO,
+            steps: 0,
+            stopped: None,
+        })
+    }
+
+    /// Where it has begun.
+    pub fn from(&self) -> From {
+        self.from
+    }
+
+    /// Method and cells.
+    pub fn name(&self) -> String {
+        let setup = self.session.simulation().setup();
+        format!("{} {}", setup.method, setup.grid.cells())
+    }
+
+    /// Whether it is not yet at `cycle`.
+    pub fn lags(&self, cycle: f64) -> bool {
+        self.stopped.is_none() && self.session.simulation().cycle() < cycle
+    }
+
+    /// Steps towards `cycle`, where the first run is, for about as long as `budget`: the first run may
+    /// have jumped over many cycles that this one has to step through.
+    pub fn follow_for(&mut self, cycle: f64, budget: Duration) {
+        let (start, before) = (Instant::now(), self.session.simulation().steps());
+        while self.lags(cycle) {
+            if let Err(error) = self.session.step_until(cycle) {
+                self.stopped = Some(error.to_string());
+            }
+            if start.elapsed() >= budget {
+                break;
+            }
+        }
+        self.busy += start.elapsed();
+        self.steps += self.session.simulation().steps() - before;
+    }
+
+    /// What a screen shows of it.
+    pub fn seen(&self) -> Comparison {
+        let simulation = self.session.simulation();
+        Comparison {
+            name: self.name(),
+            observation: simulation.observe(Curves::PROFILE | Curves::PRESSURE),
+            step_cost: (self.steps > 0).then(|| self.busy.as_secs_f64() / self.steps as f64),
+            stopped: self.stopped.clone(),
+        }
+    }
+}
+
+/// What a run can be compared with: every other method, and itself on half the cells.
+fn choices(session: &Session) -> Vec<(&'static str, String)> {
+    let setup = session.simulation().setup();
+    let others = AbelMethod::ALL
+        .into_iter()
+        .filter(|method| *method != setup.method);
+    let mut list: Vec<_> = others
+        .map(|method| ("numerics.method", format!("\"{method}\"")))
+        .collect();
+    // The paper's verdict is about B: it comes first.
+    list.sort_by_key(|(_, value)| value != "\"b\"");
+    let half = (setup.grid.cells() / 2).max(MIN_CELLS);
+    list.push(("numerics.points", half.to_string()));
+    list
+}

@@ -1,0 +1,67 @@
+//! What `:figure FILE` writes: profiles, stresses and the last loop of the state on the screen.
+
+use std::path::Path;
+
+use super::trend::Trend;
+use crate::export::file::write_whole;
+use crate::figure::data::{Data, Table};
+use crate::figure::ink::{Look, Style};
+use crate::figure::panels::Panel;
+use crate::figure::{Format, Sheet};
+use crate::scenario::session::Session;
+
+/// The font, mm: 8 points.
+const FONT: f64 = 8.0 * 25.4 / 72.0;
+
+/// Dots per inch of a PNG.
+const DPI: f64 = 300.0;
+
+/// Draws the present state of `session` into the file, and writes what is drawn to the same name with
+/// `.csv`.
+///
+/// # Errors
+/// One line: a name of no known format, a file that exists already or cannot be written.
+pub(super) fn write(session: &Session, trend: &Trend, path: &Path) -> Result<(), String> {
+    let shown = path.display();
+    let format = Format::of(path).ok_or(format!("{shown}: must end in .svg, .png or .pdf"))?;
+    let beside = path.with_extension("csv");
+    if let Some(taken) = [path, &beside].into_iter().find(|path| path.exists()) {
+        return Err(format!("{}: exists already", taken.display()));
+    }
+    let mut data = Data {
+        scenario: Some(session.scenario().clone()),
+        ..Data::default()
+    };
+    data.take_state(session);
+    let (shifts, forces) = trend.fretting_loop();
+    let end = session.simulation().cycle();
+    // All of it belongs to the last cycle.
+    let cycles = vec![end; shifts.len()];
+    data.history = Some(Table::of_columns([
+        ("cycle", cycles),
+        ("u_x_m", shifts),
+        ("F_x_N", forces),
+    ]));
+    let panels = [
+        Panel::Profile,
+        Panel::Profile1d,
+        Panel::Stresses,
+        Panel::Loop,
+    ];
+    let charts = panels.iter().filter_map(|panel| panel.chart(&data).ok());
+    let sheet = Sheet {
+        title: session.scenario().title().to_owned(),
+        facts: data.facts(),
+        charts: charts.collect(),
+    };
+    let look = Look {
+        font: FONT,
+        style: Style::Color,
+    };
+    let canvas = sheet.draw(sheet.usual_size(), &look);
+    let picture = format
+        .write(&canvas, DPI)
+        .map_err(|error| error.to_string())?;
+    write_whole(&beside, sheet.csv().as_bytes()).map_err(|error| error.to_string())?;
+    write_whole(path, &picture).map_err(|error| error.to_string())
+}

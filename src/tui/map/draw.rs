@@ -1,0 +1,373 @@
+//! The screen of a study.
+//!
+//! ```text
+//! map.csv                          1432 of 1600 points   title, how far the study is
+//! wear_volume_m3   1.2e-18 ▀▀▀▀▀▀▀▀▀ 3.4e-14             column and its colours
+//!  2e-06 ▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀                           two points a cell
+//!        ▀▀▀▀▀▀▀▀G▀▀▀▀▀▀▀▀▀▀▀▀                           G: a border in closed form
+//!  5e-07 ▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀
+//!        1e-08           1e-06   motion.tangential.amplitude
+//! G gross slip, closed form   A = 0.2                    what the letters are
+//! point 17: motion.normal.mean = 5e-7 ... regime partial what the cursor reads
+//! arrows move  Enter open  Tab column  t theory  q quit
+//! ```
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::{Modifier, Style};
+use ratatui::widgets::Widget;
+
+use super::ramp::{self, REGIMES, Shade};
+use super::view::{Overlay, View};
+use crate::plot::units::format_number;
+use crate::plot::{Axis, Curve, Plot, Scale};
+use crate::studies::sweep::Spread;
+use crate::tui::theme::{Role, Theme};
+
+/// The footer.
+const KEYS: &str =
+    "arrows move  Enter open  Tab column  L log  x y axes  [ ] other axes  t theory  q quit";
+
+/// Significant digits of what is read.
+const DIGITS: usize = 4;
+
+/// Draws the whole screen.
+pub fn draw(view: &View, theme: &Theme, area: Rect, buffer: &mut Buffer) {
+    if area.width < 20 || area.height < 10 {
+        return line(
+            buffer,
+            area,
+            0,
+            "too small: 20x10 or more",
+            Style::new(),
+            theme,
+        );
+    }
+    let (there, failed, points) = view.count();
+    let failed = match failed {
+        0 => String::new(),
+        failed => format!(", {failed} failed"),
+    };
+    let count = format!("{there} of {points} points{failed}");
+    line(
+        buffer,
+        area,
+        0,
+        view.name(),
+        theme.style(Role::Title),
+        theme,
+    );
+    let at = area.width.saturating_sub(count.chars().count() as u16);
+    put(
+        buffer,
+        area.x + at,
+        area.y,
+        &count,
+        theme.style(Role::Quiet),
+        theme,
+    );
+    let range = view.range();
+    legend(view, theme, range, area, buffer);
+    let overlays = view.overlays();
+    let bottom = area.y + area.height;
+    let body = Rect::new(area.x, area.y + 2, area.width, area.height - 6);
+    match view.y() {
+        Some(_) => map(view, theme, range, &overlays, body, buffer),
+        None => curve(view, theme, body, buffer),
+    }
+    let names: Vec<String> = overlays
+        .iter()
+        .map(|overlay| format!("{} {}", overlay.letter, overlay.name))
+        .collect();
+    let quiet = theme.style(Role::Quiet);
+    line(
+        buffer,
+        area,
+        bottom - 4 - area.y,
+        &names.join("   "),
+        quiet,
+        theme,
+    );
+    readings(view, theme, area, bottom - 3 - area.y, buffer);
+    line(buffer, area, bottom - 1 - area.y, KEYS, quiet, theme);
+}
+
+/// What the cursor reads: the point and its values; the column and the status.
+fn readings(view: &View, theme: &Theme, area: Rect, row: u16, buffer: &mut Buffer) {
+    let point = view.point();
+    line(
+        buffer,
+        area,
+        row,
+        &view.study().name(point),
+        Style::new(),
+        theme,
+    );
+    let columns = view.study().columns();
+    let axes = view.study().axes.len();
+    let text = match view.row(point) {
+        None => "not there yet".to_owned(),
+        Some(fields) => columns[axes..]
+            .iter()
+            .zip(&fields[axes..])
+            .map(|(name, field)| format!("{name} {}", short(field)))
+            .collect::<Vec<_>>()
+            .join("  "),
+    };
+    line(
+        buffer,
+        area,
+        row + 1,
+        &text,
+        theme.style(Role::Notice),
+        theme,
+    );
+}
+
+fn short(field: &str) -> String {
+    field
+        .parse()
+        .map_or_else(|_| field.to_owned(), |number| format_number(number, DIGITS))
+}
+
+/// The column, and its range or its words in their colours.
+fn legend(view: &View, theme: &Theme, range: Option<[f64; 2]>, area: Rect, buffer: &mut Buffer) {
+    let (mut x, y) = (area.x, area.y + 1);
+    let mut write = |text: &str, style: Style| {
+        let room = (area.x + area.width).saturating_sub(x);
+        let text: String = theme.printable(text).chars().take(room.into()).collect();
+        buffer.set_string(x, y, &text, style);
+        x += text.chars().count() as u16;
+    };
+    write(view.column(), theme.style(Role::Focus));
+    if view.is_regime() {
+        for (at, (_, title, _, _)) in REGIMES.iter().enumerate() {
+            let (sign, style) = swatch(Shade::Word(at), theme);
+            write("  ", Style::new());
+            write(&sign.to_string(), style);
+            write(&format!(" {title}"), Style::new());
+        }
+        return;
+    }
+    let Some([low, high]) = range else {
+        return;
+    };
+    write(&format!("  {} ", format_number(low, DIGITS)), Style::new());
+    for shade in ramp::all() {
+        let (sign, style) = swatch(shade, theme);
+        write(&sign.to_string(), style);
+    }
+    write(&format!(" {}", format_number(high, DIGITS)), Style::new());
+    if view.logarithmic {
+        write("  log", theme.style(Role::Quiet));
+    }
+    for axis in view.hidden() {
+        let axis_of = &view.study().axes[axis];
+        let text = format!("  {} = {}", axis_of.key, axis_of.text(view.place(axis)));
+        write(&text, theme.style(Role::Quiet));
+    }
+}
+
+/// One cell of a shade.
+fn swatch(shade: Shade, theme: &Theme) -> (char, Style) {
+    match shade.color(theme).filter(|_| has_blocks(theme)) {
+        Some(color) => ('█', Style::new().fg(color)),
+        None => (shade.sign(), Style::new()),
+    }
+}
+
+/// Whether half blocks and colours can be drawn.
+fn has_blocks(theme: &Theme) -> bool {
+    theme.colored() && !theme.ascii()
+}
+
+/// Two axes: each point a block of cells, upwards in half cells where there are colours.
+fn map(
+    view: &View,
+    theme: &Theme,
+    range: Option<[f64; 2]>,
+    overlays: &[Overlay],
+    area: Rect,
+    buffer: &mut Buffer,
+) {
+    let (Some(y_axis), x_axis) = (view.y(), view.x()) else {
+        return;
+    };
+    let label = |axis: &crate::studies::sweep::Axis, at: usize| short(&axis.text(at));
+    let (last_x, last_y) = (x_axis.values.len() - 1, y_axis.values.len() - 1);
+    let ends = [label(y_axis, last_y), label(y_axis, 0)];
+    let margin = ends
+        .iter()
+        .map(|end| end.chars().count())
+        .max()
+        .unwrap_or(0) as u16
+        + 1;
+    let plot = Rect::new(
+        area.x + margin,
+        area.y + 1,
+        area.width.saturating_sub(margin + 1),
+        area.height.saturating_sub(2),
+    );
+    if plot.width == 0 || plot.height == 0 {
+        return;
+    }
+    let quiet = theme.style(Role::Quiet);
+    let parts = if has_blocks(theme) { 2 } else { 1 };
+    let wide = Cells::new(plot.width.into(), last_x + 1);
+    let high = Cells::new(usize::from(plot.height) * parts, last_y + 1);
+    let rows = high.used.div_ceil(parts);
+    // The map stands on its lower edge.
+    let floor = plot.y + plot.height;
+    let shade = |column: usize, half: usize| {
+        let (x, y) = (wide.place(column), high.place(half));
+        view.shade(view.point_at(x, y), range)
+    };
+    for row in 0..rows {
+        for column in 0..wide.used {
+            let cell = &mut buffer[(plot.x + column as u16, floor - 1 - row as u16)];
+            let lower = shade(column, (row * parts).min(high.used - 1));
+            if parts == 1 {
+                cell.set_char(lower.sign());
+                continue;
+            }
+            let upper = row * parts + 1;
+            let upper = (upper < high.used).then(|| shade(column, upper));
+            let mut style = Style::new();
+            if let Some(color) = lower.color(theme) {
+                style = style.bg(color);
+            }
+            if let Some(color) = upper.and_then(|shade| shade.color(theme)) {
+                cell.set_char('▀');
+                style = style.fg(color);
+            } else if upper.is_none() || lower.color(theme).is_some() {
+                cell.set_char(' ');
+            }
+            // Half a cell without a row stays as dark as the terminal.
+            if upper.is_none() || upper == Some(Shade::Waiting) {
+                style = lower
+                    .color(theme)
+                    .map_or(Style::new(), |color| Style::new().fg(color));
+                cell.set_char(if lower == Shade::Waiting { ' ' } else { '▄' });
+            }
+            cell.set_style(style);
+        }
+    }
+    for overlay in overlays {
+        for &(x, y) in &overlay.at {
+            let column = wide.middle(x as f64);
+            let row = high.middle(y) / parts;
+            let cell = &mut buffer[(plot.x + column as u16, floor - 1 - row as u16)];
+            cell.set_char(overlay.letter);
+            let style = theme.style(Role::Title);
+            cell.set_style(if theme.colored() {
+                style.fg(ratatui::style::Color::Black)
+            } else {
+                style
+            });
+        }
+    }
+    let (x, y) = view.cursor();
+    let (column, row) = (wide.middle(x as f64), high.middle(y as f64) / parts);
+    let cell = &mut buffer[(plot.x + column as u16, floor - 1 - row as u16)];
+    cell.set_char(if theme.ascii() { 'X' } else { '╳' });
+    cell.set_style(Style::reset().add_modifier(Modifier::REVERSED | Modifier::BOLD));
+    put(buffer, area.x, area.y, &y_axis.key, quiet, theme);
+    put(buffer, area.x, floor - rows as u16, &ends[0], quiet, theme);
+    put(buffer, area.x, floor - 1, &ends[1], quiet, theme);
+    let (first, last) = (label(x_axis, 0), label(x_axis, last_x));
+    let below = format!("{first} .. {last}  {}", x_axis.key);
+    put(buffer, plot.x, floor, &below, quiet, theme);
+}
+
+/// Places of an axis over a number of cells: each place as many cells as fit, or some cells for
+/// several places where they do not.
+struct Cells {
+    places: usize,
+    used: usize,
+}
+
+impl Cells {
+    fn new(cells: usize, places: usize) -> Self {
+        let used = match cells / places {
+            0 => cells,
+            each => each * places,
+        };
+        Self { places, used }
+    }
+
+    /// The place that a cell shows.
+    fn place(&self, cell: usize) -> usize {
+        cell * self.places / self.used
+    }
+
+    /// The cell in the middle of a place.
+    fn middle(&self, place: f64) -> usize {
+        let cell = (place + 0.5) / self.places as f64 * self.used as f64;
+        (cell as usize).min(self.used - 1)
+    }
+}
+
+/// One axis, or no grid: the column over the axis.
+fn curve(view: &View, theme: &Theme, area: Rect, buffer: &mut Buffer) {
+    let axis = view.x();
+    let mut points: Vec<(f64, f64)> = (0..axis.values.len())
+        .filter_map(|x| {
+            let number = view.number(view.point_at(x, 0), view.column())?;
+            Some((axis.number(x).unwrap_or(x as f64), number))
+        })
+        .collect();
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (xs, ys): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();
+    let x_scale = match axis.spread {
+        Spread::Logarithmic => Scale::Log,
+        Spread::Linear => Scale::Linear,
+    };
+    let y_scale = if view.logarithmic {
+        Scale::Log
+    } else {
+        Scale::Linear
+    };
+    let here = view.cursor().0;
+    let here = axis.number(here).unwrap_or(here as f64);
+    Plot::new(
+        Axis::new(&axis.key, "").scale(x_scale),
+        Axis::new(view.column(), "").scale(y_scale),
+    )
+    .curve(Curve::new("", &xs, &ys, theme.style(Role::Profile)))
+    .cursor(Some(here))
+    .marker(theme.marker)
+    .axis_style(theme.style(Role::Quiet))
+    .render(area, buffer);
+}
+
+/// A line of text, cut where the screen ends.
+fn line(buffer: &mut Buffer, area: Rect, row: u16, text: &str, style: Style, theme: &Theme) {
+    put(buffer, area.x, area.y + row, text, style, theme);
+}
+
+fn put(buffer: &mut Buffer, x: u16, y: u16, text: &str, style: Style, theme: &Theme) {
+    let room = buffer.area.right().saturating_sub(x);
+    if y < buffer.area.bottom() {
+        buffer.set_stringn(x, y, theme.printable(text), room.into(), style);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_place_has_its_cells_and_every_cell_a_place() {
+        for (cells, places) in [(40, 40), (79, 40), (80, 40), (10, 40), (7, 3)] {
+            let map = Cells::new(cells, places);
+            assert!(map.used <= cells && map.used > 0);
+            for place in 0..places {
+                let cell = map.middle(place as f64);
+                assert!(cell < map.used);
+                if cells >= places {
+                    assert_eq!(map.place(cell), place, "{cells} {places}");
+                }
+            }
+        }
+    }
+}

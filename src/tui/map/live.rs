@@ -1,0 +1,201 @@
+//! `:sweep KEY A..B`: a study of one key around the present scenario, shown while it runs.
+
+use std::fmt;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
+use std::time::Duration;
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::widgets::{Clear, Widget};
+use rayon::ThreadPoolBuilder;
+
+use super::draw;
+use super::view::{Leave, View};
+use crate::scenario::Scenario;
+use crate::studies::sweep::{Study, StudyError, engine, record};
+use crate::tui::keys::Key;
+use crate::tui::theme::Theme;
+
+/// The points of the study.
+const POINTS: usize = 25;
+
+/// From this ratio of its ends on, the axis is logarithmic.
+const DECADES: f64 = 20.0;
+
+/// The columns of the study.
+const COLUMNS: [&str; 7] = [
+    "wear_volume_m3",
+    "scar_depth_m",
+    "dissipated_energy_J",
+    "contact_radius_m",
+    "permanent_stick_radius_m",
+    "energy_ratio",
+    "regime",
+];
+
+/// What stands behind `sweep`: a key and the ends of its axis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Range {
+    /// The dotted path.
+    pub key: String,
+    /// From here.
+    pub from: f64,
+    /// To here.
+    pub to: f64,
+}
+
+impl Range {
+    /// Reads `KEY A..B`.
+    pub fn parse(text: &str) -> Option<Self> {
+        let (key, ends) = text.trim().split_once(char::is_whitespace)?;
+        let (from, to) = ends.split_once("..")?;
+        let number = |text: &str| text.trim().parse().ok().filter(|end: &f64| end.is_finite());
+        Some(Self {
+            key: key.to_owned(),
+            from: number(from)?,
+            to: number(to)?,
+        })
+    }
+
+    /// The study of a scenario over this range, each point run for so many cycles.
+    fn study(&self, scenario: &Scenario, cycles: f64) -> Result<Study, StudyError> {
+        let broken = |error: &dyn fmt::Display| StudyError(error.to_string());
+        let base = scenario
+            .with_changes(Vec::new())
+            .with("run.cycles", &cycles.to_string())
+            .map_err(|error| broken(&error))?;
+        let ratio = self.to / self.from;
+        let spread = match self.from > 0.0 && (ratio >= DECADES || ratio <= 1.0 / DECADES) {
+            true => "logspace",
+            false => "linspace",
+        };
+        let Self { key, from, to } = self;
+        let text = format!(
+            "base = \"present\"\ncolumns = {COLUMNS:?}\n[[axis]]\nkey = {key:?}\n\
+             {spread} = [{from:?}, {to:?}, {POINTS}]\n"
+        );
+        Study::read_with_base(&text, "sweep", &base.to_toml())
+    }
+}
+
+/// A study under way, shared by the screen and the threads that run it.
+#[derive(Clone)]
+pub struct Live {
+    view: Arc<Mutex<View>>,
+    halt: Arc<AtomicBool>,
+    done: Arc<AtomicBool>,
+}
+
+impl fmt::Debug for Live {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Live").finish_non_exhaustive()
+    }
+}
+
+/// Two are equal if they are one.
+impl PartialEq for Live {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.view, &other.view)
+    }
+}
+
+impl Live {
+    /// Starts the study in threads of its own; `tell` is called when there is something new to see.
+    ///
+    /// # Errors
+    ///
+    /// Refuses a range that makes no study, or whose first invalid point says why.
+    pub fn start(
+        range: &Range,
+        scenario: &Scenario,
+        cycles: f64,
+        tell: impl Fn() + Send + 'static,
+    ) -> Result<Self, StudyError> {
+        let study = range.study(scenario, cycles)?;
+        let title = format!("{} at {cycles} cycles", scenario.title());
+        let pool = ThreadPoolBuilder::new()
+            .build()
+            .map_err(|error| StudyError(error.to_string()))?;
+        let todo: Vec<usize> = (0..study.points()).collect();
+        if let Some(error) = engine::first_invalid(&study, &todo, &pool) {
+            return Err(error);
+        }
+        let live = Self {
+            view: Arc::new(Mutex::new(View::of(study.clone(), &title)?)),
+            halt: Arc::default(),
+            done: Arc::default(),
+        };
+        let shared = live.clone();
+        thread::spawn(move || {
+            engine::run(&study, &todo, &pool, &shared.halt, |point, row| {
+                let fields = record::fields(&study, point, row);
+                shared.with(|view| view.put(point, fields));
+                tell();
+                ControlFlow::Continue(())
+            });
+            shared.done.store(true, Ordering::Release);
+            tell();
+        });
+        Ok(live)
+    }
+
+    fn with<T>(&self, act: impl FnOnce(&mut View) -> T) -> T {
+        act(&mut self.view.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// Answers a key; leaving ends the study.
+    pub fn press(&self, key: Key) -> Option<Result<Option<Scenario>, String>> {
+        let leave = self.with(|view| view.press(key))?;
+        self.halt.store(true, Ordering::Relaxed);
+        Some(match leave {
+            Leave::Quit => Ok(None),
+            Leave::Open(point) => self
+                .with(|view| view.study().scenario(point))
+                .map(Some)
+                .map_err(|error| error.to_string()),
+        })
+    }
+
+    /// Draws it over the whole of `area`.
+    pub fn draw(&self, theme: &Theme, area: Rect, buffer: &mut Buffer) {
+        Clear.render(area, buffer);
+        self.with(|view| draw::draw(view, theme, area, buffer));
+    }
+
+    /// Waits for the last point.
+    pub fn finish(&self) {
+        while !self.done.load(Ordering::Acquire) {
+            thread::sleep(Duration::from_millis(2));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_range_is_a_key_and_two_ends() {
+        let range = Range::parse(" friction.coefficient 0.1..0.5 ").expect("a range");
+        assert_eq!(
+            (range.key.as_str(), range.from, range.to),
+            ("friction.coefficient", 0.1, 0.5)
+        );
+        assert_eq!(
+            Range::parse("wear.coefficient 1e-12 .. 1e-9").map(|r| r.to),
+            Some(1e-9)
+        );
+        for wrong in [
+            "",
+            "friction.coefficient",
+            "friction.coefficient 1",
+            "a 1..x",
+            "a ..2",
+        ] {
+            assert_eq!(Range::parse(wrong), None, "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,209 @@
+//! The scar from above: a disc in half blocks, its left half with stick and slip, its right half with
+//! the worn depth in colours.
+//!
+//! ```text
+//!         ▄▄▄▄▄▄▄▄▄          left: stick in the middle, slip around it, open outside
+//!      ▄██████▓▓▓▓▓▓▄        right: worn depth
+//!      ▀██████▓▓▓▓▓▓▀
+//!         ▀▀▀▀▀▀▀▀▀
+//!  |----| 50 µm   slip →   depth 0 [colours] 0.3 µm
+//! ```
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::{Color, Style};
+use ratatui::text::Line;
+
+use super::stress_map::{self, SHADES};
+use super::{App, Frame, Panel, nothing};
+use crate::math::grid::interpolate;
+use crate::math::scan::largest;
+use crate::plot::colormap::ColorMap;
+use crate::plot::units::format_value_in;
+use crate::simulation::Zone;
+use crate::tui::theme::Role;
+
+/// What stands at a place of the disc.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Place {
+    /// Outside of all that is drawn.
+    Blank,
+    Zone(Zone),
+    /// A worn depth, m.
+    Worn(f64),
+}
+
+impl Place {
+    /// At x and y from the disc's middle, m.
+    fn at(frame: &Frame, x: f64, y: f64) -> Self {
+        let (seen, moment) = (&frame.observation, &frame.observation.moment);
+        let r = x.hypot(y);
+        let edge = seen.radii.last().copied().unwrap_or(0.0);
+        match moment.stick_radius {
+            _ if r > edge => Self::Blank,
+            _ if x >= 0.0 => Self::Worn(interpolate(&seen.radii, &seen.wear, r)),
+            _ if r >= moment.contact_radius => Self::Zone(Zone::Open),
+            Some(stick) if r >= stick => Self::Zone(Zone::Slip),
+            _ => Self::Zone(Zone::Stick),
+        }
+    }
+}
+
+/// The depths that the colours span, m.
+pub fn ordinates(frame: &Frame) -> Vec<f64> {
+    let seen = &frame.observation;
+    seen.wear
+        .iter()
+        .copied()
+        .chain([0.0])
+        .filter(|_| !seen.wear.is_empty())
+        .collect()
+}
+
+/// Draws the panel.
+pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
+    let seen = &frame.observation;
+    let Some(&edge) = seen.radii.last().filter(|_| !seen.wear.is_empty()) else {
+        return;
+    };
+    if area.height < 4 || area.width < 12 {
+        return nothing("too small for the scar", app, area, buffer);
+    }
+    let disc = Rect {
+        height: area.height - 1,
+        ..area
+    };
+    let deepest = app.bounds(Panel::Scar).map_or(0.0, |[_, high]| high);
+    let deepest = deepest.max(largest(&seen.wear));
+    // Half a cell is about as high as a cell is wide.
+    let across = f64::from(disc.width.min(2 * disc.height));
+    let size = 2.0 * edge / across;
+    let x = |column: u16| (f64::from(column) + 0.5 - f64::from(disc.width) / 2.0) * size;
+    let y = |half: u16| (f64::from(half) + 0.5 - f64::from(disc.height)) * size;
+    for row in 0..disc.height {
+        for column in 0..disc.width {
+            let [upper, lower] = [2 * row, 2 * row + 1].map(|half| {
+                let place = Place::at(frame, x(column), y(half));
+                (place, color(place, deepest, app))
+            });
+            let Some(cell) = buffer.cell_mut((disc.x + column, disc.y + row)) else {
+                continue;
+            };
+            if app.theme.ascii() || !app.theme.colored() {
+                cell.set_char(sign(upper.0, deepest));
+                continue;
+            }
+            match (upper.1, lower.1) {
+                (None, None) => {}
+                (Some(above), None) => {
+                    cell.set_char('▀').set_fg(above);
+                }
+                (None, Some(below)) => {
+                    cell.set_char('▄').set_fg(below);
+                }
+                (Some(above), Some(below)) => {
+                    cell.set_char('▀').set_fg(above).set_bg(below);
+                }
+            }
+        }
+    }
+    legend(frame, app, area, size, deepest, buffer);
+}
+
+fn color(place: Place, deepest: f64, app: &App) -> Option<Color> {
+    let style = |role| app.theme.style(role).fg;
+    match place {
+        Place::Blank => None,
+        Place::Zone(Zone::Stick) => style(Role::Stick),
+        Place::Zone(Zone::Slip) => style(Role::Slip),
+        Place::Zone(Zone::Open) => style(Role::Open),
+        Place::Worn(depth) => {
+            stress_map::color(&app.theme, ColorMap::Sequential, shade(depth, deepest))
+        }
+    }
+}
+
+fn shade(depth: f64, deepest: f64) -> usize {
+    match deepest > 0.0 {
+        true => stress_map::shade(depth, [0.0, deepest]),
+        false => 0,
+    }
+}
+
+/// A cell where there are no colours.
+fn sign(place: Place, deepest: f64) -> char {
+    match place {
+        Place::Blank => ' ',
+        Place::Zone(Zone::Stick) => 's',
+        Place::Zone(Zone::Slip) => '~',
+        Place::Zone(Zone::Open) => '.',
+        Place::Worn(depth) => stress_map::sign(shade(depth, deepest)),
+    }
+}
+
+/// Where the sliding parts of the indenter move: with the traction that they exert.
+fn slip_direction(frame: &Frame) -> Option<f64> {
+    let seen = &frame.observation;
+    let moment = &seen.moment;
+    let slips = moment.stick_radius? < moment.contact_radius;
+    let (load, ring) = (&seen.tangential_load, &seen.radii);
+    let outermost = (0..load.len().min(ring.len())).rev();
+    let mut loaded = outermost.filter(|&j| ring[j] < moment.contact_radius && load[j] != 0.0);
+    loaded.next().filter(|_| slips).map(|j| load[j].signum())
+}
+
+/// The scale bar, the direction of slip, and the scale of the depth, as far as there is room.
+fn legend(frame: &Frame, app: &App, area: Rect, size: f64, deepest: f64, buffer: &mut Buffer) {
+    let ascii = app.theme.ascii();
+    let value = |value, unit| format_value_in(value, unit, 3, ascii);
+    // A round length near a fifth of the disc.
+    let decade = 10f64.powf((10.0 * size).log10().floor());
+    let rounds = [1.0, 2.0, 5.0, 10.0].map(|digit| digit * decade);
+    let reach = rounds.into_iter().find(|&reach| reach >= 8.0 * size);
+    let reach = reach.unwrap_or(10.0 * decade);
+    let bar = (reach / size).round().max(2.0) as usize;
+    let ends = if ascii {
+        ['|', '-', '|']
+    } else {
+        ['├', '─', '┤']
+    };
+    let middle: String = std::iter::repeat_n(ends[1], bar - 2).collect();
+    let mut parts = vec![format!(
+        "{}{middle}{} {}",
+        ends[0],
+        ends[2],
+        value(reach, "m")
+    )];
+    parts.push(match slip_direction(frame) {
+        Some(sign) if ascii => format!("slip {}", if sign > 0.0 { "->" } else { "<-" }),
+        Some(sign) => format!("slip {}", if sign > 0.0 { "→" } else { "←" }),
+        None => "no slip".into(),
+    });
+    let y = area.bottom() - 1;
+    let mut x = area.x + 1;
+    for part in parts {
+        let width = Line::raw(part.as_str()).width() as u16;
+        if x + width > area.right() {
+            return;
+        }
+        buffer.set_stringn(x, y, &part, usize::from(width), Style::new());
+        x += width + 2;
+    }
+    let [before, after] = ["worn 0 ".to_owned(), format!(" {}", value(deepest, "m"))];
+    let width = (before.len() + SHADES + after.chars().count()) as u16;
+    if x + width > area.right() {
+        return;
+    }
+    buffer.set_stringn(x, y, &before, before.len(), Style::new());
+    x += before.len() as u16;
+    for shade in 0..SHADES {
+        if let Some(cell) = buffer.cell_mut((x, y)) {
+            match stress_map::color(&app.theme, ColorMap::Sequential, shade).filter(|_| !ascii) {
+                Some(color) => cell.set_char('█').set_fg(color),
+                None => cell.set_char(stress_map::sign(shade)),
+            };
+        }
+        x += 1;
+    }
+    buffer.set_stringn(x, y, &after, usize::from(area.right() - x), Style::new());
+}

@@ -1,0 +1,154 @@
+//! What each panel shows, in words: for the reader who knows Hertz and nothing else.
+
+use super::Panel;
+
+/// An explanation: a few sentences, and the symbols in the panel with their meaning.
+pub struct Words {
+    /// What the panel shows.
+    pub text: &'static str,
+    /// Its symbols.
+    pub symbols: &'static [(&'static str, &'static str)],
+}
+
+const A: (&str, &str) = ("a", "contact radius: inside it the bodies touch");
+const C: (&str, &str) = ("c", "stick radius: inside it nothing slips at this moment");
+const BAND: (&str, &str) = ("strip", "stick, slip and open zones along the radius");
+
+impl Panel {
+    /// The explanation of the panel.
+    pub fn words(self) -> Words {
+        let (text, symbols): (&str, &[(&str, &str)]) = match self {
+            Self::Profile => (
+                "The shape of the indenter over the radius, unworn and worn. Real wear is often thinner than \
+                 a line, so it is drawn magnified by the factor in the legend. Wear begins where the surfaces \
+                 slide under pressure: in the ring between c and a.",
+                &[("f", "height of the profile over its tip"), A, C, BAND],
+            ),
+            Self::Stresses => (
+                "Pressure p and shear stress over the radius. The shear stress is divided by μ, so that it lies \
+                 on p or on -p where the contact slips and between them where it sticks. Unworn, p is the \
+                 half-ellipse of Hertz; wear moves the load to the parts that stick.",
+                &[
+                    ("p", "pressure"),
+                    ("τ/μ", "shear stress over the friction coefficient"),
+                    A,
+                    C,
+                ],
+            ),
+            Self::Springs => (
+                "The method replaces the 3D contact by a row of independent springs and the shape f by its 1D \
+                 image g. A spring at x touches where g(x) is below the depth d. The force of the contact is \
+                 the sum over the springs, exactly.",
+                &[("g", "1D profile"), ("d", "indentation depth"), A, C],
+            ),
+            Self::Section => (
+                "A cut through both bodies: above the indenter, below the half-space that it deforms. Heights \
+                 are exaggerated by the factor given. The surface of contact is coloured by stick and slip.",
+                &[
+                    ("F_z", "normal force"),
+                    ("u_x", "tangential displacement of the indenter"),
+                ],
+            ),
+            Self::Loop => (
+                "Tangential force over tangential displacement in the last cycle. The area inside is the energy \
+                 lost to friction. A line means full stick, a thin loop partial slip, a parallelogram with flat \
+                 ends gross slip. The arrow stands at the present moment.",
+                &[
+                    ("u_x", "tangential displacement of the indenter"),
+                    ("F_x", "tangential force (Q in fretting tests)"),
+                ],
+            ),
+            Self::Radii => (
+                "The largest contact radius and the smallest stick radius of each cycle. While wear goes on, a \
+                 grows as the ring is worn down; c settles, because what has stuck through a cycle goes on \
+                 sticking.",
+                &[
+                    ("a", "contact radius"),
+                    ("c", "stick radius: the smallest of the cycle"),
+                ],
+            ),
+            Self::Numbers => (
+                "The state in numbers, and what a fretting test reports of the last complete cycle. A, B and D \
+                 are ratios of the loop: at the border of gross slip an unworn sphere has A = 0.2, B = 0.77 and \
+                 D = 0.26. k relates wear to friction work; Archard's rate per normal force is μ k.",
+                &[
+                    ("E_d", "energy lost to friction"),
+                    ("Q*/(μP)", "amplitude of F_x over the friction limit"),
+                    ("slip ratio", "mean slip of the contact over the amplitude"),
+                    ("D, A, B", "sliding ratio, energy ratios of the loop"),
+                    ("V/E_d", "wear volume over accumulated energy"),
+                ],
+            ),
+            Self::Depth => (
+                "How much has been worn off, over the radius. Inside the permanent stick zone it is zero; the \
+                 ring outside it grows towards the limiting shape (t), if the depth is held.",
+                &[("f - f0", "worn depth"), A, C, BAND],
+            ),
+            Self::Volume => (
+                "The wear volume since the start. It grows by k times the energy that friction dissipates.",
+                &[
+                    ("V", "wear volume"),
+                    ("E_d", "energy lost to friction since the start"),
+                ],
+            ),
+            Self::Rate => (
+                "The wear volume of one cycle, over the cycles. It falls where the ring wears free of load, and \
+                 stays where a force presses the indenter on.",
+                &[("V per cycle", "wear volume of one cycle")],
+            ),
+            Self::Residual => (
+                "V = k E_d holds exactly in theory: V comes from the 3D profile, E_d from the 1D springs. The \
+                 difference shows how well the numerics agree with themselves.",
+                &[
+                    ("V", "wear volume"),
+                    ("k", "wear coefficient"),
+                    ("E_d", "friction work"),
+                ],
+            ),
+            Self::Cost => (
+                "What one step of the simulation takes on this machine.",
+                &[("t", "time per step")],
+            ),
+            Self::Scar => (
+                "The contact from above. The left half shows where it sticks, slips and is open at this moment, the \
+                 right half the worn depth in colours. The arrow says which way the indenter slips.",
+                &[("s ~ .", "stick, slip, open, where there are no colours")],
+            ),
+            Self::Log => (
+                "The fretting loops of earlier cycles behind that of the last one. The axes are those of the last \
+                 loop; each older one stands further to the right and up.",
+                &[
+                    ("u_x", "tangential displacement of the indenter"),
+                    ("F_x", "tangential force"),
+                ],
+            ),
+            Self::Condition => (
+                "Load and displacement amplitude of the cycles so far. To the right of the border the contact slips as \
+                 a whole in each cycle, to the left its middle sticks: dashed for the unworn shape, solid as it is now.",
+                &[("F_z", "mean normal force of a cycle")],
+            ),
+        };
+        Words { text, symbols }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_panel_is_explained_in_a_box_of_a_small_screen() {
+        for panel in Panel::ALL {
+            let Words { text, symbols } = panel.words();
+            assert!((50..=330).contains(&text.chars().count()), "{panel:?}");
+            assert!(!text.contains("  ") && text.ends_with('.'), "{panel:?}");
+            assert!((1..=5).contains(&symbols.len()), "{panel:?}");
+            for (symbol, meaning) in symbols {
+                assert!(
+                    symbol.chars().count() <= 11 && meaning.chars().count() <= 60,
+                    "{symbol}"
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! Tours of the presets: captions, one after the other, that say where to look and what to press.
+
+use std::collections::HashMap;
+use std::sync::LazyLock;
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::text::Line;
+use ratatui::widgets::{Paragraph, Widget, Wrap};
+
+use super::app::App;
+use super::panels::{self, Panel};
+use super::theme::Role;
+use crate::plot::units::to_ascii;
+
+/// A caption.
+#[derive(Debug, Clone, PartialEq, Eq, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Caption {
+    /// The title of the panel that gets the focus.
+    panel: Option<String>,
+    /// What it says.
+    pub text: String,
+}
+
+impl Caption {
+    /// The panel that gets the focus.
+    pub fn panel(&self) -> Option<Panel> {
+        let title = self.panel.as_deref()?;
+        Panel::ALL.into_iter().find(|panel| panel.title() == title)
+    }
+}
+
+static TOURS: LazyLock<HashMap<String, Vec<Caption>>> =
+    LazyLock::new(|| toml::from_str(include_str!("tours.toml")).unwrap_or_default());
+
+/// The captions of a preset; none for other scenarios.
+pub fn captions(origin: &str) -> &'static [Caption] {
+    TOURS.get(origin).map_or(&[], Vec::as_slice)
+}
+
+/// A tour under way.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Tour {
+    origin: String,
+    at: usize,
+}
+
+impl Tour {
+    /// The tour of a scenario by its name; none where there is none.
+    pub fn of(origin: &str) -> Option<Self> {
+        (!captions(origin).is_empty()).then(|| Self {
+            origin: origin.to_owned(),
+            at: 0,
+        })
+    }
+
+    /// Whether it is the tour of that scenario.
+    pub fn is_of(&self, origin: &str) -> bool {
+        self.origin == origin
+    }
+
+    /// The tour at its next caption; none after the last.
+    pub fn next(self) -> Option<Self> {
+        let at = self.at + 1;
+        (at < captions(&self.origin).len()).then_some(Self { at, ..self })
+    }
+
+    /// The caption that is shown.
+    pub fn caption(&self) -> Option<&'static Caption> {
+        captions(&self.origin).get(self.at)
+    }
+
+    /// Draws the caption into `area`.
+    pub fn draw(&self, app: &App, area: Rect, buffer: &mut Buffer) {
+        let Some(caption) = self.caption() else {
+            return;
+        };
+        let title = format!(
+            "tour {}/{} (n next, Esc closes)",
+            self.at + 1,
+            captions(&self.origin).len()
+        );
+        let inside = panels::titled(&title, Role::Notice, app, area, buffer);
+        let inside = Rect {
+            x: inside.x + 1,
+            width: inside.width.saturating_sub(2),
+            ..inside
+        };
+        let text = if app.theme.ascii() {
+            to_ascii(&caption.text).into_owned()
+        } else {
+            caption.text.clone()
+        };
+        Paragraph::new(Line::raw(text))
+            .wrap(Wrap { trim: true })
+            .render(inside, buffer);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::preset;
+
+    #[test]
+    fn every_preset_has_a_tour_that_fits_and_names_panels() {
+        for preset in preset::ALL {
+            let captions = captions(preset.name);
+            assert!((2..=6).contains(&captions.len()), "{}", preset.name);
+            for caption in captions {
+                let length = caption.text.chars().count();
+                assert!((40..=148).contains(&length), "{length}: {}", caption.text);
+                assert_eq!(
+                    caption.panel.is_some(),
+                    caption.panel().is_some(),
+                    "{caption:?}"
+                );
+            }
+        }
+        assert_eq!(TOURS.len(), preset::ALL.len());
+        assert_eq!(Tour::of("mine.toml"), None);
+    }
+
+    #[test]
+    fn a_tour_ends_after_its_last_caption() {
+        let mut tour = Tour::of("hertz");
+        let mut seen = 0;
+        while let Some(now) = tour {
+            seen += 1;
+            tour = now.next();
+        }
+        assert_eq!(seen, captions("hertz").len());
+    }
+}

@@ -1,0 +1,186 @@
+//! What an hour of attacks found, each held by a test: keys in any order, too many of anything, and
+//! runs that are replayed from what they wrote down.
+
+use std::fmt::Write;
+use std::process::{Child, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use mdr_tui::scenario::checkpoint;
+use mdr_tui::scenario::session::Session;
+use mdr_tui::scenario::{Scenario, preset};
+
+use crate::test_dir::TestDir;
+
+#[test]
+fn a_comparison_may_begin_on_a_panel_that_shows_no_profile() {
+    let dir = TestDir::new();
+    for preset in preset::ALL {
+        for keys in ["zkc", "zkkc", "zkkkc."] {
+            let said = dir.say(&[preset.name, "--print", "80x24", "--keys", keys]);
+            assert_eq!((said.code, said.err.as_str()), (0, ""), "{}", preset.name);
+        }
+    }
+}
+
+// The faults are there in debug builds only.
+#[cfg(debug_assertions)]
+#[test]
+fn a_panic_in_a_script_or_a_study_says_what_failed() {
+    let dir = TestDir::new();
+    for (place, arguments) in [
+        ("script", vec!["--print", "80x24", "--keys", "."]),
+        ("worker", vec!["--print", "80x24", "--keys", "."]),
+        ("command", vec!["presets"]),
+    ] {
+        let mut command = dir.command(&arguments);
+        let output = command.env("MDR_TUI_FAULT", place).output();
+        let said = crate::test_dir::Said::from(output.expect("the program starts"));
+        assert_eq!((said.code, said.err.lines().count()), (1, 1), "{place}");
+        let word = format!("a fault in the {place}");
+        assert!(said.err.starts_with("mdr-tui: a defect in mdr-tui: "));
+        assert!(said.err.contains(&word), "{place}: {}", said.err);
+    }
+}
+
+/// The most memory that a program has used so far, in bytes; 0 where it has ended.
+#[cfg(target_os = "linux")]
+pub fn memory_of(child: &Child) -> u64 {
+    let status = std::fs::read_to_string(format!("/proc/{}/status", child.id()));
+    let status = status.unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kilobytes = line.and_then(|line| line.trim().strip_suffix(" kB"));
+    kilobytes.map_or(0, |text| {
+        1024 * text.trim().parse::<u64>().expect("a number")
+    })
+}
+
+/// The most memory that a program has used, in bytes, while it ran to its end.
+#[cfg(target_os = "linux")]
+fn peak_memory(mut child: Child) -> u64 {
+    let (mut peak, start) = (0, Instant::now());
+    while let Ok(None) = child.try_wait() {
+        peak = peak.max(memory_of(&child));
+        assert!(start.elapsed() < Duration::from_secs(600), "no end");
+        thread::sleep(Duration::from_millis(2));
+    }
+    assert!(child.wait().expect("an end").success());
+    peak
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn marks_and_the_past_stay_within_their_memory() {
+    let dir = TestDir::new();
+    let keys = ".b".repeat(100);
+    let points = "numerics.points=2000";
+    let run = |keys: &str| {
+        let arguments = ["li2019-fig3", "--set", points, "--print", "80x24", "--keys"];
+        let mut command = dir.command(&[&arguments[..], &[keys]].concat());
+        command.stdout(Stdio::null());
+        peak_memory(command.spawn().expect("the program starts"))
+    };
+    let grown = run(&keys) - run(".b");
+    assert!(grown < 80 << 20, "{} MiB", grown >> 20);
+}
+
+#[test]
+fn a_million_of_changes_is_refused_before_the_work() {
+    let dir = TestDir::new();
+    let mut text = preset::find("hertz").expect("a preset").text.to_owned();
+    while text.len() < (1 << 20) - 100 {
+        let _ = write!(text, "[[changes]]\nat_cycle=1.0\nset=\"title=1\"\n");
+    }
+    dir.write("many.toml", text.as_bytes());
+    let start = Instant::now();
+    let said = dir.say(&["run", "many.toml", "--cycles", "1", "--out", "x"]);
+    assert_eq!(
+        (said.code, said.err.lines().count()),
+        (2, 1),
+        "{}",
+        said.err
+    );
+    assert!(
+        said.err.contains("must be 1000 of them or fewer"),
+        "{}",
+        said.err
+    );
+    assert!(start.elapsed() < Duration::from_secs(40));
+}
+
+/// A scenario whose end, and twice that, lie between two steps.
+fn cut_short(more: &str) -> String {
+    let text = preset::find("li2019-fig3").expect("a preset").text;
+    let (before, _) = text.split_once("[run]").expect("a table");
+    format!("{before}{more}\n[run]\ncycles = 1.00613\n")
+}
+
+#[test]
+fn past_an_end_between_two_steps_a_replay_takes_the_same_steps() {
+    let dir = TestDir::new();
+    dir.write("mine.toml", cut_short("").as_bytes());
+    dir.done("mine.toml --print 80x24 --keys ,,s");
+    let state = dir.read("mine-cycle-2/state.csv");
+    assert!(
+        dir.read("mine-cycle-2/scenario.toml")
+            .contains("shortened_at = [1.00613]")
+    );
+    dir.done("run mine-cycle-2/scenario.toml --out replayed --quiet");
+    assert!(dir.read("replayed/state.csv") == state, "another run");
+    // What is replayed is written down as it was.
+    let [first, again] =
+        ["mine-cycle-2", "replayed"].map(|out| dir.read(&format!("{out}/scenario.toml")));
+    assert_eq!(first, again);
+
+    // A run that is resumed and sent further.
+    let scenario = Scenario::load(dir.path("mine.toml").to_str().expect("a path"), &[]);
+    let mut session = Session::start(scenario.expect("a scenario")).expect("a contact");
+    session.advance_to(1.00613).expect("a step");
+    dir.write(
+        "kept.checkpoint",
+        &checkpoint::encode(&session, None::<&()>),
+    );
+    dir.done("run --resume kept.checkpoint --cycles 2 --out further --quiet");
+    assert!(dir.read("further/state.csv") == state, "another run");
+    dir.done("run further/scenario.toml --out again --quiet");
+    assert!(dir.read("again/state.csv") == state, "another run");
+    // A run to its end is written down as ever.
+    dir.done("run mine.toml --out whole --quiet");
+    assert!(!dir.read("whole/scenario.toml").contains("shortened_at"));
+}
+
+#[test]
+fn a_run_that_was_stopped_on_its_way_jumps_in_a_replay_as_it_did() {
+    let dir = TestDir::new();
+    let sets = ["numerics.points=40", "numerics.steps_per_cycle=20"].map(String::from);
+    let scenario = Scenario::load("mild-million", &sets).expect("a preset");
+    // A goal that cuts a jump short, and a stop somewhere before it.
+    let (mut checked, mut shortened) = (0, 0);
+    for goal in [37.3, 211.7, 1003.1, 2500.9] {
+        let mut session = Session::start(scenario.clone()).expect("a contact");
+        while session.simulation().cycle() < goal {
+            session.step_until(goal).expect("a step");
+            let cycle = session.simulation().cycle();
+            let recorded = session.as_run(Vec::new());
+            let is_on_its_way = recorded.run().shortened_at.contains(&goal) && cycle < goal;
+            if !is_on_its_way || cycle.fract() != 0.5 {
+                continue;
+            }
+            shortened += 1;
+            let name = format!("goal-{goal}.toml");
+            dir.write(&name, recorded.to_toml().as_bytes());
+            dir.done(&format!("run {name} --out out-{goal} --quiet"));
+            let state = mdr_tui::export::state::table(&session);
+            assert!(
+                dir.read(&format!("out-{goal}/state.csv")) == state,
+                "{goal}"
+            );
+            break;
+        }
+        checked += 1;
+    }
+    assert!(
+        checked == 4 && shortened > 0,
+        "no goal has cut a jump short"
+    );
+}

@@ -1,0 +1,185 @@
+//! Changes during a run: wear is never lost, and the changes of one cycle are made together.
+
+use mdr_tui::scenario::checkpoint;
+use mdr_tui::scenario::session::Session;
+use mdr_tui::scenario::{Change, Scenario};
+
+/// Fig. 3 of the paper with `changes`, KEY = VALUE at a cycle.
+fn figure(sets: &[&str], changes: &[(f64, &str, &str)]) -> Scenario {
+    let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+    let change = |&(at, key, value): &(f64, &str, &str)| Change::new(at, key, value);
+    let changes = changes.iter().map(change).collect();
+    Scenario::load("li2019-fig3", &sets)
+        .expect("a preset")
+        .with_changes(changes)
+}
+
+fn volume(session: &Session) -> f64 {
+    session.simulation().wear_volume()
+}
+
+/// The scar of 1.45 a₀ lies outside of what can touch at a fifth of the depth.
+#[test]
+fn a_shallower_contact_keeps_the_scar_of_a_deeper_one() {
+    for grid in ["graded", "uniform"] {
+        let grid = format!("numerics.grid=\"{grid}\"");
+        let changes = [
+            (5.0, "motion.normal.mean", "2e-7"),
+            (10.0, "motion.normal.mean", "1e-6"),
+        ];
+        let mut session = Session::start(figure(&[&grid], &changes)).expect("a contact");
+        let mut before = 0.0;
+        for cycle in [4.9999, 5.0, 5.0001, 9.9999, 10.0, 10.0001, 12.0] {
+            session.advance_to(cycle).expect("a contact");
+            let now = volume(&session);
+            assert!(
+                now >= before * (1.0 - 2e-3),
+                "{grid}, cycle {cycle}: {before:e} -> {now:e}"
+            );
+            before = now;
+        }
+        let direct = figure(&[&grid], &[]);
+        let mut direct = Session::start(direct).expect("a contact");
+        direct.advance_to(5.0).expect("a contact");
+        assert!(before > 1.2 * volume(&direct), "{grid}");
+        // The books of the energy balance bridge the change of nodes.
+        let residual = session.simulation().moment().period_residual;
+        assert!(
+            residual.is_some_and(|residual| residual.abs() < 2e-3),
+            "{grid} {residual:?}"
+        );
+    }
+}
+
+#[test]
+fn a_domain_that_would_cut_wear_off_is_refused() {
+    let mut session = Session::start(figure(&[], &[])).expect("a contact");
+    session.advance_to(3.0).expect("a contact");
+    let before = (volume(&session), session.simulation().state().clone());
+    let told = session
+        .change("numerics.domain_radius", "5e-5")
+        .expect_err("too small");
+    let told = told.to_string();
+    assert!(told.contains("cut off wear, which reaches"), "{told}");
+    assert!(
+        told.contains("numerics.domain_radius") && !told.contains('\n'),
+        "{told}"
+    );
+    let shape = [
+        ("indenter.shape", "flat-punch"),
+        ("indenter.radius", "5e-5"),
+    ];
+    let told = session
+        .change_all(&shape)
+        .expect_err("too small")
+        .to_string();
+    assert!(told.contains("cut off wear"), "{told}");
+    assert_eq!(
+        (volume(&session), session.simulation().state().clone()),
+        before
+    );
+    assert!(session.changes().is_empty());
+}
+
+/// Few cells say another volume than many: a little is booked, a lot is refused.
+#[test]
+fn a_grid_too_coarse_for_the_scar_is_refused() {
+    let mut session = Session::start(figure(&[], &[])).expect("a contact");
+    session.advance_to(20.0).expect("a contact");
+    let before = volume(&session);
+    session
+        .change("numerics.points", "60")
+        .expect("enough cells");
+    assert!((volume(&session) / before - 1.0).abs() < 5e-3);
+    let told = session
+        .change("numerics.points", "4")
+        .expect_err("too few cells");
+    let told = told.to_string();
+    assert!(told.contains("too few for the worn profile"), "{told}");
+    assert_eq!(session.simulation().setup().grid.cells(), 60);
+}
+
+/// In either order: a control and the force that it is to hold are one change.
+#[test]
+fn changes_of_one_cycle_are_made_together() {
+    let keys = [
+        ("motion.normal.control", "\"force\""),
+        ("motion.normal.mean", "30.0"),
+        ("motion.normal.amplitude", "3.0"),
+    ];
+    let run = |order: [usize; 3]| {
+        let changes = order.map(|i| (5.0, keys[i].0, keys[i].1));
+        let scenario = Scenario::from_toml(&figure(&[], &changes).to_toml(), "a file", &[]);
+        let mut session = Session::start(scenario.expect("a scenario")).expect("a contact");
+        session.advance_to(4.999).expect("a contact");
+        let before = volume(&session);
+        session.advance_to(6.0).expect("a contact");
+        assert!(
+            volume(&session) > before,
+            "{before:e} -> {:e}",
+            volume(&session)
+        );
+        assert_eq!(session.changes().len(), 3);
+        session
+    };
+    let (first, second) = (run([0, 1, 2]), run([2, 1, 0]));
+    assert_eq!(first.simulation().state(), second.simulation().state());
+    let force = first.simulation().moment().normal_force;
+    assert!((27.0..=33.0).contains(&force), "{force} N");
+}
+
+#[test]
+fn a_control_without_values_in_its_unit_is_refused() {
+    let text = figure(&[], &[(5.0, "motion.normal.control", "\"force\"")]).to_toml();
+    let told = Scenario::from_toml(&text, "a.toml", &[]).expect_err("metres as newtons");
+    assert_eq!(
+        told.to_string(),
+        "a.toml: changes[0].set = \"motion.normal.control = \"force\"\": \
+         needs motion.normal.mean in N, changed at the same cycle"
+    );
+    let mut session = Session::start(figure(&[], &[])).expect("a contact");
+    let told = session
+        .change("motion.tangential.control", "force")
+        .expect_err("metres");
+    let told = told.to_string();
+    assert!(
+        told.ends_with("needs motion.tangential.amplitude in N, changed at the same cycle"),
+        "{told}"
+    );
+    let both = [
+        ("motion.tangential.control", "force"),
+        ("motion.tangential.amplitude", "0.5"),
+    ];
+    session.change_all(&both).expect("newtons");
+    // What stands there already needs no values.
+    session
+        .change("motion.normal.control", "displacement")
+        .expect("no change");
+}
+
+/// A change that is taken back at the same cycle leaves no trace, and what was done by hand is replayed
+/// to the bit, also from a checkpoint between two changes.
+#[test]
+fn what_was_changed_by_hand_is_replayed_to_the_bit() {
+    let mut session = Session::start(figure(&[], &[])).expect("a contact");
+    session.advance_to(2.5).expect("a contact");
+    let untouched = session.simulation().state().wear.clone();
+    session.change("numerics.points", "30").expect("a change");
+    let kept = checkpoint::encode::<()>(&session, None);
+    let kept = checkpoint::from_bytes::<()>(&kept, "kept").expect("a checkpoint");
+    let mut resumed = kept.session;
+    for session in [&mut session, &mut resumed] {
+        session.change("numerics.points", "100").expect("a change");
+        assert_eq!(session.simulation().state().wear, untouched);
+        session
+            .change("friction.coefficient", "0.12")
+            .expect("a change");
+        session.advance_to(4.0).expect("a contact");
+    }
+    assert_eq!(session.simulation().state(), resumed.simulation().state());
+    let text = session.as_run(Vec::new()).to_toml();
+    let again = Scenario::from_toml(&text, "again", &[]).expect("a scenario");
+    let mut again = Session::start(again).expect("a contact");
+    again.advance_to(4.0).expect("a contact");
+    assert_eq!(again.simulation().state(), session.simulation().state());
+}

@@ -1,0 +1,325 @@
+//! A run put away and taken up again is the run that was never put away, to the last bit.
+
+use ciborium::Value;
+use mdr_tui::export::history::History;
+use mdr_tui::export::state;
+use mdr_tui::scenario::checkpoint::{CheckpointError, encode, from_bytes, sealed};
+use mdr_tui::scenario::session::Session;
+use mdr_tui::scenario::{Scenario, preset};
+use mdr_tui::simulation::Simulation;
+
+fn session(preset: &str, sets: &[&str]) -> Session {
+    let sets: Vec<String> = sets.iter().map(ToString::to_string).collect();
+    let scenario = Scenario::load(preset, &sets).expect("a scenario");
+    Session::start(scenario).expect("a contact")
+}
+
+/// Through a file's bytes and back.
+fn put_away(session: &Session) -> Session {
+    let bytes = encode(session, None::<&()>);
+    let taken_up = from_bytes::<()>(&bytes, "a file").expect("a checkpoint");
+    // What has been taken up is put away alike.
+    assert!(encode(&taken_up.session, None::<&()>) == bytes);
+    taken_up.session
+}
+
+/// Everything that a user can see of a session.
+fn seen(session: &Session) -> String {
+    let mut history = History::default();
+    history.record(session);
+    let run = session.as_run(Vec::new());
+    format!(
+        "{}{}{}{:?}",
+        state::table(session),
+        history.table(session),
+        run.to_toml(),
+        session.simulation().next_moment().to_bits()
+    )
+}
+
+/// Steps `straight` and a copy that is put away before every `every`th step; they must stay one.
+fn follow(mut straight: Session, steps: usize, every: usize, what: &str) -> Session {
+    let mut broken = put_away(&straight);
+    for step in 0..steps {
+        assert!(seen(&straight) == seen(&broken), "{what}: step {step}");
+        if step % every == 0 {
+            broken = put_away(&broken);
+            assert!(
+                seen(&straight) == seen(&broken),
+                "{what}: put away at {step}"
+            );
+        }
+        let (one, other) = (straight.step(), broken.step());
+        assert_eq!(
+            one.map_err(|error| error.to_string()),
+            other.map_err(|error| error.to_string()),
+            "{what}: step {step}"
+        );
+    }
+    straight
+}
+
+#[test]
+fn every_preset_goes_on_as_if_nothing_had_been() {
+    for preset in preset::ALL {
+        let start = session(preset.name, &["numerics.points=40"]);
+        follow(start, 130, 7, preset.name);
+    }
+}
+
+#[test]
+fn every_method_scheme_and_grid_goes_on_as_if_nothing_had_been() {
+    for method in ["product", "a", "a+b", "b", "benad"] {
+        for scheme in ["euler", "trapezoid"] {
+            for grid in ["graded", "uniform"] {
+                let sets = [
+                    "numerics.points=30".to_owned(),
+                    format!("numerics.method={method}"),
+                    format!("numerics.scheme={scheme}"),
+                    format!("numerics.grid={grid}"),
+                ];
+                let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
+                follow(session("li2019-fig3", &sets), 110, 9, &sets.join(" "));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_run_with_changes_goes_on_as_if_nothing_had_been() {
+    let mut session = session("li2019-fig3", &["numerics.points=40"]);
+    for (key, value) in [
+        ("numerics.method", "b"),
+        ("wear.law", "power"),
+        ("numerics.points", "57"),
+        ("motion.tangential.amplitude", "2e-7"),
+        ("numerics.method", "product"),
+        ("friction.coefficient", "0.25"),
+        ("numerics.grid", "uniform"),
+        ("wear.law", "archard"),
+        ("material.effective_modulus", "1.9e11"),
+        ("numerics.grid", "graded"),
+    ] {
+        session = follow(session, 37, 5, key);
+        session.change(key, value).expect("a change");
+        let put_away = put_away(&session);
+        assert_eq!(put_away.changes(), session.changes());
+        assert_eq!(put_away.loaded(), session.loaded());
+        assert_eq!(put_away.scenario(), session.scenario());
+    }
+    follow(session, 120, 11, "all changes");
+}
+
+#[test]
+fn changes_that_are_still_to_come_come() {
+    let mut first = session("li2019-fig3", &["numerics.points=30"]);
+    first.advance_to(0.5).expect("half a cycle");
+    first.change("numerics.method", "a").expect("a change");
+    first.advance_to(1.25).expect("a cycle");
+    first.change("wear.law", "power").expect("a change");
+    let scenario = first.as_run(Vec::new());
+    let planned = Session::start(scenario).expect("a contact");
+    let end = follow(planned, 180, 10, "planned changes");
+    assert_eq!(end.changes(), first.changes());
+}
+
+#[test]
+fn jumps_over_cycles_go_on_as_if_nothing_had_been() {
+    let sets = [
+        "numerics.points=40",
+        "numerics.integrator=cycle-jump",
+        "wear.coefficient=1e-12",
+    ];
+    let end = follow(session("li2019-fig3", &sets), 140, 3, "jumps");
+    assert!(end.simulation().state().stats.jumps > 3);
+}
+
+#[test]
+fn harsh_wear_that_steps_in_parts_goes_on_as_if_nothing_had_been() {
+    let sets = ["numerics.points=60", "wear.coefficient=4e-8"];
+    follow(session("li2019-fig3", &sets), 90, 7, "harsh");
+}
+
+/// Takes one value off every list of the saved state in turn: none of them may be believed.
+#[test]
+fn a_state_of_another_length_is_refused() {
+    let mut session = session("li2019-fig3", &["numerics.points=8"]);
+    session.advance_to(0.31).expect("a part of a cycle");
+    let whole = encode(&session, None::<&()>);
+    let contents = {
+        let mut ends = whole.iter().enumerate().filter(|(_, byte)| **byte == b'\n');
+        let start = ends.nth(2).expect("three lines").0 + 1;
+        &whole[start..]
+    };
+    let body: Value = ciborium::from_reader(contents).expect("CBOR");
+    let mut lists = 0;
+    loop {
+        let (mut bent, mut left) = (body.clone(), lists);
+        if !shorten(&mut bent, &mut left, false) {
+            break;
+        }
+        lists += 1;
+        let mut contents = b"\n".to_vec();
+        ciborium::into_writer(&bent, &mut contents).expect("CBOR");
+        refusal(&sealed(&contents));
+    }
+    // Nodes, wear, springs, holds, and what the last step left.
+    assert!(lists >= 8, "{lists} lists");
+}
+
+/// Shortens the list of the state that comes after `left` others; false if there is none.
+fn shorten(value: &mut Value, left: &mut usize, inside: bool) -> bool {
+    match value {
+        Value::Map(fields) => fields.iter_mut().any(|(key, value)| {
+            let inside = inside || matches!(key.as_text(), Some("state" | "nodes"));
+            shorten(value, left, inside)
+        }),
+        // Lists of maps are breaks, of which there can be any number.
+        Value::Array(list) if inside && list.len() > 2 && !list[0].is_map() => {
+            let found = *left == 0;
+            *left = left.wrapping_sub(1);
+            if found {
+                list.pop();
+            }
+            found
+        }
+        _ => false,
+    }
+}
+
+fn refusal(bytes: &[u8]) -> CheckpointError {
+    let Err(error) = from_bytes::<()>(bytes, "x.checkpoint") else {
+        panic!("no refusal");
+    };
+    let line = error.to_string();
+    assert!(line.starts_with("x.checkpoint: "), "{line}");
+    assert!(!line.chars().any(char::is_control), "{line:?}");
+    error
+}
+
+#[test]
+fn a_torn_file_is_told_from_a_whole_one() {
+    let mut session = session("li2019-fig3", &["numerics.points=8"]);
+    session.advance_to(0.31).expect("a part of a cycle");
+    let whole = encode(&session, None::<&()>);
+    for length in 0..whole.len() {
+        let error = refusal(&whole[..length]);
+        let early = length < "mdr-tui checkpoint ".len();
+        assert!(
+            matches!(
+                (early, &error),
+                (true, CheckpointError::Foreign { .. }) | (false, CheckpointError::Torn { .. })
+            ),
+            "{length}: {error}"
+        );
+    }
+    for at in 0..whole.len() {
+        let mut bent = whole.clone();
+        bent[at] ^= 0x10;
+        refusal(&bent);
+    }
+    let longer = [&whole[..], b"x"].concat();
+    assert!(matches!(refusal(&longer), CheckpointError::Torn { .. }));
+}
+
+#[test]
+fn what_is_no_checkpoint_of_this_version_is_refused() {
+    let whole = encode(&session("hertz", &["numerics.points=8"]), None::<&()>);
+    let body = whole
+        .splitn(2, |&byte| byte == b'\n')
+        .nth(1)
+        .expect("a body");
+    let later = [b"mdr-tui checkpoint 3\n", body].concat();
+    assert_eq!(
+        refusal(&later).to_string(),
+        "x.checkpoint: is a checkpoint of version 3; this mdr-tui reads version 2"
+    );
+    let rude = [b"mdr-tui checkpoint \x1b[31m1\n", body].concat();
+    assert!(matches!(refusal(&rude), CheckpointError::Version { .. }));
+    for bytes in [&b""[..], b"title = \"x\"\n", &[0; 4096], b"\xff\xfe"] {
+        assert!(matches!(refusal(bytes), CheckpointError::Foreign { .. }));
+    }
+    let huge = b"mdr-tui checkpoint 2\n99999999999999 bytes, CRC-32 00000000\nx";
+    assert!(refusal(huge).to_string().contains("larger than 4 GiB"));
+}
+
+/// Fig. 3 under a `method` after so many cycles.
+fn fig3(method: &str, cycles: f64) -> Simulation {
+    let scenario = Scenario::load("li2019-fig3", &[])
+        .and_then(|scenario| scenario.with("numerics.method", method))
+        .expect("a preset");
+    let mut simulation = Simulation::new(scenario.setup().clone()).expect("a contact");
+    simulation.advance_to(cycles).expect("steps");
+    simulation
+}
+
+/// The entry of a CBOR map.
+fn entry<'a>(value: &'a mut Value, name: &str) -> &'a mut Value {
+    let map = value.as_map_mut().expect("a map");
+    let entry = map.iter_mut().find(|(key, _)| key.as_text() == Some(name));
+    &mut entry.expect("an entry").1
+}
+
+#[test]
+fn saved_breaks_that_lie_outside_of_the_grid_are_refused() {
+    let simulation = fig3("product", 0.3);
+    let whole = Value::serialized(&simulation.save()).expect("a value");
+    let restored = |saved: Value| {
+        let saved = saved.deserialized().expect("a saved run");
+        Simulation::restore(simulation.setup().clone(), saved)
+    };
+    assert!(restored(whole.clone()).is_ok());
+    for at in [-1.0, 1.0, f64::NAN, f64::INFINITY] {
+        for (breaks, what) in [("spring", "springs' kinks"), ("load", "line load's kinks")] {
+            let mut bent = whole.clone();
+            let contact = entry(entry(&mut bent, "state"), "contact");
+            let breaks = entry(entry(contact, breaks), "kinks").as_array_mut();
+            *entry(&mut breaks.expect("a list")[0], "at") = Value::Float(at);
+            let refusal = restored(bent).expect_err("a refusal").to_string();
+            assert_eq!(
+                refusal,
+                format!("the saved {what} do not lie in the grid"),
+                "{at}"
+            );
+        }
+    }
+}
+
+/// Checkpoints of before hold no image of the wear: it is computed anew, and the run goes on as it would have.
+#[test]
+fn a_run_saved_without_the_image_of_its_wear_goes_on() {
+    for method in ["product", "a"] {
+        let mut simulation = fig3(method, 1.3);
+        let mut saved = Value::serialized(&simulation.save()).expect("a value");
+        let state = entry(&mut saved, "state").as_map_mut().expect("a map");
+        state.retain(|(key, _)| key.as_text() != Some("image"));
+        let saved = saved.deserialized().expect("a saved run");
+        let restored = Simulation::restore(simulation.setup().clone(), saved);
+        let mut restored = restored.expect("a run");
+        simulation.advance_to(2.0).expect("steps");
+        restored.advance_to(2.0).expect("steps");
+        let largest = simulation.state().wear.iter().copied().fold(0.0, f64::max);
+        assert!(largest > 0.0);
+        for (was, is) in simulation.state().wear.iter().zip(&restored.state().wear) {
+            assert!((was - is).abs() < 1e-12 * largest, "{method}: {was} {is}");
+        }
+    }
+}
+
+/// What the steps have added up is the image of the wear as a whole.
+#[test]
+fn the_image_that_steps_add_up_is_that_of_the_wear() {
+    for method in ["product", "a", "benad"] {
+        let simulation = fig3(method, 20.0);
+        let added_up = simulation.state().image.clone();
+        let mut saved = Value::serialized(&simulation.save()).expect("a value");
+        *entry(entry(&mut saved, "state"), "image") = Value::Array(Vec::new());
+        let saved = saved.deserialized().expect("a saved run");
+        let restored = Simulation::restore(simulation.setup().clone(), saved).expect("a run");
+        let largest = added_up.iter().map(|g| g.abs()).fold(0.0, f64::max);
+        assert!(largest > 0.0);
+        for (added_up, whole) in added_up.iter().zip(&restored.state().image) {
+            assert!((added_up - whole).abs() < 1e-12 * largest, "{method}");
+        }
+    }
+}

@@ -1,0 +1,777 @@
+//! The command line as a user types it: what is refused and how, and what `run` writes.
+
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use mdr_tui::export::{history, state};
+use mdr_tui::scenario::session::Session;
+use mdr_tui::scenario::{Scenario, preset};
+use mdr_tui::simulation::Curves;
+
+use crate::test_dir::{Said, Table, TestDir, bits, end, names};
+
+/// One line on stderr that has `expected` in it, code 2, nothing on stdout, nothing written.
+fn assert_refused(dir: &TestDir, arguments: &[&str], expected: &str) {
+    let before = dir.inventory();
+    let said = dir.say(arguments);
+    assert_eq!(said.code, 2, "{arguments:?}: {}", said.err);
+    assert_eq!(said.out, "", "{arguments:?}");
+    let line = said.err.strip_suffix('\n').expect("a whole line");
+    assert!(line.starts_with("mdr-tui: "), "{line}");
+    assert!(!line.chars().any(char::is_control), "{line:?}");
+    assert!(line.contains(expected), "{line:?} without {expected:?}");
+    assert!(dir.inventory() == before, "{arguments:?} wrote something");
+}
+
+#[test]
+fn a_bad_scenario_is_one_line_and_nothing_written() {
+    let dir = TestDir::new();
+    dir.write("unknown.toml", b"[indenter]\nradious = 0.01\n");
+    dir.write("type.toml", b"[indenter]\nradius = \"big\"\n");
+    dir.write("syntax.toml", b"title = \n");
+    dir.write("empty.toml", b"");
+    dir.write("binary.toml", &[0xff, 0xfe, 0x00, 0x80]);
+    fs::create_dir(dir.path("folder.toml")).expect("a directory");
+    for (scenario, expected) in [
+        ("missing.toml", "missing.toml: no such file"),
+        ("folder.toml", "folder.toml: is a directory"),
+        ("./", "is a directory"),
+        ("unknown.toml", "did you mean indenter.radius?"),
+        ("type.toml", "indenter.radius = \"big\": must be"),
+        ("syntax.toml", "syntax.toml: line 1"),
+        ("empty.toml", "indenter.shape is missing"),
+        ("binary.toml", "not UTF-8"),
+        ("mindlyn", "did you mean mindlin?"),
+        ("a\u{1b}[31mb\n.toml", "a\\u{1b}[31mb\\n.toml: no such file"),
+    ] {
+        assert_refused(
+            &dir,
+            &["run", scenario, "--cycles", "0.1", "--out", "new"],
+            expected,
+        );
+        assert_refused(&dir, &[scenario, "--print", "80x24"], expected);
+        assert_refused(&dir, &[scenario], expected);
+    }
+}
+
+#[test]
+fn a_bad_value_is_one_line_and_nothing_written() {
+    let dir = TestDir::new();
+    for (set, rule) in [
+        ("indenter.radius=-0.01", "must be greater than 0"),
+        ("indenter.radius=nan", "must be a finite number"),
+        ("indenter.radius=inf", "must be a finite number"),
+        ("indenter.radius=wide", "must be a finite number"),
+        ("material.poisson=0.7", "must be from 0 to 0.5"),
+        ("numerics.points=0", "must be from 4 to"),
+        ("numerics.points=1e12", "must be a whole number"),
+        ("numerics.points=1000000000000", "must be from 4 to"),
+        (
+            "numerics.points=99999999999999999999",
+            "must be a whole number",
+        ),
+        ("numerics.points=", "must be KEY=VALUE"),
+        ("numerics.steps_per_cycle=0", "must be from 1 to"),
+        (
+            "numerics.scheme=best",
+            "must be one of \"trapezoid\", \"euler\"",
+        ),
+        (
+            "numerics.method=best",
+            "must be one of \"product\", \"a\", \"a+b\"",
+        ),
+        ("numerics.mehtod=a", "did you mean numerics.method?"),
+        ("friction.coefficient=-0.1", "must be"),
+        ("wear.coefficient=nan", "must be a finite number"),
+        ("numerics=1", "numerics is a table"),
+        ("radius", "must be KEY=VALUE"),
+        ("ra\u{1b}[2J\u{7}dius=1", "ra\\u{1b}[2J\\u{7}dius"),
+    ] {
+        let expected = format!("--set {}", &set[..2]);
+        for expected in [expected.as_str(), rule] {
+            let arguments = [
+                "run",
+                "li2019-fig3",
+                "--set",
+                set,
+                "--cycles",
+                "0.1",
+                "--out",
+                "new",
+            ];
+            assert_refused(&dir, &arguments, expected);
+        }
+    }
+}
+
+#[test]
+fn wrong_use_is_one_line_and_nothing_written() {
+    let dir = TestDir::new();
+    let run = |options: &[&'static str]| {
+        let mut arguments = vec!["run", "li2019-fig3", "--out", "new"];
+        arguments.extend(options);
+        arguments
+    };
+    let cycles = "cycles are a number of 0 or more";
+    let size = "a size is COLUMNSxROWS";
+    for (arguments, expected) in [
+        (run(&["--cycles", "-1"]), cycles),
+        (run(&["--cycles", "nan"]), cycles),
+        (run(&["--cycles", "inf"]), cycles),
+        (run(&["--cycles", "many"]), cycles),
+        (run(&["--cycles", ""]), cycles),
+        (run(&["--cycles"]), "--cycles <X>"),
+        (
+            run(&["--cycles", "1", "--snapshot-at", "0.5,2"]),
+            "--snapshot-at 2: lies beyond the end at 1 cycles",
+        ),
+        (run(&["--cycles", "1", "--snapshot-at", "-1"]), cycles),
+        (run(&["--cycles", "1", "--snapshot-at", "0.5,,1"]), cycles),
+        (run(&["--history", "seldom"]), "every-step"),
+        (run(&["--frobnicate"]), "--frobnicate"),
+        (vec!["--frobnicate"], "--frobnicate"),
+        (vec!["run"], "<SCENARIO>"),
+        (vec!["presets", "nope"], "presets nope: no such preset"),
+        (
+            vec!["presets", "no\u{1b}[31mpe"],
+            "presets no\\u{1b}[31mpe: no such",
+        ),
+        (vec!["completions", "nosh"], "possible values: bash"),
+        (vec!["completions"], "<SHELL>"),
+        (
+            vec!["--keys", "m<Nope>", "--print", "80x24"],
+            "--keys: \"<Nope>\" begins no key",
+        ),
+        (vec!["--keys", "<", "--print", "80x24"], "--keys: \"<\""),
+        (
+            vec!["--keys", "m\u{1b}", "--print", "80x24"],
+            "stands for no key",
+        ),
+        (vec!["--keys", "m"], "--print"),
+        (vec!["--print", "80"], size),
+        (vec!["--print", "0x24"], size),
+        (vec!["--print", "80x24x"], size),
+        (vec!["--print=-3x24"], size),
+        (vec!["--print", "99999x99999"], size),
+        (vec!["--fps", "0", "--print", "80x24"], "--fps"),
+        (vec!["--marker", "crayon"], "braille"),
+        (vec!["--color", "maybe"], "never"),
+    ] {
+        assert_refused(&dir, &arguments, expected);
+    }
+}
+
+#[test]
+fn an_unwritable_out_is_one_line_and_nothing_written() {
+    let dir = TestDir::new();
+    dir.write("file", b"in the way");
+    fs::create_dir(dir.path("full")).expect("a directory");
+    dir.write("full/notes.txt", b"mine");
+    for (out, expected) in [
+        ("file", "file: is not a directory"),
+        ("file/below", "file/below: cannot write: Not a directory"),
+        ("full", "full: already holds files; choose another"),
+        (
+            "file/\u{1b}[31m\n",
+            "file/\\u{1b}[31m\\n: cannot write: Not a directory",
+        ),
+        ("", "--out <DIR>"),
+    ] {
+        assert_refused(
+            &dir,
+            &["run", "hertz", "--cycles", "0.1", "--out", out],
+            expected,
+        );
+    }
+    if cfg!(target_os = "linux") {
+        let out = "/proc/mdr-tui";
+        assert_refused(&dir, &["run", "hertz", "--out", out], "cannot write");
+    }
+}
+
+#[test]
+fn run_writes_the_files_of_the_contract() {
+    let dir = TestDir::new();
+    let summary = dir.done("run li2019-fig3 --cycles 3.25 --snapshot-at 1.50,2 --out x");
+    assert!(summary.starts_with("Dual oscillation of a paraboloid: 3.25 cycles\n"));
+    assert_eq!(
+        names(&dir.path("x")),
+        [
+            "history.csv",
+            "scenario.toml",
+            "state-1.50.csv",
+            "state-2.csv",
+            "state.csv"
+        ]
+    );
+    for (name, cycle) in [
+        ("state-1.50.csv", "1.5"),
+        ("state-2.csv", "2"),
+        ("state.csv", "3.25"),
+    ] {
+        let table = Table::parse(&dir.read(&format!("x/{name}")));
+        assert_eq!(
+            table.columns.join(", "),
+            "r_m, f0_m, f_m, g_m, u_z_1d_m, q_z_N_per_m, q_x_N_per_m, p_Pa, tau_Pa, u_x_1d_m, u_x_m, wear_m, zone"
+        );
+        assert_eq!(table.columns, state::COLUMNS);
+        assert_eq!(table.header[0].0, "mdr-tui");
+        assert_eq!(table.header("mdr-tui"), env!("CARGO_PKG_VERSION"));
+        assert_eq!(table.header("scenario"), "Dual oscillation of a paraboloid");
+        assert_eq!(table.header("cycle"), cycle);
+        assert_eq!(table.header("method"), "product");
+        assert_eq!(table.header("law"), "archard");
+        assert_eq!(table.header("points"), "100");
+        assert_eq!(table.header("steps_per_cycle"), "100");
+        assert_eq!(table.rows.len(), 101);
+        let zones: Vec<&str> = table.rows.iter().map(|row| row[12].as_str()).collect();
+        let mut seen = zones.clone();
+        seen.dedup();
+        assert_eq!(seen, ["stick", "slip", "open"]);
+    }
+    let table = Table::parse(&dir.read("x/history.csv"));
+    assert_eq!(
+        table.columns.join(", "),
+        "cycle, time_s, u_z_m, u_x_m, F_z_N, F_x_N, contact_radius_m, stick_radius_m, permanent_stick_radius_m, wear_volume_m3, dissipated_energy_J, energy_residual, max_pressure_Pa, period_energy_residual, force_residual, steps, transforms, evaluated_cycles, rejected_jumps, stability_margin, parts, energy_per_cycle_J, force_ratio, slip_ratio, sliding_ratio, energy_ratio, energy_ratio_B, regime, wear_per_energy_m3_per_J, rig_displacement_m"
+    );
+    assert_eq!(table.columns, history::COLUMNS);
+    assert_eq!(table.column("cycle"), [0.0, 1.0, 2.0, 3.0, 3.25]);
+    // k in the units of the field: 1/Pa = m³/J = 1e9 mm³/(N·m) = 1e18 µm³/J.
+    let k = |unit: &str| -> f64 {
+        let value = table.header(&format!("wear_coefficient_{unit}"));
+        value.parse().expect("a number")
+    };
+    assert_eq!(k("per_Pa"), 1.3e-10);
+    assert!((k("mm3_per_Nm") / 0.13 - 1.0).abs() < 1e-12);
+    assert!((k("um3_per_J") / 1.3e8 - 1.0).abs() < 1e-12);
+    let regimes: Vec<&str> = table.rows.iter().map(|row| row[27].as_str()).collect();
+    assert_eq!(regimes, ["", "partial", "partial", "partial", "partial"]);
+}
+
+#[test]
+fn the_numbers_of_the_files_read_back_exactly() {
+    let dir = TestDir::new();
+    dir.done("run li2019-fig3 --cycles 2 --out x");
+    let scenario = Scenario::load("li2019-fig3", &[]).expect("a preset");
+    let mut session = Session::start(scenario).expect("a contact");
+    session.advance_to(2.0).expect("two cycles");
+    let seen = session.simulation().observe(Curves::all());
+    let table = Table::parse(&dir.read("x/state.csv"));
+    for (name, values) in [
+        ("r_m", &seen.radii[..]),
+        ("f0_m", &seen.unworn[..]),
+        ("f_m", &seen.profile[..]),
+        ("g_m", &seen.profile_1d[..]),
+        ("q_z_N_per_m", &seen.normal_load[..]),
+        ("q_x_N_per_m", &seen.tangential_load[..]),
+        ("p_Pa", &seen.pressure[..]),
+        ("tau_Pa", &seen.shear[..]),
+        ("u_x_1d_m", &seen.spring[..]),
+        ("u_x_m", &seen.surface[..]),
+        ("wear_m", &seen.wear[..]),
+    ] {
+        assert_eq!(bits(&table.column(name)), bits(values), "{name}");
+    }
+    let moment = session.simulation().moment();
+    let table = Table::parse(&dir.read("x/history.csv"));
+    for (name, value) in [
+        ("time_s", moment.time),
+        ("F_z_N", moment.normal_force),
+        ("F_x_N", moment.tangential_force),
+        ("contact_radius_m", moment.contact_radius),
+        ("wear_volume_m3", moment.wear_volume),
+        ("dissipated_energy_J", moment.dissipated_energy),
+    ] {
+        let last = table.column(name).last().copied().expect("a row");
+        assert_eq!(last.to_bits(), value.to_bits(), "{name}");
+    }
+}
+
+#[test]
+fn scenario_toml_gives_the_same_numbers_to_the_last_bit() {
+    let dir = TestDir::new();
+    for (i, line) in [
+        "run li2019-fig3 --cycles 150.24 --snapshot-at 50.72,100",
+        "run two-frequencies --cycles 3.3 --set numerics.points=57 --set numerics.method=b",
+        "run li2019-fig3 --cycles 2 --set wear.coefficient=1.7e-10 --set friction.coefficient=0.3",
+        "run power-law --cycles 2",
+        "run li2019-fig3 --cycles 20.5 --snapshot-at 3.3 --set numerics.method=a --set numerics.scheme=euler",
+        r#"run cone --cycles 1.111 --set title="a\"cone\"\n=#1""#,
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let (first, second) = (format!("first-{i}"), format!("second-{i}"));
+        dir.done(&format!("{line} --out {first} --quiet"));
+        dir.done(&format!("run {first}/scenario.toml --out {second} --quiet"));
+        assert_eq!(names(&dir.path(&first)), names(&dir.path(&second)));
+        for name in names(&dir.path(&first)) {
+            let read = |directory: &str| dir.read(&format!("{directory}/{name}"));
+            assert!(read(&first) == read(&second), "{first}: {name} differs");
+        }
+    }
+}
+
+#[test]
+fn looking_between_two_steps_does_not_change_the_run() {
+    let dir = TestDir::new();
+    dir.done("run li2019-fig3 --cycles 3 --out plain --quiet");
+    let moments = "1.2345,0.0001,2.999,3,0";
+    dir.done(&format!(
+        "run li2019-fig3 --cycles 3 --out looking --quiet --snapshot-at {moments}"
+    ));
+    for name in ["state.csv", "history.csv"] {
+        let (plain, looking) = (format!("plain/{name}"), format!("looking/{name}"));
+        assert!(dir.read(&plain) == dir.read(&looking), "{name} differs");
+    }
+    dir.done("run li2019-fig3 --cycles 1.2345 --out ending --quiet");
+    assert!(dir.read("looking/state-1.2345.csv") == dir.read("ending/state.csv"));
+    assert!(dir.read("looking/state-3.csv") == dir.read("plain/state.csv"));
+    let start = Table::parse(&dir.read("looking/state-0.csv"));
+    assert!(start.column("wear_m").iter().all(|&wear| wear == 0.0));
+}
+
+#[test]
+fn the_history_of_every_step_has_a_row_more_than_steps() {
+    let dir = TestDir::new();
+    for (out, cycles, rows) in [("whole", "2", 201), ("part", "1.2345", 125)] {
+        dir.done(&format!(
+            "run hertz --cycles {cycles} --history every-step --out {out} --quiet --set numerics.scheme=euler"
+        ));
+        let table = Table::parse(&dir.read(&format!("{out}/history.csv")));
+        let moments = table.column("cycle");
+        assert_eq!(moments.len(), rows);
+        assert!(moments.is_sorted_by(|a, b| a < b));
+        assert_eq!(moments.last(), cycles.parse().ok().as_ref());
+        // Without tangential motion there is no stick radius to write.
+        assert!(table.column("stick_radius_m").iter().all(|c| c.is_nan()));
+    }
+}
+
+#[test]
+fn the_trapezoid_has_the_regular_steps_and_a_few_at_turning_points() {
+    let dir = TestDir::new();
+    dir.done("run li2019-fig3 --cycles 3 --history every-step --out x --quiet");
+    let moments = Table::parse(&dir.read("x/history.csv")).column("cycle");
+    assert_eq!((moments.first(), moments.last()), (Some(&0.0), Some(&3.0)));
+    assert!(moments.is_sorted_by(|a, b| a < b));
+    let step = 0.01;
+    let is_regular = |moment: f64| (moment / step - (moment / step).round()).abs() < 1e-9;
+    let added = moments
+        .iter()
+        .filter(|&&moment| !is_regular(moment))
+        .count();
+    assert!((3..=30).contains(&added), "{added} steps added in 3 cycles");
+    // No step is longer than a regular one and a tenth, and no whole cycle is left out.
+    for pair in moments.windows(2) {
+        assert!(pair[1] - pair[0] < 1.1 * step + 1e-9, "{pair:?}");
+    }
+    for whole in [1.0, 2.0, 3.0] {
+        assert!(moments.contains(&whole), "no step ends at cycle {whole}");
+    }
+    // Where a regular moment is missing, a turning point stands within a tenth of a step of it.
+    for regular in (0..=300).map(|i| f64::from(i) * step) {
+        let distance = |moment: &f64| (moment - regular).abs();
+        let nearest = moments.iter().map(distance).fold(f64::INFINITY, f64::min);
+        assert!(nearest < 0.1 * step + 1e-9, "{regular}");
+    }
+}
+
+#[test]
+fn json_parses_and_quiet_is_quiet() {
+    let dir = TestDir::new();
+    let summary = dir.done("run mindlin --out a --json");
+    let summary: serde_json::Value = serde_json::from_str(&summary).expect("a JSON value");
+    assert_eq!(summary["directory"], "a");
+    let scenario = Scenario::load("mindlin", &[]).expect("a preset");
+    assert_eq!(summary["cycle"].as_f64(), scenario.run().cycles);
+    assert!(
+        summary["contact_radius"]
+            .as_f64()
+            .is_some_and(|radius| radius > 0.0)
+    );
+    assert_eq!(dir.done("run mindlin --out b --quiet"), "");
+    let list: serde_json::Value =
+        serde_json::from_str(&dir.done("presets --json")).expect("a JSON value");
+    assert_eq!(list.as_array().map(Vec::len), Some(preset::ALL.len()));
+}
+
+#[test]
+fn force_writes_over_the_files_of_another_run() {
+    let dir = TestDir::new();
+    dir.done("run hertz --cycles 1 --out x --quiet --force");
+    dir.write("x/notes.txt", b"mine");
+    assert_refused(&dir, &["run", "cone", "--out", "x"], "--force");
+    dir.done("run cone --cycles 1 --out x --quiet --force");
+    let table = Table::parse(&dir.read("x/state.csv"));
+    assert_eq!(table.header("scenario"), "Dual oscillation of a cone");
+    assert_eq!(dir.read("x/notes.txt"), "mine");
+}
+
+#[test]
+fn without_out_a_run_takes_a_new_directory_each_time() {
+    let dir = TestDir::new();
+    for _ in 0..2 {
+        dir.done("run hertz --cycles 0.1 --quiet");
+    }
+    assert_eq!(names(&dir.path("")), ["hertz-run", "hertz-run-2"]);
+}
+
+#[test]
+fn a_run_that_breaks_down_keeps_the_last_good_cycle() {
+    let dir = TestDir::new();
+    let line = "run li2019-fig3 --cycles 50 --set numerics.method=benad --set wear.coefficient=1e-7 --out x";
+    let said = dir.say(&line.split(' ').collect::<Vec<_>>());
+    assert_eq!((said.code, said.out.as_str()), (1, ""));
+    assert_eq!(said.err.lines().count(), 1, "{}", said.err);
+    let after = said
+        .err
+        .split_once("stopped after ")
+        .and_then(|(_, rest)| rest.split_once(" cycles: "));
+    let (cycle, cause) = after.expect("the cycle and the cause");
+    assert!(cause.len() > 20 && cause.contains("numerics."), "{cause}");
+    assert_eq!(
+        names(&dir.path("x")),
+        ["history.csv", "scenario.toml", "state.csv"]
+    );
+    let state = Table::parse(&dir.read("x/state.csv"));
+    assert_eq!(state.header("cycle"), cycle);
+    let cycle: f64 = cycle.parse().expect("a number");
+    assert!(0.0 < cycle && cycle < 50.0);
+    assert!(state.column("f_m").iter().all(|f| f.is_finite()));
+    let history = Table::parse(&dir.read("x/history.csv"));
+    assert_eq!(history.column("cycle").last(), Some(&cycle));
+    // What was kept is a run of its own, which ends well, in every column of both files.
+    assert_replays(&dir, "x", "again");
+}
+
+/// The kept run in `first` runs again into `second` without a complaint, bit for bit.
+fn assert_replays(dir: &TestDir, first: &str, second: &str) {
+    dir.done(&format!("run {first}/scenario.toml --out {second} --quiet"));
+    for name in ["state.csv", "history.csv"] {
+        let text = [first, second].map(|directory| dir.read(&format!("{directory}/{name}")));
+        let [kept, again] = text.each_ref().map(|text| Table::parse(text));
+        assert_eq!(kept.columns, again.columns, "{name}");
+        let differing: Vec<&String> = (0..kept.columns.len())
+            .filter(|&i| {
+                let column = |table: &Table| -> Vec<String> {
+                    table.rows.iter().map(|row| row[i].clone()).collect()
+                };
+                column(&kept) != column(&again)
+            })
+            .map(|i| &kept.columns[i])
+            .collect();
+        assert!(differing.is_empty(), "{first}/{name}: {differing:?} differ");
+        assert!(text[0] == text[1], "{first}/{name}: the headers differ");
+    }
+}
+
+/// Every method, unguarded, with a wear coefficient that is far too large; returns how many broke down.
+fn broken_down(scheme: &str) -> i32 {
+    let dir = TestDir::new();
+    let mut breakdowns = 0;
+    for method in ["product", "a", "a+b", "b", "benad"] {
+        for wear in ["1e-7", "1e-6"] {
+            let out = format!("{method}-{wear}");
+            let line = format!(
+                "run li2019-fig3 --cycles 3.3 --set wear.coefficient={wear} --out {out} --quiet \
+                 --set numerics.method={method} --set numerics.scheme={scheme} \
+                 --set numerics.stability=off"
+            );
+            let said = dir.say(&line.split_whitespace().collect::<Vec<_>>());
+            assert!([0, 1].contains(&said.code), "{out}: {}", said.err);
+            breakdowns += said.code;
+            assert_replays(&dir, &out, &format!("{out}-again"));
+        }
+    }
+    breakdowns
+}
+
+#[test]
+fn a_breakdown_of_the_euler_scheme_replays_to_the_last_bit() {
+    assert!(broken_down("euler") >= 5);
+}
+
+#[test]
+fn a_breakdown_of_the_trapezoid_replays_to_the_last_bit() {
+    assert!(broken_down("trapezoid") >= 2);
+}
+
+/// Starts a run that does not end by itself, and waits until it has written its first snapshot.
+fn long_run(dir: &TestDir, out: &str) -> Child {
+    let mut child = dir
+        .command(&[
+            "run",
+            "li2019-fig3",
+            "--cycles",
+            "1e9",
+            "--snapshot-at",
+            "0.5",
+            "--out",
+            out,
+        ])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    let sign = dir.path(out).join("state-0.5.csv");
+    let start = Instant::now();
+    while !sign.exists() {
+        let waiting = start.elapsed() < Duration::from_secs(20);
+        assert!(waiting && matches!(child.try_wait(), Ok(None)));
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    child
+}
+
+#[cfg(unix)]
+#[test]
+fn a_signal_ends_a_run_and_keeps_what_is_done() {
+    let dir = TestDir::new();
+    for signal in ["TERM", "INT", "HUP"] {
+        let child = long_run(&dir, signal);
+        let kill = format!("kill -{signal} {}", child.id());
+        let sent = Command::new("sh").args(["-c", &kill]).status();
+        assert!(sent.expect("a shell").success());
+        let said = end(child);
+        assert_eq!((said.code, said.out.as_str()), (1, ""), "{}", said.err);
+        let cycle = said
+            .err
+            .strip_prefix("mdr-tui: interrupted at cycle ")
+            .and_then(|rest| rest.split_once(&format!("; kept in {signal}; ")))
+            .expect("the cycle and the directory");
+        let (cycle, way_on) = cycle;
+        let command = format!("mdr-tui run --resume {signal}/run.checkpoint goes on\n");
+        assert_eq!(way_on, command);
+        assert_eq!(
+            names(&dir.path(signal)),
+            [
+                "history.csv",
+                "run.checkpoint",
+                "scenario.toml",
+                "state-0.5.csv",
+                "state.csv"
+            ]
+        );
+        let state = Table::parse(&dir.read(&format!("{signal}/state.csv")));
+        assert_eq!(state.header("cycle"), cycle);
+    }
+}
+
+#[test]
+fn presets_are_listed_and_printed_as_they_stand() {
+    let dir = TestDir::new();
+    let list = dir.done("presets");
+    assert_eq!(list.lines().count(), preset::ALL.len());
+    for (line, preset) in list.lines().zip(preset::ALL) {
+        assert!(line.starts_with(preset.name) && line.ends_with(&preset.title()));
+        assert!(line.chars().count() <= 80, "{line}");
+        let file = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("presets")
+            .join(format!("{}.toml", preset.name));
+        let printed = dir.done(&format!("presets {}", preset.name));
+        assert_eq!(
+            printed,
+            fs::read_to_string(file).expect("the preset's file")
+        );
+    }
+    // A preset starts a scenario of one's own.
+    dir.write("mine.toml", dir.done("presets cone").as_bytes());
+    for (scenario, out) in [("cone", "theirs"), ("mine.toml", "mine")] {
+        dir.done(&format!("run {scenario} --cycles 1 --out {out} --quiet"));
+    }
+    assert!(dir.read("theirs/state.csv") == dir.read("mine/state.csv"));
+}
+
+#[test]
+fn stability_draws_a_map_and_writes_its_runs() {
+    let dir = TestDir::new();
+    let csv = dir.path("map.csv");
+    let csv = csv.to_str().expect("a path");
+    let arguments = [
+        "stability",
+        "li2019-fig3",
+        "--cycles",
+        "3",
+        "--points",
+        "25",
+        "--methods",
+        "a",
+        "--wear-numbers",
+        "1000,1",
+        "--steps",
+        "50",
+        "--guard",
+        "both",
+        "--csv",
+        csv,
+    ];
+    let said = dir.say(&arguments);
+    assert_eq!(said.code, 0, "{}", said.err);
+    for map in [
+        "a, guard off\n    25 ....|. ######\n",
+        "a, guard on\n    25 ....|. ......\n",
+    ] {
+        assert!(said.out.contains(map), "{}", said.out);
+    }
+    assert!(said.out.contains("critical K"), "{}", said.out);
+    let rows = fs::read_to_string(csv).expect("a file");
+    let rows: Vec<&str> = rows.lines().filter(|line| !line.starts_with('#')).collect();
+    assert_eq!(rows.len(), 5, "{rows:?}");
+    assert!(
+        rows[1].starts_with("a,off,25,50,1e0,stable,"),
+        "{}",
+        rows[1]
+    );
+    assert!(rows[4].starts_with("a,on,25,50,1e3,stable,"), "{}", rows[4]);
+    assert_refused(&dir, &arguments, "exists already");
+    assert_refused(&dir, &["stability", "hertz"], "nothing wears");
+    assert_refused(
+        &dir,
+        &["stability", "li2019-fig3", "--wear-numbers", "-1"],
+        "wear numbers are greater than 0",
+    );
+}
+
+/// What the program answers a shell that asks for the last of `words`.
+fn completed(dir: &TestDir, words: &[&str]) -> Vec<String> {
+    let output = dir
+        .command(&["--"])
+        .args(words)
+        .env("MDR_TUI_COMPLETE", "bash")
+        .env("_CLAP_COMPLETE_INDEX", (words.len() - 1).to_string())
+        .output()
+        .expect("the program starts");
+    let text = String::from_utf8(output.stdout).expect("text");
+    text.lines().map(str::to_owned).collect()
+}
+
+#[test]
+fn shells_complete_presets_files_keys_and_words() {
+    let dir = TestDir::new();
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let script = dir.done(&format!("completions {shell}"));
+        assert!(script.contains("MDR_TUI_COMPLETE"), "{shell}: {script}");
+    }
+    std::fs::write(dir.path("mine.toml"), "").expect("a file");
+    std::fs::write(dir.path("mine.csv"), "").expect("a file");
+    for (words, wanted) in [
+        (&["mdr-tui", "run", "li2"][..], "li2019-fig3"),
+        (&["mdr-tui", "min"], "mine.toml"),
+        (&["mdr-tui", "presets", "tw"], "two-frequencies"),
+        (&["mdr-tui", "guide", "gl"], "glossary"),
+        (
+            &["mdr-tui", "run", "cone", "--set", "friction"],
+            "friction.coefficient=",
+        ),
+        (
+            &["mdr-tui", "run", "cone", "--set", "numerics.method=be"],
+            "numerics.method=benad",
+        ),
+        (&["mdr-tui", "run", "cone", "--snap"], "--snapshot-at"),
+    ] {
+        let found = completed(&dir, words);
+        assert!(
+            found.iter().any(|word| word == wanted),
+            "{words:?}: {found:?}"
+        );
+        assert!(!found.iter().any(|word| word == "mine.csv"), "{found:?}");
+    }
+}
+
+#[test]
+fn the_manual_page_names_the_commands() {
+    let dir = TestDir::new();
+    let page = dir.done("man");
+    assert!(page.contains(".TH mdr-tui 1"), "{page}");
+    for command in ["run", "presets", "verify", "trade", "completions", "man"] {
+        let title = format!(".TH mdr-tui-{command} 1");
+        assert_eq!(page.matches(&title).count(), 1, "{command}");
+    }
+    for option in ["--snapshot-at", "--history", "--keys", "--set"] {
+        assert!(page.contains(&option.replace('-', "\\-")), "{option}");
+    }
+}
+
+#[test]
+fn every_help_has_an_example() {
+    let dir = TestDir::new();
+    for command in [
+        "run",
+        "presets",
+        "verify",
+        "trade",
+        "completions",
+        "man",
+        "",
+    ] {
+        let help = dir.done(&format!("{command} --help"));
+        let (_, examples) = help
+            .split_once("Example")
+            .unwrap_or_else(|| panic!("{command} --help without an example"));
+        assert!(examples.contains("\n  mdr-tui"), "{examples}");
+    }
+    let help = dir.done("--help");
+    for command in ["run", "presets", "verify", "trade", "completions", "man"] {
+        assert!(help.contains(&format!("\n  {command} ")), "{command}");
+    }
+    let version = dir.done("--version");
+    assert_eq!(version, format!("mdr-tui {}\n", env!("CARGO_PKG_VERSION")));
+}
+
+#[test]
+fn a_reader_who_leaves_early_is_no_error() {
+    let dir = TestDir::new();
+    for arguments in [
+        vec!["presets"],
+        vec!["presets", "hertz"],
+        vec!["man"],
+        vec!["completions", "bash"],
+        vec!["--help"],
+        vec!["--print", "200x50"],
+        vec!["run", "hertz", "--cycles", "0.1"],
+    ] {
+        let (reader, writer) = std::io::pipe().expect("a pipe");
+        drop(reader);
+        let output = dir.command(&arguments).stdout(writer).output();
+        let said = Said::from(output.expect("the program starts"));
+        assert_eq!((said.code, said.err.as_str()), (0, ""), "{arguments:?}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_a_failure_in_one_line() {
+    let dir = TestDir::new();
+    for arguments in [vec!["presets"], vec!["man"], vec!["--print", "80x24"]] {
+        let full = fs::File::create("/dev/full").expect("the full device");
+        let output = dir.command(&arguments).stdout(full).output();
+        let said = Said::from(output.expect("the program starts"));
+        assert_eq!(said.code, 1, "{arguments:?}");
+        assert_eq!(said.err.lines().count(), 1, "{}", said.err);
+    }
+}
+
+#[test]
+fn a_scenario_can_come_through_a_pipe() {
+    if !cfg!(unix) {
+        return;
+    }
+    let dir = TestDir::new();
+    let mut child = dir
+        .command(&["run", "/dev/stdin", "--cycles", "1", "--out", "x"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    let text = preset::find("hertz").expect("a preset").text;
+    let mut stdin = child.stdin.take().expect("a pipe");
+    stdin.write_all(text.as_bytes()).expect("a reader");
+    drop(stdin);
+    let said = end(child);
+    assert_eq!((said.code, said.err.as_str()), (0, ""));
+}

@@ -1,0 +1,106 @@
+//! A dimensionless contact for the tests: R = d = E* = 1, so that a₀ = 1 and K = kE*d/a₀ = k.
+
+#![allow(dead_code, reason = "not every file of tests needs all of it")]
+
+use mdr_tui::contact::indenter::Indenter;
+use mdr_tui::contact::material::Material;
+use mdr_tui::math::abel::AbelMethod;
+use mdr_tui::math::grid::RadialGrid;
+use mdr_tui::simulation::drive::{Control, Drive, Oscillation};
+use mdr_tui::simulation::{Integrator, Scheme, Setup, Simulation, Spacing, Stability};
+use mdr_tui::wear::WearLaw;
+
+/// The parts of a run as plain values; a test names only what differs from the default.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    pub method: AbelMethod,
+    pub cells: usize,
+    pub domain: f64,
+    pub indenter: Indenter,
+    pub modulus: f64,
+    pub poisson: f64,
+    pub friction: f64,
+    pub normal: Control,
+    pub tangential: Option<Control>,
+    pub law: Option<WearLaw>,
+    pub steps: u32,
+}
+
+impl Default for Scene {
+    /// Depth 1 held, amplitude 0.05, μ = 0.1, ν = 0.3, N = 100 over 1.5 a₀, 40 steps a cycle, no
+    /// wear: the contact of the comparison of methods.
+    fn default() -> Self {
+        Self {
+            method: AbelMethod::A,
+            cells: 100,
+            domain: 1.5,
+            indenter: Indenter::paraboloid(1.0).expect("an indenter"),
+            modulus: 1.0,
+            poisson: 0.3,
+            friction: 0.1,
+            normal: swing(1.0, 0.0, 1.0, 0.0),
+            tangential: Some(swing(0.0, 0.05, 1.0, 0.0)),
+            law: None,
+            steps: 40,
+        }
+    }
+}
+
+impl From<Scene> for Setup {
+    fn from(scene: Scene) -> Self {
+        Self {
+            grid: RadialGrid::uniform(scene.cells, scene.domain).expect("a grid"),
+            material: Material::new(scene.modulus, scene.poisson, scene.friction)
+                .expect("a material"),
+            indenter: scene.indenter,
+            drive: Drive::new(scene.normal, scene.tangential),
+            wear: scene.law,
+            method: scene.method,
+            spacing: Spacing::Uniform,
+            scheme: Scheme::Euler,
+            stability: Stability::Off,
+            running_in: None,
+            steps_per_cycle: scene.steps,
+            integrator: Integrator::Direct,
+        }
+    }
+}
+
+/// The scene with the default numerics in place of the paper's.
+pub fn ours(scene: Scene) -> Setup {
+    Setup {
+        method: AbelMethod::Product,
+        spacing: Spacing::Graded,
+        scheme: Scheme::Trapezoid,
+        stability: Stability::SubStep,
+        ..Setup::from(scene)
+    }
+}
+
+/// A prescribed displacement mean + amplitude · sin(ωt + φ).
+pub fn swing(mean: f64, amplitude: f64, frequency: f64, phase: f64) -> Control {
+    Control::Displacement(Oscillation::new(mean, amplitude, frequency, phase).expect("a motion"))
+}
+
+/// Archard's law.
+pub fn archard(coefficient: f64) -> Option<WearLaw> {
+    Some(WearLaw::archard(coefficient).expect("a law"))
+}
+
+/// The contact after `cycles`; a breakdown fails the test.
+pub fn run(scene: Scene, cycles: f64) -> Simulation {
+    run_setup(scene.into(), cycles)
+}
+
+/// The contact of a whole setup after `cycles`.
+pub fn run_setup(setup: Setup, cycles: f64) -> Simulation {
+    let mut simulation = Simulation::new(setup).expect("a contact");
+    simulation.advance_to(cycles).expect("a run to the end");
+    simulation
+}
+
+/// Fails unless `error` is at most `bound` (so NaN fails); the numbers are printed.
+pub fn holds(what: &str, error: f64, bound: f64) {
+    eprintln!("{what}: {error:.3e} of {bound:.3e}");
+    assert!(error <= bound, "{what}: {error:e} exceeds {bound:e}");
+}

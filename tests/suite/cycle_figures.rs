@@ -1,0 +1,154 @@
+//! The figures of a cycle against closed forms: Mindlin's force, the ratios at the border of gross
+//! slip, and the running conditions of the presets.
+
+use mdr_tui::scenario::Scenario;
+use mdr_tui::scenario::session::Session;
+use mdr_tui::simulation::{CycleFigures, Regime};
+
+/// The session of a preset with `sets` after so many cycles.
+fn after(preset: &str, sets: &[String], cycles: f64) -> Session {
+    let scenario = Scenario::load(preset, sets).expect("a scenario");
+    let mut session = Session::start(scenario).expect("a contact");
+    session.advance_to(cycles).expect("cycles");
+    session
+}
+
+fn figures(preset: &str, sets: &[String], cycles: f64) -> CycleFigures {
+    let session = after(preset, sets, cycles);
+    session.simulation().cycle_figures().expect("a whole cycle")
+}
+
+fn amplitude(value: f64) -> Vec<String> {
+    vec![format!("motion.tangential.amplitude={value:e}")]
+}
+
+/// The amplitude from which the paraboloid of the preset `mindlin` slips as a whole, d/κ.
+fn gross_slip(preset: &str) -> f64 {
+    let scenario = Scenario::load(preset, &[]).expect("a preset");
+    1e-6 / scenario.setup().material.stick_ratio()
+}
+
+fn close(seen: Option<f64>, expected: f64, tolerance: f64) {
+    let seen = seen.expect("a ratio");
+    assert!((seen - expected).abs() < tolerance, "{seen} {expected}");
+}
+
+#[test]
+fn ratios_at_the_border_of_gross_slip_are_those_of_the_sphere_and_of_the_cone() {
+    let border = gross_slip("mindlin");
+    let sphere = figures("mindlin", &amplitude(0.99999 * border), 2.0);
+    close(sphere.energy_ratio, 0.2, 1e-3);
+    close(sphere.sliding_ratio, 0.26, 1e-3);
+    close(sphere.energy_ratio_b, 0.77, 3e-3);
+    close(sphere.force_ratio, 1.0, 1e-3);
+    assert_eq!(sphere.regime, Regime::Partial);
+    let mut sets = amplitude(0.99999 * border);
+    sets.extend([
+        "indenter.shape=cone".into(),
+        "indenter.angle=6.366e-3".into(),
+    ]);
+    let cone = figures("mindlin", &sets, 2.0);
+    close(cone.energy_ratio, 1.0 / 3.0, 2e-3);
+    close(cone.sliding_ratio, 0.414, 2e-3);
+    close(cone.energy_ratio_b, 0.805, 4e-3);
+}
+
+/// F_x = μF_z[1 − (1 − U/U_s)^{3/2}], and 2G*aU what the contact would carry without slip.
+#[test]
+fn partial_slip_is_mindlins() {
+    for share in [0.2, 0.5, 0.9] {
+        let seen = figures("mindlin", &amplitude(share * gross_slip("mindlin")), 2.0);
+        let force = 1.0 - (1.0 - share).powf(1.5);
+        close(seen.force_ratio, force, 1e-3);
+        close(seen.slip_ratio, 1.0 - force / (1.5 * share), 1e-3);
+        // The area of the loop: (μF)²-free, by the integral of Mindlin's force over the loop.
+        let steps = 20_000;
+        let unloading = |u: f64| {
+            let reversed = (share - u) / 2.0;
+            force - 2.0 * (1.0 - (1.0 - reversed).powf(1.5))
+        };
+        let area: f64 = (0..steps)
+            .map(|i| {
+                let u = -share + 2.0 * share * (f64::from(i) + 0.5) / f64::from(steps);
+                // Both branches are alike but for the sign.
+                (-unloading(u) - unloading(-u)).abs() * 2.0 * share / f64::from(steps)
+            })
+            .sum();
+        close(seen.energy_ratio, area / (4.0 * force * share), 2e-3);
+    }
+}
+
+#[test]
+fn the_regime_is_the_running_condition() {
+    let border = gross_slip("mindlin");
+    for (preset, sets, expected) in [
+        ("mindlin", amplitude(0.02 * border), Regime::Stick),
+        ("mindlin", amplitude(0.5 * border), Regime::Partial),
+        ("mindlin", amplitude(1.05 * border), Regime::Gross),
+        ("li2019-fig3", Vec::new(), Regime::Partial),
+        ("gross-slip", Vec::new(), Regime::Gross),
+        ("separation", Vec::new(), Regime::Open),
+        ("two-frequencies", Vec::new(), Regime::Partial),
+    ] {
+        let seen = figures(preset, &sets, 2.0);
+        assert_eq!(seen.regime, expected, "{preset} {sets:?} {seen:?}");
+    }
+    let hertz = after("hertz", &[], 2.0);
+    assert_eq!(hertz.simulation().cycle_figures(), None);
+}
+
+#[test]
+fn there_are_none_before_the_first_period_ends_and_within_that_of_a_change() {
+    let mut session = after("li2019-fig3", &[], 0.5);
+    assert_eq!(session.simulation().cycle_figures(), None);
+    session.advance_to(2.5).expect("cycles");
+    let before = session.simulation().cycle_figures().expect("figures");
+    // A period that was begun under other parameters tells of neither.
+    session
+        .change("friction.coefficient", "0.2")
+        .expect("a change");
+    session.advance_to(3.0).expect("cycles");
+    assert_eq!(session.simulation().cycle_figures(), None);
+    session.advance_to(4.0).expect("cycles");
+    let after = session.simulation().cycle_figures().expect("figures");
+    assert!(after.force_ratio < before.force_ratio);
+    // Two frequencies repeat after two cycles.
+    let session = self::after("two-frequencies", &[], 1.0);
+    assert_eq!(session.simulation().cycle_figures(), None);
+}
+
+#[test]
+fn after_a_jump_they_are_those_of_the_cycle_that_follows() {
+    let mut session = after("mild-million", &[], 20_000.0);
+    assert!(session.simulation().state().stats.jumps > 0);
+    let jumped = session.simulation().cycle_figures().expect("figures");
+    session
+        .change("numerics.integrator", "\"direct\"")
+        .expect("a change");
+    session.advance_to(20_001.0).expect("a cycle");
+    let stepped = session.simulation().cycle_figures().expect("figures");
+    for (a, b) in [
+        (jumped.energy, stepped.energy),
+        (jumped.force_amplitude, stepped.force_amplitude),
+        (
+            jumped.displacement_amplitude,
+            stepped.displacement_amplitude,
+        ),
+        (jumped.normal_force, stepped.normal_force),
+    ] {
+        assert!((a / b - 1.0).abs() < 1e-4, "{jumped:?} {stepped:?}");
+    }
+    assert_eq!(jumped.regime, stepped.regime);
+}
+
+#[test]
+fn energy_per_cycle_adds_up_to_the_work_of_friction() {
+    let session = after("li2019-fig3", &[], 3.0);
+    let work = session.simulation().moment().dissipated_energy;
+    let figures = session.simulation().cycle_figures().expect("figures");
+    let before = after("li2019-fig3", &[], 2.0);
+    let before = before.simulation().moment().dissipated_energy;
+    assert!((figures.energy / (work - before) - 1.0).abs() < 1e-12);
+    let per_energy = session.simulation().moment().wear_per_energy();
+    close(per_energy.map(|k| k / 1.3e-10), 1.0, 5e-3);
+}

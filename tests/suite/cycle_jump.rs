@@ -1,0 +1,243 @@
+//! Jumps over cycles against every cycle stepped, and what they cost.
+//!
+//! Lengths are in a₀ or d₀ throughout.
+
+use crate::common::{Scene, archard, holds, ours, run_setup, swing};
+use mdr_tui::math::abel::AbelMethod::A;
+use mdr_tui::scenario::Scenario;
+use mdr_tui::scenario::session::Session;
+use mdr_tui::simulation::{Integrator, Scheme, Setup, Simulation, Spacing};
+use mdr_tui::wear::WearLaw;
+use std::f64::consts::{FRAC_PI_4, SQRT_2};
+
+fn jumping(setup: &Setup, tolerance: f64) -> Setup {
+    Setup {
+        integrator: Integrator::CycleJump { tolerance },
+        ..setup.clone()
+    }
+}
+
+/// Constant depth, μ = 0.1, swings of 0.1 d₀: a scar of 0.36 d₀ in the end.
+fn held(wear_number: f64) -> Setup {
+    ours(Scene {
+        tangential: Some(swing(0.0, 0.1, 1.0, 0.0)),
+        law: archard(wear_number),
+        ..Scene::default()
+    })
+}
+
+/// Fig. 3 of the paper.
+fn fig3(wear_number: f64) -> Setup {
+    ours(Scene {
+        normal: swing(1.0, 0.1, 1.0, 0.0),
+        tangential: Some(swing(0.0, 0.1, 1.0, FRAC_PI_4)),
+        law: archard(wear_number),
+        ..Scene::default()
+    })
+}
+
+/// The rms and the largest difference of the worn depth, both runs on the same nodes.
+fn difference(one: &Simulation, other: &Simulation) -> [f64; 2] {
+    assert_eq!(one.setup().grid, other.setup().grid);
+    let (mut sum, mut largest) = (0.0, 0.0_f64);
+    for (a, b) in one.state().wear.iter().zip(&other.state().wear) {
+        sum += (a - b) * (a - b);
+        largest = largest.max((a - b).abs());
+    }
+    [f64::sqrt(sum / one.setup().grid.len() as f64), largest]
+}
+
+#[test]
+fn a_jumped_scar_is_the_stepped_one() {
+    let power = Some(WearLaw::power(0.3, 1.5, 0.8, 0.3, 0.1).expect("a law"));
+    let scenes = [
+        ("held", held(0.1), 400.0),
+        ("Fig. 3", fig3(0.05), 400.0),
+        (
+            "power law",
+            Setup {
+                wear: power,
+                ..fig3(1.0)
+            },
+            200.0,
+        ),
+        (
+            "Fig. 3 by Method A",
+            Setup {
+                method: A,
+                spacing: Spacing::Uniform,
+                scheme: Scheme::Euler,
+                ..fig3(0.05)
+            },
+            400.0,
+        ),
+    ];
+    for (name, setup, cycles) in scenes {
+        let direct = run_setup(setup.clone(), cycles);
+        let deepest = direct.state().wear.iter().copied().fold(0.0, f64::max);
+        assert!(deepest > 0.05, "{name} wears to {deepest}");
+        for tolerance in [1e-3, 1e-4] {
+            let jumped = run_setup(jumping(&setup, tolerance), cycles);
+            assert_eq!(jumped.cycle(), cycles);
+            let stats = jumped.state().stats;
+            assert!(stats.jumps >= 2, "{name}: {stats:?}");
+            let [rms, largest] = difference(&direct, &jumped);
+            holds(&format!("{name} at {tolerance}, rms"), rms, 1.5 * tolerance);
+            holds(
+                &format!("{name} at {tolerance}, largest"),
+                largest,
+                10.0 * tolerance,
+            );
+            let volumes = jumped.wear_volume() / direct.wear_volume() - 1.0;
+            holds(
+                &format!("{name} at {tolerance}, volume"),
+                volumes.abs(),
+                20.0 * tolerance,
+            );
+            let work = jumped.state().dissipated_energy / direct.state().dissipated_energy - 1.0;
+            holds(
+                &format!("{name} at {tolerance}, work"),
+                work.abs(),
+                20.0 * tolerance,
+            );
+        }
+    }
+}
+
+/// The closed form of a cycle at a held depth, which knows no steps, against the steps of a cycle: a
+/// normal motion too small to move anything keeps the closed form from being used.
+#[test]
+fn a_plain_swing_needs_no_steps() {
+    let plain = jumping(&held(0.01), 1e-4);
+    let stepped = Setup {
+        drive: mdr_tui::simulation::drive::Drive::new(
+            swing(1.0, 1e-14, 1.0, 0.0),
+            Some(swing(0.0, 0.1, 1.0, 0.0)),
+        ),
+        ..plain.clone()
+    };
+    let (plain, stepped) = (run_setup(plain, 1000.0), run_setup(stepped, 1000.0));
+    let (few, many) = (plain.state().stats, stepped.state().stats);
+    assert!(20 * few.contacts < many.contacts, "{few:?} {many:?}");
+    let radii = plain.setup().grid.nodes();
+    let worst = radii.iter().zip(&plain.state().wear).map(|(&r, wear)| {
+        (wear - stepped.setup().grid.interpolate(&stepped.state().wear, r)).abs()
+    });
+    holds("largest difference", worst.fold(0.0, f64::max), 3e-4);
+    let sticks = [&plain, &stepped].map(|run| run.state().permanent_stick_radius());
+    holds("stick radius", (sticks[0] - sticks[1]).abs(), 3e-5);
+    for (plain, stepped) in plain
+        .state()
+        .contact
+        .spring
+        .nodal
+        .iter()
+        .zip(&stepped.state().contact.spring.nodal)
+    {
+        assert!((plain - stepped).abs() < 3e-3, "{plain} {stepped}");
+    }
+}
+
+/// Work counts: a million mild cycles cost what some hundred looks cost.
+#[test]
+fn a_million_cycles_cost_a_few_hundred() {
+    let scenario = Scenario::load("mild-million", &[]).expect("a preset");
+    let simulation = run_setup(scenario.setup().clone(), 1e6);
+    let stats = simulation.state().stats;
+    let deepest = simulation.state().wear.iter().copied().fold(0.0, f64::max);
+    let depth = 1e-6;
+    assert!((0.28..0.38).contains(&(deepest / depth)), "{deepest}");
+    // Within what other last digits of another processor may change.
+    let about = |what: &str, count: u64, due: u64| {
+        assert!(
+            count.abs_diff(due) * 8 <= due,
+            "{what}: {count}, not about {due}"
+        );
+    };
+    about("jumps", stats.jumps, 181);
+    about("cycles looked at", stats.evaluated_cycles, 648);
+    about("transforms", stats.transforms, 2993);
+    // A thousand times the wear a cycle, every cycle stepped.
+    let harsh = [
+        "numerics.integrator=direct",
+        "wear.coefficient=5e-12",
+        "numerics.steps_per_cycle=40",
+    ];
+    let harsh = harsh.map(str::to_owned);
+    let scenario = Scenario::load("mild-million", &harsh).expect("a preset");
+    let direct = run_setup(scenario.setup().clone(), 1000.0);
+    let radii = direct.setup().grid.nodes().iter().zip(&direct.state().wear);
+    let worst = radii
+        .map(|(&r, wear)| {
+            (wear
+                - simulation
+                    .setup()
+                    .grid
+                    .interpolate(&simulation.state().wear, r))
+            .abs()
+        })
+        .fold(0.0, f64::max);
+    holds("largest difference from direct steps", worst / depth, 1e-3);
+}
+
+#[test]
+fn motions_that_never_repeat_are_stepped() {
+    let setup = ours(Scene {
+        normal: swing(1.0, 0.1, SQRT_2, 0.0),
+        tangential: Some(swing(0.0, 0.1, 1.0, FRAC_PI_4)),
+        law: archard(0.01),
+        ..Scene::default()
+    });
+    let jumped = run_setup(jumping(&setup, 1e-3), 30.0);
+    let why = jumped.why_never_jumped().expect("a reason");
+    assert!(why.contains("no common period"), "{why}");
+    let stepped = run_setup(setup, 30.0);
+    assert_eq!(jumped.state().wear, stepped.state().wear);
+    assert_eq!(stepped.why_never_jumped(), None);
+}
+
+#[test]
+fn a_run_with_jumps_and_changes_repeats_itself() {
+    let overrides = ["numerics.integrator=cycle-jump", "wear.coefficient=1e-12"].map(str::to_owned);
+    let scenario = Scenario::load("li2019-fig3", &overrides).expect("a scenario");
+    let mut session = Session::start(scenario).expect("a session");
+    while session.simulation().cycle() < 500.0 {
+        session.step().expect("a step");
+    }
+    session.change("wear.law", "archard").expect("no change");
+    session
+        .change("friction.coefficient", "0.12")
+        .expect("a change");
+    for _ in 0..20 {
+        session.step().expect("a step");
+    }
+    let cycle = session.simulation().cycle();
+    assert!(cycle > 1000.0, "{cycle}");
+    let again = session.as_run(Vec::new());
+    let mut replay = Session::start(again).expect("a session");
+    replay.advance_to(cycle).expect("the end");
+    assert_eq!(replay.simulation().state(), session.simulation().state());
+}
+
+/// Of direct stepping: four transforms a step of the second-order scheme and one to begin with, three
+/// and one of explicit Euler; nothing but steps.
+#[test]
+fn a_step_costs_its_transforms() {
+    for (setup, transforms) in [
+        (fig3(0.05), 4),
+        (
+            Setup {
+                method: A,
+                spacing: Spacing::Uniform,
+                scheme: Scheme::Euler,
+                ..fig3(0.05)
+            },
+            3,
+        ),
+    ] {
+        let state = run_setup(setup, 10.0).state().clone();
+        assert_eq!(state.stats.transforms, transforms * state.steps + 1);
+        assert_eq!(state.stats.contacts, state.steps + 1);
+        assert_eq!((state.stats.evaluated_cycles, state.stats.jumps), (0, 0));
+    }
+}

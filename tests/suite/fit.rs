@@ -1,0 +1,267 @@
+//! `fit`: parameters come back from data that were made with them, with errors that are honest.
+
+use std::fmt::Write;
+
+use mdr_tui::scenario::Scenario;
+use mdr_tui::scenario::columns::Columns;
+use mdr_tui::scenario::session::Session;
+use mdr_tui::simulation::Curves;
+use mdr_tui::studies::fit::{Fit, FitError, Fitted};
+use mdr_tui::studies::measured::Measured;
+
+use crate::test_dir::TestDir;
+
+const TRUE: [(&str, f64); 2] = [("wear.coefficient", 2e-9), ("friction.coefficient", 0.12)];
+
+/// A scene that runs in a millisecond, with these values of k and μ.
+fn scenario(k: f64, mu: f64) -> Scenario {
+    let sets = [
+        format!("wear.coefficient={k:e}"),
+        format!("friction.coefficient={mu:e}"),
+        "numerics.points=16".into(),
+        "numerics.steps_per_cycle=20".into(),
+        "numerics.grid=uniform".into(),
+        "run.cycles=2".into(),
+        "run.snapshot_at=[]".into(),
+    ];
+    Scenario::load("li2019-fig3", &sets).expect("a scenario")
+}
+
+/// Normal noise, the same in every run.
+struct Noise(u64);
+
+impl Noise {
+    fn uniform(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn normal(&mut self) -> f64 {
+        let (u, v) = (1.0 - self.uniform(), self.uniform());
+        (-2.0 * u.ln()).sqrt() * (std::f64::consts::TAU * v).cos()
+    }
+}
+
+/// The scar and the loop of the true values, as tables without noise.
+fn exact() -> [(&'static str, Vec<(f64, f64)>); 2] {
+    let [(_, k), (_, mu)] = TRUE;
+    let mut session = Session::start(scenario(k, mu)).expect("a contact");
+    session.advance_to(1.0).expect("a cycle");
+    let mut fretting_loop = Vec::new();
+    while session.simulation().cycle() < 2.0 {
+        session.step_until(2.0).expect("a step");
+        let moment = session.simulation().moment();
+        fretting_loop.push((moment.shift, moment.tangential_force));
+    }
+    let seen = session.simulation().observe(Curves::PROFILE);
+    let scar = seen.radii.iter().copied().zip(seen.wear).collect();
+    [("r_m,wear_m", scar), ("u_m,F_N", fretting_loop)]
+}
+
+/// The tables with noise of `share` of their largest value.
+fn with_noise(
+    exact: &[(&'static str, Vec<(f64, f64)>); 2],
+    share: f64,
+    noise: &mut Noise,
+) -> [String; 2] {
+    exact.each_ref().map(|(head, rows)| {
+        let largest = rows.iter().map(|row| row.1.abs()).fold(0.0, f64::max);
+        let mut text = format!("{head}\n");
+        for (at, value) in rows {
+            let _ = writeln!(
+                text,
+                "{at:e},{:e}",
+                value + share * largest * noise.normal()
+            );
+        }
+        text
+    })
+}
+
+fn fitted(texts: &[String; 2], robust: bool) -> Fitted {
+    let columns = |text: &str| Columns::parse(text, "data.csv").expect("columns");
+    let data = vec![
+        Measured::scar(&columns(&texts[0])).expect("a scar"),
+        Measured::fretting_loop(&columns(&texts[1])).expect("a loop"),
+    ];
+    let free = TRUE.map(|(key, _)| key.to_owned());
+    let start = scenario(3e-9, 0.1);
+    let fit = Fit::new(start, data, &free, None, robust).expect("a fit");
+    fit.run(&mut || ()).expect("a minimum")
+}
+
+/// Within twice the standard error in 95 of 100 draws, were all linear and normal.
+#[test]
+fn the_errors_of_k_and_mu_are_honest_both_ways() {
+    let (exact, mut noise) = (exact(), Noise(7));
+    let mut within = [0; 2];
+    for _ in 0..100 {
+        let fitted = fitted(&with_noise(&exact, 0.02, &mut noise), false);
+        for (i, (key, expected)) in TRUE.into_iter().enumerate() {
+            let value = &fitted.values[i];
+            assert_eq!(value.key, key);
+            let error = value.stderr.expect("an error");
+            within[i] += i32::from((value.value - expected).abs() < 2.0 * error);
+            // 2 % of noise and some 50 points: errors near 1 %, neither 0 nor useless.
+            assert!(
+                (1e-4..0.05).contains(&(error / expected)),
+                "{key}: {error:e}"
+            );
+        }
+        assert!(fitted.remarks.is_empty(), "{:?}", fitted.remarks);
+    }
+    eprintln!("within two standard errors: {within:?} of 100");
+    assert!(
+        within.iter().all(|count| (80..=99).contains(count)),
+        "{within:?}"
+    );
+}
+
+/// One value in five is far off: least squares follow, the robust loss does not.
+#[test]
+fn outliers_weigh_less_with_the_robust_loss() {
+    let exact = exact();
+    let mut texts = with_noise(&exact, 0.005, &mut Noise(3));
+    for text in &mut texts {
+        let lines: Vec<String> = text
+            .lines()
+            .enumerate()
+            .map(|(i, line)| match line.split_once(',') {
+                Some((at, value)) if i % 5 == 1 => {
+                    let value: f64 = value.parse().expect("a number");
+                    format!("{at},{:e}", 3.0 * value)
+                }
+                _ => line.to_owned(),
+            })
+            .collect();
+        *text = lines.join("\n");
+    }
+    let error = |robust| (fitted(&texts, robust).values[0].value / TRUE[0].1 - 1.0).abs();
+    let (plain, robust) = (error(false), error(true));
+    eprintln!("wear: {plain:.2e} by squares, {robust:.2e} robust");
+    assert!(robust < 0.05 && plain > 3.0 * robust, "{plain} {robust}");
+}
+
+#[test]
+fn what_data_do_not_determine_is_said() {
+    let exact = exact();
+    let texts = with_noise(&exact, 0.01, &mut Noise(5));
+    let scar = Columns::parse(&texts[0], "scar.csv").expect("columns");
+    let scar = || vec![Measured::scar(&scar).expect("a scar")];
+    // Archard's law does not use the exponent.
+    let with_power = scenario(2e-9, 0.12)
+        .with("wear.stress_exponent", "1.5")
+        .expect("a key");
+    let free = ["wear.coefficient", "wear.stress_exponent"].map(str::to_owned);
+    let fit = Fit::new(with_power, scar(), &free, None, false).expect("a fit");
+    let fitted = fit.run(&mut || ()).expect("a minimum");
+    assert_eq!(fitted.values[1].stderr, None);
+    assert!(
+        fitted
+            .remarks
+            .iter()
+            .any(|r| r == "the data do not determine wear.stress_exponent"),
+        "{:?}",
+        fitted.remarks
+    );
+    for (free, expected) in [
+        (vec!["wear.coeficient"], "did you mean wear.coefficient?"),
+        (vec!["wear.law"], "wear.law is no number that can be fitted"),
+        (
+            vec!["wear.coefficient", "wear.coefficient"],
+            "is named twice",
+        ),
+        (vec!["wear.reference_stress"], "has no value to start from"),
+        (vec!["numerics.points"], "is no number that can be fitted"),
+        (vec!["run.cycles"], "is no property of the contact"),
+        (vec![], "needs a key to fit"),
+    ] {
+        let free: Vec<String> = free.into_iter().map(str::to_owned).collect();
+        let refused: FitError =
+            Fit::new(scenario(3e-9, 0.1), scar(), &free, None, false).expect_err("refused");
+        assert!(refused.to_string().contains(expected), "{refused}");
+    }
+}
+
+#[test]
+fn the_command_prints_json_and_writes_the_fitted_scenario() {
+    let dir = TestDir::new();
+    let [scar, fretting_loop] = with_noise(&exact(), 0.01, &mut Noise(11));
+    dir.write("start.toml", scenario(3e-9, 0.1).to_toml().as_bytes());
+    dir.write("scar.csv", scar.as_bytes());
+    dir.write("loop.csv", fretting_loop.as_bytes());
+    let keys = "--free wear.coefficient,friction.coefficient --quiet";
+    let line =
+        format!("fit start.toml --scar scar.csv --loop loop.csv {keys} --json --out fitted.toml");
+    let told: serde_json::Value = serde_json::from_str(&dir.done(&line)).expect("JSON");
+    for (key, expected) in TRUE {
+        let value = told[key]["value"].as_f64().expect("a value");
+        let error = told[key]["stderr"].as_f64().expect("an error");
+        assert!(
+            (value / expected - 1.0).abs() < 0.05 && error > 0.0,
+            "{told}"
+        );
+        let path = dir.path("fitted.toml").display().to_string();
+        let fitted = Scenario::load(&path, &[]).expect("the fitted scenario");
+        let written: f64 = fitted
+            .value(key)
+            .expect("a value")
+            .parse()
+            .expect("a number");
+        assert_eq!(written, value);
+    }
+    let again = dir.say(&line.split_whitespace().collect::<Vec<_>>());
+    assert!(
+        again.code == 2 && again.err.contains("exists already"),
+        "{}",
+        again.err
+    );
+    let text = dir.done(&format!(
+        "fit start.toml --scar scar.csv {keys} --plot --marker ascii"
+    ));
+    for word in [
+        "wear.coefficient",
+        "±",
+        "correlation",
+        "scar.csv: 17 points",
+        "scar.csv: residual",
+    ] {
+        assert!(text.contains(word), "{word} is not in\n{text}");
+    }
+    dir.write(
+        "open.csv",
+        b"u_m,F_N\n0,0\n1e-8,1\n2e-8,2\n3e-8,3\n4e-8,4\n5e-8,5\n6e-8,6\n7e-8,7\n8e-8,8\n",
+    );
+    dir.write("mm.csv", b"r_m,f_m\n0,0\n0.05,1e-4\n0.1,5e-4\n");
+    for (line, expected) in [
+        ("fit start.toml --free wear.coefficient", "--scar"),
+        (
+            "fit start.toml --scar none.csv --free wear.coefficient",
+            "none.csv: no such file",
+        ),
+        (
+            "fit start.toml --loop open.csv --free wear.coefficient",
+            "the loop does not close",
+        ),
+        (
+            "fit start.toml --scar mm.csv --free wear.coefficient",
+            "are they in m?",
+        ),
+    ] {
+        let said = dir.say(&line.split_whitespace().collect::<Vec<_>>());
+        assert_eq!(
+            (said.code, said.err.lines().count()),
+            (2, 1),
+            "{line}: {}",
+            said.err
+        );
+        assert!(
+            said.err.contains(expected),
+            "{} without {expected}",
+            said.err
+        );
+    }
+}

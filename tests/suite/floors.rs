@@ -1,0 +1,311 @@
+//! The house stands upright: a floor imports only from the floors below it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A floor's height; none for what is not a floor. `cli` stands on `tui`, `oracle` beside them all.
+fn height(floor: &str) -> Option<u8> {
+    Some(match floor {
+        "math" | "guide" => 0,
+        "contact" => 1,
+        "wear" => 2,
+        "simulation" => 3,
+        "scenario" => 4,
+        "studies" | "export" | "plot" => 5,
+        "figure" => 6,
+        "tui" => 7,
+        "cli" => 8,
+        _ => return None,
+    })
+}
+
+/// What is wrong with the imports of one file of `floor`, one line each.
+fn faults(floor: &str, text: &str) -> Vec<String> {
+    let code = without_tests(&without_words(text));
+    let mut faults: Vec<String> = imports(&code)
+        .into_iter()
+        .filter(|target| !may_import(floor, target))
+        .map(|target| format!("{floor} imports {target}"))
+        .collect();
+    if floor == "oracle" {
+        faults.extend(foreign_to_the_judge(&code));
+    }
+    // What is above the simulation sees observations of it.
+    if height(floor) > height("simulation") && code.contains(".state()") {
+        faults.push(format!("{floor} looks into the state of a simulation"));
+    }
+    faults
+}
+
+fn may_import(floor: &str, target: &str) -> bool {
+    if floor == target {
+        return true;
+    }
+    match (height(floor), height(target)) {
+        (Some(from), Some(to)) => to < from,
+        // The judge serves the studies and the screens, never the judged.
+        (Some(from), None) => {
+            let judged = target == "oracle" && from >= 5 && floor != "export" && floor != "plot";
+            // What the process does when it fails: below every floor.
+            judged || ["failpoint", "panics"].contains(&target)
+        }
+        _ => false,
+    }
+}
+
+/// The first names after every `crate::`, groups in braces taken apart.
+fn imports(code: &str) -> Vec<String> {
+    let mut names = Vec::new();
+    for (at, _) in code.match_indices("crate::") {
+        let rest = code[at + "crate::".len()..].trim_start();
+        if let Some(group) = rest.strip_prefix('{') {
+            names.extend(heads(group));
+        } else {
+            names.push(head(rest));
+        }
+    }
+    names
+}
+
+/// The first name of each member of a group, whose opening brace is already gone.
+fn heads(group: &str) -> Vec<String> {
+    let (mut depth, mut names, mut fresh) = (1, Vec::new(), true);
+    for (at, sign) in group.char_indices() {
+        match sign {
+            '{' => depth += 1,
+            '}' => depth -= 1,
+            ',' if depth == 1 => fresh = true,
+            _ if fresh && !sign.is_whitespace() => {
+                names.push(head(&group[at..]));
+                fresh = false;
+            }
+            _ => {}
+        }
+        if depth == 0 {
+            break;
+        }
+    }
+    names
+}
+
+fn head(path: &str) -> String {
+    path.chars()
+        .take_while(|sign| sign.is_alphanumeric() || *sign == '_')
+        .collect()
+}
+
+/// Imports of the oracle that leave its folder for anything but `std`.
+fn foreign_to_the_judge(code: &str) -> Vec<String> {
+    let mut faults: Vec<String> = code
+        .lines()
+        .filter_map(|line| {
+            let line = line.trim_start();
+            line.strip_prefix("use ")
+                .or_else(|| line.strip_prefix("pub use "))
+        })
+        .map(head)
+        // A capital is a type of the file itself; `crate` is judged with the floors.
+        .filter(|name| !name.starts_with(char::is_uppercase))
+        .filter(|name| !["std", "super", "self", "crate"].contains(&name.as_str()))
+        .map(|name| format!("oracle imports {name}"))
+        .collect();
+    if code.contains("super::super::") {
+        faults.push("oracle looks out of its folder".into());
+    }
+    faults
+}
+
+/// The text with comments, strings and characters blanked, so that braces and paths are code.
+fn without_words(text: &str) -> String {
+    let signs: Vec<char> = text.chars().collect();
+    let starts = |at: usize, word: &str| {
+        word.chars()
+            .enumerate()
+            .all(|(i, sign)| signs.get(at + i) == Some(&sign))
+    };
+    let find = |from: usize, word: &str| {
+        (from..signs.len())
+            .find(|&at| starts(at, word))
+            .map_or(signs.len(), |at| at + word.chars().count())
+    };
+    let (mut code, mut at) = (String::new(), 0);
+    while at < signs.len() {
+        let named = at > 0 && (signs[at - 1].is_alphanumeric() || signs[at - 1] == '_');
+        let end = if starts(at, "//") {
+            // The line's end stays.
+            find(at, "\n").saturating_sub(1)
+        } else if starts(at, "/*") {
+            find(at, "*/")
+        } else if !named && (starts(at, "r\"") || starts(at, "r#")) {
+            let hashes = signs[at + 1..].iter().take_while(|s| **s == '#').count();
+            if signs.get(at + 1 + hashes) == Some(&'"') {
+                find(at + hashes + 2, &format!("\"{}", "#".repeat(hashes)))
+            } else {
+                at
+            }
+        } else if signs[at] == '"' {
+            let mut end = at + 1;
+            while end < signs.len() && signs[end] != '"' {
+                end += if signs[end] == '\\' { 2 } else { 1 };
+            }
+            end + 1
+        } else if starts(at, "'\\") {
+            find(at + 3, "'")
+        } else if signs[at] == '\'' && signs.get(at + 2) == Some(&'\'') {
+            at + 3
+        } else {
+            at
+        };
+        if end > at {
+            code.push(' ');
+            at = end.min(signs.len());
+        } else {
+            code.push(signs[at]);
+            at += 1;
+        }
+    }
+    code
+}
+
+/// The code without what stands under `#[cfg(test)]`, to its closing brace or semicolon.
+fn without_tests(code: &str) -> String {
+    const MARK: &str = "#[cfg(test)]";
+    let mut kept = String::new();
+    let mut rest = code;
+    while let Some(at) = rest.find(MARK) {
+        kept.push_str(&rest[..at]);
+        let item = &rest[at + MARK.len()..];
+        let (mut depth, mut end) = (0, item.len());
+        for (i, sign) in item.char_indices() {
+            depth += i32::from(sign == '{') - i32::from(sign == '}');
+            if depth == 0 && (sign == '}' || sign == ';') {
+                end = i + 1;
+                break;
+            }
+        }
+        rest = &item[end..];
+    }
+    kept + rest
+}
+
+/// The floor that a path below `src` belongs to; none for the entries and the module map.
+fn floor_of(path: &Path) -> Option<String> {
+    let first = path.components().next()?.as_os_str().to_str()?;
+    let name = first.strip_suffix(".rs").unwrap_or(first);
+    (!["lib", "main", "failpoint", "panics"].contains(&name)).then(|| name.to_owned())
+}
+
+/// Files that hold nothing but tests, by their name.
+fn is_test_file(path: &Path) -> bool {
+    let stem = path.file_stem().and_then(|stem| stem.to_str());
+    stem.is_some_and(|stem| stem == "tests" || stem.ends_with("_tests"))
+}
+
+fn sources(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder).expect("a folder of sources") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            files.extend(sources(&path));
+        } else if path.extension().is_some_and(|ending| ending == "rs") {
+            files.push(path);
+        }
+    }
+    files
+}
+
+#[test]
+fn every_import_points_downwards() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let (mut seen, mut wrong) = (0, Vec::new());
+    for file in sources(&root) {
+        let path = file.strip_prefix(&root).expect("a path below src");
+        let Some(floor) = floor_of(path) else {
+            continue;
+        };
+        if is_test_file(path) {
+            continue;
+        }
+        assert!(
+            height(&floor).is_some() || floor == "oracle",
+            "{} stands on no known floor",
+            path.display()
+        );
+        let text = fs::read_to_string(&file).expect("a source");
+        let found = faults(&floor, &text);
+        wrong.extend(
+            found
+                .into_iter()
+                .map(|f| format!("{}: {f}", path.display())),
+        );
+        seen += 1;
+    }
+    assert!(seen > 30, "only {seen} files were read");
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn the_checker_catches_what_it_must() {
+    let caught = [
+        ("math", "use crate::contact::normal;"),
+        ("simulation", "use crate::scenario::Scenario;"),
+        ("wear", "use crate::{math::grid, simulation::State};"),
+        (
+            "contact",
+            "use crate::{\n    math::{root, grid},\n    wear::WearLaw,\n};",
+        ),
+        ("contact", "fn f() { crate::wear::law() }"),
+        (
+            "math",
+            "fn f(c: char) -> bool { c == '{' || c == '\"' }\nuse crate::wear::WearLaw;",
+        ),
+        (
+            "math",
+            "#[cfg(test)]\nmod tests { fn t() { \"}\"; } }\nuse crate::wear::WearLaw;",
+        ),
+        ("tui", "use crate::cli::args;"),
+        ("export", "use crate::studies::table;"),
+        ("simulation", "use crate::oracle::limiting_profile;"),
+        ("export", "use crate::oracle::special;"),
+        ("oracle", "use crate::math::grid::RadialGrid;"),
+        ("oracle", "use nalgebra::DMatrix;"),
+        ("oracle", "use super::super::wear::WearLaw;"),
+        ("scenario", "use crate::somewhere::Thing;"),
+        ("export", "fn f(s: &Simulation) { s.state(); }"),
+    ];
+    for (floor, text) in caught {
+        assert_eq!(faults(floor, text).len(), 1, "{floor}: {text}");
+    }
+}
+
+#[test]
+fn the_checker_lets_pass_what_is_right() {
+    let right = [
+        (
+            "simulation",
+            "use crate::math::abel::AbelPlan;\nuse crate::wear::WearLaw;",
+        ),
+        ("cli", "use crate::{export::state, tui, scenario};"),
+        ("studies", "use crate::oracle::limiting_profile;"),
+        ("tui", "use crate::oracle::limiting_profile;"),
+        (
+            "oracle",
+            "use super::special::kappa;\nuse std::f64::consts::PI;",
+        ),
+        (
+            "math",
+            "//! See [`crate::simulation`].\nconst S: &str = \"crate::cli::x\";",
+        ),
+        (
+            "math",
+            "#[cfg(test)]\nmod tests {\n    use crate::oracle::special::kappa;\n}",
+        ),
+        (
+            "contact",
+            "/* crate::tui::x */ fn f<'a>(x: &'a str) -> &'a str { x }",
+        ),
+    ];
+    for (floor, text) in right {
+        assert_eq!(faults(floor, text), Vec::<String>::new(), "{floor}: {text}");
+    }
+}

@@ -1,0 +1,194 @@
+//! The guide and the README hold: their commands parse, their scenarios load, their examples run,
+//! and what they list is what the program knows.
+//!
+//! `UPDATE_DOCS=1 cargo test guide::` writes the lists anew, to be read before they are kept.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use mdr_tui::guide::TOPICS;
+use mdr_tui::scenario::Scenario;
+use mdr_tui::scenario::keys::PARAMETERS;
+use mdr_tui::scenario::schema::{Default, Kind, Parameter};
+use mdr_tui::tui::manual;
+
+use crate::test_dir::TestDir;
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The README and all topics, with their names.
+fn texts() -> Vec<(String, String)> {
+    let readme = fs::read_to_string(root().join("README.md")).expect("the README");
+    let topics = TOPICS
+        .iter()
+        .map(|topic| (format!("guide {}", topic.name), topic.text.to_owned()));
+    topics.chain([("README.md".to_owned(), readme)]).collect()
+}
+
+/// The code blocks of a text with this word after the fence.
+fn blocks<'a>(text: &'a str, word: &str) -> Vec<&'a str> {
+    let mut found = Vec::new();
+    let mut rest = text;
+    while let Some((_, after)) = rest.split_once("```") {
+        let (info, body) = after.split_once('\n').expect("a fence has a line");
+        let (body, after) = body.split_once("```").expect("a block ends");
+        if info == word {
+            found.push(body);
+        }
+        rest = after;
+    }
+    found
+}
+
+/// The program's own commands in a block of shell, without comments.
+fn commands(block: &str) -> impl Iterator<Item = Vec<&str>> {
+    block
+        .lines()
+        .map(|line| line.split(" #").next().unwrap_or_default())
+        .map(|line| line.split(" > ").next().unwrap_or_default())
+        .filter_map(|line| line.trim().strip_prefix("mdr-tui"))
+        .map(|line| line.split_whitespace().collect())
+}
+
+#[test]
+fn every_command_that_is_shown_is_one() {
+    let dir = TestDir::new();
+    for (name, text) in texts() {
+        for block in ["sh", "sh run"].iter().flat_map(|word| blocks(&text, word)) {
+            for mut command in commands(block) {
+                // Arguments are judged before the help is shown.
+                command.push("--help");
+                let said = dir.say(&command);
+                assert_eq!(said.code, 0, "{name}: {command:?}: {}", said.err);
+            }
+        }
+    }
+}
+
+#[test]
+fn every_scenario_that_is_shown_loads() {
+    for (name, text) in texts() {
+        for block in blocks(&text, "toml") {
+            if let Err(error) = Scenario::from_toml(block, &name, &[]) {
+                panic!("{error}");
+            }
+        }
+    }
+}
+
+#[test]
+fn examples_that_can_run_do() {
+    for (name, text) in texts() {
+        let dir = TestDir::new();
+        for block in blocks(&text, "sh run") {
+            for command in commands(block) {
+                let said = dir.say(&command);
+                assert_eq!(said.code, 0, "{name}: {command:?}: {}", said.err);
+            }
+        }
+    }
+}
+
+#[test]
+fn topics_are_listed_shown_and_found() {
+    let dir = TestDir::new();
+    let list = dir.say(&["guide"]).out;
+    for topic in TOPICS {
+        assert!(
+            list.contains(&format!("  {} ", topic.name)),
+            "{}",
+            topic.name
+        );
+        assert_eq!(dir.say(&["guide", topic.name]).out, topic.text);
+        let file = format!("src/guide/{}.md", topic.name);
+        assert!(root().join(file).exists());
+    }
+    let said = dir.say(&["guide", "fils"]);
+    assert_eq!(said.code, 2);
+    assert!(
+        said.err.ends_with("no such topic; did you mean files?\n"),
+        "{}",
+        said.err
+    );
+}
+
+/// What stands in a file between two marks, which must be `wanted`.
+fn hold(file: &Path, mark: &str, wanted: &str) {
+    let text = fs::read_to_string(file).expect("a text");
+    let (start, end) = (format!("<!-- {mark} -->\n"), format!("<!-- /{mark} -->"));
+    let (before, rest) = text.split_once(&start).expect("the first mark");
+    let (found, after) = rest.split_once(&end).expect("the second mark");
+    if found == wanted {
+        return;
+    }
+    if std::env::var_os("UPDATE_DOCS").is_some() {
+        let updated = format!("{before}{start}{wanted}{end}{after}");
+        return fs::write(file, updated).expect("a text");
+    }
+    panic!(
+        "{} has\n{found}\nbut it is\n{wanted}\nUPDATE_DOCS=1 cargo test guide:: writes it",
+        file.display()
+    );
+}
+
+#[test]
+fn the_keys_of_the_explorer_are_those_of_its_table() {
+    let keys = format!("{}\n", manual::markdown().trim_end());
+    hold(&root().join("src/guide/explorer.md"), "keys", &keys);
+}
+
+#[test]
+fn the_default_configuration_is_shown_as_it_is() {
+    let config = fs::read_to_string(root().join("src/cli/config.toml")).expect("a file");
+    hold(
+        &root().join("src/guide/configuration.md"),
+        "config",
+        &format!("```text\n{config}```\n"),
+    );
+}
+
+#[test]
+fn the_keys_of_a_scenario_are_those_of_the_schema() {
+    let mut text = String::new();
+    let mut section = None;
+    for parameter in PARAMETERS {
+        if section != Some(parameter.section()) {
+            section = Some(parameter.section());
+            let heading = match parameter.section() {
+                "" => "General".to_owned(),
+                "changes" => "`[[changes]]`, recorded during a run".to_owned(),
+                section => format!("`[{section}]`"),
+            };
+            text += &format!("\n### {heading}\n\n| key | meaning | default |\n|---|---|---|\n");
+        }
+        text += &row(parameter);
+    }
+    text += "\n";
+    hold(&root().join("src/guide/scenarios.md"), "schema", &text);
+}
+
+fn row(parameter: &Parameter) -> String {
+    let mut meaning = parameter.meaning.to_owned();
+    match parameter.kind {
+        Kind::Choice(words) => {
+            let words: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
+            meaning += &format!(": {}", words.join(", "));
+        }
+        _ => {
+            let range = parameter.range.to_string();
+            for (before, part) in [(", ", parameter.unit), ("; ", range.as_str())] {
+                if !part.is_empty() {
+                    meaning += &format!("{before}{part}");
+                }
+            }
+        }
+    }
+    let default = match parameter.default {
+        Default::None => String::new(),
+        Default::Written(value) | Default::Implied(value) => format!("`{value}`"),
+        Default::Derived(words) => words.to_owned(),
+    };
+    format!("| `{}` | {meaning} | {default} |\n", parameter.key())
+}

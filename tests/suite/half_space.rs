@@ -1,0 +1,245 @@
+//! Stresses inside the half-space against closed forms and point forces, on loads as runs produce them.
+
+use std::f64::consts::PI;
+
+use crate::common::{Scene, holds, ours, run_setup, swing};
+use crate::test_dir::{Table, TestDir};
+use mdr_tui::contact::indenter::Indenter;
+use mdr_tui::contact::subsurface::{SpringLoad, Stress};
+use mdr_tui::oracle::half_space::{
+    DEPTH_OF_LARGEST, LARGEST_VON_MISES, by_point_forces, hertz_on_axis, hertz_outside,
+    sliding_at_trailing_edge, sliding_inside,
+};
+use mdr_tui::simulation::{Curves, Simulation};
+
+/// p₀ of the default scene: E* = R = d = 1 and a = 1.
+const P0: f64 = 2.0 / PI;
+
+fn load_of(simulation: &Simulation) -> SpringLoad {
+    simulation
+        .observe(Curves::SPRINGS)
+        .spring_load(simulation.setup().material.poisson())
+}
+
+/// The Hertz contact of a run with the default numerics on 100 cells.
+fn hertz(poisson: f64) -> SpringLoad {
+    let scene = Scene {
+        poisson,
+        tangential: None,
+        ..Scene::default()
+    };
+    load_of(&run_setup(ours(scene), 0.25))
+}
+
+/// The same contact, slipping as a whole towards +x: u_x is at its largest.
+fn sliding(poisson: f64) -> SpringLoad {
+    let scene = Scene {
+        poisson,
+        tangential: Some(swing(0.0, 10.0, 1.0, 0.0)),
+        ..Scene::default()
+    };
+    load_of(&run_setup(ours(scene), 0.25))
+}
+
+#[test]
+fn hertz_on_the_axis() {
+    for poisson in [0.0, 0.3, 0.5] {
+        let load = hertz(poisson);
+        let mut worst: f64 = 0.0;
+        for k in 0..=60 {
+            let z = f64::from(k) * 0.05;
+            let seen = load.stress(0.0, z);
+            let [radial, axial] = hertz_on_axis(z, poisson);
+            for (seen, exact) in [(seen.xx, radial), (seen.yy, radial), (seen.zz, axial)] {
+                worst = worst.max((seen / P0 - exact).abs());
+            }
+            assert_eq!(seen.xz, 0.0);
+        }
+        holds("Hertz on the axis", worst, 1e-3);
+    }
+}
+
+#[test]
+fn the_largest_von_mises_stress_is_below_the_surface() {
+    let load = hertz(0.3);
+    let at = |k: u32| {
+        (
+            f64::from(k) * 1e-3,
+            load.stress(0.0, f64::from(k) * 1e-3).von_mises() / P0,
+        )
+    };
+    let (depth, largest) = (0..1500)
+        .map(at)
+        .max_by(|a, b| a.1.total_cmp(&b.1))
+        .expect("points");
+    holds(
+        "largest von Mises stress",
+        (largest - LARGEST_VON_MISES).abs(),
+        1e-3,
+    );
+    holds("its depth", (depth - DEPTH_OF_LARGEST).abs(), 2e-3);
+    let found = load.largest(Stress::von_mises);
+    holds("found", (found.value / P0 - largest).abs(), 1e-5);
+    holds("its place", (found.z - depth).hypot(found.x), 5e-3);
+    // Nowhere off the axis is it larger.
+    for x in [0.1, 0.4, 0.8, 1.0, 1.2] {
+        for k in 0..30 {
+            assert!(load.stress(x, f64::from(k) * 0.05).von_mises() / P0 < LARGEST_VON_MISES);
+        }
+    }
+}
+
+#[test]
+fn the_surface_outside_is_in_pure_shear() {
+    for poisson in [0.0, 0.3, 0.5] {
+        let load = hertz(poisson);
+        for r in [1.01, 1.2, 1.5, 3.0] {
+            let seen = load.stress(-r, 0.0);
+            let exact = hertz_outside(r, poisson);
+            holds("σ_r", (seen.xx / P0 - exact).abs(), 1e-3);
+            holds("σ_θ", (seen.yy / P0 + exact).abs(), 1e-3);
+            holds("σ_z", seen.zz.abs() / P0, 1e-6);
+        }
+    }
+}
+
+/// What the traction adds: everything but σ_xz changes sign from +x to −x, and p does not.
+fn of_traction(load: &SpringLoad, x: f64) -> f64 {
+    let [right, left] = load.mirrored(x.abs(), 0.0);
+    x.signum() * (right.xx - left.xx) / (2.0 * 0.1 * P0)
+}
+
+#[test]
+fn a_sliding_contact_tears_at_its_trailing_edge() {
+    for poisson in [0.0, 0.3, 0.5] {
+        let load = sliding(poisson);
+        for x in [-0.95, -0.5, -0.1, 0.3, 0.8] {
+            let error = of_traction(&load, x) - sliding_inside(x, poisson);
+            holds(
+                "σ_xx inside",
+                error.abs(),
+                1e-3 * sliding_at_trailing_edge(poisson),
+            );
+        }
+        let edge = of_traction(&load, -load.contact_radius());
+        let exact = sliding_at_trailing_edge(poisson);
+        holds("σ_xx at the edge", (edge / exact - 1.0).abs(), 1e-3);
+        // The largest tension is there, on the surface.
+        let torn = load.largest(Stress::max_principal);
+        assert!((torn.x + 1.0).abs() < 0.01 && torn.z < 0.01, "{torn:?}");
+    }
+}
+
+#[test]
+fn every_component_is_that_of_the_point_forces() {
+    let load = sliding(0.3);
+    let hertz = |r: f64| P0 * (1.0 - r * r).sqrt();
+    for at in [
+        [0.3, 0.4],
+        [-0.7, 0.25],
+        [1.1, 0.5],
+        [0.0, 1.0],
+        [-1.4, 1.5],
+    ] {
+        let exact = by_point_forces(at, 0.3, hertz, |r| 0.1 * hertz(r), 60);
+        let Stress { xx, yy, zz, xz } = load.stress(at[0], at[1]);
+        for (name, seen, exact) in [
+            ("xx", xx, exact[0]),
+            ("yy", yy, exact[1]),
+            ("zz", zz, exact[2]),
+            ("xz", xz, exact[3]),
+        ] {
+            holds(name, (seen - exact).abs() / P0, 1e-3);
+        }
+    }
+}
+
+#[test]
+fn partial_slip_and_worn_contacts_carry_their_own_tractions_into_the_half_space() {
+    let scene = Scene {
+        law: crate::common::archard(0.3),
+        ..Scene::default()
+    };
+    let simulation = run_setup(ours(scene), 10.25);
+    let seen = simulation.observe(Curves::all());
+    let load = seen.spring_load(0.3);
+    let a = seen.moment.contact_radius;
+    // On the surface the stresses are the tractions that the run computed by other means.
+    for (j, &r) in seen.radii.iter().enumerate() {
+        if (0.05..0.95).contains(&(r / a)) {
+            let below = load.stress(r, 0.0);
+            let peak = seen.pressure[0];
+            holds(
+                "−σ_zz = p",
+                (below.zz + seen.pressure[j]).abs() / peak,
+                2e-2,
+            );
+            holds(
+                "−σ_xz = τ",
+                (below.xz + seen.shear[j]).abs() / (0.1 * peak),
+                2e-2,
+            );
+        }
+    }
+}
+
+#[test]
+fn a_flat_punch_ends_with_a_jump() {
+    let scene = Scene {
+        indenter: Indenter::flat_punch(1.0).expect("a punch"),
+        tangential: None,
+        domain: 1.0,
+        ..Scene::default()
+    };
+    let load = load_of(&run_setup(scene.into(), 0.25));
+    for z in [0.2, 0.5, 1.0, 2.0] {
+        // Sneddon: on the axis σ_z = −(E*d/πa)(1 + 3z²)/(1 + z²)².
+        let exact = -(1.0 + 3.0 * z * z) / (PI * (1.0 + z * z) * (1.0 + z * z));
+        holds("punch", (load.stress(0.0, z).zz - exact).abs(), 1e-3);
+    }
+}
+
+#[test]
+fn nothing_in_contact_stresses_nothing() {
+    let load = SpringLoad::new(&[0.0, 1.0, 2.0], &[0.0; 3], &[0.0; 3], 0.0, 0.3);
+    assert_eq!(load.stress(0.3, 0.2), Stress::default());
+}
+
+#[test]
+fn a_run_writes_the_field_on_the_plane_of_motion() {
+    let dir = TestDir::new();
+    let said = dir.say(&[
+        "run", "mindlin", "--cycles", "0.25", "--field", "--out", "x", "--quiet",
+    ]);
+    assert_eq!(said.code, 0, "{}", said.err);
+    let read = |name: &str| Table::parse(&dir.read(name));
+    let (field, state) = (read("x/field.csv"), read("x/state.csv"));
+    assert_eq!(field.columns, mdr_tui::export::field::COLUMNS);
+    let (x, z) = (field.column("x_m"), field.column("z_m"));
+    assert_eq!(x.len(), 201 * 101);
+    let history = read("x/history.csv");
+    let a = history
+        .column("contact_radius_m")
+        .last()
+        .copied()
+        .expect("a");
+    for (end, exact) in [
+        (x[0], -1.5),
+        (x[200], 1.5),
+        (z[0], 0.0),
+        (z[x.len() - 1], 1.5),
+    ] {
+        assert!((end / a - exact).abs() < 1e-12, "{end} {exact}");
+    }
+    // Under the middle of the contact the half-space bears p(0).
+    let (p, zz) = (state.column("p_Pa")[0], field.column("sigma_zz_Pa")[100]);
+    holds("−σ_zz = p", (zz / p + 1.0).abs(), 1e-3);
+    // Partial slip: the half-space is torn behind the contact, pressed together before it.
+    let xx = field.column("sigma_xx_Pa");
+    let at = |place: f64| (place * a / (1.5 * a / 100.0)).round() as i32 + 100;
+    assert!(xx[at(-1.0) as usize] > 0.0 && xx[at(1.0) as usize] < 0.0);
+    let plain = dir.say(&[
+        "run", "mindlin", "--cycles", "0.25", "--out", "y", "--quiet",
+    ]);
+    assert!(plain.code == 0 && !dir.path("y/field.csv").exists());
+}

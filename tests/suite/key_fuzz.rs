@@ -1,0 +1,217 @@
+//! Random keys, pastes and resizes on every preset and size: nothing panics, nothing hangs.
+//!
+//! `MDR_TUI_FUZZ_SECONDS` sets how long it goes on, `MDR_TUI_FUZZ_SEED` where it begins: a session that
+//! fails tells its own seed, and is the first one that this seed begins with.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+use mdr_tui::scenario::preset;
+
+use crate::test_dir::{TestDir, end};
+
+/// A generator that needs no crate: splitmix64.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    fn below(&mut self, end: usize) -> usize {
+        (self.next() % end as u64) as usize
+    }
+
+    fn one_of<'a>(&mut self, choices: &[&'a str]) -> &'a str {
+        choices[self.below(choices.len())]
+    }
+}
+
+/// Keys of the table, those of lists and lines, and some that mean nothing.
+const KEYS: &[&str] = &[
+    "<Space>",
+    ".",
+    ".",
+    ".",
+    "m",
+    "M",
+    "w",
+    "W",
+    "+",
+    "-",
+    "=",
+    "<Tab>",
+    "<S-Tab>",
+    "z",
+    "z",
+    "s",
+    "v",
+    "p",
+    "e",
+    "c",
+    "c",
+    "[",
+    "]",
+    "[",
+    "]",
+    "r",
+    "L",
+    "t",
+    "T",
+    "x",
+    "b",
+    "B",
+    "h",
+    "j",
+    "k",
+    "l",
+    "<Left>",
+    "<Right>",
+    "<Up>",
+    "<Down>",
+    "<Enter>",
+    "<Enter>",
+    "<Esc>",
+    "<Esc>",
+    "<Esc>",
+    "?",
+    "/",
+    ":",
+    "S",
+    "<Home>",
+    "<End>",
+    "<PageUp>",
+    "<PageDown>",
+    "<Delete>",
+    "<Backspace>",
+    "<C-u>",
+    "<C-w>",
+    "<C-n>",
+    "<C-p>",
+    "1",
+    "5",
+    "0",
+    "é",
+    "∂",
+    "~",
+    "<C-l>",
+];
+
+/// What takes longer, or is typed as a whole.
+const RARE: &[&str] = &[
+    ",",
+    ",,",
+    "a",
+    "<lt>",
+    ">",
+    "<Esc>:set numerics.method=a<Enter>",
+    "<Esc>:set numerics.points=33<Enter>",
+    "<Esc>:set wear.coefficient=0<Enter>",
+    "<Esc>:set motion.tangential.amplitude=0<Enter>",
+    "<Esc>:set friction.coefficient=1e9<Enter>",
+    "<Esc>:set motion.normal.mean=-1<Enter>",
+    "<Esc>:load cone<Enter>",
+    "<Esc>:load flat-punch<Enter>",
+    "<paste:numerics>",
+    "<paste:set numerics.points = 12\u{2202}>",
+];
+
+fn script(random: &mut Random, keys: usize) -> String {
+    let mut script = String::new();
+    for _ in 0..keys {
+        match random.below(60) {
+            0 => {
+                let (columns, rows) = (1 + random.below(150), 1 + random.below(50));
+                script.push_str(&format!("<resize:{columns}x{rows}>"));
+            }
+            1..=2 => script.push_str(random.one_of(RARE)),
+            _ => script.push_str(random.one_of(KEYS)),
+        }
+    }
+    script
+}
+
+/// One session; how many keys it has pressed.
+fn session(dir: &TestDir, seed: u64, keys: usize) -> usize {
+    let mut random = Random(seed);
+    let preset = preset::ALL[random.below(preset::ALL.len())].name;
+    let size = match random.below(4) {
+        0 => format!("{}x{}", 1 + random.below(200), 1 + random.below(70)),
+        _ => random
+            .one_of(&["80x24", "80x24", "120x40", "40x12", "20x8", "8x3", "1x1"])
+            .to_owned(),
+    };
+    let points = format!("numerics.points={}", 4 + random.below(40));
+    let steps = format!("numerics.steps_per_cycle={}", 1 + random.below(30));
+    let script = script(&mut random, keys);
+    let mut command = dir.command(&[preset, "--print", &size, "--keys", &script]);
+    command.args(["--set", &points, "--set", &steps]);
+    let (out, err) = (
+        dir.path(&format!("{seed}.out")),
+        dir.path(&format!("{seed}.err")),
+    );
+    let file = |path| std::fs::File::create(path).expect("a file");
+    command.stdout(file(&out)).stderr(file(&err));
+    let child = command.spawn().expect("the program starts");
+    let told = format!(
+        "MDR_TUI_FUZZ_SEED={seed}\n{preset} --print {size} --set {points} --set {steps} --keys '{script}'"
+    );
+    let ended = std::panic::catch_unwind(|| end(child));
+    let code = ended.unwrap_or_else(|_| panic!("no end: {told}")).code;
+    let err = std::fs::read_to_string(err).expect("text");
+    assert!(
+        (code, err.as_str()) == (0, "") || is_refusal(code, &err),
+        "code {code}: {err}\n{told}"
+    );
+    keys
+}
+
+/// Some presets cannot start on any number of cells and steps: that is said in one line.
+fn is_refusal(code: i32, line: &str) -> bool {
+    (code == 1 || code == 2) && line.lines().count() == 1 && !line.contains("defect")
+}
+
+#[test]
+fn random_keys_break_nothing() {
+    let number = |name: &str| {
+        std::env::var(name)
+            .ok()
+            .map(|text| text.parse::<u64>().expect("a number"))
+    };
+    let seconds = number("MDR_TUI_FUZZ_SECONDS").unwrap_or(8);
+    let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
+    let first =
+        number("MDR_TUI_FUZZ_SEED").unwrap_or(now.map_or(1, |now| now.as_secs()) * 1_000_000);
+    eprintln!("MDR_TUI_FUZZ_SEED={first}");
+    let (next, keys) = (AtomicU64::new(first), AtomicU64::new(0));
+    let end = Instant::now() + Duration::from_secs(seconds);
+    std::thread::scope(|scope| {
+        let threads: Vec<_> = (0..2)
+            .map(|_| {
+                scope.spawn(|| {
+                    while Instant::now() < end {
+                        let dir = TestDir::new();
+                        let seed = next.fetch_add(1, Ordering::SeqCst);
+                        let pressed = session(&dir, seed, if seconds > 60 { 500 } else { 150 });
+                        keys.fetch_add(pressed as u64, Ordering::SeqCst);
+                    }
+                })
+            })
+            .collect();
+        for thread in threads {
+            if let Err(panic) = thread.join() {
+                std::panic::resume_unwind(panic);
+            }
+        }
+    });
+    let sessions = next.load(Ordering::SeqCst) - first;
+    eprintln!(
+        "{} keys in {sessions} sessions, seeds from {first} on",
+        keys.load(Ordering::SeqCst)
+    );
+    assert!(sessions > 0);
+}

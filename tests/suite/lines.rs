@@ -1,0 +1,242 @@
+//! Lines that are slow or stop: keys are answered first, and every end comes within a second.
+//!
+//! The line is a pseudo-terminal that is read at so many bytes a second. It holds some 16 kB that
+//! nobody has read yet, so that a program which sends what it has is soon half a minute behind.
+
+use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use mdr_tui::scenario::checkpoint;
+use mdr_tui::scenario::session::Session;
+use portable_pty::CommandBuilder;
+use serde::de::IgnoredAny;
+use tempfile::TempDir;
+use vt100::Screen;
+
+use crate::pty::{Line, Terminal, cycle, program};
+use crate::signals::SOON;
+
+fn home() -> TempDir {
+    tempfile::tempdir().expect("a directory")
+}
+
+fn at_home(home: &Path, arguments: &[&str]) -> CommandBuilder {
+    let mut command = program(arguments);
+    command.env("XDG_STATE_HOME", home);
+    command
+}
+
+fn is_under_way(screen: &Screen) -> bool {
+    cycle(screen).is_some_and(|cycle| cycle > 0.0)
+}
+
+/// The checkpoints in `home`.
+fn kept(home: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(home.join("mdr-tui"));
+    let paths = entries
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|entry| entry.path());
+    let is_one = |path: &PathBuf| path.extension().is_some_and(|end| end == "checkpoint");
+    paths.filter(is_one).collect()
+}
+
+fn session(home: &Path) -> Session {
+    let kept = kept(home);
+    assert_eq!(kept.len(), 1, "{kept:?}");
+    checkpoint::read::<IgnoredAny>(&kept[0])
+        .expect("a checkpoint")
+        .session
+}
+
+/// How long keys take to show, on a line of so many bytes a second.
+fn latencies(rate: u32, answers: bool) -> Vec<Duration> {
+    let home = home();
+    let line = Line {
+        rate: None,
+        answers,
+    };
+    let mut terminal = Terminal::start_on(line, at_home(home.path(), &[]), 80, 24);
+    terminal.wait_until("explorer under way", is_under_way);
+    terminal.slow_down(rate);
+    // Long enough to fall behind.
+    thread::sleep(Duration::from_secs(5));
+    let mut latencies = Vec::new();
+    for sign in ["paused", "running", "paused", "running"] {
+        let pressed = Instant::now();
+        terminal.press(" ");
+        terminal.wait_for(sign);
+        latencies.push(pressed.elapsed());
+        thread::sleep(Duration::from_millis(700));
+    }
+    let pressed = Instant::now();
+    terminal.press("q");
+    let (waited, status) = terminal.end_since(pressed);
+    eprintln!("{rate} B/s, answers {answers}: {latencies:.1?}, the end after {waited:.1?}");
+    assert_eq!(status.exit_code(), 0);
+    assert!(waited < SOON, "{waited:.1?}");
+    assert!(session(home.path()).simulation().cycle() > 0.0);
+    latencies
+}
+
+#[test]
+fn at_600_bytes_a_second_a_key_shows_within_two_seconds() {
+    let lines = [true, false].map(|answers| thread::spawn(move || latencies(600, answers)));
+    let [answering, mute] = lines.map(|line| line.join().expect("a line"));
+    // Whoever runs all the tests at once has a busy machine: two of four may be late.
+    let late = answering
+        .iter()
+        .filter(|&&late| late > Duration::from_secs(2));
+    assert!(late.count() <= 2, "{answering:.1?}");
+    // Where nothing tells how slow the line is, an answer is drawn whole, and the next key waits for it.
+    assert!(mute[0] < Duration::from_secs(2), "{mute:.1?}");
+    assert!(
+        mute.iter().all(|&late| late < Duration::from_secs(8)),
+        "{mute:.1?}"
+    );
+}
+
+/// An explorer whose first screen is more than a line holds that nobody reads.
+fn stalled(home: &Path, arguments: &[&str], fault: &str) -> Terminal {
+    let line = Line {
+        rate: Some(0),
+        answers: true,
+    };
+    let mut command = at_home(home, &[&["--checkpoint-every", "0.02"], arguments].concat());
+    command.env("MDR_TUI_FAULT", fault);
+    let terminal = Terminal::start_on(line, command, 400, 150);
+    let start = Instant::now();
+    while kept(home).is_empty() {
+        assert!(start.elapsed() < crate::pty::PATIENCE, "no checkpoint");
+        thread::sleep(Duration::from_millis(10));
+    }
+    thread::sleep(Duration::from_millis(100));
+    terminal
+}
+
+#[test]
+fn a_terminal_that_stops_reading_keeps_nobody_from_ending() {
+    let ways = ["TERM", "INT", "HUP", "QUIT", "USR1", "q", "\x03", "Q"];
+    for some in ways.chunks(4) {
+        let ends = some.iter().map(|&way| {
+            thread::spawn(move || {
+                let home = home();
+                let mut terminal = stalled(home.path(), &[], "");
+                let start = Instant::now();
+                match way {
+                    "q" | "Q" | "\x03" => terminal.press(way),
+                    signal => terminal.signal(signal),
+                }
+                let (waited, status) = terminal.end_since(start);
+                eprintln!("{way:?}: ended after {waited:.0?}");
+                assert!(waited < SOON, "{way:?}: {waited:.1?}");
+                assert_eq!((status.exit_code(), status.signal()), (0, None), "{way:?}");
+                assert!(terminal.has_its_modes_back(), "{way:?}: still in raw mode");
+                let kept = session(home.path());
+                assert!(kept.simulation().cycle() > 0.0);
+            })
+        });
+        for end in ends.collect::<Vec<_>>() {
+            end.join().expect("an end");
+        }
+    }
+}
+
+// The faults are there in debug builds only.
+#[cfg(debug_assertions)]
+#[test]
+fn a_step_that_takes_an_hour_keeps_no_end_waiting() {
+    let home = home();
+    let mut command = at_home(home.path(), &[]);
+    command.env("MDR_TUI_FAULT", "long step");
+    let mut terminal = Terminal::start(command, 200, 24);
+    terminal.wait_until("sixth cycle", |screen| cycle(screen) > Some(4.5));
+    thread::sleep(Duration::from_millis(300));
+    let start = Instant::now();
+    terminal.press("q");
+    let (waited, status) = terminal.end_since(start);
+    assert!(waited < SOON, "{waited:.1?}");
+    assert_eq!(status.exit_code(), 0);
+    terminal.wait_for("mdr-tui: kept at cycle ");
+    assert!(session(home.path()).simulation().cycle() > 4.0);
+}
+
+#[test]
+fn whatever_was_typed_or_pasted_ctrl_c_comes_first() {
+    let text = "set numerics.points=".repeat(50_000);
+    let marked = format!("\x1b[200~{text}\x1b[201~");
+    let unended = format!("\x1b[200~{text}");
+    let steps = ".".repeat(20_000);
+    for (what, keys) in [
+        ("text", &text),
+        ("marked", &marked),
+        ("a paste without an end", &unended),
+        ("steps", &steps),
+    ] {
+        let home = home();
+        let mut terminal = Terminal::start(at_home(home.path(), &[]), 80, 24);
+        terminal.wait_until("explorer under way", is_under_way);
+        if what != "steps" {
+            terminal.press(":");
+            terminal.wait_for("commands (");
+        }
+        terminal.press(keys);
+        // By hand, it comes a moment later.
+        thread::sleep(Duration::from_millis(50));
+        let start = Instant::now();
+        terminal.press("\x03");
+        let (waited, status) = terminal.end_since(start);
+        eprintln!("{what}: ended after {waited:.0?}");
+        assert!(waited < SOON, "{what}: {waited:.1?}");
+        assert_eq!(status.exit_code(), 0, "{what}");
+    }
+}
+
+#[test]
+fn what_is_pasted_is_typed_into_a_line_and_nowhere_else() {
+    let home = home();
+    let mut terminal = Terminal::start(at_home(home.path(), &[]), 100, 24);
+    terminal.wait_until("explorer under way", is_under_way);
+    terminal.press("\x1b[200~q\x1b[201~");
+    terminal.wait_for("pasted text goes where a line is typed");
+    terminal.press(":");
+    terminal.wait_for("commands (");
+    terminal.press("\x1b[200~set numerics.points=80\x1b[201~");
+    terminal.wait_for(":set numerics.points=80");
+    terminal.press("\r");
+    terminal.wait_for("numerics.points = 80");
+    terminal.press("q");
+    assert_eq!(terminal.wait_for_end().exit_code(), 0);
+}
+
+#[test]
+fn a_run_on_a_terminal_that_stops_reading_answers_signals() {
+    let home = home();
+    let line = Line {
+        rate: Some(0),
+        answers: true,
+    };
+    let bin = env!("CARGO_BIN_EXE_mdr-tui");
+    // What nobody reads is there already.
+    let start = format!(
+        "(yes | head -c 100000 >&2) & sleep 0.2; exec '{bin}' run li2019-fig3 --cycles 1e9 \
+         --checkpoint-every 0.02 --out '{}/x'",
+        home.path().display()
+    );
+    let mut command = at_home(home.path(), &[]);
+    *command.get_argv_mut() = ["sh", "-c", &start].map(Into::into).to_vec();
+    let mut terminal = Terminal::start_on(line, command, 80, 24);
+    let (checkpoint, start) = (home.path().join("x/run.checkpoint"), Instant::now());
+    while !checkpoint.exists() {
+        assert!(start.elapsed() < crate::pty::PATIENCE, "no checkpoint");
+        thread::sleep(Duration::from_millis(10));
+    }
+    thread::sleep(Duration::from_millis(300));
+    let start = Instant::now();
+    terminal.signal("TERM");
+    let (waited, status) = terminal.end_since(start);
+    assert!(waited < SOON, "{waited:.1?}");
+    assert_eq!(status.exit_code(), 1);
+}

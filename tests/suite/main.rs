@@ -1,0 +1,60 @@
+//! One program of tests, a module for each kind of evidence.
+//!
+//! `cargo test NAME` runs the tests whose path holds NAME, e.g. `oracles::` for the
+//! closed forms or `screens::` for the pinned screens.
+
+mod common;
+#[cfg(unix)]
+mod pty;
+mod test_dir;
+
+mod ansi_backend;
+mod attacks;
+mod cast;
+mod changes;
+mod checkpoint;
+mod cli;
+mod convergence;
+mod cycle_figures;
+mod cycle_jump;
+mod figures;
+mod fit;
+mod floors;
+mod guide;
+mod half_space;
+mod hands;
+#[cfg(target_os = "linux")]
+mod hangup;
+mod honest;
+mod hostile;
+mod key_fuzz;
+#[cfg(target_os = "linux")]
+mod lines;
+mod measured_shapes;
+#[cfg(unix)]
+mod mouse;
+mod oracles;
+mod properties;
+mod published_cases;
+mod published_methods;
+mod readme;
+mod refinement;
+#[cfg(unix)]
+mod resume;
+mod rigs;
+mod scenarios;
+mod screens;
+#[cfg(unix)]
+mod signals;
+#[cfg(unix)]
+mod small_disk;
+mod stability;
+mod sweep;
+mod targets;
+#[cfg(unix)]
+mod terminal;
+mod trade;
+mod two_at_once;
+mod verify;
+mod watchdog;
+mod waveforms;

@@ -1,0 +1,191 @@
+//! Indenters from tables: they act as the shapes they were taken from, and bad tables are refused.
+
+use std::fmt::Write;
+
+use mdr_tui::scenario::Scenario;
+use mdr_tui::scenario::session::Session;
+
+use crate::test_dir::TestDir;
+
+const BASE: &str = r#"
+title = "A measured shape"
+[indenter]
+SHAPE
+
+[material]
+effective_modulus = 2.3077e11
+poisson = 0.3
+
+[friction]
+coefficient = 0.1
+
+[motion.normal]
+mean = 1e-6
+amplitude = 1e-7
+angular_frequency = 100.0
+
+[motion.tangential]
+amplitude = 1e-7
+angular_frequency = 100.0
+phase = 0.7853981633974483
+
+[wear]
+coefficient = 1.3e-10
+"#;
+
+fn scenario(shape: &str) -> String {
+    BASE.replace("SHAPE", shape)
+}
+
+/// A table with `points` intervals from `from` to 2.5e-4 m.
+fn table(points: u32, from: f64, f: impl Fn(f64) -> f64) -> String {
+    let mut text = "r_m,f_m\n".to_owned();
+    for i in 0..=points {
+        let r = from + (2.5e-4 - from) * f64::from(i) / f64::from(points);
+        let _ = writeln!(text, "{r},{}", f(r));
+    }
+    text
+}
+
+/// F_z, F_x, a and V after two cycles.
+fn results(path: &str) -> [f64; 4] {
+    let scenario = Scenario::load(path, &[]).expect("a scenario");
+    let mut session = Session::start(scenario).expect("a contact");
+    session.advance_to(2.0).expect("two cycles");
+    let moment = session.simulation().moment();
+    [
+        moment.normal_force,
+        moment.tangential_force,
+        moment.contact_radius,
+        moment.wear_volume,
+    ]
+}
+
+/// A paraboloid and a cone are reproduced to rounding, a quartic with the order of the interpolant.
+#[test]
+fn a_table_of_a_closed_shape_gives_the_results_of_the_shape() {
+    let dir = TestDir::new();
+    dir.write(
+        "table.toml",
+        scenario("shape = \"table\"\nfile = \"shape.csv\"").as_bytes(),
+    );
+    let table_path = dir.path("table.toml").display().to_string();
+    let of_shape = |shape: &str| {
+        dir.write("closed.toml", scenario(shape).as_bytes());
+        results(&dir.path("closed.toml").display().to_string())
+    };
+    let error = |text: String, exact: [f64; 4]| {
+        dir.write("shape.csv", text.as_bytes());
+        let found = results(&table_path);
+        let errors = found.iter().zip(exact).map(|(a, b)| (a / b - 1.0).abs());
+        errors.fold(0.0, f64::max)
+    };
+    let sphere = of_shape("shape = \"paraboloid\"\nradius = 0.01");
+    let found = error(table(30, 0.0, |r| r * r / 0.02), sphere);
+    assert!(found < 1e-6, "paraboloid: {found:e}");
+    let cone = of_shape("shape = \"cone\"\nangle = 0.01");
+    let found = error(table(30, 0.0, |r| r * f64::tan(0.01)), cone);
+    assert!(found < 1e-6, "cone: {found:e}");
+    let quartic = of_shape("shape = \"power\"\ncoefficient = 1e10\nexponent = 4.0");
+    let errors = [20, 40, 80].map(|n| error(table(n, 0.0, |r| 1e10 * r.powi(4)), quartic));
+    eprintln!("quartic: {errors:?}");
+    assert!(errors[2] < 1e-4, "{errors:?}");
+    let order = (errors[0] / errors[2]).log2() / 2.0;
+    assert!(order > 2.0, "order {order} of {errors:?}");
+}
+
+/// A run's scenario.toml holds the table, so that it needs no other file, and gives the same bits.
+#[test]
+fn a_run_of_a_table_can_be_run_again_without_the_table() {
+    let dir = TestDir::new();
+    let text = scenario("shape = \"table\"\nfile = \"shape.csv\"\nsmoothing = 1e-5");
+    dir.write("mine.toml", text.as_bytes());
+    let tilted = |r: f64| r * r / 0.02 + 2e-3 * r + 1e-7;
+    dir.write("shape.csv", table(500, -2.5e-4, tilted).as_bytes());
+    let said = dir.say(&["run", "mine.toml", "--cycles", "1", "--out", "first"]);
+    assert_eq!(said.code, 0, "{}", said.err);
+    for word in [
+        "tilt 2.000e-3 rad",
+        "smoothing changed it by",
+        "1.000e-7 m at the axis",
+    ] {
+        assert!(said.err.contains(word), "{word} is not in {}", said.err);
+    }
+    std::fs::remove_file(dir.path("shape.csv")).expect("removed");
+    dir.done("run first/scenario.toml --cycles 1 --out second --quiet");
+    assert!(dir.read("first/state.csv").contains("# table: 251 points"));
+    assert_eq!(dir.read("first/state.csv"), dir.read("second/state.csv"));
+    assert_eq!(
+        dir.read("first/scenario.toml"),
+        dir.read("second/scenario.toml")
+    );
+}
+
+#[test]
+fn bad_tables_are_one_line() {
+    let dir = TestDir::new();
+    let text = scenario("shape = \"table\"\nfile = \"shape.csv\"");
+    dir.write("mine.toml", text.as_bytes());
+    let sphere = |r: f64| r * r / 0.02;
+    let in_mm = table(100, 0.0, sphere)
+        .lines()
+        .skip(1)
+        .map(|line| {
+            let (r, f) = line.split_once(',').expect("two columns");
+            let mm = |field: &str| 1e3 * field.parse::<f64>().expect("a number");
+            format!("{},{}\n", mm(r), mm(f))
+        })
+        .collect::<String>();
+    let with_um = table(100, 0.0, |r| 1e6 * sphere(r));
+    let mut gap = table(100, 0.0, sphere);
+    gap.push_str("3e-4,\n");
+    let mut back = table(100, 0.0, sphere);
+    back.push_str("2e-4,1e-5\n");
+    let mut broken = table(100, 0.0, sphere);
+    broken.push_str("3e-4,nan\n");
+    let short = table(100, 0.0, sphere)
+        .lines()
+        .take(30)
+        .collect::<Vec<_>>()
+        .join("\n");
+    let crater = table(100, 0.0, |r| {
+        sphere(r) + 2e-7 * (-(r / 3e-5 - 2.0).powi(2)).exp()
+    });
+    for (csv, expected) in [
+        (format!("r_m,f_m\n{in_mm}"), "are r and f in m?"),
+        (with_um, "are r and f in m?"),
+        (gap, "shape.csv: line 103: f_m is empty"),
+        (
+            broken,
+            "shape.csv: line 103: f_m = nan: must be a finite number",
+        ),
+        (
+            back,
+            "indenter.file = \"shape.csv\": must increase, and follows 2.5e-4",
+        ),
+        (short, "the table ends at r = 7e-5 m, but contact may reach"),
+        (crater, "the contact would be a ring"),
+        ("r_m,z_m\n0,0\n".into(), "shape.csv: has no column f_m"),
+        ("r_m,f_m\n0,0\n".into(), "must be from 4 to 20000 points"),
+    ] {
+        dir.write("shape.csv", csv.as_bytes());
+        let said = dir.say(&["run", "mine.toml", "--cycles", "1", "--out", "new"]);
+        assert_eq!(said.code, 2, "{expected}: {}", said.err);
+        assert_eq!(said.err.lines().count(), 1, "{}", said.err);
+        assert!(
+            said.err.contains(expected),
+            "{} without {expected}",
+            said.err
+        );
+    }
+    // Millimetres that say so are no mistake.
+    dir.write("shape.csv", format!("r_mm,f_mm\n{in_mm}").as_bytes());
+    dir.done("run mine.toml --cycles 0.1 --out new --quiet");
+    std::fs::remove_file(dir.path("shape.csv")).expect("removed");
+    let said = dir.say(&["run", "mine.toml", "--cycles", "1", "--out", "other"]);
+    assert!(
+        said.code == 2 && said.err.contains("shape.csv: no such file"),
+        "{}",
+        said.err
+    );
+}

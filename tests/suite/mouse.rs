@@ -1,0 +1,232 @@
+//! The mouse in a real pseudo-terminal: asked for only with `--mouse`, given back on every way out;
+//! clicks and the wheel as a terminal tells of them.
+
+use std::thread;
+use std::time::Duration;
+
+use vt100::{Color, MouseProtocolEncoding, MouseProtocolMode};
+
+use crate::pty::{Terminal, program};
+
+const ON: &str = "\x1b[?1000h\x1b[?1006h";
+const OFF: &str = "\x1b[?1006l\x1b[?1000l";
+
+/// Longer than the two halves of a double click may lie apart.
+const APART: Duration = Duration::from_millis(500);
+
+/// The explorer, paused after the first cycle.
+fn paused(arguments: &[&str]) -> Terminal {
+    let mut terminal = Terminal::start(program(arguments), 80, 24);
+    terminal.wait_for("running");
+    terminal.press(" ,");
+    terminal.wait_for("paused");
+    terminal.wait_for_silence();
+    terminal
+}
+
+/// A press and a release of the left button, at a column and row counted from 1.
+fn click(column: u16, row: u16) -> String {
+    format!("\x1b[<0;{column};{row}M\x1b[<0;{column};{row}m")
+}
+
+/// Which panels the screen shows.
+fn panels(terminal: &Terminal) -> Vec<&'static str> {
+    terminal.wait_for_silence();
+    let text = terminal.text();
+    let titles = [
+        "3D profile",
+        "stresses",
+        "1D profile",
+        "fretting loop",
+        "radii over cycles",
+        "numbers",
+    ];
+    // A title stands at the beginning of a rule.
+    let is_shown = |title: &&str| text.contains(&format!(" {title} ─"));
+    titles.into_iter().filter(is_shown).collect()
+}
+
+/// The radius that the cursor reads, µm.
+fn radius(terminal: &Terminal) -> f64 {
+    terminal.wait_for_silence();
+    let text = terminal.text();
+    let foot = text.lines().last().unwrap_or_default();
+    let mut words = foot.split_whitespace();
+    assert_eq!(words.next(), Some("r"), "{foot}");
+    let number = words.next().and_then(|word| word.parse().ok());
+    assert_eq!(words.next(), Some("µm"), "{foot}");
+    number.expect("a radius")
+}
+
+#[test]
+fn the_mouse_is_asked_for_and_given_back() {
+    for way in ["q", "Q", "\x03", "TERM", "HUP"] {
+        let mut terminal = paused(&["--mouse"]);
+        terminal.look(|screen| {
+            // No movements: each would be bytes on the wire.
+            let mode = screen.mouse_protocol_mode();
+            assert_eq!(mode, MouseProtocolMode::PressRelease);
+            let encoding = screen.mouse_protocol_encoding();
+            assert_eq!(encoding, MouseProtocolEncoding::Sgr);
+        });
+        match way {
+            "TERM" | "HUP" => terminal.signal(way),
+            key => terminal.press(key),
+        }
+        assert_eq!(terminal.wait_for_end().exit_code(), 0, "{way:?}");
+        let mode = terminal.look(vt100::Screen::mouse_protocol_mode);
+        assert_eq!(mode, MouseProtocolMode::None, "{way:?}");
+        let text = String::from_utf8_lossy(&terminal.raw()).into_owned();
+        let [on, off] = [ON, OFF].map(|sequence| text.matches(sequence).count());
+        assert_eq!((on, off), (1, 1), "{way:?}");
+        assert!(text.find(ON) < text.find(OFF), "{way:?}");
+    }
+}
+
+#[test]
+fn without_the_option_the_terminal_keeps_its_mouse() {
+    let mut terminal = paused(&[]);
+    // What a terminal in an odd mode may tell all the same.
+    terminal.press(&click(60, 3));
+    terminal.press("z");
+    assert_eq!(panels(&terminal), ["3D profile"]);
+    terminal.press("q");
+    terminal.wait_for_end();
+    let text = String::from_utf8_lossy(&terminal.raw()).into_owned();
+    for mode in ["?9", "?1000", "?1002", "?1003", "?1005", "?1006", "?1015"] {
+        for end in ["h", "l"] {
+            assert!(!text.contains(&format!("\x1b[{mode}{end}")), "{mode}{end}");
+        }
+    }
+}
+
+#[test]
+fn a_click_focuses_and_another_zooms() {
+    let mut terminal = paused(&["--mouse"]);
+    let all = panels(&terminal);
+    assert_eq!(all.len(), 4, "{}", terminal.text());
+    // At first the profile has the focus.
+    terminal.press(&click(60, 3));
+    assert_eq!(panels(&terminal), all);
+    terminal.press("z");
+    assert_eq!(panels(&terminal), ["stresses"]);
+    terminal.press("z");
+    assert_eq!(panels(&terminal), all);
+    thread::sleep(APART);
+    terminal.press(&click(60, 3));
+    assert_eq!(panels(&terminal), ["stresses"]);
+    thread::sleep(APART);
+    terminal.press(&click(10, 20));
+    assert_eq!(panels(&terminal), all);
+
+    // A double click zooms whether the panel had the focus or not.
+    for panel in ["fretting loop", "fretting loop"] {
+        thread::sleep(APART);
+        terminal.press(&click(10, 20).repeat(2));
+        assert_eq!(panels(&terminal), [panel]);
+        terminal.press("\x1b");
+        assert_eq!(panels(&terminal), all);
+    }
+
+    // Status line and footer, other buttons, the wheel: nothing.
+    thread::sleep(APART);
+    for event in [
+        &click(10, 1),
+        &click(10, 24),
+        "\x1b[<2;60;3M",
+        "\x1b[<64;60;3M",
+        "\x1b[<65;60;3M",
+    ] {
+        terminal.press(event);
+        terminal.press("z");
+        assert_eq!(panels(&terminal), ["fretting loop"], "{event:?}");
+        terminal.press("z");
+        assert_eq!(panels(&terminal), all, "{event:?}");
+    }
+    terminal.press("q");
+    terminal.wait_for_end();
+}
+
+#[test]
+fn a_click_in_a_plot_moves_the_cursor_there() {
+    let mut terminal = paused(&["--mouse"]);
+    terminal.press("x");
+    terminal.wait_for("stick");
+    let mut seen = Vec::new();
+    for column in [10, 20, 30, 50, 57, 64] {
+        terminal.press(&click(column, 5));
+        seen.push(radius(&terminal));
+        let line = terminal.look(|screen| {
+            let cell = screen.cell(5, column - 1).expect("a cell");
+            cell.contents().to_owned()
+        });
+        assert_ne!(
+            line.trim(),
+            "",
+            "no cursor at {column}:\n{}",
+            terminal.text()
+        );
+    }
+    assert!(seen[0] < seen[1] && seen[1] < seen[2], "{seen:?}");
+    assert!(seen[3] < seen[4] && seen[4] < seen[5], "{seen:?}");
+    // Ten columns are as far everywhere in a plot, to a hundredth of it and half of the last digit.
+    let steps = [seen[1] - seen[0], seen[2] - seen[1]];
+    assert!((steps[0] - steps[1]).abs() < 0.1 * steps[0], "{seen:?}");
+    // Without a place over r, a click is for the panel: here to the radii and into them.
+    terminal.press(&click(60, 18));
+    assert_eq!(radius(&terminal), seen[5]);
+    thread::sleep(APART);
+    terminal.press(&click(60, 18));
+    assert_eq!(panels(&terminal), ["radii over cycles"]);
+    terminal.press("q");
+    terminal.wait_for_end();
+}
+
+/// The signs on the screen and how they look; blanks have no ink.
+fn shown(terminal: &Terminal) -> Vec<(String, Color, bool, bool)> {
+    terminal.wait_for_silence();
+    terminal.look(|screen| {
+        let (rows, columns) = screen.size();
+        let places = (0..rows.get()).flat_map(|row| (0..columns.get()).map(move |at| (row, at)));
+        places
+            .map(|(row, at)| {
+                let cell = screen.cell(row, at).expect("a cell");
+                match cell.contents().trim() {
+                    "" => (String::new(), Color::Default, false, false),
+                    sign => (sign.into(), cell.fgcolor(), cell.bold(), cell.inverse()),
+                }
+            })
+            .collect()
+    })
+}
+
+#[test]
+fn the_wheel_moves_in_lists_and_help() {
+    let [down, up] = ["\x1b[B", "\x1b[A"];
+    let [wheel_down, wheel_up] = ["\x1b[<65;40;12M", "\x1b[<64;40;12M"];
+    // The help is longer than this screen.
+    let mut terminal = paused(&["--mouse"]);
+    terminal.resize(80, 18);
+    for open in ["?", "p", "e", ":"] {
+        terminal.press(open);
+        let first = shown(&terminal);
+        terminal.press(down);
+        let second = shown(&terminal);
+        assert!(first != second, "{open}: {}", terminal.text());
+        terminal.press(up);
+        assert!(shown(&terminal) == first, "{open}: {}", terminal.text());
+        terminal.press(wheel_down);
+        assert!(shown(&terminal) == second, "{open}: {}", terminal.text());
+        // A click in what is open does nothing to the panels below.
+        terminal.press(&click(60, 3));
+        assert!(shown(&terminal) == second, "{open}: {}", terminal.text());
+        terminal.press(wheel_up);
+        assert!(shown(&terminal) == first, "{open}: {}", terminal.text());
+        terminal.press("\x1b");
+        terminal.wait_for_silence();
+    }
+    terminal.press("z");
+    assert_eq!(panels(&terminal), ["3D profile"]);
+    terminal.press("q");
+    terminal.wait_for_end();
+}

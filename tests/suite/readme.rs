@@ -1,0 +1,56 @@
+//! The README is short and names what the program has; the manual page and the footer hold the
+//! table of commands. Its commands and scenarios are tried with those of the guide.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use mdr_tui::scenario::preset;
+use mdr_tui::tui::command::BINDINGS;
+
+fn said(arguments: &[&str]) -> String {
+    let output = Command::new(env!("CARGO_BIN_EXE_mdr-tui"))
+        .args(arguments)
+        .env("LC_ALL", "C.UTF-8")
+        .output()
+        .expect("the program starts");
+    assert!(output.status.success(), "{arguments:?}");
+    String::from_utf8(output.stdout).expect("text")
+}
+
+#[test]
+fn it_is_short_and_names_what_there_is() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let text = fs::read_to_string(root.join("README.md")).expect("the README");
+    assert!(text.lines().count() <= 200);
+    for preset in preset::ALL {
+        assert!(
+            text.contains(&format!("`{}`", preset.name)),
+            "{}",
+            preset.name
+        );
+    }
+    let (_, picture) = text.split_once("](tests/pictures/").expect("a picture");
+    let (file, _) = picture.split_once(')').expect("its file");
+    assert!(root.join("tests/pictures").join(file).exists(), "{file}");
+}
+
+#[test]
+fn the_manual_page_has_every_key() {
+    let page = said(&["man"]);
+    assert_eq!(page.matches(".SH KEYS").count(), 1);
+    for binding in BINDINGS {
+        let help = binding.help.replace('-', "\\-");
+        assert!(page.contains(&help), "{help}");
+    }
+}
+
+#[test]
+fn the_footer_names_commands_of_the_table() {
+    let screen = said(&["--keys", ",", "--print", "200x24"]);
+    let footer = screen.lines().last().expect("a footer");
+    for binding in BINDINGS.iter().filter(|binding| binding.in_footer) {
+        let shown = format!(" {} {}", binding.keys[0], binding.name);
+        assert!(footer.contains(&shown), "{shown} is not in {footer}");
+    }
+}

@@ -1,0 +1,376 @@
+//! `run --resume`: what a run that was interrupted, killed or starved of disk writes in the end.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use mdr_tui::scenario::checkpoint;
+use serde::de::IgnoredAny;
+
+use crate::test_dir::{Said, Table, TestDir, bits, end, names};
+
+/// A run with snapshots between steps, a row a step, and changes on the way.
+const SCENARIO: &str = r#"
+title = "A run with changes"
+
+[indenter]
+shape = "paraboloid"
+radius = 0.01
+
+[material]
+effective_modulus = 2.3077e11
+poisson = 0.3
+
+[friction]
+coefficient = 0.1
+
+[motion.normal]
+mean = 1e-6
+amplitude = 1e-7
+angular_frequency = 100.0
+
+[motion.tangential]
+amplitude = 1e-7
+angular_frequency = 100.0
+phase = 0.7853981633974483
+
+[wear]
+coefficient = 1.3e-10
+
+[numerics]
+points = 60
+
+[[changes]]
+at_cycle = 3.0
+set = "numerics.method = b"
+
+[[changes]]
+at_cycle = 7.25
+set = "numerics.method = product"
+
+[[changes]]
+at_cycle = 11.5
+set = "numerics.points = 71"
+"#;
+
+const ORDER: &str = "run mine.toml --cycles 120.125 --snapshot-at 10.123,2,30 --history every-step";
+
+fn dir() -> TestDir {
+    let dir = TestDir::new();
+    dir.write("mine.toml", SCENARIO.as_bytes());
+    dir.done(&format!("{ORDER} --out whole --quiet"));
+    dir
+}
+
+fn start(dir: &TestDir, line: &str) -> Child {
+    let arguments: Vec<&str> = line.split_whitespace().collect();
+    let mut command = dir.command(&arguments);
+    command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    command.spawn().expect("the program starts")
+}
+
+fn signal(child: &Child, name: &str) {
+    let kill = format!("kill -{name} {}", child.id());
+    let sent = Command::new("sh").args(["-c", &kill]).status();
+    assert!(sent.expect("a shell").success());
+}
+
+fn wait_for(child: &mut Child, path: &Path) {
+    let start = Instant::now();
+    while !path.exists() {
+        assert!(start.elapsed() < Duration::from_secs(60), "no {path:?}");
+        assert!(matches!(child.try_wait(), Ok(None)), "an early end");
+        thread::sleep(Duration::from_millis(1));
+    }
+}
+
+/// Fails unless two directories hold the same files with the same bytes.
+fn assert_alike(dir: &TestDir, one: &str, other: &str) {
+    assert_eq!(names(&dir.path(one)), names(&dir.path(other)), "{other}");
+    for name in names(&dir.path(one)) {
+        let read = |directory| dir.read(&format!("{directory}/{name}"));
+        assert!(read(one) == read(other), "{other}: {name} differs");
+    }
+}
+
+#[test]
+fn a_run_that_was_interrupted_writes_what_one_that_was_not_writes() {
+    let dir = dir();
+    // Slowed down by a checkpoint after every step, so that the signal finds it under way.
+    for (round, sign) in ["INT", "HUP"].into_iter().enumerate() {
+        let out = format!("broken-{round}");
+        let mut child = start(
+            &dir,
+            &format!("{ORDER} --out {out} --checkpoint-every 0.001"),
+        );
+        wait_for(&mut child, &dir.path(&format!("{out}/state-2.csv")));
+        signal(&child, sign);
+        let said = end(child);
+        assert_eq!(said.code, 1, "{}", said.err);
+        let checkpoint = format!("{out}/run.checkpoint");
+        // The files of an interrupted run are those of the moment.
+        let history = Table::parse(&dir.read(&format!("{out}/history.csv")));
+        let state = Table::parse(&dir.read(&format!("{out}/state.csv")));
+        let cycle: f64 = state.header("cycle").parse().expect("a number");
+        let last = bits(&history.column("cycle")).last().copied();
+        assert_eq!(last, Some(cycle.to_bits()));
+        assert_eq!(history.rows[0].len(), history.columns.len());
+
+        let refused = dir.say(&["run", "mine.toml", "--cycles", "1", "--out", &out]);
+        assert_eq!(refused.code, 2);
+        let hint = format!("mdr-tui run --resume {checkpoint} goes on with it");
+        assert!(refused.err.contains(&hint), "{}", refused.err);
+
+        // Elsewhere, and then where it was; the checkpoint goes only with the latter.
+        dir.done(&format!(
+            "run --resume {checkpoint} --out moved-{round} --quiet"
+        ));
+        assert_alike(&dir, "whole", &format!("moved-{round}"));
+        dir.done(&format!("run --resume {checkpoint} --quiet"));
+        assert_alike(&dir, "whole", &out);
+    }
+}
+
+#[test]
+fn a_resumed_run_may_go_further() {
+    let dir = TestDir::new();
+    let plan = "run li2019-fig3 --set numerics.points=40 --set run.snapshot_at=[1,3.5]";
+    dir.done(&format!("{plan} --cycles 5 --out whole --quiet"));
+    let line = format!("{plan} --cycles 1e9 --out broken --checkpoint-every 0.001");
+    let mut child = start(&dir, &line);
+    wait_for(&mut child, &dir.path("broken/run.checkpoint"));
+    let _ = child.kill();
+    end_by_signal(child);
+    let shorter = dir.say(&["run", "--resume", "broken/run.checkpoint", "--cycles", "0"]);
+    assert_eq!(shorter.code, 2);
+    assert!(shorter.err.contains("stands at cycle"), "{}", shorter.err);
+    dir.done("run --resume broken/run.checkpoint --cycles 5 --quiet");
+    assert_alike(&dir, "whole", "broken");
+}
+
+fn end_by_signal(mut child: Child) {
+    let status = child.wait().expect("an end");
+    assert_eq!(status.code(), None, "it ended by itself");
+}
+
+/// A number that looks random enough to choose a moment by.
+fn random(seed: &mut u64) -> u64 {
+    *seed ^= *seed << 13;
+    *seed ^= *seed >> 7;
+    *seed ^= *seed << 17;
+    *seed
+}
+
+/// Kills runs at random moments and resumes them, `MDR_TUI_KILLS` times.
+#[test]
+fn killed_at_any_moment_nothing_is_torn_and_the_result_is_exact() {
+    let kills = std::env::var("MDR_TUI_KILLS").ok();
+    let kills: usize = kills.map_or(8, |kills| kills.parse().expect("a number"));
+    let dir = dir();
+    let (mut killed, mut resumed, mut rounds) = (0, 0, 0);
+    let mut seed = 0x9e37_79b9_7f4a_7c15 ^ u64::from(std::process::id());
+    while killed < kills {
+        rounds += 1;
+        let out = format!("round-{rounds}");
+        let checkpoint = format!("{out}/run.checkpoint");
+        loop {
+            let line = if dir.path(&checkpoint).exists() {
+                resumed += 1;
+                format!("run --resume {checkpoint} --checkpoint-every 0.003 --quiet")
+            } else {
+                format!("{ORDER} --out {out} --checkpoint-every 0.003 --quiet --force")
+            };
+            let mut child = start(&dir, &line);
+            if killed < kills {
+                thread::sleep(Duration::from_micros(random(&mut seed) % 150_000));
+                let _ = child.kill();
+            }
+            let status = child.wait().expect("an end");
+            assert_whole(&dir, &out);
+            match status.code() {
+                None => killed += 1,
+                Some(code) => {
+                    assert_eq!(code, 0);
+                    break;
+                }
+            }
+        }
+        assert_alike(&dir, "whole", &out);
+    }
+    eprintln!("{killed} kills, {resumed} resumed, {rounds} rounds: nothing torn");
+}
+
+/// Every file of a run that was killed is whole, or a temporary one.
+fn assert_whole(dir: &TestDir, out: &str) {
+    let Ok(entries) = fs::read_dir(dir.path(out)) else {
+        return;
+    };
+    for entry in entries {
+        let name = entry.expect("an entry").file_name();
+        let name = name.to_string_lossy().into_owned();
+        let path = dir.path(out).join(&name);
+        if name == "run.checkpoint" {
+            checkpoint::read::<IgnoredAny>(&path).expect("a whole checkpoint");
+        } else if !name.starts_with(".mdr-tui-") {
+            assert!(
+                dir.read(&format!("{out}/{name}")) == dir.read(&format!("whole/{name}")),
+                "{out}: {name} is torn"
+            );
+        }
+    }
+}
+
+fn refused(dir: &TestDir, line: &str) -> String {
+    let (before, arguments) = (dir.inventory(), line.split_whitespace());
+    let Said { code, out, err } = dir.say(&arguments.collect::<Vec<_>>());
+    assert_eq!((code, out.as_str()), (2, ""), "{line}: {err}");
+    assert!(dir.inventory() == before, "{line} wrote something");
+    assert_eq!(err.lines().count(), 1, "{err}");
+    err
+}
+
+#[test]
+fn a_checkpoint_that_cannot_be_taken_up_is_one_line() {
+    let dir = TestDir::new();
+    let line = "run hertz --set numerics.points=8 --cycles 1e9 --out x --checkpoint-every 0.001";
+    let mut child = start(&dir, line);
+    wait_for(&mut child, &dir.path("x/run.checkpoint"));
+    let _ = child.kill();
+    end_by_signal(child);
+    let whole = fs::read(dir.path("x/run.checkpoint")).expect("a checkpoint");
+    let text = String::from_utf8_lossy(&whole).into_owned();
+    let later = text.replacen("checkpoint 2", "checkpoint 7", 1);
+    for (name, bytes, expected) in [
+        ("later", later.as_bytes(), "is a checkpoint of version 7"),
+        ("torn", &whole[..whole.len() - 1], "torn: is torn: it has"),
+        ("empty", b"", "is no checkpoint"),
+        ("toml", b"title = \"x\"\n", "is no checkpoint"),
+    ] {
+        dir.write(name, bytes);
+        for line in [
+            format!("run --resume {name} --out new"),
+            format!("--resume {name} --print 80x24"),
+        ] {
+            let error = refused(&dir, &line);
+            assert!(error.contains(expected), "{error}");
+        }
+    }
+    assert!(refused(&dir, "run --resume missing").contains("missing: no such file"));
+    assert!(refused(&dir, "run --resume .").contains("is a directory"));
+    for line in [
+        "run hertz --resume x/run.checkpoint",
+        "run --resume x/run.checkpoint --set numerics.points=8",
+        "run --resume x/run.checkpoint --snapshot-at 1",
+        "run --resume x/run.checkpoint --history every-step",
+        "hertz --resume x/run.checkpoint --print 80x24",
+    ] {
+        assert!(
+            refused(&dir, line).contains("cannot be used with"),
+            "{line}"
+        );
+    }
+    for every in ["-1", "nan", "often", "1e-9", "1e99"] {
+        let line = format!("run hertz --out new --checkpoint-every={every}");
+        assert!(refused(&dir, &line).contains("an interval is 0, or"));
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn under_nohup_a_run_outlives_its_terminal() {
+    let dir = dir();
+    let line = format!(
+        "trap '' HUP; exec '{}' {ORDER} --out nohup --checkpoint-every 0.001 --quiet",
+        env!("CARGO_BIN_EXE_mdr-tui")
+    );
+    let child = dir.command(&[]).get_current_dir().map(|directory| {
+        let mut command = Command::new("sh");
+        command.args(["-c", &line]).current_dir(directory);
+        command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        command.spawn().expect("a shell")
+    });
+    let mut child = child.expect("a directory");
+    wait_for(&mut child, &dir.path("nohup/run.checkpoint"));
+    signal(&child, "HUP");
+    let said = end(child);
+    assert_eq!((said.code, said.err.as_str()), (0, ""));
+    assert_alike(&dir, "whole", "nohup");
+}
+
+// The faults are there in debug builds only.
+#[cfg(debug_assertions)]
+#[test]
+fn a_defect_keeps_what_is_done_and_says_so_in_one_line() {
+    let dir = TestDir::new();
+    let arguments = ["run", "hertz", "--cycles", "1", "--out", "x"];
+    let output = dir.command(&arguments).env("MDR_TUI_FAULT", "run").output();
+    let said = Said::from(output.expect("the program starts"));
+    assert_eq!(
+        (said.code, said.err.lines().count()),
+        (1, 1),
+        "{}",
+        said.err
+    );
+    assert!(said.err.contains("a fault in the run"), "{}", said.err);
+    assert_eq!(
+        names(&dir.path("x")),
+        [
+            "history.csv",
+            "run.checkpoint",
+            "scenario.toml",
+            "state.csv"
+        ]
+    );
+    dir.done("run --resume x/run.checkpoint --quiet");
+    dir.done("run hertz --cycles 1 --out whole --quiet");
+    assert_alike(&dir, "whole", "x");
+}
+
+/// Room for a checkpoint and not for the files, as far as a limit on their size can say so.
+#[test]
+fn a_disk_that_is_full_at_the_end_leaves_a_checkpoint() {
+    let dir = TestDir::new();
+    let bin = env!("CARGO_BIN_EXE_mdr-tui");
+    let run = |blocks: u32, out: &str| {
+        let line = format!(
+            "trap '' XFSZ; ulimit -f {blocks}; exec '{bin}' run li2019-fig3 --cycles 3 --out {out} \
+             --snapshot-at 1,2 --set numerics.points=400"
+        );
+        let mut command = Command::new("bash");
+        command.args(["-c", &line]).current_dir(dir.path(""));
+        command.env("XDG_STATE_HOME", dir.path("state"));
+        Said::from(command.output().expect("a shell"))
+    };
+    // Kilobytes: the tables of 401 nodes take more than 60, and the checkpoint takes less than that.
+    for (blocks, kept) in [(0, None), (60, Some("tight"))] {
+        let out = kept.unwrap_or("full");
+        let said = run(blocks, out);
+        assert_eq!(said.code, 1, "{}", said.err);
+        let last = said.err.lines().last().unwrap_or_default();
+        assert!(last.contains("cannot write"), "{}", said.err);
+        let owed = said
+            .err
+            .matches("the run goes on, to try again at its end")
+            .count();
+        assert_eq!(owed, 2, "{}", said.err);
+        match kept {
+            None => assert!(last.ends_with("there is no checkpoint"), "{last}"),
+            Some(out) => {
+                let hint = format!("mdr-tui run --resume {out}/run.checkpoint goes on");
+                assert!(last.contains(&hint), "{last}");
+                let line = format!("run --resume {out}/run.checkpoint --quiet");
+                dir.say(&line.split(' ').collect::<Vec<_>>());
+                dir.done(
+                    "run li2019-fig3 --cycles 3 --out whole --snapshot-at 1,2 \
+                     --set numerics.points=400 --quiet",
+                );
+                for name in ["state.csv", "history.csv", "scenario.toml"] {
+                    let read = |directory: &str| dir.read(&format!("{directory}/{name}"));
+                    assert!(read("whole") == read(out), "{name} differs");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,335 @@
+//! A rig that yields, and load blocks, against closed forms.
+
+use mdr_tui::contact::indenter::Indenter;
+use mdr_tui::oracle::cattaneo_mindlin::CattaneoMindlin;
+use mdr_tui::oracle::partial_slip::stiffness_ratio;
+use mdr_tui::scenario::Scenario;
+use mdr_tui::scenario::session::Session;
+use mdr_tui::simulation::drive::Drive;
+use mdr_tui::simulation::{Setup, Simulation};
+
+use crate::common::{Scene, ours, swing};
+use crate::test_dir::TestDir;
+
+/// E* = d = a₀ = 1, μ = 0.1, ν = 0.3: a contact moved by ±`amplitude` through a rig of this compliance.
+fn on_rig(indenter: Indenter, amplitude: f64, compliance: f64) -> Setup {
+    let setup = ours(Scene {
+        indenter,
+        cells: 200,
+        domain: 1.2,
+        tangential: Some(swing(0.0, amplitude, 1.0, 0.0)),
+        steps: 200,
+        ..Scene::default()
+    });
+    let [normal, tangential] = [
+        setup.drive.normal().clone(),
+        setup.drive.tangential().expect("a motion").clone(),
+    ];
+    let drive = Drive::new(normal, Some(tangential));
+    Setup {
+        drive: match compliance > 0.0 {
+            true => drive.with_rig(compliance.recip()).expect("a rig"),
+            false => drive,
+        },
+        ..setup
+    }
+}
+
+fn after_two_cycles(setup: Setup) -> Simulation {
+    let mut simulation = Simulation::new(setup).expect("a contact");
+    simulation.advance_to(2.0).expect("two cycles");
+    simulation
+}
+
+fn close(what: &str, found: f64, expected: f64, bound: f64) {
+    let error = (found - expected).abs();
+    eprintln!("{what}: {found:.5} {expected:.5} ({error:.1e})");
+    assert!(error <= bound, "{what}: {found} instead of {expected}");
+}
+
+/// A = (m − 1)/(m + 1)/(1 + ρ), D = (2^(1−1/m) − 1)/(1 + ρ), B = A/D for a tip ∝ rⁿ, m = 1 + 1/n, at the
+/// border of gross slip; ρ = μNC/u_t. B is free of the rig.
+#[test]
+fn ratios_at_the_border_of_gross_slip_on_rigs() {
+    // g(1) = d = 1: κₙA = 1.
+    let shapes = [
+        (
+            "cone",
+            1.0,
+            Indenter::cone(std::f64::consts::FRAC_2_PI.atan()),
+        ),
+        ("sphere", 2.0, Indenter::paraboloid(1.0)),
+        ("quartic", 4.0, Indenter::power(0.375, 4.0)),
+    ];
+    let (mu, border) = (0.1, 0.1 / stiffness_ratio(0.3));
+    for (name, n, shape) in shapes {
+        let shape = shape.expect("a shape");
+        let load = 2.0 * n / (n + 1.0);
+        let m: f64 = 1.0 + 1.0 / n;
+        for rho in [0.0, 1.0, 3.0] {
+            let compliance = rho * border / (mu * load);
+            let setup = on_rig(shape.clone(), border * (1.0 + rho), compliance);
+            let figures = after_two_cycles(setup).cycle_figures().expect("figures");
+            let a = (m - 1.0) / (m + 1.0) / (1.0 + rho);
+            let d = (2f64.powf(1.0 - 1.0 / m) - 1.0) / (1.0 + rho);
+            let found = |value: Option<f64>| value.expect("a ratio");
+            let what = |ratio: &str| format!("{name}, rho = {rho}: {ratio}");
+            close(&what("A"), found(figures.energy_ratio), a, 1e-3);
+            close(&what("D"), found(figures.sliding_ratio), d, 1e-3);
+            close(&what("B"), found(figures.energy_ratio_b), a / d, 1e-3);
+        }
+    }
+}
+
+/// u + C F_x(u) = U by Cattaneo and Mindlin: the contact's loop, its energy, and the sensor's loop.
+#[test]
+fn a_compliant_rig_in_partial_slip_is_the_closed_form() {
+    let g_star = stiffness_ratio(0.3);
+    let contact = |amplitude| CattaneoMindlin {
+        e_star: 1.0,
+        g_star,
+        mu: 0.1,
+        radius: 1.0,
+        depth: 1.0,
+        amplitude,
+    };
+    let border = contact(0.0).gross_slip_displacement();
+    for (share, compliance) in [(0.4, 0.3), (0.8, 1.0), (0.9, 3.0)] {
+        let reached = contact(share * border);
+        let force = reached.first_loading_force(share * border);
+        let amplitude = share * border + compliance * force;
+        let setup = on_rig(
+            Indenter::paraboloid(1.0).expect("a shape"),
+            amplitude,
+            compliance,
+        );
+        let simulation = after_two_cycles(setup);
+        let figures = simulation.cycle_figures().expect("figures");
+        let what = |value: &str| format!("u = {share} of the border, C = {compliance}: {value}");
+        let relative =
+            |name: &str, found: f64, exact: f64| close(&what(name), found / exact, 1.0, 1e-3);
+        relative("E_d", figures.energy, reached.energy_per_cycle());
+        relative("Q*", figures.force_amplitude, force);
+        relative("U", figures.displacement_amplitude, amplitude);
+        // At the end of a cycle the actuator stands at 0 on its way up, and the contact somewhere else.
+        let moment = simulation.moment();
+        let sensed = moment.rig_displacement.expect("a rig");
+        assert!((sensed - (moment.shift + compliance * moment.tangential_force)).abs() < 1e-15);
+        assert!(
+            sensed.abs() < 1e-12 && moment.shift.abs() > 1e-4,
+            "{sensed} {}",
+            moment.shift
+        );
+        let stick = moment.permanent_stick_radius.expect("springs");
+        relative("c", stick, reached.stick_radius());
+    }
+}
+
+/// The actuator's motion is shared: a rig of a tenth of the contact's stiffness leaves it a tenth.
+#[test]
+fn a_scenario_names_its_rig() {
+    let sets = |stiffness: &str| {
+        let mut sets = vec!["numerics.points=50".to_owned()];
+        if !stiffness.is_empty() {
+            sets.push(format!("motion.tangential.rig_stiffness={stiffness}"));
+        }
+        Scenario::load("gross-slip", &sets)
+    };
+    let energy = |stiffness: &str| {
+        let mut session = Session::start(sets(stiffness).expect("a scenario")).expect("a contact");
+        session.advance_to(2.0).expect("a run");
+        let moment = session.simulation().moment();
+        (moment.dissipated_energy, moment.rig_displacement)
+    };
+    let (stiff, none) = energy("");
+    assert_eq!(none, None);
+    let (stiffer, _) = energy("1e15");
+    assert!((stiffer / stiff - 1.0).abs() < 1e-6, "{stiff} {stiffer}");
+    let (soft, sensed) = energy("1e7");
+    assert!(soft < 0.1 * stiff && sensed.is_some(), "{soft} {stiff}");
+    let refused = sets("-1").expect_err("refused").to_string();
+    assert!(
+        refused.contains("must be a finite number greater than 0")
+            || refused.contains("must be greater than 0"),
+        "{refused}"
+    );
+}
+
+/// Blocks carry the profile over, each has a row, and their volumes add up.
+#[test]
+fn blocks_add_up() {
+    let dir = TestDir::new();
+    let head = r#"
+title = "Blocks"
+[indenter]
+shape = "paraboloid"
+radius = 0.01
+[material]
+effective_modulus = 2.3077e11
+poisson = 0.3
+[friction]
+coefficient = 0.1
+[motion.normal]
+mean = 1e-6
+[motion.tangential]
+amplitude = 1e-7
+angular_frequency = 100.0
+[wear]
+coefficient = 1.3e-9
+[numerics]
+points = 50
+steps_per_cycle = 40
+grid = "uniform"
+domain_radius = 1.7e-4
+"#;
+    let with = |name: &str, blocks: &str| dir.write(name, format!("{head}{blocks}").as_bytes());
+    with(
+        "blocks.toml",
+        "[[blocks]]\ncycles = 3\n\
+         [[blocks]]\ncycles = 2.5\nmotion.tangential.amplitude = 2e-7\nmotion.normal.mean = 1.2e-6\n\
+         [[blocks]]\ncycles = 2\nmotion.tangential.amplitude = 0.5e-7\n",
+    );
+    with("one.toml", "[[blocks]]\ncycles = 3\n");
+    with(
+        "same.toml",
+        "[[blocks]]\ncycles = 3\n[[blocks]]\ncycles = 4\nmotion.normal.mean = 1e-6\n",
+    );
+    with("whole.toml", "[run]\ncycles = 7.0\n");
+    for name in ["blocks", "one", "same", "whole"] {
+        dir.done(&format!("run {name}.toml --out {name} --quiet"));
+    }
+    let rows = |name: &str| -> Vec<(f64, f64, f64)> {
+        let text = dir.read(&format!("{name}/history.csv"));
+        let rows = text.lines().filter(|line| !line.starts_with('#')).skip(1);
+        rows.map(|row| {
+            let fields: Vec<f64> = row
+                .split(',')
+                .map(|f| f.parse().unwrap_or(f64::NAN))
+                .collect();
+            (fields[0], fields[9], fields[10])
+        })
+        .collect()
+    };
+    let blocks = rows("blocks");
+    let at = |cycle: f64| {
+        let found = blocks.iter().find(|row| row.0 == cycle);
+        *found.unwrap_or_else(|| panic!("no row at {cycle}"))
+    };
+    let ends = [0.0, 3.0, 5.5, 7.5].map(at);
+    assert_eq!(ends[1].1, rows("one").last().expect("a row").1);
+    let mut volume = 0.0;
+    for pair in ends.windows(2) {
+        let (worn, work) = (pair[1].1 - pair[0].1, pair[1].2 - pair[0].2);
+        assert!(
+            worn > 0.0 && (worn / (1.3e-9 * work) - 1.0).abs() < 0.02,
+            "{pair:?}"
+        );
+        volume += worn;
+    }
+    assert!((volume / blocks.last().expect("a row").1 - 1.0).abs() < 1e-12);
+    let (same, whole) = (rows("same"), rows("whole"));
+    let (same, whole) = (
+        same.last().expect("a row").1,
+        whole.last().expect("a row").1,
+    );
+    assert!((same / whole - 1.0).abs() < 1e-3, "{same} {whole}");
+    // What was run can be run again, block by block.
+    dir.done("run blocks/scenario.toml --out again --quiet");
+    assert_eq!(
+        dir.read("again/history.csv"),
+        dir.read("blocks/history.csv")
+    );
+}
+
+/// μ after n cycles is what its course says, and what runs in less wears less.
+#[test]
+fn friction_and_wear_run_in() {
+    let after = |sets: &[&str]| {
+        let small = ["numerics.points=40", "numerics.steps_per_cycle=40"];
+        let sets: Vec<String> = small
+            .iter()
+            .chain(sets)
+            .map(|set| (*set).to_owned())
+            .collect();
+        let scenario = Scenario::load("gross-slip", &sets).expect("a scenario");
+        let mut session = Session::start(scenario).expect("a contact");
+        session.advance_to(6.0).expect("a run");
+        session
+    };
+    let worn = |session: &Session| {
+        let moment = session.simulation().moment();
+        (moment.wear_volume, moment.dissipated_energy)
+    };
+    let steady = after(&[]);
+    let fading = after(&["friction.settled=0.05", "friction.running_in_cycles=2"]);
+    let friction = fading.simulation().setup().material.friction();
+    assert!(
+        (friction - (0.05 + 0.05 * f64::exp(-3.0))).abs() < 1e-12,
+        "{friction}"
+    );
+    let moment = fading.simulation().moment();
+    assert!(moment.tangential_force.abs() <= 1.01 * friction * moment.normal_force);
+    assert!(worn(&fading).1 < 0.8 * worn(&steady).1);
+    // V = k(E_d − E_th), to a step's work.
+    let threshold = 0.4 * worn(&steady).1;
+    let late = after(&[&format!("wear.threshold_energy={threshold:e}")]);
+    let (volume, energy) = worn(&late);
+    let expected = 1.3e-10 * (energy - threshold);
+    assert!(
+        (volume / expected - 1.0).abs() < 0.03,
+        "{volume} {expected}"
+    );
+    let halved = after(&["wear.settled=6.5e-11", "wear.running_in_energy=1e-9"]);
+    let (volume, energy) = worn(&halved);
+    assert!(
+        (volume / (6.5e-11 * energy) - 1.0).abs() < 0.05,
+        "{volume} {energy}"
+    );
+}
+
+#[test]
+fn a_course_from_a_table_and_what_contradicts_it() {
+    let dir = TestDir::new();
+    let preset = mdr_tui::scenario::preset::find("gross-slip")
+        .expect("a preset")
+        .text;
+    dir.write(
+        "mine.toml",
+        preset
+            .replace("coefficient = 0.1", "file = \"mu.csv\"")
+            .as_bytes(),
+    );
+    dir.write("mu.csv", b"cycle,coefficient\n0,0.1\n2,0.3\n");
+    let path = dir.path("mine.toml").display().to_string();
+    let scenario = Scenario::load(&path, &["numerics.points=40".into()]).expect("a scenario");
+    let again = Scenario::from_toml(&scenario.to_toml(), "again", &[]).expect("a scenario");
+    assert_eq!(again.setup(), scenario.setup());
+    let mut session = Session::start(scenario).expect("a contact");
+    session.advance_to(1.0).expect("a cycle");
+    let friction = session.simulation().setup().material.friction();
+    assert!((friction - 0.2).abs() < 1e-12, "{friction}");
+    for (sets, expected) in [
+        (
+            &["friction.settled=0.2"][..],
+            "needs friction.running_in_cycles or friction.running_in_energy",
+        ),
+        (
+            &[
+                "friction.settled=0.2",
+                "friction.running_in_cycles=2",
+                "friction.running_in_energy=1",
+            ][..],
+            "give either",
+        ),
+        (
+            &["friction.running_in_cycles=2"][..],
+            "friction.settled is missing",
+        ),
+    ] {
+        let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+        let refused = Scenario::load("gross-slip", &sets)
+            .expect_err("refused")
+            .to_string();
+        assert!(refused.contains(expected), "{refused}");
+    }
+}

@@ -1,0 +1,640 @@
+//! Scenarios: what is refused and how it is said, `--set`, and that a scenario written out reads
+//! back as itself.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use approx::assert_relative_eq;
+use mdr_tui::math::abel::AbelMethod;
+use mdr_tui::scenario::session::Session;
+use mdr_tui::scenario::{Change, RunPlan, Scenario, preset};
+use mdr_tui::simulation::drive::Control;
+use mdr_tui::simulation::{Scheme, Simulation, Spacing};
+use mdr_tui::wear::WearLaw;
+use proptest::prelude::*;
+
+fn fixtures(kind: &str) -> Vec<(String, String)> {
+    let directory = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/fixtures/scenarios")
+        .join(kind);
+    let mut paths: Vec<PathBuf> = fs::read_dir(directory)
+        .expect("a directory of fixtures")
+        .map(|entry| entry.expect("an entry").path())
+        .collect();
+    paths.sort();
+    let read = |path: &PathBuf| {
+        let name = path
+            .file_name()
+            .expect("a name")
+            .to_string_lossy()
+            .into_owned();
+        (name, fs::read_to_string(path).expect("a text"))
+    };
+    paths.iter().map(read).collect()
+}
+
+fn load(name: &str, sets: &[&str]) -> Scenario {
+    try_load(name, sets).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn try_load(name: &str, sets: &[&str]) -> Result<Scenario, String> {
+    let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();
+    Scenario::load(name, &sets).map_err(|error| error.to_string())
+}
+
+/// The file has this line.
+fn assert_line(text: &str, line: &str) {
+    assert!(
+        text.lines().any(|written| written == line),
+        "{line}\n{text}"
+    );
+}
+
+/// Reads `scenario` back from its own text.
+fn again(scenario: &Scenario) -> Scenario {
+    let text = scenario.to_toml();
+    Scenario::from_toml(&text, scenario.origin(), &[])
+        .unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+#[test]
+fn every_invalid_fixture_is_refused_with_the_line_it_expects() {
+    let fixtures = fixtures("invalid");
+    assert!(fixtures.len() > 60);
+    for (name, text) in fixtures {
+        let first = text.lines().next().unwrap_or_default();
+        let expected = first
+            .strip_prefix("# expect: ")
+            .expect("an expectation on the first line");
+        let error = Scenario::from_toml(&text, &name, &[]).expect_err(&name);
+        assert_eq!(error.to_string(), expected);
+    }
+}
+
+#[test]
+fn every_valid_fixture_presses_its_contact_and_reads_back() {
+    for (name, text) in fixtures("valid") {
+        let scenario =
+            Scenario::from_toml(&text, &name, &[]).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(again(&scenario), scenario, "{name}");
+        if scenario.setup().grid.cells() < 1000 && name != "narrow-domain.toml" {
+            let simulation = Simulation::new(scenario.setup().clone());
+            assert!(simulation.is_ok(), "{name}: {:?}", simulation.err());
+        }
+    }
+}
+
+#[test]
+fn presets_read_back() {
+    for preset in preset::ALL {
+        let scenario = load(preset.name, &[]);
+        assert_eq!(again(&scenario), scenario, "{}", preset.name);
+        assert_eq!(again(&scenario).to_toml(), scenario.to_toml());
+        assert_eq!(scenario.title(), preset.title());
+    }
+}
+
+#[test]
+fn assignments_replace_what_stands_there() {
+    let scenario = load(
+        "li2019-fig3",
+        &[
+            "numerics.method=a+b",
+            "numerics.points=40",
+            " wear.coefficient = 1e-12 ",
+            "title=A \"title\" of one's own",
+        ],
+    );
+    let setup = scenario.setup();
+    assert_eq!(setup.method.name(), "a+b");
+    assert_eq!(setup.grid.cells(), 40);
+    assert_eq!(setup.wear.map(|law| law.coefficient()), Some(1e-12));
+    assert_eq!(scenario.title(), "A \"title\" of one's own");
+    // The last of two wins, and tables are made where there are none.
+    let scenario = load(
+        "hertz",
+        &[
+            "numerics.points=40",
+            "numerics.points=50",
+            "wear.coefficient=0",
+        ],
+    );
+    assert_eq!(scenario.setup().grid.cells(), 50);
+    assert_eq!(
+        scenario.setup().wear,
+        Some(WearLaw::Archard { coefficient: 0.0 })
+    );
+}
+
+#[test]
+fn another_shape_drops_the_size_of_the_one_before() {
+    let scenario = load(
+        "li2019-fig3",
+        &["indenter.angle=0.02", "indenter.shape=cone"],
+    );
+    assert_eq!(scenario.setup().indenter.name(), "cone");
+    assert_eq!(scenario.value("indenter.radius"), None);
+    let error = try_load("li2019-fig3", &["indenter.shape=cone"]).expect_err("no angle");
+    assert!(
+        error.starts_with("li2019-fig3: indenter.angle is missing: "),
+        "{error}"
+    );
+    let both = [("indenter.shape", "cone"), ("indenter.angle", "0.02")];
+    assert_eq!(load("li2019-fig3", &[]).with_all(&both), Ok(scenario));
+}
+
+#[test]
+fn the_radius_of_a_punch_is_none_of_curvature() {
+    let error = try_load("li2019-fig3", &["indenter.shape=flat-punch"]).expect_err("no radius");
+    assert!(
+        error.starts_with("li2019-fig3: indenter.radius is missing: "),
+        "{error}"
+    );
+    let error = try_load("flat-punch", &["indenter.shape=paraboloid"]).expect_err("no radius");
+    assert!(error.contains("indenter.radius is missing"), "{error}");
+    // In either order, and a domain given for another shape does not stand in the way.
+    let wide = load("li2019-fig3", &["numerics.domain_radius=3e-4"]);
+    for both in [
+        [
+            ("indenter.shape", "flat-punch"),
+            ("indenter.radius", "1e-4"),
+        ],
+        [
+            ("indenter.radius", "1e-4"),
+            ("indenter.shape", "flat-punch"),
+        ],
+    ] {
+        let punch = wide.with_all(&both).expect("a punch");
+        assert_eq!(punch.setup().indenter.rim(), Some(1e-4));
+        assert_eq!(punch.setup().grid.radius(), 1e-4);
+    }
+    // Between shapes with the same radius it stays.
+    let cut = [
+        ("indenter.shape", "truncated-paraboloid"),
+        ("indenter.tip_radius", "2e-5"),
+    ];
+    let cut = load("li2019-fig3", &[]).with_all(&cut).expect("a flat tip");
+    assert_eq!(cut.value("indenter.radius"), Some("0.01".into()));
+    assert_relative_eq!(
+        cut.setup().grid.radius(),
+        (2.0 * 0.01 * 1.1e-6 + 4e-10f64).sqrt(),
+        max_relative = 1e-14
+    );
+    let whole = cut.with("indenter.shape", "paraboloid");
+    assert_eq!(whole, Ok(load("li2019-fig3", &[])));
+}
+
+/// What the method's own paper does, or the project's method.
+fn choices(method: AbelMethod) -> (Spacing, Scheme) {
+    match method {
+        AbelMethod::Product => (Spacing::Graded, Scheme::Trapezoid),
+        _ => (Spacing::Uniform, Scheme::Euler),
+    }
+}
+
+#[test]
+fn grid_and_scheme_follow_the_method_unless_they_are_given() {
+    for preset in preset::ALL {
+        let scenario = load(preset.name, &[]);
+        if scenario.value("numerics.grid").is_some() {
+            continue;
+        }
+        for method in AbelMethod::ALL {
+            let changed = scenario.with("numerics.method", method.name());
+            let changed = changed.expect("a method");
+            let setup = changed.setup();
+            assert_eq!((setup.spacing, setup.scheme), choices(method), "{method}");
+            let read = again(&scenario).with("numerics.method", method.name());
+            assert_eq!(read.as_ref(), Ok(&changed), "{}: {method}", preset.name);
+            assert_eq!(read.expect("a method").to_toml(), changed.to_toml());
+            let text = changed.to_toml();
+            for (key, word) in [
+                ("grid", setup.spacing.name()),
+                ("scheme", setup.scheme.name()),
+            ] {
+                let line = format!("# {key} = \"{word}\"  # default of method \"{method}\"");
+                assert_line(&text, &line);
+            }
+        }
+    }
+    for spacing in Spacing::ALL {
+        for scheme in Scheme::ALL {
+            let given = [
+                format!("numerics.grid={spacing}"),
+                format!("numerics.scheme={scheme}"),
+            ];
+            let given = load("hertz", &[&given[0], &given[1]]);
+            for method in AbelMethod::ALL {
+                let changed = again(&given).with("numerics.method", method.name());
+                let changed = changed.expect("a method");
+                let setup = changed.setup();
+                assert_eq!((setup.spacing, setup.scheme), (spacing, scheme), "{method}");
+                assert!(
+                    changed
+                        .to_toml()
+                        .contains(&format!("\ngrid = \"{spacing}\"\n"))
+                );
+                assert!(
+                    changed
+                        .to_toml()
+                        .contains(&format!("\nscheme = \"{scheme}\"\n"))
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_run_that_changed_its_method_replays_to_the_same_bits() {
+    for method in AbelMethod::ALL {
+        let mut session = Session::start(load("li2019-fig3", &[])).expect("a contact");
+        session.advance_to(0.25).expect("a quarter of a cycle");
+        session
+            .change("numerics.method", method.name())
+            .expect("a method");
+        session.advance_to(0.5).expect("another");
+        session.change("numerics.grid", "uniform").expect("a grid");
+        session.change("numerics.method", "b").expect("a method");
+        session.advance_to(0.75).expect("a third");
+        let run = again(&session.as_run(Vec::new()));
+        let mut replay = Session::start(run).expect("a contact");
+        replay.advance_to(0.75).expect("the whole run");
+        assert_eq!(
+            replay.scenario().setup(),
+            session.scenario().setup(),
+            "{method}"
+        );
+        assert_eq!(
+            replay.simulation().state(),
+            session.simulation().state(),
+            "{method}"
+        );
+    }
+}
+
+#[test]
+fn bad_assignments_name_themselves() {
+    for (set, expected) in [
+        (
+            "numerics.pointz=3",
+            "--set numerics.pointz=3: unknown key numerics.pointz; did you mean numerics.points?",
+        ),
+        (
+            "material.poisson=0.7",
+            "--set material.poisson=0.7: must be from 0 to 0.5",
+        ),
+        (
+            "numerics.points=many",
+            "--set numerics.points=many: must be a whole number from 4 to 100000",
+        ),
+        (
+            "numerics.points=1e12",
+            "--set numerics.points=1e12: must be a whole number from 4 to 100000",
+        ),
+        (
+            "numerics.points=0",
+            "--set numerics.points=0: must be from 4 to 100000",
+        ),
+        (
+            "indenter.radius=-1",
+            "--set indenter.radius=-1: must be greater than 0",
+        ),
+        (
+            "indenter.radius=nan",
+            "--set indenter.radius=nan: must be a finite number greater than 0",
+        ),
+        (
+            "indenter.shape=sphere",
+            "--set indenter.shape=sphere: must be one of \"paraboloid\", \"cone\", \"power\", \"flat-punch\"",
+        ),
+        (
+            "wear.coefficient",
+            "--set wear.coefficient: must be KEY=VALUE, as in numerics.points=400",
+        ),
+        (
+            "=3",
+            "--set =3: must be KEY=VALUE, as in numerics.points=400",
+        ),
+        (
+            "motion=3",
+            "--set motion=3: motion is a table; known are motion.normal, motion.tangential",
+        ),
+        (
+            "changes.set=3",
+            "--set changes.set=3: changes are recorded during a run, not set",
+        ),
+        ("a\u{1b}[2J=1\n2", "--set a\\u{1b}[2J=1\\n2: unknown key"),
+    ] {
+        let error = try_load("li2019-fig3", &[set]).expect_err(set);
+        assert!(error.starts_with(expected), "{error}");
+        assert!(!error.contains(char::is_control), "{error}");
+    }
+}
+
+#[test]
+fn a_key_changed_follows_the_same_rules() {
+    let scenario = load("li2019-fig3", &[]);
+    let changed = scenario.with("numerics.method", "\"b\"").expect("a method");
+    assert_eq!(changed.setup().method.name(), "b");
+    let method = scenario.setup().method.name();
+    assert_eq!(
+        changed.with("numerics.method", method),
+        Ok(scenario.clone())
+    );
+    let error = scenario
+        .with("material.poisson", "0.7")
+        .expect_err("too large");
+    assert_eq!(
+        error.to_string(),
+        "material.poisson = 0.7: must be from 0 to 0.5"
+    );
+    let error = scenario.with("points", "7").expect_err("no such key");
+    assert_eq!(
+        error.to_string(),
+        "points = 7: unknown key points; did you mean numerics.points?"
+    );
+}
+
+#[test]
+fn the_law_can_be_switched_there_and_back() {
+    let archard = load("li2019-fig3", &[]);
+    let power = archard.with("wear.law", "\"power\"").expect("a law");
+    let Some(WearLaw::Power {
+        stress_exponent,
+        slip_rate_exponent,
+        reference_stress,
+        reference_slip_rate,
+        ..
+    }) = power.setup().wear
+    else {
+        panic!("the power law");
+    };
+    assert_eq!((stress_exponent, slip_rate_exponent), (1.5, 1.0));
+    // mu F/(pi a^2) of Hertz, with the error of 200 cells.
+    let mean_pressure =
+        4.0 / 3.0 * 2.3077e11 * 1e-3 * 0.01f64.sqrt() * 1e-6 / (std::f64::consts::PI * 1e-8);
+    assert_relative_eq!(reference_stress, 0.1 * mean_pressure, max_relative = 1e-3);
+    assert_relative_eq!(reference_slip_rate, 1e-5, max_relative = 1e-12);
+    assert_eq!(power.with("wear.law", "archard"), Ok(archard));
+    let given = load("power-law", &["wear.reference_stress=1e8"]);
+    let archard = given.with("wear.law", "archard").expect("a law");
+    assert_eq!(archard.with("wear.law", "power"), Ok(given));
+}
+
+#[test]
+fn a_run_written_out_keeps_its_plan_and_its_changes() {
+    let plan = RunPlan {
+        shortened_at: Vec::new(),
+        cycles: Some(12.345),
+        snapshot_at: vec![0.1 + 0.2, 7.0],
+        note: Some("a \"remark\"\nin two lines".into()),
+    };
+    let changes = vec![
+        Change::new(1.0, "numerics.method", "\"b\""),
+        Change::new(2.75, "wear.law", "power"),
+    ];
+    let scenario = load("li2019-fig3", &[])
+        .with_run(plan.clone())
+        .with_changes(changes.clone());
+    let read = again(&scenario);
+    assert_eq!((read.run(), read.changes()), (&plan, changes.as_slice()));
+    assert_eq!(read, scenario);
+    let stages: Vec<_> = changes
+        .iter()
+        .scan(read, |stage, change| {
+            *stage = stage.after(change).expect("a stage");
+            Some(stage.clone())
+        })
+        .collect();
+    assert_eq!(stages[1].setup().method.name(), "b");
+    assert_eq!(stages[1].setup().wear.map(|law| law.name()), Some("power"));
+    assert!(stages[1].changes().is_empty());
+}
+
+/// An accuracy takes the place of points, steps and tolerance, which are found before a run; each of these
+/// takes the place of the accuracy.
+#[test]
+fn an_accuracy_leaves_cells_and_steps_open() {
+    let asked = load(
+        "li2019-fig3",
+        &["numerics.points=50", "numerics.accuracy=1e-3"],
+    );
+    assert_eq!(asked.accuracy(), Some(1e-3));
+    for path in [
+        "numerics.points",
+        "numerics.steps_per_cycle",
+        "numerics.integrator",
+    ] {
+        assert_eq!(asked.value(path), None);
+    }
+    assert_line(&asked.to_toml(), "accuracy = 0.001");
+    assert_eq!(again(&asked), asked);
+    // The method is the user's own choice.
+    let method = asked.with("numerics.method", "a").expect("another method");
+    assert_eq!(method.accuracy(), Some(1e-3));
+    for (key, value) in [
+        ("numerics.points", "50"),
+        ("numerics.steps_per_cycle", "20"),
+        ("numerics.tolerance", "1e-4"),
+    ] {
+        let by_hand = asked.with(key, value).expect("by hand");
+        assert_eq!(by_hand.accuracy(), None, "{key}");
+        assert_eq!(again(&by_hand), by_hand);
+    }
+    assert_eq!(load("li2019-fig3", &[]).accuracy(), None);
+    // Without numbers there is no run, and during one it cannot change.
+    let refused = Session::start(asked).expect_err("no points and steps");
+    assert!(
+        refused
+            .to_string()
+            .starts_with("numerics.accuracy = 1e-3: points and steps")
+    );
+    let mut session = Session::start(load("li2019-fig3", &[])).expect("a run");
+    let refused = session
+        .change("numerics.accuracy", "1e-3")
+        .expect_err("under way");
+    assert!(
+        refused.to_string().contains("cannot change during a run"),
+        "{refused}"
+    );
+}
+
+#[test]
+fn defaults_that_may_change_are_written_out_and_derived_ones_are_not() {
+    let text = load("hertz", &[]).to_toml();
+    for line in [
+        "points = 100",
+        "steps_per_cycle = 100",
+        "integrator = \"direct\"",
+        "effective_modulus = 2.3077e11  # Pa",
+    ] {
+        assert_line(&text, line);
+    }
+    assert!(text.contains("\nmethod = \""), "{text}");
+    assert!(!text.contains("domain_radius"));
+    let text = load("hertz", &["numerics.domain_radius=2e-4"]).to_toml();
+    assert!(text.contains("domain_radius = 2e-4  # m"), "{text}");
+}
+
+#[test]
+fn the_domain_ends_where_nothing_can_touch() {
+    let scenario = load("li2019-fig3", &[]);
+    assert_relative_eq!(
+        scenario.setup().grid.radius(),
+        (2.0 * 0.01 * 1.1e-6f64).sqrt(),
+        max_relative = 1e-14
+    );
+    // Under a force there is room to sink to three times the depth of Hertz.
+    let scenario = load("gross-slip", &[]);
+    assert_relative_eq!(
+        scenario.setup().grid.radius(),
+        (2.0 * 0.01 * 3e-6f64).sqrt(),
+        max_relative = 1e-3
+    );
+}
+
+#[test]
+fn what_stands_still_shares_the_period_of_what_moves() {
+    let scenario = load("mindlin", &[]);
+    let frequency = |control: &Control| control.oscillation().angular_frequency();
+    assert_eq!(frequency(scenario.setup().drive.normal()), 100.0);
+    assert_eq!(scenario.setup().drive.repeats_after(), Some(1));
+}
+
+#[test]
+fn files_that_are_no_scenarios_are_refused_in_a_line() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let write = |name: &str, bytes: &[u8]| {
+        let path = directory.path().join(name);
+        fs::write(&path, bytes).expect("a file");
+        path.to_string_lossy().into_owned()
+    };
+    let folder = directory.path().join("folder.toml");
+    fs::create_dir(&folder).expect("a directory");
+    for (path, reason) in [
+        (folder.to_string_lossy().into_owned(), ": is a directory; "),
+        (
+            write("bytes.toml", b"title = \"\xff\""),
+            ": is not UTF-8 text at byte 9; ",
+        ),
+        (
+            write("large.toml", &vec![b'#'; (1 << 20) + 1]),
+            ": is larger than 1 MiB; ",
+        ),
+        ("/no/such/file".to_owned(), ": no such file; "),
+        ("nothing.toml".to_owned(), ": no such file; "),
+    ] {
+        let error = try_load(&path, &[]).expect_err(&path);
+        assert!(error.starts_with(&format!("{path}{reason}")), "{error}");
+    }
+    let largest = write(
+        "largest.toml",
+        &[preset::ALL[0].text.as_bytes(), &vec![b'\n'; 1 << 19]].concat(),
+    );
+    let scenario = load(&largest, &[]);
+    assert_eq!(scenario, load("li2019-fig3", &[]));
+    assert_eq!(
+        (scenario.origin(), scenario.stem().as_str()),
+        (largest.as_str(), "largest")
+    );
+}
+
+#[test]
+fn user_text_stays_on_its_line() {
+    let text = format!(
+        "title = \"a\\u001b[31m\\nb\"\n{}",
+        preset::ALL[1].text.replace("title", "# title")
+    );
+    let scenario = Scenario::from_toml(&text, "x", &[]).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(scenario.title(), "a\\u{1b}[31m\\nb");
+    assert_eq!(again(&scenario), scenario);
+}
+
+/// A number of any size, to the last bit.
+fn positive() -> impl Strategy<Value = f64> {
+    (1.0..10.0f64, -12..3i32).prop_map(|(digits, exponent)| digits * 10f64.powi(exponent))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(256))]
+
+    #[test]
+    fn a_scenario_written_out_reads_back_as_itself(
+        preset in 0..preset::ALL.len(),
+        title in any::<String>(),
+        description in "(?s).{0,80}",
+        (mean, amplitude, modulus, coefficient) in (positive(), positive(), positive(), positive()),
+        (phase, poisson) in (-10.0..10.0f64, 0.0..=0.5f64),
+        (points, steps) in (4..300i64, 1..1000i64),
+        domain in proptest::option::of(positive()),
+        (law, method, other) in (0..2usize, 0..AbelMethod::ALL.len(), 0..AbelMethod::ALL.len()),
+        grid in proptest::option::of(0..2usize),
+        scheme in proptest::option::of(0..2usize),
+        cycles in proptest::option::of(positive()),
+        snapshot_at in proptest::collection::vec(positive(), 0..4),
+        at_cycle in positive(),
+    ) {
+        // A bare text: escapes of TOML would be read as such.
+        let quoted = |text: &str| toml::Value::String(text.to_owned()).to_string();
+        let number = |value: f64| format!("{value:?}");
+        let two_bodies = preset::ALL[preset].text.contains("[material.indenter]");
+        let material = if two_bodies {
+            ["material.indenter.youngs_modulus", "material.indenter.poisson"]
+        } else {
+            ["material.effective_modulus", "material.poisson"]
+        };
+        let mut assignments = vec![
+            ("title", quoted(&title)),
+            ("description", quoted(&description)),
+            ("motion.normal.mean", number(mean)),
+            ("motion.normal.amplitude", number(amplitude)),
+            ("motion.normal.angular_frequency", number(coefficient)),
+            ("motion.normal.phase", number(phase)),
+            (material[0], number(modulus)),
+            (material[1], number(poisson)),
+            ("friction.coefficient", number(amplitude)),
+            ("wear.coefficient", number(coefficient)),
+            ("wear.law", ["archard", "power"][law].to_owned()),
+            ("numerics.method", AbelMethod::ALL[method].to_string()),
+            ("numerics.points", points.to_string()),
+            ("numerics.steps_per_cycle", steps.to_string()),
+        ];
+        let indenter = load(preset::ALL[preset].name, &[]).setup().indenter.clone();
+        // A punch ends its own domain, and a tip of its own size must lie within any other.
+        let free = indenter.rim().is_none() && indenter.flat_face().is_none();
+        let domain = domain.filter(|_| free);
+        assignments.extend(domain.map(|domain| ("numerics.domain_radius", number(domain))));
+        assignments.extend(grid.map(|grid| ("numerics.grid", Spacing::ALL[grid].to_string())));
+        assignments.extend(scheme.map(|scheme| ("numerics.scheme", Scheme::ALL[scheme].to_string())));
+        let assignments: Vec<(&str, &str)> = assignments.iter().map(|(key, value)| (*key, value.as_str())).collect();
+        let scenario = load(preset::ALL[preset].name, &[])
+            .with_all(&assignments)
+            .map_err(|error| TestCaseError::fail(error.to_string()))?
+            .with_run(RunPlan { cycles, snapshot_at, ..RunPlan::default() })
+            .with_changes(vec![Change::new(at_cycle, "friction.coefficient", &number(phase.abs()))]);
+        let text = scenario.to_toml();
+        let read = Scenario::from_toml(&text, scenario.origin(), &[])
+            .map_err(|error| TestCaseError::fail(format!("{error}\n{text}")))?;
+        prop_assert_eq!(&read, &scenario);
+        prop_assert_eq!(read.title(), scenario.title());
+        prop_assert_eq!(read.to_toml(), text);
+        let other = AbelMethod::ALL[other].name();
+        prop_assert_eq!(read.with("numerics.method", other), scenario.with("numerics.method", other));
+        prop_assert!(!scenario.title().contains(char::is_control));
+    }
+
+    #[test]
+    fn no_text_makes_the_reader_panic_or_break_the_line(text in any::<String>(), set in any::<String>()) {
+        if let Err(error) = Scenario::from_toml(&text, &text, &[]) {
+            prop_assert!(!error.to_string().contains(char::is_control));
+        }
+        if let Err(error) = Scenario::load(&text, &[]) {
+            prop_assert!(!error.to_string().contains(char::is_control));
+        }
+        for set in [set.clone(), format!("title={set}"), format!("numerics.points={set}")] {
+            if let Err(error) = Scenario::load("hertz", &[set]) {
+                prop_assert!(!error.to_string().contains(char::is_control));
+            }
+        }
+    }
+}

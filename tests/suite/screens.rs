@@ -1,0 +1,1032 @@
+//! Screens: a few that tell much are pinned, all others must fit their size and not fail.
+//!
+//! Keys are played by `--keys`, and the screen comes from `--print`, so no terminal is needed. The
+//! pinned screens stand in `snapshots/`; `INSTA_UPDATE=always cargo test screens::` writes them
+//! anew, to be read before they are kept.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread;
+use std::time::Duration;
+
+use mdr_tui::plot::Marker;
+use mdr_tui::scenario::session::Session;
+use mdr_tui::scenario::{Scenario, preset};
+use mdr_tui::tui::app::App;
+use mdr_tui::tui::command::{self, BINDINGS};
+use mdr_tui::tui::frame::{Activity, Slot};
+use mdr_tui::tui::keys::{Key, Named, parse_script};
+use mdr_tui::tui::manual;
+use mdr_tui::tui::order::Order;
+use mdr_tui::tui::pace::Pace;
+use mdr_tui::tui::panels::Panel;
+use mdr_tui::tui::theme::{Look, Theme};
+use mdr_tui::tui::worker::Worker;
+use mdr_tui::tui::{Event, screen, tour};
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::text::Line;
+use tempfile::TempDir;
+
+fn explorer(directory: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_mdr-tui"))
+        .args(arguments)
+        .current_dir(directory)
+        .env("LC_ALL", "C.UTF-8")
+        .stdin(Stdio::null())
+        .output()
+        .expect("the program starts")
+}
+
+/// The screen of `size` after `keys`; nothing on stderr, every line within the size.
+fn shot(directory: &Path, scenario: &str, keys: &str, size: (usize, usize)) -> String {
+    let print = format!("{}x{}", size.0, size.1);
+    let arguments = [scenario, "--keys", keys, "--print", &print];
+    checked(explorer(directory, &arguments), size, keys)
+}
+
+fn checked(output: Output, size: (usize, usize), what: &str) -> String {
+    let complaint = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{what} at {size:?}: {complaint}");
+    assert_eq!(complaint, "", "{what} at {size:?}");
+    let text = String::from_utf8(output.stdout).expect("text");
+    assert_eq!(text.lines().count(), size.1, "{what} at {size:?}");
+    for line in text.lines() {
+        assert!(line.chars().count() <= size.0, "{what} at {size:?}: {line}");
+        assert!(!line.chars().any(char::is_control), "{line:?}");
+    }
+    text
+}
+
+fn dir() -> TempDir {
+    tempfile::tempdir().expect("a directory")
+}
+
+/// Pins the screens of `keys` in 80 by 24 and 200 by 50.
+fn pin(name: &str, scenario: &str, keys: &str) {
+    pin_sizes(name, scenario, keys, &[(80, 24), (200, 50)]);
+}
+
+fn pin_sizes(name: &str, scenario: &str, keys: &str, sizes: &[(usize, usize)]) {
+    let dir = dir();
+    for &size in sizes {
+        let text = shot(dir.path(), scenario, keys, size);
+        insta::assert_snapshot!(format!("{name}-{}x{}", size.0, size.1), text);
+    }
+}
+
+#[test]
+fn the_start() {
+    pin("start", "li2019-fig3", "");
+}
+
+#[test]
+fn after_some_cycles() {
+    let sizes = [(60, 18), (80, 24), (120, 40), (200, 50)];
+    pin_sizes("cycles", "li2019-fig3", ",,,,,,.......", &sizes);
+}
+
+#[test]
+fn a_method_and_a_law_switched() {
+    pin("switched", "li2019-fig3", ",mm,w.<Esc>");
+}
+
+#[test]
+fn a_method_just_switched_says_so() {
+    pin("notice", "li2019-fig3", ",,m");
+}
+
+#[test]
+fn a_zoomed_panel() {
+    pin("zoomed", "li2019-fig3", ",,<Tab>z");
+}
+
+#[test]
+fn a_logarithmic_panel() {
+    pin("logarithmic", "li2019-fig3", ",,<Tab>L");
+}
+
+#[test]
+fn more_panels() {
+    pin("more", "li2019-fig3", ",,,,v");
+}
+
+#[test]
+fn the_scar_the_fretting_log_and_the_map() {
+    pin("scar", "li2019-fig3", ",,,,,,,,,,..vv");
+    pin("scar-zoomed", "li2019-fig3", ",,,,,,,,,,..vvz");
+}
+
+#[test]
+fn another_stress_in_the_half_space() {
+    let dir = dir();
+    let shot = |keys: &str| shot(dir.path(), "li2019-fig3", keys, (80, 24));
+    let said = ["von Mises", "principal", "shear", "pressure"];
+    for (k, name) in said.into_iter().enumerate() {
+        let text = shot(&format!(",vz{}", "o".repeat(k)));
+        let scale = panels(&text).last().copied().unwrap_or_default().to_owned();
+        assert!(scale.contains(name) && scale.contains("Pa"), "{text}");
+    }
+    assert!(shot(",vzoooo").contains("half-space, heights"));
+    // Half a cycle of loads or more: the largest of a cycle is at least that of the moment.
+    assert!(shot(",vzO").contains("von Mises, cycle"));
+}
+
+#[test]
+fn a_cut_through_the_bodies() {
+    pin("section", "strong-wear", ",,,,,,,,,vz");
+    let dir = dir();
+    let text = shot(dir.path(), "li2019-fig3", ",,vz", (81, 24));
+    for line in panels(&text).iter().skip(4).take(12) {
+        // Left and right are alike.
+        let line: Vec<char> = format!("{line:81}").chars().collect();
+        assert!(line.iter().eq(line.iter().rev()), "{text}");
+    }
+}
+
+#[test]
+fn nine_panels_on_a_middling_screen() {
+    let dir = dir();
+    let text = shot(dir.path(), "gross-slip", ",,,", (120, 40));
+    insta::assert_snapshot!("gross-slip-120x40", text);
+}
+
+#[test]
+fn panels_come_in_pages() {
+    let dir = dir();
+    let shot = |keys: &str, size| shot(dir.path(), "li2019-fig3", keys, size);
+    let first = shot(",", (80, 24));
+    assert!(first.contains("fretting loop") && !first.contains("cross-section"));
+    let second = shot(",v", (80, 24));
+    assert!(second.contains("cross-section") && !second.contains("fretting loop"));
+    assert!(shot(",vv", (80, 24)).contains("wear rate"));
+    assert!(shot(",vvv", (80, 24)).contains("fretting log"));
+    assert_eq!(shot(",vvvv", (80, 24)), first);
+    // Tab walks over the page's end; the page follows the focus.
+    assert_eq!(shot(",<Tab><Tab><Tab><Tab>", (80, 24)), second);
+    // A large screen has them all on two pages.
+    let all = shot(",", (200, 50)) + &shot(",v", (200, 50));
+    for panel in Panel::ALL {
+        assert!(all.contains(panel.title()), "{panel:?}");
+    }
+}
+
+#[test]
+fn the_help() {
+    pin("help", "li2019-fig3", "?");
+}
+
+#[test]
+fn the_presets() {
+    pin("presets", "li2019-fig3", "pjj");
+}
+
+#[test]
+fn a_scene_without_tangential_motion() {
+    pin("hertz", "hertz", ",.........................");
+}
+
+#[test]
+fn contact_lost() {
+    pin("separation", "separation", ",...........................");
+}
+
+#[test]
+fn ascii_is_ascii() {
+    let dir = dir();
+    for (name, keys) in [
+        ("cycles", ",,"),
+        ("zoomed", ",<Tab><Tab><Tab>z"),
+        ("help", "?"),
+        ("notice", ",m"),
+    ] {
+        let arguments = ["--marker", "ascii", "--keys", keys, "--print", "80x24"];
+        let text = checked(explorer(dir.path(), &arguments), (80, 24), keys);
+        assert!(text.is_ascii(), "{text}");
+        insta::assert_snapshot!(format!("ascii-{name}-80x24"), text);
+    }
+}
+
+#[test]
+fn every_marker_draws() {
+    let dir = dir();
+    for marker in ["braille", "halfblock", "dot", "ascii"] {
+        let arguments = ["--marker", marker, "--keys", ",,", "--print", "80x24"];
+        let text = checked(explorer(dir.path(), &arguments), (80, 24), marker);
+        assert!(text.contains("fretting loop"), "{text}");
+    }
+}
+
+#[test]
+fn a_tiny_screen_says_what_it_needs() {
+    let dir = dir();
+    let text = shot(dir.path(), "li2019-fig3", ",", (30, 8));
+    insta::assert_snapshot!("tiny-30x8", text);
+}
+
+/// How a script spells a key.
+fn spelled(key: Key) -> String {
+    match key {
+        Key::Char('<') => "<lt>".into(),
+        Key::Char(' ') => "<Space>".into(),
+        Key::Char(character) => character.into(),
+        Key::Ctrl(character) => format!("<C-{character}>"),
+        Key::Named(Named::BackTab) => "<S-Tab>".into(),
+        Key::Named(_) => format!("<{key}>"),
+    }
+}
+
+#[test]
+fn every_key_of_the_table_can_be_pressed() {
+    let dir = dir();
+    let all: Vec<String> = BINDINGS
+        .iter()
+        .flat_map(|binding| binding.keys)
+        .map(|&key| spelled(key))
+        .collect();
+    assert!(all.len() >= 30);
+    for key in ["t", "c", "a"] {
+        assert!(all.iter().any(|bound| bound == key), "{key} calls nothing");
+    }
+    for key in &all {
+        for before in ["", ",", "?", "p", "z", "c", "a"] {
+            shot(
+                dir.path(),
+                "li2019-fig3",
+                &format!("{before}{key}"),
+                (80, 24),
+            );
+        }
+    }
+    // All of them, in the table's order and backwards, up to the first that quits.
+    let mut keys: Vec<String> = all
+        .into_iter()
+        .filter(|key| {
+            let read = parse_script(key).expect("a key");
+            !matches!(
+                command::of_key(read[0]),
+                Some(command::Command::Quit | command::Command::QuitKeepingScreen)
+            )
+        })
+        .collect();
+    shot(dir.path(), "li2019-fig3", &keys.concat(), (80, 24));
+    keys.reverse();
+    shot(dir.path(), "li2019-fig3", &keys.concat(), (80, 24));
+}
+
+#[test]
+fn keys_that_mean_nothing_change_nothing() {
+    let dir = dir();
+    let plain = shot(dir.path(), "li2019-fig3", ",", (80, 24));
+    let with = shot(dir.path(), "li2019-fig3", ",€é%0<C-z><Backspace>", (80, 24));
+    assert_eq!(plain, with);
+}
+
+#[test]
+fn quitting_ends_the_script() {
+    let dir = dir();
+    for quit in ["q", "Q", "<C-c>", "?q", "p<C-c>"] {
+        let text = shot(dir.path(), "li2019-fig3", &format!(",{quit},,"), (80, 24));
+        assert!(text.contains("cycle 1.00/"), "{quit}: {text}");
+    }
+}
+
+#[test]
+fn a_snapshot_tells_of_the_switches_and_runs_again_bit_for_bit() {
+    for (i, keys) in [
+        ",m,s",
+        "...........m....W...M..w,.s",
+        ",mmmm,s",
+        "ww.,M.,,s",
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let dir = dir();
+        shot(dir.path(), "li2019-fig3", keys, (80, 24));
+        let snapshot = fs::read_dir(dir.path())
+            .expect("a directory")
+            .map(|entry| entry.expect("an entry").path())
+            .collect::<Vec<_>>();
+        let [directory] = snapshot.as_slice() else {
+            panic!("{keys}: {snapshot:?}");
+        };
+        let state = fs::read_to_string(directory.join("state.csv")).expect("the state");
+        let scenario = fs::read_to_string(directory.join("scenario.toml")).expect("the scenario");
+        let changes = state.matches("# at cycle ").count();
+        let switches = keys.matches(|c| "mMwW".contains(c)).count();
+        assert_eq!(changes, switches, "{keys}");
+        assert_eq!(scenario.matches("[[changes]]").count(), switches, "{keys}");
+        if i == 0 {
+            assert!(state.contains("\n# method: a\n"), "{state}");
+            assert!(
+                state.contains("\n# at cycle 1: numerics.method = \"a\"\n"),
+                "{state}"
+            );
+            assert!(directory.ends_with("li2019-fig3-cycle-2"));
+        }
+        let given = directory.join("scenario.toml");
+        let given = given.to_string_lossy();
+        let output = explorer(dir.path(), &["run", &given, "--out", "again", "--quiet"]);
+        assert_eq!(String::from_utf8_lossy(&output.stderr), "", "{keys}");
+        let again = fs::read_to_string(dir.path().join("again/state.csv")).expect("the state");
+        assert!(again == state, "{keys}: the states differ");
+    }
+}
+
+#[test]
+fn a_snapshot_never_writes_over_another() {
+    let dir = dir();
+    let text = shot(dir.path(), "hertz", ",sss", (80, 24));
+    assert!(text.contains("snapshot in hertz-cycle-1-3"), "{text}");
+    let count = fs::read_dir(dir.path()).expect("a directory").count();
+    assert_eq!(count, 3);
+}
+
+/// An app with its worker, without a terminal and without a process.
+struct Stage {
+    app: App,
+    orders: Sender<Order>,
+    events: Receiver<Event>,
+    worker: Option<thread::JoinHandle<()>>,
+}
+
+impl Stage {
+    fn new(scenario: &str, marker: Marker) -> Self {
+        let scenario = Scenario::load(scenario, &[]).expect("a preset");
+        let session = Session::start(scenario).expect("a contact");
+        let (orders, to_worker) = channel();
+        let (sender, events) = channel();
+        let slot = Arc::new(Slot::default());
+        let worker = Worker::new(session, slot, sender, Duration::from_secs(1), false);
+        let worker = thread::spawn(move || worker.serve(&to_worker));
+        Self {
+            app: App::new(Theme::new(Look::Dark, marker), orders.clone()),
+            orders,
+            events,
+            worker: Some(worker),
+        }
+    }
+
+    fn press(&mut self, keys: &str) {
+        for key in parse_script(keys).expect("a script") {
+            self.app.press(key);
+            let (reply, answer) = channel();
+            self.orders.send(Order::Sync(reply)).expect("a worker");
+            self.app.take_frame(answer.recv().expect("a frame"));
+            for event in self.events.try_iter() {
+                if let Event::Notice(text) = event {
+                    self.app.notice = Some(text);
+                }
+            }
+        }
+    }
+
+    /// Draws at `columns` by `rows`, within a larger buffer that must stay clean around it.
+    fn draw(&self, columns: u16, rows: u16) {
+        let mut buffer = Buffer::empty(Rect::new(0, 0, columns + 2, rows + 2));
+        for cell in &mut buffer.content {
+            cell.set_char('#');
+        }
+        let area = Rect::new(1, 1, columns, rows);
+        screen::draw(&self.app, area, &mut buffer);
+        for at in buffer.area.positions() {
+            let outside = !area.contains(at);
+            assert!(
+                !outside || buffer[at].symbol() == "#",
+                "{columns}x{rows} draws at {at}"
+            );
+        }
+    }
+}
+
+impl Drop for Stage {
+    fn drop(&mut self) {
+        let _ = self.orders.send(Order::Quit);
+        if let Some(worker) = self.worker.take() {
+            let _ = worker.join();
+        }
+    }
+}
+
+/// The panels' part of a screen, without the status line and the line of keys.
+fn panels(text: &str) -> Vec<&str> {
+    let lines: Vec<&str> = text.lines().collect();
+    lines[1..lines.len() - 1].to_vec()
+}
+
+/// The one line of a screen that has `word` in it.
+fn line_with<'a>(text: &'a str, word: &str) -> &'a str {
+    let mut lines = text.lines().filter(|line| line.contains(word));
+    let line = lines.next();
+    assert!(lines.next().is_none(), "{word} is there twice:\n{text}");
+    line.unwrap_or_else(|| panic!("no {word} in\n{text}"))
+}
+
+/// The relative difference in a line of the accuracy panel.
+fn difference(text: &str, meaning: &str) -> f64 {
+    let line = line_with(text, meaning);
+    let number = line
+        .split(meaning)
+        .next()
+        .and_then(|before| before.split_whitespace().last());
+    number
+        .and_then(|number| number.parse().ok())
+        .unwrap_or_else(|| panic!("no number in {line:?}"))
+}
+
+#[test]
+fn the_help_has_one_key_a_row_by_groups() {
+    let dir = dir();
+    let shot = |keys: &str, size| shot(dir.path(), "li2019-fig3", keys, size);
+    // On a large screen all of it, on a small one by scrolling.
+    let large = shot("?", (200, 50));
+    let pages = [0, 15, 30, 45].map(|rows| shot(&format!("?{}", "j".repeat(rows)), (80, 24)));
+    for text in [large, pages.concat()] {
+        for (group, bindings) in manual::groups() {
+            assert!(
+                text.contains(&format!("│ {group} ")) || text.contains(&format!("  {group}  "))
+            );
+            for binding in bindings {
+                let keys = manual::keys(binding).join(" ");
+                let row = format!(" {keys}  {}", binding.help);
+                assert!(text.contains(&row), "{row} is not in\n{text}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_panel_is_explained_where_it_stands() {
+    let dir = dir();
+    let shot = |keys: &str, size| shot(dir.path(), "li2019-fig3", keys, size);
+    pin("explained", "li2019-fig3", ",<Enter>");
+    // A newcomer's questions, within two keys: what is a, what is the strip?
+    let profile = shot(",<Enter>", (80, 24));
+    for answer in [
+        "contact radius: inside it the bodies touch",
+        "stick, slip and open zones",
+        "In this scenario",
+    ] {
+        assert!(profile.contains(answer), "{profile}");
+    }
+    // The explanation follows the focus, and closes without a trace.
+    for (tabs, panel) in Panel::ALL.into_iter().enumerate() {
+        let text = shot(&format!(",<Enter>{}", "<Tab>".repeat(tabs)), (80, 24));
+        let title = format!("┌ {} (", panel.title());
+        assert!(text.contains(&title), "{text}");
+        let last = panel.words().symbols.last().expect("a symbol").1;
+        assert!(text.contains(last), "{last}\n{text}");
+    }
+    assert_eq!(shot(",<Enter><Enter>", (80, 24)), shot(",", (80, 24)));
+    // The zones have their names in the strip.
+    let strip = shot(",", (80, 24));
+    for zone in [" stick ", " slip ", " open "] {
+        assert!(strip.contains(zone), "{strip}");
+    }
+}
+
+#[test]
+fn every_tour_can_be_walked_to_its_end() {
+    let dir = dir();
+    pin("tour", "li2019-fig3", ",,nn");
+    for preset in preset::ALL {
+        let captions = tour::captions(preset.name);
+        let mut stage = Stage::new(preset.name, Marker::Braille);
+        stage.press("<Esc>");
+        for caption in captions {
+            stage.press("n");
+            // The caption is there, and the panel that it is about has the focus.
+            assert_eq!(
+                stage.app.tour.as_ref().and_then(tour::Tour::caption),
+                Some(caption)
+            );
+            let panel = caption.panel().unwrap_or(stage.app.focus);
+            assert_eq!(stage.app.focus, panel, "{caption:?}");
+            stage.draw(80, 24);
+        }
+        stage.press("n");
+        assert_eq!(stage.app.tour, None);
+        stage.press("n<Esc>");
+        assert_eq!(stage.app.tour, None);
+    }
+    let own = preset::find("hertz").expect("a preset").text;
+    fs::write(dir.path().join("own.toml"), own).expect("a file");
+    let text = shot(dir.path(), "own.toml", ",n", (80, 24));
+    assert!(text.contains("tours come with the presets"), "{text}");
+}
+
+#[test]
+fn the_footer_follows_the_mode() {
+    let dir = dir();
+    let foot = |keys: &str| {
+        let text = shot(dir.path(), "li2019-fig3", keys, (120, 24));
+        text.lines().last().expect("a footer").to_owned()
+    };
+    for (keys, words) in [
+        (",,", "Enter explain"),
+        (",,c<Esc>", "m other method"),
+        (",,[<Esc>", "Space run on from here"),
+        (",,n", "n next caption"),
+    ] {
+        let foot = foot(keys);
+        assert!(foot.contains(words), "{keys}: {foot}");
+        assert!(
+            foot.contains("? help") && foot.contains("q quit"),
+            "{keys}: {foot}"
+        );
+    }
+}
+
+#[test]
+fn the_status_line_has_fixed_slots() {
+    let dir = dir();
+    let places = |keys: &str| {
+        let text = shot(dir.path(), "li2019-fig3", keys, (120, 24));
+        let status = text.lines().next().expect("a status line").to_owned();
+        let bars = status.chars().enumerate().filter(|(_, c)| *c == '│');
+        bars.map(|(at, _)| at).take(4).collect::<Vec<_>>()
+    };
+    let first = places(",");
+    assert_eq!(first.len(), 4);
+    for keys in [",,", ",,,,,,,,,,", ",m", ",mm.", ",---"] {
+        assert_eq!(places(keys), first, "{keys}");
+    }
+}
+
+#[test]
+fn wear_thinner_than_a_line_is_drawn_magnified() {
+    let dir = dir();
+    let times = |keys: &str| -> f64 {
+        let text = shot(dir.path(), "li2019-fig3", keys, (80, 24));
+        let after = text.split("wear ×").nth(1);
+        let word = after.and_then(|after| after.split_whitespace().next());
+        word.and_then(|word| word.parse().ok())
+            .unwrap_or_else(|| panic!("no factor in\n{text}"))
+    };
+    let (early, late) = (times(","), times(&",".repeat(60)));
+    assert!(
+        early >= 50.0 && late <= 0.2 * early && late >= 2.0,
+        "{early} {late}"
+    );
+}
+
+#[test]
+fn a_logarithmic_axis_keeps_its_unit() {
+    let dir = dir();
+    for (keys, unit) in [(",z", "f [µm]"), (",<Tab>z", "stress [GPa]")] {
+        let linear = shot(dir.path(), "li2019-fig3", keys, (80, 24));
+        let log = shot(dir.path(), "li2019-fig3", &format!("{keys}L"), (80, 24));
+        assert!(
+            linear.contains(unit) && log.contains(unit),
+            "{linear}\n{log}"
+        );
+    }
+}
+
+/// The future that a branch leaves is marked, and B goes back to it.
+#[test]
+fn a_branch_keeps_the_future_that_it_leaves() {
+    let dir = dir();
+    let shot = |keys: &str| shot(dir.path(), "mindlin", keys, (120, 24));
+    let text = shot(",[,");
+    let foot = text.lines().last().expect("a footer");
+    assert!(foot.contains("is kept: B goes there"), "{text}");
+    let text = shot(",,,[[,B");
+    assert!(text.contains("cycle 3.00/"), "{text}");
+}
+
+#[test]
+fn a_comparison_can_begin_at_the_start() {
+    let dir = dir();
+    let shot = |keys: &str| shot(dir.path(), "strong-wear", keys, (120, 40));
+    let text = shot(",,,,,,c");
+    assert!(
+        text.contains("equal so far: both run on from here"),
+        "{text}"
+    );
+    assert!(text.contains("C compares from the start"), "{text}");
+    let text = shot(",,,,,,C");
+    assert!(!text.contains("equal so far"), "{text}");
+    assert!(
+        text.contains("comparing with b 100 from the start"),
+        "{text}"
+    );
+    // It is the run of that method: the same numbers as in a run of its own.
+    let alone = Scenario::load("strong-wear", &["numerics.method=b".into()]).expect("a preset");
+    let mut alone = Session::start(alone).expect("a contact");
+    alone.advance_to(6.0).expect("cycles");
+    let volume = alone.simulation().moment().wear_volume;
+    let shown = mdr_tui::plot::units::format_value(volume, "m³", 4);
+    assert!(
+        line_with(&text, "wear volume ").contains(&shown),
+        "{shown}\n{text}"
+    );
+}
+
+/// A worker that runs, its orders and what it publishes.
+fn live(
+    scenario: &str,
+    cycles: f64,
+    every: Duration,
+) -> (
+    Sender<Order>,
+    Receiver<Event>,
+    Arc<Slot>,
+    thread::JoinHandle<()>,
+) {
+    let scenario = Scenario::load(scenario, &[format!("run.cycles={cycles}")]).expect("a preset");
+    let session = Session::start(scenario).expect("a contact");
+    let (orders, to_worker) = channel();
+    let (sender, events) = channel();
+    let slot = Arc::new(Slot::default());
+    let worker = Worker::new(session, Arc::clone(&slot), sender, every, true);
+    let worker = thread::spawn(move || worker.serve(&to_worker));
+    (orders, events, slot, worker)
+}
+
+/// A fast run is shown at one phase of the motion: frames as they come would be a stroboscope.
+#[test]
+fn fast_runs_are_shown_at_one_phase() {
+    let (orders, events, slot, worker) = live("li2019-fig3", 1e6, Duration::from_millis(20));
+    let frames = |wanted: usize| {
+        let mut seen = Vec::new();
+        while seen.len() < wanted {
+            let event = events
+                .recv_timeout(Duration::from_secs(30))
+                .expect("a frame");
+            if matches!(event, Event::Frame) {
+                seen.extend(slot.take());
+            }
+        }
+        seen
+    };
+    assert_eq!(frames(1)[0].pace, Pace::Cycles(0.5));
+    // To 20 cycles per second.
+    orders.send(Order::Pace(5)).expect("a worker");
+    // What was on the way, and the answer to the order.
+    frames(3);
+    for frame in frames(8) {
+        let part = frame.observation.moment.cycle.fract();
+        assert_eq!(frame.phase, Some(0.0));
+        assert!(part < 0.011, "{part}");
+    }
+    orders.send(Order::HoldPhase).expect("a worker");
+    frames(3);
+    let released = frames(8);
+    let parts = released
+        .iter()
+        .map(|frame| frame.observation.moment.cycle.fract());
+    assert!(parts.into_iter().any(|part| part > 0.05));
+    let _ = orders.send(Order::Quit);
+    worker.join().expect("a worker");
+}
+
+/// Space at the planned end runs on only when pressed twice.
+#[test]
+fn space_at_the_end_asks_first() {
+    let (orders, events, slot, worker) = live("hertz", 0.2, Duration::from_millis(20));
+    let next = || events.recv_timeout(Duration::from_secs(30));
+    let until = |activity: Activity| {
+        while !matches!(next().expect("a frame"), Event::Frame)
+            || slot.take().is_none_or(|frame| frame.activity != activity)
+        {}
+    };
+    until(Activity::Done);
+    orders.send(Order::RunPause).expect("a worker");
+    let notice = loop {
+        match next().expect("a notice") {
+            Event::Notice(text) => break text,
+            Event::Frame => assert!(slot.take().is_none_or(|f| f.activity == Activity::Done)),
+            _ => {}
+        }
+    };
+    assert!(notice.contains("planned end"), "{notice}");
+    orders.send(Order::RunPause).expect("a worker");
+    until(Activity::Running);
+    let _ = orders.send(Order::Quit);
+    worker.join().expect("a worker");
+}
+
+/// The picture that the README shows; `UPDATE_PICTURES=1 cargo test screens::` makes it anew.
+#[test]
+fn a_screen_can_be_printed_as_a_picture() {
+    let dir = dir();
+    let keys = ",".repeat(30);
+    let print = ["--keys", &keys, "--print", "120x40", "--format", "svg"];
+    let output = explorer(dir.path(), &print);
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+    let svg = String::from_utf8(output.stdout).expect("text");
+    assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
+    assert!(svg.contains("Dual oscillation of a paraboloid") && svg.contains("stroke-linecap"));
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/pictures/explorer.svg");
+    if std::env::var_os("UPDATE_PICTURES").is_some() {
+        fs::create_dir_all(path.parent().expect("a directory")).expect("a directory");
+        fs::write(&path, &svg).expect("a picture");
+    }
+    let kept = fs::read_to_string(&path).expect("the picture");
+    assert!(kept == svg, "tests/pictures/explorer.svg is out of date");
+    // Alone it is refused.
+    let output = explorer(dir.path(), &["--format", "svg"]);
+    assert_eq!(output.status.code(), Some(2));
+    // Other sizes and looks are whole pictures as well.
+    for (size, theme) in [("60x18", "light"), ("80x24", "mono"), ("200x50", "dark")] {
+        let print = [
+            "--keys", ",", "--print", size, "--format", "svg", "--theme", theme,
+        ];
+        let output = explorer(dir.path(), &print);
+        let svg = String::from_utf8(output.stdout).expect("text");
+        assert!(
+            svg.starts_with("<svg ") && svg.ends_with("</svg>\n"),
+            "{size} {theme}"
+        );
+        assert_eq!(svg.contains("#e69f00"), theme == "dark", "{size} {theme}");
+    }
+}
+
+#[test]
+fn theory_over_the_plots() {
+    pin("theory", "li2019-fig3", ",,,t");
+}
+
+#[test]
+fn theory_comes_and_goes() {
+    let dir = dir();
+    let shot = |keys: &str| shot(dir.path(), "li2019-fig3", keys, (80, 24));
+    let (plain, with, without) = (shot(",,"), shot(",,t"), shot(",,tt"));
+    assert_ne!(plain, with);
+    assert_eq!(plain, without);
+    // Zoomed, each curve is named.
+    let zoomed = shot(",,tz");
+    assert!(zoomed.contains("limit"), "{zoomed}");
+    assert!(!shot(",,z").contains("limit"));
+    let stresses = shot(",,t<Tab>z");
+    assert!(stresses.contains("unworn p"), "{stresses}");
+    assert!(!shot(",,<Tab>z").contains("unworn p"));
+}
+
+#[test]
+fn a_comparison_sets_a_rival_beside_the_run() {
+    let dir = dir();
+    let shot = |keys: &str| shot(dir.path(), "li2019-fig3", keys, (80, 24));
+    let before = shot(",,,");
+    let mut seen = Vec::new();
+    for (keys, rival) in [
+        (",,c,", "b 100"),
+        (",,cm,", "a 100"),
+        (",,cmm,", "a+b 100"),
+        (",,cmmm,", "benad 100"),
+        (",,cmmmm,", "product 50"),
+        (",,cmmmmm,", "b 100"),
+        (",,cM,", "product 50"),
+    ] {
+        let text = shot(keys);
+        for title in ["pressure", "difference of f", "both"] {
+            assert!(text.contains(title), "{keys}: {title}\n{text}");
+        }
+        let title = format!(" 3D profile: product 100 and {rival} ");
+        assert!(text.contains(&title), "{keys}:\n{text}");
+        // The run itself is what it was: m has changed the rival only.
+        assert_eq!(text.lines().next(), before.lines().next(), "{keys}");
+        // Both columns of numbers are whole.
+        let names = line_with(&text, &format!("product 100  {rival:>10}"));
+        assert!(names.ends_with(rival), "{text}");
+        for name in [
+            "stick c ",
+            "contact a ",
+            "wear volume ",
+            "1 - V/(k E_d)",
+            "rms difference",
+        ] {
+            line_with(&text, name);
+        }
+        for (name, unit) in [
+            ("stick c ", "µm"),
+            ("contact a ", "µm"),
+            ("wear volume ", "µm³"),
+        ] {
+            let line = line_with(&text, name);
+            assert!(line.ends_with(&format!(" {unit}")), "{line}");
+            assert_eq!(line.matches(&format!(" {unit}")).count(), 2, "{line}");
+        }
+        seen.push(line_with(&text, "rms difference").to_owned());
+    }
+    // Once around, the rival is the first again; each of the others differs by an amount of its own.
+    assert_eq!(seen[0], seen[5]);
+    assert_eq!(seen[4], seen[6]);
+    let mut distinct = seen[..5].to_vec();
+    distinct.sort();
+    distinct.dedup();
+    assert_eq!(distinct.len(), 5, "{seen:?}");
+    // A comparison leaves no trace.
+    assert_eq!(shot(",,cm,c"), before);
+}
+
+#[test]
+fn the_accuracy_panel_waits_for_the_companion_and_shows_what_it_found() {
+    let dir = dir();
+    let shot = |keys: &str| shot(dir.path(), "li2019-fig3", keys, (80, 24));
+    let text = shot(",,,a");
+    assert!(
+        text.contains(" accuracy (Esc closes, Tab explains) "),
+        "{text}"
+    );
+    assert!(!text.contains("running ..."), "{text}");
+    line_with(
+        &text,
+        "   100 cells, 100 steps per cycle, to cycle 3.00, in ",
+    );
+    for (meaning, largest) in [
+        ("V against k E_d over the last period", 5e-3),
+        ("F_z of the springs against", 5e-3),
+        ("permanent stick radius against theory", 5e-2),
+        ("V of the profile against k E_d since the start", 5e-3),
+        ("error of the worn depth", 1e-2),
+        ("error of the worn volume", 1e-2),
+        ("error of F_x", 1e-2),
+        ("error of p away from borders", 1e-2),
+    ] {
+        let found = difference(&text, meaning);
+        assert!(found != 0.0 && found.abs() < largest, "{meaning}: {found}");
+    }
+    // The second page explains each check in two sentences.
+    let text = shot(",,,a<Tab>");
+    for words in [
+        " checks (Esc closes",
+        "energy: holds to",
+        "Wear by Archard's law",
+        "stick radius: holds",
+    ] {
+        assert!(text.contains(words), "{words}:\n{text}");
+    }
+    assert_eq!(shot(",,,a<Tab><Esc>"), shot(",,,"));
+    // The run goes on below it, and it closes without a trace.
+    assert!(shot(",a,,").contains(" accuracy "));
+    assert_eq!(shot(",,,a<Esc>"), shot(",,,"));
+    assert_eq!(shot(",,,aa"), shot(",,,"));
+}
+
+#[test]
+fn the_status_line_begins_sensibly_however_narrow() {
+    let dir = dir();
+    for columns in 40..=130 {
+        let text = shot(dir.path(), "li2019-fig3", ",,", (columns, 10));
+        let status = text.lines().next().expect("a status line");
+        assert!(status.starts_with(" ⏸ paused "), "{columns}: {status}");
+        let parts: Vec<&str> = status.split('│').map(str::trim).collect();
+        assert!(
+            parts[1].starts_with("cycle 2.00/199.24"),
+            "{columns}: {status}"
+        );
+        // The pace stays longer than method, checks and law.
+        if columns >= 50 {
+            assert_eq!(
+                parts[2].split("  ").next(),
+                Some("0.5 cycles/s"),
+                "{columns}: {status}"
+            );
+        }
+        if columns >= 60 {
+            assert!(status.contains("│ product"), "{columns}: {status}");
+        }
+        // The title fills what is left, whole or begun.
+        let whole = "Dual oscillation of a paraboloid";
+        let end = status.find("Dual").map_or("", |at| &status[at..]);
+        let is_begun = end
+            .strip_suffix("..")
+            .is_some_and(|begun| whole.starts_with(begun));
+        assert!(
+            end.is_empty() || end == whole || is_begun,
+            "{columns}: {status}"
+        );
+        if columns >= 80 {
+            assert!(status.contains("checks ok"), "{status}");
+        }
+    }
+}
+
+#[test]
+fn a_title_of_wide_characters_stays_within_the_screen() {
+    let dir = dir();
+    let title =
+        "title=接触\u{1b}[31mの摩耗 𝒻 é e\u{301} 👩\u{200d}🔬 — längerer Titel als Platz ist";
+    for locale in ["C", "C.UTF-8"] {
+        for columns in (1..=200).step_by(7).chain([40, 80, 110]) {
+            let print = format!("{columns}x24");
+            for keys in [",", ",s"] {
+                let output = Command::new(env!("CARGO_BIN_EXE_mdr-tui"))
+                    .args(["--set", title, "--keys", keys, "--print", &print])
+                    .current_dir(dir.path())
+                    .env("LC_ALL", locale)
+                    .stdin(Stdio::null())
+                    .output()
+                    .expect("the program starts");
+                let text = checked(output, (columns, 24), &format!("{locale} {keys}"));
+                assert!(locale != "C" || text.is_ascii(), "{text}");
+                for line in text.lines() {
+                    let width = Line::raw(line).width();
+                    assert!(width <= columns, "{width} of {columns} columns: {line}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_file_with_a_wide_name_is_told_in_ascii_where_it_must_be() {
+    let dir = dir();
+    let text = preset::find("hertz").expect("a preset").text;
+    fs::write(dir.path().join("接触.toml"), text).expect("a file");
+    let output = Command::new(env!("CARGO_BIN_EXE_mdr-tui"))
+        .args(["接触.toml", "--keys", ",s", "--print", "80x24"])
+        .current_dir(dir.path())
+        .env("LC_ALL", "C")
+        .stdin(Stdio::null())
+        .output()
+        .expect("the program starts");
+    let text = checked(output, (80, 24), "a wide name");
+    assert!(text.is_ascii(), "{text}");
+    assert!(text.contains(" snapshot in ??-cycle-1"), "{text}");
+}
+
+#[test]
+fn no_size_makes_it_fail() {
+    let columns = (20..=220).step_by(9).chain([1, 39, 40, 80, 109, 110]);
+    let rows = (5..=60).step_by(5).chain([1, 9, 11, 24]);
+    let sizes: Vec<(u16, u16)> = columns
+        .flat_map(|columns| rows.clone().map(move |rows| (columns, rows)))
+        .collect();
+    for keys in [
+        ",,",
+        "z",
+        "<Tab>z",
+        "<Tab>z",
+        "<Tab>z",
+        "<Tab>z",
+        "<Tab>z",
+        "?",
+        "jjjjjjjj",
+        "<Esc>zp",
+        "kk",
+        "<Esc>",
+        "L<Tab>L<Tab>L<Tab>L<Tab>L",
+        "zm",
+        "t",
+        "c,",
+        "mmmm.",
+        "ct",
+        "cxhh",
+        "vz",
+        "lz",
+        "x[",
+        "]e",
+        "jjjj7",
+        "<Esc><Esc>:",
+        "set num",
+        "<Esc>S",
+        "note",
+        "<Esc>/wear",
+    ]
+    .iter()
+    .scan(Stage::new("li2019-fig3", Marker::Braille), |stage, keys| {
+        stage.press(keys);
+        for &(columns, rows) in &sizes {
+            stage.draw(columns, rows);
+        }
+        Some(keys)
+    }) {
+        assert!(parse_script(keys).is_ok());
+    }
+}
+
+#[test]
+fn no_size_makes_any_preset_fail() {
+    for (i, preset) in preset::ALL.iter().enumerate() {
+        let markers = [
+            Marker::Ascii,
+            Marker::Dot,
+            Marker::HalfBlock,
+            Marker::Braille,
+        ];
+        let mut stage = Stage::new(preset.name, markers[i % markers.len()]);
+        for keys in ["", ".", ",", "t", "c.", "c", "L<Tab>L<Tab>L<Tab>L<Tab>L"] {
+            stage.press(keys);
+            for (columns, rows) in [(20, 5), (40, 10), (43, 13), (80, 24), (131, 17), (220, 60)] {
+                stage.draw(columns, rows);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_printed_screen_has_the_size_asked_for() {
+    let dir = dir();
+    for columns in [1, 20, 39, 40, 57, 80, 110, 163, 220] {
+        for rows in [1, 5, 10, 24, 60] {
+            shot(dir.path(), "li2019-fig3", ",", (columns, rows));
+        }
+    }
+}

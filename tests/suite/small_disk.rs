@@ -1,0 +1,190 @@
+//! Disks that become full, and histories that would fill a memory.
+//!
+//! The small disk is a tmpfs where one may be mounted; elsewhere a limit on the size of files, which
+//! is as small for every directory, has to do.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use crate::test_dir::{TestDir, end, names};
+
+/// A directory on a file system of its own.
+struct SmallDisk(PathBuf);
+
+impl SmallDisk {
+    /// None, and a word why, where none may be mounted.
+    fn mounted(at: PathBuf, kilobytes: usize) -> Option<Self> {
+        fs::create_dir(&at).expect("a directory");
+        let size = format!("size={kilobytes}k");
+        let mount = Command::new("mount")
+            .args(["-t", "tmpfs", "-o", &size, "tmpfs"])
+            .arg(&at)
+            .stderr(Stdio::null())
+            .status();
+        if !mount.is_ok_and(|status| status.success()) {
+            eprintln!("no tmpfs may be mounted here");
+            return None;
+        }
+        Some(Self(at))
+    }
+
+    /// Leaves no byte free.
+    fn fill(&self) {
+        let filler = vec![0_u8; 1 << 20];
+        assert!(
+            fs::write(self.0.join("filler"), filler).is_err(),
+            "not full"
+        );
+    }
+}
+
+impl Drop for SmallDisk {
+    fn drop(&mut self) {
+        let _ = Command::new("umount").arg("-l").arg(&self.0).status();
+    }
+}
+
+const PLAN: &str = "run li2019-fig3 --set numerics.points=40 --snapshot-at 1 --history every-step";
+
+fn start(dir: &TestDir, out: &Path, cycles: &str) -> Child {
+    let mut command = dir.command(&PLAN.split(' ').collect::<Vec<_>>());
+    command.args(["--cycles", cycles, "--checkpoint-every", "0.02", "--out"]);
+    command.arg(out).env("XDG_STATE_HOME", dir.path("state"));
+    command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    command.spawn().expect("the program starts")
+}
+
+fn wait_for(what: &str, mut seen: impl FnMut() -> bool) {
+    let start = Instant::now();
+    while !seen() {
+        assert!(start.elapsed() < Duration::from_secs(60), "no {what}");
+        thread::sleep(Duration::from_millis(2));
+    }
+}
+
+#[test]
+fn on_a_full_disk_the_newest_state_is_kept_where_there_is_room() {
+    let dir = TestDir::new();
+    let Some(disk) = SmallDisk::mounted(dir.path("disk"), 800) else {
+        return;
+    };
+    let out = disk.0.join("x");
+    let child = start(&dir, &out, "20");
+    wait_for("checkpoint", || out.join("run.checkpoint").exists());
+    disk.fill();
+    let said = end(child);
+    assert_eq!(said.code, 1, "{}", said.err);
+    let lines: Vec<&str> = said.err.lines().collect();
+    let [first, .., last] = lines[..] else {
+        panic!("{}", said.err);
+    };
+    assert!(
+        first.contains("cannot write") && first.contains("; checkpoints go to "),
+        "{first}"
+    );
+    assert!(
+        last.contains("cannot write") && last.ends_with(" goes on"),
+        "{last}"
+    );
+    let (_, resume) = last
+        .split_once("; mdr-tui run --resume ")
+        .expect("a way on");
+    let path = resume.strip_suffix(" goes on").expect("a path");
+    assert!(Path::new(path).starts_with(dir.path("state")), "{path}");
+    // With room again it goes on at once, where it was, and nothing is missing.
+    fs::remove_file(disk.0.join("filler")).expect("a file");
+    fs::create_dir(dir.path("roomy")).expect("a directory");
+    let roomy = dir.path("roomy/x");
+    dir.done(&format!(
+        "run --resume {path} --quiet --out {}",
+        roomy.display()
+    ));
+    let mut whole: Vec<&str> = PLAN.split(' ').collect();
+    whole.extend(["--cycles", "20", "--out", "whole", "--quiet"]);
+    assert_eq!(dir.say(&whole).code, 0);
+    assert_eq!(names(&roomy), names(&dir.path("whole")));
+    for name in names(&roomy) {
+        let read = |path: &Path| fs::read(path.join(&name)).expect("a file");
+        assert!(read(&roomy) == read(&dir.path("whole")), "{name} differs");
+    }
+}
+
+#[test]
+fn where_nothing_more_is_kept_the_end_says_from_which_cycle_on() {
+    let dir = TestDir::new();
+    let out = dir.path("x");
+    let child = start(&dir, &out, "20");
+    wait_for("checkpoint", || out.join("run.checkpoint").exists());
+    let limit = Command::new("prlimit")
+        .args(["--fsize=0:0", "--pid", &child.id().to_string()])
+        .status();
+    if !limit.is_ok_and(|status| status.success()) {
+        eprintln!("skipped: no prlimit here");
+        let _ = end_by_force(child);
+        return;
+    }
+    let said = end(child);
+    assert_eq!(said.code, 1, "{}", said.err);
+    assert!(
+        said.err.contains("the run goes on without a checkpoint"),
+        "{}",
+        said.err
+    );
+    let last = said.err.lines().last().unwrap_or_default();
+    let (_, rest) = last
+        .split_once("run.checkpoint goes on from cycle ")
+        .expect("a way on");
+    let (from, to) = rest
+        .split_once(": nothing between there and cycle ")
+        .expect("two cycles");
+    let kept = fs::read(out.join("run.checkpoint")).expect("a checkpoint");
+    let cycle = format!(" at cycle {from}\n");
+    assert!(String::from_utf8_lossy(&kept).contains(&cycle), "{last}");
+    assert_eq!(to, "20 could be kept", "{last}");
+}
+
+fn end_by_force(mut child: Child) -> std::io::Result<()> {
+    child.kill()?;
+    child.wait().map(|_| ())
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_history_of_many_rows_takes_neither_memory_nor_checkpoints() {
+    let dir = TestDir::new();
+    let run = |cycles: &str| {
+        let line = "run hertz --set numerics.points=8 --set numerics.steps_per_cycle=1000 --quiet \
+                    --history every-step --checkpoint-every 0.05 --cycles";
+        let mut command = dir.command(&line.split_whitespace().collect::<Vec<_>>());
+        command.args([cycles, "--out", cycles]);
+        let mut child = command.spawn().expect("the program starts");
+        let checkpoint = dir.path(cycles).join("run.checkpoint");
+        let (mut largest, mut peak) = (0, 0);
+        while let Ok(None) = child.try_wait() {
+            let length = fs::metadata(&checkpoint).map_or(0, |about| about.len());
+            largest = largest.max(length);
+            peak = peak.max(crate::attacks::memory_of(&child));
+            thread::sleep(Duration::from_millis(2));
+        }
+        assert!(child.wait().expect("an end").success());
+        (largest, peak)
+    };
+    let (_, small) = run("1");
+    let (checkpoint, large) = run("40");
+    let rows = fs::metadata(dir.path("40/history.csv"))
+        .expect("a file")
+        .len();
+    eprintln!(
+        "{rows} bytes of rows: checkpoint {checkpoint} bytes, memory {small} and {large} bytes"
+    );
+    assert!(rows > 5 << 20);
+    assert!((1..200_000).contains(&checkpoint), "{checkpoint}");
+    assert!(large < small + (4 << 20), "{small} and {large}");
+    assert_eq!(
+        names(&dir.path("40")),
+        ["history.csv", "scenario.toml", "state.csv"]
+    );
+}

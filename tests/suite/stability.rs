@@ -1,0 +1,272 @@
+//! Harsh wear: the guard takes every K to its limit, the raw methods fail where it was predicted.
+
+use crate::common::{Scene, archard, holds, ours, run_setup, swing};
+use mdr_tui::math::abel::AbelMethod::{A, APlusB, B, Benad, Product};
+use mdr_tui::math::abel::worn;
+use mdr_tui::oracle::limiting_profile::LimitingProfile;
+use mdr_tui::oracle::partial_slip::stiffness_ratio;
+use mdr_tui::scenario::{Scenario, preset};
+use mdr_tui::simulation::{Scheme, Setup, Simulation, Stability};
+use mdr_tui::studies::stability::{Outcome, Setting, Study, VISIBLE, teeth};
+use std::f64::consts::FRAC_PI_4;
+
+/// Fig. 3 with the default numerics.
+fn fig3(wear_number: f64, cells: usize) -> Setup {
+    ours(Scene {
+        cells,
+        domain: 2.2f64.sqrt(),
+        steps: 100,
+        normal: swing(1.0, 0.1, 1.0, 0.0),
+        tangential: Some(swing(0.0, 0.1, 1.0, FRAC_PI_4)),
+        law: archard(wear_number),
+        ..Scene::default()
+    })
+}
+
+/// The stick radius of the first pass, before the springs have settled: where d ± κu_x from springs that
+/// begin unloaded is smallest. What slips there at K = 1e3 wears at once, so that the core which Melan's
+/// theorem keeps, 0.4164, is never reached.
+fn first_stick_radius() -> f64 {
+    let pull = stiffness_ratio(0.3) / 0.1;
+    let swing = 0.1 * (1.0 + pull * pull + 2.0 * pull * FRAC_PI_4.cos()).sqrt();
+    (1.0 - swing).sqrt()
+}
+
+/// rms of f at 401 radii against the limit at the largest depth, in d.
+fn limit_error(simulation: &Simulation) -> f64 {
+    let limit = LimitingProfile {
+        e_star: 1.0,
+        radius: 1.0,
+        depth: 1.1,
+        stick_radius: first_stick_radius(),
+    };
+    let (grid, wear) = (&simulation.setup().grid, &simulation.state().wear);
+    let radii = (0..=400).map(|i| grid.radius() * f64::from(i) / 400.0);
+    let squares =
+        radii.map(|r| (0.5 * r * r + worn::interpolate(grid, wear, r) - limit.profile(r)).powi(2));
+    (squares.sum::<f64>() / 401.0).sqrt()
+}
+
+#[test]
+fn the_guard_takes_the_harshest_wear_to_its_limit() {
+    holds("c", (first_stick_radius() - 0.3206).abs(), 1e-3);
+    let simulation = run_setup(fig3(1e3, 100), 20.0);
+    holds("rms of f", limit_error(&simulation), 1e-2);
+    assert!(simulation.state().stats.parts > simulation.state().steps / 2);
+    assert!(simulation.state().wear.iter().all(|&worn| worn >= 0.0));
+}
+
+/// The work of springs that let go is known to a tenth only: at N = 200 and 400, and not to 100 alone, where errors
+/// happen to cancel. Where they do not let go, V = kE_d.
+#[test]
+fn harsh_wear_costs_its_work() {
+    for (wear_number, allowed) in [(40.0, 4e-3), (60.0, 4e-3), (1e3, 0.1)] {
+        for cells in [200, 400] {
+            let simulation = run_setup(fig3(wear_number, cells), 1.0);
+            let residual = simulation.moment().energy_residual.expect("worn").abs();
+            holds(
+                &format!("K = {wear_number}, N = {cells}"),
+                residual,
+                allowed,
+            );
+        }
+    }
+}
+
+/// Parts that ring let springs go that hold with fine steps, and the core is lost.
+#[test]
+fn parts_of_harsh_steps_end_where_fine_steps_do() {
+    for (wear_number, cells) in [(50.0, 100), (60.0, 100), (40.0, 200), (60.0, 200)] {
+        let fine = Setup {
+            steps_per_cycle: 1600,
+            ..fig3(wear_number, cells)
+        };
+        let fine = run_setup(fine, 3.0);
+        let mut parts = run_setup(fig3(wear_number, cells), 1.0);
+        let mut highest = 0.0_f64;
+        for cycle in 1..=3 {
+            parts.advance_to(f64::from(cycle)).expect("a run");
+            highest = highest.max(teeth(&parts.state().wear));
+        }
+        assert!(parts.state().stats.parts > 100);
+        let radii = (0..=400).map(|i| fine.setup().grid.radius() * f64::from(i) / 400.0);
+        let worn = |run: &Simulation, r| worn::interpolate(&run.setup().grid, &run.state().wear, r);
+        let squares = radii.map(|r| (worn(&parts, r) - worn(&fine, r)).powi(2));
+        let rms = (squares.sum::<f64>() / 401.0).sqrt();
+        holds(
+            &format!("rms of f, K = {wear_number}, N = {cells}"),
+            rms,
+            2e-3,
+        );
+        holds("teeth", highest, VISIBLE);
+    }
+}
+
+/// What has worn until it bears next to nothing slips all the way, z in the tens: such steps go whole.
+#[test]
+fn stiff_steps_that_change_nothing_are_taken_whole() {
+    let mut run = run_setup(fig3(100.0, 200), 10.0);
+    let before = run.state().stats;
+    run.advance_to(11.0).expect("a cycle");
+    let after = run.state().stats;
+    // In parts the cycle would take 1500 of them, and 6300 transforms.
+    assert!(after.parts - before.parts < 40, "{after:?}");
+    let transforms = after.transforms - before.transforms;
+    assert!(transforms < 2000, "{transforms}");
+}
+
+#[test]
+fn mild_wear_is_the_same_to_the_last_bit_with_and_without_the_guard() {
+    for scheme in Scheme::ALL {
+        let guarded = Setup {
+            scheme,
+            ..fig3(0.3, 50)
+        };
+        let raw = Setup {
+            stability: Stability::Off,
+            ..guarded.clone()
+        };
+        let (guarded, raw) = (run_setup(guarded, 5.0), run_setup(raw, 5.0));
+        assert_eq!(guarded.state().wear, raw.state().wear);
+        assert_eq!(guarded.state().stats, raw.state().stats);
+        assert_eq!(guarded.state().stats.parts, 0);
+        let margin = guarded.moment().stability_margin.expect("it wears");
+        assert!(margin > 1.0, "{margin}");
+    }
+}
+
+#[test]
+fn raw_steps_explode_with_a_plain_word() {
+    let raw = Setup {
+        stability: Stability::Off,
+        ..fig3(1e3, 100)
+    };
+    let mut simulation = Simulation::new(raw).expect("a contact");
+    let broken = simulation.advance_to(20.0).expect_err("it explodes");
+    assert!(
+        broken.to_string().contains("numerics.steps_per_cycle"),
+        "{broken}"
+    );
+}
+
+/// Whether the border of stick is the same in every finer step: 1000 steps a cycle against 100, and 2000.
+#[test]
+fn the_core_of_the_first_pass_is_no_matter_of_the_step() {
+    for method in [Product, A] {
+        let wear = |steps_per_cycle: u32| {
+            let setup = Setup {
+                method,
+                steps_per_cycle,
+                ..fig3(1e3, 100)
+            };
+            run_setup(setup, 3.0).state().wear.clone()
+        };
+        let finest = wear(2000);
+        for steps in [100, 1000] {
+            let pairs = wear(steps).into_iter().zip(&finest);
+            let sum: f64 = pairs.map(|(wear, finest)| (wear - finest).powi(2)).sum();
+            let name = format!("{method}, {steps} steps");
+            // Whether the narrowest cells at the border let go at once is decided by rounding at such K.
+            holds(&name, (sum / finest.len() as f64).sqrt(), 1.5e-2);
+        }
+    }
+}
+
+#[test]
+fn smooth_presets_have_no_teeth() {
+    for preset in preset::ALL.iter().filter(|p| p.name != "harsh-wear") {
+        let scenario = Scenario::load(preset.name, &[]).expect("a preset");
+        let cycles = scenario.run().cycles.unwrap_or(20.0).min(20.0);
+        let simulation = run_setup(scenario.setup().clone(), cycles);
+        let depth = simulation.setup().largest_depth();
+        let depth = depth.unwrap_or(simulation.moment().depth);
+        let height = teeth(&simulation.state().wear) / depth;
+        holds(preset.name, height, 0.2 * VISIBLE);
+    }
+}
+
+/// Over N = 25 to 200 and 50 to 200 steps a cycle, the boundary was seen at 1.00 to 1.16 of what is predicted for a and
+/// at 0.59 to 1.10 for product, but for 0.41 at N = 100 with 100 steps: there, small teeth come at single K.
+/// Shorter steps bear more: with 400 of them N = 50 shows none up to 1.5 times.
+#[test]
+fn teeth_are_seen_where_they_were_predicted() {
+    let cases = [
+        (Product, 50, 50, 20.0),
+        (Product, 100, 100, 20.0),
+        (A, 50, 100, 20.0),
+        (A, 100, 50, 10.0),
+        (APlusB, 50, 50, 20.0),
+    ];
+    for (method, points, steps, cycles) in cases {
+        let setting = Setting {
+            method,
+            points,
+            steps,
+            guard: false,
+        };
+        seen_where_predicted(cycles, setting);
+    }
+}
+
+/// The constants of b and benad were fitted to Fig. 3 with 20 cycles and amplitudes of 0.1 d: other numbers of
+/// cycles. On another motion they are not right: at an amplitude of 0.07 d, teeth of b come at less than 2/3 of what they
+/// say.
+#[test]
+fn methods_that_no_step_helps_show_teeth_where_they_did_before() {
+    for (method, cycles) in [(B, 5.0), (B, 40.0), (Benad, 5.0), (Benad, 60.0)] {
+        let setting = Setting {
+            method,
+            points: 50,
+            steps: 50,
+            guard: false,
+        };
+        seen_where_predicted(cycles, setting);
+    }
+}
+
+/// Smooth at K a factor of 1.5 below the prediction, and not at one above.
+fn seen_where_predicted(cycles: f64, setting: Setting) {
+    let scenario = Scenario::load("li2019-fig3", &[]).expect("a preset");
+    let study = Study::new(scenario, cycles).expect("a contact");
+    let study = study.expect("it wears");
+    let run = |rungs: &[f64]| {
+        study
+            .line(setting, rungs, &|| true, |_| {})
+            .expect("runs")
+            .0
+    };
+    let predicted = run(&[]).predicted.expect("a boundary");
+    let below = run(&[predicted / 1.5]);
+    assert_eq!(below.seen, None, "{setting:?}: {predicted}, {below:?}");
+    let above = run(&[predicted * 1.5]);
+    assert!(above.seen.is_some(), "{setting:?}: {predicted}, {above:?}");
+}
+
+/// By the ladder of the maps. With the guard, springs that let go at once leave teeth of up to 7e-3 d at the end of
+/// a cycle at other K, between 15 and 200, until later ones wear them off.
+#[test]
+fn a_map_has_its_teeth_where_predicted_and_with_the_guard_none() {
+    let scenario = Scenario::load("li2019-fig3", &[]).expect("a preset");
+    let study = Study::new(scenario, 20.0).expect("a contact");
+    let study = study.expect("it wears");
+    for (method, points) in [(Product, 100), (A, 50), (A, 100), (APlusB, 100)] {
+        let line = |guard| {
+            let setting = Setting {
+                method,
+                points,
+                steps: 100,
+                guard,
+            };
+            let rungs = [31.6, 100.0, 316.0, 1000.0];
+            let line = study.line(setting, &rungs, &|| true, |_| {});
+            line.expect("runs").0
+        };
+        let ratio = line(false).ratio().expect("a boundary");
+        eprintln!("{method}: seen/predicted {ratio:.2}");
+        assert!((1.0 / 1.5..1.5).contains(&ratio), "{method}: {ratio}");
+        let guarded = line(true);
+        let stable = |(_, outcome): &(f64, Outcome)| *outcome == Outcome::Stable;
+        assert!(guarded.outcomes.iter().all(stable), "{guarded:?}");
+        assert_eq!(guarded.seen, None);
+    }
+}

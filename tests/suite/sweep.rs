@@ -1,0 +1,898 @@
+//! `mdr-tui sweep`: studies of many points, their files and their shards.
+
+use std::fs;
+use std::thread;
+use std::time::Duration;
+
+use crate::test_dir::{Table, TestDir, end};
+
+/// 4 × 3 points that take some milliseconds each.
+const STUDY: &str = r#"
+base = "li2019-fig3"
+columns = ["wear_volume_m3", "dissipated_energy_J", "regime", "energy_ratio", "cycle"]
+
+[set]
+"run.cycles" = 3.0
+"numerics.points" = 30
+"numerics.steps_per_cycle" = 20
+
+[[axis]]
+key = "motion.normal.mean"
+linspace = [6e-7, 2e-6, 4]
+
+[[axis]]
+key = "motion.tangential.amplitude"
+logspace = [1e-8, 1e-6, 3]
+"#;
+
+fn dir_with(study: &str) -> TestDir {
+    let dir = TestDir::new();
+    dir.write("study.toml", study.as_bytes());
+    dir
+}
+
+/// Runs the program, which must refuse, and returns the one line on stderr.
+fn refusal(dir: &TestDir, arguments: &[&str], code: i32) -> String {
+    let said = dir.say(arguments);
+    assert_eq!(said.code, code, "{arguments:?}: {}", said.err);
+    assert_eq!(said.err.lines().count(), 1, "{arguments:?}: {}", said.err);
+    said.err
+}
+
+#[test]
+fn a_row_a_point_in_the_order_of_the_axes() {
+    let dir = dir_with(STUDY);
+    let said = dir.done("sweep study.toml --out map.csv");
+    assert_eq!(said, "12 points in map.csv\n");
+    let table = Table::parse(&dir.read("map.csv"));
+    assert_eq!(
+        table.columns,
+        [
+            "motion.normal.mean",
+            "motion.tangential.amplitude",
+            "wear_volume_m3",
+            "dissipated_energy_J",
+            "regime",
+            "energy_ratio",
+            "cycle",
+            "status"
+        ]
+    );
+    let amplitudes = table.column("motion.tangential.amplitude");
+    assert_eq!(amplitudes[..3], [1e-8, 1e-7, 1e-6]);
+    let means = table.column("motion.normal.mean");
+    assert_eq!(means[..4], [6e-7, 6e-7, 6e-7, means[3]]);
+    assert_eq!((means[0], means[11]), (6e-7, 2e-6));
+    assert!(
+        table.rows.iter().all(|row| row[7] == "ok"),
+        "{:?}",
+        table.rows
+    );
+    let regime = |row: usize| table.rows[row][4].as_str();
+    assert_eq!(
+        (regime(2), regime(10), regime(9)),
+        ("gross", "partial", "partial")
+    );
+    // The header holds the study and its base.
+    assert!(
+        table
+            .header
+            .contains(&("study".into(), "base = \"li2019-fig3\"".into()))
+    );
+    assert!(
+        table
+            .header
+            .contains(&("base".into(), "shape = \"paraboloid\"".into()))
+    );
+}
+
+#[test]
+fn a_point_is_an_ordinary_run() {
+    let dir = dir_with(STUDY);
+    dir.done("sweep study.toml --out map.csv");
+    fs::write(dir.path("p.toml"), dir.done("sweep study.toml --point 7")).expect("a file");
+    dir.done("run p.toml --out p --quiet");
+    let (map, run) = (
+        Table::parse(&dir.read("map.csv")),
+        Table::parse(&dir.read("p/history.csv")),
+    );
+    for name in ["wear_volume_m3", "dissipated_energy_J", "energy_ratio"] {
+        let last = *run.column(name).last().expect("a row");
+        assert_eq!(map.column(name)[7].to_bits(), last.to_bits(), "{name}");
+    }
+    let said = refusal(&dir, &["sweep", "study.toml", "--point", "12"], 2);
+    assert!(said.contains("has 12 points, counted from 0"), "{said}");
+}
+
+#[test]
+fn rows_are_the_same_on_any_number_of_threads_and_in_any_number_of_shards() {
+    let dir = dir_with(STUDY);
+    dir.done("sweep study.toml --out one.csv --threads 1");
+    dir.done("sweep study.toml --out many.csv --threads 7");
+    let whole = dir.read("one.csv");
+    assert_eq!(dir.read("many.csv"), whole);
+    for shard in 0..5 {
+        dir.done(&format!("sweep study.toml --shard {shard}/5 --quiet"));
+    }
+    assert_eq!(dir.done("sweep --merge study.shards"), whole);
+    dir.done("sweep --merge study.shards --out merged.csv");
+    assert_eq!(dir.read("merged.csv"), whole);
+    // Under Slurm the index comes from the task, the number from the command line.
+    let output = dir
+        .command(&["sweep", "study.toml", "--shards", "5", "--out", "s.csv"])
+        .env("SLURM_ARRAY_TASK_ID", "3")
+        .env("SLURM_ARRAY_TASK_COUNT", "1")
+        .output()
+        .expect("an end");
+    assert!(output.status.success());
+    assert_eq!(dir.read("s.csv"), dir.read("study.shards/shard-3.csv"));
+    let said = refusal(&dir, &["sweep", "study.toml", "--shards", "5"], 2);
+    assert!(said.contains("SLURM_ARRAY_TASK_ID is not set"), "{said}");
+}
+
+#[test]
+fn merging_names_what_is_missing_double_or_of_another_study() {
+    let dir = dir_with(STUDY);
+    for shard in 0..3 {
+        dir.done(&format!("sweep study.toml --shard {shard}/3 --quiet"));
+    }
+    let merge = ["sweep", "--merge", "study.shards"];
+    let shard = dir.read("study.shards/shard-1.csv");
+    fs::remove_file(dir.path("study.shards/shard-1.csv")).expect("a file");
+    let said = refusal(&dir, &merge, 1);
+    assert!(
+        said.contains("4 of 12 points are missing: point 1 (motion.normal.mean = 6e-7"),
+        "{said}"
+    );
+    assert!(
+        said.trim_end()
+            .ends_with("of 3 shards, these are incomplete: 1"),
+        "{said}"
+    );
+
+    dir.write("study.shards/shard-1.csv", shard.as_bytes());
+    dir.write("study.shards/again.csv", shard.as_bytes());
+    let said = dir.say(&merge);
+    assert_eq!(said.code, 0);
+    assert!(
+        said.err.contains("4 rows stand twice, alike"),
+        "{}",
+        said.err
+    );
+    let changed = shard.replace(",partial,", ",gross,");
+    assert_ne!(changed, shard);
+    dir.write("study.shards/again.csv", changed.as_bytes());
+    let said = dir.say(&merge);
+    assert_eq!(said.code, 1);
+    assert!(
+        said.err.contains("points have two rows that differ"),
+        "{}",
+        said.err
+    );
+
+    let other = shard.replace("\"run.cycles\" = 3.0", "\"run.cycles\" = 4.0");
+    dir.write("study.shards/again.csv", other.as_bytes());
+    let said = refusal(&dir, &merge, 2);
+    assert!(
+        said.contains("holds another study: study: \"run.cycles\" = "),
+        "{said}"
+    );
+    dir.write("study.shards/again.csv", b"r_m\n1\n");
+    assert!(refusal(&dir, &merge, 2).contains("again.csv: is no table of mdr-tui sweep"));
+    let said = refusal(&dir, &["sweep", "--merge", "nowhere"], 2);
+    assert!(said.contains("nowhere: "), "{said}");
+}
+
+#[test]
+fn zipped_sampled_and_tied_axes() {
+    let zipped = r#"
+base = "hertz"
+design = "zip"
+columns = ["F_z_N"]
+set = { "run.cycles" = 0.0 }
+axis = [
+    { key = "indenter.radius", values = [0.01, 0.02] },
+    { key = "motion.normal.mean", values = [1e-6, 5e-7], tied = { "motion.normal.amplitude" = 0.25 } },
+]
+"#;
+    let dir = dir_with(zipped);
+    dir.done("sweep study.toml");
+    let table = Table::parse(&dir.read("study.csv"));
+    assert_eq!(table.column("indenter.radius"), [0.01, 0.02]);
+    let force = table.column("F_z_N");
+    // F = 4/3 E* √R d^1.5.
+    assert!((force[0] / force[1] / 2.0 - 1.0).abs() < 1e-9, "{force:?}");
+    let point = dir.done("sweep study.toml --point 1");
+    assert!(
+        point.contains("mean = 5e-7 ") && point.contains("amplitude = 1.25e-7 "),
+        "{point}"
+    );
+
+    for design in ["latin-hypercube", "sobol"] {
+        let sampled = format!(
+            "base = \"hertz\"\ndesign = \"{design}\"\nsamples = 8\nseed = 3\ncolumns = []\n\
+             set.run.cycles = 0\n[[axis]]\nkey = \"indenter.radius\"\nlogspace = [1e-3, 1e-1]\n\
+             [[axis]]\nkey = \"motion.normal.mean\"\nlinspace = [1e-7, 1e-6]\n"
+        );
+        dir.write("sampled.toml", sampled.as_bytes());
+        dir.done("sweep sampled.toml --force");
+        let table = Table::parse(&dir.read("sampled.csv"));
+        let mut strata: Vec<usize> = table
+            .column("indenter.radius")
+            .iter()
+            .map(|radius| ((radius / 1e-3).log10() * 4.0) as usize)
+            .collect();
+        strata.sort_unstable();
+        assert_eq!(strata, (0..8).collect::<Vec<_>>(), "{design}");
+    }
+}
+
+#[test]
+fn a_study_that_was_interrupted_goes_on_to_the_same_bytes() {
+    let dir = dir_with(STUDY);
+    dir.done("sweep study.toml --out whole.csv");
+    let whole = dir.read("whole.csv");
+    // What a kill leaves: some rows in any order, the last one torn.
+    let lines: Vec<&str> = whole.split_inclusive('\n').collect();
+    let head: String = lines.iter().take(lines.len() - 12).copied().collect();
+    let rows = &lines[lines.len() - 12..];
+    let torn = format!("{head}{}{}{}", rows[7], rows[2], &rows[5][..20]);
+    dir.write("map.csv", torn.as_bytes());
+    let said = refusal(&dir, &["sweep", "study.toml", "--out", "map.csv"], 2);
+    assert!(said.contains("map.csv: exists; --resume goes on"), "{said}");
+    assert_eq!(dir.read("map.csv"), torn);
+    dir.done("sweep study.toml --out map.csv --resume");
+    assert_eq!(dir.read("map.csv"), whole);
+    // The rows that were there were not computed again.
+    let marked = torn.replace(rows[2], &rows[2].replace(",ok\n", ",a reason\n"));
+    dir.write("map.csv", marked.as_bytes());
+    let said = dir.say(&["sweep", "study.toml", "--out", "map.csv", "--resume"]);
+    assert!(said.err.contains("1 of 12 points failed"), "{}", said.err);
+    assert!(dir.read("map.csv").contains(",a reason\n"));
+    // Those that failed are, on demand.
+    dir.done("sweep study.toml --out map.csv --resume --failed");
+    assert_eq!(dir.read("map.csv"), whole);
+    // Another study does not go on with it.
+    let set = ["--set", "friction.coefficient=0.2"];
+    let said = refusal(
+        &dir,
+        &[
+            &["sweep", "study.toml", "--out", "map.csv", "--resume"],
+            &set[..],
+        ]
+        .concat(),
+        2,
+    );
+    assert!(said.contains("map.csv: holds another study: "), "{said}");
+    assert_eq!(dir.read("map.csv"), whole);
+}
+
+#[test]
+fn killed_studies_go_on_to_the_same_bytes() {
+    // Three kills a round, more than 50 in all.
+    let dir = dir_with(&STUDY.replace("\"run.cycles\" = 3.0", "\"run.cycles\" = 20.0"));
+    dir.done("sweep study.toml --out whole.csv");
+    let whole = dir.read("whole.csv");
+    let line = [
+        "sweep",
+        "study.toml",
+        "--out",
+        "map.csv",
+        "--resume",
+        "--threads",
+        "2",
+        "--quiet",
+    ];
+    for round in 0..17 {
+        let _ = fs::remove_file(dir.path("map.csv"));
+        for _ in 0..3 {
+            let mut child = dir.command(&line).spawn().expect("a process");
+            thread::sleep(Duration::from_millis(10 + 5 * round));
+            // SIGKILL.
+            let _ = child.kill();
+            let _ = child.wait();
+        }
+        dir.done(&line.join(" "));
+        assert_eq!(dir.read("map.csv"), whole, "round {round}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_signal_keeps_what_is_done() {
+    let dir = dir_with(&STUDY.replace("\"run.cycles\" = 3.0", "\"run.cycles\" = 400.0"));
+    let line = ["sweep", "study.toml", "--threads", "1", "--quiet"];
+    let child = dir
+        .command(&line)
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .expect("a process");
+    let rows = || match fs::read_to_string(dir.path("study.csv")) {
+        Ok(text) => text.lines().filter(|line| line.ends_with(",ok")).count(),
+        Err(_) => 0,
+    };
+    while rows() < 2 {
+        thread::sleep(Duration::from_millis(2));
+    }
+    // A scheduler sends it twice.
+    let pid = nix::unistd::Pid::from_raw(child.id() as i32);
+    for _ in 0..2 {
+        let _ = nix::sys::signal::kill(pid, nix::sys::signal::Signal::SIGTERM);
+    }
+    let said = end(child);
+    assert_eq!(said.code, 75, "{}", said.err);
+    assert!(
+        said.err
+            .contains("of 12 points are in study.csv; the same command with --resume goes on"),
+        "{}",
+        said.err
+    );
+    assert!((2..12).contains(&rows()));
+    Table::parse(&dir.read("study.csv"));
+}
+
+#[test]
+fn failed_points_are_rows_with_their_reason() {
+    // Deeper than the domain allows: found out during the run.
+    let study = r#"
+base = "li2019-fig3"
+columns = ["wear_volume_m3"]
+[set]
+"run.cycles" = 2.0
+"numerics.points" = 20
+"numerics.steps_per_cycle" = 12
+"numerics.domain_radius" = 1.2e-4
+[[axis]]
+key = "motion.normal.mean"
+values = [1e-6, 3e-6]
+"#;
+    let dir = dir_with(study);
+    let said = dir.say(&["sweep", "study.toml"]);
+    assert_eq!((said.code, said.out.as_str()), (0, ""));
+    assert!(said.err.contains("1 of 2 points failed"), "{}", said.err);
+    let text = dir.read("study.csv");
+    let last = text.lines().last().expect("a row");
+    assert!(
+        last.starts_with("3e-6,,\"") || last.starts_with("3e-6,,"),
+        "{last}"
+    );
+    assert!(last.contains("domain"), "{last}");
+}
+
+#[test]
+fn invalid_points_are_named_before_anything_runs() {
+    let study = STUDY.replace("linspace = [6e-7, 2e-6, 4]", "values = [1e-6, -1.0]");
+    let dir = dir_with(&study);
+    let said = refusal(&dir, &["sweep", "study.toml"], 2);
+    assert!(
+        said.contains("point 3 (motion.normal.mean = -1, motion.tangential.amplitude = 1e-8)"),
+        "{said}"
+    );
+    assert!(said.contains("--skip-invalid"), "{said}");
+    assert!(!dir.path("study.csv").exists());
+    let said = dir.say(&["sweep", "study.toml", "--skip-invalid"]);
+    assert_eq!(said.code, 0);
+    let text = dir.read("study.csv");
+    assert_eq!(text.matches(",ok\n").count(), 3);
+    assert_eq!(text.matches("invalid: ").count(), 3);
+}
+
+#[test]
+fn a_disk_that_fills_up_leaves_whole_rows() {
+    let dir = dir_with(STUDY);
+    dir.done("sweep study.toml --out whole.csv");
+    let whole = dir.read("whole.csv");
+    let bin = env!("CARGO_BIN_EXE_mdr-tui");
+    // In blocks of 512 bytes; the header takes most of them.
+    let blocks = whole.len() / 512;
+    let line = format!(
+        "trap '' XFSZ; ulimit -f {blocks}; exec '{bin}' sweep study.toml --out map.csv --quiet"
+    );
+    let output = std::process::Command::new("sh")
+        .args(["-c", &line])
+        .current_dir(dir.path(""))
+        .output()
+        .expect("a shell");
+    assert_eq!(output.status.code(), Some(1));
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(said.contains("of 12 points are in map.csv"), "{said}");
+    let kept = dir.read("map.csv");
+    assert!(kept.ends_with(",ok\n") && kept.len() < whole.len());
+    dir.done("sweep study.toml --out map.csv --resume");
+    assert_eq!(dir.read("map.csv"), whole);
+}
+
+#[test]
+fn json_lines_stand_in_the_order_of_the_axes() {
+    let dir = dir_with(STUDY);
+    let lines = dir.done("sweep study.toml --json --threads 4");
+    let table = Table::parse(&dir.read("study.csv"));
+    assert_eq!(lines.lines().count(), 12);
+    for (line, volume) in lines.lines().zip(table.column("wear_volume_m3")) {
+        let row: serde_json::Value = serde_json::from_str(line).expect("JSON");
+        assert_eq!(row["status"], "ok");
+        let number = line
+            .split_once("\"wear_volume_m3\":")
+            .and_then(|(_, rest)| rest.split_once(','));
+        let (number, _) = number.expect("a member");
+        assert_eq!(
+            number.parse::<f64>().map(f64::to_bits),
+            Ok(volume.to_bits())
+        );
+    }
+}
+
+#[test]
+fn points_end_where_they_are_told_to() {
+    let study = |stop: &str| {
+        format!(
+            "base = \"gross-slip\"\ncolumns = [\"cycle\", \"scar_depth_m\", \"wear_volume_m3\"]\n\
+             [set]\n\"run.cycles\" = 40\n\"numerics.points\" = 30\n\
+             \"numerics.steps_per_cycle\" = 20\n[stop]\n{stop}\n\
+             [[axis]]\nkey = \"friction.coefficient\"\nvalues = [0.1]\n"
+        )
+    };
+    let dir = dir_with(&study("worn_depth = 1e3"));
+    dir.done("sweep study.toml");
+    let last = Table::parse(&dir.read("study.csv"));
+    assert_eq!(last.column("cycle"), [40.0]);
+    let (depth, volume) = (
+        last.column("scar_depth_m")[0],
+        last.column("wear_volume_m3")[0],
+    );
+    for stop in [
+        format!("worn_depth = {:e}", 0.5 * depth),
+        format!("volume = {:e}", 0.5 * volume),
+        // The volume grows evenly, so the second half of the cycles wears half of it.
+        "settled = 0.6".to_owned(),
+    ] {
+        dir.write("study.toml", study(&stop).as_bytes());
+        dir.done("sweep study.toml --force");
+        let table = Table::parse(&dir.read("study.csv"));
+        let cycle = table.column("cycle")[0];
+        assert!(
+            (2.0..40.0).contains(&cycle) && cycle.fract() == 0.0,
+            "{stop}: {cycle}"
+        );
+        if stop.starts_with("volume") {
+            assert!(table.column("wear_volume_m3")[0] >= 0.5 * volume);
+        }
+    }
+}
+
+#[test]
+fn bad_studies_are_refused_in_one_line() {
+    let axis = "[[axis]]\nkey = \"friction.coefficient\"\nvalues = [0.1]\n";
+    let cases = [
+        (String::new(), "base is missing"),
+        ("base = \"hertz\"\n".into(), "there is no axis"),
+        (format!("bass = \"hertz\"\n{axis}"), "unknown key bass; did you mean base?"),
+        (format!("base = \"herz\"\n{axis}"), "herz: no such preset; did you mean hertz?"),
+        (format!("base = \"hertz\"\ncolumns = [\"wear_volume\"]\n{axis}"), "did you mean wear_volume_m3?"),
+        (format!("base = \"hertz\"\ncolumns = [\"cycle\", \"cycle\"]\n{axis}"), "stands twice"),
+        (format!("base = \"hertz\"\n{}", axis.replace("friction", "frictoin")), "did you mean friction.coefficient?"),
+        (format!("base = \"hertz\"\n{}", axis.replace("[0.1]", "[]")), "a list of one value or more"),
+        (format!("base = \"hertz\"\n{}linspace = [0, 1, 2]\n", axis), "must have one of values"),
+        (format!("base = \"hertz\"\n{axis}{axis}"), "friction.coefficient is given twice"),
+        (format!("base = \"hertz\"\ndesign = \"gird\"\n{axis}"), "must be one of \"grid\""),
+        (format!("base = \"hertz\"\ndesign = \"sobol\"\n{axis}"), "samples is missing"),
+        (format!("base = \"hertz\"\nsamples = 3\n{axis}"), "go with design"),
+        (format!("base = \"hertz\"\nset = {{ \"numerics.pionts\" = 3 }}\n{axis}"), "did you mean numerics.points?"),
+        (format!("base = \"hertz\"\nstop = {{ volume = -1 }}\n{axis}"), "stop.volume = -1: must be a number"),
+        ("base = \"hertz\"\n[[axis]]\nkey = \"friction.coefficient\"\nlogspace = [0, 1, 3]".into(), "greater than 0"),
+        ("base = \"hertz\"\n[[axis]]\nkey = \"friction.coefficient\"\nlinspace = [0, 1]".into(), "[from, to, how many]"),
+        ("base = \"hertz\"\n[[axis]]\nkey = \"friction.coefficient\"\nlinspace = [0, 1, 100000000]".into(), "from 1 to 10000000"),
+        ("base = \n".into(), "line 1"),
+    ];
+    let dir = TestDir::new();
+    for (study, word) in cases {
+        dir.write("study.toml", study.as_bytes());
+        let said = refusal(&dir, &["sweep", "study.toml"], 2);
+        assert!(said.contains(word), "{study}\n{said}");
+    }
+    assert!(refusal(&dir, &["sweep", "no.toml"], 2).contains("no.toml: no such file"));
+    dir.write("study.toml", STUDY.as_bytes());
+    for (arguments, word) in [
+        (
+            &["--shard", "4/4"][..],
+            "shards count from 0, so the last of 4 is 3/4",
+        ),
+        (&["--shard", "x"], "a shard is INDEX/COUNT"),
+        (&["--set", "friction"], "must be KEY=VALUE"),
+        (&["--set", "motion.normal.mean=1"], "is varied by an axis"),
+        (&["--threads", "0"], "--threads"),
+        (&["--failed"], "--resume"),
+        (&["--slurm"], "--shards"),
+    ] {
+        let said = refusal(&dir, &[&["sweep", "study.toml"], arguments].concat(), 2);
+        assert!(said.contains(word), "{arguments:?}: {said}");
+    }
+}
+
+#[test]
+fn the_job_script_is_a_script() {
+    let dir = dir_with(STUDY);
+    let script = dir.done("sweep study.toml --shards 16 --slurm --set friction.coefficient=0.2");
+    for word in [
+        "#SBATCH --array=0-15\n",
+        "#SBATCH --signal=B:TERM@60\n",
+        "#SBATCH --requeue\n",
+        "#SBATCH --open-mode=append\n",
+        "mdr-tui sweep study.toml --shards 16 --resume --out study.shards/shard-\"$SLURM_ARRAY_TASK_ID\".csv",
+        " --set 'friction.coefficient=0.2'",
+        "[ \"$status\" = 75 ] && [ \"${SLURM_RESTART_COUNT:-0}\" -lt 100 ]",
+    ] {
+        assert!(script.contains(word), "{word}\n{script}");
+    }
+    dir.write("job.sh", script.as_bytes());
+    // The task of an array, with stand-ins for what Slurm provides: interrupted, it asks for its
+    // next turn; with its next turn it ends well.
+    let path = format!(
+        "{}:{}",
+        dir.path("").display(),
+        std::env::var("PATH").unwrap_or_default()
+    );
+    let bin = std::path::Path::new(env!("CARGO_BIN_EXE_mdr-tui"));
+    let stand_in = format!(
+        "#!/bin/sh\necho \"$@\" >> '{}'\n",
+        dir.path("requeued").display()
+    );
+    dir.write("scontrol", stand_in.as_bytes());
+    dir.write(
+        "mdr-tui",
+        format!(
+            "#!/bin/sh\n[ -e ready ] && exec '{}' \"$@\"\ntouch ready\nexit 75\n",
+            bin.display()
+        )
+        .as_bytes(),
+    );
+    let task = |code: i32| {
+        let line = "chmod +x scontrol mdr-tui; exec bash job.sh";
+        let output = std::process::Command::new("sh")
+            .args(["-c", line])
+            .current_dir(dir.path(""))
+            .env("PATH", &path)
+            .env("SLURM_ARRAY_TASK_ID", "2")
+            .env("SLURM_JOB_ID", "77")
+            .output()
+            .expect("a shell");
+        assert_eq!(
+            output.status.code(),
+            Some(code),
+            "{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
+    };
+    task(75);
+    assert_eq!(dir.read("requeued"), "requeue 77\n");
+    task(0);
+    assert_eq!(dir.read("requeued"), "requeue 77\n");
+    assert!(
+        dir.read("study.shards/shard-2.csv")
+            .contains("# shard: 2/16\n")
+    );
+}
+
+/// The screen that `--view` prints, line by line.
+fn screen(dir: &TestDir, file: &str, keys: &str) -> Vec<String> {
+    let said = dir.say(&[
+        "sweep", "--view", file, "--print", "80x24", "--keys", keys, "--color", "never",
+    ]);
+    assert_eq!((said.code, said.err.as_str()), (0, ""), "{keys}");
+    said.out.lines().map(str::to_owned).collect()
+}
+
+#[test]
+fn the_map_shows_two_axes_and_reads_points() {
+    let dir = dir_with(STUDY);
+    dir.done("sweep study.toml --out map.csv");
+    // Tab Tab: from the volume to the regime.
+    let lines = screen(&dir, "map.csv", "<Tab><Tab>");
+    assert!(
+        lines[0].starts_with("map.csv") && lines[0].ends_with("12 of 12 points"),
+        "{}",
+        lines[0]
+    );
+    assert!(
+        lines[1].starts_with("regime  s full stick  ~ partial slip  # gross slip"),
+        "{}",
+        lines[1]
+    );
+    let text = lines.join("\n");
+    assert!(
+        text.contains("point 0 (motion.normal.mean = 6e-7, motion.tangential.amplitude = 1e-8)"),
+        "{text}"
+    );
+    // The lowest depth is the lowest row: sticking, partly slipping, sliding.
+    let lowest = lines
+        .iter()
+        .rfind(|line| line.contains('~'))
+        .expect("a row of the map");
+    let row: Vec<char> = lowest
+        .chars()
+        .filter(|sign| "s~#".contains(*sign))
+        .collect();
+    let mut kinds = row.clone();
+    kinds.dedup();
+    assert_eq!(kinds.last(), Some(&'#'), "{text}");
+    // The closed form of the border lies over it, the criterion A = 0.2 as well.
+    assert!(text.contains("G gross slip, closed form, unworn"), "{text}");
+    assert!(
+        text.contains("A A = 0.2 (unworn sphere, stiff rig only)"),
+        "{text}"
+    );
+    assert!(
+        !screen(&dir, "map.csv", "t")
+            .join("\n")
+            .contains("closed form")
+    );
+    // The cursor: two to the right, three up; the point is that of the row.
+    let lines = screen(&dir, "map.csv", "ll<Up>kk");
+    assert!(
+        lines.iter().any(|line| line.starts_with("point 11 ")),
+        "{lines:?}"
+    );
+    let volume = &Table::parse(&dir.read("map.csv")).column("wear_volume_m3")[11];
+    let read = lines
+        .iter()
+        .rfind(|line| line.starts_with("wear_volume_m3 "))
+        .expect("readings");
+    let shown: f64 = read
+        .split_whitespace()
+        .nth(1)
+        .and_then(|text| text.parse().ok())
+        .expect("V");
+    assert!((shown / volume - 1.0).abs() < 1e-3, "{read}");
+    // The axes change places.
+    let text = screen(&dir, "map.csv", "x").join("\n");
+    assert!(text.contains("motion.normal.mean\n"), "{text}");
+    // Enter opens the point in the explorer.
+    let text = screen(&dir, "map.csv", "l<Enter>").join("\n");
+    assert!(text.contains("cycle 0.00/"), "{text}");
+}
+
+#[test]
+fn the_map_shows_a_study_that_is_under_way() {
+    let dir = dir_with(STUDY);
+    dir.done("sweep study.toml --out map.csv");
+    let whole = dir.read("map.csv");
+    let lines: Vec<&str> = whole.split_inclusive('\n').collect();
+    let some = lines[..lines.len() - 7].concat() + "2e-6,1e-";
+    dir.write("some.csv", some.as_bytes());
+    let lines = screen(&dir, "some.csv", "llkkk");
+    assert!(lines[0].ends_with("5 of 12 points"), "{}", lines[0]);
+    assert!(
+        lines.iter().any(|line| line == "not there yet"),
+        "{lines:?}"
+    );
+    let said = refusal(
+        &dir,
+        &["sweep", "--view", "study.toml", "--print", "80x24"],
+        2,
+    );
+    assert!(said.contains("is no table of mdr-tui sweep"), "{said}");
+}
+
+#[test]
+fn one_axis_is_a_curve() {
+    let study = "base = \"hertz\"\ncolumns = [\"F_z_N\"]\nset.run.cycles = 0\n\
+        [[axis]]\nkey = \"motion.normal.mean\"\nlinspace = [1e-7, 1e-6, 10]\n";
+    let dir = dir_with(study);
+    dir.done("sweep study.toml");
+    let lines = screen(&dir, "study.csv", "<Right><Right>");
+    let text = lines.join("\n");
+    assert!(
+        text.contains("point 2 (motion.normal.mean = 3e-7)"),
+        "{text}"
+    );
+    assert!(lines[2].contains("F_z_N"), "{text}");
+}
+
+/// The border between partial and gross slip on a line of amplitudes: halfway between the last point
+/// of partial slip and the first one of gross slip.
+fn border_of(indenter: &str) -> f64 {
+    // U_t = d/κ = d μE*/G*.
+    let closed = 1e-6 * 0.1 * 1.7 / 1.4;
+    let study = format!(
+        "base = \"li2019-fig3\"\ncolumns = [\"regime\"]\n[set]\n{indenter}\n\
+         \"motion.normal.amplitude\" = 0.0\n\"wear.coefficient\" = 0.0\n\"run.cycles\" = 2.0\n\
+         \"numerics.points\" = 200\n\"numerics.steps_per_cycle\" = 40\n[[axis]]\n\
+         key = \"motion.tangential.amplitude\"\nlinspace = [{:e}, {:e}, 21]\n",
+        0.9 * closed,
+        1.1 * closed
+    );
+    let dir = dir_with(&study);
+    dir.done("sweep study.toml");
+    let table = Table::parse(&dir.read("study.csv"));
+    let amplitudes = table.column("motion.tangential.amplitude");
+    let gross = table
+        .rows
+        .iter()
+        .position(|row| row[1] == "gross")
+        .expect("gross slip");
+    assert!(gross > 0, "all is gross slip");
+    assert!(
+        table.rows[..gross].iter().all(|row| row[1] == "partial"),
+        "{:?}",
+        table.rows
+    );
+    assert!(
+        table.rows[gross..].iter().all(|row| row[1] == "gross"),
+        "{:?}",
+        table.rows
+    );
+    0.5 * (amplitudes[gross - 1] + amplitudes[gross]) / closed
+}
+
+#[test]
+fn the_map_finds_the_border_of_gross_slip() {
+    for indenter in [
+        "\"indenter.shape\" = \"paraboloid\"",
+        "\"indenter.shape\" = \"cone\"\n\"indenter.angle\" = 0.02",
+        "\"indenter.shape\" = \"power\"\n\"indenter.exponent\" = 4.0\n\"indenter.coefficient\" = 3.75e9",
+    ] {
+        let found = border_of(indenter);
+        assert!(
+            (found - 1.0).abs() < 0.01,
+            "{indenter}: {found} of the closed form"
+        );
+    }
+}
+
+#[test]
+fn sensitivities_are_those_of_the_closed_forms() {
+    // Hertz: F = 4/3 E* √R d^1.5, a = √(R d).
+    let study = "base = \"hertz\"\ncolumns = [\"F_z_N\", \"contact_radius_m\", \"wear_volume_m3\"]\n\
+        [set]\n\"run.cycles\" = 0.0\n\"motion.normal.amplitude\" = 0.0\n[sensitivity]\n\"indenter.radius\" = 1e-3\n\
+        \"motion.normal.mean\" = 0\n\"material.effective_modulus\" = 2.3077e10\n";
+    let dir = dir_with(study);
+    let json = dir.done("sweep study.toml --sensitivity --json");
+    let rows: Vec<serde_json::Value> = serde_json::from_str(&json).expect("JSON");
+    let find = |key: &str, column: &str| {
+        rows.iter()
+            .find(|row| row["key"] == key && row["column"] == column)
+            .unwrap_or_else(|| panic!("{key} {column}: {json}"))
+    };
+    for (key, force, radius) in [
+        ("indenter.radius", 0.5, 0.5),
+        ("motion.normal.mean", 1.5, 0.5),
+        ("material.effective_modulus", 1.0, 0.0),
+    ] {
+        for (column, expected) in [("F_z_N", force), ("contact_radius_m", radius)] {
+            let row = find(key, column);
+            let (found, error) = (row["elasticity"].as_f64(), row["error"].as_f64());
+            let (found, error) = (found.expect("a number"), error.expect("a number"));
+            assert!((found - expected).abs() < 2e-3, "{key} {column}: {found}");
+            assert!(error < 0.01, "{key} {column}: {error}");
+        }
+        // Nothing wears: there is nothing to take a logarithm of.
+        assert!(find(key, "wear_volume_m3")["elasticity"].is_null());
+    }
+    // 10 % of R and of E*: √((0.5·0.1)² + (1·0.1)²).
+    let spread = find("all", "F_z_N")["relative_spread"]
+        .as_f64()
+        .expect("a spread");
+    assert!((spread - 0.05f64.hypot(0.1)).abs() < 1e-3, "{spread}");
+    let text = dir.done("sweep study.toml --sensitivity --out s.csv");
+    assert!(text.contains("elasticity"), "{text}");
+    assert!(dir.read("s.csv").contains("\nindenter.radius,"));
+    let said = refusal(&dir, &["sweep", "study.toml"], 2);
+    assert!(said.contains("there is no axis"), "{said}");
+    dir.write(
+        "none.toml",
+        study
+            .replace("indenter.radius", "motion.normal.phase")
+            .as_bytes(),
+    );
+    let said = refusal(&dir, &["sweep", "none.toml", "--sensitivity"], 2);
+    assert!(
+        said.contains("motion.normal.phase: must be a number greater than 0"),
+        "{said}"
+    );
+}
+
+#[test]
+fn the_studies_of_the_guide_are_studies() {
+    let text = mdr_tui::guide::Topic::find("studies")
+        .expect("the topic")
+        .text;
+    let blocks: Vec<&str> = text
+        .split("```toml study\n")
+        .skip(1)
+        .filter_map(|rest| rest.split("```").next())
+        .collect();
+    assert_eq!(blocks.len(), 2);
+    let dir = TestDir::new();
+    for block in blocks {
+        dir.write("study.toml", block.as_bytes());
+        if block.contains("[[axis]]") {
+            dir.done("sweep study.toml --point 0");
+        } else {
+            let few = "--set numerics.points=12 --set numerics.steps_per_cycle=12";
+            let said = dir.say(
+                &format!("sweep study.toml --sensitivity --quiet --set run.cycles=1 {few}")
+                    .split_whitespace()
+                    .collect::<Vec<_>>(),
+            );
+            assert_eq!(said.code, 0, "{}", said.err);
+        }
+    }
+}
+
+/// By its own command: `tests/slurm/run.sh PROGRAM`.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_slurm_array_gives_the_rows_of_a_local_run() {
+    let there = |program: &str| {
+        ["/usr/bin", "/usr/sbin"]
+            .iter()
+            .any(|place| std::path::Path::new(place).join(program).exists())
+    };
+    let id = std::process::Command::new("id").arg("-u").output();
+    let is_root = id.is_ok_and(|id| id.stdout == b"0\n");
+    if !is_root
+        || !["sbatch", "slurmctld", "slurmd", "munged", "python3"]
+            .iter()
+            .all(|p| there(p))
+    {
+        eprintln!("skipped: Slurm is not installed, or this is not root");
+        return;
+    }
+    let dir = TestDir::new();
+    let output = std::process::Command::new("bash")
+        .arg(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/slurm/run.sh"))
+        .arg(env!("CARGO_BIN_EXE_mdr-tui"))
+        .arg(dir.path("cluster"))
+        .output()
+        .expect("a shell");
+    let said = String::from_utf8_lossy(&output.stdout);
+    let err = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}{err}");
+    assert!(
+        said.contains("1000 points, the same bytes as the local run"),
+        "{said}{err}"
+    );
+}
+
+#[test]
+fn the_explorer_sweeps_a_key_of_the_present_scenario() {
+    let dir = TestDir::new();
+    let explore = |keys: &str| {
+        let arguments = [
+            "li2019-fig3",
+            "--set",
+            "numerics.points=30",
+            "--set",
+            "numerics.steps_per_cycle=20",
+            "--set",
+            "run.cycles=2",
+            "--print",
+            "80x24",
+            "--color",
+            "never",
+            "--keys",
+            keys,
+        ];
+        let said = dir.say(&arguments);
+        assert_eq!((said.code, said.err.as_str()), (0, ""), "{keys}");
+        said.out
+    };
+    let text = explore(":sweep friction.coefficient 0.05..0.3<Enter><Right><Right>");
+    assert!(text.contains("25 of 25 points"), "{text}");
+    assert!(
+        text.contains("point 2 (friction.coefficient = 0.0708"),
+        "{text}"
+    );
+    // Leaving it shows the panels again; Enter loads the point.
+    let text = explore(":sweep friction.coefficient 0.05..0.3<Enter>q");
+    assert!(
+        !text.contains("25 of 25 points") && text.contains("cycle"),
+        "{text}"
+    );
+    let text = explore(":sweep friction.coefficient 0.05..0.3<Enter><End><Enter>:set friction.c");
+    assert!(text.contains("0.3"), "{text}");
+    // What makes no study is told.
+    let text = explore(":sweep friction.coefficient -1..0.3<Enter>");
+    assert!(text.contains("friction.coefficient"), "{text}");
+    assert!(!text.contains("points"), "{text}");
+}

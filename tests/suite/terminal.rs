@@ -1,0 +1,410 @@
+//! The explorer in a real pseudo-terminal: started, driven, resized, quit, killed and broken.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use portable_pty::CommandBuilder;
+use vt100::{Color, MouseProtocolMode, Screen};
+
+use crate::pty::{Terminal, cycle, program};
+
+fn is_running(screen: &Screen) -> bool {
+    screen.contents().contains("running") && cycle(screen).is_some_and(|cycle| cycle > 0.0)
+}
+
+/// The explorer in 80 by 24, running.
+fn running(arguments: &[&str]) -> Terminal {
+    let terminal = Terminal::start(program(arguments), 80, 24);
+    terminal.wait_until("running explorer", is_running);
+    terminal
+}
+
+/// Main screen, cursor shown, cooked mode.
+fn assert_given_back(terminal: &Terminal) {
+    terminal.look(|screen| {
+        assert!(!screen.alternate_screen(), "still on the alternate screen");
+        assert!(!screen.hide_cursor(), "the cursor is still hidden");
+        let mouse = screen.mouse_protocol_mode();
+        assert_eq!(mouse, MouseProtocolMode::None, "the mouse is still taken");
+    });
+    assert!(terminal.has_its_modes_back(), "still in raw mode");
+    let raw = terminal.raw();
+    let last = |mark: &[u8]| raw.windows(mark.len()).rposition(|bytes| bytes == mark);
+    assert!(
+        last(b"\x1b[?2026h") <= last(b"\x1b[?2026l"),
+        "still collecting output"
+    );
+}
+
+/// Waits for the end and expects exit code 0 and nothing left behind.
+fn assert_clean_end(terminal: &mut Terminal) {
+    let status = terminal.wait_for_end();
+    assert_eq!((status.exit_code(), status.signal()), (0, None));
+    assert_given_back(terminal);
+    kept_at(terminal);
+}
+
+/// The cycle and the checkpoint that the only line on the screen tells of; none where it is empty.
+fn kept_at(terminal: &Terminal) -> Option<(f64, PathBuf)> {
+    let text = terminal.look(|screen| {
+        let (_, columns) = screen.size();
+        let rows: Vec<String> = screen.rows(0, columns.get()).collect();
+        rows.concat().trim().to_owned()
+    });
+    if text.is_empty() {
+        return None;
+    }
+    let told = text
+        .strip_prefix("mdr-tui: kept at cycle ")
+        .and_then(|rest| rest.strip_suffix(" goes on"))
+        .and_then(|rest| rest.split_once("; mdr-tui --resume "));
+    let (cycle, path) = told.unwrap_or_else(|| panic!("left behind: {text}"));
+    Some((cycle.parse().expect("a cycle"), path.into()))
+}
+
+#[test]
+fn it_runs_pauses_switches_resizes_and_quits() {
+    let mut terminal = running(&[]);
+    assert!(!terminal.has_its_modes_back(), "no raw mode");
+    terminal.look(|screen| {
+        assert!(screen.alternate_screen() && screen.hide_cursor());
+        let text = screen.contents();
+        let lines: Vec<&str> = text.lines().collect();
+        // In 80 columns the title gives way to what runs and how.
+        assert!(lines[0].starts_with(" ▶ running │ cycle "), "{text}");
+        assert!(lines[0].contains(" │ 0.5 cycles/s │ product │ "), "{text}");
+        assert!(
+            lines[23].contains("? help") && lines[23].contains("q quit"),
+            "{text}"
+        );
+    });
+    let seen = terminal.look(cycle).expect("a cycle");
+    terminal.wait_until("later cycle", |screen| {
+        cycle(screen).is_some_and(|now| now > seen + 0.5)
+    });
+
+    terminal.press(" ");
+    terminal.wait_for("paused");
+    terminal.wait_for_silence();
+    let (length, paused_at) = (terminal.raw().len(), terminal.look(cycle));
+    thread::sleep(Duration::from_millis(500));
+    assert_eq!(terminal.raw().len(), length, "output while paused");
+
+    terminal.press("m");
+    terminal.wait_for("numerics.method = a at cycle");
+    terminal.press("m");
+    terminal.wait_for("numerics.method = a+b at cycle");
+    terminal.press(".");
+    terminal.wait_for(" │ a+b  ");
+    terminal.wait_for("q quit");
+    terminal.wait_until("later cycle", |screen| cycle(screen) > paused_at);
+
+    for (columns, rows) in [(120, 40), (60, 15), (80, 24)] {
+        terminal.resize(columns, rows);
+        terminal.wait_until("screen of the new size", |screen| {
+            let lines: Vec<String> = screen.rows(0, columns).collect();
+            let last = usize::from(rows) - 1;
+            // Where there is room, the title ends the line.
+            let title = if columns < 100 {
+                ""
+            } else {
+                " Dual oscillation"
+            };
+            lines[0].starts_with(" ⏸ paused")
+                && lines[0].contains(title)
+                && lines[last].contains("q quit")
+        });
+        terminal.wait_for_silence();
+        terminal.look(|screen| {
+            let footers = screen.contents().matches("q quit").count();
+            assert_eq!(footers, 1, "{}", screen.contents());
+        });
+    }
+
+    terminal.press("?");
+    terminal.wait_for("run or pause the simulation");
+    terminal.press("\x1b");
+    terminal.wait_until("closed help", |screen| {
+        !screen.contents().contains("run or pause the simulation")
+    });
+    terminal.press("q");
+    assert_clean_end(&mut terminal);
+}
+
+#[test]
+fn a_tiny_terminal_says_what_it_needs_and_grows() {
+    let mut terminal = Terminal::start(program(&[]), 30, 6);
+    terminal.wait_for("needs 40 by 10");
+    terminal.resize(80, 24);
+    terminal.wait_until("running explorer", is_running);
+    terminal.resize(1, 1);
+    terminal.resize(80, 24);
+    terminal.wait_until("running explorer", is_running);
+    terminal.press("q");
+    assert_clean_end(&mut terminal);
+}
+
+#[test]
+fn leaving_with_the_screen_kept_leaves_it_on_the_main_screen() {
+    let mut terminal = running(&[]);
+    terminal.press(" ");
+    terminal.wait_for("paused");
+    terminal.wait_for_silence();
+    let before = terminal.text();
+    terminal.press("Q");
+    let status = terminal.wait_for_end();
+    assert_eq!(status.exit_code(), 0);
+    assert_given_back(&terminal);
+    let after = terminal.text();
+    let status = |text: &str| text.lines().next().map(|line| line.trim_end().to_owned());
+    assert_eq!(status(&after), status(&before), "{after}");
+    for part in ["3D profile", "fretting loop", "stresses", "q quit"] {
+        assert!(after.contains(part), "{part} is not in\n{after}");
+    }
+}
+
+#[test]
+fn ctrl_c_quits_from_anywhere() {
+    for keys in ["\x03", "?\x03", "p\x03", "z\x03"] {
+        let mut terminal = running(&[]);
+        terminal.press(keys);
+        assert_clean_end(&mut terminal);
+    }
+}
+
+#[test]
+fn signals_quit_cleanly() {
+    for name in crate::signals::ENDING {
+        let mut terminal = running(&["--mouse"]);
+        terminal.signal(name);
+        assert_clean_end(&mut terminal);
+    }
+    // What is typed ahead of the end does nothing to it.
+    let mut terminal = running(&[]);
+    terminal.press("q\x1c\x03");
+    terminal.signal("QUIT");
+    assert_clean_end(&mut terminal);
+    // A paused explorer listens as well.
+    let mut terminal = running(&[]);
+    terminal.press(" ");
+    terminal.wait_for("paused");
+    terminal.signal("TERM");
+    assert_clean_end(&mut terminal);
+}
+
+#[test]
+fn a_terminal_that_goes_away_ends_it() {
+    // Once it has drawn a screen, it has set up all it needs to notice.
+    let mut terminal = running(&[]);
+    terminal.go_away();
+    let status = terminal.wait_for_end();
+    assert_eq!((status.exit_code(), status.signal()), (0, None));
+}
+
+// The faults are there in debug builds only.
+#[cfg(debug_assertions)]
+#[test]
+fn a_panic_gives_the_terminal_back_and_says_so_in_one_line() {
+    for place in ["worker", "screen"] {
+        let mut command = program(&["--mouse"]);
+        command.env("MDR_TUI_FAULT", place);
+        let mut terminal = Terminal::start(command, 200, 24);
+        let status = terminal.wait_for_end();
+        assert_eq!((status.exit_code(), status.signal()), (1, None));
+        assert_given_back(&terminal);
+        let text = terminal.text();
+        let lines: Vec<&str> = text.lines().filter(|line| !line.is_empty()).collect();
+        assert_eq!(lines.len(), 1, "{text}");
+        assert!(lines[0].starts_with("mdr-tui: a defect in mdr-tui: "));
+        assert!(
+            lines[0].contains(&format!("a fault in the {place}")),
+            "{text}"
+        );
+    }
+}
+
+#[test]
+fn what_is_no_terminal_is_refused_with_a_way_out() {
+    // Neither standard stream is a terminal.
+    let mut child = Command::new(env!("CARGO_BIN_EXE_mdr-tui"))
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    let start = Instant::now();
+    while let Ok(None) = child.try_wait() {
+        if start.elapsed() > crate::pty::PATIENCE {
+            let _ = child.kill();
+            panic!("without a terminal it does not end");
+        }
+        thread::sleep(Duration::from_millis(10));
+    }
+    let output = child.wait_with_output().expect("an end");
+    let line = String::from_utf8(output.stderr).expect("text");
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
+    assert_eq!(line.lines().count(), 1, "{line}");
+    assert!(line.contains("mdr-tui run"), "{line}");
+
+    // One of them is not.
+    for redirection in ["</dev/null", "| cat", ">/dev/null"] {
+        let bin = env!("CARGO_BIN_EXE_mdr-tui");
+        let mut command = CommandBuilder::new("sh");
+        command.args(["-c", &format!("('{bin}'; echo code $? >&2) {redirection}")]);
+        let mut terminal = Terminal::start(command, 120, 24);
+        terminal.wait_for_end();
+        let text = terminal.text();
+        assert!(
+            text.contains("mdr-tui run") && text.contains("code 2"),
+            "{redirection}: {text}"
+        );
+        assert_eq!(text.trim_end().lines().count(), 2, "{text}");
+        assert_given_back(&terminal);
+    }
+
+    let mut command = program(&[]);
+    command.env("TERM", "dumb");
+    let mut terminal = Terminal::start(command, 120, 24);
+    assert_eq!(terminal.wait_for_end().exit_code(), 2);
+    let text = terminal.text();
+    assert!(text.contains("TERM=dumb") && text.contains("mdr-tui run"));
+    assert!(!terminal.raw().contains(&0x1b), "{text}");
+}
+
+/// The parameters of every SGR sequence, `ESC [ ... m`.
+fn styles(raw: &[u8]) -> Vec<u16> {
+    let mut found = Vec::new();
+    for piece in String::from_utf8_lossy(raw).split("\x1b[").skip(1) {
+        let end = piece.find(|c: char| !c.is_ascii_digit() && !";:".contains(c));
+        if let Some((parameters, "m")) = end.map(|end| (&piece[..end], &piece[end..=end])) {
+            let numbers = parameters.split([';', ':']);
+            found.extend(numbers.filter_map(|number| number.parse::<u16>().ok()));
+        }
+    }
+    found
+}
+
+fn sets_colour(style: u16) -> bool {
+    matches!(style, 30..=38 | 40..=48 | 58 | 90..=97 | 100..=107)
+}
+
+/// Whether any cell of the screen has a colour.
+fn is_coloured(screen: &Screen) -> bool {
+    let (rows, columns) = screen.size();
+    (0..rows.get()).any(|row| {
+        (0..columns.get()).any(|column| {
+            screen.cell(row, column).is_some_and(|cell| {
+                (cell.fgcolor(), cell.bgcolor()) != (Color::Default, Color::Default)
+            })
+        })
+    })
+}
+
+#[test]
+fn no_color_means_no_colour_unless_asked_for() {
+    for (no_color, arguments, coloured) in [
+        (None, vec![], true),
+        (Some("1"), vec![], false),
+        (Some(""), vec![], true),
+        (None, vec!["--color", "never"], false),
+        (Some("1"), vec!["--color", "always"], true),
+    ] {
+        let mut command = program(&arguments);
+        if let Some(value) = no_color {
+            command.env("NO_COLOR", value);
+        }
+        let mut terminal = Terminal::start(command, 80, 24);
+        terminal.wait_until("running explorer", is_running);
+        terminal.press("?");
+        terminal.wait_for("keys (");
+        let what = format!("NO_COLOR {no_color:?}, {arguments:?}");
+        assert_eq!(terminal.look(is_coloured), coloured, "{what}");
+        terminal.press("q");
+        terminal.wait_for_end();
+        let styles = styles(&terminal.raw());
+        assert_eq!(styles.iter().any(|&s| sets_colour(s)), coloured, "{what}");
+    }
+}
+
+#[test]
+fn a_locale_without_utf8_gets_plain_ascii() {
+    let mut command = program(&[]);
+    command.env("LC_ALL", "C");
+    let mut terminal = Terminal::start(command, 80, 24);
+    terminal.wait_until("running explorer", is_running);
+    for (keys, sign) in [
+        (" ", "paused"),
+        ("?", "keys ("),
+        ("\x1bp", "presets ("),
+        ("\x1bz", "[um]"),
+        ("\t\tL", "fretting loop"),
+        ("zm", "numerics.method"),
+        ("w", "wear.law"),
+    ] {
+        for key in keys.split_inclusive(|_| true) {
+            terminal.press(key);
+            terminal.wait_for_silence();
+        }
+        terminal.wait_for(sign);
+    }
+    terminal.press("q");
+    assert_clean_end(&mut terminal);
+    let raw = terminal.raw();
+    let first = raw.iter().position(|byte| !byte.is_ascii());
+    let near = first
+        .map(|at| String::from_utf8_lossy(&raw[at.saturating_sub(40)..raw.len().min(at + 40)]));
+    assert_eq!(near, None, "{}", terminal.text());
+}
+
+/// A shell with job control, in which the explorer is started by typing.
+fn shell(directory: &Path) -> Terminal {
+    let mut command = program(&[]);
+    *command.get_argv_mut() = ["bash", "--norc", "--noprofile", "-i"]
+        .map(Into::into)
+        .to_vec();
+    command.cwd(directory);
+    command.env("PS1", "ready> ");
+    let terminal = Terminal::start(command, 80, 24);
+    terminal.wait_for("ready>");
+    terminal
+}
+
+#[test]
+fn ctrl_z_gives_the_terminal_to_the_shell_and_fg_takes_it_back() {
+    let base = tempfile::tempdir().expect("a directory");
+    let bin = env!("CARGO_BIN_EXE_mdr-tui");
+    std::fs::write(base.path().join("wrapped"), format!("'{bin}' --mouse\n")).expect("a script");
+    for (start, mouse) in [
+        (bin, MouseProtocolMode::None),
+        ("sh wrapped", MouseProtocolMode::PressRelease),
+    ] {
+        let mut terminal = shell(base.path());
+        terminal.press(&format!("{start}\n"));
+        terminal.wait_until("running explorer", is_running);
+        for _ in 0..2 {
+            assert_eq!(terminal.look(Screen::mouse_protocol_mode), mouse);
+            terminal.press("\x1a");
+            terminal.wait_until("shell", |screen| {
+                let text = screen.contents();
+                !screen.alternate_screen() && !screen.hide_cursor() && text.contains("Stopped")
+            });
+            let mode = terminal.look(Screen::mouse_protocol_mode);
+            assert_eq!(mode, MouseProtocolMode::None);
+            // The shell echoes and answers.
+            terminal.press("echo $((6*7))\n");
+            terminal.wait_for("\n42");
+            terminal.press("clear; fg\n");
+            terminal.wait_until("explorer again", |screen| {
+                screen.alternate_screen() && is_running(screen)
+            });
+        }
+        let seen = terminal.look(cycle);
+        terminal.wait_until("later cycle", |screen| cycle(screen) > seen);
+        terminal.press("q");
+        terminal.wait_for("goes on");
+        terminal.press("exit\n");
+        terminal.wait_for_end();
+    }
+}

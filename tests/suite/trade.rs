@@ -1,0 +1,208 @@
+//! `mdr-tui trade`: what it prints, writes and refuses, and that its numbers are those of the runs.
+
+use std::fs;
+use std::process::{Command, Stdio};
+
+use mdr_tui::math::abel::AbelMethod;
+use mdr_tui::scenario::Scenario;
+use mdr_tui::simulation::Scheme;
+use mdr_tui::studies::trade::{self, Ladder, Setting};
+use serde_json::Value;
+
+use crate::test_dir::{Said, TestDir};
+
+fn say(arguments: &[&str]) -> Said {
+    TestDir::new().say(&[&["trade"], arguments].concat())
+}
+
+const SMALL: [&str; 9] = [
+    "li2019-fig3",
+    "--cycles",
+    "3",
+    "--points",
+    "8,16,32",
+    "--steps",
+    "10,20",
+    "--methods",
+    "product,a",
+];
+
+fn small(more: &[&str]) -> Said {
+    say(&[&SMALL[..], more].concat())
+}
+
+fn load(name: &str, sets: &[&str]) -> Scenario {
+    let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();
+    Scenario::load(name, &sets).expect("a scenario")
+}
+
+#[test]
+fn the_front_is_printed_and_drawn_and_everything_is_written() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let file = directory.path().join("trade.csv");
+    let path = file.to_str().expect("a path");
+    let Said { code, out, err } = small(&["--plot", "--marker", "ascii", "--csv", path]);
+    assert_eq!((code, err.as_str()), (0, ""));
+    assert!(
+        out.contains("reference: product, N = 64, 40 steps a cycle"),
+        "{out}"
+    );
+    assert!(out.contains("half as fine differs from it by"), "{out}");
+    assert!(out.contains("time_s"), "{out}");
+    let stars = out.lines().filter(|line| line.ends_with('*')).count();
+    assert!(stars >= 2, "{out}");
+
+    let csv = fs::read_to_string(&file).expect("the file");
+    let rows: Vec<&str> = csv.lines().filter(|line| !line.starts_with('#')).collect();
+    // Two methods by two schemes on three grids in two step sizes, and five tolerances by the best.
+    assert_eq!(rows.len(), 1 + 2 * 2 * 3 * 2 + 3 * 2 * 5, "{csv}");
+    assert!(
+        rows[0].starts_with("method,scheme,integrator,points,steps_per_cycle,tolerance,time_s")
+    );
+
+    let Said { code, err, .. } = small(&["--csv", path]);
+    assert_eq!(code, 2);
+    assert!(err.contains("exists already"), "{err}");
+}
+
+#[test]
+fn rows_as_json_are_all_rows() {
+    let Said { code, out, err } = small(&["--json"]);
+    assert_eq!((code, err.as_str()), (0, ""));
+    let rows: Vec<Value> = serde_json::from_str(&out).expect("JSON");
+    assert_eq!(rows.len(), 54);
+    for row in &rows {
+        assert!(
+            row["time_s"].as_f64().is_some_and(|time| time > 0.0),
+            "{row}"
+        );
+        assert!(
+            row["error_rms"].as_f64().is_some_and(|error| error < 0.1),
+            "{row}"
+        );
+    }
+}
+
+#[test]
+fn the_cheapest_setting_for_an_accuracy_reaches_it() {
+    let Said { code, out, err } = small(&["--accuracy", "2e-3"]);
+    assert_eq!((code, err.as_str()), (0, ""));
+    let sets: Vec<&str> = out
+        .lines()
+        .filter_map(|line| line.strip_prefix("--set "))
+        .collect();
+    assert!(
+        sets.iter().any(|set| set.starts_with("numerics.points=")),
+        "{out}"
+    );
+    // Against a reference of another make: Method A on many cells.
+    let scenario = load("li2019-fig3", &[]);
+    let reference = Setting {
+        method: AbelMethod::A,
+        scheme: Scheme::Trapezoid,
+        points: 1600,
+        steps: 50,
+        tolerance: None,
+    };
+    let go_on = |_| true;
+    let fine = trade::run(&scenario, &reference, 3.0, &go_on);
+    let fine = fine.expect("not stopped").expect("a run");
+    let recommended = load("li2019-fig3", &sets);
+    let setup = recommended.setup();
+    let tolerance = out
+        .lines()
+        .find_map(|line| line.strip_prefix("--set numerics.tolerance="));
+    let setting = Setting {
+        method: setup.method,
+        scheme: setup.scheme,
+        points: setup.grid.cells(),
+        steps: setup.steps_per_cycle,
+        tolerance: tolerance.map(|text| text.parse().expect("a number")),
+    };
+    let found = trade::run(&scenario, &setting, 3.0, &go_on);
+    let errors = found.expect("not stopped").expect("a run").against(&fine);
+    assert!(errors.rms <= 2e-3, "{errors:?}");
+
+    let Said { code, err, .. } = small(&["--accuracy", "1e-12"]);
+    assert_eq!(code, 1);
+    assert!(
+        err.contains("no setting that was tried errs by 1e-12 or less"),
+        "{err}"
+    );
+}
+
+#[test]
+fn every_setting_is_a_scenario() {
+    for name in ["li2019-fig3", "mild-million"] {
+        let scenario = load(name, &[]);
+        let ladder = Ladder::default();
+        let settings = ladder.settings(&scenario);
+        assert!(settings.len() > 50, "{}", settings.len());
+        for setting in settings.iter().chain([&ladder.reference(&scenario)]) {
+            let made = setting.of(&scenario).expect("a scenario");
+            let setup = made.setup();
+            assert_eq!(
+                (setup.method, setup.scheme, setup.grid.cells()),
+                (setting.method, setting.scheme, setting.points)
+            );
+            assert_eq!(setup.steps_per_cycle, setting.steps);
+        }
+        let direct = settings
+            .iter()
+            .filter(|setting| setting.tolerance.is_none());
+        // A million cycles are not stepped for a table.
+        assert_eq!(direct.count() == 0, name == "mild-million");
+    }
+}
+
+#[test]
+fn an_interrupt_keeps_what_is_done() {
+    let child = Command::new(env!("CARGO_BIN_EXE_mdr-tui"))
+        .args([
+            "trade",
+            "li2019-fig3",
+            "--points",
+            "8,2000",
+            "--steps",
+            "10,20",
+        ])
+        .args(["--methods", "a", "--cycles", "3", "--all"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program runs");
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status()
+        .expect("kill");
+    let output = child.wait_with_output().expect("an end");
+    // Whenever it came: one of the two plain ends, and no panic.
+    assert_eq!(output.status.code(), Some(1));
+    let err = String::from_utf8(output.stderr).expect("UTF-8");
+    let out = String::from_utf8(output.stdout).expect("UTF-8");
+    let early = err.contains("interrupted before the reference was there");
+    assert!(early || out.contains("settings were tried"), "{err} {out}");
+}
+
+#[test]
+fn what_cannot_be_traded_is_refused_in_one_line() {
+    for (arguments, line) in [
+        (&["hertz"][..], "hertz: nothing wears"),
+        (
+            &["li2019-fig3", "--points", "3"],
+            "points are whole numbers",
+        ),
+        (
+            &["li2019-fig3", "--accuracy", "0"],
+            "an accuracy is greater than 0",
+        ),
+        (&["li2019-fig3", "--methods", "c"], "invalid value 'c'"),
+        (&["nothing.toml"], "no such file"),
+    ] {
+        let Said { code, out, err } = say(arguments);
+        assert_eq!((code, out.as_str()), (2, ""), "{arguments:?}");
+        assert!(err.contains(line), "{err}");
+        assert_eq!(err.lines().count(), 1, "{err}");
+    }
+}

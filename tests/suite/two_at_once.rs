@@ -1,0 +1,134 @@
+//! Two programs that want the same files: one has them, the other is told so.
+
+use std::process::{Child, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use crate::test_dir::{Said, TestDir, end, names};
+
+fn start(dir: &TestDir, line: &str) -> Child {
+    let arguments: Vec<&str> = line.split_whitespace().collect();
+    let mut command = dir.command(&arguments);
+    command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    command.spawn().expect("the program starts")
+}
+
+/// Starts two programs, the second one `pause` after the first; what the winner and the loser say.
+fn race(dir: &TestDir, lines: [&str; 2], pause: Duration) -> (usize, Said, Said) {
+    let first = start(dir, lines[0]);
+    thread::sleep(pause);
+    let second = start(dir, lines[1]);
+    let (first, second) = (end(first), end(second));
+    match (first.code, second.code) {
+        (0, 2) => (0, first, second),
+        (2, 0) => (1, second, first),
+        codes => panic!("{codes:?}: {}{}", first.err, second.err),
+    }
+}
+
+fn assert_alike(dir: &TestDir, one: &str, other: &str) {
+    assert_eq!(names(&dir.path(one)), names(&dir.path(other)), "{other}");
+    for name in names(&dir.path(one)) {
+        let read = |directory| dir.read(&format!("{directory}/{name}"));
+        assert!(read(one) == read(other), "{other}: {name} differs");
+    }
+}
+
+#[test]
+fn of_two_runs_into_one_directory_the_second_is_refused() {
+    let dir = TestDir::new();
+    let lines = ["hertz", "cone"].map(|preset| {
+        format!("run {preset} --cycles 10 --set numerics.points=20 --quiet --history every-step")
+    });
+    for (line, out) in lines.iter().zip(["whole-0", "whole-1"]) {
+        dir.done(&format!("{line} --out {out}"));
+    }
+    for round in 0..6 {
+        let out = format!("x-{round}");
+        let both = [0, 1].map(|i| format!("{} --out {out}", lines[i]));
+        let pause = Duration::from_millis([0, 1, 5, 20, 60, 150][round % 6]);
+        let (winner, _, loser) = race(&dir, [&both[0], &both[1]], pause);
+        assert_eq!(loser.err.lines().count(), 1, "{}", loser.err);
+        let reasons = ["another run writes there", "already holds files"];
+        assert!(
+            reasons.iter().any(|reason| loser.err.contains(reason)),
+            "{}",
+            loser.err
+        );
+        assert_alike(&dir, &format!("whole-{winner}"), &out);
+    }
+    // Without --out each has a directory of its own.
+    let [first, second] = [0, 1].map(|_| start(&dir, "run hertz --cycles 1 --quiet"));
+    assert_eq!((end(first).code, end(second).code), (0, 0));
+    assert_alike(&dir, "hertz-run", "hertz-run-2");
+}
+
+/// Waits until a file is there.
+fn wait_for(child: &mut Child, dir: &TestDir, name: &str) {
+    let start = Instant::now();
+    while !dir.path(name).exists() {
+        assert!(start.elapsed() < Duration::from_secs(60), "no {name}");
+        assert!(matches!(child.try_wait(), Ok(None)), "an early end");
+        thread::sleep(Duration::from_millis(1));
+    }
+}
+
+#[test]
+fn a_run_under_way_is_refused_to_others_even_by_force_and_a_killed_one_is_not() {
+    let dir = TestDir::new();
+    let plan = "run hertz --cycles 1e9 --set numerics.points=8 --out x --checkpoint-every 0.001";
+    let mut alive = start(&dir, plan);
+    wait_for(&mut alive, &dir, "x/run.checkpoint");
+    for line in [
+        "run cone --cycles 1 --out x",
+        "run cone --cycles 1 --out x --force",
+        "run --resume x/run.checkpoint",
+        "run --resume x/run.checkpoint --out x",
+    ] {
+        let arguments: Vec<&str> = line.split(' ').collect();
+        let said = dir.say(&arguments);
+        assert_eq!(
+            (said.code, said.err.lines().count()),
+            (2, 1),
+            "{line}: {}",
+            said.err
+        );
+        let owner = format!("another run writes there (process {} on ", alive.id());
+        assert!(said.err.contains(&owner), "{line}: {}", said.err);
+    }
+    assert!(matches!(alive.try_wait(), Ok(None)), "it was disturbed");
+    // A copy elsewhere disturbs nobody.
+    dir.done("run --resume x/run.checkpoint --cycles 300 --out y --quiet");
+    let _ = alive.kill();
+    let _ = alive.wait();
+    // What it has left behind is stale.
+    dir.done("run cone --cycles 1 --out x --force --quiet");
+    assert_eq!(
+        names(&dir.path("x")),
+        ["history.csv", "scenario.toml", "state.csv"]
+    );
+}
+
+#[test]
+fn of_two_that_resume_one_checkpoint_the_second_is_refused() {
+    let dir = TestDir::new();
+    let plan = "run li2019-fig3 --set numerics.points=40 --history every-step --quiet";
+    dir.done(&format!("{plan} --cycles 12 --out whole"));
+    for pause in [0, 3] {
+        let line = format!("{plan} --cycles 12 --out x --checkpoint-every 0.001 --force");
+        let mut broken = start(&dir, &line);
+        wait_for(&mut broken, &dir, "x/run.checkpoint");
+        let _ = broken.kill();
+        let _ = broken.wait();
+        let line = "run --resume x/run.checkpoint --quiet --checkpoint-every 0.001";
+        let (_, _, loser) = race(&dir, [line; 2], Duration::from_millis(pause));
+        assert_eq!(loser.err.lines().count(), 1, "{}", loser.err);
+        let reasons = ["another run writes there", "no such file"];
+        assert!(
+            reasons.iter().any(|reason| loser.err.contains(reason)),
+            "{}",
+            loser.err
+        );
+        assert_alike(&dir, "whole", "x");
+    }
+}

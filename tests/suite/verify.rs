@@ -1,0 +1,269 @@
+//! `mdr-tui verify`: what it prints, writes and refuses, and that its numbers are those of the
+//! paper's Fig. 2 in kind.
+
+use std::collections::HashSet;
+use std::fs;
+
+use mdr_tui::math::abel::AbelMethod::{self, A, APlusB, B, Benad};
+use mdr_tui::studies::verify::errors::Errors;
+use mdr_tui::studies::verify::{Outcome, Problem, Study, Task};
+use serde_json::Value;
+
+use crate::test_dir::{Said, TestDir};
+
+fn say(arguments: &[&str]) -> Said {
+    TestDir::new().say(&[&["verify"], arguments].concat())
+}
+
+fn said(arguments: &[&str]) -> String {
+    let Said { code, out, err } = say(arguments);
+    assert_eq!((code, err.as_str()), (0, ""), "{arguments:?}");
+    out
+}
+
+fn rows(arguments: &[&str]) -> Vec<Value> {
+    let mut all = vec!["--json"];
+    all.extend(arguments);
+    serde_json::from_str(&said(&all)).expect("JSON")
+}
+
+fn errors(problem: Problem, method: AbelMethod, points: usize) -> Vec<Errors> {
+    let task = Task {
+        problem,
+        method,
+        points,
+    };
+    task.run().errors.expect("errors")
+}
+
+fn hertz(method: AbelMethod) -> [Errors; 3] {
+    let all = errors(Problem::Hertz, method, 100);
+    all.try_into().expect("g, p and w")
+}
+
+#[test]
+fn the_tables_have_every_method_and_n_and_fit_eighty_columns() {
+    let text = said(&["--points", "100,50,100"]);
+    for problem in Problem::ALL {
+        let (_, from) = text
+            .split_once(&format!("{problem}\n  "))
+            .expect("a problem");
+        let table = from.split("\n\n").next().expect("a table");
+        let found: Vec<(String, String)> = table
+            .lines()
+            .skip_while(|line| !line.starts_with("method"))
+            .skip(1)
+            .map(|line| {
+                let mut words = line.split_whitespace().map(str::to_owned);
+                let mut word = || words.next().expect("a word");
+                (word(), word())
+            })
+            .collect();
+        let expected: Vec<(String, String)> = AbelMethod::ALL
+            .iter()
+            .flat_map(|method| ["50", "100"].map(|n| (method.name().into(), n.into())))
+            .collect();
+        assert_eq!(found, expected, "{problem}");
+    }
+    assert!(text.lines().all(|line| line.chars().count() <= 80));
+    assert!(!text.contains("NaN") && !text.contains("inf "), "{text}");
+}
+
+#[test]
+fn json_has_a_row_for_each_quantity_and_its_observed_order() {
+    let rows = rows(&["--points", "50,200", "--problem", "hertz"]);
+    assert_eq!(rows.len(), 3 * 2 * AbelMethod::ALL.len());
+    let find = |method: &str, quantity: &str, points: u64| {
+        let wanted = |row: &&Value| {
+            row["method"] == method && row["quantity"] == quantity && row["points"] == points
+        };
+        rows.iter().find(wanted).expect("a row")
+    };
+    let fine = find("a", "w", 200);
+    assert!((fine["max_order"].as_f64().expect("an order") - 2.0).abs() < 0.02);
+    assert_eq!(
+        (&fine["nodes"], &fine["nodes_left_out"]),
+        (&201.into(), &0.into())
+    );
+    assert!(fine["stopped_at_cycle"].is_null());
+    let order = find("b", "w", 200)["max_order"].as_f64();
+    assert!((order.expect("an order") - 1.45).abs() < 0.05);
+    assert!(find("a", "w", 50)["max_order"].is_null());
+    assert_eq!(find("a", "g", 50)["nodes_left_out"], 1);
+    assert_eq!(find("a", "p", 50)["nodes_left_out"], 1);
+}
+
+/// "For the profile, there is no difference for the two methods, but for the deformation, the
+/// method A is better". At the last node alone B's one-sided difference tells in g.
+#[test]
+fn the_errors_of_hertz_are_those_of_the_papers_figure_in_kind() {
+    let ([g_a, p_a, w_a], [g_b, p_b, w_b]) = (hertz(A), hertz(B));
+    for (r, (a, b)) in g_a.radii.iter().zip(g_a.errors.iter().zip(&g_b.errors)) {
+        assert!(*r == 1.0 || (a / b - 1.0).abs() < 0.02, "g at {r}: {a} {b}");
+    }
+    // The largest error stands next to the axis and falls outwards.
+    assert!(g_a.errors.windows(2).all(|pair| pair[0] > pair[1]));
+    assert!(p_a.rms() < 1e-3 && p_b.rms() < 1e-3);
+    let pairs = w_a.errors.iter().zip(&w_b.errors);
+    // At the first node the trapezoid of B is right by chance: ½(u_0 + u_1) is the mean it needs.
+    for (r, (a, b)) in w_a.radii.iter().zip(pairs).skip(2) {
+        assert!(a < b, "w at {r}: {a} {b}");
+        assert!(*r < 0.2 || 3.0 * a < *b, "w at {r}: {a} {b}");
+    }
+    assert_eq!(
+        (&g_a.left_out[..], &p_a.left_out[..]),
+        (&[0.0][..], &[1.0][..])
+    );
+    // The paper's suggestion (b) is A but for w, where it is B.
+    let [g, p, w] = hertz(APlusB);
+    assert_eq!((g, p, w), (g_a.clone(), p_a, w_b));
+    assert_eq!(hertz(Benad)[0], g_a);
+}
+
+#[test]
+fn edges_between_nodes_cost_the_published_methods_half_an_order() {
+    for method in [A, APlusB, B, Benad] {
+        let worst = [100, 400].map(|n| errors(Problem::Cattaneo, method, n)[0].max());
+        let order = 0.5 * (worst[0] / worst[1]).log2();
+        assert!((0.4..0.55).contains(&order), "{method}: {order}");
+    }
+}
+
+#[test]
+fn the_limit_tells_b_from_the_causal_methods_and_waits_for_long_on_fine_grids() {
+    let rms = |method| errors(Problem::Limit, method, 100)[0].rms();
+    assert!((rms(A) / 1.87e-3 - 1.0).abs() < 0.03);
+    assert!((rms(B) / 4.25e-2 - 1.0).abs() < 0.03);
+    let study = |long| Study {
+        problems: vec![Problem::Limit],
+        points: vec![400, 200],
+        long,
+    };
+    assert_eq!(study(false).tasks().len(), AbelMethod::ALL.len());
+    assert_eq!(study(false).left_for_long(), [(Problem::Limit, 400)]);
+    assert_eq!(study(true).tasks().len(), 2 * AbelMethod::ALL.len());
+    assert_eq!(study(true).left_for_long(), []);
+}
+
+#[test]
+fn the_csv_has_every_node_and_is_never_written_over() {
+    let base = tempfile::tempdir().expect("a directory");
+    let path = base.path().join("fig2.csv");
+    let name = path.to_str().expect("a name");
+    let ask = [
+        "--points",
+        "50",
+        "--problem",
+        "hertz",
+        "--problem",
+        "cattaneo",
+        "--csv",
+        name,
+    ];
+    said(&ask);
+    let text = fs::read_to_string(&path).expect("the file");
+    let mut lines = text.lines().skip_while(|line| line.starts_with("# "));
+    assert_eq!(
+        lines.next(),
+        Some("problem,quantity,method,points,r_over_a,error")
+    );
+    let mut seen = HashSet::new();
+    let mut largest: f64 = 0.0;
+    for line in lines {
+        let fields: Vec<&str> = line.split(',').collect();
+        let [problem, quantity, method, points, r, error] = fields[..] else {
+            panic!("{line}");
+        };
+        assert_eq!(points, "50");
+        let [r, error] = [r, error].map(|number| number.parse::<f64>().expect("a number"));
+        assert!((0.0..1.51).contains(&r) && error >= 0.0, "{line}");
+        assert!(
+            seen.insert((problem, quantity, method, r.to_bits())),
+            "{line} twice"
+        );
+        if (problem, quantity, method) == ("hertz", "w", "a") {
+            largest = largest.max(error);
+        }
+    }
+    assert_eq!(largest, errors(Problem::Hertz, A, 50)[2].max());
+    // g and p without a node each, w with all; tau at all nodes, slip inside a.
+    assert_eq!(seen.len(), AbelMethod::ALL.len() * (50 + 50 + 51 + 51 + 34));
+
+    let Said { code, out, err } = say(&ask);
+    assert_eq!((code, out.as_str()), (2, ""));
+    assert!(
+        err.contains("exists already") && err.contains("--force"),
+        "{err}"
+    );
+    said(&[&ask[..], &["--force"]].concat());
+    assert_eq!(fs::read_to_string(&path).expect("the file"), text);
+    assert_eq!(fs::read_dir(base.path()).expect("the directory").count(), 1);
+}
+
+#[test]
+fn the_curves_are_drawn_for_every_method_within_eighty_columns() {
+    let text = said(&[
+        "--points",
+        "50",
+        "--problem",
+        "hertz",
+        "--plot",
+        "--marker",
+        "ascii",
+    ]);
+    for method in AbelMethod::ALL {
+        for quantity in ["g", "p", "w"] {
+            let title = format!("{method}: {quantity}, N = 50");
+            assert!(text.contains(&title), "no {title} in\n{text}");
+        }
+    }
+    assert!(
+        text.lines()
+            .all(|line| line.chars().count() <= 80 && line.is_ascii())
+    );
+}
+
+#[test]
+fn nonsense_is_refused_in_one_line() {
+    for (arguments, expected) in [
+        (&["--points", "0"][..], "from 4 to 8192"),
+        (&["--points", "-5"], "from 4 to 8192"),
+        (&["--points", "100,ten"], "'ten'"),
+        (&["--points", "1e3"], "'1e3'"),
+        (&["--points", ""], "from 4 to 8192"),
+        (&["--points", "8193"], "from 4 to 8192"),
+        (&["--problem", "nope"], "truncated-paraboloid"),
+        (&["--problem", "limit", "--points", "400"], "--long"),
+        (&["--csv", "/no/such/place.csv"], "directory does not exist"),
+        (&["--csv", "/"], "no name of a file"),
+        (&["--json", "--plot"], "--plot"),
+        (&["--force"], "--csv"),
+    ] {
+        let Said { code, out, err } = say(arguments);
+        assert_eq!((code, out.as_str()), (2, ""), "{arguments:?}");
+        assert_eq!(err.lines().count(), 1, "{err}");
+        assert!(
+            err.starts_with("mdr-tui: ") && err.contains(expected),
+            "{err}"
+        );
+    }
+}
+
+#[test]
+fn help_has_examples_and_the_default_ladder() {
+    let help = said(&["--help"]);
+    assert!(help.contains("Example"));
+    let ladder = mdr_tui::studies::verify::LADDER.map(|n| n.to_string());
+    assert!(help.contains(&ladder.join(",")), "{help}");
+}
+
+#[test]
+fn tasks_run_alike_twice() {
+    let task = Task {
+        problem: Problem::TruncatedParaboloid,
+        method: A,
+        points: 64,
+    };
+    let (once, again): (Outcome, Outcome) = (task.run(), task.run());
+    assert_eq!(once, again);
+}

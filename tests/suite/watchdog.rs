@@ -1,0 +1,169 @@
+//! A run that cannot go on stops at its last good step, keeps it, and says what would help.
+
+use crate::test_dir::{Table, TestDir, bits, end, names};
+
+/// `--set`s that end in each cause, the cause, and what would help. Those that end before the first
+/// step have nothing to keep.
+const CASES: [(&[&str], &str, &str, bool); 9] = [
+    (
+        &["numerics.method=benad", "wear.coefficient=1e-7"],
+        "the profile has blown up",
+        "numerics.method = \"product\" is stable",
+        true,
+    ),
+    (
+        &["numerics.method=b", "wear.coefficient=1e-6"],
+        "the profile has blown up",
+        "more numerics.steps_per_cycle",
+        true,
+    ),
+    (
+        &[
+            "numerics.method=a",
+            "wear.coefficient=1e-5",
+            "numerics.stability=off",
+        ],
+        "the wear runs away",
+        "numerics.stability = \"sub-step\", more numerics.steps_per_cycle, fewer numerics.points",
+        true,
+    ),
+    (
+        &["numerics.method=a", "wear.coefficient=1e308"],
+        "is not finite",
+        "a smaller wear.coefficient",
+        true,
+    ),
+    (
+        &["numerics.domain_radius=1.02e-4"],
+        "the contact has reached the domain's edge",
+        "a larger numerics.domain_radius",
+        true,
+    ),
+    (
+        &[
+            "motion.tangential.control=force",
+            "motion.tangential.amplitude=3.2",
+        ],
+        "exceeds what friction holds",
+        "a smaller motion.tangential",
+        true,
+    ),
+    (
+        &[
+            "motion.normal.control=force",
+            "motion.normal.mean=1e9",
+            "motion.normal.amplitude=0",
+            "numerics.domain_radius=1e-4",
+        ],
+        "no depth carries the normal force",
+        "a larger numerics.domain_radius",
+        false,
+    ),
+    (
+        &["indenter.radius=1e300"],
+        "is beyond all numbers",
+        "in SI units",
+        false,
+    ),
+    (
+        &[
+            "motion.tangential.control=force",
+            "motion.tangential.amplitude=100",
+        ],
+        "exceeds what friction holds",
+        "a smaller motion.tangential",
+        false,
+    ),
+];
+
+#[test]
+fn every_cause_keeps_the_last_good_step_and_says_what_would_help() {
+    let dir = TestDir::new();
+    let preset = mdr_tui::scenario::preset::find("li2019-fig3").expect("a preset");
+    dir.write("mine.toml", preset.text.as_bytes());
+    for (i, (sets, cause, help, starts)) in CASES.into_iter().enumerate() {
+        let out = format!("out-{i}");
+        let mut arguments = vec!["run", "mine.toml", "--cycles", "20", "--out", &out];
+        arguments.extend(sets.iter().flat_map(|set| ["--set", *set]));
+        let before = dir.inventory();
+        let mut command = dir.command(&arguments);
+        command.stdout(std::process::Stdio::piped());
+        command.stderr(std::process::Stdio::piped());
+        let said = end(command.spawn().expect("the program starts"));
+        assert_eq!(
+            (said.code, said.out.as_str()),
+            (1, ""),
+            "{sets:?} {}",
+            said.err
+        );
+        let lines = said.err.lines();
+        let lines = lines.filter(|line| !line.contains("outside of the theory"));
+        assert_eq!(lines.count(), 1, "{}", said.err);
+        for part in ["mdr-tui: mine.toml", "stopped after ", cause, help] {
+            assert!(
+                said.err.contains(part),
+                "{sets:?}: {part} is not in {}",
+                said.err
+            );
+        }
+        if !starts {
+            assert!(dir.inventory() == before, "{sets:?} wrote something");
+            continue;
+        }
+        assert_eq!(
+            names(&dir.path(&out)),
+            ["history.csv", "scenario.toml", "state.csv"]
+        );
+        let state = Table::parse(&dir.read(&format!("{out}/state.csv")));
+        let history = Table::parse(&dir.read(&format!("{out}/history.csv")));
+        let cycle: f64 = state.header("cycle").parse().expect("a number");
+        let last = bits(&history.column("cycle")).last().copied();
+        assert_eq!(last, Some(cycle.to_bits()));
+        assert!(said.err.contains(&format!("stopped after {cycle} cycles")));
+        for (name, column) in state.columns.iter().zip(0..state.columns.len() - 1) {
+            let finite = state
+                .rows
+                .iter()
+                .all(|row| row[column].parse::<f64>().is_ok_and(f64::is_finite));
+            assert!(finite, "{sets:?}: {name}");
+        }
+        // What is kept is a run of its own, which ends well.
+        dir.done(&format!("run {out}/scenario.toml --out again-{i} --quiet"));
+        assert!(dir.read(&format!("{out}/state.csv")) == dir.read(&format!("again-{i}/state.csv")));
+    }
+}
+
+#[test]
+fn the_explorer_shows_the_cause_and_can_go_on_with_another_method() {
+    let dir = TestDir::new();
+    for (sets, cause, _, starts) in CASES {
+        let mut arguments = vec!["li2019-fig3", "--print", "200x24", "--keys", ",,,"];
+        arguments.extend(sets.iter().flat_map(|set| ["--set", *set]));
+        let said = dir.say(&arguments);
+        if !starts {
+            assert_eq!(said.code, 1, "{sets:?}");
+            assert!(said.err.contains(cause), "{}", said.err);
+            continue;
+        }
+        assert_eq!(said.code, 0, "{sets:?}: {}", said.err);
+        if said.out.contains("! stopped") {
+            let footer = said.out.lines().last().unwrap_or_default();
+            assert!(
+                footer.contains(cause) || footer.contains("the run has broken down"),
+                "{sets:?}: {footer}"
+            );
+        }
+    }
+    // With another method the run goes on from the last good step.
+    let mut arguments = vec!["li2019-fig3", "--print", "200x24", "--keys", ",M."];
+    for set in [
+        "numerics.method=a",
+        "wear.coefficient=1e-5",
+        "numerics.stability=off",
+    ] {
+        arguments.extend(["--set", set]);
+    }
+    let said = dir.say(&arguments);
+    assert!(said.out.contains("│ product │ archard │"), "{}", said.out);
+    assert!(!said.out.contains("stopped"), "{}", said.out);
+}

@@ -1,0 +1,175 @@
+//! Motions that are no sines: where only the turning points count, they wear as a sine does.
+
+use mdr_tui::scenario::Scenario;
+use mdr_tui::scenario::session::Session;
+
+use crate::test_dir::TestDir;
+
+/// V and E_d after `cycles` of a paraboloid held at a depth and shaken sideways.
+fn worn(sets: &[&str], cycles: f64) -> [f64; 2] {
+    let held = ["motion.normal.amplitude=0", "motion.tangential.phase=0"];
+    let sets: Vec<String> = held
+        .iter()
+        .chain(sets)
+        .map(|set| (*set).to_owned())
+        .collect();
+    let scenario = Scenario::load("li2019-fig3", &sets).expect("a scenario");
+    let mut session = Session::start(scenario).expect("a contact");
+    session.advance_to(cycles).expect("a run");
+    let moment = session.simulation().moment();
+    [moment.wear_volume, moment.dissipated_energy]
+}
+
+#[test]
+fn triangle_and_trapezoid_wear_as_a_sine_at_constant_depth() {
+    // Gross slip and partial slip; in steps, and in jumps.
+    for (amplitude, bound) in [("2e-7", 2e-3), ("0.8e-7", 2e-3)] {
+        let amplitude = format!("motion.tangential.amplitude={amplitude}");
+        for integrator in [
+            "numerics.integrator=direct",
+            "numerics.integrator=cycle-jump",
+        ] {
+            let with = |waveform: &[&str]| {
+                let mut sets = vec![amplitude.as_str(), integrator];
+                sets.extend(waveform);
+                worn(&sets, 10.0)
+            };
+            let sine = with(&[]);
+            for waveform in [
+                &["motion.tangential.waveform=triangle"][..],
+                &[
+                    "motion.tangential.waveform=trapezoid",
+                    "motion.tangential.hold=0.3",
+                ][..],
+            ] {
+                for (found, expected) in with(waveform).into_iter().zip(sine) {
+                    let error = (found / expected - 1.0).abs();
+                    eprintln!("{amplitude} {integrator} {waveform:?}: {error:.2e}");
+                    assert!(
+                        error < bound,
+                        "{waveform:?} {integrator}: {found} {expected}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// Where the depth swings as well, the path between the turning points does count.
+#[test]
+fn with_a_depth_that_swings_a_triangle_is_another_motion() {
+    let with = |waveform: &str| {
+        worn(
+            &[
+                "motion.normal.amplitude=1e-7",
+                "motion.tangential.phase=0.785",
+                waveform,
+            ],
+            3.0,
+        )[0]
+    };
+    let (sine, triangle) = (
+        with("motion.tangential.waveform=sine"),
+        with("motion.tangential.waveform=triangle"),
+    );
+    assert!((triangle / sine - 1.0).abs() > 0.01, "{sine} {triangle}");
+}
+
+#[test]
+fn a_table_of_a_triangle_is_the_triangle() {
+    let dir = TestDir::new();
+    dir.write("motion.csv", b"time_s,u_um\n0,0\n0.5,0.2\n1.5,-0.2\n2,0\n");
+    dir.write(
+        "mine.toml",
+        br#"
+[indenter]
+shape = "paraboloid"
+radius = 0.01
+[material]
+effective_modulus = 2.3077e11
+poisson = 0.3
+[friction]
+coefficient = 0.1
+[motion.normal]
+mean = 1e-6
+[motion.tangential]
+file = "motion.csv"
+[wear]
+coefficient = 1.3e-10
+"#,
+    );
+    let path = dir.path("mine.toml").display().to_string();
+    let scenario = Scenario::load(&path, &[]).expect("a scenario");
+    let motion = scenario
+        .setup()
+        .drive
+        .tangential()
+        .expect("a motion")
+        .oscillation()
+        .clone();
+    assert!((motion.amplitude() / 2e-7 - 1.0).abs() < 1e-12 && motion.mean().abs() < 1e-20);
+    assert!((scenario.setup().drive.period() - 2.0).abs() < 1e-12);
+    let again = Scenario::from_toml(&scenario.to_toml(), "again", &[]).expect("a scenario");
+    assert_eq!(again.setup(), scenario.setup());
+    let mut session = Session::start(scenario).expect("a contact");
+    session.advance_to(5.0).expect("a run");
+    let tabled = session.simulation().moment().wear_volume;
+    let sets = [
+        "motion.tangential.amplitude=2e-7",
+        "motion.tangential.waveform=triangle",
+    ];
+    let [triangle, _] = worn(&sets, 5.0);
+    assert!(
+        (tabled / triangle - 1.0).abs() < 1e-9,
+        "{tabled} {triangle}"
+    );
+    for (csv, expected) in [
+        (
+            "time_s,u_m\n0,0\n1,1e-7\n2,5e-8\n",
+            "must end where it begins, at 0e0",
+        ),
+        (
+            "time_s,u_m\n0,0\n1,1e-7\n1,0\n",
+            "must increase, and follows 1e0",
+        ),
+        (
+            "time_s,u_m\n0,0\n1,\n2,0\n",
+            "motion.csv: line 3: u_m is empty",
+        ),
+        ("t,u\n0,0\n", "motion.csv: has no column time_s"),
+    ] {
+        dir.write("motion.csv", csv.as_bytes());
+        let refused = Scenario::load(&path, &[])
+            .expect_err("a refusal")
+            .to_string();
+        assert!(refused.contains(expected), "{refused}");
+    }
+}
+
+#[test]
+fn waveforms_that_lack_something_are_refused() {
+    for (sets, expected) in [
+        (
+            &["motion.tangential.waveform=trapezoid"][..],
+            "motion.tangential.hold is missing",
+        ),
+        (
+            &[
+                "motion.tangential.waveform=trapezoid",
+                "motion.tangential.hold=1",
+            ][..],
+            "must be greater than 0, at most 0.99",
+        ),
+        (
+            &["motion.tangential.waveform=table"][..],
+            "motion.tangential.file is missing",
+        ),
+        (&["motion.tangential.waveform=square"][..], "must be one of"),
+    ] {
+        let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+        let refused = Scenario::load("li2019-fig3", &sets)
+            .expect_err("a refusal")
+            .to_string();
+        assert!(refused.contains(expected), "{refused}");
+    }
+}

@@ -199,12 +199,13 @@ pub fn borders(
             } else {
                 squares[k + 1]
             };
-            stick_radius = Some(border.map_or(outside, |(at, _)| at).sqrt());
+            stick_radius = Some(border.map_or(outside, |(at, _)| at.max(squares[k])).sqrt());
         }
         let mut bend = |inner: &[(f64, f64)]| {
             let (t, v) = ([squares[k], squares[k + 1]], [spring[k], spring[k + 1]]);
             kink::polyline(t, v, inner, kinks);
         };
+        let border = border.filter(|&(at, _)| at > squares[k] + ON_A_SPRING * width);
         match (border, edge.map(|at| (at, 0.0))) {
             (Some(border), Some(edge)) => bend(&[border, edge]),
             (Some(inner), None) | (None, Some(inner)) => bend(&[inner]),
@@ -226,7 +227,7 @@ struct Cell<'a> {
 }
 
 impl Cell<'_> {
-    /// Where stick ends in this cell: x² and u_x there.
+    /// Where stick ends in this cell, its inner spring included: x² and u_x there.
     fn border(&self, edge: Option<f64>) -> Option<(f64, f64)> {
         let (k, t) = (self.k, self.input.foundation.squares());
         let width = t[k + 1] - t[k];
@@ -264,7 +265,7 @@ impl Cell<'_> {
         let limit_here = limit(from);
         let offset = (sign * limit_here - self.spring[from]) / (stick_slope - sign * limit_slope);
         let at = t[from] + offset;
-        let inside = at > t[k] + ON_A_SPRING * width && at < end - ON_A_SPRING * width;
+        let inside = at > t[k] - ON_A_SPRING * width && at < end - ON_A_SPRING * width;
         inside.then(|| (at, self.spring[from] + stick_slope * offset))
     }
 }

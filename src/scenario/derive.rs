@@ -10,15 +10,23 @@ use crate::contact::normal;
 use crate::math::abel::AbelMethod;
 use crate::math::abel::field::Field;
 use crate::math::grid::RadialGrid;
+use crate::math::quadrature::gauss;
+use crate::math::root;
 use crate::simulation::drive::{Control, Drive};
 use crate::simulation::{Scheme, Spacing};
 
 /// Cells of the grid on which the unworn contact is solved: 1e-4 of the depth is more than enough.
 const CELLS: usize = 200;
 
-/// Under a prescribed force a wearing contact sinks in; the domain has room for this many times
-/// the depth of the unworn one.
+/// Under a prescribed force a wearing contact sinks in; where nobody knows how far, the domain has room
+/// for this many times the depth of the unworn one.
 const ROOM_TO_SINK: f64 = 3.0;
+
+/// Room beyond the depth at which wear ends, for what cells and steps err by.
+const BEYOND_SETTLED: f64 = 1.05;
+
+/// Pieces of a quadrature over the profile.
+const PIECES: u32 = 64;
 
 /// The contact of the unworn indenter.
 struct Pressed {
@@ -45,18 +53,50 @@ pub(super) fn choices(method: AbelMethod) -> (Spacing, Scheme) {
 pub(super) fn domain_radius(
     indenter: &Indenter,
     material: &Material,
-    control: &Control,
+    drive: &Drive,
+    friction_is_constant: bool,
 ) -> Option<f64> {
     if let Some(rim) = indenter.rim() {
         return Some(rim);
     }
-    let depth = match control {
+    let depth = match drive.normal() {
         Control::Displacement(depth) => depth.highest(),
         Control::Force(force) => {
-            ROOM_TO_SINK * press_by(indenter, material, force.highest())?.depth
+            let start = press_by(indenter, material, force.highest())?.depth;
+            let end = (friction_is_constant && force.amplitude() == 0.0)
+                .then(|| settled_depth(indenter, material, drive, start));
+            let end = end.flatten().map(|end| BEYOND_SETTLED * end);
+            end.unwrap_or(f64::INFINITY).min(ROOM_TO_SINK * start)
         }
     };
     Some(indenter.radius_at(depth))
+}
+
+/// The depth, m, at which a held normal force and a tangential amplitude U have worn all that slips: within
+/// the stick radius c the depth is d = g(c) + U/λ, λ = μE*/G*, and what lies outside bears nothing,
+/// F_z = 2E* ∫₀ᶜ (d − g) dx. None if it is beyond [`ROOM_TO_SINK`] times the depth at the `start` (m).
+fn settled_depth(
+    indenter: &Indenter,
+    material: &Material,
+    drive: &Drive,
+    start: f64,
+) -> Option<f64> {
+    let Control::Displacement(shift) = drive.tangential()? else {
+        return None;
+    };
+    let yielding = shift.amplitude() * material.stick_ratio();
+    let profile = |x: f64| indenter.profile_1d(x);
+    let borne = |c: f64| {
+        let depth = profile(c) + yielding;
+        let piece = |i: u32| c * f64::from(i) / f64::from(PIECES);
+        let gap = |x: f64| depth - profile(x);
+        let pieces = (0..PIECES).map(|i| gauss(piece(i), piece(i + 1), gap));
+        2.0 * material.normal_modulus() * pieces.sum::<f64>()
+    };
+    let force = drive.normal().oscillation().mean();
+    let widest = indenter.radius_at(ROOM_TO_SINK * start);
+    let radius = root::bracketed(|c| borne(c) / force - 1.0, 0.0, widest, 1e-9 * widest)?;
+    Some(profile(radius) + yielding)
 }
 
 /// τ_ref, Pa, and v_ref, m/s, of the power law where the scenario gives none: μ times the mean
@@ -182,6 +222,29 @@ mod tests {
             "{}",
             pressed.force
         );
+    }
+
+    #[test]
+    fn a_held_force_sinks_in_until_nothing_slips() {
+        let (indenter, material, force) = hertz();
+        let swing = Oscillation::new(0.0, 5e-8, 1.0, 0.0).expect("a motion");
+        let held = Oscillation::new(force, 0.0, 1.0, 0.0).expect("a force");
+        let drive = Drive::new(
+            Control::Force(held.into()),
+            Some(Control::Displacement(swing.into())),
+        );
+        let depth = settled_depth(&indenter, &material, &drive, 1e-6).expect("a depth");
+        // (2/3) c³/R + (U/λ) c = F_z/(2E*), d = c²/R + U/λ.
+        let yielding = 5e-8 * material.stick_ratio();
+        let c = ((depth - yielding) * 0.01).sqrt();
+        let borne = 2.0 / 3.0 * c * c * c / 0.01 + yielding * c;
+        assert!((borne * 2.0 * 2.3077e11 / force - 1.0).abs() < 1e-6);
+        assert!(depth > 1e-6 && depth < 3e-6, "{depth:e}");
+        let domain = domain_radius(&indenter, &material, &drive, true).expect("a domain");
+        assert!((domain / (0.02 * BEYOND_SETTLED * depth).sqrt() - 1.0).abs() < 1e-9);
+        // Friction that changes has no such end.
+        let domain = domain_radius(&indenter, &material, &drive, false).expect("a domain");
+        assert!((domain / (0.02 * ROOM_TO_SINK * 1e-6_f64).sqrt() - 1.0).abs() < 1e-3);
     }
 
     #[test]

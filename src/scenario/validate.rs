@@ -16,6 +16,7 @@ use crate::math::abel::AbelMethod;
 use crate::math::grid::RadialGrid;
 use crate::math::invalid::Invalid;
 use crate::simulation::drive::{Control, Drive, Oscillation};
+use crate::simulation::running_in::RunningIn;
 use crate::simulation::waveform::{Tabled, Waveform};
 use crate::simulation::{Integrator, Setup};
 use crate::wear::WearLaw;
@@ -40,7 +41,7 @@ pub(super) fn setup(
     let material = parts.material()?;
     let wear = parts.wear(&indenter, &material, &drive)?;
     let running_in = parts.running_in()?;
-    let domain = parts.domain_radius(&indenter, &material, &drive);
+    let domain = parts.domain_radius(&indenter, &material, &drive, running_in.as_ref());
     let refused = |invalid| parts.refused("numerics", invalid);
     let method: AbelMethod = parts.require(&keys::METHOD)?.parse().map_err(refused)?;
     let (spacing, scheme) = derive::choices(method);
@@ -412,9 +413,11 @@ impl Parts<'_> {
         indenter: &Indenter,
         material: &Material,
         drive: &Drive,
+        running_in: Option<&RunningIn>,
     ) -> Option<f64> {
         let given = self.get(&keys::DOMAIN_RADIUS);
-        given.or_else(|| derive::domain_radius(indenter, material, drive.normal()))
+        let changes = running_in.is_some_and(|laws| laws.friction.is_some());
+        given.or_else(|| derive::domain_radius(indenter, material, drive, !changes))
     }
 
     fn grid(

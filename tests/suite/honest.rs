@@ -327,8 +327,7 @@ fn a_held_force_keeps_its_balance_and_its_bounds() {
         holds(
             &format!("V = k E_d after {cycles} cycles"),
             balance.abs(),
-            // Measured: 2.3e-2 after 1e3 cycles, 4.4e-2 after 1e4.
-            0.1,
+            2e-2,
         );
         let stick = moment.permanent_stick_radius.expect("a stick zone");
         assert!(
@@ -360,9 +359,17 @@ fn gross_slip_under_a_held_load_wears_a_flat() {
         holds(
             &format!("a after {cycles} cycles"),
             (radius / due - 1.0).abs(),
+            // The law takes the pressure for uniform: on 400 cells as on 100 the radius after 100 cycles
+            // is 2.6 % beyond it.
             3e-2,
         );
-        assert_eq!(says(&session), "checks ok");
+        // That of a single period goes up and down as the edge passes a cell.
+        let balance = moment.energy_residual.expect("wear");
+        holds(
+            &format!("V = k E_d after {cycles} cycles"),
+            balance.abs(),
+            1e-2,
+        );
     }
 }
 

@@ -14,6 +14,7 @@ mod cast;
 mod changes;
 mod checkpoint;
 mod cli;
+mod conformance;
 mod convergence;
 mod cycle_figures;
 mod cycle_jump;

@@ -487,6 +487,13 @@ impl Job {
             )?;
         }
         let stated = self.session.statements().iter();
+        let is_estimated = stated.clone().any(|(key, _)| key == "estimated_error");
+        if moment.wear_volume > 0.0 && !is_estimated {
+            writeln!(
+                out,
+                "  estimated error         not run (--estimate-error measures it)"
+            )?;
+        }
         for (key, value) in stated.filter(|(key, _)| key.starts_with("estimated_error")) {
             let words = match key.as_str() {
                 "estimated_error" => "of the worn depth (rms, relative to the largest)",

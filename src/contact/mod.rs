@@ -5,5 +5,6 @@ pub mod indenter;
 pub mod material;
 pub mod measured;
 pub mod normal;
+pub mod scar;
 pub mod subsurface;
 pub mod tangential;

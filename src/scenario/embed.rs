@@ -62,6 +62,16 @@ const FILES: &[Embedded] = &[
         ],
     },
     Embedded {
+        file: "wear.initial",
+        columns: [
+            &[("wear.initial_radii", "r", Quantity::Length)],
+            &[
+                ("wear.initial_depths", "depth", Quantity::Length),
+                ("wear.initial_depths", "wear", Quantity::Length),
+            ],
+        ],
+    },
+    Embedded {
         file: "wear.file",
         columns: [
             &[

@@ -244,6 +244,12 @@ keys! {
     WEAR_VALUES: Vec<f64> = quantities("wear.values", "1/Pa", NotNegative,
             "wear coefficients of the table, as read from wear.file")
         .effect("the coefficients of the course");
+    WEAR_INITIAL: String = text("wear.initial",
+            "CSV file of the scar that the run begins with: columns r_m and depth_m, or wear_m as in state.csv");
+    WEAR_INITIAL_RADII: Vec<f64> = quantities("wear.initial_radii", "m", NotNegative,
+            "radii of the scar, as read from wear.initial");
+    WEAR_INITIAL_DEPTHS: Vec<f64> = quantities("wear.initial_depths", "m", NotNegative,
+            "worn depths of the scar, as read from wear.initial");
     STRESS_EXPONENT: f64 = quantity("wear.stress_exponent", "", Within(0.1, 10.0),
             "exponent of the stress, used by law = \"power\"")
         .default(Implied("1.5"))

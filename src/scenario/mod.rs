@@ -298,7 +298,10 @@ impl Scenario {
                 assign::split(&change.set, "").map_err(|_| ScenarioError::NotAnAssignment {
                     given: written.clone(),
                 })?;
-            let fixed = key.starts_with("run.") || key.ends_with(".file");
+            let fixed = ["run.", "wear.initial"]
+                .iter()
+                .any(|start| key.starts_with(start))
+                || key.ends_with(".file");
             if ["title", "description", "numerics.accuracy"].contains(&key) || fixed {
                 return Err(ScenarioError::Refused {
                     place: written.clone(),

@@ -12,6 +12,7 @@ use super::schema::{self, Key};
 use crate::contact::indenter::Indenter;
 use crate::contact::material::{Body, Material};
 use crate::contact::measured::MeasuredProfile;
+use crate::contact::scar::Scar;
 use crate::math::abel::AbelMethod;
 use crate::math::grid::RadialGrid;
 use crate::math::invalid::Invalid;
@@ -45,8 +46,10 @@ pub(super) fn setup(
     let refused = |invalid| parts.refused("numerics", invalid);
     let method: AbelMethod = parts.require(&keys::METHOD)?.parse().map_err(refused)?;
     let (spacing, scheme) = derive::choices(method);
+    let grid = parts.grid(method, &indenter, domain)?;
     let setup = Setup {
-        grid: parts.grid(method, &indenter, domain)?,
+        scar: parts.scar(&indenter, grid.radius())?,
+        grid,
         material,
         indenter,
         drive,
@@ -104,6 +107,9 @@ const HARDLY_SAME: f64 = 20.0;
 
 /// The fewest points of a table that are to lie within the domain.
 const FEWEST_IN_CONTACT: usize = 4;
+
+/// How deep a scar may be where its table ends inside the domain, relative to its greatest depth.
+const CUT_OFF: f64 = 0.05;
 
 pub(super) struct Parts<'a> {
     /// The values, with the defaults written out.
@@ -405,6 +411,55 @@ impl Parts<'_> {
             WearLaw::archard(coefficient).map_err(refused)?
         };
         Ok(Some(law))
+    }
+
+    /// The scar that the run begins with, on a domain that ends at `domain` (m).
+    fn scar(&self, indenter: &Indenter, domain: f64) -> Result<Option<Scar>, ScenarioError> {
+        let (radii, depths) = (&keys::WEAR_INITIAL_RADII, &keys::WEAR_INITIAL_DEPTHS);
+        if self.get(radii).is_none() && self.get(depths).is_none() {
+            return Ok(None);
+        }
+        let scar = Scar::new(&self.require(radii)?, &self.require(depths)?)
+            .map_err(|invalid| self.refused("wear", invalid))?;
+        let length = |value: f64| show(&Value::Float(derive::three_digits(value)));
+        let refuse = |path: &str, rule: String| Err(self.refuse(path, "{...}", rule));
+        let (edge, (last, depth_there)) = (scar.edge(), scar.end());
+        if edge > HARDLY_SAME * domain || HARDLY_SAME * last < domain {
+            let rule = format!(
+                "the scar ends at r = {} m, where contact may reach {} m: is r in m? a column r_mm is converted",
+                length(last.min(edge)),
+                length(domain)
+            );
+            return refuse(radii.path(), rule);
+        }
+        let flank = indenter.profile(domain * (1.0 - 1e-9)).max(domain * SHALLOWEST);
+        if scar.deepest() > HARDLY_SAME * flank {
+            let rule = format!(
+                "the scar is {} m deep, where f reaches {} m at the domain's edge: is the depth in m? a column \
+                 depth_um is converted",
+                length(scar.deepest()),
+                length(flank)
+            );
+            return refuse(depths.path(), rule);
+        }
+        if edge > domain * (1.0 + 1e-9) {
+            let rule = format!(
+                "the scar reaches r = {} m, beyond the domain's edge, {} m; a greater numerics.domain_radius \
+                 would hold it",
+                length(edge),
+                length(domain)
+            );
+            return refuse(radii.path(), rule);
+        }
+        if last < domain * (1.0 - 1e-9) && depth_there > CUT_OFF * scar.deepest() {
+            let rule = format!(
+                "the table ends at r = {} m, where the scar is still {} m deep; a longer trace",
+                length(last),
+                length(depth_there)
+            );
+            return refuse(depths.path(), rule);
+        }
+        Ok(Some(scar))
     }
 
     /// The domain's edge, m, as given or as derived.

@@ -191,10 +191,7 @@ fn pilot(setup: &Setup, from: Option<&Simulation>, depth: f64) -> Option<f64> {
     };
     let period = f64::from(period);
     let mut run = match from {
-        None => {
-            let state = super::State::new(setup.grid.len(), true);
-            Simulation::resume(setup, state).ok()?
-        }
+        None => Simulation::begin(setup).ok()?,
         Some(simulation) => {
             let state = simulation.state_on(&setup);
             Simulation::resume(setup, state).ok()?

@@ -232,6 +232,10 @@ impl Simulation {
 
 /// c of the permanent stick zone by Melan's theorem, m, where both displacements are prescribed.
 fn melan(setup: &Setup) -> Option<f64> {
+    // The closed form is that of a profile that was never worn inside.
+    if setup.scar.is_some() {
+        return None;
+    }
     let ratio = setup.material.stick_ratio();
     let depth = setup
         .drive

@@ -17,10 +17,35 @@ const STRONG: f64 = 0.1;
 /// within a step.
 const STEPS_FOR_POWERS: u32 = 50;
 
+/// By how much of the depth g may fall and still counts as level: noise of a scar.
+const LEVEL: f64 = 0.02;
+
 impl Simulation {
     /// A line for each way in which the scene lies outside of the theory, or beyond what any grid sees.
     pub fn warnings(&self) -> Vec<String> {
-        warnings(self.setup())
+        let mut lines = warnings(self.setup());
+        lines.extend(self.ring_of_contact());
+        lines
+    }
+
+    /// A scar may leave a profile that touches in a ring, which the springs do not stand for.
+    fn ring_of_contact(&self) -> Option<String> {
+        self.setup().scar.as_ref()?;
+        let g = self.profile_1d();
+        let nodes = self.setup().grid.nodes();
+        let mut reached = f64::NEG_INFINITY;
+        let falls = nodes.iter().zip(&g).map(|(&x, &g)| {
+            reached = reached.max(g);
+            (x, reached - g)
+        });
+        let (x, fall) = falls.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let scale = self.setup().depth_scale(self.state.contact.depth);
+        (fall > LEVEL * scale).then(|| {
+            format!(
+                "outside of the theory: with its scar the 1D profile g falls by {fall:.1e} m at x = {x:.2e} m, \
+                 so the contact may be a ring, where the theory needs a disc"
+            )
+        })
     }
 }
 

@@ -25,6 +25,7 @@
 //!     ),
 //!     wear: Some(WearLaw::archard(1e-10)?),
 //!     running_in: None,
+//!     scar: None,
 //!     method: AbelMethod::Product,
 //!     spacing: Spacing::Graded,
 //!     scheme: Scheme::Trapezoid,
@@ -48,6 +49,7 @@
 
 use crate::contact::indenter::Indenter;
 use crate::contact::material::Material;
+use crate::contact::scar::Scar;
 use crate::math::abel::cone::Rest;
 use crate::math::abel::{AbelMethod, worn};
 use crate::math::grid::RadialGrid;
@@ -102,6 +104,8 @@ pub struct Setup {
     pub wear: Option<WearLaw>,
     /// What changes with use; none: friction and wear stay as they are.
     pub running_in: Option<RunningIn>,
+    /// What is worn when the run begins; none: nothing is.
+    pub scar: Option<Scar>,
     /// The way to compute the transforms.
     pub method: AbelMethod,
     /// Whether the grid is to be graded towards the stick border; [`grid`](Self::grid) then only
@@ -199,11 +203,26 @@ impl Scratch {
 }
 
 impl Simulation {
-    /// Presses the unworn indenter to u_z(0), then shifts it to u_x(0), without wear.
+    /// Presses the indenter, unworn or with the scar of `setup`, to u_z(0), then shifts it to u_x(0), without wear.
     pub fn new(setup: Setup) -> Result<Self, Breakdown> {
-        let setup = border::graded(&setup, None);
-        let state = State::new(setup.grid.len(), setup.drive.tangential().is_some());
-        Self::resume(setup, state)
+        Self::begin(border::graded(&setup, None))
+    }
+
+    /// A new run on the grid of `setup` as it is.
+    fn begin(setup: Setup) -> Result<Self, Breakdown> {
+        let model = Model::new(setup, None);
+        let mut state = State::new(model.nodes(), model.springs() > 0);
+        if let Some(scar) = &model.setup.scar {
+            let nodes = model.grid.nodes();
+            state.wear = nodes.iter().map(|&r| scar.depth(r)).collect();
+            model.image(&state.wear, &mut state.image);
+            // Nobody knows by which work it was worn.
+            state.initial_volume = model.volume(&state.wear);
+            state.unexplained_volume = state.initial_volume;
+        }
+        let mut simulation = Self::with(model, state);
+        simulation.settle()?;
+        Ok(simulation)
     }
 
     /// Goes on from a saved state, on the grid of `setup` as it is.

@@ -83,8 +83,10 @@ pub struct Moment {
     pub stick_radius: Option<f64>,
     /// The smallest c of the last period of the motion, m.
     pub permanent_stick_radius: Option<f64>,
-    /// V of the profile, m³.
+    /// V of the profile, m³, that of a scar which the run began with included.
     pub wear_volume: f64,
+    /// V of that scar, m³; 0 without one.
+    pub initial_volume: f64,
     /// E_d, J.
     pub dissipated_energy: f64,
     /// 1 − ΔV/∫k dE_d over the last complete period of the motion.
@@ -98,10 +100,11 @@ pub struct Moment {
 }
 
 impl Moment {
-    /// V/E_d, m³/J = 1/Pa: what the wear coefficient of the whole test amounts to. None before any
-    /// work of friction.
+    /// V/E_d of the run, m³/J = 1/Pa: what the wear coefficient of the whole test amounts to. None before
+    /// any work of friction.
     pub fn wear_per_energy(&self) -> Option<f64> {
-        (self.dissipated_energy > 0.0).then(|| self.wear_volume / self.dissipated_energy)
+        let worn = self.wear_volume - self.initial_volume;
+        (self.dissipated_energy > 0.0).then(|| worn / self.dissipated_energy)
     }
 }
 
@@ -188,6 +191,7 @@ impl Simulation {
                 .stick_radius
                 .map(|stick| state.permanent_stick_radius().min(stick)),
             wear_volume,
+            initial_volume: state.initial_volume,
             dissipated_energy: state.dissipated_energy,
             period_residual: state.period.residual,
             energy_residual: (state.expected_volume > 0.0).then_some(residual),

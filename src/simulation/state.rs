@@ -35,9 +35,12 @@ pub struct State {
     pub dissipated_energy: f64,
     /// The part of the volume that a law in proportion to friction work must have worn, ∫k dE_d, m³.
     pub expected_volume: f64,
-    /// Volume that no work of friction explains, m³: worn under other laws, or by a change of grid. Left out
-    /// where wear is compared with work.
+    /// Volume that no work of friction explains, m³: worn before the run, under other laws, or by a change of
+    /// grid. Left out where wear is compared with work.
     pub unexplained_volume: f64,
+    /// Volume that was worn before the run, m³.
+    #[serde(default)]
+    pub initial_volume: f64,
     /// The smallest stick radius since the period of the motion began, m.
     pub smallest_stick_radius: f64,
     /// The smallest stick radius of the last complete period, m; none before there is one.
@@ -147,6 +150,7 @@ impl State {
             dissipated_energy: 0.0,
             expected_volume: 0.0,
             unexplained_volume: 0.0,
+            initial_volume: 0.0,
             smallest_stick_radius: f64::INFINITY,
             settled_stick_radius: None,
             tally: LoopTally::default(),
@@ -163,6 +167,7 @@ impl State {
         self.dissipated_energy = from.dissipated_energy;
         self.expected_volume = from.expected_volume;
         self.unexplained_volume = from.unexplained_volume;
+        self.initial_volume = from.initial_volume;
         self.smallest_stick_radius = from.smallest_stick_radius;
         self.settled_stick_radius = from.settled_stick_radius;
         self.tally.clone_from(&from.tally);

@@ -85,6 +85,8 @@ pub struct Trend {
     stride: f64,
     tip: Tip,
     step_cost: Option<f64>,
+    /// Cycle and worn volume (m³) of the first moment.
+    start: Option<(f64, f64)>,
     /// Amplitude and load of the last cycle.
     condition: Option<[f64; 2]>,
     /// Loops of cycles so far apart, oldest first.
@@ -124,6 +126,7 @@ impl Trend {
             stride: self.stride,
             tip: tip.clone(),
             step_cost: self.step_cost,
+            start: self.start,
             condition: None,
             loops: self
                 .loops
@@ -137,6 +140,7 @@ impl Trend {
 
     /// Takes in the moment after a step.
     pub fn record(&mut self, moment: &Moment) {
+        self.start.get_or_insert((moment.cycle, moment.wear_volume));
         self.record_loop(moment);
         self.keep_loop(moment.cycle);
         let now = Cycle {
@@ -157,7 +161,9 @@ impl Trend {
         let (start, volume) = self
             .cycles
             .last()
-            .map_or((0.0, 0.0), |entry| (entry.cycle, entry.wear_volume));
+            .map(|entry| (entry.cycle, entry.wear_volume))
+            .or(self.start)
+            .unwrap_or((0.0, moment.initial_volume));
         merged.wear_rate = if merged.cycle > start {
             (merged.wear_volume - volume) / (merged.cycle - start)
         } else {
@@ -262,6 +268,7 @@ mod tests {
             stick_radius: Some(stick),
             permanent_stick_radius: Some(stick),
             wear_volume: cycle,
+            initial_volume: 0.0,
             dissipated_energy: 0.0,
             period_residual: None,
             energy_residual: None,

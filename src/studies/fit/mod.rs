@@ -10,8 +10,9 @@
 //! ```text
 //! minimise Σ ρ(z²),  z = (measured − simulated)/σ
 //! ρ(z²) = z², or 2(√(1 + z²) − 1) against outliers
-//! covariance = s² (JᵀJ)⁻¹,  s² = Σ ρ/(points − keys)
 //! ```
+//!
+//! The errors of the keys, and those that the values of a file share, are told in `errors`.
 //!
 //! The minimum is sought by `rmpfit`, MINPACK's Levenberg–Marquardt with bounds and derivatives by
 //! differences; it depends on nothing else. (`levenberg-marquardt` brings a second nalgebra and wants
@@ -25,8 +26,10 @@ use crate::scenario::schema::{self, Kind as KeyKind, Range};
 use crate::scenario::session::SessionError;
 use crate::scenario::{Scenario, ScenarioError};
 use crate::studies::measured::{Kind, Measured};
+use errors::{Errors, freedom};
 use solver::{Free, Solved};
 
+mod errors;
 mod model;
 mod solver;
 
@@ -208,28 +211,41 @@ impl Fit {
         let mut errors: Vec<Vec<f64>> = self.data.iter().map(first_errors).collect();
         let mut solved = None;
         for round in 0..ROUNDS {
-            let mut residuals = |theta: &[f64]| {
+            let mut deviations = |theta: &[f64]| {
                 let simulated = simulate(theta, &mut runs, on_run).ok()?;
-                Some(self.residuals(&simulated, &errors))
+                Some(self.deviations(&simulated, &errors))
+            };
+            let mut residuals = |theta: &[f64]| {
+                let mut all = deviations(theta)?;
+                if self.robust {
+                    for z in &mut all {
+                        *z = (2.0 * (z.hypot(1.0) - 1.0)).sqrt().copysign(*z);
+                    }
+                }
+                Some(all)
             };
             let points = self.data.iter().map(|set| set.values.len()).sum();
             let found: Solved = solver::solve(&self.free, &theta, points, &mut residuals)
                 .map_err(|reason| FitError::Failed(reason.into()))?;
             theta.clone_from(&found.theta);
+            let derivatives = self.derivatives(&found, &mut deviations);
             simulated = simulate(&theta, &mut runs, on_run)
                 .map_err(|error| FitError::Failed(error.to_string()))?;
-            solved = Some(found);
+            let z = self.deviations(&simulated, &errors);
+            let told = Errors::new(&z, &derivatives, &self.estimated(), self.robust);
+            let leverages = told.leverages.clone();
+            solved = Some((found, told));
             let given = self.data.iter().all(|set| set.errors.is_some());
             if round + 1 == ROUNDS || given && !self.robust {
                 break;
             }
-            self.update_errors(&simulated, &mut errors);
+            self.update_errors(&simulated, &leverages, &mut errors);
         }
-        let solved = solved.ok_or_else(|| FitError::Failed("no round".into()))?;
+        let (solved, told) = solved.ok_or_else(|| FitError::Failed("no round".into()))?;
         let scenario = self
             .at(&theta)
             .map_err(|error| FitError::Failed(error.to_string()))?;
-        Ok(self.told(&theta, &solved, simulated, scenario, runs))
+        Ok(self.told(&theta, (&solved, &told), simulated, scenario, runs))
     }
 
     /// The scenario with these values of the keys.
@@ -247,25 +263,60 @@ impl Fit {
         Ok(self.scenario.with_all(&assignments)?)
     }
 
-    /// z, or the root of ρ with its sign, of all points.
-    fn residuals(&self, simulated: &[Vec<f64>], errors: &[Vec<f64>]) -> Vec<f64> {
+    /// z of all points.
+    fn deviations(&self, simulated: &[Vec<f64>], errors: &[Vec<f64>]) -> Vec<f64> {
         let mut all = Vec::new();
         for ((set, simulated), errors) in self.data.iter().zip(simulated).zip(errors) {
-            for ((value, simulated), error) in set.values.iter().zip(simulated).zip(errors) {
-                let z = (value - simulated) / error;
-                all.push(if self.robust {
-                    (2.0 * (z.hypot(1.0) - 1.0)).sqrt().copysign(z)
-                } else {
-                    z
-                });
-            }
+            let points = set.values.iter().zip(simulated).zip(errors);
+            all.extend(points.map(|((value, simulated), error)| (value - simulated) / error));
         }
         all
     }
 
-    /// The error that all values of a data set share, from what the fit leaves.
-    fn update_errors(&self, simulated: &[Vec<f64>], errors: &mut [Vec<f64>]) {
+    /// The points of the data sets whose error is estimated, among all points.
+    fn estimated(&self) -> Vec<std::ops::Range<usize>> {
+        let mut first = 0;
+        let ranges = self.data.iter().map(|set| {
+            let points = first..first + set.values.len();
+            first = points.end;
+            set.errors.is_none().then_some(points)
+        });
+        ranges.flatten().collect()
+    }
+
+    /// ∂z/∂θ of each key at the minimum by central differences, by one-sided ones at the end of what can be
+    /// computed; none for a key that stands at the end of its range.
+    fn derivatives(
+        &self,
+        solved: &Solved,
+        deviations: &mut dyn FnMut(&[f64]) -> Option<Vec<f64>>,
+    ) -> Vec<Option<Vec<f64>>> {
+        let mut derivative = |i: usize| {
+            let step = self.free[i].step(solved.theta[i]);
+            let mut at = |offset: f64| {
+                let mut theta = solved.theta.clone();
+                theta[i] += offset;
+                deviations(&theta).map(|z| (theta[i], z))
+            };
+            let low = at(-step).or_else(|| at(0.0))?;
+            let high = at(step).or_else(|| at(0.0))?;
+            let width = high.0 - low.0;
+            let differences = high.1.iter().zip(&low.1);
+            (width > 0.0).then(|| differences.map(|(b, a)| (b - a) / width).collect())
+        };
+        (0..self.free.len())
+            .map(|i| if solved.at_bound[i] { None } else { derivative(i) })
+            .collect()
+    }
+
+    /// The error that all values of a data set share, from what the fit leaves and from what each of its points
+    /// has spent on the keys.
+    fn update_errors(&self, simulated: &[Vec<f64>], leverages: &[f64], errors: &mut [Vec<f64>]) {
+        let mut first = 0;
         for ((set, simulated), errors) in self.data.iter().zip(simulated).zip(errors) {
+            let points = set.values.len();
+            let spent: f64 = leverages[first..first + points].iter().sum();
+            first += points;
             if set.errors.is_some() {
                 continue;
             }
@@ -274,10 +325,11 @@ impl Fit {
             let size = if self.robust {
                 let mut sizes: Vec<f64> = left.iter().map(|left| left.abs()).collect();
                 sizes.sort_by(f64::total_cmp);
-                OF_MEDIAN * sizes[sizes.len() / 2]
+                OF_MEDIAN * sizes[points / 2]
             } else {
                 rms(&left)
             };
+            let size = size * (points as f64 / freedom(points, spent)).sqrt();
             errors.fill(
                 size.max(LEAST_ERROR * rms(&set.values))
                     .max(f64::MIN_POSITIVE),
@@ -288,7 +340,7 @@ impl Fit {
     fn told(
         &self,
         theta: &[f64],
-        solved: &Solved,
+        (solved, told): (&Solved, &Errors),
         simulated: Vec<Vec<f64>>,
         scenario: Scenario,
         runs: usize,
@@ -297,7 +349,7 @@ impl Fit {
         let keys = self.free.len();
         let mut values = Vec::new();
         for (i, free) in self.free.iter().enumerate() {
-            let error = solved.covariance[i][i].sqrt();
+            let error = told.covariance[(i, i)].sqrt();
             let is_known = error.is_finite() && error > 0.0 && !solved.at_bound[i];
             let key = free.key.clone();
             if solved.at_bound[i] {
@@ -317,9 +369,9 @@ impl Fit {
             });
         }
         let correlation = |i: usize, j: usize| {
-            let norm = (solved.covariance[i][i] * solved.covariance[j][j]).sqrt();
+            let norm = (told.covariance[(i, i)] * told.covariance[(j, j)]).sqrt();
             if norm > 0.0 {
-                solved.covariance[i][j] / norm
+                told.covariance[(i, j)] / norm
             } else {
                 0.0
             }

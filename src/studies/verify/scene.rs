@@ -80,6 +80,7 @@ impl Scene {
             stability: Stability::Off,
             integrator: Integrator::Direct,
             running_in: None,
+            scar: None,
             steps_per_cycle: STEPS,
         })
     }

@@ -60,6 +60,7 @@ impl From<Scene> for Setup {
             scheme: Scheme::Euler,
             stability: Stability::Off,
             running_in: None,
+            scar: None,
             steps_per_cycle: scene.steps,
             integrator: Integrator::Direct,
         }

@@ -1,0 +1,106 @@
+//! A measured scar: the worn depth over the radius that a run begins with.
+
+use std::sync::Arc;
+
+use crate::math::grid;
+use crate::math::invalid::{Invalid, non_negative};
+
+/// The fewest and the most points of a scar.
+const FEWEST: usize = 3;
+const MOST: usize = 100_000;
+
+/// A worn depth f − f₀ over r from a table; cheap to clone.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scar {
+    radii: Arc<[f64]>,
+    depths: Arc<[f64]>,
+}
+
+impl Scar {
+    /// From radii (m, strictly increasing, 0 or greater) and as many depths (m, 0 or greater).
+    ///
+    /// # Errors
+    /// Rows that are no scar; the fields are `initial_radii` and `initial_depths`.
+    pub fn new(radii: &[f64], depths: &[f64]) -> Result<Self, Invalid> {
+        let number = radii.len();
+        if number != depths.len() {
+            let rule = format!("must be as many as the {number} radii");
+            return Err(Invalid::new("initial_depths", depths.len(), rule));
+        }
+        if !(FEWEST..=MOST).contains(&number) {
+            let rule = format!("must be from {FEWEST} to {MOST} points");
+            return Err(Invalid::new("initial_radii", number, rule));
+        }
+        for (&r, &depth) in radii.iter().zip(depths) {
+            non_negative("initial_radii", r)?;
+            non_negative("initial_depths", depth)?;
+        }
+        if let Some(pair) = radii.windows(2).find(|pair| pair[0] >= pair[1]) {
+            let rule = format!("must increase, and follows {:e}", pair[0]);
+            return Err(Invalid::new("initial_radii", pair[1], rule));
+        }
+        Ok(Self {
+            radii: radii.into(),
+            depths: depths.into(),
+        })
+    }
+
+    /// The worn depth at `r`, m: linear in r² between the points, as wear is between nodes; that of the
+    /// first point inside it, and 0 outside of the last one.
+    pub fn depth(&self, r: f64) -> f64 {
+        if r > self.last_radius() {
+            return 0.0;
+        }
+        grid::interpolate(&self.radii, &self.depths, r)
+    }
+
+    /// The greatest depth, m.
+    pub fn deepest(&self) -> f64 {
+        self.depths.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// The first radius from which on nothing is worn, m; the last one where that is worn as well.
+    pub fn edge(&self) -> f64 {
+        let last = self.depths.iter().rposition(|&depth| depth > 0.0);
+        let edge = last.map_or(0, |last| (last + 1).min(self.radii.len() - 1));
+        self.radii[edge]
+    }
+
+    /// Where the table ends, m, and how deep it is there, m.
+    pub fn end(&self) -> (f64, f64) {
+        (self.last_radius(), self.depths[self.depths.len() - 1])
+    }
+
+    fn last_radius(&self) -> f64 {
+        self.radii[self.radii.len() - 1]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn depths_lie_between_the_points_and_nothing_is_worn_outside() {
+        let scar = Scar::new(&[1.0, 2.0, 3.0, 4.0], &[0.2, 0.5, 0.0, 0.0]).expect("a scar");
+        assert_eq!(scar.depth(0.0), 0.2);
+        assert_eq!(scar.depth(2.0), 0.5);
+        assert!((scar.depth(2.5f64.sqrt()) - 0.35).abs() < 1e-15);
+        assert_eq!((scar.depth(3.5), scar.depth(9.0)), (0.0, 0.0));
+        assert_eq!((scar.deepest(), scar.edge(), scar.end()), (0.5, 3.0, (4.0, 0.0)));
+        let cut = Scar::new(&[0.0, 1.0, 2.0], &[0.0, 0.1, 0.3]).expect("a scar");
+        assert_eq!((cut.edge(), cut.end()), (2.0, (2.0, 0.3)));
+    }
+
+    #[test]
+    fn rows_that_are_no_scar_are_refused() {
+        let field = |radii: &[f64], depths: &[f64]| Scar::new(radii, depths).map_err(|e| e.field);
+        assert!(field(&[0.0, 1.0, 2.0], &[0.0; 3]).is_ok());
+        for radii in [[0.0, 1.0, 1.0], [-1.0, 0.0, 1.0], [0.0, f64::NAN, 1.0]] {
+            assert_eq!(field(&radii, &[0.0; 3]), Err("initial_radii"));
+        }
+        assert_eq!(field(&[0.0, 1.0], &[0.0; 2]), Err("initial_radii"));
+        assert_eq!(field(&[0.0, 1.0, 2.0], &[0.0; 2]), Err("initial_depths"));
+        assert_eq!(field(&[0.0, 1.0, 2.0], &[0.0, -1e-9, 0.0]), Err("initial_depths"));
+    }
+}

@@ -54,9 +54,10 @@ pub fn run(options: &Run) -> Result<ExitCode> {
     {
         complain(&format!("indenter: {remark}"));
     }
+    let warned = job.session.simulation().warnings();
     if !options.quiet {
-        for warning in job.session.simulation().warnings() {
-            complain(&warning);
+        for warning in &warned {
+            complain(warning);
         }
     }
     let is_over = job.watch(Arc::clone(&stop));
@@ -69,6 +70,13 @@ pub fn run(options: &Run) -> Result<ExitCode> {
     let outcome = outcome.unwrap_or_else(|_| Ok(Ended::Broken(job.go_back())));
     if matches!(outcome, Ok(Ended::Interrupted | Ended::Broken(_))) {
         job.put_away();
+    }
+    let warnings = job.session.simulation().warnings();
+    if !options.quiet && warnings.len() > warned.len() {
+        // What has come up during the run.
+        for warning in warnings.iter().filter(|line| !warned.contains(line)) {
+            complain(warning);
+        }
     }
     if options.estimate_error && matches!(outcome, Ok(Ended::Done)) {
         job.estimate(&stop);

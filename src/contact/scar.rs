@@ -87,7 +87,10 @@ mod tests {
         assert_eq!(scar.depth(2.0), 0.5);
         assert!((scar.depth(2.5f64.sqrt()) - 0.35).abs() < 1e-15);
         assert_eq!((scar.depth(3.5), scar.depth(9.0)), (0.0, 0.0));
-        assert_eq!((scar.deepest(), scar.edge(), scar.end()), (0.5, 3.0, (4.0, 0.0)));
+        assert_eq!(
+            (scar.deepest(), scar.edge(), scar.end()),
+            (0.5, 3.0, (4.0, 0.0))
+        );
         let cut = Scar::new(&[0.0, 1.0, 2.0], &[0.0, 0.1, 0.3]).expect("a scar");
         assert_eq!((cut.edge(), cut.end()), (2.0, (2.0, 0.3)));
     }
@@ -101,6 +104,9 @@ mod tests {
         }
         assert_eq!(field(&[0.0, 1.0], &[0.0; 2]), Err("initial_radii"));
         assert_eq!(field(&[0.0, 1.0, 2.0], &[0.0; 2]), Err("initial_depths"));
-        assert_eq!(field(&[0.0, 1.0, 2.0], &[0.0, -1e-9, 0.0]), Err("initial_depths"));
+        assert_eq!(
+            field(&[0.0, 1.0, 2.0], &[0.0, -1e-9, 0.0]),
+            Err("initial_depths")
+        );
     }
 }

@@ -35,6 +35,13 @@ pub fn lines(session: &Session) -> String {
     if let Some(remark) = setup.indenter.remark() {
         line("table", &remark);
     }
+    if let Some(share) = scenario.wear_share() {
+        line("wear_share_of_indenter", &number(share));
+    }
+    let initial = session.simulation().state().initial_volume;
+    if setup.scar.is_some() {
+        line("initial_wear_volume_m3", &number(initial));
+    }
     line("checks", &checks(session));
     for warning in session.simulation().warnings() {
         line("warning", &warning);

@@ -21,14 +21,28 @@ pub const COLUMNS: [&str; 13] = [
     "zone",
 ];
 
+/// The columns that follow where the scenario shares the wear between both bodies.
+pub const COLUMNS_OF_BODIES: [&str; 2] = ["wear_indenter_m", "wear_half_space_m"];
+
 /// The whole file for the present state of `session`.
 pub fn table(session: &Session) -> String {
     let observation = session.simulation().observe(Curves::all());
+    let share = session.scenario().wear_share();
     let mut text = lines(session);
     text.push_str(&COLUMNS.join(","));
+    if share.is_some() {
+        text.push(',');
+        text.push_str(&COLUMNS_OF_BODIES.join(","));
+    }
     text.push('\n');
     for j in 0..observation.radii.len() {
         text.push_str(&row(&observation, j));
+        if let Some(share) = share {
+            for depth in observation.wear_of_bodies(share, j) {
+                text.push(',');
+                text.push_str(&number(depth));
+            }
+        }
         text.push('\n');
     }
     text

@@ -94,12 +94,18 @@ keys! {
         .effect("more: more pressure and force at the same depth");
     POISSON: f64 = quantity("material.poisson", "", Within(0.0, 0.5), "Poisson's ratio of the elastic body")
         .effect("more: softer sideways, so a wider stick zone");
+    HARDNESS: f64 = quantity("material.hardness", "Pa", Positive,
+            "hardness of the softer body: the pressure beyond which a warning is given")
+        .effect("less: the warning that the material yields comes earlier");
     INDENTER_MODULUS: f64 = quantity("material.indenter.youngs_modulus", "Pa", Positive,
             "Young's modulus of the indenter")
         .effect("more: a stiffer pair");
     INDENTER_POISSON: f64 = quantity("material.indenter.poisson", "", Within(0.0, 0.5),
             "Poisson's ratio of the indenter")
         .effect("more: softer sideways, so a wider stick zone");
+    INDENTER_HARDNESS: f64 = quantity("material.indenter.hardness", "Pa", Positive,
+            "hardness of the indenter: the pressure beyond which a warning is given")
+        .effect("less: the warning that the material yields comes earlier");
     INDENTER_RIGID: bool = flag("material.indenter.rigid", "whether the indenter is rigid")
         .default(Implied("false"))
         .effect("rigid: only the half-space yields");
@@ -109,6 +115,9 @@ keys! {
     HALF_SPACE_POISSON: f64 = quantity("material.half_space.poisson", "", Within(0.0, 0.5),
             "Poisson's ratio of the half-space")
         .effect("more: softer sideways, so a wider stick zone");
+    HALF_SPACE_HARDNESS: f64 = quantity("material.half_space.hardness", "Pa", Positive,
+            "hardness of the half-space: the pressure beyond which a warning is given")
+        .effect("less: the warning that the material yields comes earlier");
     HALF_SPACE_RIGID: bool = flag("material.half_space.rigid", "whether the half-space is rigid")
         .default(Implied("false"))
         .effect("rigid: only the indenter yields");
@@ -245,11 +254,18 @@ keys! {
             "wear coefficients of the table, as read from wear.file")
         .effect("the coefficients of the course");
     WEAR_INITIAL: String = text("wear.initial",
-            "CSV file of the scar that the run begins with: columns r_m and depth_m, or wear_m as in state.csv");
+            "CSV file of the scar that the run begins with: columns r_m and depth_m, or wear_m as in state.csv")
+        .effect("another scar to begin with; fixed during a run");
     WEAR_INITIAL_RADII: Vec<f64> = quantities("wear.initial_radii", "m", NotNegative,
-            "radii of the scar, as read from wear.initial");
+            "radii of the scar, as read from wear.initial")
+        .effect("the radii of the scar; fixed during a run");
     WEAR_INITIAL_DEPTHS: Vec<f64> = quantities("wear.initial_depths", "m", NotNegative,
-            "worn depths of the scar, as read from wear.initial");
+            "worn depths of the scar, as read from wear.initial")
+        .effect("the depths of the scar; fixed during a run");
+    WEAR_SHARE: f64 = quantity("wear.share", "", Within(0.0, 1.0),
+            "share of the wear that the indenter takes, the rest is the half-space's")
+        .default(Derived("1, and nothing is said of the half-space"))
+        .effect("more: the indenter wears, not the half-space; fixed during a run");
     STRESS_EXPONENT: f64 = quantity("wear.stress_exponent", "", Within(0.1, 10.0),
             "exponent of the stress, used by law = \"power\"")
         .default(Implied("1.5"))

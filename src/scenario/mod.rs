@@ -201,6 +201,12 @@ impl Scenario {
         keys::ACCURACY.get(&self.table)
     }
 
+    /// `wear.share`, the part of the worn depth that is the indenter's, where it is given. The contact feels the sum of
+    /// both bodies' wear alone, so the simulation does not know it.
+    pub fn wear_share(&self) -> Option<f64> {
+        keys::WEAR_SHARE.get(&self.table)
+    }
+
     /// The value at a dotted path as TOML, where the scenario gives one.
     pub fn value(&self, path: &str) -> Option<String> {
         let value = |table: &Table| schema::at(table, path).map(write::value);
@@ -298,7 +304,7 @@ impl Scenario {
                 assign::split(&change.set, "").map_err(|_| ScenarioError::NotAnAssignment {
                     given: written.clone(),
                 })?;
-            let fixed = ["run.", "wear.initial"]
+            let fixed = ["run.", "wear.initial", "wear.share"]
                 .iter()
                 .any(|start| key.starts_with(start))
                 || key.ends_with(".file");

@@ -50,6 +50,7 @@ pub(super) fn setup(
     let setup = Setup {
         scar: parts.scar(&indenter, grid.radius())?,
         grid,
+        hardness: parts.hardness()?,
         material,
         indenter,
         drive,
@@ -249,6 +250,18 @@ impl Parts<'_> {
         Material::of_bodies(indenter, half_space, friction).map_err(refused)
     }
 
+    /// The hardness of the softer body, Pa.
+    fn hardness(&self) -> Result<Option<f64>, ScenarioError> {
+        let of_bodies = [&keys::INDENTER_HARDNESS, &keys::HALF_SPACE_HARDNESS];
+        let pair = self.get(&keys::HARDNESS);
+        if pair.is_some() && (self.has("material.indenter") || self.has("material.half_space")) {
+            let rule = "does not go with two bodies; give material.indenter.hardness or material.half_space.hardness";
+            return Err(self.refuse(keys::HARDNESS.path(), "", rule));
+        }
+        let given = of_bodies.into_iter().filter_map(|key| self.get(key));
+        Ok(given.chain(pair).reduce(f64::min))
+    }
+
     fn body(
         &self,
         section: &str,
@@ -432,7 +445,9 @@ impl Parts<'_> {
             );
             return refuse(radii.path(), rule);
         }
-        let flank = indenter.profile(domain * (1.0 - 1e-9)).max(domain * SHALLOWEST);
+        let flank = indenter
+            .profile(domain * (1.0 - 1e-9))
+            .max(domain * SHALLOWEST);
         if scar.deepest() > HARDLY_SAME * flank {
             let rule = format!(
                 "the scar is {} m deep, where f reaches {} m at the domain's edge: is the depth in m? a column \

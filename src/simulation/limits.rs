@@ -24,6 +24,7 @@ impl Simulation {
     /// A line for each way in which the scene lies outside of the theory, or beyond what any grid sees.
     pub fn warnings(&self) -> Vec<String> {
         let mut lines = warnings(self.setup());
+        lines.extend(self.hardness_warning());
         lines.extend(self.ring_of_contact());
         lines
     }

@@ -26,6 +26,7 @@
 //!     wear: Some(WearLaw::archard(1e-10)?),
 //!     running_in: None,
 //!     scar: None,
+//!     hardness: None,
 //!     method: AbelMethod::Product,
 //!     spacing: Spacing::Graded,
 //!     scheme: Scheme::Trapezoid,
@@ -62,6 +63,7 @@ mod choices;
 pub mod contact;
 mod cycle_figures;
 pub mod drive;
+mod hardness;
 mod limits;
 mod model;
 mod moments;
@@ -81,6 +83,7 @@ pub use checks::{Check, Subject, verdict};
 pub use choices::{Integrator, Scheme, Spacing, Stability};
 pub use cycle_figures::{CycleFigures, LoopTally, Regime};
 use drive::{Drive, WITHOUT_REPEAT};
+pub use hardness::Passed;
 use model::Model;
 pub use observation::{Curves, Moment, Observation, Zone};
 use running_in::RunningIn;
@@ -106,6 +109,8 @@ pub struct Setup {
     pub running_in: Option<RunningIn>,
     /// What is worn when the run begins; none: nothing is.
     pub scar: Option<Scar>,
+    /// The pressure that the softer body bears, Pa; none: no pressure is computed to be held against it.
+    pub hardness: Option<f64>,
     /// The way to compute the transforms.
     pub method: AbelMethod,
     /// Whether the grid is to be graded towards the stick border; [`grid`](Self::grid) then only
@@ -450,6 +455,7 @@ impl Simulation {
         if jumped {
             cycle_figures::forget(&self.model, &mut self.state);
         }
+        self.watch_hardness();
         self.run_in();
         self.next = self.look_ahead();
         Ok(jumped)
@@ -479,6 +485,7 @@ impl Simulation {
             .map_err(|cause| self.refused(cause))?;
         std::mem::swap(&mut self.state, &mut self.spare);
         cycle_figures::follow(&self.model, &mut self.state);
+        self.watch_hardness();
         self.run_in();
         self.next = self.look_ahead();
         Ok(())
@@ -504,6 +511,7 @@ impl Simulation {
         step::settle(&self.model, &mut self.state, &mut self.scratch)
             .map_err(|cause| self.refused(cause))?;
         cycle_figures::forget(&self.model, &mut self.state);
+        self.watch_hardness();
         self.spare.clone_from(&self.state);
         self.run_in();
         self.next = self.look_ahead();

@@ -168,6 +168,15 @@ impl Observation {
     }
 }
 
+impl Observation {
+    /// The worn depths of the indenter and of the half-space at the node `j`, m, where the indenter takes `share`
+    /// of the wear. Their sum is the worn depth.
+    pub fn wear_of_bodies(&self, share: f64, j: usize) -> [f64; 2] {
+        let indenter = share * self.wear[j];
+        [indenter, self.wear[j] - indenter]
+    }
+}
+
 impl Simulation {
     /// The scalars of the present moment.
     pub fn moment(&self) -> Moment {

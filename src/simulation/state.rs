@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::contact::Contact;
 use super::cycle_figures::{CycleFigures, LoopTally};
+use super::hardness::Passed;
 use super::traction::Traction;
 
 /// What is saved, restored, and carried over when a method or a law is switched.
@@ -45,6 +46,9 @@ pub struct State {
     pub smallest_stick_radius: f64,
     /// The smallest stick radius of the last complete period, m; none before there is one.
     pub settled_stick_radius: Option<f64>,
+    /// Where the pressure first passed the hardness; none if it never has, or none is given.
+    #[serde(default)]
+    pub passed_hardness: Option<Passed>,
     /// The present period of the motion so far.
     #[serde(default)]
     pub tally: LoopTally,
@@ -153,6 +157,7 @@ impl State {
             initial_volume: 0.0,
             smallest_stick_radius: f64::INFINITY,
             settled_stick_radius: None,
+            passed_hardness: None,
             tally: LoopTally::default(),
             figures: None,
         }
@@ -170,6 +175,7 @@ impl State {
         self.initial_volume = from.initial_volume;
         self.smallest_stick_radius = from.smallest_stick_radius;
         self.settled_stick_radius = from.settled_stick_radius;
+        self.passed_hardness = from.passed_hardness;
         self.tally.clone_from(&from.tally);
         self.figures = from.figures;
         // The profile changes: what a steady-state cycle wore on the old one is out of date.

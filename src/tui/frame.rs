@@ -71,6 +71,8 @@ pub struct Frame {
     pub settings: Arc<Vec<Setting>>,
     /// The unworn shape, which goes on beyond the domain.
     pub indenter: Indenter,
+    /// The indenter's share of the wear, where the scenario gives one.
+    pub wear_share: Option<f64>,
     /// μ, for the scale of τ.
     pub friction: f64,
     /// The load on the half-space, where its stresses are shown.

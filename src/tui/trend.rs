@@ -67,13 +67,15 @@ pub struct Tip {
     open: Option<Cycle>,
     shifts: VecDeque<f64>,
     forces: VecDeque<f64>,
+    /// The displacements of the rig's actuator, m; empty on a stiff rig.
+    sensed: VecDeque<f64>,
     loop_cycles: VecDeque<f64>,
 }
 
 impl Tip {
     /// Memory that it holds, in bytes.
     pub fn bytes(&self) -> usize {
-        3 * 8 * self.loop_cycles.len()
+        8 * (3 * self.loop_cycles.len() + self.sensed.len())
     }
 }
 
@@ -189,6 +191,10 @@ impl Trend {
         self.tip.shifts.push_back(moment.shift);
         self.tip.forces.push_back(moment.tangential_force);
         self.tip.loop_cycles.push_back(moment.cycle);
+        match moment.rig_displacement {
+            Some(sensed) => self.tip.sensed.push_back(sensed),
+            None => self.tip.sensed.clear(),
+        }
         // One cycle and the point that closes it.
         while self.tip.loop_cycles.len() > 1
             && (self.tip.loop_cycles[0] < moment.cycle - 1.0 - 1e-9
@@ -196,6 +202,9 @@ impl Trend {
         {
             self.tip.shifts.pop_front();
             self.tip.forces.pop_front();
+            if self.tip.sensed.len() > self.tip.shifts.len() {
+                self.tip.sensed.pop_front();
+            }
             self.tip.loop_cycles.pop_front();
         }
     }
@@ -240,6 +249,16 @@ impl Trend {
     /// The cycles so far, the unfinished one included, oldest first.
     pub fn cycles(&self) -> impl Iterator<Item = &Cycle> {
         self.cycles.iter().chain(&self.tip.open)
+    }
+
+    /// The displacement of the rig's actuator (m) and F_x (N) of the last cycle, as far as there is a rig that
+    /// yields.
+    pub fn sensed_loop(&self) -> (Vec<f64>, Vec<f64>) {
+        let unsensed = self.tip.forces.len() - self.tip.sensed.len();
+        (
+            self.tip.sensed.iter().copied().collect(),
+            self.tip.forces.iter().skip(unsensed).copied().collect(),
+        )
     }
 
     /// u_x⁽⁰⁾ (m) and F_x (N) of the last cycle.
@@ -309,6 +328,34 @@ mod tests {
         assert!(trend.loops().all(|kept| (50..=66).contains(&kept.1.len())));
         let before = trend.until(500.0, &trend.tip());
         assert!(before.loops().all(|kept| kept.0 <= 500.0) && before.loops().count() > 3);
+    }
+
+    /// The sensor's loop has the forces of the contact's, and begins where a rig is mounted.
+    #[test]
+    fn the_loop_of_the_sensor_is_that_of_the_rig() {
+        let mut trend = Trend::default();
+        for step in 1..=1000_u32 {
+            let mut moment = moment(f64::from(step) / 100.0, 1.0);
+            moment.tangential_force = f64::from(step);
+            moment.rig_displacement = (step > 950).then_some(2.0 * f64::from(step));
+            trend.record(&moment);
+        }
+        let (sensed, forces) = trend.sensed_loop();
+        assert_eq!((sensed.len(), forces.len()), (50, 50));
+        assert!(
+            sensed
+                .iter()
+                .zip(&forces)
+                .all(|(u, force)| *u == 2.0 * force)
+        );
+        for step in 1001..=1200_u32 {
+            let mut moment = moment(f64::from(step) / 100.0, 1.0);
+            moment.rig_displacement = Some(0.0);
+            trend.record(&moment);
+        }
+        assert_eq!(trend.sensed_loop().0.len(), trend.fretting_loop().0.len());
+        trend.record(&moment(12.01, 1.0));
+        assert!(trend.sensed_loop().0.is_empty());
     }
 
     #[test]

@@ -89,7 +89,12 @@ fn fitted(texts: &[String; 2], robust: bool) -> Fitted {
         Measured::fretting_loop(&columns(&texts[1])).expect("a loop"),
     ];
     let mut data = data;
-    if std::env::var("GIVEN").is_ok() { for (set, e) in data.iter_mut().zip(exact()) { let l = e.1.iter().map(|r| r.1.abs()).fold(0.0, f64::max); set.errors = Some(vec![0.02*l; set.at.len()]); } }
+    if std::env::var("GIVEN").is_ok() {
+        for (set, e) in data.iter_mut().zip(exact()) {
+            let l = e.1.iter().map(|r| r.1.abs()).fold(0.0, f64::max);
+            set.errors = Some(vec![0.02 * l; set.at.len()]);
+        }
+    }
     let free = TRUE.map(|(key, _)| key.to_owned());
     let start = scenario(3e-9, 0.1);
     let fit = Fit::new(start, data, &free, None, robust).expect("a fit");
@@ -273,7 +278,10 @@ fn the_command_prints_json_and_writes_the_fitted_scenario() {
 #[ignore]
 fn tmp_measure() {
     let draws: usize = std::env::var("DRAWS").map_or(100, |d| d.parse().unwrap());
-    let (exact, mut noise) = (exact(), Noise(std::env::var("SEED").map_or(7, |d| d.parse().unwrap())));
+    let (exact, mut noise) = (
+        exact(),
+        Noise(std::env::var("SEED").map_or(7, |d| d.parse().unwrap())),
+    );
     let f0 = fitted(&with_noise(&exact, 1e-9, &mut Noise(1)), false);
     eprintln!("noise-free {:?} corr {:?}", f0.values, f0.correlations);
     let mut z = [vec![], vec![]];
@@ -297,9 +305,11 @@ fn tmp_measure() {
         let sd = mean(&|k| (e[i][k].0 - bias).powi(2)).sqrt();
         let se = mean(&|k| e[i][k].1.powi(2)).sqrt();
         let zm = mean(&|k| z[i][k]);
-        let zs = mean(&|k| (z[i][k]-zm).powi(2)).sqrt();
+        let zs = mean(&|k| (z[i][k] - zm).powi(2)).sqrt();
         let r = mean(&|k| rms[i][k].powi(2));
         let cov = z[i].iter().filter(|z| z.abs() < 2.0).count();
-        eprintln!("{i}: bias {bias:.2e} sd {sd:.3e} rms stated {se:.3e}; z mean {zm:.3} sd {zs:.3}; within {cov}/{draws}; rms^2/sigma^2 {r:.3}");
+        eprintln!(
+            "{i}: bias {bias:.2e} sd {sd:.3e} rms stated {se:.3e}; z mean {zm:.3} sd {zs:.3}; within {cov}/{draws}; rms^2/sigma^2 {r:.3}"
+        );
     }
 }

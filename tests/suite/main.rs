@@ -39,6 +39,7 @@ mod properties;
 mod published_cases;
 mod published_methods;
 mod readme;
+mod real_scars;
 mod refinement;
 #[cfg(unix)]
 mod resume;

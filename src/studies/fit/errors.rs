@@ -159,7 +159,10 @@ mod tests {
         let (m, n) = (2.0, 6.0);
         let freedom = |points: f64| points - points / 8.0;
         let added = 4.0 * (1.0 / freedom(m) + 1.0 / freedom(n)) * (m * n / 8.0) / 8.0;
-        assert!((weighed / given - 1.0 - added).abs() < 1e-12, "{weighed} {given}");
+        assert!(
+            (weighed / given - 1.0 - added).abs() < 1e-12,
+            "{weighed} {given}"
+        );
     }
 
     /// Small z: ρ is z², and the robust errors are those of least squares.

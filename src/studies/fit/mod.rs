@@ -305,7 +305,13 @@ impl Fit {
             (width > 0.0).then(|| differences.map(|(b, a)| (b - a) / width).collect())
         };
         (0..self.free.len())
-            .map(|i| if solved.at_bound[i] { None } else { derivative(i) })
+            .map(|i| {
+                if solved.at_bound[i] {
+                    None
+                } else {
+                    derivative(i)
+                }
+            })
             .collect()
     }
 

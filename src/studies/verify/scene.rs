@@ -81,6 +81,7 @@ impl Scene {
             integrator: Integrator::Direct,
             running_in: None,
             scar: None,
+            hardness: None,
             steps_per_cycle: STEPS,
         })
     }

@@ -1,5 +1,6 @@
 //! The fretting loop: tangential force over displacement in the last cycle. Its area is the energy
-//! that the cycle dissipates. An arrow stands at the present moment and points the way it goes.
+//! that the cycle dissipates. An arrow stands at the present moment and points the way it goes. On a rig that
+//! yields the loop of its sensor is drawn beside that of the contact: both have the same forces and the same area.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -32,13 +33,20 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
         sign: if back { '◀' } else { '▶' },
         style: theme.style(Role::Alarm),
     };
-    plot(
+    let (sensed, sensed_forces) = frame.trend.sensed_loop();
+    let is_sensed = !sensed.is_empty();
+    let name = if is_sensed { "contact" } else { "" };
+    let mut plot = plot(
         Panel::Loop,
         app,
         Axis::new("u_x", "m"),
         Axis::new("F_x", "N"),
-    )
-    .curve(Curve::new("", &shifts, &forces, theme.style(Role::Shear)))
-    .point(here)
-    .render(area, buffer);
+    );
+    if is_sensed {
+        let style = theme.style(Role::Quiet);
+        plot = plot.curve(Curve::new("rig's sensor", &sensed, &sensed_forces, style));
+    }
+    plot.curve(Curve::new(name, &shifts, &forces, theme.style(Role::Shear)))
+        .point(here)
+        .render(area, buffer);
 }

@@ -70,6 +70,8 @@ struct Cut {
     indenter: f64,
     unworn: f64,
     surface: f64,
+    /// Where the half-space would end had it not worn.
+    unworn_surface: f64,
     contact: Option<Matter>,
 }
 
@@ -83,6 +85,13 @@ impl Cut {
         let inside = r.min(edge);
         let sunk = interpolate(&seen.radii, &seen.depression, inside);
         let surface = -sunk * if r > edge { edge / r } else { 1.0 };
+        // Nothing of the half-space is worn unless the scenario says so.
+        let share = frame.wear_share.unwrap_or(1.0);
+        let wear = match frame.wear_share {
+            Some(_) if r <= edge => interpolate(&seen.radii, &seen.wear, r),
+            _ => 0.0,
+        };
+        let of_half_space = wear - share * wear;
         let (worn, unworn) = if r > rim {
             (f64::INFINITY, f64::INFINITY)
         } else if r > edge {
@@ -97,9 +106,10 @@ impl Cut {
         let sticks = moment.stick_radius.is_none_or(|stick| r < stick);
         let contact = if sticks { Matter::Stick } else { Matter::Slip };
         Self {
-            indenter: worn - moment.depth,
+            indenter: worn - of_half_space - moment.depth,
             unworn: unworn - moment.depth,
-            surface,
+            surface: surface - of_half_space,
+            unworn_surface: surface,
             contact: (r < moment.contact_radius).then_some(contact),
         }
     }
@@ -111,7 +121,7 @@ impl Cut {
             Some(contact) if z >= self.indenter - size => contact,
             Some(_) => Matter::HalfSpace,
             None if z <= self.surface => Matter::HalfSpace,
-            None if z >= self.unworn => Matter::Worn,
+            None if z >= self.unworn || z <= self.unworn_surface => Matter::Worn,
             None => Matter::Air,
         }
     }
@@ -309,6 +319,15 @@ fn words(frame: &Frame, app: &App, area: Rect, half: f64, width: f64, buffer: &m
             area.y + 1,
         );
     }
+    if let Some(share) = frame.wear_share.filter(|_| area.height >= 10) {
+        let seen = &frame.observation;
+        let deepest = seen.wear.iter().copied().fold(0.0, f64::max);
+        let [indenter, half_space] = [share, 1.0 - share].map(|part| value(part * deepest, "m"));
+        line(
+            &format!("worn: indenter {indenter}, half-space {half_space}"),
+            area.y + 2,
+        );
+    }
     let times = if ascii { "x" } else { "×" };
     let exaggerated = match width / half {
         scale if scale >= 1.5 => format!("half-space, heights {times}{scale:.0}"),
@@ -356,6 +375,7 @@ mod tests {
             indenter: 1.0,
             unworn: 0.5,
             surface: -0.2,
+            unworn_surface: -0.2,
             contact: None,
         };
         let seen = [1.2, 0.7, 0.0, -0.5].map(|z| open.matter(z, size));
@@ -370,6 +390,7 @@ mod tests {
             indenter: -1.0,
             unworn: -1.2,
             surface: -1.0,
+            unworn_surface: -1.0,
             contact: Some(Matter::Slip),
         };
         let seen = [-0.9, -1.05, -1.15].map(|z| closed.matter(z, size));

@@ -28,7 +28,7 @@ use super::undo::Past;
 use crate::contact::subsurface::Stress;
 use crate::math::scan::largest;
 use crate::scenario::session::Session;
-use crate::simulation::Curves;
+use crate::simulation::{Curves, Passed};
 use crate::studies::theory::Theory;
 
 mod changes;
@@ -48,6 +48,8 @@ pub struct Worker {
     cycle_loads: CycleLoads,
     settings: Arc<Vec<Setting>>,
     warnings: Arc<Vec<String>>,
+    /// What the warnings say of the hardness.
+    passed_hardness: Option<Passed>,
     trend: Trend,
     /// The trend up to the present, while the screen is in the past.
     whole_trend: Option<Trend>,
@@ -92,6 +94,7 @@ impl Worker {
             theory: Arc::new(Theory::of(session.simulation().setup())),
             settings: Arc::new(Setting::all(session.scenario())),
             warnings: Arc::new(session.simulation().warnings()),
+            passed_hardness: session.simulation().passed_hardness(),
             session,
             comparison: None,
             cycle_loads: CycleLoads::default(),
@@ -323,6 +326,12 @@ impl Worker {
     }
 
     fn publish(&mut self) {
+        // The pressure may pass the hardness in any step.
+        let passed = self.session.simulation().passed_hardness();
+        if self.passed_hardness != passed {
+            self.passed_hardness = passed;
+            self.warnings = Arc::new(self.session.simulation().warnings());
+        }
         self.published = Instant::now();
         if self.slot.put(Arc::new(self.frame())) {
             let _ = self.events.send(Event::Frame);
@@ -384,6 +393,7 @@ impl Worker {
             present: self.past.present(),
             settings: Arc::clone(&self.settings),
             indenter: simulation.setup().indenter.clone(),
+            wear_share: scenario.wear_share(),
             friction: simulation.setup().material.friction(),
             checks,
             warnings: Arc::clone(&self.warnings),

@@ -61,6 +61,7 @@ impl From<Scene> for Setup {
             stability: Stability::Off,
             running_in: None,
             scar: None,
+            hardness: None,
             steps_per_cycle: scene.steps,
             integrator: Integrator::Direct,
         }

@@ -1,0 +1,378 @@
+//! A scar as the initial wear, wear shared between both bodies, and the hardness limit.
+
+use mdr_tui::scenario::Scenario;
+use mdr_tui::scenario::session::Session;
+use mdr_tui::simulation::Moment;
+
+use crate::test_dir::TestDir;
+
+const SMALL: [&str; 3] = [
+    "numerics.points=60",
+    "numerics.steps_per_cycle=40",
+    "run.snapshot_at=[]",
+];
+
+fn strings(sets: &[&str]) -> Vec<String> {
+    SMALL
+        .iter()
+        .chain(sets)
+        .map(|set| (*set).to_owned())
+        .collect()
+}
+
+fn started(name: &str, sets: &[&str]) -> Session {
+    let scenario = Scenario::load(name, &strings(sets)).expect("a scenario");
+    Session::start(scenario).expect("a contact")
+}
+
+fn preset(name: &str) -> &'static str {
+    mdr_tui::scenario::preset::find(name)
+        .expect("a preset")
+        .text
+}
+
+/// The preset with `line` in its `[wear]` table.
+fn with_wear(name: &str, line: &str) -> String {
+    preset(name).replace("[wear]\n", &format!("[wear]\n{line}\n"))
+}
+
+fn refused(path: &str) -> String {
+    let refused = Scenario::load(path, &strings(&[]))
+        .expect_err("refused")
+        .to_string();
+    assert_eq!(refused.lines().count(), 1, "{refused}");
+    refused
+}
+
+/// 20 cycles, the scar in a table, and 20 more: as 40 cycles at once. A table of the nodes loses nothing; of points
+/// half as dense, what their distance loses.
+#[test]
+fn a_run_goes_on_from_its_exported_scar() {
+    let dir = TestDir::new();
+    let sets = [
+        "--set numerics.points=60",
+        "--set numerics.steps_per_cycle=40",
+        "--set run.snapshot_at=[]",
+    ]
+    .join(" ");
+    dir.write("first.toml", preset("li2019-fig3").as_bytes());
+    dir.done(&format!(
+        "run first.toml {sets} --cycles 20 --out first --quiet"
+    ));
+    dir.done(&format!(
+        "run first.toml {sets} --cycles 40 --out whole --quiet"
+    ));
+    dir.write(
+        "second.toml",
+        with_wear("li2019-fig3", "initial = \"first/state.csv\"").as_bytes(),
+    );
+    dir.done(&format!(
+        "run second.toml {sets} --cycles 20 --out second --quiet"
+    ));
+    let last = |name: &str| -> Vec<f64> {
+        let history = dir.read(&format!("{name}/history.csv"));
+        let row = history.lines().last().expect("a row");
+        row.split(',')
+            .map(|field| field.parse().unwrap_or(f64::NAN))
+            .collect()
+    };
+    let (first, whole, second) = (last("first"), last("whole"), last("second"));
+    // V is that of the profile, E_d that of the run.
+    let error = |found: f64, due: f64| (found / due - 1.0).abs();
+    eprintln!(
+        "V {:.1e}, dV {:.1e}, E_d {:.1e}",
+        error(second[9], whole[9]),
+        error(second[9] - first[9], whole[9] - first[9]),
+        error(second[10], whole[10] - first[10])
+    );
+    assert!(
+        error(second[9], whole[9]) < 1e-3,
+        "{} {}",
+        second[9],
+        whole[9]
+    );
+    let (grown, due) = (second[9] - first[9], whole[9] - first[9]);
+    assert!(
+        grown > 0.1 * first[9] && error(grown, due) < 0.02,
+        "{grown} {due}"
+    );
+    assert!(
+        error(second[10], whole[10] - first[10]) < 0.02,
+        "{} {}",
+        second[10],
+        whole[10]
+    );
+    let state = dir.read("second/state.csv");
+    let told = state
+        .lines()
+        .find_map(|line| line.strip_prefix("# initial_wear_volume_m3: "));
+    let told: f64 = told.expect("a header").parse().expect("a number");
+    assert!(error(told, first[9]) < 1e-3, "{told} {}", first[9]);
+    assert!(state.contains("# checks: ok"), "{state}");
+    // The run's scenario needs no other file.
+    std::fs::remove_file(dir.path("first/state.csv")).expect("a file");
+    dir.done("run second/scenario.toml --out again --quiet");
+    assert_eq!(
+        dir.read("again/history.csv"),
+        dir.read("second/history.csv")
+    );
+}
+
+/// The volume of a coarse table of a smooth scar is right to the second order of its points.
+#[test]
+fn a_table_of_a_smooth_scar_is_met_with_the_order_of_its_points() {
+    let dir = TestDir::new();
+    dir.write(
+        "scar.toml",
+        with_wear("li2019-fig3", "initial = \"scar.csv\"").as_bytes(),
+    );
+    let path = dir.path("scar.toml").display().to_string();
+    let (reach, deep) = (1.2e-4_f64, 1e-7);
+    // δ = δ₀ (1 − r²/b²)²: V = π b² δ₀/3.
+    let exact = std::f64::consts::PI * reach * reach * deep / 3.0;
+    let errors = [10, 20, 40].map(|points| {
+        let mut text = "r_um,depth_nm\n".to_owned();
+        for i in 0..=points {
+            let r = reach * f64::from(i) / f64::from(points);
+            let depth = deep * (1.0 - (r / reach).powi(2)).powi(2);
+            text.push_str(&format!("{:e},{:e}\n", r * 1e6, depth * 1e9));
+        }
+        dir.write("scar.csv", text.as_bytes());
+        let sets = ["numerics.points=2000", "numerics.grid=uniform"];
+        let scenario = Scenario::load(&path, &strings(&sets)).expect("a scenario");
+        let again = Scenario::from_toml(&scenario.to_toml(), "again", &[]).expect("a scenario");
+        assert_eq!(again.setup(), scenario.setup());
+        let session = Session::start(scenario).expect("a contact");
+        let moment = session.simulation().moment();
+        assert_eq!(moment.wear_volume, moment.initial_volume);
+        (moment.wear_volume / exact - 1.0).abs()
+    });
+    eprintln!("{errors:?}");
+    assert!(errors[2] < 2e-3, "{errors:?}");
+    for pair in errors.windows(2) {
+        let order = (pair[0] / pair[1]).log2();
+        assert!((1.8..2.2).contains(&order), "{errors:?}");
+    }
+}
+
+/// What a scar brings is neither worn by the run nor explained by its work.
+#[test]
+fn energy_and_volume_are_compared_from_the_scar_on() {
+    let dir = TestDir::new();
+    let text = "r_m,depth_m\n0,2e-7\n5e-5,2e-7\n1e-4,1e-7\n1.2e-4,0\n";
+    dir.write("scar.csv", text.as_bytes());
+    dir.write(
+        "scar.toml",
+        with_wear("gross-slip", "initial = \"scar.csv\"").as_bytes(),
+    );
+    let mut session = started(&dir.path("scar.toml").display().to_string(), &[]);
+    session.advance_to(3.0).expect("a run");
+    let moment: Moment = session.simulation().moment();
+    let grown = moment.wear_volume - moment.initial_volume;
+    assert!(moment.initial_volume > grown && grown > 0.0, "{moment:?}");
+    let k = session
+        .simulation()
+        .setup()
+        .wear
+        .expect("a law")
+        .coefficient();
+    let expected = k * moment.dissipated_energy;
+    assert!((grown / expected - 1.0).abs() < 0.01, "{grown} {expected}");
+    let per_energy = moment.wear_per_energy().expect("work");
+    assert!((per_energy / k - 1.0).abs() < 0.01, "{per_energy}");
+    assert!(moment.energy_residual.expect("a residual").abs() < 0.01);
+    let refused = session.change("wear.initial_depths", "[0, 0, 0, 0]");
+    let refused = refused.expect_err("refused").to_string();
+    assert!(refused.contains("cannot change during a run"), "{refused}");
+}
+
+#[test]
+fn scars_that_do_not_fit_are_told_with_the_reason() {
+    let dir = TestDir::new();
+    dir.write(
+        "scar.toml",
+        with_wear("li2019-fig3", "initial = \"scar.csv\"").as_bytes(),
+    );
+    let path = dir.path("scar.toml").display().to_string();
+    for (text, expected) in [
+        ("r_m,x_m\n0,0\n1e-5,0\n1e-4,0\n", "has no column depth_m"),
+        ("r_m,depth_m\n0,0\n0.05,1e-7\n0.1,0\n", "is r in m?"),
+        (
+            "r_m,depth_m\n0,1e-4\n5e-5,1e-4\n1e-4,0\n",
+            "is the depth in m?",
+        ),
+        (
+            "r_m,depth_m\n0,0\n1e-4,1e-7\n9e-4,0\n",
+            "numerics.domain_radius",
+        ),
+        ("r_m,depth_m\n0,0\n5e-5,1e-7\n1e-4,1e-7\n", "a longer trace"),
+        (
+            "r_m,depth_m\n0,0\n5e-5,-1e-7\n1e-4,0\n",
+            "must be 0 or greater",
+        ),
+        ("r_m,depth_m\n0,0\n5e-5,1e-7\n5e-5,0\n", "must increase"),
+    ] {
+        dir.write("scar.csv", text.as_bytes());
+        let refused = refused(&path);
+        assert!(refused.contains(expected), "{text}: {refused}");
+    }
+    dir.write("scar.csv", b"r_m,depth_m\n0,0\n5e-5,1e-7\n1e-4,0\n");
+    let ring = started(&path, &["motion.normal.mean=1e-6"]);
+    let warnings = ring.simulation().warnings();
+    assert!(
+        !warnings.iter().any(|line| line.contains("may be a ring")),
+        "{warnings:?}"
+    );
+    dir.write(
+        "scar.csv",
+        b"r_m,depth_m\n0,5e-7\n2e-5,5e-7\n4e-5,0\n1e-4,0\n",
+    );
+    let warnings = started(&path, &[]).simulation().warnings();
+    assert!(
+        warnings.iter().any(|line| line.contains("may be a ring")),
+        "{warnings:?}"
+    );
+}
+
+/// The contact feels the sum alone: all that was written without a share is written with it, bit for bit.
+#[test]
+fn shared_wear_adds_up_to_the_same_bits() {
+    let dir = TestDir::new();
+    dir.write("one.toml", preset("li2019-fig3").as_bytes());
+    dir.write(
+        "two.toml",
+        with_wear("li2019-fig3", "share = 0.3").as_bytes(),
+    );
+    for name in ["one", "two"] {
+        dir.done(&format!(
+            "run {name}.toml --set numerics.points=60 --set run.snapshot_at=[] --cycles 3 --out {name} --quiet"
+        ));
+    }
+    let rows = |name: &str, file: &str| -> Vec<String> {
+        let text = dir.read(&format!("{name}/{file}"));
+        let rows = text.lines().filter(|line| !line.starts_with('#'));
+        rows.map(str::to_owned).collect()
+    };
+    assert_eq!(rows("one", "history.csv"), rows("two", "history.csv"));
+    let (one, two) = (rows("one", "state.csv"), rows("two", "state.csv"));
+    assert_eq!(
+        two[0],
+        format!("{},wear_indenter_m,wear_half_space_m", one[0])
+    );
+    let mut worn = 0.0_f64;
+    for (one, two) in one.iter().zip(&two).skip(1) {
+        let rest = two.strip_prefix(one.as_str()).expect("the same row");
+        let fields: Vec<f64> = rest[1..]
+            .split(',')
+            .map(|f| f.parse().expect("a number"))
+            .collect();
+        let wear: f64 = one
+            .split(',')
+            .nth(11)
+            .expect("wear_m")
+            .parse()
+            .expect("a number");
+        assert_eq!(fields[0], 0.3 * wear);
+        assert!((fields[0] + fields[1] - wear).abs() <= f64::EPSILON * wear);
+        worn = worn.max(wear);
+    }
+    assert!(worn > 0.0);
+    assert!(
+        dir.read("two/state.csv")
+            .contains("# wear_share_of_indenter: 0.3\n")
+    );
+    let refused = Scenario::load("li2019-fig3", &strings(&["wear.share=1.5"]));
+    let refused = refused.expect_err("refused").to_string();
+    assert!(refused.contains("from 0 to 1"), "{refused}");
+}
+
+/// Hertz: p₀ = (2/π) E* √(d/R) at the deepest point.
+#[test]
+fn pressure_that_passes_the_hardness_is_said() {
+    let (modulus, depth, radius) = (2.3077e11_f64, 1.1e-6_f64, 1e-2);
+    let highest = std::f64::consts::FRAC_2_PI * modulus * (depth / radius).sqrt();
+    let sets = |hardness: f64| format!("material.hardness={hardness:e}");
+    let warned = |session: &Session| -> Option<String> {
+        let lines = session.simulation().warnings();
+        lines.into_iter().find(|line| line.contains("hardness"))
+    };
+    // Known before the run from the deepest point, which the first moment has not reached.
+    let mut soft = started("li2019-fig3", &[&sets(0.99 * highest)]);
+    assert!(
+        warned(&soft)
+            .expect("a warning")
+            .contains("where the contact is deepest")
+    );
+    assert_eq!(soft.simulation().passed_hardness(), None);
+    soft.advance_to(1.0).expect("a cycle");
+    let passed = soft.simulation().passed_hardness().expect("passed");
+    assert!((0.15..0.25).contains(&passed.cycle), "{passed:?}");
+    assert!(warned(&soft).expect("a warning").contains("at cycle 0."));
+    // The stick border gathers pressure as the ring around it wears.
+    let mut hard = started("li2019-fig3", &[&sets(1.02 * highest)]);
+    assert_eq!(warned(&hard), None);
+    hard.advance_to(0.5).expect("half a cycle");
+    assert_eq!(warned(&hard), None);
+    hard.advance_to(20.0).expect("a run");
+    let passed = hard.simulation().passed_hardness().expect("passed");
+    assert!(
+        passed.radius > 1e-5 && passed.pressure > 1.02 * highest,
+        "{passed:?}"
+    );
+    let never = started("li2019-fig3", &[&sets(1e12)]);
+    assert_eq!(warned(&never), None);
+    let dir = TestDir::new();
+    let said = dir.say(&[
+        "run",
+        "hertz",
+        "--set",
+        "material.hardness=1e6",
+        "--cycles",
+        "1",
+        "--out",
+        "out",
+    ]);
+    assert_eq!(said.code, 0, "{}", said.err);
+    assert_eq!(
+        said.err.matches("passes the hardness, 1.000e6 Pa").count(),
+        1,
+        "{}",
+        said.err
+    );
+    assert!(
+        dir.read("out/state.csv")
+            .contains("# warning: outside of the theory: the pressure passes")
+    );
+}
+
+#[test]
+fn hardness_belongs_to_a_body_or_to_the_pair() {
+    let bodies = |indenter: &str, half_space: &str| {
+        let from = "effective_modulus = 2.3077e11\npoisson = 0.3\n";
+        let body = "youngs_modulus = 2.1e11\npoisson = 0.3\n";
+        let text = preset("gross-slip");
+        let start = text.find("[material]").expect("a material");
+        let end = text[start + 1..].find("\n[").expect("a table") + start + 1;
+        assert!(text[start..end].contains("effective_modulus"), "{from}");
+        format!(
+            "{}[material.indenter]\n{body}{indenter}\n[material.half_space]\n{body}{half_space}\n{}",
+            &text[..start],
+            &text[end..]
+        )
+    };
+    let limit = |text: &str, sets: &[&str]| {
+        Scenario::from_toml(text, "two.toml", &strings(sets))
+            .map(|scenario| scenario.setup().hardness)
+    };
+    let found = limit(&bodies("hardness = 7e9", "hardness = 2e9"), &[]).expect("a scenario");
+    assert_eq!(found, Some(2e9));
+    assert_eq!(
+        limit(&bodies("hardness = \"7 GPa\"", ""), &[]).expect("a scenario"),
+        Some(7e9)
+    );
+    assert_eq!(limit(preset("gross-slip"), &[]).expect("a scenario"), None);
+    let refused = limit(&bodies("", ""), &["material.hardness=2e9"])
+        .expect_err("refused")
+        .to_string();
+    assert!(refused.contains("does not go with two bodies"), "{refused}");
+}

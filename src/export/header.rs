@@ -38,8 +38,8 @@ pub fn lines(session: &Session) -> String {
     if let Some(share) = scenario.wear_share() {
         line("wear_share_of_indenter", &number(share));
     }
-    let initial = session.simulation().state().initial_volume;
     if setup.scar.is_some() {
+        let initial = session.simulation().moment().initial_volume;
         line("initial_wear_volume_m3", &number(initial));
     }
     line("checks", &checks(session));

@@ -82,19 +82,11 @@ fn with_noise(
 }
 
 fn fitted(texts: &[String; 2], robust: bool) -> Fitted {
-    let robust = robust || std::env::var("ROBUST").is_ok();
     let columns = |text: &str| Columns::parse(text, "data.csv").expect("columns");
     let data = vec![
         Measured::scar(&columns(&texts[0])).expect("a scar"),
         Measured::fretting_loop(&columns(&texts[1])).expect("a loop"),
     ];
-    let mut data = data;
-    if std::env::var("GIVEN").is_ok() {
-        for (set, e) in data.iter_mut().zip(exact()) {
-            let l = e.1.iter().map(|r| r.1.abs()).fold(0.0, f64::max);
-            set.errors = Some(vec![0.02 * l; set.at.len()]);
-        }
-    }
     let free = TRUE.map(|(key, _)| key.to_owned());
     let start = scenario(3e-9, 0.1);
     let fit = Fit::new(start, data, &free, None, robust).expect("a fit");
@@ -123,7 +115,7 @@ fn the_errors_of_k_and_mu_are_honest_both_ways() {
     }
     eprintln!("within two standard errors: {within:?} of 100");
     assert!(
-        within.iter().all(|count| (80..=99).contains(count)),
+        within.iter().all(|count| (90..=99).contains(count)),
         "{within:?}"
     );
 }
@@ -270,46 +262,6 @@ fn the_command_prints_json_and_writes_the_fitted_scenario() {
             said.err.contains(expected),
             "{} without {expected}",
             said.err
-        );
-    }
-}
-
-#[test]
-#[ignore]
-fn tmp_measure() {
-    let draws: usize = std::env::var("DRAWS").map_or(100, |d| d.parse().unwrap());
-    let (exact, mut noise) = (
-        exact(),
-        Noise(std::env::var("SEED").map_or(7, |d| d.parse().unwrap())),
-    );
-    let f0 = fitted(&with_noise(&exact, 1e-9, &mut Noise(1)), false);
-    eprintln!("noise-free {:?} corr {:?}", f0.values, f0.correlations);
-    let mut z = [vec![], vec![]];
-    let mut e = [vec![], vec![]];
-    let mut rms = [vec![], vec![]];
-    for _ in 0..draws {
-        let fitted = fitted(&with_noise(&exact, 0.02, &mut noise), false);
-        for (i, (_, expected)) in TRUE.into_iter().enumerate() {
-            let v = &fitted.values[i];
-            let se = v.stderr.unwrap();
-            z[i].push((v.value - expected) / se);
-            e[i].push(((v.value / expected - 1.0), se / expected));
-            let largest = exact[i].1.iter().map(|r| r.1.abs()).fold(0.0, f64::max);
-            rms[i].push(fitted.compared[i].rms() / largest / 0.02);
-        }
-    }
-    for i in 0..2 {
-        let n = draws as f64;
-        let mean = |v: &dyn Fn(usize) -> f64| (0..draws).map(|k| v(k)).sum::<f64>() / n;
-        let bias = mean(&|k| e[i][k].0);
-        let sd = mean(&|k| (e[i][k].0 - bias).powi(2)).sqrt();
-        let se = mean(&|k| e[i][k].1.powi(2)).sqrt();
-        let zm = mean(&|k| z[i][k]);
-        let zs = mean(&|k| (z[i][k] - zm).powi(2)).sqrt();
-        let r = mean(&|k| rms[i][k].powi(2));
-        let cov = z[i].iter().filter(|z| z.abs() < 2.0).count();
-        eprintln!(
-            "{i}: bias {bias:.2e} sd {sd:.3e} rms stated {se:.3e}; z mean {zm:.3} sd {zs:.3}; within {cov}/{draws}; rms^2/sigma^2 {r:.3}"
         );
     }
 }

@@ -177,10 +177,10 @@ fn energy_and_volume_are_compared_from_the_scar_on() {
         .expect("a law")
         .coefficient();
     let expected = k * moment.dissipated_energy;
-    assert!((grown / expected - 1.0).abs() < 0.01, "{grown} {expected}");
+    assert!((grown / expected - 1.0).abs() < 0.02, "{grown} {expected}");
     let per_energy = moment.wear_per_energy().expect("work");
-    assert!((per_energy / k - 1.0).abs() < 0.01, "{per_energy}");
-    assert!(moment.energy_residual.expect("a residual").abs() < 0.01);
+    assert!((per_energy / k - 1.0).abs() < 0.02, "{per_energy}");
+    assert!(moment.energy_residual.expect("a residual").abs() < 0.02);
     let refused = session.change("wear.initial_depths", "[0, 0, 0, 0]");
     let refused = refused.expect_err("refused").to_string();
     assert!(refused.contains("cannot change during a run"), "{refused}");
@@ -216,7 +216,7 @@ fn scars_that_do_not_fit_are_told_with_the_reason() {
         let refused = refused(&path);
         assert!(refused.contains(expected), "{text}: {refused}");
     }
-    dir.write("scar.csv", b"r_m,depth_m\n0,0\n5e-5,1e-7\n1e-4,0\n");
+    dir.write("scar.csv", b"r_m,depth_m\n0,0\n5e-5,2e-8\n1e-4,0\n");
     let ring = started(&path, &["motion.normal.mean=1e-6"]);
     let warnings = ring.simulation().warnings();
     assert!(
@@ -308,17 +308,15 @@ fn pressure_that_passes_the_hardness_is_said() {
     let passed = soft.simulation().passed_hardness().expect("passed");
     assert!((0.15..0.25).contains(&passed.cycle), "{passed:?}");
     assert!(warned(&soft).expect("a warning").contains("at cycle 0."));
-    // The stick border gathers pressure as the ring around it wears.
+    // The stick zone takes over the load of the ring that wears.
     let mut hard = started("li2019-fig3", &[&sets(1.02 * highest)]);
     assert_eq!(warned(&hard), None);
     hard.advance_to(0.5).expect("half a cycle");
     assert_eq!(warned(&hard), None);
-    hard.advance_to(20.0).expect("a run");
+    hard.advance_to(60.0).expect("a run");
     let passed = hard.simulation().passed_hardness().expect("passed");
-    assert!(
-        passed.radius > 1e-5 && passed.pressure > 1.02 * highest,
-        "{passed:?}"
-    );
+    let above = passed.pressure / highest;
+    assert!((1.02..1.03).contains(&above), "{passed:?}");
     let never = started("li2019-fig3", &[&sets(1e12)]);
     assert_eq!(warned(&never), None);
     let dir = TestDir::new();
@@ -343,6 +341,34 @@ fn pressure_that_passes_the_hardness_is_said() {
         dir.read("out/state.csv")
             .contains("# warning: outside of the theory: the pressure passes")
     );
+}
+
+/// The mark stands in the status line once the pressure has passed in a step, and both bodies in the section.
+#[test]
+fn the_explorer_marks_the_limit_and_draws_both_bodies() {
+    let dir = TestDir::new();
+    let screen = |sets: &[&str], keys: &str| {
+        let printed = ["--keys", keys, "--print", "140x30"];
+        let said = dir.say(&[&["li2019-fig3"], sets, &printed].concat());
+        assert_eq!((said.code, said.err.as_str()), (0, ""));
+        said.out
+    };
+    // Above the pressure of the unworn contact, below that of the worn one.
+    let sets = [
+        "--set",
+        "numerics.points=60",
+        "--set",
+        "wear.coefficient=2e-9",
+        "--set",
+        "material.hardness=1.6e9",
+    ];
+    let mark = "outside of the theory";
+    assert!(!screen(&sets, "").contains(mark));
+    let later = screen(&sets, ",,,,,,");
+    assert!(later.contains(mark), "{later}");
+    let shared = screen(&["--set", "wear.share=0.25"], ",,vz");
+    assert!(shared.contains("worn: indenter"), "{shared}");
+    assert!(!screen(&[], ",,vz").contains("worn: indenter"));
 }
 
 #[test]

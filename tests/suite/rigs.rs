@@ -125,6 +125,30 @@ fn a_compliant_rig_in_partial_slip_is_the_closed_form() {
     }
 }
 
+/// The panel has the contact's loop and, on a rig alone, that of its sensor.
+#[test]
+fn both_loops_of_a_rig_are_drawn() {
+    let dir = TestDir::new();
+    let screen = |sets: &[&str]| {
+        let keys = ["--keys", ",,<Tab><Tab>z", "--print", "90x24"];
+        let said = dir.say(&[&["gross-slip"], sets, &keys].concat());
+        assert_eq!((said.code, said.err.as_str()), (0, ""));
+        said.out
+    };
+    let rig = screen(&["--set", "motion.tangential.rig_stiffness=3e7"]);
+    assert!(
+        rig.contains("fretting loop") && rig.contains("rig's sensor"),
+        "{rig}"
+    );
+    assert!(rig.contains("─ contact"), "{rig}");
+    let stiff = screen(&[]);
+    assert!(stiff.contains("fretting loop"), "{stiff}");
+    assert!(
+        !stiff.contains("sensor") && !stiff.contains("─ contact"),
+        "{stiff}"
+    );
+}
+
 /// The actuator's motion is shared: a rig of a tenth of the contact's stiffness leaves it a tenth.
 #[test]
 fn a_scenario_names_its_rig() {

@@ -253,15 +253,18 @@ impl Drive {
     }
 
     /// What an amplitude of each direction is in displacement, m per m or m per N: a force moves a contact of the
-    /// radius a by 1/(2E*a) and 1/(2G*a), as long as nothing slips.
+    /// radius a by 1/(2E*a) and 1/(2G*a), and a rig of the compliance C leaves it 1/(1 + 2G*aC) of its actuator's
+    /// motion, as long as nothing slips; where the motion turns, nothing does.
     pub fn yields(&self, material: &Material, contact_radius: f64) -> [f64; 2] {
-        let yields = |control: Option<&Control>, modulus: f64| match control {
-            Some(Control::Force(_)) => (2.0 * modulus * contact_radius).recip(),
-            _ => 1.0,
+        let stiffness = |modulus: f64| 2.0 * modulus * contact_radius;
+        let yields = |control: Option<&Control>, modulus: f64, compliance: f64| match control {
+            Some(Control::Force(_)) => stiffness(modulus).recip(),
+            _ => (1.0 + stiffness(modulus) * compliance).recip(),
         };
+        let (tangential, modulus) = (self.tangential.as_ref(), material.tangential_modulus());
         let yields = [
-            yields(Some(&self.normal), material.normal_modulus()),
-            yields(self.tangential.as_ref(), material.tangential_modulus()),
+            yields(Some(&self.normal), material.normal_modulus(), 0.0),
+            yields(tangential, modulus, self.compliance),
         ];
         if yields.iter().all(|yields| yields.is_finite()) {
             return yields;
@@ -616,6 +619,31 @@ mod tests {
             "{short}"
         );
         assert_eq!(of(0.0).unevenness(0.7, 0.2, 0.3), 1.0);
+    }
+
+    /// A rig as stiff as the sticking contact leaves it half of the motion; a force knows of no rig.
+    #[test]
+    fn a_rig_leaves_a_part_of_the_motion_to_what_sticks() {
+        let material = Material::new(2.0, 0.0, 0.1).expect("a material");
+        let stiffness = 2.0 * material.tangential_modulus() * 3.0;
+        let swing = Oscillation::new(0.0, 1.0, 1.0, 0.0).expect("a motion");
+        let on_rig = |tangential: Control| {
+            let drive = Drive::new(Control::Displacement(swing.clone()), Some(tangential));
+            drive
+                .with_rig(stiffness)
+                .expect("a rig")
+                .yields(&material, 3.0)
+        };
+        assert_eq!(on_rig(Control::Displacement(swing.clone())), [1.0, 0.5]);
+        assert_eq!(
+            on_rig(Control::Force(swing.clone())),
+            [1.0, stiffness.recip()]
+        );
+        let stiff = Drive::new(
+            Control::Displacement(swing.clone()),
+            Some(Control::Displacement(swing.clone())),
+        );
+        assert_eq!(stiff.yields(&material, 3.0), [1.0; 2]);
     }
 
     #[test]

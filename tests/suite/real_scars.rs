@@ -44,8 +44,7 @@ fn refused(path: &str) -> String {
     refused
 }
 
-/// 20 cycles, the scar in a table, and 20 more: as 40 cycles at once. A table of the nodes loses nothing; of points
-/// half as dense, what their distance loses.
+/// 20 cycles, the scar in a table, and 20 more: as 40 cycles at once.
 #[test]
 fn a_run_goes_on_from_its_exported_scar() {
     let dir = TestDir::new();
@@ -77,31 +76,20 @@ fn a_run_goes_on_from_its_exported_scar() {
             .collect()
     };
     let (first, whole, second) = (last("first"), last("whole"), last("second"));
-    // V is that of the profile, E_d that of the run.
+    // V is that of the profile, E_d that of the run. The second run meets the first cycle with springs at rest.
     let error = |found: f64, due: f64| (found / due - 1.0).abs();
-    eprintln!(
-        "V {:.1e}, dV {:.1e}, E_d {:.1e}",
-        error(second[9], whole[9]),
-        error(second[9] - first[9], whole[9] - first[9]),
-        error(second[10], whole[10] - first[10])
-    );
-    assert!(
-        error(second[9], whole[9]) < 1e-3,
-        "{} {}",
-        second[9],
-        whole[9]
-    );
     let (grown, due) = (second[9] - first[9], whole[9] - first[9]);
+    let [of_volume, of_growth, of_work] = [
+        error(second[9], whole[9]),
+        error(grown, due),
+        error(second[10], whole[10] - first[10]),
+    ];
+    eprintln!("V {of_volume:.1e}, dV {of_growth:.1e}, E_d {of_work:.1e}");
     assert!(
-        grown > 0.1 * first[9] && error(grown, due) < 0.02,
-        "{grown} {due}"
+        grown > 0.1 * first[9] && of_volume < 2e-3,
+        "{grown} {of_volume}"
     );
-    assert!(
-        error(second[10], whole[10] - first[10]) < 0.02,
-        "{} {}",
-        second[10],
-        whole[10]
-    );
+    assert!(of_growth < 5e-3 && of_work < 5e-3, "{of_growth} {of_work}");
     let state = dir.read("second/state.csv");
     let told = state
         .lines()
@@ -347,8 +335,8 @@ fn pressure_that_passes_the_hardness_is_said() {
 #[test]
 fn the_explorer_marks_the_limit_and_draws_both_bodies() {
     let dir = TestDir::new();
-    let screen = |sets: &[&str], keys: &str| {
-        let printed = ["--keys", keys, "--print", "140x30"];
+    let screen = |sets: &[&str], keys: &str, size: &str| {
+        let printed = ["--keys", keys, "--print", size];
         let said = dir.say(&[&["li2019-fig3"], sets, &printed].concat());
         assert_eq!((said.code, said.err.as_str()), (0, ""));
         said.out
@@ -363,12 +351,12 @@ fn the_explorer_marks_the_limit_and_draws_both_bodies() {
         "material.hardness=1.6e9",
     ];
     let mark = "outside of the theory";
-    assert!(!screen(&sets, "").contains(mark));
-    let later = screen(&sets, ",,,,,,");
+    assert!(!screen(&sets, "", "140x30").contains(mark));
+    let later = screen(&sets, ",,,,,,", "140x30");
     assert!(later.contains(mark), "{later}");
-    let shared = screen(&["--set", "wear.share=0.25"], ",,vz");
+    let shared = screen(&["--set", "wear.share=0.25"], ",,vz", "81x24");
     assert!(shared.contains("worn: indenter"), "{shared}");
-    assert!(!screen(&[], ",,vz").contains("worn: indenter"));
+    assert!(!screen(&[], ",,vz", "81x24").contains("worn: indenter"));
 }
 
 #[test]

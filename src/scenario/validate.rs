@@ -445,12 +445,14 @@ impl Parts<'_> {
             );
             return refuse(radii.path(), rule);
         }
-        let flank = indenter
-            .profile(domain * (1.0 - 1e-9))
-            .max(domain * SHALLOWEST);
+        // A punch has no flank, and may be worn as deep as its slopes stay small.
+        let flank = match indenter.rim() {
+            Some(rim) => rim / HARDLY_SAME,
+            None => indenter.profile(domain),
+        };
         if scar.deepest() > HARDLY_SAME * flank {
             let rule = format!(
-                "the scar is {} m deep, where f reaches {} m at the domain's edge: is the depth in m? a column \
+                "the scar is {} m deep, where a contact has depths of {} m: is the depth in m? a column \
                  depth_um is converted",
                 length(scar.deepest()),
                 length(flank)

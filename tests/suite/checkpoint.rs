@@ -59,6 +59,26 @@ fn follow(mut straight: Session, steps: usize, every: usize, what: &str) -> Sess
     straight
 }
 
+/// The volume that the scar brought and the moment at which the hardness was passed are put away as well.
+#[test]
+fn a_run_from_a_scar_is_taken_up_with_its_hardness() {
+    let sets = [
+        "wear.initial_radii=[0, 4e-5, 8e-5, 1.1e-4]",
+        "wear.initial_depths=[0, 1e-8, 2e-8, 0]",
+        "material.hardness=1.56e9",
+        "wear.share=0.4",
+        "numerics.points=30",
+        "numerics.steps_per_cycle=20",
+    ];
+    let before = session("li2019-fig3", &sets);
+    assert_eq!(before.simulation().passed_hardness(), None);
+    let after = follow(before, 30, 7, "a scar");
+    let passed = after.simulation().passed_hardness().expect("passed");
+    assert!(passed.cycle > 0.0 && passed.cycle < after.simulation().cycle());
+    let moment = after.simulation().moment();
+    assert!(moment.initial_volume > 0.0 && moment.wear_volume > moment.initial_volume);
+}
+
 #[test]
 fn every_preset_goes_on_as_if_nothing_had_been() {
     for preset in preset::ALL {

@@ -93,7 +93,8 @@ fn fitted(texts: &[String; 2], robust: bool) -> Fitted {
     fit.run(&mut || ()).expect("a minimum")
 }
 
-/// Within twice the standard error in 95 of 100 draws, were all linear and normal.
+/// Within twice the standard error in 94 of 100 draws, were all linear: Student's t with the 15 degrees of freedom that the
+/// scar leaves. Over 2000 draws we find 93.
 #[test]
 fn the_errors_of_k_and_mu_are_honest_both_ways() {
     let (exact, mut noise) = (exact(), Noise(7));

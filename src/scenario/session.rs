@@ -80,7 +80,7 @@ struct Unchanged {
 }
 
 impl Session {
-    /// Starts `scenario` from the unworn contact. Changes it has recorded are made again when their
+    /// Starts `scenario` from the unworn contact, or from its scar. Changes it has recorded are made again when their
     /// cycle comes.
     ///
     /// # Errors

@@ -120,7 +120,10 @@ mod tests {
     fn a_straight_line_has_the_errors_of_the_textbook() {
         let z = [0.1, -0.2, 0.2, -0.2, 0.1];
         let x: Vec<f64> = (1..=5).map(f64::from).collect();
-        let errors = Errors::new(&z, &[Some(vec![1.0; 5]), Some(x.clone())], &[0..5], false);
+        // One set has nothing to be weighed against.
+        let set = 0..5;
+        let estimated = std::slice::from_ref(&set);
+        let errors = Errors::new(&z, &[Some(vec![1.0; 5]), Some(x.clone())], estimated, false);
         let variance = 0.14 / 3.0;
         let close = |found: f64, exact: f64| assert!((found / exact - 1.0).abs() < 1e-12);
         close(errors.covariance[(1, 1)], variance / 10.0);
@@ -148,8 +151,7 @@ mod tests {
         assert_eq!(twins.covariance[(0, 0)], 0.0);
     }
 
-    /// The mean of two sets of m and n values, weighed by what they scatter: h = 1/(m + n), so ν = m n/(m + n) + …,
-    /// and (A − AΦA) of each is mn/(m + n) in units of one value.
+    /// The mean of two sets of m and n values: h = 1/(m + n) and A − AΦA = mn/(m + n) of either.
     #[test]
     fn weights_that_are_estimated_add_to_the_variance() {
         let z = [0.3, -0.3, 0.3, -0.3, 0.3, -0.3, 0.3, -0.3];

@@ -49,12 +49,14 @@ pub(super) fn choices(method: AbelMethod) -> (Spacing, Scheme) {
 }
 
 /// The largest radius that can ever touch, m: the rim, or where f₀ reaches the largest depth. Under a
-/// force that has no bound in general, and [`ROOM_TO_SINK`] stands in.
+/// force that has no bound in general, and [`ROOM_TO_SINK`] stands in, beyond the depth (m) that is `worn` when the run
+/// begins.
 pub(super) fn domain_radius(
     indenter: &Indenter,
     material: &Material,
     drive: &Drive,
     friction_is_constant: bool,
+    worn: f64,
 ) -> Option<f64> {
     if let Some(rim) = indenter.rim() {
         return Some(rim);
@@ -63,10 +65,12 @@ pub(super) fn domain_radius(
         Control::Displacement(depth) => depth.highest(),
         Control::Force(force) => {
             let start = press_by(indenter, material, force.highest())?.depth;
-            let end = (friction_is_constant && force.amplitude() == 0.0)
+            let starts_unworn = worn == 0.0;
+            let end = (friction_is_constant && starts_unworn && force.amplitude() == 0.0)
                 .then(|| settled_depth(indenter, material, drive, start));
             let end = end.flatten().map(|end| BEYOND_SETTLED * end);
-            end.unwrap_or(f64::INFINITY).min(ROOM_TO_SINK * start)
+            end.unwrap_or(f64::INFINITY)
+                .min(ROOM_TO_SINK * start + worn)
         }
     };
     Some(indenter.radius_at(depth))
@@ -229,10 +233,7 @@ mod tests {
         let (indenter, material, force) = hertz();
         let swing = Oscillation::new(0.0, 5e-8, 1.0, 0.0).expect("a motion");
         let held = Oscillation::new(force, 0.0, 1.0, 0.0).expect("a force");
-        let drive = Drive::new(
-            Control::Force(held.into()),
-            Some(Control::Displacement(swing.into())),
-        );
+        let drive = Drive::new(Control::Force(held), Some(Control::Displacement(swing)));
         let depth = settled_depth(&indenter, &material, &drive, 1e-6).expect("a depth");
         // (2/3) c³/R + (U/λ) c = F_z/(2E*), d = c²/R + U/λ.
         let yielding = 5e-8 * material.stick_ratio();
@@ -240,10 +241,10 @@ mod tests {
         let borne = 2.0 / 3.0 * c * c * c / 0.01 + yielding * c;
         assert!((borne * 2.0 * 2.3077e11 / force - 1.0).abs() < 1e-6);
         assert!(depth > 1e-6 && depth < 3e-6, "{depth:e}");
-        let domain = domain_radius(&indenter, &material, &drive, true).expect("a domain");
+        let domain = domain_radius(&indenter, &material, &drive, true, 0.0).expect("a domain");
         assert!((domain / (0.02 * BEYOND_SETTLED * depth).sqrt() - 1.0).abs() < 1e-9);
         // Friction that changes has no such end.
-        let domain = domain_radius(&indenter, &material, &drive, false).expect("a domain");
+        let domain = domain_radius(&indenter, &material, &drive, false, 0.0).expect("a domain");
         assert!((domain / (0.02 * ROOM_TO_SINK * 1e-6_f64).sqrt() - 1.0).abs() < 1e-3);
     }
 

@@ -26,6 +26,7 @@ mod read;
 mod run;
 mod running_in;
 pub mod scalars;
+mod scar;
 pub mod schema;
 pub mod session;
 pub mod units;

@@ -42,13 +42,23 @@ pub(super) fn setup(
     let material = parts.material()?;
     let wear = parts.wear(&indenter, &material, &drive)?;
     let running_in = parts.running_in()?;
-    let domain = parts.domain_radius(&indenter, &material, &drive, running_in.as_ref());
+    let scar = parts.scar()?;
+    let domain = parts.domain_radius(
+        &indenter,
+        &material,
+        &drive,
+        running_in.as_ref(),
+        scar.as_ref(),
+    );
     let refused = |invalid| parts.refused("numerics", invalid);
     let method: AbelMethod = parts.require(&keys::METHOD)?.parse().map_err(refused)?;
     let (spacing, scheme) = derive::choices(method);
     let grid = parts.grid(method, &indenter, domain)?;
+    if let Some(scar) = &scar {
+        parts.check_scar(scar, &indenter, grid.radius())?;
+    }
     let setup = Setup {
-        scar: parts.scar(&indenter, grid.radius())?,
+        scar,
         grid,
         hardness: parts.hardness()?,
         material,
@@ -108,9 +118,6 @@ const HARDLY_SAME: f64 = 20.0;
 
 /// The fewest points of a table that are to lie within the domain.
 const FEWEST_IN_CONTACT: usize = 4;
-
-/// How deep a scar may be where its table ends inside the domain, relative to its greatest depth.
-const CUT_OFF: f64 = 0.05;
 
 pub(super) struct Parts<'a> {
     /// The values, with the defaults written out.
@@ -426,59 +433,6 @@ impl Parts<'_> {
         Ok(Some(law))
     }
 
-    /// The scar that the run begins with, on a domain that ends at `domain` (m).
-    fn scar(&self, indenter: &Indenter, domain: f64) -> Result<Option<Scar>, ScenarioError> {
-        let (radii, depths) = (&keys::WEAR_INITIAL_RADII, &keys::WEAR_INITIAL_DEPTHS);
-        if self.get(radii).is_none() && self.get(depths).is_none() {
-            return Ok(None);
-        }
-        let scar = Scar::new(&self.require(radii)?, &self.require(depths)?)
-            .map_err(|invalid| self.refused("wear", invalid))?;
-        let length = |value: f64| show(&Value::Float(derive::three_digits(value)));
-        let refuse = |path: &str, rule: String| Err(self.refuse(path, "{...}", rule));
-        let (edge, (last, depth_there)) = (scar.edge(), scar.end());
-        if edge > HARDLY_SAME * domain || HARDLY_SAME * last < domain {
-            let rule = format!(
-                "the scar ends at r = {} m, where contact may reach {} m: is r in m? a column r_mm is converted",
-                length(last.min(edge)),
-                length(domain)
-            );
-            return refuse(radii.path(), rule);
-        }
-        // A punch has no flank, and may be worn as deep as its slopes stay small.
-        let flank = match indenter.rim() {
-            Some(rim) => rim / HARDLY_SAME,
-            None => indenter.profile(domain),
-        };
-        if scar.deepest() > HARDLY_SAME * flank {
-            let rule = format!(
-                "the scar is {} m deep, where a contact has depths of {} m: is the depth in m? a column \
-                 depth_um is converted",
-                length(scar.deepest()),
-                length(flank)
-            );
-            return refuse(depths.path(), rule);
-        }
-        if edge > domain * (1.0 + 1e-9) {
-            let rule = format!(
-                "the scar reaches r = {} m, beyond the domain's edge, {} m; a greater numerics.domain_radius \
-                 would hold it",
-                length(edge),
-                length(domain)
-            );
-            return refuse(radii.path(), rule);
-        }
-        if last < domain * (1.0 - 1e-9) && depth_there > CUT_OFF * scar.deepest() {
-            let rule = format!(
-                "the table ends at r = {} m, where the scar is still {} m deep; a longer trace",
-                length(last),
-                length(depth_there)
-            );
-            return refuse(depths.path(), rule);
-        }
-        Ok(Some(scar))
-    }
-
     /// The domain's edge, m, as given or as derived.
     fn domain_radius(
         &self,
@@ -486,10 +440,12 @@ impl Parts<'_> {
         material: &Material,
         drive: &Drive,
         running_in: Option<&RunningIn>,
+        scar: Option<&Scar>,
     ) -> Option<f64> {
         let given = self.get(&keys::DOMAIN_RADIUS);
         let changes = running_in.is_some_and(|laws| laws.friction.is_some());
-        given.or_else(|| derive::domain_radius(indenter, material, drive, !changes))
+        let worn = scar.map_or(0.0, Scar::deepest);
+        given.or_else(|| derive::domain_radius(indenter, material, drive, !changes, worn))
     }
 
     fn grid(

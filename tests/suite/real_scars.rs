@@ -174,6 +174,39 @@ fn energy_and_volume_are_compared_from_the_scar_on() {
     assert!(refused.contains("cannot change during a run"), "{refused}");
 }
 
+/// A held force presses the indenter on from the scar that it has left: V and d are those of a run at once.
+#[test]
+fn a_held_force_sinks_in_from_its_scar() {
+    let dir = TestDir::new();
+    let force = |cycles: f64, line: &str| {
+        dir.write("force.toml", with_wear("gross-slip", line).as_bytes());
+        let path = dir.path("force.toml").display().to_string();
+        let sets = [
+            "motion.normal.control=force",
+            "motion.normal.mean=30",
+            "motion.normal.amplitude=0",
+        ];
+        let mut session = started(&path, &sets);
+        session.advance_to(cycles).expect("a run");
+        session
+    };
+    let first = force(10.0, "");
+    dir.write(
+        "state.csv",
+        mdr_tui::export::state::table(&first).as_bytes(),
+    );
+    let whole = force(20.0, "").simulation().moment();
+    let second = force(10.0, "initial = \"state.csv\"").simulation().moment();
+    let error = |found: f64, due: f64| (found / due - 1.0).abs();
+    let (volume, depth) = (
+        error(second.wear_volume, whole.wear_volume),
+        error(second.depth, whole.depth),
+    );
+    eprintln!("V {volume:.1e}, d {depth:.1e}");
+    assert!(volume < 0.01 && depth < 5e-3, "{volume} {depth}");
+    assert!(whole.depth > 1.02 * first.simulation().moment().depth);
+}
+
 #[test]
 fn scars_that_do_not_fit_are_told_with_the_reason() {
     let dir = TestDir::new();

@@ -1,0 +1,81 @@
+//! From the keys of a scenario to the scar that a run begins with.
+
+use toml::Value;
+
+use super::check::show;
+use super::derive;
+use super::error::ScenarioError;
+use super::keys::{WEAR_INITIAL_DEPTHS as DEPTHS, WEAR_INITIAL_RADII as RADII};
+use super::validate::Parts;
+use crate::contact::indenter::Indenter;
+use crate::contact::scar::Scar;
+
+/// By what factor lengths may seem off before their unit is in doubt.
+const HARDLY_SAME: f64 = 20.0;
+
+/// How deep a scar may be where its table ends inside the domain, relative to its greatest depth.
+const CUT_OFF: f64 = 0.05;
+
+impl Parts<'_> {
+    /// The scar that the run begins with; none where the scenario names none.
+    pub(super) fn scar(&self) -> Result<Option<Scar>, ScenarioError> {
+        if self.get(&RADII).is_none() && self.get(&DEPTHS).is_none() {
+            return Ok(None);
+        }
+        Scar::new(&self.require(&RADII)?, &self.require(&DEPTHS)?)
+            .map(Some)
+            .map_err(|invalid| self.refused("wear", invalid))
+    }
+
+    /// Refuses a scar that no domain which ends at `domain` (m) can hold, most often for its unit.
+    pub(super) fn check_scar(
+        &self,
+        scar: &Scar,
+        indenter: &Indenter,
+        domain: f64,
+    ) -> Result<(), ScenarioError> {
+        let length = |value: f64| show(&Value::Float(derive::three_digits(value)));
+        let refuse = |path: &str, rule: String| Err(self.refuse(path, "{...}", rule));
+        let (edge, (last, depth_there)) = (scar.edge(), scar.end());
+        if edge > HARDLY_SAME * domain || HARDLY_SAME * last < domain {
+            let rule = format!(
+                "the scar ends at r = {} m, where contact may reach {} m: is r in m? a column r_mm is converted",
+                length(last.min(edge)),
+                length(domain)
+            );
+            return refuse(RADII.path(), rule);
+        }
+        // A punch has no flank, and may be worn as deep as its slopes stay small.
+        let flank = match indenter.rim() {
+            Some(rim) => rim / HARDLY_SAME,
+            None => indenter.profile(domain),
+        };
+        if scar.deepest() > HARDLY_SAME * flank {
+            let rule = format!(
+                "the scar is {} m deep, where a contact has depths of {} m: is the depth in m? a column \
+                 depth_um is converted",
+                length(scar.deepest()),
+                length(flank)
+            );
+            return refuse(DEPTHS.path(), rule);
+        }
+        if edge > domain * (1.0 + 1e-9) {
+            let rule = format!(
+                "the scar reaches r = {} m, beyond the domain's edge, {} m; a greater numerics.domain_radius \
+                 would hold it",
+                length(edge),
+                length(domain)
+            );
+            return refuse(RADII.path(), rule);
+        }
+        if last < domain * (1.0 - 1e-9) && depth_there > CUT_OFF * scar.deepest() {
+            let rule = format!(
+                "the table ends at r = {} m, where the scar is still {} m deep; a longer trace",
+                length(last),
+                length(depth_there)
+            );
+            return refuse(DEPTHS.path(), rule);
+        }
+        Ok(())
+    }
+}

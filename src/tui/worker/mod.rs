@@ -301,6 +301,7 @@ impl Worker {
                 while self.comparison_lags() && !self.halt.load(Ordering::Relaxed) {
                     self.catch_up();
                 }
+                self.follow_hardness();
                 let _ = reply.send(Arc::new(self.frame()));
             }
             Order::Quit => {}
@@ -326,15 +327,19 @@ impl Worker {
     }
 
     fn publish(&mut self) {
-        // The pressure may pass the hardness in any step.
+        self.follow_hardness();
+        self.published = Instant::now();
+        if self.slot.put(Arc::new(self.frame())) {
+            let _ = self.events.send(Event::Frame);
+        }
+    }
+
+    /// The pressure may pass the hardness in any step, and has not yet in an earlier state.
+    fn follow_hardness(&mut self) {
         let passed = self.session.simulation().passed_hardness();
         if self.passed_hardness != passed {
             self.passed_hardness = passed;
             self.warnings = Arc::new(self.session.simulation().warnings());
-        }
-        self.published = Instant::now();
-        if self.slot.put(Arc::new(self.frame())) {
-            let _ = self.events.send(Event::Frame);
         }
     }
 

@@ -50,6 +50,8 @@ fn main() -> ExitCode {
     }
 }
 
+type Transform = Box<dyn Fn(&[f64], &mut [f64])>;
+
 /// Does what is counted so many times.
 fn perform(what: &str, times: &str) -> Result<()> {
     let times: u32 = times.parse().context("not a number of times")?;
@@ -76,7 +78,7 @@ fn perform(what: &str, times: &str) -> Result<()> {
     };
     let values: Vec<f64> = grid.nodes().iter().map(|r| (3.0 * r * r).cos()).collect();
     let mut out = vec![0.0; grid.len()];
-    let transform: Box<dyn Fn(&[f64], &mut [f64])> = match (what, method) {
+    let transform: Transform = match (what, method) {
         ("worn", "dense") => {
             let plan = WornPlan::dense(&grid);
             Box::new(move |from, to| plan.apply(from, to))

@@ -484,13 +484,24 @@ fn the_domain_ends_where_nothing_can_touch() {
         (2.0 * 0.01 * 1.1e-6f64).sqrt(),
         max_relative = 1e-14
     );
-    // Under a force there is room to sink to three times the depth of Hertz.
-    let scenario = load("gross-slip", &[]);
+    // Under a force that swings there is room to sink to three times the depth of Hertz.
+    let scenario = load("gross-slip", &["motion.normal.amplitude=1e-9"]);
     assert_relative_eq!(
         scenario.setup().grid.radius(),
         (2.0 * 0.01 * 3e-6f64).sqrt(),
         max_relative = 1e-3
     );
+    // A force that is held sinks in until nothing slips: (2/3) c³/R + (U/λ) c = F_z/(2E*), d = c²/R + U/λ.
+    let scenario = load("gross-slip", &[]);
+    let setup = scenario.setup();
+    let depth = setup.grid.radius().powi(2) / (2.0 * 0.01) / 1.05;
+    let swing = setup.drive.tangential().expect("a motion").oscillation();
+    let yielding = swing.amplitude() * setup.material.stick_ratio();
+    let c = ((depth - yielding) * 0.01).sqrt();
+    let force =
+        2.0 * setup.material.normal_modulus() * (2.0 / 3.0 * c.powi(3) / 0.01 + yielding * c);
+    let held = setup.drive.normal().oscillation().mean();
+    assert_relative_eq!(force, held, max_relative = 1e-6);
 }
 
 #[test]

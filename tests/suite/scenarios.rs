@@ -485,7 +485,13 @@ fn the_domain_ends_where_nothing_can_touch() {
         max_relative = 1e-14
     );
     // Under a force that swings there is room to sink to three times the depth of Hertz.
-    let scenario = load("gross-slip", &["motion.normal.amplitude=1e-9"]);
+    let scenario = load(
+        "gross-slip",
+        &[
+            "motion.normal.amplitude=1e-9",
+            "motion.normal.angular_frequency=100",
+        ],
+    );
     assert_relative_eq!(
         scenario.setup().grid.radius(),
         (2.0 * 0.01 * 3e-6f64).sqrt(),

@@ -77,6 +77,19 @@ impl Trace {
     }
 }
 
+/// What has worn, over the radius.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Worn {
+    /// r, m.
+    pub radii: Vec<f64>,
+    /// f₀ there, m.
+    pub unworn: Vec<f64>,
+    /// f − f₀, m.
+    pub wear: Vec<f64>,
+    /// Standard errors of f or f − f₀, m.
+    pub errors: Option<Vec<f64>>,
+}
+
 /// Traces of one source.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Ghost {
@@ -190,6 +203,31 @@ impl Ghost {
     /// The trace that shows this.
     pub fn trace(&self, axes: Axes) -> Option<&Trace> {
         self.traces.iter().find(|trace| trace.axes == axes)
+    }
+
+    /// What has worn of it: as its traces say, or by its profile less `unworn`, m at r; none where
+    /// neither is known.
+    pub fn worn(&self, unworn: impl Fn(f64) -> f64) -> Option<Worn> {
+        let (profile, wear) = (self.trace(Axes::Profile), self.trace(Axes::Wear));
+        let trace = wear.or(profile)?;
+        let radii = trace.xs.clone();
+        let unworn: Vec<f64> = match (profile, wear) {
+            (Some(profile), Some(wear)) => {
+                let both = profile.ys.iter().zip(&wear.ys);
+                both.map(|(f, wear)| f - wear).collect()
+            }
+            _ => radii.iter().map(|&r| unworn(r)).collect(),
+        };
+        let wear = match wear {
+            Some(wear) => wear.ys.clone(),
+            None => trace.ys.iter().zip(&unworn).map(|(f, f0)| f - f0).collect(),
+        };
+        Some(Worn {
+            radii,
+            unworn,
+            wear,
+            errors: trace.errors.clone(),
+        })
     }
 
     /// All traces.

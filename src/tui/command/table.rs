@@ -239,6 +239,20 @@ pub static BINDINGS: &[Binding] = &[
         false,
     ),
     bind(
+        C::Freeze,
+        &[Char('g')],
+        "ghost",
+        "freeze this state as a ghost in the plots",
+        false,
+    ),
+    bind(
+        C::DropGhosts,
+        &[Char('G')],
+        "no ghosts",
+        "remove all ghosts: frozen states and overlays",
+        false,
+    ),
+    bind(
         C::Accuracy,
         &[Char('a')],
         "accuracy",

@@ -5,8 +5,9 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 
-use super::{App, Frame, Panel, nothing, plot};
+use super::{App, Frame, Panel, ghosts, nothing, plot};
 use crate::plot::{Axis, Curve, Point};
+use crate::studies::ghost::Axes;
 use crate::tui::theme::Role;
 
 /// What the ordinate must hold.
@@ -14,7 +15,8 @@ pub fn ordinates(frame: &Frame) -> Vec<f64> {
     if frame.observation.moment.stick_radius.is_none() {
         return Vec::new();
     }
-    frame.trend.fretting_loop().1
+    let ghosts = ghosts::ordinates(&ghosts::on(frame, Axes::Loop, 1.0));
+    [frame.trend.fretting_loop().1, ghosts].concat()
 }
 
 /// Draws the panel.
@@ -32,12 +34,14 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
         sign: if back { '◀' } else { '▶' },
         style: theme.style(Role::Alarm),
     };
+    let mut ghosts = ghosts::on(frame, Axes::Loop, 1.0);
     plot(
         Panel::Loop,
         app,
         Axis::new("u_x", "m"),
         Axis::new("F_x", "N"),
     )
+    .curves(ghosts::curves(&mut ghosts, app))
     .curve(Curve::new("", &shifts, &forces, theme.style(Role::Shear)))
     .point(here)
     .render(area, buffer);

@@ -64,7 +64,10 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
     let load = |given: &String| Source::load(given, reach).map_err(Misuse);
     let ghosts: Vec<Source> = options.overlay.iter().map(load).collect::<Result<_, _>>()?;
     if ghosts.len() > MOST {
-        let message = format!("--overlay: takes {MOST} or fewer; there are {}", ghosts.len());
+        let message = format!(
+            "--overlay: takes {MOST} or fewer; there are {}",
+            ghosts.len()
+        );
         return Err(Misuse(message).into());
     }
     let keep_in = autosave::state_directory();

@@ -291,8 +291,7 @@ impl Ghost {
         ) {
             let end = cycles.last().copied().unwrap_or(0.0);
             let rows = (0..cycles.len()).filter(|&row| cycles[row] >= end - 1.0 - 1e-9);
-            let (xs, ys): (Vec<f64>, Vec<f64>) =
-                rows.map(|row| (shifts[row], forces[row])).unzip();
+            let (xs, ys): (Vec<f64>, Vec<f64>) = rows.map(|row| (shifts[row], forces[row])).unzip();
             if xs.len() >= SHORTEST_LOOP {
                 self.add(Axes::Loop, xs, ys);
             }
@@ -358,7 +357,10 @@ mod tests {
             ("r_m,wear_m\n0,0\n1,NaN\n2,2\n", "must be a finite number"),
         ] {
             let error = ghost(text).expect_err("a refusal").to_string();
-            assert!(error.contains(part) && error.lines().count() == 1, "{error}");
+            assert!(
+                error.contains(part) && error.lines().count() == 1,
+                "{error}"
+            );
         }
         let scar = ghost("r_m,wear_m\n0,1\n0.05,0.5\n0.1,0\n").expect("a ghost");
         assert!(scar.check_radii(0.1).is_ok());

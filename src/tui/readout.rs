@@ -149,7 +149,11 @@ fn compared(frame: &Frame, focus: Panel, r: f64, ascii: bool) -> Vec<String> {
         let difference = value - seen.value;
         let sign = if difference < 0.0 { "" } else { "+" };
         let name: String = ghost.name.chars().take(LONGEST_NAME).collect();
-        let name = if ascii { to_ascii(&name).into_owned() } else { name };
+        let name = if ascii {
+            to_ascii(&name).into_owned()
+        } else {
+            name
+        };
         parts.push(format!(
             " {name} {} ({sign}{}) ",
             shown(value),

@@ -69,7 +69,11 @@ fn history(session: &Session, trend: &Trend) -> String {
     let names = COLUMNS.map(|(name, _)| name).join(",");
     let mut text = format!("{}{names}\n", lines(session));
     for entry in trend.cycles() {
-        let _ = writeln!(text, "{}", COLUMNS.map(|(_, of)| field(of(entry))).join(","));
+        let _ = writeln!(
+            text,
+            "{}",
+            COLUMNS.map(|(_, of)| field(of(entry))).join(",")
+        );
     }
     text
 }
@@ -109,7 +113,9 @@ pub(super) fn about(path: &Path) -> Option<String> {
     };
     let (cycle, title) = (fact("cycle")?, fact("scenario")?);
     let note = fact("note").map_or_else(String::new, |note| format!(" Note: {note}."));
-    Some(format!("{title}, cycle {cycle}.{note} Enter goes on from there"))
+    Some(format!(
+        "{title}, cycle {cycle}.{note} Enter goes on from there"
+    ))
 }
 
 /// Opens the state in a directory.
@@ -161,7 +167,10 @@ fn past(directory: &Path, cycle: f64) -> Trend {
         let shifts = table.column_with_gaps("u", Quantity::Length)?;
         let forces = table.column_with_gaps("F", Quantity::Force)?;
         let rows = 0..cycles.len();
-        Some(rows.map(|row| [cycles[row], shifts[row], forces[row]]).collect())
+        Some(
+            rows.map(|row| [cycles[row], shifts[row], forces[row]])
+                .collect(),
+        )
     });
     Trend::of_past(entries, rows.unwrap_or_default())
 }

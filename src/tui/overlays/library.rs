@@ -166,7 +166,9 @@ impl Library {
     fn take(&mut self) -> Answer {
         match &self.entries[self.at] {
             Entry::Preset(preset) => Answer::Load(preset.name.to_owned()),
-            Entry::File(path) | Entry::Snapshot(path, _) => Answer::Load(path.to_string_lossy().into_owned()),
+            Entry::File(path) | Entry::Snapshot(path, _) => {
+                Answer::Load(path.to_string_lossy().into_owned())
+            }
             Entry::Directory(path) => {
                 let path = path.clone();
                 self.enter(path);

@@ -66,9 +66,8 @@ fn lines(frame: &Frame, of: impl Fn(&Ghost) -> Option<Points>) -> Vec<Line> {
     let lines = ghosts.filter_map(|(ghost, stroke)| {
         let (xs, ys, errors) = of(ghost)?;
         let points = xs.iter().zip(&ys).zip(errors.iter().flatten());
-        let bars = points.flat_map(|((&x, &y), &error)| {
-            [(x, y - error), (x, y + error), (f64::NAN, f64::NAN)]
-        });
+        let bars = points
+            .flat_map(|((&x, &y), &error)| [(x, y - error), (x, y + error), (f64::NAN, f64::NAN)]);
         let (bar_xs, bar_ys) = bars.unzip();
         Some(Line {
             name: ghost.name.clone(),
@@ -102,7 +101,9 @@ pub(super) fn worn(frame: &Frame, times: Option<f64>) -> Vec<Line> {
             None => *wear,
         });
         let times = times.unwrap_or(1.0);
-        let errors = worn.errors.map(|errors| errors.iter().map(|e| times * e).collect());
+        let errors = worn
+            .errors
+            .map(|errors| errors.iter().map(|e| times * e).collect());
         Some((worn.radii, ys.collect(), errors))
     })
 }
@@ -117,7 +118,10 @@ pub(super) fn curves<'a>(lines: &'a mut [Line], app: &App) -> Vec<Curve<'a>> {
     for line in lines.iter_mut() {
         line.name = app.theme.printable(&line.name);
     }
-    lines.iter().flat_map(|line| line.curves(&app.theme)).collect()
+    lines
+        .iter()
+        .flat_map(|line| line.curves(&app.theme))
+        .collect()
 }
 
 /// The last abscissa of the traces on one of `axes`.
@@ -125,5 +129,7 @@ pub(super) fn end(frame: &Frame) -> f64 {
     let over_cycles = [Axes::Volume, Axes::Depth, Axes::Contact, Axes::Stick];
     let traces = frame.ghosts.iter().flat_map(|ghost| ghost.traces());
     let traces = traces.filter(|trace| over_cycles.contains(&trace.axes));
-    traces.filter_map(|trace| trace.xs.last().copied()).fold(0.0, f64::max)
+    traces
+        .filter_map(|trace| trace.xs.last().copied())
+        .fold(0.0, f64::max)
 }

@@ -1,7 +1,7 @@
 //! The 3D profile f(r), worn and unworn, with the zones of the contact under it. The wear is drawn
 //! magnified where it would be thinner than a line.
 
-use super::{App, Frame, Panel, curve, ghosts, edge_marks, radial_plot, zones};
+use super::{App, Frame, Panel, curve, edge_marks, ghosts, radial_plot, zones};
 use crate::math::scan::largest;
 use crate::plot::{Band, Plot};
 use crate::tui::theme::Role;

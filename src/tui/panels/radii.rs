@@ -30,7 +30,6 @@ fn ghosts(frame: &Frame) -> Vec<ghosts::Line> {
     lines
 }
 
-
 /// Draws the panel.
 pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = &app.theme;

@@ -438,7 +438,11 @@ impl Worker {
             checks,
             warnings: Arc::clone(&self.warnings),
             theory: Arc::clone(&self.theory),
-            ghosts: self.ghosts.iter().map(|ghost| ghost.seen(self.curves)).collect(),
+            ghosts: self
+                .ghosts
+                .iter()
+                .map(|ghost| ghost.seen(self.curves))
+                .collect(),
             comparison: self.comparison.as_ref().map(ComparisonRun::seen),
         }
     }

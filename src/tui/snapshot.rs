@@ -131,17 +131,18 @@ pub fn open(directory: &Path) -> Result<Opened, String> {
     };
     let kept = checkpoint::read::<IgnoredAny>(&path).map_err(|error| error.to_string())?;
     let session = kept.session;
-    let mut trend = past(directory, session.simulation().cycle());
-    super::ghosts::record(&mut trend, &session);
+    let trend = past(directory, session.simulation().cycle()).unwrap_or_else(|| {
+        let mut trend = Trend::default();
+        super::ghosts::record(&mut trend, &session);
+        trend
+    });
     Ok(Opened { session, trend })
 }
 
-/// The past up to `cycle`, as far as the tables beside a checkpoint tell of it.
-fn past(directory: &Path, cycle: f64) -> Trend {
+/// The past up to `cycle` as the tables beside a checkpoint tell of it.
+fn past(directory: &Path, cycle: f64) -> Option<Trend> {
     let table = |name: &str| Columns::read(&directory.join(name)).ok();
-    let Some(history) = table("history.csv") else {
-        return Trend::default();
-    };
+    let history = table("history.csv")?;
     let column = |name: &str, quantity| {
         let values = history.column_with_gaps(name, quantity);
         values.unwrap_or_else(|| vec![f64::NAN; history.rows()])
@@ -152,7 +153,7 @@ fn past(directory: &Path, cycle: f64) -> Trend {
     let volume = column("wear_volume", Quantity::Volume);
     let depth = column("scar_depth", Quantity::Length);
     let residual = column("period_energy_residual", Quantity::Number);
-    let entries = (0..history.rows()).filter(|&row| cycles[row] < cycle);
+    let entries = (0..history.rows()).filter(|&row| cycles[row] <= cycle);
     let entries = entries.map(|row| Cycle {
         cycle: cycles[row],
         contact_radius: contact[row],
@@ -172,5 +173,5 @@ fn past(directory: &Path, cycle: f64) -> Trend {
                 .collect(),
         )
     });
-    Trend::of_past(entries, rows.unwrap_or_default())
+    Some(Trend::of_past(entries, rows.unwrap_or_default()))
 }

@@ -122,11 +122,14 @@ impl Trend {
             trend.cycles.push(entry);
         }
         // What is not whole yet stays open.
-        if let [.., whole, last] = trend.cycles[..]
-            && last.cycle < whole.cycle + 1.0 - 1e-9
+        let whole = trend.cycles.iter().rev().nth(1);
+        let whole = whole.map_or(0.0, |entry| entry.cycle);
+        if trend
+            .cycles
+            .last()
+            .is_some_and(|last| last.cycle < whole + 1.0 - 1e-9)
         {
-            trend.cycles.pop();
-            trend.tip.open = Some(last);
+            trend.tip.open = trend.cycles.pop();
         }
         for [cycle, shift, force] in steps.into_iter().take(LOOP_CAPACITY) {
             trend.tip.loop_cycles.push_back(cycle);

@@ -137,7 +137,7 @@ pub static BINDINGS: &[Binding] = &[
         C::Snapshot,
         &[Char('s')],
         "snapshot",
-        "write state.csv and scenario.toml to a new directory",
+        "write state, history and loop to a new directory",
         true,
     ),
     bind(

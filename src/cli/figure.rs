@@ -43,6 +43,7 @@ pub fn figure(options: &Figure) -> Result<ExitCode> {
     for path in [&options.out, &data_file] {
         check(path, options.force)?;
     }
+    refuse_to_write_over_data(options, &data_file)?;
     let sheet = sheet(options)?;
     let look = Look {
         font: options.font_size * POINT,
@@ -80,6 +81,22 @@ fn check(path: &Path, force: bool) -> Result<(), Misuse> {
             refuse("its directory does not exist")
         }
         _ => Ok(()),
+    }
+}
+
+/// `--force` is for figures: measured data beside one are not written over.
+fn refuse_to_write_over_data(options: &Figure, data_file: &Path) -> Result<(), Misuse> {
+    let same = |given: &&String| {
+        let both = [Path::new(given), data_file].map(|path| path.canonicalize().ok());
+        both[0].is_some() && both[0] == both[1]
+    };
+    let sources = options.source.iter().chain(&options.overlay);
+    match sources.clone().find(same) {
+        None => Ok(()),
+        Some(given) => Err(Misuse(format!(
+            "-o {}: its data would be written over {given}; choose another name",
+            options.out.display()
+        ))),
     }
 }
 

@@ -17,7 +17,7 @@ use crate::figure::panels::Panel;
     mdr-tui figure --figure fig2 -o fig2.pdf                 Fig. 2 of the paper\n  \
     mdr-tui figure --figure fig3 -o fig3.svg                 Fig. 3 of the paper\n  \
     mdr-tui figure fig3-run --panel loop -o loop.svg         one chart of a run's directory\n  \
-    mdr-tui figure fig3-run --overlay scar.csv -o scar.pdf   with a measured scar over it\n  \
+    mdr-tui figure fig3-run --overlay scar.csv -o worn.pdf   with a measured scar over it\n  \
     mdr-tui figure mine.toml --at 10,50,200 --panel profile --size 85x60 --style grey -o f.pdf\n\n\
     Beside FILE, the same name with .csv holds exactly what is drawn, and what a caption needs.")]
 pub struct Figure {

@@ -126,7 +126,7 @@ pub fn open(directory: &Path) -> Result<Opened, String> {
     let Some(path) = checkpoint_in(directory) else {
         let shown = printable(&directory.display().to_string());
         return Err(format!(
-            "{shown}: holds no {CHECKPOINT} to go on from; give its scenario.toml to start anew"
+            "{shown}: is a directory without a {CHECKPOINT} to go on from; its scenario.toml starts anew"
         ));
     };
     let kept = checkpoint::read::<IgnoredAny>(&path).map_err(|error| error.to_string())?;

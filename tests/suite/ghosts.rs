@@ -336,7 +336,7 @@ fn a_directory_without_a_state_is_refused_and_torn_ones_too() {
     };
     refused(
         &["x"],
-        "x: holds no state.checkpoint to go on from; give its scenario.toml",
+        "x: is a directory without a state.checkpoint to go on from; its scenario.toml",
     );
     shot(&dir, "80x24", ",s", &[SCENE]);
     let file = dir.path("li2019-fig3-cycle-1/state.checkpoint");
@@ -441,7 +441,9 @@ fn a_snapshot_makes_figures_and_is_an_overlay() {
     let snapshot = "li2019-fig3-cycle-3";
     dir.done(&format!("figure {snapshot} --panel loop --panel volume --panel radii --panel scar-depth -o f.svg --quiet"));
     let figure = Table::parse(&dir.read("f.csv"));
-    let steps = Table::parse(&dir.read("li2019-fig3-cycle-3/loop.csv")).rows.len();
+    let steps = Table::parse(&dir.read("li2019-fig3-cycle-3/loop.csv"))
+        .rows
+        .len();
     assert!(steps > 100, "{steps}");
     let count = |panel: &str| figure.rows.iter().filter(|row| row[0] == panel).count();
     assert_eq!(

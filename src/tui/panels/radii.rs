@@ -37,17 +37,12 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     let stick = series(frame, |entry| entry.stick_radius).1;
     let ends = [0.0, cycles.last().copied().unwrap_or(0.0).max(1.0)];
     let mut ghosts = ghosts(frame);
-    let mut plot = over_cycles(Panel::Radii, frame, app, Axis::new("radius", "m")).curve(curve(
-        "contact a",
-        &cycles,
-        &contact,
-        theme,
-        Role::Contact,
-    ));
+    let mut plot = over_cycles(Panel::Radii, frame, app, Axis::new("radius", "m"))
+        .curves(ghosts::curves(&mut ghosts, app))
+        .curve(curve("contact a", &cycles, &contact, theme, Role::Contact));
     if stick.iter().any(|radius| radius.is_finite()) {
         plot = plot.curve(curve("stick c", &cycles, &stick, theme, Role::Stick).dashed());
     }
-    plot = plot.curves(ghosts::curves(&mut ghosts, app));
     let theory = app.theory_of(frame).and_then(|theory| theory.stick_radius);
     let line = theory.map(|radius| [radius; 2]);
     if let Some(line) = &line {

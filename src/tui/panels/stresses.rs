@@ -69,13 +69,16 @@ pub fn plotted<T>(frame: &Frame, app: &App, then: impl FnOnce(&Plot<'_>) -> T) -
         .into_iter()
         .map(|shear| if scale == Scale::Log { shear.abs() } else { shear } / frame.friction)
         .collect();
-    let mut plot = radial_plot(Panel::Stresses, app, frame, "r", ("stress", "Pa")).curve(curve(
-        "p",
-        &seen.radii,
-        &seen.pressure,
-        theme,
-        Role::Pressure,
-    ));
+    let mut ghosts = ghosts(frame, scale);
+    let mut plot = radial_plot(Panel::Stresses, app, frame, "r", ("stress", "Pa"))
+        .curves(ghosts::curves(&mut ghosts, app))
+        .curve(curve(
+            "p",
+            &seen.radii,
+            &seen.pressure,
+            theme,
+            Role::Pressure,
+        ));
     if !shear.is_empty() {
         plot = plot.curve(
             curve(name, &seen.radii, &shear, theme, Role::Shear).dashed_if(!theme.colored()),
@@ -87,8 +90,6 @@ pub fn plotted<T>(frame: &Frame, app: &App, then: impl FnOnce(&Plot<'_>) -> T) -
     if !cattaneo.is_empty() {
         plot = plot.curve(curve("Cattaneo", &seen.radii, &cattaneo, theme, Role::Unworn).dashed());
     }
-    let mut ghosts = ghosts(frame, scale);
-    plot = plot.curves(ghosts::curves(&mut ghosts, app));
     for mark in edge_marks(frame, theme) {
         plot = plot.mark(mark);
     }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::beside::Beside;
-use super::trend::{Cycle, Trend};
+use super::trend::{OfCycle, Trend};
 use crate::math::scan::largest;
 use crate::scenario::Scenario;
 use crate::scenario::session::Session;
@@ -155,7 +155,7 @@ fn ghost(name: &str, session: &Session, trend: &Trend, curves: Curves) -> Ghost 
         ghost.add(Axes::Loop, shifts, forces);
     }
     let cycles: Vec<f64> = trend.cycles().map(|entry| entry.cycle).collect();
-    let series: [(Axes, fn(&Cycle) -> f64); 4] = [
+    let series: [(Axes, OfCycle); 4] = [
         (Axes::Volume, |entry| entry.wear_volume),
         (Axes::Depth, |entry| entry.scar_depth),
         (Axes::Contact, |entry| entry.contact_radius),

@@ -62,38 +62,40 @@ fn at(frame: &Frame, values: &[f64], r: f64) -> Option<f64> {
 }
 
 /// What a panel compares at one place.
-struct Quantity<'a> {
+struct Quantity {
     name: &'static str,
     unit: &'static str,
     /// The run's own value.
     value: f64,
     /// Whether the place is a radius, and not the present moment.
     over_r: bool,
-    /// The value of a ghost there.
-    of: Box<dyn Fn(&Ghost) -> Option<f64> + 'a>,
+    /// The value of each ghost there, where it has one.
+    ghosts: Vec<Option<f64>>,
 }
 
 /// What the focused panel shows: at the radius, or at the present cycle and displacement.
-fn quantity(frame: &Frame, focus: Panel, r: f64) -> Option<Quantity<'_>> {
+fn quantity(frame: &Frame, focus: Panel, r: f64) -> Option<Quantity> {
     let (seen, moment) = (&frame.observation, &frame.observation.moment);
+    let of_each = |of: &dyn Fn(&Ghost) -> Option<f64>| {
+        let ghosts = frame.ghosts.iter();
+        ghosts.map(|ghost| of(ghost)).collect()
+    };
     let over_r = |name, unit, values: &[f64], axes| {
-        let of = move |ghost: &Ghost| ghost.trace(axes)?.value_at(r);
         Some(Quantity {
             name,
             unit,
             value: at(frame, values, r)?,
             over_r: true,
-            of: Box::new(of),
+            ghosts: of_each(&|ghost| ghost.trace(axes)?.value_at(r)),
         })
     };
     let now = |name, unit, value, axes| {
-        let of = move |ghost: &Ghost| ghost.trace(axes)?.value_at(moment.cycle);
         Some(Quantity {
             name,
             unit,
             value,
             over_r: false,
-            of: Box::new(of),
+            ghosts: of_each(&|ghost| ghost.trace(axes)?.value_at(moment.cycle)),
         })
     };
     match focus {
@@ -114,12 +116,12 @@ fn quantity(frame: &Frame, focus: Panel, r: f64) -> Option<Quantity<'_>> {
                 unit: "N",
                 value: moment.tangential_force,
                 over_r: false,
-                of: Box::new(move |ghost| ghost.trace(Axes::Loop)?.force_at(moment.shift, rises)),
+                ghosts: of_each(&|ghost| ghost.trace(Axes::Loop)?.force_at(moment.shift, rises)),
             })
         }
         _ => {
             let value = at(frame, &seen.wear, r)?;
-            let of = move |ghost: &Ghost| {
+            let worn = |ghost: &Ghost| {
                 let worn = ghost.worn(|r| frame.indenter.profile(r))?;
                 Curve::new("", &worn.radii, &worn.wear, Default::default()).value_at(r)
             };
@@ -128,7 +130,7 @@ fn quantity(frame: &Frame, focus: Panel, r: f64) -> Option<Quantity<'_>> {
                 unit: "m",
                 value,
                 over_r: true,
-                of: Box::new(of),
+                ghosts: of_each(&worn),
             })
         }
     }
@@ -142,8 +144,8 @@ fn compared(frame: &Frame, focus: Panel, r: f64, ascii: bool) -> Vec<String> {
     };
     let shown = |value: f64| format_value_in(value, seen.unit, DIGITS, ascii);
     let mut parts = vec![format!(" {} {} ", seen.name, shown(seen.value))];
-    for ghost in &frame.ghosts {
-        let Some(value) = (seen.of)(ghost) else {
+    for (ghost, value) in frame.ghosts.iter().zip(&seen.ghosts) {
+        let Some(value) = *value else {
             continue;
         };
         let difference = value - seen.value;

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use serde::de::IgnoredAny;
 
-use super::trend::{Cycle, Trend};
+use super::trend::{Cycle, OfCycle, Trend};
 use crate::export::file::{RUN_CHECKPOINT, RunDirectory, WriteError};
 use crate::export::header::{lines, number};
 use crate::export::state;
@@ -56,7 +56,7 @@ pub(super) fn write(
 }
 
 /// The columns of the history and what they are of a cycle.
-const COLUMNS: [(&str, fn(&Cycle) -> f64); 6] = [
+const COLUMNS: [(&str, OfCycle); 6] = [
     ("cycle", |entry| entry.cycle),
     ("contact_radius_m", |entry| entry.contact_radius),
     ("permanent_stick_radius_m", |entry| entry.stick_radius),

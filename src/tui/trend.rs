@@ -43,6 +43,9 @@ pub struct Cycle {
     pub normal_force: f64,
 }
 
+/// A quantity of a cycle.
+pub type OfCycle = fn(&Cycle) -> f64;
+
 /// The loop of one cycle that is kept.
 #[derive(Debug, Clone, PartialEq)]
 struct Loop {

@@ -18,6 +18,15 @@ pub const VARIABLE: &str = "MDR_TUI_COMPLETE";
 
 /// Presets, and the directories and `.toml` files that continue what was typed.
 pub fn scenarios(typed: &OsStr) -> Vec<CompletionCandidate> {
+    presets_and_files(typed, &["toml"])
+}
+
+/// What can be laid over plots: as for a scenario, and tables.
+pub fn overlays(typed: &OsStr) -> Vec<CompletionCandidate> {
+    presets_and_files(typed, &["toml", "csv"])
+}
+
+fn presets_and_files(typed: &OsStr, endings: &[&str]) -> Vec<CompletionCandidate> {
     let Some(typed) = typed.to_str() else {
         return Vec::new();
     };
@@ -25,7 +34,7 @@ pub fn scenarios(typed: &OsStr) -> Vec<CompletionCandidate> {
         .iter()
         .filter(|preset| preset.name.starts_with(typed))
         .map(|preset| CompletionCandidate::new(preset.name).help(Some(preset.title().into())));
-    presets.chain(files(typed)).collect()
+    presets.chain(files(typed, endings)).collect()
 }
 
 /// The names of the presets.
@@ -75,19 +84,23 @@ fn words(parameter: &'static Parameter) -> &'static [&'static str] {
     }
 }
 
-/// Directories and scenario files whose path begins with `typed`.
-fn files(typed: &str) -> Vec<CompletionCandidate> {
+/// Directories, and files with one of `endings`, whose path begins with `typed`.
+fn files(typed: &str, endings: &[&str]) -> Vec<CompletionCandidate> {
     let (folder, start) = match typed.rsplit_once('/') {
         Some((folder, start)) => (format!("{folder}/"), start),
         None => (String::new(), typed),
     };
     let place = if folder.is_empty() { "." } else { &folder };
+    let has_ending = |name: &str| {
+        let ending = name.rsplit_once('.').map(|(_, ending)| ending);
+        ending.is_some_and(|ending| endings.contains(&ending))
+    };
     let entries = fs::read_dir(place).into_iter().flatten().flatten();
     let mut found: Vec<String> = entries
         .filter_map(|entry| {
             let name = entry.file_name().into_string().ok()?;
             let is_folder = entry.path().is_dir();
-            let wanted = name.starts_with(start) && (is_folder || name.ends_with(".toml"));
+            let wanted = name.starts_with(start) && (is_folder || has_ending(&name));
             let hidden = name.starts_with('.') && start.is_empty();
             let end = if is_folder { "/" } else { "" };
             (wanted && !hidden).then(|| format!("{folder}{name}{end}"))

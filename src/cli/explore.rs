@@ -1,6 +1,7 @@
 //! The explorer, opened from the command line.
 
 use std::io::{self, IsTerminal, Write};
+use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 
@@ -15,8 +16,9 @@ use crate::plot::Marker;
 use crate::scenario::session::Session;
 use crate::scenario::{Scenario, checkpoint};
 use crate::studies::refinement::SCREEN_PATIENCE;
+use crate::tui::ghosts::{MOST, Source};
 use crate::tui::theme::Look;
-use crate::tui::{self, Capture, Cast, Format, Options, Script, Stroke, command};
+use crate::tui::{self, Capture, Cast, Format, Options, Script, Stroke, command, snapshot};
 
 /// The largest number of frames per second.
 const DEFAULT_FPS: u16 = 10;
@@ -31,8 +33,23 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
         Some(ColorChoice::Auto) | None => None,
     };
     command::bind(config.keys);
+    let directory = Path::new(&options.scenario);
+    let mut past = None;
     let session = match &options.resume {
         Some(file) => checkpoint::read::<IgnoredAny>(file)?.session,
+        None if directory.is_dir() => {
+            if !options.changes.set.is_empty() {
+                let message = format!(
+                    "{}: goes on as it was put away, so --set changes nothing; \
+                     give its scenario.toml to start anew",
+                    options.scenario
+                );
+                return Err(Misuse(message).into());
+            }
+            let opened = snapshot::open(directory).map_err(Misuse)?;
+            past = Some(opened.trend);
+            opened.session
+        }
         None => {
             let scenario = Scenario::load(&options.scenario, &options.changes.set)?;
             let never = AtomicBool::new(false);
@@ -43,6 +60,16 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
             Session::start(found.scenario)?
         }
     };
+    let reach = session.simulation().setup().grid.radius();
+    let load = |given: &String| Source::load(given, reach).map_err(Misuse);
+    let ghosts: Vec<Source> = options.overlay.iter().map(load).collect::<Result<_, _>>()?;
+    if ghosts.len() > MOST {
+        let message = format!(
+            "--overlay: takes {MOST} or fewer; there are {}",
+            ghosts.len()
+        );
+        return Err(Misuse(message).into());
+    }
     let keep_in = autosave::state_directory();
     let record = options.record.as_deref().map(|path| {
         Cast::create(path, options.print.is_some()).map_err(|error| {
@@ -55,8 +82,10 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
     });
     let farewell = tui::run(Options {
         record: record.transpose()?,
+        running: options.resume.is_none() && past.is_none(),
         session,
-        running: options.resume.is_none(),
+        past,
+        ghosts,
         keep_in,
         keep_every: options.checkpoint_every.0,
         fps: options.fps.or(config.fps).unwrap_or(DEFAULT_FPS),

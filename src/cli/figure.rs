@@ -10,12 +10,14 @@ use anyhow::{Context, Result};
 use super::args::{Figure, PaperFigure, StyleChoice};
 use super::{Misuse, job};
 use crate::export::file::write_whole;
+use crate::figure::chart::Chart;
 use crate::figure::data::{Data, Table};
-use crate::figure::ink::{Look, Style};
+use crate::figure::ink::{Ink, Look, Style};
 use crate::figure::panels::Panel;
 use crate::figure::{Format, Sheet, paper};
 use crate::scenario::session::Session;
 use crate::scenario::{Scenario, printable};
+use crate::studies::ghost::Ghost;
 
 /// The scene of the paper's Fig. 3.
 const OF_THE_PAPER: &str = "li2019-fig3";
@@ -41,6 +43,7 @@ pub fn figure(options: &Figure) -> Result<ExitCode> {
     for path in [&options.out, &data_file] {
         check(path, options.force)?;
     }
+    refuse_to_write_over_data(options, &data_file)?;
     let sheet = sheet(options)?;
     let look = Look {
         font: options.font_size * POINT,
@@ -81,6 +84,22 @@ fn check(path: &Path, force: bool) -> Result<(), Misuse> {
     }
 }
 
+/// `--force` is for figures: measured data beside one are not written over.
+fn refuse_to_write_over_data(options: &Figure, data_file: &Path) -> Result<(), Misuse> {
+    let same = |given: &&String| {
+        let both = [Path::new(given), data_file].map(|path| path.canonicalize().ok());
+        both[0].is_some() && both[0] == both[1]
+    };
+    let sources = options.source.iter().chain(&options.overlay);
+    match sources.clone().find(same) {
+        None => Ok(()),
+        Some(given) => Err(Misuse(format!(
+            "-o {}: its data would be written over {given}; choose another name",
+            options.out.display()
+        ))),
+    }
+}
+
 fn sheet(options: &Figure) -> Result<Sheet> {
     if options.figure == Some(PaperFigure::Fig2) {
         if let Some(source) = &options.source {
@@ -98,7 +117,11 @@ fn sheet(options: &Figure) -> Result<Sheet> {
             return Err(Misuse(message.into()).into());
         }
     };
-    let data = data(source, options)?;
+    let mut data = data(source, options)?;
+    for given in &options.overlay {
+        let ghost = ghost(given, &data)?;
+        data.ghosts.push(ghost);
+    }
     let refused = |error| Misuse(format!("{source}: {error}"));
     if options.figure.is_some() {
         return Ok(paper::fretting(&data).map_err(refused)?);
@@ -108,7 +131,7 @@ fn sheet(options: &Figure) -> Result<Sheet> {
             let charts = panels.iter().map(|panel| panel.chart(&data));
             charts.filter_map(Result::ok).collect()
         };
-        let usual = found(&USUAL);
+        let usual = found(&usual(&data.ghosts));
         if usual.is_empty() {
             found(&Panel::ALL)
         } else {
@@ -118,6 +141,7 @@ fn sheet(options: &Figure) -> Result<Sheet> {
         let charts = options.panel.iter().map(|panel| panel.chart(&data));
         charts.collect::<Result<_, _>>().map_err(refused)?
     };
+    refuse_what_no_chart_shows(options, &data.ghosts, &charts)?;
     let facts = data.facts();
     let title = facts.iter().find(|(key, _)| key == "scenario");
     Ok(Sheet {
@@ -125,6 +149,61 @@ fn sheet(options: &Figure) -> Result<Sheet> {
         facts,
         charts,
     })
+}
+
+/// The usual charts, and those that curves of other sources belong to.
+fn usual(ghosts: &[Ghost]) -> Vec<Panel> {
+    let of_ghosts = [Panel::WornDepth, Panel::Volume, Panel::ScarDepth];
+    let is_wanted = |panel: &Panel| {
+        let measured = ghosts.iter().filter(|ghost| ghost.is_measured);
+        let mut shown = measured.filter(|ghost| panel.shows(ghost));
+        shown.next().is_some()
+    };
+    let mut panels = USUAL.to_vec();
+    panels.extend(of_ghosts.into_iter().filter(is_wanted));
+    panels
+}
+
+/// What was asked for over the charts is on one of them, or the user hears which one lacks.
+fn refuse_what_no_chart_shows(
+    options: &Figure,
+    ghosts: &[Ghost],
+    charts: &[Chart],
+) -> Result<(), Misuse> {
+    for (k, (given, ghost)) in options.overlay.iter().zip(ghosts).enumerate() {
+        let mut curves = charts.iter().flat_map(|chart| &chart.curves);
+        if curves.any(|curve| curve.ink == Ink::Ghost(k)) {
+            continue;
+        }
+        let places = Panel::ALL.into_iter().filter(|panel| panel.shows(ghost));
+        let names: Vec<&str> = places.map(Panel::name).collect();
+        return Err(Misuse(format!(
+            "--overlay {given}: is on none of these charts; it belongs to --panel {}",
+            names.join(" or ")
+        )));
+    }
+    Ok(())
+}
+
+/// The curves of a file or of a directory, or of a scenario that is run as far as the figure goes.
+fn ghost(given: &str, data: &Data) -> Result<Ghost> {
+    let path = Path::new(given);
+    let is_scenario = path
+        .extension()
+        .is_none_or(|end| end.eq_ignore_ascii_case("toml"));
+    if !is_scenario || path.is_dir() {
+        let ghost = Ghost::read(path)?;
+        if let Some(reach) = data.reach() {
+            ghost.check_radii(reach).map_err(Misuse)?;
+        }
+        return Ok(ghost);
+    }
+    let scenario = Scenario::load(given, &[])?;
+    let end = data.end().or(scenario.run().cycles);
+    let end = job::end(end, given)?;
+    let name = scenario.stem();
+    let mut session = Session::start(scenario).with_context(|| printable(given))?;
+    Ok(Data::run(&mut session, &[end], false)?.ghost(&name))
 }
 
 /// The tables of a run that is on the disk, or is run now.
@@ -177,7 +256,7 @@ fn from_directory(directory: &Path) -> Result<Data> {
             .map(|name| name.to_string_lossy().into_owned());
         let name = name.unwrap_or_default();
         let is_state = name.starts_with("state") && name.ends_with(".csv");
-        if is_state || name == "history.csv" || name == "field.csv" {
+        if is_state || ["history.csv", "loop.csv", "field.csv"].contains(&name.as_str()) {
             take(&mut data, &path)?;
         }
     }

@@ -56,6 +56,10 @@ pub struct Curve {
     pub ink: Ink,
     /// Whether it is dashed.
     pub dashed: bool,
+    /// Whether its points are drawn, each with its error bar, and no line between them.
+    pub is_scattered: bool,
+    /// Standard errors of the ordinates; empty where they are not known.
+    pub errors: Vec<f64>,
 }
 
 /// Values on a grid of places, as colours.
@@ -92,6 +96,10 @@ pub struct Chart {
 const CURVE: f64 = 0.35;
 const FRAME: f64 = 0.15;
 
+/// Width of error bars and of the outline of symbols, and half of the size of a symbol, mm.
+const BAR: f64 = 0.2;
+const SYMBOL: f64 = 0.45;
+
 /// Length of a tick, mm.
 const TICK: f64 = 1.0;
 
@@ -117,6 +125,29 @@ impl Frame {
             self.left + across * self.size[0],
             self.top + down * self.size[1],
         ])
+    }
+
+    /// Draws the points of a curve that lie inside, with their error bars, and returns them.
+    fn points(&self, curve: &Curve, canvas: &mut Canvas, look: &Look) -> Vec<[f64; 2]> {
+        let ink = look.color(curve.ink);
+        let mut drawn = Vec::new();
+        for (k, (&x, &y)) in curve.xs.iter().zip(&curve.ys).enumerate() {
+            if let Some(error) = curve.errors.get(k) {
+                let lowest = self.windows[1].bounds()[0];
+                let low = self.place(x, y - error).or(self.place(x, lowest));
+                if let (Some(low), Some(high)) = (low, self.place(x, y + error))
+                    && let Some(bar) = self.inside(low, high)
+                {
+                    canvas.line(bar.to_vec(), ink, BAR, &[]);
+                }
+            }
+            let place = self.place(x, y);
+            if let Some(at) = place.filter(|at| self.inside(*at, *at).is_some()) {
+                canvas.line(symbol(curve.ink, at), ink, BAR, &[]);
+                drawn.push(at);
+            }
+        }
+        drawn
     }
 
     /// The parts of a line that lie inside.
@@ -183,7 +214,18 @@ impl Chart {
             ys: ys.to_vec(),
             ink,
             dashed,
+            is_scattered: false,
+            errors: Vec::new(),
         });
+    }
+
+    /// Adds points that were measured, with their errors if these are known.
+    pub fn scattered(&mut self, name: &str, xs: &[f64], ys: &[f64], errors: &[f64], ink: Ink) {
+        self.curve(name, xs, ys, ink, false);
+        if let Some(curve) = self.curves.last_mut() {
+            curve.is_scattered = true;
+            curve.errors = errors.to_vec();
+        }
     }
 
     /// Draws the chart into the rectangle at `at` of `size` (mm).
@@ -224,6 +266,10 @@ impl Chart {
         }
         let mut drawn = Vec::new();
         for curve in &self.curves {
+            if curve.is_scattered {
+                drawn.extend(frame.points(curve, canvas, look));
+                continue;
+            }
             let dashes = look.dashes(curve.ink, curve.dashed);
             for part in frame.clipped(curve) {
                 drawn.extend(along(&part));
@@ -249,11 +295,16 @@ impl Chart {
         let shown = |v: &f64| v.is_finite() && (axis.scale == Scale::Linear || *v > 0.0);
         let values = self.curves.iter();
         let values = values.flat_map(|curve| if k == 0 { &curve.xs } else { &curve.ys });
+        let bars = self.curves.iter().filter(|_| k == 1);
+        let bars = bars.flat_map(|curve| curve.ys.iter().zip(&curve.errors));
+        let bars = bars.flat_map(|(y, error)| [y - error, y + error]);
         let places = self.map.iter().flat_map(|map| &map.places[k]);
         let (low, high) = values
             .chain(places)
+            .copied()
+            .chain(bars)
             .filter(|v| shown(v))
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &v| {
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
                 (low.min(v), high.max(v))
             });
         match axis.scale {
@@ -352,7 +403,13 @@ impl Chart {
             let middle = y + gap / 2.0 + line * (k as f64 + 0.5);
             let stroke = vec![[x + gap / 2.0, middle], [x + gap / 2.0 + swatch, middle]];
             let dashes = look.dashes(curve.ink, curve.dashed);
-            canvas.line(stroke, look.color(curve.ink), CURVE, dashes);
+            let ink = look.color(curve.ink);
+            if curve.is_scattered {
+                let place = [x + gap / 2.0 + swatch / 2.0, middle];
+                canvas.line(symbol(curve.ink, place), ink, BAR, &[]);
+            } else {
+                canvas.line(stroke, ink, CURVE, dashes);
+            }
             let place = [x + gap + swatch, middle + 0.36 * font];
             canvas.text(place, &curve.name, font, Anchor::Start);
         }
@@ -422,6 +479,19 @@ fn draw_map(map: &Map, frame: &Frame, canvas: &mut Canvas, look: &Look) {
     let title = titled(&map.quantity.label, &unit.text);
     let above = [left + 6.4 * font, top - 0.5 * font];
     canvas.text(above, &title, font, Anchor::End);
+}
+
+/// The outline of the sign of a point: a square, a diamond or a triangle.
+fn symbol(ink: Ink, [x, y]: [f64; 2]) -> Vec<[f64; 2]> {
+    let corners: &[[f64; 2]] = match ink {
+        Ink::Ghost(k) if k % 3 == 1 => &[[0.0, -1.2], [1.2, 0.0], [0.0, 1.2], [-1.2, 0.0]],
+        Ink::Ghost(k) if k % 3 == 2 => &[[0.0, -1.1], [1.1, 0.8], [-1.1, 0.8]],
+        _ => &[[-0.9, -0.9], [0.9, -0.9], [0.9, 0.9], [-0.9, 0.9]],
+    };
+    let closed = corners.iter().chain(corners.first());
+    closed
+        .map(|[dx, dy]| [x + SYMBOL * dx, y + SYMBOL * dy])
+        .collect()
 }
 
 /// Points along a drawn line, half a millimetre apart.

@@ -1,9 +1,11 @@
 //! The tables of a run that figures are made of: read from its files, or taken from memory.
 
+use super::panels::Panel;
 use crate::export::history::History;
 use crate::export::{field, state};
 use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
+use crate::studies::ghost::{Axes, Ghost};
 
 /// A CSV file of this program: header lines and columns of numbers.
 #[derive(Debug, Clone, PartialEq)]
@@ -98,6 +100,10 @@ pub struct Data {
     pub states: Vec<Table>,
     /// The history.
     pub history: Option<Table>,
+    /// The last loop, of a snapshot.
+    pub last_loop: Option<Table>,
+    /// Curves of other sources.
+    pub ghosts: Vec<Ghost>,
     /// The stresses inside the half-space.
     pub field: Option<Table>,
     /// The scenario, for what theory says.
@@ -111,8 +117,12 @@ impl Data {
             self.states.push(table);
             self.states.sort_by(|a, b| a.cycle().total_cmp(&b.cycle()));
             self.states.dedup_by(|a, b| a.cycle() == b.cycle());
-        } else if table.has(&["cycle", "u_x_m", "F_x_N"]) {
+        } else if table.has(&["cycle", "u_x_m", "F_x_N"])
+            || table.has(&["cycle", "contact_radius_m", "wear_volume_m3"])
+        {
             self.history = Some(table);
+        } else if table.has(&["cycle", "u_m", "F_N"]) {
+            self.last_loop = Some(table);
         } else if table.has(&["x_m", "z_m", "von_mises_Pa"]) {
             self.field = Some(table);
         } else {
@@ -177,6 +187,56 @@ impl Data {
             }
         }
         Ok(data)
+    }
+
+    /// What there is of this run, to be laid over the charts of another one.
+    pub fn ghost(&self, name: &str) -> Ghost {
+        let mut ghost = Ghost::new(name);
+        let tables = [
+            (&self.states.last(), "r_m"),
+            (&self.history.as_ref(), "cycle"),
+        ];
+        for (axes, column) in [
+            (Axes::Profile, "f_m"),
+            (Axes::Wear, "wear_m"),
+            (Axes::Springs, "g_m"),
+            (Axes::Pressure, "p_Pa"),
+            (Axes::Shear, "tau_Pa"),
+            (Axes::Volume, "wear_volume_m3"),
+            (Axes::Contact, "contact_radius_m"),
+            (Axes::Stick, "permanent_stick_radius_m"),
+        ] {
+            for (table, at) in tables {
+                let columns = table.and_then(|table| table.column(at).zip(table.column(column)));
+                if let Some((xs, ys)) = columns {
+                    ghost.add(axes, xs.to_vec(), ys.to_vec());
+                }
+            }
+        }
+        if let Ok(chart) = Panel::Loop.chart(self)
+            && let Some(curve) = chart.curves.into_iter().next_back()
+        {
+            ghost.add(Axes::Loop, curve.xs, curve.ys);
+        }
+        ghost
+    }
+
+    /// How far the contact reaches, m; none where no state tells.
+    pub fn reach(&self) -> Option<f64> {
+        let radii = self.states.last()?.column("r_m")?;
+        radii.last().copied()
+    }
+
+    /// The last cycle that there is anything of.
+    pub fn end(&self) -> Option<f64> {
+        let recorded = self
+            .history
+            .as_ref()
+            .and_then(|table| table.column("cycle"));
+        let states = self.states.iter().map(Table::cycle);
+        states
+            .chain(recorded.and_then(|cycles| cycles.last().copied()))
+            .reduce(f64::max)
     }
 
     /// What a caption needs to know.

@@ -24,6 +24,8 @@ pub enum Ink {
     Stick,
     /// One of several states or methods.
     Series(usize),
+    /// One of several curves of other sources.
+    Ghost(usize),
 }
 
 /// Colours or greys.
@@ -54,6 +56,9 @@ const SERIES: [Rgb; 6] = [
     [86, 180, 233],
 ];
 
+/// Colours of other sources: no quantity has them.
+const GHOSTS: [Rgb; 4] = [[0, 0, 0], [150, 75, 0], [90, 90, 90], [200, 0, 60]];
+
 /// Dashes that tell grey lines apart, mm.
 const DASHES: [&[f64]; 6] = [
     &[],
@@ -73,6 +78,7 @@ impl Ink {
             Self::Limit => 2,
             Self::Unworn => 4,
             Self::Series(k) => k % DASHES.len(),
+            Self::Ghost(k) => (k + 1) % DASHES.len(),
         }
     }
 }
@@ -92,6 +98,7 @@ impl Look {
             Ink::Shear => [170, 0, 150],
             Ink::Stick => [0, 140, 60],
             Ink::Series(k) => SERIES[k % SERIES.len()],
+            Ink::Ghost(k) => GHOSTS[k % GHOSTS.len()],
         }
     }
 

@@ -133,13 +133,18 @@ impl Sheet {
             }
             text.push('\n');
         }
-        text.push_str("panel,curve,x,y,value\n");
+        text.push_str("panel,curve,x,y,value,error\n");
         for (k, chart) in self.charts.iter().enumerate() {
             let panel = letter(k);
             for curve in &chart.curves {
                 let name = field(&curve.name);
-                for (&x, &y) in curve.xs.iter().zip(&curve.ys) {
-                    let _ = writeln!(text, "{panel},{name},{},{},", number(x), number(y));
+                for (i, (&x, &y)) in curve.xs.iter().zip(&curve.ys).enumerate() {
+                    let error = curve
+                        .errors
+                        .get(i)
+                        .copied()
+                        .map_or_else(String::new, number);
+                    let _ = writeln!(text, "{panel},{name},{},{},,{error}", number(x), number(y));
                 }
             }
             let Some(map) = &chart.map else { continue };
@@ -147,7 +152,7 @@ impl Sheet {
             for (&y, values) in ys.iter().zip(map.values.chunks(xs.len())) {
                 for (&x, &value) in xs.iter().zip(values) {
                     let [x, y, value] = [x, y, value].map(number);
-                    let _ = writeln!(text, "{panel},map,{x},{y},{value}");
+                    let _ = writeln!(text, "{panel},map,{x},{y},{value},");
                 }
             }
         }

@@ -3,8 +3,10 @@
 use super::chart::{Axis, Chart, Map};
 use super::data::{Data, Table};
 use super::ink::Ink;
+use crate::math::scan::largest;
 use crate::plot::Scale;
 use crate::plot::colormap::ColorMap;
+use crate::studies::ghost::{Axes, Ghost};
 use crate::studies::theory::Theory;
 
 /// What a chart shows.
@@ -24,6 +26,8 @@ pub enum Panel {
     Radii,
     /// Worn volume over cycles.
     Volume,
+    /// The largest worn depth over cycles.
+    ScarDepth,
     /// The von Mises stress inside the half-space.
     VonMises,
     /// The largest principal stress inside the half-space.
@@ -43,7 +47,7 @@ const SHORTEST_LOOP: usize = 9;
 
 impl Panel {
     /// All of them.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Profile,
         Self::Profile1d,
         Self::Stresses,
@@ -51,6 +55,7 @@ impl Panel {
         Self::Loop,
         Self::Radii,
         Self::Volume,
+        Self::ScarDepth,
         Self::VonMises,
         Self::Principal,
     ];
@@ -65,6 +70,7 @@ impl Panel {
             Self::Loop => "loop",
             Self::Radii => "radii",
             Self::Volume => "volume",
+            Self::ScarDepth => "scar-depth",
             Self::VonMises => "von-mises",
             Self::Principal => "principal",
         }
@@ -80,6 +86,68 @@ impl Panel {
     /// # Errors
     /// What the run does not hold.
     pub fn chart(self, data: &Data) -> Result<Chart, Missing> {
+        let mut chart = self.bare_chart(data)?;
+        for (k, ghost) in data.ghosts.iter().enumerate() {
+            self.lay_over(&mut chart, ghost, k, data);
+        }
+        Ok(chart)
+    }
+
+    /// What the chart shows of other sources, over which axes.
+    fn axes(self) -> &'static [Axes] {
+        match self {
+            Self::Profile => &[Axes::Profile, Axes::Wear],
+            Self::WornDepth => &[Axes::Wear, Axes::Profile],
+            Self::Profile1d => &[Axes::Springs],
+            Self::Stresses => &[Axes::Pressure, Axes::Shear],
+            Self::Loop => &[Axes::Loop],
+            Self::Radii => &[Axes::Contact, Axes::Stick],
+            Self::Volume => &[Axes::Volume],
+            Self::ScarDepth => &[Axes::Depth],
+            Self::VonMises | Self::Principal => &[],
+        }
+    }
+
+    /// Whether the chart has a place for what `ghost` holds.
+    pub fn shows(self, ghost: &Ghost) -> bool {
+        self.axes().iter().any(|axes| ghost.trace(*axes).is_some())
+    }
+
+    /// Draws ghost number `k`.
+    fn lay_over(self, chart: &mut Chart, ghost: &Ghost, k: usize, data: &Data) {
+        let ink = Ink::Ghost(k);
+        let mut draw = |name: &str, xs: &[f64], ys: &[f64], errors: &Option<Vec<f64>>| {
+            if !ys.iter().any(|y| y.is_finite()) {
+                return;
+            }
+            match ghost.is_measured {
+                true => chart.scattered(name, xs, ys, errors.as_deref().unwrap_or(&[]), ink),
+                false => chart.curve(name, xs, ys, ink, true),
+            }
+        };
+        if matches!(self, Self::Profile | Self::WornDepth) {
+            let indenter = data.scenario.as_ref().map(|known| &known.setup().indenter);
+            let unworn = |r: f64| indenter.map_or(f64::NAN, |indenter| indenter.profile(r));
+            if let Some(worn) = ghost.worn(unworn) {
+                let both = worn.unworn.iter().zip(&worn.wear);
+                let profile: Vec<f64> = both.map(|(f0, wear)| f0 + wear).collect();
+                let ys = match self {
+                    Self::Profile => &profile,
+                    _ => &worn.wear,
+                };
+                draw(&ghost.name, &worn.radii, ys, &worn.errors);
+            }
+            return;
+        }
+        let mut name = ghost.name.as_str();
+        for trace in self.axes().iter().filter_map(|axes| ghost.trace(*axes)) {
+            draw(name, &trace.xs, &trace.ys, &trace.errors);
+            // One entry of the legend is for all.
+            name = "";
+        }
+    }
+
+    fn bare_chart(self, data: &Data) -> Result<Chart, Missing> {
         let missing = |why| Missing {
             name: self.name(),
             why,
@@ -120,6 +188,7 @@ impl Panel {
             Self::Loop => loops(data).map_err(missing),
             Self::Radii => radii(data).ok_or_else(|| missing("there is no history.csv")),
             Self::Volume => volume(data).ok_or_else(|| missing("there is no history.csv")),
+            Self::ScarDepth => scar_depth(data).ok_or_else(|| missing("there is no state.csv")),
             Self::VonMises | Self::Principal => field(self, data)
                 .ok_or_else(|| missing("there is no field.csv; run --field writes it")),
         }
@@ -191,9 +260,13 @@ pub fn stresses(state: &Table) -> Option<Chart> {
 }
 
 fn loops(data: &Data) -> Result<Chart, &'static str> {
-    let history = data.history.as_ref().ok_or("there is no history.csv")?;
-    let column = |name| history.column(name).ok_or("the history lacks a column");
-    let (cycles, shifts, forces) = (column("cycle")?, column("u_x_m")?, column("F_x_N")?);
+    let (table, names) = match (&data.last_loop, &data.history) {
+        (Some(table), _) => (table, ["u_m", "F_N"]),
+        (None, Some(table)) => (table, ["u_x_m", "F_x_N"]),
+        (None, None) => return Err("there is no history.csv"),
+    };
+    let column = |name| table.column(name).ok_or("the history lacks a column");
+    let (cycles, shifts, forces) = (column("cycle")?, column(names[0])?, column(names[1])?);
     let mut chart = Chart::new(
         "fretting loop",
         Axis::new("u_x", "m"),
@@ -252,6 +325,25 @@ fn volume(data: &Data) -> Option<Chart> {
     let volume = history.column("wear_volume_m3")?;
     chart.curve("", history.column("cycle")?, volume, Ink::Profile, false);
     Some(chart)
+}
+
+/// The largest worn depth of every cycle where the history has it, else of every state.
+fn scar_depth(data: &Data) -> Option<Chart> {
+    let (x, y) = (Axis::new("cycles", ""), Axis::new("worn depth", "m"));
+    let mut chart = Chart::new("worn depth over cycles", x, y);
+    let history = data.history.as_ref();
+    let depths = history.and_then(|table| table.column("scar_depth_m").zip(table.column("cycle")));
+    if let Some((depths, cycles)) = depths {
+        chart.curve("", cycles, depths, Ink::Profile, false);
+        return Some(chart);
+    }
+    let wear = |state: &Table| state.column("wear_m").map(largest);
+    let states = data.states.iter();
+    let (cycles, depths): (Vec<f64>, Vec<f64>) = states
+        .filter_map(|state| Some((state.cycle(), wear(state)?)))
+        .unzip();
+    chart.scattered("simulated", &cycles, &depths, &[], Ink::Profile);
+    (!cycles.is_empty()).then_some(chart)
 }
 
 fn field(panel: Panel, data: &Data) -> Option<Chart> {

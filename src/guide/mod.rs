@@ -49,6 +49,7 @@ topics! {
     files = "files.md": "what a run writes, and how to read it with pandas";
     accuracy = "accuracy.md": "asking for an accuracy, estimating errors, and what the method leaves out";
     methods = "methods.md": "the transform methods and how they compare";
+    comparing = "comparing.md": "measured data, other runs and earlier states over the plots";
     figures = "figures.md": "figures for a paper, and the figures of the paper";
     studies = "studies.md": "many runs at once: maps, sensitivities, clusters";
     rigs = "rigs.md": "real rigs: waveforms, load blocks, compliance, measured profiles, fits";

@@ -147,12 +147,7 @@ fn header_line(plot: &Plot<'_>, unit: &AxisUnit, x: f64) -> Line {
 
 fn curve_line(plot: &Plot<'_>, curve: &Curve<'_>, unit: &AxisUnit, reading: Reading) -> Line {
     let ascii = plot.marker == Marker::Ascii;
-    let swatch = match (ascii, curve.dashed) {
-        (false, false) => '─',
-        (false, true) => '╌',
-        (true, false) => '-',
-        (true, true) => '=',
-    };
+    let swatch = curve.stroke.swatch(ascii);
     let name: String = text(curve.name, ascii).chars().take(LONGEST_NAME).collect();
     let value = plot.cursor.and_then(|x| curve.value_at(x));
     Line {

@@ -24,15 +24,6 @@ impl Marker {
         }
     }
 
-    /// Dots drawn and dots in all of one dash, across and down.
-    pub(super) fn dash(self) -> ([usize; 2], [usize; 2]) {
-        match self {
-            Marker::Braille => ([4, 6], [5, 8]),
-            Marker::HalfBlock => ([2, 3], [2, 4]),
-            Marker::Dot | Marker::Ascii => ([1, 2], [1, 2]),
-        }
-    }
-
     /// The character of a cell with these dots of curves.
     pub(super) fn glyph(self, dots: u8) -> char {
         match (self, dots) {

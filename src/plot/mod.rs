@@ -13,7 +13,7 @@
 //!
 //! One idea a file: `units` (SI prefixes), `axis` (what an axis shows, its bounds),
 //! `window` (the map from values to dots), `step` (the 1-2-5 grid), `ticks`, `labels`
-//! (the row under the plot), `marker`, `raster` and `segment` (dots finer than a cell),
+//! (the row under the plot), `marker`, `stroke`, `raster` and `segment` (dots finer than a cell),
 //! `legend`, `widget` (the layout above), `screen_svg` (a screen as a picture).
 //!
 //! All data are in plain units (m, Pa); the plot chooses the prefixes. Points where x or y
@@ -32,6 +32,7 @@ mod raster;
 pub mod screen_svg;
 mod segment;
 mod step;
+mod stroke;
 pub mod ticks;
 pub mod units;
 mod widget;
@@ -42,6 +43,7 @@ mod tests;
 
 pub use axis::{Axis, Scale, nice_bounds, sticky_bounds};
 pub use marker::Marker;
+pub use stroke::Stroke;
 
 /// A line through points.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -56,8 +58,8 @@ pub struct Curve<'a> {
     pub style: Style,
     /// Shades the area between the curve and this ordinate (y axis' unit).
     pub fill_to: Option<f64>,
-    /// Draws dashes.
-    pub dashed: bool,
+    /// How the line is interrupted.
+    pub stroke: Stroke,
 }
 
 impl<'a> Curve<'a> {
@@ -74,16 +76,20 @@ impl<'a> Curve<'a> {
 
     /// The same curve, dashed.
     #[must_use]
-    pub fn dashed(mut self) -> Self {
-        self.dashed = true;
-        self
+    pub fn dashed(self) -> Self {
+        self.stroked(Stroke::Dashed)
+    }
+
+    /// The same curve with this pattern of dashes.
+    #[must_use]
+    pub fn stroked(self, stroke: Stroke) -> Self {
+        Self { stroke, ..self }
     }
 
     /// The same curve, dashed where `dashed` is true.
     #[must_use]
-    pub fn dashed_if(mut self, dashed: bool) -> Self {
-        self.dashed = dashed;
-        self
+    pub fn dashed_if(self, dashed: bool) -> Self {
+        if dashed { self.dashed() } else { self }
     }
 
     /// The same curve, the area between it and `base` (y axis' unit) shaded.

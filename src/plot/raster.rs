@@ -15,6 +15,7 @@ use ratatui::style::{Color, Modifier, Style};
 
 use super::marker::{Marker, Under};
 use super::segment::walk;
+use super::stroke::{Stroke, draws};
 
 #[derive(Debug, Clone, Copy, Default)]
 struct Cell {
@@ -58,9 +59,9 @@ impl Raster {
         &mut self,
         points: impl Iterator<Item = Position>,
         style: Style,
-        dashed: bool,
+        stroke: Stroke,
     ) {
-        let pen = self.pen(style, dashed);
+        let pen = self.pen(style, stroke);
         let mut previous: Position = None;
         let mut run: Option<Run> = None;
         for point in points {
@@ -201,22 +202,22 @@ impl Raster {
         index.min(usize::from(u16::MAX)) as u16
     }
 
-    fn pen(&mut self, style: Style, dashed: bool) -> Pen {
-        let (across, down) = self.marker.dash();
+    fn pen(&mut self, style: Style, stroke: Stroke) -> Pen {
+        let [across, down] = stroke.runs(self.marker);
         Pen {
             ink: self.ink(style),
-            across: if dashed { across } else { [1, 1] },
-            down: if dashed { down } else { [1, 1] },
+            across,
+            down,
         }
     }
 
     fn segment(&mut self, a: (f64, f64), b: (f64, f64), pen: Pen) {
         walk(a, b, self.size(), |column, row, steep| {
-            let (along, [drawn, all]) = match steep {
+            let (along, runs) = match steep {
                 false => (column, pen.across),
                 true => (row, pen.down),
             };
-            self.set(column, row, pen.ink, along % all < drawn);
+            self.set(column, row, pen.ink, draws(runs, along));
         });
     }
 
@@ -292,12 +293,12 @@ struct Run {
     high: f64,
 }
 
-/// An ink and its dashes: dots drawn, and dots in all, across and down.
+/// An ink and its pattern, across and down.
 #[derive(Debug, Clone, Copy)]
 struct Pen {
     ink: u16,
-    across: [usize; 2],
-    down: [usize; 2],
+    across: &'static [usize],
+    down: &'static [usize],
 }
 
 /// A foreground that can also serve as a background.

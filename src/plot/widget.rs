@@ -222,7 +222,7 @@ impl<'p, 'a> Frame<'p, 'a> {
             raster.vertical(column, Under::Cursor, plot.axis_style);
         }
         for curve in &plot.curves {
-            raster.line(curve.points().map(place), curve.style, curve.dashed);
+            raster.line(curve.points().map(place), curve.style, curve.stroke);
         }
         raster
     }

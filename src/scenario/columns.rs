@@ -26,6 +26,8 @@ pub enum Quantity {
     Time,
     /// J.
     Energy,
+    /// Pa.
+    Stress,
     /// A pure number, whose column has no unit.
     Number,
 }
@@ -39,6 +41,7 @@ impl Quantity {
             Self::Force => &[("_N", 1.0), ("_mN", 1e-3), ("_kN", 1e3)],
             Self::Time => &[("_s", 1.0), ("_ms", 1e-3)],
             Self::Energy => &[("_J", 1.0), ("_mJ", 1e-3), ("_kJ", 1e3)],
+            Self::Stress => &[("_Pa", 1.0), ("_MPa", 1e6), ("_GPa", 1e9)],
             Self::Number => &[("", 1.0)],
         }
     }
@@ -152,7 +155,7 @@ impl Columns {
             let unit = quantity.units()[0].0;
             return Err(self.refuse(format!(
                 "has no column {name}{unit}; the first line names {}",
-                echo(&self.names.join(", "))
+                self.named()
             )));
         };
         self.rows
@@ -170,6 +173,23 @@ impl Columns {
                 }
             })
             .collect()
+    }
+
+    /// The column `name` as [`column`](Self::column) gives it, but NaN where a field is empty or no finite
+    /// number, as in this program's own files; none if there is no such column.
+    pub fn column_with_gaps(&self, name: &str, quantity: Quantity) -> Option<Vec<f64>> {
+        let (at, size) = self.find(name, quantity)?;
+        let value = |field: &str| field.parse::<f64>().ok().filter(|value| value.is_finite());
+        let values = self.rows.iter().map(|(_, row)| {
+            let value = row.get(at).and_then(value);
+            value.map_or(f64::NAN, |value| size * value)
+        });
+        Some(values.collect())
+    }
+
+    /// The names of the columns, fit for a line.
+    pub fn named(&self) -> String {
+        echo(&self.names.join(", "))
     }
 
     /// The error that the file has for `reason`.

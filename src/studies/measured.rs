@@ -84,6 +84,18 @@ impl Measured {
         Ok(scar)
     }
 
+    /// Says so where the radii of a scar and the `reach` of the contact, m, differ by so much that one of
+    /// them is in another unit.
+    ///
+    /// # Errors
+    /// A line that names both.
+    pub fn check_radii(&self, reach: f64) -> Result<(), String> {
+        match self.kind {
+            Kind::Profile | Kind::Wear => check_radii(&self.name, &self.at, reach),
+            Kind::Loop | Kind::Volume | Kind::Depth => Ok(()),
+        }
+    }
+
     /// A loop: columns `u_m` and `F_N`, through one closed cycle in the order of time; `error_N`.
     ///
     /// # Errors
@@ -172,6 +184,18 @@ fn read(
         return Err(columns.refuse(format!("line {line}: an error must be greater than 0")));
     }
     Ok(measured)
+}
+
+/// Says so where the largest of `radii` and the `reach` of the contact, m, differ by so much that one of
+/// them is in another unit.
+pub(super) fn check_radii(name: &str, radii: &[f64], reach: f64) -> Result<(), String> {
+    let widest = radii.iter().copied().fold(0.0, f64::max);
+    match (0.01 * reach..=100.0 * reach).contains(&widest) {
+        true => Ok(()),
+        false => Err(format!(
+            "{name}: radii up to {widest:.1e} m, where contact reaches {reach:.1e} m: are they in m?"
+        )),
+    }
 }
 
 fn span(values: &[f64]) -> f64 {

@@ -2,6 +2,7 @@
 //! neither files nor screens: what is printed, drawn and written is for the floors above.
 
 pub mod fit;
+pub mod ghost;
 pub mod judge;
 pub mod measured;
 pub mod random_scenarios;

@@ -3,6 +3,7 @@
 //! The app knows no simulation. It turns keys into orders for the worker and frames into a screen.
 
 use std::collections::HashMap;
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
 
@@ -17,6 +18,7 @@ use super::order::Order;
 use super::overlays::{Answer, Form, Help, Library, Overlay, Palette};
 use super::panels::{Panel, Shown};
 use super::refinement_check::RefinementCheck;
+use super::snapshot;
 use super::theme::Theme;
 use super::tour::Tour;
 use crate::plot::{Scale, sticky_bounds};
@@ -252,6 +254,11 @@ impl App {
             Command::Tour => self.continue_tour(),
             Command::Accept => self.overlay = Overlay::Explain,
             Command::CompareFromStart => self.order(Order::CompareFromStart),
+            Command::Freeze => self.order(Order::Freeze),
+            Command::DropGhosts => {
+                self.forget_scales();
+                self.order(Order::DropGhosts);
+            }
             Command::HoldPhase => self.order(Order::HoldPhase),
             Command::Suspend => self.suspend = true,
             Command::Help => self.overlay = Overlay::Help(Help::default()),
@@ -384,6 +391,17 @@ impl App {
     }
 
     fn load(&mut self, name: &str) {
+        let path = Path::new(name);
+        if path.is_dir() {
+            match snapshot::open(path) {
+                Ok(opened) => {
+                    self.forget_scales();
+                    self.order(Order::Open(Box::new(opened)));
+                }
+                Err(error) => self.notice = Some(error),
+            }
+            return;
+        }
         match Scenario::load(name, &[]) {
             Ok(scenario) => {
                 self.forget_scales();

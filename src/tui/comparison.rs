@@ -1,7 +1,8 @@
 //! A second run in lockstep with the first: another method, or the same on half the cells.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
+use super::beside::Beside;
 use super::frame::Comparison;
 use crate::math::abel::AbelMethod;
 use crate::math::grid::MIN_CELLS;
@@ -20,14 +21,11 @@ pub(super) enum From {
 /// The worker's side of a comparison.
 #[derive(Debug)]
 pub(super) struct ComparisonRun {
-    session: Session,
+    beside: Beside,
     /// Which of [`choices`] it is.
     choice: usize,
     /// Where it has begun.
     from: From,
-    busy: Duration,
-    steps: u64,
-    stopped: Option<String>,
 }
 
 impl ComparisonRun {
@@ -59,12 +57,9 @@ impl ComparisonRun {
             }
         };
         Ok(Self {
-            session,
+            beside: Beside::new(session),
             choice,
             from,
-            busy: Duration::ZERO,
-            steps: 0,
-            stopped: None,
         })
     }
 
@@ -75,39 +70,28 @@ impl ComparisonRun {
 
     /// Method and cells.
     pub fn name(&self) -> String {
-        let setup = self.session.simulation().setup();
+        let setup = self.beside.session().simulation().setup();
         format!("{} {}", setup.method, setup.grid.cells())
     }
 
     /// Whether it is not yet at `cycle`.
     pub fn lags(&self, cycle: f64) -> bool {
-        self.stopped.is_none() && self.session.simulation().cycle() < cycle
+        self.beside.lags(cycle)
     }
 
-    /// Steps towards `cycle`, where the first run is, for about as long as `budget`: the first run may
-    /// have jumped over many cycles that this one has to step through.
+    /// Steps towards `cycle`, where the first run is, for about as long as `budget`.
     pub fn follow_for(&mut self, cycle: f64, budget: Duration) {
-        let (start, before) = (Instant::now(), self.session.simulation().steps());
-        while self.lags(cycle) {
-            if let Err(error) = self.session.step_until(cycle) {
-                self.stopped = Some(error.to_string());
-            }
-            if start.elapsed() >= budget {
-                break;
-            }
-        }
-        self.busy += start.elapsed();
-        self.steps += self.session.simulation().steps() - before;
+        self.beside.follow_for(cycle, budget, |_| {});
     }
 
     /// What a screen shows of it.
     pub fn seen(&self) -> Comparison {
-        let simulation = self.session.simulation();
+        let simulation = self.beside.session().simulation();
         Comparison {
             name: self.name(),
             observation: simulation.observe(Curves::PROFILE | Curves::PRESSURE),
-            step_cost: (self.steps > 0).then(|| self.busy.as_secs_f64() / self.steps as f64),
-            stopped: self.stopped.clone(),
+            step_cost: self.beside.step_cost(),
+            stopped: self.beside.stopped().map(str::to_owned),
         }
     }
 }

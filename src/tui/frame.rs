@@ -8,6 +8,7 @@ use super::trend::Trend;
 use crate::contact::indenter::Indenter;
 use crate::contact::subsurface::{Peak, SpringLoad};
 use crate::simulation::{Check, CycleFigures, Observation};
+use crate::studies::ghost::Ghost;
 use crate::studies::theory::Theory;
 
 /// What the worker is doing.
@@ -89,6 +90,8 @@ pub struct Frame {
     pub warnings: Arc<Vec<String>>,
     /// What theory says of the scene.
     pub theory: Arc<Theory>,
+    /// Curves of other sources, to be drawn over those of the run.
+    pub ghosts: Vec<Arc<Ghost>>,
     /// The run beside this one.
     pub comparison: Option<Comparison>,
 }

@@ -75,6 +75,8 @@ const GROUPS: &[(&str, &[Command])] = &[
         &[
             Command::Compare,
             Command::CompareFromStart,
+            Command::Freeze,
+            Command::DropGhosts,
             Command::Accuracy,
         ],
     ),

@@ -33,6 +33,7 @@ use crate::scenario::session::Session;
 pub mod ansi_backend;
 pub mod app;
 pub mod autosave;
+mod beside;
 mod cast;
 pub mod command;
 mod comparison;
@@ -40,6 +41,7 @@ mod cycle_loads;
 mod figure;
 mod flow;
 pub mod frame;
+pub mod ghosts;
 mod input;
 pub mod keys;
 pub mod layout;
@@ -57,7 +59,7 @@ pub mod refinement_check;
 pub mod screen;
 mod script;
 pub mod settings;
-mod snapshot;
+pub mod snapshot;
 mod suspend;
 mod terminal;
 pub mod theme;
@@ -129,6 +131,10 @@ pub enum Event {
 pub struct Options {
     /// The session to show.
     pub session: Session,
+    /// What is known of its past.
+    pub past: Option<trend::Trend>,
+    /// What lies over the plots.
+    pub ghosts: Vec<ghosts::Source>,
     /// Whether it runs at once.
     pub running: bool,
     /// Where checkpoints are kept; none: nowhere.
@@ -188,7 +194,9 @@ pub fn run(options: Options) -> Result<Farewell> {
         events.clone(),
         interval,
         options.running && options.script.is_none(),
-    );
+    )
+    .with_past(options.past)
+    .with_ghosts(options.ghosts);
     let halt = worker.halt();
     let mut app = App::new(theme, orders.clone());
     if let Some(origin) = tour {

@@ -6,6 +6,7 @@ use std::sync::mpsc::Sender;
 
 use super::frame::Frame;
 use super::map::live::Range;
+use super::snapshot::Opened;
 use crate::scenario::Scenario;
 use crate::simulation::Curves;
 
@@ -45,6 +46,8 @@ pub enum Order {
     Restart,
     /// Another scenario, from the start.
     Load(Box<Scenario>),
+    /// A state that was written to a directory, to go on from.
+    Open(Box<Opened>),
     /// Write the state to files, with a note if there is one.
     Snapshot(Option<String>),
     /// Draw a figure of the state into a file, its data beside it.
@@ -53,6 +56,12 @@ pub enum Order {
     Compare,
     /// The same, begun at the start of the scenario.
     CompareFromStart,
+    /// Lay the curves of a file, a directory or a scenario over the panels.
+    Overlay(String),
+    /// The same with the present state.
+    Freeze,
+    /// Take all of them away.
+    DropGhosts,
     /// Take the frames of a fast run at one phase of the motion, or as they come.
     HoldPhase,
     /// Run the refinement_check on half the cells.

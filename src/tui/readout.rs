@@ -1,44 +1,171 @@
-//! The values of all curves at the cursor, in a line.
+//! The values of the curves at the cursor, in a line; what the focused panel shows comes first where there
+//! are ghosts, with the value of each and its difference.
 
 use super::frame::Frame;
+use super::panels::Panel;
 use crate::plot::Curve;
 use crate::plot::units::{format_value_in, to_ascii};
 use crate::simulation::Zone;
+use crate::studies::ghost::{Axes, Ghost};
 
 /// Significant digits.
 const DIGITS: usize = 4;
 
+/// The most characters of a ghost's name.
+const LONGEST_NAME: usize = 16;
+
 /// `r 52.0 µm  slip  f ...`: as many values at the radius `r` (m) as fit `width` cells. Curves that
 /// no panel shows are not computed, and so not here.
-pub(super) fn line(frame: &Frame, r: f64, width: usize, ascii: bool) -> String {
-    let seen = &frame.observation;
-    let at = |values: &[f64]| Curve::new("", &seen.radii, values, Default::default()).value_at(r);
-    let mut parts = vec![("r", Some(r), "m"), (zone(frame, r).name(), None, "")];
-    let shear: &[f64] = match seen.moment.stick_radius {
-        Some(_) => &seen.shear,
-        None => &[],
+pub(super) fn line(frame: &Frame, focus: Panel, r: f64, width: usize, ascii: bool) -> String {
+    let value = |name: &str, value: f64, unit: &str| {
+        let name = if ascii { to_ascii(name) } else { name.into() };
+        format!(" {name} {} ", format_value_in(value, unit, DIGITS, ascii))
     };
-    let curves: [(&str, &[f64], &str); 5] = [
-        ("f", &seen.profile, "m"),
-        ("p", &seen.pressure, "Pa"),
-        ("τ", shear, "Pa"),
-        ("worn", &seen.wear, "m"),
-        ("g", &seen.profile_1d, "m"),
-    ];
-    for (name, values, unit) in curves {
-        parts.extend(at(values).map(|value| (name, Some(value), unit)));
+    let mut parts = compared(frame, focus, r, ascii);
+    let at_radius = parts.is_empty() || quantity(frame, focus, r).is_some_and(|seen| seen.over_r);
+    if at_radius {
+        let place = [value("r", r, "m"), format!(" {} ", zone(frame, r).name())];
+        parts.splice(0..0, place);
+        for (name, values, unit) in curves(frame) {
+            let at = at(frame, values, r).map(|seen| value(name, seen, unit));
+            parts.extend(at.filter(|part| !parts.contains(part)));
+        }
     }
     let mut line = String::new();
-    for (name, value, unit) in parts {
-        let name = if ascii { to_ascii(name) } else { name.into() };
-        let value = value.map(|value| format!(" {}", format_value_in(value, unit, DIGITS, ascii)));
-        let part = format!(" {name}{} ", value.unwrap_or_default());
+    for part in parts {
         if line.chars().count() + part.chars().count() > width {
             break;
         }
         line.push_str(&part);
     }
     line
+}
+
+/// The curves over the radius: name, values, unit.
+fn curves(frame: &Frame) -> [(&'static str, &[f64], &'static str); 5] {
+    let seen = &frame.observation;
+    let shear: &[f64] = match seen.moment.stick_radius {
+        Some(_) => &seen.shear,
+        None => &[],
+    };
+    [
+        ("f", &seen.profile, "m"),
+        ("p", &seen.pressure, "Pa"),
+        ("τ", shear, "Pa"),
+        ("worn", &seen.wear, "m"),
+        ("g", &seen.profile_1d, "m"),
+    ]
+}
+
+fn at(frame: &Frame, values: &[f64], r: f64) -> Option<f64> {
+    Curve::new("", &frame.observation.radii, values, Default::default()).value_at(r)
+}
+
+/// What a panel compares at one place.
+struct Quantity {
+    name: &'static str,
+    unit: &'static str,
+    /// The run's own value.
+    value: f64,
+    /// Whether the place is a radius, and not the present moment.
+    over_r: bool,
+    /// The value of each ghost there, where it has one.
+    ghosts: Vec<Option<f64>>,
+}
+
+/// What the focused panel shows: at the radius, or at the present cycle and displacement.
+fn quantity(frame: &Frame, focus: Panel, r: f64) -> Option<Quantity> {
+    let (seen, moment) = (&frame.observation, &frame.observation.moment);
+    let of_each = |of: &dyn Fn(&Ghost) -> Option<f64>| {
+        let ghosts = frame.ghosts.iter();
+        ghosts.map(|ghost| of(ghost)).collect()
+    };
+    let over_r = |name, unit, values: &[f64], axes| {
+        Some(Quantity {
+            name,
+            unit,
+            value: at(frame, values, r)?,
+            over_r: true,
+            ghosts: of_each(&|ghost| ghost.trace(axes)?.value_at(r)),
+        })
+    };
+    let now = |name, unit, value, axes| {
+        Some(Quantity {
+            name,
+            unit,
+            value,
+            over_r: false,
+            ghosts: of_each(&|ghost| ghost.trace(axes)?.value_at(moment.cycle)),
+        })
+    };
+    match focus {
+        Panel::Stresses => over_r("p", "Pa", &seen.pressure, Axes::Pressure),
+        Panel::Springs => over_r("g", "m", &seen.profile_1d, Axes::Springs),
+        Panel::Volume | Panel::Rate => now("V", "m³", moment.wear_volume, Axes::Volume),
+        Panel::Radii => now("a", "m", moment.contact_radius, Axes::Contact),
+        Panel::ScarDepth => {
+            let deepest = frame.trend.cycles().last()?.scar_depth;
+            now("depth", "m", deepest, Axes::Depth)
+        }
+        Panel::Loop => {
+            let shifts = frame.trend.fretting_loop().0;
+            let before = shifts.iter().rev().nth(1).copied();
+            let rises = before.is_none_or(|before| before <= moment.shift);
+            Some(Quantity {
+                name: "F_x",
+                unit: "N",
+                value: moment.tangential_force,
+                over_r: false,
+                ghosts: of_each(&|ghost| ghost.trace(Axes::Loop)?.force_at(moment.shift, rises)),
+            })
+        }
+        _ => {
+            let value = at(frame, &seen.wear, r)?;
+            let worn = |ghost: &Ghost| {
+                let worn = ghost.worn(|r| frame.indenter.profile(r))?;
+                Curve::new("", &worn.radii, &worn.wear, Default::default()).value_at(r)
+            };
+            Some(Quantity {
+                name: "worn",
+                unit: "m",
+                value,
+                over_r: true,
+                ghosts: of_each(&worn),
+            })
+        }
+    }
+}
+
+/// The run's value of what the focused panel shows, and for each ghost that has it its value and how far
+/// it is above that of the run; nothing where no ghost has it.
+fn compared(frame: &Frame, focus: Panel, r: f64, ascii: bool) -> Vec<String> {
+    let Some(seen) = quantity(frame, focus, r) else {
+        return Vec::new();
+    };
+    let shown = |value: f64| format_value_in(value, seen.unit, DIGITS, ascii);
+    let mut parts = vec![format!(" {} {} ", seen.name, shown(seen.value))];
+    for (ghost, value) in frame.ghosts.iter().zip(&seen.ghosts) {
+        let Some(value) = *value else {
+            continue;
+        };
+        let difference = value - seen.value;
+        let sign = if difference < 0.0 { "" } else { "+" };
+        let name: String = ghost.name.chars().take(LONGEST_NAME).collect();
+        let name = if ascii {
+            to_ascii(&name).into_owned()
+        } else {
+            name
+        };
+        parts.push(format!(
+            " {name} {} ({sign}{}) ",
+            shown(value),
+            shown(difference)
+        ));
+    }
+    if parts.len() == 1 {
+        parts.clear();
+    }
+    parts
 }
 
 /// What the surface does at a radius.

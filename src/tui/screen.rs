@@ -221,7 +221,13 @@ fn footer(app: &App, area: Rect, buffer: &mut Buffer) {
     }
     let frame = app.frame.as_ref();
     if let Some((frame, r)) = frame.and_then(|frame| Some((frame, app.cursor_radius(frame)?))) {
-        let text = readout::line(frame, r, usize::from(area.width), app.theme.ascii());
+        let text = readout::line(
+            frame,
+            app.focus,
+            r,
+            usize::from(area.width),
+            app.theme.ascii(),
+        );
         Line::raw(text).render(area, buffer);
         return;
     }

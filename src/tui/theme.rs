@@ -16,6 +16,8 @@ use crate::plot::units::to_ascii;
 pub enum Role {
     /// The unworn profile, and what is past.
     Unworn,
+    /// A curve of another source.
+    Ghost,
     /// What theory says.
     Limit,
     /// The worn profile f.
@@ -184,7 +186,7 @@ impl Theme {
             }
         };
         match role {
-            Role::Unworn | Role::Quiet => plain,
+            Role::Unworn | Role::Ghost | Role::Quiet => plain,
             Role::Open | Role::Faint => plain.add_modifier(Modifier::DIM),
             Role::Limit => with(YELLOW, Color::Blue, Color::Cyan),
             Role::Profile | Role::Profile1d => with(ORANGE, Color::Yellow, Color::Blue),

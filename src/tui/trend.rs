@@ -27,6 +27,8 @@ pub struct Cycle {
     pub stick_radius: f64,
     /// Worn volume at the end, m³.
     pub wear_volume: f64,
+    /// Largest worn depth at the end, m.
+    pub scar_depth: f64,
     /// What the work of friction says of it, k E_d, m³; NaN where the law does not follow energy.
     pub expected_volume: f64,
     /// Volume worn in a cycle, m³, on average over the entry.
@@ -41,6 +43,9 @@ pub struct Cycle {
     pub normal_force: f64,
 }
 
+/// A quantity of a cycle.
+pub type OfCycle = fn(&Cycle) -> f64;
+
 /// The loop of one cycle that is kept.
 #[derive(Debug, Clone, PartialEq)]
 struct Loop {
@@ -50,6 +55,21 @@ struct Loop {
 }
 
 impl Cycle {
+    /// A cycle of which nothing is known.
+    pub const UNKNOWN: Self = Self {
+        cycle: f64::NAN,
+        contact_radius: f64::NAN,
+        stick_radius: f64::NAN,
+        wear_volume: f64::NAN,
+        scar_depth: f64::NAN,
+        expected_volume: f64::NAN,
+        wear_rate: f64::NAN,
+        residual: f64::NAN,
+        step_cost: f64::NAN,
+        amplitude: f64::NAN,
+        normal_force: f64::NAN,
+    };
+
     fn merged(self, later: Self) -> Self {
         Self {
             contact_radius: self.contact_radius.max(later.contact_radius),
@@ -89,6 +109,7 @@ pub struct Trend {
     step_cost: Option<f64>,
     /// Cycle and worn volume (m³) of the first moment.
     start: Option<(f64, f64)>,
+    scar_depth: f64,
     /// Amplitude and load of the last cycle.
     condition: Option<[f64; 2]>,
     /// Loops of cycles so far apart, oldest first.
@@ -97,9 +118,42 @@ pub struct Trend {
 }
 
 impl Trend {
+    /// A past of `cycles`, oldest first, and of the steps of the last one: cycle, u_x⁽⁰⁾ (m), F_x (N).
+    pub fn of_past(cycles: impl Iterator<Item = Cycle>, steps: Vec<[f64; 3]>) -> Self {
+        let mut trend = Self::default();
+        let mut before = [0.0, 0.0];
+        for mut entry in cycles.take(CAPACITY - 1) {
+            let [start, volume] = before;
+            entry.wear_rate = (entry.wear_volume - volume) / (entry.cycle - start);
+            before = [entry.cycle, entry.wear_volume];
+            trend.cycles.push(entry);
+        }
+        // What is not whole yet stays open.
+        let whole = trend.cycles.iter().rev().nth(1);
+        let whole = whole.map_or(0.0, |entry| entry.cycle);
+        if trend
+            .cycles
+            .last()
+            .is_some_and(|last| last.cycle < whole + 1.0 - 1e-9)
+        {
+            trend.tip.open = trend.cycles.pop();
+        }
+        for [cycle, shift, force] in steps.into_iter().take(LOOP_CAPACITY) {
+            trend.tip.loop_cycles.push_back(cycle);
+            trend.tip.shifts.push_back(shift);
+            trend.tip.forces.push_back(force);
+        }
+        trend
+    }
+
     /// What a step costs from now on, s.
     pub fn note_cost(&mut self, step_cost: Option<f64>) {
         self.step_cost = step_cost;
+    }
+
+    /// The largest worn depth of the moment that is recorded next, m.
+    pub fn note_scar_depth(&mut self, scar_depth: f64) {
+        self.scar_depth = scar_depth;
     }
 
     /// The amplitude of u_x (m) and the mean of F_z (N) of the last complete cycle.
@@ -129,6 +183,7 @@ impl Trend {
             tip: tip.clone(),
             step_cost: self.step_cost,
             start: self.start,
+            scar_depth: self.scar_depth,
             condition: None,
             loops: self
                 .loops
@@ -150,6 +205,7 @@ impl Trend {
             contact_radius: moment.contact_radius,
             stick_radius: moment.stick_radius.unwrap_or(f64::NAN),
             wear_volume: moment.wear_volume,
+            scar_depth: self.scar_depth,
             expected_volume: moment
                 .energy_residual
                 .map_or(f64::NAN, |residual| moment.wear_volume / (1.0 - residual)),
@@ -259,6 +315,13 @@ impl Trend {
             self.tip.sensed.iter().copied().collect(),
             self.tip.forces.iter().skip(unsensed).copied().collect(),
         )
+    }
+
+    /// The steps of the last cycle: cycle, u_x⁽⁰⁾ (m) and F_x (N).
+    pub fn loop_rows(&self) -> impl Iterator<Item = [f64; 3]> + '_ {
+        let tip = &self.tip;
+        let rows = 0..tip.loop_cycles.len();
+        rows.map(|row| [tip.loop_cycles[row], tip.shifts[row], tip.forces[row]])
     }
 
     /// u_x⁽⁰⁾ (m) and F_x (N) of the last cycle.

@@ -21,6 +21,7 @@ mod cycle_jump;
 mod figures;
 mod fit;
 mod floors;
+mod ghosts;
 mod guide;
 mod half_space;
 mod hands;

@@ -4,9 +4,11 @@ use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
+use clap_complete::engine::ArgValueCompleter;
 
 use super::Changes;
 use super::values::{CycleAsGiven, cycles};
+use crate::cli::complete;
 use crate::figure::panels::Panel;
 
 /// Options of `figure`.
@@ -15,6 +17,7 @@ use crate::figure::panels::Panel;
     mdr-tui figure --figure fig2 -o fig2.pdf                 Fig. 2 of the paper\n  \
     mdr-tui figure --figure fig3 -o fig3.svg                 Fig. 3 of the paper\n  \
     mdr-tui figure fig3-run --panel loop -o loop.svg         one chart of a run's directory\n  \
+    mdr-tui figure fig3-run --overlay scar.csv -o worn.pdf   with a measured scar over it\n  \
     mdr-tui figure mine.toml --at 10,50,200 --panel profile --size 85x60 --style grey -o f.pdf\n\n\
     Beside FILE, the same name with .csv holds exactly what is drawn, and what a caption needs.")]
 pub struct Figure {
@@ -29,6 +32,15 @@ pub struct Figure {
     /// A chart; can be repeated; default: profiles, stresses and loop, as far as there are data.
     #[arg(long, value_name = "NAME", value_parser = panel_parser(), conflicts_with = "figure")]
     pub panel: Vec<Panel>,
+    /// Draw measured data with their error bars, another run's files or another scenario over the charts;
+    /// can be repeated.
+    #[arg(
+        long,
+        value_name = "FILE",
+        conflicts_with = "figure",
+        add = ArgValueCompleter::new(complete::overlays)
+    )]
+    pub overlay: Vec<String>,
     /// Changes to the scenario.
     #[command(flatten)]
     pub changes: Changes,

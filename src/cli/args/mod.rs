@@ -90,12 +90,23 @@ pub struct Changes {
 /// Options of the explorer.
 #[derive(Debug, Args)]
 pub struct Explore {
-    /// A preset's name, or a path to a .toml file.
+    /// A preset's name, a path to a .toml file, or a snapshot's directory, whose run goes on.
     #[arg(default_value = "li2019-fig3", add = ArgValueCompleter::new(complete::scenarios))]
     pub scenario: String,
     /// Changes to the scenario.
     #[command(flatten)]
     pub changes: Changes,
+    /// Lay measured data, a run's files or a scenario over the plots; can be repeated.
+    #[arg(
+        long,
+        value_name = "FILE",
+        add = ArgValueCompleter::new(complete::overlays),
+        long_help = "Lay other curves over the plots; can be repeated.\n\n\
+            FILE is a CSV file (a scar: r_um, wear_nm; a loop: u_um, F_N; a history: cycle, \
+            wear_volume_um3 or depth_um; error_... for error bars), a run's or a snapshot's directory, \
+            one of its tables, or a scenario, which runs beside."
+    )]
+    pub overlay: Vec<String>,
     /// The largest number of frames per second; default 10.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=120))]
     pub fps: Option<u16>,

@@ -175,16 +175,7 @@ impl Fit {
         }
         let domain = scenario.setup().grid.radius();
         for set in &data {
-            if !matches!(set.kind, Kind::Profile | Kind::Wear) {
-                continue;
-            }
-            let widest = set.at.iter().copied().fold(0.0, f64::max);
-            if widest > 100.0 * domain || widest < 0.01 * domain {
-                return Err(FitError::Misuse(format!(
-                    "{}: radii up to {widest:.1e} m, where contact reaches {domain:.1e} m: are they in m?",
-                    set.name
-                )));
-            }
+            set.check_radii(domain).map_err(FitError::Misuse)?;
         }
         Ok(Self {
             scenario,

@@ -83,6 +83,10 @@ pub enum Command {
     Compare,
     /// The second method from the start of the scenario.
     CompareFromStart,
+    /// The present state as a ghost over the plots.
+    Freeze,
+    /// No ghosts.
+    DropGhosts,
     /// Frames of a fast run at one phase of the motion, or as they come.
     HoldPhase,
     /// The next caption of the tour.

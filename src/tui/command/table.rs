@@ -137,7 +137,7 @@ pub static BINDINGS: &[Binding] = &[
         C::Snapshot,
         &[Char('s')],
         "snapshot",
-        "write state.csv and scenario.toml to a new directory",
+        "write state, history and loop to a new directory",
         true,
     ),
     bind(
@@ -236,6 +236,20 @@ pub static BINDINGS: &[Binding] = &[
         &[Char('C')],
         "compare all",
         "the second method from the start of the scenario",
+        false,
+    ),
+    bind(
+        C::Freeze,
+        &[Char('g')],
+        "ghost",
+        "freeze this state as a ghost in the plots",
+        false,
+    ),
+    bind(
+        C::DropGhosts,
+        &[Char('G')],
+        "no ghosts",
+        "remove all ghosts: frozen states and overlays",
         false,
     ),
     bind(

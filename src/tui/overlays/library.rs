@@ -12,6 +12,7 @@ use crate::scenario::preset::{self, Preset};
 use crate::scenario::{Scenario, printable};
 use crate::tui::command;
 use crate::tui::keys::Named;
+use crate::tui::snapshot;
 use crate::tui::theme::Role;
 
 /// The most entries of a directory that are listed.
@@ -35,6 +36,8 @@ pub struct Library {
 enum Entry {
     Preset(&'static Preset),
     Directory(PathBuf),
+    /// A directory that holds a state to go on from, and what is said of it.
+    Snapshot(PathBuf, String),
     File(PathBuf),
 }
 
@@ -47,7 +50,7 @@ impl Entry {
         match self {
             Self::Preset(preset) => preset.name.to_owned(),
             Self::Directory(path) if path.ends_with("..") => "../".to_owned(),
-            Self::Directory(path) => format!("{}/", last(path)),
+            Self::Directory(path) | Self::Snapshot(path, _) => format!("{}/", last(path)),
             Self::File(path) => last(path),
         }
     }
@@ -55,6 +58,7 @@ impl Entry {
     fn title(&self) -> &'static str {
         match self {
             Self::Preset(preset) => preset.title(),
+            Self::Snapshot(..) => "snapshot",
             Self::Directory(_) | Self::File(_) => "",
         }
     }
@@ -64,9 +68,18 @@ impl Entry {
         match self {
             Self::Preset(preset) => preset.summary().to_owned(),
             Self::Directory(path) => format!("the scenarios in {}", path.display()),
+            Self::Snapshot(_, about) => about.clone(),
             Self::File(path) => match Scenario::load(&path.to_string_lossy(), &[]) {
-                Ok(scenario) if scenario.description().is_empty() => scenario.title().to_owned(),
-                Ok(scenario) => format!("{}: {}", scenario.title(), scenario.description()),
+                Ok(scenario) => {
+                    let mut about = scenario.title().to_owned();
+                    if !scenario.description().is_empty() {
+                        about = format!("{about}: {}", scenario.description());
+                    }
+                    match &scenario.run().note {
+                        Some(note) => format!("{about} Note: {}", printable(note)),
+                        None => about,
+                    }
+                }
                 Err(error) => error.to_string(),
             },
         }
@@ -86,7 +99,10 @@ fn files(directory: &Path) -> Vec<Entry> {
         })
         .filter_map(|path| {
             if path.is_dir() {
-                return Some(Entry::Directory(path));
+                return Some(match snapshot::about(&path) {
+                    Some(about) => Entry::Snapshot(path, about),
+                    None => Entry::Directory(path),
+                });
             }
             let is_scenario = path
                 .extension()
@@ -95,7 +111,7 @@ fn files(directory: &Path) -> Vec<Entry> {
         })
         .take(LONGEST)
         .collect();
-    found.sort_by_key(|entry| (matches!(entry, Entry::Directory(_)), entry.name()));
+    found.sort_by_key(|entry| (!matches!(entry, Entry::File(_)), entry.name()));
     found.push(Entry::Directory(directory.join("..")));
     found
 }
@@ -109,7 +125,7 @@ impl Library {
         let is_shown = |entry: &Entry| match entry {
             Entry::Preset(preset) => preset.name == origin,
             Entry::File(path) => path.as_path() == Path::new(".").join(origin),
-            Entry::Directory(_) => false,
+            Entry::Directory(_) | Entry::Snapshot(..) => false,
         };
         let at = library.entries.iter().position(is_shown);
         library.select(at.unwrap_or(0));
@@ -150,7 +166,9 @@ impl Library {
     fn take(&mut self) -> Answer {
         match &self.entries[self.at] {
             Entry::Preset(preset) => Answer::Load(preset.name.to_owned()),
-            Entry::File(path) => Answer::Load(path.to_string_lossy().into_owned()),
+            Entry::File(path) | Entry::Snapshot(path, _) => {
+                Answer::Load(path.to_string_lossy().into_owned())
+            }
             Entry::Directory(path) => {
                 let path = path.clone();
                 self.enter(path);

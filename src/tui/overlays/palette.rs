@@ -1,5 +1,7 @@
 //! Every command by its name, and every key of the scenario by `set KEY=VALUE`, completed as typed.
 
+use std::path::Path;
+
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
@@ -36,6 +38,8 @@ enum Act {
     Sweep(Range),
     /// A figure in a file.
     Figure(String),
+    /// Curves over the plots.
+    Overlay(String),
 }
 
 /// One way to go on from what is typed.
@@ -67,6 +71,9 @@ fn completions(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
     if let Some(name) = typed.strip_prefix("load ") {
         return loads(name.trim());
     }
+    if let Some(given) = typed.strip_prefix("overlay ") {
+        return overlays(given.trim());
+    }
     if let Some(name) = typed.strip_prefix("figure ").map(str::trim) {
         let act = match name.is_empty() {
             true => Act::Complete,
@@ -91,6 +98,10 @@ fn completions(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
             "run many values of a key up to this cycle: sweep KEY FROM..TO",
         ),
         ("figure ", "draw this state for a paper: figure FILE.svg"),
+        (
+            "overlay ",
+            "data, a run or a scenario over the plots: overlay FILE",
+        ),
     ];
     for (word, help) in words {
         if let Some(rank) = rank(typed, word.trim_end(), help) {
@@ -246,6 +257,35 @@ fn loads(typed: &str) -> Vec<Completion> {
     list
 }
 
+/// Any file or directory; a preset by its name.
+fn overlays(typed: &str) -> Vec<Completion> {
+    let overlay = |given: &str, help: &str, act: Act| Completion {
+        line: format!("overlay {given}"),
+        help: help.to_owned(),
+        right: String::new(),
+        act,
+    };
+    let is_path = typed.contains(['/', '.']);
+    let fitting = preset::ALL
+        .iter()
+        .filter(|preset| !is_path && preset.name.contains(typed));
+    let presets = fitting.map(|preset| {
+        let act = Act::Overlay(preset.name.to_owned());
+        overlay(preset.name, preset.title(), act)
+    });
+    let act = match typed.is_empty() {
+        true => Act::Complete,
+        false => Act::Overlay(typed.to_owned()),
+    };
+    let help = "a CSV file, a run's directory, or a scenario";
+    let mut list = vec![overlay(typed, help, act)];
+    list.extend(presets);
+    // What is typed comes first, unless it can only be the beginning of a preset's name.
+    let is_begun = list.len() > 1 && !Path::new(typed).exists();
+    list.rotate_left(usize::from(is_begun && !typed.is_empty()));
+    list
+}
+
 impl Palette {
     /// What is typed.
     pub(super) fn line(&mut self) -> &mut LineEdit {
@@ -274,6 +314,7 @@ impl Palette {
                 Act::Set(key, value) => return Answer::Order(Order::Change { key, value }),
                 Act::Load(name) => return Answer::Load(name),
                 Act::Sweep(range) => return Answer::Order(Order::Sweep(range)),
+                Act::Overlay(given) => return Answer::Order(Order::Overlay(given)),
                 Act::Figure(name) => return Answer::Order(Order::Figure(name.into())),
             },
             (Key::Named(Named::Enter), None) => {

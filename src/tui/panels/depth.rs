@@ -1,12 +1,13 @@
 //! The worn depth f − f₀ over the radius.
 
-use super::{App, Frame, Panel, curve, edge_marks, radial_plot, zones};
+use super::{App, Frame, Panel, curve, edge_marks, ghosts, radial_plot, zones};
 use crate::plot::{Band, Plot, Scale};
 use crate::tui::theme::Role;
 
 /// What the ordinate must hold.
 pub fn ordinates(frame: &Frame) -> Vec<f64> {
-    frame.observation.wear.clone()
+    let ghosts = ghosts::ordinates(&ghosts::worn(frame, None));
+    [frame.observation.wear.clone(), ghosts].concat()
 }
 
 /// Makes the plot and hands it to `then`.
@@ -34,6 +35,8 @@ pub fn plotted<T>(frame: &Frame, app: &App, then: impl FnOnce(&Plot<'_>) -> T) -
         Scale::Linear => now.fill_to(0.0),
         Scale::Log => now,
     };
+    let mut ghosts = ghosts::worn(frame, None);
+    plot = plot.curves(ghosts::curves(&mut ghosts, app));
     plot = plot.curve(now).band(Band { zones: &zones });
     for mark in edge_marks(frame, theme) {
         plot = plot.mark(mark);

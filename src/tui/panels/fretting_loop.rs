@@ -6,8 +6,9 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 
-use super::{App, Frame, Panel, nothing, plot};
+use super::{App, Frame, Panel, ghosts, nothing, plot};
 use crate::plot::{Axis, Curve, Point};
+use crate::studies::ghost::Axes;
 use crate::tui::theme::Role;
 
 /// What the ordinate must hold.
@@ -15,7 +16,8 @@ pub fn ordinates(frame: &Frame) -> Vec<f64> {
     if frame.observation.moment.stick_radius.is_none() {
         return Vec::new();
     }
-    frame.trend.fretting_loop().1
+    let ghosts = ghosts::ordinates(&ghosts::on(frame, Axes::Loop, 1.0));
+    [frame.trend.fretting_loop().1, ghosts].concat()
 }
 
 /// Draws the panel.
@@ -36,12 +38,14 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     let (sensed, sensed_forces) = frame.trend.sensed_loop();
     let is_sensed = !sensed.is_empty();
     let name = if is_sensed { "contact" } else { "" };
+    let mut ghosts = ghosts::on(frame, Axes::Loop, 1.0);
     let mut plot = plot(
         Panel::Loop,
         app,
         Axis::new("u_x", "m"),
         Axis::new("F_x", "N"),
-    );
+    )
+    .curves(ghosts::curves(&mut ghosts, app));
     if is_sensed {
         let style = theme.style(Role::Quiet);
         plot = plot.curve(Curve::new("rig's sensor", &sensed, &sensed_forces, style));

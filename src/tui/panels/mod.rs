@@ -19,12 +19,14 @@ mod cost;
 mod depth;
 mod fretting_log;
 mod fretting_loop;
+mod ghosts;
 mod numbers;
 mod profile;
 mod radii;
 mod rate;
 mod residual;
 mod scar;
+mod scar_depth;
 mod section;
 mod springs;
 mod stress_map;
@@ -67,11 +69,13 @@ pub enum Panel {
     Log,
     /// Normal load over displacement amplitude.
     Condition,
+    /// Largest worn depth over cycles.
+    ScarDepth,
 }
 
 impl Panel {
     /// All panels, in reading order; the first four fill a small screen.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 16] = [
         Self::Profile,
         Self::Stresses,
         Self::Loop,
@@ -87,6 +91,7 @@ impl Panel {
         Self::Scar,
         Self::Log,
         Self::Condition,
+        Self::ScarDepth,
     ];
 
     /// The panel so many places further on.
@@ -119,6 +124,7 @@ impl Panel {
             Self::Scar => "scar from above",
             Self::Log => "fretting log",
             Self::Condition => "running-condition map",
+            Self::ScarDepth => "depth over cycles",
         }
     }
 
@@ -126,7 +132,13 @@ impl Panel {
     pub fn can_be_log(self) -> bool {
         matches!(
             self,
-            Self::Stresses | Self::Profile | Self::Depth | Self::Volume | Self::Rate | Self::Cost
+            Self::Stresses
+                | Self::Profile
+                | Self::Depth
+                | Self::Volume
+                | Self::Rate
+                | Self::Cost
+                | Self::ScarDepth
         )
     }
 
@@ -161,6 +173,7 @@ impl Panel {
             Self::Scar => scar::ordinates(frame),
             Self::Log => fretting_log::ordinates(frame),
             Self::Condition => condition::ordinates(frame),
+            Self::ScarDepth => scar_depth::ordinates(frame),
             Self::Numbers => return None,
         };
         values.retain(|value| value.is_finite() && (scale == Scale::Linear || *value > 0.0));
@@ -213,6 +226,7 @@ impl Panel {
             Self::Scar => scar::draw(frame, app, inner, buffer),
             Self::Log => fretting_log::draw(frame, app, inner, buffer),
             Self::Condition => condition::draw(frame, app, inner, buffer),
+            Self::ScarDepth => scar_depth::draw(frame, app, inner, buffer),
         }
     }
 
@@ -312,6 +326,7 @@ fn bare_plot<'a>(app: &App, x: Axis<'a>, y: Axis<'a>) -> Plot<'a> {
 /// A quantity of every cycle over the cycles so far.
 fn over_cycles<'a>(panel: Panel, frame: &Frame, app: &App, y: Axis<'a>) -> Plot<'a> {
     let end = frame.trend.cycles().last().map_or(0.0, |entry| entry.cycle);
+    let end = end.max(ghosts::end(frame));
     plot(
         panel,
         app,

@@ -1,7 +1,7 @@
 //! The 3D profile f(r), worn and unworn, with the zones of the contact under it. The wear is drawn
 //! magnified where it would be thinner than a line.
 
-use super::{App, Frame, Panel, curve, edge_marks, radial_plot, zones};
+use super::{App, Frame, Panel, curve, edge_marks, ghosts, radial_plot, zones};
 use crate::math::scan::largest;
 use crate::plot::{Band, Plot};
 use crate::tui::theme::Role;
@@ -42,15 +42,23 @@ fn magnified(frame: &Frame, wear: &[f64], times: f64) -> Vec<f64> {
     unworn.zip(wear).map(|(f, worn)| f + times * worn).collect()
 }
 
+/// The largest wear of the run and of the ghosts, m.
+fn deepest(frame: &Frame) -> f64 {
+    let ghosts = ghosts::ordinates(&ghosts::worn(frame, None));
+    let seen = largest(&frame.observation.wear);
+    ghosts.into_iter().fold(seen, f64::max)
+}
+
 /// What the ordinate must hold.
 pub fn ordinates(frame: &Frame) -> Vec<f64> {
     let seen = &frame.observation;
     if seen.profile.is_empty() {
         return Vec::new();
     }
-    let times = magnification(largest(&seen.wear), height(frame));
+    let times = magnification(deepest(frame), height(frame));
     let mut values = magnified(frame, &seen.wear, times);
     values.extend_from_slice(&seen.unworn);
+    values.extend(ghosts::ordinates(&ghosts::worn(frame, Some(times))));
     values
 }
 
@@ -66,7 +74,7 @@ pub fn plotted<T>(frame: &Frame, app: &App, then: impl FnOnce(&Plot<'_>) -> T) -
             limit.iter().zip(unworn).map(|(f, f0)| f - f0).collect()
         })
         .unwrap_or_default();
-    let deepest = largest(&seen.wear).max(largest(&limit));
+    let deepest = deepest(frame).max(largest(&limit));
     let times = magnification(deepest, height(frame));
     let (worn, limit) = (
         magnified(frame, &seen.wear, times),
@@ -81,7 +89,9 @@ pub fn plotted<T>(frame: &Frame, app: &App, then: impl FnOnce(&Plot<'_>) -> T) -
     if !limit.is_empty() {
         plot = plot.curve(curve("limit", &seen.radii, &limit, theme, Role::Limit).dashed());
     }
+    let mut ghosts = ghosts::worn(frame, Some(times));
     plot = plot
+        .curves(ghosts::curves(&mut ghosts, app))
         .curve(curve(&name, &seen.radii, &worn, theme, Role::Profile))
         .band(Band { zones: &zones });
     for mark in edge_marks(frame, theme) {

@@ -4,8 +4,9 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 
-use super::{App, Frame, Panel, curve, over_cycles, series};
+use super::{App, Frame, Panel, curve, ghosts, over_cycles, series};
 use crate::plot::Axis;
+use crate::studies::ghost::Axes;
 use crate::tui::theme::Role;
 
 /// What the ordinate must hold: radii grow from zero.
@@ -17,7 +18,16 @@ pub fn ordinates(frame: &Frame) -> Vec<f64> {
                 .cycles()
                 .flat_map(|cycle| [cycle.contact_radius, cycle.stick_radius]),
         )
+        .chain(ghosts::ordinates(&ghosts(frame)))
         .collect()
+}
+
+/// Contact radii, and below them stick radii, which need no name.
+fn ghosts(frame: &Frame) -> Vec<ghosts::Line> {
+    let mut lines = ghosts::on(frame, Axes::Contact, 1.0);
+    let stick = ghosts::on(frame, Axes::Stick, 1.0).into_iter();
+    lines.extend(stick.map(ghosts::Line::nameless));
+    lines
 }
 
 /// Draws the panel.
@@ -26,13 +36,10 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     let (cycles, contact) = series(frame, |entry| entry.contact_radius);
     let stick = series(frame, |entry| entry.stick_radius).1;
     let ends = [0.0, cycles.last().copied().unwrap_or(0.0).max(1.0)];
-    let mut plot = over_cycles(Panel::Radii, frame, app, Axis::new("radius", "m")).curve(curve(
-        "contact a",
-        &cycles,
-        &contact,
-        theme,
-        Role::Contact,
-    ));
+    let mut ghosts = ghosts(frame);
+    let mut plot = over_cycles(Panel::Radii, frame, app, Axis::new("radius", "m"))
+        .curves(ghosts::curves(&mut ghosts, app))
+        .curve(curve("contact a", &cycles, &contact, theme, Role::Contact));
     if stick.iter().any(|radius| radius.is_finite()) {
         plot = plot.curve(curve("stick c", &cycles, &stick, theme, Role::Stick).dashed());
     }

@@ -1,7 +1,8 @@
 //! Pressure p(r) and shear stress τ(r). τ is drawn as τ/μ: it meets ±p where the contact slips.
 
-use super::{App, Frame, Panel, curve, edge_marks, radial_plot};
+use super::{App, Frame, Panel, curve, edge_marks, ghosts, radial_plot};
 use crate::plot::{Plot, Scale};
+use crate::studies::ghost::Axes;
 use crate::tui::theme::Role;
 
 /// τ/μ; empty without friction or tangential motion.
@@ -25,10 +26,25 @@ fn scaled_shear(frame: &Frame, scale: Scale) -> Vec<f64> {
         .collect()
 }
 
+/// Pressures, and below them shear stresses in the scale of those of the run, which need no name.
+fn ghosts(frame: &Frame, scale: Scale) -> Vec<ghosts::Line> {
+    let mut lines = ghosts::on(frame, Axes::Pressure, 1.0);
+    if frame.friction > 0.0 && frame.observation.moment.stick_radius.is_some() {
+        let shear = ghosts::on(frame, Axes::Shear, 1.0 / frame.friction).into_iter();
+        let shear = shear.map(ghosts::Line::nameless);
+        lines.extend(shear.map(|line| match scale {
+            Scale::Log => line.sizes(),
+            Scale::Linear => line,
+        }));
+    }
+    lines
+}
+
 /// What the ordinate must hold.
 pub fn ordinates(frame: &Frame) -> Vec<f64> {
     let mut values = frame.observation.pressure.clone();
     values.extend(scaled_shear(frame, Scale::Linear));
+    values.extend(ghosts::ordinates(&ghosts(frame, Scale::Linear)));
     values
 }
 
@@ -53,13 +69,16 @@ pub fn plotted<T>(frame: &Frame, app: &App, then: impl FnOnce(&Plot<'_>) -> T) -
         .into_iter()
         .map(|shear| if scale == Scale::Log { shear.abs() } else { shear } / frame.friction)
         .collect();
-    let mut plot = radial_plot(Panel::Stresses, app, frame, "r", ("stress", "Pa")).curve(curve(
-        "p",
-        &seen.radii,
-        &seen.pressure,
-        theme,
-        Role::Pressure,
-    ));
+    let mut ghosts = ghosts(frame, scale);
+    let mut plot = radial_plot(Panel::Stresses, app, frame, "r", ("stress", "Pa"))
+        .curves(ghosts::curves(&mut ghosts, app))
+        .curve(curve(
+            "p",
+            &seen.radii,
+            &seen.pressure,
+            theme,
+            Role::Pressure,
+        ));
     if !shear.is_empty() {
         plot = plot.curve(
             curve(name, &seen.radii, &shear, theme, Role::Shear).dashed_if(!theme.colored()),

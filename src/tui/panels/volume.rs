@@ -5,15 +5,17 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 
-use super::{App, Frame, Panel, curve, nothing, over_cycles, series};
+use super::{App, Frame, Panel, curve, ghosts, nothing, over_cycles, series};
 use crate::plot::Axis;
 use crate::plot::units::format_value_in;
+use crate::studies::ghost::Axes;
 use crate::tui::theme::Role;
 
 /// What the ordinate must hold: volumes grow from zero.
 pub fn ordinates(frame: &Frame) -> Vec<f64> {
     let mut values = vec![0.0];
     values.extend(series(frame, |entry| entry.wear_volume).1);
+    values.extend(ghosts::ordinates(&ghosts::on(frame, Axes::Volume, 1.0)));
     values
 }
 
@@ -26,7 +28,9 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     let (cycles, volume) = series(frame, |entry| entry.wear_volume);
     let work = format_value_in(seen.moment.dissipated_energy, "J", 4, theme.ascii());
     let work = format!("E_d {work}");
+    let mut ghosts = ghosts::on(frame, Axes::Volume, 1.0);
     over_cycles(Panel::Volume, frame, app, Axis::new("V", "m³"))
+        .curves(ghosts::curves(&mut ghosts, app))
         .curve(curve("", &cycles, &volume, theme, Role::Profile))
         .note(&work)
         .render(area, buffer);

@@ -127,6 +127,11 @@ impl Panel {
                  a whole in each cycle, to the left its middle sticks: dashed for the unworn shape, solid as it is now.",
                 &[("F_z", "mean normal force of a cycle")],
             ),
+            Self::ScarDepth => (
+                "The largest worn depth of the profile over cycles: what a profilometer reads in the deepest point of \
+                 the scar. Measured depths lie over it with --overlay.",
+                &[("depth", "largest f - f0 over the radius")],
+            ),
         };
         Words { text, symbols }
     }

@@ -10,6 +10,7 @@ use crate::scenario::session::Session;
 use crate::studies::refinement::{self, Level, SCREEN_PATIENCE};
 use crate::studies::theory::Theory;
 use crate::tui::frame::Activity;
+use crate::tui::ghosts;
 use crate::tui::settings::Setting;
 use crate::tui::trend::Trend;
 use crate::tui::undo::Past;
@@ -112,21 +113,27 @@ impl Worker {
         }
         match Session::start(resolved.scenario) {
             Ok(session) => {
-                if let Some(keeping) = &self.keeping {
-                    super::locked(keeping).turn_over(self.past.line(&self.session), &session);
-                }
-                self.session = session;
-                self.comparison = None;
-                self.past = Past::default();
-                self.whole_trend = None;
-                self.learn();
-                self.trend = Trend::default();
-                self.trend.record(&self.session.simulation().moment());
-                if self.activity != Activity::Running {
-                    self.activity = Activity::Paused;
-                }
+                let mut trend = Trend::default();
+                ghosts::record(&mut trend, &session);
+                self.take_up(session, trend);
             }
             Err(error) => self.notice(&error.to_string()),
+        }
+    }
+
+    /// Another run takes the place of this one.
+    pub(super) fn take_up(&mut self, session: Session, trend: Trend) {
+        if let Some(keeping) = &self.keeping {
+            super::locked(keeping).turn_over(self.past.line(&self.session), &session);
+        }
+        self.session = session;
+        self.comparison = None;
+        self.past = Past::default();
+        self.whole_trend = None;
+        self.learn();
+        self.trend = trend;
+        if self.activity != Activity::Running {
+            self.activity = Activity::Paused;
         }
     }
 }

@@ -17,6 +17,7 @@ use super::comparison::{ComparisonRun, From};
 use super::cycle_loads::CycleLoads;
 use super::figure;
 use super::frame::{Activity, Frame, Slot};
+use super::ghosts::{self, Source};
 use super::map::live::{Live, Range};
 use super::order::Order;
 use super::pace::{Meter, Pace};
@@ -44,6 +45,7 @@ const CATCH_UP: Duration = Duration::from_millis(10);
 pub struct Worker {
     session: Session,
     comparison: Option<ComparisonRun>,
+    ghosts: Vec<Source>,
     theory: Arc<Theory>,
     cycle_loads: CycleLoads,
     settings: Arc<Vec<Setting>>,
@@ -84,7 +86,7 @@ impl Worker {
         running: bool,
     ) -> Self {
         let mut trend = Trend::default();
-        trend.record(&session.simulation().moment());
+        ghosts::record(&mut trend, &session);
         let activity = if running {
             Activity::Running
         } else {
@@ -97,6 +99,7 @@ impl Worker {
             passed_hardness: session.simulation().passed_hardness(),
             session,
             comparison: None,
+            ghosts: Vec::new(),
             cycle_loads: CycleLoads::default(),
             trend,
             whole_trend: None,
@@ -116,6 +119,21 @@ impl Worker {
             keeping: None,
             halt: Arc::default(),
         }
+    }
+
+    /// The same with a past of the run, where it is known.
+    #[must_use]
+    pub fn with_past(self, trend: Option<Trend>) -> Self {
+        Self {
+            trend: trend.unwrap_or(self.trend),
+            ..self
+        }
+    }
+
+    /// The same with ghosts over the plots.
+    #[must_use]
+    pub fn with_ghosts(self, ghosts: Vec<Source>) -> Self {
+        Self { ghosts, ..self }
     }
 
     /// What to set for the worker to cut short what it does, before it is told to quit.
@@ -149,7 +167,7 @@ impl Worker {
             #[cfg(debug_assertions)]
             crate::failpoint::hit("worker");
             self.look_after();
-            let wait = if self.comparison_lags() {
+            let wait = if self.is_awaited() {
                 Some(Duration::ZERO)
             } else {
                 self.until_next_step()
@@ -174,7 +192,7 @@ impl Worker {
                     self.meter.restart(self.session.simulation().cycle());
                     self.publish();
                 }
-                Err(RecvTimeoutError::Timeout) if self.comparison_lags() => self.catch_up(),
+                Err(RecvTimeoutError::Timeout) if self.is_awaited() => self.catch_up(),
                 Err(RecvTimeoutError::Timeout) if self.activity != Activity::Running => {}
                 Err(RecvTimeoutError::Timeout) => self.step_for_a_stint(),
             }
@@ -210,20 +228,24 @@ impl Worker {
         }
     }
 
-    /// Whether the comparison is not yet where the run is.
-    fn comparison_lags(&self) -> bool {
+    /// Whether the comparison or a ghost is not yet where the run is.
+    fn is_awaited(&self) -> bool {
         let cycle = self.session.simulation().cycle();
         let comparison = self.comparison.as_ref();
         comparison.is_some_and(|comparison| comparison.lags(cycle))
+            || self.ghosts.iter().any(|ghost| ghost.lags(cycle))
     }
 
-    /// Lets the comparison come nearer to the run for a moment.
+    /// Lets what runs beside come nearer to the run for a moment.
     fn catch_up(&mut self) {
         let cycle = self.session.simulation().cycle();
         if let Some(comparison) = &mut self.comparison {
             comparison.follow_for(cycle, CATCH_UP);
         }
-        if self.published.elapsed() >= self.interval || !self.comparison_lags() {
+        for ghost in &mut self.ghosts {
+            ghost.follow_for(cycle, CATCH_UP);
+        }
+        if self.published.elapsed() >= self.interval || !self.is_awaited() {
             self.publish();
         }
     }
@@ -293,12 +315,16 @@ impl Worker {
             }
             Order::Restart => self.load(self.session.loaded().clone()),
             Order::Load(scenario) => self.load(*scenario),
+            Order::Open(opened) => self.take_up(opened.session, opened.trend),
+            Order::Overlay(given) => self.overlay(&given),
+            Order::Freeze => self.add_ghost(Source::frozen(&self.session, &self.trend)),
+            Order::DropGhosts => self.drop_ghosts(),
             Order::Snapshot(note) => self.snapshot(note.as_deref()),
             Order::Sweep(range) => self.sweep(&range),
             Order::Figure(path) => self.figure(&path),
             Order::Show(curves) => self.curves = curves,
             Order::Sync(reply) => {
-                while self.comparison_lags() && !self.halt.load(Ordering::Relaxed) {
+                while self.is_awaited() && !self.halt.load(Ordering::Relaxed) {
                     self.catch_up();
                 }
                 self.follow_hardness();
@@ -308,8 +334,32 @@ impl Worker {
         }
     }
 
+    fn overlay(&mut self, given: &str) {
+        let reach = self.session.simulation().setup().grid.radius();
+        match Source::load(given, reach) {
+            Ok(ghost) => self.add_ghost(ghost),
+            Err(error) => self.notice(&error),
+        }
+    }
+
+    fn add_ghost(&mut self, ghost: Source) {
+        if self.ghosts.len() >= ghosts::MOST {
+            let most = ghosts::MOST;
+            return self.notice(&format!("{most} ghosts are there already; G removes them"));
+        }
+        let name = ghost.name();
+        self.notice(&format!("{name} is over the plots now; G removes it"));
+        self.ghosts.push(ghost);
+    }
+
+    fn drop_ghosts(&mut self) {
+        if std::mem::take(&mut self.ghosts).is_empty() {
+            self.notice("there is no ghost; g freezes this state, :overlay FILE takes a file");
+        }
+    }
+
     fn snapshot(&self, note: Option<&str>) {
-        match snapshot::write(&self.session, note) {
+        match snapshot::write(&self.session, &self.trend, note) {
             Ok(path) => self.notice(&format!("snapshot in {}", path.display())),
             Err(error) => self.notice(&error.to_string()),
         }
@@ -403,6 +453,11 @@ impl Worker {
             checks,
             warnings: Arc::clone(&self.warnings),
             theory: Arc::clone(&self.theory),
+            ghosts: self
+                .ghosts
+                .iter()
+                .map(|ghost| ghost.seen(self.curves))
+                .collect(),
             comparison: self.comparison.as_ref().map(ComparisonRun::seen),
         }
     }

@@ -7,6 +7,7 @@ use super::travel::ends_cycle;
 use super::{CATCH_UP, Worker};
 use crate::simulation::Curves;
 use crate::tui::frame::Activity;
+use crate::tui::ghosts;
 use crate::tui::pace::Pace;
 
 /// The time between two jumps over cycles, unless the pace is without limit.
@@ -140,9 +141,12 @@ impl Worker {
                         figures.map(|seen| [seen.displacement_amplitude, seen.normal_force]),
                     );
                 }
-                self.trend.record(&simulation.moment());
+                ghosts::record(&mut self.trend, &self.session);
                 if let Some(comparison) = &mut self.comparison {
                     comparison.follow_for(self.session.simulation().cycle(), CATCH_UP);
+                }
+                for ghost in &mut self.ghosts {
+                    ghost.follow_for(self.session.simulation().cycle(), CATCH_UP);
                 }
             }
             Err(error) => self.activity = Activity::Stopped(error.to_string()),

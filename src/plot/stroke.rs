@@ -1,0 +1,96 @@
+//! How a line is interrupted: curves of one colour are told apart by it.
+
+use super::marker::Marker;
+
+/// Solid, or a pattern of dashes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Stroke {
+    /// No gaps.
+    #[default]
+    Solid,
+    /// Dashes.
+    Dashed,
+    /// Dots.
+    Dotted,
+    /// A dash and a dot by turns.
+    DashDotted,
+    /// Dashes twice as long.
+    LongDashed,
+}
+
+/// Lengths in dots, drawn and left out by turns.
+type Runs = &'static [usize];
+
+impl Stroke {
+    /// The pattern along a line, across and down.
+    pub(super) fn runs(self, marker: Marker) -> [Runs; 2] {
+        use Marker::{Ascii, Braille, Dot, HalfBlock};
+        match (self, marker) {
+            (Self::Solid, _) => [&[1], &[1]],
+            (Self::Dashed, Braille) => [&[4, 2], &[5, 3]],
+            (Self::Dashed, HalfBlock) => [&[2, 1], &[3, 1]],
+            (Self::Dashed, Dot | Ascii) => [&[1, 1], &[1, 1]],
+            (Self::Dotted, Braille) => [&[1, 2], &[1, 2]],
+            (Self::Dotted, HalfBlock) => [&[1, 2], &[1, 2]],
+            (Self::Dotted, Dot | Ascii) => [&[1, 2], &[1, 2]],
+            (Self::DashDotted, Braille) => [&[5, 2, 1, 2], &[6, 2, 1, 2]],
+            (Self::DashDotted, HalfBlock | Dot | Ascii) => [&[3, 1, 1, 1], &[3, 1, 1, 1]],
+            (Self::LongDashed, Braille) => [&[9, 3], &[10, 4]],
+            (Self::LongDashed, HalfBlock | Dot | Ascii) => [&[5, 1], &[5, 1]],
+        }
+    }
+
+    /// The sign that stands for it in a legend.
+    pub(super) fn swatch(self, ascii: bool) -> char {
+        match (self, ascii) {
+            (Self::Solid, false) => '─',
+            (Self::Dashed, false) => '╌',
+            (Self::Dotted, false) => '┈',
+            (Self::DashDotted, false) => '┄',
+            (Self::LongDashed, false) => '╴',
+            (Self::Solid, true) => '-',
+            (Self::Dashed, true) => '=',
+            (Self::Dotted, true) => '.',
+            (Self::DashDotted, true) => '~',
+            (Self::LongDashed, true) => '_',
+        }
+    }
+}
+
+/// Whether the dot at `place` along a line is drawn.
+pub(super) fn draws(runs: Runs, place: usize) -> bool {
+    let mut left = place % runs.iter().sum::<usize>().max(1);
+    for (k, &run) in runs.iter().enumerate() {
+        if left < run {
+            return k % 2 == 0;
+        }
+        left -= run;
+    }
+    true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn patterns_repeat_and_no_two_look_alike() {
+        use Stroke::{DashDotted, Dashed, Dotted, LongDashed, Solid};
+        for marker in [
+            Marker::Braille,
+            Marker::HalfBlock,
+            Marker::Dot,
+            Marker::Ascii,
+        ] {
+            let mut seen = Vec::new();
+            for stroke in [Solid, Dashed, Dotted, DashDotted, LongDashed] {
+                let [across, _] = stroke.runs(marker);
+                let drawn: String = (0..40)
+                    .map(|i| if draws(across, i) { '#' } else { ' ' })
+                    .collect();
+                assert!(drawn.starts_with('#') && !seen.contains(&drawn), "{drawn}");
+                seen.push(drawn);
+            }
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! A second run that follows the first from cycle to cycle.
+
+use std::time::{Duration, Instant};
+
+use crate::scenario::session::Session;
+
+/// The second run, and what its steps have cost.
+#[derive(Debug, Clone)]
+pub(super) struct Beside {
+    session: Session,
+    busy: Duration,
+    steps: u64,
+    stopped: Option<String>,
+}
+
+impl Beside {
+    /// A run that begins where `session` stands.
+    pub fn new(session: Session) -> Self {
+        Self {
+            session,
+            busy: Duration::ZERO,
+            steps: 0,
+            stopped: None,
+        }
+    }
+
+    /// The run.
+    pub fn session(&self) -> &Session {
+        &self.session
+    }
+
+    /// Why it stopped, if it did.
+    pub fn stopped(&self) -> Option<&str> {
+        self.stopped.as_deref()
+    }
+
+    /// What a step of it costs, s; none before the first.
+    pub fn step_cost(&self) -> Option<f64> {
+        (self.steps > 0).then(|| self.busy.as_secs_f64() / self.steps as f64)
+    }
+
+    /// Whether it is not yet at `cycle`.
+    pub fn lags(&self, cycle: f64) -> bool {
+        self.stopped.is_none() && self.session.simulation().cycle() < cycle
+    }
+
+    /// Steps towards `cycle`, where the first run is, for about as long as `budget`: the first run may
+    /// have jumped over many cycles that this one has to step through. `on_step` sees every step.
+    pub fn follow_for(&mut self, cycle: f64, budget: Duration, mut on_step: impl FnMut(&Session)) {
+        let (start, before) = (Instant::now(), self.session.simulation().steps());
+        while self.lags(cycle) {
+            match self.session.step_until(cycle) {
+                Ok(()) => on_step(&self.session),
+                Err(error) => self.stopped = Some(error.to_string()),
+            }
+            if start.elapsed() >= budget {
+                break;
+            }
+        }
+        self.busy += start.elapsed();
+        self.steps += self.session.simulation().steps() - before;
+    }
+}

@@ -1,0 +1,168 @@
+//! Where ghosts come from: files, states that the user freezes, and scenarios that run beside.
+
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Duration;
+
+use super::beside::Beside;
+use super::trend::{OfCycle, Trend};
+use crate::math::scan::largest;
+use crate::scenario::Scenario;
+use crate::scenario::session::Session;
+use crate::simulation::Curves;
+use crate::studies::ghost::{Axes, Ghost};
+use crate::studies::refinement::{self, SCREEN_PATIENCE};
+
+/// The most ghosts at once: each has a stroke of its own.
+pub const MOST: usize = 4;
+
+/// Curves beside the run.
+#[derive(Debug, Clone)]
+pub enum Source {
+    /// They do not change.
+    Still(Arc<Ghost>),
+    /// They are those of another run at the same cycle.
+    Run(Box<GhostRun>),
+}
+
+impl Source {
+    /// What `given` names, which is to be shown over a contact that reaches as far as `reach`, m: a
+    /// directory or a CSV file, or else a scenario.
+    ///
+    /// # Errors
+    /// One line.
+    pub fn load(given: &str, reach: f64) -> Result<Self, String> {
+        let path = Path::new(given);
+        let is_scenario = path
+            .extension()
+            .is_none_or(|end| end.eq_ignore_ascii_case("toml"));
+        if is_scenario && !path.is_dir() {
+            let scenario = Scenario::load(given, &[]).map_err(|error| error.to_string())?;
+            return Ok(Self::Run(Box::new(GhostRun::start(&scenario)?)));
+        }
+        let ghost = Ghost::read(path).map_err(|error| error.to_string())?;
+        ghost.check_radii(reach)?;
+        Ok(Self::Still(Arc::new(ghost)))
+    }
+
+    /// The present state of a run.
+    pub(super) fn frozen(session: &Session, trend: &Trend) -> Self {
+        let cycle = session.simulation().cycle();
+        let name = format!("cycle {cycle:.2}");
+        Self::Still(Arc::new(ghost(&name, session, trend, Curves::all())))
+    }
+
+    /// What legends call it.
+    pub(super) fn name(&self) -> &str {
+        match self {
+            Self::Still(ghost) => &ghost.name,
+            Self::Run(run) => &run.name,
+        }
+    }
+
+    /// Whether it is not yet where the run is.
+    pub(super) fn lags(&self, cycle: f64) -> bool {
+        match self {
+            Self::Still(_) => false,
+            Self::Run(run) => run.beside.lags(cycle) || run.is_ahead(cycle),
+        }
+    }
+
+    /// Comes nearer to the run for about as long as `budget`.
+    pub(super) fn follow_for(&mut self, cycle: f64, budget: Duration) {
+        if let Self::Run(run) = self {
+            run.follow_for(cycle, budget);
+        }
+    }
+
+    /// Its curves, `curves` of them if they are computed for each frame.
+    pub(super) fn seen(&self, curves: Curves) -> Arc<Ghost> {
+        match self {
+            Self::Still(ghost) => Arc::clone(ghost),
+            Self::Run(run) => Arc::new(ghost(
+                &run.shown_name(),
+                run.beside.session(),
+                &run.trend,
+                curves,
+            )),
+        }
+    }
+}
+
+/// A scenario that runs beside, from its start to the present cycle.
+#[derive(Debug, Clone)]
+pub struct GhostRun {
+    name: String,
+    /// As it was before its first step: where it begins again when the screen goes back in time.
+    start: Session,
+    beside: Beside,
+    trend: Trend,
+}
+
+impl GhostRun {
+    fn start(scenario: &Scenario) -> Result<Self, String> {
+        let resolved = refinement::resolve(scenario, None, SCREEN_PATIENCE, &|| true);
+        let resolved = resolved.map_err(|error| error.to_string())?;
+        let start = Session::start(resolved.scenario).map_err(|error| error.to_string())?;
+        let mut trend = Trend::default();
+        record(&mut trend, &start);
+        Ok(Self {
+            name: scenario.stem(),
+            beside: Beside::new(start.clone()),
+            start,
+            trend,
+        })
+    }
+
+    /// Whether the screen has gone back in time.
+    fn is_ahead(&self, cycle: f64) -> bool {
+        self.beside.session().simulation().cycle() > cycle + 1e-9
+    }
+
+    fn follow_for(&mut self, cycle: f64, budget: Duration) {
+        if self.is_ahead(cycle) {
+            self.beside = Beside::new(self.start.clone());
+            self.trend = Trend::default();
+            record(&mut self.trend, &self.start);
+        }
+        let Self { beside, trend, .. } = self;
+        beside.follow_for(cycle, budget, |session| record(trend, session));
+    }
+
+    fn shown_name(&self) -> String {
+        match self.beside.stopped() {
+            Some(_) => {
+                let cycle = self.beside.session().simulation().cycle();
+                format!("{} (ends at {cycle:.2})", self.name)
+            }
+            None => self.name.clone(),
+        }
+    }
+}
+
+/// Takes the present moment of `session` into its trend.
+pub(super) fn record(trend: &mut Trend, session: &Session) {
+    let simulation = session.simulation();
+    trend.note_scar_depth(largest(simulation.worn_depth()));
+    trend.record(&simulation.moment());
+}
+
+fn ghost(name: &str, session: &Session, trend: &Trend, curves: Curves) -> Ghost {
+    let seen = session.simulation().observe(curves);
+    let mut ghost = Ghost::of_observation(name, &seen);
+    if seen.moment.stick_radius.is_some() {
+        let (shifts, forces) = trend.fretting_loop();
+        ghost.add(Axes::Loop, shifts, forces);
+    }
+    let cycles: Vec<f64> = trend.cycles().map(|entry| entry.cycle).collect();
+    let series: [(Axes, OfCycle); 4] = [
+        (Axes::Volume, |entry| entry.wear_volume),
+        (Axes::Depth, |entry| entry.scar_depth),
+        (Axes::Contact, |entry| entry.contact_radius),
+        (Axes::Stick, |entry| entry.stick_radius),
+    ];
+    for (axes, of) in series {
+        ghost.add(axes, cycles.clone(), trend.cycles().map(of).collect());
+    }
+    ghost
+}

@@ -1,4 +1,4 @@
-//! What `s` writes: the state and, beside it, the scenario that leads there.
+//! What `s` writes: the state, and the scenario that reproduces it.
 
 use std::path::PathBuf;
 

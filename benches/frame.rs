@@ -1,7 +1,7 @@
 //! What the explorer costs: a frame drawn and sent, a key answered, the first frame of a start, and
 //! the simulation under it against the same simulation alone.
 //!
-//! `cargo bench --bench frame`. The bytes of a frame are counted by a test, `tests/suite/wire.rs`.
+//! `cargo bench --bench frame`. The bytes of a frame are counted by a test, `tests/suite/ansi_backend.rs`.
 
 use std::io::{self, Read, Write};
 use std::sync::Arc;

@@ -6,9 +6,9 @@
 //!
 //! # The house
 //!
-//! Floors import downwards only:
+//! Layers import downwards only:
 //!
-//! | floor | holds | knows |
+//! | layer | holds | knows |
 //! |---|---|---|
 //! | [`math`] | grids, root solve, the three Abel transforms and the ways to compute them | no physics |
 //! | [`contact`] | materials, indenters, normal and tangential springs | no time |
@@ -23,7 +23,8 @@
 //!
 //! [`guide`] holds the long documentation, topic by topic.
 //!
-//! Beside them stands [`oracle`]: closed forms, written with `std` alone, that judge the rest.
+//! [`oracle`] stands apart: closed forms, written with `std` alone, that the rest is tested
+//! against.
 //!
 //! A user's TOML becomes a [`scenario::Scenario`], a [`scenario::session::Session`] runs it, and
 //! screens and files see owned [`simulation::Observation`]s. The explorer and the headless commands
@@ -43,7 +44,7 @@
 //! | u_x(x), u_x(r) | displacement of the springs and of the surface | m | (2) |
 //! | E*, G*, ν, μ | effective moduli, Poisson's ratio, friction | Pa, Pa, –, – | |
 //! | k | wear coefficient | 1/Pa | (15) |
-//! | V, E_d | worn volume, work of friction | m³, J | V = k E_d |
+//! | V, E_d | worn volume, friction work | m³, J | V = k E_d |
 
 pub mod cli;
 pub mod contact;

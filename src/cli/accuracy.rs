@@ -30,19 +30,17 @@ pub(super) fn resolve(
     resolved
 }
 
-/// The estimated error of a finished run as lines of its files' headers; one line of why there is none.
+/// The estimated error of a finished run as header lines, or one line saying why there is none.
 pub(super) fn estimated(
     session: &Session,
     stop: &AtomicBool,
 ) -> Result<Vec<(String, String)>, String> {
     if session.simulation().moment().wear_volume <= 0.0 {
-        return Err("nothing has worn: there is no worn depth to estimate the error of".into());
+        return Err("nothing has worn, so there is no worn depth to estimate the error of".into());
     }
     match refinement::estimate(session, &|| !stop.load(Ordering::Relaxed)) {
         Some(Ok(error)) => Ok(refinement::statements_of(&error)),
-        Some(Err(error)) => Err(format!(
-            "no error could be estimated: a coarser run {error}"
-        )),
+        Some(Err(error)) => Err(format!("cannot estimate the error: a coarser run {error}")),
         None => Err("interrupted: no error was estimated".into()),
     }
 }

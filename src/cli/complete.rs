@@ -1,4 +1,4 @@
-//! What a shell completes: presets, scenario files, and the keys and words of a scenario.
+//! Shell completion of presets, scenario files, and scenario keys with their values.
 //!
 //! The script that `mdr-tui completions` prints asks the program itself, so it knows what this
 //! version knows.

@@ -1,5 +1,6 @@
-//! `$XDG_CONFIG_HOME/mdr-tui/config.toml`: what a user prefers in every session. The command line goes
-//! before it. The file is documented by `config.toml` beside this one, which the guide shows.
+//! `$XDG_CONFIG_HOME/mdr-tui/config.toml`: the user's preferences for every session. The command
+//! line overrides it. The file is documented by `config.toml` beside this one, which the guide
+//! shows.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -46,12 +47,12 @@ struct Written {
 }
 
 impl Config {
-    /// Reads the user's file; without one, nothing is preferred.
+    /// Reads the user's file; without one, returns empty preferences.
     ///
     /// # Errors
     ///
-    /// One line that names the file and what is wrong in it: no TOML, an unknown key, a value that
-    /// is none of its key.
+    /// One line with the file and what is wrong in it: invalid TOML, an unknown key, an invalid
+    /// value.
     pub fn load() -> Result<Self, Misuse> {
         let Some(path) = path() else {
             return Ok(Self::default());
@@ -96,10 +97,10 @@ impl Config {
     }
 }
 
-/// Where the file stands; none without a home.
+/// The path of the file; `None` without a home directory.
 fn path() -> Option<PathBuf> {
     let given = std::env::var_os("XDG_CONFIG_HOME").map(PathBuf::from);
-    // The specification has relative paths ignored.
+    // The specification says to ignore relative paths.
     let base = given.filter(|path| path.is_absolute()).or_else(|| {
         let home = std::env::home_dir().filter(|home| !home.as_os_str().is_empty());
         home.map(|home| home.join(".config"))
@@ -134,7 +135,7 @@ fn command(name: &str) -> Result<Command, String> {
             Some(near) => format!("did you mean {near:?}?"),
             None => "the command palette (:) shows the names".to_owned(),
         };
-        format!("keys: {name:?} is no command; {hint}")
+        format!("keys: {name:?} is not a command; {hint}")
     })
 }
 
@@ -181,7 +182,7 @@ mod tests {
             ),
             (
                 "[keys]\nstop = \"a\"",
-                "config.toml: keys: \"stop\" is no command; did you mean \"step\"?",
+                "config.toml: keys: \"stop\" is not a command; did you mean \"step\"?",
             ),
         ] {
             let error = read(text).expect_err(text);

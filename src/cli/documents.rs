@@ -1,16 +1,22 @@
-//! Completions and the manual pages, made from the arguments and the table of keys themselves.
+//! Completions and man pages, made from the arguments and the table of keys themselves.
 
 use std::io::{self, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
 use anyhow::{Context, Result};
-use clap::CommandFactory;
+use clap::{Arg, ArgAction, Command, CommandFactory};
 use clap_complete::env::Shells;
 use clap_mangen::Man;
 
-use super::args::Arguments;
+use super::Misuse;
+use super::args::{Arguments, Manual};
 use super::complete::VARIABLE;
+use crate::export::file::write_whole;
 use crate::tui::manual;
+
+/// The longest list of choices that a synopsis spells out, in characters.
+const LONGEST_CHOICE: usize = 40;
 
 /// Prints a script with which the shell asks this program for completions.
 pub fn completions(shell: clap_complete::Shell) -> Result<ExitCode> {
@@ -24,21 +30,148 @@ pub fn completions(shell: clap_complete::Shell) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Prints the manual page, and after it one page for each command.
-pub fn man() -> Result<ExitCode> {
-    let mut command = Arguments::command();
+/// Prints one man page or all of them, or writes each to a file.
+pub fn man(options: &Manual) -> Result<ExitCode> {
+    let mut program = Arguments::command();
     // Gives the commands their full names, "mdr-tui run".
-    command.build();
-    let source = concat!("mdr-tui ", env!("CARGO_PKG_VERSION"));
-    let mut pages = Vec::new();
-    for command in std::iter::once(&command).chain(command.get_subcommands()) {
-        Man::new(command.clone())
-            .source(source)
-            .render(&mut pages)?;
-        if command.get_name() == "mdr-tui" {
-            pages.extend(manual::roff().into_bytes());
+    program.build();
+    let commands: Vec<&Command> = std::iter::once(&program)
+        .chain(program.get_subcommands())
+        .filter(|command| {
+            let wanted = options.command.as_deref();
+            wanted.is_none_or(|wanted| command.get_name() == wanted)
+        })
+        .collect();
+    if commands.is_empty() {
+        let names: Vec<&str> = program.get_subcommands().map(Command::get_name).collect();
+        let message = format!(
+            "man {}: no such command; commands are {}",
+            options.command.as_deref().unwrap_or_default(),
+            names.join(", ")
+        );
+        return Err(Misuse(message).into());
+    }
+    for command in commands {
+        let page = page(command)?;
+        match &options.out {
+            Some(directory) => write(directory, command, &page)?,
+            None => io::stdout().write_all(&page)?,
         }
     }
-    io::stdout().write_all(&pages)?;
     Ok(ExitCode::SUCCESS)
+}
+
+fn write(directory: &Path, command: &Command, page: &[u8]) -> Result<()> {
+    let name = full_name(command).replace(' ', "-");
+    std::fs::create_dir_all(directory)
+        .with_context(|| format!("{}: cannot make the directory", directory.display()))?;
+    Ok(write_whole(&directory.join(name + ".1"), page)?)
+}
+
+fn page(command: &Command) -> Result<Vec<u8>> {
+    let is_program = command.get_name() == "mdr-tui";
+    let source = concat!("mdr-tui ", env!("CARGO_PKG_VERSION"));
+    let man = Man::new(command.clone()).source(source);
+    let mut page = Vec::new();
+    man.render_title(&mut page)?;
+    man.render_name_section(&mut page)?;
+    page.extend(synopsis(command).into_bytes());
+    man.render_description_section(&mut page)?;
+    man.render_options_section(&mut page)?;
+    if is_program {
+        man.render_subcommands_section(&mut page)?;
+        page.extend(manual::roff().into_bytes());
+    }
+    page.extend(examples(command).into_bytes());
+    if !is_program {
+        page.extend_from_slice(b".SH SEE ALSO\n.BR mdr\\-tui (1)\n");
+    }
+    Ok(page)
+}
+
+fn full_name(command: &Command) -> &str {
+    command.get_bin_name().unwrap_or(command.get_name())
+}
+
+/// `mdr-tui run [--cycles X] ... SCENARIO`: each option with its value.
+fn synopsis(command: &Command) -> String {
+    let (positionals, options): (Vec<&Arg>, Vec<&Arg>) = command
+        .get_arguments()
+        .filter(|argument| !argument.is_hide_set() && !is_built_in(argument))
+        .partition(|argument| argument.is_positional());
+    let words: String = options
+        .into_iter()
+        .chain(positionals)
+        .map(|argument| format!(" {}", usage(argument)))
+        .collect();
+    let mut text = format!(
+        ".SH SYNOPSIS\n\\fB{}\\fR{words}\n",
+        plain(full_name(command))
+    );
+    if command.has_subcommands() {
+        text.push_str(".br\n\\fBmdr\\-tui\\fR \\fICOMMAND\\fR [\\fIOPTIONS\\fR]\n");
+    }
+    text
+}
+
+fn is_built_in(argument: &Arg) -> bool {
+    matches!(
+        argument.get_action(),
+        ArgAction::Help | ArgAction::HelpShort | ArgAction::HelpLong | ArgAction::Version
+    )
+}
+
+/// One argument: literal words bold, values in italics, brackets around what may be left out.
+fn usage(argument: &Arg) -> String {
+    let mut text = match argument.get_long() {
+        Some(long) => format!("\\fB\\-\\-{}\\fR", plain(long)),
+        None => String::new(),
+    };
+    if argument.get_action().takes_values() {
+        let gap = if text.is_empty() { "" } else { "\\ " };
+        text = format!("{text}{gap}{}", value(argument));
+    }
+    if !argument.is_required_set() {
+        text = format!("[{text}]");
+    }
+    if matches!(argument.get_action(), ArgAction::Append)
+        && argument.get_value_delimiter().is_none()
+    {
+        text.push_str("...");
+    }
+    text
+}
+
+/// The choices of an argument, or the name of its value.
+fn value(argument: &Arg) -> String {
+    let choices: Vec<String> = argument
+        .get_possible_values()
+        .iter()
+        .map(|choice| choice.get_name().to_owned())
+        .collect();
+    let choices = choices.join("|");
+    if !choices.is_empty() && choices.len() <= LONGEST_CHOICE {
+        return format!("\\fB{}\\fR", plain(&choices));
+    }
+    let names: Vec<String> = argument
+        .get_value_names()
+        .unwrap_or_default()
+        .iter()
+        .map(|name| format!("\\fI{}\\fR", plain(name)))
+        .collect();
+    names.join("\\ ")
+}
+
+/// The text after the options, line by line as it is written.
+fn examples(command: &Command) -> String {
+    let Some(text) = command.get_after_help().map(ToString::to_string) else {
+        return String::new();
+    };
+    let lines = text.lines().skip_while(|line| line.starts_with("Example"));
+    let body: String = lines.map(|line| format!("\\&{}\n", plain(line))).collect();
+    format!(".SH EXAMPLES\n.nf\n{body}.fi\n")
+}
+
+fn plain(text: &str) -> String {
+    text.replace('\\', "\\e").replace('-', "\\-")
 }

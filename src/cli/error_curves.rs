@@ -1,5 +1,5 @@
-//! Curves of the error over r/a, drawn as text: a small plot for each method, all of a quantity on
-//! the same axes, so that they can be told apart and compared without colour.
+//! Curves of the error over r/a, drawn as text: a small plot per method, all on the same axes, so
+//! that they can be compared without colour.
 //!
 //! ```text
 //! a: g, N = 800                          b: g, N = 800
@@ -16,7 +16,7 @@ use crate::plot::{Axis, Curve, Marker, Plot, Scale};
 use crate::studies::verify::errors::Errors;
 use crate::studies::verify::{Outcome, Problem};
 
-/// The least error that is drawn: smaller ones are rounding.
+/// The smallest error drawn; anything below is rounding.
 const FLOOR: f64 = 1e-17;
 
 /// A method's errors of one quantity on its finest grid.
@@ -70,7 +70,7 @@ fn facet<'a>(
 /// Ends of the r/a axis and of the error axis, full decades.
 type Bounds = [[f64; 2]; 2];
 
-/// What holds all facets; none where every error is zero.
+/// Axes that fit all facets; `None` if every error is zero.
 fn bounds(facets: &[Facet]) -> Option<Bounds> {
     let all = facets.iter().flat_map(|facet| &facet.errors.errors);
     let errors = small_multiples::decades(all.copied().filter(|error| *error > FLOOR))?;

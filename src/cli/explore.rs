@@ -74,7 +74,7 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
     let record = options.record.as_deref().map(|path| {
         Cast::create(path, options.print.is_some()).map_err(|error| {
             let why = match error.kind() {
-                io::ErrorKind::AlreadyExists => "exists already; choose another name".to_owned(),
+                io::ErrorKind::AlreadyExists => "already exists; choose another name".to_owned(),
                 _ => error.to_string(),
             };
             Misuse(format!("--record {}: {why}", path.display()))

@@ -19,13 +19,13 @@ use crate::scenario::session::Session;
 use crate::scenario::{Scenario, printable};
 use crate::studies::ghost::Ghost;
 
-/// The scene of the paper's Fig. 3.
+/// The scenario of the paper's Fig. 3.
 const OF_THE_PAPER: &str = "li2019-fig3";
 
-/// Millimetres of a point.
+/// Millimetres per point.
 const POINT: f64 = 25.4 / 72.0;
 
-/// What a sheet holds if nothing is asked for, as far as there are data.
+/// The default charts, drawn if there are data for them.
 const USUAL: [Panel; 4] = [
     Panel::Profile,
     Panel::Profile1d,
@@ -67,14 +67,14 @@ pub fn figure(options: &Figure) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Refuses a file that is in the way, or has no place.
+/// Refuses an output file that exists already or whose directory does not exist.
 fn check(path: &Path, force: bool) -> Result<(), Misuse> {
     let refuse = |why: &str| Err(Misuse(format!("-o {}: {why}", path.display())));
     if path.is_dir() {
         return refuse("is a directory");
     }
     if path.exists() && !force {
-        return refuse("exists already; choose another name or add --force");
+        return refuse("already exists; choose another name or add --force");
     }
     match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() && !parent.is_dir() => {
@@ -206,7 +206,7 @@ fn ghost(given: &str, data: &Data) -> Result<Ghost> {
     Ok(Data::run(&mut session, &[end], false)?.ghost(&name))
 }
 
-/// The tables of a run that is on the disk, or is run now.
+/// The tables of a run on disk, or of one run now.
 fn data(source: &str, options: &Figure) -> Result<Data> {
     let path = Path::new(source);
     let is_table = path
@@ -222,7 +222,10 @@ fn data(source: &str, options: &Figure) -> Result<Data> {
         return from_scenario(source, options);
     };
     if !options.changes.set.is_empty() || options.cycles.is_some() {
-        let message = format!("{source}: is not run again, so --set and --cycles change nothing");
+        let message = format!(
+            "{source}: a finished run is not run again, so --set and --cycles \
+            have no effect"
+        );
         return Err(Misuse(message).into());
     }
     if let Some(wanted) = &options.at {
@@ -233,7 +236,7 @@ fn data(source: &str, options: &Figure) -> Result<Data> {
             .find(|at| !data.states.iter().any(|s| is_at(s, at.cycle)));
         if let Some(absent) = absent {
             let message = format!(
-                "--at {}: {source} has no such state, but those at {}",
+                "--at {}: {source} has no such state; it has those at {}",
                 absent.spelling,
                 here.join(", ")
             );
@@ -261,7 +264,7 @@ fn from_directory(directory: &Path) -> Result<Data> {
         }
     }
     if data.states.is_empty() && data.history.is_none() && data.field.is_none() {
-        let why = "holds no state.csv, no history.csv and no field.csv";
+        let why = "has no state.csv, history.csv or field.csv";
         return Err(unread(directory, why).into());
     }
     let scenario = directory.join("scenario.toml");

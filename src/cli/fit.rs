@@ -34,7 +34,7 @@ pub fn fit(options: &args::Fit) -> Result<ExitCode> {
         && !options.force
     {
         let message = format!(
-            "--out {}: exists already; choose another name or add --force",
+            "--out {}: already exists; choose another name or add --force",
             out.display()
         );
         return Err(Misuse(message).into());
@@ -65,7 +65,7 @@ pub fn fit(options: &args::Fit) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Everything wrong with keys and data is wrong use; the rest is a fit that failed.
+/// Errors in keys and data are wrong use; anything else is a failed fit.
 fn misuse(error: FitError) -> anyhow::Error {
     match error {
         FitError::Misuse(message) => Misuse(message).into(),
@@ -91,7 +91,7 @@ fn data(options: &args::Fit) -> Result<Vec<Measured>> {
     Ok(data)
 }
 
-/// The keys with their errors, how they hang together, and how well each data set is met.
+/// The keys with their errors and correlations, and how well each data set is matched.
 fn report(fitted: &Fitted) -> String {
     let mut text = String::new();
     let width = fitted.values.iter().map(|value| value.key.len()).max();
@@ -132,7 +132,7 @@ fn report(fitted: &Fitted) -> String {
     text
 }
 
-/// Measured less simulated, a plot a data set.
+/// Measured minus simulated values, one plot per data set.
 fn residual_plots(fitted: &Fitted, marker: Marker) -> String {
     let residuals: Vec<Vec<f64>> = fitted.compared.iter().map(Compared::residuals).collect();
     let titles: Vec<String> = fitted

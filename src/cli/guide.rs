@@ -42,7 +42,7 @@ fn unknown(name: &str) -> Misuse {
     Misuse(format!("guide {name}: no such topic; {hint}"))
 }
 
-/// Markdown with its headings in bold: everything else reads well as it is.
+/// Markdown with headings in bold; everything else reads well as it is.
 fn emphasised(text: &str) -> String {
     let (mut out, mut in_code) = (String::new(), false);
     for line in text.lines() {
@@ -71,7 +71,7 @@ fn page(text: &str) -> io::Result<()> {
         return io::stdout().write_all(text.as_bytes());
     };
     if let Some(mut input) = pager.stdin.take() {
-        // A reader who quits early closes the pipe.
+        // Quitting the pager early closes the pipe.
         let _ = input.write_all(text.as_bytes());
     }
     pager.wait().map(|_| ())

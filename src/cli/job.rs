@@ -1,5 +1,5 @@
-//! What a run still has to do and what it has recorded: beside the session, all that its checkpoint
-//! holds, so that an interrupted run writes the same files as one that was not.
+//! What a run still has to do and what it has recorded. A checkpoint holds it next to the session,
+//! so that an interrupted run writes the same files as an uninterrupted one.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -14,43 +14,43 @@ use crate::export::history::History;
 use crate::scenario::session::Session;
 use crate::scenario::{MOST_SNAPSHOTS, Scenario};
 
-/// The most rows of a history: a file of some 3 GB.
+/// Maximum number of rows of a history: a file of some 3 GB.
 const MOST_ROWS: f64 = 1e7;
 
-/// The order that a run was given, and how far it has come.
+/// The job of a run and its progress.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RunJob {
     /// Where the run ends, cycles.
     pub cycles: f64,
-    /// Whether the history has a row a step, or a row a cycle.
+    /// Whether the history has a row per step or per cycle.
     every_step: bool,
     /// Cycles at which the state is written, in the order given, those beyond the end included.
     snapshots: Vec<CycleAsGiven>,
-    /// Those of them that do not lie beyond the end, sorted by cycle.
+    /// Those up to the end, sorted by cycle.
     #[serde(skip)]
     due: Vec<CycleAsGiven>,
-    /// How many of these have been dealt with.
+    /// How many of these are done.
     taken: usize,
     /// The rows so far.
     history: History,
-    /// What the headers of the files state beside the numbers, such as the estimated error.
+    /// Statements for the file headers, such as the estimated error.
     #[serde(default)]
     pub statements: Vec<(String, String)>,
-    /// The directory of the run's files, for a checkpoint that is kept elsewhere.
+    /// The directory of the run's files, if the checkpoint is stored elsewhere.
     #[serde(default)]
     home: Option<String>,
 }
 
 impl RunJob {
-    /// What the options ask for on `scenario`.
+    /// Makes the job that the options ask for.
     pub fn new(options: &Run, scenario: &Scenario, name: &str) -> Result<Self> {
         let cycles = end(options.cycles.or(scenario.run().cycles), name)?;
         let snapshots = match &options.snapshot_at {
             Some(given) => {
                 if let Some(late) = given.iter().find(|snapshot| snapshot.cycle > cycles) {
                     let message = format!(
-                        "--snapshot-at {}: lies beyond the end at {cycles} cycles",
+                        "--snapshot-at {}: is after the end of the run, {cycles} cycles",
                         late.spelling
                     );
                     return Err(Misuse(message).into());
@@ -72,8 +72,8 @@ impl RunJob {
         .ready(scenario)
     }
 
-    /// What is left to do for a `session` that was put away: `kept` if a run did it, and what the
-    /// scenario plans if the explorer did.
+    /// Makes the job of a restored `session`: `kept` for the checkpoint of a run, and the
+    /// scenario's plan for one of the explorer.
     pub fn resumed(
         kept: Option<Self>,
         session: &Session,
@@ -101,7 +101,7 @@ impl RunJob {
         job.cycles = cycles.unwrap_or(job.cycles);
         if job.cycles < now {
             let message = format!(
-                "--cycles {}: the checkpoint stands at cycle {now} already",
+                "--cycles {}: the checkpoint is already at cycle {now}",
                 job.cycles
             );
             return Err(Misuse(message).into());
@@ -109,14 +109,14 @@ impl RunJob {
         job.ready(session.scenario())
     }
 
-    /// Sorts what is to be done, and refuses what no machine can hold.
+    /// Sorts the snapshots and refuses histories too large to store.
     fn ready(mut self, scenario: &Scenario) -> Result<Self> {
         self.due = self.snapshots.clone();
         self.due.retain(|snapshot| snapshot.cycle <= self.cycles);
         self.due.sort_by(|a, b| a.cycle.total_cmp(&b.cycle));
         if self.due.len() > MOST_SNAPSHOTS {
             let message = format!(
-                "--snapshot-at: {} snapshots; a run takes {MOST_SNAPSHOTS} or fewer",
+                "--snapshot-at: {} snapshots; the limit is {MOST_SNAPSHOTS}",
                 self.due.len()
             );
             return Err(Misuse(message).into());
@@ -124,15 +124,15 @@ impl RunJob {
         let rows = self.cycles * scenario.setup().steps_in_a_cycle();
         if self.every_step && rows > MOST_ROWS {
             let message = format!(
-                "--history every-step: {rows:.1e} rows; a history has {MOST_ROWS:e} or fewer: \
-                 fewer --cycles or numerics.steps_per_cycle would do"
+                "--history every-step: {rows:.1e} rows; the limit is {MOST_ROWS:e}; reduce \
+                 --cycles or numerics.steps_per_cycle"
             );
             return Err(Misuse(message).into());
         }
         Ok(self)
     }
 
-    /// The next snapshot that lies before `cycle`; it counts as dealt with.
+    /// Takes the next snapshot before `cycle`; it then counts as done.
     pub fn next_snapshot(&mut self, cycle: f64) -> Option<CycleAsGiven> {
         let next = self.due.get(self.taken)?;
         (next.cycle < cycle).then(|| {
@@ -141,13 +141,13 @@ impl RunJob {
         })
     }
 
-    /// Whether a snapshot is to be taken before `cycle`.
+    /// Whether a snapshot is due before `cycle`.
     pub fn has_snapshot_before(&self, cycle: f64) -> bool {
         let next = self.due.get(self.taken);
         next.is_some_and(|next| next.cycle < cycle)
     }
 
-    /// The snapshots that were dealt with.
+    /// The snapshots done so far.
     pub fn taken(&self) -> Vec<CycleAsGiven> {
         self.due.iter().take(self.taken).cloned().collect()
     }
@@ -158,13 +158,13 @@ impl RunJob {
         all.map(|snapshot| snapshot.cycle).collect()
     }
 
-    /// Takes the present moment into the history, if it is one of those that it records.
+    /// Records the present moment in the history, if it is due.
     pub fn record(&mut self, session: &Session) {
         let simulation = session.simulation();
         if self.every_step
             || simulation.cycle().fract() == 0.0
             || simulation.cycle() >= self.cycles
-            // What changes ends a block, which is to have a row of its own.
+            // A change ends a block, which gets its own row.
             || session.changes().last().is_some_and(|last| last.at_cycle == simulation.cycle())
             || self.history.is_empty()
         {
@@ -172,7 +172,7 @@ impl RunJob {
         }
     }
 
-    /// Puts rows into the file at `path` when there are enough of them.
+    /// Appends the rows to the file at `path` once there are enough of them.
     pub fn spill(&mut self, path: &Path) -> io::Result<()> {
         if self.history.is_due() {
             self.history.spill(path)?;
@@ -190,11 +190,11 @@ impl RunJob {
         self.history.write(session, rows, out)
     }
 
-    /// Goes on with the files in the directory `to`, which the rows of the history are brought to.
+    /// Continues in the directory `to` and copies the rows of the history there.
     ///
     /// # Errors
     ///
-    /// If they are not all there; the history then begins at the present moment.
+    /// If rows are missing; the history then begins at the present moment.
     pub fn settle_in(&mut self, from: Option<&Path>, to: &Path) -> io::Result<()> {
         let real = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_owned());
         let (from, to) = (real(from.unwrap_or(Path::new("."))), real(to));
@@ -202,13 +202,13 @@ impl RunJob {
         self.history.move_rows(&rows_in(&from), &rows_in(&to))
     }
 
-    /// Has checkpoints tell where the files of the run are.
+    /// Stores the directory of the run's files in checkpoints.
     pub fn live_in(&mut self, directory: &Path) {
         let real = directory.canonicalize().ok();
         self.home = real.and_then(|home| home.to_str().map(str::to_owned));
     }
 
-    /// The directory of the run's files when it was put away.
+    /// The directory of the run's files at the time of the checkpoint.
     pub fn home(&self) -> Option<&Path> {
         self.home.as_deref().map(Path::new)
     }
@@ -222,11 +222,7 @@ impl RunJob {
 
 /// The end of a run, which must be known.
 pub(super) fn end(cycles: Option<f64>, name: &str) -> Result<f64, Misuse> {
-    cycles.ok_or_else(|| {
-        Misuse(format!(
-            "{name}: has no run.cycles; say how many with --cycles X"
-        ))
-    })
+    cycles.ok_or_else(|| Misuse(format!("{name}: run.cycles is missing; give --cycles X")))
 }
 
 /// The snapshots that the scenario itself asks for.

@@ -1,5 +1,5 @@
-//! Where a run keeps its checkpoints: in its own directory or, while that takes none, where explorers
-//! keep theirs.
+//! Where a run saves its checkpoints: in its own directory or, while that fails, in the directory
+//! of the explorer's checkpoints.
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -11,7 +11,7 @@ use crate::export::header::number;
 use crate::scenario::checkpoint;
 use crate::scenario::session::Session;
 
-/// Keeps the newest state of a run wherever there is room.
+/// Saves the newest state of a run wherever there is room.
 #[derive(Debug)]
 pub struct Keeper {
     home: Autosave,
@@ -19,12 +19,12 @@ pub struct Keeper {
     elsewhere: Option<Autosave>,
     /// The newest checkpoint, and its cycle.
     kept: Option<(PathBuf, f64)>,
-    /// Whether the user knows where checkpoints go, and that they fail if they do.
+    /// Whether the user has been told that checkpoints fail or go elsewhere.
     has_warned: bool,
 }
 
 impl Keeper {
-    /// Keeps checkpoints at `path`, due `every` so often; if none, only when asked for.
+    /// Saves checkpoints at `path`, one per interval `every`, or only on request if `None`.
     pub fn new(path: PathBuf, every: Option<Duration>) -> Self {
         Self {
             home: Autosave::new(path, every),
@@ -34,7 +34,7 @@ impl Keeper {
         }
     }
 
-    /// Takes note of the checkpoint that the run goes on from.
+    /// Notes the checkpoint that the run continues from.
     pub fn remember(&mut self, path: &Path, cycle: f64) {
         self.kept = Some((path.to_owned(), cycle));
     }
@@ -44,7 +44,7 @@ impl Keeper {
         self.home.is_due()
     }
 
-    /// Writes a checkpoint; a word for the user where that begins to fail, or to go elsewhere.
+    /// Writes a checkpoint; returns a message when that begins to fail or to go elsewhere.
     pub fn keep(&mut self, session: &Session, job: &RunJob) -> Option<String> {
         let bytes = checkpoint::encode(session, Some(job));
         let cycle = session.simulation().cycle();
@@ -62,7 +62,7 @@ impl Keeper {
                 self.kept = Some((path, cycle));
                 word
             }
-            None => format!("{error}; the run goes on without a checkpoint"),
+            None => format!("{error}; the run continues without a checkpoint"),
         };
         (!std::mem::replace(&mut self.has_warned, true)).then_some(word)
     }
@@ -77,13 +77,12 @@ impl Keeper {
         if elsewhere.keep(bytes).is_ok() {
             return Some(path);
         }
-        // What was kept there before is better than nothing.
+        // An older checkpoint there is better than nothing.
         self.elsewhere = self.elsewhere.take().and_then(Autosave::if_ever);
         None
     }
 
-    /// How to go on with a run that has stopped at the cycle `now`, and from where on nothing of it is
-    /// kept.
+    /// Says how to resume a run that stopped at the cycle `now`, and which cycles are lost.
     pub fn way_on(&self, now: f64) -> String {
         let kept = self.kept.as_ref().filter(|(path, _)| path.exists());
         let Some((path, cycle)) = kept else {
@@ -91,12 +90,12 @@ impl Keeper {
         };
         let path = shell_word(path);
         if *cycle == now {
-            return format!("mdr-tui run --resume {path} goes on");
+            return format!("resume with: mdr-tui run --resume {path}");
         }
         let (cycle, now) = (number(*cycle), number(now));
         format!(
-            "mdr-tui run --resume {path} goes on from cycle {cycle}: nothing between there and cycle \
-             {now} could be kept"
+            "resume from cycle {cycle} with: mdr-tui run --resume {path} \
+             (cycles up to {now} could not be saved)"
         )
     }
 }

@@ -50,17 +50,18 @@ const FAILED: u8 = 1;
 /// Exit code of wrong use or wrong input.
 const MISUSED: u8 = 2;
 
-/// Exit code of a study that was interrupted: its rows are kept, and `--resume` goes on (EX_TEMPFAIL).
+/// Exit code of an interrupted study (EX_TEMPFAIL): its rows are saved, and `--resume` continues
+/// it.
 const UNFINISHED: u8 = 75;
 
-/// Wrong use that no other error type stands for.
+/// Wrong use without a separate error type.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub(crate) struct Misuse(pub String);
 
 /// Runs the program on the arguments of the process.
 pub fn main() -> ExitCode {
-    // A shell that asks for completions gets them, and nothing else happens.
+    // Answers a shell that asks for completions, and exits.
     CompleteEnv::with_factory(Arguments::command)
         .var(complete::VARIABLE)
         .complete();
@@ -69,11 +70,11 @@ pub fn main() -> ExitCode {
         Err(error) => return refuse(&error),
     };
     crate::panics::keep();
-    // Nothing asks for SIGXFSZ: a file that has grown to its limit is an error like a full disk.
+    // Ignores SIGXFSZ: a file at its size limit is an error like a full disk.
     let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
     let Ok(outcome) = catch_unwind(AssertUnwindSafe(|| dispatch(arguments))) else {
         let word = crate::panics::word().unwrap_or_default();
-        complain(&format!("a defect in mdr-tui: {word}"));
+        complain(&format!("bug in mdr-tui: {word}"));
         return ExitCode::from(FAILED);
     };
     match outcome {
@@ -101,14 +102,14 @@ fn dispatch(arguments: Arguments) -> anyhow::Result<ExitCode> {
         Some(Command::Sweep(options)) => sweep::sweep(&options),
         Some(Command::Figure(options)) => figure::figure(&options),
         Some(Command::Completions { shell }) => documents::completions(shell),
-        Some(Command::Man) => documents::man(),
+        Some(Command::Man(options)) => documents::man(&options),
     }
 }
 
-/// The longest wait for a terminal that takes no more.
+/// Longest wait for a terminal that has stopped reading.
 const PATIENCE: Duration = Duration::from_millis(400);
 
-/// Prints one line on stderr, whatever names the user gave.
+/// Prints one line on stderr, even if names from the user contain line breaks.
 pub(crate) fn complain(message: &str) {
     let line = format!("mdr-tui: {}\n", printable(message.trim_end()));
     let is_terminal = io::stderr().is_terminal();
@@ -117,7 +118,7 @@ pub(crate) fn complain(message: &str) {
     });
 }
 
-/// Writes to where somebody reads. A terminal that has stopped reading is not waited for.
+/// Writes to stderr, but does not wait for a terminal that has stopped reading.
 pub(crate) fn patiently(is_terminal: bool, write: impl FnOnce() + Send + 'static) {
     if !is_terminal {
         return write();
@@ -154,7 +155,7 @@ fn exit_code(error: &anyhow::Error) -> u8 {
     FAILED
 }
 
-/// `mdr-tui presets | head -1` is no error.
+/// `mdr-tui presets | head -1` is not an error.
 fn is_closed_pipe(error: &anyhow::Error) -> bool {
     error
         .chain()

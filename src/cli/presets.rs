@@ -1,4 +1,4 @@
-//! `mdr-tui presets`: what ships, one line each, or one of them as it stands.
+//! `mdr-tui presets`: the list of presets, or one of them as TOML.
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -16,7 +16,7 @@ pub fn presets(options: &Presets) -> Result<ExitCode> {
         let Some(found) = preset::find(name) else {
             let names: Vec<&str> = preset::ALL.iter().map(|preset| preset.name).collect();
             let message = format!(
-                "presets {}: no such preset; there are {}",
+                "presets {}: no such preset; the presets are {}",
                 name.escape_debug(),
                 names.join(", ")
             );

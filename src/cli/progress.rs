@@ -1,4 +1,4 @@
-//! Progress bars on stderr, when somebody is there to see them.
+//! Progress bars on stderr, if that is a terminal.
 
 use std::io::{self, IsTerminal};
 use std::sync::Arc;
@@ -9,13 +9,13 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// Parts of a cycle that the bar counts.
+/// Units of the bar per cycle.
 const PARTS: f64 = 1000.0;
 
-/// How often the bar is brought up to date.
+/// Refresh interval of the bar.
 const INTERVAL: Duration = Duration::from_millis(100);
 
-/// What stands behind a bar from whose length the time to go can be told.
+/// Template of a bar that can estimate the remaining time.
 pub const TIMES: &str = "{percent}%  {elapsed} gone, {eta} to go";
 
 /// A bar of `length`, with `behind` (placeholders of `indicatif`) behind it; silent if `quiet` or if
@@ -31,9 +31,9 @@ pub fn bar(length: u64, behind: &str, quiet: bool) -> ProgressBar {
     bar
 }
 
-/// What turns while nobody knows how long something takes.
+/// A spinner for work of unknown length.
 pub fn spinner(message: &'static str, quiet: bool) -> ProgressBar {
-    // Every locale can show these.
+    // These characters exist in every locale.
     let style = ProgressStyle::default_spinner().tick_chars("-\\|/ ");
     let spinner = ProgressBar::new_spinner()
         .with_style(style)
@@ -46,7 +46,7 @@ pub fn spinner(message: &'static str, quiet: bool) -> ProgressBar {
     spinner
 }
 
-/// The longest wait for a terminal that takes no more.
+/// Longest wait for a terminal that has stopped reading.
 const PATIENCE: Duration = Duration::from_millis(200);
 
 /// The progress of a run in cycles, drawn by a thread of its own: a terminal that stops reading does
@@ -54,7 +54,7 @@ const PATIENCE: Duration = Duration::from_millis(200);
 pub struct Progress {
     /// The bits of the cycle that is reached.
     cycle: Arc<AtomicU64>,
-    /// Told when the run has ended; none where nothing is drawn.
+    /// Told when the run has ended; `None` where nothing is drawn.
     end: Option<Sender<()>>,
     /// Tells when the bar is gone.
     gone: Receiver<()>,

@@ -1,4 +1,4 @@
-//! What becomes of the rows of a study: a file, or JSON on stdout.
+//! Output of the rows of a study: a file, or JSON on stdout.
 
 use std::io::Write;
 use std::path::Path;
@@ -11,7 +11,7 @@ use super::args::Rows;
 use crate::export::file::write_whole;
 
 impl Rows {
-    /// Finds out before anything is computed whether the file can be written.
+    /// Checks that the file can be written before anything is computed.
     pub(super) fn check(&self) -> Result<(), Misuse> {
         match &self.csv {
             Some(path) => check(path, self.force),
@@ -19,7 +19,7 @@ impl Rows {
         }
     }
 
-    /// Writes the file of a study, if it was asked for: the program, the study, `notes`, the table.
+    /// Writes the file of a study if requested: program, study, `notes` and table.
     pub(super) fn write(
         &self,
         study: &str,
@@ -42,10 +42,10 @@ impl Rows {
 fn check(path: &Path, force: bool) -> Result<(), Misuse> {
     let refuse = |why: &str| Err(Misuse(format!("--csv {}: {why}", path.display())));
     if path.is_dir() || path.file_name().is_none() {
-        return refuse("is no name of a file");
+        return refuse("is not a file name");
     }
     if path.exists() && !force {
-        return refuse("exists already; choose another name or add --force");
+        return refuse("already exists; choose another name or add --force");
     }
     match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() && !parent.is_dir() => {

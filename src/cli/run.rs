@@ -25,16 +25,16 @@ use crate::scenario::session::Session;
 use crate::scenario::{Scenario, printable};
 use crate::simulation::verdict;
 
-/// How often a signal is looked for beside the run.
+/// Polling interval for signals.
 const GLANCE: Duration = Duration::from_millis(20);
 
-/// How long a signal waits for the step under way to end.
+/// How long a signal waits for the current step to end.
 const PATIENCE: Duration = Duration::from_millis(500);
 
-/// How long rows that a disk has not taken wait for another try.
+/// Time between attempts to write rows to a full disk.
 const ANOTHER_TRY: Duration = Duration::from_secs(1);
 
-/// Runs a scenario, or goes on with one, and writes its files.
+/// Runs or resumes a scenario and writes its files.
 pub fn run(options: &Run) -> Result<ExitCode> {
     let stop = stop::signal()?;
     let mut job = match (&options.resume, &options.scenario) {
@@ -47,7 +47,7 @@ pub fn run(options: &Run) -> Result<ExitCode> {
     if let Some(why) = job.session.simulation().why_never_jumped()
         && !options.quiet
     {
-        complain(&format!("every cycle is stepped directly: {why}"));
+        complain(&format!("no cycle jumps: {why}"));
     }
     if let Some(remark) = job.session.scenario().setup().indenter.remark()
         && !options.quiet
@@ -61,10 +61,10 @@ pub fn run(options: &Run) -> Result<ExitCode> {
         }
     }
     let is_over = job.watch(Arc::clone(&stop));
-    // A defect must not take hours of computing with it.
+    // A bug must not destroy hours of computing.
     let outcome = catch_unwind(AssertUnwindSafe(|| job.advance(&stop)));
     while is_over.swap(true, Ordering::SeqCst) {
-        // The copy is being kept, and the process ends.
+        // The copy is being saved, and the process ends.
         thread::park();
     }
     let outcome = outcome.unwrap_or_else(|_| Ok(Ended::Broken(job.go_back())));
@@ -81,15 +81,15 @@ pub fn run(options: &Run) -> Result<ExitCode> {
     if options.estimate_error && matches!(outcome, Ok(Ended::Done)) {
         job.estimate(&stop);
     }
-    // Whatever happened, what was computed is kept.
+    // Saves what was computed, whatever happened.
     if let Err(error) = job.write_end() {
-        // The directory was good when the run began: this is a failure, not misuse.
+        // The directory was writable when the run began, so this is a failure, not misuse.
         return Err(anyhow!("{error}; {}", job.rescue()));
     }
     if matches!(outcome, Ok(Ended::Done) | Err(_)) {
         job.directory.close()?;
     }
-    // All is done: whoever waits for a reader of the summary is not to wait for a second signal.
+    // Everything is done: blocking on the reader of the summary must not need a second signal.
     stop.store(true, Ordering::SeqCst);
     match outcome {
         Ok(Ended::Done) => {
@@ -101,7 +101,7 @@ pub fn run(options: &Run) -> Result<ExitCode> {
         Ok(Ended::Interrupted) => {
             let cycle = number(job.session.simulation().cycle());
             complain(&format!(
-                "interrupted at cycle {cycle}; kept in {}; {}",
+                "interrupted at cycle {cycle}; saved in {}; {}",
                 job.directory.path().display(),
                 job.way_on()
             ));
@@ -109,7 +109,7 @@ pub fn run(options: &Run) -> Result<ExitCode> {
         }
         Ok(Ended::Broken(word)) => Err(anyhow!("{word}; {}", job.way_on())),
         Err(error) => Err(error.context(format!(
-            "{} (kept in {})",
+            "{} (saved in {})",
             job.name,
             job.directory.path().display()
         ))),
@@ -119,7 +119,7 @@ pub fn run(options: &Run) -> Result<ExitCode> {
 enum Ended {
     Done,
     Interrupted,
-    /// By a defect, as told.
+    /// By a bug, with its message.
     Broken(String),
 }
 
@@ -133,7 +133,7 @@ struct Job {
     /// The run a moment ago, and the moment.
     copy: Arc<Mutex<(Session, RunJob)>>,
     copied: Instant,
-    /// When rows of the history could last not be written.
+    /// When writing the rows of the history last failed.
     unwritten: Option<Instant>,
     /// Snapshots that could not be written when their cycle came, to be tried again at the end.
     owed: Vec<(String, String)>,
@@ -147,7 +147,8 @@ impl Job {
         let mut scenario = Scenario::load(name, &options.changes.set)?;
         let mut job = RunJob::new(options, &scenario, name)?;
         if options.budget.is_some() && scenario.accuracy().is_none() {
-            let message = "--budget: limits the search for numerics.accuracy, which is not given";
+            let message = "--budget: limits the search for numerics.accuracy, but that key is not \
+                set";
             return Err(Misuse(message.into()).into());
         }
         let directory = match &options.out {
@@ -168,8 +169,8 @@ impl Job {
         Ok(Self::new(name, session, job, None, directory, options))
     }
 
-    /// Goes on where a run was put away: in its own directory, or in another one, into which what it
-    /// has written so far is copied.
+    /// Resumes a run in its own directory, or in another one, to which the files written so far are
+    /// copied.
     fn resume(options: &Run, file: &Path) -> Result<Self> {
         let name = printable(&file.display().to_string());
         let real = |path: &Path| path.canonicalize().ok();
@@ -184,7 +185,7 @@ impl Job {
         let is_at_home =
             file.is_file() && file.file_name().is_some_and(|name| name == RUN_CHECKPOINT);
         let beside = beside.filter(|_| is_at_home);
-        // Whoever comes first goes on with it, and nobody beside.
+        // Only the first process may resume it.
         let claimed = beside.filter(|home| elsewhere(home).is_none());
         let claimed = claimed.map(RunDirectory::reopen).transpose()?;
         let kept = checkpoint::read::<RunJob>(file)?;
@@ -214,13 +215,13 @@ impl Job {
             }
             match std::fs::read(&from) {
                 Ok(table) => write_whole(&to, &table)?,
-                Err(_) => complain(&format!("{}: is not there any more", from.display())),
+                Err(_) => complain(&format!("{}: no longer exists", from.display())),
             }
         }
         if let Err(error) = job.settle_in(home, directory.path()) {
             let cycle = number(session.simulation().cycle());
             complain(&format!(
-                "{name}: the history before cycle {cycle} is not there any more: {error}"
+                "{name}: the history before cycle {cycle} no longer exists: {error}"
             ));
         }
         Ok(Self::new(
@@ -280,8 +281,8 @@ impl Job {
         }
     }
 
-    /// Has the copy kept and the process end when a signal finds the run in a step that takes longer
-    /// than anybody waits. Whoever sets the flag that is returned first, brings the run to its end.
+    /// Saves the copy and ends the process if a signal arrives during a step that takes too long.
+    /// Whoever sets the returned flag first ends the run.
     fn watch(&self, stop: Arc<AtomicBool>) -> Arc<AtomicBool> {
         let is_over = Arc::new(AtomicBool::new(false));
         let (copy, keeper, over) = (
@@ -345,7 +346,7 @@ impl Job {
             } else {
                 simulation.next_moment()
             };
-            // Between two steps a copy takes the fraction of a step: looking does not change the run.
+            // A copy between two steps takes a fraction of a step and does not change the run.
             let copied = self.job.has_snapshot_before(reach);
             let before = copied.then(|| self.session.clone());
             let goal = self.session.heading(self.job.cycles);
@@ -365,14 +366,14 @@ impl Job {
         Ok(Ended::Done)
     }
 
-    /// Keeps a copy in memory and a checkpoint on the disk up to date.
+    /// Keeps a copy in memory and a checkpoint on disk up to date.
     fn look_after(&mut self) {
         if self.copied.elapsed() >= COPY_INTERVAL {
             *locked(&self.copy) = (self.session.clone(), self.job.clone());
             self.copied = Instant::now();
         }
         if self.unwritten.is_none_or(|at| at.elapsed() >= ANOTHER_TRY) {
-            // Rows that no disk takes are kept in memory.
+            // Rows that cannot be written stay in memory.
             let written = self.job.spill(&self.directory.rows());
             self.unwritten = written.is_err().then(Instant::now);
         }
@@ -381,40 +382,40 @@ impl Job {
         }
     }
 
-    /// Writes a checkpoint. Where that fails, the user is told once, and the run goes on.
+    /// Writes a checkpoint. If that fails, the user is told once and the run continues.
     fn put_away(&mut self) {
         if let Some(word) = locked(&self.keeper).keep(&self.session, &self.job) {
             complain(&word);
         }
     }
 
-    /// After a defect: back to the copy, for a step that was cut short has left half a state.
+    /// After a bug, goes back to the copy: the interrupted step has left half a state.
     fn go_back(&mut self) -> String {
         let (session, job) = &*locked(&self.copy);
         self.session = session.clone();
         self.job.rewind(job);
         let cycle = number(self.session.simulation().cycle());
         let word = crate::panics::word().unwrap_or_default();
-        format!("a defect in mdr-tui: {word}; kept at cycle {cycle}")
+        format!("bug in mdr-tui: {word}; saved at cycle {cycle}")
     }
 
-    /// How to go on with a run that has stopped.
+    /// Says how to resume a run that has stopped.
     fn way_on(&self) -> String {
         locked(&self.keeper).way_on(self.session.simulation().cycle())
     }
 
-    /// Writes a snapshot. What cannot be written is owed.
+    /// Writes a snapshot, or remembers to try again at the end.
     fn keep_snapshot(&mut self, snapshot: &CycleAsGiven, table: String) {
         let name = file_of(snapshot);
         if let Err(error) = self.directory.write(&name, table.as_bytes()) {
             complain(&format!(
-                "{error}; the run goes on, to try again at its end"
+                "{error}; the run continues and tries again at its end"
             ));
             self.owed.push((name, table));
         }
     }
 
-    /// Writes the files of the end; all that can be, where not all can.
+    /// Writes the final files, as many as possible.
     fn write_end(&mut self) -> Result<(), WriteError> {
         let owed = self.owed.iter().cloned();
         let files = [
@@ -440,8 +441,8 @@ impl Job {
         outcome
     }
 
-    /// Where the files cannot be written, a checkpoint may: in their place, or where explorers keep
-    /// theirs. Says where it is.
+    /// If the files cannot be written, tries a checkpoint in their place or in the directory of the
+    /// explorer's checkpoints, and says where it is.
     fn rescue(&mut self) -> String {
         let mut keeper = locked(&self.keeper);
         keeper.keep(&self.session, &self.job);
@@ -520,7 +521,8 @@ impl Job {
         if parts > 0 {
             writeln!(
                 out,
-                "  harsh wear              {parts} parts in {steps} steps   (numerics.stability)"
+                "  stiff wear              {parts} sub-steps in {steps} \
+                 steps   (numerics.stability)"
             )?;
         }
         writeln!(
@@ -543,12 +545,12 @@ fn table_at(snapshot: &CycleAsGiven, session: &Session) -> Result<String> {
     Ok(state::table(&glimpse))
 }
 
-/// A directory that is not there yet, named after the scenario.
+/// A new directory named after the scenario.
 fn new_directory(scenario: &Scenario) -> Result<RunDirectory, WriteError> {
     RunDirectory::claim_new(&format!("{}-run", scenario.stem()))
 }
 
-/// What a thread that has panicked leaves behind is whole: it is replaced, never changed in place.
+/// The value is always whole, even after a panic: it is replaced, never changed in place.
 fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

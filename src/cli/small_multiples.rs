@@ -1,5 +1,4 @@
-//! Plots beside each other, drawn as text: all on axes of their own, so that they can be told apart and
-//! compared without colour.
+//! Text plots side by side, each on its own axes, so that they can be compared without colour.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -7,7 +6,7 @@ use ratatui::widgets::Widget;
 
 use crate::plot::Plot;
 
-/// Cells of one plot.
+/// Size of one plot, cells.
 const SIZE: (u16, u16) = (39, 11);
 
 /// Columns between two plots.
@@ -36,7 +35,7 @@ pub fn draw(plots: &[Plot<'_>]) -> String {
     text
 }
 
-/// The ends of an axis in full decades that holds all positive values; none without any.
+/// The ends of an axis in full decades that holds all positive values; `None` without any.
 pub fn decades(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
     let seen = values.filter(|value| value.is_finite() && *value > 0.0);
     let (least, most) = seen.fold((f64::INFINITY, 0.0), |(a, b): (f64, f64), value| {

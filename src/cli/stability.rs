@@ -1,4 +1,4 @@
-//! `mdr-tui stability`: how harsh a wear each method bears.
+//! `mdr-tui stability`: how much wear per cycle each method tolerates.
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -21,7 +21,7 @@ pub fn stability(options: &Stability) -> Result<ExitCode> {
     let title = scenario.title().to_owned();
     let Some(study) = Study::new(scenario, options.cycles)? else {
         let message = format!(
-            "{}: nothing wears, or nothing touches at the beginning; wear needs [wear] and contact",
+            "{}: nothing wears: the scenario needs [wear], and contact at its start",
             options.scenario
         );
         return Err(Misuse(message).into());
@@ -29,7 +29,7 @@ pub fn stability(options: &Stability) -> Result<ExitCode> {
     let stop = stop::signal()?;
     let (lines, interrupted) = lines(&study, options, &stop)?;
     let mut notes = vec![format!(
-        "{title}, {} cycles, {} steps a cycle: K = k E* d/a at the beginning",
+        "{title}, {} cycles, {} steps per cycle: K = k E* d/a at the start",
         number(options.cycles),
         options.steps
     )];
@@ -47,7 +47,7 @@ pub fn stability(options: &Stability) -> Result<ExitCode> {
         }
         writeln!(
             out,
-            ". stable  ~ teeth  # exploded  | where the limit is predicted\n"
+            ". stable  ~ sawtooth # exploded  | where the limit is predicted\n"
         )?;
         write!(out, "{}{}", maps(&lines), boundaries(&lines).text())?;
     }
@@ -57,7 +57,7 @@ pub fn stability(options: &Stability) -> Result<ExitCode> {
     })
 }
 
-/// Every line of the study, or those that were done when it was stopped, and whether it was.
+/// The lines of the study that were finished, and whether it was interrupted.
 fn lines(study: &Study, options: &Stability, stop: &AtomicBool) -> Result<(Vec<Line>, bool)> {
     let settings = settings(options);
     let mut wear_numbers = options.wear_numbers.clone();

@@ -10,14 +10,14 @@ use signal_hook::consts::{
 
 use super::FAILED;
 
-/// What asks a program to end. Queueing systems send SIGUSR1 or SIGUSR2 when the time is nearly up, and
-/// the system SIGXCPU.
+/// Signals that ask a program to end. Queueing systems send SIGUSR1 or SIGUSR2 shortly before the
+/// time limit, and the system SIGXCPU.
 pub const ENDING: [i32; 9] = [
     SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGABRT, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU,
 ];
 
-/// Set by the first signal that asks to end: stop after the step and keep what is done. A second one
-/// ends the process at once. Under `nohup` a run outlives its terminal, as is meant.
+/// Set by the first signal that asks to end: stop after the step and save. A second one ends the
+/// process at once. Under `nohup` a run outlives its terminal, as intended.
 pub fn signal() -> Result<Arc<AtomicBool>> {
     let stop = Arc::new(AtomicBool::new(false));
     for signal in ENDING {
@@ -50,8 +50,7 @@ pub fn patient_signal() -> Result<Arc<AtomicBool>> {
     Ok(stop)
 }
 
-/// Whether the process was started with this signal ignored; where the system does not tell, it
-/// was not.
+/// Whether the process was started with this signal ignored; `false` if the system cannot tell.
 fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status

@@ -24,7 +24,7 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
     let cycles = end(options.cycles.or(scenario.run().cycles), &options.scenario)?;
     if scenario.setup().wear.is_none() {
         let message = format!(
-            "{}: nothing wears, so there is no worn profile to be right about; see verify",
+            "{}: nothing wears, so there is no worn profile to compare; see mdr-tui verify",
             options.scenario
         );
         return Err(Misuse(message).into());
@@ -45,7 +45,7 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
     };
     let stop = stop::signal()?;
     let Some(found) = study.run(&stop, options.printing.quiet)? else {
-        complain("interrupted before the reference was there: there is nothing to tell");
+        complain("interrupted before the reference was computed: no results");
         return Ok(ExitCode::from(FAILED));
     };
     let rows = || table(&found.trials, &found.trials);
@@ -70,7 +70,7 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
 fn recommend(found: &Found, accuracy: f64, json: bool, out: &mut impl Write) -> Result<ExitCode> {
     let Some(trial) = cheapest(&found.trials, accuracy) else {
         complain(&format!(
-            "no setting that was tried errs by {accuracy:e} or less; try more --points or --steps"
+            "no setting reached an error of {accuracy:e}; try larger --points or --steps"
         ));
         return Ok(ExitCode::from(FAILED));
     };
@@ -100,14 +100,14 @@ struct Study {
 
 struct Found {
     reference: Sample,
-    /// The same half as fine, against it.
+    /// The error of the reference, from a level half as fine.
     convergence: Option<Errors>,
     trials: Vec<Trial>,
     interrupted: bool,
 }
 
 impl Study {
-    /// The reference first, then every setting, the cheapest first; none without a reference.
+    /// The reference first, then every setting, the cheapest first; `None` without a reference.
     fn run(&self, stop: &AtomicBool, quiet: bool) -> Result<Option<Found>> {
         let half = Setting {
             points: self.reference.points / 2,
@@ -169,18 +169,19 @@ impl Study {
         let Setting { points, steps, .. } = self.reference;
         let converged = found.convergence.map_or(String::new(), |errors| {
             format!(
-                "; half as fine differs from it by {:.1e} rms, {:.1e} at most",
+                "; a level half as fine differs by {:.1e} rms, {:.1e} at most",
                 errors.rms, errors.largest
             )
         });
         let mut notes = vec![
             format!(
-                "{}, {} cycles: error of the worn profile at the end, in largest depths",
+                "{}, {} cycles: error of the worn profile at the end, relative to the largest \
+                 depth",
                 self.scenario.title(),
                 number(self.cycles)
             ),
             format!(
-                "reference: {}, N = {points}, {steps} steps a cycle, {:.1e} s{converged}",
+                "reference: {}, N = {points}, {steps} steps per cycle, {:.1e} s{converged}",
                 self.reference.method, found.reference.seconds
             ),
         ];
@@ -217,7 +218,7 @@ fn text(notes: &[String], found: &Found, options: &Trade) -> String {
 /// Times and errors.
 type Points = (Vec<f64>, Vec<f64>);
 
-/// Error over time: a plot a method with its own front, the front of all dashed.
+/// Error against time: one plot per method with its front; the overall front is dashed.
 fn plots(found: &Found, options: &Trade) -> String {
     let all = points(front(&found.trials));
     let fronts: Vec<(AbelMethod, Points)> = AbelMethod::ALL

@@ -24,7 +24,7 @@ pub fn verify(options: &Verify) -> Result<ExitCode> {
     };
     let tasks = study.tasks();
     if tasks.is_empty() {
-        let message = "--points: nothing to try without --long on so many cells";
+        let message = "--points: these numbers of cells need --long";
         return Err(Misuse(message.into()).into());
     }
     let outcomes = run(&tasks, options.printing.quiet);
@@ -42,7 +42,7 @@ pub fn verify(options: &Verify) -> Result<ExitCode> {
 
 fn run(tasks: &[Task], quiet: bool) -> Vec<Outcome> {
     let effort = |task: &Task| task.problem.effort(task.points);
-    // Without the time to go: the effort is too rough for it.
+    // No remaining time: the effort is too rough an estimate.
     let length = tasks.iter().map(effort).sum();
     let bar = progress::bar(length, "{percent}%  {elapsed} gone", quiet);
     let outcomes = tasks.iter().map(|task| {

@@ -1,4 +1,4 @@
-//! The Winkler foundation: the row of springs that stands for the half-space.
+//! The Winkler foundation: the row of springs that represents the half-space.
 
 use crate::math::abel::field::Field;
 use crate::math::abel::kink::Kink;

@@ -1,12 +1,12 @@
-//! A measured profile: from the rows of a table to a shape of revolution, with all that was done to
-//! them said.
+//! A measured profile: turns the rows of a table into a shape of revolution and reports every
+//! correction.
 //!
-//! A trace may begin at the axis or run through it (negative radii). In the second case its two sides
-//! are averaged, which removes the tilt of the stage; half of what they differed by is reported, and
-//! so is the tilt. Noise is handled on request only: a local parabola is fitted around each point with
-//! Gaussian weights of standard deviation `smoothing` (W. S. Cleveland, 1979, J. Am. Stat. Assoc. 74,
-//! 829–836), the profile being continued as an even function beyond the axis. A paraboloid passes
-//! unchanged.
+//! A trace may begin at the axis or run through it (negative radii). In the second case its two
+//! sides are averaged, which removes the tilt of the stage; half of their difference is reported,
+//! and so is the tilt. Noise is handled on request only: a local parabola is fitted around each
+//! point with Gaussian weights of standard deviation `smoothing` (W. S. Cleveland, 1979, J. Am.
+//! Stat. Assoc. 74, 829–836), the profile being continued as an even function beyond the axis. A
+//! paraboloid passes unchanged.
 
 use std::sync::Arc;
 
@@ -52,7 +52,7 @@ impl MeasuredProfile {
         let smoothing = non_negative("smoothing", smoothing)?;
         let number = radii.len();
         if number != heights.len() {
-            let rule = format!("must be as many as the {number} radii");
+            let rule = format!("must have as many entries as the radii, {number}");
             return Err(Invalid::new("heights", heights.len(), rule));
         }
         if !(FEWEST..=MOST_POINTS).contains(&number) {
@@ -133,11 +133,11 @@ impl MeasuredProfile {
         } = self.treatment;
         let mut words = vec![format!("{} points", self.curve.nodes().len())];
         if offset != 0.0 {
-            words.push(format!("height {offset:.3e} m at the axis taken off"));
+            words.push(format!("height {offset:.3e} m at the axis subtracted"));
         }
         if let Some(tilt) = tilt {
             words.push(format!(
-                "tilt {tilt:.3e} rad taken off by averaging both sides"
+                "tilt {tilt:.3e} rad removed by averaging both sides"
             ));
             words.push(format!("they differ by {:.2e} m rms", 2.0 * asymmetry));
         }
@@ -278,8 +278,8 @@ fn check_disc(curve: &Monotone) -> Result<(), Invalid> {
             let g = curve.image(x);
             if g < reached - LEVEL * highest {
                 let rule = format!(
-                    "no disc: the 1D profile g falls by {:.1e} m at x = {x:.3e} m, so the contact \
-                     would be a ring; smooth the table (indenter.smoothing) or mend it",
+                    "the 1D profile g falls by {:.1e} m at x = {x:.3e} m, so the contact would be \
+                     a ring, not a disc; smooth the table (indenter.smoothing) or correct it",
                     reached - g
                 );
                 return Err(Invalid::new("heights", format!("{:e}", curve.at(x)), rule));

@@ -1,4 +1,4 @@
-//! The contact: materials, indenters, and the Winkler springs that stand for the half-space.
+//! The contact: materials, indenters, and the Winkler springs that represent the half-space.
 
 pub mod foundation;
 pub mod indenter;

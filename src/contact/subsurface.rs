@@ -26,8 +26,9 @@
 //! ∫ζA = R, ∫ζAB = ½(L − ζB), ∫ζB = ⅓(R + ζ²B), ∫ζ²A³ = L + r²AB, ∫ζB² = ¼(ζ²B² + L − ζB),
 //! ∫ζAB² = −⅓(ζB² + B). So the stresses hold up to the surface, on coarse grids too.
 //!
-//! Cost: one complex root and one arc tangent per point and kink of the load. Springs on which q is
-//! linear in x² within [`FLAT`] are no kinks: a Hertz contact has one, a worn one some dozens.
+//! Cost: one complex root and one arc tangent per point and kink of the load. Springs where q is
+//! linear in x² within [`FLAT`] do not count as kinks: a Hertz contact has one kink, a worn contact
+//! a few dozen.
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,4 @@
-//! Tangential springs: Coulomb's rule for each, and memory of where each one stands.
+//! Tangential springs: Coulomb's rule for each, with memory of its displacement.
 //!
 //! The second Eq. (15) of the paper (the number is given twice): predict that a spring moves with
 //! the indenter; where G*|u| ≤ μ q_z it does (stick), elsewhere u = ±μ q_z/G* with the

@@ -1,4 +1,4 @@
-//! Checkpoints on a timer: one file, written anew each time, whole or not at all.
+//! Checkpoints on a timer: one file, replaced each time, whole or not at all.
 
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Write};
@@ -8,19 +8,19 @@ use std::time::{Duration, Instant, SystemTime};
 use super::claim::is_at;
 use super::file::{WriteError, sweep, write_with};
 
-/// How old the copy in memory may be that a defect of the program leaves of a session.
+/// Maximum age of the copy in memory that survives a bug.
 pub const COPY_INTERVAL: Duration = Duration::from_millis(100);
 
 /// The ending of a checkpoint's name.
 pub const ENDING: &str = "checkpoint";
 
-/// How many checkpoints of explorers are kept; the oldest give way.
+/// Maximum number of the explorer's checkpoints; the oldest are removed.
 const KEPT: usize = 20;
 
-/// A temporary file of this age belongs to nobody any more.
+/// A temporary file of this age is abandoned.
 const STALE: Duration = Duration::from_secs(3600);
 
-/// Where a run keeps its checkpoint, and when the next one is due.
+/// The checkpoint file of a run, and when the next one is due.
 #[derive(Debug)]
 pub struct Autosave {
     path: PathBuf,
@@ -31,7 +31,7 @@ pub struct Autosave {
 }
 
 impl Autosave {
-    /// Keeps a checkpoint at `path`, due `every` so often; if none, only when asked for.
+    /// Saves a checkpoint at `path`, one per interval `every`, or only on request if `None`.
     pub fn new(path: PathBuf, every: Option<Duration>) -> Self {
         Self {
             path,
@@ -74,7 +74,7 @@ impl Autosave {
                 Err(error) => return Err(failed(error)),
             }
         }
-        unreachable!("numbers do not end")
+        unreachable!("the number of names is unlimited")
     }
 
     /// Where the checkpoint is.
@@ -87,7 +87,7 @@ impl Autosave {
         self.every.is_some_and(|every| self.last.elapsed() >= every)
     }
 
-    /// Puts `checkpoint` in the place of the one before. Well or ill, the next is due an interval on.
+    /// Replaces the checkpoint. The next one is due an interval later, even if this fails.
     pub fn keep(&mut self, checkpoint: &[u8]) -> Result<(), WriteError> {
         let written = write_with(&self.path, |file| file.write_all(checkpoint));
         self.last = Instant::now();
@@ -96,7 +96,7 @@ impl Autosave {
         Ok(())
     }
 
-    /// Itself, unless nothing was ever kept: then it gives its place back.
+    /// Returns itself, unless nothing was ever saved: then removes its empty file.
     pub fn if_ever(self) -> Option<Self> {
         if fs::metadata(&self.path).is_ok_and(|about| about.len() > 0) {
             return Some(self);
@@ -105,7 +105,7 @@ impl Autosave {
         None
     }
 
-    /// Removes the checkpoint: another one has taken its place.
+    /// Removes the checkpoint, which another one has replaced.
     pub fn discard(self) {
         let _ = fs::remove_file(self.path);
     }
@@ -128,7 +128,7 @@ fn prune(mut others: Vec<Found>, highest: Option<u64>) {
         };
         let is_live = matches!(file.try_lock(), Err(TryLockError::WouldBlock));
         if !is_live && is_at(&file, &other.path) {
-            // One that cannot be removed is in nobody's way.
+            // One that cannot be removed does no harm.
             let _ = fs::remove_file(&other.path);
             excess -= 1;
         }
@@ -150,7 +150,7 @@ fn checkpoints(directory: &Path) -> io::Result<Vec<Found>> {
     for entry in fs::read_dir(directory)? {
         let path = entry?.path();
         let is_one = path.extension().is_some_and(|ending| ending == ENDING);
-        // What has gone in the meantime is passed over.
+        // Skips files that have disappeared in the meantime.
         if let (true, Ok(about)) = (is_one, fs::metadata(&path)) {
             let stem = path.file_stem().map(|stem| stem.to_string_lossy());
             let number = stem.and_then(|stem| stem.rsplit_once('-')?.1.parse().ok());
@@ -164,11 +164,11 @@ fn checkpoints(directory: &Path) -> io::Result<Vec<Found>> {
     Ok(found)
 }
 
-/// Where explorers keep their checkpoints: `mdr-tui` in `$XDG_STATE_HOME`, or in `~/.local/state`;
-/// none where there is no home.
+/// Directory of the explorer's checkpoints: `mdr-tui` in `$XDG_STATE_HOME` or in `~/.local/state`;
+/// `None` without a home directory.
 pub fn state_directory() -> Option<PathBuf> {
     let given = std::env::var_os("XDG_STATE_HOME").map(PathBuf::from);
-    // The specification has relative paths ignored.
+    // The specification says to ignore relative paths.
     let base = given.filter(|path| path.is_absolute()).or_else(|| {
         let home = std::env::home_dir().filter(|home| !home.as_os_str().is_empty());
         home.map(|home| home.join(".local/state"))

@@ -1,7 +1,7 @@
-//! Who writes into a directory: a lock file that lives as long as its process does.
+//! Claims a directory for one process, by a lock file that lives as long as the process.
 //!
-//! The lock of the system decides, so that what a killed process leaves behind is recognised as
-//! stale. What the file says, `PROCESS HOST`, is for people, and for file systems without locks.
+//! The system's lock decides, so the file of a killed process is recognised as stale. The contents,
+//! `PROCESS HOST`, are for people and for file systems without locks.
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, Read, Seek, Write};
@@ -23,7 +23,7 @@ pub struct Claim {
 /// Why a directory cannot be claimed.
 #[derive(Debug)]
 pub enum Refusal {
-    /// Another process writes there; who, as far as it has said so.
+    /// Another process writes there; its identity, if known.
     Taken(Option<Owner>),
     /// The system refused.
     Io(io::Error),
@@ -65,7 +65,7 @@ impl Owner {
         })
     }
 
-    /// Whether the process may still be there. Of another machine this one knows nothing.
+    /// Whether the process may still be there. Always true for another machine.
     fn may_live(&self) -> bool {
         self.host != Self::this().host || Path::new(&format!("/proc/{}", self.process)).exists()
     }
@@ -86,14 +86,14 @@ impl Claim {
             match file.try_lock() {
                 Ok(()) => {}
                 Err(TryLockError::WouldBlock) => return Err(Refusal::Taken(Owner::of(&mut file))),
-                // A file system without locks: the word of the file has to do.
+                // On a file system without locks, relies on the contents.
                 Err(TryLockError::Error(_)) => {
                     if let Some(owner) = Owner::of(&mut file).filter(Owner::may_live) {
                         return Err(Refusal::Taken(Some(owner)));
                     }
                 }
             }
-            // Whoever had it before may have removed it in the meantime.
+            // The previous owner may have removed it in the meantime.
             if !is_at(&file, &path) {
                 continue;
             }

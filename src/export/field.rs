@@ -1,4 +1,4 @@
-//! `field.csv`: the stresses inside the half-space in the plane of motion y = 0, one row a point.
+//! `field.csv`: the stresses inside the half-space in the plane of motion y = 0, one row per point.
 
 use super::header::{lines, number};
 use crate::contact::subsurface::Stress;

@@ -1,4 +1,4 @@
-//! Whole files or none: everything is written beside its place and renamed into it.
+//! Writes whole files or none: into a temporary file, renamed into place.
 
 use std::fs;
 use std::io::{self, Write};
@@ -14,34 +14,33 @@ use crate::scenario::printable;
 #[derive(Debug, Error)]
 pub enum WriteError {
     /// The directory of another run.
-    #[error("{}: already holds files; choose another directory or add --force", .0.display())]
+    #[error("{}: not empty; choose another directory or add --force", .0.display())]
     Occupied(PathBuf),
     /// The directory of a run that was interrupted.
     #[error(
-        "{}: holds a run that was interrupted; mdr-tui run --resume {} goes on with it, --force \
-         starts anew",
+        "{}: holds an interrupted run; resume with: mdr-tui run --resume {} (--force starts over)",
         .0.parent().unwrap_or(.0).display(),
         shell_word(.0)
     )]
     Interrupted(PathBuf),
     /// The directory that another process writes into.
     #[error(
-        "{}: another run writes there{}; wait for its end, or choose another directory",
+        "{}: another run is writing there{}; wait for it to end or choose another directory",
         .0.display(),
         .1.as_ref().map_or_else(String::new, |owner| format!(
             " (process {} on {})", owner.process, printable(&owner.host)
         ))
     )]
     Busy(PathBuf, Option<Owner>),
-    /// The path of a directory is taken by something else.
+    /// The path is not a directory.
     #[error("{}: is not a directory", .0.display())]
     NotADirectory(PathBuf),
     /// The system refused.
     #[error("{}: cannot write: {cause}", path.display())]
     Io {
-        /// What was to be written.
+        /// The path to be written.
         path: PathBuf,
-        /// Why not; the message says it, so it is no further link of the chain.
+        /// The cause; part of the message, so not a source of the error.
         cause: io::Error,
     },
 }
@@ -95,15 +94,15 @@ pub fn write_with(
     let mut file = builder.tempfile_in(directory).map_err(failed)?;
     fill(file.as_file_mut()).map_err(failed)?;
     file.as_file().sync_all().map_err(failed)?;
-    // Not every file system has locks; the file is as good without.
+    // Not every file system has locks; the file is fine without.
     let _ = file.as_file().try_lock();
     file.persist(path).map_err(|error| failed(error.error))
 }
 
-/// What the name of a file begins with that is no result: one that is not yet whole, or a lock.
+/// Prefix of files that are not results: unfinished files and locks.
 const INTERNAL: &str = ".mdr-tui-";
 
-/// What the name of a file ends with that is not yet whole.
+/// Suffix of unfinished files.
 const TEMPORARY: &str = ".tmp";
 
 fn is_internal(path: &Path) -> bool {
@@ -124,7 +123,7 @@ pub fn sweep(directory: &Path, age: Duration) {
         let written = fs::metadata(&path).and_then(|about| about.modified()).ok();
         let old = written.is_some_and(|at| at.elapsed().is_ok_and(|past| past >= age));
         if is_temporary(&path) && (old || age.is_zero()) {
-            // One that cannot be removed is in nobody's way.
+            // One that cannot be removed does no harm.
             let _ = fs::remove_file(path);
         }
     }
@@ -192,11 +191,11 @@ impl RunDirectory {
                 Err(cause) => return Err(WriteError::Io { path, cause }),
             }
         }
-        unreachable!("numbers do not end")
+        unreachable!("the number of names is unlimited")
     }
 
-    /// Goes on in the directory of a run that was interrupted; what a kill has left there goes. Finds
-    /// out now, not after an hour of computing, whether files can be made there.
+    /// Continues in the directory of an interrupted run and removes leftovers of a kill. Checks
+    /// now, not after an hour of computing, that files can be created there.
     pub fn reopen(path: &Path) -> Result<Self, WriteError> {
         let path = path.to_owned();
         let claim = Claim::take(&path).map_err(|refusal| match refusal {
@@ -220,7 +219,7 @@ impl RunDirectory {
         rows_in(&self.path)
     }
 
-    /// The run is at its end: its checkpoint goes.
+    /// Removes the checkpoint of a finished run.
     pub fn close(&self) -> Result<(), WriteError> {
         remove(&self.checkpoint())?;
         remove(&self.rows())
@@ -280,7 +279,7 @@ mod tests {
             assert!(refusal.is_misuse() && refusal.to_string().contains("(process "));
         }
         drop(run);
-        // What nothing was written into goes, unless it was there before.
+        // Removes the directory if nothing was written into it, unless it existed before.
         assert!(!path.exists());
         fs::create_dir(&path).expect("a directory");
         drop(RunDirectory::claim(&path, false).expect("an empty directory"));
@@ -320,7 +319,7 @@ mod tests {
             assert_eq!(shell_word(Path::new(path)), word);
         }
         let interrupted = WriteError::Interrupted("a b/run.checkpoint".into());
-        let hint = "mdr-tui run --resume 'a b/run.checkpoint' goes on";
+        let hint = "resume with: mdr-tui run --resume 'a b/run.checkpoint'";
         assert!(interrupted.to_string().contains(hint));
     }
 }

@@ -13,7 +13,7 @@ pub fn lines(session: &Session) -> String {
     let law = setup.wear.map_or("none", |law| law.name());
     let mut text = String::new();
     let mut line = |key: &str, value: &str| {
-        // A title cannot break out of its line, nor do anything to a terminal.
+        // A title must stay on its line and must not control a terminal.
         let _ = writeln!(text, "# {key}: {}", printable(value));
     };
     line("mdr-tui", env!("CARGO_PKG_VERSION"));

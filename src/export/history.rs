@@ -1,9 +1,9 @@
-//! `history.csv`: a row a recorded moment.
+//! `history.csv`: one row per recorded moment.
 //!
-//! Rows go to a file of their own while the run is under way, so that neither memory nor checkpoints
-//! grow with them; the header tells of the end of the run and is put before them then. A checkpoint
-//! holds the newest rows and how many bytes of the others are in the file. Rows that no disk takes
-//! stay in memory and in the checkpoint.
+//! During the run, rows go to a separate file, so that neither memory nor checkpoints grow with
+//! them; the header describes the end of the run and is added then. A checkpoint holds the newest
+//! rows and the length of the file. Rows that cannot be written stay in memory and in the
+//! checkpoint.
 
 use std::fs::OpenOptions;
 use std::io::{self, Read, Seek, SeekFrom, Write};
@@ -49,7 +49,7 @@ pub const COLUMNS: [&str; 30] = [
     "rig_displacement_m",
 ];
 
-/// Rows that are kept in memory before they go to the file, in bytes.
+/// Rows buffered in memory before they are written, bytes.
 const CHUNK: usize = 64 << 10;
 
 /// The rows recorded so far, as text.
@@ -113,8 +113,8 @@ impl History {
         self.rows.len() >= CHUNK
     }
 
-    /// Puts the rows in memory behind those in the file at `path`. On an error they stay in memory, and
-    /// the file is as good as before.
+    /// Appends the buffered rows to the file at `path`. On an error they stay in memory and the
+    /// file is unchanged.
     pub fn spill(&mut self, path: &Path) -> io::Result<()> {
         let mut options = OpenOptions::new();
         let mut file = options
@@ -122,7 +122,7 @@ impl History {
             .create(true)
             .truncate(false)
             .open(path)?;
-        // What stands there beyond belongs to a run that was killed.
+        // Anything beyond was written by a killed run.
         file.set_len(self.written)?;
         file.seek(SeekFrom::Start(self.written))?;
         file.write_all(self.rows.as_bytes())?;
@@ -138,7 +138,7 @@ impl History {
     ///
     /// # Errors
     ///
-    /// If they are not all there. The history then begins with the rows in memory.
+    /// If rows are missing; the history then begins with the rows in memory.
     pub fn move_rows(&mut self, from: &Path, to: &Path) -> io::Result<()> {
         if self.written == 0 {
             return Ok(());

@@ -1,4 +1,5 @@
-//! Files: tables of observations and of histories, written whole or not at all. Nothing here runs anything.
+//! Output files: tables of states and histories, written whole or not at all. Nothing here runs a
+//! simulation.
 
 pub mod autosave;
 pub mod claim;

@@ -1,4 +1,4 @@
-//! `state.csv`: a row a node of one moment.
+//! `state.csv`: one row per node, at one moment.
 
 use super::header::{lines, number};
 use crate::scenario::session::Session;

@@ -1,4 +1,4 @@
-//! What a figure is drawn with: lines, areas and words in millimetres, y downwards, in drawing order.
+//! Primitives of a figure: lines, areas and text in millimetres, y downwards, in drawing order.
 
 /// A colour, red, green and blue.
 pub type Rgb = [u8; 3];
@@ -64,12 +64,12 @@ pub struct Canvas {
     pub shapes: Vec<Shape>,
     /// The title, for the file's metadata.
     pub title: String,
-    /// What a caption needs to know: names and values.
+    /// Data for the caption: names and values.
     pub facts: Vec<(String, String)>,
 }
 
 impl Canvas {
-    /// Empty paper of a width and a height in mm.
+    /// An empty sheet of this width and height, mm.
     pub fn new(size: [f64; 2]) -> Self {
         Self {
             size,

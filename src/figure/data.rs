@@ -1,4 +1,4 @@
-//! The tables of a run that figures are made of: read from its files, or taken from memory.
+//! The tables behind a figure: read from the files of a run, or taken from memory.
 
 use super::panels::Panel;
 use crate::export::history::History;
@@ -51,7 +51,7 @@ impl Table {
             }
         }
         if table.columns.first().is_none_or(Vec::is_empty) {
-            return Err("holds no rows of numbers".into());
+            return Err("has no rows of numbers".into());
         }
         Ok(table)
     }
@@ -93,7 +93,7 @@ impl Table {
     }
 }
 
-/// What there is of a run.
+/// The tables of a run.
 #[derive(Debug, Clone, Default)]
 pub struct Data {
     /// States, by their cycles.
@@ -111,7 +111,7 @@ pub struct Data {
 }
 
 impl Data {
-    /// Takes a table in, by its columns; refuses one that is none of a run.
+    /// Adds a table, recognised by its columns; refuses a table that is not from a run.
     pub fn take(&mut self, table: Table) -> Result<(), String> {
         if table.has(&["r_m", "f_m"]) {
             self.states.push(table);
@@ -126,9 +126,7 @@ impl Data {
         } else if table.has(&["x_m", "z_m", "von_mises_Pa"]) {
             self.field = Some(table);
         } else {
-            return Err(
-                "has the columns neither of a state, nor of a history, nor of a field".into(),
-            );
+            return Err("does not have the columns of a state, a history or a field".into());
         }
         Ok(())
     }
@@ -145,7 +143,7 @@ impl Data {
     /// before each of them, a row of the history for each cycle, and the field at the end if `with_field`.
     ///
     /// # Errors
-    /// What stops the run.
+    /// If the run stops.
     pub fn run(
         session: &mut Session,
         cycles: &[f64],
@@ -239,7 +237,7 @@ impl Data {
             .reduce(f64::max)
     }
 
-    /// What a caption needs to know.
+    /// Returns the data for a caption.
     pub fn facts(&self) -> Vec<(String, String)> {
         let Some(last) = self
             .states

@@ -1,14 +1,14 @@
-//! How a figure looks: the size of its font, and colours on white paper or shades of grey.
+//! The look of a figure: font size, and colours or shades of grey.
 
 use super::canvas::Rgb;
 use crate::plot::colormap::ColorMap;
 
-/// What a curve stands for: the same quantity has the same colour in every chart.
+/// The role of a curve: the same quantity has the same colour in every chart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ink {
-    /// The unworn profile, and what is past.
+    /// The unworn profile, and past states.
     Unworn,
-    /// What theory says.
+    /// Closed forms.
     Limit,
     /// f and the worn depth.
     Profile,
@@ -46,7 +46,7 @@ pub struct Look {
     pub style: Style,
 }
 
-/// Colours of several states: Okabe and Ito's, told apart by the colour-blind too.
+/// Colours of several states, from Okabe and Ito: safe for colour-blind readers.
 const SERIES: [Rgb; 6] = [
     [0, 114, 178],
     [213, 94, 0],

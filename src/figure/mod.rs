@@ -1,9 +1,9 @@
 //! Figures for a paper: charts on sheets, as SVG, PNG or PDF, and what they show as CSV.
 //!
-//! One idea a file: `canvas` (lines, areas and words in millimetres), `svg`, `png` and `pdf` (one writer
-//! each), `font`, `ink` (colours and greys), `chart` (axes, curves, map, legend), `data` (the tables of a
-//! run, from its files or from memory), `panels` (one chart of a run each), `paper` (the figures of the
-//! paper). Ticks and units are those of the screen (`plot`).
+//! One idea per file: `canvas` (lines, areas and words in millimetres), `svg`, `png` and `pdf` (one
+//! writer each), `font`, `ink` (colours and greys), `chart` (axes, curves, map, legend), `data`
+//! (the tables of a run, from its files or from memory), `panels` (one chart of a run each),
+//! `paper` (the figures of the paper). Ticks and units are those of the screen (`plot`).
 
 use std::fmt::Write;
 use std::path::Path;
@@ -52,7 +52,7 @@ impl Format {
     /// The whole file of a figure; `dpi` is for pixels.
     ///
     /// # Errors
-    /// A PNG that has no pixel, or more than any reader takes.
+    /// If a PNG has no pixels, or too many.
     pub fn write(self, canvas: &Canvas, dpi: f64) -> Result<Vec<u8>, png::PngError> {
         match self {
             Self::Svg => Ok(svg::write(canvas).into_bytes()),
@@ -67,7 +67,7 @@ impl Format {
 pub struct Sheet {
     /// The title, for the file's metadata.
     pub title: String,
-    /// What a caption needs to know: names and values.
+    /// Data for the caption: names and values.
     pub facts: Vec<(String, String)>,
     /// The charts, in reading order.
     pub charts: Vec<Chart>,
@@ -113,7 +113,7 @@ impl Sheet {
         canvas
     }
 
-    /// Exactly what is drawn: one row for each point of each curve, and for each place of each map.
+    /// The drawn data: one row per point of each curve and per point of each map.
     pub fn csv(&self) -> String {
         let mut text = format!("# mdr-tui: {}\n", env!("CARGO_PKG_VERSION"));
         for (key, value) in &self.facts {

@@ -1,4 +1,4 @@
-//! One chart of a run each, from its tables.
+//! The charts, each made from the tables of a run.
 
 use super::chart::{Axis, Chart, Map};
 use super::data::{Data, Table};
@@ -34,7 +34,7 @@ pub enum Panel {
     Principal,
 }
 
-/// Why a run has no such chart.
+/// Why the chart cannot be made.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("no chart {name}: {why}")]
 pub struct Missing {
@@ -84,7 +84,7 @@ impl Panel {
     /// The chart.
     ///
     /// # Errors
-    /// What the run does not hold.
+    /// If the run has no data for it.
     pub fn chart(self, data: &Data) -> Result<Chart, Missing> {
         let mut chart = self.bare_chart(data)?;
         for (k, ghost) in data.ghosts.iter().enumerate() {
@@ -296,7 +296,7 @@ fn loops(data: &Data) -> Result<Chart, &'static str> {
         .any(|c| c.xs.iter().any(|&x| x != c.xs[0]));
     match (chart.curves.is_empty(), moves) {
         (true, _) => {
-            Err("the history has one row a cycle; run --history every-step writes the loop")
+            Err("the history has one row per cycle; run --history every-step records the loop")
         }
         (_, false) => Err("the indenter does not move tangentially"),
         _ => Ok(chart),

@@ -16,7 +16,7 @@ pub const POINTS: usize = 100;
 /// profile, (b) normal stress, (c) normal deformation.
 ///
 /// # Errors
-/// What stops one of the methods.
+/// If one of the methods stops.
 pub fn errors(points: usize) -> Result<Sheet, Stop> {
     let titles = ["1D profile", "normal stress", "normal deformation"];
     let mut charts = titles.map(|title| {
@@ -55,10 +55,10 @@ pub fn errors(points: usize) -> Result<Sheet, Stop> {
 /// Fig. 3: (a) 3D profiles and (b) 1D profiles at all states, stresses at (c) the first and (d) the last.
 ///
 /// # Errors
-/// What the run does not hold.
+/// If the run has no data for it.
 pub fn fretting(data: &Data) -> Result<Sheet, Missing> {
     let mut charts = vec![Panel::Profile.chart(data)?, Panel::Profile1d.chart(data)?];
-    // A state without stresses is refused in the words of the panel.
+    // The panel reports a state without stresses.
     Panel::Stresses.chart(data)?;
     for state in [data.states.first(), data.states.last()]
         .into_iter()

@@ -18,7 +18,7 @@ const MOST_PIXELS: f64 = 1e8;
 #[derive(Debug, thiserror::Error)]
 pub enum PngError {
     /// Too large, or nothing.
-    #[error("{width:.0} by {height:.0} pixels: an image has from 1 to 1e8 of them")]
+    #[error("{width:.0} by {height:.0} pixels: an image has 1 to 1e8 pixels")]
     Size {
         /// Pixels across.
         width: f64,

@@ -84,7 +84,7 @@ fn element(shape: &Shape) -> String {
     }
 }
 
-/// Micrometres of paper are enough.
+/// A resolution of one micrometre on paper is enough.
 fn length(value: f64) -> String {
     let text = format!("{value:.3}");
     let text = text.trim_end_matches('0').trim_end_matches('.');

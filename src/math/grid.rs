@@ -1,8 +1,8 @@
-//! The radial grid: the only maker of nodes.
+//! The radial grid, the only place where nodes are made.
 //!
-//! One grid serves the radius r of the 3D contact and the coordinate x of the 1D contact
-//! (r_i = x_i, §2 of the paper). Node 0 is always r = 0 exactly and the last node is the
-//! edge of the domain exactly, so that no other file has to ask what happens there.
+//! One grid serves the radius r of the 3D contact and the coordinate x of the 1D contact (r_i =
+//! x_i, §2 of the paper). Node 0 is always r = 0 exactly and the last node is the edge of the
+//! domain exactly, so that no other module needs a special case there.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! The ground floor: grids, a bracketed root solve and the Abel transforms. It knows no physics.
+//! The lowest layer: grids, a bracketed root solve and the Abel transforms. It knows no physics.
 
 pub mod abel;
 pub mod chebyshev;

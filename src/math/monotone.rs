@@ -7,7 +7,7 @@
 //! points are smooth nothing is cut, so a straight line and a parabola are reproduced exactly.
 //!
 //! Crates that interpolate evaluate only; Eq. (1) of the paper needs the cubics themselves, whose
-//! image is integrated segment by segment and leaves no error of its own.
+//! image is integrated exactly, segment by segment.
 //!
 //! # Formula
 //!

@@ -6,8 +6,8 @@
 //! the processor's vector unit while one pass goes through its entries, and the pass covers only the
 //! columns where the input is not zero (within the contact, outside the stick zone). Cost: at most N²/2 multiply-adds.
 //!
-//! Processors that fuse multiplication and addition give other last digits than those that do not; on
-//! one machine they are always the same.
+//! The last digits differ between CPUs with and without fused multiply-add; on one machine they are
+//! always the same.
 
 use std::ops::Range;
 

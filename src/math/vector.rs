@@ -1,4 +1,4 @@
-//! Loops compiled for the vector unit that the processor has, beside the one that every processor has.
+//! Runs loops with the widest SIMD that the CPU supports.
 
 use fearless_simd::{Level, dispatch};
 

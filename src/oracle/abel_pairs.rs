@@ -1,4 +1,4 @@
-//! Analytic pairs of the three transforms, each given by what goes in and what comes out.
+//! Analytic pairs of the three transforms, each given by its input and its image.
 //!
 //! Sources: Popov & Heß (2015), chs. 3 and 7; Bracewell (2000), table of Abel transforms; Li et al.
 //! (2019) for the equations:

@@ -2,9 +2,9 @@
 //!
 //! Sources: Boussinesq (1885), Sneddon (1965); Popov & Heß (2015), ch. 3. In one dimension the
 //! punch is g = 0 for x < a and infinite beyond, so q = E*d is constant and jumps to 0 at a: by (3)
-//! the pressure is singular at the edge, and by (2) w = (2d/π) asin(a/r) outside. Under a tangential
-//! displacement every spring reaches its friction limit at the same moment, U_s = μE*d/G*: the
-//! punch sticks whole or slips whole.
+//! the pressure is singular at the edge, and by (2) w = (2d/π) asin(a/r) outside. Under a
+//! tangential displacement every spring reaches its friction limit at the same moment, U_s =
+//! μE*d/G*: the punch sticks or slips as a whole.
 
 use super::special::{leg, positive_part};
 use std::f64::consts::PI;

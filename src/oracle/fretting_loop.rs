@@ -6,8 +6,8 @@
 //!   the first loading of [`super::cattaneo_mindlin`]; τ(r) follows the same rule;
 //! - E_d = (16μ²E*²/(15G*R²))[a⁵ − c⁵ − 5a²c²(a−c)] = (16μ²E*²/(15G*R²))(a−c)³(a²+3ac+c²);
 //!   in gross slip 4μF_z(U − 0.8U_s);
-//! - wear a cycle on the frozen profile, (15): Δf = 4μk p(r) s(r), since the point slips from s to
-//!   −s and back under |τ| = μp. Its volume is k·E_d.
+//! - wear per cycle on the frozen profile, (15): Δf = 4μk p(r) s(r), since the point slips from s
+//!   to −s and back under |τ| = μp. Its volume is k·E_d.
 
 use super::cattaneo_mindlin::CattaneoMindlin;
 

@@ -1,8 +1,8 @@
-//! What endless fretting leaves of a paraboloid: the limiting profile at fixed depth.
+//! The limiting profile of a paraboloid after endless fretting at fixed depth.
 //!
 //! Source: Popov (2014), Appl. Phys. Lett. 104, 191602, and Dimaki et al. (2014); Li et al. (2019)
 //! for the transforms. Inside the permanent stick radius c nothing slips and f = f₀; outside, wear
-//! goes on until nothing is pressed there any more:
+//! continues until the pressure has vanished:
 //! - g∞ = x²/R for x < c, = d for c < x < b;
 //! - f∞ = [r² asin(c/r) − c√(r²−c²)]/(πR) + d[1 − (2/π) asin(c/r)] for c < r < b, f₀ outside;
 //! - b where f∞(b) = f₀(b): b² + c√(b²−c²)/acos(c/b) = 2a², a² = Rd, so a ≤ b ≤ √(2a² − c²);

@@ -1,8 +1,8 @@
-//! Closed forms to test against: the judge, which shares no code with the judged.
+//! Closed forms to test against; they share no code with what they test.
 //!
 //! Everything here imports `std` only (and its own neighbours in this folder). Pure functions and
-//! small structs, SI units, `f64`. Where a problem has no closed form, an adaptive quadrature of
-//! the defining integral with its singularity substituted away stands in. Equation numbers are
+//! small structs, SI units, `f64`. If a problem has no closed form, the defining integral is
+//! computed by adaptive quadrature, its singularity removed by substitution. Equation numbers are
 //! those of Li, Forsbach & Benad (2019), doi 10.22190/FUME190103012L.
 //!
 //! | file | problem |
@@ -11,7 +11,7 @@
 //! | [`flat_punch`] | flat-ended cylinder |
 //! | [`truncated`] | paraboloid and cone with a flat tip |
 //! | [`cattaneo_mindlin`] | partial slip of the paraboloid on first loading |
-//! | [`fretting_loop`] | its loop, energy and wear a cycle; Masing's rule |
+//! | [`fretting_loop`] | its loop, energy and wear per cycle; Masing's rule |
 //! | [`partial_slip`] | the same for any one-dimensional profile, by quadrature |
 //! | [`limiting_profile`] | what is left of a paraboloid after endless fretting |
 //! | [`dual_oscillation`] | permanent stick under normal and tangential oscillation |

@@ -6,7 +6,7 @@
 //! - stick edge g(c) = d − κU, gross slip from U_s = λd;
 //! - F_x(U) = 2G*∫₀ᵃ min(U, y) dx = μ[F_z(a) − F_z(c)];
 //! - slip of the surface by (2): s(r) = (2/π)∫₀ʳ (U − min(U, y))/√(r²−x²) dx;
-//! - energy a settled cycle: 8G*∫ y(U − y) dx over the springs with y < U, which is
+//! - energy of a steady-state cycle: 8G*∫ y(U − y) dx over the springs with y < U, which is
 //!   (8μ²E*²/G*)∫_cᵃ (d−g)(g−g(c)) dx in partial slip.
 //!
 //! All by adaptive quadrature; g must rise from g(0) ≥ 0 to g(a) = d without falling.

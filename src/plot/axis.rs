@@ -1,4 +1,4 @@
-//! Axes: what they show, and from where to where.
+//! Axes: quantity, unit, bounds and scale.
 
 use super::step::Step;
 

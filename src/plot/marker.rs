@@ -1,16 +1,16 @@
-//! What dots are made of.
+//! Characters that dots are made of.
 
-/// What a dot is made of.
+/// The character of a dot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Marker {
-    /// Braille patterns: 2 by 4 dots a cell.
+    /// Braille patterns: 2 by 4 dots per cell.
     #[default]
     Braille,
-    /// Half blocks: 1 by 2 dots a cell.
+    /// Half blocks: 1 by 2 dots per cell.
     HalfBlock,
-    /// A bullet: one dot a cell.
+    /// A bullet: one dot per cell.
     Dot,
-    /// An asterisk: one dot a cell; axes, units and labels are then in ASCII too.
+    /// An asterisk: one dot per cell; axes, units and labels are then in ASCII too.
     Ascii,
 }
 
@@ -53,7 +53,7 @@ impl Marker {
     }
 }
 
-/// What lies under the curves.
+/// The layer under the curves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Under {
     /// The area between a curve and its base.

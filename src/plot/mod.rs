@@ -11,10 +11,10 @@
 //!      0            50    r [µm]  100                  tick labels, x title
 //! ```
 //!
-//! One idea a file: `units` (SI prefixes), `axis` (what an axis shows, its bounds),
-//! `window` (the map from values to dots), `step` (the 1-2-5 grid), `ticks`, `labels`
-//! (the row under the plot), `marker`, `stroke`, `raster` and `segment` (dots finer than a cell),
-//! `legend`, `widget` (the layout above), `screen_svg` (a screen as a picture).
+//! One idea per file: `units` (SI prefixes), `axis` (what an axis shows, its bounds), `window` (the
+//! map from values to dots), `step` (the 1-2-5 grid), `ticks`, `labels` (the row under the plot),
+//! `marker`, `stroke`, `raster` and `segment` (dots finer than a cell), `legend`, `widget` (the layout
+//! above), `screen_svg` (a screen as a picture).
 //!
 //! All data are in plain units (m, Pa); the plot chooses the prefixes. Points where x or y
 //! is not finite, or not positive on a log axis, are gaps. Where a curve leaves bounds that were given

@@ -1,4 +1,4 @@
-//! The sub-cell raster: dots finer than a terminal cell.
+//! The sub-cell raster: dots smaller than a terminal cell.
 //!
 //! Curves are drawn as exact straight segments between the positions of their points,
 //! clipped to the raster before a dot is set, so that a far point costs no more than a near

@@ -1,7 +1,7 @@
 //! A screen of characters as an SVG picture, with its colours.
 //!
-//! Letters are text, each run stretched to its cells, so that it stands in its place in any monospaced
-//! font. What draws (Braille dots, blocks, rules) is drawn: fonts differ too much there.
+//! Letters are text, stretched to their cells so that they line up in any monospaced font. Braille
+//! dots, blocks and rules are drawn as shapes, because fonts differ too much there.
 
 use std::fmt::Write;
 

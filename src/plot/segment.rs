@@ -4,7 +4,7 @@
 //! the walk is never longer than the grid is wide or high.
 
 /// Visits the dots nearest to the line from `a` to `b` on a grid of `size` dots, dot `i`
-/// being centred on position `i`: one a column where the line is shallow, one a row where it
+/// being centred on position `i`: one a column where the line is shallow, one per row where it
 /// is steep. `visit` gets column, row, and whether the line is steep.
 pub(super) fn walk(
     a: (f64, f64),

@@ -211,6 +211,7 @@ pub fn to_ascii(text: &str) -> Cow<'_, str> {
             '≤' => folded.push_str("<="),
             '≥' => folded.push_str(">="),
             '±' => folded.push_str("+-"),
+            '●' => folded.push('o'),
             '▶' => folded.push('>'),
             '◀' => folded.push('<'),
             '▲' => folded.push('^'),

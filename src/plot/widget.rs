@@ -353,7 +353,10 @@ impl<'p, 'a> Frame<'p, 'a> {
             free.end -= 1;
         }
 
-        for mark in &plot.marks {
+        // From left to right: a label takes the room of the title row up to its own end.
+        let mut marks: Vec<_> = plot.marks.iter().collect();
+        marks.sort_by(|a, b| a.x.total_cmp(&b.x));
+        for mark in marks {
             let label = text(mark.label, ascii);
             let Some(cell) = self.x.cell(mark.x).filter(|_| !label.is_empty()) else {
                 continue;

@@ -1,4 +1,4 @@
-//! KEY = VALUE: what `--set`, a recorded change and the edit form have in common.
+//! KEY = VALUE assignments, shared by `--set`, recorded changes and the edit form.
 
 use toml::{Table, Value};
 
@@ -81,8 +81,8 @@ fn parse(parameter: &Parameter, text: &str) -> Value {
     }
 }
 
-/// Keys of a shape that is no longer there would only be refused, or misread: the radius of a punch is
-/// none of curvature. What was assigned together with the shape stays.
+/// Drops the keys of the previous shape, which would be refused or misread: the radius of a punch
+/// is not a radius of curvature. Keys assigned together with the shape stay.
 fn drop_keys_of_other_shapes(table: &mut Table, shape: &Value, origin: &Origin) {
     const PUNCH: &str = "flat-punch";
     let known = shape.as_str().filter(|shape| keys::SHAPES.contains(shape));

@@ -1,8 +1,8 @@
-//! Load blocks: `[[blocks]]`, each so many cycles of a motion and a load of its own.
+//! Load blocks: `[[blocks]]`, each a number of cycles with its own motion and load.
 //!
-//! The first block is the scenario's own beginning, and every later one changes keys where it begins,
-//! so blocks become the `[[changes]]` that a run knows already: the profile is carried over, and a run's
-//! `scenario.toml` holds the changes.
+//! The first block is the start of the scenario, and every later one changes keys where it begins.
+//! So blocks become `[[changes]]`: the profile is carried over, and the `scenario.toml` of a run
+//! holds the changes.
 
 use toml::{Table, Value};
 
@@ -23,7 +23,8 @@ pub(super) fn expand(table: &mut Table, origin: &Origin) -> Result<(), ScenarioE
     let list = match &blocks {
         Value::Array(list) if !list.is_empty() => list,
         other => {
-            let rule = "must be an array of tables, [[blocks]] with cycles and what changes";
+            let rule = "must be an array of tables, [[blocks]] with cycles and the keys that \
+                change";
             return refuse("blocks", other, rule);
         }
     };
@@ -31,7 +32,7 @@ pub(super) fn expand(table: &mut Table, origin: &Origin) -> Result<(), ScenarioE
         return refuse(
             "changes",
             changes,
-            "does not go with [[blocks]]; give either",
+            "conflicts with [[blocks]]; give one of them",
         );
     }
     let mut changes = Vec::new();
@@ -39,7 +40,11 @@ pub(super) fn expand(table: &mut Table, origin: &Origin) -> Result<(), ScenarioE
     for (i, block) in list.iter().enumerate() {
         let at = format!("blocks[{i}]");
         let Some(block) = block.as_table() else {
-            return refuse(&at, block, "must be a table with cycles and what changes");
+            return refuse(
+                &at,
+                block,
+                "must be a table with cycles and the keys that change",
+            );
         };
         let given = block.get("cycles");
         let cycles = match given {
@@ -160,7 +165,7 @@ mod tests {
             ),
             (
                 "[[changes]]\nat_cycle = 1\nset = \"friction.coefficient = 0.3\"\n[[blocks]]\ncycles = 1\n",
-                "does not go with [[blocks]]",
+                "conflicts with [[blocks]]",
             ),
         ] {
             let refused = with_blocks(blocks).expect_err("refused");

@@ -1,5 +1,5 @@
-//! Every key of a scenario held against the schema: is it known, is its value of the right kind and
-//! within its range. What the values mean together is the business of `validate`.
+//! Checks every key of a scenario against the schema: is it known, is its value of the right type
+//! and in range? `validate` checks how the values fit together.
 
 use toml::{Table, Value};
 
@@ -70,7 +70,7 @@ fn changes(value: &Value, origin: &Origin) -> Result<(), ScenarioError> {
     Ok(())
 }
 
-/// The error for a key that nobody knows, named at `place`.
+/// The error for an unknown key, named at `place`.
 pub(super) fn unknown(place: &str, path: &str, shown: &str) -> ScenarioError {
     ScenarioError::UnknownKey {
         place: place.to_owned(),

@@ -1,4 +1,4 @@
-//! A checkpoint: a session put away in one file, and taken up again to the same bits.
+//! A checkpoint: a session saved in one file, and restored to the same bits.
 //!
 //! ```text
 //! mdr-tui checkpoint 1
@@ -7,10 +7,10 @@
 //! <CBOR>
 //! ```
 //!
-//! Three lines that a person can read, then the scenario as it was loaded, its changes and the saved
-//! run in CBOR (RFC 8949), which keeps every f64 to its bits, infinities and −0 included. Fields
-//! stand there by name, so that a state that has gained one is told from a state that has not. The
-//! length and the checksum of all that follows them tell a torn file from a whole one.
+//! Three lines that a person can read, then the scenario as it was loaded, its changes and the
+//! saved run in CBOR (RFC 8949), which keeps every f64 to its bits, infinities and −0 included.
+//! Fields are stored by name, so that added fields can be recognised. Length and checksum of the
+//! contents reveal a damaged file.
 
 use std::borrow::Cow;
 use std::fs::File;
@@ -37,7 +37,7 @@ const LONGEST_LINE: u64 = 200;
 /// The largest contents that are read, in bytes: the history of ten million cycles.
 const LARGEST: u64 = 4 << 30;
 
-/// A checkpoint that cannot be taken up. Each displays as one line.
+/// A checkpoint that cannot be restored. Each error displays as one line.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum CheckpointError {
     /// A file that cannot be read.
@@ -49,7 +49,7 @@ pub enum CheckpointError {
         reason: String,
     },
     /// A file of another kind.
-    #[error("{path}: is no checkpoint; one is written by mdr-tui and by mdr-tui run")]
+    #[error("{path}: is not a checkpoint of mdr-tui")]
     Foreign {
         /// The path as given.
         path: String,
@@ -63,15 +63,15 @@ pub enum CheckpointError {
         found: String,
     },
     /// A file that is not whole.
-    #[error("{path}: is torn: {reason}; an earlier or another checkpoint may be whole")]
+    #[error("{path}: is damaged: {reason}; try an older checkpoint")]
     Torn {
         /// The path as given.
         path: String,
         /// What does not add up.
         reason: String,
     },
-    /// Contents that make no run.
-    #[error("{path}: holds no run that this mdr-tui ({}) knows: {reason}", env!("CARGO_PKG_VERSION"))]
+    /// Contents that are not a valid run.
+    #[error("{path}: this mdr-tui ({}) cannot read its run: {reason}", env!("CARGO_PKG_VERSION"))]
     Contents {
         /// The path as given.
         path: String,
@@ -80,12 +80,12 @@ pub enum CheckpointError {
     },
 }
 
-/// A session as it was put away, and what the program that drove it wrote beside it.
+/// A saved session, and the data of the program that drove it.
 #[derive(Debug)]
 pub struct Checkpoint<E> {
     /// The session, ready to go on.
     pub session: Session,
-    /// What the driver needs to go on, where it put anything away.
+    /// The driver's own data, if it saved any.
     pub job: Option<E>,
 }
 
@@ -105,7 +105,7 @@ struct Body<'a, E> {
     job: Option<E>,
 }
 
-/// The bytes of a checkpoint of `session`, with the `job` of who drives it.
+/// Encodes a checkpoint of `session`, with the `job` of its driver.
 pub fn encode<E: Serialize>(session: &Session, job: Option<&E>) -> Vec<u8> {
     let parts = session.parts();
     let cycle = parts.saved.cycle();
@@ -196,11 +196,11 @@ fn contents(
                 path: path(),
                 found: super::echo(version),
             },
-            None => torn("it ends in its first line".into()),
+            None => torn("it ends within its first line".into()),
         });
     }
     let second = line()?;
-    let promised = promise(&second).ok_or_else(|| torn("its second line is not whole".into()))?;
+    let promised = promise(&second).ok_or_else(|| torn("its second line is incomplete".into()))?;
     let (length, checksum) = promised;
     if length > LARGEST {
         return Err(CheckpointError::Contents {
@@ -216,7 +216,7 @@ fn contents(
     if contents.len() as u64 != length {
         let found = contents.len() as u64;
         return Err(torn(match found > length {
-            true => format!("it goes on after its {length} bytes"),
+            true => format!("it continues after its {length} bytes"),
             false => format!("it has {found} of {length} bytes"),
         }));
     }

@@ -1,8 +1,8 @@
-//! Columns of numbers from a CSV file that somebody measured, or that this program wrote.
+//! Columns of numbers from a measured CSV file, or from one written by this program.
 //!
-//! Lines that begin with `#` are comments; the first other line names the columns, whose last part is
-//! the unit: `r_m` and `r_mm` are both radii, and come out in m. Columns that nobody asked for may
-//! hold anything, so that a `state.csv` is a scar and a `history.csv` is a history.
+//! Lines that begin with `#` are comments; the first other line names the columns, whose last part
+//! is the unit: `r_m` and `r_mm` are both radii, and come out in m. Other columns may hold
+//! anything, so that a `state.csv` can serve as a scar and a `history.csv` as a history.
 
 use std::fs::File;
 use std::io::Read;
@@ -71,7 +71,7 @@ impl Columns {
             })
         })?;
         if !metadata.is_file() {
-            return Err(refuse("is no file; must be a CSV file".into()));
+            return Err(refuse("is not a file; must be a CSV file".into()));
         }
         if metadata.len() > LARGEST {
             let most = LARGEST >> 20;
@@ -131,7 +131,7 @@ impl Columns {
         &self.path
     }
 
-    /// How many rows there are.
+    /// The number of rows.
     pub fn rows(&self) -> usize {
         self.rows.len()
     }
@@ -146,7 +146,7 @@ impl Columns {
         self.find(name, quantity).is_some()
     }
 
-    /// The numbers of the column `name` in SI units, one a row.
+    /// The numbers of the column `name` in SI units, one per row.
     ///
     /// # Errors
     /// If there is no such column, or a field of it is empty or no finite number.
@@ -168,7 +168,7 @@ impl Columns {
                 };
                 match field.parse::<f64>() {
                     Ok(value) if value.is_finite() => Ok(size * value),
-                    _ if field.is_empty() => refuse("is empty; mend or remove the row"),
+                    _ if field.is_empty() => refuse("is empty; fill in or remove the row"),
                     _ => refuse(&format!("= {}: must be a finite number", echo(field))),
                 }
             })
@@ -213,7 +213,7 @@ fn unreadable(path: &str, reason: String) -> ScenarioError {
     }
 }
 
-/// What the reader met, in words.
+/// The reader's error in words.
 fn problem(error: &csv::Error) -> String {
     match error.kind() {
         csv::ErrorKind::UnequalLengths {
@@ -222,7 +222,7 @@ fn problem(error: &csv::Error) -> String {
             len,
         } => {
             let line = pos.as_ref().map_or(0, csv::Position::line);
-            format!("line {line}: has {len} fields; must have {expected_len}, one a column")
+            format!("line {line}: has {len} fields; must have {expected_len}, one per column")
         }
         _ => printable(&error.to_string()),
     }
@@ -265,7 +265,7 @@ mod tests {
         };
         assert_eq!(
             message("r_m,f_m\n0,0\n1,\n"),
-            "scar.csv: line 3: f_m is empty; mend or remove the row"
+            "scar.csv: line 3: f_m is empty; fill in or remove the row"
         );
         assert_eq!(
             message("# x\nr_m,f_m\n0,nan\n"),
@@ -277,7 +277,7 @@ mod tests {
         );
         assert_eq!(
             message("r_m,f_m\n0,0\n1\n"),
-            "scar.csv: line 3: has 1 fields; must have 2, one a column"
+            "scar.csv: line 3: has 1 fields; must have 2, one per column"
         );
         assert_eq!(
             message("r_m,z_m\n0,0\n"),

@@ -1,6 +1,5 @@
-//! A scenario's table with the defaults that may change between versions written out, so that one
-//! that is saved means the same later. What follows from the method stays open, so that it goes on
-//! following it.
+//! Writes out the defaults that may change between versions, so that a saved scenario keeps its
+//! meaning. Defaults that depend on the method stay open and keep following it.
 
 use toml::{Table, Value};
 

@@ -1,5 +1,5 @@
-//! What a scenario may leave to the program: the domain's edge and the references of the power law,
-//! found by pressing the unworn indenter, and the choices that go with a transform method.
+//! Defaults derived from the rest of a scenario: the domain radius and the references of the power
+//! law, found by pressing the unworn indenter, and choices that depend on the transform method.
 
 use std::f64::consts::PI;
 

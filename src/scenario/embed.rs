@@ -1,6 +1,5 @@
-//! Tables that a scenario names by a file: read once, when the scenario is loaded, and put in the
-//! scenario itself as lists of numbers. So a scenario that was run, or a checkpoint, is whole without
-//! any other file.
+//! Tables that a scenario reads from files: read once, when the scenario is loaded, and stored in
+//! it as lists of numbers. So the scenario of a run, or a checkpoint, needs no other file.
 
 use std::path::{Path, PathBuf};
 

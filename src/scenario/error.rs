@@ -1,8 +1,8 @@
-//! Why a scenario is refused: one line that says what is wrong, where, and what would be right.
+//! Scenario errors: one line that says what is wrong, where, and what would be right.
 
 use thiserror::Error;
 
-/// The most characters of a user's text that an error repeats.
+/// Maximum number of characters of a user's text in an error.
 const LONGEST_ECHO: usize = 60;
 
 /// A scenario that cannot be run. Each displays as one line.
@@ -33,16 +33,16 @@ pub enum ScenarioError {
         line: usize,
         /// In characters, counted from 1.
         column: usize,
-        /// What the parser met.
+        /// The parser's message.
         message: String,
     },
     /// `--set` without a key or without a value.
     #[error("{given}: must be KEY=VALUE, as in numerics.points=400")]
     NotAnAssignment {
-        /// What stood there.
+        /// The text as given.
         given: String,
     },
-    /// A key that no scenario has.
+    /// An unknown key.
     #[error("{place}: unknown key {key}; {hint}")]
     UnknownKey {
         /// The origin, or the assignment that named the key.
@@ -52,7 +52,7 @@ pub enum ScenarioError {
         /// The nearest key, or the keys that its table takes.
         hint: String,
     },
-    /// A key without which there is no scenario.
+    /// A required key that is missing.
     #[error("{origin}: {path} is missing: {meaning}")]
     Missing {
         /// Where the scenario came from.

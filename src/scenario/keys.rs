@@ -1,4 +1,5 @@
-//! Every key a scenario may hold, once: its name in the code, its type, and all that is known of it.
+//! The table of all scenario keys: name in the code, type, unit, range, default, meaning and
+//! effect.
 
 use super::schema::Default::{Derived, Implied, Written};
 use super::schema::Range::{Acute, Any, NotNegative, Positive, UpTo, Within};
@@ -33,17 +34,17 @@ pub(super) const METHODS: &[&str] = &["product", "a", "a+b", "b", "benad"];
 pub(super) const SPACINGS: &[&str] = &["graded", "uniform"];
 /// How a step is taken, as [`Scheme`](crate::simulation::Scheme) names it.
 pub(super) const SCHEMES: &[&str] = &["trapezoid", "euler"];
-/// What is done about harsh steps, as [`Stability`](crate::simulation::Stability) names it.
+/// What is done about stiff steps, as [`Stability`](crate::simulation::Stability) names it.
 pub(super) const STABILITIES: &[&str] = &["sub-step", "off"];
 const CONTROLS: &[&str] = &["displacement", "force"];
-/// How a motion swings, as [`Waveform`](crate::simulation::waveform::Waveform) names it.
+/// The waveforms, as [`Waveform`](crate::simulation::waveform::Waveform) names it.
 const WAVEFORMS: &[&str] = &["sine", "triangle", "trapezoid", "table"];
 const LAWS: &[&str] = &["archard", "power"];
 
 /// The unit of what a motion prescribes.
-pub const PRESCRIBED: &str = "m, or N where control = \"force\"";
+pub const PRESCRIBED: &str = "m, or N if control = \"force\"";
 
-/// What is chosen to meet `numerics.accuracy`.
+/// The keys chosen by `numerics.accuracy`.
 pub(super) const CHOSEN_BY_ACCURACY: [&str; 3] =
     [POINTS.path(), STEPS_PER_CYCLE.path(), TOLERANCE.path()];
 
@@ -93,7 +94,7 @@ keys! {
             "effective modulus E* of the pair")
         .effect("more: more pressure and force at the same depth");
     POISSON: f64 = quantity("material.poisson", "", Within(0.0, 0.5), "Poisson's ratio of the elastic body")
-        .effect("more: softer sideways, so a wider stick zone");
+        .effect("more: tangentially softer, so a wider stick zone");
     HARDNESS: f64 = quantity("material.hardness", "Pa", Positive,
             "hardness of the softer body: the pressure beyond which a warning is given")
         .effect("less: the warning that the material yields comes earlier");
@@ -102,7 +103,7 @@ keys! {
         .effect("more: a stiffer pair");
     INDENTER_POISSON: f64 = quantity("material.indenter.poisson", "", Within(0.0, 0.5),
             "Poisson's ratio of the indenter")
-        .effect("more: softer sideways, so a wider stick zone");
+        .effect("more: tangentially softer, so a wider stick zone");
     INDENTER_HARDNESS: f64 = quantity("material.indenter.hardness", "Pa", Positive,
             "hardness of the indenter: the pressure beyond which a warning is given")
         .effect("less: the warning that the material yields comes earlier");
@@ -114,7 +115,7 @@ keys! {
         .effect("more: a stiffer pair");
     HALF_SPACE_POISSON: f64 = quantity("material.half_space.poisson", "", Within(0.0, 0.5),
             "Poisson's ratio of the half-space")
-        .effect("more: softer sideways, so a wider stick zone");
+        .effect("more: tangentially softer, so a wider stick zone");
     HALF_SPACE_HARDNESS: f64 = quantity("material.half_space.hardness", "Pa", Positive,
             "hardness of the half-space: the pressure beyond which a warning is given")
         .effect("less: the warning that the material yields comes earlier");
@@ -126,17 +127,17 @@ keys! {
         .effect("more: a wider stick zone, higher shear where it slips");
 
     FRICTION_SETTLED: f64 = quantity("friction.settled", "", NotNegative,
-            "coefficient of friction that running in approaches")
+            "coefficient of friction after running in")
         .effect("friction after running in");
     FRICTION_CYCLES: f64 = quantity("friction.running_in_cycles", "cycles", Positive,
-            "cycles after which friction is nearer to settled by a factor of e")
+            "cycles in which the distance to settled falls by a factor e")
         .effect("more: friction settles later");
     FRICTION_ENERGY: f64 = quantity("friction.running_in_energy", "J", Positive,
-            "work of friction after which friction is nearer to settled by a factor of e")
+            "friction work in which the distance to settled falls by a factor e")
         .effect("more: friction settles later");
     FRICTION_FILE: String = text("friction.file",
-            "CSV file with columns coefficient and cycle or energy_J, in place of coefficient")
-        .effect("another course of friction");
+            "CSV file with columns coefficient and cycle or energy_J, instead of coefficient")
+        .effect("another course of the friction coefficient");
     FRICTION_AT_CYCLE: Vec<f64> = quantities("friction.at_cycle", "cycles", NotNegative,
             "cycles of the table, as read from friction.file")
         .effect("the cycles of the course");
@@ -152,7 +153,7 @@ keys! {
         .default(Written("\"displacement\""))
         .effect("displacement: wear unloads the contact; force: it sinks in");
     NORMAL_MEAN: f64 = quantity("motion.normal.mean", PRESCRIBED, Any,
-            "depth or normal force around which the motion swings")
+            "mean depth or mean normal force")
         .effect("more: a wider contact, a wider stick zone");
     NORMAL_AMPLITUDE: f64 = quantity("motion.normal.amplitude", PRESCRIBED, NotNegative,
             "amplitude of the normal motion")
@@ -160,17 +161,17 @@ keys! {
         .effect("more: the edge of the contact opens and closes further");
     NORMAL_FREQUENCY: f64 = quantity("motion.normal.angular_frequency", "rad/s", Positive,
             "angular frequency of the normal motion")
-        .default(Derived("that of the tangential motion, where the amplitude is 0"))
-        .effect("another ratio to the tangential one: another loop");
+        .default(Derived("that of the tangential motion if the amplitude is 0"))
+        .effect("a different ratio to the tangential one: a different loop");
     NORMAL_PHASE: f64 = quantity("motion.normal.phase", "rad", Any, "phase of the normal motion")
         .default(Implied("0.0"))
         .effect("when the contact is deepest, relative to the tangential motion");
     NORMAL_WAVEFORM: String = choice("motion.normal.waveform", WAVEFORMS,
-            "how the normal motion swings")
+            "waveform of the normal motion")
         .default(Implied("\"sine\""))
         .effect("at constant depth only the turning points count");
     NORMAL_HOLD: f64 = quantity("motion.normal.hold", "", UpTo(0.99),
-            "share of a period that waveform = \"trapezoid\" rests at its ends")
+            "fraction of a period spent at rest, for waveform = \"trapezoid\"")
         .effect("more: longer rests, faster strokes");
     NORMAL_FILE: String = text("motion.normal.file",
             "CSV file of waveform = \"table\": one period, columns time_s and u_m, or F_N, or value")
@@ -185,9 +186,9 @@ keys! {
     TANGENTIAL_CONTROL: String = choice("motion.tangential.control", CONTROLS,
             "what is prescribed in the tangential direction")
         .default(Written("\"displacement\""))
-        .effect("displacement or force is what swings");
+        .effect("displacement or force oscillates");
     TANGENTIAL_MEAN: f64 = quantity("motion.tangential.mean", PRESCRIBED, Any,
-            "shift or tangential force around which the motion swings")
+            "mean displacement or mean tangential force")
         .default(Implied("0.0"))
         .effect("where the motion is centred; forgotten after a cycle");
     TANGENTIAL_AMPLITUDE: f64 = quantity("motion.tangential.amplitude", PRESCRIBED, NotNegative,
@@ -196,22 +197,23 @@ keys! {
         .effect("more: a wider slip ring, then gross slip");
     TANGENTIAL_FREQUENCY: f64 = quantity("motion.tangential.angular_frequency", "rad/s", Positive,
             "angular frequency of the tangential motion; one period is a cycle")
-        .default(Derived("that of the normal motion, where the amplitude is 0"))
-        .effect("one period is a cycle; powers of slip rate feel it");
+        .default(Derived("that of the normal motion if the amplitude is 0"))
+        .effect("one period is a cycle; matters for powers of the slip rate");
     TANGENTIAL_PHASE: f64 = quantity("motion.tangential.phase", "rad", Any,
             "phase of the tangential motion")
         .default(Implied("0.0"))
         .effect("when the shift is largest, relative to the depth");
     RIG_STIFFNESS: f64 = quantity("motion.tangential.rig_stiffness", "N/m", Positive,
-            "stiffness of the rig in series with the contact: the motion is then the actuator's")
+            "stiffness of the rig in series with the contact: the motion is then that of the \
+             actuator")
         .default(Derived("infinite: the contact gets the whole motion"))
         .effect("more: the contact gets more of the actuator's motion");
     TANGENTIAL_WAVEFORM: String = choice("motion.tangential.waveform", WAVEFORMS,
-            "how the tangential motion swings")
+            "waveform of the tangential motion")
         .default(Implied("\"sine\""))
         .effect("at constant depth only the turning points count");
     TANGENTIAL_HOLD: f64 = quantity("motion.tangential.hold", "", UpTo(0.99),
-            "share of a period that waveform = \"trapezoid\" rests at its ends")
+            "fraction of a period spent at rest, for waveform = \"trapezoid\"")
         .effect("more: longer rests, faster strokes");
     TANGENTIAL_FILE: String = text("motion.tangential.file",
             "CSV file of waveform = \"table\": one period, columns time_s and u_m, or F_N, or value")
@@ -225,24 +227,25 @@ keys! {
 
     LAW: String = choice("wear.law", LAWS, "law of wear")
         .default(Written("\"archard\""))
-        .effect("archard follows the work of friction; power weighs stress and speed");
+        .effect("archard: by friction work; power: by powers of stress and slip rate");
     WEAR_COEFFICIENT: f64 = quantity("wear.coefficient", "1/Pa", NotNegative, "wear coefficient k")
         .effect("more: the same wear in fewer cycles, until steps are too coarse");
     WEAR_SETTLED: f64 = quantity("wear.settled", "1/Pa", NotNegative,
-            "wear coefficient that running in approaches")
+            "wear coefficient after running in")
         .effect("the wear coefficient after running in");
     WEAR_CYCLES: f64 = quantity("wear.running_in_cycles", "cycles", Positive,
-            "cycles after which the wear coefficient is nearer to settled by a factor of e")
+            "cycles in which the distance to settled falls by a factor e")
         .effect("more: the wear coefficient settles later");
     WEAR_ENERGY: f64 = quantity("wear.running_in_energy", "J", Positive,
-            "work of friction after which the wear coefficient is nearer to settled by a factor of e")
+            "friction work in which the distance to settled falls by a factor e")
         .effect("more: the wear coefficient settles later");
     WEAR_THRESHOLD: f64 = quantity("wear.threshold_energy", "J", NotNegative,
-            "work of friction below which nothing wears: V = k (E_d - threshold)")
+            "friction work below which nothing wears: V = k (E_d - threshold)")
         .default(Implied("0.0"))
         .effect("more: wear begins later");
     WEAR_FILE: String = text("wear.file",
-            "CSV file with columns coefficient (1/Pa) and cycle or energy_J, in place of coefficient")
+            "CSV file with columns coefficient (1/Pa) and cycle or energy_J, instead of \
+             coefficient")
         .effect("another course of the wear coefficient");
     WEAR_AT_CYCLE: Vec<f64> = quantities("wear.at_cycle", "cycles", NotNegative,
             "cycles of the table, as read from wear.file")
@@ -276,12 +279,12 @@ keys! {
         .effect("more: wear gathers where slip is fast");
     REFERENCE_STRESS: f64 = quantity("wear.reference_stress", "Pa", Positive,
             "stress at which the power law wears like archard")
-        .default(Derived("friction times the mean pressure of the unworn contact"))
-        .effect("more: less wear where stress has a power above 1");
+        .default(Derived("friction coefficient times the mean pressure of the unworn contact"))
+        .effect("more: less wear if the stress exponent is above 1");
     REFERENCE_SLIP_RATE: f64 = quantity("wear.reference_slip_rate", "m/s", Positive,
             "slip rate at which the power law wears like archard")
         .default(Derived("the largest tangential velocity"))
-        .effect("more: less wear where slip rate has a power above 1");
+        .effect("more: less wear if the slip-rate exponent is above 1");
 
     ACCURACY: f64 = quantity("numerics.accuracy", "", Within(1e-5, 0.1),
             "largest error of the worn depth (rms over the scar, relative to its largest value) and of the volume: \
@@ -298,38 +301,39 @@ keys! {
         .default(Written("100"))
         .effect("more: finer in time and slower");
     DOMAIN_RADIUS: f64 = quantity("numerics.domain_radius", "m", Positive,
-            "the domain's edge; default: the largest radius that can touch")
+            "outer radius of the computed domain")
         .default(Derived("the largest radius that can touch"))
-        .effect("more: room to grow, coarser at the same points");
+        .effect("more: room to grow, coarser at the same number of points");
     GRID: String = choice("numerics.grid", SPACINGS,
-            "where the nodes lie; the default follows the method")
+            "spacing of the nodes; the default depends on the method")
         .default(Derived("graded with method = \"product\", else uniform"))
         .effect("graded: narrow cells where the worn profile is steep");
     SCHEME: String = choice("numerics.scheme", SCHEMES,
-            "how a time step is taken; the default follows the method")
+            "time-stepping scheme; the default depends on the method")
         .default(Derived("trapezoid with method = \"product\", else euler"))
         .effect("trapezoid: second order in time; euler: the paper's");
     STABILITY: String = choice("numerics.stability", STABILITIES,
-            "whether steps too stiff for the method are split, or taken as they are")
+            "whether steps too stiff for the method are split or taken as they are")
         .default(Written("\"sub-step\""))
         .effect("sub-step: splits stiff steps; off: the raw method");
     INTEGRATOR: String = choice("numerics.integrator", &Integrator::NAMES,
-            "every step of every cycle, or jumps over many cycles that are alike")
+            "every step of every cycle, or jumps over many similar cycles")
         .default(Written("\"direct\""))
-        .effect("direct: every step; cycle-jump: over cycles that are alike");
+        .effect("direct: every step; cycle-jump: over similar cycles");
     TOLERANCE: f64 = quantity("numerics.tolerance", "", UpTo(0.1),
-            "error that cycle jumps aim at, in units of the largest depth; default 2e-4")
+            "error that cycle jumps aim at, relative to the largest depth")
         .default(Implied("2e-4"))
         .effect("more: longer jumps over cycles, less accurate");
 
     CYCLES: f64 = quantity("run.cycles", "cycles", NotNegative, "length of the run");
     SNAPSHOT_AT: Vec<f64> = quantities("run.snapshot_at", "cycles", NotNegative,
-            "moments at which the state is written")
+            "cycles at which the state is written")
         .default(Implied("[]"));
     SHORTENED_AT: Vec<f64> = quantities("run.shortened_at", "cycles", NotNegative,
-            "moments that a step was cut short for, as a planned end is that the run went past")
+            "cycles at which a step was cut short although the run continued (written by the \
+             program)")
         .default(Implied("[]"));
-    NOTE: String = text("run.note", "a remark that is kept with the files");
+    NOTE: String = text("run.note", "a note written into the files");
 
     AT_CYCLE: f64 = quantity("changes.at_cycle", "cycles", NotNegative,
         "when a key was changed during the run");

@@ -37,7 +37,7 @@ use error::{Origin, echo};
 pub use error::{ScenarioError, printable};
 pub use run::{Change, MOST_CHANGES, MOST_CYCLES, MOST_SNAPSHOTS, RunPlan};
 
-/// A validated scenario: parts that are ready to run, and the text they can be made from again.
+/// A validated scenario: parts that are ready to run, and the text that reproduces them.
 #[derive(Debug, Clone)]
 pub struct Scenario {
     origin: String,
@@ -123,7 +123,7 @@ impl Scenario {
         self.changed(changes, &places)
     }
 
-    /// Who says where the domain ends.
+    /// Where the domain radius comes from.
     pub fn domain(&self) -> Domain {
         let is_given = self.value("numerics.domain_radius").is_some();
         if is_given || self.setup.indenter.rim().is_some() {
@@ -186,7 +186,7 @@ impl Scenario {
         &self.setup
     }
 
-    /// How far the run goes and what it keeps.
+    /// Length and output of the run.
     pub fn run(&self) -> &RunPlan {
         &self.run
     }
@@ -240,7 +240,7 @@ impl Scenario {
         check::keys(&table, from)?;
         let changes = Change::all(&table);
         if changes.len() > MOST_CHANGES {
-            let rule = format!("must be {MOST_CHANGES} of them or fewer");
+            let rule = format!("must have at most {MOST_CHANGES} entries");
             return Err(from.refuse("changes", &changes.len().to_string(), rule));
         }
         validate::accuracy(&table, from)?;
@@ -277,8 +277,7 @@ impl Scenario {
         for (i, change) in changes.iter().enumerate() {
             if change.at_cycle < before {
                 let at = format!("changes[{i}].at_cycle");
-                let rule =
-                    format!("must be {before} or greater: changes stand in the order of the run");
+                let rule = format!("must be {before} or greater: changes must be in order");
                 return Err(from.refuse(&at, &change.at_cycle.to_string(), rule));
             }
             before = change.at_cycle;

@@ -1,4 +1,4 @@
-//! The scenarios that ship: ordinary TOML files, embedded in the program, without private powers.
+//! The presets: ordinary TOML files embedded in the program, with no special powers.
 
 use std::collections::HashMap;
 use std::sync::LazyLock;
@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use super::error::printable;
 use super::nearest::nearest;
 
-/// A scenario that ships.
+/// A preset.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Preset {
     /// The name on the command line: the file's, without its ending.
@@ -51,15 +51,15 @@ pub fn find(name: &str) -> Option<&'static Preset> {
     ALL.iter().find(|preset| preset.name == name)
 }
 
-/// What to write instead of the unknown `name`.
+/// A hint for the unknown `name`.
 pub(super) fn hint(name: &str) -> String {
     let names = ALL.iter().map(|preset| preset.name);
     match nearest(name, names.clone()) {
-        Some(near) => format!("did you mean {near}? A file's path ends in .toml or has a /"),
+        Some(near) => format!("did you mean {near}? A path ends in .toml or contains a /"),
         None => {
             let names: Vec<&str> = names.collect();
             format!(
-                "there are {}; a file's path ends in .toml or has a /",
+                "there are {}; a path ends in .toml or contains a /",
                 names.join(", ")
             )
         }

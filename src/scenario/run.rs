@@ -1,4 +1,4 @@
-//! What a scenario says about its own run: how long, what to keep, what was changed on the way.
+//! The `[run]` table and recorded changes: length, snapshots, and changes made during the run.
 
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
@@ -9,17 +9,18 @@ use crate::math::invalid::{Invalid, non_negative};
 /// The longest run, in cycles.
 pub const MOST_CYCLES: f64 = 1e9;
 
-/// The most snapshots of a run.
+/// Maximum number of snapshots of a run.
 pub const MOST_SNAPSHOTS: usize = 10_000;
 
-/// The most changes of a run. Each is checked by assembling the scenario that holds from it on.
+/// Maximum number of changes of a run. Each is checked by assembling the scenario that holds from
+/// it on.
 pub const MOST_CHANGES: usize = 1_000;
 
 /// `[run]`: how far a run goes and where it is written out.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct RunPlan {
-    /// Length of the run in cycles, 0 or more; none: until the user stops it.
+    /// Length of the run in cycles, 0 or more; `None`: until the user stops it.
     pub cycles: Option<f64>,
     /// Cycles at which the state is written; those after the end of the run are never reached.
     pub snapshot_at: Vec<f64>,
@@ -55,7 +56,7 @@ impl RunPlan {
             ("shortened_at", &self.shortened_at),
         ] {
             if cycles.len() > MOST_SNAPSHOTS {
-                let rule = format!("must be {MOST_SNAPSHOTS} of them or fewer");
+                let rule = format!("must have at most {MOST_SNAPSHOTS} entries");
                 return Err(Invalid::new(field, cycles.len(), rule));
             }
             for &cycle in cycles {

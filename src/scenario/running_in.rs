@@ -1,4 +1,4 @@
-//! From the keys of a scenario to what changes with use.
+//! Builds coefficients that run in from the keys of a scenario.
 
 use super::error::ScenarioError;
 use super::keys;
@@ -42,7 +42,7 @@ const WEAR: Keys = Keys {
 };
 
 impl Parts<'_> {
-    /// What changes with use; none where nothing does.
+    /// The coefficients that run in; `None` if they are constant.
     pub(super) fn running_in(&self) -> Result<Option<RunningIn>, ScenarioError> {
         let mut all = RunningIn {
             friction: self.course(&FRICTION)?,
@@ -67,14 +67,14 @@ impl Parts<'_> {
             (None, Some(at)) => Some((at, Over::Energy, keys.at_energy.path())),
             (None, None) => None,
             (Some(_), Some(_)) => {
-                let rule = format!("does not go with {}; give either", keys.at_cycle.path());
+                let rule = format!("conflicts with {}; give one of them", keys.at_cycle.path());
                 return Err(self.refuse(keys.at_energy.path(), "", rule));
             }
         };
         if let Some((at, over, path)) = table {
             for key in [&keys.settled, &keys.cycles, &keys.energy] {
                 if self.has(key.path()) {
-                    let rule = "does not go with a table of the course; give either";
+                    let rule = "conflicts with a table of values; give one of them";
                     return Err(self.refuse(key.path(), "", rule));
                 }
             }
@@ -93,7 +93,7 @@ impl Parts<'_> {
             (None, Some(energy)) => Some((energy, Over::Energy)),
             (None, None) => None,
             (Some(_), Some(_)) => {
-                let rule = format!("does not go with {}; give either", keys.cycles.path());
+                let rule = format!("conflicts with {}; give one of them", keys.cycles.path());
                 return Err(self.refuse(keys.energy.path(), "", rule));
             }
         };

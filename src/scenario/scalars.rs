@@ -174,7 +174,7 @@ pub const SCALARS: &[Scalar] = &[
     scalar("wear_volume_m3", "worn volume V", |r| {
         r.moment.wear_volume.into()
     }),
-    scalar("dissipated_energy_J", "work of friction E_d", |r| {
+    scalar("dissipated_energy_J", "friction work E_d", |r| {
         r.moment.dissipated_energy.into()
     }),
     scalar("energy_residual", "1 - V/(k E_d)", |r| {
@@ -198,21 +198,23 @@ pub const SCALARS: &[Scalar] = &[
     scalar("transforms", "transforms computed", |r| {
         r.session.simulation().stats().transforms.into()
     }),
-    scalar("evaluated_cycles", "cycles evaluated for jumps", |r| {
-        r.session.simulation().stats().evaluated_cycles.into()
-    }),
+    scalar(
+        "evaluated_cycles",
+        "cycles stepped in full for jumps",
+        |r| r.session.simulation().stats().evaluated_cycles.into(),
+    ),
     scalar("rejected_jumps", "jumps rejected for their error", |r| {
         r.session.simulation().stats().rejected_jumps.into()
     }),
     scalar(
         "stability_margin",
-        "largest stable stiffness over that of the last step",
+        "largest stable stiffness divided by the stiffness of the last step",
         |r| r.moment.stability_margin.into(),
     ),
     scalar("parts", "sub-steps of stiff steps", |r| {
         r.session.simulation().stats().parts.into()
     }),
-    scalar("energy_per_cycle_J", "work of friction of a cycle", |r| {
+    scalar("energy_per_cycle_J", "friction work of a cycle", |r| {
         r.figure(|figures| Some(figures.energy))
     }),
     scalar("force_ratio", "Q*/(mu P)", |r| {

@@ -1,8 +1,7 @@
-//! What there is to say about a key of a scenario, and how keys are looked up.
+//! The description of a scenario key, and the look-up of keys.
 //!
-//! The keys themselves stand in [`keys`](super::keys), each once: path, type, unit, range, default,
-//! meaning and effect. That table feeds the reader, the errors, `--set`, the form of the explorer,
-//! completion, the written scenario and the documentation.
+//! [`keys`](super::keys) lists the keys themselves. That table feeds the reader, the errors,
+//! `--set`, the form of the explorer, completion, written scenarios and the documentation.
 
 use std::fmt;
 
@@ -11,7 +10,7 @@ use toml::{Table, Value};
 use super::keys::PARAMETERS;
 use super::nearest::nearest;
 
-/// What a value looks like.
+/// The type of a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// A finite number.
@@ -29,7 +28,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// What must stand there, after "must be".
+    /// The rule as words after "must be".
     pub fn wanted(self) -> String {
         match self {
             Self::Number => "a finite number".into(),
@@ -106,7 +105,7 @@ impl fmt::Display for Range {
     }
 }
 
-/// What holds where a scenario does not give a key.
+/// The default of a key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Default {
     /// Nothing: the key must be given where it is needed.
@@ -115,7 +114,7 @@ pub enum Default {
     Written(&'static str),
     /// This TOML value.
     Implied(&'static str),
-    /// What the rest of the scenario asks for, in words.
+    /// Depends on the rest of the scenario, as described.
     Derived(&'static str),
 }
 
@@ -192,7 +191,7 @@ impl Parameter {
 /// A key together with the type that it is read as: `f64`, `i64`, `bool`, `String` or `Vec<f64>`.
 #[derive(Debug, Clone, Copy)]
 pub struct Key<T: 'static> {
-    /// What there is to say about it.
+    /// Its description.
     pub parameter: Parameter,
     read: fn(&Value) -> Option<T>,
 }
@@ -390,7 +389,7 @@ pub(super) fn is_section(path: &str) -> bool {
     })
 }
 
-/// What to write instead of the unknown `path`.
+/// A hint for the unknown `path`.
 pub fn hint(path: &str) -> String {
     let mut known: Vec<&str> = Vec::new();
     for parameter in PARAMETERS {

@@ -12,30 +12,30 @@ use super::{Change, MOST_CHANGES, RunPlan, Scenario, ScenarioError};
 use crate::math::grid::RadialGrid;
 use crate::simulation::{Breakdown, Domain, Saved, Simulation, Unfit};
 
-/// Why a session could not start, change or go on.
+/// Why a session could not start, change or continue.
 #[derive(Debug, Error)]
 pub enum SessionError {
     /// A value that is refused.
     #[error(transparent)]
     Scenario(#[from] ScenarioError),
-    /// A contact that cannot go on.
+    /// A contact that cannot continue.
     #[error(transparent)]
     Breakdown(#[from] Breakdown),
     /// An accuracy for which nothing has been chosen yet.
     #[error(
-        "numerics.accuracy = {0:e}: points and steps that meet it have to be found before a run; \
-         give numerics.points and numerics.steps_per_cycle here"
+        "numerics.accuracy = {0:e}: points and steps that meet it must be found before the run; \
+         give numerics.points and numerics.steps_per_cycle instead"
     )]
     Unresolved(f64),
 }
 
-/// A saved run that cannot be taken up.
+/// A saved run that cannot be restored.
 #[derive(Debug, Error)]
 pub enum RestoreError {
     /// A change in it that is refused.
     #[error(transparent)]
     Scenario(#[from] ScenarioError),
-    /// A state that is none of its scenario's.
+    /// The state does not match its scenario.
     #[error(transparent)]
     Unfit(#[from] Unfit),
 }
@@ -65,7 +65,7 @@ pub struct Session {
     goals: Vec<f64>,
     /// The run before the changes of the present cycle.
     unchanged: Option<Box<Unchanged>>,
-    /// What the files say of this run beside its numbers, such as its estimated error.
+    /// Statements for the file headers, such as the estimated error.
     statements: Vec<(String, String)>,
 }
 
@@ -108,7 +108,7 @@ impl Session {
         Ok(session)
     }
 
-    /// What there is to be put away.
+    /// Returns everything that a checkpoint needs.
     pub(super) fn parts(&self) -> Parts<'_> {
         Parts {
             loaded: Cow::Borrowed(&self.loaded),
@@ -120,7 +120,7 @@ impl Session {
         }
     }
 
-    /// Goes on where a session was put away.
+    /// Restores a saved session.
     pub(super) fn restore(parts: Parts) -> Result<Self, RestoreError> {
         let loaded = parts.loaded.into_owned();
         let (mut scenario, mut unchanged) = (loaded.clone(), None);
@@ -253,7 +253,7 @@ impl Session {
             let last = made.last().map(|change| change.set.clone());
             return Err(ScenarioError::Refused {
                 place: last.unwrap_or_default(),
-                rule: format!("a run takes {MOST_CHANGES} changes or fewer"),
+                rule: format!("a run takes at most {MOST_CHANGES} changes"),
             }
             .into());
         }
@@ -312,7 +312,7 @@ impl Session {
             .with_run(plan)
     }
 
-    /// What steps were cut short for, but for the end of the run, which does so again.
+    /// Cycles at which steps were cut short, except the end of the run, which does so again anyway.
     fn goals_but(&self, end: f64) -> Vec<f64> {
         let goals = self.goals.iter().copied();
         goals.filter(|&goal| goal != end).collect()
@@ -335,7 +335,8 @@ impl Session {
     }
 }
 
-/// Takes up a saved simulation of `scenario`. A domain that held wear may be wider than the scenario's own.
+/// Restores a saved simulation of `scenario`. A domain that held wear may be wider than the
+/// scenario's own.
 fn taken_up(scenario: &Scenario, saved: Saved) -> Result<Simulation, Unfit> {
     let mut setup = scenario.setup().clone();
     if scenario.domain() == Domain::Derived && saved.radius() > setup.grid.radius() {

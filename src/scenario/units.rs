@@ -1,4 +1,4 @@
-//! Numbers with their units, as people write them: `radius = "10 mm"`, `phase = "45°"`.
+//! Numbers with units, as people write them: `radius = "10 mm"`, `phase = "45°"`.
 //!
 //! A text is a number and a unit made of known ones by `·`, `*`, `/`, powers and parentheses, with SI
 //! prefixes: `230.8 GPa`, `0.13 mm³/(N·m)`, `1.3e8 um^3/J`. It is taken where its dimension is that
@@ -100,7 +100,7 @@ impl Unit {
         }
     }
 
-    /// Reads a whole unit; none if it is not one.
+    /// Reads a whole unit; `None` if it is not one.
     fn read(text: &str) -> Option<Self> {
         let mut rest = text.trim();
         let unit = product(&mut rest)?;
@@ -206,13 +206,13 @@ fn in_unit(text: &str, unit: &str) -> Option<Result<f64, String>> {
     let example = example(unit);
     let Some(found) = Unit::read(given) else {
         return Some(Err(format!(
-            "{} is no unit; write a number in {unit}, or a text such as {example}",
+            "{} is not a unit; write a number in {unit}, or a string such as {example}",
             echo(given)
         )));
     };
     if found.dimension != due.dimension {
         return Some(Err(format!(
-            "must be in {unit} or a multiple of it, such as {example}; {} is of another kind",
+            "must have a unit compatible with {unit}, such as {example}; {} has not",
             echo(given)
         )));
     }
@@ -435,8 +435,8 @@ mod tests {
         .expect("a scenario");
         assert_eq!(force.value("motion.normal.mean").as_deref(), Some("20.0"));
         for (set, word) in [
-            ("motion.normal.mean=20 N", "of another kind"),
-            ("indenter.radius=10 mn", "mn is no unit"),
+            ("motion.normal.mean=20 N", "a unit compatible with m"),
+            ("indenter.radius=10 mn", "mn is not a unit"),
             ("wear.coefficient=1 mm", "1/Pa"),
             ("friction.coefficient=0.1 m", "finite number"),
         ] {

@@ -1,5 +1,5 @@
-//! From the keys of a scenario to parts that can be run: the schema and the parts' own constructors
-//! judge, and this file says where in the scenario the refused value stands.
+//! Turns the keys of a scenario into parts that can be run. The schema and the parts' constructors
+//! check the values; this module adds where in the scenario a refused value is.
 
 use toml::{Table, Value};
 
@@ -93,7 +93,7 @@ pub(super) fn accuracy(written: &Table, origin: &Origin) -> Result<(), ScenarioE
     };
     for path in CHOSEN_BY_ACCURACY {
         if schema::at(written, path).is_some() {
-            let rule = format!("does not go with {path}, which it chooses; give either");
+            let rule = format!("conflicts with {path}, which it chooses; give one of them");
             return Err(origin.refuse(keys::ACCURACY.path(), &show(given), rule));
         }
     }
@@ -209,7 +209,7 @@ impl Parts<'_> {
         let takes = of_shapes().filter(|known| known.shapes.contains(&shape));
         let takes: Vec<&str> = takes.map(|known| known.key()).collect();
         let rule = format!(
-            "does not belong to shape = \"{shape}\", which takes {}",
+            "shape = \"{shape}\" has no such key; it takes {}",
             takes.join(", ")
         );
         Err(self.refuse(foreign.path, "", rule))
@@ -237,7 +237,7 @@ impl Parts<'_> {
         }
         for path in [keys::EFFECTIVE_MODULUS.path(), keys::POISSON.path()] {
             if self.has(path) {
-                let rule = "does not go with two bodies; give either effective_modulus and poisson, \
+                let rule = "conflicts with two bodies; give either effective_modulus and poisson, \
                             or [material.indenter] and [material.half_space]";
                 return Err(self.refuse(path, "", rule));
             }
@@ -277,7 +277,7 @@ impl Parts<'_> {
         rigid: &Key<bool>,
     ) -> Result<Body, ScenarioError> {
         if !self.has(section) {
-            let meaning = "the second body, with youngs_modulus and poisson, or rigid = true";
+            let meaning = "the second body: youngs_modulus and poisson, or rigid = true";
             return Err(self.missing(section, meaning));
         }
         if self.require(rigid)? {
@@ -285,9 +285,7 @@ impl Parts<'_> {
                 .into_iter()
                 .find(|key| self.has(key.path()));
             return match given {
-                Some(key) => {
-                    Err(self.refuse(key.path(), "", "does not belong to a body that is rigid"))
-                }
+                Some(key) => Err(self.refuse(key.path(), "", "a rigid body has no such key")),
                 None => Ok(Body::Rigid),
             };
         }
@@ -332,7 +330,7 @@ impl Parts<'_> {
             Some("table") => {}
             None if is_given => {}
             Some(_) if is_given => {
-                let rule = "does not go with this waveform; give waveform = \"table\"";
+                let rule = "conflicts with this waveform; give waveform = \"table\"";
                 return Err(self.refuse(motion.times.path(), "", rule));
             }
             _ => return Ok(None),
@@ -459,21 +457,21 @@ impl Parts<'_> {
         let most = method.most_cells();
         if points > most {
             let rule = format!(
-                "must be at most {most} with method = \"{method}\", which has no fast form"
+                "must be at most {most} with method = \"{method}\", which has no fast algorithm"
             );
             return Err(self.refuse(keys::POINTS.path(), "", rule));
         }
         if indenter.rim().is_some() && self.get(&keys::DOMAIN_RADIUS).is_some() {
             let shape = indenter.name();
             let rule =
-                format!("does not go with shape = \"{shape}\", whose rim is the domain's edge");
+                format!("conflicts with shape = \"{shape}\", whose rim is the domain's edge");
             return Err(self.refuse(keys::DOMAIN_RADIUS.path(), "", rule));
         }
         let radius = domain.ok_or_else(|| {
             self.refuse(
                 keys::NORMAL_MEAN.path(),
                 "",
-                "no contact carries this force; must be smaller",
+                "no contact can carry this force; must be smaller",
             )
         })?;
         if let Indenter::Table(measured) = indenter {
@@ -490,8 +488,8 @@ impl Parts<'_> {
         RadialGrid::uniform(points, radius).map_err(|invalid| self.refused("numerics", invalid))
     }
 
-    /// Refuses a table that ends inside the domain, has hardly a point in the contact, or has slopes
-    /// that no half-space bears: most often its lengths are in another unit.
+    /// Refuses a table that ends inside the domain, has hardly a point in the contact, or has
+    /// slopes too steep for a half-space: most often its lengths are in another unit.
     fn check_measured(&self, measured: &MeasuredProfile, domain: f64) -> Result<(), ScenarioError> {
         let length = |value: f64| show(&Value::Float(derive::three_digits(value)));
         let refuse = |rule: String| Err(self.refuse("indenter.radii", "{...}", rule));
@@ -512,14 +510,15 @@ impl Parts<'_> {
                 "; a longer trace, or a smaller depth".into()
             };
             return refuse(format!(
-                "the table ends at r = {} m, but contact may reach {edge} m{hint}",
+                "the table ends at r = {} m, but the contact can reach {edge} m{hint}",
                 length(last)
             ));
         }
         if points < FEWEST_IN_CONTACT || slope < SHALLOWEST {
             let edge = length(domain);
             return refuse(format!(
-                "only {points} points lie where contact may be, within {edge} m, and a/R is {slope:.1e}: {unit}"
+                "only {points} points lie within {edge} m, where contact is possible, \
+                 and a/R is {slope:.1e}: {unit}"
             ));
         }
         Ok(())

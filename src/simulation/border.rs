@@ -1,10 +1,10 @@
-//! Where the border of the permanent stick zone will lie, known before the run, and the grid for it.
+//! Finds the border of the permanent stick zone before the run, and makes the grid for it.
 //!
-//! Melan's theorem gives the depth g(c) at the border. Where the springs shake down in a first
-//! cycle that is not yet periodic, they wear a little inside it, and the border ends up a little
+//! Melan's theorem gives the depth g(c) at the border. If the springs shake down during a first
+//! cycle that is not yet periodic, there is some wear inside it, and the border ends up slightly
 //! further in: 0.416435 → 0.415865 a₀ for Fig. 3 of the paper at K = 1. A pilot run over one period
-//! of the motion finds it. One node of the graded grid stands there, a hair inside: a node outside
-//! would wear and drag the cell before it along.
+//! of the motion finds it. One node of the graded grid is placed just inside: a node outside would
+//! wear and distort the cell before it.
 
 use super::choices::{Integrator, Spacing};
 use super::drive::Control;

@@ -1,4 +1,4 @@
-//! Why a run cannot go on: a plain word with the cycle, the cause and what would help.
+//! Why a run cannot continue: the cycle, the cause and a remedy, in plain words.
 
 use thiserror::Error;
 
@@ -30,8 +30,8 @@ pub enum Cause {
     },
     /// A contact whose force no f64 holds.
     #[error(
-        "the normal force at the depth {depth:.4e} m is beyond all numbers; the scenario is in SI \
-         units: indenter in m, material in Pa, motion in m or N"
+        "the normal force at the depth {depth:.4e} m overflows; are the units right? Plain \
+         numbers are SI: indenter in m, material in Pa, motion in m or N"
     )]
     Overflow {
         /// u_z, m.
@@ -39,7 +39,7 @@ pub enum Cause {
     },
     /// The worn profile stands far above what can touch.
     #[error(
-        "the wear runs away: {} times the largest depth at r = {radius:.4e} m; {}",
+        "wear diverges: {} times the largest depth at r = {radius:.4e} m; {}",
         short(*worn),
         advice(*method, *stability)
     )]
@@ -56,7 +56,7 @@ pub enum Cause {
     /// The contact has grown to the last node.
     #[error(
         "the contact has reached the domain's edge at {domain_radius:.4e} m; \
-         a larger numerics.domain_radius would hold it"
+         increase numerics.domain_radius"
     )]
     EdgeReached {
         /// L, m.
@@ -64,7 +64,8 @@ pub enum Cause {
     },
     /// The contact has grown to where the unworn indenter stands too high to touch.
     #[error(
-        "the contact reaches {radius:.4e} m, where nothing can touch at this depth: the profile has blown up; {}",
+        "the contact reaches {radius:.4e} m, where nothing can touch at this depth: the profile \
+         has diverged; {}",
         advice(*method, *stability)
     )]
     BlownUp {
@@ -77,8 +78,8 @@ pub enum Cause {
     },
     /// A prescribed normal force that no depth carries.
     #[error(
-        "no depth carries the normal force {force:.4e} N within the domain's radius of \
-         {domain_radius:.4e} m; a larger numerics.domain_radius or a smaller motion.normal would do"
+        "the normal force {force:.4e} N needs a contact larger than the domain, \
+         {domain_radius:.4e} m; increase numerics.domain_radius or reduce motion.normal"
     )]
     LoadTooLarge {
         /// F_z, N.
@@ -89,7 +90,7 @@ pub enum Cause {
     /// A change to a domain that does not hold the wear there is.
     #[error(
         "the domain would end at {radius:.4e} m and cut off wear, which reaches {reach:.4e} m; \
-         a numerics.domain_radius or an indenter of at least that size would keep it"
+         numerics.domain_radius or the indenter must be at least that large"
     )]
     WearCutOff {
         /// The outermost radius that is worn, m.
@@ -100,7 +101,7 @@ pub enum Cause {
     /// A change to a grid too coarse for the wear there is.
     #[error(
         "{cells} cells are too few for the worn profile: its volume would change by {:.1} %; \
-         more numerics.points would keep it",
+         increase numerics.points",
         100.0 * share
     )]
     WearBlurred {
@@ -111,8 +112,8 @@ pub enum Cause {
     },
     /// A prescribed tangential force beyond friction.
     #[error(
-        "the tangential force {force:.4e} N exceeds what friction holds, {limit:.4e} N; \
-         prescribe the displacement, or a smaller motion.tangential"
+        "the tangential force {force:.4e} N exceeds the friction limit, {limit:.4e} N; prescribe \
+         the displacement or reduce motion.tangential"
     )]
     FrictionExceeded {
         /// F_x, N.
@@ -139,16 +140,16 @@ fn advice(method: AbelMethod, stability: Stability) -> &'static str {
              numerics.method = \"product\" is stable"
         }
         AbelMethod::B => {
-            "method b grows teeth at large wear coefficients; \
-             numerics.method = \"product\" or more numerics.steps_per_cycle would help"
+            "method b develops a sawtooth at large wear coefficients; try numerics.method = \
+             \"product\" or more numerics.steps_per_cycle"
         }
         _ if stability == Stability::Off => {
-            "the wear of a step is too large for the grid; numerics.stability = \"sub-step\", \
-             more numerics.steps_per_cycle, fewer numerics.points or a smaller wear.coefficient would help"
+            "the wear per step is too large for the grid; try numerics.stability = \"sub-step\", \
+             more numerics.steps_per_cycle, fewer numerics.points or a smaller wear.coefficient"
         }
         AbelMethod::Product | AbelMethod::A | AbelMethod::APlusB => {
-            "the wear of a step is too large for the grid; more numerics.steps_per_cycle, \
-             fewer numerics.points or a smaller wear.coefficient would help"
+            "the wear per step is too large for the grid; try more numerics.steps_per_cycle, \
+             fewer numerics.points or a smaller wear.coefficient"
         }
     }
 }

@@ -1,7 +1,7 @@
-//! The certificates of a run: two ways to the same number, of which a wrong one shows.
+//! The checks of a run: each compares two independent ways to compute the same number.
 //!
-//! One list for the status line, the accuracy panel, the header of every file and the end of a run. What
-//! each compares is told in the guide's chapter on checks, which the panel shows too.
+//! One list serves the status line, the accuracy panel, the header of every file and the end of a
+//! run. The guide's chapter on checks, which the panel shows too, explains each.
 
 use super::unworn::Unworn;
 use super::{Setup, Simulation, cycles_to_settle};

@@ -1,4 +1,4 @@
-//! Springs: from the 1D profile g and the springs' memory to loads and displacements.
+//! Solves the springs: loads and displacements from the 1D profile g and the slip history.
 
 use serde::{Deserialize, Serialize};
 

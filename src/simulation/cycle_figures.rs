@@ -1,7 +1,8 @@
-//! What a fretting test reports of a cycle: energy, force and slip ratios, and the running condition.
+//! The figures that a fretting test reports for a cycle: energy, force and slip ratios, and the
+//! running condition.
 //!
-//! The figures describe the last complete period of the motion. Each step adds its end to a
-//! [`LoopTally`]; where the period closes, the tally becomes [`CycleFigures`].
+//! The figures describe the last complete period of the motion. Each step adds its end point to a
+//! [`LoopTally`]; at the end of the period the tally becomes [`CycleFigures`].
 //!
 //! # Formulas
 //!

@@ -1,7 +1,7 @@
-//! The motion of the indenter, Eq. (14) of the paper: here time appears first.
+//! The motion of the indenter, Eq. (14) of the paper: the lowest layer that knows time.
 //!
-//! Time is counted in *cycles*: one period of the tangential motion, or of the normal motion where
-//! there is no tangential one.
+//! Time is counted in *cycles*: periods of the tangential motion, or of the normal motion if there
+//! is no tangential one.
 
 use std::f64::consts::TAU;
 

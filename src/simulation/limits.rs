@@ -1,4 +1,4 @@
-//! Where a scene leaves the theory that the program computes by, told before it runs.
+//! Warnings, given before the run, about scenarios outside the theory.
 
 use std::f64::consts::PI;
 
@@ -21,7 +21,8 @@ const STEPS_FOR_POWERS: u32 = 50;
 const LEVEL: f64 = 0.02;
 
 impl Simulation {
-    /// A line for each way in which the scene lies outside of the theory, or beyond what any grid sees.
+    /// A line for each way in which the scene lies outside the theory, or beyond what any grid
+    /// sees.
     pub fn warnings(&self) -> Vec<String> {
         let mut lines = warnings(self.setup());
         lines.extend(self.hardness_warning());
@@ -58,7 +59,7 @@ fn warnings(setup: &Setup) -> Vec<String> {
     let slope = slope(setup, radius);
     if slope > STEEP {
         lines.push(format!(
-            "outside of the theory: the indenter's slope at the contact's edge, a/R of a sphere, is \
+            "outside the theory: the indenter's slope at the contact's edge, a/R of a sphere, is \
              {slope:.2}; a half-space with small slopes needs less than {STEEP}"
         ));
     }
@@ -67,7 +68,7 @@ fn warnings(setup: &Setup) -> Vec<String> {
     // The largest pressure of a sphere is 3/2 of the mean; tips and rims bear more, in theory without bound.
     if 1.5 * pressure > STRONG {
         lines.push(format!(
-            "outside of the theory: the pressure reaches {:.2} E*; linear elasticity needs less than \
+            "outside the theory: the pressure reaches {:.2} E*; linear elasticity needs less than \
              {STRONG} E*",
             1.5 * pressure
         ));
@@ -76,15 +77,15 @@ fn warnings(setup: &Setup) -> Vec<String> {
     let exponent = setup.wear.map_or(1.0, |law| law.slip_rate_exponent());
     if exponent != 1.0 && setup.steps_per_cycle < STEPS_FOR_POWERS {
         lines.push(format!(
-            "a power of the slip rate, here {exponent}, on {} steps per cycle may wear wrong by some \
-             percent; numerics.steps_per_cycle = {STEPS_FOR_POWERS} or more would do",
+            "a power of the slip rate, here {exponent}, on {} steps per cycle may give wear wrong \
+             by some percent; use numerics.steps_per_cycle = {STEPS_FOR_POWERS} or more",
             setup.steps_per_cycle
         ));
     }
     if let Some(width) = border::unseen_ring(setup) {
         lines.push(format!(
-            "the ring of slip is {width:.1e} m wide, too thin for any cell: its wear and its work of \
-             friction are not seen"
+            "the ring of slip is {width:.1e} m wide, thinner than a cell: its wear and its \
+             friction work are missed"
         ));
     }
     lines
@@ -113,8 +114,8 @@ fn gross_slip_under_force(setup: &Setup, unworn: Unworn<'_>) -> Option<String> {
     let held = setup.material.friction() * lowest.max(0.0);
     (asked >= held).then(|| {
         format!(
-            "outside of the theory: a tangential force of {asked:.3e} N may exceed what friction holds, \
-             {held:.3e} N; gross slip under a prescribed force never stops"
+            "outside the theory: a tangential force of {asked:.3e} N may exceed the friction \
+             limit, {held:.3e} N; gross slip under a prescribed force never stops"
         )
     })
 }

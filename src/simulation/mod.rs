@@ -2,9 +2,10 @@
 //!
 //! It takes parts that are already valid and knows nothing of scenarios, files or screens.
 //!
-//! Four values go round: the worn profile and its 1D image in the [`State`], the [`Contact`](contact::Contact) of the
-//! springs on it, their [`Traction`](traction::Traction), and what these wear. A [`step`] makes the next state of the
-//! last one and of a `Model`, all that is planned once; a step that fails has changed nothing.
+//! Each round has four values: the worn profile and its 1D image in the [`State`], the
+//! [`Contact`](contact::Contact) of the springs, their [`Traction`](traction::Traction), and the
+//! wear. A [`step`] makes the next state from the last one and from a `Model`, which is planned
+//! once per run; a failed step changes nothing.
 //!
 //! ```
 //! use mdr_tui::contact::{indenter::Indenter, material::Material};
@@ -432,7 +433,7 @@ impl Simulation {
             Integrator::Direct => None,
             _ if drive.tangential().is_none() || wear.is_none() => Some("nothing wears"),
             _ if drive.repeats_after().is_none() => {
-                Some("the two frequencies have no common period, so no two cycles are alike")
+                Some("the two frequencies have no common period, so no two cycles are the same")
             }
             Integrator::CycleJump { .. } => None,
         }

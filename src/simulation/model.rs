@@ -1,4 +1,4 @@
-//! What is planned once for a run: its parts, its operators, and the 1D image of its indenter.
+//! Everything planned once per run: the parts, the operators, and the 1D image of the indenter.
 
 use std::ops::Deref;
 use std::sync::Arc;

@@ -1,5 +1,5 @@
-//! When steps end: at even parts of a period of the faster motion, where the motion turns, and where contact is
-//! made or lost.
+//! When steps end: at equal fractions of a period of the faster motion, where the motion reverses,
+//! and where contact is made or lost.
 
 use super::Setup;
 use super::choices::Scheme;

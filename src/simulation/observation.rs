@@ -1,4 +1,4 @@
-//! Pictures of one moment, owned and read-only: all that files and screens see of a simulation.
+//! Owned, read-only snapshots of one moment: all that files and screens see of a simulation.
 
 use std::sync::Arc;
 

@@ -1,8 +1,7 @@
-//! What changes with use: friction and the wear coefficient over accumulated cycles or dissipated
-//! energy, and an energy below which nothing wears.
+//! Running in: friction and wear coefficients as functions of accumulated cycles or dissipated
+//! energy, and an energy threshold below which nothing wears.
 //!
-//! Each step is taken with the values that hold where it begins. Cycles are jumped only where nothing
-//! changes any more.
+//! Each step uses the values at its start. Cycles are jumped only after the values have settled.
 
 use std::sync::Arc;
 
@@ -52,7 +51,7 @@ pub struct RunningIn {
     pub friction: Option<Course>,
     /// k; none: it stays as it is.
     pub wear: Option<Course>,
-    /// The work of friction below which nothing wears, J.
+    /// The friction work below which nothing wears, J.
     pub threshold: f64,
 }
 
@@ -76,7 +75,7 @@ impl Course {
     /// The field is `at` or `values`.
     pub fn table(at: &[f64], values: &[f64], over: Over) -> Result<Self, Invalid> {
         if at.is_empty() || at.len() != values.len() {
-            let rule = format!("must be as many as the {} values", values.len());
+            let rule = format!("must have as many entries as the values, {}", values.len());
             return Err(Invalid::new("at", at.len(), rule));
         }
         for (&x, &value) in at.iter().zip(values) {

@@ -1,9 +1,9 @@
-//! A run put away, and taken up again to the same bits.
+//! A saved run, which continues with the same bits.
 //!
-//! What is put away: the nodes, since a pilot run may have chosen them; the state; and what the
-//! workspace holds of the last good step that neither the state nor the setup tells. All else
-//! follows from these, so that the next step and every observation are those of the run that was
-//! never put away.
+//! Saved are the nodes, since a pilot run may have chosen them; the state; and those workspace
+//! values of the last good step that follow from neither state nor setup. Everything else is
+//! recomputed, so that the next step and every observation are the same as without the
+//! interruption.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;

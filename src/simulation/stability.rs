@@ -1,24 +1,25 @@
-//! How harsh a step each method bears: known before the step is taken.
+//! The stiffness that each method tolerates, known before the step is taken.
 //!
 //! # Formula
 //!
-//! The pressure answers to a worn depth δ by −E* M δ, M the matrix of Eq. (3) after Eq. (1). With its
-//! largest eigenvalue ρ/h, h the width of a cell, wear that answers to the stress by ∂Δf/∂τ feeds back
-//! by z = ρ μ E* ∂Δf/∂τ/h. A step multiplies the stiffest error by the largest root λ of
+//! The pressure responds to a worn depth δ by −E* M δ, with M the matrix of Eq. (3) after Eq. (1).
+//! With its largest eigenvalue ρ/h, h the cell width, and the response ∂Δf/∂τ of wear to stress,
+//! the feedback is z = ρ μ E* ∂Δf/∂τ/h. A step multiplies the stiffest error by the largest root λ
+//! of
 //!
 //! ```text
 //! Euler:      λ = 1 − z                                       stable for z < 2
 //! trapezoid:  λ³ − λ² + ½z (2λ² + λ − 1) = 0                  stable for z < 2/√3
 //! ```
 //!
-//! the second from the mean of two stresses, each on a profile looked ahead. M of methods product, a,
-//! a+b and benad has positive eigenvalues alone, that of method b some next to 0.
+//! the second for the mean of two stresses, each on an extrapolated profile. For methods product,
+//! a, a+b and benad, all eigenvalues of M are positive; for method b some are close to 0.
 //!
 //! ρ holds on graded cells with the slip of a step as it is: the largest eigenvalue of diag(∂Δf/∂τ) μE*M on the grid
 //! of a run is 0.9 to 1.05 of the largest z of its nodes, unworn and worn (Fig. 3, methods product and a).
 //!
-//! Methods b and benad grow teeth that no limit of the step explains, when the contact has worn by
-//! [so much](teeth_from).
+//! Methods b and benad develop a sawtooth that no step limit explains, once the contact has worn by
+//! [this depth](teeth_from).
 
 use nalgebra::Matrix3;
 
@@ -40,8 +41,11 @@ pub fn response(method: AbelMethod) -> f64 {
 pub fn beyond_steps(method: AbelMethod) -> Option<&'static str> {
     match method {
         AbelMethod::Product | AbelMethod::A | AbelMethod::APlusB => None,
-        AbelMethod::B => Some("its differences look across the border of stick and wear the core"),
-        AbelMethod::Benad => Some("its Eq. (2) adds what is uneven in the springs to every cycle"),
+        AbelMethod::B => Some(
+            "its differences reach across the stick border and wear the \
+            permanent stick zone",
+        ),
+        AbelMethod::Benad => Some("its Eq. (2) adds the unevenness of the springs in every cycle"),
     }
 }
 

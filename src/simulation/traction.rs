@@ -1,4 +1,4 @@
-//! Stresses: from the line loads of a solved contact to p(r) and τ(r), Eq. (3).
+//! Computes the stresses p(r) and τ(r) from the line loads of a solved contact, Eq. (3).
 
 use std::hint::select_unpredictable as select;
 use std::ops::Range;

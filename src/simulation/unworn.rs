@@ -1,5 +1,5 @@
-//! The contact of the unworn indenter, by quadrature of its closed 1D profile: independent of grids, steps and
-//! transforms, and so what they are measured by.
+//! The contact of the unworn indenter, by quadrature of its closed 1D profile: independent of
+//! grids, steps and transforms, so that these can be checked against it.
 //!
 //! # Formulas
 //!

@@ -1,8 +1,8 @@
-//! How a motion swings between its ends: a sine, or straight lines between corners.
+//! Waveforms: a sine, or straight lines between corners.
 //!
-//! A waveform has period 1, values from −1 to 1, and the phase of a sine: triangle and trapezoid cross
-//! zero upwards at 0. Coulomb friction and wear by friction work know no rate, so at constant depth
-//! the turning points alone count, and triangle, trapezoid and sine wear alike.
+//! A waveform has period 1, values from −1 to 1, and the phase of a sine: triangle and trapezoid
+//! cross zero upwards at 0. Coulomb friction and wear by friction work are rate-independent, so at
+//! constant depth only the turning points matter: triangle, trapezoid and sine wear alike.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -80,7 +80,7 @@ impl Waveform {
             return Err(Invalid::new("times", number, rule));
         }
         if values.len() != number {
-            let rule = format!("must be as many as the {number} times");
+            let rule = format!("must have as many entries as the times, {number}");
             return Err(Invalid::new("values", values.len(), rule));
         }
         for (&time, &value) in times.iter().zip(values) {

@@ -1,4 +1,4 @@
-//! Wear: from tractions and slip to what a step takes off the surface, Eqs. (2) and (15).
+//! Computes the wear of a step from tractions and slip, Eqs. (2) and (15).
 //!
 //! # Formula
 //!
@@ -11,7 +11,7 @@
 //! since a rigid shift maps to itself, but the slip is exactly zero inside the stick zone and stays so under a causal
 //! transform.
 //!
-//! Which τ a step wears by is the scheme's: see [`euler`](super::step) and its neighbours.
+//! The scheme decides which τ a step uses: see [`euler`](super::step) and its siblings.
 
 use std::hint::select_unpredictable as select;
 use std::ops::Range;

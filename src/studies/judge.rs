@@ -1,7 +1,7 @@
-//! The judge of the numerics: random scenarios, each brought to an accuracy by the ladder and held against a
+//! The benchmark of the numerics: random scenarios, each refined to an accuracy and compared with a
 //! much finer run.
 //!
-//! A change of a method, a special case or a tuned constant is worth what it changes in this table.
+//! A change of a method, a special case or a tuned constant is judged by its effect on this table.
 
 use super::random_scenarios::{self, Random};
 use super::refinement::{self, Difference, Level, Outcome, Verdict};

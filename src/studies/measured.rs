@@ -1,4 +1,4 @@
-//! Results that somebody measured, to be laid beside simulated ones: scars, fretting loops, histories.
+//! Measured results to compare with simulated ones: scars, fretting loops, histories.
 
 use crate::scenario::ScenarioError;
 use crate::scenario::columns::{Columns, Quantity};
@@ -116,7 +116,7 @@ impl Measured {
             measured.at.len(),
         );
         if spans.contains(&0.0) {
-            return Err(columns.refuse("is no loop: displacement or force never changes"));
+            return Err(columns.refuse("is not a loop: displacement or force never changes"));
         }
         let distance = |i: usize, j: usize| {
             let du = (measured.at[i] - measured.at[j]) / spans[0];

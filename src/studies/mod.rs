@@ -1,5 +1,5 @@
-//! Studies: many runs and transforms made into one table. They know scenarios and closed forms, and
-//! neither files nor screens: what is printed, drawn and written is for the floors above.
+//! Studies: many runs and transforms made into one table. They know scenarios and closed forms, but
+//! neither files nor screens: printing, drawing and writing is left to the layers above.
 
 pub mod fit;
 pub mod ghost;

@@ -1,4 +1,4 @@
-//! Random scenarios that a rig could run: the ground on which claims about errors are tested.
+//! Random scenarios that a rig could run, to test error estimates on.
 //!
 //! Each seed gives one scenario, the same on every machine and in every version: the generator is
 //! SplitMix64 (G. L. Steele, D. Lea, C. H. Flood, 2014, OOPSLA, doi 10.1145/2660193.2660195), written out here

@@ -1,5 +1,5 @@
-//! What theory says of the scene on the screen, where it says anything: closed forms to lay over
-//! the plots and to measure the run by.
+//! Closed forms for the scenario on the screen, where they exist, to draw over the plots and to
+//! check the run.
 
 use crate::contact::indenter::Indenter;
 use crate::oracle::cattaneo_mindlin::CattaneoMindlin;

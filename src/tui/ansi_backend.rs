@@ -1,11 +1,9 @@
-//! From changed cells to bytes: the shortest way to say what changed, since it may go over a slow
-//! line for hours.
+//! Turns changed cells into the fewest bytes, since they may go over a slow line for hours.
 //!
-//! It is the backend of the screen in place of the one that writes every move as an absolute
-//! position and every colour as one of 256. Here a move is a line feed, a backspace or a relative
-//! jump where that is shorter, colours are those of the 16, and only the difference between two
-//! styles is written. What a frame holds goes out between the marks of a synchronized update (DEC
-//! private mode 2026); a frame without changes writes nothing at all.
+//! The stock backend writes every move as an absolute position and every colour as one of 256. Here
+//! a move is a line feed, a backspace or a relative jump if that is shorter, the 16 basic colours
+//! have short codes, and only the difference between two styles is written. A frame is wrapped in a
+//! synchronized update (DEC private mode 2026); a frame without changes writes nothing.
 
 use std::io::{self, Write};
 

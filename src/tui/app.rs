@@ -1,6 +1,7 @@
-//! The view: which panel has the focus, what lies over the panels, and how the eye follows the data.
+//! The view: the focused panel, the overlays, and scales that follow the data.
 //!
-//! The app knows no simulation. It turns keys into orders for the worker and frames into a screen.
+//! The app knows nothing of the simulation. It turns keys into orders for the worker, and frames
+//! into a screen.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -26,7 +27,7 @@ use crate::scenario::Scenario;
 use crate::simulation::Curves;
 use crate::studies::theory::Theory;
 
-/// The places of the cursor over the domain, and where it first stands.
+/// The number of cursor positions over the domain, and the initial one.
 const CURSOR_PLACES: i16 = 100;
 const CURSOR_START: i16 = 33;
 
@@ -45,25 +46,25 @@ pub struct App {
     pub frame: Option<Arc<Frame>>,
     /// The panel with the focus.
     pub focus: Panel,
-    /// Whether the focused panel stands alone.
+    /// Whether the focused panel is zoomed.
     pub zoomed: bool,
-    /// What lies over the panels.
+    /// The overlay on the panels.
     pub overlay: Overlay,
     /// The tour under way, if there is one.
     pub tour: Option<Tour>,
-    /// A line for the user, until the next key.
+    /// A notice, shown until the next key.
     pub notice: Option<String>,
-    /// Whether no key has been pressed yet.
+    /// True until the first key is pressed.
     pub is_new: bool,
-    /// How things look.
+    /// The theme.
     pub theme: Theme,
-    /// Set when the program is to end.
+    /// Set to end the program.
     pub leave: Option<Leave>,
-    /// Set when the program is to stop and give the terminal to its shell.
+    /// Set to suspend the program to its shell.
     pub suspend: bool,
-    /// Whether theory lies over the plots.
+    /// Whether closed forms are drawn over the plots.
     pub with_theory: bool,
-    /// What the refinement_check has shown, once it has; none while it runs or before it was asked.
+    /// The result of the refinement check; `None` until it has finished.
     pub refinement_check: Option<Result<RefinementCheck, String>>,
     /// Which stress the half-space shows.
     pub stress: Shown,
@@ -111,7 +112,7 @@ impl App {
         }
     }
 
-    /// Takes in a new frame; the scales of the plots follow its data.
+    /// Takes a new frame; the scales of the plots follow its data.
     pub fn take_frame(&mut self, frame: Arc<Frame>) {
         for panel in Panel::ALL {
             if let Some([low, high]) = panel.extent(&frame, self.scale(panel)) {
@@ -147,7 +148,7 @@ impl App {
         });
     }
 
-    /// Another stress in the half-space, or its largest value in a cycle.
+    /// Switches the stress shown in the half-space, or to its largest value in a cycle.
     fn show_stress(&mut self, shown: Shown) {
         self.stress = shown;
         self.stress_bounds = None;
@@ -190,7 +191,7 @@ impl App {
         )
     }
 
-    /// Takes note of the terminal's size: what is on no page is not computed.
+    /// Notes the terminal's size: hidden panels are not computed.
     pub fn resize(&mut self, columns: u16, rows: u16) {
         self.area = Rect::new(0, 0, columns, rows);
         self.room = layout::room(columns, rows);
@@ -203,7 +204,7 @@ impl App {
         self.focus = Panel::ALL[page % pages * self.room];
     }
 
-    /// Answers a key. `Ctrl-C` leaves from anywhere, whatever is being typed.
+    /// Handles a key. `Ctrl-C` quits from anywhere, even while typing.
     pub fn press(&mut self, key: Key) {
         self.notice = None;
         self.is_new = false;
@@ -240,8 +241,8 @@ impl App {
         let fits = self.overlay.line().map(|line| line.paste(text));
         self.notice = match fits {
             Some(true) => None,
-            Some(false) => Some("what was pasted is longer than a line; it is cut".into()),
-            None => Some("pasted text goes where a line is typed; : opens one".into()),
+            Some(false) => Some("the pasted text is longer than one line and was cut".into()),
+            None => Some("there is no line to paste into; : opens one".into()),
         };
     }
 
@@ -327,7 +328,7 @@ impl App {
         self.follow_tour();
     }
 
-    /// Begins the tour, or goes on to its next caption.
+    /// Begins the tour, or shows its next caption.
     fn continue_tour(&mut self) {
         if let Some(tour) = self.tour.take() {
             self.tour = tour.next();
@@ -338,7 +339,7 @@ impl App {
         } else if let Some(frame) = self.frame.clone() {
             self.begin_tour(&frame.origin);
             if self.tour.is_none() {
-                self.notice = Some("tours come with the presets: p lists them".into());
+                self.notice = Some("only presets have tours; p lists them".into());
             }
         }
         self.follow_tour();
@@ -380,7 +381,7 @@ impl App {
         }
     }
 
-    /// What theory says, if it is to be shown.
+    /// The closed forms, if they are shown.
     pub fn theory_of<'a>(&self, frame: &'a Frame) -> Option<&'a Theory> {
         self.with_theory.then_some(&*frame.theory)
     }
@@ -463,7 +464,7 @@ impl App {
     }
 
     fn order(&self, order: Order) {
-        // A worker that is gone has sent its own word already.
+        // A worker that has ended has reported it already.
         let _ = self.orders.send(order);
     }
 }

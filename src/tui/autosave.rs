@@ -1,4 +1,4 @@
-//! Checkpoints of an explorer: on a timer while something has changed, and at every end.
+//! Checkpoints of an explorer: on a timer while something changes, and on exit.
 
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -9,16 +9,16 @@ use crate::export::header::number;
 use crate::scenario::checkpoint;
 use crate::scenario::session::Session;
 
-/// Keeps a session.
+/// Saves a session.
 #[derive(Debug)]
 pub struct ScreenAutosave {
     directory: PathBuf,
     every: Option<Duration>,
-    /// None until there was something to keep.
+    /// `None` until there is something to save.
     autosave: Option<Autosave>,
-    /// What was last kept, or taken up.
+    /// What was last saved or loaded.
     kept: Mark,
-    /// Since when checkpoints are due.
+    /// When the last checkpoint was due.
     since: Instant,
     /// The session a moment ago, and the moment.
     copy: Session,
@@ -29,7 +29,7 @@ pub struct ScreenAutosave {
     is_finished: bool,
 }
 
-/// Tells one state of a session from another.
+/// Identifies a state of a session.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Mark {
     steps: u64,
@@ -49,7 +49,8 @@ impl Mark {
 }
 
 impl ScreenAutosave {
-    /// Keeps `session` in `directory`, `every` so often while it changes; if none, at the end.
+    /// Saves `session` in `directory`, once per interval `every` while it changes, or only at the
+    /// end if `None`.
     pub fn new(directory: PathBuf, every: Option<Duration>, session: &Session) -> Self {
         Self {
             directory,
@@ -64,13 +65,13 @@ impl ScreenAutosave {
         }
     }
 
-    /// How long until a checkpoint is due; none while there is nothing new to keep.
+    /// Time until a checkpoint is due; `None` while there is nothing new to save.
     pub fn wait(&self, session: &Session) -> Option<Duration> {
         let every = self.every?;
         (self.kept != Mark::of(session)).then(|| every.saturating_sub(self.since.elapsed()))
     }
 
-    /// Keeps what is due; a word for the user where that begins to fail.
+    /// Saves what is due; returns a message when that begins to fail.
     pub fn look_after(&mut self, session: &Session) -> Option<String> {
         if self.is_finished {
             return None;
@@ -85,10 +86,10 @@ impl ScreenAutosave {
         let had_failed = self.failure.is_some();
         self.keep(session);
         let failure = self.failure.as_ref().filter(|_| !had_failed)?;
-        Some(format!("{failure}; the run goes on without a checkpoint"))
+        Some(format!("{failure}; the run continues without a checkpoint"))
     }
 
-    /// Another session takes the place of this one, which stays where it is kept.
+    /// Switches to another session; the file of this one stays.
     pub fn turn_over(&mut self, from: &Session, to: &Session) {
         if self.is_finished {
             return;
@@ -100,8 +101,8 @@ impl ScreenAutosave {
         self.copy = to.clone();
     }
 
-    /// Keeps `session`, or after a defect the copy; what there is to say of it. Only the first call
-    /// does anything.
+    /// Saves `session`, or the copy after a bug, and returns the message for the user. Only the
+    /// first call does anything.
     pub fn finish(&mut self, session: Option<&Session>) -> Option<String> {
         if std::mem::replace(&mut self.is_finished, true) {
             return None;
@@ -114,14 +115,14 @@ impl ScreenAutosave {
         let place = self.autosave.as_ref().map(|autosave| {
             let (cycle, path) = (f64::from_bits(self.kept.cycle), shell_word(autosave.path()));
             format!(
-                "kept at cycle {}; mdr-tui --resume {path} goes on",
+                "saved at cycle {}; resume with: mdr-tui --resume {path}",
                 number(cycle)
             )
         });
         match (self.failure.take(), place) {
             (None, place) => place,
             (Some(failure), Some(place)) => Some(format!("{failure}; {place}")),
-            (Some(failure), None) => Some(format!("nothing is kept: {failure}")),
+            (Some(failure), None) => Some(format!("nothing was saved: {failure}")),
         }
     }
 

@@ -1,9 +1,9 @@
 //! A recording of the session in asciinema's format (asciicast v2): a header line, then one line for each
 //! frame with its time and the bytes that a terminal is sent.
 //!
-//! The recording draws the screen itself, on a terminal of its own: what the real one is sent, and how
-//! slow its line is, does not matter, and a script of keys is recorded without any terminal. Every line
-//! is written whole, so that a recording can be played up to where a session was killed.
+//! The recording draws on its own virtual terminal, so it does not depend on the real one or the
+//! speed of its line, and a key script is recorded without any terminal. Every line is written
+//! whole, so that the recording of a killed session can still be played.
 
 use std::cell::Cell;
 use std::fs::{File, OpenOptions};
@@ -21,7 +21,7 @@ use super::ansi_backend::AnsiBackend;
 use super::app::App;
 use super::screen;
 
-/// The most bytes of a recording: hours at ten frames a second.
+/// Maximum size of a recording, bytes: hours at ten frames per second.
 const MOST: u64 = 64 << 20;
 
 /// Time between two keys of a script.
@@ -29,7 +29,7 @@ const KEY: Duration = Duration::from_millis(500);
 
 type Paper = AnsiBackend<Vec<u8>, Box<dyn Fn() -> io::Result<Size>>>;
 
-/// A recording under way.
+/// A recording in progress.
 pub struct Cast {
     file: File,
     backend: Paper,
@@ -67,7 +67,7 @@ impl Cast {
     /// Records the app as it is now, if it shows anything new.
     ///
     /// # Errors
-    /// What keeps the file from being written.
+    /// If the file cannot be written.
     pub fn frame(&mut self, app: &App) -> io::Result<()> {
         if self.is_full {
             return Ok(());

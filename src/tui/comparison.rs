@@ -29,8 +29,8 @@ pub(super) struct ComparisonRun {
 }
 
 impl ComparisonRun {
-    /// The choice so many places after that of the comparison `before`, the first one where there was
-    /// none. It begins where `session` stands, or at the start with the changes made to `session` since.
+    /// Makes the comparison `places` after that of `before`, or the first one if there was none. It
+    /// begins at the present state of `session`, or at the start, with the changes made since.
     pub fn beside(
         session: &Session,
         before: Option<&Self>,
@@ -79,12 +79,13 @@ impl ComparisonRun {
         self.beside.lags(cycle)
     }
 
-    /// Steps towards `cycle`, where the first run is, for about as long as `budget`.
+    /// Steps towards `cycle`, the cycle of the first run, for about `budget`: the first run may
+    /// have jumped over many cycles that this one has to step through.
     pub fn follow_for(&mut self, cycle: f64, budget: Duration) {
         self.beside.follow_for(cycle, budget, |_| {});
     }
 
-    /// What a screen shows of it.
+    /// The part that the screen shows.
     pub fn seen(&self) -> Comparison {
         let simulation = self.beside.session().simulation();
         Comparison {
@@ -105,7 +106,7 @@ fn choices(session: &Session) -> Vec<(&'static str, String)> {
     let mut list: Vec<_> = others
         .map(|method| ("numerics.method", format!("\"{method}\"")))
         .collect();
-    // The paper's verdict is about B: it comes first.
+    // Method b comes first, because the paper's conclusion is about it.
     list.sort_by_key(|(_, value)| value != "\"b\"");
     let half = (setup.grid.cells() / 2).max(MIN_CELLS);
     list.push(("numerics.points", half.to_string()));

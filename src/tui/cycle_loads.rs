@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::contact::subsurface::SpringLoad;
 use crate::simulation::{Curves, Simulation};
 
-/// Moments of a cycle that are kept: extremes between them are missed by about 1 %.
+/// Moments stored per cycle: extremes between them are missed by about 1 %.
 const MOMENTS: f64 = 16.0;
 
 /// Loads with the cycles at which they were seen, at most one cycle of them.
@@ -18,7 +18,7 @@ impl CycleLoads {
     pub fn note(&mut self, simulation: &Simulation) {
         let now = simulation.cycle();
         match self.0.back() {
-            // Another run, or an earlier state of this one.
+            // A different run, or an earlier state of this one.
             Some((last, _)) if now < *last => self.0.clear(),
             Some((last, _)) if now < last + 1.0 / MOMENTS - 1e-9 => return,
             _ => {}

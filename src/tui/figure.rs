@@ -13,7 +13,7 @@ use crate::scenario::session::Session;
 /// The font, mm: 8 points.
 const FONT: f64 = 8.0 * 25.4 / 72.0;
 
-/// Dots per inch of a PNG.
+/// Resolution of a PNG in dots per inch.
 const DPI: f64 = 300.0;
 
 /// Draws the present state of `session` into the file, and writes what is drawn to the same name with
@@ -26,7 +26,7 @@ pub(super) fn write(session: &Session, trend: &Trend, path: &Path) -> Result<(),
     let format = Format::of(path).ok_or(format!("{shown}: must end in .svg, .png or .pdf"))?;
     let beside = path.with_extension("csv");
     if let Some(taken) = [path, &beside].into_iter().find(|path| path.exists()) {
-        return Err(format!("{}: exists already", taken.display()));
+        return Err(format!("{}: already exists", taken.display()));
     }
     let mut data = Data {
         scenario: Some(session.scenario().clone()),

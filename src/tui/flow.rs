@@ -1,41 +1,41 @@
-//! When a new frame may go to the terminal: not before the last one is gone.
+//! Flow control: a new frame goes to the terminal only when the last one has been read.
 //!
-//! Behind every frame goes the question whether the terminal is ready (DSR, `CSI 5 n`); its answer
-//! says that all before has been read. A terminal that has never answered may be a slow line or one
-//! that does not know the question: it is sent no more than a slow line takes, so that a key is never
-//! answered behind a queue of frames. Keys are answered at once either way, as long as what is under
-//! way is little.
+//! Every frame is followed by a status request (DSR, `CSI 5 n`); the answer means that everything
+//! before it has been read. A terminal that has never answered may be on a slow line or may not
+//! know the request: it is sent no more than a slow line takes, so that the answer to a key never
+//! waits behind a queue of frames. Keys are answered at once in any case, as long as little is in
+//! flight.
 
 use std::time::{Duration, Instant};
 
-/// The question behind each frame.
+/// The status request after each frame.
 pub const QUESTION: &[u8] = b"\x1b[5n";
 
-/// What every line is trusted to take, in bytes a second.
+/// The rate assumed for any line, bytes per second.
 const SLOWEST: f64 = 300.0;
 
-/// A line that takes so much, in bytes a second, takes whole frames.
+/// The rate from which a line gets whole frames, bytes per second.
 const FAST: f64 = 20_000.0;
 
 /// How long a frame may be on its way to the terminal, in seconds, and the fewest bytes of one.
 const FRAME_TIME: f64 = 0.4;
 const SMALLEST: usize = 240;
 
-/// The longest time that a terminal without answers is left alone after one frame.
+/// Longest pause after a frame for a terminal that does not answer.
 const LONGEST_REST: Duration = Duration::from_secs(2);
 
-/// An answer that takes longer than the frame on the slowest line, and this, was lost.
+/// An answer is lost if it takes longer than the frame on the slowest line plus this.
 const LOST: Duration = Duration::from_secs(3);
 
-/// The most frames under way when a key is answered.
+/// Maximum number of frames in flight when a key is answered.
 const MOST_UNDER_WAY: u32 = 2;
 
-/// How long after a key what comes from the worker is its answer, and how many drawings.
+/// For how long, and for how many frames, the worker's output after a key counts as its answer.
 const ANSWERED: Duration = Duration::from_millis(300);
 const DRAWINGS: u32 = 2;
 
-/// How long the worker may take to answer a key before a terminal that tells nothing is sent a whole
-/// screen.
+/// How long the worker may take to answer a key before a terminal that does not answer is sent a
+/// whole screen.
 const SETTLED: Duration = Duration::from_millis(50);
 
 /// When to draw.
@@ -49,20 +49,20 @@ pub enum When {
     Told,
 }
 
-/// What is known of the way to the terminal.
+/// The state of the line to the terminal.
 #[derive(Debug, Default)]
 pub struct Flow {
     /// Chunks that the writer has not handed to the system yet.
     unwritten: u32,
-    /// Frames that the terminal has not read yet, as far as it tells.
+    /// Frames that the terminal has not acknowledged yet.
     unanswered: u32,
     /// Whether it has ever answered.
     answers: bool,
-    /// When the last frame was sent, and when a terminal that tells nothing should have read it.
+    /// When the last frame was sent, and when a terminal that does not answer should have read it.
     sent: Option<(Instant, Instant)>,
     /// When the first frame was sent.
     opened: Option<Instant>,
-    /// Bytes of the last frame; what the line has been seen to take, in bytes a second.
+    /// Bytes of the last frame; the measured rate of the line, bytes per second.
     last: usize,
     rate: Option<f64>,
     /// Until when drawings answer a key, and how many.
@@ -99,12 +99,12 @@ impl Flow {
         }
     }
 
-    /// A key was pressed: its answer goes first.
+    /// A key was pressed: its answer takes precedence.
     pub fn hurry(&mut self, now: Instant) {
         self.hurry = Some((now + ANSWERED, DRAWINGS));
     }
 
-    /// A frame of so many bytes was given to the writer; none if it is empty.
+    /// A frame of so many bytes was given to the writer; `None` if it is empty.
     pub fn sent(&mut self, now: Instant, bytes: usize) {
         if let Some((_, drawings)) = &mut self.hurry {
             *drawings = drawings.saturating_sub(1);
@@ -143,11 +143,11 @@ impl Flow {
         }
     }
 
-    /// How many bytes the next frame may have, so that it does not keep a key waiting; none: as many
+    /// How many bytes the next frame may have, so that it does not keep a key waiting; `None`: as many
     /// as there are.
     pub fn room(&self) -> Option<usize> {
         match self.rate {
-            // What one frame was too small to show, the next ones will.
+            // The next frames show what did not fit into this one.
             Some(rate) if rate >= FAST => None,
             Some(rate) => Some(((rate * FRAME_TIME) as usize).max(SMALLEST)),
             None if self.opened.is_none() => None,
@@ -155,8 +155,8 @@ impl Flow {
         }
     }
 
-    /// Whether the next drawing shows at once that a key was pressed, on a terminal that tells nothing:
-    /// its answer, which comes from the worker, is not to wait behind a whole screen.
+    /// Whether the next frame acknowledges a key at once, on a terminal that does not answer: the
+    /// worker's answer must not wait behind a whole screen.
     pub fn acknowledges(&self, now: Instant) -> bool {
         !self.answers && self.hurries(now) && self.hurry.is_some_and(|(_, left)| left == DRAWINGS)
     }
@@ -167,12 +167,12 @@ impl Flow {
             .is_some_and(|(until, drawings)| now <= until && drawings > 0)
     }
 
-    /// Whether the terminal tells when it has read a frame.
+    /// Whether the terminal answers status requests.
     pub fn answers(&self) -> bool {
         self.answers
     }
 
-    /// Whether the terminal is to answer yet. One that has not for so long is not expected to.
+    /// Whether an answer is outstanding. One that is late for too long is no longer expected.
     pub fn is_awaited(&self, now: Instant) -> bool {
         let is_new = self
             .opened
@@ -180,7 +180,7 @@ impl Flow {
         self.unanswered > 0 && (self.answers || is_new)
     }
 
-    /// The terminal was somebody else's: what it has not answered it never will.
+    /// The terminal was used by another program: outstanding answers will never come.
     pub fn forget(&mut self) {
         (self.unanswered, self.sent) = (0, None);
     }
@@ -217,7 +217,7 @@ mod tests {
         flow.answered(now);
         flow.answered(now);
         assert_eq!(flow.when(now), When::Now);
-        // An answer that is lost is not waited for for ever.
+        // Does not wait forever for a lost answer.
         sent(&mut flow, now);
         assert_eq!(flow.when(now + Duration::from_secs(10)), When::Now);
         // An empty drawing needs no answer.

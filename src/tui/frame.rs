@@ -1,4 +1,4 @@
-//! What the worker shows of the simulation, and the place where it waits to be taken.
+//! What the worker publishes of the simulation, and the slot where the screen picks it up.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -18,9 +18,9 @@ pub enum Activity {
     Running,
     /// Waiting for orders.
     Paused,
-    /// At the end of the scenario's plan.
+    /// At the planned end of the scenario.
     Done,
-    /// Broken down; the text says why.
+    /// Failed, with the reason.
     Stopped(String),
 }
 
@@ -31,32 +31,32 @@ pub struct Comparison {
     pub name: String,
     /// Its curves and scalars.
     pub observation: Observation,
-    /// What a step of it costs, s.
+    /// Its time per step, s.
     pub step_cost: Option<f64>,
     /// Why it stopped, if it did.
     pub stopped: Option<String>,
 }
 
-/// All that a screen shows of the simulation.
+/// Everything that the screen shows of the simulation.
 #[derive(Debug, Clone)]
 pub struct Frame {
     /// The curves and scalars.
     pub observation: Observation,
     /// What a fretting test reports of the last cycle.
     pub figures: Option<CycleFigures>,
-    /// The wear coefficient k, 1/Pa; none without wear.
+    /// The wear coefficient k, 1/Pa; `None` without wear.
     pub wear_coefficient: Option<f64>,
-    /// The phase of the tangential motion at which frames are taken, degrees; none while the motion is shown.
+    /// The phase of the tangential motion at which frames are taken, degrees; `None` while the motion is shown.
     pub phase: Option<f64>,
     /// The past.
     pub trend: Trend,
     /// What the worker does.
     pub activity: Activity,
-    /// How fast it may go.
+    /// The requested pace.
     pub pace: Pace,
-    /// How fast it goes, cycles a second; none until measured.
+    /// Its actual speed, cycles per second; `None` until measured.
     pub speed: Option<f64>,
-    /// What a step costs, s.
+    /// Time per step, s.
     pub step_cost: Option<f64>,
     /// The scenario's title.
     pub title: String,
@@ -64,13 +64,13 @@ pub struct Frame {
     pub origin: String,
     /// Where the scenario's plan ends, cycles.
     pub planned_cycles: Option<f64>,
-    /// Steps a cycle.
+    /// Steps per cycle.
     pub steps_per_cycle: u32,
     /// The cycle of the present, while the screen shows a state of the past.
     pub present: Option<f64>,
     /// The keys that can be changed, with their values.
     pub settings: Arc<Vec<Setting>>,
-    /// The unworn shape, which goes on beyond the domain.
+    /// The unworn shape, also beyond the domain.
     pub indenter: Indenter,
     /// The indenter's share of the wear, where the scenario gives one.
     pub wear_share: Option<f64>,
@@ -84,19 +84,19 @@ pub struct Frame {
     pub peaks: Option<[Peak; 2]>,
     /// The amplitude of u_x from which the present profile slips as a whole, m, where it is shown.
     pub slip_border: Option<f64>,
-    /// The certificates of the moment; none where p is not computed.
+    /// The checks of the moment; `None` if p is not computed.
     pub checks: Vec<Check>,
-    /// Where the scene lies outside of the theory.
+    /// Where the scenario leaves the theory.
     pub warnings: Arc<Vec<String>>,
-    /// What theory says of the scene.
+    /// Closed forms for the scenario.
     pub theory: Arc<Theory>,
     /// Curves of other sources, to be drawn over those of the run.
     pub ghosts: Vec<Arc<Ghost>>,
-    /// The run beside this one.
+    /// The comparison run.
     pub comparison: Option<Comparison>,
 }
 
-/// The place where the latest frame waits to be taken.
+/// The slot that holds the latest frame.
 #[derive(Debug, Default)]
 pub struct Slot(Mutex<Option<Arc<Frame>>>);
 
@@ -106,7 +106,7 @@ impl Slot {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).take()
     }
 
-    /// Puts a frame there; true if the place was empty and the screen must be told.
+    /// Stores a frame; returns true if the slot was empty and the screen must be notified.
     pub(super) fn put(&self, frame: Arc<Frame>) -> bool {
         self.0
             .lock()

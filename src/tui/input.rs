@@ -1,9 +1,8 @@
-//! From the bytes that a terminal sends to keys, pasted text, clicks, and its answer to the question
-//! whether it is still there.
+//! Turns the bytes from the terminal into keys, pasted text, clicks and status reports.
 //!
-//! The bytes are parsed by the state machine of `vte`; what is added is what only a keyboard needs. A
-//! lone Escape is told from the beginning of a sequence by the silence after it. Ctrl-C is seen in
-//! whatever state the machine is, and before all keys that wait.
+//! `vte` parses the bytes; this module adds what a keyboard needs. A lone Escape is told from the
+//! start of a sequence by the pause after it. Ctrl-C is recognised in any state of the parser and
+//! overtakes all waiting keys.
 
 use std::io;
 use std::os::fd::{AsFd, BorrowedFd};
@@ -23,16 +22,16 @@ use super::line;
 use super::mouse::Mouse;
 use super::terminal::Capture;
 
-/// The silence after which an Escape is a key of its own, in milliseconds.
+/// The pause after which an Escape is a key, milliseconds.
 const LONE_ESCAPE: u16 = 25;
 
 /// The silence after which a sequence that has begun is given up, in milliseconds.
 const GIVE_UP: u16 = 250;
 
-/// How often it is seen that nobody listens any more, in milliseconds.
+/// Polling interval for the end of the session, milliseconds.
 const GLANCE: u16 = 100;
 
-/// The most keys that wait to be answered; what comes beyond is dropped.
+/// Maximum number of waiting keys; further ones are dropped.
 const MOST_WAITING: usize = 4096;
 
 /// The byte of Ctrl-C.
@@ -47,7 +46,7 @@ pub enum Input {
     Paste(String),
     /// The mouse.
     Mouse(MouseEvent),
-    /// The answer to the question whether the terminal is ready: it has read all that came before.
+    /// The status report: the terminal has read everything sent before the request.
     Ready,
     /// Ctrl-C.
     Interrupt,
@@ -58,7 +57,7 @@ pub enum Input {
 pub struct Reader {
     parser: Parser,
     found: Found,
-    /// The last byte was an Escape that may be a key of its own.
+    /// The last byte was an Escape that may be a key.
     is_escape: bool,
     /// Bytes have come since the last thing found: a sequence may be under way.
     is_under_way: bool,
@@ -106,7 +105,7 @@ impl Reader {
         }
     }
 
-    /// How long to wait for more before [`rest`](Self::rest); none: for ever.
+    /// How long to wait for more before [`rest`](Self::rest); `None`: forever.
     pub fn patience(&self) -> Option<u16> {
         if self.is_escape {
             Some(LONE_ESCAPE)
@@ -249,7 +248,7 @@ impl Perform for Found {
     }
 }
 
-/// The keys between those who type and the one who answers.
+/// The queue of keys between the input thread and the app.
 #[derive(Debug, Default)]
 pub struct Waiting {
     keys: AtomicUsize,
@@ -279,23 +278,23 @@ impl Waiting {
         self.has_dropped.swap(false, Ordering::SeqCst)
     }
 
-    /// Nobody listens any more: what is typed is for somebody else.
+    /// Stops reading: further input belongs to another program.
     pub fn close(&self) {
         self.is_closed.store(true, Ordering::SeqCst);
     }
 
-    /// All is to end, whatever waits.
+    /// Ends everything, whatever is waiting.
     pub fn end(&self) {
         self.is_over.store(true, Ordering::SeqCst);
     }
 
-    /// Whether all is to end.
+    /// Whether everything should end.
     pub fn is_over(&self) -> bool {
         self.is_over.load(Ordering::SeqCst)
     }
 }
 
-/// Reads the terminal until it is gone or nobody listens.
+/// Reads the terminal until it closes or the session ends.
 pub fn listen(events: &Sender<Event>, waiting: &Arc<Waiting>, capture: Capture) {
     let stdin = io::stdin();
     let (mut reader, mut mouse) = (Reader::default(), Mouse::default());
@@ -317,7 +316,7 @@ pub fn listen(events: &Sender<Event>, waiting: &Arc<Waiting>, capture: Capture) 
         }
         for input in inputs.drain(..) {
             let event = match input {
-                // It goes on listening: what the terminal still answers is not for the shell.
+                // Keeps reading, so that late answers of the terminal do not reach the shell.
                 Input::Interrupt => {
                     waiting.end();
                     Some(Event::HangUp)
@@ -342,7 +341,7 @@ fn hang_up(events: &Sender<Event>, waiting: &Waiting) {
     let _ = events.send(Event::HangUp);
 }
 
-/// Waits for bytes; false if none have come in so many milliseconds.
+/// Waits for bytes; returns false if none arrive in this many milliseconds.
 fn wait(terminal: BorrowedFd<'_>, patience: Option<u16>) -> nix::Result<bool> {
     let timeout = patience.map_or(PollTimeout::NONE, PollTimeout::from);
     loop {

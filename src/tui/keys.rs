@@ -1,6 +1,6 @@
 //! Keys by name: one notation for the command table, the help, and `--keys` scripts.
 //!
-//! A printable character stands for itself; everything else stands in angle brackets:
+//! A printable character stands for itself; everything else is written in angle brackets:
 //! `<Space>`, `<Tab>`, `<S-Tab>`, `<Esc>`, `<Enter>`, `<Up>`, `<C-c>`; `<lt>` is "<" itself.
 
 use std::fmt;
@@ -115,7 +115,7 @@ pub fn parse_script(script: &str) -> Result<Vec<Key>, String> {
         if first != '<' {
             if first.is_control() {
                 return Err(format!(
-                    "--keys: {first:?} stands for no key; use <Enter>, <Tab>, ..."
+                    "--keys: {first:?} is not a key; write <Enter>, <Tab>, ..."
                 ));
             }
             keys.push(Key::Char(first));
@@ -128,7 +128,8 @@ pub fn parse_script(script: &str) -> Result<Vec<Key>, String> {
         let Some((key, after)) = named else {
             let start: String = rest.chars().take(12).collect();
             return Err(format!(
-                "--keys: {start:?} begins no key; keys are characters or <Space>, <Tab>, <Esc>, <Enter>, <Up>, \
+                "--keys: {start:?} is not a key; keys are characters \
+                 or <Space>, <Tab>, <Esc>, <Enter>, <Up>, \
                  <C-c>, and <lt> for \"<\""
             ));
         };

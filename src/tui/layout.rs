@@ -1,35 +1,35 @@
-//! Where everything stands: the drawing and the mouse ask here.
+//! The layout of the screen, used for drawing and for the mouse.
 //!
-//! Four panels of a size that reads on a small screen, nine or twelve on a large one; the others are
-//! on further pages. While a tour is on, its captions have the lowest rows.
+//! Four readable panels on a small screen, nine or twelve on a large one; the others are on further
+//! pages. A tour takes the lowest rows for its captions.
 
 use ratatui::layout::{Constraint, Layout, Rect};
 
 use super::app::App;
 use super::panels::Panel;
 
-/// From this width on, three panels stand side by side.
+/// Three panels fit side by side from this width on.
 const WIDE: u16 = 110;
 
-/// From this width on, four.
+/// Four from this width on.
 const VERY_WIDE: u16 = 160;
 
-/// From this height on, there are three rows of them.
+/// There are three rows from this height on.
 const TALL: u16 = 33;
 
 /// Below this width one panel fills the row.
 const NARROW: u16 = 56;
 
-/// Rows that a tour takes, its title included.
+/// Rows of a tour, including its title.
 pub const TOUR: u16 = 4;
 
-/// The fewest rows that the panels keep beside a tour.
+/// Minimum rows for the panels beside a tour.
 const LEAST: u16 = 10;
 
-/// Below this size there is a message instead of panels.
+/// Minimum size; a smaller screen shows a message instead of panels.
 pub const SMALLEST: (u16, u16) = (40, 10);
 
-/// The status line, the panels' area and the line of keys; none on a screen that is too small.
+/// The status line, the panels' area and the footer; `None` if the screen is too small.
 pub fn bands(screen: Rect) -> Option<[Rect; 3]> {
     if screen.width < SMALLEST.0 || screen.height < SMALLEST.1 {
         return None;
@@ -77,7 +77,8 @@ pub fn places(app: &App, area: Rect) -> Vec<(Panel, Rect)> {
         return vec![(app.focus, area)];
     }
     let shown = app.page(columns * rows);
-    // The last page may be shorter; its panels are then higher.
+    // The last page may hold fewer panels, which are then larger.
+    let columns = columns.min(shown.len()).max(1);
     let rows = shown.len().div_ceil(columns);
     let bands = Layout::vertical(vec![Constraint::Fill(1); rows]).split(area);
     let mut places = Vec::with_capacity(shown.len());

@@ -20,8 +20,8 @@ impl LineEdit {
         line
     }
 
-    /// Puts a text in as if it were typed, but for control characters, as far as the line has room.
-    /// False if not all of it fits.
+    /// Inserts a text without its control characters, as far as it fits. Returns false if some of
+    /// it did not fit.
     pub fn paste(&mut self, text: &str) -> bool {
         let mut characters = text.chars().filter(|c| !c.is_control());
         let room = LONGEST.saturating_sub(self.text.len());
@@ -42,14 +42,14 @@ impl LineEdit {
         self.text.is_empty()
     }
 
-    /// What stands before the cursor, and from it on.
+    /// The text before the cursor, and the text from it on.
     pub fn halves(&self) -> (String, String) {
         let (before, after) = self.text.split_at(self.at);
         (before.iter().collect(), after.iter().collect())
     }
 
     /// Takes a key as a shell's line does: characters, arrows, Home, End, Backspace, Delete, Ctrl-U
-    /// for all before the cursor and Ctrl-W for the word before it. False for keys that are not its own.
+    /// for all before the cursor and Ctrl-W for the word before it. Returns false for other keys.
     pub fn press(&mut self, key: Key) -> bool {
         match key {
             Key::Char(_) if self.text.len() >= LONGEST => {}

@@ -1,4 +1,4 @@
-//! The command table as text: the lines of the help, the table of the README, the manual page.
+//! The command table as text: help, README table and manual page.
 
 use super::command::{BINDINGS, Binding, Command};
 
@@ -93,7 +93,7 @@ const GROUPS: &[(&str, &[Command])] = &[
     ),
 ];
 
-/// The group of what is in no other one.
+/// The group of all remaining commands.
 const OTHERS: &str = "program";
 
 /// Every group with its commands: each command once, those of no group in the last.

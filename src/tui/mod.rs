@@ -1,5 +1,5 @@
 //! The explorer: a worker thread steps the simulation, an input thread reads the keys, an output
-//! thread writes to the terminal, and the thread between them decides and waits for none of them.
+//! thread writes to the terminal, and the main thread connects them without ever waiting for one.
 //!
 //! ```text
 //!              keys ── Event ──▶ App ── Order ──▶ worker (Session)
@@ -7,9 +7,9 @@
 //! terminal ◀── output ◀── bytes ──┘ └─ Event, Frame ─┘
 //! ```
 //!
-//! At the end the session is kept within a second, whatever the terminal and the worker are at: the
-//! terminal gets a moment to take its last words, and a worker in the middle of a long step is left
-//! there, with its copy of a moment ago kept in its place.
+//! On exit the session is saved within a second, whatever the terminal and the worker are doing:
+//! the terminal gets a moment to take the last output, and if the worker is in a long step, its
+//! most recent copy is saved instead.
 
 use std::fs;
 use std::io::{self, IsTerminal};
@@ -85,16 +85,16 @@ pub use terminal::Capture;
 use theme::{Depth, Look, Theme};
 use worker::Worker;
 
-/// The preset that is shown where none is named.
+/// The default preset.
 const FIRST: &str = "li2019-fig3";
 
-/// How long the worker may take for the step under way when it is to end.
+/// How long the worker may take to finish its step on exit.
 const PATIENCE: Duration = Duration::from_millis(500);
 
-/// How long a checkpoint may take that is being written then.
+/// How long a checkpoint being written may take on exit.
 const PATIENCE_WITH_DISKS: Duration = Duration::from_secs(5);
 
-/// What can happen while the screen waits.
+/// An event for the main thread.
 #[derive(Debug)]
 pub enum Event {
     /// A key was pressed.
@@ -111,17 +111,17 @@ pub enum Event {
     Resize,
     /// A frame waits in the slot.
     Frame,
-    /// A word for the user.
+    /// A notice for the user.
     Notice(String),
     /// The refinement_check has come to its end.
     RefinementCheck(Result<RefinementCheck, String>),
     /// A study has begun.
     Sweep(map::live::Live),
-    /// The process is asked to stop for a while.
+    /// The process is asked to suspend.
     Suspend,
-    /// The process goes on after it was stopped.
+    /// The process continues after a suspension.
     Continue,
-    /// The terminal is gone, or the process was asked to end.
+    /// The terminal has closed, or the process was asked to end.
     HangUp,
     /// The worker has ended.
     WorkerGone,
@@ -137,37 +137,37 @@ pub struct Options {
     pub ghosts: Vec<ghosts::Source>,
     /// Whether it runs at once.
     pub running: bool,
-    /// Where checkpoints are kept; none: nowhere.
+    /// Directory for checkpoints; `None`: no checkpoints.
     pub keep_in: Option<PathBuf>,
-    /// How often; none: only at the end.
+    /// Their interval; `None`: only at the end.
     pub keep_every: Option<Duration>,
-    /// The most frames drawn in a second.
+    /// Maximum frame rate per second.
     pub fps: u16,
-    /// How curves are drawn; by the locale if not said.
+    /// Characters for curves; by default from the locale.
     pub marker: Option<Marker>,
-    /// Whether to use colour; by NO_COLOR if not said.
+    /// Whether to use colour; by default from NO_COLOR.
     pub colored: Option<bool>,
-    /// Which colours; by the terminal's own word on its background if not said.
+    /// The colours; by default from the background that the terminal reports.
     pub look: Option<Look>,
     /// Where the session is recorded.
     pub record: Option<Cast>,
-    /// Whom the mouse belongs to.
+    /// Who handles the mouse.
     pub mouse: Capture,
     /// Keys to press instead of reading the keyboard, and the screen to print.
     pub script: Option<Script>,
 }
 
-/// There is nothing here that the explorer could be shown on.
+/// There is no usable terminal.
 #[derive(Debug, thiserror::Error)]
-#[error("{0}; mdr-tui run SCENARIO computes without a screen")]
+#[error("{0}; mdr-tui run SCENARIO works without a screen")]
 pub struct NoTerminal(&'static str);
 
-/// What is left to print when the terminal is itself again.
+/// What to print after the terminal is restored.
 #[derive(Debug, Default)]
 pub struct Farewell {
-    /// Where the session is kept.
+    /// Where the session is saved.
     pub word: Option<String>,
-    /// The last screen, if it is to stay.
+    /// The last screen, if it should stay visible.
     pub screen: Option<String>,
 }
 
@@ -225,8 +225,8 @@ pub fn run(options: Options) -> Result<Farewell> {
     end_worker();
     let kept = farewell(&kept, keeping.as_deref());
     if let Some(word) = crate::panics::word() {
-        let kept = kept.unwrap_or_else(|| "nothing was to be kept".into());
-        bail!("a defect in mdr-tui: {word}; {kept}");
+        let kept = kept.unwrap_or_else(|| "there was nothing to save".into());
+        bail!("bug in mdr-tui: {word}; {kept}");
     }
     match (outcome, kept) {
         (Err(error), Some(kept)) => Err(error.context(kept)),
@@ -243,17 +243,17 @@ fn first_tour(options: &Options) -> Option<String> {
         .as_ref()
         .filter(|_| is_new)?
         .join("tour-seen");
-    // Where no file can be written, it would begin each time.
+    // If no file can be written, the tour would begin every time, so skip it.
     let first = !seen.exists()
         && seen
             .parent()
             .is_some_and(|parent| fs::create_dir_all(parent).is_ok())
-        && fs::write(&seen, "The tour of the default preset has begun once.\n").is_ok();
+        && fs::write(&seen, "The tour of the default preset has been shown.\n").is_ok();
     first.then(|| origin.to_owned())
 }
 
-/// What the worker has to say of what it has kept. One that is in the middle of a long step is not
-/// waited for: its copy of a moment ago is kept.
+/// Returns the worker's message about what it has saved. A worker in the middle of a long step is
+/// not waited for: its most recent copy is saved instead.
 fn farewell(
     kept: &Receiver<Option<String>>,
     keeping: Option<&Mutex<ScreenAutosave>>,
@@ -266,12 +266,12 @@ fn farewell(
     match keeping?.try_lock() {
         Ok(mut keeping) => keeping.finish(None),
         Err(TryLockError::Poisoned(keeping)) => keeping.into_inner().finish(None),
-        // It is being kept: on a slow disk that takes a while.
+        // It is being saved, which may take a while on a slow disk.
         Err(TryLockError::WouldBlock) => kept.recv_timeout(PATIENCE_WITH_DISKS).ok().flatten(),
     }
 }
 
-/// How those who decide hear of the others.
+/// The channels to the main thread.
 struct Ways<'a> {
     slot: &'a Slot,
     events: &'a Sender<Event>,
@@ -279,8 +279,8 @@ struct Ways<'a> {
     waiting: &'a Arc<Waiting>,
 }
 
-/// Draws and listens until told to leave, and then has the worker end beside what the terminal still
-/// needs; returns the last screen if it is to stay.
+/// Draws and handles events until the user quits, then ends the worker while the terminal is being
+/// restored. Returns the last screen if it should stay visible.
 fn converse(
     app: &mut App,
     mouse: Capture,
@@ -298,7 +298,7 @@ fn converse(
     hear_out(&mut screen, ways.inbox);
     let is_restored = screen.give_back();
     match outcome {
-        // A terminal that goes away while it is drawn on has hung up; nothing has failed.
+        // A terminal that closes while being drawn on has hung up; this is not an error.
         Err(_) if !io::stdout().is_terminal() => return Ok(None),
         outcome => outcome?,
     }
@@ -324,7 +324,7 @@ fn refit(app: &mut App, screen: &mut terminal::Screen) -> Result<()> {
     Ok(())
 }
 
-/// Waits for what the terminal is to answer yet, so that no shell gets it.
+/// Waits for outstanding answers of the terminal, so that they do not reach the shell.
 fn hear_out(screen: &mut terminal::Screen, inbox: &Receiver<Event>) {
     let end = Instant::now() + PATIENCE;
     while screen.flow().is_awaited(Instant::now()) {
@@ -345,7 +345,7 @@ fn attend(
     let (columns, rows) = crossterm::terminal::size()?;
     app.resize(columns, rows);
     let mut is_due = !screen.draw(app)?;
-    // Between the order to stop and the word that the process goes on, the screen is the shell's.
+    // Between suspension and continuation, the screen belongs to the shell.
     let mut is_away = false;
     loop {
         let wait = match screen.when() {
@@ -412,7 +412,11 @@ fn attend(
             }
         }
         if ways.waiting.has_dropped() {
-            app.notice = Some("more keys came than could be answered; some were dropped".into());
+            app.notice = Some(
+                "keys came faster than they could be handled; some were \
+                dropped"
+                    .into(),
+            );
         }
         if std::mem::take(&mut app.suspend) && !is_away {
             hear_out(screen, ways.inbox);
@@ -422,13 +426,13 @@ fn attend(
             screen.give_back();
             is_away = suspend::stop();
             if !is_away {
-                app.notice = Some("there is no shell to go back to".into());
+                app.notice = Some("there is no shell to return to".into());
                 screen.take_back()?;
             }
         }
         if !is_away && is_due && screen.when() == When::Now {
             is_due = !screen.draw(app)?;
-            // A recording that fails ends; the session goes on.
+            // A failed recording ends; the session continues.
             if let Some(Err(error)) = record.as_mut().map(|cast| cast.frame(app)) {
                 app.notice = Some(format!("the recording has ended: {error}"));
                 record = None;
@@ -437,7 +441,7 @@ fn attend(
     }
 }
 
-/// Says so when it ends, whichever way it ends.
+/// Reports its end, however it ends.
 struct LastWord(Sender<Event>);
 
 impl Drop for LastWord {
@@ -446,7 +450,7 @@ impl Drop for LastWord {
     }
 }
 
-/// Starts the worker; what it has to say at its end of what it has kept comes from what is returned.
+/// Starts the worker; its final message about what it has saved comes from the returned receiver.
 fn spawn_worker(
     worker: Worker,
     keeping: Option<Arc<Mutex<ScreenAutosave>>>,
@@ -464,8 +468,8 @@ fn spawn_worker(
     Ok(kept)
 }
 
-/// Signals that ask a process to end do so as `q` does, before all keys that wait; SIGTSTP and SIGCONT
-/// stop it and have it go on.
+/// Signals that ask a process to end do so as `q` does, before all waiting keys; SIGTSTP and
+/// SIGCONT suspend and continue it.
 fn listen_for_signals(events: Sender<Event>, waiting: Arc<Waiting>) -> Result<()> {
     let mut signals = Signals::new([
         SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGABRT, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU, SIGTSTP,
@@ -512,7 +516,7 @@ fn theme(options: &Options) -> Theme {
     }
 }
 
-/// The theme of this terminal, as far as nothing else is asked for.
+/// The theme of this terminal, unless one was chosen.
 pub fn theme_of(marker: Option<Marker>, colored: Option<bool>, look: Option<Look>) -> Theme {
     let no_color = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
     let colored = colored.unwrap_or(!no_color);
@@ -540,8 +544,8 @@ fn light_background() -> bool {
     matches!(colors.rsplit(';').next(), Some("7" | "15"))
 }
 
-/// Whether the locale says UTF-8: the first of LC_ALL, LC_CTYPE and LANG that is set decides, and a
-/// terminal that says nothing is taken for a modern one.
+/// Whether the locale says UTF-8: the first of LC_ALL, LC_CTYPE and LANG that is set decides;
+/// without any, the terminal is assumed to be a modern one.
 fn utf8_locale() -> bool {
     ["LC_ALL", "LC_CTYPE", "LANG"]
         .iter()

@@ -1,5 +1,5 @@
-//! The mouse, where it was asked for: a click focuses a panel or moves the cursor, a double click
-//! zooms, the wheel moves in what lies over the panels.
+//! Mouse handling (`--mouse`): a click focuses a panel or moves the cursor, a double click zooms,
+//! the wheel scrolls overlays.
 
 use std::time::{Duration, Instant};
 
@@ -11,10 +11,10 @@ use super::keys::{Key, Named};
 use super::layout;
 use super::overlays::Overlay;
 
-/// Clicks at one place that follow each other faster than this belong together.
+/// Longest time between the clicks of a double click.
 const TOGETHER: Duration = Duration::from_millis(400);
 
-/// What a hand does with the mouse.
+/// A gesture of the mouse.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Gesture {
     /// A press of the left button.
@@ -27,7 +27,7 @@ pub enum Gesture {
     WheelDown,
 }
 
-/// Makes gestures of what the terminal tells.
+/// Turns mouse events into gestures.
 #[derive(Debug, Default)]
 pub struct Mouse {
     /// When and where the last click was, and how many belong together with it.
@@ -35,7 +35,7 @@ pub struct Mouse {
 }
 
 impl Mouse {
-    /// What an event at `now` means; none for releases, other buttons, and a third click.
+    /// What an event at `now` means; `None` for releases, other buttons, and a third click.
     pub fn gesture(&mut self, event: &MouseEvent, now: Instant) -> Option<Gesture> {
         match event.kind {
             MouseEventKind::Down(MouseButton::Left) => {

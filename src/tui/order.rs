@@ -1,4 +1,4 @@
-//! What the explorer can ask of the worker: the only arrow back from the screen.
+//! Orders from the explorer to the worker: the only data flow back from the screen.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -19,13 +19,13 @@ pub enum Order {
     Step,
     /// Pause, to the end of the cycle.
     Cycle,
-    /// The method so many places further on.
+    /// Change the method by this many places.
     Method(isize),
-    /// The wear law so many places further on.
+    /// Change the wear law by this many places.
     Law(isize),
-    /// The accuracy so many places further on, to finer ones if positive.
+    /// Change the accuracy by this many places; finer if positive.
     Accuracy(isize),
-    /// The pace so many places further on.
+    /// Change the pace by this many places.
     Pace(i32),
     /// A key of the scenario gets a value: TOML, or a bare word.
     Change {
@@ -34,9 +34,9 @@ pub enum Order {
         /// The value.
         value: String,
     },
-    /// One kept state back in time.
+    /// One saved state back in time.
     Back,
-    /// One kept state forth in time.
+    /// One saved state forward in time.
     Forth,
     /// Mark the state on the screen.
     Mark,
@@ -70,7 +70,7 @@ pub enum Order {
     Sweep(Range),
     /// Compute these curves from now on.
     Show(Curves),
-    /// Answer with a frame when all orders before are carried out.
+    /// Publish a frame when all earlier orders have been carried out.
     Sync(Sender<Arc<Frame>>),
     /// End.
     Quit,

@@ -1,5 +1,5 @@
-//! What goes to the terminal, written by a thread of its own: a terminal that stops reading blocks
-//! that thread, and nobody who decides.
+//! Output to the terminal, in its own thread: a terminal that stops reading blocks only that
+//! thread.
 
 use std::fs::File;
 use std::io::{self, Write};
@@ -13,8 +13,8 @@ use nix::sys::termios::{FlushArg, tcflush};
 use super::Event;
 use super::flow::QUESTION;
 
-/// How long the last words wait for a terminal that reads slowly, and once more when what waits before
-/// them has been thrown away.
+/// How long the last output waits for a slow terminal, and again after everything queued before it
+/// has been dropped.
 const PATIENCE: Duration = Duration::from_millis(200);
 
 /// Bytes for the writer, and whom to tell when they are written.
@@ -27,7 +27,7 @@ struct Chunk {
 pub struct Output {
     chunks: Sender<Chunk>,
     events: Sender<Event>,
-    /// The frame that is being made.
+    /// The frame being built.
     frame: Vec<u8>,
     /// All that was sent, in bytes.
     sent: usize,
@@ -64,7 +64,7 @@ impl Output {
         self.sent
     }
 
-    /// Sends bytes that nobody waits for.
+    /// Sends bytes without waiting.
     pub fn send(&self, bytes: &[u8]) {
         let then = Box::new(|| ());
         let _ = self.chunks.send(Chunk {
@@ -73,9 +73,9 @@ impl Output {
         });
     }
 
-    /// Sends bytes and waits until they are written, but not for a terminal that has stopped reading:
-    /// what it has not read is thrown away, and if that does not help, so are these bytes. True if they
-    /// were written.
+    /// Sends bytes and waits until they are written. If the terminal has stopped reading, drops
+    /// what it has not read, and if that does not help, these bytes too. Returns true if they were
+    /// written.
     pub fn finish(&self, bytes: &[u8]) -> bool {
         let (tell, told) = channel();
         let then = Box::new(move || {
@@ -109,7 +109,7 @@ impl Write for Output {
         let then = Box::new(move || {
             let _ = events.send(Event::Written);
         });
-        // A writer that is gone has told so.
+        // A writer that has ended has reported it.
         let _ = self.chunks.send(Chunk { bytes, then });
         Ok(())
     }

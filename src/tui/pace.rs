@@ -1,11 +1,11 @@
-//! How fast the explorer lets the simulation run, and how fast it does.
+//! The requested and the actual speed of the simulation.
 
 use std::time::{Duration, Instant};
 
-/// How fast the simulation is let run.
+/// The requested speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Pace {
-    /// Cycles a second.
+    /// Cycles per second.
     Cycles(f64),
     /// As fast as it can.
     Unlimited,
@@ -14,7 +14,7 @@ pub enum Pace {
 impl Pace {
     /// The slowest rung.
     pub const SLOWEST: i32 = -3;
-    /// The rung to begin with: half a cycle per second, at which one sees it rub.
+    /// The initial rung: half a cycle per second, slow enough to see it rub.
     pub const START: i32 = -1;
     /// The rung without limit.
     pub const UNLIMITED: i32 = 15;
@@ -28,7 +28,7 @@ impl Pace {
         }
     }
 
-    /// 1, 2, 5, 10, … cycles a second by rung; the last rung is without limit.
+    /// 1, 2, 5, 10, … cycles per second by rung; the last rung is without limit.
     pub fn of_rung(rung: i32) -> Self {
         if rung >= Self::UNLIMITED {
             return Self::Unlimited;
@@ -38,7 +38,7 @@ impl Pace {
     }
 }
 
-/// Watches the clock: what the pace asks for, and what is reached.
+/// Compares the clock with the requested pace.
 #[derive(Debug)]
 pub(super) struct Meter {
     start: Instant,
@@ -47,9 +47,9 @@ pub(super) struct Meter {
     window_cycle: f64,
     window_steps: u64,
     busy: Duration,
-    /// Cycles a second; none until measured.
+    /// Cycles per second; `None` until measured.
     pub speed: Option<f64>,
-    /// What a step costs, s; none until measured.
+    /// Time per step, s; `None` until measured.
     pub step_cost: Option<f64>,
 }
 
@@ -80,7 +80,7 @@ impl Meter {
         self.window_steps = u64::MAX;
     }
 
-    /// Seconds until `cycle` is due at `pace` cycles a second.
+    /// Seconds until `cycle` is due at `pace` cycles per second.
     pub fn ahead(&self, cycle: f64, pace: f64) -> f64 {
         (cycle - self.start_cycle) / pace - self.start.elapsed().as_secs_f64()
     }
@@ -103,7 +103,7 @@ impl Meter {
         if taken > 0 {
             self.step_cost = Some(self.busy.as_secs_f64() / taken as f64);
         }
-        // A machine that cannot keep the pace does not owe the past.
+        // A machine that cannot keep the pace does not have to catch up.
         self.start = Instant::now();
         self.start_cycle = cycle;
         self.window = self.start;

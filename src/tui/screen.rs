@@ -1,4 +1,4 @@
-//! The whole screen: a status line, the panels, a line of keys, and what lies over them.
+//! The whole screen: status line, panels, footer and overlays.
 //!
 //! ```text
 //! running | cycle 50.72/199.24 | 0.5 cycles/s | product | archard        Fig. 3 ...
@@ -27,7 +27,7 @@ use super::readout;
 use super::theme::Role;
 use crate::simulation::verdict;
 
-/// What somebody sees who has not pressed a key yet.
+/// The hint before the first key.
 const HINT: &str =
     " Space pauses, + runs faster, Enter explains a panel, n: a tour.   ? help   q quit";
 
@@ -65,8 +65,8 @@ fn panels(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// What runs and how on the left, each in a slot of a fixed width, and the title on the right. On a narrow
-/// screen the title gives way, then the parts that are missed least.
+/// The state of the run on the left, in slots of fixed width, and the title on the right. A narrow
+/// screen drops the title first, then the least important parts.
 fn status(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     let bar = app.theme.style(Role::Bar);
     buffer.set_style(area, bar);
@@ -99,7 +99,7 @@ fn status(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
         );
 }
 
-/// A part of the status line: the parts of least weight give way first.
+/// A part of the status line; the least important parts are dropped first.
 struct Part {
     weight: u8,
     text: String,
@@ -176,7 +176,7 @@ fn status_parts(frame: &Frame, ascii: bool) -> Vec<Part> {
     parts.extend(verdict(&frame.checks).map(|verdict| part(2, verdict, 12)));
     let outside = |warning: &String| warning.starts_with("outside");
     if frame.warnings.iter().any(outside) {
-        parts.push(part(2, "! outside of the theory".into(), 0));
+        parts.push(part(2, "! outside the theory".into(), 0));
     }
     if let Some(present) = frame.present {
         parts.insert(2, part(4, format!("present {present:.2}"), 0));
@@ -193,14 +193,13 @@ fn short(value: f64) -> String {
     }
 }
 
-/// A word for the user if there is one, the values at the cursor if there is one, else as many keys
-/// as fit.
+/// The notice if there is one, else the values at the cursor, else as many keys as fit.
 fn footer(app: &App, area: Rect, buffer: &mut Buffer) {
     let stopped = app.frame.as_ref().and_then(|frame| match &frame.activity {
         Activity::Stopped(reason) => Some(reason.as_str()),
         _ => None,
     });
-    // The form has a line of its own for what is answered to it.
+    // The form shows its own notices.
     let notice = app
         .notice
         .as_deref()
@@ -234,7 +233,7 @@ fn footer(app: &App, area: Rect, buffer: &mut Buffer) {
     let mut spans = Vec::new();
     let mut left = usize::from(area.width);
     let commands = footer_commands(app);
-    // Help and quit, the last two, are always there; the others as far as they fit.
+    // Help and quit are always shown; the others as far as they fit.
     let reserved: usize = commands
         .iter()
         .rev()

@@ -52,7 +52,7 @@ impl FromStr for Size {
     }
 }
 
-/// What is printed.
+/// The output format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
     /// The text of the screen.
@@ -98,7 +98,7 @@ impl Stroke {
             strokes.extend(keys::parse_script(&rest[..at])?.into_iter().map(Self::Key));
             let (given, after) = rest[at + mark.len()..]
                 .split_once('>')
-                .ok_or_else(|| format!("--keys: {mark} has no end; it ends with >"))?;
+                .ok_or_else(|| format!("--keys: {mark} is not closed; it ends with >"))?;
             strokes.push(match mark {
                 "<paste:" => Self::Paste(given.to_owned()),
                 _ => Self::Resize(given.parse().map_err(|error| format!("--keys: {error}"))?),
@@ -110,7 +110,7 @@ impl Stroke {
     }
 }
 
-/// Plays a script to an explorer of its own and returns its last screen. A panic in it goes on here.
+/// Plays a script to a separate explorer and returns its last screen. A panic in it continues here.
 ///
 /// # Errors
 ///
@@ -200,7 +200,7 @@ fn catch_up(app: &mut App, orders: &Sender<Order>, events: &Receiver<Event>) -> 
         .send(Order::Sync(reply))
         .context("the simulation has ended")?;
     app.take_frame(answer.recv().context("the simulation has ended")?);
-    // The refinement_check is waited for, so that a script always sees its answer.
+    // Waits for the refinement check, so that a script always sees its result.
     while app.awaits_companion() {
         if let Event::RefinementCheck(answer) = events.recv().context("the simulation has ended")? {
             app.refinement_check = Some(answer);

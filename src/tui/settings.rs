@@ -11,7 +11,7 @@ pub struct Setting {
     pub parameter: &'static Parameter,
     /// The unit that holds in this scenario.
     pub unit: &'static str,
-    /// The value: TOML, words without quotes; none where the scenario leaves it to the program.
+    /// The value: TOML, words without quotes; `None` where the scenario leaves it to the program.
     pub value: Option<String>,
 }
 
@@ -22,7 +22,7 @@ impl Setting {
         PARAMETERS
             .iter()
             .filter(|parameter| !fixed.contains(&parameter.section()))
-            // Long lists come from files and are no values to type.
+            // Long lists come from files and are not typed.
             .filter(|parameter| parameter.kind != Kind::Numbers)
             .map(|parameter| Self::of(parameter, scenario))
             .filter(|setting| setting.value.is_some() || setting.parameter.section() == "numerics")
@@ -64,7 +64,7 @@ impl Setting {
         has_unit.then(|| units::reading(value, self.unit, ascii))
     }
 
-    /// What a value must be, in a line.
+    /// The rule for a value, in one line.
     pub fn rule(&self) -> String {
         match self.parameter.kind {
             Kind::Choice(words) => words.join(", "),
@@ -170,7 +170,7 @@ mod tests {
         assert_eq!(next.as_deref(), Some("46 deg"));
         let modulus = of("material.effective_modulus");
         assert_eq!(modulus.shown(true), "230.77 GPa");
-        // What is shown is taken back.
+        // What is shown is accepted as input.
         for setting in &settings {
             let (path, shown) = (setting.parameter.path, setting.shown(true));
             if setting.value.is_some() {

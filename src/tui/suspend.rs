@@ -1,4 +1,4 @@
-//! Ctrl-Z: the process stops, and its shell has the terminal until `fg`.
+//! Ctrl-Z: suspends the process and returns the terminal to the shell until `fg`.
 
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::{Pid, getpgid, getpid, getppid, getsid};
@@ -26,7 +26,7 @@ fn is_under_job_control(
         return false;
     };
     let mut member = process;
-    // No family tree is this high.
+    // More ancestors than any process has.
     for _ in 0..100 {
         let Some(parent) = parent_of(member) else {
             return false;

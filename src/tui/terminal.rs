@@ -1,4 +1,4 @@
-//! The terminal's life: taken over on start, given back on every way out.
+//! The terminal: taken over at the start and restored on every way out.
 
 use std::io;
 use std::mem::ManuallyDrop;
@@ -28,10 +28,10 @@ use super::screen;
 /// The terminal is not asked for the mouse's movements: each would be bytes on the wire.
 const MOUSE_ON: &str = "\x1b[?1000h\x1b[?1006h";
 
-/// Takes that back.
+/// Undoes that.
 const MOUSE_OFF: &str = "\x1b[?1006l\x1b[?1000l";
 
-/// Whom the mouse belongs to.
+/// Who handles the mouse.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Capture {
     /// The terminal, which selects text with it.
@@ -51,7 +51,7 @@ pub struct Screen {
     flow: Flow,
     /// What the terminal shows.
     shown: Buffer,
-    /// Whether the terminal was given back and took that.
+    /// Whether the terminal was restored successfully.
     is_restored: bool,
 }
 
@@ -96,24 +96,24 @@ impl Screen {
         enable_raw_mode()?;
         let output = self.terminal.backend().get_ref();
         output.send(&taking_over(self.mouse)?);
-        // What the backend knew of the terminal holds no more.
+        // The backend's knowledge of the terminal is outdated.
         self.flow.forget();
         self.is_restored = false;
         self.start_afresh()
     }
 
-    /// When the next drawing may be made.
+    /// When the next frame may be drawn.
     pub fn when(&self) -> When {
         self.flow.when(Instant::now())
     }
 
-    /// What happens on the way to the terminal.
+    /// Reports progress on the line to the terminal.
     pub fn flow(&mut self) -> &mut Flow {
         &mut self.flow
     }
 
-    /// Draws the app: only what changed goes over the wire, and on a slow line as many rows of it as
-    /// keep no key waiting. False if rows are left for the next drawing.
+    /// Draws the app: only changes are sent, and on a slow line only as many rows as do not delay a
+    /// key. Returns false if rows are left for the next frame.
     pub fn draw(&mut self, app: &App) -> io::Result<bool> {
         self.paint(|area, buffer| screen::draw(app, area, buffer))
     }
@@ -233,7 +233,7 @@ fn taking_over(mouse: Capture) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// The sequences that give it back.
+/// The sequences that restore it.
 fn giving_back(mouse: Capture) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     if mouse == Capture::Clicks {

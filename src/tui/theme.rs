@@ -1,10 +1,10 @@
-//! Colours: one for each quantity, the same in every panel.
+//! Colours: one per quantity, the same in every panel.
 //!
-//! What explains (titles, ticks, names, keys) has the terminal's own foreground: of the sixteen colours
-//! of a terminal the bright ones may be its background, as "bright black" is in Solarized. Rules and
-//! frames are dim. Quantities have the colours of M. Okabe and K. Ito (2008), which people with any
-//! kind of colour vision tell apart, some darker on a light background; a terminal of 256 colours gets
-//! the nearest of its cube, one of sixteen the plain colours, which its user has chosen.
+//! Explanatory text (titles, ticks, names, keys) has the terminal's default foreground: one of the
+//! bright colours may be the background, as "bright black" is in Solarized. Rules and frames are
+//! dim. Quantities have the colours of M. Okabe and K. Ito (2008), which people with any kind of
+//! colour vision tell apart, some darker on a light background; a terminal of 256 colours gets the
+//! nearest of its cube, one of sixteen the plain colours, which its user has chosen.
 
 use ratatui::style::{Color, Modifier, Style};
 
@@ -14,11 +14,11 @@ use crate::plot::units::to_ascii;
 /// Quantities and parts of the screen that have a style of their own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
-    /// The unworn profile, and what is past.
+    /// The unworn profile, and past states.
     Unworn,
     /// A curve of another source.
     Ghost,
-    /// What theory says.
+    /// Closed forms.
     Limit,
     /// The worn profile f.
     Profile,
@@ -46,9 +46,9 @@ pub enum Role {
     Focus,
     /// The status bar.
     Bar,
-    /// A word for the user.
+    /// A notice for the user.
     Notice,
-    /// Something is wrong.
+    /// An error.
     Alarm,
 }
 
@@ -64,7 +64,7 @@ pub enum Look {
 }
 
 impl Look {
-    /// Every look, in the order in which a key goes through them.
+    /// All themes, in the order in which a key cycles through them.
     pub const ALL: [Self; 3] = [Self::Dark, Self::Light, Self::Mono];
 
     /// Its name.
@@ -98,7 +98,7 @@ pub enum Depth {
 }
 
 impl Depth {
-    /// What the variables COLORTERM and TERM say.
+    /// Reads the variables COLORTERM and TERM.
     pub fn of(colorterm: &str, term: &str) -> Self {
         if matches!(colorterm, "truecolor" | "24bit") || term.ends_with("-direct") {
             Self::True
@@ -110,7 +110,7 @@ impl Depth {
     }
 }
 
-/// How things look in this terminal.
+/// The look in this terminal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Theme {
     /// Which colours.

@@ -1,4 +1,4 @@
-//! Tours of the presets: captions, one after the other, that say where to look and what to press.
+//! Tours of the presets: captions that say where to look and what to press.
 
 use std::collections::HashMap;
 use std::sync::LazyLock;
@@ -34,7 +34,7 @@ impl Caption {
 static TOURS: LazyLock<HashMap<String, Vec<Caption>>> =
     LazyLock::new(|| toml::from_str(include_str!("tours.toml")).unwrap_or_default());
 
-/// The captions of a preset; none for other scenarios.
+/// The captions of a preset; `None` for other scenarios.
 pub fn captions(origin: &str) -> &'static [Caption] {
     TOURS.get(origin).map_or(&[], Vec::as_slice)
 }
@@ -47,7 +47,7 @@ pub struct Tour {
 }
 
 impl Tour {
-    /// The tour of a scenario by its name; none where there is none.
+    /// The tour of a scenario by its name; `None` where there is none.
     pub fn of(origin: &str) -> Option<Self> {
         (!captions(origin).is_empty()).then(|| Self {
             origin: origin.to_owned(),
@@ -60,7 +60,7 @@ impl Tour {
         self.origin == origin
     }
 
-    /// The tour at its next caption; none after the last.
+    /// The tour at its next caption; `None` after the last.
     pub fn next(self) -> Option<Self> {
         let at = self.at + 1;
         (at < captions(&self.origin).len()).then_some(Self { at, ..self })

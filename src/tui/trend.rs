@@ -1,17 +1,17 @@
-//! What the explorer remembers of the past: the last loop in full, older cycles ever more coarsely.
+//! The explorer's record of the past: the last loop in full, older cycles ever more coarsely.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
 
 use crate::simulation::Moment;
 
-/// The most cycles kept one by one; when they are full, neighbours are merged in pairs.
+/// Maximum number of cycles stored one by one; then neighbours are merged in pairs.
 const CAPACITY: usize = 2048;
 
-/// The most points kept of the fretting loop.
+/// Maximum number of points of the fretting loop.
 const LOOP_CAPACITY: usize = 4096;
 
-/// The most loops that are kept, the most points of each, and the fewest that make a loop.
+/// Maximum number of stored loops, maximum points of each, and minimum points of a loop.
 const MOST_LOOPS: usize = 24;
 const LOOP_POINTS: usize = 64;
 const SHORTEST_LOOP: usize = 9;
@@ -29,13 +29,13 @@ pub struct Cycle {
     pub wear_volume: f64,
     /// Largest worn depth at the end, m.
     pub scar_depth: f64,
-    /// What the work of friction says of it, k E_d, m³; NaN where the law does not follow energy.
+    /// The same from friction work, k E_d, m³; NaN if the wear law does not follow energy.
     pub expected_volume: f64,
     /// Volume worn in a cycle, m³, on average over the entry.
     pub wear_rate: f64,
     /// Largest |1 − ΔV/(k ΔE_d)| of a period of the motion; NaN before there is one.
     pub residual: f64,
-    /// What a step cost, s; NaN where it was not measured.
+    /// Time per step, s; NaN if not measured.
     pub step_cost: f64,
     /// Amplitude of u_x (m) and mean of F_z (N) of the last cycle; NaN before there is one.
     pub amplitude: f64,
@@ -46,7 +46,7 @@ pub struct Cycle {
 /// A quantity of a cycle.
 pub type OfCycle = fn(&Cycle) -> f64;
 
-/// The loop of one cycle that is kept.
+/// A stored loop of one cycle.
 #[derive(Debug, Clone, PartialEq)]
 struct Loop {
     cycle: f64,
@@ -81,7 +81,7 @@ impl Cycle {
     }
 }
 
-/// What a [`Trend`] knows of the unfinished cycle and of the last loop.
+/// The unfinished cycle and the last loop of a [`Trend`].
 #[derive(Debug, Clone, Default)]
 pub struct Tip {
     open: Option<Cycle>,
@@ -93,7 +93,7 @@ pub struct Tip {
 }
 
 impl Tip {
-    /// Memory that it holds, in bytes.
+    /// Its memory, bytes.
     pub fn bytes(&self) -> usize {
         8 * (3 * self.loop_cycles.len() + self.sensed.len())
     }
@@ -146,7 +146,7 @@ impl Trend {
         trend
     }
 
-    /// What a step costs from now on, s.
+    /// Sets the time per step from now on, s.
     pub fn note_cost(&mut self, step_cost: Option<f64>) {
         self.step_cost = step_cost;
     }
@@ -161,12 +161,12 @@ impl Trend {
         self.condition = condition;
     }
 
-    /// What is lost when the trend is cut back to an earlier cycle.
+    /// The part that is lost when the trend is cut back to an earlier cycle.
     pub fn tip(&self) -> Tip {
         self.tip.clone()
     }
 
-    /// Memory that it holds, in bytes.
+    /// Its memory, bytes.
     pub fn bytes(&self) -> usize {
         std::mem::size_of_val(self.cycles.as_slice()) + self.tip.bytes()
     }
@@ -265,7 +265,7 @@ impl Trend {
         }
     }
 
-    /// Keeps the loop of a cycle that has just ended; when there are too many, every second one goes.
+    /// Stores the loop of a finished cycle; when there are too many, every second one is dropped.
     fn keep_loop(&mut self, cycle: f64) {
         let whole = (cycle + 1e-9).floor();
         let last = self.loops.last().map_or(0.0, |kept| kept.cycle);
@@ -296,7 +296,7 @@ impl Trend {
         }
     }
 
-    /// The loops that are kept, oldest first: the cycle that each ends, u_x⁽⁰⁾ (m) and F_x (N).
+    /// The stored loops, oldest first: the cycle that each ends, u_x⁽⁰⁾ (m) and F_x (N).
     pub fn loops(&self) -> impl Iterator<Item = (f64, Vec<f64>, Vec<f64>)> + '_ {
         let kept = self.loops.iter();
         kept.map(|one| (one.cycle, one.shifts.clone(), one.forces.clone()))

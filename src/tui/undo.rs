@@ -1,16 +1,16 @@
-//! Where the run has been: whole states to go back to, within a bound of memory.
+//! History for time travel: whole states to return to, within a memory limit.
 //!
-//! A state is kept at the end of a cycle, after every step taken by hand, and before every change.
-//! When the memory is full, states are thinned where they stand closest for their age, so that the
-//! recent past stays dense and the early past never vanishes. A state holds the whole session: what
-//! goes on from it is the same run to the last bit, and later changes are not part of it.
+//! A state is stored at the end of a cycle, after every manual step and before every change. When
+//! the memory is full, states are thinned where they are closest for their age, so that the recent
+//! past stays dense and the early past never vanishes. A state holds the whole session: a run
+//! continued from it is the same to the last bit, without later changes.
 
 use std::sync::Arc;
 
 use super::trend::{Tip, Trend};
 use crate::scenario::session::Session;
 
-/// The memory for the past, in bytes.
+/// The memory for the past, bytes.
 const BUDGET: usize = 64 << 20;
 
 /// Arrays of nodal values that a session holds, rounded up.
@@ -69,11 +69,11 @@ pub(super) struct Bookmark {
     number: u64,
 }
 
-/// The states of the past, oldest first, and where in them the screen is.
+/// The states of the past, oldest first, and the one on the screen.
 #[derive(Debug)]
 pub(super) struct Past {
     kept: Vec<Arc<Kept>>,
-    /// The state on the screen; none at the present.
+    /// The state on the screen; `None` at the present.
     at: Option<usize>,
     /// In the order of their cycles.
     bookmarks: Vec<Bookmark>,
@@ -110,7 +110,7 @@ impl Past {
     /// Thins the past, then drops the oldest marks, until the rest is within the budget. The first
     /// and the last state and the newest mark stay.
     fn make_room(&mut self) {
-        // What is marked is worth half of the memory.
+        // Bookmarks may take half of the memory.
         while self.bookmarks.len() > 1 && self.bookmark_bytes() > self.budget / 2 {
             self.drop_oldest_mark();
         }
@@ -137,7 +137,7 @@ impl Past {
         })
     }
 
-    /// Memory in use, in bytes.
+    /// Memory in use, bytes.
     fn bytes(&self) -> usize {
         let states: usize = self.kept.iter().map(|kept| kept.bytes()).sum();
         // The operators of the present are there in any case.
@@ -176,14 +176,14 @@ impl Past {
         }
     }
 
-    /// One state back; none at the beginning. The present must have been kept.
+    /// Goes one state back; `None` at the start. The present must have been stored.
     pub fn back(&mut self) -> Option<Arc<Kept>> {
         let now = self.at.unwrap_or(self.kept.len().saturating_sub(1));
         self.at = Some(now.checked_sub(1)?);
         self.kept.get(now - 1).cloned()
     }
 
-    /// One state forth; none at the present.
+    /// Goes one state forward; `None` at the present.
     pub fn forth(&mut self) -> Option<Arc<Kept>> {
         let next = self.at? + 1;
         let found = self.kept.get(next).cloned();
@@ -191,7 +191,7 @@ impl Past {
         found
     }
 
-    /// The session at the present, whatever is on the screen: what is worth keeping.
+    /// The session at the present, whatever is on the screen: the state worth saving.
     pub fn line<'a>(&'a self, shown: &'a Session) -> &'a Session {
         let last = self.kept.last().filter(|_| self.at.is_some());
         last.map_or(shown, |kept| &kept.session)

@@ -38,7 +38,7 @@ fn a_panic_in_a_script_or_a_study_says_what_failed() {
         let said = crate::test_dir::Said::from(output.expect("the program starts"));
         assert_eq!((said.code, said.err.lines().count()), (1, 1), "{place}");
         let word = format!("a fault in the {place}");
-        assert!(said.err.starts_with("mdr-tui: a defect in mdr-tui: "));
+        assert!(said.err.starts_with("mdr-tui: bug in mdr-tui: "));
         assert!(said.err.contains(&word), "{place}: {}", said.err);
     }
 }
@@ -101,7 +101,7 @@ fn a_million_of_changes_is_refused_before_the_work() {
         said.err
     );
     assert!(
-        said.err.contains("must be 1000 of them or fewer"),
+        said.err.contains("must have at most 1000 entries"),
         "{}",
         said.err
     );

@@ -53,7 +53,7 @@ fn a_recording_is_never_written_over_another_file() {
     let dir = TestDir::new();
     dir.write("x.cast", b"mine");
     for (file, expected) in [
-        ("x.cast", "exists already"),
+        ("x.cast", "already exists"),
         ("no/x.cast", "--record no/x.cast"),
     ] {
         let said = dir.say(&["hertz", "--keys", ",", "--print", "80x24", "--record", file]);

@@ -126,7 +126,7 @@ fn wrong_use_is_one_line_and_nothing_written() {
         (run(&["--cycles"]), "--cycles <X>"),
         (
             run(&["--cycles", "1", "--snapshot-at", "0.5,2"]),
-            "--snapshot-at 2: lies beyond the end at 1 cycles",
+            "--snapshot-at 2: is after the end of the run, 1 cycles",
         ),
         (run(&["--cycles", "1", "--snapshot-at", "-1"]), cycles),
         (run(&["--cycles", "1", "--snapshot-at", "0.5,,1"]), cycles),
@@ -143,12 +143,12 @@ fn wrong_use_is_one_line_and_nothing_written() {
         (vec!["completions"], "<SHELL>"),
         (
             vec!["--keys", "m<Nope>", "--print", "80x24"],
-            "--keys: \"<Nope>\" begins no key",
+            "--keys: \"<Nope>\" is not a key",
         ),
         (vec!["--keys", "<", "--print", "80x24"], "--keys: \"<\""),
         (
             vec!["--keys", "m\u{1b}", "--print", "80x24"],
-            "stands for no key",
+            "is not a key",
         ),
         (vec!["--keys", "m"], "--print"),
         (vec!["--print", "80"], size),
@@ -173,7 +173,7 @@ fn an_unwritable_out_is_one_line_and_nothing_written() {
     for (out, expected) in [
         ("file", "file: is not a directory"),
         ("file/below", "file/below: cannot write: Not a directory"),
-        ("full", "full: already holds files; choose another"),
+        ("full", "full: not empty; choose another"),
         (
             "file/\u{1b}[31m\n",
             "file/\\u{1b}[31m\\n: cannot write: Not a directory",
@@ -541,10 +541,10 @@ fn a_signal_ends_a_run_and_keeps_what_is_done() {
         let cycle = said
             .err
             .strip_prefix("mdr-tui: interrupted at cycle ")
-            .and_then(|rest| rest.split_once(&format!("; kept in {signal}; ")))
+            .and_then(|rest| rest.split_once(&format!("; saved in {signal}; ")))
             .expect("the cycle and the directory");
         let (cycle, way_on) = cycle;
-        let command = format!("mdr-tui run --resume {signal}/run.checkpoint goes on\n");
+        let command = format!("resume with: mdr-tui run --resume {signal}/run.checkpoint\n");
         assert_eq!(way_on, command);
         assert_eq!(
             names(&dir.path(signal)),
@@ -627,7 +627,7 @@ fn stability_draws_a_map_and_writes_its_runs() {
         rows[1]
     );
     assert!(rows[4].starts_with("a,on,25,50,1e3,stable,"), "{}", rows[4]);
-    assert_refused(&dir, &arguments, "exists already");
+    assert_refused(&dir, &arguments, "already exists");
     assert_refused(&dir, &["stability", "hertz"], "nothing wears");
     assert_refused(
         &dir,
@@ -694,6 +694,38 @@ fn the_manual_page_names_the_commands() {
     for option in ["--snapshot-at", "--history", "--keys", "--set"] {
         assert!(page.contains(&option.replace('-', "\\-")), "{option}");
     }
+}
+
+#[test]
+fn every_command_has_a_man_page_with_values_in_its_synopsis() {
+    let dir = TestDir::new();
+    dir.done("man --out pages");
+    let synopsis = |name: &str| -> String {
+        let page = dir.read(&format!("pages/{name}.1"));
+        let (_, after) = page.split_once(".SH SYNOPSIS\n").expect("a synopsis");
+        let (lines, _) = after.split_once("\n.SH").expect("an end");
+        let mut plain = lines.replace("\\-", "-").replace("\\ ", " ");
+        for font in ["\\fB", "\\fI", "\\fR"] {
+            plain = plain.replace(font, "");
+        }
+        plain
+    };
+    let run = synopsis("mdr-tui-run");
+    for usage in [
+        "mdr-tui run ",
+        "[--cycles X]",
+        "[--snapshot-at C1,C2,...]",
+        "[--set KEY=VALUE]...",
+        "[--history cycle|every-step]",
+        "[--json]",
+    ] {
+        assert!(run.contains(usage), "{usage}: {run}");
+    }
+    assert!(synopsis("mdr-tui-figure").contains(" --out FILE"));
+    assert!(synopsis("mdr-tui").contains("mdr-tui COMMAND"));
+    assert_eq!(dir.read("pages/mdr-tui-fit.1"), dir.done("man fit"));
+    let wrong = dir.say(&["man", "fitt"]);
+    assert_eq!((wrong.code, wrong.err.lines().count()), (2, 1));
 }
 
 #[test]

@@ -176,9 +176,9 @@ fn what_cannot_be_drawn_is_one_line_and_nothing_written() {
     let before = dir.inventory();
     for (line, expected) in [
         ("figure x -o f.jpg", "must end in .svg, .png or .pdf"),
-        ("figure x -o there.svg", "exists already"),
+        ("figure x -o there.svg", "already exists"),
         ("figure x -o no/such/f.svg", "its directory does not exist"),
-        ("figure x --panel loop -o f.svg", "one row a cycle"),
+        ("figure x --panel loop -o f.svg", "one row per cycle"),
         (
             "figure x --panel von-mises -o f.svg",
             "run --field writes it",
@@ -190,15 +190,18 @@ fn what_cannot_be_drawn_is_one_line_and_nothing_written() {
         ),
         ("figure x --size 0x0 -o f.svg", "each from 20 to 2000"),
         ("figure x --panel circle -o f.svg", "invalid value 'circle'"),
-        ("figure empty -o f.svg", "holds no state.csv"),
-        ("figure other.csv -o f.svg", "neither of a state"),
+        ("figure empty -o f.svg", "has no state.csv"),
+        (
+            "figure other.csv -o f.svg",
+            "does not have the columns of a state",
+        ),
         (
             "figure torn.csv -o f.svg",
             "line 2: 1 fields under 2 columns",
         ),
         (
             "figure x --size 2000x2000 --dpi 2400 -o f.png",
-            "an image has from 1 to 1e8",
+            "an image has 1 to 1e8",
         ),
         ("figure -o f.svg", "needs a run's directory"),
         ("figure x --figure fig2 -o f.svg", "takes no source"),

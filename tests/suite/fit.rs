@@ -170,14 +170,20 @@ fn what_data_do_not_determine_is_said() {
     );
     for (free, expected) in [
         (vec!["wear.coeficient"], "did you mean wear.coefficient?"),
-        (vec!["wear.law"], "wear.law is no number that can be fitted"),
+        (
+            vec!["wear.law"],
+            "wear.law is not a number that can be fitted",
+        ),
         (
             vec!["wear.coefficient", "wear.coefficient"],
-            "is named twice",
+            "is given twice",
         ),
         (vec!["wear.reference_stress"], "has no value to start from"),
-        (vec!["numerics.points"], "is no number that can be fitted"),
-        (vec!["run.cycles"], "is no property of the contact"),
+        (
+            vec!["numerics.points"],
+            "is not a number that can be fitted",
+        ),
+        (vec!["run.cycles"], "is not a physical property"),
         (vec![], "needs a key to fit"),
     ] {
         let free: Vec<String> = free.into_iter().map(str::to_owned).collect();
@@ -216,7 +222,7 @@ fn the_command_prints_json_and_writes_the_fitted_scenario() {
     }
     let again = dir.say(&line.split_whitespace().collect::<Vec<_>>());
     assert!(
-        again.code == 2 && again.err.contains("exists already"),
+        again.code == 2 && again.err.contains("already exists"),
         "{}",
         again.err
     );

@@ -106,7 +106,7 @@ fn every_way_out_keeps_the_session_and_says_where() {
         let text = String::from_utf8_lossy(&terminal.raw()).into_owned();
         let cycle = session.simulation().cycle();
         let line = format!(
-            "mdr-tui: kept at cycle {cycle}; mdr-tui --resume {} goes on",
+            "mdr-tui: saved at cycle {cycle}; resume with: mdr-tui --resume {}",
             path.display()
         );
         assert!(text.contains(&line), "{way:?}: {text}");
@@ -120,7 +120,7 @@ fn a_session_without_a_step_leaves_nothing() {
     let mut terminal = Terminal::start(at_home(&home, &["--fps", "1"]), 80, 24);
     terminal.press(" q");
     terminal.wait_for_end();
-    if !terminal.text().contains("kept at cycle") {
+    if !terminal.text().contains("saved at cycle") {
         assert_eq!(kept(&home), None);
     }
 }
@@ -189,13 +189,13 @@ fn where_nothing_can_be_kept_the_run_goes_on_and_says_so() {
         *command.get_argv_mut() = ["sh", "-c", &start].map(Into::into).to_vec();
         command.env("XDG_STATE_HOME", state_home);
         let mut terminal = Terminal::start(command, 200, 24);
-        terminal.wait_for("the run goes on without a checkpoint");
+        terminal.wait_for("the run continues without a checkpoint");
         let seen = terminal.look(cycle);
         terminal.wait_until("later cycle", |screen| cycle(screen) > seen);
         terminal.press("q");
         assert_eq!(terminal.wait_for_end().exit_code(), 0);
         let text = terminal.text();
-        assert!(text.contains("mdr-tui: nothing is kept: "), "{text}");
+        assert!(text.contains("mdr-tui: nothing was saved: "), "{text}");
         assert_eq!(kept(&base), None);
     }
 }
@@ -214,7 +214,7 @@ fn a_defect_keeps_the_session_of_a_moment_ago() {
     assert_eq!(status.exit_code(), 1);
     let text = terminal.text();
     assert!(text.contains("a fault in the sixth cycle"), "{text}");
-    assert!(text.contains("; kept at cycle "), "{text}");
+    assert!(text.contains("; saved at cycle "), "{text}");
     assert_exact(&read(&kept(&home).expect("a checkpoint")));
 }
 
@@ -385,7 +385,7 @@ fn without_a_shell_ctrl_z_says_so_and_nothing_stops() {
             "key" => terminal.press("\x1a"),
             _ => terminal.signal("TSTP"),
         }
-        terminal.wait_for("there is no shell to go back to");
+        terminal.wait_for("there is no shell to return to");
         let seen = terminal.look(cycle);
         terminal.wait_until("later cycle", |screen| cycle(screen) > seen);
         terminal.press("x");

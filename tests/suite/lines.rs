@@ -159,7 +159,7 @@ fn a_step_that_takes_an_hour_keeps_no_end_waiting() {
     let (waited, status) = terminal.end_since(start);
     assert!(waited < SOON, "{waited:.1?}");
     assert_eq!(status.exit_code(), 0);
-    terminal.wait_for("mdr-tui: kept at cycle ");
+    terminal.wait_for("mdr-tui: saved at cycle ");
     assert!(session(home.path()).simulation().cycle() > 4.0);
 }
 
@@ -200,7 +200,7 @@ fn what_is_pasted_is_typed_into_a_line_and_nowhere_else() {
     let mut terminal = Terminal::start(at_home(home.path(), &[]), 100, 24);
     terminal.wait_until("explorer under way", is_under_way);
     terminal.press("\x1b[200~q\x1b[201~");
-    terminal.wait_for("pasted text goes where a line is typed");
+    terminal.wait_for("there is no line to paste into");
     terminal.press(":");
     terminal.wait_for("commands (");
     terminal.press("\x1b[200~set numerics.points=80\x1b[201~");

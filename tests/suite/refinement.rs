@@ -218,14 +218,14 @@ fn what_is_not_met_is_told_in_one_line() {
                 "wear.coefficient=0",
             ],
             0,
-            "nothing has worn, so there is no scar to be accurate about",
+            "nothing has worn, so the accuracy of a scar means nothing",
         ),
         (
             &["--set", "wear.coefficient=0", "--estimate-error"],
             0,
-            "nothing has worn: there is no worn depth to estimate the error of",
+            "nothing has worn, so there is no worn depth to estimate the error of",
         ),
-        (&["--budget", "60s"], 2, "which is not given"),
+        (&["--budget", "60s"], 2, "but that key is not set"),
         (
             &["--budget", "soon"],
             2,

@@ -120,7 +120,7 @@ fn a_run_that_was_interrupted_writes_what_one_that_was_not_writes() {
 
         let refused = dir.say(&["run", "mine.toml", "--cycles", "1", "--out", &out]);
         assert_eq!(refused.code, 2);
-        let hint = format!("mdr-tui run --resume {checkpoint} goes on with it");
+        let hint = format!("resume with: mdr-tui run --resume {checkpoint}");
         assert!(refused.err.contains(&hint), "{}", refused.err);
 
         // Elsewhere, and then where it was; the checkpoint goes only with the latter.
@@ -145,7 +145,11 @@ fn a_resumed_run_may_go_further() {
     end_by_signal(child);
     let shorter = dir.say(&["run", "--resume", "broken/run.checkpoint", "--cycles", "0"]);
     assert_eq!(shorter.code, 2);
-    assert!(shorter.err.contains("stands at cycle"), "{}", shorter.err);
+    assert!(
+        shorter.err.contains("is already at cycle"),
+        "{}",
+        shorter.err
+    );
     dir.done("run --resume broken/run.checkpoint --cycles 5 --quiet");
     assert_alike(&dir, "whole", "broken");
 }
@@ -244,7 +248,11 @@ fn a_checkpoint_that_cannot_be_taken_up_is_one_line() {
     let later = text.replacen("checkpoint 2", "checkpoint 7", 1);
     for (name, bytes, expected) in [
         ("later", later.as_bytes(), "is a checkpoint of version 7"),
-        ("torn", &whole[..whole.len() - 1], "torn: is torn: it has"),
+        (
+            "torn",
+            &whole[..whole.len() - 1],
+            "torn: is damaged: it has",
+        ),
         ("empty", b"", "is no checkpoint"),
         ("toml", b"title = \"x\"\n", "is no checkpoint"),
     ] {
@@ -352,13 +360,13 @@ fn a_disk_that_is_full_at_the_end_leaves_a_checkpoint() {
         assert!(last.contains("cannot write"), "{}", said.err);
         let owed = said
             .err
-            .matches("the run goes on, to try again at its end")
+            .matches("the run continues and tries again at its end")
             .count();
         assert_eq!(owed, 2, "{}", said.err);
         match kept {
             None => assert!(last.ends_with("there is no checkpoint"), "{last}"),
             Some(out) => {
-                let hint = format!("mdr-tui run --resume {out}/run.checkpoint goes on");
+                let hint = format!("resume with: mdr-tui run --resume {out}/run.checkpoint");
                 assert!(last.contains(&hint), "{last}");
                 let line = format!("run --resume {out}/run.checkpoint --quiet");
                 dir.say(&line.split(' ').collect::<Vec<_>>());

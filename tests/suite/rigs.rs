@@ -370,7 +370,7 @@ fn a_course_from_a_table_and_what_contradicts_it() {
                 "friction.running_in_cycles=2",
                 "friction.running_in_energy=1",
             ][..],
-            "give either",
+            "give one of them",
         ),
         (
             &["friction.running_in_cycles=2"][..],

@@ -52,7 +52,7 @@ fn assert_ends(dir: &TestDir, child: Child, sign: &str, out: &str) {
         said.err
     );
     let path = format!("{out}/run.checkpoint");
-    let hint = format!("; mdr-tui run --resume {path} goes on\n");
+    let hint = format!("; resume with: mdr-tui run --resume {path}\n");
     assert!(
         said.err.contains("interrupted at cycle ") && said.err.ends_with(&hint),
         "{}",

@@ -155,7 +155,7 @@ fn merging_names_what_is_missing_double_or_of_another_study() {
     let said = dir.say(&merge);
     assert_eq!(said.code, 0);
     assert!(
-        said.err.contains("4 rows stand twice, alike"),
+        said.err.contains("4 identical duplicate rows were dropped"),
         "{}",
         said.err
     );
@@ -178,7 +178,7 @@ fn merging_names_what_is_missing_double_or_of_another_study() {
         "{said}"
     );
     dir.write("study.shards/again.csv", b"r_m\n1\n");
-    assert!(refusal(&dir, &merge, 2).contains("again.csv: is no table of mdr-tui sweep"));
+    assert!(refusal(&dir, &merge, 2).contains("again.csv: is not a table of mdr-tui sweep"));
     let said = refusal(&dir, &["sweep", "--merge", "nowhere"], 2);
     assert!(said.contains("nowhere: "), "{said}");
 }
@@ -239,7 +239,10 @@ fn a_study_that_was_interrupted_goes_on_to_the_same_bytes() {
     let torn = format!("{head}{}{}{}", rows[7], rows[2], &rows[5][..20]);
     dir.write("map.csv", torn.as_bytes());
     let said = refusal(&dir, &["sweep", "study.toml", "--out", "map.csv"], 2);
-    assert!(said.contains("map.csv: exists; --resume goes on"), "{said}");
+    assert!(
+        said.contains("map.csv: already exists; --resume continues it"),
+        "{said}"
+    );
     assert_eq!(dir.read("map.csv"), torn);
     dir.done("sweep study.toml --out map.csv --resume");
     assert_eq!(dir.read("map.csv"), whole);
@@ -323,7 +326,7 @@ fn a_signal_keeps_what_is_done() {
     assert_eq!(said.code, 75, "{}", said.err);
     assert!(
         said.err
-            .contains("of 12 points are in study.csv; the same command with --resume goes on"),
+            .contains("of 12 points are in study.csv; continue with the same command and --resume"),
         "{}",
         said.err
     );
@@ -465,7 +468,7 @@ fn bad_studies_are_refused_in_one_line() {
     let axis = "[[axis]]\nkey = \"friction.coefficient\"\nvalues = [0.1]\n";
     let cases = [
         (String::new(), "base is missing"),
-        ("base = \"hertz\"\n".into(), "there is no axis"),
+        ("base = \"hertz\"\n".into(), "the study has no axis"),
         (format!("bass = \"hertz\"\n{axis}"), "unknown key bass; did you mean base?"),
         (format!("base = \"herz\"\n{axis}"), "herz: no such preset; did you mean hertz?"),
         (format!("base = \"hertz\"\ncolumns = [\"wear_volume\"]\n{axis}"), "did you mean wear_volume_m3?"),
@@ -480,7 +483,7 @@ fn bad_studies_are_refused_in_one_line() {
         (format!("base = \"hertz\"\nset = {{ \"numerics.pionts\" = 3 }}\n{axis}"), "did you mean numerics.points?"),
         (format!("base = \"hertz\"\nstop = {{ volume = -1 }}\n{axis}"), "stop.volume = -1: must be a number"),
         ("base = \"hertz\"\n[[axis]]\nkey = \"friction.coefficient\"\nlogspace = [0, 1, 3]".into(), "greater than 0"),
-        ("base = \"hertz\"\n[[axis]]\nkey = \"friction.coefficient\"\nlinspace = [0, 1]".into(), "[from, to, how many]"),
+        ("base = \"hertz\"\n[[axis]]\nkey = \"friction.coefficient\"\nlinspace = [0, 1]".into(), "[from, to, number]"),
         ("base = \"hertz\"\n[[axis]]\nkey = \"friction.coefficient\"\nlinspace = [0, 1, 100000000]".into(), "from 1 to 10000000"),
         ("base = \n".into(), "line 1"),
     ];
@@ -670,7 +673,7 @@ fn the_map_shows_a_study_that_is_under_way() {
         &["sweep", "--view", "study.toml", "--print", "80x24"],
         2,
     );
-    assert!(said.contains("is no table of mdr-tui sweep"), "{said}");
+    assert!(said.contains("is not a table of mdr-tui sweep"), "{said}");
 }
 
 #[test]
@@ -777,7 +780,7 @@ fn sensitivities_are_those_of_the_closed_forms() {
     assert!(text.contains("elasticity"), "{text}");
     assert!(dir.read("s.csv").contains("\nindenter.radius,"));
     let said = refusal(&dir, &["sweep", "study.toml"], 2);
-    assert!(said.contains("there is no axis"), "{said}");
+    assert!(said.contains("the study has no axis"), "{said}");
     dir.write(
         "none.toml",
         study

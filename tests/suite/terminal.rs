@@ -57,9 +57,8 @@ fn kept_at(terminal: &Terminal) -> Option<(f64, PathBuf)> {
         return None;
     }
     let told = text
-        .strip_prefix("mdr-tui: kept at cycle ")
-        .and_then(|rest| rest.strip_suffix(" goes on"))
-        .and_then(|rest| rest.split_once("; mdr-tui --resume "));
+        .strip_prefix("mdr-tui: saved at cycle ")
+        .and_then(|rest| rest.split_once("; resume with: mdr-tui --resume "));
     let (cycle, path) = told.unwrap_or_else(|| panic!("left behind: {text}"));
     Some((cycle.parse().expect("a cycle"), path.into()))
 }
@@ -217,7 +216,7 @@ fn a_panic_gives_the_terminal_back_and_says_so_in_one_line() {
         let text = terminal.text();
         let lines: Vec<&str> = text.lines().filter(|line| !line.is_empty()).collect();
         assert_eq!(lines.len(), 1, "{text}");
-        assert!(lines[0].starts_with("mdr-tui: a defect in mdr-tui: "));
+        assert!(lines[0].starts_with("mdr-tui: bug in mdr-tui: "));
         assert!(
             lines[0].contains(&format!("a fault in the {place}")),
             "{text}"
@@ -337,7 +336,7 @@ fn a_locale_without_utf8_gets_plain_ascii() {
     for (keys, sign) in [
         (" ", "paused"),
         ("?", "keys ("),
-        ("\x1bp", "presets ("),
+        ("\x1bp", "presets and"),
         ("\x1bz", "[um]"),
         ("\t\tL", "fretting loop"),
         ("zm", "numerics.method"),
@@ -403,7 +402,7 @@ fn ctrl_z_gives_the_terminal_to_the_shell_and_fg_takes_it_back() {
         let seen = terminal.look(cycle);
         terminal.wait_until("later cycle", |screen| cycle(screen) > seen);
         terminal.press("q");
-        terminal.wait_for("goes on");
+        terminal.wait_for("resume with");
         terminal.press("exit\n");
         terminal.wait_for_end();
     }

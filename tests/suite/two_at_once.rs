@@ -49,7 +49,7 @@ fn of_two_runs_into_one_directory_the_second_is_refused() {
         let pause = Duration::from_millis([0, 1, 5, 20, 60, 150][round % 6]);
         let (winner, _, loser) = race(&dir, [&both[0], &both[1]], pause);
         assert_eq!(loser.err.lines().count(), 1, "{}", loser.err);
-        let reasons = ["another run writes there", "already holds files"];
+        let reasons = ["another run is writing there", "not empty"];
         assert!(
             reasons.iter().any(|reason| loser.err.contains(reason)),
             "{}",
@@ -93,7 +93,7 @@ fn a_run_under_way_is_refused_to_others_even_by_force_and_a_killed_one_is_not() 
             "{line}: {}",
             said.err
         );
-        let owner = format!("another run writes there (process {} on ", alive.id());
+        let owner = format!("another run is writing there (process {} on ", alive.id());
         assert!(said.err.contains(&owner), "{line}: {}", said.err);
     }
     assert!(matches!(alive.try_wait(), Ok(None)), "it was disturbed");
@@ -123,7 +123,7 @@ fn of_two_that_resume_one_checkpoint_the_second_is_refused() {
         let line = "run --resume x/run.checkpoint --quiet --checkpoint-every 0.001";
         let (_, _, loser) = race(&dir, [line; 2], Duration::from_millis(pause));
         assert_eq!(loser.err.lines().count(), 1, "{}", loser.err);
-        let reasons = ["another run writes there", "no such file"];
+        let reasons = ["another run is writing there", "no such file"];
         assert!(
             reasons.iter().any(|reason| loser.err.contains(reason)),
             "{}",

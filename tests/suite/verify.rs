@@ -192,7 +192,7 @@ fn the_csv_has_every_node_and_is_never_written_over() {
     let Said { code, out, err } = say(&ask);
     assert_eq!((code, out.as_str()), (2, ""));
     assert!(
-        err.contains("exists already") && err.contains("--force"),
+        err.contains("already exists") && err.contains("--force"),
         "{err}"
     );
     said(&[&ask[..], &["--force"]].concat());
@@ -235,7 +235,7 @@ fn nonsense_is_refused_in_one_line() {
         (&["--problem", "nope"], "truncated-paraboloid"),
         (&["--problem", "limit", "--points", "400"], "--long"),
         (&["--csv", "/no/such/place.csv"], "directory does not exist"),
-        (&["--csv", "/"], "no name of a file"),
+        (&["--csv", "/"], "not a file name"),
         (&["--json", "--plot"], "--plot"),
         (&["--force"], "--csv"),
     ] {

@@ -1,4 +1,4 @@
-//! What can be asked of `figure`.
+//! Options of `mdr-tui figure`.
 
 use std::path::PathBuf;
 
@@ -23,13 +23,13 @@ use crate::figure::panels::Panel;
 pub struct Figure {
     /// A run's directory, a CSV file of one, a preset's name, or a path to a .toml file, which is run.
     pub source: Option<String>,
-    /// Where to: a name that ends in .svg, .png or .pdf.
+    /// Output file; the ending .svg, .png or .pdf gives the format.
     #[arg(short, long, value_name = "FILE")]
     pub out: PathBuf,
-    /// A figure of the paper: without a source, of the paper's own scene.
+    /// Reproduce a figure of the paper; without a source, with the paper's own scenario.
     #[arg(long, value_enum)]
     pub figure: Option<PaperFigure>,
-    /// A chart; can be repeated; default: profiles, stresses and loop, as far as there are data.
+    /// Chart to draw; can be repeated; default: profiles, stresses and loop, if the data are there.
     #[arg(long, value_name = "NAME", value_parser = panel_parser(), conflicts_with = "figure")]
     pub panel: Vec<Panel>,
     /// Draw measured data with their error bars, another run's files or another scenario over the charts;
@@ -44,10 +44,11 @@ pub struct Figure {
     /// Changes to the scenario.
     #[command(flatten)]
     pub changes: Changes,
-    /// How many cycles to run a scenario; default: its run.cycles.
+    /// Number of cycles to run; default: run.cycles of the scenario.
     #[arg(long, value_name = "X", value_parser = cycles, allow_hyphen_values = true)]
     pub cycles: Option<f64>,
-    /// Show the states at these cycles; default: all of a directory, those that a scenario plans.
+    /// Show the states at these cycles; default: all in a directory, or those planned by the
+    /// scenario.
     #[arg(
         long,
         value_name = "C1,C2,...",
@@ -55,19 +56,19 @@ pub struct Figure {
         allow_hyphen_values = true
     )]
     pub at: Option<Vec<CycleAsGiven>>,
-    /// Width and height in mm; default: what fits one or two columns of a journal.
+    /// Width and height in mm; default: one or two columns of a journal.
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<[f64; 2]>,
     /// Colours, or greys with dashes for print.
     #[arg(long, value_enum, default_value_t = StyleChoice::Color)]
     pub style: StyleChoice,
-    /// The size of the font, in points.
+    /// Font size in points.
     #[arg(long, value_name = "PT", default_value = "8", value_parser = font_size)]
     pub font_size: f64,
-    /// Dots per inch of a PNG.
+    /// Resolution of a PNG in dots per inch.
     #[arg(long, value_name = "DPI", default_value_t = 300, value_parser = clap::value_parser!(u16).range(20..=2400))]
     pub dpi: u16,
-    /// Write over files that are there already.
+    /// Overwrite existing files.
     #[arg(long)]
     pub force: bool,
     /// Print nothing but errors.

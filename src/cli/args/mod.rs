@@ -1,4 +1,4 @@
-//! What can be typed: the whole command line, with its help.
+//! The command line and its help.
 
 use std::path::PathBuf;
 
@@ -33,7 +33,7 @@ use values::{budget, cycles, interval};
     after_help = "Examples:\n  \
         mdr-tui                                     open the explorer on the preset li2019-fig3\n  \
         mdr-tui gross-slip --set numerics.points=200  another preset, with one value changed\n  \
-        mdr-tui presets li2019-fig3 > mine.toml     start a scenario of one's own\n  \
+        mdr-tui presets li2019-fig3 > mine.toml     start your own scenario\n  \
         mdr-tui run mine.toml --cycles 200 --out X  the same simulation without a screen"
 )]
 pub struct Arguments {
@@ -45,22 +45,22 @@ pub struct Arguments {
     pub explore: Explore,
 }
 
-/// Everything but the explorer.
+/// All commands except the explorer.
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Run a scenario without a screen and write its files.
     Run(Run),
     /// List the presets, or print one as TOML.
     Presets(Presets),
-    /// Compare every method with closed forms, over a ladder of N.
+    /// Compare every method with closed forms, for increasing N.
     Verify(Verify),
-    /// Measure speed against accuracy: one scenario by many settings.
+    /// Measure speed against accuracy of one scenario, for many settings.
     Trade(Trade),
-    /// Map the wear coefficients that each method bears: stable, teeth, exploded.
+    /// Map the wear coefficients that each method tolerates.
     Stability(Stability),
     /// Read the guide: methods, accuracy, files, every key of a scenario.
     Guide(Guide),
-    /// Run a study: one scenario for many values of some of its keys.
+    /// Run a study: one scenario with many values of some of its keys.
     Sweep(Sweep),
     /// Draw figures for a paper: SVG, PNG or PDF, with their data beside them.
     Figure(Figure),
@@ -74,15 +74,14 @@ pub enum Command {
         /// The shell.
         shell: clap_complete::Shell,
     },
-    /// Print the manual page.
-    #[command(after_help = "Example:\n  mdr-tui man | man -l -")]
-    Man,
+    /// Print the man pages, or write them to files.
+    Man(Manual),
 }
 
 /// A scenario and changes to it.
 #[derive(Debug, Args)]
 pub struct Changes {
-    /// Change a key of the scenario, by its dotted path; can be repeated.
+    /// Set a key of the scenario by its dotted path; can be repeated.
     #[arg(long = "set", value_name = "KEY=VALUE", add = ArgValueCompleter::new(complete::assignments))]
     pub set: Vec<String>,
 }
@@ -107,21 +106,21 @@ pub struct Explore {
             one of its tables, or a scenario, which runs beside."
     )]
     pub overlay: Vec<String>,
-    /// The largest number of frames per second; default 10.
+    /// Maximum frame rate per second; default 10.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=120))]
     pub fps: Option<u16>,
-    /// How curves are drawn; the default is braille where the locale is UTF-8, else ascii.
+    /// Characters for curves; default: braille in a UTF-8 locale, otherwise ascii.
     #[arg(long, value_enum)]
     pub marker: Option<MarkerChoice>,
     /// When to use colour; the default, auto, obeys NO_COLOR.
     #[arg(long, value_enum)]
     pub color: Option<ColorChoice>,
-    /// Which colours: for a dark or a light background, or none; the default is what the terminal
-    /// says of its background, else dark.
+    /// Colours for a dark or light background, or none; default: as the terminal reports its
+    /// background, otherwise dark.
     #[arg(long, value_enum)]
     pub theme: Option<ThemeChoice>,
-    /// Use the mouse: a click focuses a panel, a second one zooms it, the wheel moves in lists; without
-    /// this, the terminal keeps it for selecting text.
+    /// Use the mouse: a click focuses a panel, a second one zooms it, the wheel scrolls lists.
+    /// Without this option the terminal keeps it for selecting text.
     #[arg(long)]
     pub mouse: bool,
     /// Press these keys instead of reading the keyboard, print the last screen and exit.
@@ -131,22 +130,22 @@ pub struct Explore {
         requires = "print",
         long_help = "Press these keys instead of reading the keyboard, print the last screen and exit.\n\n\
             Ordinary characters stand for themselves; <Space>, <Tab>, <Esc>, <Enter>, <Left>, ... for \
-            keys, <lt> for \"<\". Every key waits until the simulation has answered the one before."
+            keys, <lt> for \"<\". Each key waits until the simulation has handled the previous one."
     )]
     pub keys: Option<String>,
-    /// Go on where an explorer or a run was put away; the simulation starts paused.
+    /// Continue from a checkpoint of the explorer or of a run; the simulation starts paused.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["scenario", "set"])]
     pub resume: Option<PathBuf>,
-    /// How often the session is put away so that it can be resumed, in seconds; 0: only at the end.
+    /// Checkpoint interval in seconds; 0: only at the end.
     #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = interval)]
     pub checkpoint_every: Interval,
     /// Record the session in a new file in asciinema's format (v2), at most 64 MB.
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
-    /// Print the screen at this size after the last key; the simulation starts paused.
+    /// Print the screen at this size after the last key, and exit; the simulation starts paused.
     #[arg(long, value_name = "COLUMNSxROWS")]
     pub print: Option<Size>,
-    /// What is printed: the text of the screen, or a picture of it with its colours.
+    /// Print the screen as text, or as a picture with its colours.
     #[arg(long, value_enum, default_value_t = FormatChoice::Text, requires = "print")]
     pub format: FormatChoice,
 }
@@ -167,17 +166,17 @@ pub struct Run {
     /// Changes to the scenario.
     #[command(flatten)]
     pub changes: Changes,
-    /// Go on with a run that was interrupted, or one that the explorer put away.
+    /// Continue an interrupted run, or a session of the explorer, from its checkpoint.
     #[arg(
         long,
         value_name = "FILE",
         conflicts_with_all = ["scenario", "set", "snapshot_at", "history"]
     )]
     pub resume: Option<PathBuf>,
-    /// How many cycles to run; default: the scenario's run.cycles.
+    /// Number of cycles to run; default: run.cycles of the scenario.
     #[arg(long, value_name = "X", value_parser = cycles, allow_hyphen_values = true)]
     pub cycles: Option<f64>,
-    /// Write the state at these cycles as well; default: the scenario's run.snapshot_at.
+    /// Also write the state at these cycles; default: run.snapshot_at of the scenario.
     #[arg(
         long,
         value_name = "C1,C2,...",
@@ -185,29 +184,30 @@ pub struct Run {
         allow_hyphen_values = true
     )]
     pub snapshot_at: Option<Vec<CycleAsGiven>>,
-    /// Estimate the error of the result from coarser runs, and state it in the headers of the files.
+    /// Estimate the error of the result from coarser runs and write it into the file headers.
     #[arg(long)]
     pub estimate_error: bool,
-    /// With numerics.accuracy: the time to look for numerics that meet it, e.g. 60s or 5min; past it, the best found so far.
+    /// With numerics.accuracy: time limit of the search, e.g. 60s or 5min; then the best found so
+    /// far is used.
     #[arg(long, value_name = "TIME", value_parser = budget)]
     pub budget: Option<f64>,
-    /// Write field.csv as well: the stresses inside the half-space at the end, in the plane of motion.
+    /// Also write field.csv: the stresses inside the half-space at the end, in the plane of motion.
     #[arg(long)]
     pub field: bool,
-    /// The directory for the files; default: a new one named after the scenario, with --resume the
-    /// run's own.
+    /// Directory for the files; default: a new one named after the scenario, or with --resume the
+    /// directory of the run.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Write into a directory that holds files already.
+    /// Write into a directory that is not empty.
     #[arg(long)]
     pub force: bool,
-    /// Which moments the history records.
+    /// How often the history records a row.
     #[arg(long, value_enum, default_value_t = HistoryChoice::Cycle)]
     pub history: HistoryChoice,
-    /// How often the run is put away so that it can be resumed, in seconds; 0: only when it stops.
+    /// Checkpoint interval in seconds; 0: only when the run stops.
     #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = interval)]
     pub checkpoint_every: Interval,
-    /// Print the last moment as JSON.
+    /// Print the final state as JSON.
     #[arg(long)]
     pub json: bool,
     /// Print nothing but errors.
@@ -222,6 +222,19 @@ pub struct Guide {
     /// The topic; without one, all topics are listed.
     #[arg(add = ArgValueCandidates::new(complete::topics))]
     pub topic: Option<String>,
+}
+
+/// Options of `man`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    mdr-tui man run | man -l -\n  \
+    mdr-tui man --out ~/.local/share/man/man1")]
+pub struct Manual {
+    /// The command; without one, the program and all commands.
+    pub command: Option<String>,
+    /// Write each page to a file in this directory, as mdr-tui-run.1.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
 }
 
 /// Options of `presets`.

@@ -1,4 +1,4 @@
-//! The studies: what each tries, and what becomes of its rows, which is asked for alike in all.
+//! Options of the studies. Those for the rows of their tables are the same for all.
 
 use std::path::PathBuf;
 
@@ -24,10 +24,10 @@ use crate::studies::{stability, trade};
     ("json", "Print all rows as JSON instead of tables"),
 ]))]
 pub struct Verify {
-    /// Only this problem; can be repeated.
+    /// Run only this problem; can be repeated.
     #[arg(long, value_name = "NAME", value_parser = problem_parser())]
     pub problem: Vec<Problem>,
-    /// The numbers of grid cells N to try; default: 50,100,200,400,800.
+    /// Numbers of grid cells N to try; default: 50,100,200,400,800.
     #[arg(
         long,
         value_name = "N1,N2,...",
@@ -38,7 +38,7 @@ pub struct Verify {
         hide_default_value = true
     )]
     pub points: Vec<usize>,
-    /// Also the runs that take minutes: the limiting profile on more than 200 cells.
+    /// Also run what takes minutes: the limiting profile on more than 200 cells.
     #[arg(long)]
     pub long: bool,
     /// The file of the rows.
@@ -56,11 +56,11 @@ pub struct Verify {
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     mdr-tui trade li2019-fig3 --plot            the Pareto front, as a table and drawn\n  \
-    mdr-tui trade mine.toml --accuracy 1e-3     the cheapest setting that errs by 1e-3 at most\n  \
+    mdr-tui trade mine.toml --accuracy 1e-3     the cheapest setting for an error of 1e-3\n  \
     mdr-tui trade mine.toml --methods product,a --points 50,100,200 --csv trade.csv")]
 #[command(mut_args = in_words(&[
     ("csv", "Write all settings to this file"),
-    ("plot", "Draw error over time, a plot a method, the front of all dashed"),
+    ("plot", "Draw error against time, one plot per method; the overall front is dashed"),
     ("json", "Print all settings as JSON instead of a table"),
 ]))]
 pub struct Trade {
@@ -69,13 +69,13 @@ pub struct Trade {
     /// Changes to the scenario.
     #[command(flatten)]
     pub changes: Changes,
-    /// How many cycles to run; default: the scenario's run.cycles.
+    /// Number of cycles to run; default: run.cycles of the scenario.
     #[arg(long, value_name = "X", value_parser = cycles, allow_hyphen_values = true)]
     pub cycles: Option<f64>,
-    /// The methods to try; default: all.
+    /// Methods to try; default: all.
     #[arg(long, value_name = "M1,M2,...", value_delimiter = ',', value_parser = method_parser())]
     pub methods: Vec<AbelMethod>,
-    /// The numbers of grid cells N to try.
+    /// Numbers of grid cells N to try.
     #[arg(
         long,
         value_name = "N1,N2,...",
@@ -85,7 +85,7 @@ pub struct Trade {
         default_values_t = trade::POINTS
     )]
     pub points: Vec<usize>,
-    /// The steps a cycle to try.
+    /// Numbers of steps per cycle to try.
     #[arg(
         long,
         value_name = "S1,S2,...",
@@ -94,10 +94,10 @@ pub struct Trade {
         default_values_t = trade::STEPS
     )]
     pub steps: Vec<u32>,
-    /// Print only the cheapest setting whose error is at most E, in largest depths.
+    /// Print only the cheapest setting whose error is at most E, relative to the largest depth.
     #[arg(long, value_name = "E", value_parser = accuracy)]
     pub accuracy: Option<f64>,
-    /// Print all settings, not only the front.
+    /// Print all settings, not only the Pareto front.
     #[arg(long)]
     pub all: bool,
     /// The file of the rows.
@@ -127,13 +127,13 @@ pub struct Stability {
     /// Changes to the scenario.
     #[command(flatten)]
     pub changes: Changes,
-    /// How many cycles to run.
+    /// Number of cycles to run.
     #[arg(long, value_name = "X", value_parser = cycles, allow_hyphen_values = true, default_value_t = 20.0)]
     pub cycles: f64,
-    /// The methods to try; default: all.
+    /// Methods to try; default: all.
     #[arg(long, value_name = "M1,M2,...", value_delimiter = ',', value_parser = method_parser())]
     pub methods: Vec<AbelMethod>,
-    /// The numbers of grid cells N to try.
+    /// Numbers of grid cells N to try.
     #[arg(
         long,
         value_name = "N1,N2,...",
@@ -143,7 +143,7 @@ pub struct Stability {
         default_values_t = stability::POINTS
     )]
     pub points: Vec<usize>,
-    /// The wear numbers K = k E* d/a to try, d and a at the beginning.
+    /// Values of K = k E* d/a to try, with d and a at the start.
     #[arg(
         long,
         value_name = "K1,K2,...",
@@ -153,10 +153,10 @@ pub struct Stability {
         default_values_t = stability::WEAR_NUMBERS
     )]
     pub wear_numbers: Vec<f64>,
-    /// The steps a cycle.
+    /// Steps per cycle.
     #[arg(long, value_name = "S", value_parser = clap::value_parser!(u32).range(1..=100_000), default_value_t = 100)]
     pub steps: u32,
-    /// Whether steps that are too harsh are taken in parts.
+    /// Whether steps that are too stiff are split.
     #[arg(long, value_enum, default_value_t = Guard::Off)]
     pub guard: Guard,
     /// The file of the rows.
@@ -177,12 +177,12 @@ pub struct Stability {
     units may be named: r_mm, f_um, F_kN. A scar is compared with the end of the run, a loop with its\n\
     last cycle.")]
 #[command(mut_args = in_words(&[
-    ("plot", "Draw measured less simulated, a plot for each data set"),
+    ("plot", "Draw measured minus simulated values, one plot per data set"),
     ("json", "Print the keys with values, standard errors and correlations as JSON"),
     ("force", "Write over the file of --out"),
 ]))]
 pub struct Fit {
-    /// A preset's name, or a path to a .toml file: its values are where the search starts.
+    /// A preset's name, or a path to a .toml file; its values start the search.
     pub scenario: String,
     /// Changes to the scenario.
     #[command(flatten)]
@@ -204,16 +204,17 @@ pub struct Fit {
         required = true
     )]
     pub free: Vec<String>,
-    /// How many cycles to run; default: the scenario's run.cycles, or to the end of the histories.
+    /// Number of cycles to run; default: run.cycles of the scenario, or up to the end of the
+    /// histories.
     #[arg(long, value_name = "X", value_parser = cycles, allow_hyphen_values = true)]
     pub cycles: Option<f64>,
-    /// Let outliers weigh less.
+    /// Give outliers less weight.
     #[arg(long)]
     pub robust: bool,
     /// Write the fitted scenario to this file.
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Write over a file that is there already.
+    /// Overwrite an existing file.
     #[arg(long, requires = "out")]
     pub force: bool,
     /// What is drawn.
@@ -224,7 +225,7 @@ pub struct Fit {
     pub printing: Printing,
 }
 
-/// What `stability` does about harsh steps.
+/// What `stability` does with stiff steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Guard {
     /// The raw method.
@@ -235,18 +236,18 @@ pub enum Guard {
     Both,
 }
 
-/// The file that a study writes its rows to.
+/// Output file of a study.
 #[derive(Debug, Args)]
 pub struct Rows {
     /// Write all rows to this file.
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
-    /// Write over a file that is there already.
+    /// Overwrite an existing file.
     #[arg(long, requires = "csv")]
     pub force: bool,
 }
 
-/// Curves below the tables of a study.
+/// Curves printed below the tables of a study.
 #[derive(Debug, Args)]
 pub struct Drawing {
     /// Draw the rows.
@@ -257,7 +258,7 @@ pub struct Drawing {
     pub marker: MarkerChoice,
 }
 
-/// What a study says on stdout and stderr.
+/// Output of a study on stdout and stderr.
 #[derive(Debug, Args)]
 pub struct Printing {
     /// Print all rows as JSON.
@@ -268,7 +269,7 @@ pub struct Printing {
     pub quiet: bool,
 }
 
-/// Help of options that the studies share, in the words of one of them.
+/// Help texts of shared options, worded for each study.
 fn in_words(help: &'static [(&'static str, &'static str)]) -> impl Fn(Arg) -> Arg {
     |arg| match help.iter().find(|(name, _)| arg.get_id() == name) {
         Some((_, words)) => arg.help(*words),

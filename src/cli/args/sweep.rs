@@ -13,45 +13,44 @@ use crate::tui::Size;
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     mdr-tui sweep study.toml --out map.csv          a row per point, on all cores\n  \
-    mdr-tui sweep study.toml --out map.csv --resume    go on after Ctrl-C\n  \
+    mdr-tui sweep study.toml --out map.csv --resume    continue after Ctrl-C\n  \
     mdr-tui sweep study.toml --resume --failed      run only what failed\n  \
     mdr-tui sweep study.toml --point 17 > p.toml    the scenario of one point\n  \
     mdr-tui sweep study.toml --shard 3/16           the 4th of 16 parts, for another machine\n  \
     mdr-tui sweep study.toml --shards 16 --slurm > job.sh   a job script for Slurm\n  \
     mdr-tui sweep --merge study.shards --out map.csv   put the parts together\n  \
     mdr-tui sweep --view map.csv                    the map, also while the study runs\n  \
-    mdr-tui sweep study.toml --sensitivity          how much the results hang on the keys")]
+    mdr-tui sweep study.toml --sensitivity          how sensitive the results are to the keys")]
 #[command(group = ArgGroup::new("what").required(true).args(["study", "merge", "view"]))]
 pub struct Sweep {
     /// The study, a .toml file.
     pub study: Option<PathBuf>,
-    /// Changes to all points.
+    /// Changes applied to all points.
     #[command(flatten)]
     pub changes: Changes,
-    /// The file of the rows; default: the study's name with .csv, with --shard a file of the
-    /// directory STUDY.shards, with --merge stdout.
+    /// Output file; default: the study's name with .csv; with --shard, a file in the directory
+    /// STUDY.shards; with --merge, stdout.
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Write over a file that exists.
+    /// Overwrite an existing file.
     #[arg(long, conflicts_with = "resume")]
     pub force: bool,
-    /// Keep the rows that the file holds and run the missing points; starts the study if there is
-    /// no file.
+    /// Keep the rows in the file and run the missing points; without a file, start the study.
     #[arg(long)]
     pub resume: bool,
-    /// Run points that failed again.
+    /// Run failed points again.
     #[arg(long, requires = "resume")]
     pub failed: bool,
-    /// Run the study although some of its points are invalid; their rows say why.
+    /// Run the study even if some points are invalid; their rows give the reason.
     #[arg(long)]
     pub skip_invalid: bool,
     /// Number of threads; default: one per core.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
     pub threads: Option<u16>,
-    /// Run one part of the study: every n-th point, beginning with point i.
+    /// Run one part of the study: every n-th point, starting with point i.
     #[arg(long, value_name = "i/n", conflicts_with = "shards")]
     pub shard: Option<Shard>,
-    /// Number of parts; which of them this task runs is read from SLURM_ARRAY_TASK_ID.
+    /// Number of parts; SLURM_ARRAY_TASK_ID selects the one to run.
     #[arg(long, value_name = "n", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub shards: Option<u32>,
     /// Print a job script for Slurm, an array of --shards tasks.
@@ -60,13 +59,13 @@ pub struct Sweep {
     /// Print the scenario of this point as TOML, counted from 0 in the order of the rows.
     #[arg(long, value_name = "I", conflicts_with_all = ["slurm", "shard", "shards", "merge"])]
     pub point: Option<usize>,
-    /// Put the shards in this directory together.
+    /// Merge the shards in this directory.
     #[arg(long, value_name = "DIR", conflicts_with_all = ["study", "set", "resume", "skip_invalid", "threads", "shard", "shards"])]
     pub merge: Option<PathBuf>,
-    /// Show the rows in this file as a map.
+    /// Show this table as a map.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["study", "set", "out", "resume", "force", "skip_invalid", "threads", "shard", "shards", "merge", "json"])]
     pub view: Option<PathBuf>,
-    /// Print how much the columns hang on the keys of [sensitivity], or of the axes.
+    /// Print how sensitive the columns are to the keys of [sensitivity], or of the axes.
     #[arg(long, conflicts_with_all = ["resume", "shard", "shards", "merge", "view", "point", "slurm", "skip_invalid"])]
     pub sensitivity: bool,
     /// With --view, press these keys instead of reading the keyboard, print the screen and exit.
@@ -84,7 +83,7 @@ pub struct Sweep {
     /// With --view, which colours.
     #[arg(long, value_enum, requires = "view")]
     pub theme: Option<ThemeChoice>,
-    /// Print the rows as JSON lines, in the order of the axes, as soon as they are there.
+    /// Print the rows as JSON lines, in the order of the axes, as soon as they are known.
     #[arg(long)]
     pub json: bool,
     /// Print nothing but errors.

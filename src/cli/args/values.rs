@@ -1,4 +1,4 @@
-//! What the words on the command line stand for: choices, and numbers within their limits.
+//! Types of command-line values: choices, and numbers within limits.
 
 use std::str::FromStr;
 use std::time::Duration;
@@ -25,13 +25,13 @@ pub enum HistoryChoice {
 /// How curves are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum MarkerChoice {
-    /// Eight dots a cell.
+    /// Eight dots per cell.
     Braille,
-    /// Two blocks a cell.
+    /// Two blocks per cell.
     Halfblock,
-    /// One dot a cell.
+    /// One dot per cell.
     Dot,
-    /// One asterisk a cell.
+    /// One asterisk per cell.
     Ascii,
 }
 
@@ -66,7 +66,7 @@ pub enum ColorChoice {
     Never,
 }
 
-/// Time between two checkpoints; none: only at the end.
+/// Time between two checkpoints; `None`: only at the end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval(pub Option<Duration>);
 
@@ -87,11 +87,11 @@ pub enum ThemeChoice {
     Dark,
     /// For a light background.
     Light,
-    /// Bold, dim and reversed only.
+    /// No colours: bold, dim and reversed only.
     Mono,
 }
 
-/// A cycle, and how it was spelled: the spelling names its file.
+/// A cycle and its spelling, which names the file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct CycleAsGiven {
@@ -147,7 +147,7 @@ pub(super) fn cycles(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if (0.0..=MOST_CYCLES).contains(&value) => Ok(value),
         Ok(value) if value > MOST_CYCLES && value.is_finite() => {
-            Err(format!("a run has {MOST_CYCLES:e} cycles or fewer"))
+            Err(format!("a run has at most {MOST_CYCLES:e} cycles"))
         }
         _ => Err("cycles are a number of 0 or more, e.g. 199.24".into()),
     }
@@ -172,9 +172,11 @@ pub(super) fn wear_number(text: &str) -> Result<f64, String> {
 pub(super) fn accuracy(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value > 0.0 && value <= 1.0 => Ok(value),
-        _ => {
-            Err("an accuracy is greater than 0 and at most 1, in largest depths, e.g. 1e-3".into())
-        }
+        _ => Err(
+            "an accuracy is greater than 0 and at most 1, relative to the largest depth, e.g. \
+                1e-3"
+                .into(),
+        ),
     }
 }
 

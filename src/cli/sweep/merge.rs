@@ -1,4 +1,4 @@
-//! `sweep --merge`: the shards of a study put together to one table.
+//! `sweep --merge`: merges the shards of a study into one table.
 
 use std::fs;
 use std::io::{self, Write};
@@ -14,7 +14,7 @@ use crate::scenario::printable;
 use crate::studies::sweep::record::{self, Record, Refused, Rows};
 use crate::studies::sweep::{Shard, Study};
 
-/// How many points a message names.
+/// Maximum number of points named in a message.
 const NAMED: usize = 3;
 
 /// Reads every table of the directory and writes the whole one.
@@ -26,7 +26,7 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
         .filter(|out| out.exists() && !options.force)
     {
         let out = out.display();
-        let message = format!("--out {out}: exists; choose another name or add --force");
+        let message = format!("--out {out}: already exists; choose another name or add --force");
         return Err(Misuse(message).into());
     }
     let files = tables(directory).map_err(|error| Misuse(format!("{shown}: {error}")))?;
@@ -67,7 +67,7 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
                 Err(Refused::Contradiction) => contradictions.push(named),
                 Err(Refused::Foreign | Refused::Length) => {
                     return Err(anyhow!(
-                        "{}: its row {values} is no row of the study",
+                        "{}: row {values} does not belong to the study",
                         file.display()
                     ));
                 }
@@ -75,11 +75,11 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
         }
     }
     let (Some((study, _)), Some(rows)) = (study, rows) else {
-        return Err(Misuse(format!("{shown}: holds no table of mdr-tui sweep")).into());
+        return Err(Misuse(format!("{shown}: has no table written by mdr-tui sweep")).into());
     };
     if !doubles.is_empty() {
         complain(&format!(
-            "{} rows stand twice, alike, and are taken once: {}",
+            "{} identical duplicate rows were dropped: {}",
             doubles.len(),
             some(&doubles)
         ));

@@ -30,7 +30,7 @@ const LARGEST_STUDY: u64 = 1 << 26;
 /// The variable in which Slurm tells a task of an array its index.
 const SLURM_INDEX: &str = "SLURM_ARRAY_TASK_ID";
 
-/// Does what the options ask for.
+/// Runs the command.
 pub fn sweep(options: &Sweep) -> Result<ExitCode> {
     if let Some(directory) = &options.merge {
         return merge::merge(directory, options);
@@ -48,7 +48,7 @@ pub fn sweep(options: &Sweep) -> Result<ExitCode> {
     }
     if study.axes.is_empty() {
         let message = format!(
-            "{}: there is no axis; --sensitivity needs none",
+            "{}: the study has no axis (only --sensitivity works without one)",
             path.display()
         );
         return Err(Misuse(message).into());
@@ -109,7 +109,7 @@ fn print_point(study: &Study, point: usize) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Refuses a study with a point that is no valid scenario, unless it is to be skipped.
+/// Refuses a study with an invalid point, unless invalid points are skipped.
 fn refuse_invalid(
     options: &Sweep,
     study: &Study,
@@ -166,7 +166,7 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
     let kept = output.close();
     let (there, failed) = output.count();
     let go_on = format!(
-        "{there} of {} points are in {}; the same command with --resume goes on",
+        "{there} of {} points are in {}; continue with the same command and --resume",
         mine.len(),
         shell_word(&out)
     );
@@ -203,8 +203,8 @@ fn shard(options: &Sweep) -> Result<Shard> {
     };
     let Ok(index) = env::var(SLURM_INDEX) else {
         let message = format!(
-            "--shards {count}: {SLURM_INDEX} is not set, so this is no task of a Slurm array; \
-             --shard i/{count} names the part, --slurm prints a job script"
+            "--shards {count}: {SLURM_INDEX} is not set, so this is not a task of a Slurm array; \
+             use --shard i/{count}, or --slurm for a job script"
         );
         return Err(Misuse(message).into());
     };
@@ -212,7 +212,7 @@ fn shard(options: &Sweep) -> Result<Shard> {
     shard.map_err(|why: String| Misuse(format!("{SLURM_INDEX} = {index}: {why}")).into())
 }
 
-/// Where the rows go if nothing is said.
+/// The default output file.
 fn default_out(study: &Path, shard: Shard) -> PathBuf {
     let stem = study.file_stem().unwrap_or_default().to_string_lossy();
     match shard {

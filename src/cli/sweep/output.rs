@@ -1,4 +1,4 @@
-//! The file that rows go to: a line per row as soon as it is there, all in order at the end.
+//! The output file: rows are appended as they finish, and sorted at the end.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Write};
@@ -13,8 +13,8 @@ use crate::export::file::{WriteError, write_whole};
 use crate::studies::sweep::record::{self, Record, Rows};
 use crate::studies::sweep::{Shard, Study};
 
-/// How often rows are flushed to the disk. A process that is killed loses none: they are with the
-/// system by then. A machine that goes down loses this much.
+/// How often rows are flushed to disk. A killed process loses none, since the system has them
+/// already; a crash of the machine loses at most this much.
 const FLUSH_INTERVAL: Duration = Duration::from_secs(5);
 
 /// The rows of a study, in memory and in a file.
@@ -30,7 +30,7 @@ pub struct Output {
 }
 
 impl Output {
-    /// Finds out whether the file can be made, or gone on with; nothing is written yet.
+    /// Checks that the file can be created or continued; nothing is written yet.
     pub fn open(path: &Path, study: &Study, shard: Shard, options: &Sweep) -> Result<Self> {
         let mut output = Self {
             path: path.to_owned(),
@@ -49,7 +49,8 @@ impl Output {
         }
         if !options.resume {
             return refuse(
-                "exists; --resume goes on with it, --force starts anew, --out names another file",
+                "already exists; --resume continues it, --force starts over, --out names another \
+                 file",
             );
         }
         output.file = Some(lock(path)?);
@@ -68,7 +69,7 @@ impl Output {
             let begins = row.join(",");
             if let Err(why) = output.rows.take(row) {
                 return refuse(&format!(
-                    "its row {begins} does not fit the study ({why:?})"
+                    "row {begins} does not belong to the study ({why:?})"
                 ));
             }
         }
@@ -84,7 +85,7 @@ impl Output {
         points.iter().filter(without).copied().collect()
     }
 
-    /// Writes what is there already, so that rows can be added.
+    /// Writes the existing rows, so that new ones can be appended.
     pub fn begin(&mut self) -> Result<()> {
         if let Some(directory) = self.path.parent() {
             fs::create_dir_all(directory).map_err(|cause| self.failed(cause))?;
@@ -116,7 +117,7 @@ impl Output {
                 Ok(())
             }
             Err(cause) => {
-                // What was written of the row goes. Where that fails, a reader drops it.
+                // Removes the partial row. If that fails, a reader drops it.
                 let _ = file.set_len(self.length);
                 self.file = None;
                 Err(self.failed(cause))
@@ -153,7 +154,7 @@ impl Output {
     }
 }
 
-/// Opens a file to add to it, for this process alone. On a file system without locks it is not.
+/// Opens a file for appending and locks it, if the file system has locks.
 fn lock(path: &Path) -> Result<File> {
     let failed = |cause| WriteError::Io {
         path: path.to_owned(),
@@ -164,7 +165,7 @@ fn lock(path: &Path) -> Result<File> {
         Err(TryLockError::WouldBlock) => {
             let path = path.display();
             Err(Misuse(format!(
-                "{path}: another mdr-tui sweep is at work on this file"
+                "{path}: another mdr-tui sweep is writing this file"
             ))
             .into())
         }

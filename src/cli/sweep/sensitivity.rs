@@ -1,4 +1,4 @@
-//! `sweep --sensitivity`: how much the results hang on the keys, as a table.
+//! `sweep --sensitivity`: how sensitive the results are to the keys, as a table.
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -21,7 +21,7 @@ pub fn sensitivity(options: &Sweep, study: &Study) -> Result<ExitCode> {
         .filter(|out| out.exists() && !options.force)
     {
         let message = format!(
-            "--out {}: exists; choose another name or add --force",
+            "--out {}: already exists; choose another name or add --force",
             out.display()
         );
         return Err(Misuse(message).into());
@@ -34,7 +34,7 @@ pub fn sensitivity(options: &Sweep, study: &Study) -> Result<ExitCode> {
     let pool = builder.build().context("cannot start the threads")?;
     let halt = stop::patient_signal()?;
     let Some(found) = sensitivity::run(study, &keys, &pool, &halt)? else {
-        complain("interrupted before all runs were there: nothing is kept");
+        complain("interrupted before all runs had finished: nothing was saved");
         return Ok(ExitCode::from(FAILED));
     };
     let table = table(&found);
@@ -59,7 +59,8 @@ pub fn sensitivity(options: &Sweep, study: &Study) -> Result<ExitCode> {
     }
     if !found.is_resolved {
         complain(
-            "some elasticities are known to less than 2 %: see their errors; more numerics.points and numerics.steps_per_cycle resolve them",
+            "some elasticities have errors above 2 %; increase numerics.points and \
+             numerics.steps_per_cycle",
         );
     }
     Ok(ExitCode::SUCCESS)

@@ -1,6 +1,6 @@
 //! `sweep --slurm`: a job script that runs a study as an array of tasks.
 //!
-//! What it rests on:
+//! It relies on this:
 //! - `--signal=B:TERM@60` goes to the batch shell alone, which passes it on; the trap stands before
 //!   the program starts. `scancel`, preemption and `scontrol requeue` send SIGTERM to all processes,
 //!   so that the program may get it twice.
@@ -19,7 +19,7 @@ use crate::export::file::shell_word;
 /// How often a task that was interrupted asks to be queued again.
 const MOST_REQUEUES: u32 = 100;
 
-/// Returns the job script for a study of so many `points`.
+/// Returns the job script for a study of this many `points`.
 pub fn script(study: &Path, options: &Sweep, points: usize) -> String {
     let shards = options.shards.unwrap_or(1);
     let directory = match &options.out {

@@ -17,7 +17,7 @@ use crate::tui::map::{self, Leave, View};
 use crate::tui::theme::Look;
 use crate::tui::{self, keys};
 
-/// Shows the table until it is left for good.
+/// Shows the table until the user quits.
 pub fn view(file: &Path, options: &Sweep) -> Result<ExitCode> {
     let name = file.display().to_string();
     let keys = keys::parse_script(options.keys.as_deref().unwrap_or("")).map_err(Misuse)?;
@@ -43,7 +43,7 @@ pub fn view(file: &Path, options: &Sweep) -> Result<ExitCode> {
                 let now = changed(file);
                 if now != seen {
                     seen = now;
-                    // A file that is being replaced is looked at again the next time.
+                    // A file that is being replaced is read again the next time.
                     let _ = read(file).map(|record| view.renew(record));
                 }
             })?,
@@ -58,7 +58,7 @@ pub fn view(file: &Path, options: &Sweep) -> Result<ExitCode> {
     }
 }
 
-/// Opens a point in the explorer, a process of its own that ends before this goes on.
+/// Opens a point in the explorer, a separate process, and waits for its end.
 fn open(view: &View, point: usize, options: &Sweep) -> Result<()> {
     let scenario = view.study().scenario(point)?;
     let directory = tempfile::tempdir().context("cannot make a temporary directory")?;

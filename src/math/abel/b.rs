@@ -17,9 +17,9 @@
 //!   at the tip is taken as zero. At a kink that falls between nodes: ½ in g and p, 3/2 in w.
 //! - **At r = 0**: g = f(0), w = u(0); in p the first cell takes q′ ∝ x, so the integral is finite.
 //! - **At the contact edge**: the central difference smears the edge over two cells.
-//! - **Known failure**: a central difference looks one node across, so wear outside the stick border
-//!   is felt inside it; the worn ring eats into the core that never slips. The response of p to f
-//!   has near-null modes, so teeth grow at large wear coefficients.
+//! - **Known failure**: a central difference reaches one node across, so wear outside the stick
+//!   border is felt inside it; the worn ring grows into the permanent stick zone. The response of p
+//!   to f has near-null modes, so a sawtooth grows at large wear coefficients.
 
 use std::f64::consts::{FRAC_1_PI, FRAC_2_PI};
 

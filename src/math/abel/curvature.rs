@@ -1,4 +1,4 @@
-//! What the stress at a node lacks where the line load is curved between nodes.
+//! Corrects the stress at the nodes for the curvature of the line load between them.
 //!
 //! # Formula
 //!
@@ -23,13 +23,14 @@
 //!   1.9e-4 of the mean pressure, 1.3e-3 without). Exact data of [`product`](super::product) stay exact:
 //!   they have no curvature.
 //! - **Cost**: O(N), one square root a node.
-//! - **At r = 0**: nothing is added there and at the next node: cells in t that grow threefold from one to
-//!   the next are no even rule, and the term would turn the response of the pressure to wear round.
-//! - **At a stick border**: a worn contact drops its load like a root behind the permanent stick zone. A
-//!   second difference across its border is no curvature, and would let the core reach into the
-//!   slip zone and dig there without end: the caller says where the load is smooth.
-//! - **Known failure**: next to a kink between nodes that no [`Kink`] tells of, the jump at
-//!   the nodes is none of a curvature. The error there is of order ½ with this term and without.
+//! - **At r = 0**: nothing is added there and at the next node: the cells in t grow threefold from
+//!   one to the next, too uneven for this rule; the term would flip the sign of the response of the
+//!   pressure to wear.
+//! - **At a stick border**: a worn contact drops its load like a root behind the permanent stick
+//!   zone. A second difference across its border is not a curvature, and would let the stick zone
+//!   act on the slip zone and cause endless wear there: the caller says where the load is smooth.
+//! - **Known failure**: next to a kink between nodes that is not given as a [`Kink`], the jump at
+//!   the nodes is not due to curvature. The error there is of order ½ with this term and without.
 
 use std::f64::consts::FRAC_2_PI;
 

@@ -1,10 +1,11 @@
 //! A nodal field with its singular parts, and its images.
 //!
-//! Line loads and spring displacements are linear in t = x² between nodes, but for what stands between two of
-//! them: [kinks](super::kink) at the stick border and at the contact's edge, and the [cusp](super::cone) of a load
-//! at the tip, which ends at that edge. A [`Field`] owns these parts, so that every image and integral has them.
+//! Line loads and spring displacements are linear in t = x² between nodes, except for singular
+//! parts between two of them: [kinks](super::kink) at the stick border and at the contact's edge,
+//! and the [cusp](super::cone) of a load at the tip, which ends at that edge. A [`Field`] owns
+//! these parts, so that every image and integral has them.
 //!
-//! The published methods know nodal values alone: their images leave the singular parts out.
+//! The published methods use nodal values only: their images ignore the singular parts.
 
 use std::ops::Range;
 

@@ -44,8 +44,8 @@
 //! | no [`curvature`] | 2.7e-4, 7.0e-5, 8.7e-5 | 2e-3 | 0.18 s, 2.3 s |
 //! | no edge of the scar | 5.0e-4, 2.4e-4, 1.3e-4 | 4e-4 | 0.09 s, 0.6 s |
 //!
-//! The edge of the scar therefore is no special case any more, and what it did for V alone went with it: V of the
-//! nodes' interpolant keeps k E_d to 3e-3 over Fig. 3 at N = 100, and to 1.4e-2 at a held depth.
+//! So the edge of the scar is not treated specially: V of the nodal interpolant agrees with k E_d
+//! to 3e-3 over Fig. 3 at N = 100, and to 1.4e-2 at a held depth.
 //!
 //! ```
 //! use mdr_tui::math::abel::{AbelMethod, AbelPlan};

@@ -1,4 +1,4 @@
-//! What the tests of several methods share.
+//! Helpers shared by the tests of several methods.
 
 use nalgebra::{DMatrix, DVector};
 

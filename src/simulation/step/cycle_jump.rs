@@ -1,20 +1,20 @@
-//! Jumps over many cycles that are alike.
+//! Jumps over many similar cycles.
 //!
 //! # Formula
 //!
-//! Wear changes the profile little in a cycle, so the worn depth δ is a smooth function of the number n
-//! of cycles, dδ/dn = W(δ), W the wear of a [steady-state cycle](super::steady_cycle) on the frozen profile. That
-//! is integrated by [Runge–Kutta–Chebyshev steps](crate::math::chebyshev), whose error is kept at the
-//! tolerance and whose stages follow the stiffness of the response of p to wear. The work of friction
-//! is integrated along with it.
+//! Wear changes the profile little in a cycle, so the worn depth δ is a smooth function of the
+//! number n of cycles, dδ/dn = W(δ), W the wear of a [steady-state cycle](super::steady_cycle) on
+//! the frozen profile. That is integrated by [Runge–Kutta–Chebyshev steps](crate::math::chebyshev),
+//! whose error is controlled by the tolerance and whose number of stages follows the stiffness of
+//! the response of p to wear. The friction work is integrated along with it.
 //!
-//! A jump covers whole periods of the motion. It begins after the first period, in which the springs
-//! shake down, and where it would cost more cycles than it covers, cycles are stepped directly for a
-//! while.
+//! A jump covers whole periods of the motion. It begins after the first period, in which the
+//! springs shake down. If it would need more cycles than it covers, cycles are stepped directly for
+//! a while.
 //!
 //! - **Order**: second in the length of the jump; the wear within one cycle is that of the scheme.
 //! - **Cost**: as many evaluated cycles as stages, whatever the number of cycles covered.
-//! - **Known failure**: none of the motions that never repeat can be jumped; they are stepped directly.
+//! - **Known failure**: motions that never repeat cannot be jumped; they are stepped directly.
 
 use super::super::Scratch;
 use super::super::Setup;

@@ -8,12 +8,12 @@
 //! next     = accept(state, contact, traction, wear)
 //! ```
 //!
-//! A step reads `state` and writes into `next`, whose buffers are those of the state before the last: nothing is
-//! allocated, and a step that fails has changed nothing.
+//! A step reads `state` and writes into `next`, which reuses the buffers of the state before the
+//! last: nothing is allocated, and a failed step changes nothing.
 //!
-//! [`euler`] and [`trapezoid`] say by which profile the contact is solved and by which stress it wears. [`substep`]
-//! and [`stabilised`] take steps that are too stiff for them, [`cycle_jump`] many cycles at once by the wear of a
-//! [steady-state cycle](steady_cycle).
+//! [`euler`] and [`trapezoid`] choose the profile for the contact and the stress for the wear.
+//! [`substep`] and [`stabilised`] handle steps that are too stiff for them; [`cycle_jump`] takes
+//! many cycles at once, by the wear of a [steady-state cycle](steady_cycle).
 
 use super::breakdown::Cause;
 use super::choices::Scheme;

@@ -1,10 +1,10 @@
-//! Stiff steps that are taken whole, in stages.
+//! Takes stiff steps whole, in stages.
 //!
 //! # Formula
 //!
-//! What has worn until it bears next to nothing still slips all the way: there the stiffness z of a step is in
-//! the hundreds while the profile hardly changes, and explicit sub-steps would come in hundreds. With the slip Δs
-//! of the step as it was solved, wear follows
+//! Where wear has removed almost all pressure, the surface still slips the whole way: the stiffness
+//! z of a step is in the hundreds while the profile hardly changes, and hundreds of explicit
+//! sub-steps would be needed. With the slip Δs of the solved step, wear follows
 //!
 //! ```text
 //! dδ/dθ = wear(τ(θ, δ), Δs),   θ from 0 to 1,   τ = ±μ p(θ, δ)
@@ -19,9 +19,10 @@
 //!
 //! - **Order**: second.
 //! - **Cost**: two transforms a stage, four a pass, one to three passes.
-//! - **Known failure**: where springs let go, G near 1, the slip of the step is no given, and where the edge of the
-//!   contact passes many cells, wear that begins or ends within the step is no polynomial in θ: stages overshoot
-//!   there by up to a tenth of it. Such steps are refused.
+//! - **Known failure**: near slip instabilities (G near 1) the slip of the step is not known in
+//!   advance, and where the contact edge passes many cells, wear that begins or ends within the
+//!   step is not a polynomial in θ: stages overshoot there by up to a tenth. Such steps are
+//!   refused.
 
 use super::super::breakdown::Cause;
 use super::super::model::Model;

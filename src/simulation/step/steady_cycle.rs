@@ -1,13 +1,13 @@
 //! The wear of a steady-state cycle on a frozen profile: the slope dδ/dn that jumps over cycles integrate.
 //!
-//! One period of the motion lets the springs shake down: it needs no transform, since nothing wears. The
-//! next one is stepped through like any other, but the profile stays as it is.
+//! During one period the springs shake down, which needs no transform, since nothing wears. The
+//! next one is stepped like any other, but with a frozen profile.
 //!
 //! # Formula
 //!
-//! Where the normal direction stands still, the tangential one swings by ±U, and wear is in proportion
-//! to friction work, no steps are needed. Each spring that slips does so by S(x) = 2(U − μq_z/G*)₊ in
-//! each half of a cycle, from the edge of the contact inwards, so that τ = μp where anything slips:
+//! If the depth is constant, the tangential motion is ±U, and wear is proportional to friction
+//! work, no steps are needed. Each spring that slips does so by S(x) = 2(U − μq_z/G*)₊ in each half
+//! of a cycle, from the edge of the contact inwards, so that τ = μp where anything slips:
 //!
 //! ```text
 //! W(r) = 2 k μ p(r) s(r),   s the transform (2) of S             E_d per cycle = 2 · 2∫ μ q_z S dx

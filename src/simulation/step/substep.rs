@@ -1,16 +1,17 @@
-//! Steps that are too stiff for the scheme, taken in sub-steps.
+//! Splits steps that are too stiff for the scheme into sub-steps.
 //!
-//! A step is tried, and its stiffness is known before its wear is accepted. Where that is too large,
-//! the step is taken in sub-steps just short enough, and these grow again as the wear allows. A step
-//! that needs none is taken exactly as without the guard.
+//! A step is tried, and its stiffness is known before its wear is accepted. If that is too large,
+//! the step is split into sub-steps just short enough, which grow again as the wear allows. Other
+//! steps are taken exactly as without the guard.
 //!
 //! # Slip instabilities
 //!
-//! A spring that slips holds u = μq/G*, so wear by Δg lets it slip back by μE*Δg/G*, and that slip wears
-//! again: by kμp μE*/G* times as much. Where this exceeds 1, from about K = 140 for μ = 0.1, the spring lets go
-//! at once, however short the step. What such a sub-step wears is limited implicitly, so that the pressure vanishes
-//! and no more, and friction works only as far as there is pressure left: the rest of the spring's energy
-//! is released without friction, and V = k E_d goes on holding.
+//! A spring that slips holds u = μq/G*, so wear by Δg lets it slip back by μE*Δg/G*, and that slip
+//! wears again: by kμp μE*/G* times as much. Where this exceeds 1, from about K = 140 for μ = 0.1,
+//! the spring slips all at once at any step size. The wear of such a sub-step is limited
+//! implicitly, so that the pressure just vanishes, and friction does work only while there is
+//! pressure: the rest of the spring's energy is released without friction, and V = k E_d still
+//! holds.
 
 use super::super::breakdown::Cause;
 use super::super::choices::Stability;

@@ -1,4 +1,5 @@
-//! Second order in time: the profile extrapolated, the stress of a step its mean.
+//! The second-order scheme: contact on an extrapolated profile, wear by the mean stress of the
+//! step.
 //!
 //! # Formula
 //!

@@ -1,9 +1,9 @@
 //! Parameters from measured data: least squares over any keys of a scenario.
 //!
 //! Every data set is compared with the same run: scars with its end, loops with its last cycle,
-//! histories with their cycles. Keys that must be positive are fitted by their logarithms. Where a file
-//! gives no errors, all its values share one, which is found from what the fit leaves, so that scars in
-//! nanometres and loops in newtons weigh as their noise allows.
+//! histories with their cycles. Keys that must be positive are fitted by their logarithms. If a
+//! file gives no errors, all its values share one, estimated from the residuals, so that scars in
+//! nanometres and loops in newtons are weighted by their noise.
 //!
 //! # Formula
 //!
@@ -158,7 +158,7 @@ impl Fit {
         }
         for (i, key) in free.iter().enumerate() {
             if free[..i].iter().any(|other| other.key == key.key) {
-                return Err(FitError::Misuse(format!("{} is named twice", key.key)));
+                return Err(FitError::Misuse(format!("{} is given twice", key.key)));
             }
         }
         let histories = data
@@ -170,7 +170,7 @@ impl Fit {
         let cycles = planned.max(last);
         let has_loop = data.iter().any(|set| set.kind == Kind::Loop);
         if cycles <= 0.0 || has_loop && cycles < 1.0 {
-            let message = "the run's length is not known, or less than a cycle; give --cycles";
+            let message = "the length of the run is unknown, or less than a cycle; give --cycles";
             return Err(FitError::Misuse(message.into()));
         }
         let domain = scenario.setup().grid.radius();
@@ -350,7 +350,7 @@ impl Fit {
             let is_known = error.is_finite() && error > 0.0 && !solved.at_bound[i];
             let key = free.key.clone();
             if solved.at_bound[i] {
-                remarks.push(format!("{key} ran into the end of its range"));
+                remarks.push(format!("{key} reached the end of its range"));
             } else if !is_known {
                 remarks.push(format!("the data do not determine {key}"));
             } else if error > VAGUE * free.vague_at(theta[i]) {
@@ -380,7 +380,8 @@ impl Fit {
             for (j, correlation) in row.iter().enumerate().take(i) {
                 if correlation.abs() > ALIKE {
                     remarks.push(format!(
-                        "the data hardly tell {} from {}: their correlation is {correlation:.4}",
+                        "the data hardly distinguish {} from {}: their correlation \
+                         is {correlation:.4}",
                         self.free[j].key, self.free[i].key
                     ));
                 }
@@ -434,11 +435,11 @@ fn start(scenario: &Scenario, key: &str) -> Result<Free, FitError> {
         return Err(misuse(format!("{key}: no such key")));
     };
     if parameter.kind != KeyKind::Number {
-        return Err(misuse(format!("{key} is no number that can be fitted")));
+        return Err(misuse(format!("{key} is not a number that can be fitted")));
     }
     if ["run", "changes", "numerics"].contains(&parameter.section()) {
         return Err(misuse(format!(
-            "{key} is no property of the contact that data could tell"
+            "{key} is not a physical property, so data cannot determine it"
         )));
     }
     let value = scenario

@@ -1,4 +1,4 @@
-//! What a scenario gives for each point of the data.
+//! Evaluates the scenario at each point of the data.
 
 use crate::math::grid::RadialGrid;
 use crate::math::scan::largest;

@@ -166,12 +166,12 @@ pub(super) fn solve(
     };
     let mut theta = theta.to_vec();
     let status = problem.mpfit(&mut theta).map_err(|error| match error {
-        MPError::InitBounds => "a start value lies outside of its range",
-        MPError::DoF => "there are fewer points than keys",
+        MPError::InitBounds => "a start value is out of range",
+        MPError::DoF => "there are fewer data points than keys",
         _ => "the residuals are not finite",
     })?;
     if status.success == MPSuccess::MaxIter {
-        return Err("it was still moving after 60 iterations; try nearer start values");
+        return Err("no convergence after 60 iterations; try better start values");
     }
     let at_bound = free.iter().zip(&theta).map(|(free, theta)| {
         let (low, up) = free.bounds();

@@ -1,4 +1,4 @@
-//! The error of a run as it was made, estimated from coarser twins of it.
+//! Estimates the error of a run from coarser twins.
 //!
 //! Two twins with a half and a quarter of the cells and of the steps give two differences, and these the order:
 //!
@@ -6,8 +6,8 @@
 //! D₁ = |run − half|,  D₂ = |half − quarter|,  p = log₂(D₂/D₁),  e = D₁/(2ᵖ − 1)
 //! ```
 //!
-//! p is kept within what is ever seen, since two runs may agree by chance. A run too coarse to be halved is held
-//! against a finer twin instead.
+//! p is limited to the observed range, since two runs may agree by chance. A run too coarse to be
+//! halved is compared with a finer twin instead.
 
 use super::level::Level;
 use super::outcome::{Difference, Outcome};

@@ -1,4 +1,4 @@
-//! The ladder: levels from coarse to fine until the measured error is as small as asked for.
+//! The ladder: levels from coarse to fine, until the measured error is small enough.
 //!
 //! The first rung comes with two twins, one on fewer cells and one of fewer steps, so that the errors
 //! of cells and of time are known apart. Each further rung refines what dominates, and its distance

@@ -1,7 +1,7 @@
 //! Errors measured by refinement: the same scenario on other levels of cells and steps.
 //!
-//! Nothing here is known beforehand of a scenario. [`Ladder`] climbs from coarse to fine until the
-//! measured error is as small as `numerics.accuracy` asks for.
+//! Nothing is assumed about a scenario. [`Ladder`] climbs from coarse to fine until the measured
+//! error is as small as `numerics.accuracy` asks for.
 
 use std::time::Instant;
 
@@ -29,7 +29,7 @@ pub enum RefinementError {
     #[error(transparent)]
     Scenario(#[from] ScenarioError),
     /// No level could be run to its end.
-    #[error("no level of refinement ran to its end; the last one: {0}")]
+    #[error("no refinement level finished; the last one: {0}")]
     Failed(String),
     /// The caller wanted it to stop.
     #[error("interrupted")]

@@ -1,4 +1,5 @@
-//! What two runs of one scenario are compared by: the scar, its volume, and the forces and pressures at the end.
+//! The quantities by which two runs of a scenario are compared: the scar, its volume, and forces
+//! and pressures at the end.
 
 use crate::math::abel::worn;
 use crate::math::grid::RadialGrid;

@@ -1,4 +1,4 @@
-//! From an accuracy to points and steps, and what files and messages say of it.
+//! Resolves an accuracy to points and steps, and words the result for files and messages.
 
 use super::{Difference, Reached, RefinementError, Verdict, run_to_accuracy};
 use crate::scenario::Scenario;
@@ -72,20 +72,23 @@ fn unmet(reached: &Reached, accuracy: f64, budget: f64) -> Option<String> {
         Verdict::Met => return None,
         Verdict::Unworn => {
             return Some(format!(
-                "numerics.accuracy = {accuracy:e}: nothing has worn, so there is no scar to be accurate about"
+                "numerics.accuracy = {accuracy:e}: nothing has worn, so the accuracy of a scar \
+                 means nothing"
             ));
         }
         Verdict::OutOfTime => format!("in {budget} s"),
-        Verdict::Finest => "by the finest level there is".into(),
+        Verdict::Finest => "even by the finest level".into(),
         Verdict::Stalled => format!(
-            "as finer levels come no nearer; the scar is {:.1e} m deep, in a contact {:.1e} m deep",
+            "because finer levels do not improve \
+             it; the scar is {:.1e} m deep, in a contact {:.1e} m deep",
             reached.rung.outcome.scar_depth(),
             reached.rung.outcome.depth
         ),
-        Verdict::Failed(error) => format!("as finer levels fail: {error}"),
+        Verdict::Failed(error) => format!("because finer levels fail: {error}"),
     };
     Some(format!(
-        "numerics.accuracy = {accuracy:e} is not met {why}; the estimated error is {:.1e} with {} points and \
+        "numerics.accuracy = {accuracy:e} was not reached \
+         {why}; the estimated error is {:.1e} with {} points and \
          {} steps per cycle",
         reached.error.promised(),
         level.points,

@@ -1,8 +1,8 @@
-//! Where wear grows teeth: a scenario run over a ladder of wear coefficients, by every method and on
-//! every grid, and what was [predicted](predict).
+//! Where wear becomes unstable: a scenario run with increasing wear coefficients, by every method
+//! and on every grid, compared with the [prediction](predict).
 //!
-//! Teeth are looked for at the end of every cycle. In harsh wear they wear off again, so that the last profile
-//! alone would tell nothing of them.
+//! A sawtooth is looked for at the end of every cycle: stiff wear may remove it again, so the last
+//! profile alone would not show it.
 
 use std::ops::ControlFlow;
 

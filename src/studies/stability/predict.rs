@@ -1,8 +1,8 @@
-//! From which wear number teeth are expected, and what the contact was asked for it.
+//! Predicts the wear coefficient K from which a sawtooth grows.
 //!
 //! # Formula
 //!
-//! Three things grow teeth, and the smallest K of the three is the predicted boundary.
+//! There are three causes of a sawtooth; the smallest K of the three is the predicted boundary.
 //!
 //! **Steps.** Errors grow over a cycle in which the amplifications of its steps, by the
 //! [stiffness](crate::simulation::stability) z, multiply to more than 1. In an unworn contact that is so from some K
@@ -14,22 +14,23 @@
 //! bear up to twice K(X), perhaps because it slips in the few steps after the motion has turned, in the
 //! first of which nothing is looked ahead.
 //!
-//! **Springs that let go.** A spring that slips holds u = μq/G*, so that wear by δ lets the surface slip by
-//! μE*δ/G* more (Eq. (2) after Eq. (1) is the identity), and that wears G times as much as δ did:
+//! **Slip instabilities.** A spring that slips holds u = μq/G*, so that wear by δ lets the surface
+//! slip by μE*δ/G* more (Eq. (2) after Eq. (1) is the identity), and that wears G times as much as
+//! δ did:
 //!
 //! ```text
 //! G = k μ² p E*/G*
 //! ```
 //!
-//! Where G exceeds 1 a spring lets go at once, however short the step; the trapezoid, which looks ahead,
-//! shoots beyond. The pressure on what slips rises as the ring around it wears: the boundary is the K at
-//! which G reaches 1 in the first cycle, at X = K. Later, at smaller K, it does so next to the border alone, and
-//! that node's tooth is worn off by the end of the cycle. Explicit Euler shoots beyond only at a G that depends on
-//! the cell; nothing is predicted of that, and with many short steps it comes first (400 a cycle: at 0.4 to
-//! 0.9 of what is predicted).
+//! Where G exceeds 1 a spring slips all at once at any step size; the trapezoid, which
+//! extrapolates, overshoots. The pressure on what slips rises as the ring around it wears: the
+//! boundary is the K at which G reaches 1 in the first cycle, at X = K. Later, at smaller K, it
+//! does so next to the border alone, and that node's tooth is worn off by the end of the cycle.
+//! Explicit Euler shoots beyond only at a G that depends on the cell; nothing is predicted of that,
+//! and with many short steps it comes first (400 a cycle: at 0.4 to 0.9 of what is predicted).
 //!
-//! **Methods that no step keeps from teeth.** For b and benad, a constant of the method that was
-//! [measured](crate::simulation::stability::teeth_from), not derived.
+//! **Methods that are unstable at any step size.** For b and benad, a constant of the method that
+//! was [measured](crate::simulation::stability::teeth_from), not derived.
 
 use super::growth::growing_from;
 use super::{Setting, Study, VISIBLE};

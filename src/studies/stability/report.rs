@@ -1,4 +1,4 @@
-//! What a stability study found: a map a method, the runs, the boundaries.
+//! Results of a stability study: one map per method, the runs, and the boundaries.
 
 use std::fmt::Write;
 
@@ -128,7 +128,8 @@ pub fn maps(lines: &[Line]) -> String {
         if let Some(why) = stability::beyond_steps(first.setting.method) {
             let _ = writeln!(
                 text,
-                "  Measured, not derived: teeth grow with K x cycles, whatever the step;\n  {why}."
+                "  Measured, not derived: the sawtooth grows with K x cycles at any step \
+                 size;\n  {why}."
             );
         }
         text.push('\n');
@@ -198,7 +199,7 @@ mod tests {
         assert!(!maps(&[line.clone()]).contains("Measured"));
         for method in [AbelMethod::B, AbelMethod::Benad] {
             line.setting.method = method;
-            assert!(maps(&[line.clone()]).contains("\n  Measured, not derived: teeth "));
+            assert!(maps(&[line.clone()]).contains("\n  Measured, not derived: the sawtooth "));
         }
     }
 

@@ -1,16 +1,18 @@
-//! How high the teeth of a profile are.
+//! The height of a sawtooth in a profile.
 //!
 //! # Formula
 //!
-//! With the second differences D_j = v_{j−1} − 2v_j + v_{j+1} of the nodal values, the teeth around a node
-//! where D changes its sign twice, from the node before and to the node after, are as high as
+//! With the second differences D_j = v_{j−1} − 2v_j + v_{j+1} of the nodal values, the sawtooth
+//! around a node where D changes its sign twice, from the node before and to the node after, has
+//! the height
 //!
 //! ```text
 //! ½ min(|D_{j−1}|, |D_j|, |D_{j+1}|)       the height of the teeth is the largest of these
 //! ```
 //!
-//! An even comb, every second node higher by H, has D = ±2H and so teeth of H. A kink, as at the border of
-//! stick and at the contact's edge, is one large D among small ones, and a jump two: neither has teeth.
+//! An even comb, every second node higher by H, has D = ±2H and so a sawtooth of height H. A kink,
+//! as at the stick border and at the contact edge, is one large D among small ones, and a jump is
+//! two: neither is a sawtooth.
 
 /// From tooth to gap, of the highest teeth of `values`, in their unit; 0 where they are smooth.
 pub fn teeth(values: &[f64]) -> f64 {

@@ -1,5 +1,5 @@
-//! How the values of several axes are put together to points: every combination, one after the
-//! other, or samples that fill the space evenly.
+//! Combines the values of several axes into points: every combination, pairwise, or samples that
+//! fill the space evenly.
 
 use super::axis::Spread;
 

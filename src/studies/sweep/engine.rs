@@ -1,5 +1,5 @@
-//! Many points on several threads. Each thread takes the next point that nobody has taken, so the
-//! threads end together whatever the points cost, and rows come about in order.
+//! Many points on several threads. Each thread takes the next free point, so all threads end at
+//! about the same time, and rows arrive nearly in order.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};

@@ -58,7 +58,7 @@ pub(super) fn run_scenario(study: &Study, scenario: Scenario, halt: &AtomicBool)
         )
     }));
     match ended {
-        Err(_) => Some(failed(study, "a defect in mdr-tui")),
+        Err(_) => Some(failed(study, "bug in mdr-tui")),
         Ok((Ok(Ended::Halted), _)) => None,
         Ok((Ok(Ended::Done), fields)) => Some(Row {
             fields,

@@ -177,7 +177,7 @@ impl Origin {
         match (design.is_sampled(), samples) {
             (true, Some(samples)) => Ok((design, Some((samples, seed.unwrap_or(0))))),
             (true, None) => Err(StudyError(format!(
-                "{}: samples is missing: how many points design = \"{}\" draws",
+                "{}: samples is missing: the number of points that design = \"{}\" draws",
                 self.0,
                 design.name()
             ))),
@@ -367,7 +367,7 @@ impl Origin {
         self.known(table, &format!("{place}."), &AXIS_KEYS)?;
         let key = match table.get("key") {
             Some(Value::String(key)) => key.clone(),
-            Some(other) => return self.refuse(&format!("{place}.key"), other, "must be a text"),
+            Some(other) => return self.refuse(&format!("{place}.key"), other, "must be a string"),
             None => {
                 return Err(StudyError(format!(
                     "{}: {place}.key is missing: the dotted path of a scenario's key",
@@ -461,8 +461,8 @@ impl Origin {
         let list = value.as_array().filter(|list| list.len() == length);
         let Some(list) = list else {
             let rule = match length {
-                2 => "must be [from, to]; samples says how many",
-                _ => "must be [from, to, how many]",
+                2 => "must be [from, to]; samples gives the number",
+                _ => "must be [from, to, number]",
             };
             return self.refuse(place, value, rule);
         };
@@ -515,7 +515,7 @@ impl Origin {
             let points = lengths.fold(1.0, |points, length| points * length as f64);
             if points > MOST_POINTS as f64 {
                 return Err(StudyError(format!(
-                    "{}: {points:.3e} points; a study has {MOST_POINTS} or fewer",
+                    "{}: {points:.3e} points; the limit is {MOST_POINTS}",
                     self.0
                 )));
             }
@@ -525,8 +525,8 @@ impl Origin {
         match study.axes.iter().find(|axis| axis.values.len() != length) {
             None => Ok(()),
             Some(axis) => Err(StudyError(format!(
-                "{}: axis {}: has {} values, the first axis {length}; design = \"{}\" needs as \
-                 many on each",
+                "{}: axis {}: has {} values, the first axis {length}; design = \"{}\" needs the \
+                 same number on each",
                 self.0,
                 axis.key,
                 axis.values.len(),

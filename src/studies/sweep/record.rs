@@ -10,8 +10,8 @@
 //! 5e-7,1.2e-18,ok
 //! ```
 //!
-//! While the study runs, rows stand in the order in which they were finished; a row belongs to the
-//! point whose values it begins with. A last line without its end was cut short and does not count.
+//! While the study runs, rows are in the order in which they finish; a row belongs to the point
+//! whose values it begins with. A last line without its end was cut short and does not count.
 
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -118,7 +118,7 @@ impl Record {
         }
         if !header.contains("# study: ") {
             return Err(refuse(
-                "is no table of mdr-tui sweep: its header holds no study",
+                "is not a table of mdr-tui sweep: its header has no study",
             ));
         }
         let reader = csv::ReaderBuilder::new()

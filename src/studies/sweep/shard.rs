@@ -1,4 +1,4 @@
-//! A shard: the part of a study that one task runs, without a word to the others.
+//! A shard: the part of a study that one task runs, independently of the others.
 
 use std::str::FromStr;
 

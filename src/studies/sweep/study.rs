@@ -1,4 +1,4 @@
-//! A study: the scenario of every point, and what is read of it.
+//! A study: the scenario of every point, and the columns to record.
 
 use toml::{Table, Value};
 
@@ -174,7 +174,7 @@ impl Study {
             None => Err(ScenarioError::Missing {
                 origin: self.base_name.clone(),
                 path: "run.cycles".into(),
-                meaning: "how many cycles a point runs; [set] \"run.cycles\" = 100 gives it".into(),
+                meaning: "number of cycles per point; [set] \"run.cycles\" = 100 gives it".into(),
             }),
         }
     }

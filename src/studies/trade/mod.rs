@@ -1,9 +1,10 @@
 //! Speed against accuracy, measured: one scenario computed in many ways, each against a reference.
 //!
-//! The error is that of the worn profile at the end, at 401 radii in equal distances over the domain:
-//! its rms and its largest value, in units of the largest depth; beside it those of the permanent stick
-//! radius, in contact radii, and of the worn volume, in parts of it. The reference is the best method,
-//! twice as fine as the finest that is tried; how far it is itself from half as fine is told with it.
+//! The error is that of the worn profile at the end, at 401 radii in equal distances over the
+//! domain: its rms and its largest value, in units of the largest depth; also the errors of the
+//! permanent stick radius, in contact radii, and of the worn volume, relative. The reference is the
+//! best method, twice as fine as the finest setting tried; its own distance from half as fine is
+//! reported with it.
 
 use std::time::Instant;
 

@@ -1,4 +1,4 @@
-//! What a trade study found: rows, the Pareto front, the cheapest setting for an accuracy.
+//! Results of a trade study: rows, the Pareto front, the cheapest setting for an accuracy.
 
 use super::{Errors, Sample, Setting};
 use crate::simulation::Integrator;

@@ -1,4 +1,4 @@
-//! A way to compute a scenario: all that trades speed for accuracy, and the ladders of it that are tried.
+//! A setting of everything that trades speed for accuracy, and the ladders of settings to try.
 
 use crate::math::abel::AbelMethod;
 use crate::scenario::{Change, Scenario, ScenarioError};

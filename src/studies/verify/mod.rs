@@ -1,7 +1,7 @@
 //! The error study: the paper's Fig. 2 and more, for every method over a ladder of N.
 //!
-//! A [`Study`] names what is to be tried, [`Study::tasks`] takes it apart, [`Task::run`] compares
-//! one method on one grid with theory, and [`report`] makes tables of what came out.
+//! A [`Study`] names what to try, [`Study::tasks`] splits it, [`Task::run`] compares one method on
+//! one grid with theory, and [`report`] makes tables of the results.
 
 use thiserror::Error;
 

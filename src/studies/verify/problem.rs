@@ -81,7 +81,7 @@ impl Problem {
             ],
             Self::Cone => &[
                 "Cone: N cells over the contact, the edge a on the last node; transforms of",
-                "exact data. Error of g and w in the depth d, of p in the mean pressure.",
+                "exact data. Errors of g and w relative to d, of p to the mean pressure.",
                 "Left out: p at r = 0, where theory is infinite.",
             ],
             Self::Quartic => &[
@@ -92,12 +92,12 @@ impl Problem {
             Self::TruncatedParaboloid => &[
                 "Paraboloid with a flat tip of radius b = a/2: N cells over 1.5 a, a and b a",
                 "third of a cell past a node; p, infinite at b, as the simulation has it, g and",
-                "w of exact data. Error of g and w in the depth d, of p in the mean pressure.",
+                "w of exact data. Errors of g and w relative to d, of p to the mean pressure.",
                 "Nodes inside a.",
             ],
             Self::FlatPunch => &[
                 "Flat punch: N cells over the punch, its rim on the last node, where q jumps;",
-                "p as the simulation has it. Error in the mean pressure.",
+                "p as the simulation has it. Error relative to the mean pressure.",
                 "Left out: r = a, where theory is infinite.",
             ],
             Self::Cattaneo => &[

@@ -1,4 +1,4 @@
-//! Tables of a study: one a problem to read, one of all rows for JSON, one of all nodes for CSV.
+//! Tables of a study: one per problem to read, one of all rows for JSON, one of all nodes for CSV.
 
 use super::errors::Errors;
 use super::{Outcome, Problem, Quantity};

@@ -1,4 +1,4 @@
-//! Commands: what a key, the palette or a click can ask for, and how a key finds its command.
+//! Commands that a key, the palette or a click can trigger, and the map from keys to commands.
 
 use std::sync::OnceLock;
 
@@ -8,7 +8,7 @@ mod table;
 
 pub use table::BINDINGS;
 
-/// What a key can ask for.
+/// A command of the explorer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Command {
     /// Leave.
@@ -35,13 +35,13 @@ pub enum Command {
     NextLaw,
     /// The wear law before.
     PreviousLaw,
-    /// More cycles a second.
+    /// More cycles per second.
     Faster,
-    /// Fewer cycles a second.
+    /// Fewer cycles per second.
     Slower,
-    /// Coarser, and cheaper.
+    /// Coarser and cheaper.
     Coarser,
-    /// Finer, and dearer.
+    /// Finer and more expensive.
     Finer,
     /// Focus the next panel.
     NextPanel,
@@ -59,7 +59,7 @@ pub enum Command {
     Edit,
     /// Back in time.
     TimeBack,
-    /// Forth in time.
+    /// Forward in time.
     TimeForth,
     /// Mark the state on the screen.
     Mark,
@@ -95,7 +95,7 @@ pub enum Command {
     Accuracy,
     /// Read the curves at a radius.
     Cursor,
-    /// Every command by its name.
+    /// The command palette.
     Palette,
     /// Search in the help.
     Search,
@@ -111,7 +111,7 @@ pub enum Command {
     Accept,
 }
 
-/// A command, the keys that call it, and what help says of it.
+/// A command, its keys and its help.
 pub struct Binding {
     /// The command.
     pub command: Command,
@@ -125,12 +125,12 @@ pub struct Binding {
     pub in_footer: bool,
 }
 
-/// Keys of the user's own, which go before those of the table.
+/// The user's own keys, which override those of the table.
 static OWN: OnceLock<Vec<(Key, Command)>> = OnceLock::new();
 
 /// Binds further keys to commands, once, before the explorer opens.
 pub fn bind(keys: Vec<(Key, Command)>) {
-    // A second explorer in one process keeps the keys of the first.
+    // A second explorer in the same process keeps the keys of the first.
     let _ = OWN.set(keys);
 }
 

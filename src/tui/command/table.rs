@@ -1,4 +1,4 @@
-//! The one table of commands: it makes the keys, the footer, the help and the manual.
+//! The table of commands, from which keys, footer, help and manual are made.
 
 use super::Binding;
 use super::Command::{self, self as C};
@@ -18,7 +18,7 @@ pub static BINDINGS: &[Binding] = &[
         C::Accept,
         &[Key::Named(Named::Enter)],
         "explain",
-        "explain the focused panel; in a list, take the entry",
+        "explain the focused panel; in a list, choose the entry",
         true,
     ),
     bind(
@@ -39,7 +39,7 @@ pub static BINDINGS: &[Binding] = &[
         C::Faster,
         &[Char('+'), Char('=')],
         "faster",
-        "more cycles per second, up to as fast as it can",
+        "more cycles per second, up to full speed",
         false,
     ),
     bind(
@@ -53,7 +53,7 @@ pub static BINDINGS: &[Binding] = &[
         C::HoldPhase,
         &[Char('f')],
         "phase",
-        "fast runs: frames at one phase, or as they come",
+        "fast runs: frames at one phase of the motion, or at any",
         false,
     ),
     bind(
@@ -123,7 +123,7 @@ pub static BINDINGS: &[Binding] = &[
         C::Zoom,
         &[Char('z')],
         "zoom",
-        "show the focused panel alone, or all panels",
+        "zoom the focused panel, or show all panels",
         true,
     ),
     bind(
@@ -144,7 +144,7 @@ pub static BINDINGS: &[Binding] = &[
         C::SnapshotNote,
         &[Char('S')],
         "snapshot, note",
-        "the same with a note, which both files carry",
+        "the same, with a note in both files",
         false,
     ),
     bind(
@@ -172,14 +172,14 @@ pub static BINDINGS: &[Binding] = &[
         C::Mark,
         &[Char('b')],
         "bookmark",
-        "mark the state on the screen",
+        "bookmark the state on the screen",
         false,
     ),
     bind(
         C::Visit,
         &[Char('B')],
         "go to bookmark",
-        "go to the marked state before this one",
+        "go to the previous bookmark",
         false,
     ),
     bind(
@@ -193,7 +193,7 @@ pub static BINDINGS: &[Binding] = &[
         C::Restart,
         &[Char('r')],
         "restart",
-        "start the scenario again, as it was loaded",
+        "restart the scenario as it was loaded",
         false,
     ),
     bind(
@@ -207,35 +207,35 @@ pub static BINDINGS: &[Binding] = &[
         C::Stress,
         &[Char('o')],
         "stress",
-        "next stress in the half-space of the cross-section",
+        "next stress component in the cross-section",
         false,
     ),
     bind(
         C::StressOfCycle,
         &[Char('O')],
         "stress, cycle",
-        "the largest stress of a cycle, or that of the moment",
+        "largest stress of a cycle, or of this moment",
         false,
     ),
     bind(
         C::Theme,
         &[Char('T')],
         "theme",
-        "colours for a dark or a light background, or none",
+        "colours for a dark or light background, or none",
         false,
     ),
     bind(
         C::Compare,
         &[Char('c')],
         "compare",
-        "a second method beside this one; m and M change it",
+        "compare with a second method; m and M change it",
         true,
     ),
     bind(
         C::CompareFromStart,
         &[Char('C')],
         "compare all",
-        "the second method from the start of the scenario",
+        "compare from the start of the scenario",
         false,
     ),
     bind(
@@ -256,7 +256,7 @@ pub static BINDINGS: &[Binding] = &[
         C::Accuracy,
         &[Char('a')],
         "accuracy",
-        "checks of the run, and a run on half the cells",
+        "checks of the run, and its estimated errors",
         false,
     ),
     bind(
@@ -270,21 +270,21 @@ pub static BINDINGS: &[Binding] = &[
         C::Palette,
         &[Char(':')],
         "commands",
-        "every command by its name, and set KEY=VALUE",
+        "every command by name, and set KEY=VALUE",
         true,
     ),
     bind(
         C::Left,
         &[Key::Named(Named::Left), Char('h')],
         "left",
-        "move the cursor inwards, or the focus back",
+        "move the cursor inwards, or focus the previous panel",
         false,
     ),
     bind(
         C::Right,
         &[Key::Named(Named::Right), Char('l')],
         "right",
-        "move the cursor outwards, or the focus on",
+        "move the cursor outwards, or focus the next panel",
         false,
     ),
     bind(
@@ -305,14 +305,14 @@ pub static BINDINGS: &[Binding] = &[
         C::Back,
         &[Key::Named(Named::Esc)],
         "back",
-        "close what is open, leave the zoomed panel",
+        "close what is open, or leave the zoomed panel",
         false,
     ),
     bind(
         C::Tour,
         &[Char('n')],
         "tour",
-        "a tour of this preset: its next caption",
+        "tour of this preset: next caption",
         false,
     ),
     bind(
@@ -347,7 +347,7 @@ pub static BINDINGS: &[Binding] = &[
         C::Suspend,
         &[Ctrl('z')],
         "suspend",
-        "back to the shell for a while; fg returns",
+        "suspend to the shell; fg returns",
         false,
     ),
 ];

@@ -38,7 +38,7 @@ pub fn draw(view: &View, theme: &Theme, area: Rect, buffer: &mut Buffer) {
             buffer,
             area,
             0,
-            "too small: 20x10 or more",
+            "too small: needs 20x10 or more",
             Style::new(),
             theme,
         );
@@ -92,7 +92,7 @@ pub fn draw(view: &View, theme: &Theme, area: Rect, buffer: &mut Buffer) {
     line(buffer, area, bottom - 1 - area.y, KEYS, quiet, theme);
 }
 
-/// What the cursor reads: the point and its values; the column and the status.
+/// The point under the cursor: its values, the column and the status.
 fn readings(view: &View, theme: &Theme, area: Rect, row: u16, buffer: &mut Buffer) {
     let point = view.point();
     line(

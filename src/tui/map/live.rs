@@ -36,7 +36,7 @@ const COLUMNS: [&str; 7] = [
     "regime",
 ];
 
-/// What stands behind `sweep`: a key and the ends of its axis.
+/// The argument of `sweep`: a key and the ends of its axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Range {
     /// The dotted path.
@@ -60,7 +60,7 @@ impl Range {
         })
     }
 
-    /// The study of a scenario over this range, each point run for so many cycles.
+    /// The study of a scenario over this range, each point run for this many cycles.
     fn study(&self, scenario: &Scenario, cycles: f64) -> Result<Study, StudyError> {
         let broken = |error: &dyn fmt::Display| StudyError(error.to_string());
         let base = scenario
@@ -81,7 +81,7 @@ impl Range {
     }
 }
 
-/// A study under way, shared by the screen and the threads that run it.
+/// A study under way, shared by the screen and the worker threads.
 #[derive(Clone)]
 pub struct Live {
     view: Arc<Mutex<View>>,
@@ -107,7 +107,7 @@ impl Live {
     ///
     /// # Errors
     ///
-    /// Refuses a range that makes no study, or whose first invalid point says why.
+    /// Returns the reason if the range is not a study or one of its points is invalid.
     pub fn start(
         range: &Range,
         scenario: &Scenario,

@@ -1,8 +1,8 @@
 //! `mdr-tui sweep --view`: a study as a map in the terminal, also while it runs.
 //!
-//! Two axes make a map in half blocks, one axis a curve; the cursor reads a point, Enter opens it in
-//! the explorer. The file is looked at again whenever it has grown, so that a study that runs shows
-//! its points as they come.
+//! Two axes make a map in half blocks, one axis a curve; the cursor reads a point, Enter opens it
+//! in the explorer. The file is read again whenever it has grown, so that a running study shows its
+//! points as they finish.
 
 use std::io::{self, Write};
 use std::sync::Arc;
@@ -28,14 +28,14 @@ mod view;
 
 pub use view::{Leave, View};
 
-/// How often the file is looked at.
+/// How often the file is checked.
 const LOOK_INTERVAL: Duration = Duration::from_millis(300);
 
-/// Shows `view` until it is left; `renew` is asked every now and then to bring it up to date.
+/// Shows `view` until the user leaves it; calls `renew` regularly to update it.
 ///
 /// # Errors
 ///
-/// Refuses what is no terminal, and fails where it cannot be taken over.
+/// If stdout is not a terminal, or cannot be switched to raw mode.
 pub fn run(view: &mut View, theme: &Theme, mut renew: impl FnMut(&mut View)) -> Result<Leave> {
     super::refuse_what_is_no_terminal()?;
     crate::panics::keep();
@@ -48,7 +48,7 @@ pub fn run(view: &mut View, theme: &Theme, mut renew: impl FnMut(&mut View)) -> 
     let listener = thread::spawn(move || input::listen(&events, &keys, Capture::None));
     let outcome = attend(view, theme, &mut renew, &mut screen, &inbox, &waiting);
     super::hear_out(&mut screen, &inbox);
-    // What is typed next is for the explorer, or for the shell.
+    // Further keys are for the explorer or the shell.
     waiting.close();
     let _ = listener.join();
     outcome

@@ -1,4 +1,4 @@
-//! From a value to a colour, or to a character where there are no colours.
+//! Maps values to colours, or to characters without colours.
 
 use ratatui::style::Color;
 
@@ -42,7 +42,7 @@ pub const REGIMES: [(&str, &str, char, Color); 4] = [
 ];
 
 impl Shade {
-    /// The colour; none where nothing is to be seen.
+    /// The colour; `None` where nothing is to be seen.
     pub fn color(self, theme: &Theme) -> Option<Color> {
         match self {
             Self::Waiting => None,

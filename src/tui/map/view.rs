@@ -1,4 +1,4 @@
-//! What of a study is shown: which axes, which column, where the cursor stands.
+//! The view of a study: axes, column and cursor.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -35,8 +35,8 @@ pub const CRITERIA: [(&str, f64, char, &str); 3] = [
     ("energy_ratio_B", 0.77, 'B', "B = 0.77 (sphere, any rig)"),
 ];
 
-/// A line over the map: for each place of the x axis that it crosses, its place on the y axis, whole
-/// numbers at the points.
+/// A line over the map: for each position on the x axis that it crosses, its position on the y
+/// axis, in units of the point spacing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Overlay {
     /// The letter that draws it.
@@ -52,11 +52,11 @@ pub struct Overlay {
 pub struct View {
     study: Study,
     rows: Rows,
-    /// What stands in the title.
+    /// The title.
     name: String,
     /// The axis that runs to the right.
     x: usize,
-    /// The axis that runs upwards; none where there is one axis, or no grid.
+    /// The axis that runs upwards; `None` where there is one axis, or no grid.
     y: Option<usize>,
     /// Which of the columns.
     column: usize,
@@ -74,7 +74,7 @@ impl View {
     ///
     /// # Errors
     ///
-    /// Refuses a table whose header holds no study, and rows that are not the study's.
+    /// If the header of the table has no study, or rows do not belong to it.
     pub fn new(record: Record, name: &str) -> Result<Self, StudyError> {
         let mut view = Self::of(record.study()?, name)?;
         view.renew(record)?;
@@ -85,10 +85,10 @@ impl View {
     ///
     /// # Errors
     ///
-    /// Refuses a study without an axis.
+    /// If the study has no axis.
     pub fn of(study: Study, name: &str) -> Result<Self, StudyError> {
         if study.axes.is_empty() {
-            return Err(StudyError(format!("{name}: has no axis to show")));
+            return Err(StudyError(format!("{name}: there is no axis to show")));
         }
         let is_grid = study.design == Design::Grid;
         let x = if is_grid { study.axes.len() - 1 } else { 0 };
@@ -116,7 +116,7 @@ impl View {
     ///
     /// # Errors
     ///
-    /// Refuses rows that are not the study's.
+    /// If rows do not belong to the study.
     pub fn renew(&mut self, record: Record) -> Result<(), StudyError> {
         let mut rows = Rows::new(&self.study);
         for row in record.rows {
@@ -124,7 +124,7 @@ impl View {
             if let Err(why) = rows.take(row) {
                 let name = &self.name;
                 return Err(StudyError(format!(
-                    "{name}: its row {named} does not fit ({why:?})"
+                    "{name}: row {named} does not belong to the study ({why:?})"
                 )));
             }
         }
@@ -178,7 +178,7 @@ impl View {
         }
     }
 
-    /// The next axis to the right; where it was the other one, the two change places.
+    /// Shows the next axis horizontally; if it was the vertical one, the two are swapped.
     fn turn_x(&mut self) {
         let before = self.x;
         self.x = (self.x + 1) % self.study.axes.len();
@@ -222,7 +222,7 @@ impl View {
         &self.study
     }
 
-    /// What stands in the title.
+    /// The title.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -247,7 +247,7 @@ impl View {
         self.at[axis]
     }
 
-    /// The name of the column; nothing where the study has none.
+    /// The name of the column; empty if the study has none.
     pub fn column(&self) -> &'static str {
         self.study
             .columns
@@ -286,7 +286,7 @@ impl View {
         (there, failed, self.study.points())
     }
 
-    /// The field of `column` of a point; none without a row, or where the point failed.
+    /// The field of `column` of a point; `None` without a row, or where the point failed.
     pub fn field(&self, point: usize, column: &str) -> Option<&str> {
         let row = self.row(point)?;
         let at = self

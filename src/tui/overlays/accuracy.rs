@@ -8,7 +8,7 @@ use ratatui::widgets::{Paragraph, Widget};
 use super::{Answer, App, Command, popup};
 use crate::tui::theme::Role;
 
-/// What a command does while the panel is open: the run can be watched from here.
+/// Handles a command while the panel is open: the run can be watched from here.
 pub(super) fn answer(command: Command) -> Answer {
     match command {
         Command::Back | Command::Accuracy | Command::Accept => Answer::Close,
@@ -76,7 +76,8 @@ pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     Paragraph::new(lines).render(inside, buffer);
 }
 
-/// What each check of the moment compares, and what a difference means; what lies outside of the theory.
+/// What each check of the moment compares, and what a difference means; what lies outside the
+/// theory.
 pub(super) fn draw_explanations(app: &App, area: Rect, buffer: &mut Buffer) {
     let Some(frame) = &app.frame else { return };
     let width = WIDTH - 4;

@@ -10,7 +10,7 @@ use crate::plot::units::to_ascii;
 use crate::tui::theme::Role;
 use crate::tui::tour;
 
-/// What a command does while the explanation is open: it follows the focus, and the run can go on.
+/// Handles a command while the explanation is open: it follows the focus, and the run can continue.
 pub(super) fn answer(command: Command) -> Answer {
     match command {
         Command::Accept | Command::Back => Answer::Close,

@@ -127,7 +127,7 @@ impl Form {
         let rows = (area.height / 2).clamp(8, 20);
         let title = match self.typed {
             None => "parameters (Enter edits, + - steps, Space runs, Esc closes)",
-            Some(_) => "parameters (Enter applies, Esc leaves it)",
+            Some(_) => "parameters (Enter applies, Esc cancels)",
         };
         let inside = docked(app, title, (100, rows + 3), area, buffer);
         let about = 3.min(inside.height);
@@ -194,7 +194,7 @@ fn next(setting: &Setting, up: bool) -> Answer {
         .filter(|next| setting.value.as_ref() != Some(next))
     {
         Some(value) => change(setting, value),
-        None => Answer::Say("there is no next value from here; Enter types one".into()),
+        None => Answer::Say("+ and - cannot change this value; press Enter to type one".into()),
     }
 }
 

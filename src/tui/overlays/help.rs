@@ -1,4 +1,4 @@
-//! The keys and what they do, one a row, by groups; searched by a word.
+//! The help: keys and what they do, one per row, in groups, with a search.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Rect};
@@ -42,7 +42,7 @@ impl Help {
         }
     }
 
-    /// What is searched for, if anything.
+    /// The search text, if any.
     pub(super) fn line(&mut self) -> Option<&mut LineEdit> {
         self.search.as_mut()
     }
@@ -123,14 +123,14 @@ impl Help {
             .map(|entry| row(entry, app))
             .collect();
         if lines.is_empty() {
-            let text = format!("{:>KEYS$}   no command has these words", "");
+            let text = format!("{:>KEYS$}   no command matches", "");
             lines.push(Line::styled(text, app.theme.style(Role::Quiet)));
         }
         let prompt = format!("{:>1$}", "/", KEYS + 3);
         lines.insert(0, typing(&prompt, search, app.theme.style(Role::Title)));
         // The box keeps its height while the list gets shorter.
         let height = BINDINGS.len() as u16 + 3;
-        let title = "search in the help (Esc ends)";
+        let title = "search the help (Esc ends)";
         let inside = popup(app, title, (WIDTH, height), area, buffer);
         Paragraph::new(lines).render(inside, buffer);
     }

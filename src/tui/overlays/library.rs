@@ -31,7 +31,7 @@ pub struct Library {
     about: String,
 }
 
-/// Something to choose.
+/// An entry of the list.
 #[derive(Debug, Clone, PartialEq)]
 enum Entry {
     Preset(&'static Preset),
@@ -63,7 +63,7 @@ impl Entry {
         }
     }
 
-    /// What it shows, or why it cannot be run.
+    /// Its description, or why it cannot be run.
     fn about(&self) -> String {
         match self {
             Self::Preset(preset) => preset.summary().to_owned(),
@@ -162,7 +162,7 @@ impl Library {
         Answer::Stay
     }
 
-    /// Loads what is selected, or goes into it.
+    /// Loads the selected scenario, or opens the selected directory.
     fn take(&mut self) -> Answer {
         match &self.entries[self.at] {
             Entry::Preset(preset) => Answer::Load(preset.name.to_owned()),
@@ -182,7 +182,7 @@ impl Library {
         let names = preset::ALL.iter().map(|preset| preset.name.len());
         let width = names.max().unwrap_or(0);
         let height = self.entries.len() as u16 + WORDS + 2;
-        let title = "presets (and files of yours; Enter starts, Esc closes)";
+        let title = "presets and your own files (Enter starts, Esc closes)";
         let inside = popup(app, title, (80, height), area, buffer);
         let list = Rect {
             height: inside.height.saturating_sub(WORDS),

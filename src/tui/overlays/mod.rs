@@ -1,4 +1,4 @@
-//! What lies over the panels, one a file: each keeps its own state, answers keys and draws itself.
+//! Overlays, one per file: each has its own state, handles keys and draws itself.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -27,7 +27,7 @@ pub use help::Help;
 pub use library::Library;
 pub use palette::Palette;
 
-/// What lies over the panels.
+/// The overlay on the panels.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum Overlay {
     /// Nothing.
@@ -43,7 +43,7 @@ pub enum Overlay {
     Explain,
     /// The checks, each explained: the second page of the one before.
     Checks,
-    /// Every command by its name.
+    /// The command palette.
     Palette(Palette),
     /// The parameters.
     Form(Form),
@@ -53,7 +53,7 @@ pub enum Overlay {
     Sweep(Live),
 }
 
-/// What an overlay makes of a key.
+/// The response of an overlay to a key.
 #[derive(Debug)]
 pub enum Answer {
     /// It stays.

@@ -1,4 +1,4 @@
-//! Every command by its name, and every key of the scenario by `set KEY=VALUE`, completed as typed.
+//! The palette: every command by name, and every scenario key by `set KEY=VALUE`, with completion.
 
 use std::path::Path;
 
@@ -23,12 +23,12 @@ pub struct Palette {
     at: usize,
 }
 
-/// What a completion does when it is taken.
+/// What a completion does when accepted.
 #[derive(Debug, Clone, PartialEq)]
 enum Act {
     /// A command of the table.
     Command(Command),
-    /// More is to be typed.
+    /// More must be typed.
     Complete,
     /// A key gets a value.
     Set(String, String),
@@ -42,7 +42,7 @@ enum Act {
     Overlay(String),
 }
 
-/// One way to go on from what is typed.
+/// One completion of the typed text.
 #[derive(Debug, Clone, PartialEq)]
 struct Completion {
     /// The whole line.
@@ -59,7 +59,7 @@ fn is_listed(command: Command) -> bool {
     !matches!(command, Command::Palette | Command::Accept | Command::Back)
 }
 
-/// What can be typed from here, the likeliest first.
+/// The completions, most likely first.
 fn completions(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
     let typed = typed.trim_start();
     if let Some(assignment) = typed.strip_prefix("set ") {
@@ -138,7 +138,7 @@ fn completions(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
     list.into_iter().map(|(_, completion)| completion).collect()
 }
 
-/// How well `typed` fits: the beginning of a name, a part of it, a part of its help.
+/// How well `typed` matches: at the start of a name, within it, or within its help.
 fn rank(typed: &str, name: &str, help: &str) -> Option<usize> {
     let typed = typed.trim_end().to_lowercase();
     let position = [
@@ -287,7 +287,7 @@ fn overlays(typed: &str) -> Vec<Completion> {
 }
 
 impl Palette {
-    /// What is typed.
+    /// The typed text.
     pub(super) fn line(&mut self) -> &mut LineEdit {
         &mut self.line
     }
@@ -319,7 +319,7 @@ impl Palette {
             },
             (Key::Named(Named::Enter), None) => {
                 let typed = self.line.text();
-                return Answer::Say(format!("no command is called {}", typed.trim()));
+                return Answer::Say(format!("no such command: {}", typed.trim()));
             }
             _ if self.line.press(key) => self.at = 0,
             _ => {}
@@ -335,7 +335,7 @@ impl Palette {
     pub(super) fn draw(&self, app: &App, area: Rect, buffer: &mut Buffer) {
         let list = completions(&self.line.text(), app.frame.as_deref());
         let rows = (area.height / 2).clamp(6, 12);
-        let title = "commands (Tab completes, Enter does it, Esc closes)";
+        let title = "commands (Tab completes, Enter runs, Esc closes)";
         let inside = docked(app, title, (100, rows + 3), area, buffer);
         let [quiet, focus] = [Role::Quiet, Role::Focus].map(|role| app.theme.style(role));
         typing(" :", &self.line, app.theme.style(Role::Title)).render(inside, buffer);
@@ -364,7 +364,7 @@ impl Palette {
             }
         }
         if list.is_empty() {
-            Line::styled(" no command is called that", quiet).render(below, buffer);
+            Line::styled(" no such command", quiet).render(below, buffer);
         }
     }
 }

@@ -13,11 +13,11 @@ use crate::simulation::Observation;
 use crate::tui::frame::Comparison;
 use crate::tui::theme::Role;
 
-/// What the table of both runs' numbers needs, columns.
-const NUMBERS: u16 = 39;
+/// Least width of a column of numbers, cells.
+const COLUMN: usize = 11;
 
-/// Below this width the difference is not drawn.
-const NARROWEST: u16 = 20;
+/// The difference is not drawn below this width.
+const NARROWEST: u16 = 17;
 
 /// Draws the comparison over the whole area of the panels.
 pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffer: &mut Buffer) {
@@ -25,23 +25,25 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffe
     let [left, right] = Layout::horizontal([Constraint::Fill(1); 2])
         .spacing(1)
         .areas(top);
-    // The numbers are cut nowhere; the difference has what is left, if that is enough to see it.
-    let left_over = bottom.width.saturating_sub(NUMBERS + 1);
+    let (seen, other, theme) = (&frame.observation, &comparison.observation, &app.theme);
+    let difference: Vec<f64> = differences(other, seen).into_iter().map(f64::abs).collect();
+    let rows = rows(frame, comparison, &difference, theme.ascii());
+    let cells = rows.iter().flat_map(|(_, here, there)| [here, there]);
+    let column = cells
+        .map(|cell| cell.chars().count())
+        .fold(COLUMN, usize::max);
+    // The numbers must not be cut; the difference gets the rest, if that is wide enough.
+    let table = 17 + 2 * column as u16;
+    let left_over = bottom.width.saturating_sub(table + 1);
     let [below, numbers] = if left_over < NARROWEST {
         [Rect::ZERO, bottom]
     } else {
-        Layout::horizontal([Constraint::Fill(1), Constraint::Length(NUMBERS)])
+        Layout::horizontal([Constraint::Fill(1), Constraint::Length(table)])
             .spacing(1)
             .areas(bottom)
     };
     let names = (this_name(frame), comparison.name.as_str());
-    let (seen, other, theme) = (&frame.observation, &comparison.observation, &app.theme);
-    let inside = panel_block(
-        &format!("3D profile: {} and {}", names.0, names.1),
-        app,
-        left,
-        buffer,
-    );
+    let inside = panel_block("3D profile", app, left, buffer);
     let mut plot = bare_plot(app, Axis::new("r", "m"), Axis::new("f", "m"))
         .cursor(app.cursor_radius(frame))
         .curve(curve(names.1, &other.radii, &other.profile, theme, Role::Slip).dashed())
@@ -69,7 +71,6 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffe
         ))
         .render(inside, buffer);
     let inside = panel_block("difference of f", app, below, buffer);
-    let difference: Vec<f64> = differences(other, seen).into_iter().map(f64::abs).collect();
     let largest = largest(&difference);
     let edge = seen.radii.last().copied().unwrap_or(0.0);
     // Six decades: what lies below is rounding.
@@ -83,11 +84,8 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffe
         .scale(Scale::Log)
         .bounds(bounds);
     if largest == 0.0 {
-        let told = [
-            "equal so far: both run on from here;",
-            "C compares from the start",
-        ];
-        for (text, row) in told.iter().zip(inside.rows()) {
+        let words = ["equal so far", "C: from the start"];
+        for (text, row) in words.iter().zip(inside.rows()) {
             nothing(text, app, row, buffer);
         }
     } else {
@@ -97,9 +95,12 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffe
             .render(inside, buffer);
     }
     let inside = panel_block("both", app, numbers, buffer);
-    let rows = rows(frame, comparison, &difference, theme.ascii());
-    for ((name, here, there), row) in rows.iter().zip(inside.rows()) {
-        Line::raw(format!(" {name:14} {here:>11} {there:>11}")).render(row, buffer);
+    let lines = rows
+        .iter()
+        .map(|(name, here, there)| format!(" {name:14} {here:>column$} {there:>column$}"));
+    let stopped = comparison.stopped.iter().map(|why| format!(" {why}"));
+    for (line, row) in lines.chain(stopped).zip(inside.rows()) {
+        Line::raw(line).render(row, buffer);
     }
 }
 
@@ -122,7 +123,7 @@ fn rows(
     let maybe =
         |number: Option<f64>, unit: &str| number.map_or_else(|| "-".into(), |v| value(v, unit));
     let residual = |number: Option<f64>| number.map_or_else(|| "-".into(), |v| format_number(v, 2));
-    let mut rows = vec![
+    vec![
         ("", this_name(frame), comparison.name.clone()),
         (
             "stick c",
@@ -150,11 +151,7 @@ fn rows(
             maybe(comparison.step_cost, "s"),
         ),
         ("rms difference", value(rms(difference), "m"), String::new()),
-    ];
-    if let Some(stopped) = &comparison.stopped {
-        rows.insert(1, ("", String::new(), stopped.clone()));
-    }
-    rows
+    ]
 }
 
 /// The worn profile of `there` less that of `here`, m, at the nodes of `there`.

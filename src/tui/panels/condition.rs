@@ -11,7 +11,7 @@ use ratatui::style::Style;
 use ratatui::widgets::Widget;
 
 use super::{App, Frame, Panel, nothing, plot};
-use crate::plot::{Axis, Curve};
+use crate::plot::{Axis, Curve, Point};
 use crate::tui::theme::Role;
 
 /// Points of a border.
@@ -83,12 +83,13 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     chart = chart.curve(Curve::new("path", &amplitudes, &loads, style));
     let regime = frame.figures.as_ref().map(|figures| figures.regime.title());
     let name = regime.unwrap_or("now");
+    let style = theme.style(Role::Alarm);
     chart
-        .curve(Curve::new(
-            name,
-            &here[0],
-            &here[1],
-            theme.style(Role::Alarm),
-        ))
+        .curve(Curve::new(name, &here[0], &here[1], style))
+        .point(Point {
+            at: [amplitude, load],
+            sign: '●',
+            style,
+        })
         .render(area, buffer);
 }

@@ -1,4 +1,4 @@
-//! Panels, one a file: each draws one frame into one area.
+//! Panels, one per file: each draws one frame into one area.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
@@ -57,11 +57,11 @@ pub enum Panel {
     Depth,
     /// Worn volume and work of friction over cycles.
     Volume,
-    /// Worn volume of a cycle over cycles.
+    /// Worn volume per cycle, over cycles.
     Rate,
     /// The energy residual of a period over cycles.
     Residual,
-    /// What a step costs over cycles.
+    /// Time per step over cycles.
     Cost,
     /// The scar from above.
     Scar,
@@ -94,7 +94,7 @@ impl Panel {
         Self::ScarDepth,
     ];
 
-    /// The panel so many places further on.
+    /// The panel this many places on.
     pub fn shifted(self, places: isize) -> Self {
         let at = self.index() as isize;
         Self::ALL[(at + places).rem_euclid(Self::ALL.len() as isize) as usize]
@@ -182,7 +182,7 @@ impl Panel {
         }
         let high = values.iter().copied().reduce(f64::max)?;
         let low = values.iter().copied().reduce(f64::min)?;
-        // Five decades say more than the last trace of a stress at the edge of the contact.
+        // Five decades show more than the last trace of stress at the contact edge.
         Some([
             if scale == Scale::Log {
                 low.max(1e-5 * high)
@@ -193,8 +193,8 @@ impl Panel {
         ])
     }
 
-    /// Whether a few values may be far above all others: a stress that is singular at a border, a step
-    /// that the machine was slow with.
+    /// Whether a few values may be far above all others: a stress that is singular at a border, or
+    /// a slow step.
     fn has_spikes(self) -> bool {
         matches!(
             self,
@@ -344,7 +344,7 @@ fn series(frame: &Frame, of: impl Fn(&Cycle) -> f64) -> (Vec<f64>, Vec<f64>) {
         .unzip()
 }
 
-/// A word in a panel that has nothing to plot.
+/// Writes a message in a panel that has nothing to plot.
 fn nothing(text: &str, app: &App, area: Rect, buffer: &mut Buffer) {
     Line::styled(format!(" {text}"), app.theme.style(Role::Quiet)).render(area, buffer);
 }

@@ -1,4 +1,4 @@
-//! The numbers of the moment, the most wanted first: a small panel shows fewer.
+//! The numbers of the moment, most important first: a small panel shows fewer.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;

@@ -36,7 +36,7 @@ fn height(frame: &Frame) -> f64 {
     }
 }
 
-/// f₀ with `wear` (m) added so many times.
+/// f₀ plus `times` the `wear` (m).
 fn magnified(frame: &Frame, wear: &[f64], times: f64) -> Vec<f64> {
     let unworn = frame.observation.unworn.iter();
     unworn.zip(wear).map(|(f, worn)| f + times * worn).collect()

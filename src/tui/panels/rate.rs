@@ -1,4 +1,4 @@
-//! The volume that a cycle wears, over cycles.
+//! Worn volume per cycle, over cycles.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;

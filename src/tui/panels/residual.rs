@@ -1,5 +1,5 @@
-//! How far the wear volume and the work of friction disagree: V/(k E_d) − 1 since the start, in parts of a
-//! thousand. Zero is what the wear law says.
+//! The difference between wear volume and friction work: V/(k E_d) − 1 since the start, in
+//! thousandths. The wear law says zero.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;

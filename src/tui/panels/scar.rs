@@ -1,4 +1,4 @@
-//! The scar from above: a disc in half blocks, its left half with stick and slip, its right half with
+//! The scar from above: a disc in half blocks; its left half shows stick and slip, its right half
 //! the worn depth in colours.
 //!
 //! ```text
@@ -23,7 +23,12 @@ use crate::plot::units::format_value_in;
 use crate::simulation::Zone;
 use crate::tui::theme::Role;
 
-/// What stands at a place of the disc.
+/// The width, cells, from which the legend fits in one line, and the height from which it gets two
+/// lines below that width.
+const ONE_LINE: u16 = 64;
+const TWO_LINES: u16 = 10;
+
+/// What a point of the disc shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Place {
     /// Outside of all that is drawn.
@@ -69,8 +74,13 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     if area.height < 4 || area.width < 12 {
         return nothing("too small for the scar", app, area, buffer);
     }
+    let lines = if area.width < ONE_LINE && area.height >= TWO_LINES {
+        2
+    } else {
+        1
+    };
     let disc = Rect {
-        height: area.height - 1,
+        height: area.height - lines,
         ..area
     };
     let deepest = app.bounds(Panel::Scar).map_or(0.0, |[_, high]| high);
@@ -179,7 +189,7 @@ fn legend(frame: &Frame, app: &App, area: Rect, size: f64, deepest: f64, buffer:
         Some(sign) => format!("slip {}", if sign > 0.0 { "→" } else { "←" }),
         None => "no slip".into(),
     });
-    let y = area.bottom() - 1;
+    let mut y = area.bottom() - 1;
     let mut x = area.x + 1;
     for part in parts {
         let width = Line::raw(part.as_str()).width() as u16;
@@ -191,6 +201,9 @@ fn legend(frame: &Frame, app: &App, area: Rect, size: f64, deepest: f64, buffer:
     }
     let [before, after] = ["worn 0 ".to_owned(), format!(" {}", value(deepest, "m"))];
     let width = (before.len() + SHADES + after.chars().count()) as u16;
+    if area.width < ONE_LINE && area.height >= TWO_LINES {
+        (x, y) = (area.x + 1, y - 1);
+    }
     if x + width > area.right() {
         return;
     }

@@ -1,5 +1,5 @@
-//! A cut through indenter and half-space: two bodies, one pressed into the other, as one sees them, and
-//! in the half-space the stress under the contact.
+//! A cut through indenter and half-space: one body pressed into the other, with the stress under
+//! the contact.
 //!
 //! Heights of the surfaces are exaggerated, each body's surface to an eighth of a cell. Below the surface
 //! lengths are true: a half cell is about as high as a column is wide, and both stand for the same length,

@@ -164,7 +164,7 @@ impl Samples {
         Some(Self { columns, values })
     }
 
-    /// The value of a column so many samples below the surface; the last row goes on.
+    /// The value of a column this many samples below the surface; the last row continues downwards.
     pub fn value(&self, column: usize, below: usize) -> f64 {
         let rows = self.values.len() / self.columns;
         self.values[below.min(rows - 1) * self.columns + column]

@@ -1,4 +1,4 @@
-//! What each panel shows, in words: for the reader who knows Hertz and nothing else.
+//! Explanations of the panels, for a reader who knows Hertz and nothing else.
 
 use super::Panel;
 
@@ -10,24 +10,26 @@ pub struct Words {
     pub symbols: &'static [(&'static str, &'static str)],
 }
 
-const A: (&str, &str) = ("a", "contact radius: inside it the bodies touch");
-const C: (&str, &str) = ("c", "stick radius: inside it nothing slips at this moment");
-const BAND: (&str, &str) = ("strip", "stick, slip and open zones along the radius");
+const A: (&str, &str) = ("a", "contact radius: the bodies touch inside it");
+const C: (&str, &str) = ("c", "stick radius: nothing slips inside it at this moment");
+const BAND: (&str, &str) = ("band", "stick, slip and open zones along the radius");
 
 impl Panel {
     /// The explanation of the panel.
     pub fn words(self) -> Words {
         let (text, symbols): (&str, &[(&str, &str)]) = match self {
             Self::Profile => (
-                "The shape of the indenter over the radius, unworn and worn. Real wear is often thinner than \
-                 a line, so it is drawn magnified by the factor in the legend. Wear begins where the surfaces \
-                 slide under pressure: in the ring between c and a.",
+                "The shape of the indenter against the radius, unworn and worn. Real wear is \
+                 often thinner than a line, so it is magnified by the factor in the legend. Wear \
+                 begins where the surfaces slide under pressure: in the ring between c and a. Whenever the motion \
+                 reverses, the whole contact sticks again, and c jumps to a.",
                 &[("f", "height of the profile over its tip"), A, C, BAND],
             ),
             Self::Stresses => (
-                "Pressure p and shear stress over the radius. The shear stress is divided by μ, so that it lies \
-                 on p or on -p where the contact slips and between them where it sticks. Unworn, p is the \
-                 half-ellipse of Hertz; wear moves the load to the parts that stick.",
+                "Pressure p and shear stress against the radius. The shear stress is divided by \
+                 μ, so it lies on p or -p where the contact slips and between them where it \
+                 sticks. The unworn p is Hertz's half-ellipse; wear moves the load into the stick \
+                 zone.",
                 &[
                     ("p", "pressure"),
                     ("τ/μ", "shear stress over the friction coefficient"),
@@ -36,52 +38,59 @@ impl Panel {
                 ],
             ),
             Self::Springs => (
-                "The method replaces the 3D contact by a row of independent springs and the shape f by its 1D \
-                 image g. A spring at x touches where g(x) is below the depth d. The force of the contact is \
-                 the sum over the springs, exactly.",
+                "The method replaces the 3D contact with a row of independent springs, and the \
+                 shape f with its 1D image g. A spring at x touches where g(x) is below the depth \
+                 d. The contact force is exactly the sum of the spring forces.",
                 &[("g", "1D profile"), ("d", "indentation depth"), A, C],
             ),
             Self::Section => (
-                "A cut through both bodies: above the indenter, below the half-space that it deforms. Heights \
-                 are exaggerated by the factor given. The surface of contact is coloured by stick and slip.",
+                "A cut through both bodies: the indenter above, the half-space it deforms below. \
+                 Heights are exaggerated by the factor shown. The contact surface is coloured by \
+                 stick and slip.",
                 &[
                     ("F_z", "normal force"),
                     ("u_x", "tangential displacement of the indenter"),
                 ],
             ),
             Self::Loop => (
-                "Tangential force over tangential displacement in the last cycle. The area inside is the energy \
-                 lost to friction. A line means full stick, a thin loop partial slip, a parallelogram with flat \
-                 ends gross slip. The arrow stands at the present moment.",
+                "Tangential force against tangential displacement in the last cycle. The area \
+                 inside is the energy lost to friction. A line means full stick, a thin loop \
+                 partial slip, a parallelogram with flat ends gross slip. The arrow marks the \
+                 present moment.",
                 &[
                     ("u_x", "tangential displacement of the indenter"),
                     ("F_x", "tangential force (Q in fretting tests)"),
                 ],
             ),
             Self::Radii => (
-                "The largest contact radius and the smallest stick radius of each cycle. While wear goes on, a \
-                 grows as the ring is worn down; c settles, because what has stuck through a cycle goes on \
-                 sticking.",
+                "The largest contact radius and the smallest stick radius of each cycle. As the \
+                 ring wears, a grows; c settles, because what has stuck through a whole cycle \
+                 keeps sticking.",
                 &[
                     ("a", "contact radius"),
                     ("c", "stick radius: the smallest of the cycle"),
                 ],
             ),
             Self::Numbers => (
-                "The state in numbers, and what a fretting test reports of the last complete cycle. A, B and D \
+                "The state in numbers, and what a fretting test reports for the last complete \
+                 cycle. A, B and D \
                  are ratios of the loop: at the border of gross slip an unworn sphere has A = 0.2, B = 0.77 and \
                  D = 0.26. k relates wear to friction work; Archard's rate per normal force is μ k.",
                 &[
                     ("E_d", "energy lost to friction"),
-                    ("Q*/(μP)", "amplitude of F_x over the friction limit"),
-                    ("slip ratio", "mean slip of the contact over the amplitude"),
-                    ("D, A, B", "sliding ratio, energy ratios of the loop"),
-                    ("V/E_d", "wear volume over accumulated energy"),
+                    ("Q*/(μP)", "amplitude of F_x divided by the friction limit"),
+                    (
+                        "slip ratio",
+                        "mean slip of the contact divided by the amplitude",
+                    ),
+                    ("D, A, B", "sliding ratio and energy ratios of the loop"),
+                    ("V/E_d", "wear volume divided by accumulated energy"),
                 ],
             ),
             Self::Depth => (
-                "How much has been worn off, over the radius. Inside the permanent stick zone it is zero; the \
-                 ring outside it grows towards the limiting shape (t), if the depth is held.",
+                "How much has worn off, against the radius. Inside the permanent stick zone it is \
+                 zero; the \
+                 ring outside it grows towards the limiting shape (t) if the depth is held.",
                 &[("f - f0", "worn depth"), A, C, BAND],
             ),
             Self::Volume => (
@@ -92,13 +101,13 @@ impl Panel {
                 ],
             ),
             Self::Rate => (
-                "The wear volume of one cycle, over the cycles. It falls where the ring wears free of load, and \
-                 stays where a force presses the indenter on.",
+                "The wear volume of each cycle. It falls as the ring wears free of load, and \
+                 stays up if a force keeps pressing the indenter in.",
                 &[("V per cycle", "wear volume of one cycle")],
             ),
             Self::Residual => (
                 "V = k E_d holds exactly in theory: V comes from the 3D profile, E_d from the 1D springs. The \
-                 difference shows how well the numerics agree with themselves.",
+                 difference shows how consistent the numerics are.",
                 &[
                     ("V", "wear volume"),
                     ("k", "wear coefficient"),
@@ -106,25 +115,27 @@ impl Panel {
                 ],
             ),
             Self::Cost => (
-                "What one step of the simulation takes on this machine.",
+                "How long one step of the simulation takes on this machine.",
                 &[("t", "time per step")],
             ),
             Self::Scar => (
                 "The contact from above. The left half shows where it sticks, slips and is open at this moment, the \
-                 right half the worn depth in colours. The arrow says which way the indenter slips.",
-                &[("s ~ .", "stick, slip, open, where there are no colours")],
+                 right half the worn depth in colours. The arrow shows which way the indenter \
+                     slips.",
+                &[("s ~ .", "stick, slip, open (without colours)")],
             ),
             Self::Log => (
-                "The fretting loops of earlier cycles behind that of the last one. The axes are those of the last \
-                 loop; each older one stands further to the right and up.",
+                "The fretting loops of earlier cycles behind the last one. The axes belong to the \
+                 last loop; older loops are shifted to the right and up.",
                 &[
                     ("u_x", "tangential displacement of the indenter"),
                     ("F_x", "tangential force"),
                 ],
             ),
             Self::Condition => (
-                "Load and displacement amplitude of the cycles so far. To the right of the border the contact slips as \
-                 a whole in each cycle, to the left its middle sticks: dashed for the unworn shape, solid as it is now.",
+                "Load and displacement amplitude of the cycles so far. Right of the border the \
+                 whole contact slips in each cycle; left of it the middle sticks. The border is \
+                 dashed for the unworn shape, solid for the present one.",
                 &[("F_z", "mean normal force of a cycle")],
             ),
             Self::ScarDepth => (

@@ -1,4 +1,4 @@
-//! Changes on the way: another value, method or law for the run, or another scenario in its place.
+//! Changes during the run: a value, method or law, or another scenario.
 
 use std::sync::Arc;
 
@@ -15,27 +15,27 @@ use crate::tui::settings::Setting;
 use crate::tui::trend::Trend;
 use crate::tui::undo::Past;
 
-/// How much finer each press of the key makes cells and steps.
+/// Factor by which each key press refines cells and steps.
 const STRIDE: f64 = 1.5;
 
-/// The fewest cells that a key goes down to.
+/// Minimum number of cells reached by the key.
 const COARSEST: usize = 8;
 
 /// Laws that keys step through.
 const LAWS: [&str; 2] = ["archard", "power"];
 
 impl Worker {
-    /// The transform method so many places after the present one.
+    /// Changes the transform method by this many places.
     pub(super) fn change_method(&mut self, places: isize) {
         let now = self.session.simulation().setup().method;
         let method = shifted(&AbelMethod::ALL, |method| *method == now, places);
         self.change("numerics.method", method.name());
     }
 
-    /// The wear law so many places after the present one.
+    /// Changes the wear law by this many places.
     pub(super) fn change_law(&mut self, places: isize) {
         match self.session.simulation().setup().wear {
-            None => self.notice("this scenario has no wear: there is no law to change"),
+            None => self.notice("this scenario has no wear, so it has no wear law to change"),
             Some(now) => {
                 let law = shifted(&LAWS, |law| *law == now.name(), places);
                 self.change("wear.law", law);
@@ -53,7 +53,7 @@ impl Worker {
         if next == now || !within.contains(&next.points) {
             let end = if places > 0 { "finest" } else { "coarsest" };
             let cells = now.points;
-            return self.notice(&format!("N = {cells} is about the {end} level there is"));
+            return self.notice(&format!("N = {cells}: this is the {end} level"));
         }
         let keys = next.keys();
         let mut changes = keys.iter().filter(|(key, _)| *key != "numerics.integrator");
@@ -72,7 +72,7 @@ impl Worker {
         }
     }
 
-    /// Another value for a key, from here on; further `, KEY=VALUE` behind it hold at once.
+    /// Changes a key from here on; further `, KEY=VALUE` change at the same time.
     pub(super) fn change(&mut self, key: &str, value: &str) {
         self.keep();
         let assignments = assignments(key, value);
@@ -95,7 +95,7 @@ impl Worker {
         }
     }
 
-    /// What follows from the scenario as it is now.
+    /// Updates what depends on the present scenario.
     pub(super) fn learn(&mut self) {
         self.theory = Arc::new(Theory::of(self.session.simulation().setup()));
         self.settings = Arc::new(Setting::all(self.session.scenario()));

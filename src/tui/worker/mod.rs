@@ -1,7 +1,8 @@
-//! The worker: a thread that owns the simulation, takes orders between steps and publishes frames.
+//! The worker: a thread that owns the simulation, handles orders between steps and publishes
+//! frames.
 //!
-//! It steps no further ahead than the pace allows, and it publishes a frame only after the one
-//! before has been taken, so that a slow terminal costs the simulation nothing.
+//! It steps no further ahead than the pace allows, and publishes a frame only after the previous
+//! one has been taken, so that a slow terminal does not slow the simulation.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -59,7 +60,7 @@ pub struct Worker {
     kept_at: Instant,
     curves: Curves,
     activity: Activity,
-    /// Whether the user has been told that the plan is at its end.
+    /// Whether the user has been told that the planned end is reached.
     told_of_end: bool,
     /// Whether frames of a fast run are taken at one phase of the motion.
     holds_phase: bool,
@@ -136,18 +137,18 @@ impl Worker {
         Self { ghosts, ..self }
     }
 
-    /// What to set for the worker to cut short what it does, before it is told to quit.
+    /// A flag that makes the worker interrupt its work, to be set before it is told to quit.
     pub fn halt(&self) -> Arc<AtomicBool> {
         Arc::clone(&self.halt)
     }
 
-    /// Carries out orders and steps in between, until told to quit.
+    /// Handles orders and steps in between, until told to quit.
     pub fn serve(mut self, orders: &Receiver<Order>) {
         self.attend(orders);
     }
 
-    /// [`serve`](Self::serve), and keeps the session on the way and at the end, a panic included;
-    /// returns what there is to say of that.
+    /// [`serve`](Self::serve), and saves the session regularly and at the end, even after a panic;
+    /// returns the message for the user.
     pub fn serve_and_keep(
         mut self,
         orders: &Receiver<Order>,
@@ -155,7 +156,7 @@ impl Worker {
     ) -> Option<String> {
         self.keeping = keeping;
         let served = catch_unwind(AssertUnwindSafe(|| self.attend(orders)));
-        // A step that was cut short has left half a state.
+        // The interrupted step has left half a state.
         let session = served.is_ok().then(|| self.past.line(&self.session));
         let keeping = self.keeping.take()?;
         locked(&keeping).finish(session)
@@ -178,7 +179,7 @@ impl Worker {
             ) {
                 Ok(Order::Quit) | Err(RecvTimeoutError::Disconnected) => return,
                 Ok(order) => {
-                    // Of many orders that wait, not every one is shown.
+                    // If many orders are waiting, not every one is shown.
                     for order in std::iter::once(order).chain(orders.try_iter()) {
                         if matches!(order, Order::Quit) || self.halt.load(Ordering::Relaxed) {
                             return;
@@ -199,7 +200,7 @@ impl Worker {
         }
     }
 
-    /// Keeps the session when that is due.
+    /// Saves the session when due.
     fn look_after(&mut self) {
         let keeping = self.keeping.as_ref();
         let word =
@@ -209,17 +210,13 @@ impl Worker {
         }
     }
 
-    /// Sets a comparison beside this run, so many places after the one before, from now on or from the
-    /// start.
+    /// Starts a comparison, this many places after the previous one, from now or from the start.
     fn comparison(&mut self, places: isize, from: From) {
         match ComparisonRun::beside(&self.session, self.comparison.as_ref(), places, from) {
             Ok(comparison) => {
-                let cycle = self.session.simulation().cycle();
                 let name = comparison.name();
                 self.notice(&match from {
-                    From::Now => format!(
-                        "comparing with {name} from cycle {cycle:.2}; C compares from the start"
-                    ),
+                    From::Now => format!("comparing with {name} from here; C: from the start"),
                     From::Start => format!("comparing with {name} from the start"),
                 });
                 self.comparison = Some(comparison);
@@ -250,13 +247,13 @@ impl Worker {
         }
     }
 
-    /// Runs the refinement_check beside the worker; its answer comes as an event.
+    /// Runs the refinement check in its own thread; its result comes as an event.
     fn refinement_check(&self) {
         let (session, events) = (self.session.clone(), self.events.clone());
         thread::spawn(move || {
-            // Whatever happens, somebody waits for the answer.
+            // The receiver waits for an answer, whatever happens.
             let answer = std::panic::catch_unwind(|| refinement_check::run(&session))
-                .map_err(|_| "the refinement_check failed".to_owned())
+                .map_err(|_| "the refinement check failed".to_owned())
                 .and_then(|answer| answer.map_err(|error| error.to_string()));
             let _ = events.send(Event::RefinementCheck(answer));
         });
@@ -288,7 +285,7 @@ impl Worker {
             Order::RunPause => self.run_or_pause(),
             Order::Step => self.by_hand(|_, _| true),
             Order::Cycle => self.by_hand(ends_cycle),
-            Order::Back => self.travel(Past::back, "the run begins here"),
+            Order::Back => self.travel(Past::back, "this is the start of the run"),
             Order::Forth => self.travel(Past::forth, "this is the present"),
             Order::Mark => self.mark(),
             Order::Visit => self.visit(),
@@ -463,7 +460,7 @@ impl Worker {
     }
 }
 
-/// What somebody has left who panicked is replaced or kept, but never half made.
+/// The value is never half written, even after a panic.
 fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -16,14 +16,15 @@ const JUMP_EVERY: Duration = Duration::from_millis(100);
 /// How long the worker steps before it looks for orders again.
 const STINT: Duration = Duration::from_millis(4);
 
-/// Frames of a fast run are taken at this part of a cycle: at its end, as the rows of a history are.
+/// Frames of a fast run are taken at this fraction of a cycle: at its end, as the rows of a history
+/// are.
 const HELD: f64 = 0.0;
 
 /// A run too slow for a frame at each cycle shows one at least this often.
 const AT_LEAST: Duration = Duration::from_secs(1);
 
-/// What is said when a run that cannot go on is asked to.
-const BROKEN_DOWN: &str = "the run has broken down; r starts again, m changes the method";
+/// The notice when a failed run is asked to continue.
+const BROKEN_DOWN: &str = "the run has failed; r restarts it, m changes the method";
 
 impl Worker {
     /// Runs, or pauses.
@@ -32,14 +33,14 @@ impl Worker {
             Activity::Running => self.activity = Activity::Paused,
             Activity::Done if !self.told_of_end => {
                 self.told_of_end = true;
-                self.notice("this is the planned end; Space again runs on without end, r restarts");
+                self.notice("planned end reached; Space again continues without limit, r restarts");
             }
             Activity::Paused | Activity::Done => self.activity = Activity::Running,
             Activity::Stopped(_) => self.notice(BROKEN_DOWN),
         }
     }
 
-    /// The phase at which frames are taken, degrees; none while the motion itself is shown.
+    /// The phase at which frames are taken, degrees; `None` while the motion itself is shown.
     pub(super) fn held_phase(&self) -> Option<f64> {
         let holds = self.holds_phase
             && Pace::of_rung(self.rung).blurs_motion()
@@ -51,14 +52,14 @@ impl Worker {
     pub(super) fn hold_or_release_phase(&mut self) {
         self.holds_phase = !self.holds_phase;
         self.notice(if self.holds_phase {
-            "above 2 cycles/s, frames are taken at one phase of the motion"
+            "above 2 cycles/s, all frames show the same phase of the motion"
         } else {
-            "frames are taken as they come: a fast run shows arbitrary phases"
+            "frames at any phase: in a fast run the motion seems to jump"
         });
     }
 
-    /// How long to wait for orders before the next step or checkpoint is due; forever when there is
-    /// none.
+    /// How long to wait for orders before the next step or checkpoint is due; forever if none is
+    /// due.
     pub(super) fn until_next_step(&self) -> Option<Duration> {
         if self.activity != Activity::Running {
             let line = self.past.line(&self.session);
@@ -67,8 +68,8 @@ impl Worker {
         Some(Duration::from_secs_f64(self.ahead().clamp(0.0, 0.1)))
     }
 
-    /// Seconds until the next step is due. A jump over many cycles is due a moment after the one before:
-    /// how far it goes is not for the pace to say, or no run could be repeated.
+    /// Seconds until the next step is due. A jump over many cycles is due a moment after the one
+    /// before: its length must not depend on the pace, or runs would not be repeatable.
     fn ahead(&self) -> f64 {
         let simulation = self.session.simulation();
         match Pace::of_rung(self.rung) {

@@ -1,4 +1,4 @@
-//! Going back in time, and on from there.
+//! Time travel: back to earlier states, and on from there.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -8,25 +8,25 @@ use crate::tui::frame::Activity;
 use crate::tui::trend::Trend;
 use crate::tui::undo::{Kept, Past};
 
-/// States to come back to are kept at least this far apart while it runs.
+/// Minimum time between stored states while running.
 const APART: Duration = Duration::from_millis(50);
 
 impl Worker {
-    /// Keeps the present state to come back to.
+    /// Stores the present state.
     pub(super) fn keep(&mut self) {
         self.past.keep(&self.session, &self.trend);
         self.kept_at = Instant::now();
     }
 
-    /// Keeps the end of a cycle, but not so often that it costs time.
+    /// Stores the end of a cycle, but not so often that it takes noticeable time.
     pub(super) fn keep_cycle(&mut self, before: f64) {
         if ends_cycle(before, self.session.simulation().cycle()) && self.kept_at.elapsed() > APART {
             self.keep();
         }
     }
 
-    /// Goes on from the state on the screen, if it is in the past. The present that it leaves is marked,
-    /// so that `B` finds it again; returns what there is to say of that.
+    /// Continues from the state on the screen, if it is in the past. The present that it leaves is
+    /// bookmarked, so that `B` finds it again; returns the notice about that.
     pub(super) fn branch(&mut self) -> Option<String> {
         let whole_trend = self.whole_trend.take();
         let present = self.past.present()?;
@@ -35,11 +35,11 @@ impl Worker {
         self.past.mark(&left, &whole_trend.unwrap_or_default());
         let cycle = self.session.simulation().cycle();
         Some(format!(
-            "branch from cycle {cycle:.2}; the run up to cycle {present:.2} is kept: B goes there"
+            "branch at cycle {cycle:.2}; B returns to the run up to {present:.2}"
         ))
     }
 
-    /// Shows another kept state, or says why there is none.
+    /// Shows another stored state, or says why there is none.
     pub(super) fn travel(&mut self, way: fn(&mut Past) -> Option<Arc<Kept>>, end: &str) {
         self.keep();
         match way(&mut self.past) {
@@ -54,7 +54,7 @@ impl Worker {
         }
     }
 
-    /// Puts a kept state on the screen, paused.
+    /// Shows a stored state, paused.
     fn show(&mut self, kept: &Kept, whole_trend: Trend) {
         self.session = kept.session.clone();
         let cycle = self.session.simulation().cycle();
@@ -65,34 +65,34 @@ impl Worker {
         self.learn();
     }
 
-    /// Marks the state on the screen.
+    /// Bookmarks the state on the screen.
     pub(super) fn mark(&mut self) {
         self.keep();
         let dropped = self.past.mark(&self.session, &self.trend);
         let cycle = self.session.simulation().cycle();
         let marks = self.past.marks();
-        let marks = match marks {
-            1 => "1 state is marked".to_owned(),
-            marks => format!("{marks} states are marked"),
+        let others = match marks {
+            1 => String::new(),
+            marks => format!(" ({marks} in all)"),
         };
         let full = match dropped {
             0 => "",
-            _ => "; memory is full, so the oldest mark was dropped",
+            _ => "; memory is full, so the oldest one was dropped",
         };
         self.notice(&format!(
-            "cycle {cycle:.2} is marked; {marks}, B goes to them{full}"
+            "bookmark set at cycle {cycle:.2}{others}; B returns to it{full}"
         ));
     }
 
-    /// Goes to the marked state before this one.
+    /// Goes to the previous bookmark.
     pub(super) fn visit(&mut self) {
         self.keep();
         let Some(mark) = self.past.bookmark_before(&self.session) else {
-            return self.notice("no state is marked; b marks this one");
+            return self.notice("no bookmark yet; b sets one here");
         };
         let whole_trend = self.whole_trend.take();
         self.past.visit(&mark);
-        // On the line of the present the trend goes on after the bookmark.
+        // On the present branch the trend continues after the bookmark.
         let trend = match self.past.present() {
             Some(_) => whole_trend.unwrap_or_else(|| self.trend.clone()),
             None => mark.trend.clone(),

@@ -1,9 +1,9 @@
-//! What runs smoothly over a block of nodes, as a cubic.
+//! Represents what varies smoothly over a block of nodes by a cubic.
 //!
-//! On many nodes a table of weights is read from the main memory in every sweep, which takes longer than the
-//! arithmetic. Where the nodes are smoothly spaced four numbers stand for the [`BLOCK`] of them: relative to the
-//! value the error at node j of a uniform grid is near (32/j)⁴/8. A block for which that is not small against the
-//! tolerance keeps its table.
+//! On many nodes a table of weights is read from the main memory in every sweep, which takes longer
+//! than the arithmetic. Where the nodes are smoothly spaced, four numbers represent a [`BLOCK`] of
+//! them: relative to the value the error at node j of a uniform grid is near (32/j)⁴/8. A block for
+//! which that is not small against the tolerance keeps its table.
 
 /// Nodes of a block.
 pub(super) const BLOCK: usize = 64;

@@ -22,8 +22,8 @@
 //! g_j = g(δ within c) + x_j { (π/2) F_1 + Z_j [2b_{j−1} − Σ_m S_m] },   b = ΔF/Δz
 //! ```
 //!
-//! That the kernels depend on ratios alone makes the form indifferent to scale, to grading and to
-//! where on the grid one stands; the number of powers grows like ln N.
+//! The kernels depend on ratios only, so the form is independent of scale, grading and position on
+//! the grid; the number of powers grows like ln N.
 //!
 //! - **Accuracy**: the tolerance bounds the relative error of the kernel (for w: the error in units of its
 //!   largest value), so that of a result in units of the same sum with all signs made alike. Rounding

@@ -1,4 +1,4 @@
-//! What the sum of powers lacks between near neighbours.
+//! Corrects the sum of powers for near neighbours.
 
 use fearless_simd::{f64x4, prelude::*};
 

@@ -1,4 +1,4 @@
-//! By how much every power decays from one node to the next.
+//! The decay of every power from one node to the next.
 //!
 //! (t_{j−1}/t_j)^μ for every node j and exponent μ, nodes counted from the origin, whose own row and the next
 //! are zero, as are those beyond the last. On many nodes a table of these would take 8 K bytes a node: there, what a

@@ -6,7 +6,7 @@
 //! S_m ← (t_{j−1}/t_j)^μ_m S_m + source_j,   sum_j = Σ_m a_m S_m − source_j Σ_m a_m
 //! ```
 //!
-//! Two operations a power. A row looks at its own source by rounding alone.
+//! Two operations per power. A row sees its own source only by rounding.
 //!
 //! Four rows share the sum over the lanes, and the near field is computed in the shade of the recurrences.
 

@@ -3,8 +3,8 @@
 //! A pass takes [`BLOCK`] rows at a time, all of it in the innermost cache: what the rows begin with and the jumps
 //! of the slope, then the [recurrences](super::recurrence) and the near field, then the part of κ.
 //!
-//! The instructions are those of the processor that runs it. Where it fuses multiplication and
-//! addition, the last digits differ from one where it does not; on one machine they are always the same.
+//! The last digits differ between CPUs with and without fused multiply-add; on one machine they are
+//! always the same.
 
 use std::f64::consts::FRAC_1_PI;
 use std::ops::Range;

@@ -193,7 +193,7 @@ pub(super) fn check_radii(name: &str, radii: &[f64], reach: f64) -> Result<(), S
     match (0.01 * reach..=100.0 * reach).contains(&widest) {
         true => Ok(()),
         false => Err(format!(
-            "{name}: radii up to {widest:.1e} m, where contact reaches {reach:.1e} m: are they in m?"
+            "{name}: radii up to {widest:.1e} m, but the contact reaches only {reach:.1e} m: are they in m?"
         )),
     }
 }

@@ -1,5 +1,5 @@
-//! What `s` writes, and how it is opened again: the state, the scenario that leads there, the history
-//! and the last loop as tables, and a checkpoint to go on from.
+//! What `s` writes and how it is opened again: the state, the scenario that reproduces it, history and
+//! last loop as tables, and a checkpoint.
 
 use std::fmt::Write;
 use std::fs;

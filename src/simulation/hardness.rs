@@ -69,7 +69,7 @@ impl Simulation {
         };
         (pressure > hardness).then(|| {
             format!(
-                "outside of the theory: the pressure passes the hardness, {hardness:.3e} Pa: it is \
+                "outside the theory: the pressure exceeds the hardness, {hardness:.3e} Pa: it is \
                  {pressure:.3e} Pa at r = {radius:.2e} m {when}, and the material yields there"
             )
         })

@@ -44,7 +44,7 @@ impl Simulation {
         let scale = self.setup().depth_scale(self.state.contact.depth);
         (fall > LEVEL * scale).then(|| {
             format!(
-                "outside of the theory: with its scar the 1D profile g falls by {fall:.1e} m at x = {x:.2e} m, \
+                "outside the theory: with its scar the 1D profile g falls by {fall:.1e} m at x = {x:.2e} m, \
                  so the contact may be a ring, where the theory needs a disc"
             )
         })

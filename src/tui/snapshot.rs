@@ -131,7 +131,8 @@ pub fn open(directory: &Path) -> Result<Opened, String> {
     };
     let kept = checkpoint::read::<IgnoredAny>(&path).map_err(|error| error.to_string())?;
     let session = kept.session;
-    let trend = past(directory, session.simulation().cycle()).unwrap_or_else(|| {
+    let moment = session.simulation().moment();
+    let trend = past(directory, moment.cycle, moment.initial_volume).unwrap_or_else(|| {
         let mut trend = Trend::default();
         super::ghosts::record(&mut trend, &session);
         trend
@@ -140,7 +141,7 @@ pub fn open(directory: &Path) -> Result<Opened, String> {
 }
 
 /// The past up to `cycle` as the tables beside a checkpoint tell of it.
-fn past(directory: &Path, cycle: f64) -> Option<Trend> {
+fn past(directory: &Path, cycle: f64, initial: f64) -> Option<Trend> {
     let table = |name: &str| Columns::read(&directory.join(name)).ok();
     let history = table("history.csv")?;
     let column = |name: &str, quantity| {
@@ -173,5 +174,5 @@ fn past(directory: &Path, cycle: f64) -> Option<Trend> {
                 .collect(),
         )
     });
-    Some(Trend::of_past(entries, rows.unwrap_or_default()))
+    Some(Trend::of_past(entries, rows.unwrap_or_default(), initial))
 }

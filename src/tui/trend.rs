@@ -119,9 +119,17 @@ pub struct Trend {
 
 impl Trend {
     /// A past of `cycles`, oldest first, and of the steps of the last one: cycle, u_x⁽⁰⁾ (m), F_x (N).
-    pub fn of_past(cycles: impl Iterator<Item = Cycle>, steps: Vec<[f64; 3]>) -> Self {
-        let mut trend = Self::default();
-        let mut before = [0.0, 0.0];
+    /// The run began with a worn volume `initial` (m³).
+    pub fn of_past(
+        cycles: impl Iterator<Item = Cycle>,
+        steps: Vec<[f64; 3]>,
+        initial: f64,
+    ) -> Self {
+        let mut trend = Self {
+            start: Some((0.0, initial)),
+            ..Self::default()
+        };
+        let mut before = [0.0, initial];
         for mut entry in cycles.take(CAPACITY - 1) {
             let [start, volume] = before;
             entry.wear_rate = (entry.wear_volume - volume) / (entry.cycle - start);

@@ -199,7 +199,7 @@ fn what_cannot_be_laid_over_is_one_line() {
         ),
         (
             "r_m,wear_nm\n0,1\n0.05,2\n0.1,3\n",
-            "radii up to 1.0e-1 m, where contact reaches 1.5e-4 m: are they in m?",
+            "radii up to 1.0e-1 m, but the contact reaches only 1.5e-4 m: are they in m?",
         ),
         (
             &format!("u_um,F_N\n{open}"),
@@ -346,7 +346,7 @@ fn a_directory_without_a_state_is_refused_and_torn_ones_too() {
     );
     let whole = std::fs::read(&file).expect("a checkpoint");
     std::fs::write(&file, &whole[..whole.len() / 2]).expect("half of it");
-    refused(&["li2019-fig3-cycle-1"], "is torn");
+    refused(&["li2019-fig3-cycle-1"], "is damaged");
 }
 
 #[test]

@@ -163,7 +163,10 @@ fn bad_tables_are_one_line() {
             back,
             "indenter.file = \"shape.csv\": must increase, and follows 2.5e-4",
         ),
-        (short, "the table ends at r = 7e-5 m, but contact may reach"),
+        (
+            short,
+            "the table ends at r = 7e-5 m, but the contact can reach",
+        ),
         (crater, "the contact would be a ring"),
         ("r_m,z_m\n0,0\n".into(), "shape.csv: has no column f_m"),
         ("r_m,f_m\n0,0\n".into(), "must be from 4 to 20000 points"),

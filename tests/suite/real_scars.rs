@@ -353,14 +353,14 @@ fn pressure_that_passes_the_hardness_is_said() {
     ]);
     assert_eq!(said.code, 0, "{}", said.err);
     assert_eq!(
-        said.err.matches("passes the hardness, 1.000e6 Pa").count(),
+        said.err.matches("exceeds the hardness, 1.000e6 Pa").count(),
         1,
         "{}",
         said.err
     );
     assert!(
         dir.read("out/state.csv")
-            .contains("# warning: outside of the theory: the pressure passes")
+            .contains("# warning: outside the theory: the pressure exceeds")
     );
 }
 
@@ -383,7 +383,7 @@ fn the_explorer_marks_the_limit_and_draws_both_bodies() {
         "--set",
         "material.hardness=1.6e9",
     ];
-    let mark = "outside of the theory";
+    let mark = "outside the theory";
     assert!(!screen(&sets, "", "140x30").contains(mark));
     let later = screen(&sets, ",,,,,,", "140x30");
     assert!(later.contains(mark), "{later}");

@@ -208,7 +208,7 @@ fn what_is_not_met_is_told_in_one_line() {
         (
             &["--set", "numerics.accuracy=1e-5", "--budget", "0s"][..],
             0,
-            "numerics.accuracy = 1e-5 is not met in 0 s; the estimated error is ",
+            "numerics.accuracy = 1e-5 was not reached in 0 s; the estimated error is ",
         ),
         (
             &[

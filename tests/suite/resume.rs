@@ -253,8 +253,8 @@ fn a_checkpoint_that_cannot_be_taken_up_is_one_line() {
             &whole[..whole.len() - 1],
             "torn: is damaged: it has",
         ),
-        ("empty", b"", "is no checkpoint"),
-        ("toml", b"title = \"x\"\n", "is no checkpoint"),
+        ("empty", b"", "is not a checkpoint"),
+        ("toml", b"title = \"x\"\n", "is not a checkpoint"),
     ] {
         dir.write(name, bytes);
         for line in [

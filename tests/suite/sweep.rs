@@ -468,7 +468,7 @@ fn bad_studies_are_refused_in_one_line() {
     let axis = "[[axis]]\nkey = \"friction.coefficient\"\nvalues = [0.1]\n";
     let cases = [
         (String::new(), "base is missing"),
-        ("base = \"hertz\"\n".into(), "the study has no axis"),
+        ("base = \"hertz\"\n".into(), "there is no axis: add [[axis]]"),
         (format!("bass = \"hertz\"\n{axis}"), "unknown key bass; did you mean base?"),
         (format!("base = \"herz\"\n{axis}"), "herz: no such preset; did you mean hertz?"),
         (format!("base = \"hertz\"\ncolumns = [\"wear_volume\"]\n{axis}"), "did you mean wear_volume_m3?"),

@@ -181,15 +181,19 @@ impl Terminals {
         }
     }
 
-    /// Reads until `mark` has come.
+    /// Reads until `mark` has come, and says that it has read each frame, as terminals do.
     fn read_to(&mut self, mark: &[u8]) {
         let mut seen = Vec::new();
         let mut bytes = [0; 4096];
+        let mut answered = 0;
         while !seen.windows(mark.len()).any(|part| part == mark) {
             match self.reader.read(&mut bytes) {
                 Ok(count @ 1..) => seen.extend_from_slice(&bytes[..count]),
                 _ => panic!("the program has ended"),
             }
+            let asked = seen.windows(4).filter(|&part| part == b"\x1b[5n").count();
+            self.press(&"\x1b[0n".repeat(asked - answered));
+            answered = asked;
         }
     }
 

@@ -1,7 +1,8 @@
 //! Random keys, pastes and resizes on every preset and size: nothing panics, nothing hangs.
 //!
-//! `MDR_TUI_FUZZ_SECONDS` sets how long it goes on, `MDR_TUI_FUZZ_SEED` where it begins: a session that
-//! fails tells its own seed, and is the first one that this seed begins with.
+//! Half a minute of the same sessions each time. `MDR_TUI_FUZZ_SECONDS` sets how long it goes on, with longer sessions
+//! and from a seed of the clock, `MDR_TUI_FUZZ_SEED` where it begins: a session that fails tells its own seed, and is
+//! the first one that this seed begins with.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
@@ -182,10 +183,12 @@ fn random_keys_break_nothing() {
             .ok()
             .map(|text| text.parse::<u64>().expect("a number"))
     };
-    let seconds = number("MDR_TUI_FUZZ_SECONDS").unwrap_or(8);
+    let asked = number("MDR_TUI_FUZZ_SECONDS");
+    let seconds = asked.unwrap_or(30);
+    // The same sessions each time, but for those who ask for more.
     let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
-    let first =
-        number("MDR_TUI_FUZZ_SEED").unwrap_or(now.map_or(1, |now| now.as_secs()) * 1_000_000);
+    let now = now.map_or(1, |now| now.as_secs()) * 1_000_000;
+    let first = number("MDR_TUI_FUZZ_SEED").unwrap_or(asked.map_or(1, |_| now));
     eprintln!("MDR_TUI_FUZZ_SEED={first}");
     let (next, keys) = (AtomicU64::new(first), AtomicU64::new(0));
     let end = Instant::now() + Duration::from_secs(seconds);

@@ -52,7 +52,7 @@ fn main() -> ExitCode {
 
 type Transform = Box<dyn Fn(&[f64], &mut [f64])>;
 
-/// Does what is counted so many times.
+/// Runs `what` the given number of `times`.
 fn perform(what: &str, times: &str) -> Result<()> {
     let times: u32 = times.parse().context("not a number of times")?;
     let words: Vec<&str> = what.split(' ').collect();
@@ -107,7 +107,7 @@ fn perform(what: &str, times: &str) -> Result<()> {
     Ok(())
 }
 
-/// Instructions of this program doing `what` so many times.
+/// The instructions that this program executes to run `what` the given number of `times`.
 fn count(what: &str, times: u32) -> Result<u64> {
     let child = Command::new("valgrind")
         .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])

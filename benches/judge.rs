@@ -4,7 +4,7 @@
 //! [--budget SECONDS] [--all] [--estimate]`
 //!
 //! Times are CPU times of this thread, so that other work on the machine hardly counts. `--limit` ends
-//! the study after so many seconds; `--all` prints a line per scenario. `--estimate` judges
+//! the study after that many seconds; `--all` prints a line per scenario. `--estimate` judges
 //! the estimates of `run --estimate-error` on cells and steps drawn at random, and no accuracy.
 
 #![allow(clippy::print_stdout, reason = "a program whose output is its result")]
@@ -174,7 +174,7 @@ fn summarize(cases: &[Case], accuracy: f64) {
     );
 }
 
-/// How often the estimate was so many times the true error.
+/// A histogram of the ratio of the estimated to the true error.
 fn histogram(ratios: &[f64]) {
     const EDGES: [f64; 9] = [
         0.1,

@@ -26,7 +26,7 @@ fn study(side: usize) -> Study {
     Study::read(&text, "the study of the bench", Path::new("")).expect("a study")
 }
 
-/// Seconds for the study on so many threads, and how many points failed.
+/// The study's time on `threads` threads, s, and the number of failed points.
 fn seconds(study: &Study, threads: usize) -> (f64, usize) {
     let pool = ThreadPoolBuilder::new()
         .num_threads(threads)

@@ -40,7 +40,7 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
         None if directory.is_dir() => {
             if !options.changes.set.is_empty() {
                 let message = format!(
-                    "{}: goes on as it was put away, so --set changes nothing; \
+                    "{}: continues as it was saved, so --set changes nothing; \
                      give its scenario.toml to start anew",
                     options.scenario
                 );

@@ -108,7 +108,7 @@ impl History {
         self.rows.push('\n');
     }
 
-    /// Whether so many rows are in memory that they should go to the file.
+    /// Whether the rows in memory should be written to the file.
     pub fn is_due(&self) -> bool {
         self.rows.len() >= CHUNK
     }

@@ -17,6 +17,17 @@ pub enum Anchor {
     End,
 }
 
+impl Anchor {
+    /// The share of a text's width that stands before its point.
+    pub fn share_before(self) -> f64 {
+        match self {
+            Self::Start => 0.0,
+            Self::Middle => 0.5,
+            Self::End => 1.0,
+        }
+    }
+}
+
 /// One thing on the paper.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {

@@ -219,7 +219,7 @@ impl Data {
         ghost
     }
 
-    /// How far the contact reaches, m; none where no state tells.
+    /// The radius of the outermost node, m; `None` without a state.
     pub fn reach(&self) -> Option<f64> {
         let radii = self.states.last()?.column("r_m")?;
         radii.last().copied()

@@ -5,7 +5,7 @@ use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::types::{CidFontType, FontFlags, SystemInfo, UnicodeCmap};
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, Str, TextStr};
 
-use super::canvas::{Anchor, Canvas, Rgb, Shape};
+use super::canvas::{Canvas, Rgb, Shape};
 use super::font;
 
 /// Points of a millimetre.
@@ -96,12 +96,7 @@ fn draw(shape: &Shape, drawing: &mut Content) {
             anchor,
             upwards,
         } => {
-            let before = match anchor {
-                Anchor::Start => 0.0,
-                Anchor::Middle => 0.5,
-                Anchor::End => 1.0,
-            } * font::width(words)
-                * size;
+            let before = anchor.share_before() * font::width(words) * size;
             let codes: Vec<u8> = font::glyphs(words)
                 .iter()
                 .flat_map(|(_, glyph, _, _)| glyph.0.to_be_bytes())

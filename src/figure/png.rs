@@ -6,7 +6,7 @@ use tiny_skia::{
     Transform,
 };
 
-use super::canvas::{Anchor, BLACK, Canvas, Rgb, Shape};
+use super::canvas::{BLACK, Canvas, Rgb, Shape};
 use super::font;
 
 const INCH: f64 = 25.4;
@@ -102,11 +102,7 @@ fn draw(shape: &Shape, pixels: &mut Pixmap, to_pixels: Transform) {
             anchor,
             upwards,
         } => {
-            let before = match anchor {
-                Anchor::Start => 0.0,
-                Anchor::Middle => 0.5,
-                Anchor::End => 1.0,
-            } * font::width(words);
+            let before = anchor.share_before() * font::width(words);
             let Some(path) = outline(words, before) else {
                 return;
             };

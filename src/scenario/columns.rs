@@ -149,7 +149,7 @@ impl Columns {
     /// The numbers of the column `name` in SI units, one per row.
     ///
     /// # Errors
-    /// If there is no such column, or a field of it is empty or no finite number.
+    /// If the column is missing, or one of its fields is empty or not a finite number.
     pub fn column(&self, name: &str, quantity: Quantity) -> Result<Vec<f64>, ScenarioError> {
         let Some((at, size)) = self.find(name, quantity) else {
             let unit = quantity.units()[0].0;

@@ -17,7 +17,7 @@ const HARDLY_SAME: f64 = 20.0;
 const CUT_OFF: f64 = 0.05;
 
 impl Parts<'_> {
-    /// The scar that the run begins with; none where the scenario names none.
+    /// The scar that the run begins with; `None` without `wear.initial`.
     pub(super) fn scar(&self) -> Result<Option<Scar>, ScenarioError> {
         if self.get(&RADII).is_none() && self.get(&DEPTHS).is_none() {
             return Ok(None);

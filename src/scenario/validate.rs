@@ -86,7 +86,7 @@ pub(super) fn setup(
     Ok(setup)
 }
 
-/// Refuses an accuracy beside what is to be chosen for it.
+/// Refuses `numerics.accuracy` together with a key that it determines.
 pub(super) fn accuracy(written: &Table, origin: &Origin) -> Result<(), ScenarioError> {
     let Some(given) = schema::at(written, keys::ACCURACY.path()) else {
         return Ok(());

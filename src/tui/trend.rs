@@ -205,7 +205,8 @@ impl Trend {
 
     /// Takes in the moment after a step.
     pub fn record(&mut self, moment: &Moment) {
-        self.start.get_or_insert((moment.cycle, moment.wear_volume));
+        let start = (moment.cycle, moment.wear_volume);
+        let start = *self.start.get_or_insert(start);
         self.record_loop(moment);
         self.keep_loop(moment.cycle);
         let now = Cycle {
@@ -228,8 +229,7 @@ impl Trend {
             .cycles
             .last()
             .map(|entry| (entry.cycle, entry.wear_volume))
-            .or(self.start)
-            .unwrap_or((0.0, moment.initial_volume));
+            .unwrap_or(start);
         merged.wear_rate = if merged.cycle > start {
             (merged.wear_volume - volume) / (merged.cycle - start)
         } else {

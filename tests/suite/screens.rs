@@ -772,6 +772,18 @@ fn space_at_the_end_asks_first() {
     worker.join().expect("a worker");
 }
 
+/// Where the scar has settled, a jump could go on for ever: beyond the planned end it covers as much again, and a
+/// comparison run can follow.
+#[test]
+fn a_jump_beyond_the_planned_end_covers_as_much_again() {
+    let (dir, keys) = (dir(), "M.M.Mcm.");
+    let sets = ["--set=numerics.points=34", "--set=numerics.steps_per_cycle=1"];
+    let print = ["--print", "100x30", "--keys", keys];
+    let arguments = [&["julia2022-partial-slip"], &sets[..], &print].concat();
+    let screen = checked(explorer(dir.path(), &arguments), (100, 30), keys);
+    assert!(screen.contains("cycle 200000.00/100000"), "{screen}");
+}
+
 /// Compares a picture with its file; `UPDATE_PICTURES=1 cargo test screens::` writes it anew.
 fn assert_picture(file: &str, svg: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))

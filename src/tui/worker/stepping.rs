@@ -23,6 +23,9 @@ const HELD: f64 = 0.0;
 /// A run too slow for a frame at each cycle shows one at least this often.
 const AT_LEAST: Duration = Duration::from_secs(1);
 
+/// Cycles that a jump beyond the planned end may cover at least.
+const SHORTEST_PLAN: f64 = 1000.0;
+
 /// The notice when a failed run is asked to continue.
 const BROKEN_DOWN: &str = "the run has failed; r restarts it, m changes the method";
 
@@ -127,10 +130,7 @@ impl Worker {
         }
         self.stepped = Instant::now();
         let now = self.session.simulation().cycle();
-        let end = self.session.loaded().run().cycles;
-        let end = end.filter(|&end| now < end);
-        let end = end.map_or(f64::INFINITY, |end| self.session.heading(end));
-        match self.session.step_until(end) {
+        match self.session.step_until(self.goal()) {
             Ok(()) => {
                 if self.curves.contains(Curves::SPRINGS) {
                     self.cycle_loads.note(self.session.simulation());
@@ -151,6 +151,19 @@ impl Worker {
                 }
             }
             Err(error) => self.activity = Activity::Stopped(error.to_string()),
+        }
+    }
+
+    /// The cycle at which the next step or jump ends at the latest: the planned end, and beyond it as far
+    /// again. Where nothing wears any more, a jump would otherwise go so far that no comparison run by direct
+    /// steps could follow.
+    fn goal(&self) -> f64 {
+        let simulation = self.session.simulation();
+        let now = simulation.cycle();
+        match self.session.loaded().run().cycles {
+            Some(end) if now < end => self.session.heading(end),
+            Some(end) if simulation.may_jump() => now + end.max(SHORTEST_PLAN).ceil(),
+            _ => f64::INFINITY,
         }
     }
 

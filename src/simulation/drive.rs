@@ -28,6 +28,9 @@ const PIECES_OF_A_CYCLE: f64 = 64.0;
 /// How far behind a corner its second side is looked at, in cycles.
 const BEHIND_CORNER: f64 = 1e-9;
 
+/// Secants before a search for a zero goes on by bisection.
+const MOST_SECANTS: u32 = 40;
+
 /// mean + amplitude · sin(ωt + φ), of a displacement in m or of a force in N; another [`Waveform`] may
 /// stand in the sine's place.
 #[derive(Debug, Clone, PartialEq)]
@@ -474,11 +477,12 @@ impl Drive {
     }
 }
 
-/// Where `function` crosses zero between two points given with their values, the second included.
+/// Where `function` crosses zero between two points given with their values, the second included: by secants
+/// between points of opposite sign, of which one that stays twice counts half (the Illinois method).
 fn sign_change(
     function: impl Fn(f64) -> f64,
-    (mut low, at_low): (f64, f64),
-    (mut high, at_high): (f64, f64),
+    (mut low, mut at_low): (f64, f64),
+    (mut high, mut at_high): (f64, f64),
 ) -> Option<f64> {
     if at_high == 0.0 && at_low != 0.0 {
         return Some(high);
@@ -486,18 +490,33 @@ fn sign_change(
     if at_low * at_high >= 0.0 {
         return None;
     }
-    loop {
-        let middle = 0.5 * (low + high);
-        // No number lies between the two.
-        if middle == low || middle == high {
-            return Some(high);
+    let mut kept_high = None;
+    for tries in 0.. {
+        let gap = 2.0 * f64::EPSILON * high.abs();
+        if high - low <= 2.0 * gap {
+            break;
         }
-        if function(middle) * at_low > 0.0 {
-            low = middle;
+        // Near a double zero secants creep: then bisection goes on.
+        let middle = if tries < MOST_SECANTS {
+            let secant = high - at_high * (high - low) / (at_high - at_low);
+            secant.clamp(low + gap, high - gap)
         } else {
-            high = middle;
+            0.5 * (low + high)
+        };
+        let found = function(middle);
+        if found == 0.0 {
+            return Some(middle);
+        }
+        let keeps_high = found * at_high < 0.0;
+        let again = kept_high.replace(keeps_high) == Some(keeps_high);
+        let share = if again { 0.5 } else { 1.0 };
+        if keeps_high {
+            (low, at_low, at_high) = (middle, found, share * at_high);
+        } else {
+            (high, at_high, at_low) = (middle, found, share * at_low);
         }
     }
+    Some(high)
 }
 
 fn at(control: &Control, turns: f64) -> Target {

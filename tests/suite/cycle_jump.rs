@@ -180,6 +180,38 @@ fn a_million_cycles_cost_a_few_hundred() {
     holds("largest difference from direct steps", worst / depth, 1e-3);
 }
 
+/// A scar of less than a hundredth of the depth wants a tolerance far below it, of which only the wear is measured in
+/// depths: the work of friction need not be right to the same digits.
+#[test]
+fn a_shallow_scar_is_jumped_as_well() {
+    let overrides = [
+        "motion.tangential.amplitude=1e-8",
+        "numerics.points=60",
+        "numerics.steps_per_cycle=30",
+    ];
+    let with = |more: &[&str]| {
+        let all: Vec<String> = overrides
+            .iter()
+            .chain(more)
+            .map(|&text| text.to_owned())
+            .collect();
+        let scenario = Scenario::load("li2019-fig3", &all).expect("a scenario");
+        run_setup(scenario.setup().clone(), 1000.0)
+    };
+    let stepped = with(&[]);
+    let jumped = with(&["numerics.integrator=cycle-jump", "numerics.tolerance=1e-7"]);
+    let [rms, _] = difference(&stepped, &jumped);
+    let deepest = stepped.state().wear.iter().copied().fold(0.0, f64::max);
+    assert!(deepest < 1e-2 * 1e-6, "{deepest}");
+    holds("rms of the worn depth", rms / deepest, 1e-3);
+    let works = [&stepped, &jumped].map(|run| run.state().dissipated_energy);
+    holds("friction work", (works[1] / works[0] - 1.0).abs(), 1e-3);
+    let looked_at = jumped.state().stats.evaluated_cycles;
+    assert!(looked_at < 300 && jumped.cycle() == 1000.0, "{looked_at}");
+    let direct = jumped.steps();
+    assert!(direct < 200 * 60, "{direct} steps");
+}
+
 #[test]
 fn motions_that_never_repeat_are_stepped() {
     let setup = ours(Scene {

@@ -777,7 +777,10 @@ fn space_at_the_end_asks_first() {
 #[test]
 fn a_jump_beyond_the_planned_end_covers_as_much_again() {
     let (dir, keys) = (dir(), "M.M.Mcm.");
-    let sets = ["--set=numerics.points=34", "--set=numerics.steps_per_cycle=1"];
+    let sets = [
+        "--set=numerics.points=34",
+        "--set=numerics.steps_per_cycle=1",
+    ];
     let print = ["--print", "100x30", "--keys", keys];
     let arguments = [&["julia2022-partial-slip"], &sets[..], &print].concat();
     let screen = checked(explorer(dir.path(), &arguments), (100, 30), keys);

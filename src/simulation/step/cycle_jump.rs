@@ -6,7 +6,8 @@
 //! number n of cycles, dδ/dn = W(δ), W the wear of a [steady-state cycle](super::steady_cycle) on
 //! the frozen profile. That is integrated by [Runge–Kutta–Chebyshev steps](crate::math::chebyshev),
 //! whose error is controlled by the tolerance and whose number of stages follows the stiffness of
-//! the response of p to wear. The friction work is integrated along with it.
+//! the response of p to wear. The friction work is integrated along with it. The tolerance is in units of the depth
+//! of indentation; of the work it allows the part that it is of the scar's depth, up to 1e-4.
 //!
 //! A jump covers whole periods of the motion. It begins after the first period, in which the
 //! springs shake down. If it would need more cycles than it covers, cycles are stepped directly for
@@ -40,6 +41,9 @@ const LONGEST: f64 = 1e9;
 
 /// How many times its rms the error of a single node may be.
 const PEAK: f64 = 10.0;
+
+/// The largest error of the friction work that a jump may make, relative to all of it, however shallow the scar is.
+const LEAST_CERTAIN: f64 = 1e-4;
 
 /// Most periods of direct stepping before a jump is tried again.
 const LONGEST_REST: u32 = 16;
@@ -272,7 +276,10 @@ fn error(
     let work = chebyshev::error(covered, 0.0, after.friction_work, before, after_work).abs();
     let total = state.dissipated_energy + after.friction_work;
     let of_depth = f64::sqrt(sum / f64::max(count, 1.0)).max(largest / PEAK) / allowed;
-    of_depth.max(work / (tolerance * total).max(f64::MIN_POSITIVE))
+    // The part of the scar's depth that is allowed is allowed of the work as well.
+    let scar = deepest(&after.wear).unwrap_or(f64::INFINITY);
+    let of_scar = (allowed / scar).min(LEAST_CERTAIN).max(tolerance);
+    of_depth.max(work / (of_scar * total).max(f64::MIN_POSITIVE))
 }
 
 /// The state after a jump from `state`, with the springs of `memory`.

@@ -14,8 +14,15 @@ use crate::export::header::number;
 use crate::math::abel::AbelMethod;
 use crate::plot::{Axis, Curve, Plot, Scale};
 use crate::scenario::Scenario;
-use crate::studies::trade::report::{Trial, cheapest, front, points, table};
-use crate::studies::trade::{self, Errors, Ladder, Sample, Setting};
+use crate::studies::refinement::Verdict;
+use crate::studies::trade::report::{Trial, cheapest, cheapest_for_scar, front, points, table};
+use crate::studies::trade::{self, Adaptive, Errors, Ladder, Sample, Setting};
+
+/// Accuracies whose own search for a level is timed beside the fixed settings.
+const ACCURACIES: [f64; 2] = [1e-2, 1e-3];
+
+/// The longest that such a search may take, s.
+const PATIENCE: f64 = 60.0;
 
 /// Runs the study and prints, draws and writes what was asked for.
 pub fn trade(options: &Trade) -> Result<ExitCode> {
@@ -103,6 +110,8 @@ struct Found {
     /// The error of the reference, from a level half as fine.
     convergence: Option<Errors>,
     trials: Vec<Trial>,
+    /// What accuracies cost that find their level by themselves.
+    adaptive: Vec<Adaptive>,
     interrupted: bool,
 }
 
@@ -144,6 +153,7 @@ impl Study {
             convergence: half.and_then(|half| Some(half.ok()?.against(&reference))),
             reference,
             trials: Vec::new(),
+            adaptive: Vec::new(),
             interrupted,
         };
         for setting in &self.settings {
@@ -159,6 +169,16 @@ impl Study {
                 setting: *setting,
                 outcome: outcome.map_err(|error| error.to_string()),
             });
+        }
+        for accuracy in ACCURACIES.into_iter().filter(|_| !found.interrupted) {
+            bar.set_message(format!("numerics.accuracy = {accuracy:e}"));
+            let go_on = || !stop.load(Ordering::Relaxed);
+            // An accuracy that no level meets has no cost to tell.
+            if let Ok(adaptive) =
+                trade::adaptive(&self.scenario, accuracy, self.cycles, PATIENCE, &go_on)
+            {
+                found.adaptive.push(adaptive);
+            }
         }
         bar.finish_and_clear();
         Ok(Some(found))
@@ -185,6 +205,7 @@ impl Study {
                 self.reference.method, found.reference.seconds
             ),
         ];
+        notes.extend(found.adaptive.iter().map(|adaptive| cost(adaptive, found)));
         if found.interrupted {
             notes.push(format!(
                 "interrupted: {} of {} settings were tried",
@@ -194,6 +215,46 @@ impl Study {
         }
         notes
     }
+}
+
+/// What an accuracy cost, beside the cheapest fixed setting that would have done.
+fn cost(adaptive: &Adaptive, found: &Found) -> String {
+    let Adaptive {
+        accuracy,
+        level,
+        verdict,
+        sample,
+    } = adaptive;
+    let error = sample.against(&found.reference).scar;
+    let met = match verdict {
+        Verdict::Met => "",
+        _ => ", not reached",
+    };
+    let beside = match cheapest_for_scar(&found.trials, *accuracy) {
+        Some(trial) => {
+            let fixed = trial
+                .outcome
+                .as_ref()
+                .map_or(f64::NAN, |(run, _)| run.seconds);
+            let Setting {
+                method,
+                points,
+                steps,
+                ..
+            } = trial.setting;
+            format!(
+                "{:.1} times the cheapest fixed setting ({method}, N = {points}, {steps} steps, \
+                 {fixed:.1e} s)",
+                sample.seconds / fixed
+            )
+        }
+        None => "no fixed setting tried is as good".into(),
+    };
+    format!(
+        "numerics.accuracy = {accuracy:e}{met}: {:.1e} s in all, ends at N = {}, {} steps per cycle; error of \
+         scar and volume {error:.1e}; {beside}",
+        sample.seconds, level.points, level.steps
+    )
 }
 
 /// The table under what was compared, and the plots under it.

@@ -48,6 +48,21 @@ fn the_front_is_printed_and_drawn_and_everything_is_written() {
         "{out}"
     );
     assert!(out.contains("half as fine differs by"), "{out}");
+    // What an accuracy costs that finds its level by itself, beside the best fixed setting.
+    for accuracy in ["1e-2: ", "1e-3: "] {
+        let line = out
+            .lines()
+            .find(|line| line.contains(&format!("numerics.accuracy = {accuracy}")));
+        let line = line.unwrap_or_else(|| panic!("{accuracy}{out}"));
+        let error = line
+            .split("error of scar and volume ")
+            .nth(1)
+            .and_then(|rest| rest.split(';').next()?.parse::<f64>().ok());
+        let asked: f64 = accuracy.trim_end_matches(": ").parse().expect("a number");
+        // The reference of so small a ladder is no truth to 1e-3.
+        assert!(error.is_some_and(|error| error < asked.max(1e-2)), "{line}");
+        assert!(line.contains("fixed setting"), "{line}");
+    }
     assert!(out.contains("time_s"), "{out}");
     let stars = out.lines().filter(|line| line.ends_with('*')).count();
     assert!(stars >= 2, "{out}");

@@ -17,7 +17,7 @@ const SCAR: f64 = 1e-3;
 const INSIDE: f64 = 0.95;
 
 /// How a run ended.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
     grid: RadialGrid,
     /// Worn depth at the nodes, m.

@@ -4,13 +4,14 @@
 //! domain: its rms and its largest value, in units of the largest depth; also the errors of the
 //! permanent stick radius, in contact radii, and of the worn volume, relative. The reference is the
 //! best method, twice as fine as the finest setting tried; its own distance from half as fine is
-//! reported with it.
+//! reported with it. What `numerics.accuracy` costs, which finds its level by itself, is measured beside.
 
 use std::time::Instant;
 
 use crate::math::abel::worn;
 use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
+use crate::studies::refinement::{self, Level, Outcome, RefinementError, Verdict};
 
 pub mod report;
 mod setting;
@@ -37,6 +38,8 @@ pub struct Sample {
     contact_radius: f64,
     /// m³.
     volume: f64,
+    /// The scar, as an accuracy sees it.
+    outcome: Outcome,
     /// Time of one run with its set-up, s.
     pub seconds: f64,
     /// Transforms computed.
@@ -56,6 +59,8 @@ pub struct Errors {
     pub stick_radius: f64,
     /// Of the worn volume, in parts of it.
     pub volume: f64,
+    /// What `numerics.accuracy` is held against: the larger of the errors of the scar and of its volume.
+    pub scar: f64,
 }
 
 impl Sample {
@@ -74,6 +79,7 @@ impl Sample {
             stick_radius: (self.stick_radius - reference.stick_radius).abs()
                 / reference.contact_radius,
             volume: (self.volume / reference.volume - 1.0).abs(),
+            scar: self.outcome.against(&reference.outcome).promised(),
         }
     }
 }
@@ -102,6 +108,39 @@ pub fn run(
             }));
         }
     }
+}
+
+/// What `numerics.accuracy` costs and reaches.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Adaptive {
+    /// The accuracy asked for.
+    pub accuracy: f64,
+    /// The last level.
+    pub level: Level,
+    /// Whether the accuracy was met, or why not.
+    pub verdict: Verdict,
+    /// The last level's run; the time is that of all levels.
+    pub sample: Sample,
+}
+
+/// Runs `scenario` over `cycles` to an accuracy, for `budget` seconds at most.
+///
+/// # Errors
+/// If no level runs to its end, or `go_on` says no.
+pub fn adaptive(
+    scenario: &Scenario,
+    accuracy: f64,
+    cycles: f64,
+    budget: f64,
+    go_on: &dyn Fn() -> bool,
+) -> Result<Adaptive, RefinementError> {
+    let reached = refinement::run_to_accuracy(scenario, cycles, accuracy, budget, go_on)?;
+    Ok(Adaptive {
+        accuracy,
+        level: reached.rung.level,
+        sample: sample(&reached.session, reached.seconds),
+        verdict: reached.verdict,
+    })
 }
 
 /// The same once, for who counts work and not time.
@@ -161,6 +200,7 @@ fn sample(session: &Session, seconds: f64) -> Sample {
         stick_radius: moment.permanent_stick_radius.unwrap_or(f64::NAN),
         contact_radius: moment.contact_radius,
         volume: moment.wear_volume,
+        outcome: Outcome::of(session),
         seconds,
         transforms: simulation.stats().transforms,
         steps: simulation.steps(),

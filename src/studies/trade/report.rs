@@ -48,6 +48,16 @@ pub fn cheapest(trials: &[Trial], accuracy: f64) -> Option<&Trial> {
         .find(|trial| trial.point().is_some_and(|(_, error)| error <= accuracy))
 }
 
+/// The fastest trial whose scar and volume have errors of at most `accuracy`.
+pub fn cheapest_for_scar(trials: &[Trial], accuracy: f64) -> Option<&Trial> {
+    let met = trials.iter().filter_map(|trial| {
+        let (sample, errors) = trial.outcome.as_ref().ok()?;
+        (errors.scar <= accuracy).then_some((trial, sample.seconds))
+    });
+    let fastest = met.min_by(|(_, one), (_, other)| one.total_cmp(other));
+    fastest.map(|(trial, _)| trial)
+}
+
 /// Time and error of each trial, for a plot.
 pub fn points<'a>(trials: impl IntoIterator<Item = &'a Trial>) -> (Vec<f64>, Vec<f64>) {
     trials.into_iter().filter_map(Trial::point).unzip()
@@ -121,7 +131,15 @@ fn finite(value: f64) -> Cell {
 mod tests {
     use super::*;
     use crate::math::abel::AbelMethod;
+    use crate::scenario::Scenario;
+    use crate::scenario::session::Session;
     use crate::simulation::Scheme;
+    use crate::studies::refinement::Outcome;
+
+    fn unworn() -> Outcome {
+        let scenario = Scenario::load("hertz", &[]).expect("a preset");
+        Outcome::of(&Session::start(scenario).expect("a session"))
+    }
 
     fn trial(points: usize, seconds: f64, rms: f64) -> Trial {
         let sample = Sample {
@@ -129,6 +147,7 @@ mod tests {
             stick_radius: 1.0,
             contact_radius: 1.0,
             volume: 1.0,
+            outcome: unworn(),
             seconds,
             transforms: 4,
             steps: 1,
@@ -138,6 +157,7 @@ mod tests {
             largest: rms,
             stick_radius: f64::NAN,
             volume: 0.0,
+            scar: 2.0 * rms,
         };
         Trial {
             setting: Setting {
@@ -172,6 +192,8 @@ mod tests {
         assert_eq!(cheapest(&trials, 1e-2).map(|t| t.setting.points), Some(1));
         assert_eq!(cheapest(&trials, 5e-3).map(|t| t.setting.points), Some(4));
         assert_eq!(cheapest(&trials, 1e-4), None);
+        let of_scar = cheapest_for_scar(&trials, 1e-2);
+        assert_eq!(of_scar.map(|t| t.setting.points), Some(4));
         let table = table(&trials, &trials);
         let stars = table
             .rows()

@@ -108,6 +108,17 @@ pub(super) fn worn(frame: &Frame, times: Option<f64>) -> Vec<Line> {
     })
 }
 
+/// The lines of how much more or less the ghosts are worn than this run, m, in absolute values.
+pub(super) fn differences(frame: &Frame) -> Vec<Line> {
+    lines(frame, |ghost| {
+        let worn = ghost.worn(|r| frame.indenter.profile(r))?;
+        let points = worn.radii.iter().zip(&worn.wear);
+        let ys = points.map(|(&r, wear)| (wear - frame.observation.worn_depth_at(r)).abs());
+        let ys = ys.collect();
+        Some((worn.radii, ys, None))
+    })
+}
+
 /// What lines need of an ordinate.
 pub(super) fn ordinates(lines: &[Line]) -> Vec<f64> {
     lines.iter().flat_map(Line::ordinates).collect()

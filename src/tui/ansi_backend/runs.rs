@@ -45,14 +45,6 @@ impl Run {
         }
     }
 
-    /// The bytes before its signs, where the cursor is at `at` and the terminal has the pen `now`.
-    fn cost(&self, at: Option<Position>, now: Option<Pen>) -> usize {
-        bytes_of(|count| {
-            move_to(at, self.start, count);
-            self.pen(now).take(now, count);
-        })
-    }
-
     /// Continues this run over a cell, if one pen writes both.
     fn join(&mut self, cell: &Cell) -> bool {
         let pen = Pen::of(cell);
@@ -199,7 +191,21 @@ impl Queue {
     pub fn next(&mut self, at: Option<Position>, pen: Option<Pen>) -> Option<Run> {
         let room = SEARCHED - self.searched.len();
         self.searched.extend(self.rest.by_ref().take(room));
-        let rank = |run: &Run| (run.cost(at, pen), run.start.y, run.start.x);
+        // Few pens, many runs: each change of pen is counted once.
+        let mut changes: Vec<(Pen, usize)> = Vec::new();
+        let mut change = |run: &Run| {
+            let wanted = run.pen(pen);
+            if let Some((_, bytes)) = changes.iter().find(|(known, _)| *known == wanted) {
+                return *bytes;
+            }
+            let bytes = bytes_of(|count| wanted.take(pen, count));
+            changes.push((wanted, bytes));
+            bytes
+        };
+        let mut rank = |run: &Run| {
+            let way = bytes_of(|count| move_to(at, run.start, count));
+            (change(run) + way, run.start.y, run.start.x)
+        };
         let (best, _) = self
             .searched
             .iter()

@@ -119,7 +119,7 @@ impl Look {
 
     /// The colour of a share of a map's range, 0 to 1.
     pub fn mapped(&self, map: ColorMap, share: f64) -> Rgb {
-        // So many shades are told apart, and neighbours that share one are drawn as one area.
+        // The number of distinct shades; neighbours that share one are drawn as one area.
         const SHADES: f64 = 48.0;
         let share = ((share.clamp(0.0, 1.0) * SHADES).floor() + 0.5).min(SHADES - 0.5) / SHADES;
         match self.style {

@@ -184,8 +184,8 @@ impl Drop for Screen {
     }
 }
 
-/// What is shown, with as many rows of what is wanted as fit into so many bytes: the lines above and
-/// below the panels first, and at least one row that differs.
+/// Returns `shown` with as many rows of `wanted` as fit into `room` bytes: the lines above and below
+/// the panels first, and at least one row that differs.
 fn rows_within(shown: &Buffer, wanted: &Buffer, room: usize) -> Buffer {
     let mut next = shown.clone();
     let (width, height) = (

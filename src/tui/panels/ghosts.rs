@@ -91,7 +91,7 @@ pub(super) fn on(frame: &Frame, axes: Axes, factor: f64) -> Vec<Line> {
     })
 }
 
-/// The lines of what is worn, drawn so many times over the unworn profile; `None` draws it alone.
+/// The lines of the wear, magnified by `times` on top of the unworn profile; `None` draws the wear alone.
 pub(super) fn worn(frame: &Frame, times: Option<f64>) -> Vec<Line> {
     lines(frame, |ghost| {
         let worn = ghost.worn(|r| frame.indenter.profile(r))?;

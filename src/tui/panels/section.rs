@@ -23,7 +23,7 @@ const WIDER: f64 = 1.5;
 /// Parts of a cell that a surface is drawn to.
 const PARTS: usize = 8;
 
-/// The lower so many eighths of a cell.
+/// Lower blocks, by the eighths of a cell that they fill.
 const LOWER: [char; PARTS + 1] = [' ', '▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
 
 /// What is at a place of the cut.

@@ -150,7 +150,7 @@ const SKY: Pair = [74, 25];
 const GREEN: Pair = [36, 29];
 const VERMILLION: Pair = [202, 166];
 const PURPLE: Pair = [175, 132];
-const YELLOW: Pair = [227, 61];
+const YELLOW: Pair = [227, 97];
 
 impl Theme {
     /// A look in the sixteen colours that every terminal has, and what curves are made of.

@@ -112,8 +112,8 @@ impl WinklerFoundation {
         2.0 * (smooth + kinked + cusp)
     }
 
-    /// The slope of `values` at the tip, x → 0, where there is a cusp worth the name and the contact
-    /// goes on beyond it; 0 else.
+    /// The slope of `values` at the tip, x → 0, if there is a noticeable cusp and the contact extends
+    /// beyond it; otherwise 0.
     pub fn cusp(&self, values: &[f64], edge: f64) -> f64 {
         if edge <= self.nodes()[3] {
             return 0.0;

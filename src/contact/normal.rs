@@ -19,7 +19,7 @@ use crate::math::root;
 use crate::math::scan::{changes, largest};
 use crate::math::vector::vectorized;
 
-/// An edge this close to a spring, in parts of the cell, stands on it.
+/// An edge closer to a spring than this fraction of the cell counts as being on it.
 const ON_A_SPRING: f64 = 1e-9;
 
 /// What pressing the profile g to a depth gives, beside the line load itself.

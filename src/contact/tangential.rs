@@ -14,16 +14,16 @@ use crate::math::abel::kink;
 use crate::math::scan::changes;
 use crate::math::vector::vectorized;
 
-/// How far beyond its limit, in parts of the limit, a spring still sticks.
+/// How far beyond its limit, as a fraction of the limit, a spring still sticks.
 ///
 /// A spring that has shaken down touches its limit once a cycle and no more: rounding must not
 /// make it slip there.
 const TOUCH: f64 = 1e-10;
 
-/// The same in parts of the largest limit, for springs that carry next to nothing.
+/// The same as a fraction of the largest limit, for springs that carry next to nothing.
 const TOUCH_OF_LARGEST: f64 = 1e-12;
 
-/// A border this close to a spring, in parts of the cell, stands on it.
+/// A border closer to a spring than this fraction of the cell counts as being on it.
 const ON_A_SPRING: f64 = 1e-9;
 
 /// What a spring does in a step.

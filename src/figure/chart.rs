@@ -416,7 +416,8 @@ impl Chart {
     }
 }
 
-/// Colours of the map, equal neighbours as one area, and its scale at the right.
+/// Colours of the map, equal neighbours as one area, and its scale at the right. Each area also lies below the
+/// ones that are drawn after it: where areas only touch, viewers show the paper between them.
 fn draw_map(map: &Map, frame: &Frame, canvas: &mut Canvas, look: &Look) {
     let finite = map.values.iter().copied().filter(|v| v.is_finite());
     let range = finite.fold([0.0_f64, 0.0], |[low, high], v| [low.min(v), high.max(v)]);
@@ -433,6 +434,7 @@ fn draw_map(map: &Map, frame: &Frame, canvas: &mut Canvas, look: &Look) {
         first.into_iter().chain(middles).chain(last).collect()
     };
     let (across, down) = (borders(xs), borders(ys));
+    let (end_across, end_down) = (across.len() - 1, down.len() - 1);
     for (row, values) in map.values.chunks(xs.len()).enumerate() {
         let mut start = 0;
         for end in 1..=values.len() {
@@ -442,7 +444,10 @@ fn draw_map(map: &Map, frame: &Frame, canvas: &mut Canvas, look: &Look) {
             }
             let corners = [
                 frame.place(across[start], down[row]),
-                frame.place(across[end], down[row + 1]),
+                frame.place(
+                    across[(end + 1).min(end_across)],
+                    down[(row + 2).min(end_down)],
+                ),
             ];
             if let [Some(a), Some(b)] = corners {
                 let at = [a[0].min(b[0]), a[1].min(b[1])];
@@ -458,9 +463,9 @@ fn draw_map(map: &Map, frame: &Frame, canvas: &mut Canvas, look: &Look) {
     const STEPS: usize = 32;
     for k in 0..STEPS {
         let share = (k as f64 + 0.5) / STEPS as f64;
-        let y = top + height * (1.0 - (k + 1) as f64 / STEPS as f64);
+        let [low, high] = [k, (k + 2).min(STEPS)].map(|step| height * step as f64 / STEPS as f64);
         let ink = look.mapped(map.colors, share);
-        canvas.area([left, y], [font, height / STEPS as f64], ink);
+        canvas.area([left, top + height - high], [font, high - low], ink);
     }
     let unit = unit_of(&map.quantity, range);
     let window = Window::new(range, Scale::Linear, (height / (1.2 * font)) as u16, 16);

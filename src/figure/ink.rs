@@ -59,15 +59,21 @@ const SERIES: [Rgb; 6] = [
 /// Colours of other sources: no quantity has them.
 const GHOSTS: [Rgb; 4] = [[0, 0, 0], [150, 75, 0], [90, 90, 90], [200, 0, 60]];
 
-/// Dashes that tell grey lines apart, mm.
-const DASHES: [&[f64]; 6] = [
+/// Dashes that tell grey lines apart, mm: those of states and other sources, then those of closed forms and of
+/// the unworn profile, which are drawn beside any of them.
+const DASHES: [&[f64]; SERIES.len() + 2] = [
     &[],
     &[2.0, 0.8],
     &[0.5, 0.6],
     &[2.0, 0.6, 0.5, 0.6],
-    &[4.0, 0.8],
+    &[3.0, 0.6, 1.0, 0.6],
     &[1.0, 1.0],
+    &[2.0, 0.6, 0.5, 0.6, 0.5, 0.6],
+    &[4.0, 0.8],
 ];
+
+/// Their greys.
+const GREYS: [u8; DASHES.len()] = [0, 90, 130, 60, 110, 30, 100, 150];
 
 impl Ink {
     /// Its place among the greys.
@@ -75,10 +81,10 @@ impl Ink {
         match self {
             Self::Profile | Self::Profile1d | Self::Pressure | Self::Contact => 0,
             Self::Shear | Self::Stick => 1,
-            Self::Limit => 2,
-            Self::Unworn => 4,
-            Self::Series(k) => k % DASHES.len(),
-            Self::Ghost(k) => (k + 1) % DASHES.len(),
+            Self::Limit => SERIES.len(),
+            Self::Unworn => SERIES.len() + 1,
+            Self::Series(k) => k % SERIES.len(),
+            Self::Ghost(k) => (k + 1) % SERIES.len(),
         }
     }
 }
@@ -87,7 +93,7 @@ impl Look {
     /// The colour of a curve.
     pub fn color(&self, ink: Ink) -> Rgb {
         if self.style == Style::Grey {
-            return [[0; 3], [90; 3], [130; 3], [60; 3], [150; 3], [30; 3]][ink.rank()];
+            return [GREYS[ink.rank()]; 3];
         }
         match ink {
             Ink::Unworn => [130, 130, 130],
@@ -113,12 +119,38 @@ impl Look {
 
     /// The colour of a share of a map's range, 0 to 1.
     pub fn mapped(&self, map: ColorMap, share: f64) -> Rgb {
-        // So many shades are told apart, and neighbours that share one are drawn as one area.
+        // The number of distinct shades; neighbours that share one are drawn as one area.
         const SHADES: f64 = 48.0;
         let share = ((share.clamp(0.0, 1.0) * SHADES).floor() + 0.5).min(SHADES - 0.5) / SHADES;
         match self.style {
             Style::Color => map.color(share),
             Style::Grey => [(250.0 - 220.0 * share) as u8; 3],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of the states of a figure each has its dashes, and what is drawn beside them has others.
+    #[test]
+    fn greys_tell_states_apart_from_the_unworn_profile_and_the_limit() {
+        let look = Look {
+            font: 2.8,
+            style: Style::Grey,
+        };
+        let states = (0..SERIES.len()).map(Ink::Series);
+        let inks: Vec<Ink> = states.chain([Ink::Limit, Ink::Unworn]).collect();
+        for (k, &ink) in inks.iter().enumerate() {
+            for &other in &inks[..k] {
+                assert_ne!(
+                    look.dashes(ink, false),
+                    look.dashes(other, false),
+                    "{ink:?} {other:?}"
+                );
+                assert_ne!(look.color(ink), look.color(other), "{ink:?} {other:?}");
+            }
         }
     }
 }

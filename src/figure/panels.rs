@@ -20,7 +20,8 @@ pub enum Panel {
     Stresses,
     /// f − f₀ at every state.
     WornDepth,
-    /// F_x over u_x in the cycle before every state.
+    /// F_x over u_x in the cycle before every state; on a rig that yields also over the displacement of its
+    /// actuator, which a sensor on the rig sees.
     Loop,
     /// Contact radius and stick radius over cycles.
     Radii,
@@ -267,6 +268,7 @@ fn loops(data: &Data) -> Result<Chart, &'static str> {
     };
     let column = |name| table.column(name).ok_or("the history lacks a column");
     let (cycles, shifts, forces) = (column("cycle")?, column(names[0])?, column(names[1])?);
+    let sensed = table.column("rig_displacement_m");
     let mut chart = Chart::new(
         "fretting loop",
         Axis::new("u_x", "m"),
@@ -279,15 +281,35 @@ fn loops(data: &Data) -> Result<Chart, &'static str> {
     let count = ends.len();
     for (k, end) in ends.into_iter().enumerate() {
         let within = |cycle: f64| cycle > end - 1.0 - 1e-9 && cycle < end + 1e-9;
-        let rows = (0..cycles.len()).filter(|&i| within(cycles[i]));
-        let (xs, ys): (Vec<f64>, Vec<f64>) = rows.map(|i| (shifts[i], forces[i])).unzip();
+        let over = |displacements: &[f64]| -> (Vec<f64>, Vec<f64>) {
+            let rows = (0..cycles.len()).filter(|&i| within(cycles[i]));
+            let points = rows.map(|i| (displacements[i], forces[i]));
+            points.filter(|(u, _)| u.is_finite()).unzip()
+        };
+        let (xs, ys) = over(shifts);
         if xs.len() < SHORTEST_LOOP {
             continue;
         }
-        let (name, ink) = match count {
-            1 => (String::new(), Ink::Shear),
-            _ => (format!("{end} cycles"), Ink::Series(k)),
+        let (sensed, sensed_forces) = sensed.map(over).unwrap_or_default();
+        let is_sensed = sensed.len() >= SHORTEST_LOOP;
+        let (name, sensor, ink, sensor_ink) = match count {
+            1 if is_sensed => (
+                "contact".into(),
+                "rig's sensor".into(),
+                Ink::Shear,
+                Ink::Unworn,
+            ),
+            1 => (String::new(), String::new(), Ink::Shear, Ink::Unworn),
+            _ => {
+                let name = format!("{end} cycles");
+                let sensor = format!("{name} (rig's sensor)");
+                (name, sensor, Ink::Series(k), Ink::Series(k))
+            }
         };
+        if is_sensed {
+            chart.curve(&sensor, &sensed, &sensed_forces, sensor_ink, true);
+        }
+        // The contact's comes last: another figure takes that as its ghost.
         chart.curve(&name, &xs, &ys, ink, false);
     }
     let moves = chart

@@ -131,11 +131,20 @@ impl Raster {
         }
     }
 
-    /// A line along dot column `column`: dotted for a mark, full for the cursor.
+    /// A line along dot column `column`: dotted for a mark, full for the cursor. A mark moves with the
+    /// contact all the time, so every second cell of it stays empty: the upper one has dots, next to the
+    /// mark's label.
     pub(super) fn vertical(&mut self, column: usize, kind: Under, style: Style) {
         let ink = self.ink(style);
         let sparse = self.marker == Marker::Braille && kind == Under::Mark;
-        for row in (0..self.size().1 as usize).step_by(if sparse { 2 } else { 1 }) {
+        let down = usize::from(self.marker.dots().1);
+        let rows = 0..self.size().1 as usize;
+        let drawn = |&row: &usize| {
+            let cell = self.rows - 1 - row / down;
+            !sparse || (cell.is_multiple_of(2) && row.is_multiple_of(2))
+        };
+        let rows: Vec<usize> = rows.filter(drawn).collect();
+        for row in rows {
             self.set_under(column, row, kind, ink);
         }
     }

@@ -49,8 +49,8 @@ pub(super) fn choices(method: AbelMethod) -> (Spacing, Scheme) {
 }
 
 /// The largest radius that can ever touch, m: the rim, or where f₀ reaches the largest depth. Under a
-/// force that has no bound in general, and [`ROOM_TO_SINK`] stands in, beyond the depth (m) that is `worn` when the run
-/// begins.
+/// force that has no bound in general: [`ROOM_TO_SINK`] is used instead, added to the depth (m) that is `worn` when the
+/// run begins.
 pub(super) fn domain_radius(
     indenter: &Indenter,
     material: &Material,

@@ -20,9 +20,9 @@ const PILOT_STEPS: u32 = 200;
 const PILOT_WORK: u32 = 20_000;
 const FEWEST_PILOT_STEPS: u32 = 24;
 
-/// How far inside the border its node stands: in parts of the domain, in parts of the cell outside it,
-/// and in parts of what wear has moved the border by, of which the pilot errs by 2 %. Were the node outside, it
-/// would slip by a little once a cycle, and as it bears the highest pressure, by a multiple in each.
+/// How far inside the border its node lies: as a fraction of the domain, of the cell outside it, and of the distance
+/// by which wear has moved the border, where the pilot errs by 2 %. A node outside would slip a little once per
+/// cycle and, since its pressure is the highest, by a multiple of that in each following one.
 const INSIDE_DOMAIN: f64 = 2e-6;
 const INSIDE_CELL: f64 = 0.02;
 const INSIDE_MOVED: f64 = 0.05;
@@ -49,7 +49,7 @@ pub(super) fn stays(before: &Setup, after: &Setup) -> bool {
 }
 
 /// The same setup, its grid graded towards the stick border where it asks for that and where there
-/// is one; uniform else. `from` is the run that goes on with it, if it is not a new one.
+/// is one; otherwise uniform. `from` is the run that continues on it, unless the run is new.
 pub(super) fn graded(setup: &Setup, from: Option<&Simulation>) -> Setup {
     let uniform = uniform(setup);
     if setup.spacing == Spacing::Uniform {

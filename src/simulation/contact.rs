@@ -32,7 +32,7 @@ pub struct Contact {
 }
 
 impl Contact {
-    /// An unloaded contact with so many nodes and tangential springs.
+    /// An unloaded contact with `nodes` nodes and `springs` tangential springs.
     pub(super) fn new(nodes: usize, springs: usize) -> Self {
         Self {
             load: Field::zeros(nodes),

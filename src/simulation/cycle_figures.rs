@@ -67,7 +67,7 @@ impl Regime {
     }
 }
 
-/// The figures of one cycle; a ratio is none where its denominator vanishes.
+/// The figures of one cycle; a ratio is `None` if its denominator vanishes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct CycleFigures {
     /// Dissipated energy per cycle, J.
@@ -81,7 +81,7 @@ pub struct CycleFigures {
     pub force_amplitude: f64,
     /// P, the mean normal force, N.
     pub normal_force: f64,
-    /// δ₀, half the width of the loop at F_x = 0, m; none where F_x keeps its sign.
+    /// δ₀, half the width of the loop at F_x = 0, m; `None` if F_x keeps its sign.
     pub opening: Option<f64>,
     /// Q*/(μP).
     pub force_ratio: Option<f64>,

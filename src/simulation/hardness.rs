@@ -1,5 +1,5 @@
-//! The hardness limit: an elastic calculation goes on where a metal yields, so it is said when the pressure
-//! passes what the softer body bears. Without a hardness in the scenario nothing is computed.
+//! The hardness limit: an elastic calculation continues where a metal would yield, so a warning says when the
+//! pressure exceeds the hardness of the softer body. Without a hardness in the scenario nothing is computed.
 
 use serde::{Deserialize, Serialize};
 

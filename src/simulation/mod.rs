@@ -231,7 +231,7 @@ impl Simulation {
         Ok(simulation)
     }
 
-    /// Goes on from a saved state, on the grid of `setup` as it is.
+    /// Continues from a saved state, on the grid of `setup` as it is.
     pub fn resume(setup: Setup, state: State) -> Result<Self, Breakdown> {
         let mut simulation = Self::with(Model::new(setup, None), state);
         simulation.settle()?;
@@ -421,7 +421,7 @@ impl Simulation {
         step::is_possible(self.setup(), &self.state)
     }
 
-    /// Why cycles that were to be jumped are all stepped directly; none where they are jumped.
+    /// Why cycles that should be jumped are all stepped directly; `None` if they are jumped.
     pub fn why_never_jumped(&self) -> Option<&'static str> {
         let Setup {
             drive,

@@ -71,7 +71,7 @@ pub struct Moment {
     /// u_x⁽⁰⁾, m.
     pub shift: f64,
     /// The displacement of the rig's actuator, m, which its sensor sees: that of the indenter and of
-    /// the rig; none where the rig is stiff.
+    /// the rig; `None` if the rig is stiff.
     pub rig_displacement: Option<f64>,
     /// F_z, N.
     pub normal_force: f64,
@@ -94,8 +94,8 @@ pub struct Moment {
     /// 1 − V/∫k dE_d: how far the 3D side and the 1D side disagree. None before anything has worn
     /// and under laws that do not follow energy.
     pub energy_residual: Option<f64>,
-    /// The largest stiffness that the method bears, over that of the last step, or of its harshest part:
-    /// below 1 wear grows teeth. None where nothing has worn in it, and after a jump.
+    /// The largest stiffness that the method tolerates, relative to that of the last step or of its stiffest
+    /// sub-step: below 1 a sawtooth grows. `None` if nothing has worn in the step, and after a jump.
     pub stability_margin: Option<f64>,
 }
 

@@ -93,7 +93,7 @@ impl Course {
         })
     }
 
-    /// The value after so many cycles and J.
+    /// The value after `cycles` cycles and `energy` J.
     pub fn after(&self, cycles: f64, energy: f64) -> f64 {
         match self {
             Self::Exponential {
@@ -140,7 +140,7 @@ impl Over {
 }
 
 impl RunningIn {
-    /// Brings friction and wear to what they are after so many cycles and J.
+    /// Sets friction and wear to their values after the given cycles and energy (J).
     pub(super) fn apply(
         &self,
         cycles: f64,

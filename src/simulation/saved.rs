@@ -59,7 +59,7 @@ impl Simulation {
         }
     }
 
-    /// Takes a run up where it was put away; `setup` is the one it ran on, but for its grid.
+    /// Continues a saved run; `setup` is the one that it ran on, except for the grid.
     pub fn restore(setup: Setup, saved: Saved) -> Result<Self, Unfit> {
         let grid = RadialGrid::restored(saved.nodes, saved.border)
             .map_err(|invalid| Unfit::new("grid", invalid.rule))?;

@@ -37,7 +37,7 @@ pub fn response(method: AbelMethod) -> f64 {
     }
 }
 
-/// Why steps however short do not keep a method from teeth; none where they do.
+/// Why even the shortest steps do not keep a method from a sawtooth; `None` if they do.
 pub fn beyond_steps(method: AbelMethod) -> Option<&'static str> {
     match method {
         AbelMethod::Product | AbelMethod::A | AbelMethod::APlusB => None,
@@ -49,8 +49,8 @@ pub fn beyond_steps(method: AbelMethod) -> Option<&'static str> {
     }
 }
 
-/// By what depth a contact must have worn, at the rate of a cycle of the unworn one and in largest depths, for a
-/// method to show teeth, whatever the step. None where short steps keep a method from them.
+/// The wear at which a method shows a sawtooth whatever the step, at the rate of a cycle of the unworn contact and
+/// relative to the largest depth. `None` if short steps prevent it.
 ///
 /// Measured, not derived: on the motion of Fig. 3 with 20 cycles, at N from 25 to 200 and 50 to 400 steps a
 /// cycle, 0.38 to 0.44 with b and 0.038 to 0.055 with benad. The eigenvalues of what a cycle wears by a given profile

@@ -76,7 +76,7 @@ impl Unworn<'_> {
         }
     }
 
-    /// The contact under a normal load that is held; none where it is not, nothing touches, or nothing moves.
+    /// The contact under a constant normal load; `None` if the load varies, nothing touches, or nothing moves.
     pub fn ring(&self) -> Option<Ring> {
         let setup = self.0;
         let normal = setup.drive.normal().oscillation();

@@ -205,7 +205,7 @@ impl Ghost {
         self.traces.iter().find(|trace| trace.axes == axes)
     }
 
-    /// What has worn of it: as its traces say, or by its profile less `unworn`, m at r; none where
+    /// What has worn of it: as its traces say, or by its profile less `unworn`, m at r; `None` if
     /// neither is known.
     pub fn worn(&self, unworn: impl Fn(f64) -> f64) -> Option<Worn> {
         let (profile, wear) = (self.trace(Axes::Profile), self.trace(Axes::Wear));

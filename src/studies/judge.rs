@@ -6,7 +6,7 @@
 use super::random_scenarios::{self, Random};
 use super::refinement::{self, Difference, Level, Outcome, Verdict};
 
-/// The fine run has so many times the cells and steps of the rung that it judges.
+/// Ratio of the cells and steps of the fine run to those of the rung that it judges.
 const FINER: f64 = 3.0;
 
 /// What the judge saw of one scenario at one accuracy.

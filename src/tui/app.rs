@@ -11,7 +11,7 @@ use std::sync::mpsc::Sender;
 use ratatui::layout::Rect;
 
 use super::command::Command;
-use super::frame::Frame;
+use super::frame::{Activity, Frame};
 use super::keys::Key;
 use super::layout;
 use super::line::LineEdit;
@@ -31,6 +31,10 @@ use crate::studies::theory::Theory;
 const CURSOR_PLACES: i16 = 100;
 const CURSOR_START: i16 = 33;
 
+/// Panels whose picture is looked at rather than followed, and numbers that nobody reads ten times a
+/// second, take every second frame of a run: half of the bytes, and half of the stresses to compute.
+const CALM: u32 = 2;
+
 /// How the program is left.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Leave {
@@ -44,6 +48,8 @@ pub enum Leave {
 pub struct App {
     /// The latest frame; none before the worker's first.
     pub frame: Option<Arc<Frame>>,
+    /// The frame that calm panels show while the run goes on, and how many frames it has lasted.
+    calm: Option<(Arc<Frame>, u32)>,
     /// The panel with the focus.
     pub focus: Panel,
     /// Whether the focused panel is zoomed.
@@ -83,11 +89,21 @@ pub struct App {
     orders: Sender<Order>,
 }
 
+/// Whether a calm panel may still show `calm` where the others show `frame`: the run goes on, and both
+/// have what the panel shows.
+fn may_last(calm: &Frame, frame: &Frame) -> bool {
+    frame.activity == Activity::Running
+        && frame.observation.moment.cycle >= calm.observation.moment.cycle
+        && frame.load.is_some() == calm.load.is_some()
+        && frame.comparison.is_some() == calm.comparison.is_some()
+}
+
 impl App {
     /// An app that sends its orders to a worker.
     pub fn new(theme: Theme, orders: Sender<Order>) -> Self {
         Self {
             frame: None,
+            calm: None,
             focus: Panel::Profile,
             zoomed: false,
             overlay: Overlay::None,
@@ -124,8 +140,19 @@ impl App {
         // Another scenario has another tour.
         self.tour = self.tour.take().filter(|tour| tour.is_of(&frame.origin));
         self.follow_stress(&frame);
+        self.calm = match self.calm.take() {
+            Some((calm, lasted)) if lasted < CALM && may_last(&calm, &frame) => {
+                Some((calm, lasted + 1))
+            }
+            _ => Some((Arc::clone(&frame), 1)),
+        };
         self.frame = Some(frame);
         self.tell_what_shows();
+    }
+
+    /// What a calm panel shows where the others show `frame`.
+    pub(super) fn calm<'a>(&'a self, frame: &'a Frame) -> &'a Frame {
+        self.calm.as_ref().map_or(frame, |(calm, _)| calm)
     }
 
     /// The bounds of a panel's ordinate.
@@ -207,6 +234,8 @@ impl App {
     /// Handles a key. `Ctrl-C` quits from anywhere, even while typing.
     pub fn press(&mut self, key: Key) {
         self.notice = None;
+        // The answer to a key is seen at once.
+        self.calm = None;
         self.is_new = false;
         if key == Key::Ctrl('c') {
             self.leave = Some(Leave::Clean);
@@ -292,6 +321,7 @@ impl App {
             }
             Command::Theory => self.with_theory = !self.with_theory,
             Command::Theme => {
+                self.theme.follows_background = false;
                 self.theme.look = self.theme.look.next();
                 self.notice = Some(format!("theme {}", self.theme.look.name()));
             }

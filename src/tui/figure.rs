@@ -35,12 +35,17 @@ pub(super) fn write(session: &Session, trend: &Trend, path: &Path) -> Result<(),
     data.take_state(session);
     let (shifts, forces) = trend.fretting_loop();
     let end = session.simulation().cycle();
+    // A rig that was mounted within the cycle has sensed the end of it.
+    let (sensed, _) = trend.sensed_loop();
+    let mut displacements = vec![f64::NAN; shifts.len() - sensed.len()];
+    displacements.extend(sensed);
     // All of it belongs to the last cycle.
     let cycles = vec![end; shifts.len()];
     data.history = Some(Table::of_columns([
         ("cycle", cycles),
         ("u_x_m", shifts),
         ("F_x_N", forces),
+        ("rig_displacement_m", displacements),
     ]));
     let panels = [
         Panel::Profile,

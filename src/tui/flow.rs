@@ -104,7 +104,7 @@ impl Flow {
         self.hurry = Some((now + ANSWERED, DRAWINGS));
     }
 
-    /// A frame of so many bytes was given to the writer; `None` if it is empty.
+    /// Notes that a frame of `bytes` was given to the writer; an empty one changes nothing.
     pub fn sent(&mut self, now: Instant, bytes: usize) {
         if let Some((_, drawings)) = &mut self.hurry {
             *drawings = drawings.saturating_sub(1);

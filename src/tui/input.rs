@@ -48,6 +48,8 @@ pub enum Input {
     Mouse(MouseEvent),
     /// The status report: the terminal has read everything sent before the request.
     Ready,
+    /// The background, as red, green and blue.
+    Background([u8; 3]),
     /// Ctrl-C.
     Interrupt,
 }
@@ -229,6 +231,14 @@ impl Perform for Found {
         }
     }
 
+    /// The answer to what the background is.
+    fn osc_dispatch(&mut self, parameters: &[&[u8]], _: bool) {
+        if let ([b"11", color], None) = (parameters, &self.paste) {
+            let color = std::str::from_utf8(color).ok().and_then(color_of);
+            self.inputs.extend(color.map(Input::Background));
+        }
+    }
+
     fn csi_dispatch(&mut self, parameters: &Params, marks: &[u8], _: bool, action: char) {
         let mut numbers = parameters.iter().filter_map(|sub| sub.first().copied());
         let mut number = || numbers.next().unwrap_or(0);
@@ -246,6 +256,21 @@ impl Perform for Found {
             _ => {}
         }
     }
+}
+
+/// The colour that a terminal tells as `rgb:` or `rgba:` and shares of the brightest, one to four
+/// hexadecimal digits each, slashes between them.
+fn color_of(text: &str) -> Option<[u8; 3]> {
+    let (_, shares) = text
+        .split_once("rgb:")
+        .or_else(|| text.split_once("rgba:"))?;
+    let mut shares = shares.split('/').map(|digits| {
+        let most = 16u32.checked_pow(u32::try_from(digits.len()).ok()?)? - 1;
+        let share = u32::from_str_radix(digits, 16).ok()?;
+        u8::try_from(share.checked_mul(255)? / most.max(1)).ok()
+    });
+    let mut next = || shares.next().flatten();
+    Some([next()?, next()?, next()?])
 }
 
 /// The queue of keys between the input thread and the app.
@@ -324,6 +349,7 @@ pub fn listen(events: &Sender<Event>, waiting: &Arc<Waiting>, capture: Capture) 
                 Input::Key(key) => Some(Event::Key(key)).filter(|_| waiting.enter()),
                 Input::Paste(text) => Some(Event::Paste(text)).filter(|_| waiting.enter()),
                 Input::Ready => Some(Event::Ready),
+                Input::Background(color) => Some(Event::Background(color)),
                 Input::Mouse(event) if capture == Capture::Clicks => {
                     mouse.gesture(&event, Instant::now()).map(Event::Point)
                 }
@@ -376,6 +402,32 @@ mod tests {
 
     fn named(named: Named) -> Input {
         Input::Key(Key::Named(named))
+    }
+
+    #[test]
+    fn the_background_is_read_however_it_is_told() {
+        let cases: [(&[u8], &[[u8; 3]]); 8] = [
+            (b"\x1b]11;rgb:ffff/ffff/ffff\x1b\\", &[[255; 3]]),
+            (b"\x1b]11;rgb:fdfd/f6f6/e3e3\x07", &[[0xfd, 0xf6, 0xe3]]),
+            (b"\x1b]11;rgb:0/8/f\x07", &[[0, 136, 255]]),
+            (b"\x1b]11;rgba:0000/2b00/36ff/ffff\x07", &[[0, 42, 54]]),
+            (b"\x1b]10;rgb:ffff/ffff/ffff\x07", &[]),
+            (b"\x1b]11;rgb:fffff/ffffffffffff/\x07", &[]),
+            (b"\x1b]11;black\x07", &[]),
+            // No answer to a question, but a text that somebody has copied.
+            (b"\x1b[200~\x1b]11;rgb:ff/ff/ff\x07\x1b[201~", &[]),
+        ];
+        for (bytes, expected) in cases {
+            let mut told = read(&[bytes]);
+            told.retain(|input| matches!(input, Input::Background(_)));
+            let expected: Vec<_> = expected.iter().copied().map(Input::Background).collect();
+            assert_eq!(told, expected, "{}", bytes.escape_ascii());
+            for split in 1..bytes.len() {
+                let mut told = read(&[&bytes[..split], &bytes[split..]]);
+                told.retain(|input| matches!(input, Input::Background(_)));
+                assert_eq!(told, expected, "{} {split}", bytes.escape_ascii());
+            }
+        }
     }
 
     #[test]

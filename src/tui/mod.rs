@@ -105,6 +105,8 @@ pub enum Event {
     Point(Gesture),
     /// The terminal has read a frame.
     Ready,
+    /// The background of the terminal is of this red, green and blue.
+    Background([u8; 3]),
     /// A frame was written.
     Written,
     /// The terminal has another size.
@@ -289,7 +291,8 @@ fn converse(
     end_worker: impl Fn(),
 ) -> Result<Option<String>> {
     listen_for_signals(ways.events.clone(), Arc::clone(ways.waiting))?;
-    let screen = terminal::Screen::open(mouse, ways.events.clone());
+    let asks = app.theme.follows_background;
+    let screen = terminal::Screen::open(mouse, asks, ways.events.clone());
     let mut screen = screen.context("cannot take over the terminal")?;
     let (events, waiting) = (ways.events.clone(), Arc::clone(ways.waiting));
     thread::spawn(move || input::listen(&events, &waiting, mouse));
@@ -388,6 +391,7 @@ fn attend(
                     app.point(gesture);
                 }
                 Event::Ready => screen.flow().answered(Instant::now()),
+                Event::Background(color) => app.theme.follow(color),
                 Event::Written => screen.flow().written(),
                 Event::Frame => {
                     if let Some(frame) = ways.slot.take() {
@@ -511,7 +515,7 @@ fn theme(options: &Options) -> Theme {
     let theme = theme_of(options.marker, options.colored, options.look);
     let is_picture = |script: &Script| script.format == Format::Svg;
     match options.script.as_ref().is_some_and(is_picture) {
-        true => theme.with_depth(Depth::True),
+        true => theme.with_depth(Depth::Indexed),
         false => theme,
     }
 }
@@ -527,6 +531,8 @@ pub fn theme_of(marker: Option<Marker>, colored: Option<bool>, look: Option<Look
         true => Marker::Braille,
         false => Marker::Ascii,
     });
+    // The console of Linux does not know the question for its background and would print it.
+    let follows_background = look.is_none() && colored && !is_console;
     let look = match look {
         _ if !colored => Look::Mono,
         Some(look) => look,
@@ -535,7 +541,10 @@ pub fn theme_of(marker: Option<Marker>, colored: Option<bool>, look: Option<Look
     };
     let variable = |name: &str| std::env::var(name).unwrap_or_default();
     let depth = Depth::of(&variable("COLORTERM"), &variable("TERM"));
-    Theme::new(look, marker).with_depth(depth)
+    Theme {
+        follows_background,
+        ..Theme::new(look, marker).with_depth(depth)
+    }
 }
 
 /// Whether the terminal says that its background is light: the last number of COLORFGBG.

@@ -7,8 +7,9 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 
 use anyhow::{Context, Result};
-use ratatui::buffer::Buffer;
+use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::Rect;
+use ratatui::style::Color;
 use ratatui::text::Line;
 
 use super::Event;
@@ -243,6 +244,14 @@ pub fn text(app: &App, size: Size) -> String {
     lines(&drawn(app, size))
 }
 
+/// The sign of a cell in text: a blank that a colour fills is a half block, as it is where two colours do.
+fn sign(cell: &Cell) -> &str {
+    match cell.symbol() {
+        " " if cell.bg != Color::Reset => "▀",
+        symbol => symbol,
+    }
+}
+
 /// A drawn screen as lines of text, trailing blanks cut.
 pub fn lines(buffer: &Buffer) -> String {
     let mut text = String::new();
@@ -255,7 +264,7 @@ pub fn lines(buffer: &Buffer) -> String {
                 covered -= 1;
                 continue;
             }
-            let symbol = buffer[at].symbol();
+            let symbol = sign(&buffer[at]);
             covered = Line::raw(symbol).width().saturating_sub(1);
             line.push_str(symbol);
         }

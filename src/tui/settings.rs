@@ -78,7 +78,7 @@ impl Setting {
     }
 
     /// The next value up or down: the next word of a choice, the next number of two digits.
-    /// None where there is no next one.
+    /// `None` at the last one.
     pub fn next(&self, up: bool) -> Option<String> {
         let value = self.value.as_deref()?;
         match self.parameter.kind {

@@ -31,6 +31,10 @@ const MOUSE_ON: &str = "\x1b[?1000h\x1b[?1006h";
 /// Undoes that.
 const MOUSE_OFF: &str = "\x1b[?1006l\x1b[?1000l";
 
+/// Asks what the background is (OSC 11). The first frame does not wait for the answer, and there may be
+/// none.
+const BACKGROUND: &[u8] = b"\x1b]11;?\x1b\\";
+
 /// Who handles the mouse.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Capture {
@@ -57,13 +61,16 @@ pub struct Screen {
 
 impl Screen {
     /// Takes the terminal over, and the mouse as well if it was asked for. `events` is told when the
-    /// terminal has taken what was drawn, and when it is gone.
-    pub fn open(mouse: Capture, events: Sender<Event>) -> io::Result<Self> {
+    /// terminal has taken what was drawn, and when it is gone; with `asks`, also what the background is.
+    pub fn open(mouse: Capture, asks: bool, events: Sender<Event>) -> io::Result<Self> {
         enable_raw_mode()?;
         let restore = RestoreOnFailure;
         let size: fn() -> io::Result<Size> = || Ok(crossterm::terminal::size()?.into());
         let backend = AnsiBackend::new(Output::open(events)?, size);
         backend.get_ref().send(&taking_over(mouse)?);
+        if asks {
+            backend.get_ref().send(BACKGROUND);
+        }
         let terminal = ManuallyDrop::new(Terminal::new(backend)?);
         std::mem::forget(restore);
         Ok(Self {
@@ -177,8 +184,8 @@ impl Drop for Screen {
     }
 }
 
-/// What is shown, with as many rows of what is wanted as fit into so many bytes: the lines above and
-/// below the panels first, and at least one row that differs.
+/// Returns `shown` with as many rows of `wanted` as fit into `room` bytes: the lines above and below
+/// the panels first, and at least one row that differs.
 fn rows_within(shown: &Buffer, wanted: &Buffer, room: usize) -> Buffer {
     let mut next = shown.clone();
     let (width, height) = (

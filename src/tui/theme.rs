@@ -3,8 +3,9 @@
 //! Explanatory text (titles, ticks, names, keys) has the terminal's default foreground: one of the
 //! bright colours may be the background, as "bright black" is in Solarized. Rules and frames are
 //! dim. Quantities have the colours of M. Okabe and K. Ito (2008), which people with any kind of
-//! colour vision tell apart, some darker on a light background; a terminal of 256 colours gets the
-//! nearest of its cube, one of sixteen the plain colours, which its user has chosen.
+//! colour vision tell apart, some darker on a light background, as the nearest of the cube that every
+//! terminal of 256 colours has: its names are half as long on the wire as red, green and blue. A
+//! terminal of sixteen colours gets the plain ones, which its user has chosen.
 
 use ratatui::style::{Color, Modifier, Style};
 
@@ -76,6 +77,16 @@ impl Look {
         }
     }
 
+    /// The one for a background of this red, green and blue.
+    pub fn on(background: [u8; 3]) -> Self {
+        // Against a luminance of 0.18, black and white have the same contrast.
+        if luminance(background) > 0.18 {
+            Self::Light
+        } else {
+            Self::Dark
+        }
+    }
+
     /// The look after this one.
     pub fn next(self) -> Self {
         match self {
@@ -86,23 +97,29 @@ impl Look {
     }
 }
 
+/// The relative luminance of a colour of sRGB, 0 to 1.
+fn luminance(color: [u8; 3]) -> f64 {
+    let [red, green, blue] = color.map(|value| match f64::from(value) / 255.0 {
+        share if share <= 0.04045 => share / 12.92,
+        share => ((share + 0.055) / 1.055).powf(2.4),
+    });
+    0.2126 * red + 0.7152 * green + 0.0722 * blue
+}
+
 /// How many colours the terminal has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Depth {
     /// The sixteen that its user has chosen.
     Sixteen,
-    /// The cube of 256.
+    /// The cube of 256, or more.
     Indexed,
-    /// All.
-    True,
 }
 
 impl Depth {
     /// Reads the variables COLORTERM and TERM.
     pub fn of(colorterm: &str, term: &str) -> Self {
-        if matches!(colorterm, "truecolor" | "24bit") || term.ends_with("-direct") {
-            Self::True
-        } else if term.contains("256color") {
+        let is_true = matches!(colorterm, "truecolor" | "24bit") || term.ends_with("-direct");
+        if is_true || term.contains("256color") {
             Self::Indexed
         } else {
             Self::Sixteen
@@ -119,19 +136,21 @@ pub struct Theme {
     pub depth: Depth,
     /// How curves are drawn.
     pub marker: Marker,
+    /// Whether the terminal is asked for its background, and the look follows: nobody has chosen one.
+    pub follows_background: bool,
 }
 
-/// A colour of the palette: red, green, blue.
-type Rgb = [u8; 3];
+/// A colour of the palette in the cube of 256, for a dark and for a light background.
+type Pair = [u8; 2];
 
-/// The palette after Okabe and Ito, for a dark and for a light background. On white their yellow and
-/// their sky blue are too pale for a line; their orange and purple are darkened.
-const ORANGE: [Rgb; 2] = [[0xe6, 0x9f, 0x00], [0xa8, 0x66, 0x00]];
-const SKY: [Rgb; 2] = [[0x56, 0xb4, 0xe9], [0x00, 0x72, 0xb2]];
-const GREEN: [Rgb; 2] = [[0x00, 0xb8, 0x86], [0x00, 0x80, 0x5c]];
-const VERMILLION: [Rgb; 2] = [[0xf0, 0x6a, 0x1e], [0xd0, 0x4e, 0x00]];
-const PURPLE: [Rgb; 2] = [[0xcc, 0x79, 0xa7], [0xa8, 0x49, 0x7f]];
-const YELLOW: [Rgb; 2] = [[0xf0, 0xe4, 0x42], [0x6a, 0x51, 0xa3]];
+/// The palette after Okabe and Ito. On white their yellow and their sky blue are too pale for a line;
+/// their orange and purple are darkened.
+const ORANGE: Pair = [178, 130];
+const SKY: Pair = [74, 25];
+const GREEN: Pair = [36, 29];
+const VERMILLION: Pair = [202, 166];
+const PURPLE: Pair = [175, 132];
+const YELLOW: Pair = [227, 97];
 
 impl Theme {
     /// A look in the sixteen colours that every terminal has, and what curves are made of.
@@ -140,6 +159,7 @@ impl Theme {
             look,
             depth: Depth::Sixteen,
             marker,
+            follows_background: false,
         }
     }
 
@@ -147,6 +167,13 @@ impl Theme {
     #[must_use]
     pub fn with_depth(self, depth: Depth) -> Self {
         Self { depth, ..self }
+    }
+
+    /// The terminal has told its background: the look for it, unless one was chosen.
+    pub fn follow(&mut self, background: [u8; 3]) {
+        if self.follows_background {
+            self.look = Look::on(background);
+        }
     }
 
     /// Whether colours tell things apart.
@@ -173,17 +200,12 @@ impl Theme {
     pub fn style(&self, role: Role) -> Style {
         let plain = Style::new();
         // Only plain colours of the sixteen: in some palettes the bright ones are greys.
-        let with = |palette: [Rgb; 2], dark: Color, light: Color| match (self.look, self.depth) {
+        let with = |pair: Pair, dark: Color, light: Color| match (self.look, self.depth) {
             (Look::Mono, _) => plain,
             (Look::Dark, Depth::Sixteen) => plain.fg(dark),
             (Look::Light, Depth::Sixteen) => plain.fg(light),
-            (look, depth) => {
-                let rgb = palette[usize::from(look == Look::Light)];
-                plain.fg(match depth {
-                    Depth::True => Color::Rgb(rgb[0], rgb[1], rgb[2]),
-                    _ => Color::Indexed(nearest_in_cube(rgb)),
-                })
-            }
+            (Look::Dark, Depth::Indexed) => plain.fg(Color::Indexed(pair[0])),
+            (Look::Light, Depth::Indexed) => plain.fg(Color::Indexed(pair[1])),
         };
         match role {
             Role::Unworn | Role::Ghost | Role::Quiet => plain,
@@ -202,21 +224,11 @@ impl Theme {
     }
 }
 
-/// The nearest colour of the 6×6×6 cube of a terminal of 256 colours.
-fn nearest_in_cube(rgb: Rgb) -> u8 {
-    const LEVELS: [i32; 6] = [0, 95, 135, 175, 215, 255];
-    let level = |value: u8| {
-        let distance = |&at: &usize| (LEVELS[at] - i32::from(value)).abs();
-        (0..LEVELS.len()).min_by_key(distance).unwrap_or(0) as u8
-    };
-    16 + 36 * level(rgb[0]) + 6 * level(rgb[1]) + level(rgb[2])
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const DEPTHS: [Depth; 3] = [Depth::Sixteen, Depth::Indexed, Depth::True];
+    const DEPTHS: [Depth; 2] = [Depth::Sixteen, Depth::Indexed];
 
     #[test]
     fn no_two_curves_of_a_plot_share_a_colour() {
@@ -282,29 +294,24 @@ mod tests {
     /// WCAG's contrast of a line: 3 against each background that a theme is for.
     #[test]
     fn colours_stand_out_on_their_backgrounds() {
-        let linear = |value: u8| {
-            let share = f64::from(value) / 255.0;
-            if share <= 0.04045 {
-                share / 12.92
-            } else {
-                ((share + 0.055) / 1.055).powf(2.4)
-            }
-        };
-        let luminance =
-            |[r, g, b]: Rgb| 0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b);
-        let contrast = |a: Rgb, b: Rgb| {
+        const LEVELS: [u8; 6] = [0, 95, 135, 175, 215, 255];
+        let contrast = |a: [u8; 3], b: [u8; 3]| {
             let (a, b) = (luminance(a), luminance(b));
             (a.max(b) + 0.05) / (a.min(b) + 0.05)
         };
-        for palette in [ORANGE, SKY, GREEN, VERMILLION, PURPLE, YELLOW] {
+        for pair in [ORANGE, SKY, GREEN, VERMILLION, PURPLE, YELLOW] {
             // Black and Solarized's dark background; white and Solarized's light one.
             for (at, grounds) in [
                 (0, [[0, 0, 0], [0x00, 0x2b, 0x36]]),
                 (1, [[0xff; 3], [0xfd, 0xf6, 0xe3]]),
             ] {
+                // The cube begins behind the sixteen.
+                let place = usize::from(pair[at]) - 16;
+                let color = [place / 36, place / 6 % 6, place % 6].map(|level| LEVELS[level]);
                 for ground in grounds {
-                    let found = contrast(palette[at], ground);
-                    assert!(found >= 3.0, "{:?} on {ground:?}: {found:.2}", palette[at]);
+                    assert_eq!(Look::on(ground) == Look::Light, at == 1, "{ground:?}");
+                    let found = contrast(color, ground);
+                    assert!(found >= 3.0, "{color:?} on {ground:?}: {found:.2}");
                 }
             }
         }
@@ -316,12 +323,10 @@ mod tests {
             ("", "xterm", Depth::Sixteen),
             ("", "linux", Depth::Sixteen),
             ("", "tmux-256color", Depth::Indexed),
-            ("truecolor", "xterm-256color", Depth::True),
-            ("24bit", "xterm", Depth::True),
+            ("truecolor", "xterm", Depth::Indexed),
+            ("24bit", "xterm", Depth::Indexed),
         ] {
             assert_eq!(Depth::of(colorterm, term), depth, "{colorterm} {term}");
         }
-        assert_eq!(nearest_in_cube([0xe6, 0x9f, 0x00]), 178);
-        assert_eq!(nearest_in_cube([0, 0, 0]), 16);
     }
 }

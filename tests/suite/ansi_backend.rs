@@ -12,12 +12,12 @@ use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
 use mdr_tui::tui::ansi_backend::AnsiBackend;
 use mdr_tui::tui::app::App;
-use mdr_tui::tui::frame::Slot;
-use mdr_tui::tui::keys::parse_script;
+use mdr_tui::tui::frame::{Activity, Frame, Slot};
+use mdr_tui::tui::keys::{Key, parse_script};
 use mdr_tui::tui::order::Order;
 use mdr_tui::tui::panels::Panel;
 use mdr_tui::tui::screen;
-use mdr_tui::tui::theme::{Look, Theme};
+use mdr_tui::tui::theme::{Depth, Look, Theme};
 use mdr_tui::tui::worker::Worker;
 use proptest::prelude::*;
 use ratatui::Terminal;
@@ -26,10 +26,13 @@ use ratatui::layout::{Rect, Size};
 use ratatui::style::{Color, Modifier, Style};
 use vt100::Parser;
 
+/// How a terminal tells its size.
+type Tell = fn() -> io::Result<Size>;
+
 /// A terminal that remembers what it was sent.
 type Line = Terminal<AnsiBackend<Vec<u8>>>;
 
-fn line(size: fn() -> io::Result<Size>) -> Line {
+fn line(size: Tell) -> Line {
     Terminal::new(AnsiBackend::new(Vec::new(), size)).expect("a terminal")
 }
 
@@ -45,7 +48,7 @@ struct Counted {
 }
 
 impl Counted {
-    fn new(size: fn() -> io::Result<Size>) -> Self {
+    fn new(size: Tell) -> Self {
         let scenario = Scenario::load("li2019-fig3", &[]).expect("a preset");
         let session = Session::start(scenario).expect("a contact");
         let (orders, to_worker) = channel();
@@ -53,7 +56,9 @@ impl Counted {
         let interval = Duration::from_secs(1);
         let worker = Worker::new(session, Arc::new(Slot::default()), events, interval, false);
         thread::spawn(move || worker.serve(&to_worker));
-        let mut app = App::new(Theme::new(Look::Dark, Marker::Braille), orders.clone());
+        // The longest names of colours.
+        let theme = Theme::new(Look::Dark, Marker::Braille).with_depth(Depth::Indexed);
+        let mut app = App::new(theme, orders.clone());
         let Size { width, height } = size().expect("a size");
         app.resize(width, height);
         Self {
@@ -68,10 +73,41 @@ impl Counted {
         for key in parse_script(keys).expect("a script") {
             self.app.press(key);
         }
+        let frame = self.sync();
+        self.app.take_frame(frame);
+        self.draw()
+    }
+
+    /// The same as if the run had come there by itself: the worker takes the steps, and the screen
+    /// knows of no key.
+    fn running_frame(&mut self, keys: &str) -> usize {
+        for key in parse_script(keys).expect("a script") {
+            assert_eq!(key, Key::Char('.'));
+            self.orders.send(Order::Step).expect("a worker");
+        }
+        let mut frame = Frame::clone(&self.sync());
+        frame.activity = Activity::Running;
+        self.app.take_frame(Arc::new(frame));
+        self.draw()
+    }
+
+    fn sync(&self) -> Arc<Frame> {
         let (reply, answer) = channel();
         self.orders.send(Order::Sync(reply)).expect("a worker");
-        self.app.take_frame(answer.recv().expect("a frame"));
-        self.draw()
+        answer.recv().expect("a frame")
+    }
+
+    /// What the screen shows.
+    fn text(&self) -> String {
+        let Size { width, height } = self.app_size();
+        let area = Rect::new(0, 0, width, height);
+        let mut buffer = Buffer::empty(area);
+        screen::draw(&self.app, area, &mut buffer);
+        buffer.content.iter().map(Cell::symbol).collect()
+    }
+
+    fn app_size(&self) -> Size {
+        ratatui::backend::Backend::size(self.line.backend()).expect("a size")
     }
 
     fn draw(&mut self) -> usize {
@@ -90,21 +126,51 @@ impl Drop for Counted {
     }
 }
 
-/// Bytes a frame on average over `frames` of about a cycle each: what ten cycles a second send at ten
-/// frames a second, whose moments wander through the cycle.
-fn average(size: fn() -> io::Result<Size>, frames: usize) -> usize {
+/// The status request behind each frame, which the flow control adds.
+const REQUEST: usize = 4;
+
+/// Average bytes per frame over `frames` of about a cycle each: what ten cycles per second send at ten
+/// frames per second, whose moments wander through the cycle.
+fn average(size: Tell, frames: usize) -> usize {
     let mut counted = Counted::new(size);
     counted.frame("");
-    let total: usize = (0..frames).map(|_| counted.frame(",..")).sum();
+    let total: usize = (0..frames).map(|_| counted.frame(",..") + REQUEST).sum();
+    total / frames
+}
+
+/// Average bytes per frame at the initial pace: half a cycle per second at ten frames per second, over
+/// two cycles after the third. A scripted run, so the bytes are the same on every machine.
+fn at_the_initial_pace(counted: &mut Counted) -> usize {
+    counted.frame(",,,");
+    let frames = 40;
+    let total: usize = (0..frames)
+        .map(|_| counted.running_frame(".....") + REQUEST)
+        .sum();
     total / frames
 }
 
 #[test]
 fn a_frame_of_the_figure_takes_few_bytes() {
     let small = average(|| Ok(Size::new(80, 24)), 60);
-    assert!(small <= 450, "{small} bytes a frame in 80 by 24");
+    assert!(small <= 450, "{small} bytes per frame in 80 by 24");
     let large = average(|| Ok(Size::new(200, 50)), 60);
-    assert!(large <= 2000, "{large} bytes a frame in 200 by 50");
+    assert!(large <= 2000, "{large} bytes per frame in 200 by 50");
+}
+
+/// Where motion is seen, every curve and every mark moves between two frames.
+#[test]
+fn a_frame_in_motion_takes_few_bytes() {
+    let sizes: [(Tell, usize); 3] = [
+        (|| Ok(Size::new(80, 24)), 480),
+        (|| Ok(Size::new(120, 40)), 1480),
+        (|| Ok(Size::new(200, 50)), 2360),
+    ];
+    for (size, budget) in sizes {
+        let mut counted = Counted::new(size);
+        let bytes = at_the_initial_pace(&mut counted);
+        assert!(bytes <= budget, "{bytes} bytes per frame in {:?}", size());
+        assert_eq!(counted.draw(), 0, "a paused screen sends something");
+    }
 }
 
 #[test]
@@ -119,6 +185,31 @@ fn stresses_in_the_half_space_take_few_bytes() {
     let total: usize = (0..frames).map(|_| counted.frame(",..")).sum();
     assert!(total / frames <= 2000, "{} bytes a frame", total / frames);
     assert_eq!(counted.draw(), 0, "a paused screen sends something");
+}
+
+/// A run's cross-section and numbers follow within a frame, and at once when it pauses or a key is
+/// pressed.
+#[test]
+fn calm_panels_are_never_two_frames_behind() {
+    let mut counted = Counted::new(|| Ok(Size::new(120, 40)));
+    counted.frame(",");
+    let force = |counted: &Counted| {
+        let text = counted.text();
+        let at = text.find("F_z   ").expect("the numbers");
+        text[at..at + 40].to_owned()
+    };
+    let mut seen = Vec::new();
+    for _ in 0..4 {
+        counted.running_frame(".....");
+        seen.push(force(&counted));
+    }
+    assert_ne!(seen[0], seen[1]);
+    assert_eq!(seen[1], seen[2]);
+    assert_ne!(seen[2], seen[3]);
+    counted.running_frame(".....");
+    assert_eq!(force(&counted), seen[3]);
+    counted.frame("");
+    assert_ne!(force(&counted), seen[3], "paused, but not up to date");
 }
 
 #[test]
@@ -146,7 +237,7 @@ fn cells() -> impl Strategy<Value = Vec<(usize, char, Style)>> {
         1 => Just(Modifier::DIM),
         1 => Just(Modifier::BOLD | Modifier::REVERSED),
     ];
-    let sign = prop::sample::select(vec![' ', 'a', '⣀', '─', 'µ', '█', '³', '~']);
+    let sign = prop::sample::select(vec![' ', 'a', '⣀', '─', 'µ', '█', '▀', '³', '~']);
     let style = (color(), color(), modifiers)
         .prop_map(|(fg, bg, modifier)| Style::new().fg(fg).bg(bg).add_modifier(modifier));
     prop::collection::vec((0..COLUMNS * ROWS, sign, style), 0..40)

@@ -4,10 +4,13 @@ use std::fs;
 
 use crate::test_dir::{Table, TestDir};
 use mdr_tui::figure::Sheet;
-use mdr_tui::figure::chart::{Axis, Chart};
+use mdr_tui::figure::canvas::Shape;
+use mdr_tui::figure::chart::{Axis, Chart, Map};
 use mdr_tui::figure::ink::{Ink, Look, Style};
 use mdr_tui::figure::svg;
+use mdr_tui::oracle::dual_oscillation::{DualOscillation, Frequencies};
 use mdr_tui::plot::Scale;
+use mdr_tui::plot::colormap::ColorMap;
 
 /// The rows of one curve of a figure's data.
 fn curve(data: &Table, panel: &str, name: &str) -> (Vec<f64>, Vec<f64>) {
@@ -92,6 +95,133 @@ fn figure_three_is_one_command_and_its_data_are_those_of_the_run() {
     assert_eq!(figure.header("cycles"), "1.72, 2, 3.24");
 }
 
+/// The rows of the guide's tables on the paper's figures, each number from the data of the figure.
+#[test]
+fn the_guide_lays_the_figures_beside_the_papers() {
+    let dir = TestDir::new();
+    dir.done("figure --figure fig2 -o fig2.svg --quiet");
+    dir.done("figure --figure fig3 -o fig3.svg --quiet");
+    let guide = dir.done("guide figures");
+    let page: String = include_str!("../../src/guide/figures.md").into();
+    assert!(guide.contains("point by point"));
+    let row = |start: &str| -> String {
+        let mut rows = page
+            .lines()
+            .filter(|line| line.starts_with(&format!("| {start}")));
+        rows.next()
+            .unwrap_or_else(|| panic!("no row {start}"))
+            .to_owned()
+    };
+    let says = |start: &str, texts: &[String]| {
+        let row = row(start);
+        for text in texts {
+            assert!(row.contains(text.as_str()), "{text} is not in {row}");
+        }
+    };
+
+    let errors = data(&dir, "fig2.csv");
+    assert_eq!(errors.header("points"), "100");
+    let of = |panel, method: &str| curve(&errors, panel, &format!("method {method}")).1;
+    let (a, b) = (of("a", "A"), of("a", "B"));
+    let apart = a.iter().zip(&b).map(|(a, b)| (a - b).abs());
+    let apart = apart.take(a.len() - 1).fold(0.0, f64::max);
+    assert!(apart < 1e-14, "{apart}");
+    let last = |errors: &[f64]| format!("{:.1e}", errors[errors.len() - 1]);
+    says(
+        "(a) 1D profile",
+        &[format!("{} (A) and {} (B)", last(&a), last(&b))],
+    );
+    let worst = |errors: &[f64]| errors.iter().copied().fold(0.0, f64::max);
+    assert_eq!((worst(&a), worst(&b)), (a[0], b[0]));
+    says("(a) largest error", &[format!("{:.1e} with both", a[0])]);
+    for (panel, start) in [("b", "(b) normal stress"), ("c", "(c) normal deformation")] {
+        let (a, b) = (worst(&of(panel, "A")), worst(&of(panel, "B")));
+        says(start, &[format!("{a:.1e} (A), {b:.1e} (B)")]);
+    }
+    assert_eq!(of("b", "A")[1], worst(&of("b", "A")));
+    assert!(10.0 * worst(&of("c", "A")) < worst(&of("c", "B")));
+
+    for method in ["a", "b"] {
+        dir.done(&format!(
+            "figure li2019-fig3 --figure fig3 --set numerics.method={method} -o fig3-{method}.svg --quiet"
+        ));
+    }
+    let [product, a, b] =
+        ["fig3", "fig3-a", "fig3-b"].map(|name| data(&dir, &format!("{name}.csv")));
+    for figure in [&product, &a, &b] {
+        assert_eq!(figure.header("points"), "100");
+        assert_eq!(figure.header("cycles"), "50.72, 100, 199.24");
+    }
+    // c = 41.64 µm, and the first node that wears without end.
+    let motion = DualOscillation {
+        e_star: 1.0,
+        g_star: 2.0 * (1.0 - 0.3) / (2.0 - 0.3),
+        mu: 0.1,
+        depth: 1e-6,
+        normal_amplitude: 1e-7,
+        normal_phase: 0.0,
+        tangential_amplitude: 1e-7,
+        tangential_phase: std::f64::consts::FRAC_PI_4,
+        frequencies: Frequencies::Equal,
+    };
+    let stick = motion.stick_radius(0.01);
+    let (radii, limit) = curve(&product, "a", "limit");
+    let unworn = curve(&product, "a", "unworn").1;
+    let worn = (0..radii.len())
+        .find(|&i| limit[i] > unworn[i] + 1e-12)
+        .expect("wear");
+    let [inside, outside] = [worn - 1, worn].map(|i| 1e6 * radii[i]);
+    assert!(
+        inside - 1e-6 <= 1e6 * stick && 1e6 * stick < outside,
+        "{inside} {stick} {outside}"
+    );
+    says(
+        "stick in the centre",
+        &[
+            format!("c = {:.2} µm", 1e6 * stick),
+            format!("between {inside:.2} and {outside:.2} µm"),
+        ],
+    );
+    assert!(outside - 1e6 * stick < 0.13 + 5e-3);
+    let profiles = ["50.72 cycles", "100 cycles", "199.24 cycles"].map(|name| {
+        let (a, b) = (curve(&a, "a", name).1, curve(&b, "a", name).1);
+        let unworn = curve(&data(&dir, "fig3-a.csv"), "a", "unworn").1;
+        let deepest = a
+            .iter()
+            .zip(&unworn)
+            .map(|(f, f0)| f - f0)
+            .fold(0.0, f64::max);
+        let apart = a
+            .iter()
+            .zip(&b)
+            .map(|(a, b)| (a - b).abs())
+            .fold(0.0, f64::max);
+        format!("{:.1} %", 100.0 * apart / deepest)
+    });
+    let [first, second, third] = &profiles;
+    says(
+        "3D profile, A against B",
+        &[format!("{first}, {second} and {third}")],
+    );
+    for (panel, state) in [("c", "first"), ("d", "last")] {
+        let peak = |figure: &Table| {
+            let (radii, pressure) = curve(figure, panel, "p");
+            let at = (0..radii.len()).max_by(|&i, &j| pressure[i].total_cmp(&pressure[j]));
+            let at = at.expect("nodes");
+            (pressure[at] / pressure[0], pressure[at], radii[at])
+        };
+        let (ratio, pressure, r) = peak(&product);
+        let mut texts = vec![
+            format!("{ratio:.2} of p(0)"),
+            format!("{:.2} (A), {:.2} (B)", peak(&a).0, peak(&b).0),
+        ];
+        if state == "last" {
+            texts.push(format!("{:.2} GPa at {:.2} µm", 1e-9 * pressure, 1e6 * r));
+        }
+        says(&format!("stress at the stick border, {state}"), &texts);
+    }
+}
+
 #[test]
 fn figure_two_has_the_errors_of_both_methods() {
     let dir = TestDir::new();
@@ -107,6 +237,109 @@ fn figure_two_has_the_errors_of_both_methods() {
     assert!(worst("c", "method A") < worst("c", "method B"));
     assert!(worst("b", "method A") < 0.1);
     assert_eq!(figure.header("points"), "100");
+}
+
+/// Both loops have the same forces; the sensor sees u + F_x/stiffness. A stiff rig has one loop, without a name.
+#[test]
+fn a_rig_that_yields_has_two_loops() {
+    let dir = TestDir::new();
+    let rig = "gross-slip --set motion.tangential.rig_stiffness=3e7";
+    for source in [
+        format!("run {rig} --cycles 3 --history every-step --out x --quiet"),
+        "figure x --panel loop -o run.svg --quiet".into(),
+        format!("figure {rig} --at 3 --panel loop -o scenario.svg --quiet"),
+        format!("figure {rig} --at 2,3 --panel loop -o two.svg --quiet"),
+        "figure gross-slip --at 3 --panel loop -o stiff.svg --quiet".into(),
+    ] {
+        dir.done(&source);
+    }
+    for name in ["run", "scenario"] {
+        let figure = data(&dir, &format!("{name}.csv"));
+        let (contact, sensor) = (
+            curve(&figure, "a", "contact"),
+            curve(&figure, "a", "rig's sensor"),
+        );
+        assert!(contact.0.len() > 90, "{name}");
+        assert_eq!(contact.1, sensor.1, "{name}");
+        for ((u, sensed), force) in contact.0.iter().zip(&sensor.0).zip(&contact.1) {
+            assert!(
+                (sensed - (u + force / 3e7)).abs() < 1e-6 * sensed.abs().max(1e-9),
+                "{name}"
+            );
+        }
+        assert!(
+            dir.read(&format!("{name}.svg")).contains("rig's sensor"),
+            "{name}"
+        );
+    }
+    let two = data(&dir, "two.csv");
+    for end in [2, 3] {
+        let named = |suffix: &str| curve(&two, "a", &format!("{end} cycles{suffix}"));
+        assert_eq!(named("").1, named(" (rig's sensor)").1, "{end}");
+    }
+    assert!(!dir.read("stiff.svg").contains("sensor"));
+    // The screen's figure has what its panel has.
+    let said = dir.say(&[
+        "gross-slip",
+        "--set",
+        "motion.tangential.rig_stiffness=3e7",
+        "--keys",
+        ",,,:figure screen.svg<Enter>",
+        "--print",
+        "80x24",
+    ]);
+    assert_eq!((said.code, said.err.as_str()), (0, ""));
+    let screen = data(&dir, "screen.csv");
+    assert_eq!(
+        curve(&screen, "d", "contact").1,
+        curve(&screen, "d", "rig's sensor").1
+    );
+}
+
+/// Where areas only touch, a viewer that smooths edges shows the paper between them: every area of a map reaches
+/// below the next of its row and below the next row, and none beyond the frame.
+#[test]
+fn a_map_has_no_seams() {
+    let mut chart = Chart::new("map", Axis::new("x", "m"), Axis::new("z", "m"));
+    chart.map = Some(Map {
+        quantity: Axis::new("σ", "Pa"),
+        places: [vec![0.0, 1.0, 2.0], vec![0.0, 1.0]],
+        values: vec![0.0, 1.0, 2.0, 2.0, 1.0, 0.0],
+        colors: ColorMap::Sequential,
+    });
+    let sheet = Sheet {
+        title: "map".into(),
+        facts: Vec::new(),
+        charts: vec![chart],
+    };
+    let look = Look {
+        font: 2.8,
+        style: Style::Color,
+    };
+    let canvas = sheet.draw([60.0, 40.0], &look);
+    let areas = canvas.shapes.iter().filter_map(|shape| match shape {
+        Shape::Area { at, size, .. } => Some([[at[0], at[0] + size[0]], [at[1], at[1] + size[1]]]),
+        _ => None,
+    });
+    let areas: Vec<[[f64; 2]; 2]> = areas.collect();
+    let (map, scale) = areas.split_at(6);
+    for row in 0..2 {
+        for column in 0..3 {
+            let [[_, right], [top, bottom]] = map[3 * row + column];
+            if column < 2 {
+                assert!(right > map[3 * row + column + 1][0][0] + 0.1);
+            }
+            if row == 0 {
+                let [below_top, below_bottom] = map[3 + column][1];
+                assert!(bottom > below_top + 0.1 || top < below_bottom - 0.1);
+            }
+        }
+    }
+    let ends = |k: usize| map[3 * k + 2][0][1];
+    assert!((ends(0) - ends(1)).abs() < 1e-9, "beyond the frame");
+    for pair in scale.windows(2) {
+        assert!(pair[0][1][0] < pair[1][1][1] - 0.1, "the scale has seams");
+    }
 }
 
 #[test]

@@ -175,6 +175,20 @@ fn states_are_frozen_and_removed() {
     );
 }
 
+/// A legend names the ghost in both profiles and pressures, and its difference from this run is drawn where the two
+/// runs are still equal.
+#[test]
+fn a_comparison_keeps_the_ghosts() {
+    let dir = TestDir::new();
+    let with = shot(&dir, "120x40", ",,g,,c,", &[SCENE]);
+    assert_eq!(with.matches("cycle 2.00").count(), 3, "{with}");
+    let lone = shot(&dir, "120x40", ",,g,,c", &[SCENE]);
+    assert!(!lone.contains("equal so far"), "{lone}");
+    assert_eq!(lone.matches("cycle 2.00").count(), 3, "{lone}");
+    let without = shot(&dir, "120x40", ",,,,c", &[SCENE]);
+    assert!(without.contains("equal so far"), "{without}");
+}
+
 #[test]
 fn what_cannot_be_laid_over_is_one_line() {
     let dir = TestDir::new();

@@ -818,7 +818,7 @@ fn a_screen_can_be_printed_as_a_picture() {
         let svg = String::from_utf8(output.stdout).expect("text");
         assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
         assert!(svg.contains("stroke-linecap"), "{file}");
-        assert_eq!(svg.contains("#e69f00"), theme == "dark", "{file}");
+        assert_eq!(svg.contains("#d7af00"), theme == "dark", "{file}");
         assert_picture(file, &svg);
     }
     // The format alone is refused.

@@ -301,6 +301,56 @@ fn is_coloured(screen: &Screen) -> bool {
     })
 }
 
+/// Asked once, behind which the first frame does not wait; a chosen theme stays.
+#[test]
+fn the_colours_follow_the_background_that_the_terminal_tells() {
+    const QUESTION: &[u8] = b"\x1b]11;?";
+    let [white, solarized] = ["ffff/ffff/ffff", "0000/2b2b/3636"];
+    // The orange of the worn profile, on dark and on light.
+    let [on_dark, on_light] = [178, 130].map(Color::Idx);
+    for (arguments, console, background, asks, expected) in [
+        (&[][..], false, white, true, on_light),
+        (&[], false, solarized, true, on_dark),
+        (&["--theme", "dark"], false, white, false, on_dark),
+        (&["--theme", "light"], false, solarized, false, on_light),
+        (&["--color", "never"], false, white, false, Color::Default),
+        (&[], true, white, false, Color::Idx(3)),
+    ] {
+        let mut command = program(arguments);
+        if console {
+            command.env("TERM", "linux");
+        }
+        let mut terminal = Terminal::start(command, 80, 24);
+        terminal.wait_until("running explorer", is_running);
+        let what = format!("{arguments:?} {background}");
+        let count = |terminal: &Terminal| {
+            let raw = terminal.raw();
+            raw.windows(QUESTION.len())
+                .filter(|&w| w == QUESTION)
+                .count()
+        };
+        assert_eq!(count(&terminal), usize::from(asks), "{what}");
+        terminal.press(&format!("\x1b]11;rgb:{background}\x1b\\"));
+        // The key is answered behind the colours.
+        terminal.press("?");
+        terminal.wait_for("keys (");
+        terminal.press("\x1b");
+        terminal.wait_until("the colours", |screen| {
+            let (rows, columns) = screen.size();
+            let mut cells = (0..rows.get())
+                .flat_map(|row| (0..columns.get()).map(move |column| (row, column)))
+                .filter_map(|(row, column)| screen.cell(row, column));
+            let profiles = [on_dark, on_light, Color::Idx(3)];
+            let found = cells.find(|cell| profiles.contains(&cell.fgcolor()));
+            screen.contents().contains("3D profile")
+                && found.map_or(Color::Default, |cell| cell.fgcolor()) == expected
+        });
+        assert_eq!(count(&terminal), usize::from(asks), "{what}");
+        terminal.press("q");
+        terminal.wait_for_end();
+    }
+}
+
 #[test]
 fn no_color_means_no_colour_unless_asked_for() {
     for (no_color, arguments, coloured) in [

@@ -34,7 +34,7 @@ pub(super) fn acosh_step(a: f64, b: f64, r: f64) -> f64 {
 }
 
 /// ∫ₐᵇ (x² − a²) dx/√(r² − x²) = (r²/2 − a²) [asin(b/r) − asin(a/r)] − ½ [b√(r²−b²) − a√(r²−a²)],
-/// for 0 ≤ a ≤ b ≤ r; `arc` is [`asin_step`] of the three, which who needs the one has of the other.
+/// for 0 ≤ a ≤ b ≤ r; `arc` is [`asin_step`] of the three: callers already have it.
 pub(super) fn square_step(a: f64, b: f64, r: f64, arc: f64) -> f64 {
     let ends = (b - a) * leg(b, r) - a * root_step(a, b, r);
     (0.5 * r * r - a * a) * arc - 0.5 * ends

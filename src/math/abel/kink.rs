@@ -98,7 +98,7 @@ pub fn by_cell<'a>(
 }
 
 /// Whether [`by_cell`] can tell the cells of kinks that come from a file: each hat begins inside the grid and
-/// goes on to the outer node of its cell at most.
+/// extends to the outer node of its cell at most.
 pub fn are_hats(kinks: &[Kink], squares: &[f64]) -> bool {
     let mut hat = None;
     kinks.iter().all(|kink| {

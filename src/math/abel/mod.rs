@@ -213,7 +213,7 @@ impl Form {
     /// worn depth from 200 on.
     pub const CROSSOVER: usize = 200;
 
-    /// The quicker form of `method` on so many cells.
+    /// Returns the quicker form of `method` on `cells` cells.
     pub fn quicker(method: AbelMethod, cells: usize) -> Self {
         if method == AbelMethod::Product && cells >= Self::CROSSOVER {
             Self::Fast
@@ -314,8 +314,8 @@ impl AbelPlan {
         }
     }
 
-    /// [`displacement`](Self::displacement) for a caller who needs some `rows` of `w` alone; the others
-    /// keep what they hold, or something finite.
+    /// [`displacement`](Self::displacement) for callers that need only some `rows` of `w`; the other
+    /// rows keep their values or become finite.
     pub fn displacement_rows(&self, u: &[f64], w: &mut [f64], rows: Range<usize>) {
         match &self.operators {
             Operators::Dense { displacement, .. } => displacement.apply_rows(u, w, rows),
@@ -331,8 +331,8 @@ impl AbelPlan {
         }
     }
 
-    /// [`stress`](Self::stress) for a caller who needs some `rows` of `p` alone; the others keep what they
-    /// hold, or something finite.
+    /// [`stress`](Self::stress) for callers that need only some `rows` of `p`; the other rows keep their
+    /// values or become finite.
     pub fn stress_rows(&self, q: &[f64], p: &mut [f64], rows: Range<usize>) {
         match &self.operators {
             Operators::Dense { stress, .. } => stress.apply_rows(q, p, rows),

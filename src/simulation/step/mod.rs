@@ -135,7 +135,7 @@ fn accept(
     Ok(())
 }
 
-/// The largest of the worn depths; none where one is not finite.
+/// The largest of the worn depths; `None` if one is not finite.
 fn deepest(wear: &[f64]) -> Option<f64> {
     vectorized(
         #[inline(always)]

@@ -93,8 +93,8 @@ impl Errors {
     }
 }
 
-/// ν of a data set of so many `points` that has `spent` Σh on the keys; at least 1, for a set that the keys follow
-/// through every point tells nothing of its error.
+/// ν of a data set of `points` that has `spent` Σh on the keys; at least 1, since a set that the keys fit at every
+/// point says nothing about its error.
 pub(super) fn freedom(points: usize, spent: f64) -> f64 {
     (points as f64 - spent).max(1.0)
 }

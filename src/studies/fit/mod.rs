@@ -82,7 +82,7 @@ pub struct Value {
     pub unit: &'static str,
     /// The value at the minimum.
     pub value: f64,
-    /// Its standard error; none where the data do not determine it.
+    /// Its standard error; `None` if the data do not determine it.
     pub stderr: Option<f64>,
 }
 

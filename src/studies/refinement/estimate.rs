@@ -83,7 +83,7 @@ fn by_observed_order(first: f64, second: f64) -> f64 {
     first.max(second / FASTEST) / (2f64.powf(order) - 1.0)
 }
 
-/// The run as a scenario with so many times its cells and steps, the changes made to it included.
+/// The run as a scenario with `factor` times its cells and steps, including the changes made to it.
 fn twin_of(session: &Session, factor: f64) -> Result<Scenario, SessionError> {
     let loaded = session.loaded();
     let level = Level::of(loaded);

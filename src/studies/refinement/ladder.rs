@@ -47,7 +47,7 @@ const STALE: f64 = 2.0;
 const MOST_POINTS: usize = 20_000;
 const MOST_STEPS: u32 = 100_000;
 
-/// So many rungs in a row that do not come nearer end the ladder.
+/// The ladder ends after this many rungs in a row without progress.
 const PATIENCE: u32 = 3;
 
 /// One run of the ladder.
@@ -237,7 +237,7 @@ impl Ladder {
         )
     }
 
-    /// Takes a run of the level that was asked for, which took so many seconds.
+    /// Takes the outcome of a run at the requested level, and the seconds that it took.
     pub fn report(&mut self, outcome: Outcome, seconds: f64) {
         let next = self.next();
         self.spent += seconds;

@@ -77,7 +77,7 @@ impl Level {
     /// The scenario computed so; its changes stay.
     ///
     /// # Errors
-    /// If the scenario's method or shape does not take so many cells.
+    /// If the scenario's method or shape does not allow this many cells.
     pub fn of_scenario(&self, scenario: &Scenario) -> Result<Scenario, ScenarioError> {
         let keys = self.keys();
         let keys: Vec<(&str, &str)> = keys.iter().map(|(k, v)| (*k, v.as_str())).collect();

@@ -20,8 +20,8 @@ pub struct Resolved {
     pub warning: Option<String>,
 }
 
-/// Finds the points and steps that meet the accuracy of `scenario` in a run of so many cycles (those of its own
-/// plan if `None`), looking for `budget` seconds at most. A scenario without an accuracy is returned as it is.
+/// Finds the points and steps that meet the accuracy of `scenario` in a run of `cycles` (those of its own plan if
+/// `None`), looking for `budget` seconds at most. A scenario without an accuracy is returned as it is.
 ///
 /// # Errors
 /// If no level runs to its end, or if `go_on` says no.

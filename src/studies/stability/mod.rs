@@ -24,8 +24,8 @@ pub const POINTS: [usize; 4] = [25, 50, 100, 200];
 /// Wear numbers K that are tried: half decades.
 pub const WEAR_NUMBERS: [f64; 9] = [0.1, 0.316, 1.0, 3.16, 10.0, 31.6, 100.0, 316.0, 1000.0];
 
-/// Teeth that are higher than this, in largest depths, are seen. The presets come to 7e-5 at most, and runs
-/// with the guard end with 3e-4, next to the border of stick: one node, no comb.
+/// The height from which a sawtooth counts, relative to the largest depth. The presets reach 7e-5 at most, and
+/// runs with the guard end with 3e-4 next to the stick border, at a single node.
 pub const VISIBLE: f64 = 5e-4;
 
 /// Halvings of the interval, on the scale of ratios, in which the boundary lies.
@@ -38,9 +38,9 @@ pub struct Setting {
     pub method: AbelMethod,
     /// N.
     pub points: usize,
-    /// Steps a cycle.
+    /// Steps per cycle.
     pub steps: u32,
-    /// Whether harsh steps are taken in parts.
+    /// Whether stiff steps are split into sub-steps.
     pub guard: bool,
 }
 
@@ -49,7 +49,7 @@ pub struct Setting {
 pub enum Outcome {
     /// Smooth to the end.
     Stable,
-    /// To the end, with teeth as high as this at the end of a cycle, in largest depths.
+    /// Ran to the end, with a sawtooth of this height at the end of a cycle, relative to the largest depth.
     Teeth(f64),
     /// After some cycles, for a reason.
     Exploded {
@@ -76,9 +76,9 @@ pub struct Line {
     pub setting: Setting,
     /// The wear numbers of the ladder that were tried, and what came of them.
     pub outcomes: Vec<(f64, Outcome)>,
-    /// The wear number from which teeth were [predicted](predict); none where nothing slips.
+    /// The wear number from which a sawtooth is [predicted](predict); `None` if nothing slips.
     pub predicted: Option<f64>,
-    /// The smallest wear number at which teeth were seen, to a seventh; none if they never were.
+    /// The smallest wear number at which a sawtooth was seen, to a seventh; `None` if there was none.
     pub seen: Option<f64>,
 }
 
@@ -186,7 +186,7 @@ impl Study {
             on_run(wear_number);
         }
         let (Some(mut low), Some(mut high)) = (below, above) else {
-            // Teeth on the lowest rung: the boundary lies below the ladder.
+            // A sawtooth on the lowest rung: the boundary lies below the ladder.
             line.seen = above;
             return Ok((line, false));
         };

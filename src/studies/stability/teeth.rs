@@ -7,14 +7,14 @@
 //! the height
 //!
 //! ```text
-//! ½ min(|D_{j−1}|, |D_j|, |D_{j+1}|)       the height of the teeth is the largest of these
+//! ½ min(|D_{j−1}|, |D_j|, |D_{j+1}|)       the height of the sawtooth is the largest of these
 //! ```
 //!
 //! An even comb, every second node higher by H, has D = ±2H and so a sawtooth of height H. A kink,
 //! as at the stick border and at the contact edge, is one large D among small ones, and a jump is
 //! two: neither is a sawtooth.
 
-/// From tooth to gap, of the highest teeth of `values`, in their unit; 0 where they are smooth.
+/// The height of the highest sawtooth in `values`, from peak to valley, in their unit; 0 if they are smooth.
 pub fn teeth(values: &[f64]) -> f64 {
     let bends: Vec<f64> = values
         .windows(3)
@@ -90,7 +90,7 @@ mod tests {
             let found = teeth(&comb(&worn(100), 40, 80, pitch, 2e-3));
             assert!((0.4e-3..2.1e-3).contains(&found), "{pitch}: {found}");
         }
-        // Teeth at the border and at the end of the worn zone.
+        // A sawtooth at the border and one at the end of the worn zone.
         for from in [26, 66] {
             let found = teeth(&comb(&worn(100), from, from + 8, 2, 0.2));
             assert!(found > 0.1, "{from}: {found}");

@@ -40,7 +40,7 @@ impl Border {
     }
 
     /// How far (m, or N for the lift-off of a prescribed force) a scenario is from the border:
-    /// negative beyond it, none where there is no closed form.
+    /// negative beyond it, `None` without a closed form.
     pub fn distance(self, scenario: &Scenario) -> Option<f64> {
         let setup = scenario.setup();
         let normal = setup.drive.normal();

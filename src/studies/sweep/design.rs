@@ -39,7 +39,7 @@ impl Design {
     /// The most samples of a sampled design.
     pub fn most_samples(self) -> usize {
         match self {
-            // The crate's sequences have so many points.
+            // The length of the crate's sequences.
             Self::Sobol => 1 << 16,
             _ => 10_000_000,
         }

@@ -57,9 +57,9 @@ pub struct Elasticity {
     pub deviation: Option<f64>,
     /// The column.
     pub column: &'static str,
-    /// The result with all keys at their values; none where it is undefined.
+    /// The result with all keys at their values; `None` if it is undefined.
     pub result: Option<f64>,
-    /// d ln y/d ln x, and its error; none where y is undefined, or not positive, in one of the runs.
+    /// d ln y/d ln x, and its error; `None` if y is undefined, or not positive, in one of the runs.
     pub elasticity: Option<[f64; 2]>,
 }
 

@@ -57,7 +57,7 @@ pub struct Errors {
     pub largest: f64,
     /// Of the permanent stick radius, in contact radii.
     pub stick_radius: f64,
-    /// Of the worn volume, in parts of it.
+    /// Of the worn volume, relative to it.
     pub volume: f64,
     /// What `numerics.accuracy` is held against: the larger of the errors of the scar and of its volume.
     pub scar: f64,

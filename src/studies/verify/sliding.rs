@@ -55,7 +55,7 @@ const AMPLITUDE: f64 = 0.05;
 /// K = kE*d/a.
 const WEAR: f64 = 3.0;
 
-/// After so many cycles what is left to wear is far below every error.
+/// Cycles after which the remaining wear is far below every error.
 const CYCLES: f64 = 400.0;
 
 /// f and the permanent stick radius after a long run.

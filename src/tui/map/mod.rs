@@ -42,11 +42,11 @@ pub fn run(view: &mut View, theme: &Theme, mut renew: impl FnMut(&mut View)) -> 
     let (events, inbox) = channel();
     let waiting = Arc::new(Waiting::default());
     super::listen_for_signals(events.clone(), Arc::clone(&waiting))?;
-    let screen = Screen::open(Capture::None, events.clone());
+    let screen = Screen::open(Capture::None, theme.follows_background, events.clone());
     let mut screen = screen.context("cannot take over the terminal")?;
     let keys = Arc::clone(&waiting);
     let listener = thread::spawn(move || input::listen(&events, &keys, Capture::None));
-    let outcome = attend(view, theme, &mut renew, &mut screen, &inbox, &waiting);
+    let outcome = attend(view, *theme, &mut renew, &mut screen, &inbox, &waiting);
     super::hear_out(&mut screen, &inbox);
     // Further keys are for the explorer or the shell.
     waiting.close();
@@ -56,7 +56,7 @@ pub fn run(view: &mut View, theme: &Theme, mut renew: impl FnMut(&mut View)) -> 
 
 fn attend(
     view: &mut View,
-    theme: &Theme,
+    mut theme: Theme,
     renew: &mut impl FnMut(&mut View),
     screen: &mut Screen,
     inbox: &Receiver<Event>,
@@ -64,7 +64,7 @@ fn attend(
 ) -> Result<Leave> {
     while !waiting.is_over() {
         if screen.when() == When::Now {
-            screen.paint(|area, buffer| draw::draw(view, theme, area, buffer))?;
+            screen.paint(|area, buffer| draw::draw(view, &theme, area, buffer))?;
         }
         match inbox.recv_timeout(LOOK_INTERVAL) {
             Err(RecvTimeoutError::Timeout) => renew(view),
@@ -77,6 +77,7 @@ fn attend(
             }
             Ok(Event::Paste(_)) => waiting.leave(),
             Ok(Event::Ready) => screen.flow().answered(Instant::now()),
+            Ok(Event::Background(color)) => theme.follow(color),
             Ok(Event::Written) => screen.flow().written(),
             Ok(Event::Resize) => screen.start_afresh()?,
             Ok(Event::HangUp) | Err(RecvTimeoutError::Disconnected) => break,

@@ -1,15 +1,17 @@
-//! Two runs in lockstep from one state: both profiles, both pressures, and the difference below.
+//! Two runs in lockstep from one state: both profiles, both pressures, and the difference below. Ghosts lie
+//! over each plot, in the difference as their own from this run.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::Line;
 use ratatui::widgets::Widget;
 
-use super::{App, Frame, bare_plot, curve, edge_marks, nothing, panel_block};
+use super::{App, Frame, bare_plot, curve, edge_marks, ghosts, nothing, panel_block};
 use crate::math::scan::largest;
 use crate::plot::units::{format_number, format_value_in};
 use crate::plot::{Axis, Scale};
 use crate::simulation::Observation;
+use crate::studies::ghost::Axes;
 use crate::tui::frame::Comparison;
 use crate::tui::theme::Role;
 
@@ -44,8 +46,10 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffe
     };
     let names = (this_name(frame), comparison.name.as_str());
     let inside = panel_block("3D profile", app, left, buffer);
+    let mut lines = ghosts::worn(frame, Some(1.0));
     let mut plot = bare_plot(app, Axis::new("r", "m"), Axis::new("f", "m"))
         .cursor(app.cursor_radius(frame))
+        .curves(ghosts::curves(&mut lines, app))
         .curve(curve(names.1, &other.radii, &other.profile, theme, Role::Slip).dashed())
         .curve(curve(
             &names.0,
@@ -59,8 +63,10 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffe
     }
     plot.render(inside, buffer);
     let inside = panel_block("pressure", app, right, buffer);
+    let mut lines = ghosts::on(frame, Axes::Pressure, 1.0);
     bare_plot(app, Axis::new("r", "m"), Axis::new("p", "Pa"))
         .cursor(app.cursor_radius(frame))
+        .curves(ghosts::curves(&mut lines, app))
         .curve(curve(names.1, &other.radii, &other.pressure, theme, Role::Slip).dashed())
         .curve(curve(
             &names.0,
@@ -71,7 +77,9 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffe
         ))
         .render(inside, buffer);
     let inside = panel_block("difference of f", app, below, buffer);
-    let largest = largest(&difference);
+    let mut lines = ghosts::differences(frame);
+    let of_ghosts = ghosts::ordinates(&lines);
+    let largest = of_ghosts.into_iter().fold(largest(&difference), f64::max);
     let edge = seen.radii.last().copied().unwrap_or(0.0);
     // Six decades: what lies below is rounding.
     let decade = largest.log10().ceil();
@@ -91,6 +99,7 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffe
     } else {
         bare_plot(app, Axis::new("r", "m").bounds([0.0, edge]), ordinate)
             .cursor(app.cursor_radius(frame))
+            .curves(ghosts::curves(&mut lines, app))
             .curve(curve("", &other.radii, &difference, theme, Role::Slip))
             .render(inside, buffer);
     }

@@ -91,7 +91,7 @@ pub(super) fn on(frame: &Frame, axes: Axes, factor: f64) -> Vec<Line> {
     })
 }
 
-/// The lines of what is worn, drawn so many times over the unworn profile; `None` draws it alone.
+/// The lines of the wear, magnified by `times` on top of the unworn profile; `None` draws the wear alone.
 pub(super) fn worn(frame: &Frame, times: Option<f64>) -> Vec<Line> {
     lines(frame, |ghost| {
         let worn = ghost.worn(|r| frame.indenter.profile(r))?;
@@ -105,6 +105,17 @@ pub(super) fn worn(frame: &Frame, times: Option<f64>) -> Vec<Line> {
             .errors
             .map(|errors| errors.iter().map(|e| times * e).collect());
         Some((worn.radii, ys.collect(), errors))
+    })
+}
+
+/// The lines of how much more or less the ghosts are worn than this run, m, in absolute values.
+pub(super) fn differences(frame: &Frame) -> Vec<Line> {
+    lines(frame, |ghost| {
+        let worn = ghost.worn(|r| frame.indenter.profile(r))?;
+        let points = worn.radii.iter().zip(&worn.wear);
+        let ys = points.map(|(&r, wear)| (wear - frame.observation.worn_depth_at(r)).abs());
+        let ys = ys.collect();
+        Some((worn.radii, ys, None))
     })
 }
 

@@ -23,7 +23,7 @@ const WIDER: f64 = 1.5;
 /// Parts of a cell that a surface is drawn to.
 const PARTS: usize = 8;
 
-/// The lower so many eighths of a cell.
+/// Lower blocks, by the eighths of a cell that they fill.
 const LOWER: [char; PARTS + 1] = [' ', '▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
 
 /// What is at a place of the cut.
@@ -196,8 +196,7 @@ impl Picture<'_> {
         if matter.iter().all(|&m| m == Matter::HalfSpace) {
             let halves =
                 [0.5, 1.5].map(|at| self.ink(cut, column, top - at * self.half, matter[0]));
-            let [upper, lower] = halves;
-            return ('▀', ground(ink(upper), lower));
+            return halves_of(halves);
         }
         // The two that have most of the cell, in their order.
         let share = |m: Matter| matter.iter().filter(|&&other| other == m).count();
@@ -284,6 +283,15 @@ fn body(theme: &Theme) -> Color {
         (Depth::Sixteen, _) => Color::Gray,
         (_, Look::Light) => Color::Indexed(146),
         _ => Color::Indexed(60),
+    }
+}
+
+/// A cell of two halves. One of a single colour is a blank: a byte instead of three, and one colour to change.
+fn halves_of([upper, lower]: [Option<Color>; 2]) -> (char, Style) {
+    if upper == lower && upper.is_some() {
+        (' ', ground(Style::new(), upper))
+    } else {
+        ('▀', ground(ink(upper), lower))
     }
 }
 

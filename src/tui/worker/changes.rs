@@ -158,7 +158,7 @@ fn assignments(key: &str, value: &str) -> Vec<(String, String)> {
     parts
 }
 
-/// The element so many places after the one that is `now`, around the ends.
+/// The element `places` after the one that is `now`, wrapping around at the ends.
 fn shifted<T: Copy>(all: &[T], now: impl Fn(&T) -> bool, places: isize) -> T {
     let at = all.iter().position(now).unwrap_or(0) as isize;
     all[(at + places).rem_euclid(all.len() as isize) as usize]

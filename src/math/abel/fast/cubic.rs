@@ -8,10 +8,10 @@
 /// Nodes of a block.
 pub(super) const BLOCK: usize = 64;
 
-/// Up to so many nodes the tables stay in the caches, and are quicker than cubics.
+/// Up to this many nodes the tables fit into the caches and are quicker than cubics.
 pub(super) const CACHED: usize = 16_384;
 
-/// Error of a cubic in parts of the tolerance.
+/// Error of a cubic relative to the tolerance.
 pub(super) const SHARE: f64 = 0.1;
 
 /// The nodes of a block that its cubics go through, near Chebyshev's.

@@ -228,7 +228,7 @@ impl FastProduct {
         self.displacement_rows(u, w, 0..u.len());
     }
 
-    /// The same for a caller who needs some `rows` alone; the others hold something finite.
+    /// The same for callers that need only some `rows`; the others become finite.
     pub fn displacement_rows(&self, u: &[f64], w: &mut [f64], rows: Range<usize>) {
         let data = self.data(u, u[0], &self.cusps[1]);
         self.displacement.apply(&self.arc, &data, w, rows);
@@ -239,7 +239,7 @@ impl FastProduct {
         self.stress_rows(q, p, 0..q.len());
     }
 
-    /// The same for a caller who needs some `rows` alone; the others hold something finite.
+    /// The same for callers that need only some `rows`; the others become finite.
     pub fn stress_rows(&self, q: &[f64], p: &mut [f64], rows: Range<usize>) {
         let data = self.data(q, 0.0, &self.cusps[2]);
         self.stress.apply(&self.nodes, &self.root, &data, p, rows);

@@ -223,7 +223,7 @@ fn balanced(kernel: Kernel, nearest: f64) -> DMatrix<f64> {
     modes.tr_mul(&weighted)
 }
 
-/// The exponents of the first `number` modes, and 0; none if there are not so many.
+/// The exponents of the first `number` modes, and 0; `None` if there are fewer modes.
 fn truncated(balanced: &DMatrix<f64>, number: usize) -> Option<Vec<f64>> {
     if number > balanced.nrows() {
         return None;

@@ -4,7 +4,7 @@ use crate::math::abel::field::Field;
 use crate::math::abel::kink::Kink;
 use crate::math::abel::product;
 use crate::math::grid::RadialGrid;
-use crate::math::quadrature::{gauss, line_weights, product_weights, weighted_first};
+use crate::math::quadrature::{ProductWeights, gauss, line_weights, weighted_first};
 use crate::math::scan::{leading, trailing};
 
 /// A cusp that changes the load by less than this part of it over two cells is rounding.
@@ -30,7 +30,7 @@ pub struct WinklerFoundation {
     /// Of the slope at the tip.
     cusp_weights: [f64; 3],
     /// Of ∫ q s dx in each cell.
-    products: Vec<[f64; 3]>,
+    products: ProductWeights,
     /// ∫ of what a cusp of slope one adds to a load linear in x², from the tip to each node, m².
     bubbles: Vec<f64>,
 }
@@ -38,12 +38,13 @@ pub struct WinklerFoundation {
 impl WinklerFoundation {
     /// Springs at the nodes of a grid.
     pub fn new(grid: &RadialGrid) -> Self {
-        let mut products = product_weights(grid.nodes());
+        let mut products = ProductWeights::new(grid.nodes());
         if let Some(border) = grid.border() {
             // A worn contact carries its load up to the border of the permanent stick zone and drops
             // it there: what slips behind the border bears nothing, however the chords cross.
-            let [inner, mixed, outer] = products[border];
-            products[border] = [inner + mixed, 0.0, mixed + outer];
+            let mixed = std::mem::take(&mut products.mixed[border]);
+            products.inner[border] += mixed;
+            products.outer[border] += mixed;
         }
         Self {
             grid: grid.clone(),
@@ -87,15 +88,8 @@ impl WinklerFoundation {
         // Most springs stick or carry nothing.
         let first = leading(slip, |&slip| slip == 0.0).saturating_sub(1);
         let end = load.len() + 1 - trailing(load, |&load| load == 0.0);
-        let end = end.min(load.len()).max(first);
-        let cells = load[first..end].windows(2).zip(slip[first..end].windows(2));
-        let smooth: f64 = cells
-            .zip(&self.products[first..])
-            .map(|((q, s), [inner, mixed, outer])| {
-                let s = [s[0].abs(), s[1].abs()];
-                inner * q[0] * s[0] + mixed * (q[0] * s[1] + q[1] * s[0]) + outer * q[1] * s[1]
-            })
-            .sum();
+        let end = end.min(load.len()).saturating_sub(1).max(first);
+        let smooth = self.products.integral(first..end, load, slip);
         let kinked: f64 = kinks
             .iter()
             .map(|&(k, kink)| {

@@ -161,7 +161,7 @@ impl Increment {
             &after.load.nodal,
             &before.load.nodal,
             #[inline(always)]
-            |after, before| 0.5 * friction * (after + before),
+            move |after, before| 0.5 * friction * (after + before),
         );
         let at_edge = match after.normal.nodes {
             0 => 0.0,
@@ -189,7 +189,7 @@ impl Increment {
             &contact.spring.nodal[first..end],
             &self.slip[first..end],
             #[inline(always)]
-            |u, slip| modulus * u * slip,
+            move |u, slip| modulus * u * slip,
         );
         kinks.clear();
         let (normal, squares) = (&contact.normal, model.grid.squares());
@@ -220,15 +220,20 @@ impl Increment {
     }
 
     /// The nodes that wear between two contacts, with the slip of their surface: up to an edge behind the last node
-    /// that carried a stress before or carries one now; method B's stress looks one node across.
-    pub fn find_sliding(&mut self, model: &Model, before: &Traction, after: &Contact) {
+    /// that carried a stress before or carries one now; method B's stress looks one node across. The first `stuck`
+    /// springs did not slip.
+    pub fn find_sliding(
+        &mut self,
+        model: &Model,
+        before: &Traction,
+        after: &Contact,
+        stuck: usize,
+    ) {
         let p = &before.pressure;
         let nodes = p.len() - trailing(p, |&p| p == 0.0);
         let nodes = (nodes.max(after.normal.nodes) + 1).min(p.len());
         self.slip_of_surface(model, nodes);
         // Nothing slips within the innermost spring that does.
-        let states = &after.spring_state;
-        let stuck = leading(states, |&state| state == SpringState::Stick);
         self.surface_slip[..stuck].fill(0.0);
         self.nodes = stuck.min(nodes)..nodes;
     }
@@ -243,14 +248,15 @@ impl Increment {
         (zone, sign): (usize, f64),
     ) {
         let friction = sign * friction;
-        let (inner, outer) = self.shear.split_at_mut(zone);
-        let shears = before.shear.iter().zip(&after.shear);
+        let first = self.nodes.start.min(zone);
+        let (inner, outer) = self.shear[first..].split_at_mut(zone - first);
+        let shears = before.shear[first..].iter().zip(&after.shear[first..]);
         let pressures = before.pressure[zone..].iter();
         let pressures = pressures.zip(&after.pressure[zone..]);
-        let slips = &self.surface_slip;
+        let slips = &self.surface_slip[first..];
         vectorized(
             #[inline(always)]
-            || {
+            move || {
                 for ((mean, (was, is)), slip) in inner.iter_mut().zip(shears).zip(slips) {
                     let with_slip = select(is * slip > 0.0, 0.5 * is, 0.0);
                     *mean = select(was * is > 0.0, 0.5 * (was + is), with_slip);
@@ -266,15 +272,15 @@ impl Increment {
 /// The first node from which outwards every spring in contact slips in one direction, and that direction. Springs out
 /// of contact belong to it.
 pub(super) fn outer_slip_zone(states: &[SpringState]) -> (usize, f64) {
-    let outermost = states.iter().rposition(|&state| state != SpringState::Open);
-    let Some((outermost, sign)) = outermost.and_then(|j| Some((j, states[j].sign()?))) else {
+    let inside = states.len() - trailing(states, |&state| state == SpringState::Open);
+    let outermost = inside.checked_sub(1).map(|j| states[j]);
+    let Some((direction, sign)) = outermost.and_then(|state| Some((state, state.sign()?))) else {
         return (states.len(), 0.0);
     };
-    let direction = states[outermost];
-    let inner = states[..outermost]
-        .iter()
-        .rposition(|&state| state != direction && state != SpringState::Open);
-    (inner.map_or(0, |j| j + 1), sign)
+    let zone = trailing(states, |&state| {
+        (state == direction) | (state == SpringState::Open)
+    });
+    (states.len() - zone, sign)
 }
 
 #[cfg(test)]

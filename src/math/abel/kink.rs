@@ -145,11 +145,12 @@ pub fn add_to_stress(kinks: &[Kink], squares: &[f64], p: &mut [f64]) {
     vectorized(
         #[inline(always)]
         || {
-            for kink in kinks {
-                let weight = FRAC_2_PI * kink.jump;
-                let end = squares.partition_point(|&t| t < kink.at);
+            // By value: the loop writes, and would read them anew for every node.
+            for &Kink { at, jump } in kinks {
+                let weight = FRAC_2_PI * jump;
+                let end = squares.partition_point(|&t| t < at);
                 for (value, &t) in p[..end].iter_mut().zip(squares) {
-                    *value += weight * (kink.at - t).sqrt();
+                    *value += weight * (at - t).sqrt();
                 }
             }
         },

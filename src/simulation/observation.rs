@@ -94,8 +94,8 @@ pub struct Moment {
     /// 1 − V/∫k dE_d: how far the 3D side and the 1D side disagree. None before anything has worn
     /// and under laws that do not follow energy.
     pub energy_residual: Option<f64>,
-    /// The largest stiffness that the method bears, over that of the last step, or of its harshest part:
-    /// below 1 wear grows teeth. None where nothing has worn in it, and after a jump.
+    /// The largest stiffness that the method bears, over that of the last step, or of its stiffest sub-step:
+    /// below 1 wear grows a sawtooth. None where nothing has worn in it, and after a jump.
     pub stability_margin: Option<f64>,
 }
 

@@ -19,7 +19,7 @@
 //! of a run is 0.9 to 1.05 of the largest z of its nodes, unworn and worn (Fig. 3, methods product and a).
 //!
 //! Methods b and benad develop a sawtooth that no step limit explains, once the contact has worn by
-//! [this depth](teeth_from).
+//! [this depth](sawtooth_from).
 
 use nalgebra::Matrix3;
 
@@ -37,7 +37,7 @@ pub fn response(method: AbelMethod) -> f64 {
     }
 }
 
-/// Why steps however short do not keep a method from teeth; none where they do.
+/// Why steps however short do not keep a method from a sawtooth; none where they do.
 pub fn beyond_steps(method: AbelMethod) -> Option<&'static str> {
     match method {
         AbelMethod::Product | AbelMethod::A | AbelMethod::APlusB => None,
@@ -50,13 +50,13 @@ pub fn beyond_steps(method: AbelMethod) -> Option<&'static str> {
 }
 
 /// By what depth a contact must have worn, at the rate of a cycle of the unworn one and in largest depths, for a
-/// method to show teeth, whatever the step. None where short steps keep a method from them.
+/// method to show a sawtooth, whatever the step. None where short steps keep a method from them.
 ///
 /// Measured, not derived: on the motion of Fig. 3 with 20 cycles, at N from 25 to 200 and 50 to 400 steps a
 /// cycle, 0.38 to 0.44 with b and 0.038 to 0.055 with benad. The eigenvalues of what a cycle wears by a given profile
 /// are those of the other methods with b, and change fourfold with N with benad, so that they tell neither.
 /// On other motions they may be off by more than 1.5.
-pub fn teeth_from(method: AbelMethod) -> Option<f64> {
+pub fn sawtooth_from(method: AbelMethod) -> Option<f64> {
     match method {
         AbelMethod::Product | AbelMethod::A | AbelMethod::APlusB => None,
         AbelMethod::B => Some(0.4),

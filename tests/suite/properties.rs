@@ -349,8 +349,8 @@ fn the_core_never_wears_under_a_causal_method() {
             }
             let radii = simulation.setup().grid.nodes().iter();
             let nodes = radii.zip(&simulation.state().wear);
-            let core = nodes.filter(|(r, _)| **r < smallest);
-            (smallest, core.map(|(_, worn)| *worn).fold(0.0, f64::max))
+            let stuck = nodes.filter(|(r, _)| **r < smallest);
+            (smallest, stuck.map(|(_, worn)| *worn).fold(0.0, f64::max))
         };
         for method in [A, APlusB] {
             let (smallest, worn) = worn_core(method);

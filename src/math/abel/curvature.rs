@@ -242,7 +242,7 @@ mod tests {
         assert!(q[1..cell].iter().any(|p| p.abs() > 1e-6));
     }
 
-    /// No teeth, as without it: each mode of worn depth lowers its own pressure.
+    /// No sawtooth, as without it: each mode of worn depth lowers its own pressure.
     #[test]
     fn the_response_of_the_pressure_keeps_its_spectrum() {
         for grid in [

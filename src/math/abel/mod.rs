@@ -47,6 +47,7 @@
 //! | graded grids | 0.016, 0.42, 2.8 | 2 | | |
 //! | the pilot run for the stick border | 0.014, 0.33, 1.3 | 2 | | |
 //! | stress terms dropped behind borders | 0.016, 0.22, 2.4 | 3 | | |
+//! | those dropped next to the permanent stick zone | 0.014, 0.17, 1.2 | 2 | 0.13, 3.6, 7.7 | 0 |
 //! | stabilised stages | 0.016, 0.29, 1.5 | 1 | | |
 //!
 //! At these accuracies the transforms' own corrections change little; they are kept for what closed forms see: with

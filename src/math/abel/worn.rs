@@ -207,7 +207,7 @@ mod tests {
         }
     }
 
-    /// No teeth: each mode of worn depth lowers its own pressure, and nothing swings.
+    /// No sawtooth: each mode of worn depth lowers its own pressure, and nothing swings.
     #[test]
     fn the_response_of_the_pressure_has_a_real_positive_spectrum() {
         for grid in [

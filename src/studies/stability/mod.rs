@@ -14,9 +14,9 @@ use predict::predict;
 mod growth;
 pub mod predict;
 pub mod report;
-mod teeth;
+mod sawtooth;
 
-pub use teeth::teeth;
+pub use sawtooth::sawtooth;
 
 /// Numbers of cells that are tried.
 pub const POINTS: [usize; 4] = [25, 50, 100, 200];
@@ -24,7 +24,7 @@ pub const POINTS: [usize; 4] = [25, 50, 100, 200];
 /// Wear numbers K that are tried: half decades.
 pub const WEAR_NUMBERS: [f64; 9] = [0.1, 0.316, 1.0, 3.16, 10.0, 31.6, 100.0, 316.0, 1000.0];
 
-/// Teeth that are higher than this, in largest depths, are seen. The presets come to 7e-5 at most, and runs
+/// A sawtooth that is higher than this, in largest depths, is seen. The presets come to 7e-5 at most, and runs
 /// with the guard end with 3e-4, next to the border of stick: one node, no comb.
 pub const VISIBLE: f64 = 5e-4;
 
@@ -49,8 +49,8 @@ pub struct Setting {
 pub enum Outcome {
     /// Smooth to the end.
     Stable,
-    /// To the end, with teeth as high as this at the end of a cycle, in largest depths.
-    Teeth(f64),
+    /// To the end, with a sawtooth as high as this at the end of a cycle, in largest depths.
+    Sawtooth(f64),
     /// After some cycles, for a reason.
     Exploded {
         /// Cycles that it held.
@@ -76,9 +76,9 @@ pub struct Line {
     pub setting: Setting,
     /// The wear numbers of the ladder that were tried, and what came of them.
     pub outcomes: Vec<(f64, Outcome)>,
-    /// The wear number from which teeth were [predicted](predict); none where nothing slips.
+    /// The wear number from which a sawtooth was [predicted](predict); none where nothing slips.
     pub predicted: Option<f64>,
-    /// The smallest wear number at which teeth were seen, to a seventh; none if they never were.
+    /// The smallest wear number at which a sawtooth was seen, to a seventh; none if it never was.
     pub seen: Option<f64>,
 }
 
@@ -146,11 +146,11 @@ impl Study {
                 Err(error) => return ControlFlow::Continue(Err(error)),
             }
             if session.simulation().cycle() >= end {
-                highest = highest.max(teeth(session.simulation().worn_depth()) / depth);
+                highest = highest.max(sawtooth(session.simulation().worn_depth()) / depth);
             }
         }
         ControlFlow::Continue(Ok(if highest > VISIBLE {
-            Outcome::Teeth(highest)
+            Outcome::Sawtooth(highest)
         } else {
             Outcome::Stable
         }))
@@ -179,14 +179,16 @@ impl Study {
             let outcome = outcome?;
             match (&outcome, above) {
                 (Outcome::Stable, None) => below = Some(wear_number),
-                (Outcome::Teeth(_) | Outcome::Exploded { .. }, None) => above = Some(wear_number),
+                (Outcome::Sawtooth(_) | Outcome::Exploded { .. }, None) => {
+                    above = Some(wear_number)
+                }
                 _ => {}
             }
             line.outcomes.push((wear_number, outcome));
             on_run(wear_number);
         }
         let (Some(mut low), Some(mut high)) = (below, above) else {
-            // Teeth on the lowest rung: the boundary lies below the ladder.
+            // A sawtooth on the lowest rung: the boundary lies below the ladder.
             line.seen = above;
             return Ok((line, false));
         };
@@ -197,7 +199,7 @@ impl Study {
             };
             match outcome? {
                 Outcome::Stable => low = middle,
-                Outcome::Teeth(_) | Outcome::Exploded { .. } => high = middle,
+                Outcome::Sawtooth(_) | Outcome::Exploded { .. } => high = middle,
             }
         }
         line.seen = Some(high);

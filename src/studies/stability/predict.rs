@@ -9,7 +9,7 @@
 //! on. As the contact wears, z rises: what no longer bears, slips all the way. A run at a small K, with the guard,
 //! goes through the same shapes as one at a large K, X = K × cycles being the same. So each of its cycles tells
 //! the K(X) from which errors grow over it, and the boundary of explicit Euler is the smallest of
-//! max{K(X), X/cycles}. A node counts where a comb of teeth that are [seen](super::VISIBLE), of the amplitude A, would
+//! max{K(X), X/cycles}. A node counts where a sawtooth that is [seen](super::VISIBLE), of the amplitude A, would
 //! stay in contact: where p > ρ E* A/h. The trapezoid is asked on the unworn contact alone: a worn one is seen to
 //! bear up to twice K(X), perhaps because it slips in the few steps after the motion has turned, in the
 //! first of which nothing is looked ahead.
@@ -25,18 +25,18 @@
 //! Where G exceeds 1 a spring slips all at once at any step size; the trapezoid, which
 //! extrapolates, overshoots. The pressure on what slips rises as the ring around it wears: the
 //! boundary is the K at which G reaches 1 in the first cycle, at X = K. Later, at smaller K, it
-//! does so next to the border alone, and that node's tooth is worn off by the end of the cycle.
+//! does so next to the border alone, and that node's peak is worn off by the end of the cycle.
 //! Explicit Euler shoots beyond only at a G that depends on the cell; nothing is predicted of that,
 //! and with many short steps it comes first (400 a cycle: at 0.4 to 0.9 of what is predicted).
 //!
 //! **Methods that are unstable at any step size.** For b and benad, a constant of the method that
-//! was [measured](crate::simulation::stability::teeth_from), not derived.
+//! was [measured](crate::simulation::stability::sawtooth_from), not derived.
 
 use super::growth::growing_from;
 use super::{Setting, Study, VISIBLE};
 use crate::math::scan::largest;
 use crate::scenario::session::{Session, SessionError};
-use crate::simulation::stability::{gain, response, teeth_from};
+use crate::simulation::stability::{gain, response, sawtooth_from};
 use crate::simulation::{Curves, Scheme, Simulation, Zone};
 
 /// The wear number at which an unworn contact is looked at: nothing has changed shape by then.
@@ -66,7 +66,7 @@ impl Cycle {
     }
 }
 
-/// The wear number from which `setting` is expected to show teeth within the cycles of the study; none where
+/// The wear number from which `setting` is expected to show a sawtooth within the cycles of the study; none where
 /// nothing slips.
 pub(super) fn predict(study: &Study, setting: Setting) -> Result<Option<f64>, SessionError> {
     let guarded = Setting {
@@ -77,7 +77,7 @@ pub(super) fn predict(study: &Study, setting: Setting) -> Result<Option<f64>, Se
     // The first cycle lets the springs settle.
     cycle(&mut mild, MILD, 0.0)?;
     let unworn = cycle(&mut mild, MILD, 0.0)?;
-    if let Some(depth) = teeth_from(setting.method) {
+    if let Some(depth) = sawtooth_from(setting.method) {
         let worn = unworn.worn * study.cycles;
         return Ok((worn > 0.0).then(|| depth / worn));
     }
@@ -128,7 +128,7 @@ fn letting_go(mut run: Session, small: f64, boundary: f64) -> Result<f64, Sessio
     Ok(boundary)
 }
 
-/// Runs one cycle at `wear_number`; of the nodes that bear more than teeth of `height` (in largest depths) need.
+/// Runs one cycle at `wear_number`; of the nodes that bear more than a sawtooth of `height` (in largest depths) needs.
 fn cycle(session: &mut Session, wear_number: f64, height: f64) -> Result<Cycle, SessionError> {
     let mut told = Cycle::default();
     let before = session.simulation().worn_depth().to_vec();

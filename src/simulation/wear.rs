@@ -197,7 +197,10 @@ impl Increment {
             let edge = (normal.radius * normal.radius, 0.0);
             kink::polyline(cell, ends, &[edge], kinks);
         }
-        self.friction_work = model.foundation.force(&self.rubbing, normal.edge());
+        let work = model.foundation.force(&self.rubbing, normal.edge());
+        // On a contact of a cell or two, a cusp and the edge may take off more than there is: friction gives nothing
+        // back.
+        self.friction_work = work.clamp(0.0, f64::INFINITY);
     }
 
     /// The nodes that wear between two contacts, with the slip of their surface: up to an edge behind the last node

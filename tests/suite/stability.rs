@@ -154,7 +154,7 @@ fn raw_steps_explode_with_a_plain_word() {
 /// next to it let go at once is decided by rounding at such K, so that of the profiles one in ten is further
 /// apart: their median is what is held.
 #[test]
-fn the_core_of_the_first_pass_is_no_matter_of_the_step() {
+fn the_stick_zone_of_the_first_pass_is_independent_of_the_step() {
     for method in [Product, A] {
         let apart = [920.0, 1e3, 1080.0].map(|k| {
             let [found, finest] = [100, 1000].map(|steps_per_cycle| {

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::foundation::{Edge, WinklerFoundation};
 use crate::math::abel::field::Field;
 use crate::math::abel::kink;
-use crate::math::scan::changes;
+use crate::math::scan::{changes, leading};
 use crate::math::vector::vectorized;
 
 /// How far beyond its limit, as a fraction of the limit, a spring still sticks.
@@ -93,13 +93,16 @@ pub fn slide(
     slip[nodes..].fill(increment);
     hold[nodes..].fill(SpringState::Open);
     // Without branches, so that the processor takes several springs at a time.
+    let SlipInput {
+        reach, strongest, ..
+    } = input;
     vectorized(
         #[inline(always)]
-        || {
-            let dead_band = TOUCH_OF_LARGEST * input.reach * input.strongest;
+        move || {
+            let dead_band = TOUCH_OF_LARGEST * reach * strongest;
             let springs = spring.iter_mut().zip(slip).zip(hold).zip(before);
             for ((((after, slip), hold), &before), &load) in springs.zip(load) {
-                let limit = input.reach * load;
+                let limit = reach * load;
                 let predicted = before + increment;
                 let strain = predicted.abs();
                 let open = load <= 0.0;
@@ -135,7 +138,8 @@ pub fn take_along_late(
         return;
     }
     let (spring, slip, hold) = springs;
-    for j in 0..input.edge.nodes {
+    let first = leading(held, |&state| state != SpringState::Open);
+    for j in first..input.edge.nodes {
         if held[j] != SpringState::Open || hold[j] == SpringState::Open {
             continue;
         }

@@ -91,6 +91,7 @@ use running_in::RunningIn;
 pub use saved::{Saved, Unfit};
 use state::JumpMemory;
 pub use state::{State, Stats};
+use traction::Traction;
 use wear::Increment;
 
 /// The parts that a run is assembled from, each validated on its own floor.
@@ -193,6 +194,8 @@ struct Scratch {
     increment: Increment,
     /// A load without its cusp.
     rest: Rest,
+    /// The stresses before the step, where slip reaches further in than those of its state.
+    before: Traction,
     /// Transforms computed since they were last counted.
     transforms: u64,
 }
@@ -203,6 +206,7 @@ impl Scratch {
             g: vec![0.0; model.nodes()],
             increment: Increment::new(model),
             rest: Rest::default(),
+            before: Traction::zeros(model.springs()),
             transforms: 0,
         }
     }
@@ -475,7 +479,8 @@ impl Simulation {
 
     /// Looks for the end of the next step.
     fn look_ahead(&self) -> (f64, bool) {
-        let touch = moments::Touch::on(&self.state, &self.profile_1d());
+        let g = self.model.profile_from_axis(&self.state.image);
+        let touch = moments::Touch::on(self.setup(), &self.state, g);
         moments::next(self.setup(), touch, self.state.cycle, self.state.steps > 0)
     }
 

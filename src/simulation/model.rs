@@ -133,6 +133,12 @@ impl Model {
         );
     }
 
+    /// g = g₀ + `image`, m, node by node.
+    pub fn profile_from_axis(&self, image: &[f64]) -> impl Iterator<Item = f64> {
+        let parts = self.unworn_1d.iter().zip(image);
+        parts.map(|(unworn, image)| unworn + image)
+    }
+
     /// 2π∫ r dr of a nodal depth (m), m³.
     pub fn volume(&self, depth: &[f64]) -> f64 {
         weighted(&self.volume_weights, depth)

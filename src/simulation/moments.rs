@@ -13,16 +13,23 @@ const SLIVER: f64 = 0.1;
 pub(super) struct Touch {
     /// The contact radius a, m.
     pub radius: f64,
-    /// The lowest point of the 1D profile, m.
+    /// The lowest point of the 1D profile, m, or one that the motion does not come up to either.
     pub tip: f64,
 }
 
 impl Touch {
-    /// That of the contact after a step, on the 1D profile `g` (m).
-    pub fn on(state: &State, g: &[f64]) -> Self {
+    /// That of the contact after a step, on the 1D profile `g` (m), from the axis outwards.
+    pub fn on(setup: &Setup, state: &State, mut g: impl Iterator<Item = f64>) -> Self {
+        let axis = g.next().unwrap_or(f64::INFINITY);
+        // What never leaves the axis never leaves a lower point.
+        let tip = if setup.drive.normal().oscillation().lowest() > axis {
+            axis
+        } else {
+            g.fold(axis, f64::min)
+        };
         Self {
             radius: state.contact.normal.radius,
-            tip: g.iter().copied().fold(f64::INFINITY, f64::min),
+            tip,
         }
     }
 }

@@ -19,7 +19,7 @@
 //! of a run is 0.9 to 1.05 of the largest z of its nodes, unworn and worn (Fig. 3, methods product and a).
 //!
 //! Methods b and benad develop a sawtooth that no step limit explains, once the contact has worn by
-//! [this depth](teeth_from).
+//! [this depth](sawtooth_from).
 
 use nalgebra::Matrix3;
 
@@ -56,7 +56,7 @@ pub fn beyond_steps(method: AbelMethod) -> Option<&'static str> {
 /// cycle, 0.38 to 0.44 with b and 0.038 to 0.055 with benad. The eigenvalues of what a cycle wears by a given profile
 /// are those of the other methods with b, and change fourfold with N with benad, so that they tell neither.
 /// On other motions they may be off by more than 1.5.
-pub fn teeth_from(method: AbelMethod) -> Option<f64> {
+pub fn sawtooth_from(method: AbelMethod) -> Option<f64> {
     match method {
         AbelMethod::Product | AbelMethod::A | AbelMethod::APlusB => None,
         AbelMethod::B => Some(0.4),

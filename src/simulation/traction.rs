@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::contact::Contact;
 use super::model::Model;
+use super::state::State;
 use crate::contact::tangential::SpringState;
 use crate::math::abel::cone::Rest;
 use crate::math::vector::{add_to, vectorized};
@@ -14,9 +15,16 @@ use crate::math::vector::{add_to, vectorized};
 /// Springs beyond the permanent stick zone whose load still drops like a root.
 const STEEP: usize = 4;
 
+/// Nodes within the permanent stick radius that stresses are computed for all the same: slip may reach a little
+/// further in than in the period before.
+const SPARE: usize = 2;
+
 /// p and τ of one contact, Pa, nodal; empty where nothing needs them.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Traction {
+    /// The first node that they are computed for; further in they are zero.
+    #[serde(default)]
+    pub first: usize,
     /// p.
     pub pressure: Vec<f64>,
     /// τ.
@@ -26,27 +34,42 @@ pub struct Traction {
 impl Traction {
     pub(super) fn zeros(nodes: usize) -> Self {
         Self {
+            first: 0,
             pressure: vec![0.0; nodes],
             shear: vec![0.0; nodes],
         }
     }
 }
 
-/// p and τ of the solved contact. Nothing slips within the radius `stuck` (m).
+/// The first node whose stresses the steps from `state` on need: further in nothing has slipped for a period.
+pub(super) fn first_needed(model: &Model, state: &State) -> usize {
+    if state.settled_stick_radius.is_none() {
+        return 0;
+    }
+    let radius = state.stuck_radius();
+    let stuck = model.grid.nodes().partition_point(|&x| x <= radius);
+    stuck.saturating_sub(SPARE)
+}
+
+/// p and τ of the solved contact, from the node `first` on. Nothing slips within the radius `stuck` (m).
 pub(super) fn of(
     model: &Model,
     contact: &Contact,
     stuck: f64,
+    first: usize,
     rest: &mut Rest,
     traction: &mut Traction,
 ) {
+    traction.first = first;
     let Traction {
         pressure: p,
         shear: tau,
+        ..
     } = traction;
-    pressure_of_chords(model, contact, rest, p);
-    shear_of_chords(model, contact, 0..tau.len(), rest, tau);
-    curve(model, contact, stuck, |first, terms| {
+    let nodes = first..tau.len();
+    pressure_of_chords(model, contact, nodes.clone(), rest, p);
+    shear_of_chords(model, contact, nodes.clone(), rest, tau);
+    curve(model, contact, stuck, nodes, |first, terms| {
         let nodes = first..first + terms.len();
         add_to(&mut p[nodes.clone()], terms);
         add_to_shear(
@@ -66,13 +89,14 @@ pub(super) fn pressure(
     rest: &mut Rest,
     out: &mut [f64],
 ) {
-    pressure_of_chords(model, contact, rest, out);
-    curve(model, contact, stuck, |first, terms| {
+    let nodes = 0..out.len();
+    pressure_of_chords(model, contact, nodes.clone(), rest, out);
+    curve(model, contact, stuck, nodes, |first, terms| {
         add_to(&mut out[first..first + terms.len()], terms);
     });
 }
 
-/// τ alone, of some `nodes`; the others hold something finite.
+/// τ alone, of some `nodes`; those further in are zero, the others finite.
 pub(super) fn shear(
     model: &Model,
     contact: &Contact,
@@ -82,19 +106,24 @@ pub(super) fn shear(
     out: &mut [f64],
 ) {
     shear_of_chords(model, contact, nodes.clone(), rest, out);
-    curve(model, contact, stuck, |first, terms| {
-        let asked = within(&nodes, first, terms.len());
-        let nodes = first + asked.start..first + asked.end;
+    curve(model, contact, stuck, nodes, |first, terms| {
+        let nodes = first..first + terms.len();
         let (tau, states) = (&mut out[nodes.clone()], &contact.spring_state[nodes]);
-        add_to_shear(tau, states, model.setup.material.friction(), &terms[asked]);
+        add_to_shear(tau, states, model.setup.material.friction(), terms);
     });
 }
 
-/// p of a line load that is linear in x² between the nodes and its kinks.
-fn pressure_of_chords(model: &Model, contact: &Contact, rest: &mut Rest, out: &mut [f64]) {
+/// p of a line load that is linear in x² between the nodes and its kinks, of those `nodes` alone.
+fn pressure_of_chords(
+    model: &Model,
+    contact: &Contact,
+    nodes: Range<usize>,
+    rest: &mut Rest,
+    out: &mut [f64],
+) {
     let load = &contact.load;
     let end = contact.end(model, &load.nodal);
-    load.stress(&model.plan, &model.grid, end, 0..out.len(), rest, out);
+    load.stress(&model.plan, &model.grid, end, nodes, rest, out);
 }
 
 /// τ of such a load, of those `nodes` alone.
@@ -121,9 +150,15 @@ fn shear_of_chords(
 }
 
 /// Passes to `add`, in pieces with their first nodes, what the curvature of the line load between the nodes adds to
-/// p: nothing next to the permanent stick zone or behind a border of stick, where wear may just have made the load
-/// steep.
-fn curve(model: &Model, contact: &Contact, stuck: f64, mut add: impl FnMut(usize, &[f64])) {
+/// p on those `nodes`: nothing next to the permanent stick zone or behind a border of stick, where wear may just have
+/// made the load steep.
+fn curve(
+    model: &Model,
+    contact: &Contact,
+    stuck: f64,
+    nodes: Range<usize>,
+    mut add: impl FnMut(usize, &[f64]),
+) {
     let Some(curvature) = &model.curvature else {
         return;
     };
@@ -132,7 +167,8 @@ fn curve(model: &Model, contact: &Contact, stuck: f64, mut add: impl FnMut(usize
     let steep = stuck.saturating_sub(1)..stuck + STEEP;
     let load = &contact.load.nodal;
     let end = contact.end(model, load);
-    curvature.for_each(load, end.cusp, kinks, end.nodes, |first, terms| {
+    let nodes = nodes.start..nodes.end.min(end.nodes);
+    curvature.for_each(load, end.cusp, kinks, nodes, |first, terms| {
         let steep = within(&steep, first, terms.len());
         terms[steep].fill(0.0);
         drop_behind_borders(&contact.spring_state, first, terms);
@@ -170,7 +206,7 @@ fn drop_behind_borders(states: &[SpringState], first: usize, terms: &mut [f64]) 
 fn add_to_shear(tau: &mut [f64], states: &[SpringState], friction: f64, terms: &[f64]) {
     vectorized(
         #[inline(always)]
-        || {
+        move || {
             for ((tau, state), term) in tau.iter_mut().zip(states).zip(terms) {
                 let backward = select(*state == SpringState::Backward, -friction, 0.0);
                 *tau += select(*state == SpringState::Forward, friction, backward) * term;

@@ -22,7 +22,7 @@ use super::stability::response;
 use super::traction::Traction;
 use crate::contact::tangential::SpringState;
 use crate::math::abel::field::Field;
-use crate::math::abel::kink::{self, Kink};
+use crate::math::abel::kink;
 use crate::math::scan::{largest, leading, trailing};
 use crate::math::vector::{vectorized, write_each};
 
@@ -31,8 +31,6 @@ use crate::math::vector::{vectorized, write_each};
 pub(super) struct Increment {
     /// Slip of the springs, m.
     pub slip: Vec<f64>,
-    /// Where it kinks between springs, and in which cell.
-    pub slip_kinks: Vec<(usize, Kink)>,
     /// Slip of the surface, m.
     pub surface_slip: Vec<f64>,
     /// The stress that wears, Pa.
@@ -161,7 +159,7 @@ impl Increment {
             &after.load.nodal,
             &before.load.nodal,
             #[inline(always)]
-            |after, before| 0.5 * friction * (after + before),
+            move |after, before| 0.5 * friction * (after + before),
         );
         let at_edge = match after.normal.nodes {
             0 => 0.0,
@@ -170,8 +168,8 @@ impl Increment {
         let between = |contact: &Contact| contact.load.between_nodes(model.grid.radius());
         let between_springs = between(before) + between(after);
         let (row, edge) = (&model.foundation, after.normal.edge());
-        self.friction_work = friction * between_springs * at_edge
-            + row.work(&self.rubbing.nodal, &self.slip, &self.slip_kinks, edge);
+        self.friction_work =
+            friction * between_springs * at_edge + row.work(&self.rubbing.nodal, &self.slip, edge);
     }
 
     /// The work of friction 2∫ q_x Δs dx of explicit Euler, the integrand falling to zero at the contact's edge.
@@ -189,7 +187,7 @@ impl Increment {
             &contact.spring.nodal[first..end],
             &self.slip[first..end],
             #[inline(always)]
-            |u, slip| modulus * u * slip,
+            move |u, slip| modulus * u * slip,
         );
         kinks.clear();
         let (normal, squares) = (&contact.normal, model.grid.squares());
@@ -199,36 +197,27 @@ impl Increment {
             let edge = (normal.radius * normal.radius, 0.0);
             kink::polyline(cell, ends, &[edge], kinks);
         }
-        self.friction_work = model.foundation.force(&self.rubbing, normal.edge());
-    }
-
-    /// Where the slip of a step kinks between springs: where a border of stick is now, and where one was before. A
-    /// cell that sticks does not slip, wherever its border was.
-    pub fn find_slip_kinks(&mut self, model: &Model, before: &Contact, after: &Contact) {
-        let squares = model.grid.squares();
-        self.slip_kinks.clear();
-        let states = &after.spring_state;
-        for (kinks, sign) in [(&after.spring.kinks, -1.0), (&before.spring.kinks, 1.0)] {
-            for (k, kink) in kink::by_cell(kinks, squares) {
-                let slips = |j: usize| states[j].sign().is_some();
-                if (slips(k) || slips(k + 1)) && states[k + 1] != SpringState::Open {
-                    let jump = sign * kink.jump;
-                    self.slip_kinks.push((k, Kink { jump, ..kink }));
-                }
-            }
-        }
+        let work = model.foundation.force(&self.rubbing, normal.edge());
+        // On a contact of a cell or two, a cusp and the edge may take off more than there is: friction gives nothing
+        // back.
+        self.friction_work = work.clamp(0.0, f64::INFINITY);
     }
 
     /// The nodes that wear between two contacts, with the slip of their surface: up to an edge behind the last node
-    /// that carried a stress before or carries one now; method B's stress looks one node across.
-    pub fn find_sliding(&mut self, model: &Model, before: &Traction, after: &Contact) {
+    /// that carried a stress before or carries one now; method B's stress looks one node across. The first `stuck`
+    /// springs did not slip.
+    pub fn find_sliding(
+        &mut self,
+        model: &Model,
+        before: &Traction,
+        after: &Contact,
+        stuck: usize,
+    ) {
         let p = &before.pressure;
         let nodes = p.len() - trailing(p, |&p| p == 0.0);
         let nodes = (nodes.max(after.normal.nodes) + 1).min(p.len());
         self.slip_of_surface(model, nodes);
         // Nothing slips within the innermost spring that does.
-        let states = &after.spring_state;
-        let stuck = leading(states, |&state| state == SpringState::Stick);
         self.surface_slip[..stuck].fill(0.0);
         self.nodes = stuck.min(nodes)..nodes;
     }
@@ -243,14 +232,15 @@ impl Increment {
         (zone, sign): (usize, f64),
     ) {
         let friction = sign * friction;
-        let (inner, outer) = self.shear.split_at_mut(zone);
-        let shears = before.shear.iter().zip(&after.shear);
+        let first = self.nodes.start.min(zone);
+        let (inner, outer) = self.shear[first..].split_at_mut(zone - first);
+        let shears = before.shear[first..].iter().zip(&after.shear[first..]);
         let pressures = before.pressure[zone..].iter();
         let pressures = pressures.zip(&after.pressure[zone..]);
-        let slips = &self.surface_slip;
+        let slips = &self.surface_slip[first..];
         vectorized(
             #[inline(always)]
-            || {
+            move || {
                 for ((mean, (was, is)), slip) in inner.iter_mut().zip(shears).zip(slips) {
                     let with_slip = select(is * slip > 0.0, 0.5 * is, 0.0);
                     *mean = select(was * is > 0.0, 0.5 * (was + is), with_slip);
@@ -266,15 +256,15 @@ impl Increment {
 /// The first node from which outwards every spring in contact slips in one direction, and that direction. Springs out
 /// of contact belong to it.
 pub(super) fn outer_slip_zone(states: &[SpringState]) -> (usize, f64) {
-    let outermost = states.iter().rposition(|&state| state != SpringState::Open);
-    let Some((outermost, sign)) = outermost.and_then(|j| Some((j, states[j].sign()?))) else {
+    let inside = states.len() - trailing(states, |&state| state == SpringState::Open);
+    let outermost = inside.checked_sub(1).map(|j| states[j]);
+    let Some((direction, sign)) = outermost.and_then(|state| Some((state, state.sign()?))) else {
         return (states.len(), 0.0);
     };
-    let direction = states[outermost];
-    let inner = states[..outermost]
-        .iter()
-        .rposition(|&state| state != direction && state != SpringState::Open);
-    (inner.map_or(0, |j| j + 1), sign)
+    let zone = trailing(states, |&state| {
+        (state == direction) | (state == SpringState::Open)
+    });
+    (states.len() - zone, sign)
 }
 
 #[cfg(test)]

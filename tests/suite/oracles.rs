@@ -357,10 +357,14 @@ fn the_limiting_profile() {
             holds(&what("c"), (permanent - c).abs(), h);
             let error = worst(&seen.radii, &seen.profile, EVERYWHERE, |r| exact.profile(r));
             holds(&what("f"), error, 0.8 * h);
-            let core = worst(&seen.radii, &seen.profile_1d, 0.0..c - h, |x| {
+            let stuck = worst(&seen.radii, &seen.profile_1d, 0.0..c - h, |x| {
                 exact.mdr_profile(x)
             });
-            holds(&what("g in the core"), core, 0.4 * h.powf(1.5));
+            holds(
+                &what("g in the permanent stick zone"),
+                stuck,
+                0.4 * h.powf(1.5),
+            );
             let ring = c + 2.0 * h..b - 2.0 * h;
             let ring = worst(&seen.radii, &seen.profile_1d, ring, |_| 1.0);
             holds(&what("g in the ring"), ring, 1e-7);

@@ -7,7 +7,7 @@ use mdr_tui::oracle::limiting_profile::LimitingProfile;
 use mdr_tui::oracle::partial_slip::stiffness_ratio;
 use mdr_tui::scenario::{Scenario, preset};
 use mdr_tui::simulation::{Scheme, Setup, Simulation, Stability};
-use mdr_tui::studies::stability::{Outcome, Setting, Study, VISIBLE, teeth};
+use mdr_tui::studies::stability::{Outcome, Setting, Study, VISIBLE, sawtooth};
 use std::f64::consts::FRAC_PI_4;
 
 /// Fig. 3 with the default numerics.
@@ -24,7 +24,7 @@ fn fig3(wear_number: f64, cells: usize) -> Setup {
 }
 
 /// The stick radius of the first pass, before the springs have settled: where d ± κu_x from springs that
-/// begin unloaded is smallest. What slips there at K = 1e3 wears at once, so that the core which Melan's
+/// begin unloaded is smallest. What slips there at K = 1e3 wears at once, so that the stick zone which Melan's
 /// theorem keeps, 0.4164, is never reached.
 fn first_stick_radius() -> f64 {
     let pull = stiffness_ratio(0.3) / 0.1;
@@ -73,7 +73,7 @@ fn harsh_wear_costs_its_work() {
     }
 }
 
-/// Parts that ring let springs go that hold with fine steps, and the core is lost.
+/// Parts that ring let springs go that hold with fine steps, and the permanent stick zone is lost.
 #[test]
 fn parts_of_harsh_steps_end_where_fine_steps_do() {
     for (wear_number, cells) in [(50.0, 100), (60.0, 100), (40.0, 200), (60.0, 200)] {
@@ -86,7 +86,7 @@ fn parts_of_harsh_steps_end_where_fine_steps_do() {
         let mut highest = 0.0_f64;
         for cycle in 1..=3 {
             parts.advance_to(f64::from(cycle)).expect("a run");
-            highest = highest.max(teeth(&parts.state().wear));
+            highest = highest.max(sawtooth(&parts.state().wear));
         }
         assert!(parts.state().stats.parts > 100);
         let radii = (0..=400).map(|i| fine.setup().grid.radius() * f64::from(i) / 400.0);
@@ -98,7 +98,7 @@ fn parts_of_harsh_steps_end_where_fine_steps_do() {
             rms,
             2e-3,
         );
-        holds("teeth", highest, VISIBLE);
+        holds("sawtooth", highest, VISIBLE);
     }
 }
 
@@ -149,11 +149,12 @@ fn raw_steps_explode_with_a_plain_word() {
     );
 }
 
-/// 100 steps a cycle against 1000: the core is the same for every wear number. Whether the narrowest cells
+/// 100 steps a cycle against 1000: the permanent stick zone is the same for every wear number. Whether the
+/// narrowest cells
 /// next to it let go at once is decided by rounding at such K, so that of the profiles one in ten is further
 /// apart: their median is what is held.
 #[test]
-fn the_core_of_the_first_pass_is_no_matter_of_the_step() {
+fn the_stick_zone_of_the_first_pass_is_independent_of_the_step() {
     for method in [Product, A] {
         let apart = [920.0, 1e3, 1080.0].map(|k| {
             let [found, finest] = [100, 1000].map(|steps_per_cycle| {
@@ -164,9 +165,13 @@ fn the_core_of_the_first_pass_is_no_matter_of_the_step() {
                 };
                 run_setup(setup, 3.0)
             });
-            let core = |run: &Simulation| run.state().permanent_stick_radius();
-            let off = (core(&found) / core(&finest) - 1.0).abs();
-            holds(&format!("core of {method}, K = {k}"), off, 1e-6);
+            let stuck = |run: &Simulation| run.state().permanent_stick_radius();
+            let off = (stuck(&found) / stuck(&finest) - 1.0).abs();
+            holds(
+                &format!("permanent stick zone of {method}, K = {k}"),
+                off,
+                1e-6,
+            );
             let (found, finest) = (&found.state().wear, &finest.state().wear);
             let pairs = found.iter().zip(finest);
             let sum: f64 = pairs.map(|(wear, finest)| (wear - finest).powi(2)).sum();
@@ -180,23 +185,23 @@ fn the_core_of_the_first_pass_is_no_matter_of_the_step() {
 }
 
 #[test]
-fn smooth_presets_have_no_teeth() {
+fn smooth_presets_have_no_sawtooth() {
     for preset in preset::ALL.iter().filter(|p| p.name != "harsh-wear") {
         let scenario = Scenario::load(preset.name, &[]).expect("a preset");
         let cycles = scenario.run().cycles.unwrap_or(20.0).min(20.0);
         let simulation = run_setup(scenario.setup().clone(), cycles);
         let depth = simulation.setup().largest_depth();
         let depth = depth.unwrap_or(simulation.moment().depth);
-        let height = teeth(&simulation.state().wear) / depth;
+        let height = sawtooth(&simulation.state().wear) / depth;
         holds(preset.name, height, 0.2 * VISIBLE);
     }
 }
 
 /// Over N = 25 to 200 and 50 to 200 steps a cycle, the boundary was seen at 1.00 to 1.16 of what is predicted for a and
-/// at 0.59 to 1.10 for product, but for 0.41 at N = 100 with 100 steps: there, small teeth come at single K.
+/// at 0.59 to 1.10 for product, but for 0.41 at N = 100 with 100 steps: there, a small sawtooth comes at single K.
 /// Shorter steps bear more: with 400 of them N = 50 shows none up to 1.5 times.
 #[test]
-fn teeth_are_seen_where_they_were_predicted() {
+fn a_sawtooth_is_seen_where_it_was_predicted() {
     let cases = [
         (Product, 50, 50, 20.0),
         (Product, 100, 100, 20.0),
@@ -216,10 +221,10 @@ fn teeth_are_seen_where_they_were_predicted() {
 }
 
 /// The constants of b and benad were fitted to Fig. 3 with 20 cycles and amplitudes of 0.1 d: other numbers of
-/// cycles. On another motion they are not right: at an amplitude of 0.07 d, teeth of b come at less than 2/3 of what they
+/// cycles. On another motion they are not right: at an amplitude of 0.07 d, a sawtooth of b comes at less than 2/3 of what they
 /// say.
 #[test]
-fn methods_that_no_step_helps_show_teeth_where_they_did_before() {
+fn methods_that_no_step_helps_show_a_sawtooth_where_they_did_before() {
     for (method, cycles) in [(B, 5.0), (B, 40.0), (Benad, 5.0), (Benad, 60.0)] {
         let setting = Setting {
             method,
@@ -249,10 +254,10 @@ fn seen_where_predicted(cycles: f64, setting: Setting) {
     assert!(above.seen.is_some(), "{setting:?}: {predicted}, {above:?}");
 }
 
-/// By the ladder of the maps. With the guard, springs that let go at once leave teeth of up to 7e-3 d at the end of
+/// By the ladder of the maps. With the guard, springs that let go at once leave a sawtooth of up to 7e-3 d at the end of
 /// a cycle at other K, between 15 and 200, until later ones wear them off.
 #[test]
-fn a_map_has_its_teeth_where_predicted_and_with_the_guard_none() {
+fn a_map_has_its_sawtooth_where_predicted_and_with_the_guard_none() {
     let scenario = Scenario::load("li2019-fig3", &[]).expect("a preset");
     let study = Study::new(scenario, 20.0).expect("a contact");
     let study = study.expect("it wears");

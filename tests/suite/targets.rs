@@ -254,9 +254,9 @@ fn the_permanent_stick_radius_is_melans() {
         let found = simulation.state().permanent_stick_radius();
         holds(&what("stick radius"), (found - c).abs(), 0.0075);
         let (nodes, wear) = (simulation.setup().grid.nodes(), &simulation.state().wear);
-        let core = nodes.iter().take_while(|&&r| r < c - 0.0075).count();
-        assert!(core > 2 && core < nodes.len() - 2);
-        let late = wear[..core].iter().zip(&early);
+        let stuck = nodes.iter().take_while(|&&r| r < c - 0.0075).count();
+        assert!(stuck > 2 && stuck < nodes.len() - 2);
+        let late = wear[..stuck].iter().zip(&early);
         let late = late.map(|(wear, early)| wear - early).fold(0.0, f64::max);
         holds(&what("wear inside after 6 cycles"), late, 1e-6);
     }

@@ -33,6 +33,7 @@
 //!   the nodes is not due to curvature. The error there is of order ½ with this term and without.
 
 use std::f64::consts::FRAC_2_PI;
+use std::ops::Range;
 
 use super::kink::Kink;
 use crate::math::grid::RadialGrid;
@@ -79,8 +80,8 @@ impl Curvature {
         }
     }
 
-    /// Eq. (3): what the curvature of a `load` (N/m) does to the stress (N/m²) of the first `nodes`, those in contact,
-    /// beside [`product::stress`](super::product::stress) and the `kinks` of the load (N/m, from the tip outwards).
+    /// Eq. (3): what the curvature of a `load` (N/m) does to the stress (N/m²) of some `nodes` in contact, beside
+    /// [`product::stress`](super::product::stress) and the `kinks` of the load (N/m, from the tip outwards).
     /// It is given to `add` in pieces, each with its first node; of use only where the load is smooth from the node
     /// before to the one behind. `cusp` is the slope of the load at the tip, which is no curvature.
     pub fn for_each(
@@ -88,17 +89,16 @@ impl Curvature {
         load: &[f64],
         cusp: f64,
         kinks: impl IntoIterator<Item = Kink>,
-        nodes: usize,
+        nodes: Range<usize>,
         mut add: impl FnMut(usize, &mut [f64]),
     ) {
         let t = self.grid.squares();
-        let nodes = nodes.min(self.per_cell.len());
+        let (mut first, nodes) = (nodes.start, nodes.end.min(self.per_cell.len()));
         let mut kinks = kinks.into_iter();
         let mut next_kink = || kinks.next().unwrap_or(NO_MORE);
         let mut next = next_kink();
         let mut terms = [0.0; PIECE];
         // Goes from node to node, past many at a time that no break concerns.
-        let mut first = 0;
         while first < nodes {
             // The next node with a break, in its place or in the cell behind.
             let bent = first + t[first..nodes].partition_point(|&t| t <= next.at);
@@ -193,7 +193,7 @@ mod tests {
         kink::add_to_stress(&kinks, t, &mut p);
         if corrected {
             let add = |first: usize, terms: &mut [f64]| add_to(&mut p[first..], terms);
-            Curvature::new(&grid).for_each(&load, 0.0, kinks, t.len(), add);
+            Curvature::new(&grid).for_each(&load, 0.0, kinks, 0..t.len(), add);
         }
         let exact = |s: f64| FRAC_2_PI * (1.0 - s).sqrt() * ((1.0 - s) / 1.5 + 2.0 * s);
         let inside = t.iter().zip(&p).take(cell + 1);
@@ -233,12 +233,12 @@ mod tests {
         let mut p = vec![0.0; t.len()];
         let curvature = Curvature::new(&grid);
         let add = |first: usize, terms: &mut [f64]| add_to(&mut p[first..], terms);
-        curvature.for_each(&load, -0.3, kinks.iter().copied(), t.len(), add);
+        curvature.for_each(&load, -0.3, kinks.iter().copied(), 0..t.len(), add);
         // The cusp is not linear in t in the edge's cell.
         assert!(p[..cell].iter().all(|p| p.abs() < 1e-13), "{p:?}");
         let mut q = vec![0.0; t.len()];
         let add = |first: usize, terms: &mut [f64]| add_to(&mut q[first..], terms);
-        curvature.for_each(&load, 0.0, kinks, t.len(), add);
+        curvature.for_each(&load, 0.0, kinks, 0..t.len(), add);
         assert!(q[1..cell].iter().any(|p| p.abs() > 1e-6));
     }
 
@@ -257,7 +257,7 @@ mod tests {
                 let mut load = vec![0.0; grid.len()];
                 load[i] = 1.0;
                 let outside = grid.border().map_or(0, |border| border + 2);
-                curvature.for_each(&load, 0.0, [], grid.len(), |first, terms| {
+                curvature.for_each(&load, 0.0, [], 0..grid.len(), |first, terms| {
                     for (j, term) in (first..).zip(terms).filter(|(j, _)| *j >= outside) {
                         column[j] += *term;
                     }

@@ -54,7 +54,7 @@ impl Field {
     }
 
     /// Eq. (3): the stress `p` (N/m², N + 1 values) of the line load (N/m), and nothing beyond its end. Of use on
-    /// the nodes `rows` alone; the others hold something finite. `rest` is overwritten where the load has a cusp.
+    /// the nodes `rows` alone; those further in are zero. `rest` is overwritten where the load has a cusp.
     pub fn stress(
         &self,
         plan: &AbelPlan,
@@ -64,10 +64,13 @@ impl Field {
         rest: &mut Rest,
         p: &mut [f64],
     ) {
+        let first = rows.start;
+        p[..first].fill(0.0);
         if !has_singular_parts(plan) {
             plan.stress_rows(&self.nodal, p, rows);
             return;
         }
+        let squares = grid.squares();
         if end.cusp == 0.0 || end.radius >= grid.radius() {
             plan.stress_rows(&self.nodal, p, rows);
         } else {
@@ -77,10 +80,10 @@ impl Field {
             };
             cone.take_off(grid, &self.nodal, rest);
             plan.stress_rows(&rest.load, p, rows);
-            kink::add_to_stress(&rest.kinks, grid.squares(), p);
+            kink::add_to_stress(&rest.kinks, &squares[first..], &mut p[first..]);
             cone.add_to_stress(grid, p);
         }
-        kink::add_to_stress(&self.kinks, grid.squares(), p);
+        kink::add_to_stress(&self.kinks, &squares[first..], &mut p[first..]);
         // The cusp's operator is not causal to the last bit.
         p[end.nodes..].fill(0.0);
     }

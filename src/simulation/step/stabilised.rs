@@ -29,7 +29,7 @@ use super::super::model::Model;
 use super::super::state::State;
 use super::super::wear::outer_slip_zone;
 use super::super::{Scratch, contact, stability, traction};
-use super::trapezoid::{mean_shear, tractions};
+use super::trapezoid::{mean_shear, stresses_before, tractions};
 use crate::math::chebyshev;
 
 /// Less stiff steps are cheaper in sub-steps.
@@ -64,7 +64,8 @@ pub(super) fn step(
     let Some(gain) = stability::gain(&model.setup) else {
         return false;
     };
-    let pressures = [&state.traction.pressure, &next.traction.pressure];
+    let before = stresses_before(scratch.increment.nodes.start, state, &scratch.before);
+    let pressures = [&before.pressure, &next.traction.pressure];
     let pressure = pressures.map(|p| sliding(next, scratch, p));
     if stiffness < STIFF || stages > MOST_STAGES || gain * pressure[0].max(pressure[1]) > MOST_GAIN
     {
@@ -103,10 +104,6 @@ fn pass_by_pass(
             &mut next.contact,
             slip,
         )?;
-        let contacts = [&state.contact, &next.contact];
-        scratch
-            .increment
-            .find_slip_kinks(model, contacts[0], contacts[1]);
         tractions(model, state, next, scratch);
         let profiles = supposed.iter().zip(&scratch.g);
         let missed = profiles

@@ -82,7 +82,7 @@ fn take_over(memory: &mut State, spare: &mut State, cycle: f64) {
 fn find_tractions(model: &Model, memory: &mut State, scratch: &mut Scratch) {
     let stuck = memory.stuck_radius();
     let (contact, traction) = (&memory.contact, &mut memory.traction);
-    traction::of(model, contact, stuck, &mut scratch.rest, traction);
+    traction::of(model, contact, stuck, 0, &mut scratch.rest, traction);
     memory.stats.transforms += 2;
 }
 
@@ -93,7 +93,7 @@ fn period(
     scratch: &mut Scratch,
 ) -> Result<SteadyCycle, Cause> {
     let cycles = model.setup.drive.repeats_after().unwrap_or(1);
-    let touch = moments::Touch::on(memory, &scratch.g);
+    let touch = moments::Touch::on(&model.setup, memory, scratch.g.iter().copied());
     let moments = moments::of_period(&model.setup, touch, cycles);
     memory.cycle = 0.0;
     for &moment in moments.iter() {
@@ -200,10 +200,6 @@ fn plain_cycle(
     increment.surface_slip[..stuck].fill(0.0);
     memory.stats.transforms += 1;
     increment.shear[..stuck].fill(0.0);
-    increment.slip_kinks.clear();
-    increment
-        .slip_kinks
-        .extend(kink::by_cell(&slip.kinks, squares));
     increment.slip.copy_from_slice(&slip.nodal);
     let p = &memory.traction.pressure;
     let mut without_drop = contact.clone();

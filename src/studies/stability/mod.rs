@@ -14,9 +14,9 @@ use predict::predict;
 mod growth;
 pub mod predict;
 pub mod report;
-mod teeth;
+mod sawtooth;
 
-pub use teeth::teeth;
+pub use sawtooth::sawtooth;
 
 /// Numbers of cells that are tried.
 pub const POINTS: [usize; 4] = [25, 50, 100, 200];
@@ -50,7 +50,7 @@ pub enum Outcome {
     /// Smooth to the end.
     Stable,
     /// Ran to the end, with a sawtooth of this height at the end of a cycle, relative to the largest depth.
-    Teeth(f64),
+    Sawtooth(f64),
     /// After some cycles, for a reason.
     Exploded {
         /// Cycles that it held.
@@ -146,11 +146,11 @@ impl Study {
                 Err(error) => return ControlFlow::Continue(Err(error)),
             }
             if session.simulation().cycle() >= end {
-                highest = highest.max(teeth(session.simulation().worn_depth()) / depth);
+                highest = highest.max(sawtooth(session.simulation().worn_depth()) / depth);
             }
         }
         ControlFlow::Continue(Ok(if highest > VISIBLE {
-            Outcome::Teeth(highest)
+            Outcome::Sawtooth(highest)
         } else {
             Outcome::Stable
         }))
@@ -179,7 +179,9 @@ impl Study {
             let outcome = outcome?;
             match (&outcome, above) {
                 (Outcome::Stable, None) => below = Some(wear_number),
-                (Outcome::Teeth(_) | Outcome::Exploded { .. }, None) => above = Some(wear_number),
+                (Outcome::Sawtooth(_) | Outcome::Exploded { .. }, None) => {
+                    above = Some(wear_number)
+                }
                 _ => {}
             }
             line.outcomes.push((wear_number, outcome));
@@ -197,7 +199,7 @@ impl Study {
             };
             match outcome? {
                 Outcome::Stable => low = middle,
-                Outcome::Teeth(_) | Outcome::Exploded { .. } => high = middle,
+                Outcome::Sawtooth(_) | Outcome::Exploded { .. } => high = middle,
             }
         }
         line.seen = Some(high);

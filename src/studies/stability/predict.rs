@@ -30,13 +30,13 @@
 //! and with many short steps it comes first (400 per cycle: at 0.4 to 0.9 of what is predicted).
 //!
 //! **Methods that are unstable at any step size.** For b and benad, a constant of the method that
-//! was [measured](crate::simulation::stability::teeth_from), not derived.
+//! was [measured](crate::simulation::stability::sawtooth_from), not derived.
 
 use super::growth::growing_from;
 use super::{Setting, Study, VISIBLE};
 use crate::math::scan::largest;
 use crate::scenario::session::{Session, SessionError};
-use crate::simulation::stability::{gain, response, teeth_from};
+use crate::simulation::stability::{gain, response, sawtooth_from};
 use crate::simulation::{Curves, Scheme, Simulation, Zone};
 
 /// The wear number at which an unworn contact is looked at: nothing has changed shape by then.
@@ -77,7 +77,7 @@ pub(super) fn predict(study: &Study, setting: Setting) -> Result<Option<f64>, Se
     // The first cycle lets the springs settle.
     cycle(&mut mild, MILD, 0.0)?;
     let unworn = cycle(&mut mild, MILD, 0.0)?;
-    if let Some(depth) = teeth_from(setting.method) {
+    if let Some(depth) = sawtooth_from(setting.method) {
         let worn = unworn.worn * study.cycles;
         return Ok((worn > 0.0).then(|| depth / worn));
     }

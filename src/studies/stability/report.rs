@@ -11,7 +11,7 @@ impl Outcome {
     pub fn name(&self) -> &'static str {
         match self {
             Self::Stable => "stable",
-            Self::Teeth(_) => "teeth",
+            Self::Sawtooth(_) => "sawtooth",
             Self::Exploded { .. } => "exploded",
         }
     }
@@ -20,7 +20,7 @@ impl Outcome {
     fn mark(&self) -> char {
         match self {
             Self::Stable => '.',
-            Self::Teeth(_) => '~',
+            Self::Sawtooth(_) => '~',
             Self::Exploded { .. } => '#',
         }
     }
@@ -47,16 +47,16 @@ pub fn runs(lines: &[Line]) -> Table {
         Column::new("wear_number", Format::Rough),
         Column::new("outcome", Format::Words),
         Column::new("exploded_at_cycle", Format::Fixed),
-        Column::new("teeth", Format::Rough),
+        Column::new("sawtooth", Format::Rough),
         Column::new("predicted_wear_number", Format::Rough),
         Column::new("reason", Format::Words),
     ]);
     for line in lines {
         for (wear_number, outcome) in &line.outcomes {
-            let (mut cycle, mut teeth, mut why) = (Cell::Missing, Cell::Missing, Cell::Missing);
+            let (mut cycle, mut sawtooth, mut why) = (Cell::Missing, Cell::Missing, Cell::Missing);
             match outcome {
                 Outcome::Stable => {}
-                Outcome::Teeth(height) => teeth = Cell::Number(*height),
+                Outcome::Sawtooth(height) => sawtooth = Cell::Number(*height),
                 Outcome::Exploded { cycle: at, reason } => {
                     cycle = Cell::Number(*at);
                     why = Cell::Words(reason.clone());
@@ -70,7 +70,7 @@ pub fn runs(lines: &[Line]) -> Table {
                 Cell::Number(*wear_number),
                 Cell::Words(outcome.name().to_owned()),
                 cycle,
-                teeth,
+                sawtooth,
                 line.predicted.into(),
                 why,
             ]);
@@ -178,7 +178,7 @@ mod tests {
             },
             outcomes: vec![
                 (1.0, Outcome::Stable),
-                (10.0, Outcome::Teeth(0.5)),
+                (10.0, Outcome::Sawtooth(0.5)),
                 (100.0, exploded),
             ],
             predicted: Some(8.0),

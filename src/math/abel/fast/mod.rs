@@ -29,8 +29,7 @@
 //!   largest value), so that of a result in units of the same sum with all signs made alike. Rounding
 //!   adds about 1e-15 N^½ of that. The tests hold every operator to it.
 //! - **Cost**: K multiply-adds twice and 8 more a node, K = 12 … 28 from N = 100 to 100 000; O(N) to set up.
-//! - **Memory**: O(N): 2 K + 31 numbers a node for the three operators. A sweep reads K + 13 of them a node; on more
-//!   than 16 384 nodes K/16 + 6, as what is smooth over a block is then stored as cubics (see `cubic`).
+//! - **Memory**: O(N): 2 K + 31 numbers a node for the three operators. A sweep reads K + 13 of them a node.
 //! - **Causality**: strict, as that of the dense form: what is zero up to a node stays zero up to it, and row j looks at
 //!   its own kink by rounding alone.
 //! - **At r = 0**: g = f(0), w = u(0), p = (2/π) Σ J_k x_k.
@@ -43,7 +42,6 @@ use super::kernel::{acosh_step, leg};
 use super::product::cusp;
 use crate::math::grid::RadialGrid;
 
-mod cubic;
 mod near;
 mod powers;
 mod propagator;
@@ -164,10 +162,7 @@ impl FastProduct {
         let nearest = nearest(&nodes);
         let [root, arc] = [Kernel::Root, Kernel::Arc].map(|kernel| {
             let powers = fit(kernel, nearest, tolerance)?;
-            Some((
-                Propagator::new(&nodes, &powers.exponents, tolerance),
-                powers,
-            ))
+            Some((Propagator::new(&nodes, &powers.exponents), powers))
         });
         let ((root, roots), (arc, arcs)) = (root?, arc?);
         let squares = grid.squares().to_vec();
@@ -275,7 +270,7 @@ impl FastWorn {
         let inner = {
             let nearest = nearest(nodes);
             let powers = fit(Kernel::Root, nearest, tolerance)?;
-            let propagator = Propagator::new(nodes, &powers.exponents, tolerance);
+            let propagator = Propagator::new(nodes, &powers.exponents);
             let scale = grid.squares().to_vec();
             FastInner {
                 inverse: inverse_widths(&nodes[..=border]),
@@ -287,7 +282,7 @@ impl FastWorn {
         let z: Vec<f64> = x.iter().map(|&r| leg(x[0], r)).collect();
         let nearest = nearest(&z);
         let powers = fit(Kernel::Worn, nearest, tolerance)?;
-        let propagator = Propagator::new(&z, &powers.exponents, tolerance);
+        let propagator = Propagator::new(&z, &powers.exponents);
         let scale = x.iter().zip(&z).map(|(x, z)| x * z).collect();
         Some(Self {
             inner,

@@ -157,8 +157,6 @@ pub(super) struct Powers {
     pub exponents: Vec<f64>,
     /// a of each.
     pub factors: Vec<f64>,
-    /// To which they hold.
-    pub tolerance: f64,
 }
 
 /// The fewest powers that hold `kernel` to `tolerance` for v ≤ exp(−`nearest`).
@@ -187,7 +185,6 @@ pub(super) fn fit(kernel: Kernel, nearest: f64, tolerance: f64) -> Option<Powers
                 kernel,
                 exponents,
                 factors,
-                tolerance,
             }
         })
     })

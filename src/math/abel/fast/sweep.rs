@@ -11,10 +11,9 @@ use std::ops::Range;
 
 use fearless_simd::{Level, dispatch};
 
-use super::cubic::BLOCK;
 use super::near::{Near, REACH, Side};
 use super::powers::{LANES, MOST_GROUPS, Powers};
-use super::propagator::Propagator;
+use super::propagator::{BLOCK, Propagator};
 use super::recurrence::{Factors, State, powers_block};
 
 /// Sums over the kinks inside of every row:
@@ -108,9 +107,8 @@ impl Outward {
             powers_block::<false>(
                 level,
                 &mut state,
-                propagator.piece(block),
-                &self.factors,
-                self.near.piece(block),
+                block,
+                (propagator, &self.factors, &self.near),
                 &jumps,
                 &mut sums[..padded],
             );
@@ -194,9 +192,8 @@ impl Inward {
             powers_block::<true>(
                 level,
                 &mut state,
-                propagator.piece(block),
-                &self.factors,
-                self.near.piece(block),
+                block,
+                (propagator, &self.factors, &self.near),
                 &moments,
                 &mut sums[..padded],
             );

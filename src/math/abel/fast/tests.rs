@@ -246,7 +246,7 @@ fn large_grids_are_no_trouble() {
     assert!(is(&out, &|t| 2.0 * FRAC_1_PI * (1.0 - t).sqrt()));
 }
 
-/// Where cubics stand for the tables: rows of noise, each against its own sum of closed forms.
+/// Rows of noise, each against its own sum of closed forms.
 #[test]
 fn large_grids_keep_the_tolerance_node_by_node() {
     let cells = 40_000;

@@ -15,7 +15,7 @@
 //! two: neither is a sawtooth.
 
 /// The height of the highest sawtooth in `values`, from peak to valley, in their unit; 0 if they are smooth.
-pub fn teeth(values: &[f64]) -> f64 {
+pub fn sawtooth(values: &[f64]) -> f64 {
     let bends: Vec<f64> = values
         .windows(3)
         .map(|v| (v[0] - v[1]) + (v[2] - v[1]))
@@ -45,41 +45,41 @@ mod tests {
 
     /// Every `pitch`-th node from `from` to `to` higher by `height`.
     fn comb(values: &[f64], from: usize, to: usize, pitch: usize, height: f64) -> Vec<f64> {
-        let mut toothed = values.to_vec();
+        let mut swinging = values.to_vec();
         for j in (from..to).step_by(pitch) {
-            toothed[j] += height;
+            swinging[j] += height;
         }
-        toothed
+        swinging
     }
 
     #[test]
     fn smooth_profiles_with_kinks_and_jumps_have_none() {
         for cells in [25, 60, 100, 200, 1000] {
-            assert!(teeth(&worn(cells)) < 1e-15, "{cells}");
+            assert!(sawtooth(&worn(cells)) < 1e-15, "{cells}");
         }
         let jump: Vec<f64> = (0..40).map(|j| f64::from(u8::from(j > 20))).collect();
-        assert_eq!(teeth(&jump), 0.0);
+        assert_eq!(sawtooth(&jump), 0.0);
         let hills: Vec<f64> = (0..100).map(|j| (0.2 * f64::from(j)).sin()).collect();
-        assert_eq!(teeth(&hills), 0.0);
+        assert_eq!(sawtooth(&hills), 0.0);
         for few in 0..5 {
-            assert_eq!(teeth(&vec![1.0; few]), 0.0);
+            assert_eq!(sawtooth(&vec![1.0; few]), 0.0);
         }
     }
 
     #[test]
     fn an_even_comb_is_as_high_as_it_is() {
         for height in [1e-3, 0.1, 3.0] {
-            let found = teeth(&comb(&[0.5; 60], 10, 50, 2, height));
+            let found = sawtooth(&comb(&[0.5; 60], 10, 50, 2, height));
             assert!((found / height - 1.0).abs() < 1e-9, "{height}: {found}");
         }
     }
 
     /// One spike has second differences of H, −2H and H.
     #[test]
-    fn single_teeth_count_half() {
+    fn a_single_tooth_counts_half() {
         let slope: Vec<f64> = (0..60).map(|j| f64::from(j) * 0.1).collect();
         for pitch in [3, 5, 100] {
-            let found = teeth(&comb(&slope, 30, 50, pitch, 1.0));
+            let found = sawtooth(&comb(&slope, 30, 50, pitch, 1.0));
             assert!((found - 0.5).abs() < 1e-9, "{pitch}: {found}");
         }
     }
@@ -87,12 +87,12 @@ mod tests {
     #[test]
     fn small_combs_are_seen_on_a_worn_profile() {
         for pitch in [2, 3] {
-            let found = teeth(&comb(&worn(100), 40, 80, pitch, 2e-3));
+            let found = sawtooth(&comb(&worn(100), 40, 80, pitch, 2e-3));
             assert!((0.4e-3..2.1e-3).contains(&found), "{pitch}: {found}");
         }
         // A sawtooth at the border and one at the end of the worn zone.
         for from in [26, 66] {
-            let found = teeth(&comb(&worn(100), from, from + 8, 2, 0.2));
+            let found = sawtooth(&comb(&worn(100), from, from + 8, 2, 0.2));
             assert!(found > 0.1, "{from}: {found}");
         }
     }

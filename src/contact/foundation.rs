@@ -1,9 +1,10 @@
 //! The Winkler foundation: the row of springs that represents the half-space.
 
 use crate::math::abel::field::Field;
+use crate::math::abel::kink::Kink;
 use crate::math::abel::product;
 use crate::math::grid::RadialGrid;
-use crate::math::quadrature::{ProductWeights, line_weights, weighted_first};
+use crate::math::quadrature::{ProductWeights, gauss, line_weights, weighted_first};
 use crate::math::scan::{leading, trailing};
 
 /// A cusp that changes the load by less than this part of it over two cells is rounding.
@@ -81,15 +82,28 @@ impl WinklerFoundation {
     }
 
     /// 2∫ q |s| dx over the row: the work (J) of a line load (N/m) that ends at `edge` on a slip (m).
-    /// Both are linear in x² in each cell.
-    pub fn work(&self, load: &[f64], slip: &[f64], edge: Edge) -> f64 {
+    /// Both are linear in x² in each cell; the slip has `kinks` inside cells besides, each with its cell.
+    pub fn work(&self, load: &[f64], slip: &[f64], kinks: &[(usize, Kink)], edge: Edge) -> f64 {
+        let (xs, squares) = (self.nodes(), self.squares());
         // Most springs stick or carry nothing.
         let first = leading(slip, |&slip| slip == 0.0).saturating_sub(1);
         let end = load.len() + 1 - trailing(load, |&load| load == 0.0);
         let end = end.min(load.len()).saturating_sub(1).max(first);
         let smooth = self.products.integral(first..end, load, slip);
+        let kinked: f64 = kinks
+            .iter()
+            .map(|&(k, kink)| {
+                let (t, width) = (squares[k], squares[k + 1] - squares[k]);
+                let sign = (slip[k] + slip[k + 1]).signum();
+                let slope = (load[k + 1] - load[k]) / width;
+                sign * kink.jump
+                    * gauss(kink.at.sqrt(), xs[k + 1], |x| {
+                        (load[k] + slope * (x * x - t)) * (x * x - kink.at)
+                    })
+            })
+            .sum();
         let cusp = self.cusp_integral(load, edge) * slip[0].abs();
-        2.0 * (smooth + cusp)
+        2.0 * (smooth + kinked + cusp)
     }
 
     /// The slope of `values` at the tip, x → 0, if there is a noticeable cusp and the contact extends
@@ -138,27 +152,39 @@ fn bubbles(nodes: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::abel::kink;
 
-    /// A Hertzian load on a slip that sets in at a spring, of either sign.
+    /// A Hertzian load on a slip that sets in between two springs, of either sign.
     #[test]
-    fn the_work_on_a_slip_is_exact() {
+    fn the_work_on_a_kinked_slip_is_exact() {
         let grid = RadialGrid::uniform(20, 1.0).expect("a grid");
         let row = WinklerFoundation::new(&grid);
         let squares = grid.squares();
         let load: Vec<f64> = squares.iter().map(|t| 1.0 - t).collect();
-        let border = squares[14];
-        // ∫ (1 − x²)(x² − b) dx from √b to 1.
-        let primitive = |x: f64| -x.powi(5) / 5.0 + (1.0 + border) * x.powi(3) / 3.0 - border * x;
-        let exact = 2.0 * (primitive(1.0) - primitive(border.sqrt()));
-        let edge = Edge {
-            radius: 1.0,
-            nodes: grid.cells(),
-        };
+        let border: f64 = 0.52;
         for sign in [1.0, -1.0] {
-            let slip = squares.iter().map(|t| sign * (t - border).max(0.0));
-            let slip: Vec<f64> = slip.collect();
-            let found = row.work(&load, &slip, edge);
+            let slip: Vec<f64> = squares
+                .iter()
+                .map(|t| sign * (t - border).max(0.0))
+                .collect();
+            let k = squares.partition_point(|&t| t <= border) - 1;
+            let mut kinks = Vec::new();
+            let ends = [squares[k], squares[k + 1]];
+            kink::polyline(ends, [slip[k], slip[k + 1]], &[(border, 0.0)], &mut kinks);
+            let kinks: Vec<(usize, Kink)> = kink::by_cell(&kinks, squares).collect();
+            assert!(kinks.iter().all(|&(cell, _)| cell == k), "{kinks:?}");
+            // ∫ (1 − x²)(x² − b) dx from √b to 1.
+            let primitive =
+                |x: f64| -x.powi(5) / 5.0 + (1.0 + border) * x.powi(3) / 3.0 - border * x;
+            let exact = 2.0 * (primitive(1.0) - primitive(border.sqrt()));
+            let edge = Edge {
+                radius: 1.0,
+                nodes: grid.cells(),
+            };
+            let found = row.work(&load, &slip, &kinks, edge);
             assert!((found / exact - 1.0).abs() < 1e-12, "{found} {exact}");
+            let without = row.work(&load, &slip, &[], edge);
+            assert!((without / exact - 1.0).abs() > 1e-4);
         }
     }
 }

@@ -11,7 +11,7 @@ use thiserror::Error;
 use super::contact::Contact;
 use super::model::Model;
 use super::{Setup, Simulation, State};
-use crate::math::abel::kink::Kink;
+use crate::math::abel::kink::are_hats;
 use crate::math::grid::RadialGrid;
 
 /// A simulation at rest, without the setup that it runs on.
@@ -123,13 +123,11 @@ fn check(setup: &Setup, state: &State) -> Result<(), Unfit> {
             return Err(Unfit::new(what, "is not finite"));
         }
     }
-    let grid = 0.0..=setup.grid.squares()[setup.grid.cells()];
     for (what, kinks) in [
         ("springs' kinks", &contact.spring.kinks),
         ("line load's kinks", &contact.load.kinks),
     ] {
-        let fits = |kink: &Kink| grid.contains(&kink.at) && kink.jump.is_finite();
-        if !kinks.iter().all(fits) {
+        if !are_hats(kinks, setup.grid.squares()) {
             return Err(Unfit::new(what, "do not lie in the grid"));
         }
     }

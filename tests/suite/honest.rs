@@ -327,7 +327,7 @@ fn a_held_force_keeps_its_balance_and_its_bounds() {
         holds(
             &format!("V = k E_d after {cycles} cycles"),
             balance.abs(),
-            2.5e-2,
+            2e-2,
         );
         let stick = moment.permanent_stick_radius.expect("a stick zone");
         assert!(

@@ -83,6 +83,34 @@ pub fn polyline(t: [f64; 2], v: [f64; 2], inner: &[(f64, f64)], kinks: &mut Vec<
     }
 }
 
+/// The kinks of hats, each with the cell (between nodes k and k + 1) that its hat fills.
+pub fn by_cell<'a>(
+    kinks: &'a [Kink],
+    squares: &'a [f64],
+) -> impl Iterator<Item = (usize, Kink)> + 'a {
+    let mut hat = None;
+    kinks.iter().map(move |&kink| {
+        let cell = hat.unwrap_or_else(|| squares.partition_point(|&t| t <= kink.at) - 1);
+        // A hat ends on the outer node of its cell.
+        hat = (kink.at < squares[cell + 1]).then_some(cell);
+        (cell, kink)
+    })
+}
+
+/// Whether [`by_cell`] can tell the cells of kinks that come from a file: each hat begins inside the grid and
+/// goes on to the outer node of its cell at most.
+pub fn are_hats(kinks: &[Kink], squares: &[f64]) -> bool {
+    let mut hat = None;
+    kinks.iter().all(|kink| {
+        let end = hat.or_else(|| {
+            let next = squares.partition_point(|&t| t <= kink.at);
+            squares.get(next).copied()
+        });
+        hat = end.filter(|&end| kink.at < end);
+        kink.at >= 0.0 && kink.jump.is_finite() && end.is_some_and(|end| kink.at <= end)
+    })
+}
+
 /// Eq. (1): adds what kinks of f do to the 1D profile `g` on nodes with the given `squares` (m²).
 pub fn add_to_profile(kinks: &[Kink], squares: &[f64], g: &mut [f64]) {
     vectorized(

@@ -104,6 +104,10 @@ fn pass_by_pass(
             &mut next.contact,
             slip,
         )?;
+        let contacts = [&state.contact, &next.contact];
+        scratch
+            .increment
+            .find_slip_kinks(model, contacts[0], contacts[1]);
         tractions(model, state, next, scratch);
         let profiles = supposed.iter().zip(&scratch.g);
         let missed = profiles

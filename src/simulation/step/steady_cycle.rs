@@ -200,6 +200,10 @@ fn plain_cycle(
     increment.surface_slip[..stuck].fill(0.0);
     memory.stats.transforms += 1;
     increment.shear[..stuck].fill(0.0);
+    increment.slip_kinks.clear();
+    increment
+        .slip_kinks
+        .extend(kink::by_cell(&slip.kinks, squares));
     increment.slip.copy_from_slice(&slip.nodal);
     let p = &memory.traction.pressure;
     let mut without_drop = contact.clone();

@@ -115,6 +115,7 @@ pub(super) fn wear(
     }
     let contacts = [&state.contact, &next.contact];
     let increment = &mut scratch.increment;
+    increment.find_slip_kinks(model, contacts[0], contacts[1]);
     increment.rub(model, contacts);
     if model.setup.wear.is_some() {
         tractions(model, state, next, scratch);

@@ -55,7 +55,7 @@
 //!
 //! | method | N = 50 | 100 | 200 | 400 |
 //! |---|---|---|---|---|
-//! | this one, graded cells, [`worn`](super::worn), [`kink`](super::kink), [`curvature`](super::curvature) | 7.9e-4 | 3.2e-4 | 8.2e-5 | 3.1e-5 |
+//! | this one, graded cells, [`worn`](super::worn), [`kink`](super::kink), [`curvature`](super::curvature) | 1.0e-3 | 4.8e-4 | 2.1e-4 | 7.8e-5 |
 //! | a, uniform cells | 1.3e-2 | 4.9e-3 | 1.1e-3 | 2.0e-3 |
 //! | a+b, uniform cells | 1.2e-2 | 4.8e-3 | 1.4e-3 | 2.0e-3 |
 //! | b, uniform cells | 4.5e-2 | 3.6e-2 | 2.9e-2 | 2.3e-2 |

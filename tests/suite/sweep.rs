@@ -693,11 +693,21 @@ fn one_axis_is_a_curve() {
 
 /// The border between partial and gross slip on a line of amplitudes: halfway between the last point
 /// of partial slip and the first one of gross slip.
-fn border_of(indenter: &str) -> f64 {
-    // U_t = d/κ = d μE*/G*.
-    let closed = 1e-6 * 0.1 * 1.7 / 1.4;
+/// `rig` is μNC over the amplitude at the border of a stiff rig, and N (N) the load.
+fn border_of(indenter: &str, (rig, load): (f64, f64)) -> f64 {
+    // U_t = d/κ = d μE*/G*, and (1 + ρ) times as much on a compliant rig.
+    let stiff = 1e-6 * 0.1 * 1.7 / 1.4;
+    let closed = stiff * (1.0 + rig);
+    let rig = if rig > 0.0 {
+        format!(
+            "\"motion.tangential.rig_stiffness\" = {:e}\n",
+            0.1 * load / (rig * stiff)
+        )
+    } else {
+        String::new()
+    };
     let study = format!(
-        "base = \"li2019-fig3\"\ncolumns = [\"regime\"]\n[set]\n{indenter}\n\
+        "base = \"li2019-fig3\"\ncolumns = [\"regime\"]\n[set]\n{indenter}\n{rig}\
          \"motion.normal.amplitude\" = 0.0\n\"wear.coefficient\" = 0.0\n\"run.cycles\" = 2.0\n\
          \"numerics.points\" = 200\n\"numerics.steps_per_cycle\" = 40\n[[axis]]\n\
          key = \"motion.tangential.amplitude\"\nlinspace = [{:e}, {:e}, 21]\n",
@@ -729,16 +739,28 @@ fn border_of(indenter: &str) -> f64 {
 
 #[test]
 fn the_map_finds_the_border_of_gross_slip() {
-    for indenter in [
-        "\"indenter.shape\" = \"paraboloid\"",
-        "\"indenter.shape\" = \"cone\"\n\"indenter.angle\" = 0.02",
-        "\"indenter.shape\" = \"power\"\n\"indenter.exponent\" = 4.0\n\"indenter.coefficient\" = 3.75e9",
+    // Loads at d = 1 µm: 2n/(n+1) E* d a, with a of g(a) = d.
+    let load = |n: f64, radius: f64| 2.0 * n / (n + 1.0) * 2.3077e11 * 1e-6 * radius;
+    let cone = 2.0 / std::f64::consts::PI * 1e-6 / 0.02_f64.tan();
+    let quartic = (1e-6_f64 * 3.0 / 8.0 / 3.75e9).powf(0.25);
+    for (indenter, load) in [
+        ("\"indenter.shape\" = \"paraboloid\"", load(2.0, 1e-4)),
+        (
+            "\"indenter.shape\" = \"cone\"\n\"indenter.angle\" = 0.02",
+            load(1.0, cone),
+        ),
+        (
+            "\"indenter.shape\" = \"power\"\n\"indenter.exponent\" = 4.0\n\"indenter.coefficient\" = 3.75e9",
+            load(4.0, quartic),
+        ),
     ] {
-        let found = border_of(indenter);
-        assert!(
-            (found - 1.0).abs() < 0.01,
-            "{indenter}: {found} of the closed form"
-        );
+        for rig in [0.0, 1.0, 3.0] {
+            let found = border_of(indenter, (rig, load));
+            assert!(
+                (found - 1.0).abs() < 0.01,
+                "{indenter}, rig {rig}: {found} of the closed form"
+            );
+        }
     }
 }
 

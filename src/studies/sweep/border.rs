@@ -6,7 +6,7 @@
 //!   prescribed, Melan's theorem gives the depth g(c) at the border of the permanent stick zone, and
 //!   gross slip begins where it reaches 0. At a depth d that is held this is U = d/κ, κ = G*/(μE*), for
 //!   any shape. With a normal force prescribed, d is the depth at the smallest force on the unworn
-//!   shape.
+//!   shape. A rig of compliance C takes a part of the motion: under a steady load N, U = d/κ + μNC.
 //! - **Lift-off** begins where the depth, or the normal force, passes through 0.
 //!
 //! Both hold for the unworn shape. Wear moves the border of gross slip where a force is prescribed.
@@ -51,13 +51,20 @@ impl Border {
         if let Some(depth) = setup.drive.shakedown_depth(ratio) {
             return Some(depth);
         }
-        match (normal, setup.drive.tangential()?) {
-            (Control::Force(force), Control::Displacement(shift)) => {
-                let depth = depth_under(force.lowest(), &setup.indenter, &setup.material)?;
-                Some(depth - ratio * shift.amplitude())
-            }
-            _ => None,
-        }
+        let Control::Displacement(shift) = setup.drive.tangential()? else {
+            return None;
+        };
+        let (indenter, material) = (&setup.indenter, &setup.material);
+        let rig = setup.drive.rig_compliance();
+        let steady = normal.oscillation().amplitude() == 0.0;
+        let lowest = normal.oscillation().lowest();
+        let (depth, force) = match normal {
+            // What a rig takes under a load that changes has no closed form.
+            _ if rig > 0.0 && !steady => return None,
+            Control::Force(_) => (depth_under(lowest, indenter, material)?, lowest),
+            Control::Displacement(_) => (lowest, force_at(lowest, indenter, material)?),
+        };
+        Some(depth - ratio * (shift.amplitude() - rig * material.friction() * force))
     }
 
     /// The value of axis `along` at which the border is crossed, the other axes standing at
@@ -80,7 +87,7 @@ impl Border {
     }
 }
 
-/// The depth (m) at which an unworn indenter carries `force` (N): F = 2E*∫(d − g) dx.
+/// The depth (m) at which an unworn indenter carries `force` (N).
 fn depth_under(force: f64, indenter: &Indenter, material: &Material) -> Option<f64> {
     let modulus = material.normal_modulus();
     if force <= 0.0 {
@@ -89,31 +96,8 @@ fn depth_under(force: f64, indenter: &Indenter, material: &Material) -> Option<f
     if let Some(rim) = indenter.rim() {
         return Some(force / (2.0 * modulus * rim));
     }
-    let carried = |radius: f64| {
-        let depth = indenter.profile_1d(radius);
-        // Simpson's rule in x = a sin φ, which is smooth at the tip and at the edge.
-        let cells = 200;
-        let at = |i: u32| {
-            let angle = f64::from(i) / f64::from(cells) * std::f64::consts::FRAC_PI_2;
-            let compression = depth - indenter.profile_1d(radius * angle.sin());
-            let weight = match i {
-                0 => 1.0,
-                i if i == cells => 1.0,
-                i if i % 2 == 1 => 4.0,
-                _ => 2.0,
-            };
-            weight * compression * radius * angle.cos()
-        };
-        let sum: f64 = (0..=cells).map(at).sum();
-        2.0 * modulus * sum * std::f64::consts::FRAC_PI_2 / f64::from(cells) / 3.0
-    };
-    let mut wide = 1e-9;
-    while carried(wide) < force {
-        wide *= 2.0;
-        if wide > 1e6 {
-            return None;
-        }
-    }
+    let carried = |radius: f64| force_within(radius, indenter, modulus);
+    let wide = wide_enough(|radius| carried(radius) >= force)?;
     let radius = root::bracketed(
         |radius| carried(radius) / force - 1.0,
         0.0,
@@ -121,6 +105,51 @@ fn depth_under(force: f64, indenter: &Indenter, material: &Material) -> Option<f
         1e-13 * wide,
     )?;
     Some(indenter.profile_1d(radius))
+}
+
+/// The force (N) that an unworn indenter carries at `depth` (m).
+fn force_at(depth: f64, indenter: &Indenter, material: &Material) -> Option<f64> {
+    let modulus = material.normal_modulus();
+    if depth <= 0.0 {
+        return Some(0.0);
+    }
+    if let Some(rim) = indenter.rim() {
+        return Some(2.0 * modulus * rim * depth);
+    }
+    let wide = wide_enough(|radius| indenter.profile_1d(radius) >= depth)?;
+    let radius = root::bracketed(
+        |radius| indenter.profile_1d(radius) / depth - 1.0,
+        0.0,
+        wide,
+        1e-13 * wide,
+    )?;
+    Some(force_within(radius, indenter, modulus))
+}
+
+/// A radius (m) at which `holds` is true, up to a thousand kilometres.
+fn wide_enough(holds: impl Fn(f64) -> bool) -> Option<f64> {
+    let radii = (0..50).map(|i| 1e-9 * f64::from(i).exp2());
+    radii.into_iter().find(|&radius| holds(radius))
+}
+
+/// The force of an unworn contact of this radius: F = 2E*∫(d − g) dx.
+fn force_within(radius: f64, indenter: &Indenter, modulus: f64) -> f64 {
+    let depth = indenter.profile_1d(radius);
+    // Simpson's rule in x = a sin φ, which is smooth at the tip and at the edge.
+    let cells = 200;
+    let at = |i: u32| {
+        let angle = f64::from(i) / f64::from(cells) * std::f64::consts::FRAC_PI_2;
+        let compression = depth - indenter.profile_1d(radius * angle.sin());
+        let weight = match i {
+            0 => 1.0,
+            i if i == cells => 1.0,
+            i if i % 2 == 1 => 4.0,
+            _ => 2.0,
+        };
+        weight * compression * radius * angle.cos()
+    };
+    let sum: f64 = (0..=cells).map(at).sum();
+    2.0 * modulus * sum * std::f64::consts::FRAC_PI_2 / f64::from(cells) / 3.0
 }
 
 #[cfg(test)]
@@ -144,6 +173,42 @@ mod tests {
                 (found / depth - 1.0).abs() < 1e-6,
                 "{indenter:?}: {found:e} {depth:e}"
             );
+            let back = force_at(depth, &indenter, &material).expect("a force");
+            assert!(
+                (back / force - 1.0).abs() < 1e-6,
+                "{indenter:?}: {back:e} {force:e}"
+            );
         }
+    }
+
+    /// U = d/κ + μNC, d held or N held.
+    #[test]
+    fn a_rig_moves_the_border_of_gross_slip_by_its_share() {
+        let (depth, load) = (1e-6, 4.0 / 3.0 * 2.3077e11 * 1e-6 * 1e-4);
+        let stiff = depth * 0.1 * 1.7 / 1.4;
+        let scenario = |sets: &[String]| Scenario::load("li2019-fig3", sets).expect("a scenario");
+        let set = |key: &str, value: f64| format!("{key}={value:e}");
+        for share in [0.0, 1.0, 3.0] {
+            let mut sets = vec![
+                set("motion.normal.amplitude", 0.0),
+                set("motion.tangential.amplitude", stiff * (1.0 + share)),
+            ];
+            if share > 0.0 {
+                let stiffness = 0.1 * load / (share * stiff);
+                sets.push(set("motion.tangential.rig_stiffness", stiffness));
+            }
+            let held = scenario(&sets);
+            sets.push("motion.normal.control=force".to_owned());
+            sets.push(set("motion.normal.mean", load));
+            for scenario in [held, scenario(&sets)] {
+                let distance = Border::GrossSlip
+                    .distance(&scenario)
+                    .expect("a closed form");
+                assert!(distance.abs() < 1e-5 * depth, "{share}: {distance:e}");
+            }
+        }
+        // Under a load that changes, nothing is known.
+        let swinging = scenario(&[set("motion.tangential.rig_stiffness", 1e7)]);
+        assert_eq!(Border::GrossSlip.distance(&swinging), None);
     }
 }

@@ -282,7 +282,8 @@ fn body(theme: &Theme) -> Color {
     match (theme.depth, theme.look) {
         (Depth::Sixteen, _) => Color::Gray,
         (_, Look::Light) => Color::Indexed(146),
-        _ => Color::Indexed(60),
+        // A grey: no colour of the map is one.
+        _ => Color::Indexed(59),
     }
 }
 

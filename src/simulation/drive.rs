@@ -8,6 +8,7 @@ use std::f64::consts::TAU;
 use super::waveform::Waveform;
 use crate::contact::material::Material;
 use crate::math::invalid::{Invalid, finite, non_negative, positive};
+use crate::math::root;
 
 /// The most cycles, and where they are more than [`FEW_CYCLES`] the most turns of the normal motion, of a common
 /// period of both directions.
@@ -27,9 +28,6 @@ const PIECES_OF_A_CYCLE: f64 = 64.0;
 
 /// How far behind a corner its second side is looked at, in cycles.
 const BEHIND_CORNER: f64 = 1e-9;
-
-/// Secants before a search for a zero goes on by bisection.
-const MOST_SECANTS: u32 = 40;
 
 /// mean + amplitude · sin(ωt + φ), of a displacement in m or of a force in N; another [`Waveform`] may
 /// stand in the sine's place.
@@ -477,12 +475,11 @@ impl Drive {
     }
 }
 
-/// Where `function` crosses zero between two points given with their values, the second included: by secants
-/// between points of opposite sign, of which one that stays twice counts half (the Illinois method).
+/// Where `function` crosses zero between two points given with their values, the second included.
 fn sign_change(
     function: impl Fn(f64) -> f64,
-    (mut low, mut at_low): (f64, f64),
-    (mut high, mut at_high): (f64, f64),
+    (low, at_low): (f64, f64),
+    (high, at_high): (f64, f64),
 ) -> Option<f64> {
     if at_high == 0.0 && at_low != 0.0 {
         return Some(high);
@@ -490,33 +487,7 @@ fn sign_change(
     if at_low * at_high >= 0.0 {
         return None;
     }
-    let mut kept_high = None;
-    for tries in 0.. {
-        let gap = 2.0 * f64::EPSILON * high.abs();
-        if high - low <= 2.0 * gap {
-            break;
-        }
-        // Near a double zero secants creep: then bisection goes on.
-        let middle = if tries < MOST_SECANTS {
-            let secant = high - at_high * (high - low) / (at_high - at_low);
-            secant.clamp(low + gap, high - gap)
-        } else {
-            0.5 * (low + high)
-        };
-        let found = function(middle);
-        if found == 0.0 {
-            return Some(middle);
-        }
-        let keeps_high = found * at_high < 0.0;
-        let again = kept_high.replace(keeps_high) == Some(keeps_high);
-        let share = if again { 0.5 } else { 1.0 };
-        if keeps_high {
-            (low, at_low, at_high) = (middle, found, share * at_high);
-        } else {
-            (high, at_high, at_low) = (middle, found, share * at_low);
-        }
-    }
-    Some(high)
+    root::bracketed(function, low, high, 4.0 * f64::EPSILON * high.abs())
 }
 
 fn at(control: &Control, turns: f64) -> Target {

@@ -92,6 +92,7 @@ pub use saved::{Saved, Unfit};
 use state::JumpMemory;
 pub use state::{State, Stats};
 use traction::Traction;
+pub use unworn::Unworn;
 use wear::Increment;
 
 /// The parts that a run is assembled from, each validated on its own floor.

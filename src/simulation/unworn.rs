@@ -26,7 +26,7 @@ const HALVINGS: u32 = 200;
 
 /// The unworn contact of a setup.
 #[derive(Clone, Copy)]
-pub(super) struct Unworn<'a>(pub &'a Setup);
+pub struct Unworn<'a>(pub &'a Setup);
 
 /// A contact that slips in a ring, under a normal load that is held.
 #[derive(Debug, Clone, Copy)]
@@ -77,7 +77,7 @@ impl Unworn<'_> {
     }
 
     /// The contact under a constant normal load; `None` if the load varies, nothing touches, or nothing moves.
-    pub fn ring(&self) -> Option<Ring> {
+    pub(super) fn ring(&self) -> Option<Ring> {
         let setup = self.0;
         let normal = setup.drive.normal().oscillation();
         if normal.amplitude() != 0.0 || normal.mean() <= 0.0 {

@@ -12,10 +12,9 @@
 //! Both hold for the unworn shape. Wear moves the border of gross slip where a force is prescribed.
 
 use super::Study;
-use crate::contact::indenter::Indenter;
-use crate::contact::material::Material;
 use crate::math::root;
 use crate::scenario::Scenario;
+use crate::simulation::Unworn;
 use crate::simulation::drive::Control;
 
 /// A border.
@@ -54,17 +53,18 @@ impl Border {
         let Control::Displacement(shift) = setup.drive.tangential()? else {
             return None;
         };
-        let (indenter, material) = (&setup.indenter, &setup.material);
+        let unworn = Unworn(setup);
         let rig = setup.drive.rig_compliance();
         let steady = normal.oscillation().amplitude() == 0.0;
         let lowest = normal.oscillation().lowest();
         let (depth, force) = match normal {
             // What a rig takes under a load that changes has no closed form.
             _ if rig > 0.0 && !steady => return None,
-            Control::Force(_) => (depth_under(lowest, indenter, material)?, lowest),
-            Control::Displacement(_) => (lowest, force_at(lowest, indenter, material)?),
+            Control::Force(_) => (unworn.depth(lowest.max(0.0)), lowest.max(0.0)),
+            Control::Displacement(_) => (lowest, unworn.force(lowest)),
         };
-        Some(depth - ratio * (shift.amplitude() - rig * material.friction() * force))
+        let taken_by_rig = rig * setup.material.friction() * force;
+        Some(depth - ratio * (shift.amplitude() - taken_by_rig))
     }
 
     /// The value of axis `along` at which the border is crossed, the other axes standing at
@@ -87,78 +87,18 @@ impl Border {
     }
 }
 
-/// The depth (m) at which an unworn indenter carries `force` (N).
-fn depth_under(force: f64, indenter: &Indenter, material: &Material) -> Option<f64> {
-    let modulus = material.normal_modulus();
-    if force <= 0.0 {
-        return Some(0.0);
-    }
-    if let Some(rim) = indenter.rim() {
-        return Some(force / (2.0 * modulus * rim));
-    }
-    let carried = |radius: f64| force_within(radius, indenter, modulus);
-    let wide = wide_enough(|radius| carried(radius) >= force)?;
-    let radius = root::bracketed(
-        |radius| carried(radius) / force - 1.0,
-        0.0,
-        wide,
-        1e-13 * wide,
-    )?;
-    Some(indenter.profile_1d(radius))
-}
-
-/// The force (N) that an unworn indenter carries at `depth` (m).
-fn force_at(depth: f64, indenter: &Indenter, material: &Material) -> Option<f64> {
-    let modulus = material.normal_modulus();
-    if depth <= 0.0 {
-        return Some(0.0);
-    }
-    if let Some(rim) = indenter.rim() {
-        return Some(2.0 * modulus * rim * depth);
-    }
-    let wide = wide_enough(|radius| indenter.profile_1d(radius) >= depth)?;
-    let radius = root::bracketed(
-        |radius| indenter.profile_1d(radius) / depth - 1.0,
-        0.0,
-        wide,
-        1e-13 * wide,
-    )?;
-    Some(force_within(radius, indenter, modulus))
-}
-
-/// A radius (m) at which `holds` is true, up to a thousand kilometres.
-fn wide_enough(holds: impl Fn(f64) -> bool) -> Option<f64> {
-    let radii = (0..50).map(|i| 1e-9 * f64::from(i).exp2());
-    radii.into_iter().find(|&radius| holds(radius))
-}
-
-/// The force of an unworn contact of this radius: F = 2E*∫(d − g) dx.
-fn force_within(radius: f64, indenter: &Indenter, modulus: f64) -> f64 {
-    let depth = indenter.profile_1d(radius);
-    // Simpson's rule in x = a sin φ, which is smooth at the tip and at the edge.
-    let cells = 200;
-    let at = |i: u32| {
-        let angle = f64::from(i) / f64::from(cells) * std::f64::consts::FRAC_PI_2;
-        let compression = depth - indenter.profile_1d(radius * angle.sin());
-        let weight = match i {
-            0 => 1.0,
-            i if i == cells => 1.0,
-            i if i % 2 == 1 => 4.0,
-            _ => 2.0,
-        };
-        weight * compression * radius * angle.cos()
-    };
-    let sum: f64 = (0..=cells).map(at).sum();
-    2.0 * modulus * sum * std::f64::consts::FRAC_PI_2 / f64::from(cells) / 3.0
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::indenter::Indenter;
+    use crate::contact::material::Material;
+    use crate::simulation::Setup;
 
     #[test]
     fn the_depth_under_a_force_is_that_of_the_closed_forms() {
         let material = Material::new(2e11, 0.3, 0.1).expect("a material");
+        let scenario = Scenario::load("li2019-fig3", &[]).expect("a scenario");
+        let setup = scenario.setup();
         for (indenter, depth_per_force) in [
             // F = 2n/(n+1) E* d a.
             (Indenter::paraboloid(0.01).expect("a shape"), 4.0 / 3.0),
@@ -168,12 +108,17 @@ mod tests {
             let radius = 1.3e-4;
             let depth = indenter.profile_1d(radius);
             let force = depth_per_force * 2e11 * depth * radius;
-            let found = depth_under(force, &indenter, &material).expect("a depth");
+            let setup = Setup {
+                indenter: indenter.clone(),
+                material,
+                ..setup.clone()
+            };
+            let found = Unworn(&setup).depth(force);
             assert!(
                 (found / depth - 1.0).abs() < 1e-6,
                 "{indenter:?}: {found:e} {depth:e}"
             );
-            let back = force_at(depth, &indenter, &material).expect("a force");
+            let back = Unworn(&setup).force(depth);
             assert!(
                 (back / force - 1.0).abs() < 1e-6,
                 "{indenter:?}: {back:e} {force:e}"

@@ -9,6 +9,9 @@ use super::refinement::{self, Difference, Level, Outcome, Verdict};
 /// Ratio of the cells and steps of the fine run to those of the rung that it judges.
 const FINER: f64 = 3.0;
 
+/// Ratio of the tolerances of their jumps over cycles.
+const FINER_JUMPS: f64 = 30.0;
+
 /// What the judge saw of one scenario at one accuracy.
 #[derive(Debug, Clone)]
 pub struct Case {
@@ -57,7 +60,8 @@ pub fn judge(seed: u64, accuracy: f64, budget: f64, clock: &dyn Fn() -> f64) -> 
     let climbed = refinement::climb(&scenario, cycles, accuracy, budget, &go_on, clock);
     let reached = climbed.map_err(|error| error.to_string()).map(|reached| {
         let level = reached.rung.level;
-        let fine = level.scaled(FINER, FINER);
+        let mut fine = level.scaled(FINER, FINER);
+        fine.tolerance = level.tolerance.map(|tolerance| tolerance / FINER_JUMPS);
         let truth = fine
             .of_scenario(&scenario)
             .map_err(|error| error.to_string())

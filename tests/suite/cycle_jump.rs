@@ -212,6 +212,26 @@ fn a_shallow_scar_is_jumped_as_well() {
     assert!(direct < 200 * 60, "{direct} steps");
 }
 
+/// A border that passes a node makes jumps too short for a while. They are tried again, and longer, soon after.
+#[test]
+fn jumps_go_on_after_a_hard_place() {
+    let overrides = [
+        "motion.normal.mean=1.0526315789473685e-6",
+        "motion.normal.amplitude=1.0526315789473685e-7",
+        "motion.tangential.amplitude=1e-8",
+        "numerics.points=80",
+        "numerics.steps_per_cycle=75",
+        "numerics.integrator=cycle-jump",
+        "numerics.tolerance=3e-7",
+    ];
+    let overrides = overrides.map(ToOwned::to_owned);
+    let scenario = Scenario::load("li2019-fig3", &overrides).expect("a scenario");
+    let run = run_setup(scenario.setup().clone(), 1000.0);
+    let stats = run.state().stats;
+    assert!(stats.rejected_jumps > 2, "{stats:?}");
+    assert!(run.steps() < 20 * 75, "{} steps: {stats:?}", run.steps());
+}
+
 #[test]
 fn motions_that_never_repeat_are_stepped() {
     let setup = ours(Scene {

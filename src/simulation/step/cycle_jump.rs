@@ -102,22 +102,22 @@ pub(in super::super) fn jump(
         scratch,
     };
     let mut found = search.search(&mut memory, f64::INFINITY);
-    let pays = found.is_some();
-    let is_short = found.as_ref().is_some_and(|jump| jump.covered > most);
+    let is_short = matches!(&found, Ok(jump) if jump.covered > most);
     if is_short {
         go_back(&mut memory, &springs);
         found = search.search(&mut memory, most);
     }
-    let Some(jump) = found else {
-        next.clone_from(state);
-        next.stats = memory.stats;
-        if !pays {
-            rest(&model.setup, next);
+    let jump = match found {
+        Ok(jump) => jump,
+        Err(TooShort(length)) => {
+            next.clone_from(state);
+            next.stats = memory.stats;
+            if is_short {
+                return Ok(Jumped::TooNear);
+            }
+            rest(&model.setup, next, length);
+            return Ok(Jumped::NotWorthIt);
         }
-        return Ok(match is_short {
-            true => Jumped::TooNear,
-            false => Jumped::NotWorthIt,
-        });
     };
     *next = after_jump(model, state, memory, jump);
     Ok(match is_short {
@@ -137,14 +137,14 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// A jump of at most `most` cycles whose error is allowed; none if direct steps are better.
+    /// A jump of at most `most` cycles whose error is allowed, or one so short that direct steps are better.
     /// `memory` then holds the springs at its end.
-    fn search(&mut self, memory: &mut State, most: f64) -> Option<Jump> {
+    fn search(&mut self, memory: &mut State, most: f64) -> Result<Jump, TooShort> {
         let (state, first, setup) = (self.state, self.first, &self.model.setup);
         let Integrator::CycleJump { tolerance } = setup.integrator else {
-            return None;
+            return Err(TooShort(0.0));
         };
-        let period = f64::from(setup.drive.repeats_after()?);
+        let period = period_of(setup);
         let depth = setup.depth_scale(state.contact.depth);
         let mut length = if state.jump.length > 0.0 {
             state.jump.length
@@ -161,7 +161,7 @@ impl Search<'_> {
             }
             let price = stages as f64 * steady_cycle::cost(setup) * period;
             if covered < (WORTH * price).max(period) {
-                return None;
+                return Err(TooShort(length));
             }
             let tried = self.attempt(memory, covered, stages);
             let error = match &tried {
@@ -173,7 +173,7 @@ impl Search<'_> {
             match tried {
                 Ok(after) if error <= 1.0 => {
                     let next = covered * factor;
-                    return Some(Jump {
+                    return Ok(Jump {
                         covered,
                         // A goal that was near says nothing about the next jump.
                         next: if most < length {
@@ -235,6 +235,9 @@ fn go_back(memory: &mut State, springs: &State) {
     memory.clone_from(springs);
     memory.stats = stats;
 }
+
+/// A jump over so few cycles that direct steps are better, and how long it would have been, in cycles.
+struct TooShort(f64);
 
 /// A jump that was found.
 struct Jump {
@@ -322,10 +325,16 @@ fn after_jump(model: &Model, state: &State, memory: State, jump: Jump) -> State 
     end
 }
 
-/// Leaves the next periods to direct steps, ever more of them while jumps do not pay.
-fn rest(setup: &Setup, state: &mut State) {
-    let period = f64::from(setup.drive.repeats_after().unwrap_or(1));
+/// Leaves the next periods to direct steps, ever more of them while jumps do not pay. What made jumps of `length`
+/// cycles too short may be over by then: the next one tried is twice as long.
+fn rest(setup: &Setup, state: &mut State, length: f64) {
     let patience = state.jump.patience.max(1);
-    state.jump.rest_until = state.cycle + f64::from(patience) * period;
+    state.jump.rest_until = state.cycle + f64::from(patience) * period_of(setup);
     state.jump.patience = (2 * patience).min(LONGEST_REST);
+    state.jump.length = 2.0 * length;
+}
+
+/// The cycles after which the motion repeats.
+fn period_of(setup: &Setup) -> f64 {
+    f64::from(setup.drive.repeats_after().unwrap_or(1))
 }

@@ -9,7 +9,7 @@
 //! p is limited to the observed range, since two runs may agree by chance. A run too coarse to be
 //! halved is compared with a finer twin instead.
 
-use super::level::Level;
+use super::level::{Level, at_steps};
 use super::outcome::{Difference, Outcome};
 use super::run;
 use crate::scenario::session::{Session, SessionError};
@@ -95,7 +95,7 @@ fn twin_of(session: &Session, factor: f64) -> Result<Scenario, SessionError> {
                 (steps * factor).round().max(4.0).to_string()
             }
             ("numerics.tolerance", Ok(tolerance)) => {
-                format!("{:e}", (tolerance / (factor * factor)).min(0.1))
+                format!("{:e}", at_steps(tolerance, factor))
             }
             _ => return change.clone(),
         };

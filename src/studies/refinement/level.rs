@@ -7,10 +7,6 @@ use crate::simulation::Integrator;
 /// The fewest steps per cycle that are tried.
 const MIN_STEPS: u32 = 4;
 
-/// The order with which the error of a jump is taken to follow the steps: half the steps go with
-/// four times the tolerance.
-const JUMPS: f64 = 2.0;
-
 /// One level of refinement.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Level {
@@ -44,9 +40,7 @@ impl Level {
         Self {
             points: points.clamp(MIN_CELLS as f64, MAX_CELLS as f64) as usize,
             steps: steps.clamp(f64::from(MIN_STEPS.min(self.steps)), 1e6) as u32,
-            tolerance: self
-                .tolerance
-                .map(|tolerance| rounded((tolerance / time.powf(JUMPS)).clamp(1e-12, 0.1))),
+            tolerance: self.tolerance.map(|tolerance| at_steps(tolerance, time)),
         }
     }
 
@@ -83,6 +77,12 @@ impl Level {
         let keys: Vec<(&str, &str)> = keys.iter().map(|(k, v)| (*k, v.as_str())).collect();
         scenario.with_all(&keys)
     }
+}
+
+/// The tolerance of jumps that goes with `time` times the steps. It bounds the error of a jump, which so falls about
+/// as the error of the steps does; a higher power of `time` makes jumps shorter than the steps are worth.
+pub(super) fn at_steps(tolerance: f64, time: f64) -> f64 {
+    rounded((tolerance / time).clamp(1e-12, 0.1))
 }
 
 /// Two digits: no more than anybody would write.

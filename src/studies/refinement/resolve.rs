@@ -2,6 +2,7 @@
 
 use super::{Difference, Reached, RefinementError, Verdict, run_to_accuracy};
 use crate::scenario::Scenario;
+use crate::scenario::session::Session;
 
 /// Cycles over which an accuracy is met for a run without an end.
 const WITHOUT_END: f64 = 100.0;
@@ -18,6 +19,8 @@ pub struct Resolved {
     pub statements: Vec<(String, String)>,
     /// One line if the accuracy is not met.
     pub warning: Option<String>,
+    /// The run on these points and steps at its end, if there was an accuracy to meet.
+    pub ended: Option<Session>,
 }
 
 /// Finds the points and steps that meet the accuracy of `scenario` in a run of `cycles` (those of its own plan if
@@ -36,6 +39,7 @@ pub fn resolve(
             scenario: scenario.clone(),
             statements: Vec::new(),
             warning: None,
+            ended: None,
         });
     };
     let cycles = cycles.or(scenario.run().cycles).unwrap_or(WITHOUT_END);
@@ -50,6 +54,7 @@ pub fn resolve(
         scenario: reached.rung.level.of_scenario(scenario)?,
         statements,
         warning,
+        ended: Some(reached.session),
     })
 }
 

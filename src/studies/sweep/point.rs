@@ -40,7 +40,7 @@ fn failed(study: &Study, why: &str) -> Row {
 
 /// Runs `scenario` as a point of `study`: for its columns, until one of its ends.
 pub(super) fn run_scenario(study: &Study, scenario: Scenario, halt: &AtomicBool) -> Option<Row> {
-    let mut session = match started(&scenario, halt)? {
+    let mut session = match begun(&scenario, &study.stop, halt)? {
         Ok(session) => session,
         Err(error) => return Some(failed(study, &error)),
     };
@@ -71,16 +71,20 @@ pub(super) fn run_scenario(study: &Study, scenario: Scenario, halt: &AtomicBool)
     }
 }
 
-/// A session at its start, with the points and steps that meet the accuracy of the scenario if it asks for one;
-/// none if `halt` was set meanwhile.
-fn started(scenario: &Scenario, halt: &AtomicBool) -> Option<Result<Session, String>> {
+/// A session with the points and steps that meet the accuracy of the scenario if it asks for one; none if `halt`
+/// was set meanwhile. If only the scenario's last cycle ends the point, the run that met the accuracy
+/// is the point already; else the session is at its start.
+fn begun(scenario: &Scenario, stop: &Stop, halt: &AtomicBool) -> Option<Result<Session, String>> {
     let go_on = || !halt.load(Ordering::Relaxed);
     let found = match refinement::resolve(scenario, None, f64::INFINITY, &go_on) {
         Ok(found) => found,
         Err(RefinementError::Interrupted) => return None,
         Err(error) => return Some(Err(error.to_string())),
     };
-    let session = Session::start(found.scenario).map_err(|error| error.to_string());
+    let session = match found.ended {
+        Some(ended) if *stop == Stop::default() => Ok(ended),
+        _ => Session::start(found.scenario).map_err(|error| error.to_string()),
+    };
     Some(session.map(|mut session| {
         for (key, value) in &found.statements {
             session.state(key, value);

@@ -2,8 +2,10 @@
 //! `cargo bench --bench judge`.
 
 use mdr_tui::scenario::Scenario;
-use mdr_tui::studies::judge::{judge, judge_estimate};
-use mdr_tui::studies::refinement::{Ladder, Level, Next, Outcome, Verdict, run, run_to_accuracy};
+use mdr_tui::studies::judge::{judge, judge_estimate, quantile};
+use mdr_tui::studies::refinement::{
+    Difference, Ladder, Level, Next, Outcome, Verdict, run, run_to_accuracy,
+};
 
 use crate::test_dir::TestDir;
 
@@ -41,24 +43,38 @@ fn an_accuracy_is_kept_on_random_scenarios() {
     }
 }
 
-/// An estimate seldom understates by more than 3, here for the numbers that an accuracy promises: one of
-/// these sixteen does.
+/// An estimate seldom understates by more than 3, whichever number it is of: in 5 of 100 at most in the long study.
 #[test]
-fn a_coarser_twin_tells_the_error_of_a_run() {
-    let mut understated = 0;
-    for seed in [2, 4, 5, 8, 9, 11, 12, 14] {
-        let (estimate, truth) = judge_estimate(seed).expect("runs");
-        for (found, exact) in [
-            (estimate.worn_depth, truth.worn_depth),
-            (estimate.volume, truth.volume),
-        ] {
-            understated += usize::from(found / exact < 1.0 / 3.0);
-            assert!(found / exact > 0.1, "{seed}: {estimate:?} {truth:?}");
-        }
-        let ratio = estimate.promised() / truth.promised();
-        assert!(ratio < 30.0, "{seed}: {estimate:?} {truth:?}");
+fn coarser_twins_tell_the_errors_of_a_run() {
+    type Pick = fn(&Difference) -> f64;
+    let numbers: [(&str, Pick); 4] = [
+        ("worn depth", |one| one.worn_depth),
+        ("volume", |one| one.volume),
+        ("F_x", |one| one.force),
+        ("p", |one| one.pressure),
+    ];
+    let cases: Vec<_> = (700..730)
+        .filter_map(|seed| judge_estimate(seed).ok())
+        .collect();
+    assert!(cases.len() >= 25, "{} runs came to their end", cases.len());
+    for (name, pick) in numbers {
+        let ratios = cases
+            .iter()
+            .map(|(estimate, truth)| (pick(estimate), pick(truth)));
+        // What round-off makes is no error of cells and steps.
+        let ratios: Vec<f64> = ratios
+            .filter(|(_, truth)| *truth > 1e-9)
+            .map(|(estimate, truth)| estimate / truth)
+            .collect();
+        let understated = ratios.iter().filter(|ratio| **ratio < 1.0 / 3.0).count();
+        assert!(
+            understated <= 1,
+            "{name}: {understated} of {} by more than 3",
+            ratios.len()
+        );
+        let typical = quantile(&ratios, 0.5);
+        assert!((0.8..3.0).contains(&typical), "{name}: {typical}");
     }
-    assert!(understated <= 1, "{understated} of 16 by more than 3");
 }
 
 /// The last rung is the result: the same numerics give the same bits, and its error is that of the statement.

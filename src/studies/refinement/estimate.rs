@@ -6,8 +6,9 @@
 //! D₁ = |run − half|,  D₂ = |half − quarter|,  p = log₂(D₂/D₁),  e = D₁/(2ᵖ − 1)
 //! ```
 //!
-//! p is limited to the observed range, since two runs may agree by chance. A run too coarse to be
-//! halved is compared with a finer twin instead.
+//! p is limited to the observed range, since two runs may agree by chance: V and F_x are numbers in which errors of
+//! opposite sign cancel, so D₁ counts as at least a quarter of D₂, as in a scheme of second order. A run too coarse
+//! to be halved twice is compared with a finer twin instead.
 
 use super::level::{Level, at_steps};
 use super::outcome::{Difference, Outcome};
@@ -22,8 +23,8 @@ const ASSUMED: f64 = 1.3;
 /// The fewest cells and steps that a twin is any good with.
 const COARSEST: (usize, u32) = (8, 4);
 
-/// No error falls faster than this from the quarter to the half, and from the half to the run.
-const FASTEST: f64 = 16.0;
+/// No difference falls faster than this from the quarter to the half: the schemes are of second order at best.
+const FASTEST: f64 = 4.0;
 
 /// Estimates the error of a run at its present moment; `None` if `go_on` said no on the way.
 ///
@@ -47,7 +48,7 @@ pub fn estimate(
         level.points as f64 * factor >= COARSEST.0 as f64
             && f64::from(level.steps) * factor >= f64::from(COARSEST.1)
     };
-    if !can_have(0.5) {
+    if !can_have(0.25) {
         let fine = match twin(2.0)? {
             Ok(fine) => fine,
             Err(error) => return Some(Err(error)),
@@ -64,10 +65,7 @@ pub fn estimate(
     };
     let first = half.against(&here);
     // A quarter that breaks down leaves the order unknown, and no more.
-    let second = match can_have(0.25).then(|| twin(0.25)) {
-        None => None,
-        Some(twin) => twin?.ok().map(|quarter| quarter.against(&half)),
-    };
+    let second = twin(0.25)?.ok().map(|quarter| quarter.against(&half));
     Some(Ok(match second {
         None => first.with(&first, |d, _| d / (2f64.powf(ASSUMED) - 1.0)),
         Some(second) => first.with(&second, by_observed_order),

@@ -131,7 +131,11 @@ impl Outcome {
         Difference {
             worn_depth: relative(self.worn_difference(fine), fine.scar_depth()),
             volume: relative(self.volume - fine.volume, fine.volume),
-            force: relative(self.force - fine.force, fine.force_scale),
+            // At the moment of lift-off one of the two may carry no force at all.
+            force: relative(
+                self.force - fine.force,
+                fine.force_scale.max(self.force_scale),
+            ),
             pressure: rms((1..RADII)
                 .map(|i| inside * i as f64 / (RADII - 1) as f64)
                 .filter(|r| (r - stick).abs() > away && *r > away)

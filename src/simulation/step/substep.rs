@@ -41,7 +41,7 @@ pub(super) enum Part {
     Raw,
     /// If it is not too stiff.
     Guarded,
-    /// As a slip instability, which no smaller sub-steps would tame.
+    /// As a slip instability, which stays as stiff in the smallest sub-steps.
     Unstable,
 }
 
@@ -59,8 +59,7 @@ pub(super) fn step(
     // The end of the last sub-step; none before there is one.
     let mut within: Option<State> = None;
     let mut part = 1.0;
-    // The last try that was too stiff, its length and its stiffness.
-    let (mut failed, mut unstable, mut hopeless) = (None, false, false);
+    let mut hopeless = false;
     let (mut parts, mut stiffest) = (0, 0.0_f64);
     loop {
         let from = within.as_ref().unwrap_or(state);
@@ -76,7 +75,7 @@ pub(super) fn step(
         let kind = match guard {
             _ if hopeless => Part::Raw,
             Stability::Off => Part::Raw,
-            Stability::SubStep if unstable || part <= SMALLEST => Part::Unstable,
+            Stability::SubStep if part <= SMALLEST => Part::Unstable,
             Stability::SubStep => Part::Guarded,
         };
         let growth = match attempt(from, next, reach, kind)? {
@@ -86,14 +85,7 @@ pub(super) fn step(
                 continue;
             }
             Outcome::TooStiff(stiffness) => {
-                // Slip that takes no time stays as large in a part of the step.
-                let (tried, was) = failed
-                    .replace((part, stiffness))
-                    .unwrap_or((part, stiffness));
-                unstable = part < tried && stiffness / was > (part / tried).sqrt();
-                if !unstable {
-                    part = (part * aim / stiffness).max(SMALLEST);
-                }
+                part = (part * aim / stiffness).max(SMALLEST);
                 continue;
             }
             Outcome::Stabilised => {
@@ -106,7 +98,6 @@ pub(super) fn step(
             }
         };
         parts += 1;
-        (failed, unstable) = (None, false);
         part = (part * growth).min(1.0);
         if next.cycle >= cycle {
             break;

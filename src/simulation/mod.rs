@@ -52,7 +52,6 @@
 use crate::contact::indenter::Indenter;
 use crate::contact::material::Material;
 use crate::contact::scar::Scar;
-use crate::math::abel::cone::Rest;
 use crate::math::abel::{AbelMethod, worn};
 use crate::math::grid::RadialGrid;
 use crate::wear::WearLaw;
@@ -193,8 +192,7 @@ struct Scratch {
     /// The 1D profile that the contact is solved on, m.
     g: Vec<f64>,
     increment: Increment,
-    /// A load without its cusp.
-    rest: Rest,
+    stresses: traction::Buffers,
     /// The stresses before the step, where slip reaches further in than those of its state.
     before: Traction,
     /// Transforms computed since they were last counted.
@@ -206,7 +204,7 @@ impl Scratch {
         Self {
             g: vec![0.0; model.nodes()],
             increment: Increment::new(model),
-            rest: Rest::default(),
+            stresses: traction::Buffers::default(),
             before: Traction::zeros(model.springs()),
             transforms: 0,
         }

@@ -60,7 +60,9 @@ pub(super) fn step(
 /// What a step wears whose contact has been solved, into `scratch.increment`.
 pub(super) fn wear(model: &Model, state: &State, next: &State, scratch: &mut Scratch, cycle: f64) {
     let Scratch {
-        increment, rest, ..
+        increment,
+        stresses,
+        ..
     } = scratch;
     if model.springs() == 0 {
         return;
@@ -73,7 +75,7 @@ pub(super) fn wear(model: &Model, state: &State, next: &State, scratch: &mut Scr
         let first = leading(&increment.surface_slip[..end], |&slip| slip == 0.0);
         increment.nodes = first..end;
         let (stuck, tau) = (state.stuck_radius(), &mut increment.shear);
-        traction::shear(model, contact, stuck, first..end, rest, tau);
+        traction::shear(model, contact, stuck, first..end, stresses, tau);
         scratch.transforms += 2;
         increment.wear(model, model.seconds(cycle - state.cycle));
     }

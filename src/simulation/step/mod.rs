@@ -60,7 +60,14 @@ pub(super) fn settle(model: &Model, state: &mut State, scratch: &mut Scratch) ->
     if model.springs() > 0 && setup.wear.is_some() && setup.scheme == Scheme::Trapezoid {
         let first = traction::first_needed(model, state);
         let (contact, traction) = (&state.contact, &mut state.traction);
-        traction::of(model, contact, stuck, first, &mut scratch.rest, traction);
+        traction::of(
+            model,
+            contact,
+            stuck,
+            first,
+            &mut scratch.stresses,
+            traction,
+        );
     }
     state.stats.contacts += 1;
     state.stats.transforms += 1;

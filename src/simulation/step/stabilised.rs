@@ -159,7 +159,7 @@ fn pass(
         model.profile(&image, 0.0, &[], &mut g);
         let (contact, p) = (&mut next.contact, &mut next.traction.pressure);
         contact::press_at(model, &g, state.cycle + y[nodes + 1] * duration, contact)?;
-        traction::pressure(model, contact, stuck, &mut scratch.rest, p);
+        traction::pressure(model, contact, stuck, &mut scratch.stresses, p);
         scratch.transforms += 2;
         let increment = &mut scratch.increment;
         increment.wear_by_load(model, contact, p, zone, seconds);

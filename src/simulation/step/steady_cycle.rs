@@ -82,7 +82,7 @@ fn take_over(memory: &mut State, spare: &mut State, cycle: f64) {
 fn find_tractions(model: &Model, memory: &mut State, scratch: &mut Scratch) {
     let stuck = memory.stuck_radius();
     let (contact, traction) = (&memory.contact, &mut memory.traction);
-    traction::of(model, contact, stuck, 0, &mut scratch.rest, traction);
+    traction::of(model, contact, stuck, 0, &mut scratch.stresses, traction);
     memory.stats.transforms += 2;
 }
 

@@ -136,7 +136,7 @@ pub(super) fn wear(
 pub(super) fn tractions(model: &Model, state: &State, next: &mut State, scratch: &mut Scratch) {
     let Scratch {
         increment,
-        rest,
+        stresses,
         before,
         transforms,
         ..
@@ -146,10 +146,10 @@ pub(super) fn tractions(model: &Model, state: &State, next: &mut State, scratch:
         spring == SpringState::Stick
     });
     let first = traction::first_needed(model, state).min(slipping);
-    traction::of(model, contact, stuck, first, rest, &mut next.traction);
+    traction::of(model, contact, stuck, first, stresses, &mut next.traction);
     if slipping < state.traction.first {
         // Nothing slipped here for a period: nobody asked for the stresses until now.
-        traction::of(model, &state.contact, stuck, slipping, rest, before);
+        traction::of(model, &state.contact, stuck, slipping, stresses, before);
         *transforms += 2;
     }
     increment.find_sliding(model, &state.traction, contact, slipping);
@@ -185,7 +185,7 @@ pub(super) fn mean_shear(model: &Model, state: &State, next: &State, scratch: &m
 mod tests {
     use super::*;
     use crate::contact::{indenter::Indenter, material::Material};
-    use crate::math::abel::{AbelMethod, cone::Rest};
+    use crate::math::abel::AbelMethod;
     use crate::math::grid::RadialGrid;
     use crate::simulation::choices::{Integrator, Scheme, Spacing, Stability};
     use crate::simulation::drive::{Control, Drive, Oscillation};
@@ -229,8 +229,8 @@ mod tests {
         let mut full = partial.clone();
         let stuck = full.state.stuck_radius();
         let (contact, traction) = (&full.state.contact, &mut full.state.traction);
-        let rest = &mut Rest::default();
-        traction::of(&full.model, contact, stuck, 0, rest, traction);
+        let buffers = &mut traction::Buffers::default();
+        traction::of(&full.model, contact, stuck, 0, buffers, traction);
         for _ in 0..2 {
             partial.step().expect("a step");
             full.step().expect("a step");

@@ -182,6 +182,7 @@ struct Scratch {
     g: Vec<f64>,
     increment: Increment,
     stresses: traction::Buffers,
+    stages: step::Stages,
     /// The stresses before the step, where slip reaches further in than those of its state.
     before: Traction,
     /// Transforms computed since they were last counted.
@@ -194,6 +195,7 @@ impl Scratch {
             g: vec![0.0; model.nodes()],
             increment: Increment::new(model),
             stresses: traction::Buffers::default(),
+            stages: step::Stages::default(),
             before: Traction::zeros(model.springs()),
             transforms: 0,
         }

@@ -31,6 +31,7 @@ mod substep;
 mod trapezoid;
 
 pub(super) use cycle_jump::{Jumped, is_possible, jump};
+pub(super) use stabilised::Stages;
 
 /// A worn depth of this many times the largest depth of indentation cannot come from contact.
 const RUNAWAY: f64 = 10.0;

@@ -29,77 +29,32 @@
 //!   explicit Euler at 800.
 //! - **Cost**: four transforms per step.
 
-use super::super::breakdown::Cause;
 use super::super::model::Model;
 use super::super::state::State;
 use super::super::traction::Traction;
 use super::super::wear::outer_slip_zone;
-use super::super::{Scratch, contact, traction};
-use super::substep::{self, Outcome, Part};
-use super::{accept, stabilised};
+use super::super::{Scratch, traction};
+use super::substep::Bounds;
 use crate::contact::tangential::SpringState;
 use crate::math::scan::leading;
 
 /// The farthest extrapolation of the profile, in lengths of the step before.
 const FARTHEST: f64 = 4.0;
 
-/// The stiffness beyond which a step is not taken as it is, and that of its sub-steps. Closer to the limit errors
-/// ring, and make springs slip that would not have.
-const STIFF: f64 = 0.7;
-const AIM: f64 = 0.35;
+/// Closer to the limit errors ring, and make springs slip that would not have.
+pub(super) const BOUNDS: Bounds = Bounds {
+    stiff: 0.7,
+    aim: 0.35,
+};
 
-/// One step from `state` to `cycle`, into `next`, in sub-steps where wear is stiff.
-pub(super) fn step(
-    model: &Model,
-    state: &State,
-    next: &mut State,
-    scratch: &mut Scratch,
-    cycle: f64,
-) -> Result<(), Cause> {
-    let guard = model.setup.stability;
-    substep::step(
-        guard,
-        AIM,
-        state,
-        next,
-        cycle,
-        |state, next, reach, part| attempt(model, state, next, scratch, reach, part),
-    )
-}
-
-fn attempt(
-    model: &Model,
-    state: &State,
-    next: &mut State,
-    scratch: &mut Scratch,
-    cycle: f64,
-    part: Part,
-) -> Result<Outcome, Cause> {
-    let duration = cycle - state.cycle;
-    let smooth = state.last.duration > 0.0 && part != Part::Unstable;
-    let ahead = if smooth {
+/// How far the profile is extrapolated over a step from `state` that takes `duration` cycles, in lengths of the step
+/// before.
+pub(super) fn ahead(state: &State, duration: f64) -> f64 {
+    if state.last.duration > 0.0 {
         (duration / state.last.duration).min(FARTHEST)
     } else {
         0.0
-    };
-    model.profile(&state.image, ahead, &state.last.growth, &mut scratch.g);
-    let (contact, slip) = (&mut next.contact, &mut scratch.increment.slip);
-    contact::solve(model, &scratch.g, &state.contact, cycle, contact, slip)?;
-    wear(model, state, next, scratch, cycle);
-    let stiffness = scratch.increment.stiffness(model, model.seconds(duration));
-    let mut outcome = Outcome::Done(stiffness);
-    match part {
-        Part::Guarded if stiffness > STIFF => {
-            if !stabilised::step(model, state, next, scratch, cycle, stiffness) {
-                return Ok(Outcome::TooStiff(stiffness));
-            }
-            outcome = Outcome::Stabilised;
-        }
-        Part::Guarded | Part::Raw => {}
-        Part::Unstable => scratch.increment.damp(model),
     }
-    accept(model, state, next, scratch, cycle)?;
-    Ok(outcome)
 }
 
 /// What a step wears whose contact has been solved, into `scratch.increment`, and its tractions at the end.

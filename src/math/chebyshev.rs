@@ -32,7 +32,8 @@ pub fn stages_for(stiffness: f64) -> usize {
 }
 
 /// One step of length `h` (in units of the independent variable) from `y` with the slope `first` there:
-/// `next` receives y_{n+1}. `slope` gives F; if it fails, so does the step.
+/// `next` receives y_{n+1}. `slope` gives F; if it fails, so does the step, and `next` is of
+/// no use.
 pub fn step<E>(
     stages: usize,
     h: f64,
@@ -43,24 +44,24 @@ pub fn step<E>(
 ) -> Result<(), E> {
     let coefficients = coefficients(stages.max(FEWEST_STAGES));
     let mut before = y.to_vec();
-    let mut latest: Vec<f64> = y
-        .iter()
-        .zip(first)
-        .map(|(y, f)| y + coefficients.first * h * f)
-        .collect();
+    next.clear();
+    next.extend(
+        y.iter()
+            .zip(first)
+            .map(|(y, f)| y + coefficients.first * h * f),
+    );
     let mut slopes = Vec::with_capacity(y.len());
     for stage in &coefficients.stages {
-        slope(&latest, &mut slopes)?;
+        slope(next, &mut slopes)?;
         for i in 0..y.len() {
             let value = (1.0 - stage.mu - stage.nu) * y[i]
-                + stage.mu * latest[i]
+                + stage.mu * next[i]
                 + stage.nu * before[i]
                 + h * (stage.mu_tilde * slopes[i] + stage.gamma_tilde * first[i]);
-            before[i] = latest[i];
-            latest[i] = value;
+            before[i] = next[i];
+            next[i] = value;
         }
     }
-    *next = latest;
     Ok(())
 }
 

@@ -232,8 +232,12 @@ impl Skyline {
             columns.map(move |(k, column)| (k, column.0[row % ROWS]))
         })
     }
+}
 
-    /// The operator as a dense matrix, for eigenvalues and norms.
+/// What tests ask of an operator.
+#[cfg(test)]
+impl Skyline {
+    /// The operator as a dense matrix.
     pub fn to_dense(&self) -> DMatrix<f64> {
         let mut dense = DMatrix::zeros(self.size, self.size);
         for row in 0..self.size {

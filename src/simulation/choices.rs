@@ -49,9 +49,6 @@ impl Integrator {
     /// The names in scenarios and files.
     pub const NAMES: [&str; 2] = ["direct", "cycle-jump"];
 
-    /// The tolerance of jumps where none is given.
-    pub const DEFAULT_TOLERANCE: f64 = 2e-4;
-
     /// The integrator of a name, with the tolerance of its jumps: greater than 0, at most 0.1.
     pub fn new(name: &str, tolerance: f64) -> Result<Self, Invalid> {
         if by_name("integrator", &Self::NAMES, |name| name, name)? == "direct" {

@@ -52,8 +52,7 @@
 use crate::contact::indenter::Indenter;
 use crate::contact::material::Material;
 use crate::contact::scar::Scar;
-use crate::math::abel::cone::Rest;
-use crate::math::abel::{AbelMethod, worn};
+use crate::math::abel::AbelMethod;
 use crate::math::grid::RadialGrid;
 use crate::wear::WearLaw;
 
@@ -69,6 +68,7 @@ mod limits;
 mod model;
 mod moments;
 pub mod observation;
+mod reconfigure;
 pub mod running_in;
 mod saved;
 pub mod stability;
@@ -87,9 +87,9 @@ use drive::{Drive, WITHOUT_REPEAT};
 pub use hardness::Passed;
 use model::Model;
 pub use observation::{Curves, Moment, Observation, Zone};
+pub use reconfigure::Domain;
 use running_in::RunningIn;
 pub use saved::{Saved, Unfit};
-use state::JumpMemory;
 pub use state::{State, Stats};
 use traction::Traction;
 pub use unworn::Unworn;
@@ -160,18 +160,6 @@ impl Setup {
     }
 }
 
-/// Who says where the domain of a [`Setup`] ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Domain {
-    /// The scenario, by a radius or by the rim of a punch: it ends there.
-    Given,
-    /// The program, by what can touch: it may end further out.
-    Derived,
-}
-
-/// The most that the worn volume may differ on another grid, relative to it.
-const MOST_LOST: f64 = 0.02;
-
 /// A running simulation.
 #[derive(Debug, Clone)]
 pub struct Simulation {
@@ -193,8 +181,8 @@ struct Scratch {
     /// The 1D profile that the contact is solved on, m.
     g: Vec<f64>,
     increment: Increment,
-    /// A load without its cusp.
-    rest: Rest,
+    stresses: traction::Buffers,
+    stages: step::Stages,
     /// The stresses before the step, where slip reaches further in than those of its state.
     before: Traction,
     /// Transforms computed since they were last counted.
@@ -206,7 +194,8 @@ impl Scratch {
         Self {
             g: vec![0.0; model.nodes()],
             increment: Increment::new(model),
-            rest: Rest::default(),
+            stresses: traction::Buffers::default(),
+            stages: step::Stages::default(),
             before: Traction::zeros(model.springs()),
             transforms: 0,
         }
@@ -252,104 +241,6 @@ impl Simulation {
             model,
             state,
         }
-    }
-
-    /// Replaces the parts mid-run. The worn profile, the springs and the counters are carried over;
-    /// on another grid they are interpolated. A derived domain does not shrink while wear lies outside
-    /// of the new one.
-    ///
-    /// # Errors
-    ///
-    /// The new parts cannot hold the contact, or would lose wear; the simulation stays as it was.
-    pub fn reconfigure(&mut self, setup: Setup, domain: Domain) -> Result<(), Breakdown> {
-        let setup = self.holding_wear(setup, domain)?;
-        let setup = if border::stays(self.setup(), &setup) {
-            Setup {
-                grid: self.setup().grid.clone(),
-                ..setup
-            }
-        } else {
-            border::graded(&setup, Some(self))
-        };
-        let state = self.state_on(&setup);
-        let mut changed = Self::with(Model::new(setup, Some(&self.model)), state);
-        let worn = self.wear_volume();
-        changed.settle()?;
-        let lost = worn - changed.wear_volume();
-        if lost.abs() > MOST_LOST * worn {
-            return Err(self.refused(Cause::WearBlurred {
-                cells: changed.setup().grid.cells(),
-                share: lost.abs() / worn,
-            }));
-        }
-        // What the nodes of the new grid say otherwise is not worn nor taken back.
-        changed.state.unexplained_volume -= lost;
-        *self = changed;
-        Ok(())
-    }
-
-    /// The setup on a domain that all wear fits into.
-    fn holding_wear(&self, setup: Setup, domain: Domain) -> Result<Setup, Breakdown> {
-        let (nodes, wear) = (self.setup().grid.nodes(), &self.state.wear);
-        let reach = match wear.iter().rposition(|&worn| worn != 0.0) {
-            // Between the last node that is worn and the next one, wear falls to zero.
-            Some(last) => nodes[(last + 1).min(nodes.len() - 1)],
-            None => 0.0,
-        };
-        let radius = setup.grid.radius();
-        if radius >= reach {
-            return Ok(setup);
-        }
-        let wider = RadialGrid::uniform(setup.grid.cells(), self.setup().grid.radius());
-        match (domain, wider) {
-            (Domain::Derived, Ok(grid)) => Ok(Setup { grid, ..setup }),
-            _ => Err(self.refused(Cause::WearCutOff { reach, radius })),
-        }
-    }
-
-    /// The state is still that of the last good step.
-    fn refused(&self, cause: Cause) -> Breakdown {
-        Breakdown {
-            cycle: self.state.cycle,
-            cause,
-        }
-    }
-
-    /// The present state on the grid of another setup.
-    fn state_on(&self, setup: &Setup) -> State {
-        let (grid, springs) = (&self.setup().grid, setup.springs());
-        if setup.grid == *grid && springs == self.model.springs() {
-            return State {
-                jump: JumpMemory::default(),
-                ..self.state.clone()
-            };
-        }
-        let before = &self.state.contact;
-        let fresh = State::new(setup.grid.len(), springs > 0);
-        let mut state = State {
-            contact: contact::Contact {
-                depth: before.depth,
-                shift: before.shift,
-                ..fresh.contact
-            },
-            wear: fresh.wear,
-            image: fresh.image,
-            traction: fresh.traction,
-            last: fresh.last,
-            jump: JumpMemory::default(),
-            ..self.state.clone()
-        };
-        let nodes = setup.grid.nodes();
-        for (worn, &r) in state.wear.iter_mut().zip(nodes) {
-            // Between nodes the interpolant may swing below zero by a little.
-            *worn = worn::interpolate(grid, &self.state.wear, r).max(0.0);
-        }
-        if springs > 0 && self.model.springs() > 0 {
-            for (u, &r) in state.contact.spring.nodal.iter_mut().zip(nodes) {
-                *u = grid.interpolate(&before.spring.nodal, r);
-            }
-        }
-        state
     }
 
     /// The parts in use; the grid is the one that is computed on.
@@ -523,6 +414,14 @@ impl Simulation {
         self.run_in();
         self.next = self.look_ahead();
         Ok(())
+    }
+
+    /// The state is still that of the last good step.
+    fn refused(&self, cause: Cause) -> Breakdown {
+        Breakdown {
+            cycle: self.state.cycle,
+            cause,
+        }
     }
 
     /// Worn volume 2π∫(f − f₀) r dr, m³.

@@ -9,7 +9,6 @@ use super::{Simulation, cycle_figures, stability, traction};
 use crate::contact::subsurface::SpringLoad;
 use crate::contact::tangential::SpringState;
 use crate::math::abel::AbelMethod;
-use crate::math::abel::cone::Rest;
 use crate::math::abel::worn;
 use crate::math::grid::RadialGrid;
 use crate::math::quadrature::volume_of_revolution;
@@ -213,8 +212,8 @@ impl Simulation {
     pub fn pressure(&self) -> Vec<f64> {
         let mut pressure = vec![0.0; self.setup().grid.len()];
         let (contact, stuck) = (&self.state.contact, self.state.stuck_radius());
-        let rest = &mut Rest::default();
-        traction::pressure(&self.model, contact, stuck, rest, &mut pressure);
+        let buffers = &mut traction::Buffers::default();
+        traction::pressure(&self.model, contact, stuck, buffers, &mut pressure);
         pressure
     }
 
@@ -278,10 +277,10 @@ impl Simulation {
             pressure: when(Curves::PRESSURE, &|| self.pressure()),
             shear: when(Curves::SHEAR, &|| {
                 let stuck = self.state.stuck_radius();
-                let rest = &mut Rest::default();
+                let buffers = &mut traction::Buffers::default();
                 let mut out = vec![0.0; nodes];
                 if with_springs {
-                    traction::shear(model, contact, stuck, 0..nodes, rest, &mut out);
+                    traction::shear(model, contact, stuck, 0..nodes, buffers, &mut out);
                 }
                 out
             }),

@@ -10,10 +10,14 @@ use super::model::Model;
 use super::state::State;
 use crate::contact::tangential::SpringState;
 use crate::math::abel::cone::Rest;
+use crate::math::scan::changes;
 use crate::math::vector::{add_to, vectorized};
 
 /// Springs beyond the permanent stick zone whose load still drops like a root.
 const STEEP: usize = 4;
+
+/// Nodes behind a border of stick whose second difference reaches across it.
+const BEHIND_BORDER: usize = 2;
 
 /// Nodes within the permanent stick radius that stresses are computed for all the same: slip may reach a little
 /// further in than in the period before.
@@ -41,6 +45,15 @@ impl Traction {
     }
 }
 
+/// What stresses are computed with and nobody reads afterwards.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Buffers {
+    /// A load without its cusp.
+    rest: Rest,
+    /// What curvature adds to p, Pa, nodal.
+    terms: Vec<f64>,
+}
+
 /// The first node whose stresses the steps from `state` on need: further in nothing has slipped for a period.
 pub(super) fn first_needed(model: &Model, state: &State) -> usize {
     if state.settled_stick_radius.is_none() {
@@ -57,9 +70,10 @@ pub(super) fn of(
     contact: &Contact,
     stuck: f64,
     first: usize,
-    rest: &mut Rest,
+    buffers: &mut Buffers,
     traction: &mut Traction,
 ) {
+    let Buffers { rest, terms } = buffers;
     traction.first = first;
     let Traction {
         pressure: p,
@@ -69,16 +83,9 @@ pub(super) fn of(
     let nodes = first..tau.len();
     pressure_of_chords(model, contact, nodes.clone(), rest, p);
     shear_of_chords(model, contact, nodes.clone(), rest, tau);
-    curve(model, contact, stuck, nodes, |first, terms| {
-        let nodes = first..first + terms.len();
-        add_to(&mut p[nodes.clone()], terms);
-        add_to_shear(
-            &mut tau[nodes.clone()],
-            &contact.spring_state[nodes],
-            model.setup.material.friction(),
-            terms,
-        );
-    });
+    let curved = curve(model, contact, stuck, nodes, terms);
+    add_to(&mut p[curved.clone()], &terms[curved.clone()]);
+    add_to_shear(model, contact, curved, terms, tau);
 }
 
 /// p alone.
@@ -86,14 +93,14 @@ pub(super) fn pressure(
     model: &Model,
     contact: &Contact,
     stuck: f64,
-    rest: &mut Rest,
+    buffers: &mut Buffers,
     out: &mut [f64],
 ) {
+    let Buffers { rest, terms } = buffers;
     let nodes = 0..out.len();
     pressure_of_chords(model, contact, nodes.clone(), rest, out);
-    curve(model, contact, stuck, nodes, |first, terms| {
-        add_to(&mut out[first..first + terms.len()], terms);
-    });
+    let curved = curve(model, contact, stuck, nodes, terms);
+    add_to(&mut out[curved.clone()], &terms[curved]);
 }
 
 /// τ alone, of some `nodes`; those further in are zero, the others finite.
@@ -102,15 +109,13 @@ pub(super) fn shear(
     contact: &Contact,
     stuck: f64,
     nodes: Range<usize>,
-    rest: &mut Rest,
+    buffers: &mut Buffers,
     out: &mut [f64],
 ) {
+    let Buffers { rest, terms } = buffers;
     shear_of_chords(model, contact, nodes.clone(), rest, out);
-    curve(model, contact, stuck, nodes, |first, terms| {
-        let nodes = first..first + terms.len();
-        let (tau, states) = (&mut out[nodes.clone()], &contact.spring_state[nodes]);
-        add_to_shear(tau, states, model.setup.material.friction(), terms);
-    });
+    let curved = curve(model, contact, stuck, nodes, terms);
+    add_to_shear(model, contact, curved, terms, out);
 }
 
 /// p of a line load that is linear in x² between the nodes and its kinks, of those `nodes` alone.
@@ -149,61 +154,52 @@ fn shear_of_chords(
     );
 }
 
-/// Passes to `add`, in pieces with their first nodes, what the curvature of the line load between the nodes adds to
-/// p on those `nodes`: nothing next to the permanent stick zone or behind a border of stick, where wear may just have
-/// made the load steep.
+/// Writes into `terms` what the curvature of the line load between the nodes adds to p on those `nodes`, and returns
+/// the ones that it adds to: nothing next to the permanent stick zone or behind a border of stick, where wear may
+/// just have made the load steep.
 fn curve(
     model: &Model,
     contact: &Contact,
     stuck: f64,
     nodes: Range<usize>,
-    mut add: impl FnMut(usize, &[f64]),
-) {
+    terms: &mut Vec<f64>,
+) -> Range<usize> {
     let Some(curvature) = &model.curvature else {
-        return;
+        return 0..0;
     };
-    let kinks = contact.load.kinks.iter().copied();
-    let stuck = model.grid.nodes().partition_point(|&x| x <= stuck);
-    let steep = stuck.saturating_sub(1)..stuck + STEEP;
-    let load = &contact.load.nodal;
-    let end = contact.end(model, load);
-    let nodes = nodes.start..nodes.end.min(end.nodes);
-    curvature.for_each(load, end.cusp, kinks, nodes, |first, terms| {
-        let steep = within(&steep, first, terms.len());
-        terms[steep].fill(0.0);
-        drop_behind_borders(&contact.spring_state, first, terms);
-        add(first, terms);
-    });
-}
-
-/// Which of a piece of `count` nodes from `first` on are among `nodes`, counted from the first.
-fn within(nodes: &Range<usize>, first: usize, count: usize) -> Range<usize> {
-    let [start, end] = [nodes.start, nodes.end].map(|j| j.clamp(first, first + count) - first);
-    start..end
-}
-
-/// Makes the `terms` of nodes from `first` on zero where a border of stick lies within the two cells before.
-fn drop_behind_borders(states: &[SpringState], first: usize, terms: &mut [f64]) {
-    // The term of the first two nodes is zero.
-    let skipped = 2_usize.saturating_sub(first);
-    let (Some(terms), Some(states)) = (terms.get_mut(skipped..), states.get(first + skipped - 2..))
-    else {
-        return;
+    let (load, grid) = (&contact.load, &model.grid);
+    let end = contact.end(model, &load.nodal);
+    let nodes = nodes.start..nodes.end.min(end.nodes).max(nodes.start);
+    terms.resize(grid.len(), 0.0);
+    curvature.terms(&load.nodal, end.cusp, &load.kinks, nodes.clone(), terms);
+    let mut drop = |steep: Range<usize>| {
+        let [start, end] = [steep.start, steep.end].map(|j| j.min(grid.len()));
+        terms[start..end].fill(0.0);
     };
-    vectorized(
-        #[inline(always)]
-        || {
-            for (term, states) in terms.iter_mut().zip(states.windows(3)) {
-                let [second, first, own] = [0, 1, 2].map(|i| states[i] == SpringState::Stick);
-                *term = select((second == own) & (first == own), *term, 0.0);
-            }
-        },
-    );
+    let stuck = grid.nodes().partition_point(|&x| x <= stuck);
+    drop(stuck.saturating_sub(1)..stuck + STEEP);
+    let from = nodes.start.saturating_sub(BEHIND_BORDER);
+    let states = contact.spring_state.get(from..nodes.end);
+    for border in changes(states.unwrap_or_default(), |&state| {
+        state == SpringState::Stick
+    }) {
+        drop(from + border..from + border + BEHIND_BORDER);
+    }
+    nodes
 }
 
-/// Adds to `tau`, of nodes whose springs are in `states`, its share of what the curvature of the load adds to p: what
-/// slips is curved like μq, what sticks keeps the kinks of its history.
-fn add_to_shear(tau: &mut [f64], states: &[SpringState], friction: f64, terms: &[f64]) {
+/// Adds to `tau` its share of what the curvature of the load adds to p on those `nodes`, the `terms`: what slips is
+/// curved like μq, what sticks keeps the kinks of its history.
+fn add_to_shear(
+    model: &Model,
+    contact: &Contact,
+    nodes: Range<usize>,
+    terms: &[f64],
+    tau: &mut [f64],
+) {
+    let friction = model.setup.material.friction();
+    let (tau, terms) = (&mut tau[nodes.clone()], &terms[nodes.clone()]);
+    let states = &contact.spring_state[nodes];
     vectorized(
         #[inline(always)]
         move || {

@@ -37,6 +37,7 @@ use std::ops::Range;
 
 use super::kink::Kink;
 use crate::math::grid::RadialGrid;
+use crate::math::scan::leading;
 use crate::math::vector::vectorized;
 
 /// −ζ(−½).
@@ -45,14 +46,8 @@ const ENDLESS: f64 = 0.207_886_224_977_354_57;
 /// The same of a single cell: ⅔ − ½.
 const SINGLE: f64 = 1.0 / 6.0;
 
-/// Nodes that are gone through at a time.
-const PIECE: usize = 32;
-
-/// Behind the last break.
-const NO_MORE: Kink = Kink {
-    at: f64::INFINITY,
-    jump: 0.0,
-};
+/// The first node at which anything is added.
+const FIRST: usize = 2;
 
 /// What the term takes from the grid, computed once.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,10 +55,10 @@ pub struct Curvature {
     grid: RadialGrid,
     /// 1/h_j of the cell behind each node, 1/m².
     per_cell: Vec<f64>,
-    /// (2/π) 2/(h_{j−1} + h_j) of each node, 1/m²; 0 where nothing is added.
-    per_pair: Vec<f64>,
     /// 0.2079 h_j^{3/2} of the cell behind each node, m³.
     lacks: Vec<f64>,
+    /// [`per_pair`] times that, m; 0 at the tip, which has no cell before.
+    factors: Vec<f64>,
 }
 
 impl Curvature {
@@ -71,101 +66,105 @@ impl Curvature {
     pub fn new(grid: &RadialGrid) -> Self {
         let squares = grid.squares();
         let cells = || squares.windows(2).map(|t| t[1] - t[0]);
-        let pairs = squares.windows(3).map(|t| FRAC_2_PI * 2.0 / (t[2] - t[0]));
+        let lacks: Vec<f64> = cells().map(|cell| root_cubed(cell) * ENDLESS).collect();
+        let factors = (1..lacks.len()).map(|j| per_pair(squares, j) * lacks[j]);
         Self {
             grid: grid.clone(),
             per_cell: cells().map(f64::recip).collect(),
-            per_pair: [0.0; 2].into_iter().chain(pairs.skip(1)).collect(),
-            lacks: cells().map(|cell| root_cubed(cell) * ENDLESS).collect(),
+            factors: std::iter::once(0.0).chain(factors).collect(),
+            lacks,
         }
     }
 
     /// Eq. (3): what the curvature of a `load` (N/m) does to the stress (N/m²) of some `nodes` in contact, beside
-    /// [`product::stress`](super::product::stress) and the `kinks` of the load (N/m, from the tip outwards).
-    /// It is given to `add` in pieces, each with its first node; of use only where the load is smooth from the node
-    /// before to the one behind. `cusp` is the slope of the load at the tip, which is no curvature.
-    pub fn for_each(
+    /// [`product::stress`](super::product::stress) and the `kinks` of the load (N/m, from the tip outwards). It is
+    /// written into `terms`, one a node of the grid, and of use only where the load is smooth from the node before
+    /// to the one behind. `cusp` is the slope of the load at the tip, which is no curvature.
+    pub fn terms(
         &self,
         load: &[f64],
         cusp: f64,
-        kinks: impl IntoIterator<Item = Kink>,
+        kinks: &[Kink],
         nodes: Range<usize>,
-        mut add: impl FnMut(usize, &mut [f64]),
+        terms: &mut [f64],
     ) {
-        let t = self.grid.squares();
-        let (mut first, nodes) = (nodes.start, nodes.end.min(self.per_cell.len()));
-        let mut kinks = kinks.into_iter();
-        let mut next_kink = || kinks.next().unwrap_or(NO_MORE);
-        let mut next = next_kink();
-        let mut terms = [0.0; PIECE];
-        // Goes from node to node, past many at a time that no break concerns.
-        while first < nodes {
-            // The next node with a break, in its place or in the cell behind.
-            let bent = first + t[first..nodes].partition_point(|&t| t <= next.at);
-            let bent = bent.saturating_sub(1).max(first);
-            let plain = if next.at < f64::INFINITY { bent } else { nodes };
-            while first < plain {
-                let terms = &mut terms[..PIECE.min(plain - first)];
-                self.write_terms(load, cusp, first, terms);
-                add(first, terms);
-                first += terms.len();
-            }
-            if first == nodes {
-                break;
-            }
-            let [before, behind] = self.slopes::<2>(load, cusp, first);
-            let mut jump = behind - before;
-            while next.at <= t[first] {
-                if next.at == t[first] {
-                    jump += next.jump;
-                }
-                next = next_kink();
-            }
-            let lack = if next.at < t[first + 1] {
-                root_cubed(next.at - t[first]) * SINGLE
-            } else {
-                self.lacks[first]
-            };
-            add(first, &mut [self.per_pair[first] * lack * jump]);
-            first += 1;
+        terms[nodes.clone()].fill(0.0);
+        let nodes = nodes.start.max(FIRST)..nodes.end.min(self.per_cell.len());
+        if nodes.is_empty() {
+            return;
         }
+        if cusp == 0.0 {
+            self.write_smooth(load, nodes.clone(), terms);
+        } else {
+            for j in nodes.clone() {
+                terms[j] = self.factors[j] * self.jump(load, cusp, j);
+            }
+        }
+        self.bend(load, cusp, kinks, nodes, terms);
     }
 
-    /// The terms from the node `first` on, of nodes that no break concerns.
-    fn write_terms(&self, load: &[f64], cusp: f64, first: usize, terms: &mut [f64]) {
+    /// The terms of a load without a cusp, as if it had no kinks.
+    fn write_smooth(&self, load: &[f64], nodes: Range<usize>, terms: &mut [f64]) {
         vectorized(
             #[inline(always)]
             || {
-                let slopes = self.slopes::<{ PIECE + 1 }>(load, cusp, first);
-                let factors = self.per_pair[first..].iter().zip(&self.lacks[first..]);
-                for ((term, pair), (per_pair, lack)) in
-                    terms.iter_mut().zip(slopes.windows(2)).zip(factors)
+                let chords = load[nodes.start - 1..].windows(3);
+                let cells = self.per_cell[nodes.start - 1..].windows(2);
+                let factors = &self.factors[nodes.clone()];
+                for (((term, q), per_cell), factor) in
+                    terms[nodes].iter_mut().zip(chords).zip(cells).zip(factors)
                 {
-                    *term = per_pair * lack * (pair[1] - pair[0]);
+                    let slopes = [(q[1] - q[0]) * per_cell[0], (q[2] - q[1]) * per_cell[1]];
+                    *term = factor * (slopes[1] - slopes[0]);
                 }
             },
         );
     }
 
-    /// The slopes of the load from the cell before the node `first` on, without that of its cusp; 0 where there
-    /// is no cell.
-    #[inline(always)]
-    fn slopes<const COUNT: usize>(&self, load: &[f64], cusp: f64, first: usize) -> [f64; COUNT] {
-        let mut slopes = [0.0; COUNT];
-        let start = first.saturating_sub(1);
-        let out = &mut slopes[start + 1 - first..];
-        let cells = load[start..].windows(2).zip(&self.per_cell[start..]);
-        for (slope, (load, per_cell)) in out.iter_mut().zip(cells) {
-            *slope = (load[1] - load[0]) * per_cell;
-        }
-        if cusp != 0.0 {
-            let cells = self.grid.nodes()[start..].windows(2);
-            for (slope, x) in out.iter_mut().zip(cells) {
-                *slope -= cusp / (x[0] + x[1]);
-            }
-        }
-        slopes
+    /// By how much the slope of the load jumps at the node `j`, but for its cusp.
+    fn jump(&self, load: &[f64], cusp: f64, j: usize) -> f64 {
+        let x = self.grid.nodes();
+        let slope = |cell: usize| {
+            (load[cell + 1] - load[cell]) * self.per_cell[cell] - cusp / (x[cell] + x[cell + 1])
+        };
+        slope(j) - slope(j - 1)
     }
+
+    /// Writes anew the terms of those `nodes` that have a kink in their place or in the cell behind.
+    fn bend(
+        &self,
+        load: &[f64],
+        cusp: f64,
+        mut kinks: &[Kink],
+        nodes: Range<usize>,
+        terms: &mut [f64],
+    ) {
+        let t = self.grid.squares();
+        while let Some(first) = kinks.first() {
+            let next = t.partition_point(|&t| t <= first.at);
+            let end = t.get(next).copied().unwrap_or(f64::INFINITY);
+            let (bent, further) = kinks.split_at(leading(kinks, |kink| kink.at < end));
+            kinks = further;
+            let j = next - 1;
+            if !nodes.contains(&j) {
+                continue;
+            }
+            let (in_place, in_cell) = bent.split_at(leading(bent, |kink| kink.at == t[j]));
+            let jump = in_place
+                .iter()
+                .fold(self.jump(load, cusp, j), |jump, kink| jump + kink.jump);
+            let lack = match in_cell.first() {
+                Some(kink) => root_cubed(kink.at - t[j]) * SINGLE,
+                None => self.lacks[j],
+            };
+            terms[j] = per_pair(t, j) * lack * jump;
+        }
+    }
+}
+
+/// (2/π) 2/(h_{j−1} + h_j), 1/m².
+fn per_pair(t: &[f64], j: usize) -> f64 {
+    FRAC_2_PI * 2.0 / (t[j + 1] - t[j - 1])
 }
 
 fn root_cubed(width: f64) -> f64 {
@@ -192,8 +191,9 @@ mod tests {
         let mut p = apply(&product::stress(grid.nodes()), &load);
         kink::add_to_stress(&kinks, t, &mut p);
         if corrected {
-            let add = |first: usize, terms: &mut [f64]| add_to(&mut p[first..], terms);
-            Curvature::new(&grid).for_each(&load, 0.0, kinks, 0..t.len(), add);
+            let mut terms = vec![f64::NAN; t.len()];
+            Curvature::new(&grid).terms(&load, 0.0, &kinks, 0..t.len(), &mut terms);
+            add_to(&mut p, &terms);
         }
         let exact = |s: f64| FRAC_2_PI * (1.0 - s).sqrt() * ((1.0 - s) / 1.5 + 2.0 * s);
         let inside = t.iter().zip(&p).take(cell + 1);
@@ -230,15 +230,13 @@ mod tests {
             .map(|x| (1.0 - 0.3 * x - 0.7 * x * x).max(0.0))
             .collect();
         let (cell, kinks) = ending_at_one(t, &load);
-        let mut p = vec![0.0; t.len()];
+        let mut p = vec![f64::NAN; t.len()];
         let curvature = Curvature::new(&grid);
-        let add = |first: usize, terms: &mut [f64]| add_to(&mut p[first..], terms);
-        curvature.for_each(&load, -0.3, kinks.iter().copied(), 0..t.len(), add);
+        curvature.terms(&load, -0.3, &kinks, 0..t.len(), &mut p);
         // The cusp is not linear in t in the edge's cell.
         assert!(p[..cell].iter().all(|p| p.abs() < 1e-13), "{p:?}");
-        let mut q = vec![0.0; t.len()];
-        let add = |first: usize, terms: &mut [f64]| add_to(&mut q[first..], terms);
-        curvature.for_each(&load, 0.0, kinks, 0..t.len(), add);
+        let mut q = vec![f64::NAN; t.len()];
+        curvature.terms(&load, 0.0, &kinks, 0..t.len(), &mut q);
         assert!(q[1..cell].iter().any(|p| p.abs() > 1e-6));
     }
 
@@ -257,11 +255,11 @@ mod tests {
                 let mut load = vec![0.0; grid.len()];
                 load[i] = 1.0;
                 let outside = grid.border().map_or(0, |border| border + 2);
-                curvature.for_each(&load, 0.0, [], 0..grid.len(), |first, terms| {
-                    for (j, term) in (first..).zip(terms).filter(|(j, _)| *j >= outside) {
-                        column[j] += *term;
-                    }
-                });
+                let mut terms = vec![f64::NAN; grid.len()];
+                curvature.terms(&load, 0.0, &[], 0..grid.len(), &mut terms);
+                for j in outside..grid.len() {
+                    column[j] += terms[j];
+                }
             }
             // What wears: the nodes outside the border, up to the last but one.
             let response = stress * worn::profile(&grid);

@@ -111,21 +111,6 @@ pub fn are_hats(kinks: &[Kink], squares: &[f64]) -> bool {
     })
 }
 
-/// Eq. (1): adds what kinks of f do to the 1D profile `g` on nodes with the given `squares` (m²).
-pub fn add_to_profile(kinks: &[Kink], squares: &[f64], g: &mut [f64]) {
-    vectorized(
-        #[inline(always)]
-        || {
-            for kink in kinks {
-                let first = squares.partition_point(|&t| t <= kink.at);
-                for (value, &t) in g[first..].iter_mut().zip(&squares[first..]) {
-                    *value += 2.0 * kink.jump * (t * (t - kink.at)).sqrt();
-                }
-            }
-        },
-    );
-}
-
 /// Eq. (2): adds what kinks of u do to the surface displacement `w`.
 pub fn add_to_displacement(kinks: &[Kink], grid: &RadialGrid, w: &mut [f64]) {
     let squares = grid.squares();
@@ -210,8 +195,14 @@ mod tests {
             }
         };
 
+        // Eq. (1) of the kinks; a run has none in its profile.
         let mut g = apply(&product::profile(grid.nodes()), &values);
-        add_to_profile(&kinks, squares, &mut g);
+        for (g, &t) in g.iter_mut().zip(squares) {
+            let behind = kinks.iter().filter(|kink| kink.at < t);
+            *g += behind
+                .map(|kink| 2.0 * kink.jump * (t * (t - kink.at)).sqrt())
+                .sum::<f64>();
+        }
         check(g, apply(&product::profile(&nodes), &fine));
 
         let mut w = apply(&product::displacement(grid.nodes()), &values);

@@ -12,7 +12,7 @@
 //! last: nothing is allocated, and a failed step changes nothing.
 //!
 //! [`euler`] and [`trapezoid`] choose the profile for the contact and the stress for the wear.
-//! [`substep`] and [`stabilised`] handle steps that are too stiff for them; [`cycle_jump`] takes
+//! [`substep`] takes their steps, in parts where they are too stiff, or in the stages of [`stabilised`]; [`cycle_jump`] takes
 //! many cycles at once, by the wear of a [steady-state cycle](steady_cycle).
 
 use super::breakdown::Cause;
@@ -31,6 +31,7 @@ mod substep;
 mod trapezoid;
 
 pub(super) use cycle_jump::{Jumped, is_possible, jump};
+pub(super) use stabilised::Stages;
 
 /// A worn depth of this many times the largest depth of indentation cannot come from contact.
 const RUNAWAY: f64 = 10.0;
@@ -60,7 +61,14 @@ pub(super) fn settle(model: &Model, state: &mut State, scratch: &mut Scratch) ->
     if model.springs() > 0 && setup.wear.is_some() && setup.scheme == Scheme::Trapezoid {
         let first = traction::first_needed(model, state);
         let (contact, traction) = (&state.contact, &mut state.traction);
-        traction::of(model, contact, stuck, first, &mut scratch.rest, traction);
+        traction::of(
+            model,
+            contact,
+            stuck,
+            first,
+            &mut scratch.stresses,
+            traction,
+        );
     }
     state.stats.contacts += 1;
     state.stats.transforms += 1;
@@ -76,15 +84,20 @@ pub(super) fn step(
     cycle: f64,
     turns: bool,
 ) -> Result<(), Cause> {
-    match model.setup.scheme {
-        Scheme::Euler => euler::step(model, state, next, scratch, cycle)?,
-        Scheme::Trapezoid => trapezoid::step(model, state, next, scratch, cycle)?,
-    }
+    substep::step(model, state, next, scratch, cycle)?;
     if turns {
         next.last.duration = 0.0;
     }
     next.steps = state.steps + 1;
     Ok(())
+}
+
+/// What a step wears whose contact has been solved, into `scratch.increment`.
+fn wear(model: &Model, state: &State, next: &mut State, scratch: &mut Scratch, cycle: f64) {
+    match model.setup.scheme {
+        Scheme::Euler => euler::wear(model, state, next, scratch, cycle),
+        Scheme::Trapezoid => trapezoid::wear(model, state, next, scratch, cycle),
+    }
 }
 
 /// Makes `next`, whose contact and tractions are solved, the state after `state`: adds what the step has worn.

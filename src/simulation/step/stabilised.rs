@@ -84,17 +84,17 @@ fn pass_by_pass(
     stages: usize,
     gain: f64,
 ) -> Result<bool, Cause> {
-    let mut image = vec![0.0; model.nodes()];
     for _ in 0..MOST_PASSES {
-        let supposed = scratch.g.clone();
+        scratch.stages.supposed.clone_from(&scratch.g);
         let end = pass(model, state, next, scratch, cycle - state.cycle, stages)?;
         let depth = model.setup.depth_scale(next.contact.depth);
         if end.overshoot > MOST_OVERSHOOT * depth {
             return Ok(false);
         }
-        model.image(&end.wear, &mut image);
+        let Stages { y, image, .. } = &mut scratch.stages;
+        model.image(&y[..model.nodes()], image);
         scratch.transforms += 1;
-        model.profile(&image, 0.0, &[], &mut scratch.g);
+        model.profile(image, 0.0, &[], &mut scratch.g);
         let slip = &mut scratch.increment.slip;
         contact::solve(
             model,
@@ -109,14 +109,14 @@ fn pass_by_pass(
             .increment
             .find_slip_kinks(model, contacts[0], contacts[1]);
         tractions(model, state, next, scratch);
-        let profiles = supposed.iter().zip(&scratch.g);
+        let profiles = scratch.stages.supposed.iter().zip(&scratch.g);
         let missed = profiles
             .zip(&next.contact.spring_state)
             .filter(|(_, state)| state.sign().is_some())
             .map(|((supposed, found), _)| (supposed - found).abs())
             .fold(0.0, f64::max);
         if gain * sliding(next, scratch, &next.traction.pressure) * missed <= TOLERANCE * depth {
-            let wear = end.wear.iter().zip(&state.wear);
+            let wear = scratch.stages.y.iter().zip(&state.wear);
             let increment = &mut scratch.increment;
             increment.nodes = 0..model.nodes();
             increment.friction_work = end.friction_work;
@@ -130,17 +130,29 @@ fn pass_by_pass(
     Ok(false)
 }
 
-/// Where a pass ends.
+/// What stages write into and nobody reads afterwards.
+#[derive(Debug, Clone, Default)]
+pub(in super::super) struct Stages {
+    /// The 1D profile that the slip of a pass was solved on, m.
+    supposed: Vec<f64>,
+    /// The 1D image of the wear of a stage and its profile, m.
+    image: Vec<f64>,
+    g: Vec<f64>,
+    /// Where a pass begins, the slope there, and where it ends: wear, m, nodal, the work of friction, J, and θ.
+    start: Vec<f64>,
+    first: Vec<f64>,
+    y: Vec<f64>,
+}
+
+/// How a pass ends; its wear is in [`Stages`].
 struct End {
-    /// m, nodal.
-    wear: Vec<f64>,
     /// J.
     friction_work: f64,
     /// The most that the stages grew back anywhere and should not have, m.
     overshoot: f64,
 }
 
-/// Wears the slip of the step in `stages`. The last entries of y are the work of friction and θ.
+/// Wears the slip of the step in `stages`.
 fn pass(
     model: &Model,
     state: &State,
@@ -149,32 +161,44 @@ fn pass(
     duration: f64,
     stages: usize,
 ) -> Result<End, Cause> {
+    let Scratch {
+        increment,
+        stresses,
+        transforms,
+        stages: buffers,
+        ..
+    } = scratch;
+    let Stages {
+        image,
+        g,
+        start,
+        first,
+        y: end,
+        ..
+    } = buffers;
     let nodes = model.nodes();
     let seconds = model.seconds(duration);
     let zone = outer_slip_zone(&next.contact.spring_state);
     let stuck = state.stuck_radius();
-    let (mut image, mut g) = (vec![0.0; nodes], vec![0.0; nodes]);
+    image.resize(nodes, 0.0);
+    g.resize(nodes, 0.0);
     let mut slope = |y: &[f64], out: &mut Vec<f64>| {
-        model.image(&y[..nodes], &mut image);
-        model.profile(&image, 0.0, &[], &mut g);
+        model.image(&y[..nodes], image);
+        model.profile(image, 0.0, &[], g);
         let (contact, p) = (&mut next.contact, &mut next.traction.pressure);
-        contact::press_at(model, &g, state.cycle + y[nodes + 1] * duration, contact)?;
-        traction::pressure(model, contact, stuck, &mut scratch.rest, p);
-        scratch.transforms += 2;
-        let increment = &mut scratch.increment;
+        contact::press_at(model, g, state.cycle + y[nodes + 1] * duration, contact)?;
+        traction::pressure(model, contact, stuck, stresses, p);
+        *transforms += 2;
         increment.wear_by_load(model, contact, p, zone, seconds);
         out.clear();
         out.extend_from_slice(&increment.depth);
         out.extend([increment.friction_work, 1.0]);
         Ok(())
     };
-    let mut start = state.wear.clone();
+    start.clone_from(&state.wear);
     start.extend([0.0; 2]);
-    let (mut first, mut end) = (Vec::new(), Vec::new());
-    slope(&start, &mut first)?;
-    chebyshev::step(stages, 1.0, &start, &first, &mut end, slope)?;
-    let friction_work = end[nodes];
-    end.truncate(nodes);
+    slope(start, first)?;
+    chebyshev::step(stages, 1.0, start, first, end, slope)?;
     // Stages overshoot by their error where all has worn off: nothing grows back.
     let mut overshoot = 0.0_f64;
     for (after, before) in end.iter_mut().zip(&state.wear) {
@@ -182,8 +206,7 @@ fn pass(
         *after = after.max(*before);
     }
     Ok(End {
-        wear: end,
-        friction_work,
+        friction_work: end[nodes],
         overshoot,
     })
 }

@@ -23,7 +23,7 @@ use super::super::model::Model;
 use super::super::moments;
 use super::super::state::{State, SteadyCycle};
 use super::super::{Scratch, contact, traction};
-use super::{euler, trapezoid};
+use super::wear;
 use crate::math::abel::field::Field;
 use crate::math::abel::kink;
 use crate::math::scan::{largest, leading};
@@ -82,7 +82,7 @@ fn take_over(memory: &mut State, spare: &mut State, cycle: f64) {
 fn find_tractions(model: &Model, memory: &mut State, scratch: &mut Scratch) {
     let stuck = memory.stuck_radius();
     let (contact, traction) = (&memory.contact, &mut memory.traction);
-    traction::of(model, contact, stuck, 0, &mut scratch.rest, traction);
+    traction::of(model, contact, stuck, 0, &mut scratch.stresses, traction);
     memory.stats.transforms += 2;
 }
 
@@ -113,10 +113,7 @@ fn period(
     let mut stiffness = vec![0.0; model.nodes()];
     for &moment in moments.iter() {
         solve(model, memory, spare, scratch, moment)?;
-        match model.setup.scheme {
-            Scheme::Euler => euler::wear(model, memory, spare, scratch, moment),
-            Scheme::Trapezoid => trapezoid::wear(model, memory, spare, scratch, moment),
-        }
+        wear(model, memory, spare, scratch, moment);
         let increment = &mut scratch.increment;
         steady.friction_work += increment.friction_work;
         increment.stiffness(model, model.seconds(moment - memory.cycle));

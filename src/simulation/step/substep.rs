@@ -1,8 +1,8 @@
-//! Splits steps that are too stiff for the scheme into sub-steps.
+//! Takes a step of either scheme, in sub-steps where it is too stiff for it.
 //!
-//! A step is tried, and its stiffness is known before its wear is accepted. If that is too large,
-//! the step is split into sub-steps just short enough, which grow again as the wear allows. Other
-//! steps are taken exactly as without the guard.
+//! A step is tried, and its stiffness is known before its wear is accepted. If that is too large, the step is taken
+//! whole in [stages](super::stabilised) where that does; elsewhere it is split into sub-steps just short enough, which
+//! grow again as the wear allows. Other steps are taken exactly as without the guard.
 //!
 //! # Slip instabilities
 //!
@@ -14,8 +14,11 @@
 //! holds.
 
 use super::super::breakdown::Cause;
-use super::super::choices::Stability;
+use super::super::choices::{Scheme, Stability};
+use super::super::model::Model;
 use super::super::state::State;
+use super::super::{Scratch, contact};
+use super::{accept, euler, stabilised, trapezoid, wear};
 
 /// By how much a sub-step may be longer than the one before it.
 const GROWTH: f64 = 1.5;
@@ -24,8 +27,16 @@ const GROWTH: f64 = 1.5;
 /// stays quick at any wear.
 const SMALLEST: f64 = 3e-3;
 
+/// How stiff the steps of a scheme may be.
+pub(super) struct Bounds {
+    /// The stiffness beyond which a step is not taken as it is.
+    pub stiff: f64,
+    /// That of its sub-steps.
+    pub aim: f64,
+}
+
 /// What came of a try.
-pub(super) enum Outcome {
+enum Outcome {
     /// Accepted, at this stiffness.
     Done(f64),
     /// Accepted, and its stiffness did not matter.
@@ -35,32 +46,33 @@ pub(super) enum Outcome {
 }
 
 /// How a step or a sub-step is to be tried.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Part {
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Part {
     /// As it is, whatever comes of it.
     Raw,
-    /// If it is not too stiff.
-    Guarded,
-    /// As a slip instability, which no smaller sub-steps would tame.
+    /// If it is no stiffer than that.
+    Guarded { stiff: f64 },
+    /// As a slip instability, which stays as stiff in the smallest sub-steps.
     Unstable,
 }
 
-/// One step from `state` to `cycle`, into `next`, its sub-steps as long as brings the stiffness to `aim`.
-/// `attempt` tries one from a state into another, up to a cycle.
+/// One step from `state` to `cycle`, into `next`.
 pub(super) fn step(
-    guard: Stability,
-    aim: f64,
+    model: &Model,
     state: &State,
     next: &mut State,
+    scratch: &mut Scratch,
     cycle: f64,
-    mut attempt: impl FnMut(&State, &mut State, f64, Part) -> Result<Outcome, Cause>,
 ) -> Result<(), Cause> {
+    let Bounds { stiff, aim } = match model.setup.scheme {
+        Scheme::Euler => euler::BOUNDS,
+        Scheme::Trapezoid => trapezoid::BOUNDS,
+    };
     let whole = cycle - state.cycle;
     // The end of the last sub-step; none before there is one.
     let mut within: Option<State> = None;
     let mut part = 1.0;
-    // The last try that was too stiff, its length and its stiffness.
-    let (mut failed, mut unstable, mut hopeless) = (None, false, false);
+    let mut hopeless = false;
     let (mut parts, mut stiffest) = (0, 0.0_f64);
     loop {
         let from = within.as_ref().unwrap_or(state);
@@ -73,27 +85,20 @@ pub(super) fn step(
         } else {
             cycle
         };
-        let kind = match guard {
+        let kind = match model.setup.stability {
             _ if hopeless => Part::Raw,
             Stability::Off => Part::Raw,
-            Stability::SubStep if unstable || part <= SMALLEST => Part::Unstable,
-            Stability::SubStep => Part::Guarded,
+            Stability::SubStep if part <= SMALLEST => Part::Unstable,
+            Stability::SubStep => Part::Guarded { stiff },
         };
-        let growth = match attempt(from, next, reach, kind)? {
+        let growth = match attempt(model, from, next, scratch, reach, kind)? {
             // No sub-step is short enough: what comes of it says what is wrong.
             Outcome::TooStiff(f64::INFINITY) => {
                 hopeless = true;
                 continue;
             }
             Outcome::TooStiff(stiffness) => {
-                // Slip that takes no time stays as large in a part of the step.
-                let (tried, was) = failed
-                    .replace((part, stiffness))
-                    .unwrap_or((part, stiffness));
-                unstable = part < tried && stiffness / was > (part / tried).sqrt();
-                if !unstable {
-                    part = (part * aim / stiffness).max(SMALLEST);
-                }
+                part = (part * aim / stiffness).max(SMALLEST);
                 continue;
             }
             Outcome::Stabilised => {
@@ -106,7 +111,6 @@ pub(super) fn step(
             }
         };
         parts += 1;
-        (failed, unstable) = (None, false);
         part = (part * growth).min(1.0);
         if next.cycle >= cycle {
             break;
@@ -118,4 +122,42 @@ pub(super) fn step(
     }
     next.last.stiffness = stiffest;
     Ok(())
+}
+
+/// Tries a step or a sub-step from `state` to `cycle`, into `next`.
+fn attempt(
+    model: &Model,
+    state: &State,
+    next: &mut State,
+    scratch: &mut Scratch,
+    cycle: f64,
+    part: Part,
+) -> Result<Outcome, Cause> {
+    let scheme = model.setup.scheme;
+    let duration = cycle - state.cycle;
+    let ahead = match scheme {
+        Scheme::Trapezoid if part != Part::Unstable => trapezoid::ahead(state, duration),
+        Scheme::Trapezoid | Scheme::Euler => 0.0,
+    };
+    model.profile(&state.image, ahead, &state.last.growth, &mut scratch.g);
+    let (contact, slip) = (&mut next.contact, &mut scratch.increment.slip);
+    contact::solve(model, &scratch.g, &state.contact, cycle, contact, slip)?;
+    wear(model, state, next, scratch, cycle);
+    let stiffness = scratch.increment.stiffness(model, model.seconds(duration));
+    let mut outcome = Outcome::Done(stiffness);
+    match part {
+        Part::Guarded { stiff } if stiffness > stiff => {
+            // Stages integrate the mean of a step's stresses.
+            let in_stages = scheme == Scheme::Trapezoid
+                && stabilised::step(model, state, next, scratch, cycle, stiffness);
+            if !in_stages {
+                return Ok(Outcome::TooStiff(stiffness));
+            }
+            outcome = Outcome::Stabilised;
+        }
+        Part::Guarded { .. } | Part::Raw => {}
+        Part::Unstable => scratch.increment.damp(model),
+    }
+    accept(model, state, next, scratch, cycle)?;
+    Ok(outcome)
 }

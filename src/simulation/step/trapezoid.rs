@@ -29,77 +29,32 @@
 //!   explicit Euler at 800.
 //! - **Cost**: four transforms per step.
 
-use super::super::breakdown::Cause;
 use super::super::model::Model;
 use super::super::state::State;
 use super::super::traction::Traction;
 use super::super::wear::outer_slip_zone;
-use super::super::{Scratch, contact, traction};
-use super::substep::{self, Outcome, Part};
-use super::{accept, stabilised};
+use super::super::{Scratch, traction};
+use super::substep::Bounds;
 use crate::contact::tangential::SpringState;
 use crate::math::scan::leading;
 
 /// The farthest extrapolation of the profile, in lengths of the step before.
 const FARTHEST: f64 = 4.0;
 
-/// The stiffness beyond which a step is not taken as it is, and that of its sub-steps. Closer to the limit errors
-/// ring, and make springs slip that would not have.
-const STIFF: f64 = 0.7;
-const AIM: f64 = 0.35;
+/// Closer to the limit errors ring, and make springs slip that would not have.
+pub(super) const BOUNDS: Bounds = Bounds {
+    stiff: 0.7,
+    aim: 0.35,
+};
 
-/// One step from `state` to `cycle`, into `next`, in sub-steps where wear is stiff.
-pub(super) fn step(
-    model: &Model,
-    state: &State,
-    next: &mut State,
-    scratch: &mut Scratch,
-    cycle: f64,
-) -> Result<(), Cause> {
-    let guard = model.setup.stability;
-    substep::step(
-        guard,
-        AIM,
-        state,
-        next,
-        cycle,
-        |state, next, reach, part| attempt(model, state, next, scratch, reach, part),
-    )
-}
-
-fn attempt(
-    model: &Model,
-    state: &State,
-    next: &mut State,
-    scratch: &mut Scratch,
-    cycle: f64,
-    part: Part,
-) -> Result<Outcome, Cause> {
-    let duration = cycle - state.cycle;
-    let smooth = state.last.duration > 0.0 && part != Part::Unstable;
-    let ahead = if smooth {
+/// How far the profile is extrapolated over a step from `state` that takes `duration` cycles, in lengths of the step
+/// before.
+pub(super) fn ahead(state: &State, duration: f64) -> f64 {
+    if state.last.duration > 0.0 {
         (duration / state.last.duration).min(FARTHEST)
     } else {
         0.0
-    };
-    model.profile(&state.image, ahead, &state.last.growth, &mut scratch.g);
-    let (contact, slip) = (&mut next.contact, &mut scratch.increment.slip);
-    contact::solve(model, &scratch.g, &state.contact, cycle, contact, slip)?;
-    wear(model, state, next, scratch, cycle);
-    let stiffness = scratch.increment.stiffness(model, model.seconds(duration));
-    let mut outcome = Outcome::Done(stiffness);
-    match part {
-        Part::Guarded if stiffness > STIFF => {
-            if !stabilised::step(model, state, next, scratch, cycle, stiffness) {
-                return Ok(Outcome::TooStiff(stiffness));
-            }
-            outcome = Outcome::Stabilised;
-        }
-        Part::Guarded | Part::Raw => {}
-        Part::Unstable => scratch.increment.damp(model),
     }
-    accept(model, state, next, scratch, cycle)?;
-    Ok(outcome)
 }
 
 /// What a step wears whose contact has been solved, into `scratch.increment`, and its tractions at the end.
@@ -136,7 +91,7 @@ pub(super) fn wear(
 pub(super) fn tractions(model: &Model, state: &State, next: &mut State, scratch: &mut Scratch) {
     let Scratch {
         increment,
-        rest,
+        stresses,
         before,
         transforms,
         ..
@@ -146,10 +101,10 @@ pub(super) fn tractions(model: &Model, state: &State, next: &mut State, scratch:
         spring == SpringState::Stick
     });
     let first = traction::first_needed(model, state).min(slipping);
-    traction::of(model, contact, stuck, first, rest, &mut next.traction);
+    traction::of(model, contact, stuck, first, stresses, &mut next.traction);
     if slipping < state.traction.first {
         // Nothing slipped here for a period: nobody asked for the stresses until now.
-        traction::of(model, &state.contact, stuck, slipping, rest, before);
+        traction::of(model, &state.contact, stuck, slipping, stresses, before);
         *transforms += 2;
     }
     increment.find_sliding(model, &state.traction, contact, slipping);
@@ -185,7 +140,7 @@ pub(super) fn mean_shear(model: &Model, state: &State, next: &State, scratch: &m
 mod tests {
     use super::*;
     use crate::contact::{indenter::Indenter, material::Material};
-    use crate::math::abel::{AbelMethod, cone::Rest};
+    use crate::math::abel::AbelMethod;
     use crate::math::grid::RadialGrid;
     use crate::simulation::choices::{Integrator, Scheme, Spacing, Stability};
     use crate::simulation::drive::{Control, Drive, Oscillation};
@@ -229,8 +184,8 @@ mod tests {
         let mut full = partial.clone();
         let stuck = full.state.stuck_radius();
         let (contact, traction) = (&full.state.contact, &mut full.state.traction);
-        let rest = &mut Rest::default();
-        traction::of(&full.model, contact, stuck, 0, rest, traction);
+        let buffers = &mut traction::Buffers::default();
+        traction::of(&full.model, contact, stuck, 0, buffers, traction);
         for _ in 0..2 {
             partial.step().expect("a step");
             full.step().expect("a step");

@@ -1,0 +1,89 @@
+//! Builds the material from the keys of a scenario: of the pair, or of two bodies.
+
+use super::error::ScenarioError;
+use super::keys;
+use super::schema::Key;
+use super::validate::Parts;
+use crate::contact::material::{Body, Material};
+use crate::math::invalid::Invalid;
+
+impl Parts<'_> {
+    /// The moduli and the coefficient of friction.
+    pub(super) fn material(&self) -> Result<Material, ScenarioError> {
+        let first = self.get(&keys::FRICTION_VALUES);
+        let first = first.and_then(|values| values.first().copied());
+        let friction = match self.get(&keys::FRICTION).or(first) {
+            None if self.has("motion.tangential") => {
+                let meaning = "coefficient of friction, which the tangential motion needs";
+                return Err(self.missing(keys::FRICTION.path(), meaning));
+            }
+            friction => friction.unwrap_or(0.0),
+        };
+        let refused = |invalid: Invalid| match invalid.field {
+            "coefficient" => self.refused("friction", invalid),
+            "rigid" => self.refused("material.half_space", invalid),
+            _ => self.refused("material", invalid),
+        };
+        if !self.has("material.indenter") && !self.has("material.half_space") {
+            let modulus = self.require(&keys::EFFECTIVE_MODULUS)?;
+            let poisson = self.require(&keys::POISSON)?;
+            return Material::new(modulus, poisson, friction).map_err(refused);
+        }
+        for path in [keys::EFFECTIVE_MODULUS.path(), keys::POISSON.path()] {
+            if self.has(path) {
+                let rule = "conflicts with two bodies; give either effective_modulus and poisson, \
+                            or [material.indenter] and [material.half_space]";
+                return Err(self.refuse(path, "", rule));
+            }
+        }
+        let indenter = self.body(
+            "material.indenter",
+            &keys::INDENTER_MODULUS,
+            &keys::INDENTER_POISSON,
+            &keys::INDENTER_RIGID,
+        )?;
+        let half_space = self.body(
+            "material.half_space",
+            &keys::HALF_SPACE_MODULUS,
+            &keys::HALF_SPACE_POISSON,
+            &keys::HALF_SPACE_RIGID,
+        )?;
+        Material::of_bodies(indenter, half_space, friction).map_err(refused)
+    }
+
+    /// The hardness of the softer body, Pa.
+    pub(super) fn hardness(&self) -> Result<Option<f64>, ScenarioError> {
+        let of_bodies = [&keys::INDENTER_HARDNESS, &keys::HALF_SPACE_HARDNESS];
+        let pair = self.get(&keys::HARDNESS);
+        if pair.is_some() && (self.has("material.indenter") || self.has("material.half_space")) {
+            let rule = "does not go with two bodies; give material.indenter.hardness or material.half_space.hardness";
+            return Err(self.refuse(keys::HARDNESS.path(), "", rule));
+        }
+        let given = of_bodies.into_iter().filter_map(|key| self.get(key));
+        Ok(given.chain(pair).reduce(f64::min))
+    }
+
+    fn body(
+        &self,
+        section: &str,
+        modulus: &Key<f64>,
+        poisson: &Key<f64>,
+        rigid: &Key<bool>,
+    ) -> Result<Body, ScenarioError> {
+        if !self.has(section) {
+            let meaning = "the second body: youngs_modulus and poisson, or rigid = true";
+            return Err(self.missing(section, meaning));
+        }
+        if self.require(rigid)? {
+            let given = [modulus, poisson]
+                .into_iter()
+                .find(|key| self.has(key.path()));
+            return match given {
+                Some(key) => Err(self.refuse(key.path(), "", "a rigid body has no such key")),
+                None => Ok(Body::Rigid),
+            };
+        }
+        Body::elastic(self.require(modulus)?, self.require(poisson)?)
+            .map_err(|invalid| self.refused(section, invalid))
+    }
+}

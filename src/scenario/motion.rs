@@ -1,0 +1,148 @@
+//! Builds the motion from the keys of a scenario: each direction, and the rig.
+
+use super::check::missing;
+use super::error::ScenarioError;
+use super::keys;
+use super::schema::Key;
+use super::validate::Parts;
+use crate::simulation::drive::{Control, Drive, Oscillation};
+use crate::simulation::waveform::{Tabled, Waveform};
+
+/// The most periods of the normal motion in a cycle.
+const HIGHEST_RATIO: f64 = 1000.0;
+
+/// The keys of one direction of the motion.
+struct Motion {
+    section: &'static str,
+    control: Key<String>,
+    mean: Key<f64>,
+    amplitude: Key<f64>,
+    frequency: Key<f64>,
+    phase: Key<f64>,
+    waveform: Key<String>,
+    hold: Key<f64>,
+    file: Key<String>,
+    times: Key<Vec<f64>>,
+    values: Key<Vec<f64>>,
+}
+
+const NORMAL: Motion = Motion {
+    section: "motion.normal",
+    control: keys::NORMAL_CONTROL,
+    mean: keys::NORMAL_MEAN,
+    amplitude: keys::NORMAL_AMPLITUDE,
+    frequency: keys::NORMAL_FREQUENCY,
+    phase: keys::NORMAL_PHASE,
+    waveform: keys::NORMAL_WAVEFORM,
+    hold: keys::NORMAL_HOLD,
+    file: keys::NORMAL_FILE,
+    times: keys::NORMAL_TIMES,
+    values: keys::NORMAL_VALUES,
+};
+
+const TANGENTIAL: Motion = Motion {
+    section: "motion.tangential",
+    control: keys::TANGENTIAL_CONTROL,
+    mean: keys::TANGENTIAL_MEAN,
+    amplitude: keys::TANGENTIAL_AMPLITUDE,
+    frequency: keys::TANGENTIAL_FREQUENCY,
+    phase: keys::TANGENTIAL_PHASE,
+    waveform: keys::TANGENTIAL_WAVEFORM,
+    hold: keys::TANGENTIAL_HOLD,
+    file: keys::TANGENTIAL_FILE,
+    times: keys::TANGENTIAL_TIMES,
+    values: keys::TANGENTIAL_VALUES,
+};
+
+impl Parts<'_> {
+    /// Both directions of the motion, on their rig.
+    pub(super) fn drive(&self) -> Result<Drive, ScenarioError> {
+        let normal = self.control(&NORMAL, &TANGENTIAL)?;
+        if normal.oscillation().highest() <= 0.0 {
+            let rule = "never touches; mean + amplitude must be greater than 0";
+            return Err(self.refuse(keys::NORMAL_MEAN.path(), "", rule));
+        }
+        let tangential = self
+            .has(TANGENTIAL.section)
+            .then(|| self.control(&TANGENTIAL, &NORMAL))
+            .transpose()?;
+        let frequency = |control: &Control| control.oscillation().angular_frequency();
+        let cycle = tangential.as_ref().map(frequency);
+        if cycle.is_some_and(|cycle| frequency(&normal) > HIGHEST_RATIO * cycle) {
+            let rule = format!(
+                "must be at most {HIGHEST_RATIO} times motion.tangential.angular_frequency, \
+                 whose period is the cycle"
+            );
+            return Err(self.refuse(keys::NORMAL_FREQUENCY.path(), "", rule));
+        }
+        let drive = Drive::new(normal, tangential);
+        match self.get(&keys::RIG_STIFFNESS) {
+            Some(stiffness) => drive
+                .with_rig(stiffness)
+                .map_err(|invalid| self.refused(TANGENTIAL.section, invalid)),
+            None => Ok(drive),
+        }
+    }
+
+    /// The motion of waveform = "table"; the table alone says so as well.
+    fn tabled_motion(&self, motion: &Motion) -> Result<Option<Tabled>, ScenarioError> {
+        let word = self.get(&motion.waveform);
+        let (times, values) = (self.get(&motion.times), self.get(&motion.values));
+        let is_given = times.is_some() || values.is_some();
+        match word.as_deref() {
+            Some("table") => {}
+            None if is_given => {}
+            Some(_) if is_given => {
+                let rule = "conflicts with this waveform; give waveform = \"table\"";
+                return Err(self.refuse(motion.times.path(), "", rule));
+            }
+            _ => return Ok(None),
+        }
+        let lacking = || missing(self.origin, motion.file.path(), &motion.file.parameter);
+        let times = times.ok_or_else(lacking)?;
+        let tabled = Waveform::table(&times, &values.ok_or_else(lacking)?);
+        tabled
+            .map(Some)
+            .map_err(|invalid| self.refused(motion.section, invalid))
+    }
+
+    /// One direction of the motion. Where it stands still its frequency is that of the other
+    /// direction, so that both share one period. A table brings its own mean, amplitude and frequency
+    /// where the scenario gives none.
+    fn control(&self, motion: &Motion, other: &Motion) -> Result<Control, ScenarioError> {
+        let refused = |invalid| self.refused(motion.section, invalid);
+        let tabled = self.tabled_motion(motion)?;
+        let or_of_table = |key: &Key<f64>, value: fn(&Tabled) -> f64| {
+            let given = self.get(key);
+            given.or_else(|| tabled.as_ref().map(value))
+        };
+        let mean = match or_of_table(&motion.mean, |table| table.mean) {
+            Some(mean) => mean,
+            None => self.require(&motion.mean)?,
+        };
+        let amplitude = match or_of_table(&motion.amplitude, |table| table.amplitude) {
+            Some(amplitude) => amplitude,
+            None => self.require(&motion.amplitude)?,
+        };
+        let frequency = match or_of_table(&motion.frequency, |table| table.angular_frequency) {
+            Some(frequency) => frequency,
+            None if amplitude == 0.0 => self.get(&other.frequency).unwrap_or(1.0),
+            None => self.require(&motion.frequency)?,
+        };
+        let waveform = match self.get(&motion.waveform).as_deref() {
+            Some("triangle") => Waveform::triangle(),
+            Some("trapezoid") => {
+                Waveform::trapezoid(self.require(&motion.hold)?).map_err(refused)?
+            }
+            _ => tabled.map_or(Waveform::Sine, |table| table.waveform),
+        };
+        let oscillation =
+            Oscillation::new(mean, amplitude, frequency, self.require(&motion.phase)?)
+                .map_err(refused)?
+                .with_waveform(waveform);
+        Ok(match self.require(&motion.control)?.as_str() {
+            "force" => Control::Force(oscillation),
+            _ => Control::Displacement(oscillation),
+        })
+    }
+}

@@ -1,0 +1,112 @@
+//! Builds the indenter from the keys of a scenario, and holds a measured one against the domain.
+
+use toml::Value;
+
+use super::check::{missing, show};
+use super::derive;
+use super::error::ScenarioError;
+use super::keys::{self, PARAMETERS};
+use super::schema::Key;
+use super::validate::Parts;
+use crate::contact::indenter::Indenter;
+use crate::contact::measured::MeasuredProfile;
+
+/// The steepest slope at the contact's edge, a/R, that a table may have, and the shallowest: beyond them
+/// one of its columns is in another unit.
+const STEEPEST: f64 = 1.0;
+const SHALLOWEST: f64 = 1e-6;
+
+/// How far contact may seem to reach beyond a table before its unit is in doubt.
+const HARDLY_SAME: f64 = 20.0;
+
+/// The fewest points of a table that are to lie within the domain.
+const FEWEST_IN_CONTACT: usize = 4;
+
+impl Parts<'_> {
+    /// The unworn shape.
+    pub(super) fn indenter(&self) -> Result<Indenter, ScenarioError> {
+        let shape = self.require(&keys::SHAPE)?;
+        self.refuse_keys_of_other_shapes(&shape)?;
+        let radius = || self.require(&keys::RADIUS);
+        let angle = || self.require(&keys::ANGLE);
+        let tip_radius = || self.require(&keys::TIP_RADIUS);
+        match shape.as_str() {
+            "cone" => Indenter::cone(angle()?),
+            "power" => Indenter::power(
+                self.require(&keys::SHAPE_COEFFICIENT)?,
+                self.require(&keys::SHAPE_EXPONENT)?,
+            ),
+            "flat-punch" => Indenter::flat_punch(radius()?),
+            "truncated-paraboloid" => Indenter::truncated_paraboloid(radius()?, tip_radius()?),
+            "truncated-cone" => Indenter::truncated_cone(angle()?, tip_radius()?),
+            "rounded-punch" => Indenter::rounded_punch(radius()?, tip_radius()?),
+            "table" => {
+                let list = |key: &Key<Vec<f64>>| {
+                    let lacking = &keys::TABLE_FILE.parameter;
+                    let list = self.get(key);
+                    list.ok_or_else(|| missing(self.origin, lacking.path, lacking))
+                };
+                let (radii, heights) = (list(&keys::RADII)?, list(&keys::HEIGHTS)?);
+                Indenter::table(&radii, &heights, self.require(&keys::SMOOTHING)?)
+            }
+            _ => Indenter::paraboloid(radius()?),
+        }
+        .map_err(|invalid| self.refused("indenter", invalid))
+    }
+
+    fn refuse_keys_of_other_shapes(&self, shape: &str) -> Result<(), ScenarioError> {
+        let of_shapes = || PARAMETERS.iter().filter(|known| !known.shapes.is_empty());
+        let foreign =
+            of_shapes().find(|known| self.has(known.path) && !known.shapes.contains(&shape));
+        let Some(foreign) = foreign else {
+            return Ok(());
+        };
+        let takes = of_shapes().filter(|known| known.shapes.contains(&shape));
+        let takes: Vec<&str> = takes.map(|known| known.key()).collect();
+        let rule = format!(
+            "shape = \"{shape}\" has no such key; it takes {}",
+            takes.join(", ")
+        );
+        Err(self.refuse(foreign.path, "", rule))
+    }
+
+    /// Refuses a table that ends inside the domain, has hardly a point in the contact, or has
+    /// slopes too steep for a half-space: most often its lengths are in another unit.
+    pub(super) fn check_measured(
+        &self,
+        measured: &MeasuredProfile,
+        domain: f64,
+    ) -> Result<(), ScenarioError> {
+        let length = |value: f64| show(&Value::Float(derive::three_digits(value)));
+        let refuse = |rule: String| Err(self.refuse("indenter.radii", "{...}", rule));
+        let last = measured.last_radius();
+        let points = measured.points_within(domain);
+        let slope = 2.0 * measured.profile(domain.min(last)) / domain.min(last);
+        let unit = "are r and f in m? columns r_mm and f_um are converted";
+        if slope > STEEPEST {
+            return refuse(format!(
+                "a/R = {slope:.1e} at the contact's edge, where slopes must be small: {unit}"
+            ));
+        }
+        if domain > last {
+            let edge = length(domain);
+            let hint = if domain > HARDLY_SAME * last || slope < SHALLOWEST {
+                format!(": {unit}")
+            } else {
+                "; a longer trace, or a smaller depth".into()
+            };
+            return refuse(format!(
+                "the table ends at r = {} m, but the contact can reach {edge} m{hint}",
+                length(last)
+            ));
+        }
+        if points < FEWEST_IN_CONTACT || slope < SHALLOWEST {
+            let edge = length(domain);
+            return refuse(format!(
+                "only {points} points lie within {edge} m, where contact is possible, \
+                 and a/R is {slope:.1e}: {unit}"
+            ));
+        }
+        Ok(())
+    }
+}

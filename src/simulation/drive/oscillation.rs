@@ -1,0 +1,133 @@
+//! One direction's swing about its mean, Eq. (14) of the paper, counted in turns of its own.
+
+use std::f64::consts::TAU;
+
+use super::super::waveform::Waveform;
+use crate::math::invalid::{Invalid, finite, non_negative, positive};
+
+/// mean + amplitude · sin(ωt + φ), of a displacement in m or of a force in N; another [`Waveform`] may
+/// stand in the sine's place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Oscillation {
+    mean: f64,
+    amplitude: f64,
+    angular_frequency: f64,
+    phase: f64,
+    waveform: Waveform,
+}
+
+impl Oscillation {
+    /// With an amplitude of 0 or more, ω greater than 0 in rad/s and φ in rad.
+    pub fn new(
+        mean: f64,
+        amplitude: f64,
+        angular_frequency: f64,
+        phase: f64,
+    ) -> Result<Self, Invalid> {
+        Ok(Self {
+            mean: finite("mean", mean)?,
+            amplitude: non_negative("amplitude", amplitude)?,
+            angular_frequency: positive("angular_frequency", angular_frequency)?,
+            phase: finite("phase", phase)?,
+            waveform: Waveform::Sine,
+        })
+    }
+
+    /// The same with another waveform.
+    #[must_use]
+    pub fn with_waveform(self, waveform: Waveform) -> Self {
+        Self { waveform, ..self }
+    }
+
+    /// How it swings.
+    pub fn waveform(&self) -> &Waveform {
+        &self.waveform
+    }
+
+    /// The value around which the motion swings.
+    pub fn mean(&self) -> f64 {
+        self.mean
+    }
+
+    /// Half the way from the lowest to the highest value.
+    pub fn amplitude(&self) -> f64 {
+        self.amplitude
+    }
+
+    /// ω, rad/s.
+    pub fn angular_frequency(&self) -> f64 {
+        self.angular_frequency
+    }
+
+    /// φ, rad.
+    pub fn phase(&self) -> f64 {
+        self.phase
+    }
+
+    /// The highest value.
+    pub fn highest(&self) -> f64 {
+        self.mean + self.amplitude
+    }
+
+    /// The lowest value.
+    pub fn lowest(&self) -> f64 {
+        self.mean - self.amplitude
+    }
+
+    /// The value after `turns` of this oscillation. Only the fraction of a turn is given to the
+    /// waveform, so that the millionth turn is like the first.
+    pub fn after_turns(&self, turns: f64) -> f64 {
+        let swing = match &self.waveform {
+            Waveform::Sine => (TAU * turns.fract() + self.phase).sin(),
+            Waveform::Polyline(line) => line.at(self.line_phase(turns)),
+        };
+        self.mean + self.amplitude * swing
+    }
+
+    /// The rate of the waveform after `turns`, of which a sine has 1 at most.
+    pub(super) fn rate(&self, turns: f64) -> f64 {
+        match &self.waveform {
+            Waveform::Sine => (TAU * turns.fract() + self.phase).cos(),
+            Waveform::Polyline(line) => line.rate(self.line_phase(turns)) / TAU,
+        }
+    }
+
+    /// Whether it moves upwards at the beginning, or did so before it came to rest there.
+    pub fn rises_at_start(&self) -> bool {
+        match &self.waveform {
+            Waveform::Sine => self.phase.cos() >= 0.0,
+            Waveform::Polyline(line) => line.last_rate(self.line_phase(0.0)) >= 0.0,
+        }
+    }
+
+    /// The greatest speed, per second.
+    pub fn greatest_speed(&self) -> f64 {
+        self.amplitude * self.angular_frequency * self.waveform.fastest()
+    }
+
+    /// Turns of the first corner after `turns`, if the waveform has corners.
+    pub(super) fn next_corner(&self, turns: f64) -> Option<f64> {
+        match &self.waveform {
+            Waveform::Sine => None,
+            Waveform::Polyline(line) => Some(turns + line.to_next_corner(self.line_phase(turns))),
+        }
+    }
+
+    /// The phase of a polyline, from 0 to below 1.
+    fn line_phase(&self, turns: f64) -> f64 {
+        let phase = (turns.fract() + self.phase / TAU).rem_euclid(1.0);
+        if phase < 1.0 { phase } else { 0.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn impossible_motions_are_refused() {
+        assert!(Oscillation::new(f64::NAN, 0.0, 1.0, 0.0).is_err());
+        assert!(Oscillation::new(0.0, -1.0, 1.0, 0.0).is_err());
+        assert!(Oscillation::new(0.0, 1.0, 0.0, 0.0).is_err());
+    }
+}

@@ -1,0 +1,112 @@
+//! Other parts for a run under way: what has been worn, and where the springs stand, is carried over to them.
+
+use super::breakdown::{Breakdown, Cause};
+use super::model::Model;
+use super::state::{JumpMemory, State};
+use super::{Setup, Simulation, border, contact};
+use crate::math::abel::worn;
+use crate::math::grid::RadialGrid;
+
+/// Who says where the domain of a [`Setup`] ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Domain {
+    /// The scenario, by a radius or by the rim of a punch: it ends there.
+    Given,
+    /// The program, by what can touch: it may end further out.
+    Derived,
+}
+
+/// The most that the worn volume may differ on another grid, relative to it.
+const MOST_LOST: f64 = 0.02;
+
+impl Simulation {
+    /// Replaces the parts mid-run. The worn profile, the springs and the counters are carried over;
+    /// on another grid they are interpolated. A derived domain does not shrink while wear lies outside
+    /// of the new one.
+    ///
+    /// # Errors
+    ///
+    /// The new parts cannot hold the contact, or would lose wear; the simulation stays as it was.
+    pub fn reconfigure(&mut self, setup: Setup, domain: Domain) -> Result<(), Breakdown> {
+        let setup = self.holding_wear(setup, domain)?;
+        let setup = if border::stays(self.setup(), &setup) {
+            Setup {
+                grid: self.setup().grid.clone(),
+                ..setup
+            }
+        } else {
+            border::graded(&setup, Some(self))
+        };
+        let state = self.state_on(&setup);
+        let mut changed = Self::with(Model::new(setup, Some(&self.model)), state);
+        let worn = self.wear_volume();
+        changed.settle()?;
+        let lost = worn - changed.wear_volume();
+        if lost.abs() > MOST_LOST * worn {
+            return Err(self.refused(Cause::WearBlurred {
+                cells: changed.setup().grid.cells(),
+                share: lost.abs() / worn,
+            }));
+        }
+        // What the nodes of the new grid say otherwise is not worn nor taken back.
+        changed.state.unexplained_volume -= lost;
+        *self = changed;
+        Ok(())
+    }
+
+    /// The setup on a domain that all wear fits into.
+    fn holding_wear(&self, setup: Setup, domain: Domain) -> Result<Setup, Breakdown> {
+        let (nodes, wear) = (self.setup().grid.nodes(), &self.state.wear);
+        let reach = match wear.iter().rposition(|&worn| worn != 0.0) {
+            // Between the last node that is worn and the next one, wear falls to zero.
+            Some(last) => nodes[(last + 1).min(nodes.len() - 1)],
+            None => 0.0,
+        };
+        let radius = setup.grid.radius();
+        if radius >= reach {
+            return Ok(setup);
+        }
+        let wider = RadialGrid::uniform(setup.grid.cells(), self.setup().grid.radius());
+        match (domain, wider) {
+            (Domain::Derived, Ok(grid)) => Ok(Setup { grid, ..setup }),
+            _ => Err(self.refused(Cause::WearCutOff { reach, radius })),
+        }
+    }
+
+    /// The present state on the grid of another setup.
+    pub(super) fn state_on(&self, setup: &Setup) -> State {
+        let (grid, springs) = (&self.setup().grid, setup.springs());
+        if setup.grid == *grid && springs == self.model.springs() {
+            return State {
+                jump: JumpMemory::default(),
+                ..self.state.clone()
+            };
+        }
+        let before = &self.state.contact;
+        let fresh = State::new(setup.grid.len(), springs > 0);
+        let mut state = State {
+            contact: contact::Contact {
+                depth: before.depth,
+                shift: before.shift,
+                ..fresh.contact
+            },
+            wear: fresh.wear,
+            image: fresh.image,
+            traction: fresh.traction,
+            last: fresh.last,
+            jump: JumpMemory::default(),
+            ..self.state.clone()
+        };
+        let nodes = setup.grid.nodes();
+        for (worn, &r) in state.wear.iter_mut().zip(nodes) {
+            // Between nodes the interpolant may swing below zero by a little.
+            *worn = worn::interpolate(grid, &self.state.wear, r).max(0.0);
+        }
+        if springs > 0 && self.model.springs() > 0 {
+            for (u, &r) in state.contact.spring.nodal.iter_mut().zip(nodes) {
+                *u = grid.interpolate(&before.spring.nodal, r);
+            }
+        }
+        state
+    }
+}

@@ -325,14 +325,28 @@ fn bare_plot<'a>(app: &App, x: Axis<'a>, y: Axis<'a>) -> Plot<'a> {
 
 /// A quantity of every cycle over the cycles so far.
 fn over_cycles<'a>(panel: Panel, frame: &Frame, app: &App, y: Axis<'a>) -> Plot<'a> {
+    let ends = cycles_shown(frame);
+    plot(panel, app, Axis::new("cycles", "").bounds(ends), y)
+}
+
+/// The cycles that the panels over cycles show.
+fn cycles_shown(frame: &Frame) -> [f64; 2] {
     let end = frame.trend.cycles().last().map_or(0.0, |entry| entry.cycle);
-    let end = end.max(ghosts::end(frame));
-    plot(
-        panel,
-        app,
-        Axis::new("cycles", "").bounds([0.0, end.max(1.0)]),
-        y,
-    )
+    [0.0, round_end(end.max(ghosts::end(frame)))]
+}
+
+/// The round number of cycles, at least one, that `end` does not exceed: an axis that ended at the
+/// present would squeeze the whole past with every frame.
+fn round_end(end: f64) -> f64 {
+    const ROUND: [f64; 11] = [1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0];
+    let decade = 10f64.powf(end.max(1.0).log10().floor());
+    ROUND
+        .into_iter()
+        .map(|round| round * decade)
+        // A part of a cycle is no round number.
+        .filter(|round| round.fract() == 0.0)
+        .find(|round| end <= round * (1.0 + 1e-9))
+        .unwrap_or(10.0 * decade)
 }
 
 /// One quantity of every cycle, with the cycles it belongs to.
@@ -404,6 +418,25 @@ fn curve<'a>(name: &'a str, xs: &'a [f64], ys: &'a [f64], theme: &Theme, role: R
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_axis_of_cycles_ends_at_a_round_number() {
+        for (end, expected) in [
+            (0.0, 1.0),
+            (1.0, 1.0),
+            (1.01, 2.0),
+            (2.5, 3.0),
+            (6.5, 8.0),
+            (9.0, 10.0),
+            (10.5, 12.0),
+            (24.0, 25.0),
+            (99.0, 100.0),
+            (199.24, 200.0),
+            (8.1e5, 1e6),
+        ] {
+            assert_eq!(round_end(end), expected, "{end}");
+        }
+    }
 
     #[test]
     fn a_spike_does_not_flatten_the_rest_and_a_smooth_curve_is_whole() {

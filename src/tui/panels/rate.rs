@@ -1,16 +1,23 @@
-//! Worn volume per cycle, over cycles.
+//! Worn volume per cycle, over cycles. The unfinished cycle is left out: most of the wear of a cycle falls
+//! into a part of it, so a rate over less than a cycle means little.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 
-use super::{App, Frame, Panel, curve, nothing, over_cycles, series};
+use super::{App, Frame, Panel, curve, nothing, over_cycles};
 use crate::plot::{Axis, Scale};
 use crate::tui::theme::Role;
 
+/// The finished cycles and their rates.
+fn rates(frame: &Frame) -> (Vec<f64>, Vec<f64>) {
+    let cycles = frame.trend.finished_cycles();
+    cycles.map(|entry| (entry.cycle, entry.wear_rate)).unzip()
+}
+
 /// What the ordinate must hold.
 pub fn ordinates(frame: &Frame) -> Vec<f64> {
-    let mut values = series(frame, |entry| entry.wear_rate).1;
+    let mut values = rates(frame).1;
     values.push(0.0);
     values
 }
@@ -20,7 +27,7 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     if frame.observation.law.is_none() {
         return nothing("no wear in this scenario", app, area, buffer);
     }
-    let (cycles, rate) = series(frame, |entry| entry.wear_rate);
+    let (cycles, rate) = rates(frame);
     let now = curve("", &cycles, &rate, &app.theme, Role::Profile);
     let now = match app.scale(Panel::Rate) {
         Scale::Linear => now.fill_to(0.0),

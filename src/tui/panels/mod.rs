@@ -202,8 +202,26 @@ impl Panel {
         )
     }
 
+    /// Whether a run may leave the panel as it is for two frames: numbers that nobody reads ten times a
+    /// second, pictures that are looked at rather than followed, and what grows from cycle to cycle.
+    fn is_calm(self) -> bool {
+        match self {
+            Self::Numbers | Self::Section => true,
+            Self::Radii | Self::Volume | Self::Rate | Self::Residual => true,
+            Self::Cost | Self::ScarDepth | Self::Log => true,
+            // Marks of a and c are at the same places in all plots over r.
+            Self::Profile | Self::Stresses | Self::Springs | Self::Depth => false,
+            Self::Loop | Self::Scar | Self::Condition => false,
+        }
+    }
+
     /// Draws the panel.
     pub fn draw(self, frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
+        let frame = if self.is_calm() {
+            app.calm(frame)
+        } else {
+            frame
+        };
         let role = if app.focus == self {
             Role::Focus
         } else {
@@ -216,8 +234,8 @@ impl Panel {
             Self::Springs => springs::plotted(frame, app, |plot| plot.render(inner, buffer)),
             Self::Loop => fretting_loop::draw(frame, app, inner, buffer),
             Self::Radii => radii::draw(frame, app, inner, buffer),
-            Self::Numbers => numbers::draw(app.calm(frame), app, inner, buffer),
-            Self::Section => section::draw(app.calm(frame), app, inner, buffer),
+            Self::Numbers => numbers::draw(frame, app, inner, buffer),
+            Self::Section => section::draw(frame, app, inner, buffer),
             Self::Depth => depth::plotted(frame, app, |plot| plot.render(inner, buffer)),
             Self::Volume => volume::draw(frame, app, inner, buffer),
             Self::Rate => rate::draw(frame, app, inner, buffer),

@@ -162,8 +162,8 @@ fn a_frame_of_the_figure_takes_few_bytes() {
 fn a_frame_in_motion_takes_few_bytes() {
     let sizes: [(Tell, usize); 3] = [
         (|| Ok(Size::new(80, 24)), 420),
-        (|| Ok(Size::new(120, 40)), 1125),
-        (|| Ok(Size::new(200, 50)), 1550),
+        (|| Ok(Size::new(120, 40)), 1115),
+        (|| Ok(Size::new(200, 50)), 1530),
     ];
     for (size, budget) in sizes {
         let mut counted = Counted::new(size);

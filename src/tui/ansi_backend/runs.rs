@@ -16,7 +16,7 @@ use super::sink::bytes_of;
 
 /// The next run is searched among this many, in the order of the rows: the time of a large frame grows
 /// with its size and not with its square.
-const SEARCHED: usize = 128;
+const SEARCHED: usize = 192;
 
 /// The longest gap that is worth a look: a move over it takes at most as many bytes.
 const LONGEST_GAP: u16 = 5;

@@ -376,6 +376,12 @@ fn series(frame: &Frame, of: impl Fn(&Cycle) -> f64) -> (Vec<f64>, Vec<f64>) {
         .unzip()
 }
 
+/// The same of the finished cycles only.
+fn finished_series(frame: &Frame, of: impl Fn(&Cycle) -> f64) -> (Vec<f64>, Vec<f64>) {
+    let cycles = frame.trend.finished_cycles();
+    cycles.map(|entry| (entry.cycle, of(entry))).unzip()
+}
+
 /// Writes a message in a panel that has nothing to plot.
 fn nothing(text: &str, app: &App, area: Rect, buffer: &mut Buffer) {
     Line::styled(format!(" {text}"), app.theme.style(Role::Quiet)).render(area, buffer);

@@ -5,19 +5,13 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 
-use super::{App, Frame, Panel, curve, nothing, over_cycles};
+use super::{App, Frame, Panel, curve, finished_series, nothing, over_cycles};
 use crate::plot::{Axis, Scale};
 use crate::tui::theme::Role;
 
-/// The finished cycles and their rates.
-fn rates(frame: &Frame) -> (Vec<f64>, Vec<f64>) {
-    let cycles = frame.trend.finished_cycles();
-    cycles.map(|entry| (entry.cycle, entry.wear_rate)).unzip()
-}
-
 /// What the ordinate must hold.
 pub fn ordinates(frame: &Frame) -> Vec<f64> {
-    let mut values = rates(frame).1;
+    let mut values = finished_series(frame, |entry| entry.wear_rate).1;
     values.push(0.0);
     values
 }
@@ -27,7 +21,7 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     if frame.observation.law.is_none() {
         return nothing("no wear in this scenario", app, area, buffer);
     }
-    let (cycles, rate) = rates(frame);
+    let (cycles, rate) = finished_series(frame, |entry| entry.wear_rate);
     let now = curve("", &cycles, &rate, &app.theme, Role::Profile);
     let now = match app.scale(Panel::Rate) {
         Scale::Linear => now.fill_to(0.0),

@@ -132,7 +132,7 @@ impl Raster {
     }
 
     /// A line along dot column `column`: dotted for a mark, full for the cursor. A mark moves with the
-    /// contact all the time, so every second cell of it stays empty: the upper one has dots, next to the
+    /// contact all the time, so two of three cells of it stay empty: the top one has dots, next to the
     /// mark's label.
     pub(super) fn vertical(&mut self, column: usize, kind: Under, style: Style) {
         let ink = self.ink(style);
@@ -141,7 +141,7 @@ impl Raster {
         let rows = 0..self.size().1 as usize;
         let drawn = |&row: &usize| {
             let cell = self.rows - 1 - row / down;
-            !sparse || (cell.is_multiple_of(2) && row.is_multiple_of(2))
+            !sparse || (cell.is_multiple_of(3) && row.is_multiple_of(2))
         };
         let rows: Vec<usize> = rows.filter(drawn).collect();
         for row in rows {

@@ -111,6 +111,27 @@ fn extent(plot: &Plot<'_>) -> [Option<[f64; 2]>; 2] {
     [xs, ys]
 }
 
+/// Where the name of a zone of `width` cells from `first` on begins, in a band of `cells`. Zones change
+/// with every frame, and a name that stayed in their middle could not be read: it keeps to the end that the
+/// zone shares with the band, else to every fourth cell.
+fn name_start(first: u16, width: u16, name: u16, cells: u16) -> u16 {
+    const MARGIN: u16 = 2;
+    const EVERY: u16 = 4;
+    let (room, middle) = (width - name, first + (width - name) / 2);
+    if first == 0 {
+        room.min(MARGIN)
+    } else if first + width == cells {
+        first + room - room.min(MARGIN)
+    } else {
+        let near = (middle + EVERY / 2) / EVERY * EVERY;
+        if (first..=first + room).contains(&near) {
+            near
+        } else {
+            middle
+        }
+    }
+}
+
 /// Everything placed: the plot area, the maps on it, and the ticks around it.
 struct Frame<'p, 'a> {
     plot: &'p Plot<'a>,
@@ -315,8 +336,8 @@ impl<'p, 'a> Frame<'p, 'a> {
             }
             let name = format!(" {} ", text(zone.name, ascii));
             if let Some(first) = first.filter(|_| !zone.name.is_empty() && cells(&name) <= width) {
-                let x = self.inner.x + first + (width - cells(&name)) / 2;
-                self.write(buf, x, y, &name, zone.style);
+                let start = name_start(first, width, cells(&name), self.x.cells());
+                self.write(buf, self.inner.x + start, y, &name, zone.style);
             }
         }
     }

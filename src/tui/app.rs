@@ -31,9 +31,8 @@ use crate::studies::theory::Theory;
 const CURSOR_PLACES: i16 = 100;
 const CURSOR_START: i16 = 33;
 
-/// Panels whose picture is looked at rather than followed, and numbers that nobody reads ten times a
-/// second, take every second frame of a run: half of the bytes, and half of the stresses to compute.
-const CALM: u32 = 2;
+/// Calm panels take every third frame of a run: a third of the bytes, and of the stresses to compute.
+const CALM: u32 = 3;
 
 /// How the program is left.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

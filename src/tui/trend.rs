@@ -315,6 +315,12 @@ impl Trend {
         self.cycles.iter().chain(&self.tip.open)
     }
 
+    /// The finished cycles; the unfinished one if there is no other.
+    pub fn finished_cycles(&self) -> impl Iterator<Item = &Cycle> {
+        let first = self.tip.open.iter().filter(|_| self.cycles.is_empty());
+        self.cycles.iter().chain(first)
+    }
+
     /// The displacement of the rig's actuator (m) and F_x (N) of the last cycle, as far as there is a rig that
     /// yields.
     pub fn sensed_loop(&self) -> (Vec<f64>, Vec<f64>) {
@@ -383,6 +389,21 @@ mod tests {
             trend.cycles().last().map(|cycle| cycle.cycle),
             Some(50_000.0)
         );
+    }
+
+    #[test]
+    fn an_unfinished_cycle_counts_as_finished_only_if_it_is_the_first() {
+        let mut trend = Trend::default();
+        let mut record = |cycle: f64| {
+            trend.record(&moment(cycle, 1.0));
+            let ends = trend.finished_cycles().map(|entry| entry.cycle);
+            ends.collect::<Vec<_>>()
+        };
+        assert_eq!(record(0.0), [0.0]);
+        assert_eq!(record(0.5), [0.5]);
+        assert_eq!(record(1.0), [1.0]);
+        assert_eq!(record(1.5), [1.0]);
+        assert_eq!(record(2.0), [1.0, 2.0]);
     }
 
     #[test]

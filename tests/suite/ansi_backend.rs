@@ -152,18 +152,18 @@ fn at_the_initial_pace(counted: &mut Counted) -> usize {
 #[test]
 fn a_frame_of_the_figure_takes_few_bytes() {
     let small = average(|| Ok(Size::new(80, 24)), 60);
-    assert!(small <= 450, "{small} bytes per frame in 80 by 24");
+    assert!(small <= 235, "{small} bytes per frame in 80 by 24");
     let large = average(|| Ok(Size::new(200, 50)), 60);
-    assert!(large <= 2000, "{large} bytes per frame in 200 by 50");
+    assert!(large <= 1140, "{large} bytes per frame in 200 by 50");
 }
 
 /// Where motion is seen, every curve and every mark moves between two frames.
 #[test]
 fn a_frame_in_motion_takes_few_bytes() {
     let sizes: [(Tell, usize); 3] = [
-        (|| Ok(Size::new(80, 24)), 480),
-        (|| Ok(Size::new(120, 40)), 1480),
-        (|| Ok(Size::new(200, 50)), 2360),
+        (|| Ok(Size::new(80, 24)), 420),
+        (|| Ok(Size::new(120, 40)), 1115),
+        (|| Ok(Size::new(200, 50)), 1530),
     ];
     for (size, budget) in sizes {
         let mut counted = Counted::new(size);
@@ -183,14 +183,14 @@ fn stresses_in_the_half_space_take_few_bytes() {
     assert!(counted.app.stress_bounds().is_some());
     let frames = 60;
     let total: usize = (0..frames).map(|_| counted.frame(",..")).sum();
-    assert!(total / frames <= 2000, "{} bytes a frame", total / frames);
+    assert!(total / frames <= 625, "{} bytes a frame", total / frames);
     assert_eq!(counted.draw(), 0, "a paused screen sends something");
 }
 
-/// A run's cross-section and numbers follow within a frame, and at once when it pauses or a key is
+/// A run's cross-section and numbers follow within two frames, and at once when it pauses or a key is
 /// pressed.
 #[test]
-fn calm_panels_are_never_two_frames_behind() {
+fn calm_panels_are_never_three_frames_behind() {
     let mut counted = Counted::new(|| Ok(Size::new(120, 40)));
     counted.frame(",");
     let force = |counted: &Counted| {
@@ -199,17 +199,17 @@ fn calm_panels_are_never_two_frames_behind() {
         text[at..at + 40].to_owned()
     };
     let mut seen = Vec::new();
-    for _ in 0..4 {
+    for _ in 0..7 {
         counted.running_frame(".....");
         seen.push(force(&counted));
     }
-    assert_ne!(seen[0], seen[1]);
-    assert_eq!(seen[1], seen[2]);
-    assert_ne!(seen[2], seen[3]);
-    counted.running_frame(".....");
-    assert_eq!(force(&counted), seen[3]);
+    assert_eq!(seen[0], seen[1]);
+    assert_ne!(seen[1], seen[2]);
+    assert_eq!([&seen[2]; 2], [&seen[3], &seen[4]]);
+    assert_ne!(seen[4], seen[5]);
+    assert_eq!(seen[5], seen[6]);
     counted.frame("");
-    assert_ne!(force(&counted), seen[3], "paused, but not up to date");
+    assert_ne!(force(&counted), seen[6], "paused, but not up to date");
 }
 
 #[test]

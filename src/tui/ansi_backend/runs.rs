@@ -8,6 +8,7 @@ use std::ops::Range;
 
 use ratatui::buffer::Cell;
 use ratatui::layout::{Position, Size};
+use ratatui::style::Color;
 
 use super::moves::move_to;
 use super::pen::Pen;
@@ -15,7 +16,7 @@ use super::sink::bytes_of;
 
 /// The next run is searched among this many, in the order of the rows: the time of a large frame grows
 /// with its size and not with its square.
-const SEARCHED: usize = 128;
+const SEARCHED: usize = 192;
 
 /// The longest gap that is worth a look: a move over it takes at most as many bytes.
 const LONGEST_GAP: u16 = 5;
@@ -78,6 +79,28 @@ fn is_certain(cell: &Cell) -> bool {
     signs.next().is_some_and(certain) && signs.next().is_none()
 }
 
+/// The same picture with fewer pens: of two halves of a cell in two colours either one may have the ink, and
+/// the one whose colour comes first gets it.
+fn with_ink_first(mut cell: Cell) -> Cell {
+    let other = match cell.symbol() {
+        "▀" => "▄",
+        "▄" => "▀",
+        _ => return cell,
+    };
+    let of = |color: Color| match color {
+        Color::Indexed(index) => Some(index),
+        _ => None,
+    };
+    if let (Some(ink), Some(ground)) = (of(cell.fg), of(cell.bg))
+        && ground < ink
+        && cell.modifier.is_empty()
+    {
+        cell.set_symbol(other);
+        std::mem::swap(&mut cell.fg, &mut cell.bg);
+    }
+    cell
+}
+
 /// What the terminal shows, as far as this program has written it; blank at first, as the drawing
 /// library takes it to be.
 #[derive(Debug, Default)]
@@ -118,7 +141,7 @@ impl Shown {
             if !look_alike {
                 places.push(Position::new(x, y));
             }
-            shown.clone_from(cell);
+            *shown = with_ink_first(cell.clone());
         }
         places.sort_unstable_by_key(|place| (place.y, place.x));
         places
@@ -261,6 +284,24 @@ mod tests {
             pen = Some(run.pen(pen));
         }
         assert_eq!(order, "acdb");
+    }
+
+    #[test]
+    fn two_colours_in_a_cell_make_one_pen() {
+        let cell = |sign: &str, fg: u8, bg: u8| {
+            let mut cell = Cell::EMPTY;
+            let (fg, bg) = (Color::Indexed(fg), Color::Indexed(bg));
+            cell.set_symbol(sign).set_fg(fg).set_bg(bg);
+            cell
+        };
+        for (written, expected) in [
+            (cell("▀", 30, 20), cell("▄", 20, 30)),
+            (cell("▄", 30, 20), cell("▀", 20, 30)),
+            (cell("▀", 20, 30), cell("▀", 20, 30)),
+            (cell("▂", 30, 20), cell("▂", 30, 20)),
+        ] {
+            assert_eq!(with_ink_first(written), expected);
+        }
     }
 
     #[test]

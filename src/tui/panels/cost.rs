@@ -1,23 +1,23 @@
-//! Time per step on this machine, over cycles.
+//! Time per step on this machine, over finished cycles.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 
-use super::{App, Frame, Panel, curve, nothing, over_cycles, series};
+use super::{App, Frame, Panel, curve, finished_series, nothing, over_cycles};
 use crate::plot::Axis;
 use crate::tui::theme::Role;
 
 /// What the ordinate must hold: costs are read from zero.
 pub fn ordinates(frame: &Frame) -> Vec<f64> {
-    let mut values = series(frame, |entry| entry.step_cost).1;
+    let mut values = finished_series(frame, |entry| entry.step_cost).1;
     values.push(0.0);
     values
 }
 
 /// Draws the panel.
 pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
-    let (cycles, cost) = series(frame, |entry| entry.step_cost);
+    let (cycles, cost) = finished_series(frame, |entry| entry.step_cost);
     if !cost.iter().any(|value| value.is_finite()) {
         return nothing("measured while it runs", app, area, buffer);
     }

@@ -202,8 +202,26 @@ impl Panel {
         )
     }
 
+    /// Whether a run may leave the panel as it is for two frames: numbers that nobody reads ten times a
+    /// second, pictures that are looked at rather than followed, and what grows from cycle to cycle.
+    fn is_calm(self) -> bool {
+        match self {
+            Self::Numbers | Self::Section => true,
+            Self::Radii | Self::Volume | Self::Rate | Self::Residual => true,
+            Self::Cost | Self::ScarDepth | Self::Log => true,
+            // Marks of a and c are at the same places in all plots over r.
+            Self::Profile | Self::Stresses | Self::Springs | Self::Depth => false,
+            Self::Loop | Self::Scar | Self::Condition => false,
+        }
+    }
+
     /// Draws the panel.
     pub fn draw(self, frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
+        let frame = if self.is_calm() {
+            app.calm(frame)
+        } else {
+            frame
+        };
         let role = if app.focus == self {
             Role::Focus
         } else {
@@ -216,8 +234,8 @@ impl Panel {
             Self::Springs => springs::plotted(frame, app, |plot| plot.render(inner, buffer)),
             Self::Loop => fretting_loop::draw(frame, app, inner, buffer),
             Self::Radii => radii::draw(frame, app, inner, buffer),
-            Self::Numbers => numbers::draw(app.calm(frame), app, inner, buffer),
-            Self::Section => section::draw(app.calm(frame), app, inner, buffer),
+            Self::Numbers => numbers::draw(frame, app, inner, buffer),
+            Self::Section => section::draw(frame, app, inner, buffer),
             Self::Depth => depth::plotted(frame, app, |plot| plot.render(inner, buffer)),
             Self::Volume => volume::draw(frame, app, inner, buffer),
             Self::Rate => rate::draw(frame, app, inner, buffer),
@@ -325,14 +343,28 @@ fn bare_plot<'a>(app: &App, x: Axis<'a>, y: Axis<'a>) -> Plot<'a> {
 
 /// A quantity of every cycle over the cycles so far.
 fn over_cycles<'a>(panel: Panel, frame: &Frame, app: &App, y: Axis<'a>) -> Plot<'a> {
+    let ends = cycles_shown(frame);
+    plot(panel, app, Axis::new("cycles", "").bounds(ends), y)
+}
+
+/// The cycles that the panels over cycles show.
+fn cycles_shown(frame: &Frame) -> [f64; 2] {
     let end = frame.trend.cycles().last().map_or(0.0, |entry| entry.cycle);
-    let end = end.max(ghosts::end(frame));
-    plot(
-        panel,
-        app,
-        Axis::new("cycles", "").bounds([0.0, end.max(1.0)]),
-        y,
-    )
+    [0.0, round_end(end.max(ghosts::end(frame)))]
+}
+
+/// The round number of cycles, at least one, that `end` does not exceed: an axis that ended at the
+/// present would squeeze the whole past with every frame.
+fn round_end(end: f64) -> f64 {
+    const ROUND: [f64; 11] = [1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0];
+    let decade = 10f64.powf(end.max(1.0).log10().floor());
+    ROUND
+        .into_iter()
+        .map(|round| round * decade)
+        // A part of a cycle is no round number.
+        .filter(|round| round.fract() == 0.0)
+        .find(|round| end <= round * (1.0 + 1e-9))
+        .unwrap_or(10.0 * decade)
 }
 
 /// One quantity of every cycle, with the cycles it belongs to.
@@ -342,6 +374,12 @@ fn series(frame: &Frame, of: impl Fn(&Cycle) -> f64) -> (Vec<f64>, Vec<f64>) {
         .cycles()
         .map(|entry| (entry.cycle, of(entry)))
         .unzip()
+}
+
+/// The same of the finished cycles only.
+fn finished_series(frame: &Frame, of: impl Fn(&Cycle) -> f64) -> (Vec<f64>, Vec<f64>) {
+    let cycles = frame.trend.finished_cycles();
+    cycles.map(|entry| (entry.cycle, of(entry))).unzip()
 }
 
 /// Writes a message in a panel that has nothing to plot.
@@ -404,6 +442,25 @@ fn curve<'a>(name: &'a str, xs: &'a [f64], ys: &'a [f64], theme: &Theme, role: R
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_axis_of_cycles_ends_at_a_round_number() {
+        for (end, expected) in [
+            (0.0, 1.0),
+            (1.0, 1.0),
+            (1.01, 2.0),
+            (2.5, 3.0),
+            (6.5, 8.0),
+            (9.0, 10.0),
+            (10.5, 12.0),
+            (24.0, 25.0),
+            (99.0, 100.0),
+            (199.24, 200.0),
+            (8.1e5, 1e6),
+        ] {
+            assert_eq!(round_end(end), expected, "{end}");
+        }
+    }
 
     #[test]
     fn a_spike_does_not_flatten_the_rest_and_a_smooth_curve_is_whole() {

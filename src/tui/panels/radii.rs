@@ -4,7 +4,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 
-use super::{App, Frame, Panel, curve, ghosts, over_cycles, series};
+use super::{App, Frame, Panel, curve, cycles_shown, ghosts, over_cycles, series};
 use crate::plot::Axis;
 use crate::studies::ghost::Axes;
 use crate::tui::theme::Role;
@@ -35,7 +35,7 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = &app.theme;
     let (cycles, contact) = series(frame, |entry| entry.contact_radius);
     let stick = series(frame, |entry| entry.stick_radius).1;
-    let ends = [0.0, cycles.last().copied().unwrap_or(0.0).max(1.0)];
+    let ends = cycles_shown(frame);
     let mut ghosts = ghosts(frame);
     let mut plot = over_cycles(Panel::Radii, frame, app, Axis::new("radius", "m"))
         .curves(ghosts::curves(&mut ghosts, app))

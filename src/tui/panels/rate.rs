@@ -1,16 +1,17 @@
-//! Worn volume per cycle, over cycles.
+//! Worn volume per cycle, over cycles. The unfinished cycle is left out: most of the wear of a cycle falls
+//! into a part of it, so a rate over less than a cycle means little.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 
-use super::{App, Frame, Panel, curve, nothing, over_cycles, series};
+use super::{App, Frame, Panel, curve, finished_series, nothing, over_cycles};
 use crate::plot::{Axis, Scale};
 use crate::tui::theme::Role;
 
 /// What the ordinate must hold.
 pub fn ordinates(frame: &Frame) -> Vec<f64> {
-    let mut values = series(frame, |entry| entry.wear_rate).1;
+    let mut values = finished_series(frame, |entry| entry.wear_rate).1;
     values.push(0.0);
     values
 }
@@ -20,7 +21,7 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     if frame.observation.law.is_none() {
         return nothing("no wear in this scenario", app, area, buffer);
     }
-    let (cycles, rate) = series(frame, |entry| entry.wear_rate);
+    let (cycles, rate) = finished_series(frame, |entry| entry.wear_rate);
     let now = curve("", &cycles, &rate, &app.theme, Role::Profile);
     let now = match app.scale(Panel::Rate) {
         Scale::Linear => now.fill_to(0.0),

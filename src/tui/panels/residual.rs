@@ -5,7 +5,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 
-use super::{App, Frame, Panel, curve, nothing, over_cycles, series};
+use super::{App, Frame, Panel, curve, cycles_shown, nothing, over_cycles, series};
 use crate::plot::Axis;
 use crate::tui::theme::Role;
 use crate::tui::trend::Cycle;
@@ -30,7 +30,7 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     }
     let theme = &app.theme;
     let zero = [0.0; 2];
-    let ends = [0.0, cycles.last().copied().unwrap_or(0.0).max(1.0)];
+    let ends = cycles_shown(frame);
     over_cycles(
         Panel::Residual,
         frame,

@@ -211,7 +211,8 @@ fn at(control: &Control, turns: f64) -> Target {
 mod tests {
     use super::*;
 
-    fn drive(ratio: f64) -> Drive {
+    /// Two displacements, the normal one `ratio` times faster.
+    pub(super) fn drive(ratio: f64) -> Drive {
         let normal = Oscillation::new(1e-6, 1e-7, 100.0 * ratio, 0.0).expect("a motion");
         let tangential = Oscillation::new(0.0, 1e-7, 100.0, 0.5).expect("a motion");
         Drive::new(

@@ -173,17 +173,9 @@ fn first_crossing(function: impl Fn(f64) -> f64, ratio: f64, from: f64, until: f
 
 #[cfg(test)]
 mod tests {
+    use super::super::tests::drive;
     use super::super::{Oscillation, Target};
     use super::*;
-
-    fn drive(ratio: f64) -> Drive {
-        let normal = Oscillation::new(1e-6, 1e-7, 100.0 * ratio, 0.0).expect("a motion");
-        let tangential = Oscillation::new(0.0, 1e-7, 100.0, 0.5).expect("a motion");
-        Drive::new(
-            Control::Displacement(normal),
-            Some(Control::Displacement(tangential)),
-        )
-    }
 
     #[test]
     fn turning_points_are_where_the_rates_vanish() {

@@ -48,7 +48,7 @@ impl Simulation {
                 share: lost.abs() / worn,
             }));
         }
-        // What the nodes of the new grid say otherwise is not worn nor taken back.
+        // The change of volume by interpolation is no wear.
         changed.state.unexplained_volume -= lost;
         *self = changed;
         Ok(())

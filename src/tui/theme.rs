@@ -169,7 +169,7 @@ impl Theme {
         Self { depth, ..self }
     }
 
-    /// The terminal has told its background: the look for it, unless one was chosen.
+    /// Takes the look for the background that the terminal has reported, unless one was chosen.
     pub fn follow(&mut self, background: [u8; 3]) {
         if self.follows_background {
             self.look = Look::on(background);

@@ -51,7 +51,7 @@ pub fn resolve(
     let warning = unmet(&reached, accuracy, budget);
     statements.extend(warning.clone().map(|word| ("warning".to_owned(), word)));
     Ok(Resolved {
-        scenario: reached.rung.level.of_scenario(scenario)?,
+        scenario: reached.session.loaded().clone(),
         statements,
         warning,
         ended: Some(reached.session),

@@ -62,7 +62,7 @@ impl Pen {
         sequence(true, &anew, sink);
     }
 
-    /// Tells the numbers that lead from the pen `now` to this one.
+    /// Passes `tell` the numbers that lead from the pen `now` to this one.
     fn numbers(self, now: Self, tell: &mut dyn FnMut(u16)) {
         let removed = now.modifier - self.modifier;
         let mut added = self.modifier - now.modifier;
@@ -92,7 +92,7 @@ impl Pen {
     }
 }
 
-/// The numbers that `tell` tells, as a sequence that begins with a reset or not.
+/// Writes the numbers that `tell` passes on as a sequence, with or without a reset first.
 fn sequence(reset: bool, tell: &impl Fn(&mut dyn FnMut(u16)), sink: &mut impl Sink) {
     sink.text("\x1b[");
     let mut separator = if reset { ";" } else { "" };
@@ -104,7 +104,7 @@ fn sequence(reset: bool, tell: &impl Fn(&mut dyn FnMut(u16)), sink: &mut impl Si
     sink.text("m");
 }
 
-/// Tells the numbers of a colour, `base` being that of black: 30 for ink, 40 for ground.
+/// Passes `tell` the numbers of a colour, `base` being that of black: 30 for ink, 40 for ground.
 fn color(color: Color, base: u16, tell: &mut dyn FnMut(u16)) {
     let bright = base + 60;
     tell(match color {

@@ -376,7 +376,7 @@ fn series(frame: &Frame, of: impl Fn(&Cycle) -> f64) -> (Vec<f64>, Vec<f64>) {
         .unzip()
 }
 
-/// The same of the finished cycles only.
+/// One quantity of every finished cycle, with the cycles it belongs to.
 fn finished_series(frame: &Frame, of: impl Fn(&Cycle) -> f64) -> (Vec<f64>, Vec<f64>) {
     let cycles = frame.trend.finished_cycles();
     cycles.map(|entry| (entry.cycle, of(entry))).unzip()

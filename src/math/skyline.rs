@@ -67,8 +67,8 @@ type Sums<S> = [f64x4<S>; ROWS / LANES];
 #[inline(always)]
 fn sum_columns<S: Simd>(simd: S, columns: &[Column], values: &[f64]) -> Sums<S> {
     let halves = |Column(column): &Column| {
-        let (lanes, _) = column.as_chunks::<LANES>();
-        [0, 1].map(|half| f64x4::from_slice(simd, &lanes[half]))
+        let (low, high) = column.split_at(LANES);
+        [f64x4::from_slice(simd, low), f64x4::from_slice(simd, high)]
     };
     // Each quarter of the run has sums of its own: the processor need not wait for the last addition,
     // and fetches four streams from its outer caches where the run does not fit the inner one.

@@ -1,8 +1,8 @@
 //! Random keys, pastes and resizes on every preset and size: nothing panics, nothing hangs.
 //!
-//! Half a minute of the same sessions each time. `MDR_TUI_FUZZ_SECONDS` sets how long it goes on, with longer sessions
-//! and from a seed of the clock, `MDR_TUI_FUZZ_SEED` where it begins: a session that fails tells its own seed, and is
-//! the first one that this seed begins with.
+//! The same sessions each time. `MDR_TUI_FUZZ_SECONDS` lets it go on for so long, with longer sessions and from a seed of
+//! the clock, and `MDR_TUI_FUZZ_SEED` sets where it begins: a session that fails tells its own seed, and is the first one
+//! that this seed begins with.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
@@ -10,6 +10,9 @@ use std::time::{Duration, Instant};
 use mdr_tui::scenario::preset;
 
 use crate::test_dir::{TestDir, end};
+
+/// How many sessions there are, unless a time is given.
+const SESSIONS: u64 = 150;
 
 /// A generator that needs no crate: splitmix64.
 struct Random(u64);
@@ -184,23 +187,30 @@ fn random_keys_break_nothing() {
             .map(|text| text.parse::<u64>().expect("a number"))
     };
     let asked = number("MDR_TUI_FUZZ_SECONDS");
-    let seconds = asked.unwrap_or(30);
-    // The same sessions each time, but for those who ask for more.
+    let keys_each = if asked.is_some() { 500 } else { 150 };
     let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
     let now = now.map_or(1, |now| now.as_secs()) * 1_000_000;
     let first = number("MDR_TUI_FUZZ_SEED").unwrap_or(asked.map_or(1, |_| now));
     eprintln!("MDR_TUI_FUZZ_SEED={first}");
-    let (next, keys) = (AtomicU64::new(first), AtomicU64::new(0));
-    let end = Instant::now() + Duration::from_secs(seconds);
+    let next = AtomicU64::new(first);
+    let [keys, sessions] = [const { AtomicU64::new(0) }; 2];
+    let start = Instant::now();
+    let goes_on = |seed: u64| match asked {
+        Some(seconds) => start.elapsed() < Duration::from_secs(seconds),
+        None => seed < first + SESSIONS,
+    };
     std::thread::scope(|scope| {
         let threads: Vec<_> = (0..2)
             .map(|_| {
                 scope.spawn(|| {
-                    while Instant::now() < end {
-                        let dir = TestDir::new();
+                    loop {
                         let seed = next.fetch_add(1, Ordering::SeqCst);
-                        let pressed = session(&dir, seed, if seconds > 60 { 500 } else { 150 });
+                        if !goes_on(seed) {
+                            break;
+                        }
+                        let pressed = session(&TestDir::new(), seed, keys_each);
                         keys.fetch_add(pressed as u64, Ordering::SeqCst);
+                        sessions.fetch_add(1, Ordering::SeqCst);
                     }
                 })
             })
@@ -211,10 +221,7 @@ fn random_keys_break_nothing() {
             }
         }
     });
-    let sessions = next.load(Ordering::SeqCst) - first;
-    eprintln!(
-        "{} keys in {sessions} sessions, seeds from {first} on",
-        keys.load(Ordering::SeqCst)
-    );
-    assert!(sessions > 0);
+    let [keys, sessions] = [keys, sessions].map(AtomicU64::into_inner);
+    eprintln!("{keys} keys in {sessions} sessions, seeds from {first} on");
+    assert!(sessions > 0 && (asked.is_some() || sessions == SESSIONS));
 }

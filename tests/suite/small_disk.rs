@@ -33,7 +33,7 @@ impl SmallDisk {
 
     /// Leaves no byte free.
     fn fill(&self) {
-        let filler = vec![0_u8; 1 << 20];
+        let filler = vec![0_u8; 8 << 20];
         assert!(
             fs::write(self.0.join("filler"), filler).is_err(),
             "not full"
@@ -47,7 +47,7 @@ impl Drop for SmallDisk {
     }
 }
 
-const PLAN: &str = "run li2019-fig3 --set numerics.points=40 --snapshot-at 1 --history every-step";
+const PLAN: &str = "run li2019-fig3 --set numerics.points=400 --snapshot-at 1 --history every-step";
 
 fn start(dir: &TestDir, out: &Path, cycles: &str) -> Child {
     let mut command = dir.command(&PLAN.split(' ').collect::<Vec<_>>());
@@ -68,11 +68,11 @@ fn wait_for(what: &str, mut seen: impl FnMut() -> bool) {
 #[test]
 fn on_a_full_disk_the_newest_state_is_kept_where_there_is_room() {
     let dir = TestDir::new();
-    let Some(disk) = SmallDisk::mounted(dir.path("disk"), 800) else {
+    let Some(disk) = SmallDisk::mounted(dir.path("disk"), 4000) else {
         return;
     };
     let out = disk.0.join("x");
-    let child = start(&dir, &out, "20");
+    let child = start(&dir, &out, "60");
     wait_for("checkpoint", || out.join("run.checkpoint").exists());
     disk.fill();
     let said = end(child);
@@ -102,7 +102,7 @@ fn on_a_full_disk_the_newest_state_is_kept_where_there_is_room() {
         roomy.display()
     ));
     let mut whole: Vec<&str> = PLAN.split(' ').collect();
-    whole.extend(["--cycles", "20", "--out", "whole", "--quiet"]);
+    whole.extend(["--cycles", "60", "--out", "whole", "--quiet"]);
     assert_eq!(dir.say(&whole).code, 0);
     assert_eq!(names(&roomy), names(&dir.path("whole")));
     for name in names(&roomy) {
@@ -115,7 +115,7 @@ fn on_a_full_disk_the_newest_state_is_kept_where_there_is_room() {
 fn where_nothing_more_is_kept_the_end_says_from_which_cycle_on() {
     let dir = TestDir::new();
     let out = dir.path("x");
-    let child = start(&dir, &out, "20");
+    let child = start(&dir, &out, "60");
     wait_for("checkpoint", || out.join("run.checkpoint").exists());
     let limit = Command::new("prlimit")
         .args(["--fsize=0:0", "--pid", &child.id().to_string()])
@@ -141,7 +141,7 @@ fn where_nothing_more_is_kept_the_end_says_from_which_cycle_on() {
     let cycle = format!(" at cycle {from}\n");
     assert!(String::from_utf8_lossy(&kept).contains(&cycle), "{last}");
     assert!(
-        rest.ends_with("run.checkpoint (cycles up to 20 could not be saved)"),
+        rest.ends_with("run.checkpoint (cycles up to 60 could not be saved)"),
         "{last}"
     );
 }

@@ -31,28 +31,42 @@ pub fn stages_for(stiffness: f64) -> usize {
     (stages as usize).max(FEWEST_STAGES)
 }
 
+/// What a step writes into and nobody reads afterwards: steps of the same size allocate nothing more.
+#[derive(Debug, Clone, Default)]
+pub struct Buffers {
+    /// Y_{j−2} and F_{j−1}.
+    before: Vec<f64>,
+    slope: Vec<f64>,
+    /// T, T′ and T″ at w₀.
+    polynomials: Vec<[f64; 3]>,
+}
+
 /// One step of length `h` (in units of the independent variable) from `y` with the slope `first` there:
-/// `next` receives y_{n+1}. `slope` gives F; if it fails, so does the step, and `next` is of
-/// no use.
+/// `next` receives y_{n+1}. `slope` writes F into its second argument, as long as `y`; if it fails, so does the step, and
+/// `next` is of no use.
 pub fn step<E>(
     stages: usize,
     h: f64,
     y: &[f64],
     first: &[f64],
     next: &mut Vec<f64>,
-    mut slope: impl FnMut(&[f64], &mut Vec<f64>) -> Result<(), E>,
+    buffers: &mut Buffers,
+    mut slope: impl FnMut(&[f64], &mut [f64]) -> Result<(), E>,
 ) -> Result<(), E> {
-    let coefficients = coefficients(stages.max(FEWEST_STAGES));
-    let mut before = y.to_vec();
+    let Buffers {
+        before,
+        slope: slopes,
+        polynomials,
+    } = buffers;
+    let stages = Stages::new(stages.max(FEWEST_STAGES), polynomials);
+    before.clear();
+    before.extend_from_slice(y);
+    slopes.resize(y.len(), 0.0);
+    let length = stages.first() * h;
     next.clear();
-    next.extend(
-        y.iter()
-            .zip(first)
-            .map(|(y, f)| y + coefficients.first * h * f),
-    );
-    let mut slopes = Vec::with_capacity(y.len());
-    for stage in &coefficients.stages {
-        slope(next, &mut slopes)?;
+    next.extend(y.iter().zip(first).map(|(y, f)| y + length * f));
+    for stage in stages.later() {
+        slope(next, slopes)?;
         for i in 0..y.len() {
             let value = (1.0 - stage.mu - stage.nu) * y[i]
                 + stage.mu * next[i]
@@ -70,9 +84,12 @@ pub fn error(h: f64, y: f64, next: f64, first: f64, last: f64) -> f64 {
     0.8 * (y - next) + 0.4 * h * (first + last)
 }
 
-struct Coefficients {
-    first: f64,
-    stages: Vec<Stage>,
+/// The coefficients of a step.
+struct Stages<'a> {
+    w0: f64,
+    w1: f64,
+    /// T_j, T′_j and T″_j at w₀, from j = 0 to the number of stages.
+    t: &'a [[f64; 3]],
 }
 
 struct Stage {
@@ -82,35 +99,45 @@ struct Stage {
     gamma_tilde: f64,
 }
 
-fn coefficients(stages: usize) -> Coefficients {
-    let w0 = 1.0 + DAMPING / (stages * stages) as f64;
-    // T, T′ and T″ at w₀, by their three-term recurrences.
-    let mut t = vec![[1.0, 0.0, 0.0], [w0, 1.0, 0.0]];
-    for j in 2..=stages {
-        let (one, two) = (t[j - 1], t[j - 2]);
-        t.push([
-            2.0 * w0 * one[0] - two[0],
-            2.0 * one[0] + 2.0 * w0 * one[1] - two[1],
-            4.0 * one[1] + 2.0 * w0 * one[2] - two[2],
-        ]);
-    }
-    let w1 = t[stages][1] / t[stages][2];
-    let b = |j: usize| {
-        let [_, slope, kink] = t[j.max(2)];
-        kink / (slope * slope)
-    };
-    let later = (2..=stages).map(|j| {
-        let mu_tilde = 2.0 * b(j) * w1 / b(j - 1);
-        Stage {
-            mu: 2.0 * b(j) * w0 / b(j - 1),
-            nu: -b(j) / b(j - 2),
-            mu_tilde,
-            gamma_tilde: -(1.0 - b(j - 1) * t[j - 1][0]) * mu_tilde,
+impl<'a> Stages<'a> {
+    fn new(stages: usize, t: &'a mut Vec<[f64; 3]>) -> Self {
+        let w0 = 1.0 + DAMPING / (stages * stages) as f64;
+        t.clear();
+        t.extend([[1.0, 0.0, 0.0], [w0, 1.0, 0.0]]);
+        // By their three-term recurrences.
+        for j in 2..=stages {
+            let (one, two) = (t[j - 1], t[j - 2]);
+            t.push([
+                2.0 * w0 * one[0] - two[0],
+                2.0 * one[0] + 2.0 * w0 * one[1] - two[1],
+                4.0 * one[1] + 2.0 * w0 * one[2] - two[2],
+            ]);
         }
-    });
-    Coefficients {
-        first: b(1) * w1,
-        stages: later.collect(),
+        let w1 = t[stages][1] / t[stages][2];
+        Self { w0, w1, t }
+    }
+
+    fn b(&self, j: usize) -> f64 {
+        let [_, slope, kink] = self.t[j.max(2)];
+        kink / (slope * slope)
+    }
+
+    /// μ̃₁.
+    fn first(&self) -> f64 {
+        self.b(1) * self.w1
+    }
+
+    /// From j = 2 on.
+    fn later(&self) -> impl Iterator<Item = Stage> {
+        (2..self.t.len()).map(|j| {
+            let mu_tilde = 2.0 * self.b(j) * self.w1 / self.b(j - 1);
+            Stage {
+                mu: 2.0 * self.b(j) * self.w0 / self.b(j - 1),
+                nu: -self.b(j) / self.b(j - 2),
+                mu_tilde,
+                gamma_tilde: -(1.0 - self.b(j - 1) * self.t[j - 1][0]) * mu_tilde,
+            }
+        })
     }
 }
 
@@ -124,11 +151,12 @@ mod tests {
         let mut y = vec![y];
         for _ in 0..steps {
             let (first, mut next) = (vec![f(y[0])], Vec::new());
-            let slope = |y: &[f64], out: &mut Vec<f64>| {
-                *out = vec![f(y[0])];
+            let buffers = &mut Buffers::default();
+            let slope = |y: &[f64], out: &mut [f64]| {
+                out[0] = f(y[0]);
                 Ok::<(), Infallible>(())
             };
-            let Ok(()) = step(stages, h, &y, &first, &mut next, slope);
+            let Ok(()) = step(stages, h, &y, &first, &mut next, buffers, slope);
             y = next;
         }
         y[0]
@@ -165,11 +193,12 @@ mod tests {
             let next = run(stages, steps, 1.0, |_| 0.0);
             assert_eq!(next, 1.0);
             let (mut end, f) = (Vec::new(), |y: f64| -y * y);
-            let slope = |y: &[f64], out: &mut Vec<f64>| {
-                *out = vec![f(y[0])];
+            let buffers = &mut Buffers::default();
+            let slope = |y: &[f64], out: &mut [f64]| {
+                out[0] = f(y[0]);
                 Ok::<(), Infallible>(())
             };
-            let Ok(()) = step(stages, h, &[1.0], &[-1.0], &mut end, slope);
+            let Ok(()) = step(stages, h, &[1.0], &[-1.0], &mut end, buffers, slope);
             let made = end[0] - 1.0 / (1.0 + h);
             let told = error(h, 1.0, end[0], -1.0, f(end[0]));
             assert!(

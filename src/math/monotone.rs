@@ -17,6 +17,8 @@
 //! ∫ f′/s dr = A asin(r/x) − B s + ½C [x² asin(r/x) − r s]
 //! ```
 
+use super::root;
+
 /// A monotone piecewise cubic.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Monotone {
@@ -112,18 +114,7 @@ impl Monotone {
         let Some(k) = self.values.iter().rposition(|&below| below <= value) else {
             return self.nodes[0];
         };
-        let (mut low, mut high) = (self.nodes[k], self.nodes[k + 1]);
-        loop {
-            let middle = 0.5 * (low + high);
-            if middle <= low || middle >= high {
-                return high;
-            }
-            if self.at(middle) <= value {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
+        root::first([self.nodes[k], self.nodes[k + 1]], |x| self.at(x) > value)
     }
 
     /// f′ = A + Br + Cr² on segment `k`; constant beyond the last point.

@@ -1,12 +1,13 @@
-//! A root of a monotone function, bracketed: the load that a depth carries, solved for the depth.
-//!
-//! The Illinois form of regula falsi: superlinear, derivative-free, never leaves its bracket.
-//! Reference: M. Dowell, P. Jarratt (1971), BIT 11, 168–174, doi 10.1007/BF01934364.
+//! A root of a monotone function: [bracketed], such as the load that a depth carries, solved for the depth; or
+//! [to the last bit](first), where speed does not matter.
 
 /// The most evaluations a solve may take; a smooth monotone function needs about ten.
 const MAX_EVALUATIONS: usize = 200;
 
 /// Finds x in [`low`, `high`] with `function(x)` = 0, given that the signs at the ends differ.
+///
+/// The Illinois form of regula falsi: superlinear, derivative-free, never leaves its bracket.
+/// Reference: M. Dowell, P. Jarratt (1971), BIT 11, 168–174, doi 10.1007/BF01934364.
 ///
 /// Stops when the bracket is no wider than `tolerance` or the function is exactly zero.
 /// Returns `None` when the ends do not bracket a root or a value is not finite.
@@ -69,6 +70,21 @@ pub fn bracketed(
     Some(if at_a.abs() < at_b.abs() { a } else { b })
 }
 
+/// The first number in an interval from which on `beyond` holds, by halving; its upper end if that is nowhere.
+pub fn first([mut low, mut high]: [f64; 2], beyond: impl Fn(f64) -> bool) -> f64 {
+    loop {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            return high;
+        }
+        if beyond(middle) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -101,5 +117,12 @@ mod tests {
     fn takes_a_root_at_an_end() {
         assert_eq!(bracketed(|x| x, 0.0, 1.0, 1e-12), Some(0.0));
         assert_eq!(bracketed(|x| x - 1.0, 0.0, 1.0, 1e-12), Some(1.0));
+    }
+
+    #[test]
+    fn the_first_number_is_exact() {
+        assert_eq!(first([0.0, 7.0], |x| x * x >= 2.0), 2f64.sqrt());
+        assert_eq!(first([0.0, 7.0], |_| false), 7.0);
+        assert!(first([0.0, 7.0], |_| true) <= f64::MIN_POSITIVE);
     }
 }

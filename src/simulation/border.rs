@@ -129,26 +129,8 @@ fn melan(setup: &Setup) -> Option<(f64, f64)> {
     {
         return None;
     }
-    let depth = setup
-        .drive
-        .shakedown_depth(setup.material.stick_ratio())
-        .filter(|&depth| depth > 0.0)?;
-    let (mut inside, mut outside) = (0.0, setup.grid.radius());
-    if setup.indenter.profile_1d(outside) <= depth {
-        return None;
-    }
-    while outside - inside > 1e-15 * setup.grid.radius() {
-        let middle = 0.5 * (inside + outside);
-        if middle == inside || middle == outside {
-            break;
-        }
-        if setup.indenter.profile_1d(middle) < depth {
-            inside = middle;
-        } else {
-            outside = middle;
-        }
-    }
-    Some((depth, outside))
+    let (depth, border) = Unworn(setup).melan()?;
+    (border < setup.grid.radius()).then_some((depth, border))
 }
 
 /// A setup with `cells` cells and a node a hair inside `border`, which wear has `moved` inwards (m). A ring of

@@ -236,13 +236,8 @@ fn melan(setup: &Setup) -> Option<f64> {
     if setup.scar.is_some() {
         return None;
     }
-    let ratio = setup.material.stick_ratio();
-    let depth = setup
-        .drive
-        .shakedown_depth(ratio)
-        .filter(|&depth| depth > 0.0)?;
+    let (_, radius) = Unworn(setup).melan()?;
     let swings = setup.drive.tangential()?.oscillation().amplitude() > 0.0;
-    let radius = Unworn(setup).radius(depth);
     (swings && setup.indenter.rim().is_none() && radius > 0.0).then_some(radius)
 }
 

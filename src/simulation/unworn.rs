@@ -17,12 +17,10 @@
 use super::Setup;
 use super::drive::Control;
 use crate::math::quadrature::gauss;
+use crate::math::root;
 
 /// Pieces of the quadrature over a contact.
 const PIECES: u32 = 64;
-
-/// Halvings of an interval until nothing is left to find.
-const HALVINGS: u32 = 200;
 
 /// The unworn contact of a setup.
 #[derive(Clone, Copy)]
@@ -50,7 +48,7 @@ impl Unworn<'_> {
         }
         // f₀ < g₀: what touches at all reaches no further.
         let end = indenter.radius_at(depth);
-        halve([0.0, end], |x| indenter.profile_1d(x) >= depth)
+        root::first([0.0, end], |x| indenter.profile_1d(x) >= depth)
     }
 
     /// F_z, N, at a `depth` (m).
@@ -65,7 +63,7 @@ impl Unworn<'_> {
         while self.force(end) < force && end < 1e15 {
             end *= 2.0;
         }
-        halve([0.0, end], |depth| self.force(depth) >= force)
+        root::first([0.0, end], |depth| self.force(depth) >= force)
     }
 
     /// The deepest indentation of the motion, m.
@@ -74,6 +72,15 @@ impl Unworn<'_> {
             Control::Displacement(depth) => depth.highest(),
             Control::Force(force) => self.depth(force.highest().max(0.0)),
         }
+    }
+
+    /// By Melan's theorem, where both displacements are prescribed: g at the border of the permanent stick zone, m, and
+    /// the radius c at which the unworn indenter has it, m. `None` without such a zone.
+    pub(super) fn melan(&self) -> Option<(f64, f64)> {
+        let ratio = self.0.material.stick_ratio();
+        let depth = self.0.drive.shakedown_depth(ratio);
+        let depth = depth.filter(|&depth| depth > 0.0)?;
+        Some((depth, self.radius(depth)))
     }
 
     /// The contact under a constant normal load; `None` if the load varies, nothing touches, or nothing moves.
@@ -116,22 +123,6 @@ impl Unworn<'_> {
             energy: 8.0 * modulus * pieces([stick_radius, contact_radius], slipping),
         })
     }
-}
-
-/// The place in an interval from which on `beyond` holds.
-fn halve([mut low, mut high]: [f64; 2], beyond: impl Fn(f64) -> bool) -> f64 {
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        if middle == low || middle == high {
-            break;
-        }
-        if beyond(middle) {
-            high = middle;
-        } else {
-            low = middle;
-        }
-    }
-    high
 }
 
 /// ∫ y dx over an interval, in pieces.

@@ -196,26 +196,24 @@ impl Search<'_> {
     /// One Runge–Kutta–Chebyshev step over `covered` cycles. The last entry of y is the work of friction.
     fn attempt(&mut self, memory: &mut State, covered: f64, stages: usize) -> Result<After, Cause> {
         let (model, nodes) = (self.model, self.model.nodes());
-        let with_work = |wear: &[f64], friction_work: f64| {
-            let mut values = wear.to_vec();
-            values.push(friction_work);
-            values
-        };
-        let rates = |cycle: &SteadyCycle| with_work(&cycle.wear, cycle.friction_work);
+        let with_work = |wear: &[f64], friction_work: f64| [wear, &[friction_work]].concat();
         let start = with_work(&memory.wear, 0.0);
-        let slope = rates(self.first);
+        let slope = with_work(&self.first.wear, self.first.friction_work);
         let (mut end, mut image) = (Vec::new(), vec![0.0; nodes]);
+        let buffers = &mut chebyshev::Buffers::default();
         let (spare, scratch) = (&mut *self.spare, &mut *self.scratch);
         let mut look = |memory: &mut State, wear: &[f64], image: &mut [f64]| {
             model.image(wear, image);
             memory.stats.transforms += 1;
             steady_cycle::cycle(model, memory, spare, scratch, image)
         };
-        chebyshev::step(stages, covered, &start, &slope, &mut end, |y, out| {
+        let stage = |y: &[f64], out: &mut [f64]| {
             let steady = look(memory, &y[..nodes], &mut image)?;
-            *out = rates(&steady);
+            out[..nodes].copy_from_slice(&steady.wear);
+            out[nodes] = steady.friction_work;
             Ok::<(), Cause>(())
-        })?;
+        };
+        chebyshev::step(stages, covered, &start, &slope, &mut end, buffers, stage)?;
         let friction_work = end.pop().unwrap_or_default();
         let steady = look(memory, &end, &mut image)?;
         let depth = memory.contact.depth;

@@ -142,6 +142,7 @@ pub(in super::super) struct Stages {
     start: Vec<f64>,
     first: Vec<f64>,
     y: Vec<f64>,
+    chebyshev: chebyshev::Buffers,
 }
 
 /// How a pass ends; its wear is in [`Stages`].
@@ -174,6 +175,7 @@ fn pass(
         start,
         first,
         y: end,
+        chebyshev,
         ..
     } = buffers;
     let nodes = model.nodes();
@@ -182,7 +184,7 @@ fn pass(
     let stuck = state.stuck_radius();
     image.resize(nodes, 0.0);
     g.resize(nodes, 0.0);
-    let mut slope = |y: &[f64], out: &mut Vec<f64>| {
+    let mut slope = |y: &[f64], out: &mut [f64]| {
         model.image(&y[..nodes], image);
         model.profile(image, 0.0, &[], g);
         let (contact, p) = (&mut next.contact, &mut next.traction.pressure);
@@ -190,15 +192,15 @@ fn pass(
         traction::pressure(model, contact, stuck, stresses, p);
         *transforms += 2;
         increment.wear_by_load(model, contact, p, zone, seconds);
-        out.clear();
-        out.extend_from_slice(&increment.depth);
-        out.extend([increment.friction_work, 1.0]);
+        out[..nodes].copy_from_slice(&increment.depth);
+        out[nodes..].copy_from_slice(&[increment.friction_work, 1.0]);
         Ok(())
     };
     start.clone_from(&state.wear);
     start.extend([0.0; 2]);
+    first.resize(start.len(), 0.0);
     slope(start, first)?;
-    chebyshev::step(stages, 1.0, start, first, end, slope)?;
+    chebyshev::step(stages, 1.0, start, first, end, chebyshev, slope)?;
     // Stages overshoot by their error where all has worn off: nothing grows back.
     let mut overshoot = 0.0_f64;
     for (after, before) in end.iter_mut().zip(&state.wear) {

@@ -168,6 +168,8 @@ pub struct Simulation {
     state: State,
     /// What the next step is written into.
     spare: State,
+    /// What its sub-steps are written into.
+    between: State,
     scratch: Scratch,
     /// Where the next step ends, and whether the motion turns there.
     next: (f64, bool),
@@ -235,6 +237,7 @@ impl Simulation {
     fn with(model: Model, state: State) -> Self {
         Self {
             spare: state.clone(),
+            between: state.clone(),
             scratch: Scratch::new(&model),
             next: (0.0, false),
             is_shortened: false,
@@ -378,8 +381,9 @@ impl Simulation {
 
     /// One step into the spare state, which becomes the present one if all went well.
     fn step_to(&mut self, cycle: f64, turns: bool) -> Result<(), Breakdown> {
-        let (state, spare) = (&self.state, &mut self.spare);
-        step::step(&self.model, state, spare, &mut self.scratch, cycle, turns)
+        let (model, state, scratch) = (&self.model, &self.state, &mut self.scratch);
+        let (next, between) = (&mut self.spare, &mut self.between);
+        step::step(model, state, next, between, scratch, cycle, turns)
             .map_err(|cause| self.refused(cause))?;
         std::mem::swap(&mut self.state, &mut self.spare);
         cycle_figures::follow(&self.model, &mut self.state);

@@ -8,6 +8,7 @@ mod common;
 mod pty;
 mod test_dir;
 
+mod allocations;
 mod ansi_backend;
 mod attacks;
 mod cast;

@@ -75,16 +75,18 @@ pub(super) fn settle(model: &Model, state: &mut State, scratch: &mut Scratch) ->
     Ok(())
 }
 
-/// One step from `state` to `cycle`, at which the motion turns or does not, into `next`.
+/// One step from `state` to `cycle`, at which the motion turns or does not, into `next`, by way of the ends of sub-steps
+/// `between` them.
 pub(super) fn step(
     model: &Model,
     state: &State,
     next: &mut State,
+    between: &mut State,
     scratch: &mut Scratch,
     cycle: f64,
     turns: bool,
 ) -> Result<(), Cause> {
-    substep::step(model, state, next, scratch, cycle)?;
+    substep::step(model, state, next, between, scratch, cycle)?;
     if turns {
         next.last.duration = 0.0;
     }

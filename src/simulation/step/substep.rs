@@ -56,11 +56,12 @@ enum Part {
     Unstable,
 }
 
-/// One step from `state` to `cycle`, into `next`.
+/// One step from `state` to `cycle`, into `next`, by way of the ends of sub-steps `between` them.
 pub(super) fn step(
     model: &Model,
     state: &State,
     next: &mut State,
+    between: &mut State,
     scratch: &mut Scratch,
     cycle: f64,
 ) -> Result<(), Cause> {
@@ -69,13 +70,11 @@ pub(super) fn step(
         Scheme::Trapezoid => trapezoid::BOUNDS,
     };
     let whole = cycle - state.cycle;
-    // The end of the last sub-step; none before there is one.
-    let mut within: Option<State> = None;
     let mut part = 1.0;
     let mut hopeless = false;
     let (mut parts, mut stiffest) = (0, 0.0_f64);
     loop {
-        let from = within.as_ref().unwrap_or(state);
+        let from = if parts == 0 { state } else { &*between };
         let left = cycle - from.cycle;
         let in_parts = part * whole < left * (1.0 - 1e-9);
         let reach = if in_parts {
@@ -115,7 +114,7 @@ pub(super) fn step(
         if next.cycle >= cycle {
             break;
         }
-        std::mem::swap(within.get_or_insert_with(|| state.clone()), next);
+        std::mem::swap(between, next);
     }
     if parts > 1 {
         next.stats.parts += parts;

@@ -4,8 +4,9 @@
 use super::schema::Default::{Derived, Implied, Written};
 use super::schema::Range::{Acute, Any, NotNegative, Positive, UpTo, Within};
 use super::schema::{Key, Parameter, choice, count, flag, quantities, quantity, text};
+use crate::math::abel::AbelMethod;
 use crate::math::grid::{MAX_CELLS, MIN_CELLS};
-use crate::simulation::Integrator;
+use crate::simulation::{Integrator, Scheme, Spacing, Stability};
 
 /// Makes a constant of each key, and the list of all.
 macro_rules! keys {
@@ -28,14 +29,6 @@ pub(super) const SHAPES: &[&str] = &[
     "rounded-punch",
     "table",
 ];
-/// The transform methods, as [`AbelMethod`](crate::math::abel::AbelMethod) names them.
-pub(super) const METHODS: &[&str] = &["product", "a", "a+b", "b", "benad"];
-/// Where the nodes lie, as [`Spacing`](crate::simulation::Spacing) names it.
-pub(super) const SPACINGS: &[&str] = &["graded", "uniform"];
-/// How a step is taken, as [`Scheme`](crate::simulation::Scheme) names it.
-pub(super) const SCHEMES: &[&str] = &["trapezoid", "euler"];
-/// What is done about stiff steps, as [`Stability`](crate::simulation::Stability) names it.
-pub(super) const STABILITIES: &[&str] = &["sub-step", "off"];
 const CONTROLS: &[&str] = &["displacement", "force"];
 /// The waveforms, as [`Waveform`](crate::simulation::waveform::Waveform) names it.
 const WAVEFORMS: &[&str] = &["sine", "triangle", "trapezoid", "table"];
@@ -290,7 +283,7 @@ keys! {
             "largest error of the worn depth (rms over the scar, relative to its largest value) and of the volume: \
              chooses points, steps and jumps")
         .effect("less: finer and slower; chooses points, steps, jumps");
-    METHOD: String = choice("numerics.method", METHODS, "transform method")
+    METHOD: String = choice("numerics.method", AbelMethod::NAMES, "transform method")
         .default(Written("\"product\""))
         .effect("how the three transforms are computed");
     POINTS: i64 = count("numerics.points", Within(MIN_CELLS as f64, MAX_CELLS as f64),
@@ -304,15 +297,15 @@ keys! {
             "outer radius of the computed domain")
         .default(Derived("the largest radius that can touch"))
         .effect("more: room to grow, coarser at the same number of points");
-    GRID: String = choice("numerics.grid", SPACINGS,
+    GRID: String = choice("numerics.grid", Spacing::NAMES,
             "spacing of the nodes; the default depends on the method")
         .default(Derived("graded with method = \"product\", else uniform"))
         .effect("graded: narrow cells where the worn profile is steep");
-    SCHEME: String = choice("numerics.scheme", SCHEMES,
+    SCHEME: String = choice("numerics.scheme", Scheme::NAMES,
             "time-stepping scheme; the default depends on the method")
         .default(Derived("trapezoid with method = \"product\", else euler"))
         .effect("trapezoid: second order in time; euler: the paper's");
-    STABILITY: String = choice("numerics.stability", STABILITIES,
+    STABILITY: String = choice("numerics.stability", Stability::NAMES,
             "whether steps too stiff for the method are split or taken as they are")
         .default(Written("\"sub-step\""))
         .effect("sub-step: splits stiff steps; off: the raw method");

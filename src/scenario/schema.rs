@@ -418,9 +418,7 @@ pub fn hint(path: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::abel::AbelMethod;
-    use crate::scenario::keys::{METHODS, SCHEMES, SHAPES, SPACINGS, STABILITIES};
-    use crate::simulation::{Scheme, Spacing, Stability};
+    use crate::scenario::keys::SHAPES;
 
     #[test]
     fn every_key_says_what_it_means_and_stands_once() {
@@ -438,14 +436,6 @@ mod tests {
             assert_eq!(!parameter.effect.is_empty(), changes, "{}", parameter.path);
             assert!(parameter.effect.chars().count() <= 68, "{}", parameter.path);
         }
-    }
-
-    #[test]
-    fn the_table_says_what_the_floors_below_hold() {
-        assert_eq!(AbelMethod::ALL.map(AbelMethod::name), METHODS);
-        assert_eq!(Spacing::ALL.map(Spacing::name), SPACINGS);
-        assert_eq!(Scheme::ALL.map(Scheme::name), SCHEMES);
-        assert_eq!(Stability::ALL.map(Stability::name), STABILITIES);
     }
 
     #[test]

@@ -1,31 +1,39 @@
 //! Choices of numerics that a user makes by name: where the nodes lie, and how time is stepped.
 
-use std::fmt;
-use std::str::FromStr;
+use strum::{Display, EnumString, IntoStaticStr, VariantNames};
 
 use crate::math::invalid::{Invalid, positive};
 
 /// Where the nodes lie.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Hash, Display, EnumString, IntoStaticStr, VariantNames,
+)]
+#[strum(serialize_all = "kebab-case", parse_err_ty = Invalid, parse_err_fn = Spacing::unknown)]
 pub enum Spacing {
-    /// Cells of equal width, as in the paper.
-    Uniform,
     /// Cells that narrow towards the stick border from both sides, one node on it. Where the motion
     /// leaves no permanent stick zone, uniform.
     Graded,
+    /// Cells of equal width, as in the paper.
+    Uniform,
 }
 
 /// How a step in time is taken.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Hash, Display, EnumString, IntoStaticStr, VariantNames,
+)]
+#[strum(serialize_all = "kebab-case", parse_err_ty = Invalid, parse_err_fn = Scheme::unknown)]
 pub enum Scheme {
-    /// Explicit Euler, as in the paper: first order.
-    Euler,
     /// Extrapolated profile, mean stress of the step, turning points met exactly: second order.
     Trapezoid,
+    /// Explicit Euler, as in the paper: first order.
+    Euler,
 }
 
 /// What is done about steps whose wear answers too stiffly to the stress.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Hash, Display, EnumString, IntoStaticStr, VariantNames,
+)]
+#[strum(serialize_all = "kebab-case", parse_err_ty = Invalid, parse_err_fn = Stability::unknown)]
 pub enum Stability {
     /// They are taken in parts.
     SubStep,
@@ -51,13 +59,14 @@ impl Integrator {
 
     /// The integrator of a name, with the tolerance of its jumps: greater than 0, at most 0.1.
     pub fn new(name: &str, tolerance: f64) -> Result<Self, Invalid> {
-        if by_name("integrator", &Self::NAMES, |name| name, name)? == "direct" {
-            return Ok(Self::Direct);
+        match name {
+            "direct" => Ok(Self::Direct),
+            "cycle-jump" if positive("tolerance", tolerance)? > 0.1 => {
+                Err(Invalid::new("tolerance", tolerance, "must be at most 0.1"))
+            }
+            "cycle-jump" => Ok(Self::CycleJump { tolerance }),
+            _ => Err(Invalid::choice("integrator", name, &Self::NAMES)),
         }
-        if positive("tolerance", tolerance)? > 0.1 {
-            return Err(Invalid::new("tolerance", tolerance, "must be at most 0.1"));
-        }
-        Ok(Self::CycleJump { tolerance })
     }
 
     /// The name in scenarios and files.
@@ -73,12 +82,16 @@ impl Spacing {
     /// Every choice.
     pub const ALL: [Self; 2] = [Self::Graded, Self::Uniform];
 
+    /// Their names in scenarios and files.
+    pub const NAMES: &[&str] = Self::VARIANTS;
+
+    fn unknown(name: &str) -> Invalid {
+        Invalid::choice("grid", name, Self::NAMES)
+    }
+
     /// The name in scenarios and files.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Uniform => "uniform",
-            Self::Graded => "graded",
-        }
+        self.into()
     }
 }
 
@@ -86,12 +99,16 @@ impl Scheme {
     /// Every choice.
     pub const ALL: [Self; 2] = [Self::Trapezoid, Self::Euler];
 
+    /// Their names in scenarios and files.
+    pub const NAMES: &[&str] = Self::VARIANTS;
+
+    fn unknown(name: &str) -> Invalid {
+        Invalid::choice("scheme", name, Self::NAMES)
+    }
+
     /// The name in scenarios and files.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Euler => "euler",
-            Self::Trapezoid => "trapezoid",
-        }
+        self.into()
     }
 }
 
@@ -99,70 +116,11 @@ impl Stability {
     /// Every choice.
     pub const ALL: [Self; 2] = [Self::SubStep, Self::Off];
 
-    /// The name in scenarios and files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::SubStep => "sub-step",
-            Self::Off => "off",
-        }
-    }
-}
+    /// Their names in scenarios and files.
+    pub const NAMES: &[&str] = Self::VARIANTS;
 
-fn by_name<T: Copy>(
-    field: &'static str,
-    all: &[T],
-    name_of: fn(T) -> &'static str,
-    name: &str,
-) -> Result<T, Invalid> {
-    all.iter()
-        .copied()
-        .find(|&choice| name_of(choice) == name)
-        .ok_or_else(|| {
-            let names: Vec<String> = all
-                .iter()
-                .map(|&choice| format!("{:?}", name_of(choice)))
-                .collect();
-            Invalid::new(
-                field,
-                format!("{name:?}"),
-                format!("must be one of {}", names.join(", ")),
-            )
-        })
-}
-
-impl FromStr for Spacing {
-    type Err = Invalid;
-
-    fn from_str(name: &str) -> Result<Self, Invalid> {
-        by_name("grid", &Self::ALL, Self::name, name)
-    }
-}
-
-impl FromStr for Scheme {
-    type Err = Invalid;
-
-    fn from_str(name: &str) -> Result<Self, Invalid> {
-        by_name("scheme", &Self::ALL, Self::name, name)
-    }
-}
-
-impl FromStr for Stability {
-    type Err = Invalid;
-
-    fn from_str(name: &str) -> Result<Self, Invalid> {
-        by_name("stability", &Self::ALL, Self::name, name)
-    }
-}
-
-impl fmt::Display for Spacing {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(self.name())
-    }
-}
-
-impl fmt::Display for Scheme {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(self.name())
+    fn unknown(name: &str) -> Invalid {
+        Invalid::choice("stability", name, Self::NAMES)
     }
 }
 
@@ -185,13 +143,13 @@ mod tests {
     #[test]
     fn names_read_back() {
         for spacing in Spacing::ALL {
-            assert_eq!(spacing.name().parse(), Ok(spacing));
+            assert_eq!(spacing.to_string().parse(), Ok(spacing));
         }
         for scheme in Scheme::ALL {
-            assert_eq!(scheme.name().parse(), Ok(scheme));
+            assert_eq!(scheme.to_string().parse(), Ok(scheme));
         }
         for stability in Stability::ALL {
-            assert_eq!(stability.name().parse(), Ok(stability));
+            assert_eq!(stability.to_string().parse(), Ok(stability));
         }
         assert_eq!(
             "heun".parse::<Scheme>().map_err(|refusal| refusal.field),

@@ -22,6 +22,7 @@
 //! in units of U. A, B and D: S. Fouvry, P. Kapsa, L. Vincent (1995), Wear 185, 35–46.
 
 use serde::{Deserialize, Serialize};
+use strum::IntoStaticStr;
 
 use super::choices::Integrator;
 use super::model::Model;
@@ -32,8 +33,9 @@ use super::{Setup, Simulation, State, cycles_to_settle};
 const CLOSED_LOOP: f64 = 0.005;
 
 /// The running condition of a cycle.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, IntoStaticStr)]
 #[serde(rename_all = "lowercase")]
+#[strum(serialize_all = "lowercase")]
 pub enum Regime {
     /// Full stick: the loop is closed (A < 0.005).
     Stick,
@@ -48,12 +50,7 @@ pub enum Regime {
 impl Regime {
     /// The name in files.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Stick => "stick",
-            Self::Partial => "partial",
-            Self::Gross => "gross",
-            Self::Open => "open",
-        }
+        self.into()
     }
 
     /// The name on screens.

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use bitflags::bitflags;
 use serde::Serialize;
+use strum::IntoStaticStr;
 
 use super::{Simulation, cycle_figures, stability, traction};
 use crate::contact::subsurface::SpringLoad;
@@ -37,7 +38,8 @@ bitflags! {
 }
 
 /// What a node does at the moment.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, IntoStaticStr)]
+#[strum(serialize_all = "lowercase")]
 pub enum Zone {
     /// In contact, moving with the indenter.
     Stick,
@@ -50,11 +52,7 @@ pub enum Zone {
 impl Zone {
     /// The name in files.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Stick => "stick",
-            Self::Slip => "slip",
-            Self::Open => "open",
-        }
+        self.into()
     }
 }
 

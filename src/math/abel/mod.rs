@@ -91,12 +91,11 @@
 //! # }
 //! ```
 
-use std::fmt;
 use std::ops::Range;
-use std::str::FromStr;
 use std::sync::OnceLock;
 
 use nalgebra::DMatrix;
+use strum::{Display, EnumString, IntoStaticStr, VariantNames};
 
 use super::grid::{MAX_CELLS, RadialGrid};
 use super::invalid::Invalid;
@@ -122,36 +121,41 @@ pub mod worn;
 pub const MOST_DENSE_CELLS: usize = 8192;
 
 /// A way to compute the three transforms.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Hash, Display, EnumString, IntoStaticStr, VariantNames,
+)]
+#[strum(serialize_all = "kebab-case", parse_err_ty = Invalid, parse_err_fn = AbelMethod::unknown)]
 pub enum AbelMethod {
     /// Product integration, linear in r², with one cusp at the tip: ours.
     Product,
-    /// Integration by parts, J. Benad (2018): the paper's reference 9.
-    Benad,
     /// The paper's Method A: the singularity of (2) split off, Eq. (7).
     A,
+    /// The paper's suggestion (b): Method A for (1) and (3), Method B for (2).
+    #[strum(serialize = "a+b")]
+    APlusB,
     /// The paper's Method B: trapezoids in asin and acosh, Eqs. (11) to (13).
     B,
-    /// The paper's suggestion (b): Method A for (1) and (3), Method B for (2).
-    APlusB,
+    /// Integration by parts, J. Benad (2018): the paper's reference 9.
+    Benad,
 }
 
 impl AbelMethod {
     /// Every method, in the order in which keys step through them.
     pub const ALL: [Self; 5] = [Self::Product, Self::A, Self::APlusB, Self::B, Self::Benad];
 
+    /// Their names in scenarios, on the screen and in files.
+    pub const NAMES: &[&str] = Self::VARIANTS;
+
     /// The methods of the paper and of its reference 9.
     pub const PUBLISHED: [Self; 4] = [Self::A, Self::APlusB, Self::B, Self::Benad];
 
     /// The name in scenarios, on the screen and in files.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Product => "product",
-            Self::Benad => "benad",
-            Self::A => "a",
-            Self::B => "b",
-            Self::APlusB => "a+b",
-        }
+        self.into()
+    }
+
+    fn unknown(name: &str) -> Invalid {
+        Invalid::choice("method", name, Self::NAMES)
     }
 
     /// The most cells that the method is computed with.
@@ -173,30 +177,6 @@ impl AbelMethod {
             }
             Self::APlusB => "Method A for Eqs. (1) and (3), B for Eq. (2); causal",
         }
-    }
-}
-
-impl fmt::Display for AbelMethod {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(self.name())
-    }
-}
-
-impl FromStr for AbelMethod {
-    type Err = Invalid;
-
-    fn from_str(name: &str) -> Result<Self, Invalid> {
-        Self::ALL
-            .into_iter()
-            .find(|method| method.name() == name)
-            .ok_or_else(|| {
-                let names = Self::ALL.map(|method| format!("\"{method}\""));
-                Invalid::new(
-                    "method",
-                    format!("{name:?}"),
-                    format!("must be one of {}", names.join(", ")),
-                )
-            })
     }
 }
 

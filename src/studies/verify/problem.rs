@@ -173,13 +173,6 @@ impl FromStr for Problem {
 
     fn from_str(name: &str) -> Result<Self, Invalid> {
         let found = Self::ALL.into_iter().find(|problem| problem.name() == name);
-        found.ok_or_else(|| {
-            let names = Self::ALL.map(Self::name);
-            Invalid::new(
-                "problem",
-                format!("{name:?}"),
-                format!("must be one of {}", names.join(", ")),
-            )
-        })
+        found.ok_or_else(|| Invalid::choice("problem", name, &Self::ALL.map(Self::name)))
     }
 }

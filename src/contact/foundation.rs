@@ -1,14 +1,11 @@
 //! The Winkler foundation: the row of springs that represents the half-space.
 
+use crate::math::abel::cusp::Tip;
 use crate::math::abel::field::Field;
 use crate::math::abel::kink::Kink;
-use crate::math::abel::product;
 use crate::math::grid::RadialGrid;
 use crate::math::quadrature::{ProductWeights, gauss, line_weights, weighted_first};
 use crate::math::scan::{leading, trailing};
-
-/// A cusp that changes the load by less than this part of it over two cells is rounding.
-const NO_CUSP: f64 = 1e-9;
 
 /// Where the contact ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,8 +24,7 @@ pub struct Edge {
 pub struct WinklerFoundation {
     grid: RadialGrid,
     weights: Vec<f64>,
-    /// Of the slope at the tip.
-    cusp_weights: [f64; 3],
+    tip: Tip,
     /// Of ∫ q s dx in each cell.
     products: ProductWeights,
     /// ∫ of what a cusp of slope one adds to a load linear in x², from the tip to each node, m².
@@ -49,7 +45,7 @@ impl WinklerFoundation {
         Self {
             grid: grid.clone(),
             weights: line_weights(grid.nodes()),
-            cusp_weights: product::cusp_weights(grid.nodes()),
+            tip: Tip::new(grid.nodes()),
             products,
             bubbles: bubbles(grid.nodes()),
         }
@@ -106,17 +102,10 @@ impl WinklerFoundation {
         2.0 * (smooth + kinked + cusp)
     }
 
-    /// The slope of `values` at the tip, x → 0, if there is a noticeable cusp and the contact extends
-    /// beyond it; otherwise 0.
+    /// The slope of `values` at the tip, x → 0, if there is a cusp and the contact extends beyond it; otherwise 0.
     pub fn cusp(&self, values: &[f64], edge: f64) -> f64 {
-        if edge <= self.nodes()[3] {
-            return 0.0;
-        }
-        let tip = self.cusp_weights.iter().zip(values);
-        let cusp: f64 = tip.map(|(weight, value)| weight * value).sum();
-        let rounding = NO_CUSP * values[0].abs();
-        if (cusp * self.nodes()[2]).abs() > rounding {
-            cusp
+        if edge > self.nodes()[3] {
+            self.tip.slope(values)
         } else {
             0.0
         }

@@ -1,8 +1,7 @@
 //! A linear operator on nodal values, stored in panels of rows with the zeros around their entries left out.
 //!
 //! The Abel transforms are triangular, or nearly so: g(x) and w(r) look inwards, p(r) looks
-//! outwards. A panel is eight rows over the columns that any of them has, in two runs where there is a gap:
-//! the cusp of a load at the tip goes into the stress of every row. The sums of a panel stay in the registers of
+//! outwards. A panel is eight rows over the columns that any of them has. The sums of a panel stay in the registers of
 //! the processor's vector unit while one pass goes through its entries, and the pass covers only the
 //! columns where the input is not zero (within the contact, outside the stick zone). Cost: at most N²/2 multiply-adds.
 //!
@@ -23,11 +22,11 @@ const LANES: usize = 4;
 /// Parts of a run that are summed side by side.
 const QUARTERS: usize = 4;
 
-/// A square matrix whose rows each hold their entries in one run or two.
+/// A square matrix whose rows each hold their entries in one run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Skyline {
     size: usize,
-    panels: Vec<Panel>,
+    panels: Vec<Run>,
     /// The panels' entries, column by column, zero where a row has none.
     entries: Vec<Column>,
 }
@@ -37,12 +36,7 @@ pub struct Skyline {
 #[repr(align(64))]
 struct Column([f64; ROWS]);
 
-#[derive(Debug, Clone, PartialEq)]
-struct Panel {
-    runs: [Run; 2],
-}
-
-/// Columns of a panel that follow each other; possibly none.
+/// The columns of a panel; possibly none.
 #[derive(Debug, Clone, PartialEq)]
 struct Run {
     columns: Range<usize>,
@@ -112,7 +106,7 @@ fn rows_of<S: Simd>(sums: Sums<S>) -> [f64; ROWS] {
 }
 
 impl Skyline {
-    /// Packs a square dense matrix; of a panel's columns of zeros, those at its ends and in its first gap go.
+    /// Packs a square dense matrix; of a panel's columns of zeros, those at its ends go.
     pub fn pack(dense: &DMatrix<f64>) -> Self {
         let size = dense.nrows();
         let (mut panels, mut entries) = (Vec::new(), Vec::new());
@@ -121,17 +115,12 @@ impl Skyline {
             let any = |k: &usize| (row..row + rows).any(|j| dense[(j, *k)] != 0.0);
             let first = (0..size).find(any).unwrap_or(0);
             let end = (0..size).rfind(any).map_or(first, |k| k + 1);
-            let gap = (first..end).find(|k| !any(k)).unwrap_or(end);
-            let behind = (gap..end).find(any).unwrap_or(end);
-            let runs = [first..gap, behind..end].map(|columns| {
-                let start = entries.len();
-                entries.extend(columns.clone().map(|k| {
-                    let entry = |i| if i < rows { dense[(row + i, k)] } else { 0.0 };
-                    Column(std::array::from_fn(entry))
-                }));
-                Run { columns, start }
-            });
-            panels.push(Panel { runs });
+            let (columns, start) = (first..end, entries.len());
+            entries.extend(columns.clone().map(|k| {
+                let entry = |i| if i < rows { dense[(row + i, k)] } else { 0.0 };
+                Column(std::array::from_fn(entry))
+            }));
+            panels.push(Run { columns, start });
         }
         Self {
             size,
@@ -176,7 +165,8 @@ impl Skyline {
         let mut sums = self.panels[panels.start..].iter().map(
             #[inline(always)]
             |panel| {
-                let sums = self.sum(simd, panel, &support, input);
+                let (at, columns) = panel.within(&support);
+                let sums = sum_columns(simd, &self.entries[at], &input[columns]);
                 for (zeros, sum) in zeros.iter_mut().zip(sums) {
                     *zeros += zero * sum;
                 }
@@ -193,28 +183,6 @@ impl Skyline {
         rows_of(zeros) == [0.0; ROWS]
     }
 
-    /// The sums of a panel's rows over those columns that lie within the `support` of the input.
-    #[inline(always)]
-    fn sum<S: Simd>(
-        &self,
-        simd: S,
-        panel: &Panel,
-        support: &Range<usize>,
-        input: &[f64],
-    ) -> Sums<S> {
-        let [first, second] = &panel.runs;
-        let (at, columns) = first.within(support);
-        let mut sums = sum_columns(simd, &self.entries[at], &input[columns]);
-        if !second.columns.is_empty() {
-            let (at, columns) = second.within(support);
-            let more = sum_columns(simd, &self.entries[at], &input[columns]);
-            for (sum, more) in sums.iter_mut().zip(more) {
-                *sum += more;
-            }
-        }
-        sums
-    }
-
     /// Zero times a value that is not finite is no zero: it is passed on to the rows that have an entry
     /// for it, and not to all rows of their panels. Such a step fails: this need not be quick.
     fn apply_not_finite(&self, input: &[f64], output: &mut [f64]) {
@@ -226,11 +194,9 @@ impl Skyline {
 
     /// The entries of a row, each with its column.
     fn row(&self, row: usize) -> impl Iterator<Item = (usize, f64)> {
-        self.panels[row / ROWS].runs.iter().flat_map(move |run| {
-            let entries = self.entries[run.start..].iter();
-            let columns = run.columns.clone().zip(entries);
-            columns.map(move |(k, column)| (k, column.0[row % ROWS]))
-        })
+        let Run { columns, start } = &self.panels[row / ROWS];
+        let columns = columns.clone().zip(&self.entries[*start..]);
+        columns.map(move |(k, column)| (k, column.0[row % ROWS]))
     }
 }
 
@@ -312,15 +278,12 @@ mod tests {
         assert!(output[1].is_nan() && output[2].is_nan());
     }
 
-    /// Rows with two runs of entries, and inputs in either, between them and in none.
+    /// Inputs that end within a panel's columns, beside them, and that are not there.
     #[test]
-    fn a_gap_in_the_rows_is_passed_over() {
+    fn what_lies_outside_the_input_is_passed_over() {
         let dense = DMatrix::from_fn(45, 45, |i, j| {
-            if j < 3 || (i..i + 6).contains(&j) {
-                (1 + i + 2 * j) as f64
-            } else {
-                0.0
-            }
+            let inside = (i..i + 6).contains(&j);
+            if inside { (1 + i + 2 * j) as f64 } else { 0.0 }
         });
         let packed = Skyline::pack(&dense);
         assert_eq!(packed.to_dense(), dense);

@@ -302,7 +302,8 @@ fn small_tangential_forces_turn_the_right_energy_into_heat() {
     }
 }
 
-/// 1e5 mild cycles at N = 100.
+/// 1e5 mild cycles. The balance is of first order in the cells here: 2.0 to 2.2 % at N = 100, where changes of the last
+/// digit decide, 1.1 % at 200 and 0.4 % at 400.
 #[test]
 fn a_held_force_keeps_its_balance_and_its_bounds() {
     let modulus = 2.1e11 / (2.0 * (1.0 - 0.09));
@@ -321,13 +322,13 @@ fn a_held_force_keeps_its_balance_and_its_bounds() {
     let first = f64::sqrt(0.05 * (8e-6 - ratio * 4e-6));
     let mut before = 0.0;
     for cycles in [1e2, 1e3, 1e4, 1e5] {
-        let session = run(HELD, &[], cycles);
+        let session = run(HELD, &["numerics.points=200"], cycles);
         let moment = session.simulation().moment();
         let balance = moment.energy_residual.expect("wear");
         holds(
             &format!("V = k E_d after {cycles} cycles"),
             balance.abs(),
-            2e-2,
+            1.4e-2,
         );
         let stick = moment.permanent_stick_radius.expect("a stick zone");
         assert!(

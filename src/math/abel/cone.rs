@@ -76,8 +76,9 @@ impl Cone {
 
 #[cfg(test)]
 mod tests {
+    use super::super::cusp::Tip;
     use super::super::testing::ending_at_one;
-    use super::super::{AbelMethod, AbelPlan, product};
+    use super::super::{AbelMethod, AbelPlan};
     use super::*;
 
     /// A cone and a paraboloid, in the dense and in the fast form, with the edge within a cell.
@@ -93,11 +94,11 @@ mod tests {
                 let load = |x: f64| 0.7 * (1.0 - x) + 0.2 * (1.0 - x * x);
                 let q: Vec<f64> = x.iter().map(|&x| load(x).max(0.0)).collect();
                 let (_, kinks) = ending_at_one(t, &q);
-                let slope = product::cusp(x, &q);
+                let slope = Tip::new(x).slope(&q);
                 assert!((slope + 0.7).abs() < 1e-9, "{slope}");
                 let (cone, mut rest) = (Cone { slope, edge: 1.0 }, Rest::default());
                 cone.take_off(&grid, &q, &mut rest);
-                assert!(product::cusp(x, &rest.load).abs() < 1e-9);
+                assert!(Tip::new(x).slope(&rest.load).abs() < 1e-9);
 
                 let mut p = vec![f64::NAN; x.len()];
                 AbelPlan::new(AbelMethod::Product, &grid).stress(&rest.load, &mut p);

@@ -175,8 +175,9 @@ fn root_cubed(width: f64) -> f64 {
 mod tests {
     use super::super::kink;
     use super::super::product;
-    use super::super::testing::{apply, ending_at_one};
+    use super::super::testing::{apply, ending_at_one, matrix};
     use super::super::worn;
+    use super::super::{AbelMethod, AbelPlan};
     use super::*;
     use crate::math::vector::add_to;
 
@@ -249,7 +250,8 @@ mod tests {
             RadialGrid::graded(60, 0.17, 1.5).expect("a grid"),
             RadialGrid::uniform(60, 1.5).expect("a grid"),
         ] {
-            let mut stress = product::stress(grid.nodes());
+            let plan = AbelPlan::dense(AbelMethod::Product, &grid);
+            let mut stress = matrix(grid.len(), |q, p| plan.stress(q, p));
             let curvature = Curvature::new(&grid);
             for (i, mut column) in stress.column_iter_mut().enumerate() {
                 let mut load = vec![0.0; grid.len()];

@@ -12,6 +12,24 @@ pub(super) fn apply(weights: &DMatrix<f64>, values: &[f64]) -> Vec<f64> {
         .collect()
 }
 
+/// What an operator makes of nodal values.
+pub(super) fn image(values: &[f64], of: impl Fn(&[f64], &mut [f64])) -> Vec<f64> {
+    let mut out = vec![f64::NAN; values.len()];
+    of(values, &mut out);
+    out
+}
+
+/// What an operator makes of each node's own value.
+pub(super) fn matrix(size: usize, of: impl Fn(&[f64], &mut [f64])) -> DMatrix<f64> {
+    let mut matrix = DMatrix::zeros(size, size);
+    for (i, mut column) in matrix.column_iter_mut().enumerate() {
+        let mut one = vec![0.0; size];
+        one[i] = 1.0;
+        column.copy_from_slice(&image(&one, &of));
+    }
+    matrix
+}
+
 /// The cell in which a load on nodes with the squares `t` ends, at a = 1, and its kinks there.
 pub(super) fn ending_at_one(t: &[f64], load: &[f64]) -> (usize, Vec<Kink>) {
     let cell = t.partition_point(|&t| t <= 1.0) - 1;

@@ -126,7 +126,8 @@ fn distances(nodes: &[f64], border: usize) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::apply;
+    use super::super::testing::{apply, matrix};
+    use super::super::{AbelMethod, AbelPlan};
 
     use super::*;
 
@@ -217,7 +218,9 @@ mod tests {
             RadialGrid::uniform(60, 1.5).expect("a grid"),
         ] {
             let inner = grid.len() - 2;
-            let response = product::stress(grid.nodes()) * profile(&grid);
+            let plan = AbelPlan::dense(AbelMethod::Product, &grid);
+            let stress = matrix(grid.len(), |q, p| plan.stress(q, p));
+            let response = stress * profile(&grid);
             let values = response
                 .view((1, 1), (inner, inner))
                 .into_owned()

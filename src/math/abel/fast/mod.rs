@@ -15,8 +15,7 @@
 //! ```
 //!
 //! each with the nearest nodes (at most 8) put right by weights of their own, exact less what the
-//! powers give. The cusp of the product method is one number for a whole profile, and its image one
-//! vector. The worn depth outside its border is the same in z = √(r² − c²), whose kinks are z (z − z_k)₊:
+//! powers give. The worn depth outside its border is the same in z = √(r² − c²), whose kinks are z (z − z_k)₊:
 //!
 //! ```text
 //! g_j = g(δ within c) + x_j { (π/2) F_1 + Z_j [2b_{j−1} − Σ_m S_m] },   b = ΔF/Δz
@@ -35,11 +34,10 @@
 //! - **At r = 0**: g = f(0), w = u(0), p = (2/π) Σ J_k x_k.
 //! - **Known failure**: none; below some hundred nodes the dense form is faster.
 
-use std::f64::consts::{FRAC_1_PI, FRAC_2_PI, FRAC_PI_2};
+use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 use std::ops::Range;
 
-use super::kernel::{acosh_step, leg};
-use super::product::cusp;
+use super::kernel::leg;
 use crate::math::grid::RadialGrid;
 
 mod near;
@@ -73,8 +71,6 @@ pub struct FastProduct {
     profile: Outward,
     displacement: Outward,
     stress: Inward,
-    /// What a cusp of slope one adds to g, w and p.
-    cusps: [Vec<f64>; 3],
 }
 
 /// The image of the worn depth in O(N), on a grid with a border.
@@ -118,15 +114,12 @@ fn inverse_widths(nodes: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Nodal values with the slopes of their cells, and the image that a sweep adds to: a constant and that of a cusp.
+/// Nodal values with the slopes of their cells, and the constant that a sweep adds to.
 struct Nodal<'a> {
     values: &'a [f64],
     /// 1/Δt of every cell.
     inverse: &'a [f64],
     constant: f64,
-    cusp: f64,
-    /// Of a cusp of slope one.
-    image: &'a [f64],
 }
 
 impl Data for Nodal<'_> {
@@ -136,13 +129,8 @@ impl Data for Nodal<'_> {
     }
 
     #[inline(always)]
-    fn begin(&self, first: usize, rows: &mut [f64]) {
-        if self.cusp == 0.0 {
-            return rows.fill(self.constant);
-        }
-        for (row, image) in rows.iter_mut().zip(&self.image[first..]) {
-            *row = self.constant + self.cusp * image;
-        }
+    fn begin(&self, _: usize, rows: &mut [f64]) {
+        rows.fill(self.constant);
     }
 }
 
@@ -166,77 +154,36 @@ impl FastProduct {
         });
         let ((root, roots), (arc, arcs)) = (root?, arc?);
         let squares = grid.squares().to_vec();
-        let mut fast = Self {
+        Some(Self {
             inverse: inverse_widths(&nodes),
             profile: Outward::new(&nodes, squares.clone(), &roots, &root, nearest),
             displacement: Outward::new(&nodes, squares, &arcs, &arc, nearest),
             stress: Inward::new(&nodes, &roots, &root, nearest),
-            cusps: [const { Vec::new() }; 3],
             nodes,
             root,
             arc,
-        };
-        fast.cusps = fast.images_of_a_cusp();
-        Some(fast)
-    }
-
-    /// The images of x less those of its interpolant in t.
-    fn images_of_a_cusp(&self) -> [Vec<f64>; 3] {
-        let x = &self.nodes;
-        let last = x.len() - 1;
-        let zeros = vec![0.0; x.len()];
-        let [mut g, mut w, mut p] = [const { Vec::new() }; 3].map(|mut image: Vec<f64>| {
-            image.resize(x.len(), 0.0);
-            image
-        });
-        let radius = self.data(x, 0.0, &zeros);
-        self.profile.apply(&self.root, &radius, &mut g, 0..x.len());
-        self.displacement
-            .apply(&self.arc, &radius, &mut w, 0..x.len());
-        self.stress
-            .apply(x, &self.root, &radius, &mut p, 0..x.len());
-        for (j, &r) in x.iter().enumerate() {
-            g[j] = FRAC_PI_2 * r - g[j];
-            w[j] = FRAC_2_PI * r - w[j];
-            // At the rim both are zero.
-            if j > 0 && j < last {
-                p[j] = -FRAC_1_PI * acosh_step(r, x[last], r) - p[j];
-            }
-        }
-        // At the axis the bubble of the first cell is left out: see `product::stress`.
-        let chords: f64 = x[1..]
-            .windows(2)
-            .map(|cell| 2.0 * (cell[1] - cell[0]) / (cell[1] + cell[0]))
-            .sum();
-        p[0] = -FRAC_1_PI * ((x[last] / x[1]).ln() - chords);
-        [g, w, p]
+        })
     }
 
     /// Eq. (1), as [`product::profile`](super::product::profile).
     pub fn profile(&self, f: &[f64], g: &mut [f64]) {
-        let data = self.data(f, f[0], &self.cusps[0]);
+        let data = self.data(f, f[0]);
         self.profile.apply(&self.root, &data, g, 0..f.len());
     }
 
     /// Eq. (2), as [`product::displacement`](super::product::displacement).
-    pub fn displacement(&self, u: &[f64], w: &mut [f64]) {
-        self.displacement_rows(u, w, 0..u.len());
-    }
-
-    /// The same for callers that need only some `rows`; the others become finite.
+    ///
+    /// On some `rows`; the others become finite.
     pub fn displacement_rows(&self, u: &[f64], w: &mut [f64], rows: Range<usize>) {
-        let data = self.data(u, u[0], &self.cusps[1]);
+        let data = self.data(u, u[0]);
         self.displacement.apply(&self.arc, &data, w, rows);
     }
 
     /// Eq. (3), as [`product::stress`](super::product::stress).
-    pub fn stress(&self, q: &[f64], p: &mut [f64]) {
-        self.stress_rows(q, p, 0..q.len());
-    }
-
-    /// The same for callers that need only some `rows`; the others become finite.
+    ///
+    /// On some `rows`; the others become finite.
     pub fn stress_rows(&self, q: &[f64], p: &mut [f64], rows: Range<usize>) {
-        let data = self.data(q, 0.0, &self.cusps[2]);
+        let data = self.data(q, 0.0);
         self.stress.apply(&self.nodes, &self.root, &data, p, rows);
         let last = self.nodes.len() - 1;
         let jump = FRAC_1_PI * q[last];
@@ -249,14 +196,12 @@ impl FastProduct {
         }
     }
 
-    /// What a sweep needs of nodal values; `image` is that of a cusp.
-    fn data<'a>(&'a self, values: &'a [f64], constant: f64, image: &'a [f64]) -> Nodal<'a> {
+    /// What a sweep needs of nodal values.
+    fn data<'a>(&'a self, values: &'a [f64], constant: f64) -> Nodal<'a> {
         Nodal {
             values,
             inverse: &self.inverse,
             constant,
-            cusp: cusp(&self.nodes, values),
-            image,
         }
     }
 }

@@ -4,6 +4,8 @@ use nalgebra::DMatrix;
 
 use super::super::testing::apply;
 use super::super::{kernel, product, worn};
+use std::f64::consts::FRAC_2_PI;
+
 use super::*;
 
 const LADDER: [usize; 8] = [4, 8, 15, 16, 33, 100, 257, 700];
@@ -91,36 +93,21 @@ fn every_operator_is_the_dense_one_within_its_tolerance() {
             let fast = FastProduct::new(&grid, tolerance).expect("a plan");
             for values in data(&grid) {
                 let all = variation(&values);
-                let cusp = cusp(&nodes[..3], &values[..3]).abs();
-                let with_cusp = |scale: Vec<f64>, row: &dyn Fn(f64) -> f64| -> Vec<f64> {
-                    let rows = scale.iter().zip(nodes);
-                    rows.map(|(scale, &r)| scale.abs() + cusp * row(r))
-                        .collect()
-                };
-                // The image of a monotone profile, without its own cusp.
-                let monotone = |dense: &DMatrix<f64>| -> Vec<f64> {
-                    let own = super::super::product::cusp(&nodes[..3], &all[..3]).abs();
-                    let image = apply(dense, &all);
-                    let rows = image.iter().zip(nodes);
-                    rows.map(|(image, r)| image.abs() + own * r).collect()
-                };
-                let scale = with_cusp(monotone(&g), &|r| 2.0 * r);
+                let scale = apply(&g, &all);
                 hold("g", &g, &values, tolerance, &scale, &|f, g| {
                     fast.profile(f, g)
                 });
-                let scale = with_cusp(all.clone(), &|r| r);
-                hold("w", &w, &values, tolerance, &scale, &|u, w| {
-                    fast.displacement(u, w)
+                hold("w", &w, &values, tolerance, &all, &|u, w| {
+                    fast.displacement_rows(u, w, 0..u.len())
                 });
                 let last = all[grid.cells()];
                 let falling: Vec<f64> = all.iter().map(|v| last - v).collect();
-                let scale = with_cusp(apply(&p, &falling), &|_| 20.0);
-                let scale: Vec<f64> = scale.iter().map(|scale| 2.0 * scale).collect();
+                let scale: Vec<f64> = apply(&p, &falling).iter().map(|p| 2.0 * p).collect();
                 // Stress has the unit of the load by length: make it one of the data.
                 let l = grid.radius();
                 let scaled: Vec<f64> = scale.iter().map(|scale| scale * l).collect();
                 hold("p", &(&p * l), &values, tolerance, &scaled, &|q, p| {
-                    fast.stress(q, p);
+                    fast.stress_rows(q, p, 0..q.len());
                     p.iter_mut().for_each(|p| *p *= l);
                 });
             }
@@ -169,11 +156,11 @@ fn rows_that_are_asked_for_are_those_of_the_whole() {
         for values in data(&grid) {
             let (mut whole, mut part) = (vec![f64::NAN; grid.len()], vec![f64::NAN; grid.len()]);
             for rows in [0..201, 0..64, 0..130, 64..201, 130..201, 200..201, 0..0] {
-                fast.displacement(&values, &mut whole);
+                fast.displacement_rows(&values, &mut whole, 0..values.len());
                 fast.displacement_rows(&values, &mut part, rows.clone());
                 assert_eq!(part[rows.clone()], whole[rows.clone()]);
                 assert!(part.iter().all(|w| w.is_finite()));
-                fast.stress(&values, &mut whole);
+                fast.stress_rows(&values, &mut whole, 0..values.len());
                 fast.stress_rows(&values, &mut part, rows.clone());
                 assert_eq!(part[rows.clone()], whole[rows]);
                 assert!(part.iter().all(|p| p.is_finite()));
@@ -197,12 +184,12 @@ fn causality_is_strict() {
             let values = zeros_before(first, grid.len());
             fast.profile(&values, &mut out);
             assert!(out[..first].iter().all(|&g| g == 0.0));
-            fast.displacement(&values, &mut out);
+            fast.displacement_rows(&values, &mut out, 0..values.len());
             assert!(out[..first].iter().all(|&w| w == 0.0));
             let mut load = zeros_before(first, grid.len());
             load.reverse();
             load[..3].fill(0.0);
-            fast.stress(&load, &mut out);
+            fast.stress_rows(&load, &mut out, 0..load.len());
             assert!(out[grid.len() - first..].iter().all(|&p| p == 0.0));
         }
         if let Some(fast) = FastWorn::new(&grid, TOLERANCE) {
@@ -239,10 +226,10 @@ fn large_grids_are_no_trouble() {
         pairs.all(|(out, &t)| (out - exact(t)).abs() < TOLERANCE)
     };
     assert!(is(&out, &|t| 2.0 * t));
-    fast.displacement(grid.squares(), &mut out);
+    fast.displacement_rows(grid.squares(), &mut out, 0..grid.squares().len());
     assert!(is(&out, &|t| 0.5 * t));
     let load: Vec<f64> = grid.squares().iter().map(|t| 1.0 - t).collect();
-    fast.stress(&load, &mut out);
+    fast.stress_rows(&load, &mut out, 0..load.len());
     assert!(is(&out, &|t| 2.0 * FRAC_1_PI * (1.0 - t).sqrt()));
 }
 
@@ -262,8 +249,8 @@ fn large_grids_keep_the_tolerance_node_by_node() {
             .collect();
         let (mut g, mut w, mut p) = (vec![0.0; t.len()], vec![0.0; t.len()], vec![0.0; t.len()]);
         fast.profile(&values, &mut g);
-        fast.displacement(&values, &mut w);
-        fast.stress(&values, &mut p);
+        fast.displacement_rows(&values, &mut w, 0..values.len());
+        fast.stress_rows(&values, &mut p, 0..values.len());
         for j in [700, 4321, 14_000, 20_011, 30_002, 35_555, cells - 1] {
             let r = x[j];
             let sums = |from: usize, to: usize, image: &dyn Fn(f64, f64) -> f64| {
@@ -310,7 +297,7 @@ fn kinks_between_nodes_are_as_exact_as_the_tolerance() {
             let fast = FastProduct::new(&grid, TOLERANCE).expect("a plan");
             let q: Vec<f64> = t.iter().map(|&t| load(t)).collect();
             let mut p = vec![f64::NAN; grid.len()];
-            fast.stress(&q, &mut p);
+            fast.stress_rows(&q, &mut p, 0..q.len());
             let mut kinks = Vec::new();
             for k in 0..cells {
                 let inner = places.map(|at| (at, load(at)));

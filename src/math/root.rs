@@ -1,4 +1,4 @@
-//! A root of a monotone function: [bracketed], such as the load that a depth carries, solved for the depth; or
+//! A root of a monotone function: [`bracketed`], such as the load that a depth carries, solved for the depth; or
 //! [to the last bit](first), where speed does not matter.
 
 /// The most evaluations a solve may take; a smooth monotone function needs about ten.

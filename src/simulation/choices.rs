@@ -142,6 +142,8 @@ mod tests {
 
     #[test]
     fn names_read_back() {
+        assert_eq!(Spacing::ALL.map(Spacing::name), Spacing::NAMES);
+        assert_eq!(Scheme::ALL.map(Scheme::name), Scheme::NAMES);
         for spacing in Spacing::ALL {
             assert_eq!(spacing.to_string().parse(), Ok(spacing));
         }

@@ -429,6 +429,7 @@ mod tests {
 
     #[test]
     fn names_read_back() {
+        assert_eq!(AbelMethod::ALL.map(AbelMethod::name), AbelMethod::NAMES);
         for method in AbelMethod::ALL {
             assert_eq!(method.name().parse(), Ok(method));
         }

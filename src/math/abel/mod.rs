@@ -14,8 +14,9 @@
 //! The term f(0) in (1) is ours: a tip that wears recedes, and a constant must map to itself.
 //!
 //! [`cusp`] adds what a cusp at the tip does to the product method, [`kink`] what a kink between two nodes does and
-//! [`curvature`] what a curved load does, [`cone`] ends a load's cusp at the edge of the contact, and [`worn`] transforms the worn part of a profile that has a permanent
-//! stick zone. A [`field`] is nodal values with their singular parts, and has all its images.
+//! [`curvature`] what a curved load does, [`cone`] ends a load's cusp at the edge of the contact, and [`worn`] transforms
+//! the worn part of a profile that has a permanent stick zone. A [`field`] is nodal values with their singular parts, and
+//! has all its images.
 //!
 //! All methods here are linear in the nodal values, so an [`AbelPlan`] holds three operators, made
 //! once for a grid and applied with the caller's buffers. A method is what is computed, its [`Form`] is
@@ -237,7 +238,7 @@ pub struct AbelPlan {
 
 #[derive(Debug)]
 struct Cusps {
-    nodes: Vec<f64>,
+    grid: RadialGrid,
     profile: OnceLock<Cusp>,
     displacement: Cusp,
     stress: Cusp,
@@ -276,7 +277,7 @@ impl AbelPlan {
         let nodes = grid.nodes();
         let all = 0..nodes.len();
         let cusps = (method == AbelMethod::Product).then(|| Cusps {
-            nodes: nodes.to_vec(),
+            grid: grid.clone(),
             profile: OnceLock::new(),
             displacement: Cusp::of_displacement(nodes, |u, w| {
                 operators.displacement_rows(u, w, all.clone());
@@ -330,7 +331,7 @@ impl AbelPlan {
         self.operators.profile(f, g);
         if let Some(cusps) = &self.cusps {
             let cusp = cusps.profile.get_or_init(|| {
-                Cusp::of_profile(&cusps.nodes, |f, g| self.operators.profile(f, g))
+                Cusp::of_profile(cusps.grid.nodes(), |f, g| self.operators.profile(f, g))
             });
             cusp.add(f, 0..g.len(), g);
         }

@@ -162,6 +162,23 @@ impl RadialGrid {
         Ok(Self::from_nodes(nodes, border))
     }
 
+    /// The same spacing with another number of cells, by linear interpolation of the nodes over their indices.
+    ///
+    /// # Errors
+    /// More cells or fewer than a grid may have.
+    pub fn resampled(&self, cells: usize) -> Result<Self, Invalid> {
+        Self::check(cells, self.radius())?;
+        let before = &self.nodes;
+        let at = |i: usize| {
+            let place = i as f64 * self.cells() as f64 / cells as f64;
+            let k = (place as usize).min(self.cells() - 1);
+            before[k] + (place - k as f64) * (before[k + 1] - before[k])
+        };
+        let mut nodes: Vec<f64> = (0..=cells).map(at).collect();
+        nodes[cells] = self.radius();
+        Self::restored(nodes, None)
+    }
+
     fn from_nodes(nodes: Vec<f64>, border: Option<usize>) -> Self {
         let squares = nodes.iter().map(|r| r * r).collect();
         Self {
@@ -338,6 +355,19 @@ mod tests {
             let expected = free.powf(-1.5).max(1e-4);
             assert!((width / expected - 1.0).abs() < 1e-9, "{cells}: {width}");
         }
+    }
+
+    #[test]
+    fn another_number_of_cells_keeps_the_spacing() {
+        let grid = RadialGrid::graded(60, 0.5, 1.5).expect("a grid");
+        let finer = grid.resampled(120).expect("a grid");
+        assert_eq!(
+            finer.nodes().iter().step_by(2).collect::<Vec<_>>(),
+            grid.nodes().iter().collect::<Vec<_>>()
+        );
+        assert_eq!(finer.resampled(60).expect("a grid"), grid.without_border());
+        assert_eq!(grid.resampled(77).expect("a grid").radius(), 1.5);
+        assert!(grid.resampled(0).is_err());
     }
 
     #[test]

@@ -50,6 +50,7 @@ pub(super) fn assign(
         drop_keys_of_other_shapes(table, &value, origin);
     }
     trade_accuracy_for_choices(table, parameter.path);
+    trade_nodes_for_others(table, parameter.path);
     origin.assign(parameter.path, written);
     schema::insert(table, parameter.path, value);
     Ok(())
@@ -68,6 +69,24 @@ fn trade_accuracy_for_choices(table: &mut Table, path: &str) {
         for path in removed {
             numerics.remove(schema::split(path).1);
         }
+    }
+}
+
+/// Nodes are those of one number of cells on one domain; another one takes their place, and the other way round.
+fn trade_nodes_for_others(table: &mut Table, path: &str) {
+    const OTHERS: [&str; 4] = [
+        keys::POINTS.path(),
+        keys::GRID.path(),
+        keys::DOMAIN_RADIUS.path(),
+        keys::SHAPE.path(),
+    ];
+    let removed = match path {
+        _ if path == keys::NODES.path() => keys::GRID.path(),
+        _ if OTHERS.contains(&path) => keys::NODES.path(),
+        _ => return,
+    };
+    if let Some(Value::Table(numerics)) = table.get_mut("numerics") {
+        numerics.remove(schema::split(removed).1);
     }
 }
 

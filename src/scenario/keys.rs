@@ -38,8 +38,12 @@ const LAWS: &[&str] = &["archard", "power"];
 pub const PRESCRIBED: &str = "m, or N if control = \"force\"";
 
 /// The keys chosen by `numerics.accuracy`.
-pub(super) const CHOSEN_BY_ACCURACY: [&str; 3] =
-    [POINTS.path(), STEPS_PER_CYCLE.path(), TOLERANCE.path()];
+pub(super) const CHOSEN_BY_ACCURACY: [&str; 4] = [
+    POINTS.path(),
+    STEPS_PER_CYCLE.path(),
+    TOLERANCE.path(),
+    NODES.path(),
+];
 
 keys! {
     TITLE: String = text("title", "a short name, shown on screens and in files");
@@ -301,6 +305,9 @@ keys! {
             "spacing of the nodes; the default depends on the method")
         .default(Derived("graded with method = \"product\", else uniform"))
         .effect("graded: narrow cells where the worn profile is steep");
+    NODES: Vec<f64> = quantities("numerics.nodes", "m", NotNegative,
+            "nodes of the grid, from 0 to the domain's edge, as numerics.accuracy placed them by a coarser run")
+        .effect("other cells; numerics.points or numerics.grid takes their place");
     SCHEME: String = choice("numerics.scheme", Scheme::NAMES,
             "time-stepping scheme; the default depends on the method")
         .default(Derived("trapezoid with method = \"product\", else euler"))

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use toml::Table;
 
-use crate::simulation::{Domain, Setup};
+use crate::simulation::{Domain, Setup, Spacing};
 
 mod assign;
 mod blocks;
@@ -226,10 +226,10 @@ impl Scenario {
     pub fn to_toml(&self) -> String {
         let setup = &self.setup;
         let quoted = |word: &str| format!("{word:?}");
-        let follows = [
-            ("numerics.grid", quoted(setup.spacing.name())),
-            ("numerics.scheme", quoted(setup.scheme.name())),
-        ];
+        let mut follows = vec![("numerics.scheme", quoted(setup.scheme.name()))];
+        if setup.spacing != Spacing::Given {
+            follows.insert(0, ("numerics.grid", quoted(setup.spacing.name())));
+        }
         let source = format!("default of method \"{}\"", setup.method);
         write::scenario(&self.whole(), &follows, &source)
     }

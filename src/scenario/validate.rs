@@ -17,7 +17,7 @@ use crate::math::grid::RadialGrid;
 use crate::math::invalid::Invalid;
 use crate::simulation::drive::Drive;
 use crate::simulation::running_in::RunningIn;
-use crate::simulation::{Integrator, Setup};
+use crate::simulation::{Integrator, Setup, Spacing};
 use crate::wear::WearLaw;
 
 /// Makes the parts of a scenario. Where an accuracy leaves points and steps open, they have their defaults. `table` is the
@@ -62,10 +62,7 @@ pub(super) fn setup(
         wear,
         running_in,
         method,
-        spacing: match parts.get(&keys::GRID) {
-            Some(name) => name.parse().map_err(refused)?,
-            None => spacing,
-        },
+        spacing: parts.spacing(spacing)?,
         scheme: match parts.get(&keys::SCHEME) {
             Some(name) => name.parse().map_err(refused)?,
             None => scheme,
@@ -257,7 +254,43 @@ impl Parts<'_> {
             let rule = format!("must be less than the domain's edge, {edge} m");
             return Err(self.refuse(keys::TIP_RADIUS.path(), "", rule));
         }
-        RadialGrid::uniform(points, radius).map_err(|invalid| self.refused("numerics", invalid))
+        let grid = match self.get(&keys::NODES) {
+            None => RadialGrid::uniform(points, radius),
+            Some(nodes) if nodes.len() == points + 1 => RadialGrid::restored(nodes, None),
+            Some(nodes) => {
+                let rule = format!(
+                    "must be {} numbers, one more than points, not {}",
+                    points + 1,
+                    nodes.len()
+                );
+                return Err(self.refuse(keys::NODES.path(), "[...]", rule));
+            }
+        };
+        grid.map_err(|invalid| self.refused("numerics", invalid))
+    }
+
+    /// Where the nodes lie: as the list says, if there is one.
+    fn spacing(&self, default: Spacing) -> Result<Spacing, ScenarioError> {
+        let has_nodes = self.get(&keys::NODES).is_some();
+        let named = match self.get(&keys::GRID) {
+            Some(name) => name
+                .parse()
+                .map_err(|invalid| self.refused("numerics", invalid))?,
+            None if has_nodes => Spacing::Given,
+            None => default,
+        };
+        match (named, has_nodes) {
+            (Spacing::Given, false) => {
+                let rule =
+                    "needs numerics.nodes, the list that a run with numerics.accuracy writes";
+                Err(self.refuse(keys::GRID.path(), "", rule))
+            }
+            (Spacing::Graded | Spacing::Uniform, true) => {
+                let rule = "conflicts with numerics.nodes; give one of them";
+                Err(self.refuse(keys::GRID.path(), "", rule))
+            }
+            _ => Ok(named),
+        }
     }
 
     fn steps_per_cycle(&self) -> Result<u32, ScenarioError> {

@@ -51,6 +51,9 @@ pub(super) fn stays(before: &Setup, after: &Setup) -> bool {
 /// The same setup, its grid graded towards the stick border where it asks for that and where there
 /// is one; otherwise uniform. `from` is the run that continues on it, unless the run is new.
 pub(super) fn graded(setup: &Setup, from: Option<&Simulation>) -> Setup {
+    if setup.spacing == Spacing::Given {
+        return setup.clone();
+    }
     let uniform = uniform(setup);
     if setup.spacing == Spacing::Uniform {
         return uniform;

@@ -15,6 +15,8 @@ pub enum Spacing {
     Graded,
     /// Cells of equal width, as in the paper.
     Uniform,
+    /// Where the scenario says: a coarser run has placed them where the wear is.
+    Given,
 }
 
 /// How a step in time is taken.
@@ -80,7 +82,7 @@ impl Integrator {
 
 impl Spacing {
     /// Every choice.
-    pub const ALL: [Self; 2] = [Self::Graded, Self::Uniform];
+    pub const ALL: [Self; 3] = [Self::Graded, Self::Uniform, Self::Given];
 
     /// Their names in scenarios and files.
     pub const NAMES: &[&str] = Self::VARIANTS;

@@ -85,7 +85,9 @@ fn the_result_is_the_run_of_the_last_rung() {
         run_to_accuracy(&scenario, 10.0, 1e-3, f64::INFINITY, &|| true).expect("a result");
     assert_eq!(reached.verdict, Verdict::Met);
     assert!(reached.error.promised() <= 1e-3, "{:?}", reached.error);
-    let again = reached.rung.level.of_scenario(&scenario).expect("a level");
+    // As a user runs it again: from its own file.
+    let written = reached.session.loaded().to_toml();
+    let again = Scenario::from_toml(&written, "again", &[]).expect("a scenario");
     let again = run(&again, 10.0, &|| true)
         .expect("not stopped")
         .expect("a run");
@@ -97,6 +99,7 @@ fn the_result_is_the_run_of_the_last_rung() {
         points: 600,
         steps: 80,
         tolerance: None,
+        nodes: None,
     };
     let fine = fine.of_scenario(&scenario).expect("a level");
     let fine = run(&fine, 10.0, &|| true)
@@ -128,7 +131,7 @@ fn what_does_not_wear_has_no_error_to_meet() {
 #[test]
 fn failures_climb_too_and_end() {
     let scenario = load("li2019-fig3", &[]);
-    let mut ladder = Ladder::new(&scenario, 1e-2, f64::INFINITY);
+    let mut ladder = Ladder::new(&scenario, 10.0, 1e-2, f64::INFINITY);
     let Next::Twin(first) = ladder.next() else {
         panic!("a level to run")
     };

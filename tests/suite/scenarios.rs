@@ -217,7 +217,7 @@ fn grid_and_scheme_follow_the_method_unless_they_are_given() {
             }
         }
     }
-    for spacing in Spacing::ALL {
+    for spacing in [Spacing::Graded, Spacing::Uniform] {
         for scheme in Scheme::ALL {
             let given = [
                 format!("numerics.grid={spacing}"),
@@ -413,6 +413,32 @@ fn a_run_written_out_keeps_its_plan_and_its_changes() {
 
 /// An accuracy takes the place of points, steps and tolerance, which are found before a run; each of these
 /// takes the place of the accuracy.
+/// Nodes are those of one number of cells: another one takes their place, and they that of a grid by name.
+#[test]
+fn nodes_give_way_to_other_cells() {
+    let placed = load(
+        "hertz",
+        &[
+            "numerics.grid=uniform",
+            "numerics.points=4",
+            "numerics.nodes=[0, 4e-5, 1e-4, 1.2e-4, 1.5e-4]",
+        ],
+    );
+    assert_eq!(placed.setup().spacing, Spacing::Given);
+    assert_eq!(placed.setup().grid.nodes()[1], 4e-5);
+    assert_eq!(again(&placed), placed);
+    for (key, value) in [
+        ("points", "50"),
+        ("grid", "graded"),
+        ("domain_radius", "2e-4"),
+    ] {
+        let changed = placed.with(&format!("numerics.{key}"), value);
+        let changed = changed.expect("other cells");
+        assert_ne!(changed.setup().spacing, Spacing::Given, "{key}");
+        assert_eq!(changed.value("numerics.nodes"), None, "{key}");
+    }
+}
+
 #[test]
 fn an_accuracy_leaves_cells_and_steps_open() {
     let asked = load(

@@ -12,9 +12,13 @@
 //! Where both are refined, D is shared out as the errors stood before. The error of time may depend on
 //! the cells: one that was measured on cells much wider is measured again, by a twin of the last rung.
 
-use super::level::Level;
+use super::level::{Level, MOST_TOLERANT, Ratio, STEPS};
 use super::outcome::{Difference, Outcome};
+use crate::contact::indenter::Indenter;
+use crate::math::abel::AbelMethod;
+use crate::math::grid::RadialGrid;
 use crate::scenario::Scenario;
+use crate::simulation::Integrator;
 
 /// The orders that are believed. What is usually seen is 1.5 to 2; less where the pressure is singular at a rim.
 const ORDERS: (f64, f64) = (0.85, 1.3);
@@ -31,8 +35,15 @@ const HIGHEST_ORDER: f64 = 2.0;
 /// The estimate must be below this part of the accuracy: it is a measurement with an error of its own.
 const MARGIN: f64 = 0.8;
 
-/// The part of the accuracy that each of cells and time may use up.
-const SHARE: f64 = 0.4;
+/// The part of the accuracy that all sources may use up, shared out equally.
+const SHARES: f64 = 0.8;
+
+/// The run that places the first nodes: this many times the cells and steps of the first rung's twin. Cells are
+/// what it must see the scar with.
+const PILOT: [f64; 2] = [1.0, 0.5];
+
+/// Runs of this many periods of the motion jump over cycles.
+const WORTH_JUMPING: f64 = 100.0;
 
 /// How much finer the next rung is, at least and at most.
 const STRIDE: (f64, f64) = (1.6, 2.5);
@@ -89,8 +100,8 @@ pub enum Next {
     Done(Verdict),
 }
 
-/// The error of cells or of time.
-#[derive(Debug, Clone, Copy)]
+/// The error of cells, of steps or of jumps.
+#[derive(Debug, Clone)]
 struct Source {
     /// The estimate.
     error: Difference,
@@ -102,18 +113,18 @@ struct Source {
 
 impl Source {
     /// From two levels alone.
-    fn measured(difference: Difference, ratio: f64, level: Level) -> Self {
+    fn measured(difference: Difference, ratio: f64, level: &Level) -> Self {
         let error = difference.with(&difference, |d, _| d / (ratio.powf(ORDERS.1) - 1.0));
         Self {
             error,
             measured: (difference, ratio),
-            level,
+            level: level.clone(),
         }
     }
 
     /// From a level `ratio` times finer, by its difference from the one before.
     /// Of a difference that was shared out, the order is not read.
-    fn refined(&self, difference: Difference, is_shared: bool, ratio: f64, level: Level) -> Self {
+    fn refined(&self, difference: Difference, is_shared: bool, ratio: f64, level: &Level) -> Self {
         let (before, ratio_before) = self.measured;
         let found = before.with(&difference, |before, now| {
             let order = match is_shared {
@@ -127,7 +138,7 @@ impl Source {
                 found.max(0.3 * before * ratio.powf(-HIGHEST_ORDER))
             }),
             measured: (difference, ratio),
-            level,
+            level: level.clone(),
         }
     }
 }
@@ -150,19 +161,23 @@ fn order(quotient: f64, ratio_before: f64, ratio: f64) -> f64 {
     high
 }
 
-/// A rung and its errors.
+/// A rung and its errors, by what they come from.
 #[derive(Debug, Clone)]
 struct Top {
     rung: Rung,
-    cells: Source,
-    time: Source,
+    sources: Vec<Source>,
 }
 
 impl Top {
     fn error(&self) -> Difference {
-        self.cells
-            .error
-            .with(&self.time.error, |cells, time| cells + time)
+        let errors = self.sources.iter().map(|source| source.error);
+        errors.fold(Difference::NONE, |sum, one| sum.with(&one, |a, b| a + b))
+    }
+
+    /// The error that a promise is held against: V and k E_d must agree as well, since they are two computations of one
+    /// number.
+    fn promised(&self) -> f64 {
+        self.error().promised().max(self.rung.outcome.imbalance)
     }
 }
 
@@ -172,7 +187,11 @@ pub struct Ladder {
     accuracy: f64,
     budget: f64,
     spent: f64,
+    /// The shape that nodes are placed for; `None` if the scenario says where they lie.
+    placing: Option<Indenter>,
     base: Level,
+    /// Whether the run that places the first nodes is still to be made.
+    wants_pilot: bool,
     /// The twins that have been run for the present base.
     twins: Vec<Rung>,
     top: Option<Top>,
@@ -183,21 +202,45 @@ pub struct Ladder {
 }
 
 impl Ladder {
-    /// A ladder for `scenario` to a worn depth and a volume with errors of at most `accuracy`, that begins no
+    /// A ladder for `scenario` over `cycles` to a worn depth and a volume with errors of at most `accuracy`, that begins no
     /// rung that would end after `budget` seconds.
-    pub fn new(scenario: &Scenario, accuracy: f64, budget: f64) -> Self {
-        let base = first(scenario, accuracy);
-        Self {
+    pub fn new(scenario: &Scenario, cycles: f64, accuracy: f64, budget: f64) -> Self {
+        let base = first(scenario, cycles, accuracy);
+        let places = scenario.setup().method == AbelMethod::Product
+            && scenario.value("numerics.grid").is_none();
+        let mut ladder = Self {
             accuracy,
             budget,
             spent: 0.0,
-            base,
+            placing: places.then(|| scenario.setup().indenter.clone()),
+            wants_pilot: false,
             twins: Vec::new(),
             top: None,
-            planned: base.scaled(1.0 / TWIN, 1.0),
+            planned: base.clone(),
+            base,
             failures: 0,
             stalls: 0,
             last_failure: String::new(),
+        };
+        ladder.begin();
+        ladder
+    }
+
+    /// Begins with the present base: with the run that places its nodes, if it is to have its own.
+    fn begin(&mut self) {
+        self.wants_pilot = self.placing.is_some();
+        self.base.nodes = None;
+        self.planned = match self.wants_pilot {
+            true => self.base.refined([PILOT[0], PILOT[1], 1.0]),
+            false => self.twin_of_base(),
+        };
+    }
+
+    /// The next twin of the base, or the base itself after the last one.
+    fn twin_of_base(&self) -> Level {
+        match self.twins.len() {
+            known if known == self.base.sources() => self.base.clone(),
+            source => self.base.refined(coarser(source)),
         }
     }
 
@@ -205,15 +248,14 @@ impl Ladder {
     pub fn next(&self) -> Next {
         let failed = || Next::Done(Verdict::Failed(self.last_failure.clone()));
         let Some(top) = &self.top else {
-            return match (self.failures > PATIENCE, self.twins.len()) {
-                (true, _) => failed(),
-                (false, 2) => Next::Run(self.planned),
-                (false, _) => Next::Twin(self.planned),
+            return match self.failures > PATIENCE {
+                true => failed(),
+                false if self.twins.len() == self.base.sources() => Next::Run(self.planned.clone()),
+                false => Next::Twin(self.planned.clone()),
             };
         };
         let is_unworn = top.rung.outcome.volume <= 0.0;
-        let met = top.error().promised() <= MARGIN * self.accuracy && !is_unworn;
-        if met {
+        if top.promised() <= MARGIN * self.accuracy && !is_unworn {
             return match self.stale() {
                 Some(twin) if self.affords(&twin) => Next::Twin(twin),
                 _ => Next::Done(Verdict::Met),
@@ -230,7 +272,7 @@ impl Ladder {
             } else if self.stalls >= PATIENCE {
                 Verdict::Stalled
             } else if self.affords(&self.planned) {
-                return Next::Run(self.planned);
+                return Next::Run(self.planned.clone());
             } else {
                 Verdict::OutOfTime
             },
@@ -242,28 +284,37 @@ impl Ladder {
         let next = self.next();
         self.spent += seconds;
         self.failures = 0;
-        let (Next::Run(level) | Next::Twin(level)) = next else {
+        let (Next::Run(level) | Next::Twin(level)) = &next else {
             return;
         };
         let rung = Rung {
-            level,
+            level: level.clone(),
             outcome,
             seconds,
         };
-        match (self.top.take(), self.twins.len()) {
-            (Some(top), _) if matches!(next, Next::Twin(_)) => self.check(top, &rung),
-            (Some(top), _) => self.climb(&top, rung),
-            (None, 0) => {
+        match self.top.take() {
+            Some(top) if matches!(next, Next::Twin(_)) => self.check(top, &rung),
+            Some(top) => self.climb(&top, rung),
+            None if self.wants_pilot => {
                 self.settle_tolerance(&rung.outcome);
-                self.twins.push(rung);
-                self.planned = self.base.scaled(1.0, 1.0 / TWIN);
+                self.base.nodes = self.placed(&rung.outcome, self.base.points);
+                self.wants_pilot = false;
+                self.planned = self.twin_of_base();
             }
-            (None, 1) => {
+            None if self.twins.len() < self.base.sources() => {
+                if self.twins.is_empty() && self.placing.is_none() {
+                    self.settle_tolerance(&rung.outcome);
+                }
                 self.twins.push(rung);
-                self.planned = self.base;
+                self.planned = self.twin_of_base();
             }
-            (None, _) => self.stand(rung),
+            None => self.stand(rung),
         }
+    }
+
+    /// The nodes of a level with `cells` cells after a run that ended so; `None` if it shows no scar.
+    fn placed(&self, outcome: &Outcome, cells: usize) -> Option<RadialGrid> {
+        outcome.place(cells, self.placing.as_ref()?)
     }
 
     /// Takes word that the level could not be run to its end: the next one is finer.
@@ -274,20 +325,18 @@ impl Ladder {
         self.last_failure = why;
         match self.top.take() {
             None => {
-                self.base = self.base.scaled(2.0, 2.0);
+                self.base = self.base.refined([2.0, 2.0, 1.0]);
                 self.twins.clear();
-                self.planned = self.base.scaled(1.0 / TWIN, 1.0);
+                self.begin();
             }
             // Where a coarser twin breaks down, nothing is known of the error but by a finer rung.
             Some(mut top) if matches!(next, Next::Twin(_)) => {
-                top.time.error = top
-                    .time
-                    .error
-                    .with(&top.time.error, |e, _| e.max(self.accuracy));
+                let time = &mut top.sources[STEPS].error;
+                *time = time.with(time, |e, _| e.max(self.accuracy));
                 self.settle(top);
             }
             Some(top) => {
-                self.planned = self.planned.scaled(1.0, TWIN);
+                self.planned = self.planned.refined([1.0, TWIN, 1.0]);
                 self.top = Some(top);
             }
         }
@@ -307,23 +356,20 @@ impl Ladder {
     /// Whether there is time for a level, as far as the last rung tells.
     fn affords(&self, level: &Level) -> bool {
         self.top.as_ref().is_none_or(|top| {
-            let (cells, time) = level.ratio(&top.rung.level);
-            self.spent + top.rung.seconds * cells * time <= self.budget
+            let work: f64 = level.ratio(&top.rung.level).iter().product();
+            self.spent + top.rung.seconds * work <= self.budget
         })
     }
 
-    /// The twin that measures again what was measured at another level of the other refinement.
+    /// The twin that measures again what was measured when something else was much coarser.
     fn stale(&self) -> Option<Level> {
         let top = self.top.as_ref()?;
-        let (cells, _) = top.rung.level.ratio(&top.time.level);
-        let (_, time) = top.rung.level.ratio(&top.cells.level);
-        if cells >= STALE {
-            Some(top.rung.level.scaled(1.0, 1.0 / TWIN))
-        } else if time >= STALE {
-            Some(top.rung.level.scaled(1.0 / TWIN, 1.0))
-        } else {
-            None
-        }
+        let is_stale = |&source: &usize| {
+            let since = top.rung.level.ratio(&top.sources[source].level);
+            (0..since.len()).any(|other| other != source && since[other] >= STALE)
+        };
+        let source = (0..top.sources.len()).rev().find(is_stale)?;
+        Some(top.rung.level.refined(coarser(source)))
     }
 
     /// The tolerance of jumps is measured in depths, the accuracy in the depth of the scar.
@@ -332,45 +378,50 @@ impl Ladder {
         if let Some(tolerance) = &mut self.base.tolerance
             && scar > 0.0
         {
-            *tolerance = (0.3 * self.accuracy * scar).clamp(1e-9, 0.05);
+            *tolerance = (0.3 * self.accuracy * scar).clamp(1e-9, MOST_TOLERANT / 2.0);
         }
     }
 
-    /// The first rung, both of whose twins are there.
+    /// The first rung, all of whose twins are there.
     fn stand(&mut self, rung: Rung) {
-        let source = |twin: &Rung, pick: fn((f64, f64)) -> f64| {
-            let ratio = pick(rung.level.ratio(&twin.level));
-            Source::measured(twin.outcome.against(&rung.outcome), ratio, rung.level)
-        };
-        let (cells, time) = (
-            source(&self.twins[0], |ratio| ratio.0),
-            source(&self.twins[1], |ratio| ratio.1),
-        );
-        self.settle(Top { rung, cells, time });
+        let twins = self.twins.iter().enumerate();
+        let sources = twins.map(|(source, twin)| {
+            let ratio = rung.level.ratio(&twin.level)[source];
+            let difference = twin.outcome.against(&rung.outcome);
+            Source::measured(difference, ratio, &rung.level)
+        });
+        let sources = sources.collect();
+        self.settle(Top { rung, sources });
     }
 
-    /// A twin of the top: its error of cells or of time is measured again.
+    /// A twin of the top: the error that it is coarser in is measured again.
     fn check(&mut self, mut top: Top, twin: &Rung) {
-        let (cells, time) = top.rung.level.ratio(&twin.level);
+        let ratios = top.rung.level.ratio(&twin.level);
         let difference = twin.outcome.against(&top.rung.outcome);
-        if time > cells {
-            top.time = Source::measured(difference, time, top.rung.level);
-        } else {
-            top.cells = Source::measured(difference, cells, top.rung.level);
+        for (source, ratio) in top.sources.iter_mut().zip(ratios) {
+            if ratio > 1.0 {
+                *source = Source::measured(difference, ratio, &top.rung.level);
+            }
         }
         self.settle(top);
     }
 
     /// A rung above another one.
     fn climb(&mut self, before: &Top, rung: Rung) {
-        let (cells, time) = rung.level.ratio(&before.rung.level);
+        let ratios = rung.level.ratio(&before.rung.level);
         let difference = before.rung.outcome.against(&rung.outcome);
-        let total = before.error();
+        let is_refined = |ratio: &f64| *ratio > 1.0;
         // Where only one is refined, the whole difference is its own.
-        let alone = cells <= 1.0 || time <= 1.0;
-        let refined = |source: &Source, ratio: f64| {
-            if ratio <= 1.0 {
-                return *source;
+        let alone = ratios.iter().filter(|ratio| is_refined(ratio)).count() <= 1;
+        let known = before.sources.iter().zip(ratios);
+        let total = known
+            .filter(|(_, ratio)| is_refined(ratio))
+            .fold(Difference::NONE, |sum, (source, _)| {
+                sum.with(&source.error, |a, b| a + b)
+            });
+        let refined = |(source, ratio): (&Source, f64)| {
+            if !is_refined(&ratio) {
+                return source.clone();
             }
             let share = source.error.with(&total, |error, total| {
                 if alone || total == 0.0 {
@@ -380,47 +431,67 @@ impl Ladder {
                 }
             });
             let own = share.with(&difference, |share, d| share * d);
-            source.refined(own, !alone, ratio, rung.level)
+            source.refined(own, !alone, ratio, &rung.level)
         };
         let top = Top {
-            cells: refined(&before.cells, cells),
-            time: refined(&before.time, time),
+            sources: before.sources.iter().zip(ratios).map(refined).collect(),
             rung,
         };
-        let nearer = top.error().promised() < 0.9 * total.promised();
+        let nearer = top.promised() < 0.9 * before.promised();
         self.stalls = if nearer { 0 } else { self.stalls + 1 };
         self.settle(top);
     }
 
     /// Takes a rung and plans the next one: finer in what uses up more than its share.
     fn settle(&mut self, top: Top) {
-        let allowed = SHARE * self.accuracy;
-        let ratio = |source: &Source| match source.error.promised() / allowed {
-            excess if excess > 1.0 => (1.1 * excess)
-                .powf(1.0 / EXPECTED_ORDER)
-                .clamp(STRIDE.0, STRIDE.1),
-            _ => 1.0,
-        };
-        let (mut cells, mut time) = (ratio(&top.cells), ratio(&top.time));
-        if top.rung.outcome.volume <= 0.0 {
-            (cells, time) = (STRIDE.1, 1.0);
-            self.stalls += 1;
+        let allowed = SHARES / top.sources.len() as f64 * self.accuracy;
+        let mut finer = [1.0; 3];
+        for (finer, source) in finer.iter_mut().zip(&top.sources) {
+            let excess = source.error.promised() / allowed;
+            if excess > 1.0 {
+                let wanted = (1.1 * excess).powf(1.0 / EXPECTED_ORDER);
+                *finer = wanted.clamp(STRIDE.0, STRIDE.1);
+            }
         }
-        self.planned = top.rung.level.scaled(cells, time);
+        if top.rung.outcome.volume <= 0.0 {
+            finer = [STRIDE.1, 1.0, 1.0];
+            self.stalls += 1;
+        } else if finer == [1.0; 3] && top.rung.outcome.imbalance > MARGIN * self.accuracy {
+            // V and k E_d part where an edge lies between two nodes, or where a jump is too long.
+            finer = [STRIDE.0, 1.0, STRIDE.0];
+        }
+        let mut planned = top.rung.level.refined(finer);
+        if planned.points != top.rung.level.points {
+            planned.nodes = self.placed(&top.rung.outcome, planned.points);
+        }
+        self.planned = planned;
         self.top = Some(top);
     }
 }
 
+/// A level coarser in one source than the one beside it.
+fn coarser(source: usize) -> Ratio {
+    let mut ratio = [1.0; 3];
+    ratio[source] = 1.0 / TWIN;
+    ratio
+}
+
 /// The first rung that is any good for a scene.
-fn first(scenario: &Scenario, accuracy: f64) -> Level {
+fn first(scenario: &Scenario, cycles: f64, accuracy: f64) -> Level {
     let setup = scenario.setup();
-    let level = Level::of(scenario);
     let finer = (1e-2 / accuracy).max(1.0);
     let turns = setup.drive.frequency_ratio().max(1.0);
+    let period = setup.drive.repeats_after().map(f64::from);
+    let is_long = period.is_some_and(|period| cycles >= WORTH_JUMPING * period);
+    let jumps = match scenario.value("numerics.integrator") {
+        Some(_) => matches!(setup.integrator, Integrator::CycleJump { .. }),
+        None => is_long && setup.wear.is_some() && setup.drive.tangential().is_some(),
+    };
     Level {
         points: (20.0 * finer.powf(0.4)).round() as usize,
         steps: (12.0 * finer.powf(0.3) * turns).round() as u32,
-        tolerance: level.tolerance.map(|_| (0.1 * accuracy).min(0.05)),
+        tolerance: jumps.then(|| (0.1 * accuracy).min(0.05)),
+        nodes: None,
     }
 }
 

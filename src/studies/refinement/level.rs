@@ -1,21 +1,36 @@
 //! How finely a scenario is computed: cells, steps and the tolerance of jumps.
 
-use crate::math::grid::{MAX_CELLS, MIN_CELLS};
+use crate::math::grid::{MAX_CELLS, MIN_CELLS, RadialGrid};
 use crate::scenario::{Scenario, ScenarioError};
-use crate::simulation::Integrator;
+use crate::simulation::{Integrator, Spacing};
 
 /// The fewest steps per cycle that are tried.
 const MIN_STEPS: u32 = 4;
 
+/// The largest tolerance that a scenario may have.
+pub(super) const MOST_TOLERANT: f64 = 0.1;
+
+/// How much finer one level is than another, in cells, in [`STEPS`] per cycle and in jumps over the same cycles.
+pub(super) type Ratio = [f64; 3];
+
+/// The place of the steps.
+pub(super) const STEPS: usize = 1;
+
+/// The error of a jump is of third order in its length, so this many times the jumps go with a tolerance smaller by
+/// their third power.
+const ORDER_OF_A_JUMP: f64 = 3.0;
+
 /// One level of refinement.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Level {
     /// N, cells of the grid.
     pub points: usize,
     /// Steps per cycle.
     pub steps: u32,
-    /// The tolerance of jumps over cycles, in units of the largest depth; `None` if every cycle is stepped.
+    /// The tolerance of jumps over cycles, in units of the depth; `None` if every cycle is stepped.
     pub tolerance: Option<f64>,
+    /// The nodes, where a coarser run has placed them.
+    pub nodes: Option<RadialGrid>,
 }
 
 impl Level {
@@ -29,27 +44,58 @@ impl Level {
                 Integrator::Direct => None,
                 Integrator::CycleJump { tolerance } => Some(tolerance),
             },
+            nodes: (setup.spacing == Spacing::Given).then(|| setup.grid.clone()),
         }
     }
 
-    /// The same with `cells` times the cells and `time` times the steps, within what a scenario may have.
+    /// The same with `cells` times the cells and `time` times the steps, and with jumps to match, within what a scenario
+    /// may have.
     #[must_use]
     pub fn scaled(&self, cells: f64, time: f64) -> Self {
-        let points = (self.points as f64 * cells).round();
-        let steps = (f64::from(self.steps) * time).round();
+        let tolerance = self.tolerance.map(|tolerance| at_steps(tolerance, time));
         Self {
-            points: points.clamp(MIN_CELLS as f64, MAX_CELLS as f64) as usize,
-            steps: steps.clamp(f64::from(MIN_STEPS.min(self.steps)), 1e6) as u32,
-            tolerance: self.tolerance.map(|tolerance| at_steps(tolerance, time)),
+            tolerance,
+            ..self.refined([cells, time, 1.0])
         }
     }
 
-    /// By how much this level is finer than another one, in cells and in time.
-    pub fn ratio(&self, coarse: &Self) -> (f64, f64) {
-        (
+    /// How many sources of error it has: cells and steps, and jumps if there are any.
+    pub(super) fn sources(&self) -> usize {
+        2 + usize::from(self.tolerance.is_some())
+    }
+
+    /// The same, finer by a ratio each, within what a scenario may have. Nodes keep their spacing.
+    #[must_use]
+    pub(super) fn refined(&self, [cells, steps, jumps]: Ratio) -> Self {
+        let points = (self.points as f64 * cells).round();
+        let points = points.clamp(MIN_CELLS as f64, MAX_CELLS as f64) as usize;
+        let steps = (f64::from(self.steps) * steps).round();
+        let tolerance = |before: f64| match jumps {
+            1.0 => before,
+            _ => rounded((before / jumps.powf(ORDER_OF_A_JUMP)).clamp(1e-12, MOST_TOLERANT)),
+        };
+        Self {
+            points,
+            steps: steps.clamp(f64::from(MIN_STEPS.min(self.steps)), 1e6) as u32,
+            tolerance: self.tolerance.map(tolerance),
+            nodes: match &self.nodes {
+                Some(grid) if grid.cells() != points => grid.resampled(points).ok(),
+                same => same.clone(),
+            },
+        }
+    }
+
+    /// How much finer this level is than another one.
+    pub(super) fn ratio(&self, coarse: &Self) -> Ratio {
+        let jumps = match (self.tolerance, coarse.tolerance) {
+            (Some(fine), Some(coarse)) => (coarse / fine).powf(1.0 / ORDER_OF_A_JUMP),
+            _ => 1.0,
+        };
+        [
             self.points as f64 / coarse.points as f64,
             f64::from(self.steps) / f64::from(coarse.steps),
-        )
+            jumps,
+        ]
     }
 
     /// The keys of a scenario and their values.
@@ -64,6 +110,11 @@ impl Level {
             keys.push(("numerics.tolerance", format!("{tolerance:e}")));
         } else {
             keys.push(("numerics.integrator", Integrator::Direct.name().to_owned()));
+        }
+        // Last: another number of points would take their place.
+        if let Some(grid) = &self.nodes {
+            let nodes: Vec<String> = grid.nodes().iter().map(|r| format!("{r:e}")).collect();
+            keys.push(("numerics.nodes", format!("[{}]", nodes.join(", "))));
         }
         keys
     }
@@ -82,7 +133,7 @@ impl Level {
 /// The tolerance of jumps that goes with `time` times the steps. It bounds the error of a jump, which so falls about
 /// as the error of the steps does; a higher power of `time` makes jumps shorter than the steps are worth.
 pub(super) fn at_steps(tolerance: f64, time: f64) -> f64 {
-    rounded((tolerance / time).clamp(1e-12, 0.1))
+    rounded((tolerance / time).clamp(1e-12, MOST_TOLERANT))
 }
 
 /// Two digits: no more than anybody would write.

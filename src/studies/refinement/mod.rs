@@ -14,6 +14,7 @@ mod estimate;
 mod ladder;
 mod level;
 mod outcome;
+mod placing;
 mod resolve;
 
 pub use estimate::estimate;
@@ -78,16 +79,16 @@ pub(super) fn climb(
     go_on: &dyn Fn() -> bool,
     clock: &dyn Fn() -> f64,
 ) -> Result<Reached, RefinementError> {
-    let mut ladder = Ladder::new(scenario, accuracy, budget);
+    let mut ladder = Ladder::new(scenario, cycles, accuracy, budget);
     let mut last = None;
     loop {
         let next = ladder.next();
-        let level = match next {
+        let level = match &next {
             Next::Run(level) | Next::Twin(level) => level,
             Next::Done(verdict) => {
                 let (Some(session), Some((rung, error))) = (last, ladder.reached()) else {
                     return Err(match verdict {
-                        Verdict::Failed(why) => RefinementError::Failed(why),
+                        Verdict::Failed(why) => RefinementError::Failed(why.clone()),
                         _ => RefinementError::Interrupted,
                     });
                 };
@@ -95,7 +96,7 @@ pub(super) fn climb(
                     session,
                     rung: rung.clone(),
                     error,
-                    verdict,
+                    verdict: verdict.clone(),
                     seconds: ladder.spent(),
                 });
             }

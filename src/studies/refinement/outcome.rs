@@ -1,6 +1,8 @@
 //! The quantities by which two runs of a scenario are compared: the scar, its volume, and forces
 //! and pressures at the end.
 
+use super::placing;
+use crate::contact::indenter::Indenter;
 use crate::math::abel::worn;
 use crate::math::grid::RadialGrid;
 use crate::scenario::session::Session;
@@ -24,6 +26,10 @@ pub struct Outcome {
     wear: Vec<f64>,
     /// V, m³.
     pub volume: f64,
+    /// E_d, J.
+    pub work: f64,
+    /// How far V is from k E_d, relative to it: two computations of one number.
+    pub imbalance: f64,
     /// F_x at the end, N.
     pub force: f64,
     /// What F_x is compared in, N: μF_z, or what the whole contact would carry without slip if that is less.
@@ -44,6 +50,8 @@ pub struct Difference {
     pub worn_depth: f64,
     /// Of V, relative.
     pub volume: f64,
+    /// Of E_d, relative.
+    pub work: f64,
     /// Of F_x, relative to μF_z, or to what the whole contact would carry without slip if that is less.
     pub force: f64,
     /// Of p away from borders, rms, relative to its largest value there.
@@ -55,6 +63,7 @@ impl Difference {
     pub const NONE: Self = Self {
         worn_depth: 0.0,
         volume: 0.0,
+        work: 0.0,
         force: 0.0,
         pressure: 0.0,
     };
@@ -69,6 +78,7 @@ impl Difference {
         Self {
             worn_depth: combine(self.worn_depth, other.worn_depth),
             volume: combine(self.volume, other.volume),
+            work: combine(self.work, other.work),
             force: combine(self.force, other.force),
             pressure: combine(self.pressure, other.pressure),
         }
@@ -92,6 +102,8 @@ impl Outcome {
             grid: setup.grid.clone(),
             wear: simulation.worn_depth().to_vec(),
             volume: moment.wear_volume,
+            work: moment.dissipated_energy,
+            imbalance: moment.energy_residual.unwrap_or(0.0).abs(),
             force: moment.tangential_force,
             force_scale: sliding.min(sticking).max(moment.tangential_force.abs()),
             pressure: simulation.pressure(),
@@ -99,6 +111,11 @@ impl Outcome {
             stick_radius: moment.stick_radius.unwrap_or(0.0),
             depth: setup.depth_scale(moment.depth),
         }
+    }
+
+    /// The grid of `cells` cells that suits this scar; `None` if there is none.
+    pub(super) fn place(&self, cells: usize, indenter: &Indenter) -> Option<RadialGrid> {
+        placing::place(&self.grid, &self.wear, cells, indenter)
     }
 
     /// The largest worn depth, m.
@@ -131,6 +148,7 @@ impl Outcome {
         Difference {
             worn_depth: relative(self.worn_difference(fine), fine.scar_depth()),
             volume: relative(self.volume - fine.volume, fine.volume),
+            work: relative(self.work - fine.work, fine.work),
             // At the moment of lift-off one of the two may carry no force at all.
             force: relative(
                 self.force - fine.force,

@@ -63,6 +63,7 @@ pub fn statements_of(error: &Difference) -> Vec<(String, String)> {
     [
         ("estimated_error", error.worn_depth),
         ("estimated_error_volume", error.volume),
+        ("estimated_error_energy", error.work),
         ("estimated_error_force", error.force),
         ("estimated_error_pressure", error.pressure),
     ]
@@ -72,7 +73,7 @@ pub fn statements_of(error: &Difference) -> Vec<(String, String)> {
 
 /// What is said of an accuracy that is not met.
 fn unmet(reached: &Reached, accuracy: f64, budget: f64) -> Option<String> {
-    let level = reached.rung.level;
+    let level = &reached.rung.level;
     let why = match &reached.verdict {
         Verdict::Met => return None,
         Verdict::Unworn => {
@@ -95,7 +96,7 @@ fn unmet(reached: &Reached, accuracy: f64, budget: f64) -> Option<String> {
         "numerics.accuracy = {accuracy:e} was not reached \
          {why}; the estimated error is {:.1e} with {} points and \
          {} steps per cycle",
-        reached.error.promised(),
+        reached.error.promised().max(reached.rung.outcome.imbalance),
         level.points,
         level.steps
     ))

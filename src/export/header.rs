@@ -2,9 +2,11 @@
 
 use std::fmt::Write;
 
+use crate::math::grid::RadialGrid;
 use crate::scenario::printable;
 pub use crate::scenario::scalars::{number, optional};
 use crate::scenario::session::Session;
+use crate::simulation::{Setup, Spacing};
 
 /// The header lines for the present state of `session`.
 pub fn lines(session: &Session) -> String {
@@ -30,7 +32,7 @@ pub fn lines(session: &Session) -> String {
     }
     line("points", &setup.grid.cells().to_string());
     line("steps_per_cycle", &setup.steps_per_cycle.to_string());
-    line("grid", setup.spacing.name());
+    line("grid", grid(setup));
     line("scheme", setup.scheme.name());
     if let Some(remark) = setup.indenter.remark() {
         line("table", &remark);
@@ -52,6 +54,10 @@ pub fn lines(session: &Session) -> String {
     for (key, value) in session.statements() {
         line(key, value);
     }
+    let is_measured = |(key, _): &(String, String)| key == "estimated_error";
+    if setup.wear.is_some() && !session.statements().iter().any(is_measured) {
+        line("estimated_error", "not measured (--estimate-error)");
+    }
     for change in session.changes() {
         line(
             &format!("at cycle {}", number(change.at_cycle)),
@@ -59,6 +65,15 @@ pub fn lines(session: &Session) -> String {
         );
     }
     text
+}
+
+/// What the cells are: graded ones may have had nothing to narrow towards.
+fn grid(setup: &Setup) -> &'static str {
+    let even = RadialGrid::uniform(setup.grid.cells(), setup.grid.radius());
+    match even.is_ok_and(|even| even.nodes() == setup.grid.nodes()) {
+        true => Spacing::Uniform.name(),
+        false => setup.spacing.name(),
+    }
 }
 
 /// `ok`, or each check that fails with its size.

@@ -199,6 +199,8 @@ pub struct Ladder {
     failures: u32,
     stalls: u32,
     last_failure: String,
+    /// Whether the time was up in the middle of a level.
+    is_cut: bool,
 }
 
 impl Ladder {
@@ -221,6 +223,7 @@ impl Ladder {
             failures: 0,
             stalls: 0,
             last_failure: String::new(),
+            is_cut: false,
         };
         ladder.begin();
         ladder
@@ -257,7 +260,7 @@ impl Ladder {
         let is_unworn = top.rung.outcome.volume <= 0.0;
         if top.promised() <= MARGIN * self.accuracy && !is_unworn {
             return match self.stale() {
-                Some(twin) if self.affords(&twin) => Next::Twin(twin),
+                Some(twin) if !self.is_cut && self.affords(&twin) => Next::Twin(twin),
                 _ => Next::Done(Verdict::Met),
             };
         }
@@ -271,7 +274,7 @@ impl Ladder {
                 Verdict::Unworn
             } else if self.stalls >= PATIENCE {
                 Verdict::Stalled
-            } else if self.affords(&self.planned) {
+            } else if !self.is_cut && self.affords(&self.planned) {
                 return Next::Run(self.planned.clone());
             } else {
                 Verdict::OutOfTime
@@ -340,6 +343,12 @@ impl Ladder {
                 self.top = Some(top);
             }
         }
+    }
+
+    /// Takes word that the time was up in the middle of a level: the last rung is the result.
+    pub fn cut(&mut self, seconds: f64) {
+        self.spent += seconds;
+        self.is_cut = true;
     }
 
     /// The rung reached and its estimated error, once there is one.

@@ -53,8 +53,9 @@ pub struct Reached {
 }
 
 /// Runs `scenario` over `cycles` on finer and finer levels until the worn depth and the volume have an
-/// estimated error of at most `accuracy`, or the next level would take longer than `budget` seconds in total.
-/// `go_on` is asked often; if it says no, there is no result. `clock` tells the time in seconds.
+/// estimated error of at most `accuracy`, or the search takes longer than `budget` seconds: then the last level that came
+/// to its end is the result. The first level is always finished, since nothing is known before.
+/// `go_on` is asked at every step; if it says no, there is no result.
 ///
 /// # Errors
 /// If a level is refused, if no level runs to its end, or on an interrupt.
@@ -80,6 +81,7 @@ pub(super) fn climb(
     clock: &dyn Fn() -> f64,
 ) -> Result<Reached, RefinementError> {
     let mut ladder = Ladder::new(scenario, cycles, accuracy, budget);
+    let begin = clock();
     let mut last = None;
     loop {
         let next = ladder.next();
@@ -102,9 +104,19 @@ pub(super) fn climb(
             }
         };
         let start = clock();
-        let ended = run(&level.of_scenario(scenario)?, cycles, go_on);
+        let is_late = || ladder.reached().is_some() && clock() - begin > budget;
+        let ended = run(&level.of_scenario(scenario)?, cycles, &|| {
+            go_on() && !is_late()
+        });
         let seconds = clock() - start;
-        match ended.ok_or(RefinementError::Interrupted)? {
+        let Some(ended) = ended else {
+            if !go_on() || !is_late() {
+                return Err(RefinementError::Interrupted);
+            }
+            ladder.cut(seconds);
+            continue;
+        };
+        match ended {
             Ok(session) => {
                 ladder.report(Outcome::of(&session), seconds);
                 if matches!(next, Next::Run(_)) {

@@ -201,6 +201,14 @@ impl Indenter {
         }
     }
 
+    /// The radius beyond which nobody knows what the indenter is like, m: the rim, or the end of a table.
+    pub fn end(&self) -> Option<f64> {
+        match self {
+            Self::Table(measured) => Some(measured.last_radius()),
+            _ => self.rim(),
+        }
+    }
+
     /// The radius of the flat face, m, where there is one.
     pub fn flat_face(&self) -> Option<f64> {
         match *self {

@@ -4,7 +4,7 @@
 //!
 //! B. P. Sommeijer, L. F. Shampine, J. G. Verwer (1998), RKC: an explicit solver for parabolic PDEs,
 //! J. Comput. Appl. Math. 88, 315–326, doi 10.1016/S0377-0427(97)00219-7, in its notation. For y′ = F(y)
-//! and s ≥ 2 stages, with the Chebyshev polynomials T_j, w₀ = 1 + ε/s², ε = 2/13, w₁ = T′_s(w₀)/T″_s(w₀),
+//! and s ≥ 2 stages, with the Chebyshev polynomials T_j, w₀ = 1.04, w₁ = T′_s(w₀)/T″_s(w₀),
 //! b_j = T″_j(w₀)/T′_j(w₀)² (b₀ = b₁ = b₂) and a_j = 1 − b_j T_j(w₀):
 //!
 //! ```text
@@ -14,21 +14,44 @@
 //! error ≈ ⅘ (y_n − y_{n+1}) + ⅖ h (F_n + F_{n+1})
 //! ```
 //!
-//! - **Stability**: along the negative real axis up to hρ = ⅔ (s² − 1)(1 − 2ε/15): the reach grows with
-//!   the square of the stages.
+//! - **Stability**: along the negative real axis up to hρ = (w₀ + 1)/w₁, and within 14° of it where |hλ| is up to half
+//!   of that. The reach is 0.58 s² for few stages, as with the usual damping, and grows with 7 s for many.
 //! - **Cost**: s − 1 evaluations for y_{n+1}, one more for F_{n+1}, which the next step begins with.
 
-/// The damping ε.
-const DAMPING: f64 = 2.0 / 13.0;
+/// w₀, in place of 1 + ε/s²: a damping that grows with the square of the stages, ε = 0.04 s².
+///
+/// The usual ε = 2/13 is for real spectra. The response of p to wear with the
+/// [curvature](crate::math::abel::curvature) of the load is none: g by Eq. (1) and p by Eq. (3) turn the phase of a
+/// wave of the profile by opposite angles, and curvature, added to p alone, leaves up to 14° of it. With 2/13 such
+/// waves grow 1.7-fold in a step of 9 stages and 1900-fold in one of 40; with this w₀ none grows.
+const W0: f64 = 1.04;
+
+/// The most stages that are asked for.
+const MOST: usize = 2000;
 
 /// The fewest stages of a step.
 pub const FEWEST_STAGES: usize = 2;
 
 /// The stages that a step needs to be stable where h times the spectral radius is `stiffness`.
 pub fn stages_for(stiffness: f64) -> usize {
-    let reach = 2.0 / 3.0 * (1.0 - 2.0 / 15.0 * DAMPING);
-    let stages = (1.0 + stiffness.max(0.0) / reach).sqrt().ceil();
-    (stages as usize).max(FEWEST_STAGES)
+    let (mut one, mut two) = ([W0, 1.0, 0.0], [1.0, 0.0, 0.0]);
+    for stages in FEWEST_STAGES..MOST {
+        (one, two) = (next(one, two), one);
+        // As far as w₀ + w₁ z stays above −1.
+        if (W0 + 1.0) * one[2] >= stiffness * one[1] {
+            return stages;
+        }
+    }
+    MOST
+}
+
+/// T, T′ and T″ of a degree at w₀ from those of the two before it.
+fn next(one: [f64; 3], two: [f64; 3]) -> [f64; 3] {
+    [
+        2.0 * W0 * one[0] - two[0],
+        2.0 * one[0] + 2.0 * W0 * one[1] - two[1],
+        4.0 * one[1] + 2.0 * W0 * one[2] - two[2],
+    ]
 }
 
 /// What a step writes into and nobody reads afterwards: steps of the same size allocate nothing more.
@@ -68,9 +91,10 @@ pub fn step<E>(
     for stage in stages.later() {
         slope(next, slopes)?;
         for i in 0..y.len() {
-            let value = (1.0 - stage.mu - stage.nu) * y[i]
-                + stage.mu * next[i]
-                + stage.nu * before[i]
+            // What does not change stays the same, to the last bit.
+            let value = y[i]
+                + stage.mu * (next[i] - y[i])
+                + stage.nu * (before[i] - y[i])
                 + h * (stage.mu_tilde * slopes[i] + stage.gamma_tilde * first[i]);
             before[i] = next[i];
             next[i] = value;
@@ -86,7 +110,6 @@ pub fn error(h: f64, y: f64, next: f64, first: f64, last: f64) -> f64 {
 
 /// The coefficients of a step.
 struct Stages<'a> {
-    w0: f64,
     w1: f64,
     /// T_j, T′_j and T″_j at w₀, from j = 0 to the number of stages.
     t: &'a [[f64; 3]],
@@ -101,20 +124,15 @@ struct Stage {
 
 impl<'a> Stages<'a> {
     fn new(stages: usize, t: &'a mut Vec<[f64; 3]>) -> Self {
-        let w0 = 1.0 + DAMPING / (stages * stages) as f64;
         t.clear();
-        t.extend([[1.0, 0.0, 0.0], [w0, 1.0, 0.0]]);
+        t.extend([[1.0, 0.0, 0.0], [W0, 1.0, 0.0]]);
         // By their three-term recurrences.
         for j in 2..=stages {
             let (one, two) = (t[j - 1], t[j - 2]);
-            t.push([
-                2.0 * w0 * one[0] - two[0],
-                2.0 * one[0] + 2.0 * w0 * one[1] - two[1],
-                4.0 * one[1] + 2.0 * w0 * one[2] - two[2],
-            ]);
+            t.push(next(one, two));
         }
         let w1 = t[stages][1] / t[stages][2];
-        Self { w0, w1, t }
+        Self { w1, t }
     }
 
     fn b(&self, j: usize) -> f64 {
@@ -132,7 +150,7 @@ impl<'a> Stages<'a> {
         (2..self.t.len()).map(|j| {
             let mu_tilde = 2.0 * self.b(j) * self.w1 / self.b(j - 1);
             Stage {
-                mu: 2.0 * self.b(j) * self.w0 / self.b(j - 1),
+                mu: 2.0 * self.b(j) * W0 / self.b(j - 1),
                 nu: -self.b(j) / self.b(j - 2),
                 mu_tilde,
                 gamma_tilde: -(1.0 - self.b(j - 1) * self.t[j - 1][0]) * mu_tilde,
@@ -174,14 +192,51 @@ mod tests {
 
     #[test]
     fn steps_are_stable_as_far_as_promised() {
-        for stiffness in [0.5, 3.0, 20.0, 300.0, 1e4] {
+        for stiffness in [0.5, 3.0, 20.0, 300.0, 1e3] {
             let stages = stages_for(stiffness);
             let damped = |rate: f64| run(stages, 1, 1.0, |y| -rate * y).abs();
             for share in 1..=100 {
                 let rate = stiffness * f64::from(share) / 100.0;
                 assert!(damped(rate) <= 1.0, "{stages} stages at {rate}");
             }
-            assert!(damped(3.0 * (stages * stages) as f64) > 1.0, "{stages}");
+            assert!(damped(3.0 * stiffness.max(2.0)) > 1.0, "{stages}");
+        }
+    }
+
+    /// The waves that wear and curvature leave: |λ| up to half the largest, up to 14° off the axis.
+    #[test]
+    fn steps_are_stable_beside_the_real_axis() {
+        for stiffness in [3.0, 10.0, 35.0, 100.0, 250.0] {
+            let stages = stages_for(stiffness);
+            for (share, degrees) in [
+                (0.18, 4.0),
+                (0.35, 8.0),
+                (0.44, 12.3),
+                (0.485, 14.2),
+                (0.475, 11.4),
+            ] {
+                let angle = f64::to_radians(degrees);
+                let [re, im] = [angle.cos(), angle.sin()].map(|part| share * stiffness * part);
+                let slope = |y: &[f64], out: &mut [f64]| {
+                    (out[0], out[1]) = (-re * y[0] + im * y[1], -im * y[0] - re * y[1]);
+                    Ok::<(), Infallible>(())
+                };
+                let (y, mut first, mut end) = ([1.0, 0.0], [0.0; 2], Vec::new());
+                let Ok(()) = slope(&y, &mut first);
+                let Ok(()) = step(
+                    stages,
+                    1.0,
+                    &y,
+                    &first,
+                    &mut end,
+                    &mut Buffers::default(),
+                    slope,
+                );
+                assert!(
+                    end[0].hypot(end[1]) <= 1.0,
+                    "{stages} stages at {share}, {degrees} degrees"
+                );
+            }
         }
     }
 

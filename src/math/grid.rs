@@ -134,6 +134,15 @@ impl RadialGrid {
         Ok(Self::from_nodes(nodes, Some(inside)))
     }
 
+    /// As many cells out to another `radius` (m), each wider by as much. No node stands for a border.
+    pub fn widened(&self, radius: f64) -> Result<Self, Invalid> {
+        Self::check(self.cells(), radius)?;
+        let factor = radius / self.radius();
+        let mut nodes: Vec<f64> = self.nodes.iter().map(|r| r * factor).collect();
+        nodes[self.cells()] = radius;
+        Self::restored(nodes, None)
+    }
+
     /// The same nodes, none of which stands for a border.
     #[must_use]
     pub fn without_border(&self) -> Self {

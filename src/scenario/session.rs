@@ -259,7 +259,13 @@ impl Session {
         }
         let scenario = before.scenario.after_all(&made[before.changes..])?;
         let mut simulation = before.simulation.clone();
-        simulation.reconfigure(scenario.setup().clone(), scenario.domain())?;
+        // A domain that nobody changes may have grown.
+        let radius = |scenario: &Scenario| scenario.setup().grid.radius();
+        let domain = match radius(&scenario) == radius(&before.scenario) {
+            true => Domain::Derived,
+            false => scenario.domain(),
+        };
+        simulation.reconfigure(scenario.setup().clone(), domain)?;
         self.simulation = simulation;
         self.scenario = scenario;
         self.changes = made;
@@ -335,11 +341,10 @@ impl Session {
     }
 }
 
-/// Restores a saved simulation of `scenario`. A domain that held wear may be wider than the
-/// scenario's own.
+/// Restores a saved simulation of `scenario`. A domain that has grown may be wider than the scenario's own.
 fn taken_up(scenario: &Scenario, saved: Saved) -> Result<Simulation, Unfit> {
     let mut setup = scenario.setup().clone();
-    if scenario.domain() == Domain::Derived && saved.radius() > setup.grid.radius() {
+    if setup.indenter.rim().is_none() && saved.radius() > setup.grid.radius() {
         let wider = RadialGrid::uniform(setup.grid.cells(), saved.radius());
         setup.grid = wider.unwrap_or(setup.grid);
     }

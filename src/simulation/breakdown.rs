@@ -123,6 +123,13 @@ pub enum Cause {
     },
 }
 
+impl Cause {
+    /// Whether a wider domain may hold the contact.
+    pub(super) fn lacks_room(&self) -> bool {
+        matches!(self, Self::EdgeReached { .. } | Self::LoadTooLarge { .. })
+    }
+}
+
 /// A number of any size in a few characters.
 fn short(value: f64) -> String {
     if value < 1e4 {

@@ -343,13 +343,16 @@ impl Simulation {
         if !self.may_jump() {
             return Ok(false);
         }
+        use step::Jumped;
         let (state, spare) = (&self.state, &mut self.spare);
         let jumped = step::jump(&self.model, state, spare, &mut self.scratch, most)
             .map_err(|cause| self.refused(cause))?;
         std::mem::swap(&mut self.state, &mut self.spare);
         // A jump leaves buffers of its own.
         self.spare.clone_from(&self.state);
-        use step::Jumped;
+        if jumped == Jumped::WithoutRoom && self.grow()? {
+            return self.jump(most);
+        }
         self.is_shortened = matches!(jumped, Jumped::Shortened | Jumped::TooNear);
         let jumped = matches!(jumped, Jumped::Done | Jumped::Shortened);
         if jumped {
@@ -383,8 +386,10 @@ impl Simulation {
     fn step_to(&mut self, cycle: f64, turns: bool) -> Result<(), Breakdown> {
         let (model, state, scratch) = (&self.model, &self.state, &mut self.scratch);
         let (next, between) = (&mut self.spare, &mut self.between);
-        step::step(model, state, next, between, scratch, cycle, turns)
-            .map_err(|cause| self.refused(cause))?;
+        match step::step(model, state, next, between, scratch, cycle, turns) {
+            Err(cause) if cause.lacks_room() && self.grow()? => return self.step_to(cycle, turns),
+            outcome => outcome.map_err(|cause| self.refused(cause))?,
+        }
         std::mem::swap(&mut self.state, &mut self.spare);
         cycle_figures::follow(&self.model, &mut self.state);
         self.watch_hardness();

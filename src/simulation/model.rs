@@ -33,7 +33,7 @@ pub(super) struct Operators {
     /// 1/h, h the width of the cell around each node, 1/m.
     pub per_width: Vec<f64>,
     /// Weights of 2π∫ y r dr, m².
-    volume_weights: Vec<f64>,
+    pub volume_weights: Vec<f64>,
     /// f₀ and its 1D image g₀, m.
     pub unworn: Arc<[f64]>,
     unworn_1d: Vec<f64>,

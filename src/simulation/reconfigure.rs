@@ -16,6 +16,12 @@ pub enum Domain {
     Derived,
 }
 
+/// By how much a domain grows at once, in radii.
+const GROWTH: f64 = 1.25;
+
+/// The widest domain, in units of the depth of indentation: far beyond any contact of small slopes.
+const WIDEST: f64 = 1e9;
+
 /// The most that the worn volume may differ on another grid, relative to it.
 const MOST_LOST: f64 = 0.02;
 
@@ -52,6 +58,45 @@ impl Simulation {
         changed.state.unexplained_volume -= lost;
         *self = changed;
         Ok(())
+    }
+
+    /// Makes the domain wider, for a contact that has come to its edge: as many cells, each wider by as much. The
+    /// worn profile is interpolated, and its volume kept. False where the indenter ends.
+    pub(super) fn grow(&mut self) -> Result<bool, Breakdown> {
+        let before = self.setup();
+        let room = before.indenter.end().unwrap_or(f64::INFINITY);
+        let radius = (GROWTH * before.grid.radius()).min(room);
+        let widest = WIDEST * before.depth_scale(self.state.contact.depth).abs();
+        if radius <= before.grid.radius() || radius > widest {
+            return Ok(false);
+        }
+        let Ok(grid) = before.grid.widened(radius) else {
+            return Ok(false);
+        };
+        let mut setup = Setup {
+            grid,
+            ..before.clone()
+        };
+        if before.grid.border().is_some() {
+            setup = border::graded(&setup, Some(self));
+        }
+        let mut state = self.state_on(&setup);
+        state.jump.length = self.state.jump.length;
+        let model = Model::new(setup, None);
+        let (worn, blurred) = (self.wear_volume(), model.volume(&state.wear));
+        if blurred > 0.0 {
+            let kept = worn / blurred;
+            state.wear.iter_mut().for_each(|depth| *depth *= kept);
+        }
+        let mut wider = Self::with(model, state);
+        wider.settle()?;
+        // The period under way goes on.
+        wider.state.tally = self.state.tally.clone();
+        wider.state.figures = self.state.figures;
+        wider.spare.clone_from(&wider.state);
+        wider.is_shortened = self.is_shortened;
+        *self = wider;
+        Ok(true)
     }
 
     /// The setup on a domain that all wear fits into.

@@ -23,6 +23,7 @@ mod figures;
 mod fit;
 mod floors;
 mod ghosts;
+mod growth;
 mod guide;
 mod half_space;
 mod hands;

@@ -6,8 +6,9 @@
 //! number n of cycles, dδ/dn = W(δ), W the wear of a [steady-state cycle](super::steady_cycle) on
 //! the frozen profile. That is integrated by [Runge–Kutta–Chebyshev steps](crate::math::chebyshev),
 //! whose error is controlled by the tolerance and whose number of stages follows the stiffness of
-//! the response of p to wear. The friction work is integrated along with it. The tolerance is in units of the depth
-//! of indentation; of the work it allows the part that it is of the scar's depth, up to 1e-4.
+//! the response of p to wear. The friction work is integrated along with it. The tolerance is in units of the largest
+//! depth of the motion or, where the force is prescribed, of the largest compression of a spring; of the work
+//! it allows the part that it is of the scar's depth, up to 1e-4.
 //!
 //! A jump covers whole periods of the motion. It begins after the first period, in which the
 //! springs shake down. If it would need more cycles than it covers, cycles are stepped directly for
@@ -45,6 +46,9 @@ const PEAK: f64 = 10.0;
 /// The largest error of the friction work that a jump may make, relative to all of it, however shallow the scar is.
 const LEAST_CERTAIN: f64 = 1e-4;
 
+/// The part of the domain beyond which a contact is given room before a jump is made shorter for the want of it.
+const NEAR_EDGE: f64 = 0.8;
+
 /// Most periods of direct stepping before a jump is tried again.
 const LONGEST_REST: u32 = 16;
 
@@ -59,6 +63,8 @@ pub(in super::super) enum Jumped {
     NotWorthIt,
     /// No jump before the goal pays: direct steps up to there.
     TooNear,
+    /// The contact would grow beyond the domain: the state is as it was.
+    WithoutRoom,
 }
 
 /// Whether the state is one that cycles can be jumped from: at the end of a period but the first.
@@ -109,7 +115,12 @@ pub(in super::super) fn jump(
     }
     let jump = match found {
         Ok(jump) => jump,
-        Err(TooShort(length)) => {
+        Err(Refused::WithoutRoom) => {
+            next.clone_from(state);
+            next.stats = memory.stats;
+            return Ok(Jumped::WithoutRoom);
+        }
+        Err(Refused::TooShort(length)) => {
             next.clone_from(state);
             next.stats = memory.stats;
             if is_short {
@@ -119,7 +130,7 @@ pub(in super::super) fn jump(
             return Ok(Jumped::NotWorthIt);
         }
     };
-    *next = after_jump(model, state, memory, jump);
+    *next = after_jump(model, state, &first, memory, jump);
     Ok(match is_short {
         true => Jumped::Shortened,
         false => Jumped::Done,
@@ -139,13 +150,14 @@ struct Search<'a> {
 impl Search<'_> {
     /// A jump of at most `most` cycles whose error is allowed, or one so short that direct steps are better.
     /// `memory` then holds the springs at its end.
-    fn search(&mut self, memory: &mut State, most: f64) -> Result<Jump, TooShort> {
+    fn search(&mut self, memory: &mut State, most: f64) -> Result<Jump, Refused> {
         let (state, first, setup) = (self.state, self.first, &self.model.setup);
         let Integrator::CycleJump { tolerance } = setup.integrator else {
-            return Err(TooShort(0.0));
+            return Err(Refused::TooShort(0.0));
         };
         let period = period_of(setup);
-        let depth = setup.depth_scale(state.contact.depth);
+        // Under a held force the depth of indentation grows with the scar, and says nothing of the contact.
+        let depth = setup.depth_scale(first.elastic_depth);
         let mut length = if state.jump.length > 0.0 {
             state.jump.length
         } else {
@@ -161,11 +173,15 @@ impl Search<'_> {
             }
             let price = stages as f64 * steady_cycle::cost(setup) * period;
             if covered < (WORTH * price).max(period) {
-                return Err(TooShort(length));
+                return Err(Refused::TooShort(length));
             }
             let tried = self.attempt(memory, covered, stages);
             let error = match &tried {
                 Ok(after) => error(state, first, after, covered, tolerance * depth, tolerance),
+                Err(cause) if cause.lacks_room() && is_near_edge(self.model, state) => {
+                    go_back(memory, &springs);
+                    return Err(Refused::WithoutRoom);
+                }
                 // What fails in the middle of a jump is left to a shorter one, or to direct steps.
                 Err(_) => f64::INFINITY,
             };
@@ -227,6 +243,11 @@ impl Search<'_> {
     }
 }
 
+/// Whether the contact has almost come to the domain's edge.
+fn is_near_edge(model: &Model, state: &State) -> bool {
+    state.contact.normal.radius > NEAR_EDGE * model.grid.radius()
+}
+
 /// Takes the springs back to where they stood; the counts of what was done stay.
 fn go_back(memory: &mut State, springs: &State) {
     let stats = memory.stats;
@@ -234,8 +255,13 @@ fn go_back(memory: &mut State, springs: &State) {
     memory.stats = stats;
 }
 
-/// A jump over so few cycles that direct steps are better, and how long it would have been, in cycles.
-struct TooShort(f64);
+/// Why there is no jump.
+enum Refused {
+    /// It would cover so few cycles that direct steps are better: how long it would have been, in cycles.
+    TooShort(f64),
+    /// The contact is about to outgrow the domain.
+    WithoutRoom,
+}
 
 /// A jump that was found.
 struct Jump {
@@ -284,7 +310,13 @@ fn error(
 }
 
 /// The state after a jump from `state`, with the springs of `memory`.
-fn after_jump(model: &Model, state: &State, memory: State, jump: Jump) -> State {
+fn after_jump(
+    model: &Model,
+    state: &State,
+    first: &SteadyCycle,
+    memory: State,
+    jump: Jump,
+) -> State {
     let Jump {
         covered,
         next,
@@ -292,10 +324,12 @@ fn after_jump(model: &Model, state: &State, memory: State, jump: Jump) -> State 
     } = jump;
     // Rounding must not take work back where none is done any more.
     let friction_work = after.friction_work.max(0.0);
+    let balanced = 0.5 * (first.balanced.abs() + after.steady.balanced.abs());
     let mut end = State {
         cycle: state.cycle + covered,
         steps: state.steps + 1,
         dissipated_energy: state.dissipated_energy + friction_work,
+        balanced_volume: state.balanced_volume + covered * balanced,
         smallest_stick_radius: f64::INFINITY,
         settled_stick_radius: Some(after.steady.stick_radius),
         jump: JumpMemory {

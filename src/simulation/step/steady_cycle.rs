@@ -22,6 +22,7 @@ use super::super::drive::{Control, Oscillation};
 use super::super::model::Model;
 use super::super::moments;
 use super::super::state::{State, SteadyCycle};
+use super::super::wear::Increment;
 use super::super::{Scratch, contact, traction};
 use super::wear;
 use crate::math::abel::field::Field;
@@ -111,6 +112,7 @@ fn period(
         ..SteadyCycle::default()
     };
     let mut stiffness = vec![0.0; model.nodes()];
+    let modulus = model.setup.material.normal_modulus();
     for &moment in moments.iter() {
         solve(model, memory, spare, scratch, moment)?;
         wear(model, memory, spare, scratch, moment);
@@ -124,6 +126,8 @@ fn period(
         if let Some(stick) = spare.contact.stick_radius {
             steady.stick_radius = steady.stick_radius.min(stick);
         }
+        let compression = spare.contact.normal.strongest / modulus;
+        steady.elastic_depth = steady.elastic_depth.max(compression);
         take_over(memory, spare, moment);
         if by_mean {
             std::mem::swap(&mut memory.traction, &mut spare.traction);
@@ -207,12 +211,35 @@ fn plain_cycle(
     flatten_at_border(&mut without_drop.load.nodal, squares, stuck);
     increment.wear_by_load(model, &without_drop, p, (stuck, 1.0), 1.0);
     increment.nodes = stuck..model.nodes();
+    let balanced = match stuck {
+        0 => balance_edge(model, increment, memory.contact.normal.nodes),
+        _ => 0.0,
+    };
     Ok(SteadyCycle {
         wear: increment.depth.iter().map(|worn| 2.0 * worn).collect(),
         friction_work: 2.0 * increment.friction_work,
+        balanced: 2.0 * balanced,
+        elastic_depth: memory.contact.normal.strongest / material.normal_modulus(),
         stiffness: 2.0 * increment.stiffness(model, 1.0),
         stick_radius,
     })
+}
+
+/// Makes the wear of an `increment` that of its friction work, at the last of the `nodes` that touch, where everything
+/// slips. Returns the volume that was taken, m³.
+///
+/// p falls to zero like a root within the cell of the edge, and p of the last node may be many times that of its
+/// cells, the nearer the edge is to it. A line from there to the next node would wear more than the load in the
+/// cells does work. Where a part sticks, the wear next to its border has an error of its own, which is none of the
+/// edge's.
+fn balance_edge(model: &Model, increment: &mut Increment, nodes: usize) -> f64 {
+    let (Some(law), Some(last)) = (&model.setup.wear, nodes.checked_sub(1)) else {
+        return 0.0;
+    };
+    let (worn, weight) = (increment.depth[last], model.volume_weights[last]);
+    let excess = model.volume(&increment.depth) - law.coefficient() * increment.friction_work;
+    increment.depth[last] = (worn - excess / weight).max(0.0);
+    (worn - increment.depth[last]) * weight
 }
 
 /// Takes the drop next to the border from the `load` (N/m) of the springs that slip, of which `stuck` is the first.

@@ -12,6 +12,9 @@ use crate::math::abel::field::{End, Field};
 use crate::math::root;
 use crate::math::scan::largest;
 
+/// What places of the indenter are rounded to, relative to them.
+const ROUNDING: f64 = 32.0 * f64::EPSILON;
+
 /// A solved contact: all that the springs are and carry at one moment.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Contact {
@@ -229,7 +232,9 @@ fn increment_on_rig(
     let compliance = setup.drive.rig_compliance();
     let limit = setup.material.friction() * after.normal_force(model);
     let (wanted, span) = (target - before.shift, 1.1 * compliance * limit);
-    if span == 0.0 {
+    // A contact that is being lost or made bends the rig by less than its actuator's place is rounded to: nothing
+    // would be bracketed.
+    if span <= ROUNDING * (target.abs() + before.shift.abs()) {
         return Ok(wanted);
     }
     root::bracketed(

@@ -152,6 +152,45 @@ fn steps_end_where_a_contact_on_a_rig_turns() {
     }
 }
 
+/// A contact that is lost and made again in every cycle bends its rig by next to nothing there: the run goes on, and
+/// what it wears does its work. A rig that hardly yields is none.
+#[test]
+fn a_contact_on_a_rig_is_lost_and_made_again() {
+    let run = |more: &[&str]| {
+        let lifts_off = [
+            "motion.normal.control=force",
+            "motion.normal.mean=10",
+            "motion.normal.amplitude=15",
+            "motion.tangential.amplitude=2e-6",
+            "friction.coefficient=0.5",
+            "wear.coefficient=1e-13",
+        ];
+        let sets = lifts_off.iter().chain(more);
+        let sets: Vec<String> = sets.map(|&set| set.into()).collect();
+        let scenario = Scenario::load("li2019-fig3", &sets).expect("a scenario");
+        let mut session = Session::start(scenario).expect("a contact");
+        session.advance_to(3.0).expect("a run through lift-off");
+        session.simulation().moment()
+    };
+    let shapes: [&[&str]; 4] = [
+        &[],
+        &["indenter.shape=cone", "indenter.angle=0.02"],
+        &["indenter.shape=flat-punch", "indenter.radius=1e-4"],
+        &[
+            "indenter.shape=truncated-paraboloid",
+            "indenter.tip_radius=3e-5",
+        ],
+    ];
+    for shape in shapes {
+        let on_rig = run(&[shape, &["motion.tangential.rig_stiffness=1e7"]].concat());
+        let by_work = on_rig.wear_volume / (1e-13 * on_rig.dissipated_energy);
+        close(&format!("{shape:?}"), by_work, 1.0, 0.05);
+    }
+    let [stiff, none] = [&["motion.tangential.rig_stiffness=1e13"][..], &[]].map(run);
+    let works = stiff.dissipated_energy / none.dissipated_energy;
+    close("a stiff rig", works, 1.0, 1e-4);
+}
+
 /// The panel has the contact's loop and, on a rig alone, that of its sensor.
 #[test]
 fn both_loops_of_a_rig_are_drawn() {

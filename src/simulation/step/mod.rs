@@ -17,9 +17,10 @@
 
 use super::breakdown::Cause;
 use super::choices::Scheme;
+use super::drive::Control;
 use super::model::Model;
 use super::state::State;
-use super::{Scratch, contact, cycles_to_settle, traction};
+use super::{Scratch, Setup, contact, cycles_to_settle, traction};
 use crate::math::scan::largest;
 use crate::math::vector::{vectorized, write_each};
 
@@ -172,7 +173,9 @@ fn refuse(
     deepest: Option<f64>,
 ) -> Result<(), Cause> {
     let (method, stability) = (model.setup.method, model.setup.stability);
-    let depth = model.setup.depth_scale(depth);
+    let depth = model
+        .setup
+        .depth_scale(depth.max(least_depth(&model.setup)));
     let worn = deepest.map_or(f64::INFINITY, |deepest| deepest / depth);
     if deepest.is_none() || worn == f64::INFINITY && depth > 0.0 {
         return Err(Cause::NotFinite {
@@ -191,6 +194,17 @@ fn refuse(
         });
     }
     Ok(())
+}
+
+/// What the largest force of the motion presses any contact on the domain by at least, m, where the force is
+/// prescribed: where contact is lost, the present depth says nothing of what can touch.
+fn least_depth(setup: &Setup) -> f64 {
+    match setup.drive.normal() {
+        Control::Displacement(_) => 0.0,
+        Control::Force(force) => {
+            force.highest() / (2.0 * setup.material.normal_modulus() * setup.grid.radius())
+        }
+    }
 }
 
 /// Weighs what a period of the motion has worn against its work of friction.

@@ -298,7 +298,7 @@ keys! {
         .default(Written("100"))
         .effect("more: finer in time and slower");
     DOMAIN_RADIUS: f64 = quantity("numerics.domain_radius", "m", Positive,
-            "outer radius of the computed domain")
+            "outer radius of the computed domain; it grows when the contact reaches it")
         .default(Derived("the largest radius that can touch"))
         .effect("more: room to grow, coarser at the same number of points");
     GRID: String = choice("numerics.grid", Spacing::NAMES,

@@ -2,7 +2,9 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::progress;
+use anyhow::Result;
+
+use super::{complain, progress};
 use crate::scenario::Scenario;
 use crate::scenario::session::Session;
 use crate::studies::refinement::{self, RefinementError, Resolved};
@@ -17,7 +19,7 @@ pub(super) fn resolve(
     budget: f64,
     quiet: bool,
     stop: &AtomicBool,
-) -> Result<Resolved, RefinementError> {
+) -> std::result::Result<Resolved, RefinementError> {
     let spinner = progress::spinner(
         "looking for points and steps that meet numerics.accuracy",
         quiet || scenario.accuracy().is_none(),
@@ -30,11 +32,29 @@ pub(super) fn resolve(
     resolved
 }
 
+/// A session of `scenario` at its start, with points and steps that meet its accuracy in a run of `cycles`, if it
+/// has one.
+///
+/// # Errors
+/// If no level runs to its end, and a contact that cannot be made.
+pub(super) fn session(scenario: Scenario, cycles: Option<f64>, quiet: bool) -> Result<Session> {
+    let never = AtomicBool::new(false);
+    let found = resolve(&scenario, cycles, f64::INFINITY, quiet, &never)?;
+    if let Some(word) = found.warning {
+        complain(&word);
+    }
+    let mut session = Session::start(found.scenario)?;
+    for (key, value) in &found.statements {
+        session.state(key, value);
+    }
+    Ok(session)
+}
+
 /// The estimated error of a finished run as header lines, or one line saying why there is none.
 pub(super) fn estimated(
     session: &Session,
     stop: &AtomicBool,
-) -> Result<Vec<(String, String)>, String> {
+) -> std::result::Result<Vec<(String, String)>, String> {
     if session.simulation().moment().wear_volume <= 0.0 {
         return Err("nothing has worn, so there is no worn depth to estimate the error of".into());
     }

@@ -8,16 +8,17 @@ use std::process::ExitCode;
 use anyhow::{Context, Result};
 
 use super::args::{Figure, PaperFigure, StyleChoice};
-use super::{Misuse, job};
+use super::{Misuse, accuracy, job};
 use crate::export::file::write_whole;
 use crate::figure::chart::Chart;
 use crate::figure::data::{Data, Table};
 use crate::figure::ink::{Ink, Look, Style};
 use crate::figure::panels::Panel;
-use crate::figure::{Format, Sheet, paper};
-use crate::scenario::session::Session;
+use crate::figure::{Format, Sheet, paper, study as figure_of_study};
 use crate::scenario::{Scenario, printable};
 use crate::studies::ghost::Ghost;
+use crate::studies::sweep::record::Record;
+use crate::studies::sweep::slice::Slice;
 
 /// The scenario of the paper's Fig. 3.
 const OF_THE_PAPER: &str = "li2019-fig3";
@@ -35,16 +36,32 @@ const USUAL: [Panel; 4] = [
 
 /// Draws the figure and writes it, with its data beside it.
 pub fn figure(options: &Figure) -> Result<ExitCode> {
-    let format = Format::of(&options.out).ok_or_else(|| {
-        let path = options.out.display();
-        Misuse(format!("-o {path}: must end in .svg, .png or .pdf"))
-    })?;
-    let data_file = options.out.with_extension("csv");
-    for path in [&options.out, &data_file] {
+    let mut files: Vec<(&Path, Format)> = Vec::new();
+    let mut data_files: Vec<PathBuf> = Vec::new();
+    for path in &options.out {
+        let format = Format::of(path).ok_or_else(|| {
+            let path = path.display();
+            Misuse(format!("-o {path}: must end in .svg, .png or .pdf"))
+        })?;
+        files.push((path, format));
         check(path, options.force)?;
+        let beside = data_file(path, options);
+        if !data_files.contains(&beside) {
+            refuse_to_write_over_data(options, &beside)?;
+            if !is_data_of_a_figure(&beside) {
+                check(&beside, options.force)?;
+            }
+            data_files.push(beside);
+        }
     }
-    refuse_to_write_over_data(options, &data_file)?;
     let sheet = sheet(options)?;
+    let data = sheet.csv();
+    for path in &data_files {
+        // The same figure in another format has the same data.
+        if fs::read(path).ok().as_deref() != Some(data.as_bytes()) {
+            check(path, options.force)?;
+        }
+    }
     let look = Look {
         font: options.font_size * POINT,
         style: match options.style {
@@ -55,16 +72,45 @@ pub fn figure(options: &Figure) -> Result<ExitCode> {
     let size = options.size.unwrap_or_else(|| sheet.usual_size());
     let canvas = sheet.draw(size, &look);
     let dpi = f64::from(options.dpi);
-    let picture = format
-        .write(&canvas, dpi)
-        .map_err(|error| Misuse(format!("{}: {error}", options.out.display())))?;
-    write_whole(&data_file, sheet.csv().as_bytes())?;
-    write_whole(&options.out, &picture)?;
+    let pictures = files.iter().map(|(path, format)| {
+        let picture = format.write(&canvas, dpi);
+        picture.map_err(|error| Misuse(format!("{}: {error}", path.display())))
+    });
+    let pictures = pictures.collect::<Result<Vec<_>, _>>()?;
+    for path in &data_files {
+        write_whole(path, data.as_bytes())?;
+    }
+    for ((path, _), picture) in files.iter().zip(&pictures) {
+        write_whole(path, picture)?;
+    }
     if !options.quiet {
-        let names = [&options.out, &data_file].map(|path| printable(&path.display().to_string()));
-        writeln!(io::stdout().lock(), "{} and {}", names[0], names[1])?;
+        let names = files.iter().map(|(path, _)| *path);
+        let names = names.chain(data_files.iter().map(PathBuf::as_path));
+        let names = names.map(|path| printable(&path.display().to_string()));
+        let names: Vec<String> = names.collect();
+        writeln!(io::stdout().lock(), "{}", names.join(" and "))?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Where the data of a figure go: to the same name with .csv, or `map-drawn.csv` where that is what is drawn.
+fn data_file(path: &Path, options: &Figure) -> PathBuf {
+    let beside = path.with_extension("csv");
+    let real = |path: &Path| path.canonicalize().ok();
+    let source = options.source.as_deref().map(Path::new);
+    match source.and_then(real) {
+        Some(source) if Some(&source) == real(&beside).as_ref() => {
+            let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+            path.with_file_name(format!("{stem}-drawn.csv"))
+        }
+        _ => beside,
+    }
+}
+
+/// Whether a file holds what [`Sheet::csv`] writes.
+fn is_data_of_a_figure(path: &Path) -> bool {
+    let text = fs::read_to_string(path).unwrap_or_default();
+    text.starts_with("# mdr-tui: ") && text.contains("\npanel,curve,x,y,value,error\n")
 }
 
 /// Refuses an output file that exists already or whose directory does not exist.
@@ -95,7 +141,7 @@ fn refuse_to_write_over_data(options: &Figure, data_file: &Path) -> Result<(), M
         None => Ok(()),
         Some(given) => Err(Misuse(format!(
             "-o {}: its data would be written over {given}; choose another name",
-            options.out.display()
+            data_file.display()
         ))),
     }
 }
@@ -117,6 +163,13 @@ fn sheet(options: &Figure) -> Result<Sheet> {
             return Err(Misuse(message.into()).into());
         }
     };
+    if let Some(record) = record(source)? {
+        return study(source, record, options);
+    }
+    if let Some(column) = options.column.first() {
+        let message = format!("--column {column}: is for the table of a sweep; a run has --panel");
+        return Err(Misuse(message).into());
+    }
     let mut data = data(source, options)?;
     for given in &options.overlay {
         let ghost = ghost(given, &data)?;
@@ -149,6 +202,46 @@ fn sheet(options: &Figure) -> Result<Sheet> {
         facts,
         charts,
     })
+}
+
+/// The table of a sweep, if `source` is one.
+fn record(source: &str) -> Result<Option<Record>> {
+    let path = Path::new(source);
+    let is_table = path.is_file() && path.extension().is_some_and(|end| end == "csv");
+    let text = match is_table {
+        true => fs::read_to_string(path).map_err(|error| unread(path, &error.to_string()))?,
+        false => return Ok(None),
+    };
+    let is_of_a_study = text.lines().any(|line| line.starts_with("# study: base"));
+    is_of_a_study
+        .then(|| Ok(Record::parse(&text, source)?))
+        .transpose()
+}
+
+/// The charts of a sweep's table.
+fn study(source: &str, record: Record, options: &Figure) -> Result<Sheet> {
+    let refuse = |message: String| -> Result<Sheet> { Err(Misuse(message).into()) };
+    let of_runs = [
+        ("--figure", options.figure.is_some()),
+        ("--panel", !options.panel.is_empty()),
+        ("--overlay", !options.overlay.is_empty()),
+        ("--at", options.at.is_some()),
+        ("--cycles", options.cycles.is_some()),
+    ];
+    if let Some((name, _)) = of_runs.iter().find(|(_, given)| *given) {
+        return refuse(format!(
+            "{name}: is for a run; {source} is the table of a sweep, which has --column"
+        ));
+    }
+    let mut slice = Slice::new(record.study()?, source)?;
+    slice.renew(record, source)?;
+    for set in &options.changes.set {
+        let (key, value) = set.split_once('=').unwrap_or((set, ""));
+        slice
+            .hold(key.trim(), value.trim())
+            .map_err(|why| Misuse(format!("--set {}: {why}", printable(set))))?;
+    }
+    Ok(figure_of_study::sheet(&slice, &options.column, source).map_err(Misuse)?)
 }
 
 /// The usual charts, and those that curves of other sources belong to.
@@ -202,7 +295,8 @@ fn ghost(given: &str, data: &Data) -> Result<Ghost> {
     let end = data.end().or(scenario.run().cycles);
     let end = job::end(end, given)?;
     let name = scenario.stem();
-    let mut session = Session::start(scenario).with_context(|| printable(given))?;
+    let session = accuracy::session(scenario, Some(end), true);
+    let mut session = session.with_context(|| printable(given))?;
     Ok(Data::run(&mut session, &[end], false)?.ghost(&name))
 }
 
@@ -297,6 +391,7 @@ fn from_scenario(name: &str, options: &Figure) -> Result<Data> {
     };
     cycles.sort_by(f64::total_cmp);
     let with_field = options.panel.iter().any(|panel| panel.needs_field());
-    let mut session = Session::start(scenario).with_context(|| printable(name))?;
+    let session = accuracy::session(scenario, cycles.last().copied(), options.quiet);
+    let mut session = session.with_context(|| printable(name))?;
     Ok(Data::run(&mut session, &cycles, with_field)?)
 }

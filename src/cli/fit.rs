@@ -2,25 +2,31 @@
 
 use std::fmt::Write as _;
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::Result;
 use ratatui::style::Style;
 
 use super::args;
-use super::{Misuse, progress, results, small_multiples};
+use super::{Misuse, accuracy, progress, results, small_multiples};
 use crate::export::file::write_whole;
 use crate::plot::{Axis, Curve, Marker, Plot};
 use crate::scenario::Scenario;
-use crate::scenario::ScenarioError;
 use crate::scenario::columns::Columns;
 use crate::studies::fit::{Compared, Fit, FitError, Fitted};
-use crate::studies::measured::Measured;
+use crate::studies::measured::{Kind, Measured};
 
 /// Fits, and prints, draws and writes what was asked for.
 pub fn fit(options: &args::Fit) -> Result<ExitCode> {
     let scenario = Scenario::load(&options.scenario, &options.changes.set)?;
+    let scenario = match scenario.accuracy() {
+        // The fit runs on the points and steps that its start values need.
+        Some(_) => accuracy::session(scenario, options.cycles, options.printing.quiet)?
+            .loaded()
+            .clone(),
+        None => scenario,
+    };
     let fit = Fit::new(
         scenario,
         data(options)?,
@@ -76,19 +82,31 @@ fn misuse(error: FitError) -> anyhow::Error {
 
 /// All data sets that the options name.
 fn data(options: &args::Fit) -> Result<Vec<Measured>> {
-    type Reader = fn(&Columns) -> Result<Measured, ScenarioError>;
-    let groups: [(&[PathBuf], Reader); 3] = [
-        (&options.scar, Measured::scar),
-        (&options.fretting_loop, Measured::fretting_loop),
-        (&options.history, Measured::history),
-    ];
     let mut data = Vec::new();
-    for (paths, read) in groups {
-        for path in paths {
-            data.push(read(&Columns::read(path)?)?);
-        }
+    for path in &options.scar {
+        data.push(Measured::scar(&Columns::read(path)?)?);
+    }
+    for given in &options.fretting_loop {
+        let (path, cycle) = at_cycle(given);
+        let mut measured = Measured::fretting_loop(&Columns::read(&path)?)?;
+        measured.cycle = cycle.or(measured.cycle);
+        data.push(measured);
+    }
+    for path in &options.history {
+        data.push(Measured::history(&Columns::read(path)?)?);
     }
     Ok(data)
+}
+
+/// `FILE@CYCLE` as a file and a cycle; a file whose own name ends so comes first.
+fn at_cycle(given: &Path) -> (PathBuf, Option<f64>) {
+    let text = given.to_string_lossy();
+    let parts = text.rsplit_once('@').filter(|_| !given.exists());
+    let parts = parts.and_then(|(path, cycle)| Some((path, cycle.parse::<f64>().ok()?)));
+    match parts {
+        Some((path, cycle)) => (path.into(), Some(cycle)),
+        None => (given.to_owned(), None),
+    }
 }
 
 /// The keys with their errors and correlations, and how well each data set is matched.
@@ -120,9 +138,17 @@ fn report(fitted: &Fitted) -> String {
     for set in &fitted.compared {
         let (rms, points) = (set.rms(), set.simulated.len());
         let (name, unit) = (&set.measured.name, set.measured.kind.unit());
+        let at = match (set.measured.kind, set.measured.cycle) {
+            (Kind::Loop, Some(cycle)) => format!(" in cycle {cycle}"),
+            (Kind::Loop, None) => format!(
+                " in the last cycle, {} (--loop {name}@CYCLE for another)",
+                fitted.cycles
+            ),
+            _ => String::new(),
+        };
         let _ = writeln!(
             text,
-            "{name}: {points} points, residuals {rms:.2e} {unit} rms"
+            "{name}: {points} points{at}, residuals {rms:.2e} {unit} rms"
         );
     }
     for remark in &fitted.remarks {

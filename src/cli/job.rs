@@ -11,6 +11,7 @@ use super::Misuse;
 use super::args::{CycleAsGiven, HistoryChoice, Run};
 use crate::export::file::rows_in;
 use crate::export::history::History;
+use crate::export::last_loop::LastLoop;
 use crate::scenario::session::Session;
 use crate::scenario::{MOST_SNAPSHOTS, Scenario};
 
@@ -34,6 +35,9 @@ pub struct RunJob {
     taken: usize,
     /// The rows so far.
     history: History,
+    /// The steps of the last cycle.
+    #[serde(default)]
+    last_loop: LastLoop,
     /// Statements for the file headers, such as the estimated error.
     #[serde(default)]
     pub statements: Vec<(String, String)>,
@@ -66,6 +70,7 @@ impl RunJob {
             due: Vec::new(),
             taken: 0,
             history: History::default(),
+            last_loop: LastLoop::default(),
             statements: Vec::new(),
             home: None,
         }
@@ -93,6 +98,7 @@ impl RunJob {
                     due: Vec::new(),
                     snapshots,
                     history: History::default(),
+                    last_loop: LastLoop::default(),
                     statements: Vec::new(),
                     home: None,
                 }
@@ -161,6 +167,7 @@ impl RunJob {
     /// Records the present moment in the history, if it is due.
     pub fn record(&mut self, session: &Session) {
         let simulation = session.simulation();
+        self.last_loop.record(simulation, self.cycles);
         if self.every_step
             || simulation.cycle().fract() == 0.0
             || simulation.cycle() >= self.cycles
@@ -190,6 +197,11 @@ impl RunJob {
         self.history.write(session, rows, out)
     }
 
+    /// `loop.csv`, if there is a tangential motion.
+    pub fn last_loop(&self, session: &Session) -> Option<String> {
+        self.last_loop.table(session)
+    }
+
     /// Continues in the directory `to` and copies the rows of the history there.
     ///
     /// # Errors
@@ -217,6 +229,7 @@ impl RunJob {
     pub fn rewind(&mut self, earlier: &Self) {
         self.taken = earlier.taken;
         self.history.rewind(earlier.history.mark());
+        self.last_loop = earlier.last_loop.clone();
     }
 }
 

@@ -428,13 +428,17 @@ impl Job {
         let field = self
             .field
             .then(|| ("field.csv".to_owned(), field::table(&self.session)));
+        let simulation = self.session.simulation();
+        let is_done = simulation.cycle() + simulation.rounding() >= self.job.cycles;
+        let last_loop = is_done.then(|| self.job.last_loop(&self.session)).flatten();
+        let last_loop = last_loop.map(|table| ("loop.csv".to_owned(), table));
         let rows = self.directory.rows();
         let mut outcome = self.directory.write_with("history.csv", |file| {
             let mut out = io::BufWriter::new(file);
             self.job.write_history(&self.session, &rows, &mut out)?;
             out.flush()
         });
-        for (name, text) in owed.chain(files).chain(field) {
+        for (name, text) in owed.chain(files).chain(last_loop).chain(field) {
             let written = self.directory.write(&name, text.as_bytes());
             outcome = outcome.and(written.map(|_| ()));
         }

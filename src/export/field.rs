@@ -27,6 +27,18 @@ const REACH: f64 = 1.5;
 /// The whole file for the present state of `session`: depth by depth from the surface down, x from
 /// −1.5 a to 1.5 a. Without contact the domain stands for a, and all stresses are zero.
 pub fn table(session: &Session) -> String {
+    let mut text = lines(session);
+    text.push_str(&COLUMNS.join(","));
+    text.push('\n');
+    for row in rows(session) {
+        text.push_str(&row.map(number).join(","));
+        text.push('\n');
+    }
+    text
+}
+
+/// The rows of the file.
+pub fn rows(session: &Session) -> Vec<[f64; COLUMNS.len()]> {
     let simulation = session.simulation();
     let seen = simulation.observe(Curves::SPRINGS);
     let load = seen.spring_load(simulation.setup().material.poisson());
@@ -35,9 +47,7 @@ pub fn table(session: &Session) -> String {
         _ => seen.radii.last().copied().unwrap_or_default(),
     };
     let step = REACH * radius / HALF_WIDTH as f64;
-    let mut text = lines(session);
-    text.push_str(&COLUMNS.join(","));
-    text.push('\n');
+    let mut rows = Vec::new();
     for k in 0..=DEPTH {
         let z = REACH * radius * k as f64 / DEPTH as f64;
         let row: Vec<[Stress; 2]> = (0..=HALF_WIDTH)
@@ -47,21 +57,11 @@ pub fn table(session: &Session) -> String {
             .rev()
             .map(|i| (-step * i as f64, row[i][1]));
         let right = (0..=HALF_WIDTH).map(|i| (step * i as f64, row[i][0]));
-        for (x, stress) in left.chain(right) {
+        rows.extend(left.chain(right).map(|(x, stress)| {
             let Stress { xx, yy, zz, xz } = stress;
-            let values = [
-                x,
-                z,
-                xx,
-                yy,
-                zz,
-                xz,
-                stress.von_mises(),
-                stress.max_principal(),
-            ];
-            text.push_str(&values.map(number).join(","));
-            text.push('\n');
-        }
+            let (mises, principal) = (stress.von_mises(), stress.max_principal());
+            [x, z, xx, yy, zz, xz, mises, principal]
+        }));
     }
-    text
+    rows
 }

@@ -10,14 +10,21 @@ use crate::simulation::{Setup, Spacing};
 
 /// The header lines for the present state of `session`.
 pub fn lines(session: &Session) -> String {
+    let mut text = String::new();
+    for (key, value) in entries(session) {
+        // A title must stay on its line and must not control a terminal.
+        let _ = writeln!(text, "# {key}: {}", printable(&value));
+    }
+    text
+}
+
+/// What the header of a file says of the present state of `session`: keys and values.
+pub fn entries(session: &Session) -> Vec<(String, String)> {
     let scenario = session.scenario();
     let setup = session.simulation().setup();
     let law = setup.wear.map_or("none", |law| law.name());
-    let mut text = String::new();
-    let mut line = |key: &str, value: &str| {
-        // A title must stay on its line and must not control a terminal.
-        let _ = writeln!(text, "# {key}: {}", printable(value));
-    };
+    let mut entries = Vec::new();
+    let mut line = |key: &str, value: &str| entries.push((key.to_owned(), value.to_owned()));
     line("mdr-tui", env!("CARGO_PKG_VERSION"));
     line("scenario", scenario.title());
     line("cycle", &number(session.simulation().cycle()));
@@ -64,7 +71,7 @@ pub fn lines(session: &Session) -> String {
             &change.set,
         );
     }
-    text
+    entries
 }
 
 /// What the cells are: graded ones may have had nothing to narrow towards.

@@ -7,4 +7,5 @@ pub mod field;
 pub mod file;
 pub mod header;
 pub mod history;
+pub mod last_loop;
 pub mod state;

@@ -27,44 +27,53 @@ pub const COLUMNS_OF_BODIES: [&str; 2] = ["wear_indenter_m", "wear_half_space_m"
 /// The whole file for the present state of `session`.
 pub fn table(session: &Session) -> String {
     let observation = session.simulation().observe(Curves::all());
-    let share = session.scenario().wear_share();
+    let columns = columns_of(session, &observation);
+    let (numbers, of_bodies) = columns.split_at(COLUMNS.len() - 1);
     let mut text = lines(session);
-    text.push_str(&COLUMNS.join(","));
-    if share.is_some() {
-        text.push(',');
-        text.push_str(&COLUMNS_OF_BODIES.join(","));
-    }
+    let names = of_bodies.iter().map(|(name, _)| *name);
+    let names: Vec<&str> = COLUMNS.into_iter().chain(names).collect();
+    text.push_str(&names.join(","));
     text.push('\n');
-    for j in 0..observation.radii.len() {
-        text.push_str(&row(&observation, j));
-        if let Some(share) = share {
-            for depth in observation.wear_of_bodies(share, j) {
-                text.push(',');
-                text.push_str(&number(depth));
-            }
-        }
+    for (j, zone) in observation.zones.iter().enumerate() {
+        let field = |(_, values): &(&str, Vec<f64>)| number(values[j]);
+        let fields = numbers.iter().map(field).chain([zone.name().to_owned()]);
+        let fields: Vec<String> = fields.chain(of_bodies.iter().map(field)).collect();
+        text.push_str(&fields.join(","));
         text.push('\n');
     }
     text
 }
 
-fn row(seen: &Observation, j: usize) -> String {
+/// The columns of numbers with their names, in the order of the file.
+pub fn columns(session: &Session) -> Vec<(&'static str, Vec<f64>)> {
+    let observation = session.simulation().observe(Curves::all());
+    columns_of(session, &observation)
+}
+
+fn columns_of(session: &Session, seen: &Observation) -> Vec<(&'static str, Vec<f64>)> {
+    // The compression of the springs: d − g in contact, 0 elsewhere.
+    let pressed = |g: &f64| (seen.moment.depth - g).max(0.0);
     let values = [
-        seen.radii[j],
-        seen.unworn[j],
-        seen.profile[j],
-        seen.profile_1d[j],
-        // The compression of the springs: d − g in contact, 0 elsewhere.
-        (seen.moment.depth - seen.profile_1d[j]).max(0.0),
-        seen.normal_load[j],
-        seen.tangential_load[j],
-        seen.pressure[j],
-        seen.shear[j],
-        seen.spring[j],
-        seen.surface[j],
-        seen.wear[j],
+        seen.radii.to_vec(),
+        seen.unworn.to_vec(),
+        seen.profile.clone(),
+        seen.profile_1d.clone(),
+        seen.profile_1d.iter().map(pressed).collect(),
+        seen.normal_load.clone(),
+        seen.tangential_load.clone(),
+        seen.pressure.clone(),
+        seen.shear.clone(),
+        seen.spring.clone(),
+        seen.surface.clone(),
+        seen.wear.clone(),
     ];
-    let mut fields: Vec<String> = values.into_iter().map(number).collect();
-    fields.push(seen.zones[j].name().into());
-    fields.join(",")
+    let mut columns: Vec<(&str, Vec<f64>)> = COLUMNS.into_iter().zip(values).collect();
+    if let Some(share) = session.scenario().wear_share() {
+        columns.extend(COLUMNS_OF_BODIES.into_iter().enumerate().map(|(k, name)| {
+            let nodes = 0..seen.radii.len();
+            let depths = nodes.map(|j| seen.wear_of_bodies(share, j)[k]);
+            (name, depths.collect())
+        }));
+    }
+    columns
 }

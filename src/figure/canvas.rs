@@ -1,10 +1,15 @@
 //! Primitives of a figure: lines, areas and text in millimetres, y downwards, in drawing order.
 
+use super::font;
+
 /// A colour, red, green and blue.
 pub type Rgb = [u8; 3];
 
 /// Black, for axes and words.
 pub const BLACK: Rgb = [0, 0, 0];
+
+/// White, as paper is.
+pub const WHITE: Rgb = [255; 3];
 
 /// Where a text stands about its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -105,26 +110,36 @@ impl Canvas {
         self.shapes.push(Shape::Area { at, size, ink });
     }
 
-    /// Writes a line of text in a font of `size` mm.
+    /// Writes a line of text in a font of `size` mm, with the indices that [`font::runs`] finds in it.
     pub fn text(&mut self, at: [f64; 2], words: &str, size: f64, anchor: Anchor) {
-        self.shapes.push(Shape::Text {
-            at,
-            words: words.to_owned(),
-            size,
-            anchor,
-            upwards: false,
-        });
+        self.set(at, words, size, anchor, false);
     }
 
     /// Writes a line of text upwards, its middle at `at`.
     pub fn text_upwards(&mut self, at: [f64; 2], words: &str, size: f64) {
-        self.shapes.push(Shape::Text {
-            at,
-            words: words.to_owned(),
-            size,
-            anchor: Anchor::Middle,
-            upwards: true,
-        });
+        self.set(at, words, size, Anchor::Middle, true);
+    }
+
+    fn set(&mut self, at: [f64; 2], words: &str, size: f64, anchor: Anchor, upwards: bool) {
+        let runs = font::runs(words);
+        let mut along = -anchor.share_before() * font::set_width(words) * size;
+        let alone = runs.len() == 1;
+        for run in runs {
+            let lift = run.lift * size;
+            let at = match (alone, upwards) {
+                (true, _) => at,
+                (false, true) => [at[0] - lift, at[1] - along],
+                (false, false) => [at[0] + along, at[1] - lift],
+            };
+            along += run.width() * size;
+            self.shapes.push(Shape::Text {
+                at,
+                words: run.words,
+                size: run.size * size,
+                anchor: if alone { anchor } else { Anchor::Start },
+                upwards,
+            });
+        }
     }
 
     /// The facts as one text, a line each.

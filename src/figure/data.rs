@@ -1,9 +1,10 @@
 //! The tables behind a figure: read from the files of a run, or taken from memory.
 
 use super::panels::Panel;
-use crate::export::history::History;
-use crate::export::{field, state};
+use crate::export::last_loop::LastLoop;
+use crate::export::{field, header, state};
 use crate::scenario::Scenario;
+use crate::scenario::scalars::{self, Reading, Value};
 use crate::scenario::session::{Session, SessionError};
 use crate::studies::ghost::{Axes, Ghost};
 
@@ -56,14 +57,14 @@ impl Table {
         Ok(table)
     }
 
-    /// A table from memory: named columns of one length.
-    pub fn of_columns<const N: usize>(columns: [(&str, Vec<f64>); N]) -> Self {
+    /// A table from memory: its header and named columns of one length.
+    pub fn of_columns(header: Vec<(String, String)>, columns: Vec<(&str, Vec<f64>)>) -> Self {
         let (names, columns) = columns
             .into_iter()
             .map(|(name, values)| (name.to_owned(), values))
             .unzip();
         Self {
-            header: Vec::new(),
+            header,
             names,
             columns,
         }
@@ -93,6 +94,49 @@ impl Table {
     }
 }
 
+/// The loop of one cycle.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Loop {
+    /// The end of the cycle.
+    pub end: f64,
+    /// u_x⁽⁰⁾, m.
+    pub shifts: Vec<f64>,
+    /// F_x, N.
+    pub forces: Vec<f64>,
+    /// The displacement of the rig's actuator, m; NaN where it is not known.
+    pub sensed: Vec<f64>,
+}
+
+impl Loop {
+    /// The cycle before `end` of a table with these columns for displacement and force.
+    fn of(table: &Table, [shift, force]: [&str; 2], end: f64) -> Option<Self> {
+        let column = |name: &str| table.column(name);
+        let (cycles, shifts, forces) = (column("cycle")?, column(shift)?, column(force)?);
+        let sensed = column("rig_displacement_m");
+        let within = |cycle: f64| cycle > end - 1.0 - 1e-9 && cycle < end + 1e-9;
+        let rows = || (0..cycles.len()).filter(|&row| within(cycles[row]));
+        Some(Self {
+            end,
+            shifts: rows().map(|row| shifts[row]).collect(),
+            forces: rows().map(|row| forces[row]).collect(),
+            sensed: rows()
+                .map(|row| sensed.map_or(f64::NAN, |sensed| sensed[row]))
+                .collect(),
+        })
+    }
+
+    /// The last cycle of a simulation.
+    fn of_rows(end: f64, rows: &[[f64; 4]]) -> Self {
+        let column = |k: usize| rows.iter().map(|row| row[k]).collect();
+        Self {
+            end,
+            shifts: column(1),
+            forces: column(2),
+            sensed: column(3),
+        }
+    }
+}
+
 /// The tables of a run.
 #[derive(Debug, Clone, Default)]
 pub struct Data {
@@ -100,8 +144,8 @@ pub struct Data {
     pub states: Vec<Table>,
     /// The history.
     pub history: Option<Table>,
-    /// The last loop, of a snapshot.
-    pub last_loop: Option<Table>,
+    /// Loops of single cycles.
+    pub loops: Vec<Loop>,
     /// Curves of other sources.
     pub ghosts: Vec<Ghost>,
     /// The stresses inside the half-space.
@@ -110,19 +154,30 @@ pub struct Data {
     pub scenario: Option<Scenario>,
 }
 
+/// What the charts over cycles show.
+const OVER_CYCLES: [&str; 5] = [
+    "cycle",
+    "contact_radius_m",
+    "permanent_stick_radius_m",
+    "wear_volume_m3",
+    "scar_depth_m",
+];
+
 impl Data {
     /// Adds a table, recognised by its columns; refuses a table that is not from a run.
     pub fn take(&mut self, table: Table) -> Result<(), String> {
+        let of_loop = [["u_x_m", "F_x_N"], ["u_m", "F_N"]];
         if table.has(&["r_m", "f_m"]) {
             self.states.push(table);
             self.states.sort_by(|a, b| a.cycle().total_cmp(&b.cycle()));
             self.states.dedup_by(|a, b| a.cycle() == b.cycle());
-        } else if table.has(&["cycle", "u_x_m", "F_x_N"])
-            || table.has(&["cycle", "contact_radius_m", "wear_volume_m3"])
-        {
+        } else if table.has(&["cycle", "contact_radius_m", "wear_volume_m3"]) {
             self.history = Some(table);
-        } else if table.has(&["cycle", "u_m", "F_N"]) {
-            self.last_loop = Some(table);
+        } else if let Some(one) = of_loop
+            .into_iter()
+            .find_map(|names| Loop::of(&table, names, *table.column("cycle")?.last()?))
+        {
+            self.loops.push(one);
         } else if table.has(&["x_m", "z_m", "von_mises_Pa"]) {
             self.field = Some(table);
         } else {
@@ -133,14 +188,12 @@ impl Data {
 
     /// Takes the present state of `session` in.
     pub fn take_state(&mut self, session: &Session) {
-        // What this program has just written, it reads.
-        if let Ok(table) = Table::parse(&state::table(session)) {
-            let _ = self.take(table);
-        }
+        let table = Table::of_columns(header::entries(session), state::columns(session));
+        self.states.push(table);
     }
 
-    /// Runs `session` to the last of `cycles` (rising) and takes in the states there, with the loop
-    /// before each of them, a row of the history for each cycle, and the field at the end if `with_field`.
+    /// Runs `session` to the last of `cycles` (rising) and takes in the states there, the loop before each of
+    /// them, whole cycles over the run, and the field at the end if `with_field`.
     ///
     /// # Errors
     /// If the run stops.
@@ -153,38 +206,56 @@ impl Data {
             scenario: Some(session.scenario().clone()),
             ..Self::default()
         };
-        let mut seen = History::default();
-        seen.record(session);
+        let scalars = OVER_CYCLES.map(scalars::find);
+        let mut seen: Vec<Vec<f64>> = vec![Vec::new(); scalars.len()];
+        let mut record = |session: &Session| {
+            let reading = Reading::new(session);
+            for (values, scalar) in seen.iter_mut().zip(scalars) {
+                let value = scalar.map(|scalar| scalar.read(&reading));
+                values.push(match value {
+                    Some(Value::Number(number)) => number,
+                    _ => f64::NAN,
+                });
+            }
+        };
+        record(session);
         for &end in cycles {
-            loop {
-                let now = session.simulation().cycle();
-                if now >= end {
-                    break;
-                }
-                // Whole cycles up to the last one before the end, and that one step by step.
-                let next = (now.floor() + 1.0).min(end);
-                let goal = if now < end - 1.0 {
-                    next.min(end - 1.0)
-                } else {
-                    end
-                };
-                session.step_until(goal)?;
-                let now = session.simulation().cycle();
-                if now >= end - 1.0 || now.fract() == 0.0 {
-                    seen.record(session);
+            let mut last = LastLoop::default();
+            last.record(session.simulation(), end);
+            while session.simulation().cycle() < end {
+                // The last cycle step by step, as far as it was not jumped over.
+                let next = session.simulation().cycle().floor() + 1.0;
+                session.step_until(next.min(end))?;
+                last.record(session.simulation(), end);
+                if session.simulation().cycle().fract() == 0.0 {
+                    record(session);
                 }
             }
             data.take_state(session);
+            let rows = last.rows(session.simulation());
+            data.loops.push(Loop::of_rows(end, &rows));
         }
-        for text in [
-            Some(seen.table(session)),
-            with_field.then(|| field::table(session)),
-        ] {
-            if let Some(Ok(table)) = text.as_deref().map(Table::parse) {
-                let _ = data.take(table);
-            }
+        if session.simulation().cycle() < 1.0 {
+            record(session);
         }
+        let columns = OVER_CYCLES.into_iter().zip(seen).collect();
+        data.history = Some(Table::of_columns(header::entries(session), columns));
+        data.field = with_field.then(|| {
+            let rows = field::rows(session);
+            let column = |k: usize| rows.iter().map(|row| row[k]).collect();
+            let columns = field::COLUMNS.into_iter().enumerate();
+            let columns = columns.map(|(k, name)| (name, column(k))).collect();
+            Table::of_columns(header::entries(session), columns)
+        });
         Ok(data)
+    }
+
+    /// The loop of the cycle before `end`: on its own, or from a history of every step.
+    pub fn loop_at(&self, end: f64) -> Option<Loop> {
+        let mut alone = self.loops.iter();
+        let alone = alone.find(|one| (one.end - end).abs() < 1e-9).cloned();
+        let recorded = || Loop::of(self.history.as_ref()?, ["u_x_m", "F_x_N"], end);
+        alone.or_else(recorded)
     }
 
     /// What there is of this run, to be laid over the charts of another one.
@@ -232,7 +303,9 @@ impl Data {
             .as_ref()
             .and_then(|table| table.column("cycle"));
         let states = self.states.iter().map(Table::cycle);
+        let loops = self.loops.iter().map(|one| one.end);
         states
+            .chain(loops)
             .chain(recorded.and_then(|cycles| cycles.last().copied()))
             .reduce(f64::max)
     }

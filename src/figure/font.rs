@@ -42,6 +42,83 @@ pub fn width(text: &str) -> f64 {
         .map_or(0.0, |(_, _, at, advance)| at + advance)
 }
 
+/// A part of a text that is set in one size on one line.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Run {
+    /// The text.
+    pub words: String,
+    /// Its size, in that of the whole.
+    pub size: f64,
+    /// How far it is raised, in sizes of the whole.
+    pub lift: f64,
+}
+
+impl Run {
+    /// The width in units of the whole text's size.
+    pub fn width(&self) -> f64 {
+        width(&self.words) * self.size
+    }
+}
+
+/// Splits a text where indices begin and end: `F_x` and `E_d`, a letter with up to three signs, have a subscript,
+/// `10^−8` a superscript. Other texts, file names among them, stay as they are.
+pub fn runs(text: &str) -> Vec<Run> {
+    const SMALL: f64 = 0.7;
+    let signs: Vec<char> = text.chars().collect();
+    let mut runs = vec![Run {
+        words: String::new(),
+        size: 1.0,
+        lift: 0.0,
+    }];
+    let is_bound = |at: Option<&char>| at.is_none_or(|c| " ,;:/()*²=".contains(*c));
+    let mut at = 0;
+    while at < signs.len() {
+        let rest = &signs[at + 1..];
+        let index = match signs[at] {
+            '^' => rest
+                .iter()
+                .take_while(|c| **c == '−' || c.is_numeric())
+                .count(),
+            '_' if at > 0
+                && signs[at - 1].is_alphabetic()
+                && is_bound(at.checked_sub(2).map(|before| &signs[before])) =>
+            {
+                let letters = rest.iter().take_while(|c| c.is_alphanumeric()).count();
+                let ends = is_bound(rest.get(letters));
+                if ends && letters <= 3 { letters } else { 0 }
+            }
+            _ => 0,
+        };
+        if index == 0 {
+            if let Some(run) = runs.last_mut() {
+                run.words.push(signs[at]);
+            }
+            at += 1;
+            continue;
+        }
+        let lift = if signs[at] == '^' { 0.35 } else { -0.2 };
+        runs.push(Run {
+            words: rest[..index].iter().collect(),
+            size: SMALL,
+            lift,
+        });
+        runs.push(Run {
+            words: String::new(),
+            size: 1.0,
+            lift: 0.0,
+        });
+        at += 1 + index;
+    }
+    let several = runs.len() > 1;
+    runs.retain(|run| !several || !run.words.is_empty());
+    runs
+}
+
+/// The width of a text with its indices, in units of its size.
+pub fn set_width(text: &str) -> f64 {
+    runs(text).iter().map(Run::width).sum()
+}
+
 /// Draws the outlines of a text from its beginning on, in units of the font's size, y upwards.
 pub fn outline(text: &str, pen: &mut dyn FnMut(Stroke)) {
     let Some(face) = face() else {
@@ -110,6 +187,20 @@ impl OutlineBuilder for Pen<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn indices_are_set_small_and_file_names_as_they_are() {
+        let split = |text: &str| -> Vec<String> {
+            let lifted = |run: &Run| format!("{}{:+}", run.words, run.lift);
+            runs(text).iter().map(lifted).collect()
+        };
+        assert_eq!(split("F_x (N)"), ["F+0", "x-0.2", " (N)+0"]);
+        assert_eq!(split("2·10^−8"), ["2·10+0", "−8+0.35"]);
+        assert_eq!(split("V/(k E_d)"), ["V/(k E+0", "d-0.2", ")+0"]);
+        for plain in ["a_b.csv", "my_scar", "τ", "", "x_worn_2"] {
+            assert_eq!(split(plain), [format!("{plain}+0")]);
+        }
+    }
 
     #[test]
     fn the_font_has_every_sign_that_figures_use() {

@@ -1,6 +1,6 @@
 //! The look of a figure: font size, and colours or shades of grey.
 
-use super::canvas::Rgb;
+use super::canvas::{BLACK, Rgb};
 use crate::plot::colormap::ColorMap;
 
 /// The role of a curve: the same quantity has the same colour in every chart.
@@ -26,6 +26,8 @@ pub enum Ink {
     Series(usize),
     /// One of several curves of other sources.
     Ghost(usize),
+    /// One of several borders on a map.
+    Border(usize),
 }
 
 /// Colours or greys.
@@ -57,7 +59,19 @@ const SERIES: [Rgb; 6] = [
 ];
 
 /// Colours of other sources: no quantity has them.
-const GHOSTS: [Rgb; 4] = [[0, 0, 0], [150, 75, 0], [90, 90, 90], [200, 0, 60]];
+const GHOSTS: [Rgb; 4] = [[200, 0, 60], [150, 75, 0], [90, 90, 90], [110, 0, 130]];
+
+/// Colours of words on a map: stick, partial slip, gross slip, lift-off.
+const REGIMES: [Rgb; REGIME_INKS] = [
+    [69, 117, 180],
+    [171, 217, 233],
+    [253, 174, 97],
+    [215, 48, 39],
+];
+const REGIME_GREYS: [u8; REGIME_INKS] = [110, 165, 210, 245];
+
+/// How many words a map can tell apart.
+pub const REGIME_INKS: usize = 4;
 
 /// Dashes that tell grey lines apart, mm: those of states and other sources, then those of closed forms and of
 /// the unworn profile, which are drawn beside any of them.
@@ -85,6 +99,7 @@ impl Ink {
             Self::Unworn => SERIES.len() + 1,
             Self::Series(k) => k % SERIES.len(),
             Self::Ghost(k) => (k + 1) % SERIES.len(),
+            Self::Border(k) => k % SERIES.len(),
         }
     }
 }
@@ -92,12 +107,15 @@ impl Ink {
 impl Look {
     /// The colour of a curve.
     pub fn color(&self, ink: Ink) -> Rgb {
+        if matches!(ink, Ink::Border(_)) {
+            return BLACK;
+        }
         if self.style == Style::Grey {
             return [GREYS[ink.rank()]; 3];
         }
         match ink {
             Ink::Unworn => [130, 130, 130],
-            Ink::Limit => [0, 140, 60],
+            Ink::Limit | Ink::Border(_) => BLACK,
             Ink::Profile => [20, 60, 200],
             Ink::Profile1d => [60, 110, 230],
             Ink::Pressure | Ink::Contact => [0, 130, 150],
@@ -111,9 +129,18 @@ impl Look {
     /// Dashes and gaps of a curve, mm.
     pub fn dashes(&self, ink: Ink, dashed: bool) -> &'static [f64] {
         match (self.style, dashed) {
+            (_, _) if matches!(ink, Ink::Border(_)) => DASHES[ink.rank()],
             (Style::Grey, _) if ink.rank() > 0 => DASHES[ink.rank()],
             (_, true) => DASHES[1],
             _ => DASHES[0],
+        }
+    }
+
+    /// The colour of a word on a map.
+    pub fn regime(&self, word: usize) -> Rgb {
+        match self.style {
+            Style::Color => REGIMES[word % REGIME_INKS],
+            Style::Grey => [REGIME_GREYS[word % REGIME_INKS]; 3],
         }
     }
 

@@ -1,9 +1,9 @@
 //! Figures for a paper: charts on sheets, as SVG, PNG or PDF, and what they show as CSV.
 //!
 //! One idea per file: `canvas` (lines, areas and words in millimetres), `svg`, `png` and `pdf` (one
-//! writer each), `font`, `ink` (colours and greys), `chart` (axes, curves, map, legend), `data`
-//! (the tables of a run, from its files or from memory), `panels` (one chart of a run each),
-//! `paper` (the figures of the paper). Ticks and units are those of the screen (`plot`).
+//! writer each), `font`, `ink` (colours and greys), `chart` (axes, curves, map), `draw` (a chart on the canvas),
+//! `data` (the tables of a run, from its files or from memory), `panels` (one chart of a run each), `study` (those
+//! of a sweep), `paper` (the figures of the paper). Ticks and units are those of the screen (`plot`).
 
 use std::fmt::Write;
 use std::path::Path;
@@ -11,12 +11,14 @@ use std::path::Path;
 pub mod canvas;
 pub mod chart;
 pub mod data;
+mod draw;
 pub mod font;
 pub mod ink;
 pub mod panels;
 pub mod paper;
 pub mod pdf;
 pub mod png;
+pub mod study;
 pub mod svg;
 
 use canvas::Canvas;
@@ -85,9 +87,15 @@ impl Sheet {
 
     /// The size that fits the columns of a journal, mm.
     pub fn usual_size(&self) -> [f64; 2] {
+        let maps = self.charts.iter().filter(|chart| chart.map.is_some());
+        let lines = maps.map(|map| map.curves.len()).max().unwrap_or(0);
+        let legend = 3.3 * lines as f64;
         match self.columns() {
-            1 => [85.0, 64.0],
-            columns => [170.0, 62.0 * self.charts.len().div_ceil(columns) as f64],
+            1 => [85.0, 64.0 + legend],
+            columns => [
+                170.0,
+                (62.0 + legend) * self.charts.len().div_ceil(columns) as f64,
+            ],
         }
     }
 
@@ -136,7 +144,10 @@ impl Sheet {
         text.push_str("panel,curve,x,y,value,error\n");
         for (k, chart) in self.charts.iter().enumerate() {
             let panel = letter(k);
-            for curve in &chart.curves {
+            let inset = chart.inset.iter().flat_map(|inset| &inset.curves);
+            let inset = inset.map(|curve| ("-inset", curve));
+            let curves = chart.curves.iter().map(|curve| ("", curve));
+            for (part, curve) in curves.chain(inset) {
                 let name = field(&curve.name);
                 for (i, (&x, &y)) in curve.xs.iter().zip(&curve.ys).enumerate() {
                     let error = curve
@@ -144,7 +155,12 @@ impl Sheet {
                         .get(i)
                         .copied()
                         .map_or_else(String::new, number);
-                    let _ = writeln!(text, "{panel},{name},{},{},,{error}", number(x), number(y));
+                    let _ = writeln!(
+                        text,
+                        "{panel}{part},{name},{},{},,{error}",
+                        number(x),
+                        number(y)
+                    );
                 }
             }
             let Some(map) = &chart.map else { continue };

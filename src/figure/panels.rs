@@ -1,6 +1,6 @@
 //! The charts, each made from the tables of a run.
 
-use super::chart::{Axis, Chart, Map};
+use super::chart::{Axis, Chart, Curve, Map};
 use super::data::{Data, Table};
 use super::ink::Ink;
 use crate::math::scan::largest;
@@ -42,6 +42,9 @@ pub struct Missing {
     name: &'static str,
     why: &'static str,
 }
+
+/// How much of its width is left free beside a loop.
+const LOOP_MARGIN: f64 = 0.05;
 
 /// The fewest points of a loop.
 const SHORTEST_LOOP: usize = 9;
@@ -207,7 +210,8 @@ fn name_of(data: &Data, state: &Table, alone: &str) -> String {
 fn ink_of(data: &Data, k: usize, alone: Ink) -> Ink {
     match data.states.len() {
         1 => alone,
-        _ => Ink::Series(k),
+        // The last state has the same, the darkest ink, however many there are.
+        count => Ink::Series(count - 1 - k),
     }
 }
 
@@ -238,6 +242,11 @@ fn profile(data: &Data) -> Chart {
         if let Some(limit) = theory.and_then(|theory| theory.limiting_profile(radii)) {
             chart.curve("limit", radii, &limit, Ink::Limit, true);
         }
+        // What a page hides in the profile.
+        let (r, depth) = (Axis::new("r", "m"), Axis::new("worn depth", "m"));
+        let inset = of_states("", data, ["r_m", "wear_m"], r, depth);
+        let worn = |curve: &Curve| curve.ys.iter().any(|&wear| wear != 0.0);
+        chart.inset = inset.curves.iter().any(worn).then(|| Box::new(inset));
         // Unworn curves come first: the worn ones lie on them.
         let worn = data.states.len().min(chart.curves.len());
         chart.curves.rotate_left(worn);
@@ -261,36 +270,27 @@ pub fn stresses(state: &Table) -> Option<Chart> {
 }
 
 fn loops(data: &Data) -> Result<Chart, &'static str> {
-    let (table, names) = match (&data.last_loop, &data.history) {
-        (Some(table), _) => (table, ["u_m", "F_N"]),
-        (None, Some(table)) => (table, ["u_x_m", "F_x_N"]),
-        (None, None) => return Err("there is no history.csv"),
-    };
-    let column = |name| table.column(name).ok_or("the history lacks a column");
-    let (cycles, shifts, forces) = (column("cycle")?, column(names[0])?, column(names[1])?);
-    let sensed = table.column("rig_displacement_m");
     let mut chart = Chart::new(
         "fretting loop",
         Axis::new("u_x", "m"),
         Axis::new("F_x", "N"),
     );
+    chart.margin = LOOP_MARGIN;
     let ends: Vec<f64> = match &data.states[..] {
-        [] => cycles.last().copied().into_iter().collect(),
+        [] => data.end().into_iter().collect(),
         states => states.iter().map(Table::cycle).collect(),
     };
     let count = ends.len();
     for (k, end) in ends.into_iter().enumerate() {
-        let within = |cycle: f64| cycle > end - 1.0 - 1e-9 && cycle < end + 1e-9;
-        let over = |displacements: &[f64]| -> (Vec<f64>, Vec<f64>) {
-            let rows = (0..cycles.len()).filter(|&i| within(cycles[i]));
-            let points = rows.map(|i| (displacements[i], forces[i]));
-            points.filter(|(u, _)| u.is_finite()).unzip()
+        let Some(one) = data.loop_at(end) else {
+            continue;
         };
-        let (xs, ys) = over(shifts);
-        if xs.len() < SHORTEST_LOOP {
+        if one.shifts.len() < SHORTEST_LOOP {
             continue;
         }
-        let (sensed, sensed_forces) = sensed.map(over).unwrap_or_default();
+        let sensed = one.sensed.iter().zip(&one.forces);
+        let sensed = sensed.filter(|(u, _)| u.is_finite());
+        let (sensed, sensed_forces): (Vec<f64>, Vec<f64>) = sensed.unzip();
         let is_sensed = sensed.len() >= SHORTEST_LOOP;
         let (name, sensor, ink, sensor_ink) = match count {
             1 if is_sensed => (
@@ -303,49 +303,68 @@ fn loops(data: &Data) -> Result<Chart, &'static str> {
             _ => {
                 let name = format!("{end} cycles");
                 let sensor = format!("{name} (rig's sensor)");
-                (name, sensor, Ink::Series(k), Ink::Series(k))
+                let ink = Ink::Series(count - 1 - k);
+                (name, sensor, ink, ink)
             }
         };
         if is_sensed {
             chart.curve(&sensor, &sensed, &sensed_forces, sensor_ink, true);
         }
         // The contact's comes last: another figure takes that as its ghost.
-        chart.curve(&name, &xs, &ys, ink, false);
+        chart.curve(&name, &one.shifts, &one.forces, ink, false);
     }
     let moves = chart
         .curves
         .iter()
         .any(|c| c.xs.iter().any(|&x| x != c.xs[0]));
     match (chart.curves.is_empty(), moves) {
-        (true, _) => {
-            Err("the history has one row per cycle; run --history every-step records the loop")
-        }
+        (true, _) => Err(
+            "there is no loop.csv, and the history has one row per cycle; run writes loop.csv if \
+             there is a tangential motion, and run --history every-step records all loops",
+        ),
         (_, false) => Err("the indenter does not move tangentially"),
         _ => Ok(chart),
     }
 }
 
-fn radii(data: &Data) -> Option<Chart> {
+/// Columns of the history over cycles. Where most rows end a cycle, others are left out: they lie at other phases
+/// of the motion.
+fn over_cycles<const N: usize>(data: &Data, names: [&str; N]) -> Option<[Vec<f64>; N]> {
     let history = data.history.as_ref()?;
     let cycles = history.column("cycle")?;
+    let is_whole = |row: &usize| cycles[*row].fract() == 0.0;
+    let rows = 0..cycles.len();
+    let whole: Vec<usize> = rows.clone().filter(is_whole).collect();
+    let rows = match 2 * whole.len() > cycles.len() && whole.len() > 1 {
+        true => whole,
+        false => rows.collect(),
+    };
+    let mut columns = [(); N].map(|()| Vec::new());
+    for (values, name) in columns.iter_mut().zip(names) {
+        let column = history.column(name)?;
+        values.extend(rows.iter().map(|&row| column[row]));
+    }
+    Some(columns)
+}
+
+fn radii(data: &Data) -> Option<Chart> {
+    let [cycles, contact] = over_cycles(data, ["cycle", "contact_radius_m"])?;
     let mut y = Axis::new("radius", "m");
-    let contact = history.column("contact_radius_m")?;
     let largest = contact.iter().copied().fold(0.0, f64::max);
     y.bounds = Some([0.0, 1.1 * largest]).filter(|_| largest > 0.0);
     let mut chart = Chart::new("radii", Axis::new("cycles", ""), y);
-    chart.curve("contact radius a", cycles, contact, Ink::Contact, false);
-    if let Some(stick) = history.column("permanent_stick_radius_m") {
-        chart.curve("stick radius c", cycles, stick, Ink::Stick, false);
+    chart.curve("contact radius a", &cycles, &contact, Ink::Contact, false);
+    if let Some([stick]) = over_cycles(data, ["permanent_stick_radius_m"]) {
+        chart.curve("stick radius c", &cycles, &stick, Ink::Stick, false);
     }
     Some(chart)
 }
 
 fn volume(data: &Data) -> Option<Chart> {
-    let history = data.history.as_ref()?;
     let (x, y) = (Axis::new("cycles", ""), Axis::new("V", "m³"));
     let mut chart = Chart::new("worn volume", x, y);
-    let volume = history.column("wear_volume_m3")?;
-    chart.curve("", history.column("cycle")?, volume, Ink::Profile, false);
+    let [cycles, volume] = over_cycles(data, ["cycle", "wear_volume_m3"])?;
+    chart.curve("", &cycles, &volume, Ink::Profile, false);
     Some(chart)
 }
 
@@ -353,10 +372,8 @@ fn volume(data: &Data) -> Option<Chart> {
 fn scar_depth(data: &Data) -> Option<Chart> {
     let (x, y) = (Axis::new("cycles", ""), Axis::new("worn depth", "m"));
     let mut chart = Chart::new("worn depth over cycles", x, y);
-    let history = data.history.as_ref();
-    let depths = history.and_then(|table| table.column("scar_depth_m").zip(table.column("cycle")));
-    if let Some((depths, cycles)) = depths {
-        chart.curve("", cycles, depths, Ink::Profile, false);
+    if let Some([cycles, depths]) = over_cycles(data, ["cycle", "scar_depth_m"]) {
+        chart.curve("", &cycles, &depths, Ink::Profile, false);
         return Some(chart);
     }
     let wear = |state: &Table| state.column("wear_m").map(largest);
@@ -400,6 +417,7 @@ fn field(panel: Panel, data: &Data) -> Option<Chart> {
         places: [xs, zs],
         values: table.column(column)?.to_vec(),
         colors,
+        words: Vec::new(),
     });
     Some(chart)
 }

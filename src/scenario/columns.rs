@@ -51,6 +51,8 @@ impl Quantity {
 #[derive(Debug, Clone)]
 pub struct Columns {
     path: String,
+    /// What a line `# cycle: ` says.
+    cycle: Option<f64>,
     names: Vec<String>,
     /// The line of each row, counted from 1, and its fields.
     rows: Vec<(u64, csv::StringRecord)>,
@@ -102,7 +104,18 @@ impl Columns {
             .trim(csv::Trim::All)
             .delimiter(delimiter.unwrap_or(b','))
             .from_reader(text.as_bytes());
-        let refuse = |error: csv::Error| unreadable(path, problem(&error));
+        let has_semicolons = text
+            .lines()
+            .any(|line| !line.starts_with('#') && line.contains(';'));
+        let refuse = |error: csv::Error| {
+            let mut reason = problem(&error);
+            if has_semicolons && delimiter != Some(b';') {
+                reason.push_str(
+                    "; the file has semicolons, but its first line names columns without them",
+                );
+            }
+            unreadable(path, reason)
+        };
         let names: Vec<String> = reader
             .headers()
             .map_err(refuse)?
@@ -119,8 +132,10 @@ impl Columns {
             let line = row.position().map_or(0, csv::Position::line);
             rows.push((line, row));
         }
+        let stated = text.lines().find_map(|line| line.strip_prefix("# cycle:"));
         Ok(Self {
             path: path.to_owned(),
+            cycle: stated.and_then(|cycle| cycle.trim().parse().ok()),
             names,
             rows,
         })
@@ -129,6 +144,11 @@ impl Columns {
     /// The file's name, fit for a line.
     pub fn path(&self) -> &str {
         &self.path
+    }
+
+    /// The cycle that the header states, as this program's own files do.
+    pub fn stated_cycle(&self) -> Option<f64> {
+        self.cycle
     }
 
     /// The number of rows.
@@ -169,6 +189,10 @@ impl Columns {
                 match field.parse::<f64>() {
                     Ok(value) if value.is_finite() => Ok(size * value),
                     _ if field.is_empty() => refuse("is empty; fill in or remove the row"),
+                    _ if field.contains(',') => refuse(&format!(
+                        "= {}: must be a finite number, with a decimal point",
+                        echo(field)
+                    )),
                     _ => refuse(&format!("= {}: must be a finite number", echo(field))),
                 }
             })
@@ -273,11 +297,16 @@ mod tests {
         );
         assert_eq!(
             message("r_m,f_m\n0,\"0,5\"\n"),
-            "scar.csv: line 2: f_m = 0,5: must be a finite number"
+            "scar.csv: line 2: f_m = 0,5: must be a finite number, with a decimal point"
         );
         assert_eq!(
             message("r_m,f_m\n0,0\n1\n"),
             "scar.csv: line 3: has 1 fields; must have 2, one per column"
+        );
+        assert_eq!(
+            message("r_m,f_m\n0;0\n"),
+            "scar.csv: line 2: has 1 fields; must have 2, one per column; the file has semicolons, but its first \
+             line names columns without them"
         );
         assert_eq!(
             message("r_m,z_m\n0,0\n"),

@@ -106,6 +106,13 @@ impl<'a> Reading<'a> {
             .get_or_init(|| self.session.simulation().cycle_figures())
     }
 
+    /// A number that the headers of the run's files state.
+    fn stated(&self, key: &str) -> Value {
+        let mut stated = self.session.statements().iter();
+        let found = stated.find(|(known, _)| known == key);
+        found.and_then(|(_, value)| value.parse().ok()).into()
+    }
+
     fn worn(&self) -> &[f64] {
         self.session.simulation().worn_depth()
     }
@@ -262,11 +269,22 @@ pub const SCALARS: &[Scalar] = &[
     scalar(
         "estimated_error",
         "estimated error of the worn depth, rms over the scar, relative to its largest value",
-        |r| {
-            let mut stated = r.session.statements().iter();
-            let error = stated.find(|(key, _)| key == "estimated_error");
-            error.and_then(|(_, value)| value.parse().ok()).into()
-        },
+        |r| r.stated("estimated_error"),
+    ),
+    scalar(
+        "estimated_error_volume",
+        "estimated error of the worn volume, relative to it",
+        |r| r.stated("estimated_error_volume"),
+    ),
+    scalar(
+        "estimated_error_energy",
+        "estimated error of the friction work, relative to it",
+        |r| r.stated("estimated_error_energy"),
+    ),
+    scalar(
+        "estimated_error_force",
+        "estimated error of F_x, relative to its amplitude",
+        |r| r.stated("estimated_error_force"),
     ),
 ];
 

@@ -11,7 +11,7 @@ use toml::{Table, Value};
 
 use super::error::{Origin, ScenarioError, echo};
 use super::keys::PRESCRIBED;
-use super::schema::{self, Kind};
+use super::schema::{self, Kind, Parameter};
 use super::write;
 
 /// Powers of metre, kilogram, second and radian.
@@ -252,11 +252,7 @@ fn section(table: &mut Table, path: &str, origin: &Origin) -> Result<(), Scenari
         match (&mut *value, known) {
             (Value::Table(inner), _) => section(inner, &path, origin)?,
             (Value::String(text), Some(known)) => {
-                let unit = match known.unit {
-                    unit if unit != PRESCRIBED => unit,
-                    _ if is_force => "N",
-                    _ => "m",
-                };
+                let unit = unit_of(known, is_force);
                 let written = write::value(&Value::String(text.clone()));
                 match in_unit(text, unit) {
                     Some(Ok(number)) => *value = Value::Float(number),
@@ -268,6 +264,26 @@ fn section(table: &mut Table, path: &str, origin: &Origin) -> Result<(), Scenari
         }
     }
     Ok(())
+}
+
+/// The unit of a key, in a motion that prescribes a force or a displacement.
+pub fn unit_of(known: &Parameter, is_force: bool) -> &'static str {
+    match known.unit {
+        unit if unit != PRESCRIBED => unit,
+        _ if is_force => "N",
+        _ => "m",
+    }
+}
+
+/// The number that a text such as `5 um` stands for as a value of the key; `None` if it is no number with a unit.
+///
+/// # Errors
+/// The rule that a unit of another dimension, or an unknown one, breaks.
+pub fn quantity(text: &str, known: &Parameter, is_force: bool) -> Option<Result<f64, String>> {
+    match known.kind {
+        Kind::Number => in_unit(text, unit_of(known, is_force)),
+        _ => None,
+    }
 }
 
 /// Significant digits that a reading shows at most.

@@ -251,15 +251,22 @@ impl Simulation {
         if state.figures.is_some() || state.jump.settled.is_none() {
             return state.figures;
         }
+        let mut probe = self.without_wear()?;
+        let period = f64::from(cycles_to_settle(&self.setup().drive));
+        probe.advance_to(state.cycle + period).ok()?;
+        probe.state.figures
+    }
+
+    /// The present contact in a simulation of its own that wears no more and steps every cycle: a steady cycle on
+    /// the present profile. `None` if the contact cannot be held so.
+    pub fn without_wear(&self) -> Option<Self> {
         let setup = Setup {
             wear: None,
             integrator: Integrator::Direct,
             ..self.setup().clone()
         };
-        let mut probe = Self::with(Model::new(setup, Some(&self.model)), state.clone());
+        let mut probe = Self::with(Model::new(setup, Some(&self.model)), self.state.clone());
         probe.settle().ok()?;
-        let period = f64::from(cycles_to_settle(&self.setup().drive));
-        probe.advance_to(state.cycle + period).ok()?;
-        probe.state.figures
+        Some(probe)
     }
 }

@@ -155,7 +155,7 @@ impl Ghost {
             if has("r", Quantity::Length) {
                 ghost.take_measured(Measured::scar(columns)?);
             }
-            if has("u", Quantity::Length) {
+            if has("u", Quantity::Length) || has("u_x", Quantity::Length) {
                 ghost.take_measured(Measured::fretting_loop(columns)?);
             } else if has("cycle", Quantity::Number) {
                 ghost.take_measured(Measured::history(columns)?);

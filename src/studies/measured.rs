@@ -60,6 +60,8 @@ pub struct Measured {
     pub values: Vec<f64>,
     /// Standard errors of the values, where the file gives them.
     pub errors: Option<Vec<f64>>,
+    /// The end of the cycle that a loop was measured in, where it is known.
+    pub cycle: Option<f64>,
 }
 
 impl Measured {
@@ -96,15 +98,24 @@ impl Measured {
         }
     }
 
-    /// A loop: columns `u_m` and `F_N`, through one closed cycle in the order of time; `error_N`.
+    /// A loop: columns `u_m` and `F_N`, through one closed cycle in the order of time; `error_N`. In this program's
+    /// own `loop.csv` they are the displacement that the rig senses, else `u_x_m`, and `F_x_N`.
     ///
     /// # Errors
     /// What is no such table; fewer than 8 rows; a loop that does not close.
     pub fn fretting_loop(columns: &Columns) -> Result<Self, ScenarioError> {
+        let is_own = columns.has("u_x", Quantity::Length) && columns.has("F_x", Quantity::Force);
+        let sensed = columns.column_with_gaps("rig_displacement", Quantity::Length);
+        let is_sensed = sensed.is_some_and(|sensed| sensed.iter().all(|u| u.is_finite()));
+        let (shift, force) = match (is_own, is_sensed) {
+            (true, true) => ("rig_displacement", "F_x"),
+            (true, false) => ("u_x", "F_x"),
+            (false, _) => ("u", "F"),
+        };
         let measured = read(
             columns,
-            ("u", Quantity::Length),
-            ("F", Quantity::Force),
+            (shift, Quantity::Length),
+            (force, Quantity::Force),
             Kind::Loop,
         )?;
         if measured.at.len() < FEWEST_OF_LOOP {
@@ -174,6 +185,7 @@ fn read(
             true => Some(columns.column("error", values.1)?),
             false => None,
         },
+        cycle: columns.stated_cycle(),
     };
     if measured.at.len() < FEWEST {
         return Err(columns.refuse(format!("has fewer than {FEWEST} rows of data")));

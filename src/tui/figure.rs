@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::trend::Trend;
 use crate::export::file::write_whole;
-use crate::figure::data::{Data, Table};
+use crate::figure::data::{Data, Loop};
 use crate::figure::ink::{Look, Style};
 use crate::figure::panels::Panel;
 use crate::figure::{Format, Sheet};
@@ -39,14 +39,12 @@ pub(super) fn write(session: &Session, trend: &Trend, path: &Path) -> Result<(),
     let (sensed, _) = trend.sensed_loop();
     let mut displacements = vec![f64::NAN; shifts.len() - sensed.len()];
     displacements.extend(sensed);
-    // All of it belongs to the last cycle.
-    let cycles = vec![end; shifts.len()];
-    data.history = Some(Table::of_columns([
-        ("cycle", cycles),
-        ("u_x_m", shifts),
-        ("F_x_N", forces),
-        ("rig_displacement_m", displacements),
-    ]));
+    data.loops.push(Loop {
+        end,
+        shifts,
+        forces,
+        sensed: displacements,
+    });
     let panels = [
         Panel::Profile,
         Panel::Profile1d,

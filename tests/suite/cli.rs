@@ -201,6 +201,7 @@ fn run_writes_the_files_of_the_contract() {
         names(&dir.path("x")),
         [
             "history.csv",
+            "loop.csv",
             "scenario.toml",
             "state-1.50.csv",
             "state-2.csv",

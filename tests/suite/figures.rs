@@ -296,6 +296,220 @@ fn a_rig_that_yields_has_two_loops() {
     );
 }
 
+/// A study over depth and amplitude, the depth held: gross slip begins at U = d μE*/G*.
+const MAP: &str = r#"
+base = "li2019-fig3"
+columns = ["wear_volume_m3", "regime", "estimated_error_volume"]
+[set]
+"run.cycles" = 2.0
+"motion.normal.amplitude" = 0.0
+"numerics.accuracy" = 1e-1
+[[axis]]
+key = "motion.normal.mean"
+linspace = ["0.5 um", "2 um", 4]
+[[axis]]
+key = "motion.tangential.amplitude"
+logspace = ["10 nm", "1 um", 9]
+"#;
+
+#[test]
+fn a_sweep_is_a_map_with_its_borders() {
+    let dir = TestDir::new();
+    dir.write("map.toml", MAP.as_bytes());
+    dir.done("sweep map.toml --out map.csv --quiet");
+    dir.done("figure map.csv -o map.svg -o map.pdf --quiet");
+    let (table, drawn) = (data(&dir, "map.csv"), data(&dir, "map-drawn.csv"));
+    let colors = drawn
+        .rows
+        .iter()
+        .filter(|row| row[0] == "a" && row[1] == "map");
+    let numbers = |row: &Vec<String>, columns: [usize; 3]| {
+        columns.map(|k| row[k].parse::<f64>().expect("a number"))
+    };
+    let colors: Vec<[f64; 3]> = colors.map(|row| numbers(row, [3, 2, 4])).collect();
+    let rows: Vec<[f64; 3]> = table
+        .rows
+        .iter()
+        .map(|row| numbers(row, [0, 1, 2]))
+        .collect();
+    assert_eq!(colors, rows);
+    // The depth is held: the border is a line through the origin.
+    let (amplitudes, depths) = curve(&drawn, "a", "gross slip, closed form, unworn");
+    assert!(depths.len() > 2);
+    for (amplitude, depth) in amplitudes.iter().zip(&depths) {
+        let gross = depth * 0.1 * (2.0 - 0.3) / (2.0 * (1.0 - 0.3));
+        assert!(
+            (amplitude / gross - 1.0).abs() < 1e-6,
+            "{amplitude} {gross}"
+        );
+    }
+    // Each edge of the computed border lies within a point of it.
+    let (across, up) = curve(&drawn, "a", "running condition changes");
+    let edges = across.iter().zip(&up).filter(|(x, _)| x.is_finite());
+    let mut far = 0.0_f64;
+    for (amplitude, depth) in edges.clone() {
+        let gross = depth * 0.1 * 1.7 / 1.4;
+        far = far.max((amplitude / gross).ln().abs());
+    }
+    assert!(edges.count() > 6 && far < 1.0, "{far}");
+    let svg = dir.read("map.svg");
+    for words in [
+        ">mean depth d (µm)<",
+        ">tangential amplitude (µm)<",
+        ">worn volume V (m³)<",
+        ">gross slip<",
+        ">partial slip<",
+        ">running condition changes<",
+    ] {
+        assert!(svg.contains(words), "{words}");
+    }
+    assert!(!svg.contains("full stick"), "no point sticks");
+    // Over one axis: a curve whose bars are the estimated errors.
+    dir.done("figure map.csv --set motion.normal.mean=1e-6 -o line.svg --quiet");
+    let line = data(&dir, "line.csv");
+    let rows: Vec<&Vec<String>> = line.rows.iter().collect();
+    let of_table: Vec<&Vec<String>> = table.rows.iter().filter(|row| row[0] == "1e-6").collect();
+    assert_eq!((rows.len(), of_table.len()), (9, 9));
+    for (row, of_table) in rows.iter().zip(of_table) {
+        let [volume, error] = [2, 4].map(|k| of_table[k].parse::<f64>().expect("a number"));
+        let bar: f64 = row[5].parse().expect("an error");
+        assert!((bar / (volume * error) - 1.0).abs() < 1e-12);
+        assert_eq!((&row[2], &row[3]), (&of_table[1], &of_table[2]));
+    }
+    assert_eq!(line.header("motion.normal.mean"), "1e-6");
+    for (arguments, why) in [
+        (
+            "--column depth",
+            "--column depth: map.csv has wear_volume_m3, regime",
+        ),
+        (
+            "--panel loop",
+            "--panel: is for a run; map.csv is the table of a sweep",
+        ),
+        (
+            "--set motion.normal.mean=3",
+            "must be one of 5e-7, 1e-6, 1.5e-6, 2e-6",
+        ),
+        (
+            "--set friction.coefficient=3",
+            "the axes are motion.normal.mean",
+        ),
+    ] {
+        let said = dir.say(
+            &format!("figure map.csv {arguments} -o no.svg")
+                .split(' ')
+                .collect::<Vec<_>>(),
+        );
+        assert_eq!(
+            (said.code, said.err.lines().count()),
+            (2, 1),
+            "{}",
+            said.err
+        );
+        assert!(said.err.contains(why), "{}", said.err);
+    }
+}
+
+/// One figure in another format has the same data, which may be there already; other data may not.
+#[test]
+fn a_figure_in_two_formats_has_one_file_of_data() {
+    let dir = TestDir::new();
+    dir.done("run mindlin --cycles 1 --out x --quiet");
+    dir.done("figure x --panel loop -o f.svg -o f.png --quiet");
+    dir.done("figure x --panel loop -o f.pdf --quiet");
+    let said = dir.say(&["figure", "x", "--panel", "stresses", "-o", "f.pdf"]);
+    assert!(
+        said.code == 2 && said.err.contains("f.pdf: already exists"),
+        "{}",
+        said.err
+    );
+    fs::remove_file(dir.path("f.pdf")).expect("removed");
+    let said = dir.say(&["figure", "x", "--panel", "stresses", "-o", "f.pdf"]);
+    assert!(
+        said.code == 2 && said.err.contains("f.csv: already exists"),
+        "{}",
+        said.err
+    );
+    assert!(!dir.path("f.pdf").exists());
+}
+
+/// `run` writes the last cycle: its steps, or after jumps a cycle that is stepped for it; the loop is drawn from it.
+#[test]
+fn a_run_leaves_the_loop_of_its_last_cycle() {
+    let dir = TestDir::new();
+    dir.done("run gross-slip --cycles 3.24 --history every-step --out x --quiet");
+    let (last, history) = (data(&dir, "x/loop.csv"), data(&dir, "x/history.csv"));
+    let cycles = history.column("cycle");
+    let first = cycles
+        .iter()
+        .position(|&cycle| cycle >= 2.24 - 1e-9)
+        .expect("a row");
+    for name in ["cycle", "u_x_m", "F_x_N"] {
+        assert_eq!(last.column(name), history.column(name)[first..], "{name}");
+    }
+    let wear = "li2019-fig3 --set numerics.integrator=cycle-jump --set wear.coefficient=1e-14";
+    dir.done(&format!("run {wear} --cycles 3000 --out jumped --quiet"));
+    dir.done("figure jumped --panel loop -o loop.svg --quiet");
+    dir.done(&format!(
+        "figure {wear} --at 1,3000 --panel loop -o both.svg --quiet"
+    ));
+    let drawn = curve(&data(&dir, "loop.csv"), "a", "3000 cycles");
+    assert!(drawn.0.len() >= 100);
+    let both = data(&dir, "both.csv");
+    // Jumps that other states have cut short differ in late digits.
+    let same = curve(&both, "a", "3000 cycles");
+    let near = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-5;
+    assert!(same.1.len() == drawn.1.len() && same.1.iter().zip(&drawn.1).all(near));
+    assert!(!curve(&both, "a", "1 cycles").0.is_empty());
+    // It closes, and its area is the friction work of the cycle.
+    let area: f64 = drawn
+        .0
+        .windows(2)
+        .zip(drawn.1.windows(2))
+        .map(|(u, f)| 0.5 * (f[0] + f[1]) * (u[1] - u[0]))
+        .sum();
+    let energies = data(&dir, "jumped/history.csv").column("energy_per_cycle_J");
+    let energy = energies.last().expect("a row");
+    assert!((area / energy - 1.0).abs() < 0.05, "{area:e} {energy:e}");
+    // Without tangential motion there is no loop.
+    dir.done("run hertz --cycles 1 --out still --quiet");
+    assert!(!dir.path("still/loop.csv").exists());
+}
+
+/// Plateaus do not lie on the frame; curves that begin at zero do.
+#[test]
+fn data_keep_clear_of_the_frame() {
+    let mut chart = Chart::new("loop", Axis::new("u_x", "m"), Axis::new("F_x", "N"));
+    chart.curve(
+        "",
+        &[-1.0, 1.0, 1.0, -1.0],
+        &[2.0, 2.0, -2.0, -2.0],
+        Ink::Shear,
+        false,
+    );
+    chart.margin = 0.05;
+    let [[left, right], [low, high]] = [0, 1].map(|k| chart.bounds(k));
+    assert!(left < -1.05 && right > 1.05 && low < -2.05 && high > 2.05);
+    let mut depth = Chart::new("depth", Axis::new("r", "m"), Axis::new("depth", "m"));
+    depth.curve("", &[0.0, 1.0], &[1.0, 0.0], Ink::Profile, false);
+    let [low, high] = depth.bounds(1);
+    assert!(low == 0.0 && high > 1.0);
+}
+
+/// Over cycles, rows at other phases of the motion than most are left out, so that nothing but the contact moves.
+#[test]
+fn curves_over_cycles_have_one_phase() {
+    let dir = TestDir::new();
+    dir.done("run li2019-fig3 --cycles 6.3 --out x --quiet");
+    for source in ["x", "li2019-fig3 --at 2.7,6.3"] {
+        dir.done(&format!(
+            "figure {source} --panel radii -o radii.svg --force --quiet"
+        ));
+        let (cycles, _) = curve(&data(&dir, "radii.csv"), "a", "contact radius a");
+        assert_eq!(cycles, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0], "{source}");
+    }
+}
+
 /// Where areas only touch, a viewer that smooths edges shows the paper between them: every area of a map reaches
 /// below the next of its row and below the next row, and none beyond the frame.
 #[test]
@@ -306,6 +520,7 @@ fn a_map_has_no_seams() {
         places: [vec![0.0, 1.0, 2.0], vec![0.0, 1.0]],
         values: vec![0.0, 1.0, 2.0, 2.0, 1.0, 0.0],
         colors: ColorMap::Sequential,
+        words: Vec::new(),
     });
     let sheet = Sheet {
         title: "map".into(),

@@ -105,7 +105,7 @@ fn a_run_under_way_is_refused_to_others_even_by_force_and_a_killed_one_is_not() 
     dir.done("run cone --cycles 1 --out x --force --quiet");
     assert_eq!(
         names(&dir.path("x")),
-        ["history.csv", "scenario.toml", "state.csv"]
+        ["history.csv", "loop.csv", "scenario.toml", "state.csv"]
     );
 }
 

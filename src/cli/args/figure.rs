@@ -18,20 +18,26 @@ use crate::figure::panels::Panel;
     mdr-tui figure --figure fig3 -o fig3.svg                 Fig. 3 of the paper\n  \
     mdr-tui figure fig3-run --panel loop -o loop.svg         one chart of a run's directory\n  \
     mdr-tui figure fig3-run --overlay scar.csv -o worn.pdf   with a measured scar over it\n  \
+    mdr-tui figure map.csv -o map.pdf -o map.png             a sweep's map, or its curves, in two formats\n  \
     mdr-tui figure mine.toml --at 10,50,200 --panel profile --size 85x60 --style grey -o f.pdf\n\n\
     Beside FILE, the same name with .csv holds exactly what is drawn, and what a caption needs.")]
 pub struct Figure {
-    /// A run's directory, a CSV file of one, a preset's name, or a path to a .toml file, which is run.
+    /// A run's directory, a CSV file of one, the table of a sweep, a preset's name, or a path to a .toml file,
+    /// which is run.
     pub source: Option<String>,
-    /// Output file; the ending .svg, .png or .pdf gives the format.
-    #[arg(short, long, value_name = "FILE")]
-    pub out: PathBuf,
+    /// Output file; the ending .svg, .png or .pdf gives the format. Can be repeated.
+    #[arg(short, long, value_name = "FILE", required = true)]
+    pub out: Vec<PathBuf>,
     /// Reproduce a figure of the paper; without a source, with the paper's own scenario.
     #[arg(long, value_enum)]
     pub figure: Option<PaperFigure>,
     /// Chart to draw; can be repeated; default: profiles, stresses and loop, if the data are there.
     #[arg(long, value_name = "NAME", value_parser = panel_parser(), conflicts_with = "figure")]
     pub panel: Vec<Panel>,
+    /// Column of a sweep's table to draw; can be repeated; default: the first one and regime, or over one axis up to
+    /// four. With more than two axes, --set KEY=VALUE holds some of them.
+    #[arg(long, value_name = "NAME")]
+    pub column: Vec<String>,
     /// Draw measured data with their error bars, another run's files or another scenario over the charts;
     /// can be repeated.
     #[arg(

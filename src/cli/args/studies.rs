@@ -174,8 +174,8 @@ pub struct Stability {
     mdr-tui fit mine.toml --history volume.csv --free wear.coefficient --out fitted.toml --plot\n\n\
     A scar has columns r_m and wear_m or f_m, a loop u_m and F_N through one closed cycle, a history\n\
     cycle and wear_volume_m3 or depth_m. Standard errors stand in error_m, error_N or error_m3. Other\n\
-    units may be named: r_mm, f_um, F_kN. A scar is compared with the end of the run, a loop with its\n\
-    last cycle.")]
+    units may be named: r_mm, f_um, F_kN. A scar is compared with the end of the run, a loop with the\n\
+    cycle that it states (loop.csv@3000, or a line # cycle: 3000), else with the last one.")]
 #[command(mut_args = in_words(&[
     ("plot", "Draw measured minus simulated values, one plot per data set"),
     ("json", "Print the keys with values, standard errors and correlations as JSON"),
@@ -190,8 +190,8 @@ pub struct Fit {
     /// A worn profile; can be repeated.
     #[arg(long, value_name = "FILE", required_unless_present_any = ["fretting_loop", "history"])]
     pub scar: Vec<PathBuf>,
-    /// A fretting loop; can be repeated.
-    #[arg(long = "loop", value_name = "FILE")]
+    /// A fretting loop, of this cycle if it is given; can be repeated.
+    #[arg(long = "loop", value_name = "FILE[@CYCLE]")]
     pub fretting_loop: Vec<PathBuf>,
     /// Worn volume or depth over cycles; can be repeated.
     #[arg(long, value_name = "FILE")]

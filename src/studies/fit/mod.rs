@@ -1,7 +1,7 @@
 //! Parameters from measured data: least squares over any keys of a scenario.
 //!
-//! Every data set is compared with the same run: scars with its end, loops with its last cycle,
-//! histories with their cycles. Keys that must be positive are fitted by their logarithms. If a
+//! Every data set is compared with the same run: scars with its end, loops with the cycle that they were measured
+//! in or the last one, histories with their cycles. Keys that must be positive are fitted by their logarithms. If a
 //! file gives no errors, all its values share one, estimated from the residuals, so that scars in
 //! nanometres and loops in newtons are weighted by their noise.
 //!
@@ -41,7 +41,7 @@ const LEAST_ERROR: f64 = 1e-4;
 
 /// Beyond this standard error of a logarithm, or correlation, the data determine a key hardly.
 const VAGUE: f64 = 0.5;
-const ALIKE: f64 = 0.99;
+const ALIKE: f64 = 0.95;
 
 /// The standard deviation of normal noise in medians of its size.
 const OF_MEDIAN: f64 = 1.4826;
@@ -123,6 +123,8 @@ pub struct Fitted {
     pub remarks: Vec<String>,
     /// How often the scenario was run.
     pub runs: usize,
+    /// The cycles of each run: loops that state no cycle are compared with the last one.
+    pub cycles: f64,
     /// The scenario with the fitted values.
     pub scenario: Scenario,
 }
@@ -168,10 +170,20 @@ impl Fit {
         let last = histories.fold(0.0, f64::max);
         let planned = cycles.or(scenario.run().cycles).unwrap_or(0.0);
         let cycles = planned.max(last);
-        let has_loop = data.iter().any(|set| set.kind == Kind::Loop);
-        if cycles <= 0.0 || has_loop && cycles < 1.0 {
+        let loops = || data.iter().filter(|set| set.kind == Kind::Loop);
+        if cycles <= 0.0 || loops().next().is_some() && cycles < 1.0 {
             let message = "the length of the run is unknown, or less than a cycle; give --cycles";
             return Err(FitError::Misuse(message.into()));
+        }
+        let outside = |end: f64| !(1.0..=cycles).contains(&end);
+        if let Some((set, end)) =
+            loops().find_map(|set| Some((set, set.cycle.filter(|end| outside(*end))?)))
+        {
+            let name = &set.name;
+            return Err(FitError::Misuse(format!(
+                "{name}: its loop ends at cycle {end}, but the run has the cycles 1 to {cycles}; --cycles and \
+                 --loop FILE@CYCLE say others"
+            )));
         }
         let domain = scenario.setup().grid.radius();
         for set in &data {
@@ -399,6 +411,7 @@ impl Fit {
                 .collect(),
             remarks,
             runs,
+            cycles: self.cycles,
             scenario,
         }
     }

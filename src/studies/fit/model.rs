@@ -18,40 +18,36 @@ pub(super) fn simulate(
 ) -> Result<Vec<Vec<f64>>, SessionError> {
     let mut session = Session::start(scenario.clone())?;
     let mut simulated: Vec<Vec<f64>> = data.iter().map(|set| vec![0.0; set.at.len()]).collect();
-    let has_loop = data.iter().any(|set| set.kind == Kind::Loop);
-    let last_cycle = if has_loop { cycles - 1.0 } else { cycles };
+    // What is read off the run on its way: where it must stop, and what for.
     let mut moments: Vec<(f64, usize, usize)> = Vec::new();
     for (i, set) in data.iter().enumerate() {
-        if matches!(set.kind, Kind::Volume | Kind::Depth) {
-            moments.extend(set.at.iter().enumerate().map(|(j, cycle)| (*cycle, i, j)));
+        match set.kind {
+            Kind::Volume | Kind::Depth => {
+                moments.extend(set.at.iter().enumerate().map(|(j, cycle)| (*cycle, i, j)));
+            }
+            Kind::Loop => moments.push((set.cycle.unwrap_or(cycles) - 1.0, i, 0)),
+            Kind::Wear | Kind::Profile => {}
         }
     }
     moments.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut trace = Vec::new();
-    let mut advance = |session: &mut Session, to: f64| -> Result<(), SessionError> {
-        session.advance_to(to.min(last_cycle))?;
-        if has_loop && to > last_cycle {
-            if trace.is_empty() {
-                // Every step of the loop is wanted.
-                session.change("numerics.integrator", "direct")?;
-                trace.push(point(session));
-            }
-            while session.simulation().cycle() < to {
-                session.step_until(to)?;
-                trace.push(point(session));
-            }
-        }
-        Ok(())
-    };
     for (cycle, i, j) in moments {
-        advance(&mut session, cycle)?;
-        simulated[i][j] = match data[i].kind {
-            Kind::Depth => largest(&session.simulation().observe(Curves::PROFILE).wear),
-            _ => session.simulation().moment().wear_volume,
-        };
+        session.advance_to(cycle)?;
+        let set = &data[i];
+        match set.kind {
+            Kind::Loop => {
+                let strokes = Strokes::new(&next_cycle(&session)?);
+                let points = simulated[i].iter_mut().zip(&set.at).zip(rises(&set.at));
+                for ((value, &displacement), rising) in points {
+                    *value = strokes.force(displacement, rising);
+                }
+            }
+            Kind::Depth => {
+                simulated[i][j] = largest(&session.simulation().observe(Curves::PROFILE).wear);
+            }
+            _ => simulated[i][j] = session.simulation().moment().wear_volume,
+        }
     }
-    advance(&mut session, cycles)?;
-    let strokes = Strokes::new(&trace);
+    session.advance_to(cycles)?;
     let seen = session.simulation().observe(Curves::PROFILE);
     let setup = session.simulation().setup();
     for (set, simulated) in data.iter().zip(&mut simulated) {
@@ -64,16 +60,24 @@ pub(super) fn simulate(
                     }
                 }
             }
-            Kind::Loop => {
-                let points = simulated.iter_mut().zip(&set.at).zip(rises(&set.at));
-                for ((value, &displacement), rising) in points {
-                    *value = strokes.force(displacement, rising);
-                }
-            }
-            Kind::Volume | Kind::Depth => {}
+            Kind::Loop | Kind::Volume | Kind::Depth => {}
         }
     }
     Ok(simulated)
+}
+
+/// The cycle that begins now, every step of it, in a copy of the run: where cycles are jumped over, the run goes on
+/// with its jumps.
+fn next_cycle(session: &Session) -> Result<Vec<(f64, f64)>, SessionError> {
+    let mut session = session.clone();
+    session.change("numerics.integrator", "direct")?;
+    let end = session.simulation().cycle() + 1.0;
+    let mut trace = vec![point(&session)];
+    while session.simulation().cycle() < end {
+        session.step_until(end)?;
+        trace.push(point(&session));
+    }
+    Ok(trace)
 }
 
 /// The displacement that the rig measures, m, and the tangential force, N.

@@ -58,6 +58,15 @@ impl Axis {
         })
     }
 
+    /// The value at a place between indices, as the axis is spread: the inverse of
+    /// [`place_of`](Self::place_of).
+    pub fn value_at(&self, place: f64) -> Option<f64> {
+        let index = (place.floor() as usize).min(self.values.len().saturating_sub(2));
+        let next = (index + 1).min(self.values.len() - 1);
+        let (low, high) = (self.number(index)?, self.number(next)?);
+        Some(between(self.spread, low, high, place - index as f64))
+    }
+
     /// What another number assigns, as [`assignments`](Self::assignments) does.
     pub fn assignments_of(&self, value: f64) -> Vec<(&str, String)> {
         let own = (self.key.as_str(), number(whole(&self.key, value)));
@@ -146,6 +155,9 @@ mod tests {
         assert!((place - 1.5).abs() < 1e-12);
         let place = axis(Spread::Linear).place_of(5.5e-8).expect("a place");
         assert!((place - 0.5).abs() < 1e-12);
+        let value = log.value_at(1.5).expect("a value");
+        assert!((value / 10f64.powf(-6.5) - 1.0).abs() < 1e-12);
+        assert_eq!(log.value_at(2.0), Some(1e-6));
         assert_eq!(log.place_of(2e-6), None);
     }
 

@@ -17,6 +17,7 @@ mod read;
 pub mod record;
 pub mod sensitivity;
 mod shard;
+pub mod slice;
 mod study;
 
 pub use axis::{Axis, Spread};

@@ -8,11 +8,11 @@ use super::StudyError;
 use super::axis::{self, Axis, Spread};
 use super::design::{self, Design, MOST_SOBOL_AXES};
 use super::sensitivity::Varied;
-use super::study::{Stop, Study};
+use super::study::{self, Stop, Study};
 use crate::scenario::nearest::nearest;
 use crate::scenario::scalars::{self, SCALARS, Scalar};
-use crate::scenario::schema;
 use crate::scenario::{Scenario, printable};
+use crate::scenario::{schema, units};
 
 const KEYS: [&str; 10] = [
     "title",
@@ -78,7 +78,7 @@ impl Study {
         load: impl FnOnce(&str) -> Result<Scenario>,
     ) -> Result<Self> {
         let from = Origin(printable(origin));
-        let table: Table = toml::from_str(text).map_err(|error| {
+        let mut table: Table = toml::from_str(text).map_err(|error| {
             let at = error.span().map_or(0, |span| span.start);
             let line = text.get(..at).unwrap_or(text).matches('\n').count() + 1;
             let message = printable(&error.message().replace('\n', "; "));
@@ -92,13 +92,15 @@ impl Study {
                 from.0
             )));
         };
-        let base = load(base_name)?;
+        let (title, base_name) = (title.map(printable), base_name.to_owned());
+        let base = load(&base_name)?;
         let (design, samples) = from.design(&table)?;
         let set = from.set(&table)?;
+        from.to_si(&mut table, |key| study::is_force(key, &set, &base))?;
         let axes = from.axes(&table, design, samples, &set)?;
         let study = Self {
-            title: title.map(printable),
-            base_name: base_name.to_owned(),
+            title,
+            base_name,
             base,
             set,
             axes,
@@ -309,6 +311,31 @@ impl Origin {
             varied.push(Varied { key, deviation });
         }
         Ok(varied)
+    }
+
+    /// Replaces the texts in the lists of the axes that are numbers with a unit by numbers.
+    fn to_si(&self, table: &mut Table, is_force: impl Fn(&str) -> bool) -> Result<()> {
+        let axes = table.get_mut("axis").and_then(Value::as_array_mut);
+        for (at, axis) in axes.into_iter().flatten().enumerate() {
+            let key = axis.get("key").and_then(Value::as_str).map(str::to_owned);
+            let Some(known) = key.as_deref().and_then(schema::find) else {
+                continue;
+            };
+            for name in ["values", "linspace", "logspace"] {
+                let list = axis.get_mut(name).and_then(Value::as_array_mut);
+                for value in list.into_iter().flatten() {
+                    let text = value.as_str().unwrap_or_default();
+                    match units::quantity(text, known, is_force(known.path)) {
+                        Some(Ok(number)) => *value = Value::Float(number),
+                        Some(Err(rule)) => {
+                            return self.refuse(&format!("axis[{at}].{name}"), value, rule);
+                        }
+                        None => {}
+                    }
+                }
+            }
+        }
+        Ok(())
     }
 
     fn axes(

@@ -6,8 +6,8 @@ use super::axis::{self, Axis};
 use super::sensitivity::Varied;
 use super::{Design, StudyError};
 use crate::scenario::scalars::Scalar;
-use crate::scenario::schema;
 use crate::scenario::{Scenario, ScenarioError, printable};
+use crate::scenario::{schema, units};
 
 /// When a point ends before its `run.cycles`: at the end of the first cycle in which one of these is
 /// reached.
@@ -160,6 +160,12 @@ impl Study {
         axes.collect()
     }
 
+    /// The unit of an axis.
+    pub fn unit(&self, axis: &Axis) -> &'static str {
+        let is_force = is_force(&axis.key, &self.set, &self.base);
+        schema::find(&axis.key).map_or("", |known| units::unit_of(known, is_force))
+    }
+
     fn build<'a>(
         &'a self,
         axes: impl Iterator<Item = (&'a str, String)>,
@@ -250,6 +256,20 @@ impl Study {
         insert("axis", Value::Array(axes.collect()));
         toml::to_string(&table).unwrap_or_default()
     }
+}
+
+/// Whether the motion that `key` belongs to prescribes a force, by what is set for all points or by the base.
+pub(super) fn is_force(key: &str, set: &[(String, Value)], base: &Scenario) -> bool {
+    let control = match key.rsplit_once('.') {
+        Some((motion, _)) => format!("{motion}.control"),
+        None => return false,
+    };
+    let mut set = set.iter().filter(|(known, _)| *known == control);
+    let control = match set.next() {
+        Some((_, value)) => value.as_str().map(str::to_owned),
+        None => base.value(&control),
+    };
+    control.is_some_and(|control| control.trim_matches('"') == "force")
 }
 
 /// An axis as it stands in a study, its values listed.

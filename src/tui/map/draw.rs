@@ -17,11 +17,12 @@ use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
 use ratatui::widgets::Widget;
 
-use super::ramp::{self, REGIMES, Shade};
-use super::view::{Overlay, View};
+use super::ramp::{self, Shade};
+use super::view::View;
 use crate::plot::units::format_number;
 use crate::plot::{Axis, Curve, Plot, Scale};
 use crate::studies::sweep::Spread;
+use crate::studies::sweep::slice::{Line, REGIMES};
 use crate::tui::theme::{Role, Theme};
 
 /// The footer.
@@ -141,7 +142,7 @@ fn legend(view: &View, theme: &Theme, range: Option<[f64; 2]>, area: Rect, buffe
     };
     write(view.column(), theme.style(Role::Focus));
     if view.is_regime() {
-        for (at, (_, title, _, _)) in REGIMES.iter().enumerate() {
+        for (at, (_, title)) in REGIMES.iter().enumerate() {
             let (sign, style) = swatch(Shade::Word(at), theme);
             write("  ", Style::new());
             write(&sign.to_string(), style);
@@ -186,7 +187,7 @@ fn map(
     view: &View,
     theme: &Theme,
     range: Option<[f64; 2]>,
-    overlays: &[Overlay],
+    overlays: &[Line],
     area: Rect,
     buffer: &mut Buffer,
 ) {

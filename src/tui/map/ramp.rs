@@ -2,6 +2,7 @@
 
 use ratatui::style::Color;
 
+use crate::studies::sweep::slice::REGIMES;
 use crate::tui::theme::{Look, Theme};
 
 /// Colours from low to high, of the 16 that every terminal has.
@@ -33,12 +34,12 @@ pub enum Shade {
     Word(usize),
 }
 
-/// The words of the regime column, in the order of their numbers.
-pub const REGIMES: [(&str, &str, char, Color); 4] = [
-    ("stick", "full stick", 's', Color::Green),
-    ("partial", "partial slip", '~', Color::Yellow),
-    ("gross", "gross slip", '#', Color::Red),
-    ("open", "lift-off", ' ', Color::Blue),
+/// The characters and colours of [`REGIMES`].
+const SWATCHES: [(char, Color); REGIMES.len()] = [
+    ('s', Color::Green),
+    ('~', Color::Yellow),
+    ('#', Color::Red),
+    (' ', Color::Blue),
 ];
 
 impl Shade {
@@ -49,7 +50,7 @@ impl Shade {
             Self::Failed if theme.look == Look::Light => Some(Color::Gray),
             Self::Failed => Some(Color::DarkGray),
             Self::Share(share) => Some(COLORS[level(share)]),
-            Self::Word(word) => Some(REGIMES[word % REGIMES.len()].3),
+            Self::Word(word) => Some(SWATCHES[word % SWATCHES.len()].1),
         }
     }
 
@@ -59,7 +60,7 @@ impl Shade {
             Self::Waiting => ' ',
             Self::Failed => '!',
             Self::Share(share) => SIGNS[level(share)],
-            Self::Word(word) => REGIMES[word % REGIMES.len()].2,
+            Self::Word(word) => SWATCHES[word % SWATCHES.len()].0,
         }
     }
 }

@@ -150,7 +150,13 @@ impl Table {
                 (key.to_owned(), value.to_owned())
             })
             .collect::<Vec<_>>();
-        let fields = |line: &str| line.split(',').map(str::to_owned).collect::<Vec<_>>();
+        let fields = |line: &str| {
+            let mut reader = csv::ReaderBuilder::new()
+                .has_headers(false)
+                .from_reader(line.as_bytes());
+            let record = reader.records().next().expect("a line").expect("fields");
+            record.iter().map(str::to_owned).collect::<Vec<_>>()
+        };
         let mut lines = text.lines().skip(header.len());
         let columns = fields(lines.next().expect("a line of columns"));
         let rows: Vec<Vec<String>> = lines.map(fields).collect();

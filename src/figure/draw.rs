@@ -1,0 +1,589 @@
+//! A chart on the paper: axes with the same ticks and units as on the screen, curves, a map, a legend.
+
+use super::canvas::{Anchor, BLACK, Canvas, WHITE};
+use super::chart::{Axis, Chart, Curve, Map, titled};
+use super::font;
+use super::ink::{Ink, Look};
+use crate::plot::Scale;
+use crate::plot::ticks::{Labels, Tick, ticks};
+use crate::plot::units::{AxisUnit, axis_unit};
+use crate::plot::window::Window;
+
+/// Width of curves, of axes, and of the white beside a line on a map, mm.
+const CURVE: f64 = 0.35;
+const FRAME: f64 = 0.15;
+const HALO: f64 = 0.2;
+
+/// Width of error bars and of the outline of symbols, and half of the size of a symbol, mm.
+const BAR: f64 = 0.2;
+const SYMBOL: f64 = 0.45;
+
+/// Length of a tick, mm.
+const TICK: f64 = 1.0;
+
+/// The shares of a frame that an inset spans.
+const INSET: [f64; 2] = [0.58, 0.5];
+
+/// The ratio of the ends of a logarithmic axis up to which its labels have one prefix instead of powers of ten.
+const ONE_PREFIX: f64 = 1.1e4;
+
+/// The inside of a chart, with its two scales.
+struct Frame {
+    left: f64,
+    top: f64,
+    size: [f64; 2],
+    windows: [Window; 2],
+    downwards: bool,
+}
+
+impl Frame {
+    fn right(&self) -> f64 {
+        self.left + self.size[0]
+    }
+
+    fn bottom(&self) -> f64 {
+        self.top + self.size[1]
+    }
+
+    /// Where a point lies, mm; `None` where it has no place.
+    fn place(&self, x: f64, y: f64) -> Option<[f64; 2]> {
+        let share = |window: &Window, value: f64| {
+            let last = (window.dots().max(2) - 1) as f64;
+            window.position(value).map(|dots| dots / last)
+        };
+        let (across, up) = (share(&self.windows[0], x)?, share(&self.windows[1], y)?);
+        let down = if self.downwards { up } else { 1.0 - up };
+        Some([
+            self.left + across * self.size[0],
+            self.top + down * self.size[1],
+        ])
+    }
+
+    /// Draws the points of a curve that lie inside, with their error bars, and returns them.
+    fn points(&self, curve: &Curve, canvas: &mut Canvas, look: &Look) -> Vec<[f64; 2]> {
+        let ink = look.color(curve.ink);
+        let mut drawn = Vec::new();
+        for (k, (&x, &y)) in curve.xs.iter().zip(&curve.ys).enumerate() {
+            if let Some(error) = curve.errors.get(k).filter(|error| error.is_finite()) {
+                let lowest = self.windows[1].bounds()[0];
+                let low = self.place(x, y - error).or(self.place(x, lowest));
+                if let (Some(low), Some(high)) = (low, self.place(x, y + error))
+                    && let Some(bar) = self.inside(low, high)
+                {
+                    canvas.line(bar.to_vec(), ink, BAR, &[]);
+                }
+            }
+            let place = self.place(x, y);
+            if let Some(at) = place.filter(|at| self.inside(*at, *at).is_some()) {
+                canvas.line(symbol(curve.ink, at), ink, BAR, &[]);
+                drawn.push(at);
+            }
+        }
+        drawn
+    }
+
+    /// The parts of a line that lie inside.
+    fn clipped(&self, curve: &Curve) -> Vec<Vec<[f64; 2]>> {
+        let mut parts: Vec<Vec<[f64; 2]>> = Vec::new();
+        let mut before: Option<[f64; 2]> = None;
+        for (&x, &y) in curve.xs.iter().zip(&curve.ys) {
+            let here = self.place(x, y);
+            if let (Some(from), Some(to)) = (before, here)
+                && let Some([start, end]) = self.inside(from, to)
+            {
+                match parts.last_mut() {
+                    Some(part) if part.last() == Some(&start) => part.push(end),
+                    _ => parts.push(vec![start, end]),
+                }
+            }
+            before = here;
+        }
+        parts
+    }
+
+    /// The part of a segment inside the frame (Liang and Barsky).
+    fn inside(&self, from: [f64; 2], to: [f64; 2]) -> Option<[[f64; 2]; 2]> {
+        let low = [self.left, self.top];
+        let (mut first, mut last) = (0.0_f64, 1.0_f64);
+        for k in 0..2 {
+            let (step, high) = (to[k] - from[k], low[k] + self.size[k]);
+            let bounds = [low[k] - from[k], high - from[k]];
+            if step == 0.0 {
+                if bounds[0] > 0.0 || bounds[1] < 0.0 {
+                    return None;
+                }
+                continue;
+            }
+            let (a, b) = (bounds[0] / step, bounds[1] / step);
+            first = first.max(a.min(b));
+            last = last.min(a.max(b));
+        }
+        let at = |share: f64| [0, 1].map(|k| from[k] + share * (to[k] - from[k]));
+        let start = if first == 0.0 { from } else { at(first) };
+        let end = if last == 1.0 { to } else { at(last) };
+        (first <= last).then_some([start, end])
+    }
+}
+
+/// What stands to the right of a map: the ticks of its colours, or its words.
+struct Key<'a> {
+    map: &'a Map,
+    unit: AxisUnit,
+    window: Window,
+    ticks: Vec<Tick>,
+}
+
+impl<'a> Key<'a> {
+    fn new(map: &'a Map, height: f64, font: f64) -> Self {
+        let range = map.range();
+        let unit = unit_of(&map.quantity, range);
+        let cells = (height / (1.2 * font)).clamp(2.0, 400.0) as u16;
+        let window = Window::new(range, map.quantity.scale, cells, 16);
+        let ticks = match map.words.is_empty() {
+            true => ticks(&window, unit.factor, Labels::Column),
+            false => Vec::new(),
+        };
+        Self {
+            map,
+            unit,
+            window,
+            ticks,
+        }
+    }
+
+    /// The width of it all, mm.
+    fn width(&self, font: f64) -> f64 {
+        let labels = self.ticks.iter().map(|tick| numeral(&tick.label));
+        let words = self.map.words.iter().map(|word| (*word).to_owned());
+        let widest = labels.chain(words).map(|text| font::set_width(&text));
+        let title = if self.map.words.is_empty() { 2.0 } else { 0.5 };
+        (widest.fold(0.0, f64::max) + 2.3 + title) * font
+    }
+
+    fn draw(&self, frame: &Frame, canvas: &mut Canvas, look: &Look) {
+        let font = look.font;
+        let (left, top, height) = (frame.right() + 0.8 * font, frame.top, frame.size[1]);
+        let beside = left + 1.4 * font;
+        let is_there = |k: usize| self.map.values.contains(&(k as f64));
+        let words = self.map.words.iter().enumerate();
+        for (line, (k, word)) in words.filter(|(k, _)| is_there(*k)).enumerate() {
+            let y = top + 1.4 * font * line as f64;
+            canvas.area([left, y], [font, font], look.regime(k));
+            canvas.text([beside, y + 0.86 * font], word, font, Anchor::Start);
+        }
+        if !self.map.words.is_empty() {
+            return;
+        }
+        const STEPS: usize = 32;
+        for k in 0..STEPS {
+            let share = (k as f64 + 0.5) / STEPS as f64;
+            let [low, high] =
+                [k, (k + 2).min(STEPS)].map(|step| height * step as f64 / STEPS as f64);
+            let ink = look.mapped(self.map.colors, share);
+            canvas.area([left, top + height - high], [font, high - low], ink);
+        }
+        let last = (self.window.dots().max(2) - 1) as f64;
+        for tick in &self.ticks {
+            if let Some(dots) = self.window.position(tick.value) {
+                let y = top + height * (1.0 - dots / last) + 0.36 * font;
+                canvas.text([beside, y], &numeral(&tick.label), font, Anchor::Start);
+            }
+        }
+        let title = titled(&self.map.quantity.label, &numeral(&self.unit.text));
+        let edge = frame.right() + self.width(font);
+        canvas.text_upwards([edge, top + 0.5 * height], &title, font);
+    }
+}
+
+impl Chart {
+    /// Draws the chart into the rectangle at `at` of `size` (mm).
+    pub fn draw(&self, canvas: &mut Canvas, at: [f64; 2], size: [f64; 2], look: &Look) {
+        self.draw_as(false, canvas, at, size, look);
+    }
+
+    /// An inset has the legend of its chart.
+    fn draw_as(
+        &self,
+        is_inset: bool,
+        canvas: &mut Canvas,
+        at: [f64; 2],
+        size: [f64; 2],
+        look: &Look,
+    ) {
+        let font = look.font;
+        let bounds = [self.bounds(0), self.bounds(1)];
+        let units = [unit_of(&self.x, bounds[0]), unit_of(&self.y, bounds[1])];
+        let top = if self.title.is_empty() { 0.6 } else { 1.8 } * font;
+        // The legend of a map stands below it: no colour is hidden.
+        let below = match self.map {
+            Some(_) => self.named().count() as f64 * LEGEND_LINE * font,
+            None => 0.0,
+        };
+        let bottom = 3.4 * font + below;
+        let height = (size[1] - top - bottom).max(1.0);
+        let window = |k: usize, axis: &Axis, cells: f64| {
+            Window::new(bounds[k], axis.scale, cells.clamp(2.0, 400.0) as u16, 16)
+        };
+        let vertical = window(1, &self.y, height / (1.2 * font));
+        let y_ticks = ticks(&vertical, units[1].factor, Labels::Column);
+        let widest = y_ticks.iter().map(|tick| numeral(&tick.label));
+        let widest = widest.map(|label| font::set_width(&label));
+        let left = widest.fold(0.0, f64::max) * font + 2.6 * font;
+        let key = self.map.as_ref().map(|map| Key::new(map, height, font));
+        let right = key
+            .as_ref()
+            .map_or(1.4 * font, |key| key.width(font) + 1.2 * font);
+        let width = (size[0] - left - right).max(1.0);
+        // A digit is about 0.57 of the font's size wide.
+        let horizontal = window(0, &self.x, width / (0.57 * font));
+        let row = Labels::Row {
+            before: 0,
+            apart: 0,
+        };
+        let x_ticks = ticks(&horizontal, units[0].factor, row);
+        let frame = Frame {
+            left: at[0] + left,
+            top: at[1] + top,
+            size: [width, height],
+            windows: [horizontal, vertical],
+            downwards: self.y.downwards,
+        };
+        if let Some(key) = &key {
+            draw_map(key.map, [&self.x, &self.y], &frame, canvas, look);
+            key.draw(&frame, canvas, look);
+        }
+        for &(x, letter) in &self.marks {
+            self.mark(x, letter, &frame, canvas, font);
+        }
+        let mut drawn = Vec::new();
+        if self.map.is_some() {
+            let parts = self.curves.iter().flat_map(|curve| frame.clipped(curve));
+            for part in parts {
+                canvas.line(part, WHITE, CURVE + 2.0 * HALO, &[]);
+            }
+        }
+        for curve in &self.curves {
+            let dashes = look.dashes(curve.ink, curve.dashed);
+            let parts = frame.clipped(curve);
+            for part in parts.into_iter().filter(|_| curve.has_line) {
+                drawn.extend(along(&part));
+                canvas.line(part, look.color(curve.ink), CURVE, dashes);
+            }
+            if curve.has_symbols {
+                drawn.extend(frame.points(curve, canvas, look));
+            }
+        }
+        self.axes(&frame, &units, [&x_ticks, &y_ticks], at, canvas, font);
+        let above = [at[0] + 0.3 * font, at[1] + 1.1 * font];
+        canvas.text(above, &self.title, font, Anchor::Start);
+        if let Some(inset) = &self.inset {
+            let size = [INSET[0] * width, INSET[1] * height];
+            let small = Look {
+                font: 0.8 * font,
+                ..*look
+            };
+            let corner = [frame.left + TICK, frame.top + TICK];
+            inset.draw_as(true, canvas, corner, size, &small);
+            let [wide, high] = size.map(|side| side + 2.0 * TICK);
+            let rows = (0..20).map(|k| frame.top + high * f64::from(k) / 20.0);
+            drawn.extend(rows.flat_map(|y| {
+                (0..200).map(move |k| [frame.left + wide * f64::from(k) / 200.0, y])
+            }));
+        }
+        if !is_inset {
+            self.legend(&frame, &drawn, canvas, look);
+        }
+    }
+
+    fn mark(&self, x: f64, letter: &str, frame: &Frame, canvas: &mut Canvas, font: f64) {
+        let bounds = frame.windows[1].bounds();
+        let ends = [frame.place(x, bounds[0]), frame.place(x, bounds[1])];
+        if let [Some(low), Some(high)] = ends
+            && let Some(line) = frame.inside(low, high)
+        {
+            canvas.line(line.to_vec(), BLACK, FRAME, &[0.3, 0.7]);
+            let above = [low[0], frame.top - 0.3 * font];
+            canvas.text(above, letter, 0.9 * font, Anchor::Middle);
+        }
+    }
+
+    fn axes(
+        &self,
+        frame: &Frame,
+        units: &[AxisUnit; 2],
+        all_ticks: [&[Tick]; 2],
+        at: [f64; 2],
+        canvas: &mut Canvas,
+        font: f64,
+    ) {
+        let [left, top, width, height] = [frame.left, frame.top, frame.size[0], frame.size[1]];
+        let (right, bottom) = (frame.right(), frame.bottom());
+        let corners = [
+            [left, top],
+            [right, top],
+            [right, bottom],
+            [left, bottom],
+            [left, top],
+        ];
+        canvas.line(corners.to_vec(), BLACK, FRAME, &[]);
+        let firsts = [0, 1].map(|k| frame.windows[k].bounds()[0]);
+        for (k, ticks) in all_ticks.into_iter().enumerate() {
+            let place = |value: f64| match k {
+                0 => frame.place(value, firsts[1]).map(|[x, _]| [x, bottom]),
+                _ => frame.place(firsts[0], value).map(|[_, y]| [left, y]),
+            };
+            let inwards = |[x, y]: [f64; 2], length: f64| match k {
+                0 => [x, y - length],
+                _ => [x + length, y],
+            };
+            for from in minor(&frame.windows[k], ticks)
+                .into_iter()
+                .filter_map(place)
+            {
+                let to = inwards(from, 0.55 * TICK);
+                canvas.line(vec![from, to], BLACK, FRAME, &[]);
+            }
+            for tick in ticks {
+                let Some(from) = place(tick.value) else {
+                    continue;
+                };
+                canvas.line(vec![from, inwards(from, TICK)], BLACK, FRAME, &[]);
+                let (at, anchor) = match k {
+                    0 => ([from[0], bottom + 1.25 * font], Anchor::Middle),
+                    _ => ([left - 0.4 * font, from[1] + 0.36 * font], Anchor::End),
+                };
+                canvas.text(at, &numeral(&tick.label), font, anchor);
+            }
+        }
+        let label = |axis: &Axis, unit: &AxisUnit| titled(&axis.label, &numeral(&unit.text));
+        let below = [left + 0.5 * width, bottom + 2.7 * font];
+        canvas.text(below, &label(&self.x, &units[0]), font, Anchor::Middle);
+        let beside = [at[0] + 1.2 * font, top + 0.5 * height];
+        canvas.text_upwards(beside, &label(&self.y, &units[1]), font);
+    }
+
+    /// The curves that the legend names.
+    fn named(&self) -> impl Iterator<Item = &Curve> {
+        self.curves.iter().filter(|curve| !curve.name.is_empty())
+    }
+
+    /// The names of the curves, in the corner where they cover the least of them; those of a map below it.
+    fn legend(&self, frame: &Frame, drawn: &[[f64; 2]], canvas: &mut Canvas, look: &Look) {
+        let font = 0.9 * look.font;
+        if self.named().next().is_none() {
+            return;
+        }
+        let (swatch, line, gap) = (2.6 * font, LEGEND_LINE * look.font, 0.6 * font);
+        let widest = self.named().map(|curve| font::set_width(&curve.name));
+        let width = swatch + 2.0 * gap + widest.fold(0.0, f64::max) * font;
+        let height = line * self.named().count() as f64 + gap;
+        let [left, top] = [frame.left + TICK, frame.top + TICK];
+        let (right, bottom) = (frame.right() - TICK - width, frame.bottom() - TICK - height);
+        let covered = |[x, y]: [f64; 2]| {
+            let hit =
+                |p: &&[f64; 2]| (x..x + width).contains(&p[0]) && (y..y + height).contains(&p[1]);
+            drawn.iter().filter(hit).count()
+        };
+        let corners = [[right, top], [left, top], [right, bottom], [left, bottom]];
+        let best = corners.into_iter().min_by_key(|&corner| covered(corner));
+        let [x, y] = match self.map {
+            Some(_) => [frame.left, frame.bottom() + 3.0 * look.font],
+            None => best.unwrap_or([right, top]),
+        };
+        for (k, curve) in self.named().enumerate() {
+            let middle = y + gap / 2.0 + line * (k as f64 + 0.5);
+            let [from, to] = [x + gap / 2.0, x + gap / 2.0 + swatch];
+            let ink = look.color(curve.ink);
+            if curve.has_line {
+                let dashes = look.dashes(curve.ink, curve.dashed);
+                canvas.line(vec![[from, middle], [to, middle]], ink, CURVE, dashes);
+            }
+            if curve.has_symbols {
+                let place = [0.5 * (from + to), middle];
+                canvas.line(symbol(curve.ink, place), ink, BAR, &[]);
+            }
+            let place = [x + gap + swatch, middle + 0.36 * font];
+            canvas.text(place, &curve.name, font, Anchor::Start);
+        }
+    }
+}
+
+/// Height of a line of the legend, in sizes of the font.
+const LEGEND_LINE: f64 = 1.17;
+
+/// Colours of the map, equal neighbours as one area. Each area also lies below the ones that are drawn after it,
+/// but not below blank ones: where areas only touch, viewers show the paper between them.
+fn draw_map(map: &Map, axes: [&Axis; 2], frame: &Frame, canvas: &mut Canvas, look: &Look) {
+    let range = map.range();
+    let color = |value: f64| {
+        let shown = value.is_finite();
+        shown.then(|| match map.words.is_empty() {
+            true => look.mapped(map.colors, map.share(value, range)),
+            false => look.regime(value as usize),
+        })
+    };
+    let within = |k: usize| {
+        let [low, high] = frame.windows[k].bounds();
+        let edges = axes[k].edges(&map.places[k]).into_iter();
+        edges
+            .map(|edge| edge.clamp(low.min(high), low.max(high)))
+            .collect::<Vec<f64>>()
+    };
+    let (across, down) = (within(0), within(1));
+    let width = map.places[0].len();
+    let rows: Vec<&[f64]> = map.values.chunks(width).collect();
+    for (row, values) in rows.iter().enumerate() {
+        let mut start = 0;
+        for end in 1..=width {
+            let ink = color(values[start]);
+            if end < width && color(values[end]) == ink {
+                continue;
+            }
+            let right = match values.get(end) {
+                Some(next) if next.is_finite() => end + 1,
+                _ => end,
+            };
+            let next = rows.get(row + 1).map(|below| &below[start..right]);
+            let bottom = match next {
+                Some(below) if below.iter().all(|value| value.is_finite()) => row + 2,
+                _ => row + 1,
+            };
+            let corners = [
+                frame.place(across[start], down[row]),
+                frame.place(across[right], down[bottom]),
+            ];
+            if let ([Some(a), Some(b)], Some(ink)) = (corners, ink) {
+                let at = [a[0].min(b[0]), a[1].min(b[1])];
+                let size = [(b[0] - a[0]).abs(), (b[1] - a[1]).abs()];
+                canvas.area(at, size, ink);
+            }
+            start = end;
+        }
+    }
+}
+
+/// The outline of the sign of a point: a square, a diamond or a triangle.
+fn symbol(ink: Ink, [x, y]: [f64; 2]) -> Vec<[f64; 2]> {
+    let corners: &[[f64; 2]] = match ink {
+        Ink::Ghost(k) if k % 3 == 1 => &[[0.0, -1.2], [1.2, 0.0], [0.0, 1.2], [-1.2, 0.0]],
+        Ink::Ghost(k) if k % 3 == 2 => &[[0.0, -1.1], [1.1, 0.8], [-1.1, 0.8]],
+        _ => &[[-0.9, -0.9], [0.9, -0.9], [0.9, 0.9], [-0.9, 0.9]],
+    };
+    let closed = corners.iter().chain(corners.first());
+    closed
+        .map(|[dx, dy]| [x + SYMBOL * dx, y + SYMBOL * dy])
+        .collect()
+}
+
+/// Points along a drawn line, half a millimetre apart.
+fn along(part: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let mut points = Vec::new();
+    for pair in part.windows(2) {
+        let [dx, dy] = [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]];
+        let count = (2.0 * dx.hypot(dy)).ceil().max(1.0) as usize;
+        points.extend((0..count).map(|k| {
+            let share = k as f64 / count as f64;
+            [pair[0][0] + share * dx, pair[0][1] + share * dy]
+        }));
+    }
+    points
+}
+
+/// The unit that an axis is labelled in; logarithmic ones over many decades keep that of the data.
+fn unit_of(axis: &Axis, bounds: [f64; 2]) -> AxisUnit {
+    let largest = bounds[0].abs().max(bounds[1].abs());
+    let is_narrow = !axis.unit.is_empty() && bounds[1] / bounds[0] < ONE_PREFIX;
+    match axis.scale {
+        Scale::Log if !is_narrow => AxisUnit {
+            factor: 1.0,
+            text: axis.unit.to_owned(),
+        },
+        _ => axis_unit(largest, axis.unit, false),
+    }
+}
+
+/// Ticks between those with labels: five, four or two to a step; 2 to 9 in a decade.
+fn minor(window: &Window, labelled: &[Tick]) -> Vec<f64> {
+    let [low, high] = window.bounds();
+    let within = |value: &f64| (low..=high).contains(value);
+    if window.scale() == Scale::Log {
+        let decades = low.log10().floor() as i32..=high.log10().floor() as i32;
+        let few = decades.clone().count() <= 8;
+        let mantissas = if few { 1..10 } else { 1..2 };
+        return decades
+            .flat_map(|decade| {
+                let sizes = mantissas.clone();
+                sizes.map(move |mantissa| f64::from(mantissa) * 10f64.powi(decade))
+            })
+            .filter(within)
+            .collect();
+    }
+    let [first, second, ..] = labelled else {
+        return Vec::new();
+    };
+    let step = second.value - first.value;
+    let mantissa = step / 10f64.powf((step * 1.000_001).log10().floor());
+    let parts = if (1.5..3.5).contains(&mantissa) { 4 } else { 5 };
+    let last = ((high - low) / step) as i32 + 2;
+    let all = (-parts..=last * parts).map(|k| first.value + step * f64::from(k) / f64::from(parts));
+    all.filter(within).collect()
+}
+
+/// A number, alone or before a unit, as print has it: a true minus sign, and 2e-8 as 2·10^−8.
+fn numeral(text: &str) -> String {
+    let (number, unit) = text.split_once(' ').unwrap_or((text, ""));
+    let is_number = number.parse::<f64>().is_ok();
+    let (mantissa, exponent) = match number.split_once('e') {
+        Some((mantissa, exponent)) if is_number => (mantissa, Some(exponent)),
+        _ => (number, None),
+    };
+    let signed = |text: &str| text.replace('-', "−");
+    let number = match (mantissa, exponent) {
+        (_, None) if !is_number => mantissa.to_owned(),
+        (_, None) => signed(mantissa),
+        ("1", Some(exponent)) => format!("10^{}", signed(exponent)),
+        (mantissa, Some(exponent)) => format!("{}·10^{}", signed(mantissa), signed(exponent)),
+    };
+    match unit {
+        "" => number,
+        unit => format!("{number} {unit}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_set_as_print_has_them() {
+        for (text, set) in [
+            ("0.5", "0.5"),
+            ("-20", "−20"),
+            ("1e-4", "10^−4"),
+            ("2e8", "2·10^8"),
+            ("1e-9 m", "10^−9 m"),
+            ("µm", "µm"),
+            ("cycles", "cycles"),
+            ("1/Pa", "1/Pa"),
+        ] {
+            assert_eq!(numeral(text), set);
+        }
+    }
+
+    #[test]
+    fn minor_ticks_lie_between_the_labelled_ones() {
+        let axis = |bounds, scale| {
+            let window = Window::new(bounds, scale, 40, 16);
+            let row = Labels::Row {
+                before: 0,
+                apart: 0,
+            };
+            minor(&window, &ticks(&window, 1.0, row))
+        };
+        let linear = axis([0.0, 1.0], Scale::Linear);
+        assert!(linear.len() > 12 && linear.iter().all(|v| (0.0..=1.0).contains(v)));
+        let log = axis([1e-3, 1.0], Scale::Log);
+        assert_eq!(log.len(), 28);
+        assert!((log[1] - 2e-3).abs() < 1e-12);
+    }
+}

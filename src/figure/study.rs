@@ -1,0 +1,304 @@
+//! Charts of a study's table: a map over two axes, curves over one, points of a sampled design.
+
+use super::Sheet;
+use super::chart::{Axis, Chart, Map};
+use super::ink::Ink;
+use crate::plot::Scale;
+use crate::plot::colormap::ColorMap;
+use crate::scenario::scalars;
+use crate::studies::sweep::slice::{REGIMES, Slice};
+use crate::studies::sweep::{self, Design, Spread};
+
+/// The most charts of a sheet that nobody chose the columns of.
+const MOST_CHARTS: usize = 4;
+
+/// Positive values whose ends have this ratio or a larger one are shown on a logarithmic scale.
+const DECADES: f64 = 100.0;
+
+/// How much of the data's extent is left free beside curves with symbols.
+const MARGIN: f64 = 0.04;
+
+/// The column of the words.
+const REGIME: &str = "regime";
+
+/// Quantities whose estimated error studies can record, and the column that holds it, relative to the quantity.
+const ERRORS: [(&str, &str); 4] = [
+    ("scar_depth_m", "estimated_error"),
+    ("wear_volume_m3", "estimated_error_volume"),
+    ("dissipated_energy_J", "estimated_error_energy"),
+    ("F_x_amplitude_N", "estimated_error_force"),
+];
+
+/// Words for keys whose meaning is too long for an axis.
+const WORDS: [(&str, &str); 12] = [
+    ("motion.normal.mean", "mean"),
+    ("motion.normal.amplitude", "normal amplitude"),
+    ("motion.normal.phase", "phase of the normal motion"),
+    ("motion.tangential.mean", "tangential mean"),
+    ("motion.tangential.amplitude", "tangential amplitude"),
+    ("motion.tangential.phase", "phase of the tangential motion"),
+    ("motion.tangential.rig_stiffness", "stiffness of the rig"),
+    ("friction.coefficient", "coefficient of friction µ"),
+    ("wear.coefficient", "wear coefficient k"),
+    ("indenter.radius", "radius R"),
+    ("material.effective_modulus", "effective modulus E*"),
+    ("run.cycles", "cycles"),
+];
+
+/// The sheet of a study that is called `name`: a chart for each of `columns`, or for the first ones.
+///
+/// # Errors
+/// In one line, a column that the study does not have, or of which no point has a value.
+pub fn sheet(slice: &Slice, columns: &[String], name: &str) -> Result<Sheet, String> {
+    let study = &slice.study;
+    let known: Vec<&str> = study.columns.iter().map(|column| column.name).collect();
+    let has_values = |column: &str| {
+        let mut points = slice.points();
+        points.any(|point| slice.field(point, column).is_some())
+    };
+    let chosen: Vec<&str> = if columns.is_empty() {
+        usual(slice, &known)
+            .into_iter()
+            .filter(|column| has_values(column))
+            .collect()
+    } else {
+        columns.iter().map(String::as_str).collect()
+    };
+    for column in &chosen {
+        if !known.contains(column) {
+            let known = known.join(", ");
+            return Err(format!("--column {column}: {name} has {known}"));
+        }
+        if !has_values(column) {
+            return Err(format!("--column {column}: no point of {name} has a value"));
+        }
+    }
+    if chosen.is_empty() {
+        return Err(format!("{name}: no point has a value to draw"));
+    }
+    let charts = chosen.iter().map(|column| match (slice.y, study.design) {
+        (Some(_), _) => map(slice, column),
+        (None, Design::Grid | Design::Zip) => curve(slice, column),
+        (None, _) => points(slice, column),
+    });
+    Ok(Sheet {
+        title: study.title.clone().unwrap_or_else(|| name.to_owned()),
+        charts: charts.collect(),
+        facts: facts(slice, name),
+    })
+}
+
+/// The columns of a sheet that nobody chose: of a map the first one and the regimes, of curves all but errors.
+fn usual<'a>(slice: &Slice, known: &[&'a str]) -> Vec<&'a str> {
+    let plain = known.iter().copied();
+    let plain = plain.filter(|name| *name != REGIME && !name.starts_with("estimated_error"));
+    let most = if slice.y.is_some() { 1 } else { MOST_CHARTS };
+    let regime = known.iter().copied().filter(|name| *name == REGIME);
+    match slice.y {
+        Some(_) => plain.take(most).chain(regime).collect(),
+        None => plain.take(most).collect(),
+    }
+}
+
+/// What a caption needs.
+fn facts(slice: &Slice, name: &str) -> Vec<(String, String)> {
+    let study = &slice.study;
+    let mut facts = vec![
+        ("study".to_owned(), name.to_owned()),
+        ("base".into(), study.base.title().to_owned()),
+    ];
+    let hidden = slice.hidden();
+    facts.extend(hidden.map(|axis| {
+        let of = &study.axes[axis];
+        (of.key.clone(), of.text(slice.at[axis]))
+    }));
+    let set = study.set.iter();
+    facts.extend(set.map(|(key, value)| (key.clone(), value.to_string())));
+    let (there, failed) = slice.rows.count();
+    let all = study.points();
+    facts.push((
+        "points".into(),
+        format!("{there} of {all}, {failed} failed"),
+    ));
+    facts
+}
+
+/// Numbers of the values of a study's axis; the places of words.
+fn places(axis: &sweep::Axis) -> Vec<f64> {
+    let all = 0..axis.values.len();
+    all.map(|place| axis.number(place).unwrap_or(place as f64))
+        .collect()
+}
+
+/// An axis of a study on paper.
+fn paper_axis(slice: &Slice, axis: &sweep::Axis) -> Axis {
+    let unit = slice.study.unit(axis);
+    let words = WORDS.iter().find(|(key, _)| *key == axis.key);
+    let mut label = match (words, unit) {
+        (Some(("motion.normal.mean", _)), "N") => "mean normal force F_z".to_owned(),
+        (Some(("motion.normal.mean", _)), _) => "mean depth d".to_owned(),
+        (Some((_, words)), _) => (*words).to_owned(),
+        (None, _) => axis.key.clone(),
+    };
+    if (0..axis.values.len()).any(|place| axis.number(place).is_none()) {
+        let words = (0..axis.values.len()).map(|place| format!("{place}: {}", axis.text(place)));
+        label = format!("{label}, {}", words.collect::<Vec<_>>().join(", "));
+    }
+    Axis::new(&label, unit).scale(match axis.spread {
+        Spread::Linear => Scale::Linear,
+        Spread::Logarithmic => Scale::Log,
+    })
+}
+
+/// The unit that ends the name of a column.
+fn unit_of(column: &str) -> &'static str {
+    let ends = [
+        ("_m3_per_J", "m³/J"),
+        ("_m3", "m³"),
+        ("_m", "m"),
+        ("_N", "N"),
+        ("_J", "J"),
+        ("_Pa", "Pa"),
+        ("_s", "s"),
+    ];
+    let found = ends.into_iter().find(|(end, _)| column.ends_with(end));
+    found.map_or("", |(_, unit)| unit)
+}
+
+/// A column of a study on paper, logarithmic where its `values` span decades.
+fn quantity(column: &str, values: &[f64]) -> Axis {
+    let label = scalars::find(column).map_or(column, |scalar| scalar.meaning);
+    let shown = values.iter().copied().filter(|value| value.is_finite());
+    let [low, high] = shown.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| {
+        [low.min(v), high.max(v)]
+    });
+    Axis::new(label, unit_of(column)).scale(match low > 0.0 && high / low >= DECADES {
+        true => Scale::Log,
+        false => Scale::Linear,
+    })
+}
+
+/// The values of a column at points; those of the regimes are the numbers of their words.
+fn values(slice: &Slice, column: &str, points: impl Iterator<Item = usize>) -> Vec<f64> {
+    let value = |point| match column {
+        REGIME => slice.regime(point).map(|word| word as f64),
+        _ => slice.number(point, column),
+    };
+    points
+        .map(|point| value(point).unwrap_or(f64::NAN))
+        .collect()
+}
+
+/// A column over two axes as colours, with the borders of the running conditions.
+fn map(slice: &Slice, column: &str) -> Chart {
+    let axes = [Some(slice.x()), slice.y()].into_iter().flatten();
+    let grid: Vec<(Axis, Vec<f64>)> = axes
+        .map(|axis| (paper_axis(slice, axis), places(axis)))
+        .collect();
+    let values = values(slice, column, slice.points());
+    let is_regime = column == REGIME;
+    let [(mut x, xs), (mut y, ys)] = [grid[0].clone(), grid[1].clone()];
+    for (axis, places) in [(&mut x, &xs), (&mut y, &ys)] {
+        let edges = axis.edges(places);
+        let ends = [edges[0], edges[edges.len() - 1]];
+        axis.bounds = Some([ends[0].min(ends[1]), ends[0].max(ends[1])]);
+    }
+    let quantity = quantity(column, if is_regime { &[] } else { &values });
+    let title = if is_regime { "running condition" } else { "" };
+    let mut chart = Chart::new(title, x, y);
+    let [across, up] = [chart.x.edges(&xs), chart.y.edges(&ys)];
+    chart.map = Some(Map {
+        quantity,
+        values,
+        colors: ColorMap::Sequential,
+        words: match is_regime {
+            true => REGIMES.map(|(_, words)| words).to_vec(),
+            false => Vec::new(),
+        },
+        places: [xs, ys],
+    });
+    if !is_regime && let Some([xs, ys]) = regime_border(slice, [&across, &up]) {
+        let name = "running condition changes";
+        chart.curve(name, &xs, &ys, Ink::Border(2), false);
+    }
+    let (borders, criteria) = (slice.borders(), slice.criteria());
+    let first = borders.len();
+    for (k, line) in borders.into_iter().chain(criteria).enumerate() {
+        let ink = if k < first { k } else { 3 + k - first };
+        let at = line.at.iter().filter_map(|&(x, y)| {
+            let y = slice.y()?.value_at(y)?;
+            Some((slice.x().value_at(x as f64)?, y))
+        });
+        let (xs, ys): (Vec<f64>, Vec<f64>) = at.unzip();
+        chart.curve(&line.name, &xs, &ys, Ink::Border(ink), false);
+    }
+    chart
+}
+
+/// The edges of the map's cells between points of different regimes, with gaps; `None` without any.
+fn regime_border(slice: &Slice, [across, up]: [&[f64]; 2]) -> Option<[Vec<f64>; 2]> {
+    let [wide, high] = slice.size();
+    let regime = |x: usize, y: usize| slice.regime(slice.point_at(x, y));
+    let differ = |a: Option<usize>, b: Option<usize>| a.zip(b).is_some_and(|(a, b)| a != b);
+    let mut border = [Vec::new(), Vec::new()];
+    let mut add = |from: [f64; 2], to: [f64; 2]| {
+        for k in 0..2 {
+            border[k].extend([from[k], to[k], f64::NAN]);
+        }
+    };
+    for y in 0..high {
+        for x in 0..wide {
+            if x + 1 < wide && differ(regime(x, y), regime(x + 1, y)) {
+                add([across[x + 1], up[y]], [across[x + 1], up[y + 1]]);
+            }
+            if y + 1 < high && differ(regime(x, y), regime(x, y + 1)) {
+                add([across[x], up[y + 1]], [across[x + 1], up[y + 1]]);
+            }
+        }
+    }
+    (!border[0].is_empty()).then_some(border)
+}
+
+/// A column over one axis, with error bars where the study has recorded them.
+fn curve(slice: &Slice, column: &str) -> Chart {
+    let mut chart = points(slice, column);
+    for curve in &mut chart.curves {
+        curve.has_line = true;
+        let mut order: Vec<usize> = (0..curve.xs.len()).collect();
+        order.sort_by(|&a, &b| curve.xs[a].total_cmp(&curve.xs[b]));
+        let sorted = |values: &[f64]| order.iter().map(|&k| values[k]).collect::<Vec<f64>>();
+        curve.ys = sorted(&curve.ys);
+        if !curve.errors.is_empty() {
+            curve.errors = sorted(&curve.errors);
+        }
+        curve.xs = sorted(&curve.xs);
+    }
+    let edges = chart.x.edges(&places(slice.x()));
+    let regime = |x: usize| slice.regime(slice.point_at(x, 0));
+    for x in 1..slice.size()[0] {
+        if let (Some(before), Some(after)) = (regime(x - 1), regime(x))
+            && before != after
+        {
+            chart.marks.push((edges[x], REGIMES[after].1));
+        }
+    }
+    chart
+}
+
+/// A column over the first axis, a symbol a point.
+fn points(slice: &Slice, column: &str) -> Chart {
+    let xs = places(slice.x());
+    let shown = || (0..xs.len()).map(|x| slice.point_at(x, 0));
+    let ys = values(slice, column, shown());
+    let of_column = ERRORS.iter().find(|(of, _)| *of == column);
+    let errors = of_column.map(|(_, error)| values(slice, error, shown()));
+    let errors = errors.filter(|errors| errors.iter().any(|error| error.is_finite()));
+    let bars = errors.map(|errors| {
+        let both = ys.iter().zip(&errors);
+        both.map(|(y, error)| (y * error).abs()).collect()
+    });
+    let mut chart = Chart::new("", paper_axis(slice, slice.x()), quantity(column, &ys));
+    chart.margin = MARGIN;
+    chart.scattered("", &xs, &ys, &bars.unwrap_or_else(Vec::new), Ink::Profile);
+    chart
+}

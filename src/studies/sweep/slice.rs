@@ -1,0 +1,261 @@
+//! A table of a study along one or two of its axes: what a map shows, on the screen and on paper.
+
+use super::border::Border;
+use super::record::{Record, Rows};
+use super::{Axis, Design, OK, Study, StudyError};
+
+/// The words of the column `regime`, and what they mean.
+pub const REGIMES: [(&str, &str); 4] = [
+    ("stick", "full stick"),
+    ("partial", "partial slip"),
+    ("gross", "gross slip"),
+    ("open", "lift-off"),
+];
+
+/// The field's criteria that can be laid over a map: column, value, letter, and what it holds for.
+const CRITERIA: [(&str, f64, char, &str); 3] = [
+    (
+        "energy_ratio",
+        0.2,
+        'A',
+        "A = 0.2 (unworn sphere, stiff rig only)",
+    ),
+    (
+        "sliding_ratio",
+        0.26,
+        'D',
+        "D = 0.26 (unworn sphere, stiff rig only)",
+    ),
+    ("energy_ratio_B", 0.77, 'B', "B = 0.77 (sphere, any rig)"),
+];
+
+/// A line over a map, as places on its axes: 1.5 lies halfway between the second and the third value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Line {
+    /// The letter that draws it on a screen.
+    pub letter: char,
+    /// What it is.
+    pub name: String,
+    /// Places on the x axis and on the y axis.
+    pub at: Vec<(usize, f64)>,
+}
+
+/// A study with its rows, and the axes that are shown.
+#[derive(Debug)]
+pub struct Slice {
+    /// The study.
+    pub study: Study,
+    /// Its rows.
+    pub rows: Rows,
+    /// The axis that runs to the right.
+    pub x: usize,
+    /// The axis that runs upwards; `None` where there is one axis, or no grid.
+    pub y: Option<usize>,
+    /// A place on each axis, or the same point on all without a grid. Those on the axes that are shown are a
+    /// cursor's.
+    pub at: Vec<usize>,
+    held: Vec<usize>,
+}
+
+impl Slice {
+    /// The first and the last axis of a study without rows, at the first place of the others.
+    ///
+    /// # Errors
+    ///
+    /// If the study, which messages call `name`, has no axis.
+    pub fn new(study: Study, name: &str) -> Result<Self, StudyError> {
+        if study.axes.is_empty() {
+            return Err(StudyError(format!("{name}: there is no axis to show")));
+        }
+        let is_grid = study.design == Design::Grid;
+        Ok(Self {
+            x: if is_grid { study.axes.len() - 1 } else { 0 },
+            y: (is_grid && study.axes.len() > 1).then_some(0),
+            at: vec![0; study.axes.len()],
+            rows: Rows::new(&study),
+            held: Vec::new(),
+            study,
+        })
+    }
+
+    /// Takes the rows of a table of the same study, which messages call `name`.
+    ///
+    /// # Errors
+    ///
+    /// If rows do not belong to the study.
+    pub fn renew(&mut self, record: Record, name: &str) -> Result<(), StudyError> {
+        let mut rows = Rows::new(&self.study);
+        for row in record.rows {
+            let named = row.join(",");
+            if let Err(why) = rows.take(row) {
+                return Err(StudyError(format!(
+                    "{name}: row {named} does not belong to the study ({why:?})"
+                )));
+            }
+        }
+        self.rows = rows;
+        Ok(())
+    }
+
+    /// Holds the axis `key` at one of its values, and shows others: the last one and the first one that are not
+    /// held.
+    ///
+    /// # Errors
+    ///
+    /// In one line, a key that is no axis, a value that it does not have, and no axis left.
+    pub fn hold(&mut self, key: &str, value: &str) -> Result<(), String> {
+        if self.study.design != Design::Grid {
+            return Err("only a grid has axes to hold".into());
+        }
+        let axes = &self.study.axes;
+        let Some(held) = axes.iter().position(|axis| axis.key == key) else {
+            let keys: Vec<&str> = axes.iter().map(|axis| axis.key.as_str()).collect();
+            return Err(format!("the axes are {}", keys.join(", ")));
+        };
+        let axis = &axes[held];
+        let wanted = value.parse::<f64>().ok();
+        let is_wanted = |place: &usize| match (axis.number(*place), wanted) {
+            (Some(number), Some(wanted)) => (number - wanted).abs() <= 1e-9 * number.abs(),
+            _ => axis.text(*place) == value,
+        };
+        let mut places = 0..axis.values.len();
+        let Some(place) = places.find(is_wanted) else {
+            let values = (0..axis.values.len()).map(|place| axis.text(place));
+            let values = values.collect::<Vec<_>>().join(", ");
+            return Err(format!("must be one of {values}"));
+        };
+        self.at[held] = place;
+        self.held.push(held);
+        let free = (0..axes.len()).filter(|axis| !self.held.contains(axis));
+        let free: Vec<usize> = free.collect();
+        match free[..] {
+            [] => return Err("no axis is left to draw over".into()),
+            [one] => (self.x, self.y) = (one, None),
+            [first, .., last] => (self.x, self.y) = (last, Some(first)),
+        }
+        Ok(())
+    }
+
+    /// The axis to the right.
+    pub fn x(&self) -> &Axis {
+        &self.study.axes[self.x]
+    }
+
+    /// The axis upwards.
+    pub fn y(&self) -> Option<&Axis> {
+        self.y.map(|y| &self.study.axes[y])
+    }
+
+    /// The axes that are not shown.
+    pub fn hidden(&self) -> impl Iterator<Item = usize> {
+        let grid = self.study.design == Design::Grid;
+        (0..self.study.axes.len())
+            .filter(move |axis| grid && *axis != self.x && Some(*axis) != self.y)
+    }
+
+    /// The numbers of places to the right and upwards.
+    pub fn size(&self) -> [usize; 2] {
+        let high = self.y().map_or(1, |axis| axis.values.len());
+        [self.x().values.len(), high]
+    }
+
+    /// The point at a place to the right and upwards.
+    pub fn point_at(&self, x: usize, y: usize) -> usize {
+        if self.study.design != Design::Grid {
+            return x;
+        }
+        let mut at = self.at.clone();
+        at[self.x] = x;
+        if let Some(axis) = self.y {
+            at[axis] = y;
+        }
+        let axes = self.study.axes.iter().zip(at);
+        axes.fold(0, |point, (axis, place)| point * axis.values.len() + place)
+    }
+
+    /// The points that are shown, row by row.
+    pub fn points(&self) -> impl Iterator<Item = usize> {
+        let [wide, high] = self.size();
+        (0..high).flat_map(move |y| (0..wide).map(move |x| self.point_at(x, y)))
+    }
+
+    /// The row of a point.
+    pub fn row(&self, point: usize) -> Option<&Vec<String>> {
+        self.rows.rows[point].as_ref()
+    }
+
+    /// The field of `column` of a point; `None` without a row, or where the point failed.
+    pub fn field(&self, point: usize, column: &str) -> Option<&str> {
+        let row = self.row(point)?;
+        let at = self
+            .study
+            .columns
+            .iter()
+            .position(|known| known.name == column)?;
+        let is_ok = row.last().is_some_and(|status| status == OK);
+        let field = row.get(self.study.axes.len() + at)?;
+        (is_ok && !field.is_empty()).then_some(field)
+    }
+
+    /// The number in `column` of a point.
+    pub fn number(&self, point: usize, column: &str) -> Option<f64> {
+        let number: f64 = self.field(point, column)?.parse().ok()?;
+        number.is_finite().then_some(number)
+    }
+
+    /// The place of a point's word among [`REGIMES`].
+    pub fn regime(&self, point: usize) -> Option<usize> {
+        let word = self.field(point, "regime")?;
+        REGIMES.iter().position(|known| known.0 == word)
+    }
+
+    /// The criteria of the field, where the study has their columns.
+    pub fn criteria(&self) -> Vec<Line> {
+        let lines = CRITERIA.into_iter().map(|(column, value, letter, name)| {
+            let places = 0..self.x().values.len();
+            Line {
+                letter,
+                name: name.to_owned(),
+                at: places
+                    .flat_map(|x| self.crossings(x, column, value).map(move |y| (x, y)))
+                    .collect(),
+            }
+        });
+        lines.filter(|line| !line.at.is_empty()).collect()
+    }
+
+    /// The borders in closed form between the values of the y axis.
+    pub fn borders(&self) -> Vec<Line> {
+        let Some(y) = self.y else {
+            return Vec::new();
+        };
+        let axis = &self.study.axes[y];
+        let lines = Border::ALL.into_iter().map(|border| Line {
+            letter: match border {
+                Border::GrossSlip => 'G',
+                Border::LiftOff => 'L',
+            },
+            name: format!("{}, closed form, unworn", border.name()),
+            at: (0..self.x().values.len())
+                .filter_map(|place| {
+                    let mut places = self.at.clone();
+                    places[self.x] = place;
+                    let value = border.crossing(&self.study, &places, y)?;
+                    Some((place, axis.place_of(value)?))
+                })
+                .collect(),
+        });
+        lines.filter(|line| !line.at.is_empty()).collect()
+    }
+
+    /// Where `column` passes through `value` above place `x`, between neighbouring points.
+    fn crossings(&self, x: usize, column: &str, value: f64) -> impl Iterator<Item = f64> {
+        let numbers: Vec<Option<f64>> = (0..self.size()[1])
+            .map(|y| self.number(self.point_at(x, y), column))
+            .collect();
+        (1..numbers.len()).filter_map(move |y| {
+            let (below, above) = (numbers[y - 1]? - value, numbers[y]? - value);
+            (below * above < 0.0).then(|| (y - 1) as f64 + below / (below - above))
+        })
+    }
+}

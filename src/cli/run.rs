@@ -18,8 +18,8 @@ use super::progress::Progress;
 use super::{FAILED, Misuse, accuracy, complain, stop};
 use crate::export::autosave::COPY_INTERVAL;
 use crate::export::file::{RUN_CHECKPOINT, RunDirectory, WriteError, write_whole};
-use crate::export::header::number;
-use crate::export::{field, state};
+use crate::export::header::{self, number};
+use crate::export::{field, history, state};
 use crate::scenario::checkpoint;
 use crate::scenario::session::Session;
 use crate::scenario::{Scenario, printable};
@@ -93,8 +93,10 @@ pub fn run(options: &Run) -> Result<ExitCode> {
     stop.store(true, Ordering::SeqCst);
     match outcome {
         Ok(Ended::Done) => {
-            if !options.quiet {
-                job.summarize(options.json)?;
+            if options.json {
+                job.print_json()?;
+            } else if !options.quiet {
+                job.summarize()?;
             }
             Ok(ExitCode::SUCCESS)
         }
@@ -453,22 +455,33 @@ impl Job {
         keeper.way_on(self.session.simulation().cycle())
     }
 
-    fn summarize(&self, as_json: bool) -> Result<()> {
+    /// The last row of the history and the header of the files, by the names that they have there.
+    fn print_json(&self) -> Result<()> {
+        let mut summary = serde_json::Map::new();
+        for (key, text) in header::entries(&self.session) {
+            let value = match text.parse::<f64>() {
+                Ok(number) => number.into(),
+                Err(_) => text.into(),
+            };
+            summary.insert(key, value);
+        }
+        for (name, value) in history::values(&self.session) {
+            summary.insert(name.into(), value.into());
+        }
+        let directory = self.directory.path().display().to_string();
+        summary.insert("directory".into(), directory.into());
+        writeln!(
+            io::stdout().lock(),
+            "{}",
+            serde_json::Value::Object(summary)
+        )?;
+        Ok(())
+    }
+
+    fn summarize(&self) -> Result<()> {
         let simulation = self.session.simulation();
         let (moment, stats) = (simulation.moment(), simulation.stats());
         let mut out = io::stdout().lock();
-        if as_json {
-            let mut summary = serde_json::to_value(moment)?;
-            for (key, value) in self.session.statements() {
-                summary[key.as_str()] = match value.parse::<f64>() {
-                    Ok(number) => number.into(),
-                    Err(_) => value.as_str().into(),
-                };
-            }
-            summary["directory"] = self.directory.path().display().to_string().into();
-            writeln!(out, "{summary}")?;
-            return Ok(());
-        }
         writeln!(
             out,
             "{}: {} cycles",

@@ -15,14 +15,24 @@ use crate::math::abel::AbelMethod;
 use crate::plot::{Axis, Curve, Plot, Scale};
 use crate::scenario::Scenario;
 use crate::studies::refinement::Verdict;
-use crate::studies::trade::report::{Trial, cheapest, cheapest_for_scar, front, points, table};
+use crate::studies::trade::report::{Trial, cheapest, front, points, table};
 use crate::studies::trade::{self, Adaptive, Errors, Ladder, Sample, Setting};
 
 /// Accuracies whose own search for a level is timed beside the fixed settings.
 const ACCURACIES: [f64; 2] = [1e-2, 1e-3];
 
+/// Errors below this one are small enough for any figure: the search ends there, or where the reference blurs.
+const FINE: f64 = 1e-3;
+
+/// By how many times more work a setting may still be tried after one that is fine enough: work tells the time of
+/// different methods only roughly.
+const SLOWER: f64 = 2.0;
+
 /// The longest that such a search may take, s.
-const PATIENCE: f64 = 60.0;
+const PATIENCE: f64 = 10.0;
+
+/// The accuracy that a setting is recommended for where none is asked for.
+const USUAL: f64 = ACCURACIES[0];
 
 /// Runs the study and prints, draws and writes what was asked for.
 pub fn trade(options: &Trade) -> Result<ExitCode> {
@@ -45,6 +55,7 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
         ladder.methods.clone_from(&options.methods);
     }
     let study = Study {
+        is_usual: options.points == trade::POINTS && options.steps == trade::STEPS,
         settings: ladder.settings(&scenario),
         reference: ladder.reference(&scenario),
         scenario,
@@ -66,6 +77,7 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
         results::print_json(&rows(), &mut out)?;
     } else {
         write!(out, "{}", text(&notes, &found, options))?;
+        writeln!(out, "{}", advice(&found))?;
     }
     Ok(match found.interrupted {
         true => ExitCode::from(FAILED),
@@ -85,11 +97,10 @@ fn recommend(found: &Found, accuracy: f64, json: bool, out: &mut impl Write) -> 
         results::print_json(&table([trial], &found.trials), out)?;
         return Ok(ExitCode::SUCCESS);
     }
-    if let Ok((sample, errors)) = &trial.outcome {
+    if let Some((seconds, error)) = trial.point() {
         writeln!(
             out,
-            "# error {:.1e} of the largest depth (rms), in {:.1e} s",
-            errors.rms, sample.seconds
+            "# error {error:.1e} at worst (depth, V, E_d, F_x), in {seconds:.1e} s"
         )?;
     }
     for (key, value) in trial.setting.keys() {
@@ -103,6 +114,8 @@ struct Study {
     cycles: f64,
     settings: Vec<Setting>,
     reference: Setting,
+    /// Whether nobody chose what is tried; then the slow rest is left out.
+    is_usual: bool,
 }
 
 struct Found {
@@ -156,7 +169,15 @@ impl Study {
             adaptive: Vec::new(),
             interrupted,
         };
+        // Settings that take longer than one that is as good as the reference can tell add nothing.
+        let resolved = found.convergence.map_or(0.0, |errors| errors.worst());
+        let mut enough = f64::INFINITY;
         for setting in &self.settings {
+            let is_slow = setting.effort(self.cycles) as f64 > SLOWER * enough;
+            if self.is_usual && is_slow {
+                bar.inc(setting.effort(self.cycles));
+                continue;
+            }
             let Some(outcome) = run(setting, "") else {
                 found.interrupted = true;
                 break;
@@ -165,10 +186,37 @@ impl Study {
                 let errors = sample.against(&found.reference);
                 (sample, errors)
             });
-            found.trials.push(Trial {
+            let trial = Trial {
                 setting: *setting,
                 outcome: outcome.map_err(|error| error.to_string()),
-            });
+            };
+            if trial
+                .point()
+                .is_some_and(|(_, error)| error <= resolved.max(FINE))
+            {
+                enough = enough.min(setting.effort(self.cycles) as f64);
+            }
+            found.trials.push(trial);
+        }
+        // Those that the result names are timed well.
+        bar.set_message("timing");
+        let named: Vec<Setting> = front(&found.trials)
+            .iter()
+            .map(|trial| trial.setting)
+            .collect();
+        for trial in &mut found.trials {
+            if let Ok((sample, _)) = &mut trial.outcome
+                && named.contains(&trial.setting)
+            {
+                let go_on = |_| !stop.load(Ordering::Relaxed);
+                sample.seconds = trade::median_time(
+                    &self.scenario,
+                    &trial.setting,
+                    self.cycles,
+                    sample.seconds,
+                    &go_on,
+                );
+            }
         }
         for accuracy in ACCURACIES.into_iter().filter(|_| !found.interrupted) {
             bar.set_message(format!("numerics.accuracy = {accuracy:e}"));
@@ -189,14 +237,14 @@ impl Study {
         let Setting { points, steps, .. } = self.reference;
         let converged = found.convergence.map_or(String::new(), |errors| {
             format!(
-                "; a level half as fine differs by {:.1e} rms, {:.1e} at most",
-                errors.rms, errors.largest
+                "; a level half as fine differs by {:.1e} at worst",
+                errors.worst()
             )
         });
         let mut notes = vec![
             format!(
-                "{}, {} cycles: error of the worn profile at the end, relative to the largest \
-                 depth",
+                "{}, {} cycles: errors at the end of depth (rms, in largest depths), V, E_d and F_x; the \
+                 worst counts, and only runs that pass their own checks",
                 self.scenario.title(),
                 number(self.cycles)
             ),
@@ -225,17 +273,16 @@ fn cost(adaptive: &Adaptive, found: &Found) -> String {
         verdict,
         sample,
     } = adaptive;
-    let error = sample.against(&found.reference).scar;
+    let errors = sample.against(&found.reference);
+    let error = errors.rms.max(errors.volume);
     let met = match verdict {
         Verdict::Met => "",
         _ => ", not reached",
     };
-    let beside = match cheapest_for_scar(&found.trials, *accuracy) {
-        Some(trial) => {
-            let fixed = trial
-                .outcome
-                .as_ref()
-                .map_or(f64::NAN, |(run, _)| run.seconds);
+    let fixed =
+        cheapest(&found.trials, *accuracy).and_then(|trial| Some((trial, trial.point()?.0)));
+    let beside = match fixed {
+        Some((trial, fixed)) => {
             let Setting {
                 method,
                 points,
@@ -255,6 +302,37 @@ fn cost(adaptive: &Adaptive, found: &Found) -> String {
          scar and volume {error:.1e}; {beside}",
         sample.seconds, level.points, level.steps
     )
+}
+
+/// The last line: what to use, and what it costs beside the accuracy that chooses by itself.
+fn advice(found: &Found) -> String {
+    let adaptive = found
+        .adaptive
+        .iter()
+        .find(|adaptive| adaptive.accuracy == USUAL);
+    let beside = adaptive.map_or(String::new(), |adaptive| {
+        format!(
+            "; numerics.accuracy={USUAL:e} takes {:.1e} s, for any values of the other keys",
+            adaptive.sample.seconds
+        )
+    });
+    let best = cheapest(&found.trials, USUAL);
+    match best.and_then(|trial| Some((trial, trial.point()?))) {
+        Some((trial, (seconds, error))) => {
+            let keys = trial.setting.keys().into_iter();
+            let sets: Vec<String> = keys
+                .map(|(key, value)| format!("--set {key}={value}"))
+                .collect();
+            format!(
+                "use this: {}  (error {error:.1e} at worst, {seconds:.1e} s{beside})",
+                sets.join(" ")
+            )
+        }
+        None => format!(
+            "use this: --set numerics.accuracy={USUAL:e}  (no fixed setting has an error of at most {USUAL:e} and \
+             passes its own checks{beside})"
+        ),
+    }
 }
 
 /// The table under what was compared, and the plots under it.

@@ -7,6 +7,8 @@ use anyhow::Result;
 
 use super::args::Verify;
 use super::{Misuse, error_curves, progress, results};
+use crate::math::abel::AbelMethod;
+use crate::studies::verify::errors::Errors;
 use crate::studies::verify::report::{all_nodes, all_rows, problem_table};
 use crate::studies::verify::{Outcome, Problem, Study, Task};
 
@@ -36,6 +38,7 @@ pub fn verify(options: &Verify) -> Result<ExitCode> {
         results::print_json(&all_rows(&outcomes), &mut out)?;
     } else {
         write!(out, "{}", text(&study, &outcomes, options))?;
+        writeln!(out, "\n{}", verdict(&outcomes))?;
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -87,6 +90,30 @@ fn text(study: &Study, outcomes: &[Outcome], options: &Verify) -> String {
         }
     }
     text
+}
+
+/// How far the best method is from theory, in a line: its worst problem, on the finest grid of each.
+fn verdict(outcomes: &[Outcome]) -> String {
+    let stopped = outcomes.iter().filter(|o| o.errors.is_err()).count();
+    let stopped = match stopped {
+        0 => String::new(),
+        count => format!("; {count} runs stopped"),
+    };
+    let best = AbelMethod::Product;
+    let finest = Problem::ALL.into_iter().filter_map(|problem| {
+        let mine = outcomes.iter();
+        let mine = mine.filter(|o| o.task.problem == problem && o.task.method == best);
+        let outcome = mine.max_by_key(|o| o.task.points)?;
+        let errors = outcome.errors.as_ref().ok()?.iter().map(Errors::rms);
+        Some((errors.fold(0.0, f64::max), outcome.task))
+    });
+    match finest.max_by(|a, b| a.0.total_cmp(&b.0)) {
+        Some((error, task)) => format!(
+            "verdict: {best} within {error:.1e} rms of theory ({}, N = {}){stopped}",
+            task.problem, task.points
+        ),
+        None => format!("verdict: {best} was not tried{stopped}"),
+    }
 }
 
 /// What the errors of each problem are.

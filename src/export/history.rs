@@ -12,7 +12,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::header::lines;
-use crate::scenario::scalars::{self, Reading};
+use crate::scenario::scalars::{self, Reading, Value};
 use crate::scenario::session::Session;
 
 /// The columns, in order.
@@ -195,9 +195,19 @@ impl History {
 }
 
 fn row(session: &Session) -> String {
+    values(session).map(|(_, value)| value.field()).join(",")
+}
+
+/// The columns of the present moment with their values.
+pub fn values(session: &Session) -> [(&'static str, Value); COLUMNS.len()] {
     let reading = Reading::new(session);
-    let field = |name| scalars::find(name).map_or_else(String::new, |s| s.read(&reading).field());
-    COLUMNS.map(field).join(",")
+    COLUMNS.map(|name| {
+        let scalar = scalars::find(name);
+        (
+            name,
+            scalar.map_or(Value::Missing, |scalar| scalar.read(&reading)),
+        )
+    })
 }
 
 #[cfg(test)]

@@ -52,6 +52,18 @@ impl Value {
     }
 }
 
+impl From<Value> for serde_json::Value {
+    /// Numbers that are not finite, and missing ones, become null.
+    fn from(value: Value) -> Self {
+        match value {
+            Value::Number(number) => number.into(),
+            Value::Count(count) => count.into(),
+            Value::Word(word) => word.into(),
+            Value::Missing => Self::Null,
+        }
+    }
+}
+
 /// Returns the shortest decimal form that reads back to the same bits.
 pub fn number(value: f64) -> String {
     let size = value.abs();

@@ -389,12 +389,35 @@ fn json_parses_and_quiet_is_quiet() {
     assert_eq!(summary["directory"], "a");
     let scenario = Scenario::load("mindlin", &[]).expect("a preset");
     assert_eq!(summary["cycle"].as_f64(), scenario.run().cycles);
-    assert!(
-        summary["contact_radius"]
-            .as_f64()
-            .is_some_and(|radius| radius > 0.0)
-    );
+    // The names and the values of the files.
+    let history = Table::parse(&dir.read("a/history.csv"));
+    for name in &history.columns {
+        let value = &summary[name.as_str()];
+        if name == "regime" {
+            assert_eq!(
+                value.as_str().unwrap_or_default(),
+                history.rows[history.rows.len() - 1][27]
+            );
+            continue;
+        }
+        let last = history.column(name).pop().expect("a row");
+        assert_eq!(
+            value.as_f64().map_or(f64::NAN, f64::abs).to_bits(),
+            last.abs().to_bits(),
+            "{name}"
+        );
+    }
+    assert_eq!(summary["checks"], "ok");
+    assert_eq!(summary["method"], history.header("method"));
     assert_eq!(dir.done("run mindlin --out b --quiet"), "");
+    let quiet =
+        dir.done("run li2019-fig3 --cycles 3 --set numerics.accuracy=1e-1 --out c --quiet --json");
+    let summary: serde_json::Value = serde_json::from_str(&quiet).expect("a JSON value");
+    let error: f64 = Table::parse(&dir.read("c/state.csv"))
+        .header("estimated_error")
+        .parse()
+        .expect("a number");
+    assert_eq!(summary["estimated_error"].as_f64(), Some(error));
     let list: serde_json::Value =
         serde_json::from_str(&dir.done("presets --json")).expect("a JSON value");
     assert_eq!(list.as_array().map(Vec::len), Some(preset::ALL.len()));

@@ -64,6 +64,10 @@ fn the_front_is_printed_and_drawn_and_everything_is_written() {
         assert!(line.contains("fixed setting"), "{line}");
     }
     assert!(out.contains("time_s"), "{out}");
+    // The last line can be typed: it passes its checks, and its worst error is small enough.
+    let last = out.lines().last().expect("a line");
+    assert!(last.starts_with("use this: --set numerics."), "{last}");
+    assert!(last.contains("numerics.accuracy=1e-2 takes"), "{last}");
     let stars = out.lines().filter(|line| line.ends_with('*')).count();
     assert!(stars >= 2, "{out}");
 
@@ -137,6 +141,8 @@ fn the_cheapest_setting_for_an_accuracy_reaches_it() {
     let found = trade::run(&scenario, &setting, 3.0, &go_on);
     let errors = found.expect("not stopped").expect("a run").against(&fine);
     assert!(errors.rms <= 2e-3, "{errors:?}");
+    // The references differ by some of it.
+    assert!(errors.worst() <= 2.5e-3, "{errors:?}");
 
     let Said { code, err, .. } = small(&["--accuracy", "1e-12"]);
     assert_eq!(code, 1);

@@ -67,6 +67,17 @@ fn the_tables_have_every_method_and_n_and_fit_eighty_columns() {
     }
     assert!(text.lines().all(|line| line.chars().count() <= 80));
     assert!(!text.contains("NaN") && !text.contains("inf "), "{text}");
+    // The last line sums up: the default method's worst error on the finest grids.
+    let last = text.lines().last().expect("a line");
+    let worst = last
+        .strip_prefix("verdict: product within ")
+        .expect("a verdict");
+    let worst: f64 = worst
+        .split(' ')
+        .next()
+        .and_then(|text| text.parse().ok())
+        .expect("a number");
+    assert!((1e-6..1e-1).contains(&worst), "{last}");
 }
 
 #[test]

@@ -94,7 +94,8 @@ pub struct Trade {
         default_values_t = trade::STEPS
     )]
     pub steps: Vec<u32>,
-    /// Print only the cheapest setting whose error is at most E, relative to the largest depth.
+    /// Print only the cheapest setting that passes its own checks and whose errors of depth, V, E_d and F_x are at
+    /// most E.
     #[arg(long, value_name = "E", value_parser = accuracy)]
     pub accuracy: Option<f64>,
     /// Print all settings, not only the Pareto front.

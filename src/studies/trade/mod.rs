@@ -1,16 +1,15 @@
 //! Speed against accuracy, measured: one scenario computed in many ways, each against a reference.
 //!
-//! The error is that of the worn profile at the end, at 401 radii in equal distances over the
-//! domain: its rms and its largest value, in units of the largest depth; also the errors of the
-//! permanent stick radius, in contact radii, and of the worn volume, relative. The reference is the
-//! best method, twice as fine as the finest setting tried; its own distance from half as fine is
-//! reported with it. What `numerics.accuracy` costs, which finds its level by itself, is measured beside.
+//! A run is judged by the worst of its errors: of the worn depth (rms over the scar, in largest depths), of V and
+//! E_d (relative), and of F_x (in μF_z). A run that fails its own checks is not recommended, whatever its errors.
+//! The reference is the best method, twice as fine as the finest setting tried; its own distance from half as fine
+//! is reported with it. What `numerics.accuracy` costs, which finds its level by itself, is measured beside.
 
 use std::time::Instant;
 
-use crate::math::abel::worn;
 use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
+use crate::simulation::verdict;
 use crate::studies::refinement::{self, Level, Outcome, RefinementError, Verdict};
 
 pub mod report;
@@ -18,10 +17,7 @@ mod setting;
 
 pub use setting::{Ladder, POINTS, STEPS, Setting, TOLERANCES};
 
-/// Radii at which profiles are compared.
-const RADII: usize = 401;
-
-/// A run is repeated until it has taken this long, s, and its median time counts.
+/// A run on the front is repeated until it has taken this long, s, and its median time counts.
 const LONG_ENOUGH: f64 = 0.06;
 
 /// The most repetitions.
@@ -30,16 +26,14 @@ const REPETITIONS: usize = 25;
 /// How a run ended.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sample {
-    /// The worn depth at equidistant radii, in units of the largest depth.
-    worn: Vec<f64>,
+    /// What runs are compared by.
+    outcome: Outcome,
     /// The permanent stick radius, m; NaN without one.
     stick_radius: f64,
     /// The contact radius, m.
     contact_radius: f64,
-    /// m³.
-    volume: f64,
-    /// The scar, as an accuracy sees it.
-    outcome: Outcome,
+    /// The worst of the run's own checks, if one fails.
+    pub failing: Option<String>,
     /// Time of one run with its set-up, s.
     pub seconds: f64,
     /// Transforms computed.
@@ -51,63 +45,80 @@ pub struct Sample {
 /// How far a run is from the reference.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Errors {
-    /// Of the profile, rms, in largest depths.
+    /// Of the worn depth, rms over the scar, in largest depths.
     pub rms: f64,
-    /// Of the profile, largest, in largest depths.
-    pub largest: f64,
-    /// Of the permanent stick radius, in contact radii.
-    pub stick_radius: f64,
     /// Of the worn volume, relative to it.
     pub volume: f64,
-    /// What `numerics.accuracy` is held against: the larger of the errors of the scar and of its volume.
-    pub scar: f64,
+    /// Of the friction work, relative to it.
+    pub work: f64,
+    /// Of F_x, in μF_z.
+    pub force: f64,
+    /// Of the permanent stick radius, in contact radii; it does not count towards the worst.
+    pub stick_radius: f64,
+}
+
+impl Errors {
+    /// The worst of depth, volume, work and force; NaN if one of them is.
+    pub fn worst(&self) -> f64 {
+        [self.rms, self.volume, self.work, self.force]
+            .into_iter()
+            .fold(
+                0.0,
+                |worst, error| if error <= worst { worst } else { error },
+            )
+    }
 }
 
 impl Sample {
     /// The differences of this run from another one.
     pub fn against(&self, reference: &Self) -> Errors {
-        let differences = || {
-            self.worn
-                .iter()
-                .zip(&reference.worn)
-                .map(|(a, b)| (a - b).abs())
-        };
-        let sum: f64 = differences().map(|error| error * error).sum();
+        let difference = self.outcome.against(&reference.outcome);
         Errors {
-            rms: (sum / RADII as f64).sqrt(),
-            largest: differences().fold(0.0, f64::max),
+            rms: difference.worn_depth,
+            volume: difference.volume,
+            work: difference.work,
+            force: difference.force,
             stick_radius: (self.stick_radius - reference.stick_radius).abs()
                 / reference.contact_radius,
-            volume: (self.volume / reference.volume - 1.0).abs(),
-            scar: self.outcome.against(&reference.outcome).promised(),
         }
     }
 }
 
-/// Runs `scenario` by `setting` over `cycles`, and again while that is quick. `go_on` is told after each
-/// cycle what share of the run is done; if it says no, there is no result.
+/// Runs `scenario` by `setting` over `cycles`. `go_on` is told after each cycle what share of the run is done; if it
+/// says no, there is no result.
 pub fn run(
     scenario: &Scenario,
     setting: &Setting,
     cycles: f64,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Option<Result<Sample, SessionError>> {
-    let (mut times, mut all) = (Vec::new(), 0.0);
-    loop {
-        let sample = match run_once(scenario, setting, cycles, go_on)? {
-            Ok(sample) => sample,
-            Err(error) => return Some(Err(error)),
-        };
-        all += sample.seconds;
-        times.push(sample.seconds);
-        if all >= LONG_ENOUGH || times.len() == REPETITIONS {
-            times.sort_by(f64::total_cmp);
-            return Some(Ok(Sample {
-                seconds: times[times.len() / 2],
-                ..sample
-            }));
+    let scenario = match setting.of(scenario) {
+        Ok(scenario) => scenario,
+        Err(error) => return Some(Err(error.into())),
+    };
+    let start = Instant::now();
+    let session = one_run(&scenario, cycles, go_on)?;
+    let seconds = start.elapsed().as_secs_f64();
+    Some(session.map(|session| sample(&session, seconds)))
+}
+
+/// The median time of one run, s, of as many as a clock needs, after `first` seconds were measured once.
+pub fn median_time(
+    scenario: &Scenario,
+    setting: &Setting,
+    cycles: f64,
+    first: f64,
+    go_on: &dyn Fn(f64) -> bool,
+) -> f64 {
+    let mut times = vec![first];
+    while times.iter().sum::<f64>() < LONG_ENOUGH && times.len() < REPETITIONS {
+        match run(scenario, setting, cycles, go_on) {
+            Some(Ok(sample)) => times.push(sample.seconds),
+            _ => break,
         }
     }
+    times.sort_by(f64::total_cmp);
+    times[times.len() / 2]
 }
 
 /// What `numerics.accuracy` costs and reaches.
@@ -143,23 +154,6 @@ pub fn adaptive(
     })
 }
 
-/// The same once, for who counts work and not time.
-pub fn run_once(
-    scenario: &Scenario,
-    setting: &Setting,
-    cycles: f64,
-    go_on: &dyn Fn(f64) -> bool,
-) -> Option<Result<Sample, SessionError>> {
-    let scenario = match setting.of(scenario) {
-        Ok(scenario) => scenario,
-        Err(error) => return Some(Err(error.into())),
-    };
-    let start = Instant::now();
-    let session = one_run(&scenario, cycles, go_on)?;
-    let seconds = start.elapsed().as_secs_f64();
-    Some(session.map(|session| sample(&session, seconds)))
-}
-
 fn one_run(
     scenario: &Scenario,
     cycles: f64,
@@ -189,18 +183,14 @@ fn one_run(
 
 fn sample(session: &Session, seconds: f64) -> Sample {
     let simulation = session.simulation();
-    let setup = simulation.setup();
     let moment = simulation.moment();
-    let depth = setup.depth_scale(moment.depth);
-    let radius = |i: usize| setup.grid.radius() * (i as f64 / (RADII - 1) as f64);
+    let checks = simulation.checks(&simulation.pressure());
+    let fails = checks.iter().any(|check| !check.holds());
     Sample {
-        worn: (0..RADII)
-            .map(|i| worn::interpolate(&setup.grid, simulation.worn_depth(), radius(i)) / depth)
-            .collect(),
+        outcome: Outcome::of(session),
         stick_radius: moment.permanent_stick_radius.unwrap_or(f64::NAN),
         contact_radius: moment.contact_radius,
-        volume: moment.wear_volume,
-        outcome: Outcome::of(session),
+        failing: verdict(&checks).filter(|_| fails),
         seconds,
         transforms: simulation.stats().transforms,
         steps: simulation.steps(),

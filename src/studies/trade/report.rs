@@ -14,13 +14,11 @@ pub struct Trial {
 }
 
 impl Trial {
-    /// Time and error (rms of the profile), of a run that came to its end.
-    fn point(&self) -> Option<(f64, f64)> {
+    /// Time and worst error of a run that came to its end and passes its own checks.
+    pub fn point(&self) -> Option<(f64, f64)> {
         let (sample, errors) = self.outcome.as_ref().ok()?;
-        errors
-            .rms
-            .is_finite()
-            .then_some((sample.seconds, errors.rms))
+        let is_sound = sample.failing.is_none() && errors.worst().is_finite();
+        is_sound.then(|| (sample.seconds, errors.worst()))
     }
 }
 
@@ -48,16 +46,6 @@ pub fn cheapest(trials: &[Trial], accuracy: f64) -> Option<&Trial> {
         .find(|trial| trial.point().is_some_and(|(_, error)| error <= accuracy))
 }
 
-/// The fastest trial whose scar and volume have errors of at most `accuracy`.
-pub fn cheapest_for_scar(trials: &[Trial], accuracy: f64) -> Option<&Trial> {
-    let met = trials.iter().filter_map(|trial| {
-        let (sample, errors) = trial.outcome.as_ref().ok()?;
-        (errors.scar <= accuracy).then_some((trial, sample.seconds))
-    });
-    let fastest = met.min_by(|(_, one), (_, other)| one.total_cmp(other));
-    fastest.map(|(trial, _)| trial)
-}
-
 /// Time and error of each trial, for a plot.
 pub fn points<'a>(trials: impl IntoIterator<Item = &'a Trial>) -> (Vec<f64>, Vec<f64>) {
     trials.into_iter().filter_map(Trial::point).unzip()
@@ -76,9 +64,11 @@ pub fn table<'a>(shown: impl IntoIterator<Item = &'a Trial>, all: &[Trial]) -> T
         Column::new("steps", Format::Count),
         Column::new("transforms", Format::Count),
         Column::grouped("against the reference", "error_rms", Format::Rough),
-        Column::grouped("against the reference", "error_max", Format::Rough),
-        Column::grouped("against the reference", "stick_error", Format::Rough),
         Column::grouped("against the reference", "volume_error", Format::Rough),
+        Column::grouped("against the reference", "work_error", Format::Rough),
+        Column::grouped("against the reference", "force_error", Format::Rough),
+        Column::grouped("against the reference", "stick_error", Format::Rough),
+        Column::new("checks", Format::Words),
         Column::new("front", Format::Words),
     ]);
     let front = front(all);
@@ -106,16 +96,18 @@ pub fn table<'a>(shown: impl IntoIterator<Item = &'a Trial>, all: &[Trial]) -> T
                 Cell::Number(sample.seconds),
                 Cell::Count(sample.steps as usize),
                 Cell::Count(sample.transforms as usize),
-                Cell::Number(errors.rms),
-                Cell::Number(errors.largest),
-                finite(errors.stick_radius),
+                finite(errors.rms),
                 finite(errors.volume),
+                finite(errors.work),
+                finite(errors.force),
+                finite(errors.stick_radius),
+                words(sample.failing.as_deref().unwrap_or("ok")),
                 words(if stands(trial) { "*" } else { "" }),
             ]),
             Err(reason) => {
                 row.resize(9, Cell::Missing);
                 row.push(Cell::Across(reason.clone()));
-                row.resize(14, Cell::Missing);
+                row.resize(16, Cell::Missing);
             }
         }
         table.push(row);
@@ -141,23 +133,22 @@ mod tests {
         Outcome::of(&Session::start(scenario).expect("a session"))
     }
 
-    fn trial(points: usize, seconds: f64, rms: f64) -> Trial {
+    fn trial(points: usize, seconds: f64, worst: f64) -> Trial {
         let sample = Sample {
-            worn: Vec::new(),
             stick_radius: 1.0,
             contact_radius: 1.0,
-            volume: 1.0,
+            failing: None,
             outcome: unworn(),
             seconds,
             transforms: 4,
             steps: 1,
         };
         let errors = Errors {
-            rms,
-            largest: rms,
+            rms: 0.5 * worst,
+            volume: worst,
+            work: 0.0,
+            force: 0.0,
             stick_radius: f64::NAN,
-            volume: 0.0,
-            scar: 2.0 * rms,
         };
         Trial {
             setting: Setting {
@@ -185,6 +176,12 @@ mod tests {
             outcome: Err("broke".into()),
             ..trial(7, 0.0, 0.0)
         });
+        // The fastest and best of all fails its own checks.
+        let mut unsound = trial(8, 0.01, 1e-6);
+        if let Ok((sample, _)) = &mut unsound.outcome {
+            sample.failing = Some("force off by 4 %".into());
+        }
+        trials.push(unsound);
         let points = |trials: Vec<&Trial>| -> Vec<usize> {
             trials.iter().map(|trial| trial.setting.points).collect()
         };
@@ -192,15 +189,13 @@ mod tests {
         assert_eq!(cheapest(&trials, 1e-2).map(|t| t.setting.points), Some(1));
         assert_eq!(cheapest(&trials, 5e-3).map(|t| t.setting.points), Some(4));
         assert_eq!(cheapest(&trials, 1e-4), None);
-        let of_scar = cheapest_for_scar(&trials, 1e-2);
-        assert_eq!(of_scar.map(|t| t.setting.points), Some(4));
         let table = table(&trials, &trials);
         let stars = table
             .rows()
             .iter()
-            .filter(|row| row[13] == Cell::Words("*".into()));
+            .filter(|row| row[15] == Cell::Words("*".into()));
         assert_eq!(stars.count(), 3);
-        assert!(table.text().contains("broke"));
-        assert_eq!(table.rows()[0][11], Cell::Missing);
+        assert!(table.text().contains("broke") && table.text().contains("force off by 4 %"));
+        assert_eq!(table.rows()[0][13], Cell::Missing);
     }
 }

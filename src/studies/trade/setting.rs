@@ -5,10 +5,10 @@ use crate::scenario::{Change, Scenario, ScenarioError};
 use crate::simulation::{Integrator, Scheme};
 
 /// Numbers of cells that are tried.
-pub const POINTS: [usize; 6] = [12, 25, 50, 100, 200, 400];
+pub const POINTS: [usize; 3] = [25, 50, 100];
 
 /// Steps a cycle that are tried.
-pub const STEPS: [u32; 6] = [8, 12, 25, 50, 100, 200];
+pub const STEPS: [u32; 3] = [12, 25, 50];
 
 /// Tolerances of jumps that are tried.
 pub const TOLERANCES: [f64; 5] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5];

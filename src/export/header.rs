@@ -26,6 +26,7 @@ pub fn entries(session: &Session) -> Vec<(String, String)> {
     let mut entries = Vec::new();
     let mut line = |key: &str, value: &str| entries.push((key.to_owned(), value.to_owned()));
     line("mdr-tui", env!("CARGO_PKG_VERSION"));
+    line("arithmetic", arithmetic());
     line("scenario", scenario.title());
     line("cycle", &number(session.simulation().cycle()));
     line("method", setup.method.name());
@@ -72,6 +73,21 @@ pub fn entries(session: &Session) -> Vec<(String, String)> {
         );
     }
     entries
+}
+
+/// What the last digits depend on: whether the processor multiplies and adds with one rounding.
+fn arithmetic() -> &'static str {
+    #[cfg(target_arch = "x86_64")]
+    {
+        match is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+            true => "x86_64, fused multiply-add",
+            false => "x86_64, separate multiply and add",
+        }
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    {
+        std::env::consts::ARCH
+    }
 }
 
 /// What the cells are: graded ones may have had nothing to narrow towards.

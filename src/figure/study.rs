@@ -221,16 +221,17 @@ fn map(slice: &Slice, column: &str) -> Chart {
         let name = "running condition changes";
         chart.curve(name, &xs, &ys, Ink::Border(2), false);
     }
-    let (borders, criteria) = (slice.borders(), slice.criteria());
-    let first = borders.len();
-    for (k, line) in borders.into_iter().chain(criteria).enumerate() {
-        let ink = if k < first { k } else { 3 + k - first };
+    for (k, (name, points)) in slice.border_points().into_iter().enumerate() {
+        let (xs, ys): (Vec<f64>, Vec<f64>) = points.into_iter().map(|[x, y]| (x, y)).unzip();
+        chart.curve(&name, &xs, &ys, Ink::Border(k), false);
+    }
+    for (k, line) in slice.criteria().into_iter().enumerate() {
         let at = line.at.iter().filter_map(|&(x, y)| {
             let y = slice.y()?.value_at(y)?;
             Some((slice.x().value_at(x as f64)?, y))
         });
         let (xs, ys): (Vec<f64>, Vec<f64>) = at.unzip();
-        chart.curve(&line.name, &xs, &ys, Ink::Border(ink), false);
+        chart.curve(&line.name, &xs, &ys, Ink::Border(3 + k), false);
     }
     chart
 }

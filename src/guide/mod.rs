@@ -52,6 +52,7 @@ topics! {
     comparing = "comparing.md": "measured data, other runs and earlier states over the plots";
     figures = "figures.md": "figures for a paper, and the figures of the paper";
     studies = "studies.md": "many runs at once: maps, sensitivities, clusters";
+    python = "python.md": "runs and figures from Python";
     rigs = "rigs.md": "real rigs: waveforms, load blocks, compliance, measured profiles, fits";
     published = "published.md": "published cases: what papers say, what this program gives";
     stiff_wear = "stiff-wear.md": "large wear coefficients: why steps have a limit";

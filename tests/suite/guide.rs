@@ -5,6 +5,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use mdr_tui::guide::TOPICS;
 use mdr_tui::scenario::Scenario;
@@ -88,6 +89,71 @@ fn examples_that_can_run_do() {
                 assert_eq!(said.code, 0, "{name}: {command:?}: {}", said.err);
             }
         }
+    }
+}
+
+/// The Python function runs, with pandas or with what it needs of it, and the other lines are Python.
+#[test]
+fn the_function_for_python_runs() {
+    let python = |dir: &TestDir, arguments: &[&str]| {
+        let program = PathBuf::from(env!("CARGO_BIN_EXE_mdr-tui"));
+        let home = program.parent().expect("a directory").to_owned();
+        let known = std::env::var_os("PATH").unwrap_or_default();
+        let path = std::iter::once(home).chain(std::env::split_paths(&known));
+        let path = std::env::join_paths(path).expect("a path");
+        Command::new("python3")
+            .args(arguments)
+            .env("PATH", path)
+            .current_dir(dir.path(""))
+            .output()
+    };
+    let dir = TestDir::new();
+    match python(&dir, &["-c", "import pandas"]) {
+        // No Python, nothing to be tried.
+        Err(_) => return,
+        Ok(said) if said.status.success() => {}
+        Ok(_) => dir.write(
+            "pandas.py",
+            b"import csv\n\
+            class DataFrame(dict): pass\n\
+            def read_csv(path, comment):\n \
+            rows = list(csv.reader(line for line in open(path) if not line.startswith(comment)))\n \
+            frame = DataFrame(zip(rows[0], zip(*rows[1:])))\n \
+            frame.attrs = {}\n \
+            return frame\n",
+        ),
+    }
+    let page = TOPICS
+        .iter()
+        .find(|topic| topic.name == "python")
+        .expect("a topic")
+        .text;
+    let script = blocks(page, "python run").concat()
+        + "history = run({'wear.coefficient': 1e-11}, scenario='gross-slip', cycles=2)\n\
+           assert history.attrs['checks'] == 'ok', history.attrs\n\
+           volume = float(list(history['wear_volume_m3'])[-1])\n\
+           assert volume == history.attrs['wear_volume_m3'] > 0\n\
+           try:\n    run({'friction.coeficient': 1})\n\
+           except RuntimeError as error:\n    print(error)\n";
+    dir.write("function.py", script.as_bytes());
+    let said = python(&dir, &["function.py"]).expect("python3");
+    let (out, err) = (
+        String::from_utf8_lossy(&said.stdout),
+        String::from_utf8_lossy(&said.stderr),
+    );
+    assert!(said.status.success() && err.is_empty(), "{err}");
+    assert!(
+        out.contains("friction.coefficient") && out.lines().count() == 1,
+        "{out}"
+    );
+    for block in blocks(page, "python") {
+        dir.write("lines.py", block.as_bytes());
+        let said = python(&dir, &["-m", "py_compile", "lines.py"]).expect("python3");
+        assert!(
+            said.status.success(),
+            "{}",
+            String::from_utf8_lossy(&said.stderr)
+        );
     }
 }
 

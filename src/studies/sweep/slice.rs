@@ -248,6 +248,35 @@ impl Slice {
         lines.filter(|line| !line.at.is_empty()).collect()
     }
 
+    /// Points of the borders in closed form, as values of both axes with the border's name: where it crosses the
+    /// columns of the map, and where it crosses its rows.
+    pub fn border_points(&self) -> Vec<(String, Vec<[f64; 2]>)> {
+        let Some(y) = self.y else {
+            return Vec::new();
+        };
+        let [wide, high] = self.size();
+        let at = |axis: usize, place: usize| {
+            let mut places = self.at.clone();
+            places[axis] = place;
+            Some((places, self.study.axes[axis].number(place)?))
+        };
+        let of = |border: Border| {
+            let columns = (0..wide).filter_map(|place| {
+                let (places, value) = at(self.x, place)?;
+                Some([value, border.crossing(&self.study, &places, y)?])
+            });
+            let rows = (0..high).filter_map(|place| {
+                let (places, value) = at(y, place)?;
+                Some([border.crossing(&self.study, &places, self.x)?, value])
+            });
+            let mut points: Vec<[f64; 2]> = columns.chain(rows).collect();
+            points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+            (format!("{}, closed form, unworn", border.name()), points)
+        };
+        let borders = Border::ALL.into_iter().map(of);
+        borders.filter(|(_, points)| points.len() > 1).collect()
+    }
+
     /// Where `column` passes through `value` above place `x`, between neighbouring points.
     fn crossings(&self, x: usize, column: &str, value: f64) -> impl Iterator<Item = f64> {
         let numbers: Vec<Option<f64>> = (0..self.size()[1])

@@ -184,7 +184,7 @@ impl Study {
             };
             let outcome = outcome.map(|sample| {
                 let errors = sample.against(&found.reference);
-                (sample, errors)
+                (sample.judged_by(&found.reference), errors)
             });
             let trial = Trial {
                 setting: *setting,

@@ -223,9 +223,12 @@ impl Data {
             let mut last = LastLoop::default();
             last.record(session.simulation(), end);
             while session.simulation().cycle() < end {
-                // The last cycle step by step, as far as it was not jumped over.
-                let next = session.simulation().cycle().floor() + 1.0;
-                session.step_until(next.min(end))?;
+                let simulation = session.simulation();
+                let next = match simulation.may_jump() {
+                    true => end,
+                    false => end.min(simulation.cycle().floor() + 1.0),
+                };
+                session.step_until(next)?;
                 last.record(session.simulation(), end);
                 if session.simulation().cycle().fract() == 0.0 {
                     record(session);

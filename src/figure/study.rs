@@ -276,11 +276,11 @@ fn curve(slice: &Slice, column: &str) -> Chart {
     }
     let edges = chart.x.edges(&places(slice.x()));
     let regime = |x: usize| slice.regime(slice.point_at(x, 0));
-    for x in 1..slice.size()[0] {
+    for (x, &edge) in edges.iter().enumerate().take(slice.size()[0]).skip(1) {
         if let (Some(before), Some(after)) = (regime(x - 1), regime(x))
             && before != after
         {
-            chart.marks.push((edges[x], REGIMES[after].1));
+            chart.marks.push((edge, REGIMES[after].1));
         }
     }
     chart

@@ -295,7 +295,7 @@ fn a_loop_is_compared_with_its_own_cycle() {
     };
     for file in ["loop.csv@3", "x/loop.csv"] {
         let (found, said) = fit(file);
-        assert!((found / 0.1 - 1.0).abs() < 1e-3, "{file}: {said}");
+        assert!((found / 0.1 - 1.0).abs() < 1e-2, "{file}: {said}");
         assert!(said.contains("in cycle 3,"), "{said}");
     }
     let (found, said) = fit("loop.csv");

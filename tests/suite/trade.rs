@@ -20,9 +20,9 @@ const SMALL: [&str; 9] = [
     "--cycles",
     "3",
     "--points",
-    "8,16,32",
+    "12,24,48",
     "--steps",
-    "10,20",
+    "50,100",
     "--methods",
     "product,a",
 ];
@@ -44,7 +44,7 @@ fn the_front_is_printed_and_drawn_and_everything_is_written() {
     let Said { code, out, err } = small(&["--plot", "--marker", "ascii", "--csv", path]);
     assert_eq!((code, err.as_str()), (0, ""));
     assert!(
-        out.contains("reference: product, N = 64, 40 steps per cycle"),
+        out.contains("reference: product, N = 96, 200 steps per cycle"),
         "{out}"
     );
     assert!(out.contains("half as fine differs by"), "{out}");
@@ -104,7 +104,7 @@ fn rows_as_json_are_all_rows() {
 
 #[test]
 fn the_cheapest_setting_for_an_accuracy_reaches_it() {
-    let Said { code, out, err } = small(&["--accuracy", "2e-3"]);
+    let Said { code, out, err } = small(&["--accuracy", "8e-3"]);
     assert_eq!((code, err.as_str()), (0, ""));
     let sets: Vec<&str> = out
         .lines()
@@ -140,9 +140,9 @@ fn the_cheapest_setting_for_an_accuracy_reaches_it() {
     };
     let found = trade::run(&scenario, &setting, 3.0, &go_on);
     let errors = found.expect("not stopped").expect("a run").against(&fine);
-    assert!(errors.rms <= 2e-3, "{errors:?}");
+    assert!(errors.rms <= 8e-3, "{errors:?}");
     // The references differ by some of it.
-    assert!(errors.worst() <= 2.5e-3, "{errors:?}");
+    assert!(errors.worst() <= 1e-2, "{errors:?}");
 
     let Said { code, err, .. } = small(&["--accuracy", "1e-12"]);
     assert_eq!(code, 1);

@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
-use crate::simulation::verdict;
+use crate::simulation::Check;
 use crate::studies::refinement::{self, Level, Outcome, RefinementError, Verdict};
 
 pub mod report;
@@ -32,8 +32,8 @@ pub struct Sample {
     stick_radius: f64,
     /// The contact radius, m.
     contact_radius: f64,
-    /// The worst of the run's own checks, if one fails.
-    pub failing: Option<String>,
+    /// The run's own checks that fail.
+    failing: Vec<Check>,
     /// Time of one run with its set-up, s.
     pub seconds: f64,
     /// Transforms computed.
@@ -60,16 +60,32 @@ pub struct Errors {
 impl Errors {
     /// The worst of depth, volume, work and force; NaN if one of them is.
     pub fn worst(&self) -> f64 {
-        [self.rms, self.volume, self.work, self.force]
-            .into_iter()
-            .fold(
-                0.0,
-                |worst, error| if error <= worst { worst } else { error },
-            )
+        let worse = |worst: f64, error: f64| match worst.is_nan() || error <= worst {
+            true => worst,
+            false => error,
+        };
+        let errors = [self.rms, self.volume, self.work, self.force];
+        errors.into_iter().fold(0.0, worse)
     }
 }
 
 impl Sample {
+    /// The checks that this run fails and the `reference` passes: what fails in both is no matter of the setting.
+    pub fn judged_by(mut self, reference: &Self) -> Self {
+        let is_common = |check: &Check| {
+            let mut others = reference.failing.iter();
+            others.any(|other| other.subject == check.subject)
+        };
+        self.failing.retain(|check| !is_common(check));
+        self
+    }
+
+    /// What is wrong with it, in words; empty if nothing is.
+    pub fn complaints(&self) -> String {
+        let complaints: Vec<String> = self.failing.iter().map(Check::complaint).collect();
+        complaints.join(", ")
+    }
+
     /// The differences of this run from another one.
     pub fn against(&self, reference: &Self) -> Errors {
         let difference = self.outcome.against(&reference.outcome);
@@ -184,13 +200,13 @@ fn one_run(
 fn sample(session: &Session, seconds: f64) -> Sample {
     let simulation = session.simulation();
     let moment = simulation.moment();
-    let checks = simulation.checks(&simulation.pressure());
-    let fails = checks.iter().any(|check| !check.holds());
+    let mut failing = simulation.checks(&simulation.pressure());
+    failing.retain(|check| !check.holds());
     Sample {
         outcome: Outcome::of(session),
         stick_radius: moment.permanent_stick_radius.unwrap_or(f64::NAN),
         contact_radius: moment.contact_radius,
-        failing: verdict(&checks).filter(|_| fails),
+        failing,
         seconds,
         transforms: simulation.stats().transforms,
         steps: simulation.steps(),

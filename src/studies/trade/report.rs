@@ -17,7 +17,7 @@ impl Trial {
     /// Time and worst error of a run that came to its end and passes its own checks.
     pub fn point(&self) -> Option<(f64, f64)> {
         let (sample, errors) = self.outcome.as_ref().ok()?;
-        let is_sound = sample.failing.is_none() && errors.worst().is_finite();
+        let is_sound = sample.failing.is_empty() && errors.worst().is_finite();
         is_sound.then(|| (sample.seconds, errors.worst()))
     }
 }
@@ -101,7 +101,10 @@ pub fn table<'a>(shown: impl IntoIterator<Item = &'a Trial>, all: &[Trial]) -> T
                 finite(errors.work),
                 finite(errors.force),
                 finite(errors.stick_radius),
-                words(sample.failing.as_deref().unwrap_or("ok")),
+                words(match sample.complaints().as_str() {
+                    "" => "ok",
+                    complaints => complaints,
+                }),
                 words(if stands(trial) { "*" } else { "" }),
             ]),
             Err(reason) => {
@@ -125,7 +128,7 @@ mod tests {
     use crate::math::abel::AbelMethod;
     use crate::scenario::Scenario;
     use crate::scenario::session::Session;
-    use crate::simulation::Scheme;
+    use crate::simulation::{Check, Scheme, Subject};
     use crate::studies::refinement::Outcome;
 
     fn unworn() -> Outcome {
@@ -137,7 +140,7 @@ mod tests {
         let sample = Sample {
             stick_radius: 1.0,
             contact_radius: 1.0,
-            failing: None,
+            failing: Vec::new(),
             outcome: unworn(),
             seconds,
             transforms: 4,
@@ -179,7 +182,10 @@ mod tests {
         // The fastest and best of all fails its own checks.
         let mut unsound = trial(8, 0.01, 1e-6);
         if let Ok((sample, _)) = &mut unsound.outcome {
-            sample.failing = Some("force off by 4 %".into());
+            sample.failing = vec![Check {
+                subject: Subject::Force,
+                error: 0.04,
+            }];
         }
         trials.push(unsound);
         let points = |trials: Vec<&Trial>| -> Vec<usize> {
@@ -195,7 +201,7 @@ mod tests {
             .iter()
             .filter(|row| row[15] == Cell::Words("*".into()));
         assert_eq!(stars.count(), 3);
-        assert!(table.text().contains("broke") && table.text().contains("force off by 4 %"));
+        assert!(table.text().contains("broke") && table.text().contains("force off by 4.0 %"));
         assert_eq!(table.rows()[0][13], Cell::Missing);
     }
 }

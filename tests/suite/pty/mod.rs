@@ -205,11 +205,11 @@ impl Terminal {
         self.wait_until(text, |screen| screen.contents().contains(text));
     }
 
-    /// Waits until nothing has come out for a while.
+    /// Waits until nothing has come out for a while: longer than a busy machine needs to answer a key.
     pub fn wait_for_silence(&self) {
         let start = Instant::now();
         let (mut length, mut since) = (0, start);
-        while since.elapsed() < Duration::from_millis(300) {
+        while since.elapsed() < Duration::from_millis(1000) {
             let now = self.raw().len();
             if now != length {
                 (length, since) = (now, Instant::now());

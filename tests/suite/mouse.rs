@@ -2,11 +2,11 @@
 //! clicks and the wheel as a terminal tells of them.
 
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use vt100::{Color, MouseProtocolEncoding, MouseProtocolMode};
 
-use crate::pty::{Terminal, program};
+use crate::pty::{PATIENCE, Terminal, program};
 
 const ON: &str = "\x1b[?1000h\x1b[?1006h";
 const OFF: &str = "\x1b[?1006l\x1b[?1000l";
@@ -46,11 +46,24 @@ fn panels(terminal: &Terminal) -> Vec<&'static str> {
     titles.into_iter().filter(is_shown).collect()
 }
 
+/// Waits until the screen shows these panels and no others.
+fn await_panels(terminal: &Terminal, expected: &[&str]) {
+    let start = Instant::now();
+    while panels(terminal) != expected && start.elapsed() < PATIENCE {}
+    assert_eq!(panels(terminal), expected);
+}
+
 /// The radius that the cursor reads, µm.
 fn radius(terminal: &Terminal) -> f64 {
-    terminal.wait_for_silence();
-    let text = terminal.text();
-    let foot = text.lines().last().unwrap_or_default();
+    let start = Instant::now();
+    let foot = loop {
+        terminal.wait_for_silence();
+        let text = terminal.text();
+        let foot = text.lines().last().unwrap_or_default().to_owned();
+        if foot.trim_start().starts_with("r ") || start.elapsed() > PATIENCE {
+            break foot;
+        }
+    };
     let mut words = foot.split_whitespace();
     assert_eq!(words.next(), Some("r"), "{foot}");
     let number = words.next().and_then(|word| word.parse().ok());
@@ -89,7 +102,7 @@ fn without_the_option_the_terminal_keeps_its_mouse() {
     // What a terminal in an odd mode may tell all the same.
     terminal.press(&click(60, 3));
     terminal.press("z");
-    assert_eq!(panels(&terminal), ["3D profile"]);
+    await_panels(&terminal, &["3D profile"]);
     terminal.press("q");
     terminal.wait_for_end();
     let text = String::from_utf8_lossy(&terminal.raw()).into_owned();
@@ -107,25 +120,25 @@ fn a_click_focuses_and_another_zooms() {
     assert_eq!(all.len(), 4, "{}", terminal.text());
     // At first the profile has the focus.
     terminal.press(&click(60, 3));
-    assert_eq!(panels(&terminal), all);
+    await_panels(&terminal, &all);
     terminal.press("z");
-    assert_eq!(panels(&terminal), ["stresses"]);
+    await_panels(&terminal, &["stresses"]);
     terminal.press("z");
-    assert_eq!(panels(&terminal), all);
+    await_panels(&terminal, &all);
     thread::sleep(APART);
     terminal.press(&click(60, 3));
-    assert_eq!(panels(&terminal), ["stresses"]);
+    await_panels(&terminal, &["stresses"]);
     thread::sleep(APART);
     terminal.press(&click(10, 20));
-    assert_eq!(panels(&terminal), all);
+    await_panels(&terminal, &all);
 
     // A double click zooms whether the panel had the focus or not.
     for panel in ["fretting loop", "fretting loop"] {
         thread::sleep(APART);
         terminal.press(&click(10, 20).repeat(2));
-        assert_eq!(panels(&terminal), [panel]);
+        await_panels(&terminal, &[panel]);
         terminal.press("\x1b");
-        assert_eq!(panels(&terminal), all);
+        await_panels(&terminal, &all);
     }
 
     // Status line and footer, other buttons, the wheel: nothing.
@@ -139,9 +152,9 @@ fn a_click_focuses_and_another_zooms() {
     ] {
         terminal.press(event);
         terminal.press("z");
-        assert_eq!(panels(&terminal), ["fretting loop"], "{event:?}");
+        await_panels(&terminal, &["fretting loop"]);
         terminal.press("z");
-        assert_eq!(panels(&terminal), all, "{event:?}");
+        await_panels(&terminal, &all);
     }
     terminal.press("q");
     terminal.wait_for_end();
@@ -177,13 +190,13 @@ fn a_click_in_a_plot_moves_the_cursor_there() {
     assert_eq!(radius(&terminal), seen[5]);
     thread::sleep(APART);
     terminal.press(&click(60, 18));
-    assert_eq!(panels(&terminal), ["radii over cycles"]);
+    await_panels(&terminal, &["radii over cycles"]);
     terminal.press("q");
     terminal.wait_for_end();
 }
 
 /// The signs on the screen and how they look; blanks have no ink.
-fn shown(terminal: &Terminal) -> Vec<(String, Color, bool, bool)> {
+fn shown(terminal: &Terminal) -> Shown {
     terminal.wait_for_silence();
     terminal.look(|screen| {
         let (rows, columns) = screen.size();
@@ -200,6 +213,19 @@ fn shown(terminal: &Terminal) -> Vec<(String, Color, bool, bool)> {
     })
 }
 
+type Shown = Vec<(String, Color, bool, bool)>;
+
+/// What the screen shows once `is_there` says so, or when patience ends.
+fn shown_when(terminal: &Terminal, is_there: impl Fn(&Shown) -> bool) -> Shown {
+    let start = Instant::now();
+    loop {
+        let now = shown(terminal);
+        if is_there(&now) || start.elapsed() > PATIENCE {
+            return now;
+        }
+    }
+}
+
 #[test]
 fn the_wheel_moves_in_lists_and_help() {
     let [down, up] = ["\x1b[B", "\x1b[A"];
@@ -207,26 +233,43 @@ fn the_wheel_moves_in_lists_and_help() {
     // The help is longer than this screen.
     let mut terminal = paused(&["--mouse"]);
     terminal.resize(80, 18);
+    let before = shown(&terminal);
     for open in ["?", "p", "e", ":"] {
         terminal.press(open);
-        let first = shown(&terminal);
+        let first = shown_when(&terminal, |now| *now != before);
         terminal.press(down);
-        let second = shown(&terminal);
+        let second = shown_when(&terminal, |now| *now != first);
         assert!(first != second, "{open}: {}", terminal.text());
         terminal.press(up);
-        assert!(shown(&terminal) == first, "{open}: {}", terminal.text());
+        assert!(
+            shown_when(&terminal, |now| *now == first) == first,
+            "{open}: {}",
+            terminal.text()
+        );
         terminal.press(wheel_down);
-        assert!(shown(&terminal) == second, "{open}: {}", terminal.text());
+        assert!(
+            shown_when(&terminal, |now| *now == second) == second,
+            "{open}: {}",
+            terminal.text()
+        );
         // A click in what is open does nothing to the panels below.
         terminal.press(&click(60, 3));
-        assert!(shown(&terminal) == second, "{open}: {}", terminal.text());
+        assert!(
+            shown_when(&terminal, |now| *now == second) == second,
+            "{open}: {}",
+            terminal.text()
+        );
         terminal.press(wheel_up);
-        assert!(shown(&terminal) == first, "{open}: {}", terminal.text());
+        assert!(
+            shown_when(&terminal, |now| *now == first) == first,
+            "{open}: {}",
+            terminal.text()
+        );
         terminal.press("\x1b");
-        terminal.wait_for_silence();
+        shown_when(&terminal, |now| *now == before);
     }
     terminal.press("z");
-    assert_eq!(panels(&terminal), ["3D profile"]);
+    await_panels(&terminal, &["3D profile"]);
     terminal.press("q");
     terminal.wait_for_end();
 }

@@ -3,7 +3,7 @@
 /// Takes longer than anybody waits if the environment variable `MDR_TUI_FAULT` names this place.
 #[cfg(debug_assertions)]
 pub(crate) fn stall(place: &str) {
-    if std::env::var("MDR_TUI_FAULT").as_deref() == Ok(place) {
+    if is_asked_for(place) {
         std::thread::sleep(std::time::Duration::from_secs(3600));
     }
 }
@@ -14,4 +14,10 @@ pub(crate) fn hit(place: &str) {
         std::env::var("MDR_TUI_FAULT").as_deref() != Ok(place),
         "a fault in the {place}, as asked for"
     );
+}
+
+/// Whether the environment variable `MDR_TUI_FAULT` names this place.
+#[cfg(debug_assertions)]
+pub(crate) fn is_asked_for(place: &str) -> bool {
+    std::env::var("MDR_TUI_FAULT").as_deref() == Ok(place)
 }

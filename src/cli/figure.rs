@@ -9,7 +9,7 @@ use anyhow::{Context, Result};
 
 use super::args::{Figure, PaperFigure, StyleChoice};
 use super::{Misuse, accuracy, job};
-use crate::export::file::write_whole;
+use crate::export::target::{Target, write_all};
 use crate::figure::chart::Chart;
 use crate::figure::data::{Data, Table};
 use crate::figure::ink::{Ink, Look, Style};
@@ -36,30 +36,33 @@ const USUAL: [Panel; 4] = [
 
 /// Draws the figure and writes it, with its data beside it.
 pub fn figure(options: &Figure) -> Result<ExitCode> {
-    let mut files: Vec<(&Path, Format)> = Vec::new();
-    let mut data_files: Vec<PathBuf> = Vec::new();
+    let mut files: Vec<(Target, Format)> = Vec::new();
+    let mut data_files: Vec<Target> = Vec::new();
     for path in &options.out {
         let format = Format::of(path).ok_or_else(|| {
             let path = path.display();
             Misuse(format!("-o {path}: must end in .svg, .png or .pdf"))
         })?;
-        files.push((path, format));
-        check(path, options.force)?;
+        if files.iter().any(|(target, _)| target.path() == path) {
+            continue;
+        }
+        files.push((Target::claim(path, options.force)?, format));
         let beside = data_file(path, options);
-        if !data_files.contains(&beside) {
+        if data_files.iter().all(|target| target.path() != beside) {
             refuse_to_write_over_data(options, &beside)?;
+            let target = Target::hold(&beside)?;
             if !is_data_of_a_figure(&beside) {
-                check(&beside, options.force)?;
+                target.refuse_existing(options.force)?;
             }
-            data_files.push(beside);
+            data_files.push(target);
         }
     }
     let sheet = sheet(options)?;
     let data = sheet.csv();
-    for path in &data_files {
+    for target in &data_files {
         // The same figure in another format has the same data.
-        if fs::read(path).ok().as_deref() != Some(data.as_bytes()) {
-            check(path, options.force)?;
+        if fs::read(target.path()).ok().as_deref() != Some(data.as_bytes()) {
+            target.refuse_existing(options.force)?;
         }
     }
     let look = Look {
@@ -72,21 +75,18 @@ pub fn figure(options: &Figure) -> Result<ExitCode> {
     let size = options.size.unwrap_or_else(|| sheet.usual_size());
     let canvas = sheet.draw(size, &look);
     let dpi = f64::from(options.dpi);
-    let pictures = files.iter().map(|(path, format)| {
+    let pictures = files.iter().map(|(target, format)| {
         let picture = format.write(&canvas, dpi);
-        picture.map_err(|error| Misuse(format!("{}: {error}", path.display())))
+        picture.map_err(|error| Misuse(format!("{}: {error}", target.path().display())))
     });
     let pictures = pictures.collect::<Result<Vec<_>, _>>()?;
-    for path in &data_files {
-        write_whole(path, data.as_bytes())?;
-    }
-    for ((path, _), picture) in files.iter().zip(&pictures) {
-        write_whole(path, picture)?;
-    }
+    let targets = files.iter().map(|(target, _)| target);
+    let pictures = targets.clone().zip(pictures.iter().map(Vec::as_slice));
+    let tables = data_files.iter().map(|target| (target, data.as_bytes()));
+    write_all(&tables.chain(pictures).collect::<Vec<_>>())?;
     if !options.quiet {
-        let names = files.iter().map(|(path, _)| *path);
-        let names = names.chain(data_files.iter().map(PathBuf::as_path));
-        let names = names.map(|path| printable(&path.display().to_string()));
+        let names = targets.chain(&data_files);
+        let names = names.map(|target| printable(&target.path().display().to_string()));
         let names: Vec<String> = names.collect();
         writeln!(io::stdout().lock(), "{}", names.join(" and "))?;
     }
@@ -111,23 +111,6 @@ fn data_file(path: &Path, options: &Figure) -> PathBuf {
 fn is_data_of_a_figure(path: &Path) -> bool {
     let text = fs::read_to_string(path).unwrap_or_default();
     text.starts_with("# mdr-tui: ") && text.contains("\npanel,curve,x,y,value,error\n")
-}
-
-/// Refuses an output file that exists already or whose directory does not exist.
-fn check(path: &Path, force: bool) -> Result<(), Misuse> {
-    let refuse = |why: &str| Err(Misuse(format!("-o {}: {why}", path.display())));
-    if path.is_dir() {
-        return refuse("is a directory");
-    }
-    if path.exists() && !force {
-        return refuse("already exists; choose another name or add --force");
-    }
-    match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() && !parent.is_dir() => {
-            refuse("its directory does not exist")
-        }
-        _ => Ok(()),
-    }
 }
 
 /// `--force` is for figures: measured data beside one are not written over.

@@ -10,7 +10,7 @@ use ratatui::style::Style;
 
 use super::args;
 use super::{Misuse, accuracy, progress, results, small_multiples};
-use crate::export::file::write_whole;
+use crate::export::target::Target;
 use crate::plot::{Axis, Curve, Marker, Plot};
 use crate::scenario::Scenario;
 use crate::scenario::columns::Columns;
@@ -35,22 +35,17 @@ pub fn fit(options: &args::Fit) -> Result<ExitCode> {
         options.robust,
     )
     .map_err(misuse)?;
-    if let Some(out) = &options.out
-        && out.exists()
-        && !options.force
-    {
-        let message = format!(
-            "--out {}: already exists; choose another name or add --force",
-            out.display()
-        );
-        return Err(Misuse(message).into());
-    }
+    let target = options
+        .out
+        .as_deref()
+        .map(|out| Target::claim(out, options.force))
+        .transpose()?;
     let bar = progress::bar(0, "{pos} runs  {elapsed} gone", options.printing.quiet);
     let outcome = fit.run(&mut || bar.inc(1));
     bar.finish_and_clear();
     let fitted = outcome.map_err(misuse)?;
-    if let Some(out) = &options.out {
-        write_whole(out, fitted.scenario.to_toml().as_bytes())?;
+    if let Some(target) = target {
+        target.write(fitted.scenario.to_toml().as_bytes())?;
     }
     let mut out = io::stdout().lock();
     if options.printing.json {

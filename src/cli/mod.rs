@@ -157,10 +157,14 @@ fn exit_code(error: &anyhow::Error) -> u8 {
 
 /// `mdr-tui presets | head -1` is not an error.
 fn is_closed_pipe(error: &anyhow::Error) -> bool {
-    error
-        .chain()
-        .filter_map(|cause| cause.downcast_ref::<io::Error>())
-        .any(|error| error.kind() == io::ErrorKind::BrokenPipe)
+    let io_error = |cause: &'_ (dyn std::error::Error + 'static)| {
+        let error = match cause.downcast_ref() {
+            Some(WriteError::Io { cause, .. }) => Some(cause),
+            _ => cause.downcast_ref::<io::Error>(),
+        };
+        error.is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
+    };
+    error.chain().any(io_error)
 }
 
 /// Help and version go to stdout as they are; a mistake becomes one line.

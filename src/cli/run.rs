@@ -168,6 +168,10 @@ impl Job {
             }
         }
         let session = Session::start(scenario).with_context(|| printable(name))?;
+        // Only now, when there is something to put in their place.
+        if options.force {
+            directory.clear()?;
+        }
         Ok(Self::new(name, session, job, None, directory, options))
     }
 

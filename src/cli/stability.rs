@@ -16,7 +16,7 @@ use crate::studies::stability::{Line, Setting, Study};
 
 /// Runs the study and prints, draws and writes what was asked for.
 pub fn stability(options: &Stability) -> Result<ExitCode> {
-    options.rows.check()?;
+    let target = options.rows.claim()?;
     let scenario = Scenario::load(&options.scenario, &options.changes.set)?;
     let title = scenario.title().to_owned();
     let Some(study) = Study::new(scenario, options.cycles)? else {
@@ -37,7 +37,7 @@ pub fn stability(options: &Stability) -> Result<ExitCode> {
         notes.push("interrupted: the last line is not complete".to_owned());
     }
     let table = || runs(&lines).csv();
-    options.rows.write("stability", &notes, table)?;
+    results::write(target.as_ref(), "stability", &notes, table)?;
     let mut out = io::stdout().lock();
     if options.printing.json {
         results::print_json(&runs(&lines), &mut out)?;

@@ -36,7 +36,7 @@ const USUAL: f64 = ACCURACIES[0];
 
 /// Runs the study and prints, draws and writes what was asked for.
 pub fn trade(options: &Trade) -> Result<ExitCode> {
-    options.rows.check()?;
+    let target = options.rows.claim()?;
     let scenario = Scenario::load(&options.scenario, &options.changes.set)?;
     let cycles = end(options.cycles.or(scenario.run().cycles), &options.scenario)?;
     if scenario.setup().wear.is_none() {
@@ -68,7 +68,7 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
     };
     let rows = || table(&found.trials, &found.trials);
     let notes = study.notes(&found);
-    options.rows.write("trade", &notes, || rows().csv())?;
+    results::write(target.as_ref(), "trade", &notes, || rows().csv())?;
     let mut out = io::stdout().lock();
     if let Some(accuracy) = options.accuracy {
         return recommend(&found, accuracy, options.printing.json, &mut out);

@@ -14,7 +14,7 @@ use crate::studies::verify::{Outcome, Problem, Study, Task};
 
 /// Runs the study and prints, draws and writes what was asked for.
 pub fn verify(options: &Verify) -> Result<ExitCode> {
-    options.rows.check()?;
+    let target = options.rows.claim()?;
     let study = Study {
         problems: if options.problem.is_empty() {
             Problem::ALL.to_vec()
@@ -32,7 +32,7 @@ pub fn verify(options: &Verify) -> Result<ExitCode> {
     let outcomes = run(&tasks, options.printing.quiet);
     // The file first: a closed pipe on stdout must not cost it.
     let table = || all_nodes(&outcomes).csv();
-    options.rows.write("verify", &notes(&outcomes), table)?;
+    results::write(target.as_ref(), "verify", &notes(&outcomes), table)?;
     let mut out = io::stdout().lock();
     if options.printing.json {
         results::print_json(&all_rows(&outcomes), &mut out)?;

@@ -5,8 +5,9 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime};
 
-use super::claim::is_at;
+use super::claim::{is_at, try_lock};
 use super::file::{WriteError, sweep, write_with};
+use super::own;
 
 /// Maximum age of the copy in memory that survives a bug.
 pub const COPY_INTERVAL: Duration = Duration::from_millis(100);
@@ -63,7 +64,7 @@ impl Autosave {
             // An empty file claims the name, so that two explorers never share one.
             match File::create_new(&path) {
                 Ok(file) => {
-                    let _ = file.try_lock();
+                    let _ = try_lock(&file);
                     let file = Some(file);
                     return Ok(Self {
                         file,
@@ -123,10 +124,10 @@ fn prune(mut others: Vec<Found>, highest: Option<u64>) {
         if Some(other.number) == highest {
             continue;
         }
-        let Ok(file) = File::open(&other.path) else {
+        let Ok(file) = own::open(&other.path, false) else {
             continue;
         };
-        let is_live = matches!(file.try_lock(), Err(TryLockError::WouldBlock));
+        let is_live = matches!(try_lock(&file), Err(TryLockError::WouldBlock));
         if !is_live && is_at(&file, &other.path) {
             // One that cannot be removed does no harm.
             let _ = fs::remove_file(&other.path);

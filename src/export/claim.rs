@@ -1,38 +1,50 @@
-//! Claims a directory for one process, by a lock file that lives as long as the process.
+//! Claims a directory or a file for one process, by a lock file that lives as long as the process.
 //!
-//! The system's lock decides, so the file of a killed process is recognised as stale. The contents,
-//! `PROCESS HOST`, are for people and for file systems without locks.
+//! The system's lock decides, so the file of a killed process is recognised as stale. On a file system
+//! without locks the contents, `PROCESS HOST`, decide: whoever makes the file has the claim.
 
-use std::fs::{File, OpenOptions, TryLockError};
+use std::fs::{self, File, TryLockError};
 use std::io::{self, Read, Seek, Write};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use nix::errno::Errno;
+use nix::sys::signal::kill;
+use nix::unistd::Pid;
+
+use super::own;
 
 /// The name of the lock file in a directory.
 pub const LOCK: &str = ".mdr-tui-lock";
 
-/// A directory that belongs to this process until this is dropped.
+/// The longest name of a file that its lock's name repeats; longer ones would become too long.
+const LONGEST: usize = 200;
+
+/// Without locks, how long a file may be empty that its maker is about to write.
+const UNWRITTEN: Duration = Duration::from_secs(10);
+
+/// A directory or a file that belongs to this process until this is dropped.
 #[derive(Debug)]
 pub struct Claim {
     path: PathBuf,
     /// Whether the directory goes too if nothing has been written into it.
     pub(super) is_new: bool,
     /// Locked as long as it is open.
-    _file: File,
+    file: File,
 }
 
-/// Why a directory cannot be claimed.
+/// Why something cannot be claimed.
 #[derive(Debug)]
 pub enum Refusal {
     /// Another process writes there; its identity, if known.
     Taken(Option<Owner>),
     /// The system refused.
-    Io(io::Error),
-}
-
-impl From<io::Error> for Refusal {
-    fn from(cause: io::Error) -> Self {
-        Self::Io(cause)
-    }
+    Io {
+        /// The lock file.
+        path: PathBuf,
+        /// Why.
+        cause: io::Error,
+    },
 }
 
 /// A process and the machine that it runs on.
@@ -65,9 +77,15 @@ impl Owner {
         })
     }
 
+    /// Whether the process runs on this machine.
+    pub fn is_here(&self) -> bool {
+        self.host == Self::this().host
+    }
+
     /// Whether the process may still be there. Always true for another machine.
     fn may_live(&self) -> bool {
-        self.host != Self::this().host || Path::new(&format!("/proc/{}", self.process)).exists()
+        let process = i32::try_from(self.process).map(Pid::from_raw);
+        !self.is_here() || process.is_ok_and(|process| kill(process, None) != Err(Errno::ESRCH))
     }
 }
 
@@ -78,36 +96,80 @@ impl Claim {
     ///
     /// [`Refusal::Taken`] if a living process has claimed it, [`Refusal::Io`] if no file can be made.
     pub fn take(directory: &Path) -> Result<Self, Refusal> {
-        let path = directory.join(LOCK);
+        Self::at(directory.join(LOCK))
+    }
+
+    /// Claims the file called `name` in `directory`, whether it is there or not, for this process.
+    ///
+    /// # Errors
+    ///
+    /// As [`take`](Self::take).
+    pub fn take_file(directory: &Path, name: &str) -> Result<Self, Refusal> {
+        let name = match name.len() {
+            0..=LONGEST => format!(".mdr-tui-{name}.lock"),
+            _ => format!(".mdr-tui-{:08x}.lock", crc32fast::hash(name.as_bytes())),
+        };
+        Self::at(directory.join(name))
+    }
+
+    fn at(path: PathBuf) -> Result<Self, Refusal> {
+        match Self::try_at(&path) {
+            Ok(Ok(file)) => Ok(Self {
+                path,
+                is_new: false,
+                file,
+            }),
+            Ok(Err(owner)) => Err(Refusal::Taken(owner)),
+            Err(cause) => Err(Refusal::Io { path, cause }),
+        }
+    }
+
+    /// The file, locked and with this process in it, or who has it.
+    fn try_at(path: &Path) -> io::Result<Result<File, Option<Owner>>> {
         loop {
-            let mut options = OpenOptions::new();
-            options.read(true).write(true).create(true).truncate(false);
-            let mut file = options.open(&path)?;
-            match file.try_lock() {
-                Ok(()) => {}
-                Err(TryLockError::WouldBlock) => return Err(Refusal::Taken(Owner::of(&mut file))),
-                // On a file system without locks, relies on the contents.
-                Err(TryLockError::Error(_)) => {
-                    if let Some(owner) = Owner::of(&mut file).filter(Owner::may_live) {
-                        return Err(Refusal::Taken(Some(owner)));
+            let (mut file, is_made_here) = match own::open(path, true) {
+                Ok(file) => (file, true),
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
+                    match own::open(path, false) {
+                        Ok(file) => (file, false),
+                        // The previous owner has removed it in the meantime.
+                        Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
+                        Err(error) => return Err(error),
                     }
                 }
+                Err(error) => return Err(error),
+            };
+            let has_lock = match try_lock(&file) {
+                Ok(()) => true,
+                Err(TryLockError::WouldBlock) => return Ok(Err(Owner::of(&mut file))),
+                Err(TryLockError::Error(_)) => false,
+            };
+            if has_lock && !is_at(&file, path) {
+                continue;
             }
-            // The previous owner may have removed it in the meantime.
-            if !is_at(&file, &path) {
+            if !has_lock && !is_made_here {
+                let owner = Owner::of(&mut file);
+                let may_live = match &owner {
+                    Some(owner) => owner.may_live(),
+                    None => is_young(&file),
+                };
+                if may_live {
+                    return Ok(Err(owner));
+                }
+                take_away(&file, path)?;
                 continue;
             }
             let Owner { process, host } = Owner::this();
-            // On a full disk the lock has to do.
-            let _ = file
+            let written = file
                 .set_len(0)
                 .and_then(|()| file.rewind())
                 .and_then(|()| writeln!(file, "{process} {host}"));
-            return Ok(Self {
-                path,
-                is_new: false,
-                _file: file,
-            });
+            // On a full disk the lock has to do.
+            if let (false, Err(error)) = (has_lock, written) {
+                let _ = fs::remove_file(path);
+                return Err(error);
+            }
+            return Ok(Ok(file));
         }
     }
 }
@@ -115,27 +177,51 @@ impl Claim {
 impl Drop for Claim {
     fn drop(&mut self) {
         // It is still locked: nobody else has claimed what is removed here.
-        let _ = std::fs::remove_file(&self.path);
+        if is_at(&self.file, &self.path) {
+            let _ = fs::remove_file(&self.path);
+        }
         if let Some(directory) = self.path.parent().filter(|_| self.is_new) {
-            let _ = std::fs::remove_dir(directory);
+            let _ = fs::remove_dir(directory);
         }
     }
 }
 
+/// Locks a file until it is closed, where the file system has locks.
+pub(super) fn try_lock(file: &File) -> Result<(), TryLockError> {
+    #[cfg(debug_assertions)]
+    if crate::failpoint::is_asked_for("no locks") {
+        return Err(TryLockError::Error(io::ErrorKind::Unsupported.into()));
+    }
+    file.try_lock()
+}
+
+/// Whether a file was made so lately that its maker may be about to write into it.
+fn is_young(file: &File) -> bool {
+    let made = file.metadata().and_then(|about| about.modified());
+    made.is_ok_and(|at| at.elapsed().is_ok_and(|age| age < UNWRITTEN))
+}
+
+/// Removes a stale lock file. Of several processes that do it at once only one renames it, and a new
+/// one that somebody has made meanwhile is put back.
+fn take_away(file: &File, path: &Path) -> io::Result<()> {
+    let aside = path.with_file_name(format!(".mdr-tui-{}.tmp", std::process::id()));
+    match fs::rename(path, &aside) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+        other => other?,
+    }
+    if !is_at(file, &aside) {
+        let _ = fs::hard_link(&aside, path);
+    }
+    fs::remove_file(aside)
+}
+
 /// Whether the open file is the one that the path names now.
-#[cfg(unix)]
 pub(super) fn is_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
-    let (Ok(one), Ok(other)) = (file.metadata(), std::fs::metadata(path)) else {
+    let (Ok(one), Ok(other)) = (file.metadata(), path.symlink_metadata()) else {
         return false;
     };
     (one.dev(), one.ino()) == (other.dev(), other.ino())
-}
-
-/// Whether the open file is the one that the path names now: elsewhere an open file is not removed.
-#[cfg(not(unix))]
-pub(super) fn is_at(_: &File, path: &Path) -> bool {
-    path.exists()
 }
 
 #[cfg(test)]
@@ -180,5 +266,38 @@ mod tests {
             }
         });
         assert!(taken.load(SeqCst) > 0);
+    }
+
+    #[test]
+    fn a_lock_that_is_a_link_or_a_socket_is_refused_and_its_target_stays() {
+        let base = tempfile::tempdir().expect("a directory");
+        let (lock, mine) = (base.path().join(LOCK), base.path().join("mine"));
+        fs::write(&mine, "mine").expect("a file");
+        std::os::unix::fs::symlink(&mine, &lock).expect("a link");
+        let refused = || match Claim::take(base.path()) {
+            Err(Refusal::Io { path, cause }) => {
+                assert_eq!(path, lock);
+                assert!(cause.to_string().contains("not a regular file"), "{cause}");
+            }
+            other => panic!("{other:?}"),
+        };
+        refused();
+        assert_eq!(fs::read(&mine).expect("the file"), b"mine");
+        fs::remove_file(&lock).expect("the link");
+        let _socket = std::os::unix::net::UnixListener::bind(&lock).expect("a socket");
+        refused();
+    }
+
+    #[test]
+    fn a_file_of_any_name_is_claimed_by_itself() {
+        let base = tempfile::tempdir().expect("a directory");
+        let names = ["a.csv", "b.csv", &"x".repeat(255)];
+        let claims = names.map(|name| Claim::take_file(base.path(), name).expect("a claim"));
+        for name in names {
+            let again = Claim::take_file(base.path(), name);
+            assert!(matches!(again, Err(Refusal::Taken(Some(_)))), "{again:?}");
+        }
+        drop(claims);
+        assert_eq!(fs::read_dir(base.path()).expect("it").count(), 0);
     }
 }

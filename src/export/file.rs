@@ -1,13 +1,14 @@
 //! Writes whole files or none: into a temporary file, renamed into place.
 
 use std::fs;
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use thiserror::Error;
 
 use super::claim::{Claim, Owner, Refusal};
+use super::own;
 use crate::scenario::printable;
 
 /// A file or directory that could not be written; nothing half-written is left behind.
@@ -27,14 +28,31 @@ pub enum WriteError {
     #[error(
         "{}: another run is writing there{}; wait for it to end or choose another directory",
         .0.display(),
-        .1.as_ref().map_or_else(String::new, |owner| format!(
-            " (process {} on {})", owner.process, printable(&owner.host)
-        ))
+        named(.1.as_ref())
     )]
     Busy(PathBuf, Option<Owner>),
     /// The path is not a directory.
     #[error("{}: is not a directory", .0.display())]
     NotADirectory(PathBuf),
+    /// The path is no name of a file.
+    #[error("{}: is not a file name", .0.display())]
+    NotAFile(PathBuf),
+    /// There is no directory for the file.
+    #[error("{}: its directory does not exist", .0.display())]
+    NoDirectory(PathBuf),
+    /// The file is there.
+    #[error("{}: already exists; choose another name or add --force", .0.display())]
+    Exists(PathBuf),
+    /// A link, a device or a pipe, which would be replaced by a file.
+    #[error("{}: is not a regular file (but a link, a device or a pipe); choose another name", .0.display())]
+    NotRegular(PathBuf),
+    /// The file that another process writes.
+    #[error(
+        "{}: another mdr-tui is writing this file{}; wait for it to end or choose another name",
+        .0.display(),
+        named(.1.as_ref())
+    )]
+    BusyFile(PathBuf, Option<Owner>),
     /// The system refused.
     #[error("{}: cannot write: {cause}", path.display())]
     Io {
@@ -50,6 +68,19 @@ impl WriteError {
     pub fn is_misuse(&self) -> bool {
         !matches!(self, Self::Io { cause, .. } if cause.kind() == io::ErrorKind::StorageFull)
     }
+}
+
+/// The process that has a claim, in brackets. One on another machine cannot be asked whether it lives.
+fn named(owner: Option<&Owner>) -> String {
+    let Some(owner) = owner else {
+        return String::new();
+    };
+    let hint = match owner.is_here() {
+        true => "",
+        false => "; if it is gone, remove the lock file",
+    };
+    let host = printable(&owner.host);
+    format!(" (process {} on {host}{hint})", owner.process)
 }
 
 /// A path as a shell reads it back.
@@ -79,24 +110,51 @@ pub fn write_with(
         path: path.to_owned(),
         cause,
     };
-    let directory = path
-        .parent()
-        .filter(|parent| !parent.as_os_str().is_empty())
-        .unwrap_or(Path::new("."));
+    let prefix = temporary_of(path);
     let mut builder = tempfile::Builder::new();
-    builder.prefix(INTERNAL).suffix(TEMPORARY);
+    builder.prefix(&prefix).suffix(TEMPORARY);
     #[cfg(unix)]
     {
         // Results are ordinary files, not secrets: what the umask leaves of 0666.
         use std::os::unix::fs::PermissionsExt;
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
-    let mut file = builder.tempfile_in(directory).map_err(failed)?;
+    let mut file = builder.tempfile_in(directory_of(path)).map_err(failed)?;
     fill(file.as_file_mut()).map_err(failed)?;
     file.as_file().sync_all().map_err(failed)?;
     // Not every file system has locks; the file is fine without.
     let _ = file.as_file().try_lock();
     file.persist(path).map_err(|error| failed(error.error))
+}
+
+/// The directory that a file stands in.
+pub(super) fn directory_of(path: &Path) -> &Path {
+    let parent = path.parent();
+    let parent = parent.filter(|parent| !parent.as_os_str().is_empty());
+    parent.unwrap_or(Path::new("."))
+}
+
+/// How the names of unfinished files for `path` begin.
+pub(super) fn temporary_of(path: &Path) -> String {
+    let name = path.file_name().unwrap_or_default();
+    let name = crc32fast::hash(name.as_encoded_bytes());
+    format!("{INTERNAL}{name:08x}-")
+}
+
+/// Removes what a killed process has left unfinished of the file `path`, which this process has
+/// claimed.
+pub(super) fn sweep_of(path: &Path) {
+    let prefix = temporary_of(path);
+    let Ok(entries) = fs::read_dir(directory_of(path)) else {
+        return;
+    };
+    for path in entries.flatten().map(|entry| entry.path()) {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        if name.starts_with(&prefix) && name.ends_with(TEMPORARY) {
+            // One that cannot be removed does no harm.
+            let _ = fs::remove_file(path);
+        }
+    }
 }
 
 /// Prefix of files that are not results: unfinished files and locks.
@@ -163,11 +221,12 @@ impl RunDirectory {
             .flatten()
             .filter(|entry| !is_internal(&entry.path()));
         if force {
-            // It would outlive the results that it belongs to.
-            remove(&run.checkpoint())?;
-        } else if run.checkpoint().exists() {
+            return Ok(run);
+        }
+        if run.checkpoint().exists() {
             return Err(WriteError::Interrupted(run.checkpoint()));
-        } else if others.next().is_some() {
+        }
+        if others.next().is_some() {
             return Err(WriteError::Occupied(path.to_owned()));
         }
         Ok(run)
@@ -200,13 +259,33 @@ impl RunDirectory {
         let path = path.to_owned();
         let claim = Claim::take(&path).map_err(|refusal| match refusal {
             Refusal::Taken(owner) => WriteError::Busy(path.clone(), owner),
-            Refusal::Io(cause) => WriteError::Io {
-                path: path.clone(),
-                cause,
-            },
+            Refusal::Io { path, cause } => WriteError::Io { path, cause },
         })?;
+        let rows = rows_in(&path);
+        if rows
+            .symlink_metadata()
+            .is_ok_and(|about| !about.file_type().is_file())
+        {
+            return Err(WriteError::NotRegular(rows));
+        }
         sweep(&path, Duration::ZERO);
         Ok(Self { path, claim })
+    }
+
+    /// Removes the files of an earlier run, which would be taken for files of this one; what this
+    /// program has not written stays.
+    pub fn clear(&self) -> Result<(), WriteError> {
+        let failed = |cause| WriteError::Io {
+            path: self.path.clone(),
+            cause,
+        };
+        for entry in fs::read_dir(&self.path).map_err(failed)? {
+            let path = entry.map_err(failed)?.path();
+            if is_of_a_run(&path) {
+                remove(&path)?;
+            }
+        }
+        self.close()
     }
 
     /// Where the checkpoint of the run is until it is at its end.
@@ -246,6 +325,26 @@ impl RunDirectory {
         &self.path
     }
 }
+
+/// The tables of a run, but for those of snapshots.
+const TABLES: [&str; 4] = ["history.csv", "state.csv", "loop.csv", "field.csv"];
+
+/// Whether a run has written this table: it has the name and the header of one.
+fn is_of_a_run(path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let cycle = name.strip_prefix("state-");
+    let cycle = cycle.and_then(|rest| rest.strip_suffix(".csv"));
+    let is_snapshot = cycle.is_some_and(|cycle| cycle.parse::<f64>().is_ok());
+    if !is_snapshot && !TABLES.contains(&&*name) {
+        return false;
+    }
+    let mut start = [0; MARK.len()];
+    let read = own::read(path).and_then(|mut file| file.read_exact(&mut start));
+    read.is_ok() && start == *MARK
+}
+
+/// How tables of this program begin.
+const MARK: &[u8; 11] = b"# mdr-tui: ";
 
 /// Where the rows of the history are of a run that was interrupted in `directory`.
 pub fn rows_in(directory: &Path) -> PathBuf {

@@ -5,13 +5,13 @@
 //! rows and the length of the file. Rows that cannot be written stay in memory and in the
 //! checkpoint.
 
-use std::fs::OpenOptions;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
 use super::header::lines;
+use super::own;
 use crate::scenario::scalars::{self, Reading, Value};
 use crate::scenario::session::Session;
 
@@ -116,12 +116,7 @@ impl History {
     /// Appends the buffered rows to the file at `path`. On an error they stay in memory and the
     /// file is unchanged.
     pub fn spill(&mut self, path: &Path) -> io::Result<()> {
-        let mut options = OpenOptions::new();
-        let mut file = options
-            .write(true)
-            .create(true)
-            .truncate(false)
-            .open(path)?;
+        let mut file = own::open_or_make(path)?;
         // Anything beyond was written by a killed run.
         file.set_len(self.written)?;
         file.seek(SeekFrom::Start(self.written))?;
@@ -151,12 +146,13 @@ impl History {
     }
 
     fn copied(&self, from: &Path, to: &Path) -> io::Result<()> {
-        let rows = std::fs::File::open(from)?;
+        let rows = own::read(from)?;
         if rows.metadata()?.len() < self.written {
             return Err(io::ErrorKind::UnexpectedEof.into());
         }
         if from != to {
-            let mut copy = std::fs::File::create(to)?;
+            let mut copy = own::open_or_make(to)?;
+            copy.set_len(0)?;
             io::copy(&mut rows.take(self.written), &mut copy)?;
             copy.sync_data()?;
         }
@@ -183,7 +179,7 @@ impl History {
     pub fn write(&self, session: &Session, rows: &Path, out: &mut impl Write) -> io::Result<()> {
         writeln!(out, "{}{}", lines(session), COLUMNS.join(","))?;
         if self.written > 0 {
-            let file = std::fs::File::open(rows)?;
+            let file = own::read(rows)?;
             let copied = io::copy(&mut file.take(self.written), out)?;
             if copied < self.written {
                 return Err(io::ErrorKind::UnexpectedEof.into());

@@ -8,4 +8,6 @@ pub mod file;
 pub mod header;
 pub mod history;
 pub mod last_loop;
+pub mod own;
 pub mod state;
+pub mod target;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::trend::Trend;
-use crate::export::file::write_whole;
+use crate::export::target::{Target, write_all};
 use crate::figure::data::{Data, Loop};
 use crate::figure::ink::{Look, Style};
 use crate::figure::panels::Panel;
@@ -25,9 +25,8 @@ pub(super) fn write(session: &Session, trend: &Trend, path: &Path) -> Result<(),
     let shown = path.display();
     let format = Format::of(path).ok_or(format!("{shown}: must end in .svg, .png or .pdf"))?;
     let beside = path.with_extension("csv");
-    if let Some(taken) = [path, &beside].into_iter().find(|path| path.exists()) {
-        return Err(format!("{}: already exists", taken.display()));
-    }
+    let claim = |path: &Path| Target::claim(path, false).map_err(|error| error.to_string());
+    let (target, data_target) = (claim(path)?, claim(&beside)?);
     let mut data = Data {
         scenario: Some(session.scenario().clone()),
         ..Data::default()
@@ -65,6 +64,6 @@ pub(super) fn write(session: &Session, trend: &Trend, path: &Path) -> Result<(),
     let picture = format
         .write(&canvas, DPI)
         .map_err(|error| error.to_string())?;
-    write_whole(&beside, sheet.csv().as_bytes()).map_err(|error| error.to_string())?;
-    write_whole(path, &picture).map_err(|error| error.to_string())
+    write_all(&[(&data_target, sheet.csv().as_bytes()), (&target, &picture)])
+        .map_err(|error| error.to_string())
 }

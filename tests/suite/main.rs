@@ -38,6 +38,8 @@ mod measured_shapes;
 #[cfg(unix)]
 mod mouse;
 mod oracles;
+#[cfg(unix)]
+mod outputs;
 mod properties;
 mod published_cases;
 mod published_methods;

@@ -9,7 +9,7 @@ use anyhow::{Result, anyhow};
 
 use super::super::args::Sweep;
 use super::super::{Misuse, complain};
-use crate::export::file::write_whole;
+use crate::export::target::Target;
 use crate::scenario::printable;
 use crate::studies::sweep::record::{self, Record, Refused, Rows};
 use crate::studies::sweep::{Shard, Study};
@@ -20,15 +20,11 @@ const NAMED: usize = 3;
 /// Reads every table of the directory and writes the whole one.
 pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
     let shown = printable(&directory.display().to_string());
-    if let Some(out) = options
+    let target = options
         .out
-        .as_ref()
-        .filter(|out| out.exists() && !options.force)
-    {
-        let out = out.display();
-        let message = format!("--out {out}: already exists; choose another name or add --force");
-        return Err(Misuse(message).into());
-    }
+        .as_deref()
+        .map(|out| Target::claim(out, options.force))
+        .transpose()?;
     let files = tables(directory).map_err(|error| Misuse(format!("{shown}: {error}")))?;
     let mut study: Option<(Study, PathBuf)> = None;
     let mut rows: Option<Rows> = None;
@@ -94,8 +90,10 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
     refuse_missing(&shown, &study, &rows, count)?;
     let head = record::head(&study, Shard::WHOLE);
     let text = rows.text(&head);
-    match &options.out {
-        Some(out) => write_whole(out, text.as_bytes()).map_err(|error| anyhow!("{error}"))?,
+    match target {
+        Some(target) => target
+            .write(text.as_bytes())
+            .map_err(|error| anyhow!("{error}"))?,
         None if options.json => {
             let mut out = io::stdout().lock();
             for row in rows.rows.iter().flatten() {

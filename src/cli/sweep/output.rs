@@ -1,7 +1,7 @@
 //! The output file: rows are appended as they finish, and sorted at the end.
 
-use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io::{self, Write};
+use std::fs::{self, File};
+use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -10,6 +10,8 @@ use anyhow::Result;
 use super::super::Misuse;
 use super::super::args::Sweep;
 use crate::export::file::{WriteError, write_whole};
+use crate::export::own;
+use crate::export::target::Target;
 use crate::studies::sweep::record::{self, Record, Rows};
 use crate::studies::sweep::{Shard, Study};
 
@@ -20,6 +22,7 @@ const FLUSH_INTERVAL: Duration = Duration::from_secs(5);
 /// The rows of a study, in memory and in a file.
 pub struct Output {
     path: PathBuf,
+    target: Target,
     head: String,
     rows: Rows,
     /// The file while rows are added; locked, so that no other process adds to it.
@@ -34,6 +37,7 @@ impl Output {
     pub fn open(path: &Path, study: &Study, shard: Shard, options: &Sweep) -> Result<Self> {
         let mut output = Self {
             path: path.to_owned(),
+            target: Target::hold_in_new_directory(path)?,
             head: record::head(study, shard),
             rows: Rows::new(study),
             file: None,
@@ -41,10 +45,10 @@ impl Output {
             flushed: Instant::now(),
         };
         let refuse = |why: &str| Err(Misuse(format!("{}: {why}", path.display())).into());
-        if path.is_dir() || path.file_name().is_none() {
-            return refuse("is a directory; --out names a file");
+        if output.target.is_stdout() {
+            return refuse("rows are sorted at the end, in a file; --json prints them");
         }
-        if !path.exists() || options.force {
+        if !output.target.exists() || options.force {
             return Ok(output);
         }
         if !options.resume {
@@ -53,7 +57,6 @@ impl Output {
                  file",
             );
         }
-        output.file = Some(lock(path)?);
         let text = match fs::read_to_string(path) {
             Ok(text) => text,
             Err(error) => return refuse(&format!("cannot be read: {error}")),
@@ -87,13 +90,13 @@ impl Output {
 
     /// Writes the existing rows, so that new ones can be appended.
     pub fn begin(&mut self) -> Result<()> {
-        if let Some(directory) = self.path.parent() {
-            fs::create_dir_all(directory).map_err(|cause| self.failed(cause))?;
-        }
         let text = self.rows.text(&self.head);
         write_whole(&self.path, text.as_bytes())?;
         self.length = text.len() as u64;
-        self.file = Some(lock(&self.path)?);
+        let mut file = own::open(&self.path, false).map_err(|cause| self.failed(cause))?;
+        let end = file.seek(SeekFrom::End(0));
+        end.map_err(|cause| self.failed(cause))?;
+        self.file = Some(file);
         Ok(())
     }
 
@@ -151,24 +154,5 @@ impl Output {
             path: self.path.clone(),
             cause,
         }
-    }
-}
-
-/// Opens a file for appending and locks it, if the file system has locks.
-fn lock(path: &Path) -> Result<File> {
-    let failed = |cause| WriteError::Io {
-        path: path.to_owned(),
-        cause,
-    };
-    let file = OpenOptions::new().append(true).open(path).map_err(failed)?;
-    match file.try_lock() {
-        Err(TryLockError::WouldBlock) => {
-            let path = path.display();
-            Err(Misuse(format!(
-                "{path}: another mdr-tui sweep is writing this file"
-            ))
-            .into())
-        }
-        Ok(()) | Err(TryLockError::Error(_)) => Ok(file),
     }
 }

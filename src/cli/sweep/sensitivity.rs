@@ -7,25 +7,19 @@ use anyhow::{Context, Result};
 use rayon::ThreadPoolBuilder;
 
 use super::super::args::Sweep;
-use super::super::{FAILED, Misuse, complain, stop};
-use crate::export::file::write_whole;
+use super::super::{FAILED, complain, stop};
+use crate::export::target::Target;
 use crate::studies::sweep::Study;
 use crate::studies::sweep::sensitivity::{self, Sensitivity};
 use crate::studies::table::{Cell, Column, Format, Table};
 
 /// Runs the study of sensitivities and prints, or writes, its table.
 pub fn sensitivity(options: &Sweep, study: &Study) -> Result<ExitCode> {
-    if let Some(out) = options
+    let target = options
         .out
-        .as_ref()
-        .filter(|out| out.exists() && !options.force)
-    {
-        let message = format!(
-            "--out {}: already exists; choose another name or add --force",
-            out.display()
-        );
-        return Err(Misuse(message).into());
-    }
+        .as_deref()
+        .map(|out| Target::claim(out, options.force))
+        .transpose()?;
     let keys = study.varied();
     let mut builder = ThreadPoolBuilder::new();
     if let Some(threads) = options.threads {
@@ -38,13 +32,13 @@ pub fn sensitivity(options: &Sweep, study: &Study) -> Result<ExitCode> {
         return Ok(ExitCode::from(FAILED));
     };
     let table = table(&found);
-    if let Some(out) = &options.out {
+    if let Some(target) = target {
         let mut text = format!("# mdr-tui: {}\n", env!("CARGO_PKG_VERSION"));
         for line in study.to_toml().lines().filter(|line| !line.is_empty()) {
             text.push_str(&format!("# study: {line}\n"));
         }
         text.push_str(&table.csv());
-        write_whole(out, text.as_bytes())?;
+        target.write(text.as_bytes())?;
     }
     let mut stdout = io::stdout().lock();
     if options.json {

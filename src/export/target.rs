@@ -1,0 +1,216 @@
+//! A file that a command makes: claimed before anything is computed, and written whole at the end.
+//!
+//! From its claim until it is dropped no other process makes the same file. Only a regular file is ever
+//! replaced. `/dev/stdout` is written through.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use super::claim::{Claim, Refusal};
+use super::file::{WriteError, directory_of, sweep_of, write_whole};
+
+/// The name under which a result goes to the standard output.
+const STDOUT: &str = "/dev/stdout";
+
+/// A file that belongs to this process until this is dropped.
+#[derive(Debug)]
+pub struct Target {
+    path: PathBuf,
+    /// None for the standard output.
+    claim: Option<Claim>,
+}
+
+impl Target {
+    /// Claims `path` for a new file, or, with `force`, in place of the regular file that is there.
+    ///
+    /// # Errors
+    ///
+    /// If it is there, if something else than a file is, and if another process makes it.
+    pub fn claim(path: &Path, force: bool) -> Result<Self, WriteError> {
+        let target = Self::hold(path)?;
+        target.refuse_existing(force)?;
+        Ok(target)
+    }
+
+    /// Claims `path`, whether the file is there or not.
+    ///
+    /// # Errors
+    ///
+    /// If something else than a file is there, and if another process makes the file.
+    pub fn hold(path: &Path) -> Result<Self, WriteError> {
+        if path == Path::new(STDOUT) {
+            return Ok(Self {
+                path: path.to_owned(),
+                claim: None,
+            });
+        }
+        let Some(name) = path.file_name().filter(|_| !path.is_dir()) else {
+            return Err(WriteError::NotAFile(path.to_owned()));
+        };
+        if path.symlink_metadata().is_ok_and(|about| !about.is_file()) {
+            return Err(WriteError::NotRegular(path.to_owned()));
+        }
+        let directory = directory_of(path);
+        if !directory.is_dir() {
+            return Err(WriteError::NoDirectory(path.to_owned()));
+        }
+        let claim = Claim::take_file(directory, &name.to_string_lossy());
+        let claim = claim.map_err(|refusal| match refusal {
+            Refusal::Taken(owner) => WriteError::BusyFile(path.to_owned(), owner),
+            Refusal::Io { path, cause } => WriteError::Io { path, cause },
+        })?;
+        sweep_of(path);
+        Ok(Self {
+            path: path.to_owned(),
+            claim: Some(claim),
+        })
+    }
+
+    /// [`hold`](Self::hold), in a directory that is made where it is not there; it goes again if
+    /// nothing is written into it.
+    ///
+    /// # Errors
+    ///
+    /// As [`hold`](Self::hold), and if the directory cannot be made.
+    pub fn hold_in_new_directory(path: &Path) -> Result<Self, WriteError> {
+        let directory = directory_of(path);
+        let is_new = !directory.exists();
+        fs::create_dir_all(directory).map_err(|cause| WriteError::Io {
+            path: directory.to_owned(),
+            cause,
+        })?;
+        let mut target = Self::hold(path)?;
+        if let Some(claim) = &mut target.claim {
+            claim.is_new = is_new;
+        }
+        Ok(target)
+    }
+
+    /// Refuses a file that is there, unless `force` is set.
+    ///
+    /// # Errors
+    ///
+    /// [`WriteError::Exists`].
+    pub fn refuse_existing(&self, force: bool) -> Result<(), WriteError> {
+        match self.exists() && !force {
+            true => Err(WriteError::Exists(self.path.clone())),
+            false => Ok(()),
+        }
+    }
+
+    /// Whether the file is there already.
+    pub fn exists(&self) -> bool {
+        !self.is_stdout() && self.path.symlink_metadata().is_ok()
+    }
+
+    /// Whether the result goes to the standard output.
+    pub fn is_stdout(&self) -> bool {
+        self.claim.is_none()
+    }
+
+    /// Where the file stands.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Writes the file, whole.
+    ///
+    /// # Errors
+    ///
+    /// If the system refuses; what was there before is then there still.
+    pub fn write(&self, contents: &[u8]) -> Result<(), WriteError> {
+        if !self.is_stdout() {
+            return write_whole(&self.path, contents);
+        }
+        let mut out = io::stdout().lock();
+        let written = out.write_all(contents).and_then(|()| out.flush());
+        written.map_err(|cause| WriteError::Io {
+            path: self.path.clone(),
+            cause,
+        })
+    }
+}
+
+/// Writes several files that belong together. If one cannot be written, those that were not there
+/// before go again.
+///
+/// # Errors
+///
+/// Of the first file that cannot be written.
+pub fn write_all(files: &[(&Target, &[u8])]) -> Result<(), WriteError> {
+    let mut made: Vec<&Path> = Vec::new();
+    for (target, contents) in files {
+        let is_new = !target.is_stdout() && !target.exists();
+        if let Err(error) = target.write(contents) {
+            for path in made {
+                let _ = fs::remove_file(path);
+            }
+            return Err(error);
+        }
+        if is_new {
+            made.push(target.path());
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_has_one_maker_at_a_time() {
+        let base = tempfile::tempdir().expect("a directory");
+        let path = base.path().join("map.csv");
+        let first = Target::claim(&path, false).expect("a claim");
+        for force in [false, true] {
+            let refused = Target::claim(&path, force).expect_err("it is taken");
+            assert!(
+                matches!(refused, WriteError::BusyFile(_, Some(_))),
+                "{refused}"
+            );
+        }
+        first.write(b"one").expect("a file");
+        drop(first);
+        let refused = Target::claim(&path, false).expect_err("it is there");
+        assert!(matches!(refused, WriteError::Exists(_)), "{refused}");
+        let second = Target::claim(&path, true).expect("a claim");
+        second.write(b"two").expect("a file");
+        drop(second);
+        assert_eq!(fs::read_dir(base.path()).expect("it").count(), 1);
+    }
+
+    #[test]
+    fn nothing_but_a_regular_file_is_replaced() {
+        let base = tempfile::tempdir().expect("a directory");
+        let (mine, link) = (base.path().join("mine"), base.path().join("link"));
+        fs::write(&mine, "mine").expect("a file");
+        let dangling = base.path().join("dangling");
+        std::os::unix::fs::symlink(&mine, &link).expect("a link");
+        std::os::unix::fs::symlink("nowhere", &dangling).expect("a link");
+        for path in [&link, &dangling, Path::new("/dev/null")] {
+            let refused = Target::claim(path, true).expect_err("no regular file");
+            assert!(matches!(refused, WriteError::NotRegular(_)), "{refused}");
+        }
+        assert!(matches!(
+            Target::claim(base.path(), true),
+            Err(WriteError::NotAFile(_))
+        ));
+        assert_eq!(fs::read_dir(base.path()).expect("it").count(), 3);
+    }
+
+    #[test]
+    fn what_a_killed_maker_left_unfinished_goes_and_another_file_s_stays() {
+        let base = tempfile::tempdir().expect("a directory");
+        let left = |name: &str| {
+            let path = super::super::file::temporary_of(&base.path().join(name));
+            let path = base.path().join(path + "x.tmp");
+            fs::write(&path, "half").expect("a file");
+            path
+        };
+        let (ours, other) = (left("map.csv"), left("other.csv"));
+        drop(Target::claim(&base.path().join("map.csv"), false).expect("a claim"));
+        assert!(!ours.exists() && other.exists());
+    }
+}

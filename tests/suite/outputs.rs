@@ -1,0 +1,211 @@
+//! Results that cannot be lost: one maker at a time for every file, and nothing replaced but files.
+
+use std::fs;
+use std::os::unix::fs::symlink;
+use std::process::Stdio;
+use std::thread;
+use std::time::Duration;
+
+use crate::test_dir::{Said, TestDir, end, names};
+
+const STUDY: &str = r#"
+base = "hertz"
+columns = ["wear_volume_m3"]
+[set]
+"run.cycles" = 1.0
+"numerics.points" = 8
+"numerics.steps_per_cycle" = 4
+[[axis]]
+key = "motion.normal.mean"
+linspace = [1e-6, 2e-6, 12]
+"#;
+
+fn dir() -> TestDir {
+    let dir = TestDir::new();
+    dir.write("a.toml", STUDY.as_bytes());
+    let other = STUDY.replace("2e-6, 12", "3e-6, 8");
+    dir.write("b.toml", other.as_bytes());
+    dir
+}
+
+/// Starts the lines, each a while after the one before, and waits for all.
+fn together(dir: &TestDir, lines: &[&str], pause: Duration, fault: &str) -> Vec<Said> {
+    let started: Vec<_> = lines
+        .iter()
+        .map(|line| {
+            let arguments: Vec<&str> = line.split_whitespace().collect();
+            let mut command = dir.command(&arguments);
+            command.env("MDR_TUI_FAULT", fault);
+            command.stdout(Stdio::piped()).stderr(Stdio::piped());
+            let child = command.spawn().expect("the program starts");
+            thread::sleep(pause);
+            child
+        })
+        .collect();
+    started.into_iter().map(end).collect()
+}
+
+#[test]
+fn of_two_studies_into_one_file_no_row_is_lost_and_the_second_hears_of_it() {
+    let dir = dir();
+    let whole = ["a", "b"].map(|study| {
+        dir.done(&format!(
+            "sweep {study}.toml --out whole-{study}.csv --quiet"
+        ));
+        dir.read(&format!("whole-{study}.csv"))
+    });
+    for fault in ["", "no locks"] {
+        for (round, flag) in ["--resume", "--force", ""]
+            .iter()
+            .cycle()
+            .take(24)
+            .enumerate()
+        {
+            let out = format!("x-{round}.csv");
+            let lines = ["a", "b"].map(|study| format!("sweep {study}.toml --out {out} {flag}"));
+            let pause = Duration::from_millis([0, 2, 7, 20][round % 4]);
+            let said = together(&dir, &[&lines[0], &lines[1]], pause, fault);
+            let table = dir.read(&out);
+            let codes = [said[0].code, said[1].code];
+            let kept = match codes {
+                [0, 2] => 0,
+                [2, 0] => 1,
+                // The second one has begun when the first one had ended, as it was asked to.
+                [0, 0] if *flag == "--force" => usize::from(table == whole[1]),
+                _ => panic!("{codes:?} {flag}: {}{}", said[0].err, said[1].err),
+            };
+            assert!(table == whole[kept], "{flag} {fault}: {codes:?}");
+            fs::remove_file(dir.path(&out)).expect("the table");
+            let left = names(&dir.path(""));
+            assert!(
+                left.iter().all(|name| !name.starts_with(".mdr")),
+                "{left:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_study_under_way_is_refused_to_others_before_they_compute_even_by_force() {
+    let dir = dir();
+    let long = STUDY.replace("\"run.cycles\" = 1.0", "\"run.cycles\" = 1e9");
+    dir.write("long.toml", long.as_bytes());
+    for fault in ["", "no locks"] {
+        let arguments = ["sweep", "long.toml", "--out", "x.csv", "--force"];
+        let mut command = dir.command(&arguments);
+        let mut alive = command
+            .env("MDR_TUI_FAULT", fault)
+            .spawn()
+            .expect("it starts");
+        while !dir.path("x.csv").exists() {
+            thread::sleep(Duration::from_millis(1));
+        }
+        for line in [
+            "sweep a.toml --out x.csv --force",
+            "sweep long.toml --out x.csv --resume",
+            "sweep --sensitivity a.toml --out x.csv --force",
+            "verify --csv x.csv --force",
+        ] {
+            let said = &together(&dir, &[line], Duration::ZERO, fault)[0];
+            let owner = format!("is writing this file (process {} on ", alive.id());
+            assert!(
+                said.code == 2 && said.err.contains(&owner),
+                "{line}: {}",
+                said.err
+            );
+        }
+        alive.kill().expect("it lived");
+        alive.wait().expect("an end");
+        // What it leaves behind is stale.
+        let said = &together(
+            &dir,
+            &["sweep a.toml --out x.csv --force"],
+            Duration::ZERO,
+            fault,
+        )[0];
+        assert_eq!(said.code, 0, "{}", said.err);
+        fs::remove_file(dir.path("x.csv")).expect("the table");
+    }
+    let left = names(&dir.path(""));
+    assert!(
+        left.iter().all(|name| !name.starts_with(".mdr")),
+        "{left:?}"
+    );
+}
+
+#[test]
+fn links_and_devices_are_not_replaced_and_stdout_is_written_through() {
+    let dir = dir();
+    dir.write("mine", b"mine");
+    for (name, target) in [
+        ("link.svg", "mine"),
+        ("link.csv", "mine"),
+        ("nowhere.csv", "x"),
+    ] {
+        symlink(dir.path(target), dir.path(name)).expect("a link");
+    }
+    for line in [
+        "sweep a.toml --out link.csv --force",
+        "sweep a.toml --out nowhere.csv",
+        "sweep a.toml --out /dev/null --force",
+        "figure hertz --cycles 1 -o link.svg --force",
+        "verify --csv link.csv --force",
+    ] {
+        let arguments: Vec<&str> = line.split(' ').collect();
+        let said = dir.say(&arguments);
+        assert!(
+            said.code == 2 && said.err.contains("is not a regular file"),
+            "{line}: {} {}",
+            said.code,
+            said.err
+        );
+    }
+    assert_eq!(dir.read("mine"), "mine");
+    let table = "sweep --sensitivity a.toml --quiet --out";
+    dir.done(&format!("{table} table.csv"));
+    assert_eq!(
+        dir.done(&format!("{table} /dev/stdout")),
+        dir.read("table.csv")
+    );
+}
+
+#[test]
+fn locks_and_rows_of_a_run_are_not_followed_through_links() {
+    for own in [".mdr-tui-lock", ".mdr-tui-history"] {
+        let dir = dir();
+        dir.write("mine", b"mine");
+        fs::create_dir(dir.path("x")).expect("a directory");
+        symlink(dir.path("mine"), dir.path(&format!("x/{own}"))).expect("a link");
+        let said = dir.say(&["run", "hertz", "--cycles", "2", "--out", "x"]);
+        assert!(
+            said.code != 0 && said.err.contains("not a regular file") && said.err.contains(own),
+            "{}",
+            said.err
+        );
+        assert_eq!(dir.read("mine"), "mine");
+    }
+}
+
+#[test]
+fn a_forced_run_takes_the_old_run_s_files_away_and_no_others() {
+    let dir = dir();
+    let small = "--set numerics.points=8 --quiet --out x";
+    dir.done(&format!(
+        "run hertz --cycles 2 --snapshot-at 0.5,1 --field {small}"
+    ));
+    let mine = ["state-best.csv", "notes.txt", "state-1.5.csv"];
+    for name in mine {
+        dir.write(&format!("x/{name}"), b"mine\n1\n");
+    }
+    // What is refused takes nothing away.
+    let refused = dir.say(&["run", "cone", "--cycles", "-1", "--out", "x", "--force"]);
+    assert!(refused.code == 2 && dir.path("x/field.csv").exists());
+    dir.done(&format!("run cone --cycles 1 --force {small}"));
+    let mut expected = vec!["history.csv", "loop.csv", "scenario.toml", "state.csv"];
+    expected.extend(mine);
+    expected.sort_unstable();
+    assert_eq!(names(&dir.path("x")), expected);
+    for name in mine {
+        assert_eq!(dir.read(&format!("x/{name}")), "mine\n1\n");
+    }
+}

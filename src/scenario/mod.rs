@@ -34,11 +34,13 @@ pub mod session;
 mod shape;
 pub mod units;
 mod validate;
+pub mod words;
 mod write;
 
 use error::{Origin, echo};
 pub use error::{ScenarioError, printable};
 pub use run::{Change, MOST_CHANGES, MOST_CYCLES, MOST_SNAPSHOTS, RunPlan};
+use schema::Parameter;
 
 /// A validated scenario: parts that are ready to run, and the text that reproduces them.
 #[derive(Debug, Clone)]
@@ -307,14 +309,10 @@ impl Scenario {
                 assign::split(&change.set, "").map_err(|_| ScenarioError::NotAnAssignment {
                     given: written.clone(),
                 })?;
-            let fixed = ["run.", "wear.initial", "wear.share"]
-                .iter()
-                .any(|start| key.starts_with(start))
-                || key.ends_with(".file");
-            if ["title", "description", "numerics.accuracy"].contains(&key) || fixed {
+            if let Some(because) = schema::find(key).and_then(Parameter::fixed) {
                 return Err(ScenarioError::Refused {
                     place: written.clone(),
-                    rule: format!("{key} cannot change during a run"),
+                    rule: format!("{key} cannot change during a run: {because}"),
                 });
             }
             assign::assign(&mut table, &mut origin, key, value, written)?;

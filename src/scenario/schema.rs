@@ -163,6 +163,22 @@ impl Parameter {
         }
     }
 
+    /// Why it cannot change during a run; `None` where it can.
+    pub fn fixed(&self) -> Option<&'static str> {
+        let because = match self.path {
+            "title" | "description" => "it names the whole run",
+            "numerics.accuracy" => {
+                "it has chosen points and steps before the run: change those, or use < and >"
+            }
+            "wear.share" => "what has worn so far was shared by it",
+            path if path.starts_with("run.") => "it plans the whole run",
+            path if path.starts_with("wear.initial") => "the run began with it",
+            path if path.ends_with(".file") => "it was read before the run",
+            _ => return None,
+        };
+        Some(because)
+    }
+
     /// The rule that a value of the wrong kind breaks.
     pub(super) fn rule(&self) -> String {
         format!("must be {}{}", self.kind.wanted(), self.allowed())

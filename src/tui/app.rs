@@ -311,10 +311,10 @@ impl App {
             Command::Snapshot => self.order(Order::Snapshot(None)),
             Command::TimeBack => self.order(Order::Back),
             Command::TimeForth => self.order(Order::Forth),
-            Command::Mark => self.order(Order::Mark),
-            Command::Visit => self.order(Order::Visit),
             Command::SnapshotNote => self.overlay = Overlay::Note(LineEdit::default()),
             Command::Edit => self.overlay = Overlay::Form(Form::default()),
+            Command::Methods => self.choose("numerics.method"),
+            Command::Laws => self.choose("wear.law"),
             Command::Presets => {
                 self.overlay = Overlay::Library(Library::open(self.frame.as_deref()));
             }
@@ -348,6 +348,17 @@ impl App {
                 over_cycle: !self.stress.over_cycle,
                 ..self.stress
             }),
+        }
+    }
+
+    /// Opens the words of a key.
+    fn choose(&mut self, path: &'static str) {
+        let settings = self.frame.as_ref().map(|frame| Arc::clone(&frame.settings));
+        let mut known = settings.iter().flat_map(|settings| settings.iter());
+        if known.any(|setting| setting.parameter.path == path) {
+            self.overlay = Overlay::Form(Form::choosing(path));
+        } else {
+            self.notice = Some(format!("this scenario has no {path}"));
         }
     }
 

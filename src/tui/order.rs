@@ -38,10 +38,6 @@ pub enum Order {
     Back,
     /// One saved state forward in time.
     Forth,
-    /// Mark the state on the screen.
-    Mark,
-    /// Go to the marked state before this one.
-    Visit,
     /// Start again as loaded.
     Restart,
     /// Another scenario, from the start.

@@ -271,8 +271,6 @@ fn footer_commands(app: &App) -> Vec<(&'static Binding, &'static str)> {
         (Command::TimeForth, "forward"),
         (Command::RunPause, "run on from here"),
         (Command::Edit, "change from here"),
-        (Command::Mark, "mark"),
-        (Command::Visit, "go to a mark"),
     ];
     let compare: &[(Command, &str)] = &[
         (Command::NextMethod, "other method"),

@@ -77,6 +77,21 @@ impl Setting {
         }
     }
 
+    /// Why the value cannot change during a run, in a sentence; `None` where it can.
+    pub fn fixed(&self) -> Option<String> {
+        let because = self.parameter.fixed()?;
+        Some(format!("fixed during a run: {because}"))
+    }
+
+    /// The words that the value is chosen from, if it is.
+    pub fn words(&self) -> Option<&'static [&'static str]> {
+        match self.parameter.kind {
+            Kind::Choice(words) => Some(words),
+            Kind::Flag => Some(&["true", "false"]),
+            _ => None,
+        }
+    }
+
     /// The next value up or down: the next word of a choice, the next number of two digits.
     /// `None` at the last one.
     pub fn next(&self, up: bool) -> Option<String> {

@@ -1,13 +1,17 @@
 //! History for time travel: whole states to return to, within a memory limit.
 //!
-//! A state is stored at the end of a cycle, after every manual step and before every change. When
-//! the memory is full, states are thinned where they are closest for their age, so that the recent
-//! past stays dense and the early past never vanishes. A state holds the whole session: a run
-//! continued from it is the same to the last bit, without later changes.
+//! A state is stored at the end of a cycle, after every manual step and before every change. States
+//! stand in the order in which the user saw them: a branch, a restart or another scenario begins a
+//! new stretch behind the one it leaves, so that the way back leads through all of them. When the
+//! memory is full, states are thinned where they are closest for their age, so that the recent past
+//! stays dense and the early past never vanishes. A state holds the whole session: a run continued
+//! from it is the same to the last bit, without later changes.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::trend::{Tip, Trend};
+use crate::math::abel::Form;
 use crate::scenario::session::Session;
 
 /// The memory for the past, bytes.
@@ -15,6 +19,9 @@ const BUDGET: usize = 64 << 20;
 
 /// Arrays of nodal values that a session holds, rounded up.
 const ARRAYS: usize = 40;
+
+/// Arrays of nodal values that the operators of a method in the fast form hold, rounded up.
+const FAST_ARRAYS: usize = 200;
 
 /// What a session holds beside nodal values: its texts and tables, in bytes.
 const TEXTS: usize = 24 << 10;
@@ -29,6 +36,10 @@ pub(super) struct Kept {
     pub session: Session,
     /// What the trend cannot find out from later entries.
     pub tip: Tip,
+    /// The stretch it belongs to: between two branches, nothing goes backwards.
+    stretch: u32,
+    /// The run it belongs to: a restart or another scenario begins another.
+    run: u32,
 }
 
 impl Kept {
@@ -48,25 +59,30 @@ impl Kept {
 
     /// An upper bound of the operators that it keeps alive, alone or with others, in bytes.
     fn operator_bytes(&self) -> usize {
-        8 * 4 * self.nodes().pow(2)
+        let (method, nodes) = (self.session.simulation().setup().method, self.nodes());
+        match Form::quicker(method, nodes) {
+            Form::Dense => 8 * 4 * nodes.pow(2),
+            Form::Fast => 8 * FAST_ARRAYS * nodes,
+        }
     }
 
-    /// Whether two states use the same operators.
+    /// Whether two states use the same operators: a run plans its own.
     fn shares_operators(&self, other: &Self) -> bool {
+        let is_one_run = self.run == other.run;
         let [one, other] = [self, other].map(|kept| kept.session.simulation().setup());
-        one.method == other.method && one.indenter == other.indenter && one.grid == other.grid
+        is_one_run
+            && one.method == other.method
+            && one.indenter == other.indenter
+            && one.grid == other.grid
     }
 }
 
-/// A state that the user has marked, with the trend that led there.
-#[derive(Debug, Clone)]
-pub(super) struct Bookmark {
-    /// The state.
-    pub kept: Arc<Kept>,
-    /// The cycles before it.
-    pub trend: Trend,
-    /// A later mark has a higher number.
-    number: u64,
+/// What was on the screen and in the files before a branch.
+pub(super) struct Left {
+    /// The state at the end of the stretch that is left.
+    pub end: Arc<Kept>,
+    /// Whether the branch belongs to another run than that.
+    pub is_other_run: bool,
 }
 
 /// The states of the past, oldest first, and the one on the screen.
@@ -75,10 +91,11 @@ pub(super) struct Past {
     kept: Vec<Arc<Kept>>,
     /// The state on the screen; `None` at the present.
     at: Option<usize>,
-    /// In the order of their cycles.
-    bookmarks: Vec<Bookmark>,
-    /// How many states have been marked so far.
-    marked: u64,
+    /// The trend at the end of each stretch that a state belongs to, but for the present one's while
+    /// that goes on.
+    trends: BTreeMap<u32, Trend>,
+    stretch: u32,
+    run: u32,
     budget: usize,
 }
 
@@ -87,8 +104,9 @@ impl Default for Past {
         Self {
             kept: Vec::new(),
             at: None,
-            bookmarks: Vec::new(),
-            marked: 0,
+            trends: BTreeMap::new(),
+            stretch: 0,
+            run: 0,
             budget: BUDGET,
         }
     }
@@ -103,36 +121,30 @@ impl Past {
         self.kept.push(Arc::new(Kept {
             session: session.clone(),
             tip: trend.tip(),
+            stretch: self.stretch,
+            run: self.run,
         }));
         self.make_room();
     }
 
-    /// Thins the past, then drops the oldest marks, until the rest is within the budget. The first
-    /// and the last state and the newest mark stay.
+    /// Thins the past, then drops the oldest states, until the rest is within the budget. The last
+    /// state stays, and the first as long as possible.
     fn make_room(&mut self) {
-        // Bookmarks may take half of the memory.
-        while self.bookmarks.len() > 1 && self.bookmark_bytes() > self.budget / 2 {
-            self.drop_oldest_mark();
-        }
         while self.kept.len() > 2 && self.bytes() > self.budget {
-            self.thin();
-        }
-        while self.bookmarks.len() > 1 && self.bytes() > self.budget {
-            self.drop_oldest_mark();
-        }
-    }
-
-    fn drop_oldest_mark(&mut self) {
-        let numbered = self.bookmarks.iter().enumerate();
-        if let Some((oldest, _)) = numbered.min_by_key(|(_, mark)| mark.number) {
-            self.bookmarks.remove(oldest);
+            let least = self.least_missed().unwrap_or(0);
+            self.kept.remove(least);
+            let (kept, now) = (&self.kept, self.stretch);
+            self.trends.retain(|stretch, _| {
+                *stretch == now || kept.iter().any(|kept| kept.stretch == *stretch)
+            });
         }
     }
 
     /// Whether the newest state is the present one: no step and no change since.
     fn is_kept(&self, session: &Session) -> bool {
         self.kept.last().is_some_and(|last| {
-            last.session.simulation().cycle() == session.simulation().cycle()
+            last.stretch == self.stretch
+                && last.session.simulation().cycle() == session.simulation().cycle()
                 && last.session.changes().len() == session.changes().len()
         })
     }
@@ -140,40 +152,36 @@ impl Past {
     /// Memory in use, bytes.
     fn bytes(&self) -> usize {
         let states: usize = self.kept.iter().map(|kept| kept.bytes()).sum();
+        let trends: usize = self.trends.values().map(Trend::bytes).sum();
         // The operators of the present are there in any case.
         let mut known: Vec<&Kept> = self.kept.last().map(|kept| &**kept).into_iter().collect();
         let mut operators = 0;
-        let marked = self.bookmarks.iter().map(|mark| &mark.kept);
-        for kept in self.kept.iter().chain(marked) {
+        for kept in &self.kept {
             if !known.iter().any(|other| other.shares_operators(kept)) {
                 operators += kept.operator_bytes();
                 known.push(kept);
             }
         }
-        states + self.bookmark_bytes() + operators
+        states + trends + operators
     }
 
-    /// What the marked states hold beside their operators, in bytes. A state that is both marked and
-    /// kept is counted here as well: it may soon be marked alone.
-    fn bookmark_bytes(&self) -> usize {
-        let marked = self.bookmarks.iter();
-        marked
-            .map(|mark| mark.kept.bytes() + mark.trend.bytes())
-            .sum()
-    }
-
-    /// Drops the state that is missed least: the one in the smallest gap for its age. The first and
-    /// the last stay.
-    fn thin(&mut self) {
-        let newest = self.kept.last().map_or(0.0, |kept| kept.cycle());
-        let gap = |i: usize| {
-            let width = self.kept[i + 1].cycle() - self.kept[i - 1].cycle();
-            width / (newest - self.kept[i].cycle() + 1.0)
-        };
-        let least = (1..self.kept.len() - 1).min_by(|&a, &b| gap(a).total_cmp(&gap(b)));
-        if let Some(least) = least {
-            self.kept.remove(least);
+    /// The state that is missed least: the one in the smallest gap for its age within its stretch.
+    /// The ends of a stretch stay; `None` where there is nothing else.
+    fn least_missed(&self) -> Option<usize> {
+        // The cycles that the user has seen since, later stretches included.
+        let mut age = 0.0;
+        let mut least: Option<(usize, f64)> = None;
+        for i in (1..self.kept.len().saturating_sub(1)).rev() {
+            let [before, this, after] = [i - 1, i, i + 1].map(|i| &self.kept[i]);
+            age += (after.cycle() - this.cycle()).max(0.0);
+            if before.stretch == after.stretch {
+                let gap = (after.cycle() - before.cycle()) / (age + 1.0);
+                if least.is_none_or(|(_, smallest)| gap <= smallest) {
+                    least = Some((i, gap));
+                }
+            }
         }
+        least.map(|(i, _)| i)
     }
 
     /// Goes one state back; `None` at the start. The present must have been stored.
@@ -191,6 +199,19 @@ impl Past {
         found
     }
 
+    /// Notes the trend of the present, before the screen shows the past.
+    pub fn note_trend(&mut self, trend: &Trend) {
+        if self.at.is_none() {
+            self.trends.insert(self.stretch, trend.clone());
+        }
+    }
+
+    /// The trend as it was at a stored state.
+    pub fn trend(&self, kept: &Kept) -> Trend {
+        let whole = self.trends.get(&kept.stretch);
+        whole.map_or_else(Trend::default, |whole| whole.until(kept.cycle(), &kept.tip))
+    }
+
     /// The session at the present, whatever is on the screen: the state worth saving.
     pub fn line<'a>(&'a self, shown: &'a Session) -> &'a Session {
         let last = self.kept.last().filter(|_| self.at.is_some());
@@ -203,106 +224,31 @@ impl Past {
         self.kept.last().map(|kept| kept.cycle())
     }
 
-    /// Makes the state on the screen the present: what came after it is dropped. True if there was
-    /// anything to drop.
-    pub fn branch(&mut self) -> bool {
-        let Some(at) = self.at.take() else {
-            return false;
-        };
-        self.kept.truncate(at + 1);
-        true
-    }
-
-    /// Marks a state, once. Older marks give way where memory asks for it; returns how many did.
-    pub fn mark(&mut self, session: &Session, trend: &Trend) -> usize {
-        let is_there = |mark: &Bookmark| is_same(&mark.kept.session, session);
-        if self.bookmarks.iter().any(is_there) {
-            return 0;
-        }
-        let kept = self.kept.iter().rev();
-        let kept = kept
-            .filter(|kept| is_same(&kept.session, session))
-            .map(Arc::clone)
-            .next();
-        let kept = kept.unwrap_or_else(|| {
-            Arc::new(Kept {
-                session: session.clone(),
-                tip: trend.tip(),
-            })
-        });
-        let trend = trend.clone();
-        let before = self.bookmarks.len();
-        self.marked += 1;
-        self.bookmarks.push(Bookmark {
-            kept,
-            trend,
-            number: self.marked,
-        });
-        let cycle = |mark: &Bookmark| mark.kept.cycle();
-        self.bookmarks.sort_by(|a, b| cycle(a).total_cmp(&cycle(b)));
+    /// Makes the state on the screen the present, in a stretch of its own behind the one that it
+    /// leaves. Returns what that was, if the screen was in the past.
+    pub fn branch(&mut self) -> Option<Left> {
+        let from = Arc::clone(self.kept.get(self.at.take()?)?);
+        let end = Arc::clone(self.kept.last()?);
+        let is_other_run = end.run != from.run;
+        self.stretch += 1;
+        self.run += u32::from(is_other_run);
+        self.kept.push(Arc::new(Kept {
+            stretch: self.stretch,
+            run: self.run,
+            ..Kept::clone(&from)
+        }));
         self.make_room();
-        before + 1 - self.bookmarks.len()
+        Some(Left { end, is_other_run })
     }
 
-    /// How many states are marked.
-    pub fn marks(&self) -> usize {
-        self.bookmarks.len()
+    /// Another run follows the present one, which must have been stored; its trend is `trend`, unless
+    /// the screen is in the past.
+    pub fn leave(&mut self, trend: &Trend) {
+        self.note_trend(trend);
+        self.at = None;
+        self.stretch += 1;
+        self.run += 1;
     }
-
-    /// The bookmark before `session`, going around to the last one.
-    pub fn bookmark_before(&self, session: &Session) -> Option<Bookmark> {
-        let same = |mark: &Bookmark| is_same(&mark.kept.session, session);
-        let now = session.simulation().cycle();
-        let at = self.bookmarks.iter().position(same);
-        let at = at.unwrap_or_else(|| {
-            let earlier = self.bookmarks.iter();
-            earlier.filter(|mark| mark.kept.cycle() < now).count()
-        });
-        let before = at.checked_sub(1).or(self.bookmarks.len().checked_sub(1))?;
-        self.bookmarks.get(before).cloned()
-    }
-
-    /// Goes to a bookmark. On the line of the present it becomes a place in the past; on another one
-    /// it becomes the present itself, and only what led to it stays.
-    pub fn visit(&mut self, mark: &Bookmark) {
-        let goal = &mark.kept.session;
-        let is_past = self
-            .kept
-            .last()
-            .is_some_and(|present| leads_to(goal, &present.session));
-        if !is_past {
-            self.kept.retain(|kept| leads_to(&kept.session, goal));
-        }
-        let at = self
-            .kept
-            .iter()
-            .position(|kept| is_same(&kept.session, goal));
-        let at = at.unwrap_or_else(|| {
-            let before = |kept: &&Arc<Kept>| leads_to(&kept.session, goal);
-            let at = self.kept.iter().take_while(before).count();
-            self.kept.insert(at, Arc::clone(&mark.kept));
-            at
-        });
-        self.at = (at + 1 < self.kept.len()).then_some(at);
-    }
-}
-
-/// Whether two sessions are the same run at the same moment.
-fn is_same(a: &Session, b: &Session) -> bool {
-    a.simulation().cycle() == b.simulation().cycle() && a.changes() == b.changes()
-}
-
-/// Whether `later` went through `earlier`: a run is made of its changes and nothing else, so it did
-/// if every change since came after it.
-fn leads_to(earlier: &Session, later: &Session) -> bool {
-    let (from, to) = (earlier.simulation().cycle(), later.simulation().cycle());
-    let made = earlier.changes().len();
-    from <= to
-        && later.changes().len() >= made
-        && later.changes()[..made] == *earlier.changes()
-        && later.changes()[made..]
-            .iter()
-            .all(|change| change.at_cycle >= from)
 }
 
 #[cfg(test)]
@@ -360,24 +306,24 @@ mod tests {
     }
 
     #[test]
-    fn marks_count_and_the_oldest_gives_way() {
-        let (mut session, trend) = (session(), Trend::default());
+    fn restarts_stay_within_the_memory_and_the_latest_can_be_undone() {
+        let (start, trend) = (session(), Trend::default());
         let mut past = Past::default();
-        past.keep(&session, &trend);
-        past.budget = 24 * past.kept[0].bytes();
-        let mut dropped = 0;
-        for cycle in 1..=200 {
-            session.advance_to(f64::from(cycle)).expect("a step");
+        past.keep(&start, &trend);
+        past.budget = 12 * past.kept[0].bytes();
+        for _ in 0..40 {
+            let mut session = start.clone();
             past.keep(&session, &trend);
-            dropped += past.mark(&session, &trend);
-            assert!(past.bytes() <= past.budget);
-            assert_eq!(dropped + past.marks(), cycle as usize);
+            for cycle in 1..=5 {
+                session.advance_to(f64::from(cycle)).expect("a step");
+                past.keep(&session, &trend);
+                assert!(past.bytes() <= past.budget);
+            }
+            past.leave(&trend);
+            assert!(past.trends.len() <= past.kept.len());
         }
-        // Half of the memory is theirs, and the newest are there.
-        assert!(past.marks() >= 10, "{}", past.marks());
-        assert!(cycles(&past).len() >= 8);
-        let oldest = past.bookmarks[0].kept.cycle();
-        assert_eq!(oldest, (201 - past.marks()) as f64);
+        past.keep(&start, &trend);
+        assert_eq!(past.back().map(|kept| kept.cycle()), Some(5.0));
     }
 
     #[test]
@@ -391,39 +337,32 @@ mod tests {
         assert_eq!(at(past.forth()), Some(2.0));
         assert_eq!(at(past.forth()), Some(3.0));
         assert_eq!(past.present(), None);
+        assert!(past.branch().is_none());
         assert_eq!(at(past.back()), Some(2.0));
-        assert!(past.branch() && !past.branch());
-        assert_eq!(cycles(&past), [0.0, 1.0, 2.0]);
-        for _ in 0..3 {
+        for _ in 0..2 {
             past.back();
         }
         assert!(past.back().is_none());
-        assert_eq!(past.present(), Some(2.0));
+        assert_eq!(past.present(), Some(3.0));
     }
 
     #[test]
-    fn a_bookmark_on_another_branch_brings_its_own_past() {
-        let (mut session, mut past) = run_to(2);
+    fn the_way_back_leads_through_what_a_branch_and_a_restart_left() {
+        let (mut session, mut past) = run_to(3);
         let trend = Trend::default();
-        past.mark(&session, &trend);
-        past.mark(&session, &trend);
-        assert_eq!(past.marks(), 1);
-        let early = past.back().expect("a state");
-        past.branch();
-        let mut other = early.session.clone();
-        other.change("wear.law", "power").expect("a value");
-        past.keep(&other, &trend);
-        other.advance_to(4.0).expect("a step");
-        past.keep(&other, &trend);
-        assert_eq!(cycles(&past), [0.0, 1.0, 1.0, 4.0]);
-        let mark = past.bookmark_before(&other).expect("a bookmark");
-        past.visit(&mark);
-        assert_eq!(cycles(&past), [0.0, 1.0, 2.0]);
-        assert_eq!(past.present(), None);
-        // On the same line it is a place in the past.
-        session.advance_to(3.0).expect("a step");
+        let at = |kept: Option<Arc<Kept>>| kept.map(|kept| kept.cycle());
+        assert_eq!(at(past.back()), Some(2.0));
+        assert_eq!(at(past.back()), Some(1.0));
+        let left = past.branch().expect("a branch");
+        assert_eq!((left.end.cycle(), left.is_other_run), (3.0, false));
+        assert_eq!(cycles(&past), [0.0, 1.0, 2.0, 3.0, 1.0]);
+        session.advance_to(4.0).expect("a step");
         past.keep(&session, &trend);
-        past.visit(&mark);
-        assert_eq!(past.present(), Some(3.0));
+        past.leave(&trend);
+        past.keep(&run_to(0).0, &trend);
+        assert_eq!(cycles(&past), [0.0, 1.0, 2.0, 3.0, 1.0, 4.0, 0.0]);
+        assert_eq!(at(past.back()), Some(4.0));
+        let left = past.branch().expect("a branch");
+        assert_eq!((left.end.cycle(), left.is_other_run), (0.0, true));
     }
 }

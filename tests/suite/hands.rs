@@ -199,11 +199,11 @@ fn the_form_edits_parameters_while_it_runs() {
     assert!(shot("e,,").contains("cycle 2.00/"));
     assert_eq!(shot(",e<Esc>"), shot(","));
     assert_eq!(shot(",ejj5<Esc><Esc>"), shot(","));
-    // The default edge of the domain is no number yet: nothing to step from.
-    let text = shot(",e<Up><Up><Up><Up>+");
-    assert!(text.contains("+ and - cannot change this value"), "{text}");
+    // The default edge of the domain is no number yet: nothing to step from, but a place to type one.
+    let text = shot(",e<Up><Up><Up><Up><Up><Up>+");
+    assert!(text.contains("Enter applies"), "{text}");
     // Every shape brings its own keys.
-    let text = shot(",e<Enter>");
+    let text = shot(",e<Enter><Down><Enter>");
     assert!(text.contains("indenter.angle is missing"), "{text}");
 }
 
@@ -351,7 +351,7 @@ fn a_branch_from_the_past_is_the_run_without_what_came_after() {
     // Run on from there: the same as if there had been no way back.
     assert_eq!(body(&shot(",,,,[[,")), body(&shot(",,,")));
     let text = shot(",,,,[[.");
-    assert!(foot(&text).starts_with("branch at cycle 2.00; B returns to the run up to "));
+    assert!(foot(&text).starts_with("branch at cycle 2.00; [ leads back to the run up to "));
     // Later changes are dropped, earlier ones stay, and all of it runs again bit for bit.
     for (keys, changes) in [
         (",m,w,[,s", 1),
@@ -365,20 +365,71 @@ fn a_branch_from_the_past_is_the_run_without_what_came_after() {
 }
 
 #[test]
-fn bookmarks_survive_branches() {
+fn the_way_back_leads_to_what_a_branch_a_restart_and_an_edit_left() {
+    // A branch with another friction, and back in the run before it.
+    let branch = ",,,[[ejjjj+<Esc>,";
     assert_eq!(
-        foot(&shot(",b")),
-        "bookmark set at cycle 1.00; B returns to it"
+        body(&shot(&format!("{branch}[[")))[1..],
+        body(&shot(",,,"))[1..]
     );
-    assert_eq!(foot(&shot(",B")), "no bookmark yet; b sets one here");
-    // On the way back, forth leads to the present.
-    assert_eq!(body(&shot(",,b,,B]]")), body(&shot(",,,,")));
-    assert_eq!(body(&shot(",,b,,B"))[1..], body(&shot(",,"))[1..]);
-    // Marked, left behind by a branch with another friction, and found again.
-    let branch = ",,,b[[ejjjj+<Esc>,,B";
-    assert_eq!(body(&shot(branch)), body(&shot(",,,")));
-    let (state, again) = replayed(&format!("{branch},s"));
+    let (state, again) = replayed(&format!("{branch}[[.s"));
     assert!(!state.contains("# at cycle ") && state == again);
+    // A restart says so, and is undone.
+    assert_eq!(
+        foot(&shot(",,,r")),
+        "restarted; [ leads back to the run up to cycle 3.00"
+    );
+    assert_eq!(body(&shot(",,,r["))[1..], body(&shot(",,,"))[1..]);
+    assert_eq!(body(&shot(",,,r[,")), body(&shot(",,,,")));
+    assert!(shot(",,,r[]").contains("⏸ paused  │ cycle 0.00/"));
+    assert!(shot(",,,:load cone<Enter>[").contains("◂ past    │ cycle 3.00/199.24"));
+    // So are a method, a law and a value.
+    for edit in ["m", "w", "ejjjj+[<Esc>]"] {
+        assert_eq!(
+            body(&shot(&format!(",,,{edit}[")))[1..],
+            body(&shot(",,,"))[1..],
+            "{edit}"
+        );
+    }
+}
+
+/// Printable keys edit a value; none of them is a command, whatever parameter is selected.
+#[test]
+fn typing_in_the_parameter_list_loses_no_run() {
+    let plain = shot(",,,");
+    let expected = body(&plain);
+    let mut letters: String = ('!'..='~').filter(|c| !"?:,[]<+-=".contains(*c)).collect();
+    letters.push_str("éµ∂");
+    for row in 0..20 {
+        let down = "<Down>".repeat(row);
+        let keys = format!(",,,e{down}{letters}<Esc><Esc>");
+        assert_eq!(body(&shot(&keys)), expected, "row {row}");
+    }
+    // One by one, and the list stays open.
+    for letter in letters.chars().filter(|c| !"jk".contains(*c)) {
+        let text = shot(&format!(",e{letter}"));
+        assert!(text.contains("cancels)"), "{letter}\n{text}");
+    }
+}
+
+#[test]
+fn choices_are_listed_with_what_each_is() {
+    assert_snapshot!("methods-80x24", shot(",i"));
+    let text = shot(",i<Down><Enter><Esc>");
+    assert!(
+        foot(&text).is_empty() || !text.contains("product, N"),
+        "{text}"
+    );
+    assert!(shot(",I").contains("by friction work"));
+    assert!(shot(",ip<Down><Enter>").contains("numerics.method = a at cycle 1.00"));
+    assert!(foot(&shot_of(&TestDir::new(), "hertz", "I")).contains("no wear.law"));
+}
+
+#[test]
+fn what_is_fixed_during_a_run_says_why() {
+    let at = |up: usize| shot(&format!(",e<End>{}5", "k".repeat(up)));
+    let because = "fixed during a run: it has chosen points and steps before the run";
+    assert!((0..14).any(|up| at(up).contains(because)));
 }
 
 #[test]

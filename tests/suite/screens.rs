@@ -651,18 +651,6 @@ fn a_logarithmic_axis_keeps_its_unit() {
     }
 }
 
-/// The future that a branch leaves is marked, and B goes back to it.
-#[test]
-fn a_branch_keeps_the_future_that_it_leaves() {
-    let dir = dir();
-    let shot = |keys: &str| shot(dir.path(), "mindlin", keys, (120, 24));
-    let text = shot(",[,");
-    let foot = text.lines().last().expect("a footer");
-    assert!(foot.contains("B returns to the run up to"), "{text}");
-    let text = shot(",,,[[,B");
-    assert!(text.contains("cycle 3.00/"), "{text}");
-}
-
 #[test]
 fn a_comparison_can_begin_at_the_start() {
     let dir = dir();

@@ -175,9 +175,7 @@ impl AbelMethod {
             Self::Product => "product integration linear in r²; exact for paraboloid and cone",
             Self::Benad => "integration by parts (Benad 2018); unstable in fretting",
             Self::A => "Method A of the paper: singularity split off; causal",
-            Self::B => {
-                "Method B of the paper: trapezoids in asin and acosh; leaks at the stick border"
-            }
+            Self::B => "Method B of the paper: trapezoids; leaks at the stick border",
             Self::APlusB => "Method A for Eqs. (1) and (3), B for Eq. (2); causal",
         }
     }

@@ -31,6 +31,10 @@ pub enum Command {
     NextMethod,
     /// The transform method before.
     PreviousMethod,
+    /// All transform methods, and what each is.
+    Methods,
+    /// All wear laws, and what each is.
+    Laws,
     /// The next wear law.
     NextLaw,
     /// The wear law before.
@@ -61,10 +65,6 @@ pub enum Command {
     TimeBack,
     /// Forward in time.
     TimeForth,
-    /// Mark the state on the screen.
-    Mark,
-    /// Go to a marked state.
-    Visit,
     /// Choose another preset.
     Presets,
     /// Start again.

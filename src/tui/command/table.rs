@@ -99,6 +99,20 @@ pub static BINDINGS: &[Binding] = &[
         false,
     ),
     bind(
+        C::Methods,
+        &[Char('i')],
+        "methods",
+        "all transform methods, and what each is",
+        false,
+    ),
+    bind(
+        C::Laws,
+        &[Char('I')],
+        "wear laws",
+        "all wear laws, and what each is",
+        false,
+    ),
+    bind(
         C::NextPage,
         &[Char('v')],
         "view",
@@ -166,20 +180,6 @@ pub static BINDINGS: &[Binding] = &[
         &[Char(']')],
         "forward in time",
         "forward in time, up to the present",
-        false,
-    ),
-    bind(
-        C::Mark,
-        &[Char('b')],
-        "bookmark",
-        "bookmark the state on the screen",
-        false,
-    ),
-    bind(
-        C::Visit,
-        &[Char('B')],
-        "go to bookmark",
-        "go to the previous bookmark",
         false,
     ),
     bind(

@@ -10,10 +10,12 @@ use ratatui::widgets::Widget;
 use super::{Answer, App, Command, Frame, Key, LineEdit, docked, first_shown, typing};
 use crate::scenario::preset;
 use crate::scenario::schema::Kind;
+use crate::scenario::words::meaning;
 use crate::tui::command::BINDINGS;
 use crate::tui::keys::Named;
 use crate::tui::map::live::Range;
 use crate::tui::order::Order;
+use crate::tui::settings::Setting;
 use crate::tui::theme::Role;
 
 /// The line being typed, and which of its completions is selected.
@@ -182,13 +184,10 @@ fn settings(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
         right,
         act: Act::Set(key.to_owned(), value.to_owned()),
     };
-    let words: &[&str] = match found.map(|setting| setting.parameter.kind) {
-        Some(Kind::Choice(words)) => words,
-        Some(Kind::Flag) => &["true", "false"],
-        _ => &[],
-    };
+    let words = found.and_then(Setting::words).unwrap_or_default();
     let begun = words.iter().filter(|word| word.starts_with(value));
-    list.extend(begun.map(|word| set(word, String::new(), String::new())));
+    let meaning = |word: &str| meaning(key, word).unwrap_or_default().to_owned();
+    list.extend(begun.map(|word| set(word, meaning(word), String::new())));
     if list.is_empty() {
         let help = found.map(|setting| setting.parameter.described());
         let now = found.map(|setting| format!("now {}", setting.shown(true)));

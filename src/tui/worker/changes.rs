@@ -13,7 +13,6 @@ use crate::tui::frame::Activity;
 use crate::tui::ghosts;
 use crate::tui::settings::Setting;
 use crate::tui::trend::Trend;
-use crate::tui::undo::Past;
 
 /// Factor by which each key press refines cells and steps.
 const STRIDE: f64 = 1.5;
@@ -102,6 +101,17 @@ impl Worker {
         self.warnings = Arc::new(self.session.simulation().warnings());
     }
 
+    /// The scenario as it was loaded, from its beginning; the run up to here can be gone back to.
+    pub(super) fn restart(&mut self) {
+        let cycle = self.past.line(&self.session).simulation().cycle();
+        self.load(self.session.loaded().clone());
+        if cycle > 0.0 {
+            self.notice(&format!(
+                "restarted; [ leads back to the run up to cycle {cycle:.2}"
+            ));
+        }
+    }
+
     /// Another scenario, from its beginning.
     pub(super) fn load(&mut self, scenario: Scenario) {
         let resolved = match refinement::resolve(&scenario, None, SCREEN_PATIENCE, &|| true) {
@@ -123,13 +133,13 @@ impl Worker {
 
     /// Another run takes the place of this one.
     pub(super) fn take_up(&mut self, session: Session, trend: Trend) {
+        self.keep();
         if let Some(keeping) = &self.keeping {
             super::locked(keeping).turn_over(self.past.line(&self.session), &session);
         }
+        self.past.leave(&self.trend);
         self.session = session;
         self.comparison = None;
-        self.past = Past::default();
-        self.whole_trend = None;
         self.learn();
         self.trend = trend;
         if self.activity != Activity::Running {

@@ -54,8 +54,6 @@ pub struct Worker {
     /// What the warnings say of the hardness.
     passed_hardness: Option<Passed>,
     trend: Trend,
-    /// The trend up to the present, while the screen is in the past.
-    whole_trend: Option<Trend>,
     past: Past,
     kept_at: Instant,
     curves: Curves,
@@ -103,7 +101,6 @@ impl Worker {
             ghosts: Vec::new(),
             cycle_loads: CycleLoads::default(),
             trend,
-            whole_trend: None,
             past: Past::default(),
             kept_at: Instant::now(),
             curves: Curves::all(),
@@ -287,8 +284,6 @@ impl Worker {
             Order::Cycle => self.by_hand(ends_cycle),
             Order::Back => self.travel(Past::back, "this is the start of the run"),
             Order::Forth => self.travel(Past::forth, "this is the present"),
-            Order::Mark => self.mark(),
-            Order::Visit => self.visit(),
             Order::Compare => match self.comparison.take() {
                 Some(_) => {}
                 None => self.comparison(0, From::Now),
@@ -310,7 +305,7 @@ impl Worker {
             Order::Pace(rungs) => {
                 self.rung = (self.rung + rungs).clamp(Pace::SLOWEST, Pace::UNLIMITED)
             }
-            Order::Restart => self.load(self.session.loaded().clone()),
+            Order::Restart => self.restart(),
             Order::Load(scenario) => self.load(*scenario),
             Order::Open(opened) => self.take_up(opened.session, opened.trend),
             Order::Overlay(given) => self.overlay(&given),

@@ -5,7 +5,6 @@ use std::time::{Duration, Instant};
 
 use super::Worker;
 use crate::tui::frame::Activity;
-use crate::tui::trend::Trend;
 use crate::tui::undo::{Kept, Past};
 
 /// Minimum time between stored states while running.
@@ -25,79 +24,39 @@ impl Worker {
         }
     }
 
-    /// Continues from the state on the screen, if it is in the past. The present that it leaves is
-    /// bookmarked, so that `B` finds it again; returns the notice about that.
+    /// Continues from the state on the screen, if it is in the past. The way back leads to the run that
+    /// it leaves; returns the notice about that.
     pub(super) fn branch(&mut self) -> Option<String> {
-        let whole_trend = self.whole_trend.take();
-        let present = self.past.present()?;
-        let left = self.past.line(&self.session).clone();
-        self.past.branch();
-        self.past.mark(&left, &whole_trend.unwrap_or_default());
-        let cycle = self.session.simulation().cycle();
+        let left = self.past.branch()?;
+        let (cycle, end) = (
+            self.session.simulation().cycle(),
+            left.end.session.simulation().cycle(),
+        );
+        if let Some(keeping) = self.keeping.as_ref().filter(|_| left.is_other_run) {
+            super::locked(keeping).turn_over(&left.end.session, &self.session);
+        }
         Some(format!(
-            "branch at cycle {cycle:.2}; B returns to the run up to {present:.2}"
+            "branch at cycle {cycle:.2}; [ leads back to the run up to {end:.2}"
         ))
     }
 
     /// Shows another stored state, or says why there is none.
     pub(super) fn travel(&mut self, way: fn(&mut Past) -> Option<Arc<Kept>>, end: &str) {
         self.keep();
+        self.past.note_trend(&self.trend);
         match way(&mut self.past) {
-            Some(kept) => {
-                let trend = self
-                    .whole_trend
-                    .take()
-                    .unwrap_or_else(|| self.trend.clone());
-                self.show(&kept, trend);
-            }
+            Some(kept) => self.show(&kept),
             None => self.notice(end),
         }
     }
 
     /// Shows a stored state, paused.
-    fn show(&mut self, kept: &Kept, whole_trend: Trend) {
+    fn show(&mut self, kept: &Kept) {
         self.session = kept.session.clone();
-        let cycle = self.session.simulation().cycle();
-        self.trend = whole_trend.until(cycle, &kept.tip);
-        self.whole_trend = self.past.present().is_some().then_some(whole_trend);
+        self.trend = self.past.trend(kept);
         self.comparison = None;
         self.activity = Activity::Paused;
         self.learn();
-    }
-
-    /// Bookmarks the state on the screen.
-    pub(super) fn mark(&mut self) {
-        self.keep();
-        let dropped = self.past.mark(&self.session, &self.trend);
-        let cycle = self.session.simulation().cycle();
-        let marks = self.past.marks();
-        let others = match marks {
-            1 => String::new(),
-            marks => format!(" ({marks} in all)"),
-        };
-        let full = match dropped {
-            0 => "",
-            _ => "; memory is full, so the oldest one was dropped",
-        };
-        self.notice(&format!(
-            "bookmark set at cycle {cycle:.2}{others}; B returns to it{full}"
-        ));
-    }
-
-    /// Goes to the previous bookmark.
-    pub(super) fn visit(&mut self) {
-        self.keep();
-        let Some(mark) = self.past.bookmark_before(&self.session) else {
-            return self.notice("no bookmark yet; b sets one here");
-        };
-        let whole_trend = self.whole_trend.take();
-        self.past.visit(&mark);
-        // On the present branch the trend continues after the bookmark.
-        let trend = match self.past.present() {
-            Some(_) => whole_trend.unwrap_or_else(|| self.trend.clone()),
-            None => mark.trend.clone(),
-        };
-        self.show(&mark.kept, trend);
     }
 }
 

@@ -81,7 +81,12 @@ pub fn main() -> ExitCode {
         Ok(code) => code,
         Err(error) if is_closed_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
-            complain(&format!("{error:#}"));
+            match error.downcast_ref::<ScenarioError>() {
+                Some(ScenarioError::Several(errors)) => {
+                    errors.iter().for_each(|error| complain(&error.to_string()));
+                }
+                _ => complain(&format!("{error:#}")),
+            }
             ExitCode::from(exit_code(&error))
         }
     }

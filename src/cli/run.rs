@@ -510,6 +510,15 @@ impl Job {
             "  dissipated energy       {:.4e} J",
             moment.dissipated_energy
         )?;
+        let setup = simulation.setup();
+        if let Some(law) = &setup.wear {
+            let (k, friction) = (law.coefficient(), setup.material.friction());
+            writeln!(
+                out,
+                "  wear coefficient        {k:.4e} 1/Pa per friction work, {:.4e} mm3/(N m) per load",
+                k * friction * 1e9
+            )?;
+        }
         if let Some(residual) = moment.energy_residual {
             writeln!(
                 out,

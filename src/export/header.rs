@@ -37,6 +37,12 @@ pub fn entries(session: &Session) -> Vec<(String, String)> {
         line("wear_coefficient_per_Pa", &number(k));
         line("wear_coefficient_mm3_per_Nm", &number(k * 1e9));
         line("wear_coefficient_um3_per_J", &number(k * 1e18));
+        // Archard's, with respect to load and sliding distance, at the friction of the moment.
+        let per_load = k * setup.material.friction();
+        line(
+            "wear_coefficient_per_load_mm3_per_Nm",
+            &number(per_load * 1e9),
+        );
     }
     line("points", &setup.grid.cells().to_string());
     line("steps_per_cycle", &setup.steps_per_cycle.to_string());

@@ -51,6 +51,7 @@ pub(super) fn assign(
     }
     trade_accuracy_for_choices(table, parameter.path);
     trade_nodes_for_others(table, parameter.path);
+    trade_twin(table, parameter.path);
     origin.assign(parameter.path, written);
     schema::insert(table, parameter.path, value);
     Ok(())
@@ -87,6 +88,26 @@ fn trade_nodes_for_others(table: &mut Table, path: &str) {
     };
     if let Some(Value::Table(numerics)) = table.get_mut("numerics") {
         numerics.remove(schema::split(removed).1);
+    }
+}
+
+/// One of two keys for the same takes the place of the other.
+fn trade_twin(table: &mut Table, path: &str) {
+    const TWINS: [[&str; 2]; 3] = [
+        [keys::NORMAL_FREQUENCY.path(), keys::NORMAL_HERTZ.path()],
+        [
+            keys::TANGENTIAL_FREQUENCY.path(),
+            keys::TANGENTIAL_HERTZ.path(),
+        ],
+        [keys::WEAR_COEFFICIENT.path(), keys::WEAR_PER_LOAD.path()],
+    ];
+    for [one, other] in TWINS {
+        let twin = match path {
+            _ if path == one => other,
+            _ if path == other => one,
+            _ => continue,
+        };
+        schema::remove(table, twin);
     }
 }
 
@@ -134,11 +155,14 @@ pub(super) fn written(key: &str, value: &str) -> String {
 mod tests {
     use super::*;
     use crate::scenario::check;
+    use crate::scenario::error::Faults;
 
     fn assigned(key: &str, value: &str) -> Table {
         let (mut table, mut origin) = (Table::new(), Origin::new("t"));
         assign(&mut table, &mut origin, key, value, &written(key, value)).expect("a known key");
-        check::keys(&table, &origin).expect("a value of the right kind");
+        let mut faults = Faults::default();
+        check::keys(&table, &origin, &mut faults);
+        assert_eq!(faults.into_error(), None);
         table
     }
 

@@ -3,71 +3,75 @@
 
 use toml::{Table, Value};
 
-use super::error::{Origin, ScenarioError, echo};
+use super::error::{Faults, Origin, ScenarioError, echo};
 use super::keys::PARAMETERS;
 use super::schema::{self, Parameter};
-use super::write;
+use super::{words, write};
 
-/// Refuses the first key that is not in the table of parameters or has a value of the wrong kind.
-pub(super) fn keys(table: &Table, origin: &Origin) -> Result<(), ScenarioError> {
-    section(table, "", "", origin)
+/// Finds every key that is not in the table of parameters or has a value of the wrong kind.
+pub(super) fn keys(table: &Table, origin: &Origin, faults: &mut Faults) {
+    section(table, "", "", origin, faults);
 }
 
 /// Checks the keys of the table at `path`, which messages call `shown`.
-fn section(table: &Table, path: &str, shown: &str, origin: &Origin) -> Result<(), ScenarioError> {
+fn section(table: &Table, path: &str, shown: &str, origin: &Origin, faults: &mut Faults) {
     for (name, value) in table {
         let (path, shown) = (join(path, name), join(shown, name));
         if path == "changes" {
-            changes(value, origin)?;
+            changes(value, origin, faults);
         } else if let Some(parameter) = schema::find(&path) {
             if !parameter.kind.fits(value) {
-                return Err(origin.refuse(&shown, &show(value), parameter.rule()));
-            }
-            if !parameter.allows(value) {
+                let rule = format!("{}{}", parameter.rule(), words::instead(parameter, value));
+                faults.note(&shown, origin.refuse(&shown, &show(value), rule));
+            } else if !parameter.allows(value) {
                 let each = if value.is_array() { "each " } else { "" };
                 let rule = format!("{each}must be {}", parameter.range);
-                return Err(origin.refuse(&shown, &show(value), rule));
+                faults.note(&shown, origin.refuse(&shown, &show(value), rule));
             }
         } else if schema::is_section(&path) {
             match value {
-                Value::Table(inner) => section(inner, &path, &shown, origin)?,
+                Value::Table(inner) => section(inner, &path, &shown, origin, faults),
                 other => {
                     let rule = format!("must be a table, [{path}]");
-                    return Err(origin.refuse(&shown, &show(other), rule));
+                    faults.note(&shown, origin.refuse(&shown, &show(other), rule));
                 }
             }
         } else {
-            return Err(unknown(origin.name(), &path, &shown));
+            faults.note(&shown, unknown(origin.name(), &path, &shown));
+            // What was meant is not missing as well.
+            for meant in schema::meant(&path) {
+                faults.blame(&meant);
+            }
         }
     }
-    Ok(())
 }
 
 /// Checks `[[changes]]`: an array of tables, each with both of its keys.
-fn changes(value: &Value, origin: &Origin) -> Result<(), ScenarioError> {
+fn changes(value: &Value, origin: &Origin, faults: &mut Faults) {
     let refuse = |shown: &str, value: &Value| {
         let rule = "must be an array of tables, [[changes]] with at_cycle and set";
-        Err(origin.refuse(shown, &show(value), rule))
+        origin.refuse(shown, &show(value), rule)
     };
     let Some(list) = value.as_array() else {
-        return refuse("changes", value);
+        return faults.note("changes", refuse("changes", value));
     };
     for (i, entry) in list.iter().enumerate() {
         let shown = format!("changes[{i}]");
         let Some(table) = entry.as_table() else {
-            return refuse(&shown, entry);
+            faults.note(&shown, refuse(&shown, entry));
+            continue;
         };
-        section(table, "changes", &shown, origin)?;
+        section(table, "changes", &shown, origin, faults);
         for parameter in PARAMETERS
             .iter()
             .filter(|known| known.section() == "changes")
         {
-            if !table.contains_key(parameter.key()) {
-                return Err(missing(origin, &join(&shown, parameter.key()), parameter));
+            if !table.contains_key(parameter.key()) && !faults.blames(parameter.path) {
+                let shown = join(&shown, parameter.key());
+                faults.note(&shown, missing(origin, &shown, parameter));
             }
         }
     }
-    Ok(())
 }
 
 /// The error for an unknown key, named at `place`.

@@ -5,7 +5,10 @@ use thiserror::Error;
 /// Maximum number of characters of a user's text in an error.
 const LONGEST_ECHO: usize = 60;
 
-/// A scenario that cannot be run. Each displays as one line.
+/// The most errors that are told at once.
+const MOST_ERRORS: usize = 20;
+
+/// A scenario that cannot be run. Each displays as one line, and several as one each.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum ScenarioError {
     /// A name that is neither a preset's nor a path.
@@ -62,6 +65,12 @@ pub enum ScenarioError {
         /// What it means, and its unit.
         meaning: String,
     },
+    /// More than one of the others, a line each.
+    #[error("{}", lines(.0))]
+    Several(Vec<ScenarioError>),
+    /// What is left out of a long list of them.
+    #[error("and {0} more errors")]
+    More(usize),
     /// A value that breaks a rule.
     #[error("{place}: {rule}")]
     Refused {
@@ -70,6 +79,74 @@ pub enum ScenarioError {
         /// What would be right.
         rule: String,
     },
+}
+
+/// The errors found in a scenario, and which keys they blame.
+#[derive(Debug, Default)]
+pub(super) struct Faults {
+    errors: Vec<ScenarioError>,
+    paths: Vec<String>,
+}
+
+impl Faults {
+    /// Notes an error that is due to the key at `path`. A key is blamed once.
+    pub fn note(&mut self, path: &str, error: ScenarioError) {
+        if !self.blames(path) {
+            self.errors.push(error);
+            self.blame(path);
+        }
+    }
+
+    /// Notes that the key at `path` is dealt with by an error that is there already.
+    pub fn blame(&mut self, path: &str) {
+        self.paths.push(path.to_owned());
+    }
+
+    /// Whether an error deals with the key at `path`.
+    pub fn blames(&self, path: &str) -> bool {
+        self.paths.iter().any(|blamed| blamed == path)
+    }
+
+    /// Whether an error deals with the key at `path`, or with the whole table that it stands in.
+    pub fn covers(&self, path: &str) -> bool {
+        let mut rest = self
+            .paths
+            .iter()
+            .filter_map(|blamed| path.strip_prefix(blamed.as_str()));
+        rest.any(|rest| rest.is_empty() || rest.starts_with('.'))
+    }
+
+    /// The keys that errors deal with.
+    pub fn paths(&self) -> impl Iterator<Item = &str> {
+        self.paths.iter().map(String::as_str)
+    }
+
+    /// All errors as one; `None` where there are none.
+    pub fn into_error(self) -> Option<ScenarioError> {
+        (!self.errors.is_empty()).then(|| ScenarioError::several(self.errors))
+    }
+}
+
+impl ScenarioError {
+    /// Errors as one.
+    pub(super) fn several(mut errors: Vec<Self>) -> Self {
+        if errors.len() > MOST_ERRORS {
+            let more = errors.split_off(MOST_ERRORS - 1).len();
+            errors.push(Self::More(more));
+        }
+        match errors.pop() {
+            Some(only) if errors.is_empty() => only,
+            last => {
+                errors.extend(last);
+                Self::Several(errors)
+            }
+        }
+    }
+}
+
+fn lines(errors: &[ScenarioError]) -> String {
+    let lines: Vec<String> = errors.iter().map(ScenarioError::to_string).collect();
+    lines.join("\n")
 }
 
 /// `text` on one line, whatever it holds: control and invisible characters become escapes.

@@ -160,6 +160,9 @@ keys! {
             "angular frequency of the normal motion")
         .default(Derived("that of the tangential motion if the amplitude is 0"))
         .effect("a different ratio to the tangential one: a different loop");
+    NORMAL_HERTZ: f64 = quantity("motion.normal.frequency", "Hz", Positive,
+            "frequency of the normal motion, instead of angular_frequency")
+        .effect("a different ratio to the tangential one: a different loop");
     NORMAL_PHASE: f64 = quantity("motion.normal.phase", "rad", Any, "phase of the normal motion")
         .default(Implied("0.0"))
         .effect("when the contact is deepest, relative to the tangential motion");
@@ -196,6 +199,9 @@ keys! {
             "angular frequency of the tangential motion; one period is a cycle")
         .default(Derived("that of the normal motion if the amplitude is 0"))
         .effect("one period is a cycle; matters for powers of the slip rate");
+    TANGENTIAL_HERTZ: f64 = quantity("motion.tangential.frequency", "Hz", Positive,
+            "frequency of the tangential motion, instead of angular_frequency; one period is a cycle")
+        .effect("one period is a cycle; matters for powers of the slip rate");
     TANGENTIAL_PHASE: f64 = quantity("motion.tangential.phase", "rad", Any,
             "phase of the tangential motion")
         .default(Implied("0.0"))
@@ -225,10 +231,14 @@ keys! {
     LAW: String = choice("wear.law", LAWS, "law of wear")
         .default(Written("\"archard\""))
         .effect("archard: by friction work; power: by powers of stress and slip rate");
-    WEAR_COEFFICIENT: f64 = quantity("wear.coefficient", "1/Pa", NotNegative, "wear coefficient k")
+    WEAR_COEFFICIENT: f64 = quantity("wear.coefficient", "1/Pa", NotNegative,
+            "wear coefficient k per friction work: V = k E_d")
         .effect("more: the same wear in fewer cycles, until steps are too coarse");
+    WEAR_PER_LOAD: f64 = quantity("wear.coefficient_per_load", "m^3/(N*m)", NotNegative,
+            "Archard's, of a pin test: volume per load and sliding distance, instead of coefficient")
+        .effect("as coefficient: k = coefficient_per_load / friction, of each moment");
     WEAR_SETTLED: f64 = quantity("wear.settled", "1/Pa", NotNegative,
-            "wear coefficient after running in")
+            "wear coefficient per friction work after running in")
         .effect("the wear coefficient after running in");
     WEAR_CYCLES: f64 = quantity("wear.running_in_cycles", "cycles", Positive,
             "cycles in which the distance to settled falls by a factor e")

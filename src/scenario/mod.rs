@@ -37,7 +37,7 @@ mod validate;
 pub mod words;
 mod write;
 
-use error::{Origin, echo};
+use error::{Faults, Origin, echo};
 pub use error::{ScenarioError, printable};
 pub use run::{Change, MOST_CHANGES, MOST_CYCLES, MOST_SNAPSHOTS, RunPlan};
 use schema::Parameter;
@@ -87,13 +87,22 @@ impl Scenario {
     /// Reads a scenario from a text that messages call `origin`.
     pub fn from_toml(text: &str, origin: &str, sets: &[String]) -> Result<Self, ScenarioError> {
         let mut from = Origin::new(origin);
-        let mut table = read::table(text, &from)?;
+        let (mut table, mut faults) = read::table(text, &from)?;
         for set in sets {
             let (key, value) = assign::split(set, "--set ")?;
             let written = format!("--set {}", echo(set));
             assign::assign(&mut table, &mut from, key, value, &written)?;
         }
-        Self::build(table, from, origin)
+        match (Self::build(table, from, origin), faults.is_empty()) {
+            (built, true) => built,
+            (built, false) => {
+                match built.err() {
+                    Some(ScenarioError::Several(more)) => faults.extend(more),
+                    more => faults.extend(more),
+                }
+                Err(ScenarioError::several(faults))
+            }
+        }
     }
 
     /// The same scenario with one key changed, by the rules of `--set`: `value` is TOML or a bare
@@ -241,8 +250,23 @@ impl Scenario {
         blocks::expand(&mut table, &from)?;
         embed::files(&mut table, origin, &mut from)?;
         let from = &from;
-        units::to_si(&mut table, from)?;
-        check::keys(&table, from)?;
+        let mut faults = Faults::default();
+        units::to_si(&mut table, from, &mut faults);
+        check::keys(&table, from, &mut faults);
+        if faults.paths().next().is_some() {
+            // Whatever is wrong, what is missing beside it can be told.
+            for path in faults.paths() {
+                let was_given = schema::remove(&mut table, path).is_some();
+                let known = schema::find(path).filter(|_| was_given);
+                if let Some(value) = known.and_then(Parameter::any_value) {
+                    schema::insert(&mut table, path, value);
+                }
+            }
+            validate::find_missing(&table, from, &mut faults);
+        }
+        if let Some(error) = faults.into_error() {
+            return Err(error);
+        }
         let changes = Change::all(&table);
         if changes.len() > MOST_CHANGES {
             let rule = format!("must have at most {MOST_CHANGES} entries");
@@ -250,7 +274,13 @@ impl Scenario {
         }
         validate::accuracy(&table, from)?;
         let complete = complete::table(&table);
-        let setup = validate::setup(&complete, &table, from)?;
+        let setup = validate::setup(&complete, &table, from).map_err(|error| {
+            let mut faults = Faults::default();
+            if let ScenarioError::Missing { .. } = &error {
+                validate::find_missing(&table, from, &mut faults);
+            }
+            faults.into_error().unwrap_or(error)
+        })?;
         let run = RunPlan::of(&table);
         let table = complete;
         let given = keys::TITLE

@@ -1,5 +1,7 @@
 //! Builds the motion from the keys of a scenario: each direction, and the rig.
 
+use std::f64::consts::TAU;
+
 use super::check::missing;
 use super::error::ScenarioError;
 use super::keys;
@@ -18,6 +20,7 @@ struct Motion {
     mean: Key<f64>,
     amplitude: Key<f64>,
     frequency: Key<f64>,
+    hertz: Key<f64>,
     phase: Key<f64>,
     waveform: Key<String>,
     hold: Key<f64>,
@@ -32,6 +35,7 @@ const NORMAL: Motion = Motion {
     mean: keys::NORMAL_MEAN,
     amplitude: keys::NORMAL_AMPLITUDE,
     frequency: keys::NORMAL_FREQUENCY,
+    hertz: keys::NORMAL_HERTZ,
     phase: keys::NORMAL_PHASE,
     waveform: keys::NORMAL_WAVEFORM,
     hold: keys::NORMAL_HOLD,
@@ -46,6 +50,7 @@ const TANGENTIAL: Motion = Motion {
     mean: keys::TANGENTIAL_MEAN,
     amplitude: keys::TANGENTIAL_AMPLITUDE,
     frequency: keys::TANGENTIAL_FREQUENCY,
+    hertz: keys::TANGENTIAL_HERTZ,
     phase: keys::TANGENTIAL_PHASE,
     waveform: keys::TANGENTIAL_WAVEFORM,
     hold: keys::TANGENTIAL_HOLD,
@@ -73,7 +78,11 @@ impl Parts<'_> {
                 "must be at most {HIGHEST_RATIO} times motion.tangential.angular_frequency, \
                  whose period is the cycle"
             );
-            return Err(self.refuse(keys::NORMAL_FREQUENCY.path(), "", rule));
+            let given = match self.has(keys::NORMAL_HERTZ.path()) {
+                true => keys::NORMAL_HERTZ.path(),
+                false => keys::NORMAL_FREQUENCY.path(),
+            };
+            return Err(self.refuse(given, "", rule));
         }
         let drive = Drive::new(normal, tangential);
         match self.get(&keys::RIG_STIFFNESS) {
@@ -106,6 +115,22 @@ impl Parts<'_> {
             .map_err(|invalid| self.refused(motion.section, invalid))
     }
 
+    /// The angular frequency, rad/s, where it or the frequency is given.
+    fn frequency(&self, motion: &Motion) -> Result<Option<f64>, ScenarioError> {
+        let angular = self.get(&motion.frequency);
+        match self.get(&motion.hertz) {
+            None => Ok(angular),
+            Some(hertz) if angular.is_none() => Ok(Some(TAU * hertz)),
+            Some(_) => {
+                let rule = format!(
+                    "conflicts with {}; give one of them",
+                    motion.frequency.path()
+                );
+                Err(self.refuse(motion.hertz.path(), "", rule))
+            }
+        }
+    }
+
     /// One direction of the motion. Where it stands still its frequency is that of the other
     /// direction, so that both share one period. A table brings its own mean, amplitude and frequency
     /// where the scenario gives none.
@@ -124,9 +149,10 @@ impl Parts<'_> {
             Some(amplitude) => amplitude,
             None => self.require(&motion.amplitude)?,
         };
-        let frequency = match or_of_table(&motion.frequency, |table| table.angular_frequency) {
+        let of_table = || tabled.as_ref().map(|table| table.angular_frequency);
+        let frequency = match self.frequency(motion)?.or_else(of_table) {
             Some(frequency) => frequency,
-            None if amplitude == 0.0 => self.get(&other.frequency).unwrap_or(1.0),
+            None if amplitude == 0.0 => self.frequency(other)?.unwrap_or(1.0),
             None => self.require(&motion.frequency)?,
         };
         let waveform = match self.get(&motion.waveform).as_deref() {

@@ -4,6 +4,7 @@ use super::error::ScenarioError;
 use super::keys;
 use super::schema::Key;
 use super::validate::Parts;
+use crate::contact::material::Material;
 use crate::math::invalid::Invalid;
 use crate::simulation::running_in::{Course, Over, RunningIn};
 
@@ -43,7 +44,11 @@ const WEAR: Keys = Keys {
 
 impl Parts<'_> {
     /// The coefficients that run in; `None` if they are constant.
-    pub(super) fn running_in(&self) -> Result<Option<RunningIn>, ScenarioError> {
+    pub(super) fn running_in(
+        &self,
+        material: &Material,
+    ) -> Result<Option<RunningIn>, ScenarioError> {
+        self.refuse_coefficients_of_both_kinds()?;
         let mut all = RunningIn {
             friction: self.course(&FRICTION)?,
             wear: self.course(&WEAR)?,
@@ -52,13 +57,51 @@ impl Parts<'_> {
                 false => 0.0,
             },
         };
+        if let Some(per_load) = self.get(&keys::WEAR_PER_LOAD) {
+            all.wear = self.over_friction(per_load, all.friction.as_ref())?;
+        }
         // Behind the threshold the coefficient is what it is without one.
         if all.threshold > 0.0 && all.wear.is_none() {
-            let coefficient = self.require(&keys::WEAR_COEFFICIENT)?;
+            let coefficient = self.wear_coefficient(material)?;
             let constant = Course::table(&[0.0], &[coefficient], Over::Cycles);
             all.wear = Some(constant.map_err(|invalid| self.refused(WEAR.section, invalid))?);
         }
         Ok((all != RunningIn::default()).then_some(all))
+    }
+
+    /// Refuses a coefficient per load and distance together with what is told per friction work.
+    fn refuse_coefficients_of_both_kinds(&self) -> Result<(), ScenarioError> {
+        const PER_WORK: [&str; 5] = [
+            keys::WEAR_COEFFICIENT.path(),
+            keys::WEAR_SETTLED.path(),
+            keys::WEAR_CYCLES.path(),
+            keys::WEAR_ENERGY.path(),
+            keys::WEAR_VALUES.path(),
+        ];
+        let path = keys::WEAR_PER_LOAD.path();
+        let mut others = PER_WORK.into_iter().filter(|other| self.has(other));
+        match others.next().filter(|_| self.has(path)) {
+            Some(other) => {
+                let rule =
+                    format!("conflicts with {other}, which is per friction work; give one of them");
+                Err(self.refuse(path, "", rule))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// A coefficient per load and distance, over friction that runs in; `None` where that is constant.
+    fn over_friction(
+        &self,
+        per_load: f64,
+        friction: Option<&Course>,
+    ) -> Result<Option<Course>, ScenarioError> {
+        let course = friction.map(|friction| Course::over(per_load, friction));
+        course.transpose().map_err(|_| {
+            let rule = "needs friction greater than 0 at all times: per friction work it is \
+                        k = coefficient_per_load / friction";
+            self.refuse(keys::WEAR_PER_LOAD.path(), "", rule)
+        })
     }
 
     fn course(&self, keys: &Keys) -> Result<Option<Course>, ScenarioError> {

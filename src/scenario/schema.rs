@@ -179,6 +179,22 @@ impl Parameter {
         Some(because)
     }
 
+    /// Some value that is allowed, to see what else a scenario lacks; `None` for texts and lists.
+    pub(super) fn any_value(&self) -> Option<Value> {
+        let number = match self.range {
+            Range::Within(least, most) => 1f64.clamp(least, most),
+            Range::UpTo(most) => most.min(1.0),
+            _ => 1.0,
+        };
+        match self.kind {
+            Kind::Number => Some(Value::Float(number)),
+            Kind::Whole => Some(Value::Integer(number as i64)),
+            Kind::Flag => Some(Value::Boolean(true)),
+            Kind::Choice(words) => words.first().map(|word| Value::String((*word).to_owned())),
+            Kind::Text | Kind::Numbers => None,
+        }
+    }
+
     /// The rule that a value of the wrong kind breaks.
     pub(super) fn rule(&self) -> String {
         format!("must be {}{}", self.kind.wanted(), self.allowed())
@@ -387,6 +403,14 @@ pub(super) fn insert(table: &mut Table, path: &str, value: Value) {
     }
 }
 
+/// Takes the value at a dotted path away.
+pub(super) fn remove(table: &mut Table, path: &str) -> Option<Value> {
+    match path.split_once('.') {
+        None => table.remove(path),
+        Some((first, rest)) => remove(table.get_mut(first)?.as_table_mut()?, rest),
+    }
+}
+
 /// Splits a dotted path into its table and its key.
 pub(super) fn split(path: &str) -> (&str, &str) {
     path.rsplit_once('.').unwrap_or(("", path))
@@ -405,8 +429,82 @@ pub(super) fn is_section(path: &str) -> bool {
     })
 }
 
-/// A hint for the unknown `path`.
-pub fn hint(path: &str) -> String {
+/// The keys that people mean by the letters of textbooks and by words of other programs, at their own
+/// place or at any other.
+const MEANT: &[(&[&str], &[&str])] = &[
+    (
+        &["k", "wear_coefficient", "wear_rate", "specific_wear_rate"],
+        &["wear.coefficient", "wear.coefficient_per_load"],
+    ),
+    (
+        &[
+            "mu",
+            "cof",
+            "friction_coefficient",
+            "coefficient_of_friction",
+        ],
+        &["friction.coefficient"],
+    ),
+    (
+        &[
+            "e_star",
+            "estar",
+            "e*",
+            "modulus",
+            "reduced_modulus",
+            "equivalent_modulus",
+        ],
+        &["material.effective_modulus"],
+    ),
+    (
+        &["nu", "poissons_ratio", "poisson_ratio"],
+        &["material.poisson"],
+    ),
+    (
+        &["r", "ball_radius", "radius_of_curvature"],
+        &["indenter.radius"],
+    ),
+    (
+        &["load", "normal_load", "normal_force"],
+        &["motion.normal.mean"],
+    ),
+    (&["n"], &["numerics.points"]),
+];
+
+/// What is said of a key beside its name where it was meant by another.
+const MORE: &[(&str, &str)] = &[
+    ("wear.coefficient", " (per friction work)"),
+    (
+        "wear.coefficient_per_load",
+        " (per load and distance, of a pin test)",
+    ),
+    ("motion.normal.mean", " with control = \"force\""),
+];
+
+/// The keys that the unknown `path` most likely stands for, none if there is nothing near.
+pub(super) fn meant(path: &str) -> Vec<String> {
+    let (section, key) = split(path);
+    let word = key.to_lowercase();
+    let in_motion = section.starts_with("motion.") && is_section(section);
+    match word.as_str() {
+        "omega" | "w" if in_motion => return vec![format!("{section}.angular_frequency")],
+        "f" | "freq" | "hz" if in_motion => return vec![format!("{section}.frequency")],
+        _ => {}
+    }
+    let known = MEANT
+        .iter()
+        .find(|(words, _)| words.contains(&word.as_str()));
+    match known {
+        Some((_, keys)) => keys.iter().map(|key| (*key).to_owned()).collect(),
+        None => nearest(path, places().into_iter())
+            .into_iter()
+            .map(str::to_owned)
+            .collect(),
+    }
+}
+
+/// All keys and tables.
+fn places() -> Vec<&'static str> {
     let mut known: Vec<&str> = Vec::new();
     for parameter in PARAMETERS {
         let dots = parameter
@@ -419,12 +517,26 @@ pub fn hint(path: &str) -> String {
             }
         }
     }
-    if let Some(near) = nearest(path, known.iter().copied()) {
-        return format!("did you mean {near}?");
+    known
+}
+
+/// A hint for the unknown `path`.
+pub fn hint(path: &str) -> String {
+    let meant = meant(path);
+    if !meant.is_empty() {
+        let more = |key: &str| MORE.iter().find(|(known, _)| *known == key);
+        let told =
+            meant.iter().map(
+                |key| match more(key).filter(|_| !path.ends_with(key.as_str())) {
+                    Some((_, more)) => format!("{key}{more}"),
+                    None => key.clone(),
+                },
+            );
+        return format!("did you mean {}?", told.collect::<Vec<_>>().join(" or "));
     }
     let section = split(path).0;
     let section = if is_section(section) { section } else { "" };
-    let keys: Vec<&str> = known
+    let keys: Vec<&str> = places()
         .into_iter()
         .filter(|key| split(key).0 == section)
         .collect();
@@ -460,7 +572,6 @@ mod tests {
             ("numerics.pointz", "numerics.points"),
             ("points", "numerics.points"),
             ("numerics.steps", "numerics.steps_per_cycle"),
-            ("motion.normal.frequency", "motion.normal.angular_frequency"),
             ("frictoin", "friction"),
             ("material.friction", "friction"),
             ("motion.tangental", "motion.tangential"),
@@ -469,7 +580,24 @@ mod tests {
         ] {
             assert_eq!(hint(typed), format!("did you mean {near}?"), "{typed}");
         }
-        assert!(hint("wear.k").starts_with("known are wear.law, wear.coefficient"));
+        for (typed, near) in [
+            (
+                "wear.k",
+                "wear.coefficient (per friction work) or wear.coefficient_per_load (per load and \
+                 distance, of a pin test)",
+            ),
+            ("friction.mu", "friction.coefficient"),
+            ("material.E_star", "material.effective_modulus"),
+            (
+                "motion.tangential.omega",
+                "motion.tangential.angular_frequency",
+            ),
+            ("motion.tangential.freq", "motion.tangential.frequency"),
+            ("load", "motion.normal.mean with control = \"force\""),
+        ] {
+            assert_eq!(hint(typed), format!("did you mean {near}?"), "{typed}");
+        }
+        assert!(hint("wear.zzz").starts_with("known are wear.law, wear.coefficient"));
         assert!(hint("zzz").starts_with("known are title, description, indenter"));
     }
 

@@ -1,7 +1,7 @@
 //! Numbers with units, as people write them: `radius = "10 mm"`, `phase = "45°"`.
 //!
 //! A text is a number and a unit made of known ones by `·`, `*`, `/`, powers and parentheses, with SI
-//! prefixes: `230.8 GPa`, `0.13 mm³/(N·m)`, `1.3e8 um^3/J`. It is taken where its dimension is that
+//! prefixes: `230.8 GPa`, `0.13 mm³/J`, `1.3e8 um^3/J`. It is taken where its dimension is that
 //! of the key. Powers of ten are put into the exponent of the number before it is read, so that
 //! `"10 mm"` is the same float as `0.01`. One hertz is 2π rad/s.
 
@@ -9,7 +9,7 @@ use std::f64::consts::{PI, TAU};
 
 use toml::{Table, Value};
 
-use super::error::{Origin, ScenarioError, echo};
+use super::error::{Faults, Origin, echo};
 use super::keys::PRESCRIBED;
 use super::schema::{self, Kind, Parameter};
 use super::write;
@@ -80,6 +80,16 @@ impl Unit {
         })
     }
 
+    /// [`named`](Self::named), or newtons and a length without a sign between them, as pin tests tell
+    /// their wear: `mm³/Nm`.
+    fn named_or_moment(symbol: &str) -> Option<Self> {
+        Self::named(symbol).or_else(|| {
+            let length = Self::named(symbol.strip_prefix('N')?)?;
+            let is_length = length.dimension == [1, 0, 0, 0];
+            is_length.then(|| Self::named("N").map(|newton| newton.times(length)))?
+        })
+    }
+
     fn power(self, power: i32) -> Self {
         Self {
             dimension: self.dimension.map(|of| of * power),
@@ -112,11 +122,16 @@ impl Unit {
 fn product(rest: &mut &str) -> Option<Unit> {
     let mut unit = factor(rest)?;
     loop {
+        let is_apart = rest.starts_with(' ');
         *rest = rest.trim_start();
         let power = match rest.chars().next() {
             None | Some(')') => return Some(unit),
             Some('/') => -1,
             Some('·' | '*' | '⋅') => 1,
+            Some(c) if is_apart && c.is_alphabetic() => {
+                unit = unit.times(factor(rest)?);
+                continue;
+            }
             Some(_) => return None,
         };
         *rest = rest[rest.chars().next()?.len_utf8()..].trim_start();
@@ -138,7 +153,7 @@ fn factor(rest: &mut &str) -> Option<Unit> {
     let end = rest
         .find(|c: char| !(c.is_alphabetic() || c == '°'))
         .unwrap_or(rest.len());
-    let unit = Unit::named(&rest[..end])?;
+    let unit = Unit::named_or_moment(&rest[..end])?;
     *rest = &rest[end..];
     Some(unit.power(power(rest)?))
 }
@@ -197,6 +212,10 @@ fn number(text: &str) -> Option<(&str, i32, &str)> {
 /// its unit is unknown or of another dimension.
 fn in_unit(text: &str, unit: &str) -> Option<Result<f64, String>> {
     let text = text.trim();
+    if let Some(pointed) = with_decimal_point(text) {
+        let rule = format!("must be written with a point, {}", echo(&pointed));
+        return Some(Err(rule));
+    }
     let (mantissa, exponent, given) = number(text)?;
     let given = given.trim();
     let due = Unit::read(unit)?;
@@ -221,6 +240,15 @@ fn in_unit(text: &str, unit: &str) -> Option<Result<f64, String>> {
     Some(Ok(value * (found.factor / due.factor)))
 }
 
+/// The text with a point for the decimal comma of its number; `None` where it has none.
+pub(super) fn with_decimal_point(text: &str) -> Option<String> {
+    let (whole, fraction) = text.split_once(',')?;
+    let digits = whole.strip_prefix(['+', '-']).unwrap_or(whole);
+    let is_number = !digits.is_empty() && digits.chars().all(|c| c.is_ascii_digit());
+    let goes_on = fraction.starts_with(|c: char| c.is_ascii_digit());
+    (is_number && goes_on && !fraction.contains(',')).then(|| format!("{whole}.{fraction}"))
+}
+
 /// How a value of a unit may be written.
 fn example(unit: &str) -> &'static str {
     match unit {
@@ -229,18 +257,19 @@ fn example(unit: &str) -> &'static str {
         "rad" => "\"45 deg\"",
         "rad/s" => "\"50 Hz\"",
         "Pa" => "\"210 GPa\"",
-        "1/Pa" => "\"0.13 mm^3/(N*m)\"",
+        "1/Pa" => "\"0.13 mm^3/J\"",
+        "m^3/(N*m)" => "\"1e-5 mm^3/(N*m)\"",
         "m/s" => "\"10 um/s\"",
         _ => "\"10 mm\" for a length",
     }
 }
 
 /// Replaces every text that is a number with a unit by the number in the unit of its key.
-pub(super) fn to_si(table: &mut Table, origin: &Origin) -> Result<(), ScenarioError> {
-    section(table, "", origin)
+pub(super) fn to_si(table: &mut Table, origin: &Origin, faults: &mut Faults) {
+    section(table, "", origin, faults);
 }
 
-fn section(table: &mut Table, path: &str, origin: &Origin) -> Result<(), ScenarioError> {
+fn section(table: &mut Table, path: &str, origin: &Origin, faults: &mut Faults) {
     let is_force = table.get("control").and_then(Value::as_str) == Some("force");
     for (key, value) in table.iter_mut() {
         let path = if path.is_empty() {
@@ -250,20 +279,21 @@ fn section(table: &mut Table, path: &str, origin: &Origin) -> Result<(), Scenari
         };
         let known = schema::find(&path).filter(|known| known.kind == Kind::Number);
         match (&mut *value, known) {
-            (Value::Table(inner), _) => section(inner, &path, origin)?,
+            (Value::Table(inner), _) => section(inner, &path, origin, faults),
             (Value::String(text), Some(known)) => {
                 let unit = unit_of(known, is_force);
                 let written = write::value(&Value::String(text.clone()));
                 match in_unit(text, unit) {
                     Some(Ok(number)) => *value = Value::Float(number),
-                    Some(Err(rule)) => return Err(origin.refuse(&path, &echo(&written), rule)),
+                    Some(Err(rule)) => {
+                        faults.note(&path, origin.refuse(&path, &echo(&written), rule));
+                    }
                     None => {}
                 }
             }
             _ => {}
         }
     }
-    Ok(())
 }
 
 /// The unit of a key, in a motion that prescribes a force or a displacement.
@@ -290,7 +320,7 @@ pub fn quantity(text: &str, known: &Parameter, is_force: bool) -> Option<Result<
 const DIGITS: usize = 7;
 
 /// A value (in `unit`) as an engineer reads it: the number, and the unit it is in, which a scenario
-/// takes back: `230.77 GPa`, `1 µm`, `45 deg`, `50 Hz`, `0.13 mm³/(N·m)`.
+/// takes back: `230.77 GPa`, `1 µm`, `45 deg`, `50 Hz`, `0.13 mm³/J`.
 pub fn reading(value: f64, unit: &str, ascii: bool) -> (String, String) {
     let spelled = |text: &str| {
         if ascii {
@@ -303,8 +333,9 @@ pub fn reading(value: f64, unit: &str, ascii: bool) -> (String, String) {
     let shown = match unit {
         "rad" => Some((value * 180.0 / PI, "°".to_owned())),
         "rad/s" => Some((value / TAU, "Hz".to_owned())),
-        // 1/Pa = m³/(N·m).
-        "1/Pa" => Some((value * 1e9, "mm³/(N·m)".to_owned())),
+        // 1/Pa = m³/J: per friction work, where m³/(N·m) is per load and distance.
+        "1/Pa" => Some((value * 1e9, "mm³/J".to_owned())),
+        "m^3/(N*m)" => Some((value * 1e9, "mm³/(N·m)".to_owned())),
         "m" | "N" | "Pa" | "J" | "N/m" | "m/s" => prefixed(value, unit),
         _ => None,
     };
@@ -366,6 +397,11 @@ mod tests {
             ("0.1 krad/s", "rad/s", 100.0),
             ("0.13 mm³/(N·m)", "1/Pa", 1.3e-10),
             ("0.13 mm^3/N/m", "1/Pa", 1.3e-10),
+            ("0.13 mm3/Nm", "1/Pa", 1.3e-10),
+            ("0.13 mm³/Nm", "1/Pa", 1.3e-10),
+            ("0.13 mm3/(N m)", "1/Pa", 1.3e-10),
+            ("1.3e-5 mm³/(N·m)", "m^3/(N*m)", 1.3e-14),
+            ("50 Hz", "Hz", 50.0),
             ("1.3e8 µm³/J", "1/Pa", 1.3e-10),
             ("1.3e-10 1/Pa", "1/Pa", 1.3e-10),
             ("1.3e-10 Pa⁻¹", "1/Pa", 1.3e-10),
@@ -390,6 +426,8 @@ mod tests {
             ("10 mm/", "m"),
             ("10 mm^", "m"),
             ("1 mm^99", "m"),
+            ("1 mm3/N m", "1/Pa"),
+            ("1 Nkg", "J"),
         ] {
             let answer = in_unit(text, unit);
             assert!(matches!(answer, Some(Err(_))), "{text}: {answer:?}");
@@ -407,7 +445,8 @@ mod tests {
             (1e-6, "m", "1 µm"),
             (0.01, "m", "10 mm"),
             (std::f64::consts::FRAC_PI_4, "rad", "45 °"),
-            (1.3e-10, "1/Pa", "0.13 mm³/(N·m)"),
+            (1.3e-10, "1/Pa", "0.13 mm³/J"),
+            (1.3e-14, "m^3/(N*m)", "1.3e-5 mm³/(N·m)"),
             (TAU * 50.0, "rad/s", "50 Hz"),
             (0.3, "", "0.3"),
             (0.0, "m", "0 m"),

@@ -4,11 +4,11 @@
 use toml::{Table, Value};
 
 use super::check::{missing, show};
-use super::derive;
-use super::error::{Origin, ScenarioError};
+use super::error::{Faults, Origin, ScenarioError};
 use super::keys::{self, CHOSEN_BY_ACCURACY};
 use super::run::RunPlan;
-use super::schema::{self, Key};
+use super::schema::{self, Key, Parameter};
+use super::{complete, derive};
 use crate::contact::indenter::Indenter;
 use crate::contact::material::Material;
 use crate::contact::scar::Scar;
@@ -36,7 +36,7 @@ pub(super) fn setup(
     let drive = parts.drive()?;
     let material = parts.material()?;
     let wear = parts.wear(&indenter, &material, &drive)?;
-    let running_in = parts.running_in()?;
+    let running_in = parts.running_in(&material)?;
     let scar = parts.scar()?;
     let domain = parts.domain_radius(
         &indenter,
@@ -76,6 +76,29 @@ pub(super) fn setup(
         .map_err(refused)?,
     };
     Ok(setup)
+}
+
+/// Notes every key that is missing from `table`, one after the other with a value in its place.
+pub(super) fn find_missing(table: &Table, origin: &Origin, faults: &mut Faults) {
+    // Each round puts in a key that was not there.
+    let mut table = table.clone();
+    for _ in 0..keys::PARAMETERS.len() {
+        let complete = complete::table(&table);
+        let Err(error @ ScenarioError::Missing { .. }) = setup(&complete, &table, origin) else {
+            return;
+        };
+        let ScenarioError::Missing { path, .. } = &error else {
+            return;
+        };
+        let path = path.clone();
+        if !faults.covers(&path) {
+            faults.note(&path, error);
+        }
+        match schema::find(&path).and_then(Parameter::any_value) {
+            Some(value) => schema::insert(&mut table, &path, value),
+            None => return,
+        }
+    }
 }
 
 /// Refuses `numerics.accuracy` together with a key that it determines.
@@ -167,7 +190,7 @@ impl Parts<'_> {
         let first = self.get(&keys::WEAR_VALUES);
         let coefficient = match first.and_then(|values| values.first().copied()) {
             Some(first) => self.get(&keys::WEAR_COEFFICIENT).unwrap_or(first),
-            None => self.require(&keys::WEAR_COEFFICIENT)?,
+            None => self.wear_coefficient(material)?,
         };
         let given = [
             self.get(&keys::REFERENCE_STRESS),
@@ -198,6 +221,23 @@ impl Parts<'_> {
             WearLaw::archard(coefficient).map_err(refused)?
         };
         Ok(Some(law))
+    }
+
+    /// k per friction work, 1/Pa: as given, or that per load and distance over the friction that the run
+    /// begins with.
+    pub(super) fn wear_coefficient(&self, material: &Material) -> Result<f64, ScenarioError> {
+        let Some(per_load) = self.get(&keys::WEAR_PER_LOAD) else {
+            let meaning = keys::WEAR_COEFFICIENT.parameter.described();
+            let meaning = format!("{meaning}; or coefficient_per_load, of a pin test");
+            let given = self.get(&keys::WEAR_COEFFICIENT);
+            return given.ok_or_else(|| self.missing(keys::WEAR_COEFFICIENT.path(), &meaning));
+        };
+        if material.friction() > 0.0 {
+            return Ok(per_load / material.friction());
+        }
+        let rule = "needs friction greater than 0: per friction work it is \
+                    k = coefficient_per_load / friction";
+        Err(self.refuse(keys::WEAR_PER_LOAD.path(), "", rule))
     }
 
     /// The domain's edge, m, as given or as derived.

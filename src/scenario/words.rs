@@ -1,5 +1,9 @@
 //! What each word of a choice means, in a line.
 
+use toml::Value;
+
+use super::nearest::nearest;
+use super::schema::{Kind, Parameter};
 use crate::math::abel::AbelMethod;
 
 /// What `word` means as the value of the key at `path`; `None` for words that no key takes.
@@ -42,11 +46,34 @@ pub fn meaning(path: &str, word: &str) -> Option<&'static str> {
     Some(meaning)
 }
 
+/// A remark behind the rule that `value` breaks as one of a key's words: the word that was meant, if that
+/// can be told.
+pub(super) fn instead(parameter: &Parameter, value: &Value) -> String {
+    let (Kind::Choice(words), Some(given)) = (parameter.kind, value.as_str()) else {
+        return String::new();
+    };
+    let word = given.to_lowercase();
+    let meant = match (parameter.key(), word.as_str()) {
+        ("shape", "sphere" | "spherical" | "ball" | "hertz" | "parabola") => Some("paraboloid"),
+        ("shape", "punch" | "flat" | "cylinder" | "disc") => Some("flat-punch"),
+        ("control", "load" | "normal" | "stress" | "weight") => Some("force"),
+        ("control", "stroke" | "depth" | "position" | "motion" | "amplitude") => {
+            Some("displacement")
+        }
+        ("waveform", "sin" | "sinus" | "sinusoidal" | "cos" | "harmonic") => Some("sine"),
+        ("law", "energy" | "linear") => Some("archard"),
+        _ => nearest(&word, words.iter().copied()),
+    };
+    match meant.filter(|_| words.len() > 1) {
+        Some(meant) => format!("; did you mean \"{meant}\"?"),
+        None => String::new(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::scenario::keys::PARAMETERS;
-    use crate::scenario::schema::Kind;
 
     #[test]
     fn every_word_of_every_choice_has_a_meaning() {

@@ -42,6 +42,13 @@ pub enum Course {
         /// What x is.
         over: Over,
     },
+    /// A constant over another course, which is always greater than 0.
+    Quotient {
+        /// What is divided.
+        dividend: f64,
+        /// What it is divided by.
+        divisor: Box<Course>,
+    },
 }
 
 /// Everything that changes with use.
@@ -93,6 +100,23 @@ impl Course {
         })
     }
 
+    /// `dividend` over a course that is always greater than 0.
+    ///
+    /// # Errors
+    /// The course has a value of 0.
+    pub fn over(dividend: f64, divisor: &Self) -> Result<Self, Invalid> {
+        let least = match divisor {
+            Self::Exponential { first, last, .. } => first.min(*last),
+            Self::Table { rows, .. } => rows.iter().map(|row| row.1).fold(f64::INFINITY, f64::min),
+            Self::Quotient { dividend, .. } => *dividend,
+        };
+        positive("divisor", least)?;
+        Ok(Self::Quotient {
+            dividend,
+            divisor: Box::new(divisor.clone()),
+        })
+    }
+
     /// The value after `cycles` cycles and `energy` J.
     pub fn after(&self, cycles: f64, energy: f64) -> f64 {
         match self {
@@ -114,6 +138,7 @@ impl Course {
                     (None, None) => 0.0,
                 }
             }
+            Self::Quotient { dividend, divisor } => dividend / divisor.after(cycles, energy),
         }
     }
 
@@ -126,6 +151,7 @@ impl Course {
             Self::Table { rows, over } => rows
                 .last()
                 .is_none_or(|last| over.of(cycles, energy) >= last.0),
+            Self::Quotient { divisor, .. } => divisor.is_settled(cycles, energy),
         }
     }
 }
@@ -186,6 +212,11 @@ mod tests {
             assert!((table.after(1e9, energy) - value).abs() < 1e-15, "{energy}");
         }
         assert!(!table.is_settled(1e9, 5.0) && table.is_settled(0.0, 6.0));
+        let over = Course::over(0.3, &table).expect("a course");
+        assert!((over.after(0.0, 1.0) - 0.75).abs() < 1e-15);
+        assert!(!over.is_settled(1e9, 5.0) && over.is_settled(0.0, 6.0));
+        let none = Course::table(&[0.0], &[0.0], Over::Cycles).expect("a course");
+        assert!(Course::over(0.3, &none).is_err());
     }
 
     #[test]

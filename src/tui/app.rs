@@ -14,7 +14,7 @@ use super::command::Command;
 use super::frame::{Activity, Frame};
 use super::keys::Key;
 use super::layout;
-use super::line::LineEdit;
+use super::line::{LineEdit, one_line};
 use super::order::Order;
 use super::overlays::{Answer, Form, Help, Library, Overlay, Palette};
 use super::panels::{Panel, Shown};
@@ -448,7 +448,7 @@ impl App {
                 self.forget_scales();
                 self.order(Order::Load(Box::new(scenario)));
             }
-            Err(error) => self.notice = Some(error.to_string()),
+            Err(error) => self.notice = Some(one_line(&error.to_string())),
         }
     }
 

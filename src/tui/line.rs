@@ -5,6 +5,16 @@ use super::keys::{Key, Named};
 /// The longest line, in characters: a path fits, and a pasted document does not.
 pub const LONGEST: usize = 4096;
 
+/// The first line of a message that may have more, and how many follow.
+pub fn one_line(text: &str) -> String {
+    let mut lines = text.lines();
+    let first = lines.next().unwrap_or_default();
+    match lines.count() {
+        0 => first.to_owned(),
+        more => format!("{first} (and {more} more)"),
+    }
+}
+
 /// The text and where the next character goes.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct LineEdit {

@@ -64,6 +64,20 @@ impl Setting {
         has_unit.then(|| units::reading(value, self.unit, ascii))
     }
 
+    /// The unit that a number without one is typed in: the one that is shown.
+    pub fn typed_unit(&self) -> String {
+        let shown = self.reading(true).map(|(_, unit)| unit);
+        shown.unwrap_or_else(|| self.unit.to_owned())
+    }
+
+    /// A typed value: a bare number gets the unit that is shown.
+    pub fn in_shown_unit(&self, typed: &str) -> String {
+        match (typed.parse::<f64>(), self.reading(true)) {
+            (Ok(_), Some((_, unit))) if !unit.is_empty() => format!("{typed} {unit}"),
+            _ => typed.to_owned(),
+        }
+    }
+
     /// The rule for a value, in one line.
     pub fn rule(&self) -> String {
         match self.parameter.kind {

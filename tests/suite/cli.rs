@@ -13,21 +13,23 @@ use mdr_tui::simulation::Curves;
 
 use crate::test_dir::{Said, Table, TestDir, bits, end, names};
 
-/// One line on stderr that has `expected` in it, code 2, nothing on stdout, nothing written.
+/// Lines on stderr, one of them with `expected` in it, code 2, nothing on stdout, nothing written.
 fn assert_refused(dir: &TestDir, arguments: &[&str], expected: &str) {
     let before = dir.inventory();
     let said = dir.say(arguments);
     assert_eq!(said.code, 2, "{arguments:?}: {}", said.err);
     assert_eq!(said.out, "", "{arguments:?}");
-    let line = said.err.strip_suffix('\n').expect("a whole line");
-    assert!(line.starts_with("mdr-tui: "), "{line}");
-    assert!(!line.chars().any(char::is_control), "{line:?}");
-    assert!(line.contains(expected), "{line:?} without {expected:?}");
+    let lines = said.err.strip_suffix('\n').expect("whole lines");
+    for line in lines.lines() {
+        assert!(line.starts_with("mdr-tui: "), "{line}");
+        assert!(!line.chars().any(char::is_control), "{line:?}");
+    }
+    assert!(lines.contains(expected), "{lines:?} without {expected:?}");
     assert!(dir.inventory() == before, "{arguments:?} wrote something");
 }
 
 #[test]
-fn a_bad_scenario_is_one_line_and_nothing_written() {
+fn a_bad_scenario_is_a_line_an_error_and_nothing_written() {
     let dir = TestDir::new();
     dir.write("unknown.toml", b"[indenter]\nradious = 0.01\n");
     dir.write("type.toml", b"[indenter]\nradius = \"big\"\n");

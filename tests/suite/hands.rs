@@ -182,12 +182,13 @@ fn the_form_edits_parameters_while_it_runs() {
     // Typed, stepped, and chosen.
     for (keys, told) in [
         (
-            "e<Down><Enter><C-u>0.02<Enter>",
-            "indenter.radius = 0.02 at cycle 1.00",
+            "e<Down><Enter><C-u>0.02 m<Enter>",
+            "indenter.radius = 0.02 m at cycle 1.00",
         ),
         (
-            "e<Down>0.02<Backspace>3<Enter>",
-            "indenter.radius = 0.03 at cycle 1.00",
+            // A bare number is in the unit that is shown.
+            "e<Down>25<Backspace>6<Enter>",
+            "indenter.radius = 26 mm at cycle 1.00",
         ),
         ("ejjjj+", "friction.coefficient = 0.11 at cycle 1.00"),
         ("ejjjj++-", "friction.coefficient = 0.11 at cycle 1.00"),

@@ -62,12 +62,12 @@ fn every_invalid_fixture_is_refused_with_the_line_it_expects() {
     let fixtures = fixtures("invalid");
     assert!(fixtures.len() > 60);
     for (name, text) in fixtures {
-        let first = text.lines().next().unwrap_or_default();
-        let expected = first
-            .strip_prefix("# expect: ")
-            .expect("an expectation on the first line");
+        let expected = text
+            .lines()
+            .map_while(|line| line.strip_prefix("# expect: "));
+        let expected: Vec<&str> = expected.collect();
         let error = Scenario::from_toml(&text, &name, &[]).expect_err(&name);
-        assert_eq!(error.to_string(), expected);
+        assert_eq!(error.to_string(), expected.join("\n"));
     }
 }
 
@@ -669,7 +669,7 @@ proptest! {
     #[test]
     fn no_text_makes_the_reader_panic_or_break_the_line(text in any::<String>(), set in any::<String>()) {
         if let Err(error) = Scenario::from_toml(&text, &text, &[]) {
-            prop_assert!(!error.to_string().contains(char::is_control));
+            prop_assert!(!error.to_string().lines().any(|line| line.contains(char::is_control)));
         }
         if let Err(error) = Scenario::load(&text, &[]) {
             prop_assert!(!error.to_string().contains(char::is_control));
@@ -679,5 +679,172 @@ proptest! {
                 prop_assert!(!error.to_string().contains(char::is_control));
             }
         }
+    }
+}
+
+/// A scenario as a newcomer writes it: everything that is wrong with it is told at once, with what was meant.
+#[test]
+fn all_errors_of_a_file_are_told_in_one_go() {
+    let text = "[indenter]\nshape = \"sphere\"\nR = 0.01\n\
+                [material]\nE_star = 2.3e11\npoisson = 0.7\n\
+                [friction]\nmu = 0.3\n\
+                [motion.normal]\ncontrol = \"load\"\nmean = \"10 N\"\n\
+                [motion.tangential]\namplitude = 1e-6\n\
+                [wear]\nk = 1e-13\n\
+                [numerics]\npoints = \"many\"\n";
+    let error = Scenario::from_toml(text, "mine.toml", &[]).expect_err("nine faults");
+    let told = error.to_string();
+    for part in [
+        "indenter.shape = \"sphere\": must be one of",
+        "; did you mean \"paraboloid\"?",
+        "unknown key indenter.R; did you mean indenter.radius?",
+        "unknown key material.E_star; did you mean material.effective_modulus?",
+        "material.poisson = 0.7: must be from 0 to 0.5",
+        "unknown key friction.mu; did you mean friction.coefficient?",
+        "motion.normal.control = \"load\": must be one of \"displacement\", \"force\"; did you mean \"force\"?",
+        "motion.tangential.angular_frequency is missing",
+        "unknown key wear.k; did you mean wear.coefficient (per friction work) or \
+         wear.coefficient_per_load (per load and distance, of a pin test)?",
+        "numerics.points = \"many\": must be a whole number",
+    ] {
+        assert!(told.contains(part), "{part}\n{told}");
+    }
+    // Nothing is told twice, and what was meant is not missing as well.
+    assert_eq!(told.lines().count(), 10, "{told}");
+    assert!(
+        told.lines().all(|line| line.starts_with("mine.toml: ")),
+        "{told}"
+    );
+    let told = Scenario::from_toml("", "empty.toml", &[])
+        .expect_err("nothing")
+        .to_string();
+    assert!(
+        told.lines().count() >= 3 && told.contains("motion.normal.mean is missing"),
+        "{told}"
+    );
+}
+
+#[test]
+fn a_decimal_comma_is_told_with_the_number_that_was_meant() {
+    let text = preset::find("li2019-fig3").expect("a preset").text;
+    let comma = text.replace("coefficient = 0.1\n", "coefficient = 0,1\n");
+    assert_ne!(comma, text);
+    let told = |text: &str, sets: &[String]| {
+        let error = Scenario::from_toml(text, "mine.toml", sets).expect_err("a comma");
+        error.to_string()
+    };
+    let line = told(&comma, &[]);
+    assert!(
+        line.ends_with("a number has a decimal point: 0.1") && line.lines().count() == 1,
+        "{line}"
+    );
+    let both = told(
+        &comma.replace("poisson = 0.3", "poisson = 3,3"),
+        &["friction.x=1".into()],
+    );
+    assert!(both.contains("friction.x"), "{both}");
+    let line = told(text, &["indenter.radius=0,3 mm".into()]);
+    assert!(
+        line.ends_with("must be written with a point, 0.3 mm"),
+        "{line}"
+    );
+}
+
+#[test]
+fn a_frequency_is_given_in_either_unit_but_once() {
+    let load = |sets: &[&str]| {
+        let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+        Scenario::load("li2019-fig3", &sets).map_err(|error| error.to_string())
+    };
+    let of = |scenario: &Scenario| {
+        let drive = &scenario.setup().drive;
+        drive
+            .tangential()
+            .map(|control| control.oscillation().angular_frequency())
+    };
+    let hertz = load(&[
+        "motion.tangential.frequency=50",
+        "motion.normal.frequency=50",
+    ])
+    .expect("hertz");
+    let angular = load(&[
+        "motion.tangential.angular_frequency=50 Hz",
+        "motion.normal.angular_frequency=50 Hz",
+    ]);
+    assert_eq!(of(&hertz), of(&angular.expect("radians")));
+    assert_eq!(of(&hertz), Some(std::f64::consts::TAU * 50.0));
+    // It is written as it was given, and read back to the same bits.
+    let text = hertz.to_toml();
+    assert!(
+        text.contains("frequency = 50.0  # Hz") && !text.contains("angular"),
+        "{text}"
+    );
+    let again = Scenario::from_toml(&text, "again", &[]).expect("its own text");
+    assert_eq!(of(&again), of(&hertz));
+    let both = preset::find("li2019-fig3").expect("a preset").text;
+    let both = both.replacen("angular_frequency", "frequency = 50\nangular_frequency", 1);
+    let told = Scenario::from_toml(&both, "both", &[])
+        .expect_err("both")
+        .to_string();
+    assert!(
+        told.contains("conflicts with motion.normal.angular_frequency"),
+        "{told}"
+    );
+}
+
+/// Archard's k of a pin test is per load and distance: per friction work it is k over friction.
+#[test]
+fn a_wear_coefficient_per_load_is_over_the_friction_of_the_moment() {
+    let run = |sets: &[&str]| {
+        let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+        let scenario = Scenario::load("li2019-fig3", &sets).map_err(|error| error.to_string())?;
+        let mut session = Session::start(scenario).expect("a contact");
+        session.advance_to(2.0).expect("cycles");
+        Ok::<_, String>(session)
+    };
+    let k = |session: &Session| {
+        session
+            .simulation()
+            .setup()
+            .wear
+            .expect("wear")
+            .coefficient()
+    };
+    let volume = |session: &Session| session.simulation().moment().wear_volume;
+    let work = run(&["wear.coefficient=1.3e-10"]).expect("a run");
+    let load = run(&["wear.coefficient_per_load=0.013 mm3/Nm"]).expect("a run");
+    assert!((k(&load) / 1.3e-10 - 1.0).abs() < 1e-12);
+    assert!((volume(&load) / volume(&work) - 1.0).abs() < 1e-9);
+    // Where friction runs in, so does k per friction work, the other way.
+    let changes = ["friction.settled=0.2", "friction.running_in_cycles=1"];
+    let load =
+        run(&[&["wear.coefficient_per_load=1.3e-11"], &changes[..]].concat()).expect("a run");
+    let friction = load.simulation().setup().material.friction();
+    assert!(friction > 0.15 && (k(&load) * friction / 1.3e-11 - 1.0).abs() < 1e-12);
+    // A change during a run goes with it as well.
+    let mut changed = work.clone();
+    changed
+        .change("wear.coefficient_per_load", "1.3e-11")
+        .expect("a change");
+    changed
+        .change("friction.coefficient", "0.2")
+        .expect("a change");
+    assert!((k(&changed) / 6.5e-11 - 1.0).abs() < 1e-12);
+    for (sets, rule) in [
+        (
+            ["wear.coefficient_per_load=1e-11", "friction.coefficient=0"],
+            "needs friction greater than 0",
+        ),
+        (
+            ["wear.coefficient_per_load=1e-11", "wear.settled=1e-11"],
+            "conflicts with wear.settled",
+        ),
+        (
+            ["wear.coefficient_per_load=1 mm", "title=x"],
+            "a unit compatible with m^3/(N*m)",
+        ),
+    ] {
+        let told = run(&sets).expect_err(rule);
+        assert!(told.contains(rule), "{told}");
     }
 }

@@ -155,7 +155,7 @@ impl Form {
                 self.sent = None;
             }
             Key::Named(Named::Enter) => {
-                let value = line.text().trim().to_owned();
+                let value = setting.in_shown_unit(line.text().trim());
                 return self.give(setting, value);
             }
             key => {
@@ -288,8 +288,8 @@ fn value(
     let path = format!(" {:1$}", setting.parameter.path, VALUES - 1);
     if let Some(line) = typed {
         typing(&path, line, app.theme.style(Role::Title)).render(row, buffer);
-        let unit = match setting.unit {
-            "" => String::new(),
+        let unit = match setting.typed_unit() {
+            unit if unit.is_empty() => unit,
             unit => format!("{unit}, or with a unit "),
         };
         let unit = Line::raw(app.theme.printable(&unit));

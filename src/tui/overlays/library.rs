@@ -12,6 +12,7 @@ use crate::scenario::preset::{self, Preset};
 use crate::scenario::{Scenario, printable};
 use crate::tui::command;
 use crate::tui::keys::Named;
+use crate::tui::line::one_line;
 use crate::tui::snapshot;
 use crate::tui::theme::Role;
 
@@ -80,7 +81,7 @@ impl Entry {
                         None => about,
                     }
                 }
-                Err(error) => error.to_string(),
+                Err(error) => one_line(&error.to_string()),
             },
         }
     }

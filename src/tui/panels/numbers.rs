@@ -82,9 +82,10 @@ fn rows(frame: &Frame, ascii: bool) -> Vec<(&'static str, String)> {
     }
     if let Some(k) = frame.wear_coefficient {
         let millimetres = if ascii { "mm3/(N*m)" } else { "mm³/(N·m)" };
+        let per_load = format_number(k * frame.friction * 1e9, 3);
         rows.push(("k", format!("{} 1/Pa", format_number(k, 3))));
-        rows.push(("k", format!("{} {millimetres}", format_number(k * 1e9, 3))));
         rows.push(("k", cubic_micrometres(k, ascii)));
+        rows.push(("k per load", format!("{per_load} {millimetres}")));
     }
     if let Some(residual) = moment.energy_residual {
         rows.push(("1 - V/(k E_d)", format_number(residual, 2)));

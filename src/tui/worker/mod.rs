@@ -19,6 +19,7 @@ use super::cycle_loads::CycleLoads;
 use super::figure;
 use super::frame::{Activity, Frame, Slot};
 use super::ghosts::{self, Source};
+use super::line::one_line;
 use super::map::live::{Live, Range};
 use super::order::Order;
 use super::pace::{Meter, Pace};
@@ -365,7 +366,7 @@ impl Worker {
     }
 
     fn notice(&self, text: &str) {
-        let _ = self.events.send(Event::Notice(text.to_owned()));
+        let _ = self.events.send(Event::Notice(one_line(text)));
     }
 
     fn publish(&mut self) {

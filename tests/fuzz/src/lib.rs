@@ -18,7 +18,13 @@ use ratatui::layout::Rect;
 /// Grids up to this many cells are stepped on.
 const CELLS: usize = 16;
 
-/// An error is one line that does nothing to a terminal.
+/// An error is one line that does nothing to a terminal; many are one each.
+fn assert_lines(text: &str) {
+    text.lines().for_each(assert_line);
+    assert!(!text.is_empty() && text.lines().count() <= 20, "{text}");
+}
+
+/// A line that does nothing to a terminal.
 fn assert_line(text: &str) {
     assert!(
         !text.is_empty() && !text.chars().any(char::is_control),
@@ -46,7 +52,7 @@ fn accepted(scenario: &Scenario) {
     }
     match Session::start(scenario.clone()) {
         Ok(session) => step(session),
-        Err(error) => assert_line(&error.to_string()),
+        Err(error) => assert_lines(&error.to_string()),
     }
 }
 
@@ -54,7 +60,7 @@ fn accepted(scenario: &Scenario) {
 fn step(mut session: Session) {
     for _ in 0..3 {
         if let Err(error) = session.step() {
-            assert_line(&error.to_string());
+            assert_lines(&error.to_string());
             break;
         }
     }
@@ -69,7 +75,7 @@ fn step(mut session: Session) {
 pub fn scenario(text: &str) {
     match Scenario::from_toml(text, "fuzz.toml", &[]) {
         Ok(scenario) => accepted(&scenario),
-        Err(error) => assert_line(&error.to_string()),
+        Err(error) => assert_lines(&error.to_string()),
     }
 }
 
@@ -79,7 +85,7 @@ pub fn set(text: &str) {
     let small = "numerics.points=8".to_owned();
     match Scenario::load(preset.name, &[small, text.to_owned()]) {
         Ok(scenario) => accepted(&scenario),
-        Err(error) => assert_line(&error.to_string()),
+        Err(error) => assert_lines(&error.to_string()),
     }
 }
 
@@ -87,7 +93,7 @@ pub fn set(text: &str) {
 pub fn keys(text: &str) {
     let keys = match parse_script(text) {
         Ok(keys) => keys,
-        Err(error) => return assert_line(&error),
+        Err(error) => return assert_lines(&error),
     };
     if !is_chosen(text, 64) {
         return;
@@ -230,6 +236,6 @@ fn read(bytes: &[u8]) {
                 step(checkpoint.session);
             }
         }
-        Err(error) => assert_line(&error.to_string()),
+        Err(error) => assert_lines(&error.to_string()),
     }
 }

@@ -1,7 +1,7 @@
 //! `mdr-tui figure`: figures for a paper, from a run's files or from a scenario.
 
 use std::fs;
-use std::io::{self, Write};
+use std::io::{self, BufRead, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -19,6 +19,9 @@ use crate::scenario::{Scenario, printable};
 use crate::studies::ghost::Ghost;
 use crate::studies::sweep::record::Record;
 use crate::studies::sweep::slice::Slice;
+
+/// How far the header of a table is read, in bytes.
+const LARGEST_HEADER: u64 = 1 << 26;
 
 /// The scenario of the paper's Fig. 3.
 const OF_THE_PAPER: &str = "li2019-fig3";
@@ -191,13 +194,18 @@ fn sheet(options: &Figure) -> Result<Sheet> {
 fn record(source: &str) -> Result<Option<Record>> {
     let path = Path::new(source);
     let is_table = path.is_file() && path.extension().is_some_and(|end| end == "csv");
-    let text = match is_table {
-        true => fs::read_to_string(path).map_err(|error| unread(path, &error.to_string()))?,
-        false => return Ok(None),
-    };
-    let is_of_a_study = text.lines().any(|line| line.starts_with("# study: base"));
+    if !is_table {
+        return Ok(None);
+    }
+    let open = || fs::File::open(path).map_err(|error| unread(path, &error.to_string()));
+    let mut head = io::BufReader::new(open()?).take(LARGEST_HEADER).lines();
+    let is_of_a_study = head
+        .by_ref()
+        .map_while(Result::ok)
+        .take_while(|line| line.trim_start_matches('\u{feff}').starts_with('#'))
+        .any(|line| line.starts_with("# study: base"));
     is_of_a_study
-        .then(|| Ok(Record::parse(&text, source)?))
+        .then(|| Ok(Record::open(open()?, source)?))
         .transpose()
 }
 

@@ -85,12 +85,20 @@ fn named(owner: Option<&Owner>) -> String {
 
 /// A path as a shell reads it back.
 pub fn shell_word(path: &Path) -> String {
-    let text = path.display().to_string();
     let plain = |c: char| c.is_alphanumeric() || "/._-+,:@%".contains(c);
-    if text.chars().all(plain) {
-        text
-    } else {
-        format!("'{}'", text.replace('\'', "'\\''"))
+    match path.to_str() {
+        Some(text) if text.chars().all(plain) => text.to_owned(),
+        Some(text) if printable(text) == text => format!("'{}'", text.replace('\'', "'\\''")),
+        _ => {
+            // Bytes that would break the line, or that a terminal would act on.
+            let bytes = path.as_os_str().as_encoded_bytes().iter();
+            let escaped = bytes.map(|&byte| match byte {
+                b'\'' | b'\\' => format!("\\{}", char::from(byte)),
+                b' '..=b'~' => char::from(byte).to_string(),
+                _ => format!("\\x{byte:02x}"),
+            });
+            format!("$'{}'", escaped.collect::<String>())
+        }
     }
 }
 
@@ -414,6 +422,7 @@ mod tests {
             ("/a b", "'/a b'"),
             ("it's", "'it'\\''s'"),
             ("$(x)", "'$(x)'"),
+            ("a\nb's \u{a0}\u{1b}", "$'a\\x0ab\\'s \\xc2\\xa0\\x1b'"),
         ] {
             assert_eq!(shell_word(Path::new(path)), word);
         }

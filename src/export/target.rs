@@ -8,7 +8,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::claim::{Claim, Refusal};
-use super::file::{WriteError, directory_of, sweep_of, write_whole};
+use super::file::{WriteError, directory_of, sweep_of, write_with};
 
 /// The name under which a result goes to the standard output.
 const STDOUT: &str = "/dev/stdout";
@@ -109,6 +109,11 @@ impl Target {
         self.claim.is_none()
     }
 
+    /// The directory that the file stands in.
+    pub fn directory(&self) -> &Path {
+        directory_of(&self.path)
+    }
+
     /// Where the file stands.
     pub fn path(&self) -> &Path {
         &self.path
@@ -120,11 +125,28 @@ impl Target {
     ///
     /// If the system refuses; what was there before is then there still.
     pub fn write(&self, contents: &[u8]) -> Result<(), WriteError> {
+        self.write_with(|out| out.write_all(contents))
+    }
+
+    /// [`write`](Self::write) with what `fill` writes, which need not be in memory at once.
+    ///
+    /// # Errors
+    ///
+    /// As [`write`](Self::write).
+    pub fn write_with(
+        &self,
+        fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), WriteError> {
         if !self.is_stdout() {
-            return write_whole(&self.path, contents);
+            let filled = |file: &mut fs::File| {
+                let mut out = io::BufWriter::new(file);
+                fill(&mut out)?;
+                out.flush()
+            };
+            return write_with(&self.path, filled).map(|_| ());
         }
         let mut out = io::stdout().lock();
-        let written = out.write_all(contents).and_then(|()| out.flush());
+        let written = fill(&mut out).and_then(|()| out.flush());
         written.map_err(|cause| WriteError::Io {
             path: self.path.clone(),
             cause,

@@ -125,7 +125,7 @@ fn facts(slice: &Slice, name: &str) -> Vec<(String, String)> {
 
 /// Numbers of the values of a study's axis; the places of words.
 fn places(axis: &sweep::Axis) -> Vec<f64> {
-    let all = 0..axis.values.len();
+    let all = 0..axis.count();
     all.map(|place| axis.number(place).unwrap_or(place as f64))
         .collect()
 }
@@ -140,8 +140,8 @@ fn paper_axis(slice: &Slice, axis: &sweep::Axis) -> Axis {
         (Some((_, words)), _) => (*words).to_owned(),
         (None, _) => axis.key.clone(),
     };
-    if (0..axis.values.len()).any(|place| axis.number(place).is_none()) {
-        let words = (0..axis.values.len()).map(|place| format!("{place}: {}", axis.text(place)));
+    if (0..axis.count()).any(|place| axis.number(place).is_none()) {
+        let words = (0..axis.count()).map(|place| format!("{place}: {}", axis.text(place)));
         label = format!("{label}, {}", words.collect::<Vec<_>>().join(", "));
     }
     Axis::new(&label, unit).scale(match axis.spread {

@@ -35,7 +35,7 @@ mod shape;
 pub mod units;
 mod validate;
 pub mod words;
-mod write;
+pub(crate) mod write;
 
 use error::{Faults, Origin, echo};
 pub use error::{ScenarioError, printable};

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use toml::{Table, Value};
 
+use super::error::printable;
 use super::keys::PARAMETERS;
 use super::schema::{Kind, at};
 
@@ -51,7 +52,7 @@ pub(super) fn scenario(table: &Table, follows: &[(&str, String)], source: &str) 
 }
 
 /// One value, as it may stand after `=`.
-pub(super) fn value(value: &Value) -> String {
+pub(crate) fn value(value: &Value) -> String {
     match value {
         Value::Float(number) => self::number(*number),
         Value::Array(list) => {
@@ -63,10 +64,10 @@ pub(super) fn value(value: &Value) -> String {
     }
 }
 
-/// Characters that TOML takes as they are and a terminal acts on: C1 controls, and what turns the
-/// direction of text.
+/// Whether a terminal or a line of a header would not show a character as it is: controls, spaces and
+/// marks that cannot be seen, what turns the direction of text.
 fn is_rude(c: char) -> bool {
-    matches!(c, '\u{80}'..='\u{9f}' | '\u{200e}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+    !matches!(c, '"' | '\'' | '\\') && printable(&String::from_iter(['a', c])).chars().count() > 2
 }
 
 /// A basic string on one line, all that is not plain escaped.
@@ -75,7 +76,10 @@ fn escaped(text: &str) -> String {
     for c in text.chars() {
         match c {
             '"' | '\\' => quoted.extend(['\\', c]),
-            c if c.is_control() || is_rude(c) => {
+            c if is_rude(c) && u32::from(c) > 0xffff => {
+                let _ = write!(quoted, "\\U{:08X}", u32::from(c));
+            }
+            c if is_rude(c) => {
                 let _ = write!(quoted, "\\u{:04X}", u32::from(c));
             }
             c => quoted.push(c),
@@ -104,10 +108,7 @@ mod tests {
     fn rude_text_reads_back_and_harms_no_terminal() {
         let text = "a\u{9b}2J\u{202e}\u{1b}\n\"\\\u{2066}\u{7f}b";
         let shown = value(&Value::String(text.into()));
-        assert!(
-            !shown.chars().any(|c| c.is_control() || is_rude(c)),
-            "{shown:?}"
-        );
+        assert!(!shown.chars().any(is_rude), "{shown:?}");
         let read = shown.parse::<Value>().expect("a TOML value");
         assert_eq!(read.as_str(), Some(text));
     }

@@ -1,17 +1,20 @@
 //! `sweep --merge`: merges the shards of a study into one table.
 
+use std::collections::BTreeSet;
+use std::env;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use anyhow::{Result, anyhow};
+use anyhow::{Context, Result, anyhow};
 
 use super::super::args::Sweep;
 use super::super::{Misuse, complain};
 use crate::export::target::Target;
 use crate::scenario::printable;
-use crate::studies::sweep::record::{self, Record, Refused, Rows};
+use crate::studies::sweep::ledger::Ledger;
+use crate::studies::sweep::record::{self, Record, Refused};
 use crate::studies::sweep::{Shard, Study};
 
 /// Maximum number of points named in a message.
@@ -26,30 +29,31 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
         .map(|out| Target::claim(out, options.force))
         .transpose()?;
     let files = tables(directory).map_err(|error| Misuse(format!("{shown}: {error}")))?;
-    let mut study: Option<(Study, PathBuf)> = None;
-    let mut rows: Option<Rows> = None;
+    let mut merged: Option<(Study, PathBuf, Ledger)> = None;
     let (mut doubles, mut contradictions, mut count) = (Vec::new(), Vec::new(), 1);
     for file in files {
         if options.out.as_ref().is_some_and(|out| same(out, &file)) {
             continue;
         }
-        let text = fs::read_to_string(&file)
+        let source = fs::File::open(&file)
             .map_err(|error| Misuse(format!("{}: cannot be read: {error}", file.display())))?;
-        let record = Record::parse(&text, &file.display().to_string())?;
+        let record = Record::open(source, &file.display().to_string())?;
         count = count.max(record.shard.count);
-        let (study, _) = match &mut study {
-            Some((study, first)) => {
+        let (study, ledger) = match &mut merged {
+            Some((study, first, ledger)) => {
                 record.expect(study, &first.display().to_string())?;
-                (study, first)
+                (study, ledger)
             }
             none => {
-                let (study, first) = none.insert((record.study()?, file.clone()));
-                record.expect(study, "this version of mdr-tui")?;
-                (study, first)
+                let study = record.study()?;
+                record.expect(&study, "this version of mdr-tui")?;
+                let ledger = spool(&study, target.as_ref())?;
+                let (study, _, ledger) = none.insert((study, file.clone(), ledger));
+                (study, ledger)
             }
         };
-        let rows = rows.get_or_insert_with(|| Rows::new(study));
-        for row in record.rows {
+        for row in record.rows(study)? {
+            let row = row?;
             let values = row
                 .iter()
                 .take(study.axes.len())
@@ -57,8 +61,8 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
                 .collect::<Vec<_>>()
                 .join(", ");
             let named = format!("{values} ({})", file.display());
-            match rows.take(row) {
-                Ok(_) => {}
+            match ledger.take(study, row).context("cannot keep the rows")? {
+                Ok(()) => {}
                 Err(Refused::Double) => doubles.push(named),
                 Err(Refused::Contradiction) => contradictions.push(named),
                 Err(Refused::Foreign | Refused::Length) => {
@@ -70,7 +74,7 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
             }
         }
     }
-    let (Some((study, _)), Some(rows)) = (study, rows) else {
+    let Some((study, _, rows)) = merged else {
         return Err(Misuse(format!("{shown}: has no table written by mdr-tui sweep")).into());
     };
     if !doubles.is_empty() {
@@ -88,19 +92,19 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
         ));
     }
     refuse_missing(&shown, &study, &rows, count)?;
-    let head = record::head(&study, Shard::WHOLE);
-    let text = rows.text(&head);
-    match target {
-        Some(target) => target
-            .write(text.as_bytes())
-            .map_err(|error| anyhow!("{error}"))?,
+    let text = |out: &mut dyn Write| {
+        out.write_all(record::head(&study, Shard::WHOLE).as_bytes())?;
+        rows.each(|line| out.write_all(line))
+    };
+    match &target {
+        Some(target) => target.write_with(text)?,
         None if options.json => {
             let mut out = io::stdout().lock();
-            for row in rows.rows.iter().flatten() {
-                writeln!(out, "{}", record::json(&study.columns(), row))?;
+            for point in 0..study.points() {
+                writeln!(out, "{}", record::json(&study.columns(), &rows.row(point)?))?;
             }
         }
-        None => io::stdout().write_all(text.as_bytes())?,
+        None => text(&mut io::stdout().lock())?,
     }
     let (all, failed) = rows.count();
     if failed > 0 {
@@ -111,7 +115,16 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// The names of the CSV files of a directory, sorted.
+/// Rows in a file without a name, where the merged table will stand.
+fn spool(study: &Study, target: Option<&Target>) -> Result<Ledger> {
+    let directory = target.map_or_else(env::temp_dir, |target| target.directory().to_owned());
+    tempfile::tempfile_in(&directory)
+        .and_then(|file| Ledger::new(study, file, &directory))
+        .with_context(|| format!("{}: cannot make a temporary file", directory.display()))
+}
+
+/// The names of the CSV files of a directory, sorted. Nothing else is opened:
+/// a pipe would wait for its other end.
 fn tables(directory: &Path) -> io::Result<Vec<PathBuf>> {
     let mut files = Vec::new();
     for entry in fs::read_dir(directory)? {
@@ -119,7 +132,8 @@ fn tables(directory: &Path) -> io::Result<Vec<PathBuf>> {
         let hidden = path
             .file_name()
             .is_some_and(|name| name.to_string_lossy().starts_with('.'));
-        if path.extension().is_some_and(|ending| ending == "csv") && !hidden {
+        let is_table = path.extension().is_some_and(|ending| ending == "csv") && path.is_file();
+        if is_table && !hidden {
             files.push(path);
         }
     }
@@ -132,26 +146,22 @@ fn same(a: &Path, b: &Path) -> bool {
 }
 
 /// Names points without a row, and the shards that should have them.
-fn refuse_missing(shown: &str, study: &Study, rows: &Rows, count: usize) -> Result<()> {
-    let missing: Vec<usize> = (0..study.points())
-        .filter(|&point| rows.rows[point].is_none())
-        .collect();
-    if missing.is_empty() {
+fn refuse_missing(shown: &str, study: &Study, rows: &Ledger, count: usize) -> Result<()> {
+    let missing = || rows.done().clone().missing(study, Shard::WHOLE);
+    let (all, (there, _)) = (study.points(), rows.count());
+    if there == all {
         return Ok(());
     }
-    let names: Vec<String> = missing
-        .iter()
+    let names: Vec<String> = missing()
         .take(NAMED + 1)
-        .map(|&p| study.name(p))
+        .map(|point| study.name(point))
         .collect();
-    let mut shards: Vec<usize> = missing.iter().map(|point| point % count).collect();
-    shards.sort_unstable();
-    shards.dedup();
+    let shards: BTreeSet<usize> = missing().map(|point| point % count).collect();
     let shards: Vec<String> = shards.iter().map(usize::to_string).collect();
     Err(anyhow!(
         "{shown}: {} of {} points are missing: {}; of {count} shards, these are incomplete: {}",
-        missing.len(),
-        study.points(),
+        all - there,
+        all,
         some(&names),
         shards.join(",")
     ))

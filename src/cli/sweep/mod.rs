@@ -6,6 +6,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
+use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, anyhow};
 use rayon::ThreadPoolBuilder;
@@ -14,7 +15,8 @@ use super::args::Sweep;
 use super::{FAILED, Misuse, UNFINISHED, complain, progress, stop};
 use crate::export::file::shell_word;
 use crate::scenario::printable;
-use crate::studies::sweep::{Shard, Study, engine, record};
+use crate::studies::sweep::engine::{self, Check};
+use crate::studies::sweep::{Shard, Study, StudyError, record};
 
 mod merge;
 mod output;
@@ -57,12 +59,7 @@ pub fn sweep(options: &Sweep) -> Result<ExitCode> {
         let pool = ThreadPoolBuilder::new()
             .build()
             .context("cannot start threads")?;
-        refuse_invalid(
-            options,
-            &study,
-            &(0..study.points()).collect::<Vec<_>>(),
-            &pool,
-        )?;
+        refuse_invalid(options, &study, Shard::WHOLE, &pool, Duration::MAX)?;
         let script = slurm::script(&path, options, study.points());
         io::stdout().write_all(script.as_bytes())?;
         return Ok(ExitCode::SUCCESS);
@@ -109,20 +106,36 @@ fn print_point(study: &Study, point: usize) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Refuses a study with an invalid point, unless invalid points are skipped.
-fn refuse_invalid(
+/// How long points are checked before the first one runs; the others are checked while they run.
+const CHECKED_FIRST: Duration = Duration::from_secs(1);
+
+/// Refuses a study with an invalid point, unless invalid points are skipped. What is not checked within
+/// `patience` is left to be checked.
+fn refuse_invalid<'a>(
     options: &Sweep,
-    study: &Study,
-    todo: &[usize],
+    study: &'a Study,
+    shard: Shard,
     pool: &rayon::ThreadPool,
-) -> Result<()> {
+    patience: Duration,
+) -> Result<Option<Check<'a>>> {
     if options.skip_invalid {
-        return Ok(());
+        return Ok(None);
     }
-    match engine::first_invalid(study, todo, pool) {
-        None => Ok(()),
-        Some(error) => Err(Misuse(format!("{error}; --skip-invalid runs the other points")).into()),
-    }
+    let mut check = Check::new(study, shard);
+    let bar = progress::bar(study.points() as u64, progress::TIMES, options.quiet);
+    bar.set_message("checking");
+    let start = Instant::now();
+    let checked = check.advance(pool, |checked| {
+        bar.set_position((checked * shard.count) as u64);
+        start.elapsed() < patience
+    });
+    bar.finish_and_clear();
+    checked.map_err(|error| invalid(&error))?;
+    Ok((!check.is_over()).then_some(check))
+}
+
+fn invalid(error: &StudyError) -> Misuse {
+    Misuse(format!("{error}; --skip-invalid runs the other points"))
 }
 
 fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
@@ -136,23 +149,24 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
         builder = builder.num_threads(threads.into());
     }
     let pool = builder.build().context("cannot start the threads")?;
-    let mine: Vec<usize> = shard.points(study.points()).collect();
+    let mine = shard.points(study.points()).count();
     let mut output = Output::open(&out, study, shard, options)?;
-    let todo = output.missing(&mine);
-    refuse_invalid(options, study, &todo, &pool)?;
+    let check = refuse_invalid(options, study, shard, &pool, CHECKED_FIRST)?;
     output.begin()?;
     let halt = stop::patient_signal()?;
     crate::panics::keep();
-    let bar = progress::bar(mine.len() as u64, progress::TIMES, options.quiet);
+    let bar = progress::bar(mine as u64, progress::TIMES, options.quiet);
     bar.set_message(printable(&out.display().to_string()));
-    bar.set_position((mine.len() - todo.len()) as u64);
+    bar.set_position(output.count().0 as u64);
     bar.reset_eta();
-    let mut lines = options.json.then(|| JsonLines::new(study, &mine));
+    let mut lines = options.json.then(|| JsonLines::new(study, shard));
     let mut outcome = lines.as_mut().map_or(Ok(()), |lines| lines.print(&output));
-    if outcome.is_ok() {
-        engine::run(study, &todo, &pool, &halt, |point, row| {
+    let mut checked = Ok(());
+    if let (Ok(()), Some(done)) = (&outcome, output.done()) {
+        let todo = done.missing(study, shard);
+        checked = engine::run(study, todo, check, &pool, &halt, |point, row| {
             outcome = output
-                .add(point, record::fields(study, point, row))
+                .add(point, &record::fields(study, point, row))
                 .map_err(|error| anyhow!("{error}"))
                 .and_then(|()| lines.as_mut().map_or(Ok(()), |lines| lines.print(&output)));
             bar.inc(1);
@@ -166,13 +180,13 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
     let kept = output.close();
     let (there, failed) = output.count();
     let go_on = format!(
-        "{there} of {} points are in {}; continue with the same command and --resume",
-        mine.len(),
+        "{there} of {mine} points are in {}; continue with the same command and --resume",
         shell_word(&out)
     );
     outcome.with_context(|| go_on.clone())?;
     kept.map_err(|error| anyhow!("{error}; {go_on}"))?;
-    if there < mine.len() {
+    checked.map_err(|error| Misuse(format!("{}; {go_on}", invalid(&error).0)))?;
+    if there < mine {
         let why = if halt.load(Ordering::Relaxed) {
             "interrupted"
         } else {
@@ -186,14 +200,16 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
             "{failed} of {there} points failed; their status says why, and --resume --failed runs \
              them again"
         ));
-    } else if !options.quiet && !options.json {
+        // Invalid points were to be skipped.
+        return Ok(match output.has_failed() || failed == there {
+            true => ExitCode::from(FAILED),
+            false => ExitCode::SUCCESS,
+        });
+    }
+    if !options.quiet && !options.json {
         writeln!(io::stdout(), "{there} points in {}", shell_word(&out))?;
     }
-    Ok(match there {
-        0 => ExitCode::SUCCESS,
-        _ if failed == there => ExitCode::from(FAILED),
-        _ => ExitCode::SUCCESS,
-    })
+    Ok(ExitCode::SUCCESS)
 }
 
 /// The part of the study to run.
@@ -230,24 +246,29 @@ fn shards_directory(study: &Path) -> PathBuf {
 /// Rows as JSON lines on stdout, each as soon as all before it are there.
 struct JsonLines<'a> {
     columns: Vec<&'a str>,
-    points: &'a [usize],
-    printed: usize,
+    shard: Shard,
+    /// The next point.
+    next: usize,
+    points: usize,
 }
 
 impl<'a> JsonLines<'a> {
-    fn new(study: &'a Study, points: &'a [usize]) -> Self {
+    fn new(study: &'a Study, shard: Shard) -> Self {
         Self {
             columns: study.columns(),
-            points,
-            printed: 0,
+            shard,
+            next: shard.index,
+            points: study.points(),
         }
     }
 
     fn print(&mut self, output: &Output) -> Result<()> {
         let mut out = io::stdout().lock();
-        while let Some(row) = self.points.get(self.printed).and_then(|&at| output.row(at)) {
-            writeln!(out, "{}", record::json(&self.columns, row))?;
-            self.printed += 1;
+        while self.next < self.points
+            && let Some(row) = output.row(self.next)?
+        {
+            writeln!(out, "{}", record::json(&self.columns, &row))?;
+            self.next += self.shard.count;
         }
         Ok(())
     }

@@ -1,47 +1,51 @@
-//! The output file: rows are appended as they finish, and sorted at the end.
+//! The output file: rows are appended as they finish, and sorted at the end. Its size is no matter of
+//! memory.
 
-use std::fs::{self, File};
-use std::io::{self, Seek, SeekFrom, Write};
-use std::path::{Path, PathBuf};
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
-use anyhow::Result;
+use anyhow::{Result, anyhow};
 
 use super::super::Misuse;
 use super::super::args::Sweep;
-use crate::export::file::{WriteError, write_whole};
+use crate::export::file::{WriteError, write_with};
 use crate::export::own;
 use crate::export::target::Target;
-use crate::studies::sweep::record::{self, Record, Rows};
-use crate::studies::sweep::{Shard, Study};
+use crate::studies::sweep::ledger::{Done, Ledger};
+use crate::studies::sweep::record::{self, Record};
+use crate::studies::sweep::{OK, Shard, Study};
 
 /// How often rows are flushed to disk. A killed process loses none, since the system has them
 /// already; a crash of the machine loses at most this much.
 const FLUSH_INTERVAL: Duration = Duration::from_secs(5);
 
-/// The rows of a study, in memory and in a file.
-pub struct Output {
-    path: PathBuf,
+/// The rows of a study in a file, which no other process writes.
+pub struct Output<'a> {
     target: Target,
+    study: &'a Study,
     head: String,
-    rows: Rows,
-    /// The file while rows are added; locked, so that no other process adds to it.
-    file: Option<File>,
-    /// Its length up to the last whole row.
-    length: u64,
+    /// The table that is continued.
+    earlier: Option<Record>,
+    without_failed: bool,
+    ledger: Option<Ledger>,
+    /// Whether rows could be added up to now.
+    is_whole: bool,
     flushed: Instant,
 }
 
-impl Output {
-    /// Checks that the file can be created or continued; nothing is written yet.
-    pub fn open(path: &Path, study: &Study, shard: Shard, options: &Sweep) -> Result<Self> {
+impl<'a> Output<'a> {
+    /// Checks that the file can be made or continued; nothing is written yet.
+    pub fn open(path: &Path, study: &'a Study, shard: Shard, options: &Sweep) -> Result<Self> {
         let mut output = Self {
-            path: path.to_owned(),
             target: Target::hold_in_new_directory(path)?,
+            study,
             head: record::head(study, shard),
-            rows: Rows::new(study),
-            file: None,
-            length: 0,
+            earlier: None,
+            without_failed: options.failed,
+            ledger: None,
+            is_whole: true,
             flushed: Instant::now(),
         };
         let refuse = |why: &str| Err(Misuse(format!("{}: {why}", path.display())).into());
@@ -57,101 +61,126 @@ impl Output {
                  file",
             );
         }
-        let text = match fs::read_to_string(path) {
-            Ok(text) => text,
+        let file = match own::read(path) {
+            Ok(file) => file,
             Err(error) => return refuse(&format!("cannot be read: {error}")),
         };
-        let name = path.display().to_string();
-        let record = Record::parse(&text, &name)?;
+        let record = Record::open(file, &path.display().to_string())?;
         record.expect(study, "the study now")?;
         if record.shard != shard {
             let (theirs, ours) = (record.shard, shard);
             return refuse(&format!("holds shard {theirs}, not {ours}"));
         }
-        for row in record.rows {
-            let begins = row.join(",");
-            if let Err(why) = output.rows.take(row) {
-                return refuse(&format!(
-                    "row {begins} does not belong to the study ({why:?})"
-                ));
-            }
-        }
-        if options.failed {
-            output.rows.forget_failed();
-        }
+        output.earlier = Some(record);
         Ok(output)
     }
 
-    /// Those of `points` that have no row.
-    pub fn missing(&self, points: &[usize]) -> Vec<usize> {
-        let without = |point: &&usize| self.row(**point).is_none();
-        points.iter().filter(without).copied().collect()
-    }
-
-    /// Writes the existing rows, so that new ones can be appended.
+    /// Writes the rows that are there already, so that new ones can be appended. What was there before
+    /// stays until they are.
     pub fn begin(&mut self) -> Result<()> {
-        let text = self.rows.text(&self.head);
-        write_whole(&self.path, text.as_bytes())?;
-        self.length = text.len() as u64;
-        let mut file = own::open(&self.path, false).map_err(|cause| self.failed(cause))?;
-        let end = file.seek(SeekFrom::End(0));
-        end.map_err(|cause| self.failed(cause))?;
-        self.file = Some(file);
+        let (study, path) = (self.study, self.target.path());
+        let directory = self.target.directory();
+        let mut rows = match self.earlier.take() {
+            Some(record) => Some(record.rows(study)?),
+            None => None,
+        };
+        let mut ledger = None;
+        let mut refused = None;
+        write_with(path, |file| {
+            file.write_all(self.head.as_bytes())?;
+            let mut new = Ledger::new(study, file.try_clone()?, directory)?;
+            for row in rows.iter_mut().flatten() {
+                let row = match row {
+                    Ok(row) => row,
+                    Err(error) => {
+                        refused = Some(anyhow!(error));
+                        return Err(io::ErrorKind::InvalidData.into());
+                    }
+                };
+                if self.without_failed && row.last().is_some_and(|status| status != OK) {
+                    continue;
+                }
+                let begins = row.join(",");
+                if let Err(why) = new.take(study, row)? {
+                    let path = path.display();
+                    let why =
+                        format!("{path}: row {begins} does not belong to the study ({why:?})");
+                    refused = Some(Misuse(why).into());
+                    return Err(io::ErrorKind::InvalidData.into());
+                }
+            }
+            ledger = Some(new);
+            Ok(())
+        })
+        .map_err(|error| refused.take().unwrap_or_else(|| error.into()))?;
+        self.ledger = ledger;
         Ok(())
     }
 
+    /// The points that have rows.
+    pub fn done(&self) -> Option<Done> {
+        self.ledger.as_ref().map(|ledger| ledger.done().clone())
+    }
+
     /// Adds the row of a point. On an error the file ends with the last whole row.
-    pub fn add(&mut self, point: usize, fields: Vec<String>) -> Result<(), WriteError> {
-        let line = record::line(&fields);
-        self.rows.put(point, fields);
-        let Some(file) = &mut self.file else {
+    pub fn add(&mut self, point: usize, fields: &[String]) -> Result<(), WriteError> {
+        let Some(ledger) = &mut self.ledger else {
             return Ok(());
         };
-        let written = file.write_all(line.as_bytes()).and_then(|()| {
-            if self.flushed.elapsed() < FLUSH_INTERVAL {
-                return Ok(());
-            }
-            self.flushed = Instant::now();
-            file.sync_data()
+        let is_due = self.flushed.elapsed() >= FLUSH_INTERVAL;
+        let written = ledger.add(point, fields).and_then(|()| match is_due {
+            true => ledger.sync(),
+            false => Ok(()),
         });
-        match written {
-            Ok(()) => {
-                self.length += line.len() as u64;
-                Ok(())
-            }
-            Err(cause) => {
-                // Removes the partial row. If that fails, a reader drops it.
-                let _ = file.set_len(self.length);
-                self.file = None;
-                Err(self.failed(cause))
-            }
+        if is_due {
+            self.flushed = Instant::now();
         }
+        written.map_err(|cause| {
+            self.is_whole = false;
+            self.failed(cause)
+        })
     }
 
     /// Writes the rows in the order of the points. A file that rows could not be added to is left
     /// as it is: it is whole.
     pub fn close(&mut self) -> Result<(), WriteError> {
-        if self.file.is_none() {
+        let Some(ledger) = self.ledger.as_ref().filter(|_| self.is_whole) else {
             return Ok(());
-        }
-        let written = write_whole(&self.path, self.rows.text(&self.head).as_bytes());
-        self.file = None;
-        written
+        };
+        let sorted = |file: &mut File| {
+            let mut out = BufWriter::new(file);
+            out.write_all(self.head.as_bytes())?;
+            ledger.each(|line| out.write_all(line))?;
+            out.flush()
+        };
+        write_with(self.target.path(), sorted).map(|_| ())
     }
 
-    /// The row of a point.
-    pub fn row(&self, point: usize) -> Option<&Vec<String>> {
-        self.rows.rows[point].as_ref()
+    /// The row of a point, if it has one.
+    pub fn row(&self, point: usize) -> io::Result<Option<Vec<String>>> {
+        match self
+            .ledger
+            .as_ref()
+            .filter(|ledger| ledger.done().has(point))
+        {
+            Some(ledger) => ledger.row(point).map(Some),
+            None => Ok(None),
+        }
     }
 
     /// The number of rows, and how many of them failed.
     pub fn count(&self) -> (usize, usize) {
-        self.rows.count()
+        self.ledger.as_ref().map_or((0, 0), Ledger::count)
+    }
+
+    /// Whether a point failed that was a valid scenario.
+    pub fn has_failed(&self) -> bool {
+        self.ledger.as_ref().is_some_and(Ledger::has_failed)
     }
 
     fn failed(&self, cause: io::Error) -> WriteError {
         WriteError::Io {
-            path: self.path.clone(),
+            path: self.target.path().to_owned(),
             cause,
         }
     }

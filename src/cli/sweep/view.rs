@@ -89,9 +89,9 @@ fn open(view: &View, point: usize, options: &Sweep) -> Result<()> {
 
 fn read(file: &Path) -> Result<Record> {
     let name = file.display();
-    let text = fs::read_to_string(file)
-        .map_err(|error| Misuse(format!("{name}: cannot be read: {error}")))?;
-    Ok(Record::parse(&text, &name.to_string())?)
+    let source =
+        fs::File::open(file).map_err(|error| Misuse(format!("{name}: cannot be read: {error}")))?;
+    Ok(Record::open(source, &name.to_string())?)
 }
 
 /// When the file was changed last, and its length.

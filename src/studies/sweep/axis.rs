@@ -2,6 +2,7 @@
 
 use toml::Value;
 
+use super::design::Strata;
 use crate::scenario::scalars::number;
 use crate::scenario::schema::{self, Kind};
 
@@ -20,27 +21,98 @@ pub struct Axis {
     /// The dotted path of the key.
     pub key: String,
     /// Its values: numbers, words or flags, in order.
-    pub values: Vec<Value>,
+    pub values: Values,
     /// How they are spread.
     pub spread: Spread,
     /// Keys that move with it, each with its value in units of the axis's.
     pub tied: Vec<(String, f64)>,
 }
 
+/// The values of an axis. Those between two ends are made when they are needed, so that an axis of
+/// millions takes no memory.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Values {
+    /// As they stand in the study.
+    Listed(Vec<Value>),
+    /// This many from the first to the last of two ends.
+    Spaced([f64; 2], usize),
+    /// One in each stratum between two ends.
+    Drawn([f64; 2], Strata),
+}
+
 impl Axis {
+    /// The number of values.
+    pub fn count(&self) -> usize {
+        match &self.values {
+            Values::Listed(values) => values.len(),
+            Values::Spaced(_, count) => *count,
+            Values::Drawn(_, strata) => strata.len(),
+        }
+    }
+
+    /// The value at `index`.
+    pub fn value(&self, index: usize) -> Value {
+        let at = |[from, to]: [f64; 2], share| {
+            value_of(&self.key, between(self.spread, from, to, share))
+        };
+        match &self.values {
+            Values::Listed(values) => values[index].clone(),
+            Values::Spaced(ends, count) => at(*ends, index as f64 / (count - 1).max(1) as f64),
+            Values::Drawn(ends, strata) => at(*ends, strata.share(index)),
+        }
+    }
+
+    /// Where `wanted` may stand between the two ends of an axis that is not listed: a few places, or
+    /// more where the key takes whole numbers.
+    pub(super) fn places_near(&self, wanted: f64) -> Vec<usize> {
+        let (ends, parts) = match &self.values {
+            Values::Listed(_) => return Vec::new(),
+            Values::Spaced(ends, count) => (ends, count - 1),
+            Values::Drawn(ends, strata) => (ends, strata.len()),
+        };
+        let of = |value: f64| match self.spread {
+            Spread::Linear => value,
+            Spread::Logarithmic => value.ln(),
+        };
+        let share = |value: f64| (of(value) - of(ends[0])) / (of(ends[1]) - of(ends[0]));
+        let half = if value_of(&self.key, 0.0).is_integer() {
+            0.5
+        } else {
+            0.0
+        };
+        let last = self.count() - 1;
+        let places = [wanted - half, wanted + half].map(|value| {
+            let share = share(value);
+            share.is_finite().then_some((share * parts as f64) as usize)
+        });
+        let (low, high) = match places {
+            [Some(one), Some(other)] => (one.min(other), one.max(other)),
+            // As where both ends are one: every place is near.
+            _ => (0, last),
+        };
+        let (low, high) = (low.saturating_sub(1), high.saturating_add(2).min(last));
+        match &self.values {
+            Values::Drawn(_, strata) => (low..=high).map(|at| strata.sample_in(at)).collect(),
+            _ => (low..=high).collect(),
+        }
+    }
+
     /// The value at `index` as `--set` takes it and as its column shows it: numbers in the shortest
     /// form that reads back to the same bits, words bare.
     pub fn text(&self, index: usize) -> String {
-        match &self.values[index] {
-            Value::Float(value) => number(*value),
-            Value::String(word) => word.clone(),
+        match self.value(index) {
+            Value::Float(value) => number(value),
+            Value::String(word) => word,
             other => other.to_string(),
         }
     }
 
     /// The value at `index` as a number, if it is one.
     pub fn number(&self, index: usize) -> Option<f64> {
-        numeric(&self.values[index])
+        match &self.values {
+            Values::Listed(values) => numeric(&values[index]),
+            _ => numeric(&self.value(index)),
+        }
     }
 
     /// Where on the axis a value lies: between the indices of its neighbours, as the axis is
@@ -50,7 +122,7 @@ impl Axis {
             Spread::Linear => value,
             Spread::Logarithmic => value.ln(),
         };
-        (1..self.values.len()).find_map(|index| {
+        (1..self.count()).find_map(|index| {
             let (low, high) = (self.number(index - 1)?, self.number(index)?);
             let inside = (low.min(high)..=low.max(high)).contains(&value) && low != high;
             let share = (of(value) - of(low)) / (of(high) - of(low));
@@ -61,8 +133,8 @@ impl Axis {
     /// The value at a place between indices, as the axis is spread: the inverse of
     /// [`place_of`](Self::place_of).
     pub fn value_at(&self, place: f64) -> Option<f64> {
-        let index = (place.floor() as usize).min(self.values.len().saturating_sub(2));
-        let next = (index + 1).min(self.values.len() - 1);
+        let index = (place.floor() as usize).min(self.count().saturating_sub(2));
+        let next = (index + 1).min(self.count() - 1);
         let (low, high) = (self.number(index)?, self.number(next)?);
         Some(between(self.spread, low, high, place - index as f64))
     }
@@ -122,7 +194,8 @@ pub(super) fn between(spread: Spread, from: f64, to: f64, share: f64) -> f64 {
     }
     match spread {
         Spread::Linear => from + (to - from) * share,
-        Spread::Logarithmic => from * (to / from).powf(share),
+        // Not the system's, whose last digit differs between machines: shards of one study must not.
+        Spread::Logarithmic => from * libm::pow(to / from, share),
     }
 }
 
@@ -145,7 +218,7 @@ mod tests {
         let values = [1e-8, 1e-7, 1e-6].map(Value::Float).to_vec();
         let axis = |spread| Axis {
             key: "wear.coefficient".into(),
-            values: values.clone(),
+            values: Values::Listed(values.clone()),
             spread,
             tied: Vec::new(),
         };
@@ -165,7 +238,7 @@ mod tests {
     fn tied_keys_follow_by_their_factor_and_whole_keys_are_rounded() {
         let axis = Axis {
             key: "motion.normal.mean".into(),
-            values: vec![Value::Float(2e-6)],
+            values: Values::Listed(vec![Value::Float(2e-6)]),
             spread: Spread::Linear,
             tied: vec![
                 ("motion.normal.amplitude".into(), 0.25),

@@ -71,7 +71,7 @@ impl Border {
     /// `places`; none if it is not crossed between the ends of the axis, or the axis holds no numbers.
     pub fn crossing(self, study: &Study, places: &[usize], along: usize) -> Option<f64> {
         let axis = &study.axes[along];
-        let ends = [axis.number(0)?, axis.number(axis.values.len() - 1)?];
+        let ends = [axis.number(0)?, axis.number(axis.count() - 1)?];
         let distance = |value: f64| {
             let scenario = study.scenario_at(places, along, value).ok()?;
             self.distance(&scenario)

@@ -2,6 +2,7 @@
 //! fill the space evenly.
 
 use super::axis::Spread;
+use super::shuffle::{Shuffle, mix};
 
 /// The way from axes to points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,23 +50,46 @@ impl Design {
 /// The most axes of a Sobol sequence.
 pub(super) const MOST_SOBOL_AXES: usize = 256;
 
-/// Returns the shares (0 to 1) of one axis in `samples` samples of a sampled design; the same for
-/// the same `seed`.
-pub(super) fn shares(design: Design, axis: usize, samples: usize, seed: u32) -> Vec<f64> {
-    match design {
-        Design::Sobol => {
-            let set = |sample: usize| sobol_burley::sample(sample as u32, axis as u32, seed);
-            (0..samples).map(|sample| f64::from(set(sample))).collect()
+/// The shares (0 to 1) of one axis in `samples` samples of a Sobol sequence.
+pub(super) fn sobol(axis: usize, samples: usize, seed: u32) -> impl Iterator<Item = f64> {
+    let share = move |sample: usize| sobol_burley::sample(sample as u32, axis as u32, seed);
+    (0..samples).map(move |sample| f64::from(share(sample)))
+}
+
+/// The samples of one axis of a Latin hypercube.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Strata {
+    samples: usize,
+    /// Each axis has a key of its own, so that adding one leaves the others as they are.
+    key: u64,
+    order: Shuffle,
+}
+
+impl Strata {
+    pub(super) fn new(axis: usize, samples: usize, seed: u32) -> Self {
+        let key = mix((u64::from(seed) << 32) | axis as u64);
+        Self {
+            samples,
+            key,
+            order: Shuffle::new(samples, key),
         }
-        _ => {
-            // Each axis has a generator of its own, so that adding one leaves the others as they are.
-            let seed = (u64::from(seed) << 32) | axis as u64;
-            let mut random = fastrand::Rng::with_seed(seed);
-            let mut strata: Vec<usize> = (0..samples).collect();
-            random.shuffle(&mut strata);
-            let within = |stratum: usize| (stratum as f64 + random.f64()) / samples as f64;
-            strata.into_iter().map(within).collect()
-        }
+    }
+
+    /// The number of samples.
+    pub(super) fn len(self) -> usize {
+        self.samples
+    }
+
+    /// The share (0 to 1) of a sample: somewhere in its stratum.
+    pub(super) fn share(self, sample: usize) -> f64 {
+        let stratum = self.order.of(sample);
+        let within = mix(self.key ^ mix(stratum as u64)) >> 11;
+        (stratum as f64 + within as f64 / (1_u64 << 53) as f64) / self.samples as f64
+    }
+
+    /// The sample in a stratum.
+    pub(super) fn sample_in(self, stratum: usize) -> usize {
+        self.order.back(stratum)
     }
 }
 
@@ -84,7 +108,11 @@ mod tests {
     #[test]
     fn a_latin_hypercube_has_one_sample_in_every_stratum_of_every_axis() {
         for axis in 0..5 {
-            let mut shares = shares(Design::LatinHypercube, axis, 40, 7);
+            let strata = Strata::new(axis, 40, 7);
+            let mut shares: Vec<f64> = (0..40).map(|sample| strata.share(sample)).collect();
+            for (sample, share) in shares.iter().enumerate() {
+                assert_eq!(strata.sample_in((share * 40.0) as usize), sample);
+            }
             shares.sort_by(f64::total_cmp);
             for (stratum, share) in shares.iter().enumerate() {
                 assert_eq!((share * 40.0) as usize, stratum);
@@ -94,12 +122,8 @@ mod tests {
 
     #[test]
     fn a_sobol_sequence_fills_every_square_of_a_power_of_two_once() {
-        let (x, y) = (
-            shares(Design::Sobol, 0, 64, 3),
-            shares(Design::Sobol, 1, 64, 3),
-        );
         let mut filled = [false; 64];
-        for (x, y) in x.iter().zip(&y) {
+        for (x, y) in sobol(0, 64, 3).zip(sobol(1, 64, 3)) {
             let square = (x * 8.0) as usize * 8 + (y * 8.0) as usize;
             assert!(!filled[square], "two samples in square {square}");
             filled[square] = true;
@@ -108,10 +132,15 @@ mod tests {
 
     #[test]
     fn samples_hang_on_the_seed_alone() {
-        for design in [Design::LatinHypercube, Design::Sobol] {
-            assert_eq!(shares(design, 1, 16, 5), shares(design, 1, 16, 5));
-            assert_ne!(shares(design, 1, 16, 5), shares(design, 1, 16, 6));
-            assert_ne!(shares(design, 0, 16, 5), shares(design, 1, 16, 5));
+        let latin = |axis, seed| {
+            let strata = Strata::new(axis, 16, seed);
+            (0..16).map(|sample| strata.share(sample)).collect()
+        };
+        let drawn =
+            |axis, seed| -> [Vec<f64>; 2] { [latin(axis, seed), sobol(axis, 16, seed).collect()] };
+        assert_eq!(drawn(1, 5), drawn(1, 5));
+        for (one, other) in [(drawn(1, 5), drawn(1, 6)), (drawn(0, 5), drawn(1, 5))] {
+            assert!(one[0] != other[0] && one[1] != other[1]);
         }
     }
 }

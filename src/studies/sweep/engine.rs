@@ -1,61 +1,176 @@
 //! Many points on several threads. Each thread takes the next free point, so all threads end at
 //! about the same time, and rows arrive nearly in order.
 
-use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::mpsc;
+use std::ops::{ControlFlow, Range};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError, mpsc};
 
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
 use super::point::{self, Row};
-use super::{Study, StudyError};
+use super::{Shard, Study, StudyError};
 
-/// Builds the scenario of every point of `todo` and returns why the first invalid one is refused.
-pub fn first_invalid(study: &Study, todo: &[usize], pool: &ThreadPool) -> Option<StudyError> {
-    let refusal = |&point: &usize| {
-        let error = study.scenario(point).err()?;
-        Some(StudyError(format!("{}: {error}", study.name(point))))
-    };
-    pool.install(|| todo.par_iter().find_map_first(refusal))
+/// How many points are checked between two looks at the clock.
+const CHUNK: usize = 256;
+
+/// A check of the points of a shard: that each of them makes a valid scenario.
+pub struct Check<'a> {
+    study: &'a Study,
+    shard: Shard,
+    /// The points of the shard that are not checked yet, counted within the shard.
+    left: Range<usize>,
+}
+
+impl<'a> Check<'a> {
+    /// None of them is checked yet.
+    pub fn new(study: &'a Study, shard: Shard) -> Self {
+        let all = study.points().saturating_sub(shard.index);
+        Self {
+            study,
+            shard,
+            left: 0..all.div_ceil(shard.count),
+        }
+    }
+
+    /// Checks points on the threads of `pool` as long as `go_on`, which is told how many are checked,
+    /// says so. An invalid point is most often where an axis ends, so both ends of all come first.
+    ///
+    /// # Errors
+    ///
+    /// The first point of those checked together that is invalid, and why.
+    pub fn advance(
+        &mut self,
+        pool: &ThreadPool,
+        mut go_on: impl FnMut(usize) -> bool,
+    ) -> Result<(), StudyError> {
+        if self.left.start == 0 && self.left.end > CHUNK {
+            let edges = self.edges().into_par_iter();
+            let refused = pool.install(|| edges.find_map_first(|point| self.check(point).err()));
+            refused.map_or(Ok(()), Err)?;
+        }
+        while !self.left.is_empty() && go_on(self.left.start) {
+            let end = (self.left.start + CHUNK).min(self.left.end);
+            let chunk = self.left.start..end;
+            let refused =
+                pool.install(|| chunk.into_par_iter().find_map_first(|at| self.of(at).err()));
+            refused.map_or(Ok(()), Err)?;
+            self.left.start = end;
+        }
+        Ok(())
+    }
+
+    /// Checks what is left on this thread, until `halt` is set.
+    ///
+    /// # Errors
+    ///
+    /// The first point that is invalid, and why.
+    pub fn finish(self, halt: &AtomicBool) -> Result<(), StudyError> {
+        let mut left = self.left.clone();
+        left.try_for_each(|at| match halt.load(Ordering::Relaxed) {
+            true => Ok(()),
+            false => self.of(at),
+        })
+    }
+
+    /// Whether every point is checked.
+    pub fn is_over(&self) -> bool {
+        self.left.is_empty()
+    }
+
+    fn of(&self, at: usize) -> Result<(), StudyError> {
+        self.check(self.shard.index + at * self.shard.count)
+    }
+
+    fn check(&self, point: usize) -> Result<(), StudyError> {
+        validated(self.study, point)
+    }
+
+    /// The points of the shard at the ends of each axis, the others at one of their ends.
+    fn edges(&self) -> Vec<usize> {
+        let last = self.study.points() - 1;
+        let mut step = 1_usize;
+        let mut edges = vec![0, last];
+        for axis in self.study.axes.iter().rev() {
+            let along = step.saturating_mul(axis.count() - 1);
+            edges.extend([along.min(last), last.saturating_sub(along)]);
+            step = step.saturating_mul(axis.count());
+        }
+        edges.retain(|&point| self.shard.holds(point));
+        edges
+    }
+}
+
+/// Refuses a point that makes no valid scenario.
+fn validated(study: &Study, point: usize) -> Result<(), StudyError> {
+    let refused = |error| StudyError(format!("{}: {error}", study.name(point)));
+    study.scenario(point).map(drop).map_err(refused)
 }
 
 /// Runs the points `todo` of `study` on the threads of `pool`, and gives each row to `finished`, on
 /// the calling thread, when it is there. Stops after the present steps, losing the points that are
 /// not finished, if `halt` is set or `finished` breaks.
+///
+/// # Errors
+///
+/// If `check` finds an invalid point among those it has not checked yet, which stops the others.
 pub fn run(
     study: &Study,
-    todo: &[usize],
+    todo: impl Iterator<Item = usize> + Send,
+    check: Option<Check>,
     pool: &ThreadPool,
     halt: &AtomicBool,
     mut finished: impl FnMut(usize, Row) -> ControlFlow<()>,
-) {
+) -> Result<(), StudyError> {
     let (send, rows) = mpsc::channel();
-    let next = AtomicUsize::new(0);
+    let todo = Mutex::new(todo);
+    // Nobody waits for the check once the points are done.
+    let is_done = AtomicBool::new(false);
+    let is_strict = check.is_some();
+    let refused = Mutex::new(Ok(()));
+    let next = || todo.lock().unwrap_or_else(PoisonError::into_inner).next();
     let work = |send: mpsc::Sender<(usize, Row)>| {
         while !halt.load(Ordering::Relaxed) {
-            let Some(&point) = todo.get(next.fetch_add(1, Ordering::Relaxed)) else {
+            let Some(point) = next() else {
                 return;
             };
             let Some(row) = point::run(study, point, halt) else {
                 return;
             };
+            // Ahead of the check.
+            if is_strict && row.is_invalid() {
+                *refused.lock().unwrap_or_else(PoisonError::into_inner) = validated(study, point);
+                halt.store(true, Ordering::Relaxed);
+                return;
+            }
             if send.send((point, row)).is_err() {
                 return;
             }
         }
     };
-    pool.in_place_scope(|scope| {
-        for _ in 0..pool.current_num_threads() {
-            let send = send.clone();
-            scope.spawn(|_| work(send));
-        }
-        drop(send);
-        for (point, row) in &rows {
-            if finished(point, row).is_break() {
+    std::thread::scope(|scope| {
+        let check = scope.spawn(|| {
+            let checked = check.map_or(Ok(()), |check| check.finish(&is_done));
+            if checked.is_err() {
                 halt.store(true, Ordering::Relaxed);
-                return;
             }
-        }
-    });
+            checked
+        });
+        pool.in_place_scope(|scope| {
+            for _ in 0..pool.current_num_threads() {
+                let send = send.clone();
+                scope.spawn(|_| work(send));
+            }
+            drop(send);
+            for (point, row) in &rows {
+                if finished(point, row).is_break() {
+                    halt.store(true, Ordering::Relaxed);
+                    return;
+                }
+            }
+        });
+        is_done.store(true, Ordering::Relaxed);
+        check.join().unwrap_or(Ok(()))
+    })?;
+    refused.into_inner().unwrap_or_else(PoisonError::into_inner)
 }

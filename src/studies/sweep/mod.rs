@@ -12,11 +12,14 @@ mod axis;
 pub mod border;
 mod design;
 pub mod engine;
+mod finder;
+pub mod ledger;
 mod point;
 mod read;
 pub mod record;
 pub mod sensitivity;
 mod shard;
+mod shuffle;
 pub mod slice;
 mod study;
 

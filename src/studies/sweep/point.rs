@@ -13,6 +13,9 @@ use crate::studies::refinement::{self, RefinementError};
 /// The status of a point that went well.
 pub const OK: &str = "ok";
 
+/// How the status of a point begins that makes no valid scenario.
+pub(super) const INVALID: &str = "invalid: ";
+
 /// What a point has come to: its fields after those of the axes, without the status.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Row {
@@ -22,12 +25,19 @@ pub struct Row {
     pub status: String,
 }
 
+impl Row {
+    /// Whether the point made no valid scenario.
+    pub(super) fn is_invalid(&self) -> bool {
+        self.status.starts_with(INVALID)
+    }
+}
+
 /// Runs `point`; none if `halt` was set before its end. A failure, even a defect of the program, is
 /// the status of the row, which then shows the last good state if there is one.
 pub(super) fn run(study: &Study, point: usize, halt: &AtomicBool) -> Option<Row> {
     match study.scenario(point) {
         Ok(scenario) => run_scenario(study, scenario, halt),
-        Err(error) => Some(failed(study, &format!("invalid: {error}"))),
+        Err(error) => Some(failed(study, &format!("{INVALID}{error}"))),
     }
 }
 

@@ -5,8 +5,8 @@ use std::path::Path;
 use toml::{Table, Value};
 
 use super::StudyError;
-use super::axis::{self, Axis, Spread};
-use super::design::{self, Design, MOST_SOBOL_AXES};
+use super::axis::{self, Axis, Spread, Values};
+use super::design::{self, Design, MOST_SOBOL_AXES, Strata};
 use super::sensitivity::Varied;
 use super::study::{self, Stop, Study};
 use crate::scenario::nearest::nearest;
@@ -36,7 +36,7 @@ const COLUMNS: [&str; 4] = [
     "estimated_error",
 ];
 
-/// The most points of a study: each has a row in memory.
+/// The most points of a study.
 const MOST_POINTS: usize = 10_000_000;
 
 type Result<T> = std::result::Result<T, StudyError>;
@@ -428,14 +428,19 @@ impl Origin {
             }
         }
         let values = match (name, sampling) {
-            ("values", _) => self.listed(&key, &named, value)?,
-            (_, None) => self.spaced(&key, &named, value, spread)?,
+            ("values", _) => Values::Listed(self.listed(&key, &named, value)?),
+            (_, None) => self.spaced(&named, value, spread)?,
             (_, Some((design, samples, seed))) => {
-                let (from, to) = self.ends(&named, value, spread, 2)?;
-                design::shares(design, at, samples, seed)
-                    .into_iter()
-                    .map(|share| axis::value_of(&key, axis::between(spread, from, to, share)))
-                    .collect()
+                let [from, to] = self.ends(&named, value, spread, 2)?;
+                match design {
+                    Design::Sobol => {
+                        let shares = design::sobol(at, samples, seed);
+                        let value = |share| axis::between(spread, from, to, share);
+                        let values = shares.map(|share| axis::value_of(&key, value(share)));
+                        Values::Listed(values.collect())
+                    }
+                    _ => Values::Drawn([from, to], Strata::new(at, samples, seed)),
+                }
             }
         };
         let tied = self.tied(table, &place, &values)?;
@@ -464,27 +469,19 @@ impl Origin {
         Ok(list.iter().map(normal).collect())
     }
 
-    fn spaced(&self, key: &str, place: &str, value: &Value, spread: Spread) -> Result<Vec<Value>> {
-        let (from, to) = self.ends(place, value, spread, 3)?;
+    fn spaced(&self, place: &str, value: &Value, spread: Spread) -> Result<Values> {
+        let ends = self.ends(place, value, spread, 3)?;
         let count = value.get(2).and_then(Value::as_integer);
         let count = count.and_then(|count| usize::try_from(count).ok());
         let Some(count) = count.filter(|count| (1..=MOST_POINTS).contains(count)) else {
             let rule = format!("the third must be a whole number from 1 to {MOST_POINTS}");
             return self.refuse(place, value, rule);
         };
-        let steps = (count - 1).max(1) as f64;
-        let at = |i: usize| axis::between(spread, from, to, i as f64 / steps);
-        Ok((0..count).map(|i| axis::value_of(key, at(i))).collect())
+        Ok(Values::Spaced(ends, count))
     }
 
     /// The ends of a list [from, to, …] of `length`.
-    fn ends(
-        &self,
-        place: &str,
-        value: &Value,
-        spread: Spread,
-        length: usize,
-    ) -> Result<(f64, f64)> {
+    fn ends(&self, place: &str, value: &Value, spread: Spread, length: usize) -> Result<[f64; 2]> {
         let list = value.as_array().filter(|list| list.len() == length);
         let Some(list) = list else {
             let rule = match length {
@@ -500,10 +497,10 @@ impl Origin {
         if spread == Spread::Logarithmic && (from <= 0.0 || to <= 0.0) {
             return self.refuse(place, value, "must begin with two numbers greater than 0");
         }
-        Ok((from, to))
+        Ok([from, to])
     }
 
-    fn tied(&self, table: &Table, place: &str, values: &[Value]) -> Result<Vec<(String, f64)>> {
+    fn tied(&self, table: &Table, place: &str, values: &Values) -> Result<Vec<(String, f64)>> {
         let place = format!("{place}.tied");
         let mut tied = Vec::new();
         let Some(given) = table.get("tied") else {
@@ -512,7 +509,9 @@ impl Origin {
         let Some(given) = given.as_table() else {
             return self.refuse(&place, given, "must be a table, as { \"some.key\" = 0.1 }");
         };
-        if values.iter().any(|value| axis::numeric(value).is_none()) {
+        if let Values::Listed(values) = values
+            && values.iter().any(|value| axis::numeric(value).is_none())
+        {
             return Err(StudyError(format!(
                 "{}: {place}: needs an axis of numbers",
                 self.0
@@ -537,7 +536,7 @@ impl Origin {
 
     /// Refuses too many points, and zipped axes of different lengths.
     fn count(&self, study: &Study) -> Result<()> {
-        let lengths = study.axes.iter().map(|axis| axis.values.len());
+        let lengths = study.axes.iter().map(|axis| axis.count());
         if study.design == Design::Grid {
             let points = lengths.fold(1.0, |points, length| points * length as f64);
             if points > MOST_POINTS as f64 {
@@ -549,14 +548,14 @@ impl Origin {
             return Ok(());
         }
         let length = study.points();
-        match study.axes.iter().find(|axis| axis.values.len() != length) {
+        match study.axes.iter().find(|axis| axis.count() != length) {
             None => Ok(()),
             Some(axis) => Err(StudyError(format!(
                 "{}: axis {}: has {} values, the first axis {length}; design = \"{}\" needs the \
                  same number on each",
                 self.0,
                 axis.key,
-                axis.values.len(),
+                axis.count(),
                 study.design.name()
             ))),
         }

@@ -12,12 +12,20 @@
 //!
 //! While the study runs, rows are in the order in which they finish; a row belongs to the point
 //! whose values it begins with. A last line without its end was cut short and does not count.
+//!
+//! What a spreadsheet does to a table is undone: columns are read by name, numbers in any form, lines
+//! with any end, and a byte order mark is skipped.
 
-use std::collections::HashMap;
 use std::fmt::Write;
+use std::io::{self, BufRead, BufReader, Read};
 
+use super::finder::Finder;
+use super::point::INVALID;
 use super::{OK, Row, Shard, Study, StudyError};
 use crate::scenario::printable;
+
+/// The longest line and the longest header that are read, in bytes.
+const LONGEST: u64 = 1 << 26;
 
 /// Returns the lines above the rows: the header and the names of the columns.
 pub fn head(study: &Study, shard: Shard) -> String {
@@ -32,9 +40,10 @@ pub fn head(study: &Study, shard: Shard) -> String {
 /// The header without the shard: equal for equal studies on equal bases.
 fn lines(study: &Study) -> String {
     let mut text = format!("# mdr-tui: {}\n", env!("CARGO_PKG_VERSION"));
+    // Whatever a text holds, it stands on one line in TOML's own escapes.
     let mut push = |key: &str, toml: &str| {
         for line in toml.lines().filter(|line| !line.trim().is_empty()) {
-            let _ = writeln!(text, "# {key}: {}", printable(line));
+            let _ = writeln!(text, "# {key}: {line}");
         }
     };
     push("study", &study.to_toml());
@@ -51,6 +60,16 @@ pub fn line<T: AsRef<[u8]>>(fields: impl IntoIterator<Item = T>) -> String {
     let _ = writer.write_record(fields);
     let bytes = writer.into_inner().unwrap_or_default();
     String::from_utf8(bytes).unwrap_or_default()
+}
+
+/// The fields of one line of a CSV file.
+pub(super) fn split(line: &[u8]) -> Vec<String> {
+    let mut reader = csv::ReaderBuilder::new();
+    let mut reader = reader.has_headers(false).from_reader(line);
+    let mut row = csv::StringRecord::new();
+    // Memory does not fail to be read.
+    let _ = reader.read_record(&mut row);
+    row.iter().map(str::to_owned).collect()
 }
 
 /// Returns the fields of a point's row.
@@ -78,8 +97,7 @@ pub fn json<'a>(columns: &[&str], fields: impl IntoIterator<Item = &'a String>) 
     text
 }
 
-/// A table that was read back.
-#[derive(Debug, Clone, PartialEq)]
+/// A table that is read back, row by row.
 pub struct Record {
     /// What messages call it.
     name: String,
@@ -87,26 +105,38 @@ pub struct Record {
     header: String,
     /// The part of the study that it holds.
     pub shard: Shard,
-    /// The names of the columns.
-    pub columns: Vec<String>,
-    /// The rows, as they stand.
-    pub rows: Vec<Vec<String>>,
+    /// The names of the columns, as they stand.
+    columns: Vec<String>,
+    lines: Lines,
 }
 
 impl Record {
-    /// Reads a table that messages call `name`.
+    /// Begins to read a table that messages call `name`.
     ///
     /// # Errors
     ///
     /// Refuses what is no table of a study.
-    pub fn parse(text: &str, name: &str) -> Result<Self, StudyError> {
+    pub fn open(source: impl Read + 'static, name: &str) -> Result<Self, StudyError> {
         let name = printable(name);
         let refuse = |why: &str| StudyError(format!("{name}: {why}"));
-        let whole = text.rfind('\n').map_or("", |end| &text[..=end]);
+        let unread = |error: io::Error| refuse(&format!("cannot be read: {error}"));
+        let mut lines = Lines(Box::new(BufReader::new(source)));
         let (mut header, mut shard) = (String::new(), Shard::WHOLE);
-        let mut body = whole;
-        while body.starts_with('#') {
-            let (line, rest) = body.split_once('\n').unwrap_or((body, ""));
+        let columns = loop {
+            let line = lines.next().map_err(unread)?.unwrap_or_default();
+            let line = match header.is_empty() {
+                true => line.trim_start_matches('\u{feff}'),
+                false => &line,
+            };
+            if line.starts_with("\"#") {
+                return Err(refuse(
+                    "a spreadsheet has put the lines of its header in quotes; take them from the \
+                     original",
+                ));
+            }
+            if !line.starts_with('#') {
+                break split(line.as_bytes());
+            }
             match line.strip_prefix("# shard: ") {
                 Some(given) => shard = given.parse().map_err(|why: String| refuse(&why))?,
                 None => {
@@ -114,29 +144,20 @@ impl Record {
                     header.push('\n');
                 }
             }
-            body = rest;
-        }
+            if header.len() as u64 > LONGEST {
+                return Err(refuse("its header is too long"));
+            }
+        };
         if !header.contains("# study: ") {
             return Err(refuse(
                 "is not a table of mdr-tui sweep: its header has no study",
             ));
         }
-        let reader = csv::ReaderBuilder::new()
-            .has_headers(false)
-            .comment(Some(b'#'))
-            .from_reader(body.as_bytes());
-        let mut rows = Vec::new();
-        for row in reader.into_records() {
-            let row = row.map_err(|error| refuse(&printable(&error.to_string())))?;
-            rows.push(row.iter().map(str::to_owned).collect::<Vec<_>>());
-        }
-        let mut rows = rows.into_iter();
-        let columns = rows.next().unwrap_or_default();
         Ok(Self {
             header,
             shard,
             columns,
-            rows: rows.collect(),
+            lines,
             name,
         })
     }
@@ -183,22 +204,101 @@ impl Record {
         }
     }
 
-    /// The header, for the comparison of records with each other.
-    pub fn header(&self) -> &str {
-        &self.header
+    /// The rows that follow, with the columns in the order of `study`.
+    ///
+    /// # Errors
+    ///
+    /// Refuses columns that are not those of the study.
+    pub fn rows(self, study: &Study) -> Result<Given, StudyError> {
+        let refuse = |why: String| Err(StudyError(format!("{}: {why}", self.name)));
+        let wanted = study.columns();
+        if let Some(more) = self.columns.iter().find(|name| !wanted.contains(&&***name)) {
+            let more = printable(more);
+            return refuse(format!(
+                "has a column {more}, which the study does not have"
+            ));
+        }
+        let mut order = Vec::new();
+        for name in &wanted {
+            let mut at = self.columns.iter().enumerate();
+            let Some((at, _)) = at.find(|(_, column)| column == name) else {
+                return refuse(format!("has no column {name}"));
+            };
+            order.push(at);
+        }
+        if self.columns.len() > wanted.len() {
+            return refuse("has a column twice".into());
+        }
+        Ok(Given {
+            name: self.name,
+            order,
+            lines: self.lines,
+        })
     }
 }
 
-/// Rows of a study, each at its point.
+/// The rows of a table, with the columns in the order of its study.
+pub struct Given {
+    name: String,
+    /// Where each column of the study stands.
+    order: Vec<usize>,
+    lines: Lines,
+}
+
+impl Iterator for Given {
+    type Item = Result<Vec<String>, StudyError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        loop {
+            let line = match self.lines.next() {
+                Ok(line) => line?,
+                Err(error) => {
+                    return Some(Err(StudyError(format!(
+                        "{}: cannot be read: {error}",
+                        self.name
+                    ))));
+                }
+            };
+            if line.trim_end().is_empty() || line.starts_with('#') {
+                continue;
+            }
+            let mut row = split(line.as_bytes());
+            if row.len() != self.order.len() {
+                return Some(Ok(row));
+            }
+            let order = self.order.iter();
+            return Some(Ok(order.map(|&at| std::mem::take(&mut row[at])).collect()));
+        }
+    }
+}
+
+/// Lines without their ends; one without an end does not count.
+struct Lines(Box<dyn BufRead>);
+
+impl Lines {
+    fn next(&mut self) -> io::Result<Option<String>> {
+        let mut line = Vec::new();
+        let read = self.0.by_ref().take(LONGEST).read_until(b'\n', &mut line)?;
+        if line.pop() != Some(b'\n') {
+            return match read as u64 {
+                LONGEST => Err(io::Error::other("a line is too long")),
+                _ => Ok(None),
+            };
+        }
+        line.pop_if(|last| *last == b'\r');
+        let line = String::from_utf8(line).map_err(|_| io::Error::other("is not UTF-8"))?;
+        Ok(Some(line))
+    }
+}
+
+/// Rows of a study in memory, each at its point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rows {
-    /// Points by the values of their axes, and how many of them have taken their rows. Points with
-    /// equal values have equal rows, so which of them takes which row does not matter.
-    points: HashMap<Vec<String>, (Vec<usize>, usize)>,
+    finder: Finder,
     axes: usize,
     columns: usize,
     /// The fields of each point, none while it has no row.
-    pub rows: Vec<Option<Vec<String>>>,
+    rows: Vec<Option<Vec<String>>>,
 }
 
 /// Why a row cannot be taken.
@@ -217,47 +317,33 @@ pub enum Refused {
 impl Rows {
     /// No rows yet.
     pub fn new(study: &Study) -> Self {
-        let points = study.points();
-        let mut by_values: HashMap<Vec<String>, (Vec<usize>, usize)> = HashMap::new();
-        for point in 0..points {
-            by_values
-                .entry(study.values(point))
-                .or_default()
-                .0
-                .push(point);
-        }
         Self {
-            points: by_values,
+            finder: Finder::new(study),
             axes: study.axes.len(),
             columns: study.columns().len(),
-            rows: vec![None; points],
+            rows: vec![None; study.points()],
         }
     }
 
-    /// Takes a row to the point that it belongs to, which is returned.
+    /// Takes a row to the point that it belongs to.
     ///
     /// # Errors
     ///
     /// Leaves a row that no point waits for.
-    pub fn take(&mut self, fields: Vec<String>) -> Result<usize, Refused> {
+    pub fn take(&mut self, fields: Vec<String>) -> Result<(), Refused> {
         if fields.len() != self.columns {
             return Err(Refused::Length);
         }
-        let values = &fields[..self.axes];
-        let (points, taken) = self.points.get_mut(values).ok_or(Refused::Foreign)?;
-        let Some(&point) = points.get(*taken) else {
-            let alike = points
-                .iter()
-                .any(|&point| self.rows[point].as_ref() == Some(&fields));
-            return Err(if alike {
-                Refused::Double
-            } else {
-                Refused::Contradiction
-            });
-        };
-        *taken += 1;
-        self.rows[point] = Some(fields);
-        Ok(point)
+        let points = self.finder.points(&fields[..self.axes]);
+        let mut free = points.iter().filter(|&&point| self.rows[point].is_none());
+        match (free.next(), points.is_empty()) {
+            (Some(&point), _) => {
+                self.put(point, fields);
+                Ok(())
+            }
+            (None, true) => Err(Refused::Foreign),
+            (None, false) => Err(Refused::Contradiction),
+        }
     }
 
     /// Puts the row of a point that was just run.
@@ -265,13 +351,9 @@ impl Rows {
         self.rows[point] = Some(fields);
     }
 
-    /// Forgets the rows of points that failed, so that they are run again.
-    pub fn forget_failed(&mut self) {
-        for row in &mut self.rows {
-            if row.as_ref().is_some_and(|row| !is_ok(row)) {
-                *row = None;
-            }
-        }
+    /// The row of a point, if it has one.
+    pub fn row(&self, point: usize) -> Option<&Vec<String>> {
+        self.rows[point].as_ref()
     }
 
     /// The number of rows, and how many of them failed.
@@ -281,17 +363,14 @@ impl Rows {
             (all + 1, failed + usize::from(!is_ok(row)))
         })
     }
-
-    /// The whole file: what is there, in the order of the points.
-    pub fn text(&self, head: &str) -> String {
-        let mut text = head.to_owned();
-        for row in self.rows.iter().flatten() {
-            text.push_str(&line(row));
-        }
-        text
-    }
 }
 
-fn is_ok(row: &[String]) -> bool {
+/// Whether a row is that of a point that is no valid scenario.
+pub(super) fn is_invalid(row: &[String]) -> bool {
+    row.last().is_some_and(|status| status.starts_with(INVALID))
+}
+
+/// Whether a row is that of a point that went well.
+pub(super) fn is_ok(row: &[String]) -> bool {
     row.last().is_some_and(|status| status == OK)
 }

@@ -85,7 +85,8 @@ impl Slice {
     /// If rows do not belong to the study.
     pub fn renew(&mut self, record: Record, name: &str) -> Result<(), StudyError> {
         let mut rows = Rows::new(&self.study);
-        for row in record.rows {
+        for row in record.rows(&self.study)? {
+            let row = row?;
             let named = row.join(",");
             if let Err(why) = rows.take(row) {
                 return Err(StudyError(format!(
@@ -118,9 +119,9 @@ impl Slice {
             (Some(number), Some(wanted)) => (number - wanted).abs() <= 1e-9 * number.abs(),
             _ => axis.text(*place) == value,
         };
-        let mut places = 0..axis.values.len();
+        let mut places = 0..axis.count();
         let Some(place) = places.find(is_wanted) else {
-            let values = (0..axis.values.len()).map(|place| axis.text(place));
+            let values = (0..axis.count()).map(|place| axis.text(place));
             let values = values.collect::<Vec<_>>().join(", ");
             return Err(format!("must be one of {values}"));
         };
@@ -155,8 +156,8 @@ impl Slice {
 
     /// The numbers of places to the right and upwards.
     pub fn size(&self) -> [usize; 2] {
-        let high = self.y().map_or(1, |axis| axis.values.len());
-        [self.x().values.len(), high]
+        let high = self.y().map_or(1, |axis| axis.count());
+        [self.x().count(), high]
     }
 
     /// The point at a place to the right and upwards.
@@ -170,7 +171,7 @@ impl Slice {
             at[axis] = y;
         }
         let axes = self.study.axes.iter().zip(at);
-        axes.fold(0, |point, (axis, place)| point * axis.values.len() + place)
+        axes.fold(0, |point, (axis, place)| point * axis.count() + place)
     }
 
     /// The points that are shown, row by row.
@@ -181,7 +182,7 @@ impl Slice {
 
     /// The row of a point.
     pub fn row(&self, point: usize) -> Option<&Vec<String>> {
-        self.rows.rows[point].as_ref()
+        self.rows.row(point)
     }
 
     /// The field of `column` of a point; `None` without a row, or where the point failed.
@@ -212,7 +213,7 @@ impl Slice {
     /// The criteria of the field, where the study has their columns.
     pub fn criteria(&self) -> Vec<Line> {
         let lines = CRITERIA.into_iter().map(|(column, value, letter, name)| {
-            let places = 0..self.x().values.len();
+            let places = 0..self.x().count();
             Line {
                 letter,
                 name: name.to_owned(),
@@ -236,7 +237,7 @@ impl Slice {
                 Border::LiftOff => 'L',
             },
             name: format!("{}, closed form, unworn", border.name()),
-            at: (0..self.x().values.len())
+            at: (0..self.x().count())
                 .filter_map(|place| {
                     let mut places = self.at.clone();
                     places[self.x] = place;

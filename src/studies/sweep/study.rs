@@ -1,11 +1,12 @@
 //! A study: the scenario of every point, and the columns to record.
 
-use toml::{Table, Value};
+use toml::Value;
 
-use super::axis::{self, Axis};
+use super::axis::{self, Axis, Values};
 use super::sensitivity::Varied;
 use super::{Design, StudyError};
 use crate::scenario::scalars::Scalar;
+use crate::scenario::write::value as toml_value;
 use crate::scenario::{Scenario, ScenarioError, printable};
 use crate::scenario::{schema, units};
 
@@ -62,8 +63,8 @@ impl Study {
     /// The number of points.
     pub fn points(&self) -> usize {
         match self.design {
-            Design::Grid => self.axes.iter().map(|axis| axis.values.len()).product(),
-            _ => self.axes.first().map_or(1, |axis| axis.values.len()),
+            Design::Grid => self.axes.iter().map(|axis| axis.count()).product(),
+            _ => self.axes.first().map_or(1, |axis| axis.count()),
         }
     }
 
@@ -78,8 +79,8 @@ impl Study {
             .iter()
             .rev()
             .map(|axis| {
-                let place = rest % axis.values.len();
-                rest /= axis.values.len();
+                let place = rest % axis.count();
+                rest /= axis.count();
                 place
             })
             .collect();
@@ -87,11 +88,12 @@ impl Study {
         places
     }
 
-    /// The values of the axes at `point`, as its row shows them.
+    /// The values of the axes at `point`, as its row shows them: on one line, whatever they hold.
     pub fn values(&self, point: usize) -> Vec<String> {
         let places = self.places(point);
         let axes = self.axes.iter().zip(places);
-        axes.map(|(axis, place)| axis.text(place)).collect()
+        axes.map(|(axis, place)| printable(&axis.text(place)))
+            .collect()
     }
 
     /// `point` in words: its number and its values.
@@ -219,42 +221,42 @@ impl Study {
 
     /// The study as TOML, in one form for all ways to write it.
     pub fn to_toml(&self) -> String {
-        let mut table = Table::new();
-        let mut insert = |key: &str, value: Value| table.insert(key.into(), value);
+        let mut text = String::new();
+        let mut put = |key: &str, value: &Value| {
+            text.push_str(&format!("{key} = {}\n", toml_value(value)));
+        };
         if let Some(title) = &self.title {
-            insert("title", title.clone().into());
+            put("title", &title.clone().into());
         }
-        insert("base", self.base_name.clone().into());
+        put("base", &self.base_name.clone().into());
         let columns = self.columns.iter().map(|column| Value::from(column.name));
-        insert("columns", Value::Array(columns.collect()));
-        insert("design", self.design.name().into());
+        put("columns", &Value::Array(columns.collect()));
+        put("design", &self.design.name().into());
         if let Some((samples, seed)) = self.samples {
-            insert("samples", (samples as i64).into());
-            insert("seed", i64::from(seed).into());
+            put("samples", &(samples as i64).into());
+            put("seed", &i64::from(seed).into());
         }
-        if !self.set.is_empty() {
-            insert("set", Value::Table(self.set.iter().cloned().collect()));
+        let mut table = |name: &str, rows: &mut [(String, Value)]| {
+            rows.sort_by(|(one, _), (other, _)| one.cmp(other));
+            if !rows.is_empty() {
+                text.push_str(&format!("\n[{name}]\n"));
+            }
+            for (key, value) in &*rows {
+                text.push_str(&format!("{} = {}\n", toml_key(key), toml_value(value)));
+            }
+        };
+        table("set", &mut self.set.clone());
+        let stop = self.stop.named().into_iter();
+        let stop = stop.filter_map(|(name, value)| Some((name.into(), Value::Float(value?))));
+        table("stop", &mut stop.collect::<Vec<_>>());
+        let sensitivity = self.sensitivity.iter();
+        let sensitivity =
+            sensitivity.map(|one| (one.key.clone(), one.deviation.unwrap_or(0.0).into()));
+        table("sensitivity", &mut sensitivity.collect::<Vec<_>>());
+        for axis in &self.axes {
+            text.push_str(&format!("\n[[axis]]\n{}", written(axis)));
         }
-        let stop: Table = self
-            .stop
-            .named()
-            .into_iter()
-            .filter_map(|(name, value)| Some((name.to_owned(), Value::Float(value?))))
-            .collect();
-        if !stop.is_empty() {
-            insert("stop", Value::Table(stop));
-        }
-        let sensitivity: Table = self
-            .sensitivity
-            .iter()
-            .map(|varied| (varied.key.clone(), varied.deviation.unwrap_or(0.0).into()))
-            .collect();
-        if !sensitivity.is_empty() {
-            insert("sensitivity", Value::Table(sensitivity));
-        }
-        let axes = self.axes.iter().map(|axis| Value::Table(written(axis)));
-        insert("axis", Value::Array(axes.collect()));
-        toml::to_string(&table).unwrap_or_default()
+        text
     }
 }
 
@@ -272,20 +274,49 @@ pub(super) fn is_force(key: &str, set: &[(String, Value)], base: &Scenario) -> b
     control.is_some_and(|control| control.trim_matches('"') == "force")
 }
 
-/// An axis as it stands in a study, its values listed.
-fn written(axis: &Axis) -> Table {
-    let mut table = Table::new();
-    table.insert("key".into(), axis.key.clone().into());
-    table.insert("values".into(), Value::Array(axis.values.clone()));
-    if axis.spread == axis::Spread::Logarithmic {
-        table.insert("scale".into(), "log".into());
+/// The most values that an axis of two ends and a number lists in a table's header.
+const MOST_LISTED: usize = 1000;
+
+/// An axis as it stands in a study: its values listed, or its ends where there are many between.
+fn written(axis: &Axis) -> String {
+    let list = |values: Vec<Value>| toml_value(&Value::Array(values));
+    let mut text = format!("key = {}\n", toml_value(&axis.key.clone().into()));
+    let is_logarithmic = axis.spread == axis::Spread::Logarithmic;
+    let mut ends = match axis.values {
+        Values::Spaced(ends, count) if count > MOST_LISTED => {
+            let mut ends = ends.map(Value::Float).to_vec();
+            ends.push((count as i64).into());
+            ends
+        }
+        Values::Drawn(ends, strata) if strata.len() > MOST_LISTED => {
+            ends.map(Value::Float).to_vec()
+        }
+        _ => Vec::new(),
+    };
+    match (ends.is_empty(), is_logarithmic) {
+        (true, _) => {
+            ends.extend((0..axis.count()).map(|place| axis.value(place)));
+            text.push_str(&format!("values = {}\n", list(ends)));
+            if is_logarithmic {
+                text.push_str("scale = \"log\"\n");
+            }
+        }
+        (false, true) => text.push_str(&format!("logspace = {}\n", list(ends))),
+        (false, false) => text.push_str(&format!("linspace = {}\n", list(ends))),
     }
     if !axis.tied.is_empty() {
-        let tied = axis.tied.iter().cloned();
-        let tied: Table = tied.map(|(key, factor)| (key, factor.into())).collect();
-        table.insert("tied".into(), Value::Table(tied));
+        let tied = axis.tied.iter();
+        let tied = tied
+            .map(|(key, factor)| format!("{} = {}", toml_key(key), toml_value(&(*factor).into())));
+        let tied: Vec<String> = tied.collect();
+        text.push_str(&format!("tied = {{ {} }}\n", tied.join(", ")));
     }
-    table
+    text
+}
+
+/// A dotted path as one key of TOML. The keys of scenarios need no escapes.
+fn toml_key(path: &str) -> String {
+    format!("\"{path}\"")
 }
 
 /// A TOML value as `--set` takes it.

@@ -195,7 +195,7 @@ fn map(
         return;
     };
     let label = |axis: &crate::studies::sweep::Axis, at: usize| short(&axis.text(at));
-    let (last_x, last_y) = (x_axis.values.len() - 1, y_axis.values.len() - 1);
+    let (last_x, last_y) = (x_axis.count() - 1, y_axis.count() - 1);
     let ends = [label(y_axis, last_y), label(y_axis, 0)];
     let margin = ends
         .iter()
@@ -311,7 +311,7 @@ impl Cells {
 /// One axis, or no grid: the column over the axis.
 fn curve(view: &View, theme: &Theme, area: Rect, buffer: &mut Buffer) {
     let axis = view.x();
-    let mut points: Vec<(f64, f64)> = (0..axis.values.len())
+    let mut points: Vec<(f64, f64)> = (0..axis.count())
         .filter_map(|x| {
             let number = view.number(view.point_at(x, 0), view.column())?;
             Some((axis.number(x).unwrap_or(x as f64), number))

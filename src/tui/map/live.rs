@@ -15,7 +15,8 @@ use rayon::ThreadPoolBuilder;
 use super::draw;
 use super::view::{Leave, View};
 use crate::scenario::Scenario;
-use crate::studies::sweep::{Study, StudyError, engine, record};
+use crate::studies::sweep::engine::{self, Check};
+use crate::studies::sweep::{Shard, Study, StudyError, record};
 use crate::tui::keys::Key;
 use crate::tui::theme::Theme;
 
@@ -119,10 +120,7 @@ impl Live {
         let pool = ThreadPoolBuilder::new()
             .build()
             .map_err(|error| StudyError(error.to_string()))?;
-        let todo: Vec<usize> = (0..study.points()).collect();
-        if let Some(error) = engine::first_invalid(&study, &todo, &pool) {
-            return Err(error);
-        }
+        Check::new(&study, Shard::WHOLE).advance(&pool, |_| true)?;
         let live = Self {
             view: Arc::new(Mutex::new(View::of(study.clone(), &title)?)),
             halt: Arc::default(),
@@ -130,7 +128,9 @@ impl Live {
         };
         let shared = live.clone();
         thread::spawn(move || {
-            engine::run(&study, &todo, &pool, &shared.halt, |point, row| {
+            let todo = 0..study.points();
+            // Every point is checked already.
+            let _ = engine::run(&study, todo, None, &pool, &shared.halt, |point, row| {
                 let fields = record::fields(&study, point, row);
                 shared.with(|view| view.put(point, fields));
                 tell();

@@ -106,7 +106,7 @@ impl View {
     }
 
     fn move_by(&mut self, axis: usize, by: isize) {
-        let last = self.slice.study.axes[axis].values.len() - 1;
+        let last = self.slice.study.axes[axis].count() - 1;
         let place = self.slice.at[axis].saturating_add_signed(by).min(last);
         if self.slice.study.design == Design::Grid {
             self.slice.at[axis] = place;
@@ -144,7 +144,7 @@ impl View {
     fn move_others(&mut self, by: isize) {
         let hidden: Vec<usize> = self.hidden().collect();
         for axis in hidden.into_iter().rev() {
-            let length = self.slice.study.axes[axis].values.len() as isize;
+            let length = self.slice.study.axes[axis].count() as isize;
             let place = self.slice.at[axis] as isize + by;
             self.slice.at[axis] = place.rem_euclid(length) as usize;
             if (0..length).contains(&place) {

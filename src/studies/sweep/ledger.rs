@@ -1,0 +1,215 @@
+//! The rows of a study in a file, and where each of them stands, in memory that does not grow with
+//! their number: one bit a point.
+
+use std::fs::File;
+use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
+use std::os::unix::fs::FileExt;
+use std::path::Path;
+
+use super::finder::Finder;
+use super::record::{self, Refused};
+use super::{Shard, Study};
+use crate::scenario::scalars::number;
+
+/// What is read of a row at first.
+const PIECE: usize = 512;
+
+/// The points that have rows.
+#[derive(Debug, Clone)]
+pub struct Done(Vec<u64>);
+
+impl Done {
+    /// Whether a point has its row.
+    pub fn has(&self, point: usize) -> bool {
+        self.0[point / 64] >> (point % 64) & 1 == 1
+    }
+
+    /// The points of a shard that have no row, in order.
+    pub fn missing(self, study: &Study, shard: Shard) -> impl Iterator<Item = usize> {
+        shard
+            .points(study.points())
+            .filter(move |&point| !self.has(point))
+    }
+}
+
+/// Rows in the order in which they came.
+#[derive(Debug)]
+pub struct Ledger {
+    finder: Finder,
+    axes: usize,
+    columns: usize,
+    rows: File,
+    /// The length of `rows` up to the last whole row.
+    length: u64,
+    /// For each point, where its row begins in `rows`; without a name, so that it goes with the
+    /// process.
+    index: File,
+    done: Done,
+    there: usize,
+    failed: usize,
+    /// Those of the failed that were no valid scenarios.
+    invalid: usize,
+}
+
+impl Ledger {
+    /// No rows yet; they are appended to `rows`. The index is a file in `directory`.
+    ///
+    /// # Errors
+    ///
+    /// If no file can be made there.
+    pub fn new(study: &Study, mut rows: File, directory: &Path) -> io::Result<Self> {
+        Ok(Self {
+            finder: Finder::new(study),
+            axes: study.axes.len(),
+            columns: study.columns().len(),
+            length: rows.seek(SeekFrom::End(0))?,
+            rows,
+            index: tempfile::tempfile_in(directory)?,
+            done: Done(vec![0; study.points().div_ceil(64)]),
+            there: 0,
+            failed: 0,
+            invalid: 0,
+        })
+    }
+
+    /// Adds the row of a point. On an error the file ends with the last whole row, or with part of
+    /// one that a reader drops.
+    ///
+    /// # Errors
+    ///
+    /// As the system says.
+    pub fn add(&mut self, point: usize, fields: &[String]) -> io::Result<()> {
+        let line = record::line(fields);
+        let written = self.rows.write_all(line.as_bytes()).and_then(|()| {
+            self.index
+                .write_all_at(&self.length.to_le_bytes(), 8 * point as u64)
+        });
+        if let Err(error) = written {
+            let _ = self.rows.set_len(self.length);
+            return Err(error);
+        }
+        self.length += line.len() as u64;
+        self.done.0[point / 64] |= 1 << (point % 64);
+        self.there += 1;
+        self.failed += usize::from(!record::is_ok(fields));
+        self.invalid += usize::from(record::is_invalid(fields));
+        Ok(())
+    }
+
+    /// Adds a row that was read to the point that it belongs to, with its numbers in the form
+    /// that this program writes.
+    ///
+    /// # Errors
+    ///
+    /// As the system says; inside, why no point waits for the row.
+    pub fn take(
+        &mut self,
+        study: &Study,
+        mut fields: Vec<String>,
+    ) -> io::Result<Result<(), Refused>> {
+        if fields.len() != self.columns {
+            return Ok(Err(Refused::Length));
+        }
+        let points = self.finder.points(&fields[..self.axes]);
+        let Some(&first) = points.first() else {
+            return Ok(Err(Refused::Foreign));
+        };
+        for (field, value) in fields.iter_mut().zip(study.values(first)) {
+            *field = value;
+        }
+        for field in &mut fields[self.axes..] {
+            if let Ok(value) = field.parse::<f64>()
+                && value.is_finite()
+            {
+                *field = number(value);
+            }
+        }
+        // Points with equal values have equal rows: which of them takes which does not matter.
+        if let Some(&free) = points.iter().find(|&&point| !self.done.has(point)) {
+            return self.add(free, &fields).map(Ok);
+        }
+        for point in points {
+            if self.row(point)? == fields {
+                return Ok(Err(Refused::Double));
+            }
+        }
+        Ok(Err(Refused::Contradiction))
+    }
+
+    /// The points that have rows now.
+    pub fn done(&self) -> &Done {
+        &self.done
+    }
+
+    /// The number of rows, and how many of them failed.
+    pub fn count(&self) -> (usize, usize) {
+        (self.there, self.failed)
+    }
+
+    /// Whether a point failed that was a valid scenario.
+    pub fn has_failed(&self) -> bool {
+        self.failed > self.invalid
+    }
+
+    /// Makes sure that a crash of the machine does not lose the rows.
+    ///
+    /// # Errors
+    ///
+    /// As the system says.
+    pub fn sync(&self) -> io::Result<()> {
+        self.rows.sync_data()
+    }
+
+    /// The row of a point that has one.
+    ///
+    /// # Errors
+    ///
+    /// If the file cannot be read.
+    pub fn row(&self, point: usize) -> io::Result<Vec<String>> {
+        let mut at = [0; 8];
+        self.index.read_exact_at(&mut at, 8 * point as u64)?;
+        Ok(record::split(&self.line_at(u64::from_le_bytes(at))?))
+    }
+
+    fn line_at(&self, mut at: u64) -> io::Result<Vec<u8>> {
+        let mut line = Vec::new();
+        let mut piece = [0; PIECE];
+        loop {
+            let read = match self.rows.read_at(&mut piece, at) {
+                Ok(0) => return Err(io::ErrorKind::UnexpectedEof.into()),
+                Ok(read) => &piece[..read],
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
+                Err(error) => return Err(error),
+            };
+            if let Some(end) = read.iter().position(|&byte| byte == b'\n') {
+                line.extend(&read[..=end]);
+                return Ok(line);
+            }
+            line.extend(read);
+            at += read.len() as u64;
+        }
+    }
+
+    /// Gives the rows, as lines, to `take` in the order of the points.
+    ///
+    /// # Errors
+    ///
+    /// Of `take`, or if a file cannot be read.
+    pub fn each(&self, mut take: impl FnMut(&[u8]) -> io::Result<()>) -> io::Result<()> {
+        let mut index = BufReader::new(&self.index);
+        index.rewind()?;
+        let mut left = self.there;
+        for point in 0.. {
+            if left == 0 {
+                break;
+            }
+            let mut at = [0; 8];
+            index.read_exact(&mut at)?;
+            if self.done.has(point) {
+                take(&self.line_at(u64::from_le_bytes(at))?)?;
+                left -= 1;
+            }
+        }
+        Ok(())
+    }
+}

@@ -132,16 +132,10 @@ impl Skyline {
     /// Writes the product with `input` into `output`, both of the operator's size.
     /// Whatever `output` held before is overwritten.
     pub fn apply(&self, input: &[f64], output: &mut [f64]) {
-        self.apply_rows(input, output, 0..self.size);
-    }
-
-    /// The same for those rows alone that are asked for; the others keep what they hold, or receive what they
-    /// would in [`apply`](Self::apply).
-    pub fn apply_rows(&self, input: &[f64], output: &mut [f64], rows: Range<usize>) {
         debug_assert_eq!(input.len(), self.size);
         debug_assert_eq!(output.len(), self.size);
         // Compiled once for every instruction set; the processor's own is chosen.
-        let finite = dispatch!(Level::new(), simd => self.multiply(simd, input, output, &rows));
+        let finite = dispatch!(Level::new(), simd => self.multiply(simd, input, output));
         if !finite {
             self.apply_not_finite(input, output);
         }
@@ -149,20 +143,11 @@ impl Skyline {
 
     /// Tells whether all sums are finite.
     #[inline(always)]
-    fn multiply<S: Simd>(
-        &self,
-        simd: S,
-        input: &[f64],
-        output: &mut [f64],
-        rows: &Range<usize>,
-    ) -> bool {
+    fn multiply<S: Simd>(&self, simd: S, input: &[f64], output: &mut [f64]) -> bool {
         let support = support(input);
-        let panels = rows.start / ROWS..rows.end.div_ceil(ROWS);
-        let end = output.len().min(ROWS * panels.end);
-        let output = &mut output[end.min(ROWS * panels.start)..end];
         let zero = f64x4::splat(simd, 0.0);
         let mut zeros = [zero; ROWS / LANES];
-        let mut sums = self.panels[panels.start..].iter().map(
+        let mut sums = self.panels.iter().map(
             #[inline(always)]
             |panel| {
                 let (at, columns) = panel.within(&support);
@@ -294,22 +279,6 @@ mod tests {
             packed.apply(&input, &mut output);
             let expected = &dense * nalgebra::DVector::from_column_slice(&input);
             assert_eq!(output, expected.as_slice(), "{support:?}");
-        }
-    }
-
-    #[test]
-    fn rows_that_are_asked_for_are_those_of_the_whole() {
-        let dense = DMatrix::from_fn(40, 40, |i, j| if j <= i { (1 + i * j) as f64 } else { 0.0 });
-        let packed = Skyline::pack(&dense);
-        let input: Vec<f64> = (0..40).map(|j| (j as f64 * 1.7).sin()).collect();
-        let mut whole = vec![f64::NAN; 40];
-        packed.apply(&input, &mut whole);
-        for rows in [0..40, 3..17, 16..24, 39..40, 5..5] {
-            let mut part = vec![0.25; 40];
-            packed.apply_rows(&input, &mut part, rows.clone());
-            assert_eq!(part[rows.clone()], whole[rows]);
-            let mut all = part.iter().zip(&whole);
-            assert!(all.all(|(part, whole)| [0.25, *whole].contains(part)));
         }
     }
 

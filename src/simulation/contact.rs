@@ -8,7 +8,7 @@ use super::drive::Target;
 use super::model::Model;
 use crate::contact::normal::{self, NormalContact};
 use crate::contact::tangential::{self, Motion, SlipInput, SpringState};
-use crate::math::abel::field::{End, Field};
+use crate::math::abel::field::Field;
 use crate::math::root;
 use crate::math::scan::largest;
 
@@ -42,16 +42,6 @@ impl Contact {
             spring: Field::zeros(springs),
             spring_state: vec![SpringState::Stick; springs],
             ..Self::default()
-        }
-    }
-
-    /// Where a load on it ends, `values` being that load.
-    pub(super) fn end(&self, model: &Model, values: &[f64]) -> End {
-        let radius = self.normal.radius;
-        End {
-            cusp: model.foundation.cusp(values, radius),
-            radius,
-            nodes: self.normal.nodes,
         }
     }
 

@@ -91,7 +91,6 @@ pub use reconfigure::Domain;
 use running_in::RunningIn;
 pub use saved::{Saved, Unfit};
 pub use state::{State, Stats};
-use traction::Traction;
 pub use unworn::Unworn;
 use wear::Increment;
 
@@ -183,10 +182,7 @@ struct Scratch {
     /// The 1D profile that the contact is solved on, m.
     g: Vec<f64>,
     increment: Increment,
-    stresses: traction::Buffers,
     stages: step::Stages,
-    /// The stresses before the step, where slip reaches further in than those of its state.
-    before: Traction,
     /// Transforms computed since they were last counted.
     transforms: u64,
 }
@@ -196,9 +192,7 @@ impl Scratch {
         Self {
             g: vec![0.0; model.nodes()],
             increment: Increment::new(model),
-            stresses: traction::Buffers::default(),
             stages: step::Stages::default(),
-            before: Traction::zeros(model.springs()),
             transforms: 0,
         }
     }

@@ -5,8 +5,6 @@ use std::sync::Arc;
 
 use super::Setup;
 use crate::contact::foundation::WinklerFoundation;
-use crate::math::abel::curvature::Curvature;
-use crate::math::abel::field;
 use crate::math::abel::worn;
 use crate::math::abel::{AbelMethod, AbelPlan, WornPlan};
 use crate::math::grid::RadialGrid;
@@ -27,8 +25,6 @@ pub(super) struct Operators {
     /// From the worn depth to its share of g, where that is not the plan's Eq. (1).
     worn: Option<WornPlan>,
     pub foundation: WinklerFoundation,
-    /// What the stress lacks between nodes, where the method takes it into account.
-    pub curvature: Option<Curvature>,
     pub grid: RadialGrid,
     /// 1/h, h the width of the cell around each node, 1/m.
     pub per_width: Vec<f64>,
@@ -59,7 +55,6 @@ impl Operators {
         Self {
             worn,
             foundation: WinklerFoundation::new(&setup.grid),
-            curvature: field::has_singular_parts(&plan).then(|| Curvature::new(&setup.grid)),
             per_width: setup.grid.widths().map(f64::recip).collect(),
             volume_weights: worn::volume_weights(&setup.grid),
             grid: setup.grid.clone(),

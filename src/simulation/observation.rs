@@ -209,9 +209,7 @@ impl Simulation {
     /// p(r), Pa, of the present moment: one transform.
     pub fn pressure(&self) -> Vec<f64> {
         let mut pressure = vec![0.0; self.setup().grid.len()];
-        let (contact, stuck) = (&self.state.contact, self.state.stuck_radius());
-        let buffers = &mut traction::Buffers::default();
-        traction::pressure(&self.model, contact, stuck, buffers, &mut pressure);
+        traction::pressure(&self.model, &self.state.contact, &mut pressure);
         pressure
     }
 
@@ -274,11 +272,9 @@ impl Simulation {
             spring: when(Curves::SPRINGS, &|| or_zero(&contact.spring.nodal)),
             pressure: when(Curves::PRESSURE, &|| self.pressure()),
             shear: when(Curves::SHEAR, &|| {
-                let stuck = self.state.stuck_radius();
-                let buffers = &mut traction::Buffers::default();
                 let mut out = vec![0.0; nodes];
                 if with_springs {
-                    traction::shear(model, contact, stuck, 0..nodes, buffers, &mut out);
+                    traction::shear(model, contact, &mut out);
                 }
                 out
             }),

@@ -30,9 +30,7 @@ use crate::math::abel::AbelMethod;
 /// ρ: the largest eigenvalue of the response of p to wear, times the cell's width.
 pub fn response(method: AbelMethod) -> f64 {
     match method {
-        // 1.51 on equal cells; this is what graded ones were measured with.
-        AbelMethod::Product => 1.48,
-        AbelMethod::A | AbelMethod::APlusB | AbelMethod::Benad => 1.51,
+        AbelMethod::Product | AbelMethod::A | AbelMethod::APlusB | AbelMethod::Benad => 1.51,
         AbelMethod::B => 0.34,
     }
 }

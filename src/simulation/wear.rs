@@ -22,7 +22,7 @@ use super::stability::response;
 use super::traction::Traction;
 use crate::contact::tangential::SpringState;
 use crate::math::abel::field::Field;
-use crate::math::abel::kink::{self, Kink};
+use crate::math::abel::kink;
 use crate::math::scan::{largest, leading, trailing};
 use crate::math::vector::{vectorized, write_each};
 
@@ -31,8 +31,6 @@ use crate::math::vector::{vectorized, write_each};
 pub(super) struct Increment {
     /// Slip of the springs, m.
     pub slip: Vec<f64>,
-    /// Where it kinks between springs, and in which cell.
-    pub slip_kinks: Vec<(usize, Kink)>,
     /// Slip of the surface, m.
     pub surface_slip: Vec<f64>,
     /// The stress that wears, Pa.
@@ -88,10 +86,9 @@ impl Increment {
         );
     }
 
-    /// The slip of the surface by Eq. (2), on the first `nodes`.
-    pub fn slip_of_surface(&mut self, model: &Model, nodes: usize) {
-        let (slip, surface) = (&self.slip, &mut self.surface_slip);
-        model.plan.displacement_rows(slip, surface, 0..nodes);
+    /// The slip of the surface by Eq. (2).
+    pub fn slip_of_surface(&mut self, model: &Model) {
+        model.plan.displacement(&self.slip, &mut self.surface_slip);
     }
 
     /// The stiffness z = ρ μ E* ∂Δf/∂τ / h of every node that wears, into `stiffness`; returns the largest.
@@ -170,8 +167,8 @@ impl Increment {
         let between = |contact: &Contact| contact.load.between_nodes(model.grid.radius());
         let between_springs = between(before) + between(after);
         let (row, edge) = (&model.foundation, after.normal.edge());
-        self.friction_work = friction * between_springs * at_edge
-            + row.work(&self.rubbing.nodal, &self.slip, &self.slip_kinks, edge);
+        self.friction_work =
+            friction * between_springs * at_edge + row.work(&self.rubbing.nodal, &self.slip, edge);
     }
 
     /// The work of friction 2∫ q_x Δs dx of explicit Euler, the integrand falling to zero at the contact's edge.
@@ -205,23 +202,6 @@ impl Increment {
         self.friction_work = work.clamp(0.0, f64::INFINITY);
     }
 
-    /// Where the slip of a step kinks between springs: where a border of stick is now, and where one was before. A
-    /// cell that sticks does not slip, wherever its border was.
-    pub fn find_slip_kinks(&mut self, model: &Model, before: &Contact, after: &Contact) {
-        let squares = model.grid.squares();
-        self.slip_kinks.clear();
-        let states = &after.spring_state;
-        for (kinks, sign) in [(&after.spring.kinks, -1.0), (&before.spring.kinks, 1.0)] {
-            for (k, kink) in kink::by_cell(kinks, squares) {
-                let slips = |j: usize| states[j].sign().is_some();
-                if (slips(k) || slips(k + 1)) && states[k + 1] != SpringState::Open {
-                    let jump = sign * kink.jump;
-                    self.slip_kinks.push((k, Kink { jump, ..kink }));
-                }
-            }
-        }
-    }
-
     /// The nodes that wear between two contacts, with the slip of their surface: up to an edge behind the last node
     /// that carried a stress before or carries one now; method B's stress looks one node across. The first `stuck`
     /// springs did not slip.
@@ -235,7 +215,7 @@ impl Increment {
         let p = &before.pressure;
         let nodes = p.len() - trailing(p, |&p| p == 0.0);
         let nodes = (nodes.max(after.normal.nodes) + 1).min(p.len());
-        self.slip_of_surface(model, nodes);
+        self.slip_of_surface(model);
         // Nothing slips within the innermost spring that does.
         self.surface_slip[..stuck].fill(0.0);
         self.nodes = stuck.min(nodes)..nodes;

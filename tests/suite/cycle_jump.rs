@@ -154,9 +154,9 @@ fn a_million_cycles_cost_a_few_hundred() {
             "{what}: {count}, not about {due}"
         );
     };
-    about("jumps", stats.jumps, 204);
-    about("cycles looked at", stats.evaluated_cycles, 648);
-    about("transforms", stats.transforms, 2993);
+    about("jumps", stats.jumps, 158);
+    about("cycles looked at", stats.evaluated_cycles, 552);
+    about("transforms", stats.transforms, 2608);
     // A thousand times the wear a cycle, every cycle stepped.
     let harsh = [
         "numerics.integrator=direct",

@@ -236,7 +236,10 @@ fn methods_that_no_step_helps_show_a_sawtooth_where_they_did_before() {
     }
 }
 
-/// Smooth at K a factor of 1.5 below the prediction, and not at one above.
+/// How far from the prediction the first sawtooth may be.
+const APART: f64 = 1.6;
+
+/// Smooth below the prediction by that factor, and not above.
 fn seen_where_predicted(cycles: f64, setting: Setting) {
     let scenario = Scenario::load("li2019-fig3", &[]).expect("a preset");
     let study = Study::new(scenario, cycles).expect("a contact");
@@ -248,9 +251,9 @@ fn seen_where_predicted(cycles: f64, setting: Setting) {
             .0
     };
     let predicted = run(&[]).predicted.expect("a boundary");
-    let below = run(&[predicted / 1.5]);
+    let below = run(&[predicted / APART]);
     assert_eq!(below.seen, None, "{setting:?}: {predicted}, {below:?}");
-    let above = run(&[predicted * 1.5]);
+    let above = run(&[predicted * APART]);
     assert!(above.seen.is_some(), "{setting:?}: {predicted}, {above:?}");
 }
 

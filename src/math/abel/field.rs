@@ -1,17 +1,13 @@
-//! A nodal field with its singular parts, and its images.
+//! A nodal field with its kinks, and its images.
 //!
-//! Line loads and spring displacements are linear in t = x² between nodes, except for singular
-//! parts between two of them: [kinks](super::kink) at the stick border and at the contact's edge,
-//! and the [cusp](super::cone) of a load at the tip, which ends at that edge. A [`Field`] owns
-//! these parts, so that every image and integral has them.
+//! Line loads and spring displacements are linear in t = x² between nodes, except for [kinks](super::kink) between two
+//! of them, at the stick border and at the contact's edge. A [`Field`] owns them, so that every image and integral has
+//! them.
 //!
-//! The published methods use nodal values only: their images ignore the singular parts.
-
-use std::ops::Range;
+//! The published methods use nodal values only: their images ignore the kinks.
 
 use serde::{Deserialize, Serialize};
 
-use super::cone::{Cone, Rest};
 use super::kink::{self, Kink};
 use super::{AbelMethod, AbelPlan};
 use crate::math::grid::RadialGrid;
@@ -23,17 +19,6 @@ pub struct Field {
     pub nodal: Vec<f64>,
     /// In the unit of the values per m², from the tip outwards, hat by hat.
     pub kinks: Vec<Kink>,
-}
-
-/// Where a line load ends: its cusp with it, and all its stress.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct End {
-    /// The slope of the load at the tip, per m; 0 where it has no cusp.
-    pub cusp: f64,
-    /// The contact radius a, m.
-    pub radius: f64,
-    /// The nodes within it.
-    pub nodes: usize,
 }
 
 impl Field {
@@ -48,44 +33,20 @@ impl Field {
     /// Eq. (2): the surface displacement `w` (m, N + 1 values) of springs that stand at the field's values (m).
     pub fn displacement(&self, plan: &AbelPlan, grid: &RadialGrid, w: &mut [f64]) {
         plan.displacement(&self.nodal, w);
-        if has_singular_parts(plan) {
+        if has_kinks(plan) {
             kink::add_to_displacement(&self.kinks, grid, w);
         }
     }
 
-    /// Eq. (3): the stress `p` (N/m², N + 1 values) of the line load (N/m), and nothing beyond its end. Of use on
-    /// the nodes `rows` alone; those further in are zero. `rest` is overwritten where the load has a cusp.
-    pub fn stress(
-        &self,
-        plan: &AbelPlan,
-        grid: &RadialGrid,
-        end: End,
-        rows: Range<usize>,
-        rest: &mut Rest,
-        p: &mut [f64],
-    ) {
-        let first = rows.start;
-        p[..first].fill(0.0);
-        if !has_singular_parts(plan) {
-            plan.stress_rows(&self.nodal, p, rows);
-            return;
+    /// Eq. (3): the stress `p` (N/m², N + 1 values) of the line load (N/m), and nothing beyond the first `touching`
+    /// nodes.
+    pub fn stress(&self, plan: &AbelPlan, grid: &RadialGrid, touching: usize, p: &mut [f64]) {
+        plan.stress(&self.nodal, p);
+        if has_kinks(plan) {
+            kink::add_to_stress(&self.kinks, grid.squares(), p);
+            // Kinks cancel beyond the edge but for rounding.
+            p[touching..].fill(0.0);
         }
-        let squares = grid.squares();
-        if end.cusp == 0.0 || end.radius >= grid.radius() {
-            plan.stress_rows(&self.nodal, p, rows);
-        } else {
-            let cone = Cone {
-                slope: end.cusp,
-                edge: end.radius,
-            };
-            cone.take_off(grid, &self.nodal, rest);
-            plan.stress_rows(&rest.load, p, rows);
-            kink::add_to_stress(&rest.kinks, &squares[first..], &mut p[first..]);
-            cone.add_to_stress(grid, p);
-        }
-        kink::add_to_stress(&self.kinks, &squares[first..], &mut p[first..]);
-        // The cusp's operator is not causal to the last bit.
-        p[end.nodes..].fill(0.0);
     }
 
     /// ∫ dx of what the kinks add to the chords between the nodes, from the tip to `radius` (m).
@@ -95,82 +56,57 @@ impl Field {
 }
 
 /// Whether a method takes more than nodal values into account.
-pub fn has_singular_parts(plan: &AbelPlan) -> bool {
+fn has_kinks(plan: &AbelPlan) -> bool {
     plan.method() == AbelMethod::Product
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::f64::consts::FRAC_1_PI;
+    use std::f64::consts::FRAC_2_PI;
 
-    /// q = 1 − x² + 0.5 (1 − x) up to a = 1, between two nodes: a paraboloid's and a cone's at once.
-    fn load(grid: &RadialGrid) -> (Field, End) {
+    /// q = 1 − x² up to a = 1, between two nodes, and the nodes that touch.
+    fn load(grid: &RadialGrid) -> (Field, usize) {
         let (x, t) = (grid.nodes(), grid.squares());
-        let load = |x: f64| (1.0 - x * x + 0.5 * (1.0 - x)).max(0.0);
         let mut field = Field {
-            nodal: x.iter().map(|&x| load(x)).collect(),
+            nodal: t.iter().map(|t| (1.0 - t).max(0.0)).collect(),
             kinks: Vec::new(),
         };
-        let nodes = x.partition_point(|&x| x < 1.0);
-        let (cell, values) = ([nodes - 1, nodes], &field.nodal);
+        let touching = x.partition_point(|&x| x < 1.0);
+        let (cell, values) = ([touching - 1, touching], &field.nodal);
         kink::polyline(
             cell.map(|j| t[j]),
             cell.map(|j| values[j]),
             &[(1.0, 0.0)],
             &mut field.kinks,
         );
-        let cusp = -0.5;
-        let radius = 1.0;
-        (
-            field,
-            End {
-                cusp,
-                radius,
-                nodes,
-            },
-        )
+        (field, touching)
     }
 
     #[test]
-    fn a_load_with_a_cusp_and_an_edge_has_its_stress() {
+    fn a_load_with_an_edge_between_nodes_has_its_stress() {
         let grid = RadialGrid::graded(90, 0.4, 1.37).expect("a grid");
         let plan = AbelPlan::new(AbelMethod::Product, &grid);
-        let (field, end) = load(&grid);
+        let (field, touching) = load(&grid);
         let mut p = vec![f64::NAN; grid.len()];
-        field.stress(
-            &plan,
-            &grid,
-            end,
-            0..grid.len(),
-            &mut Rest::default(),
-            &mut p,
-        );
-        for (&r, p) in grid.nodes().iter().zip(&p).skip(1) {
-            let root = (1.0 - r * r).max(0.0).sqrt();
-            let exact = FRAC_1_PI * (0.5 * (root / r).asinh() + 2.0 * root);
-            assert!((p - exact).abs() < 1e-13, "{r}: {p} {exact}");
+        field.stress(&plan, &grid, touching, &mut p);
+        for (&t, p) in grid.squares().iter().zip(&p) {
+            let exact = FRAC_2_PI * (1.0 - t).max(0.0).sqrt();
+            assert!((p - exact).abs() < 1e-13, "{t}: {p} {exact}");
         }
-        assert!(p[end.nodes..].iter().all(|&p| p == 0.0));
+        assert!(p[touching..].iter().all(|&p| p == 0.0));
     }
 
     #[test]
     fn published_methods_see_the_nodes_alone() {
         let grid = RadialGrid::uniform(40, 1.37).expect("a grid");
         let plan = AbelPlan::new(AbelMethod::A, &grid);
-        let (field, end) = load(&grid);
+        let (field, touching) = load(&grid);
         let [mut p, mut nodal] = [const { Vec::new() }; 2].map(|mut p: Vec<f64>| {
             p.resize(grid.len(), f64::NAN);
             p
         });
-        field.stress(
-            &plan,
-            &grid,
-            end,
-            0..grid.len(),
-            &mut Rest::default(),
-            &mut p,
-        );
+        field.stress(&plan, &grid, touching, &mut p);
         plan.stress(&field.nodal, &mut nodal);
         assert_eq!(p, nodal);
     }

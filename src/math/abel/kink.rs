@@ -38,7 +38,7 @@ use crate::math::grid::RadialGrid;
 use crate::math::vector::vectorized;
 
 /// A kinks closer to a node than this share of its cell is taken to be the node.
-pub(super) const CLOSEST: f64 = 1e-9;
+const CLOSEST: f64 = 1e-9;
 
 /// One kink J (t − t_m)₊ of a profile over t = x².
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -83,22 +83,8 @@ pub fn polyline(t: [f64; 2], v: [f64; 2], inner: &[(f64, f64)], kinks: &mut Vec<
     }
 }
 
-/// The kinks of hats, each with the cell (between nodes k and k + 1) that its hat fills.
-pub fn by_cell<'a>(
-    kinks: &'a [Kink],
-    squares: &'a [f64],
-) -> impl Iterator<Item = (usize, Kink)> + 'a {
-    let mut hat = None;
-    kinks.iter().map(move |&kink| {
-        let cell = hat.unwrap_or_else(|| squares.partition_point(|&t| t <= kink.at) - 1);
-        // A hat ends on the outer node of its cell.
-        hat = (kink.at < squares[cell + 1]).then_some(cell);
-        (cell, kink)
-    })
-}
-
-/// Whether [`by_cell`] can tell the cells of kinks that come from a file: each hat begins inside the grid and
-/// goes on to the outer node of its cell at most.
+/// Whether kinks that come from a file are hats on this grid: each begins inside it and goes on to the outer node of
+/// its cell at most.
 pub fn are_hats(kinks: &[Kink], squares: &[f64]) -> bool {
     let mut hat = None;
     kinks.iter().all(|kink| {

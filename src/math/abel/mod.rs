@@ -13,66 +13,23 @@
 //!
 //! The term f(0) in (1) is ours: a tip that wears recedes, and a constant must map to itself.
 //!
-//! [`cusp`] adds what a cusp at the tip does to the product method, [`kink`] what a kink between two nodes does and
-//! [`curvature`] what a curved load does, [`cone`] ends a load's cusp at the edge of the contact, and [`worn`] transforms
-//! the worn part of a profile that has a permanent stick zone. A [`field`] is nodal values with their singular parts, and
-//! has all its images.
+//! [`kink`] adds what a kink between two nodes does, and [`worn`] transforms the worn part of a profile that has a
+//! permanent stick zone. A [`field`] is nodal values with their kinks, and has all its images.
 //!
 //! All methods here are linear in the nodal values, so an [`AbelPlan`] holds three operators, made
 //! once for a grid and applied with the caller's buffers. A method is what is computed, its [`Form`] is
 //! how. The dense form is three matrices: O(N²) kernel evaluations to set up, at most N²/2 multiply-adds to
 //! apply, 1.5 N² numbers. The product method has a form in O(N) as well: see [`fast`].
 //!
-//! | method | Eq. (1) | Eq. (2) | Eq. (3) | strictly causal |
+//! | method | Eq. (1) | Eq. (2) | Eq. (3) | causal |
 //! |---|---|---|---|---|
-//! | `product` | [`product::profile`] | [`product::displacement`] | [`product::stress`] | but for the tip: see [`product`] |
+//! | `product` | [`product::profile`] | [`product::displacement`] | [`product::stress`] | yes |
 //! | `benad` | [`benad::profile`] | [`benad::displacement`] | [`benad::stress`] | no: Eq. (2) looks one node ahead |
 //! | `a` | [`benad::profile`] | [`a::displacement`] | [`benad::stress`] | yes |
 //! | `b` | [`b::profile`] | [`b::displacement`] | [`b::stress`] | no: Eqs. (1) and (3) look one node across |
 //! | `a+b` | [`benad::profile`] | [`b::displacement`] | [`benad::stress`] | yes |
 //!
-//! # What each correction is worth
-//!
-//! Each left out alone: CPU time to a worn depth and volume verified to an accuracy over random scenarios, in seconds,
-//! and how many missed it (`cargo bench --bench judge`; 100 scenarios, of which 91 wear, unless another number is
-//! given):
-//!
-//! | without | 1e-2: median, 95 %, worst | missed | 1e-3: median, 95 %, worst | missed |
-//! |---|---|---|---|---|
-//! | nothing | 0.016, 0.20, 1.5 | 1 | 0.14, 4.1, 10 (first 25: 0.22, 0.86, 1.3) | 0 |
-//! | [`curvature`] | 0.016, 0.20, 1.4 | 1 | 0.12, 3.3, 9.0 | 1 |
-//! | the basis of [`worn`] | 0.017, 0.18, 1.4 | 1 | 0.20, 1.21, 1.7 (25) | 1 |
-//! | [`kink`] | 0.019, 0.17, 1.4 | 0 | 0.19, 1.14, 1.4 (25) | 0 |
-//! | cells of their own for a thin ring of slip | 0.016, 0.18, 1.4 | 1 | 0.13, 4.3, 11 (95) | 0 |
-//! | contact made within a step | 0.016, 0.47, 9.0 (66) | 0 | 0.23, 1.36, 2.8 (25) | 0 |
-//! | graded grids | 0.016, 0.42, 2.8 | 2 | | |
-//! | the pilot run for the stick border | 0.014, 0.33, 1.3 | 2 | | |
-//! | stress terms dropped behind borders | 0.016, 0.22, 2.4 | 3 | | |
-//! | those dropped next to the permanent stick zone | 0.014, 0.17, 1.2 | 2 | 0.13, 3.6, 7.7 | 0 |
-//! | stabilised stages | 0.016, 0.29, 1.5 | 1 | | |
-//!
-//! At these accuracies the transforms' own corrections change little; they are kept for what closed forms see: with
-//! [`kink`]s the shear of Cattaneo and Mindlin is exact, with the basis of [`worn`] the limiting profile is right to
-//! 1e-4 on 100 cells, and without [`curvature`] the error of f in Fig. 3 is 5.6e-4 of the depth at N = 100 and 1.1e-4
-//! at N = 400 in place of 4.8e-4 and 7.8e-5. A thin ring of slip has cells of its own for the closed forms of Mindlin.
-//!
-//! Stabilised stages matter in few scenarios, and much there. Without them, the 95th percentile at 1e-2 of another
-//! 100 scenarios (seeds 100 to 199) grows from 0.99 to 1.8 s: one takes 11 s in place of 0.9 s and is missed. At 1e-3
-//! one of the first 100 runs out of time. Detecting slip instabilities before the smallest sub-step made no difference
-//! to times, errors or V = k E_d, at 1e-2, at 1e-3 or for K = 20 to 1000; it was taken out.
-//!
-//! The stress terms dropped next to the permanent stick zone cost no time: over 300 scenarios (seeds 0 to 299) at 1e-2
-//! seven are missed without that and six with it, but after a million cycles by jumps the worn depth is 1.4e-3 of the
-//! depth away from that of single steps in place of less than 1e-3, and at a held force V and k E_d differ by 3.1 % in
-//! place of 2 %.
-//!
-//! The friction work knows where slip sets in between two springs. Depth and volume do not need that (over the same 300,
-//! as many are missed at the same times), but without it the friction work of four cycles at N = 50 errs 1.5 to 10 times
-//! as much on seven of eight presets: that of `mindlin` by 6.1e-4 in place of 2.7e-4, of `cattaneo-kalker` by 2.6e-4 in
-//! place of 6.8e-5.
-//!
-//! The edge of the scar is not treated specially: V of the nodal interpolant agrees with k E_d to 3e-3 over Fig. 3 at
-//! N = 100, and to 1.4e-2 at a held depth.
+//! What each part is worth, left out alone and in groups, stands in the guide's page on methods.
 //!
 //! ```
 //! use mdr_tui::math::abel::{AbelMethod, AbelPlan};
@@ -92,7 +49,6 @@
 //! # }
 //! ```
 
-use std::ops::Range;
 use std::sync::OnceLock;
 
 use nalgebra::DMatrix;
@@ -101,15 +57,11 @@ use strum::{Display, EnumString, IntoStaticStr, VariantNames};
 use super::grid::{MAX_CELLS, RadialGrid};
 use super::invalid::Invalid;
 use super::skyline::Skyline;
-use cusp::Cusp;
 use fast::{FastProduct, FastWorn};
 
 pub mod a;
 pub mod b;
 pub mod benad;
-pub mod cone;
-pub mod curvature;
-pub mod cusp;
 pub mod fast;
 pub mod field;
 mod kernel;
@@ -129,7 +81,7 @@ pub const MOST_DENSE_CELLS: usize = 8192;
 )]
 #[strum(serialize_all = "kebab-case", parse_err_ty = Invalid, parse_err_fn = AbelMethod::unknown)]
 pub enum AbelMethod {
-    /// Product integration, linear in r², with one cusp at the tip: ours.
+    /// Product integration, linear in r²: ours.
     Product,
     /// The paper's Method A: the singularity of (2) split off, Eq. (7).
     A,
@@ -172,7 +124,7 @@ impl AbelMethod {
     /// One line on what the method does.
     pub fn description(self) -> &'static str {
         match self {
-            Self::Product => "product integration linear in r²; exact for paraboloid and cone",
+            Self::Product => "product integration linear in r²; exact for a paraboloid",
             Self::Benad => "integration by parts (Benad 2018); unstable in fretting",
             Self::A => "Method A of the paper: singularity split off; causal",
             Self::B => "Method B of the paper: trapezoids; leaks at the stick border",
@@ -230,16 +182,6 @@ impl Form {
 pub struct AbelPlan {
     method: AbelMethod,
     operators: Operators,
-    /// What a cusp at the tip adds to each image; none of a method that takes it as it comes.
-    cusps: Option<Cusps>,
-}
-
-#[derive(Debug)]
-struct Cusps {
-    grid: RadialGrid,
-    profile: OnceLock<Cusp>,
-    displacement: Cusp,
-    stress: Cusp,
 }
 
 #[derive(Debug)]
@@ -268,25 +210,10 @@ impl AbelPlan {
     /// out of reach.
     pub fn fast(grid: &RadialGrid, tolerance: f64) -> Option<Self> {
         let fast = Box::new(FastProduct::new(grid, tolerance)?);
-        Some(Self::of(AbelMethod::Product, grid, Operators::Fast(fast)))
-    }
-
-    fn of(method: AbelMethod, grid: &RadialGrid, operators: Operators) -> Self {
-        let nodes = grid.nodes();
-        let all = 0..nodes.len();
-        let cusps = (method == AbelMethod::Product).then(|| Cusps {
-            grid: grid.clone(),
-            profile: OnceLock::new(),
-            displacement: Cusp::of_displacement(nodes, |u, w| {
-                operators.displacement_rows(u, w, all.clone());
-            }),
-            stress: Cusp::of_stress(nodes, |q, p| operators.stress_rows(q, p, all.clone())),
-        });
-        Self {
-            method,
-            operators,
-            cusps,
-        }
+        Some(Self {
+            method: AbelMethod::Product,
+            operators: Operators::Fast(fast),
+        })
     }
 
     /// `method` on `grid` in the dense form.
@@ -308,7 +235,7 @@ impl AbelPlan {
             displacement: Skyline::pack(&displacement(nodes)),
             stress: Skyline::pack(&stress(nodes)),
         };
-        Self::of(method, grid, operators)
+        Self { method, operators }
     }
 
     /// The method that this plan computes.
@@ -326,63 +253,25 @@ impl AbelPlan {
 
     /// Eq. (1): the 1D profile `g` of the 3D profile `f`, both nodal, in the same unit.
     pub fn profile(&self, f: &[f64], g: &mut [f64]) {
-        self.operators.profile(f, g);
-        if let Some(cusps) = &self.cusps {
-            let cusp = cusps.profile.get_or_init(|| {
-                Cusp::of_profile(cusps.grid.nodes(), |f, g| self.operators.profile(f, g))
-            });
-            cusp.add(f, 0..g.len(), g);
+        match &self.operators {
+            Operators::Dense { profile, .. } => profile.packed().apply(f, g),
+            Operators::Fast(fast) => fast.profile(f, g),
         }
     }
 
     /// Eq. (2): the surface displacement `w` of the spring displacement `u`, both nodal.
     pub fn displacement(&self, u: &[f64], w: &mut [f64]) {
-        self.displacement_rows(u, w, 0..u.len());
-    }
-
-    /// [`displacement`](Self::displacement) for callers that need only some `rows` of `w`; the other
-    /// rows keep their values or become finite.
-    pub fn displacement_rows(&self, u: &[f64], w: &mut [f64], rows: Range<usize>) {
-        self.operators.displacement_rows(u, w, rows.clone());
-        if let Some(cusps) = &self.cusps {
-            cusps.displacement.add(u, rows, w);
+        match &self.operators {
+            Operators::Dense { displacement, .. } => displacement.apply(u, w),
+            Operators::Fast(fast) => fast.displacement(u, w),
         }
     }
 
     /// Eq. (3): the stress `p` (N/m²) of the line load `q` (N/m), both nodal. `q` ends at the grid's edge.
     pub fn stress(&self, q: &[f64], p: &mut [f64]) {
-        self.stress_rows(q, p, 0..q.len());
-    }
-
-    /// [`stress`](Self::stress) for callers that need only some `rows` of `p`; the other rows keep their
-    /// values or become finite.
-    pub fn stress_rows(&self, q: &[f64], p: &mut [f64], rows: Range<usize>) {
-        self.operators.stress_rows(q, p, rows.clone());
-        if let Some(cusps) = &self.cusps {
-            cusps.stress.add(q, rows, p);
-        }
-    }
-}
-
-impl Operators {
-    fn profile(&self, f: &[f64], g: &mut [f64]) {
-        match self {
-            Self::Dense { profile, .. } => profile.packed().apply(f, g),
-            Self::Fast(fast) => fast.profile(f, g),
-        }
-    }
-
-    fn displacement_rows(&self, u: &[f64], w: &mut [f64], rows: Range<usize>) {
-        match self {
-            Self::Dense { displacement, .. } => displacement.apply_rows(u, w, rows),
-            Self::Fast(fast) => fast.displacement_rows(u, w, rows),
-        }
-    }
-
-    fn stress_rows(&self, q: &[f64], p: &mut [f64], rows: Range<usize>) {
-        match self {
-            Self::Dense { stress, .. } => stress.apply_rows(q, p, rows),
-            Self::Fast(fast) => fast.stress_rows(q, p, rows),
+        match &self.operators {
+            Operators::Dense { stress, .. } => stress.apply(q, p),
+            Operators::Fast(fast) => fast.stress(q, p),
         }
     }
 }
@@ -436,7 +325,6 @@ mod tests {
         assert!(refusal.to_string().contains("\"a+b\""), "{refusal}");
     }
 
-    /// The product method has a cusp at the tip beside its operators: its own tests say where that looks.
     #[test]
     fn all_operators_but_those_of_b_and_benad_are_causal() {
         let grid = RadialGrid::uniform(20, 1.0).expect("a grid");

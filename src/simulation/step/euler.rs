@@ -22,11 +22,7 @@ pub(super) const BOUNDS: Bounds = Bounds {
 
 /// What a step wears whose contact has been solved, into `scratch.increment`.
 pub(super) fn wear(model: &Model, state: &State, next: &State, scratch: &mut Scratch, cycle: f64) {
-    let Scratch {
-        increment,
-        stresses,
-        ..
-    } = scratch;
+    let increment = &mut scratch.increment;
     if model.springs() == 0 {
         return;
     }
@@ -34,11 +30,10 @@ pub(super) fn wear(model: &Model, state: &State, next: &State, scratch: &mut Scr
     if model.setup.wear.is_some() {
         // Method B's stress looks one node across.
         let end = (contact.normal.nodes + 1).min(model.nodes());
-        increment.slip_of_surface(model, end);
+        increment.slip_of_surface(model);
         let first = leading(&increment.surface_slip[..end], |&slip| slip == 0.0);
         increment.nodes = first..end;
-        let (stuck, tau) = (state.stuck_radius(), &mut increment.shear);
-        traction::shear(model, contact, stuck, first..end, stresses, tau);
+        traction::shear(model, contact, &mut increment.shear);
         scratch.transforms += 2;
         increment.wear(model, model.seconds(cycle - state.cycle));
     }

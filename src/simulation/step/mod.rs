@@ -52,7 +52,6 @@ pub(super) fn settle(model: &Model, state: &mut State, scratch: &mut Scratch) ->
         slip,
     )?;
     state.contact = solved;
-    let stuck = state.stuck_radius();
     state.last.duration = 0.0;
     state.last.stiffness = 0.0;
     state.last.wear.fill(0.0);
@@ -60,16 +59,7 @@ pub(super) fn settle(model: &Model, state: &mut State, scratch: &mut Scratch) ->
     // Only steps that wear by a mean need the stress that they begin with.
     let setup = &model.setup;
     if model.springs() > 0 && setup.wear.is_some() && setup.scheme == Scheme::Trapezoid {
-        let first = traction::first_needed(model, state);
-        let (contact, traction) = (&state.contact, &mut state.traction);
-        traction::of(
-            model,
-            contact,
-            stuck,
-            first,
-            &mut scratch.stresses,
-            traction,
-        );
+        traction::of(model, &state.contact, &mut state.traction);
     }
     state.stats.contacts += 1;
     state.stats.transforms += 1;

@@ -29,7 +29,7 @@ use super::super::model::Model;
 use super::super::state::State;
 use super::super::wear::outer_slip_zone;
 use super::super::{Scratch, contact, stability, traction};
-use super::trapezoid::{mean_shear, stresses_before, tractions};
+use super::trapezoid::{mean_shear, tractions};
 use crate::math::chebyshev;
 
 /// Less stiff steps are cheaper in sub-steps.
@@ -64,8 +64,7 @@ pub(super) fn step(
     let Some(gain) = stability::gain(&model.setup) else {
         return false;
     };
-    let before = stresses_before(scratch.increment.nodes.start, state, &scratch.before);
-    let pressures = [&before.pressure, &next.traction.pressure];
+    let pressures = [&state.traction.pressure, &next.traction.pressure];
     let pressure = pressures.map(|p| sliding(next, scratch, p));
     if stiffness < STIFF || stages > MOST_STAGES || gain * pressure[0].max(pressure[1]) > MOST_GAIN
     {
@@ -104,10 +103,6 @@ fn pass_by_pass(
             &mut next.contact,
             slip,
         )?;
-        let contacts = [&state.contact, &next.contact];
-        scratch
-            .increment
-            .find_slip_kinks(model, contacts[0], contacts[1]);
         tractions(model, state, next, scratch);
         let profiles = scratch.stages.supposed.iter().zip(&scratch.g);
         let missed = profiles
@@ -164,7 +159,6 @@ fn pass(
 ) -> Result<End, Cause> {
     let Scratch {
         increment,
-        stresses,
         transforms,
         stages: buffers,
         ..
@@ -181,7 +175,6 @@ fn pass(
     let nodes = model.nodes();
     let seconds = model.seconds(duration);
     let zone = outer_slip_zone(&next.contact.spring_state);
-    let stuck = state.stuck_radius();
     image.resize(nodes, 0.0);
     g.resize(nodes, 0.0);
     let mut slope = |y: &[f64], out: &mut [f64]| {
@@ -189,7 +182,7 @@ fn pass(
         model.profile(image, 0.0, &[], g);
         let (contact, p) = (&mut next.contact, &mut next.traction.pressure);
         contact::press_at(model, g, state.cycle + y[nodes + 1] * duration, contact)?;
-        traction::pressure(model, contact, stuck, stresses, p);
+        traction::pressure(model, contact, p);
         *transforms += 2;
         increment.wear_by_load(model, contact, p, zone, seconds);
         out[..nodes].copy_from_slice(&increment.depth);

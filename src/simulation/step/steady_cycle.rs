@@ -80,10 +80,8 @@ fn take_over(memory: &mut State, spare: &mut State, cycle: f64) {
 }
 
 /// p and τ of the solved contact, for the next step to begin with.
-fn find_tractions(model: &Model, memory: &mut State, scratch: &mut Scratch) {
-    let stuck = memory.stuck_radius();
-    let (contact, traction) = (&memory.contact, &mut memory.traction);
-    traction::of(model, contact, stuck, 0, &mut scratch.stresses, traction);
+fn find_tractions(model: &Model, memory: &mut State) {
+    traction::of(model, &memory.contact, &mut memory.traction);
     memory.stats.transforms += 2;
 }
 
@@ -103,7 +101,7 @@ fn period(
     }
     let by_mean = model.setup.scheme == Scheme::Trapezoid;
     if by_mean {
-        find_tractions(model, memory, scratch);
+        find_tractions(model, memory);
     }
     memory.cycle = 0.0;
     let mut steady = SteadyCycle {
@@ -173,7 +171,7 @@ fn plain_cycle(
     settle_springs(&model.setup, memory, &spare.contact.load, swing);
     solve(model, memory, spare, scratch, 0.0)?;
     take_over(memory, spare, 0.0);
-    find_tractions(model, memory, scratch);
+    find_tractions(model, memory);
 
     let increment = &mut scratch.increment;
     let material = &model.setup.material;
@@ -201,14 +199,15 @@ fn plain_cycle(
     increment.surface_slip[..stuck].fill(0.0);
     memory.stats.transforms += 1;
     increment.shear[..stuck].fill(0.0);
-    increment.slip_kinks.clear();
-    increment
-        .slip_kinks
-        .extend(kink::by_cell(&slip.kinks, squares));
     increment.slip.copy_from_slice(&slip.nodal);
     let p = &memory.traction.pressure;
+    // Wear makes the load drop at the border within a cell. A line from what sticks to what slips would do work in that
+    // cell where the slipping surface bears nothing and wears nothing.
     let mut without_drop = contact.clone();
-    flatten_at_border(&mut without_drop.load.nodal, squares, stuck);
+    if let Some(k) = stuck.checked_sub(1).filter(|_| stuck < model.nodes()) {
+        let load = &mut without_drop.load.nodal;
+        load[k] = load[k].min(load[stuck]);
+    }
     increment.wear_by_load(model, &without_drop, p, (stuck, 1.0), 1.0);
     increment.nodes = stuck..model.nodes();
     let balanced = match stuck {
@@ -240,22 +239,6 @@ fn balance_edge(model: &Model, increment: &mut Increment, nodes: usize) -> f64 {
     let excess = model.volume(&increment.depth) - law.coefficient() * increment.friction_work;
     increment.depth[last] = (worn - excess / weight).max(0.0);
     (worn - increment.depth[last]) * weight
-}
-
-/// Takes the drop next to the border from the `load` (N/m) of the springs that slip, of which `stuck` is the first.
-///
-/// Wear makes the load drop at the border within a cell. A line from what sticks to what slips would do work in
-/// that cell where the slipping surface bears nothing and wears nothing.
-fn flatten_at_border(load: &mut [f64], squares: &[f64], stuck: usize) {
-    let (Some(k), Some(&first)) = (stuck.checked_sub(1), load.get(stuck)) else {
-        return;
-    };
-    let slope = match load.get(stuck + 1) {
-        Some(next) if first > 0.0 => (next - first) / (squares[stuck + 1] - squares[stuck]),
-        _ => 0.0,
-    };
-    let from_outside = first - slope * (squares[stuck] - squares[k]);
-    load[k] = from_outside.clamp(first.min(load[k]), load[k]);
 }
 
 /// Brings the springs that slip in a steady-state cycle to where they stand at its end under a normal `load` (N/m):

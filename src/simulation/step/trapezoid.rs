@@ -31,7 +31,6 @@
 
 use super::super::model::Model;
 use super::super::state::State;
-use super::super::traction::Traction;
 use super::super::wear::outer_slip_zone;
 use super::super::{Scratch, traction};
 use super::substep::Bounds;
@@ -70,7 +69,6 @@ pub(super) fn wear(
     }
     let contacts = [&state.contact, &next.contact];
     let increment = &mut scratch.increment;
-    increment.find_slip_kinks(model, contacts[0], contacts[1]);
     increment.rub(model, contacts);
     if model.setup.wear.is_some() {
         tractions(model, state, next, scratch);
@@ -89,109 +87,21 @@ pub(super) fn wear(
 
 /// p and τ at the end of the step, and the slip of the surface in it.
 pub(super) fn tractions(model: &Model, state: &State, next: &mut State, scratch: &mut Scratch) {
-    let Scratch {
-        increment,
-        stresses,
-        before,
-        transforms,
-        ..
-    } = scratch;
-    let (contact, stuck) = (&next.contact, state.stuck_radius());
-    let slipping = leading(&contact.spring_state, |&spring| {
+    let contact = &next.contact;
+    let stuck = leading(&contact.spring_state, |&spring| {
         spring == SpringState::Stick
     });
-    let first = traction::first_needed(model, state).min(slipping);
-    traction::of(model, contact, stuck, first, stresses, &mut next.traction);
-    if slipping < state.traction.first {
-        // Nothing slipped here for a period: nobody asked for the stresses until now.
-        traction::of(model, &state.contact, stuck, slipping, stresses, before);
-        *transforms += 2;
-    }
-    increment.find_sliding(model, &state.traction, contact, slipping);
-    *transforms += 3;
-}
-
-/// The stresses before a step that slips from the node `slipping` on: those of its state, or the `recomputed` ones
-/// where it has none so far in.
-pub(super) fn stresses_before<'a>(
-    slipping: usize,
-    state: &'a State,
-    recomputed: &'a Traction,
-) -> &'a Traction {
-    if slipping < state.traction.first {
-        recomputed
-    } else {
-        &state.traction
-    }
+    traction::of(model, contact, &mut next.traction);
+    let increment = &mut scratch.increment;
+    increment.find_sliding(model, &state.traction, contact, stuck);
+    scratch.transforms += 3;
 }
 
 /// The stress by which the step wears.
 pub(super) fn mean_shear(model: &Model, state: &State, next: &State, scratch: &mut Scratch) {
     let zone = outer_slip_zone(&next.contact.spring_state);
     let friction = model.setup.material.friction();
-    let Scratch {
-        increment, before, ..
-    } = scratch;
-    let before = stresses_before(increment.nodes.start, state, before);
-    increment.mean_shear(friction, before, &next.traction, zone);
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::contact::{indenter::Indenter, material::Material};
-    use crate::math::abel::AbelMethod;
-    use crate::math::grid::RadialGrid;
-    use crate::simulation::choices::{Integrator, Scheme, Spacing, Stability};
-    use crate::simulation::drive::{Control, Drive, Oscillation};
-    use crate::simulation::{Setup, Simulation};
-    use crate::wear::WearLaw;
-
-    fn drive(amplitude: f64) -> Drive {
-        let depth = Oscillation::new(1e-6, 0.0, 100.0, 0.0).expect("a depth");
-        let shift = Oscillation::new(0.0, amplitude, 100.0, 0.0).expect("a shift");
-        Drive::new(
-            Control::Displacement(depth),
-            Some(Control::Displacement(shift)),
-        )
-    }
-
-    /// Steps leave out the stresses where nothing has slipped for a period. Where slip then reaches there after all,
-    /// they wear as if they had not.
-    #[test]
-    fn slip_that_reaches_further_in_finds_the_stresses_there() {
-        let setup = Setup {
-            grid: RadialGrid::uniform(100, 1.5e-4).expect("a grid"),
-            material: Material::new(2.3e11, 0.3, 0.1).expect("a material"),
-            indenter: Indenter::paraboloid(1e-2).expect("a sphere"),
-            drive: drive(3e-8),
-            wear: Some(WearLaw::archard(1e-10).expect("a law")),
-            running_in: None,
-            scar: None,
-            hardness: None,
-            method: AbelMethod::Product,
-            spacing: Spacing::Graded,
-            scheme: Scheme::Trapezoid,
-            stability: Stability::SubStep,
-            steps_per_cycle: 40,
-            integrator: Integrator::Direct,
-        };
-        let mut partial = Simulation::new(setup).expect("a simulation");
-        partial.advance_to(2.1).expect("two cycles");
-        partial.model.setup.drive = drive(6e-8);
-        let first = partial.state.traction.first;
-        assert!(first > 10, "{first}");
-        let mut full = partial.clone();
-        let stuck = full.state.stuck_radius();
-        let (contact, traction) = (&full.state.contact, &mut full.state.traction);
-        let buffers = &mut traction::Buffers::default();
-        traction::of(&full.model, contact, stuck, 0, buffers, traction);
-        for _ in 0..2 {
-            partial.step().expect("a step");
-            full.step().expect("a step");
-        }
-        let slipping = leading(full.last_wear(), |&worn| worn == 0.0);
-        assert!(slipping < first, "{slipping} {first}");
-        assert_eq!(partial.worn_depth(), full.worn_depth());
-    }
+    scratch
+        .increment
+        .mean_shear(friction, &state.traction, &next.traction, zone);
 }

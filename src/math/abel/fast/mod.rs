@@ -35,7 +35,6 @@
 //! - **Known failure**: none; below some hundred nodes the dense form is faster.
 
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
-use std::ops::Range;
 
 use super::kernel::leg;
 use crate::math::grid::RadialGrid;
@@ -168,23 +167,21 @@ impl FastProduct {
     /// Eq. (1), as [`product::profile`](super::product::profile).
     pub fn profile(&self, f: &[f64], g: &mut [f64]) {
         let data = self.data(f, f[0]);
-        self.profile.apply(&self.root, &data, g, 0..f.len());
+        self.profile.apply(&self.root, &data, g);
     }
 
     /// Eq. (2), as [`product::displacement`](super::product::displacement).
     ///
-    /// On some `rows`; the others become finite.
-    pub fn displacement_rows(&self, u: &[f64], w: &mut [f64], rows: Range<usize>) {
+    pub fn displacement(&self, u: &[f64], w: &mut [f64]) {
         let data = self.data(u, u[0]);
-        self.displacement.apply(&self.arc, &data, w, rows);
+        self.displacement.apply(&self.arc, &data, w);
     }
 
     /// Eq. (3), as [`product::stress`](super::product::stress).
     ///
-    /// On some `rows`; the others become finite.
-    pub fn stress_rows(&self, q: &[f64], p: &mut [f64], rows: Range<usize>) {
+    pub fn stress(&self, q: &[f64], p: &mut [f64]) {
         let data = self.data(q, 0.0);
-        self.stress.apply(&self.nodes, &self.root, &data, p, rows);
+        self.stress.apply(&self.nodes, &self.root, &data, p);
         let last = self.nodes.len() - 1;
         let jump = FRAC_1_PI * q[last];
         if jump != 0.0 {
@@ -250,17 +247,14 @@ impl FastWorn {
             depth: &depth[..=border],
             inverse: &inner.inverse,
         };
-        inner
-            .profile
-            .apply(&inner.propagator, &within, g, 0..depth.len());
+        inner.profile.apply(&inner.propagator, &within, g);
         let outside = Outside {
             depth: &depth[border..],
             first: (depth[border + 1] - depth[border]) * self.inverse_z[1],
             worn: self,
         };
-        let rows = 0..depth.len() - border;
         self.outer
-            .apply(&self.propagator, &outside, &mut g[border..], rows);
+            .apply(&self.propagator, &outside, &mut g[border..]);
     }
 }
 

@@ -7,7 +7,6 @@
 //! always the same.
 
 use std::f64::consts::FRAC_1_PI;
-use std::ops::Range;
 
 use fearless_simd::{Level, dispatch};
 
@@ -61,14 +60,8 @@ impl Outward {
         }
     }
 
-    /// Begins the `rows` of `output` and adds the sums; those farther out become zero.
-    pub fn apply(
-        &self,
-        propagator: &Propagator,
-        data: &impl Data,
-        output: &mut [f64],
-        rows: Range<usize>,
-    ) {
+    /// Begins the rows of `output` and adds the sums.
+    pub fn apply(&self, propagator: &Propagator, data: &impl Data, output: &mut [f64]) {
         let level = Level::new();
         let nodes = self.scale.len();
         let mut state: State = [[0.0; LANES]; MOST_GROUPS];
@@ -78,10 +71,6 @@ impl Outward {
         let mut sums = [0.0; BLOCK];
         let mut quiet = true;
         for (block, output) in output[..nodes].chunks_mut(BLOCK).enumerate() {
-            if block * BLOCK >= rows.end {
-                output.fill(0.0);
-                continue;
-            }
             let (first, rows) = (block * BLOCK, output.len());
             slope[0] = slope[BLOCK];
             // The last node has no cell behind it.
@@ -141,14 +130,13 @@ impl Inward {
         }
     }
 
-    /// Begins the `rows` of `output` and adds the sums; those nearer to the origin become zero.
+    /// Begins the rows of `output` and adds the sums.
     pub fn apply(
         &self,
         radii: &[f64],
         propagator: &Propagator,
         data: &impl Data,
         output: &mut [f64],
-        rows: Range<usize>,
     ) {
         let level = Level::new();
         let nodes = radii.len();
@@ -160,10 +148,6 @@ impl Inward {
         let mut total = 0.0;
         let mut quiet = true;
         for (block, output) in output[..nodes].chunks_mut(BLOCK).enumerate().rev() {
-            if (block + 1) * BLOCK <= rows.start {
-                output.fill(0.0);
-                continue;
-            }
             let (first, rows) = (block * BLOCK, output.len());
             // The last node has no cell behind it, the first none before it.
             let cells = rows.min(nodes - 1 - first);

@@ -98,7 +98,7 @@ fn every_operator_is_the_dense_one_within_its_tolerance() {
                     fast.profile(f, g)
                 });
                 hold("w", &w, &values, tolerance, &all, &|u, w| {
-                    fast.displacement_rows(u, w, 0..u.len())
+                    fast.displacement(u, w)
                 });
                 let last = all[grid.cells()];
                 let falling: Vec<f64> = all.iter().map(|v| last - v).collect();
@@ -107,7 +107,7 @@ fn every_operator_is_the_dense_one_within_its_tolerance() {
                 let l = grid.radius();
                 let scaled: Vec<f64> = scale.iter().map(|scale| scale * l).collect();
                 hold("p", &(&p * l), &values, tolerance, &scaled, &|q, p| {
-                    fast.stress_rows(q, p, 0..q.len());
+                    fast.stress(q, p);
                     p.iter_mut().for_each(|p| *p *= l);
                 });
             }
@@ -148,27 +148,6 @@ fn the_worn_depth_is_the_dense_one_within_its_tolerance() {
     }
 }
 
-/// Rows that are asked for are those of the whole, to the last bit; the others are finite.
-#[test]
-fn rows_that_are_asked_for_are_those_of_the_whole() {
-    for grid in grids(200) {
-        let fast = FastProduct::new(&grid, TOLERANCE).expect("a plan");
-        for values in data(&grid) {
-            let (mut whole, mut part) = (vec![f64::NAN; grid.len()], vec![f64::NAN; grid.len()]);
-            for rows in [0..201, 0..64, 0..130, 64..201, 130..201, 200..201, 0..0] {
-                fast.displacement_rows(&values, &mut whole, 0..values.len());
-                fast.displacement_rows(&values, &mut part, rows.clone());
-                assert_eq!(part[rows.clone()], whole[rows.clone()]);
-                assert!(part.iter().all(|w| w.is_finite()));
-                fast.stress_rows(&values, &mut whole, 0..values.len());
-                fast.stress_rows(&values, &mut part, rows.clone());
-                assert_eq!(part[rows.clone()], whole[rows]);
-                assert!(part.iter().all(|p| p.is_finite()));
-            }
-        }
-    }
-}
-
 /// What happens outside reaches nothing inside, to the last bit.
 #[test]
 fn causality_is_strict() {
@@ -184,12 +163,12 @@ fn causality_is_strict() {
             let values = zeros_before(first, grid.len());
             fast.profile(&values, &mut out);
             assert!(out[..first].iter().all(|&g| g == 0.0));
-            fast.displacement_rows(&values, &mut out, 0..values.len());
+            fast.displacement(&values, &mut out);
             assert!(out[..first].iter().all(|&w| w == 0.0));
             let mut load = zeros_before(first, grid.len());
             load.reverse();
             load[..3].fill(0.0);
-            fast.stress_rows(&load, &mut out, 0..load.len());
+            fast.stress(&load, &mut out);
             assert!(out[grid.len() - first..].iter().all(|&p| p == 0.0));
         }
         if let Some(fast) = FastWorn::new(&grid, TOLERANCE) {
@@ -226,10 +205,10 @@ fn large_grids_are_no_trouble() {
         pairs.all(|(out, &t)| (out - exact(t)).abs() < TOLERANCE)
     };
     assert!(is(&out, &|t| 2.0 * t));
-    fast.displacement_rows(grid.squares(), &mut out, 0..grid.squares().len());
+    fast.displacement(grid.squares(), &mut out);
     assert!(is(&out, &|t| 0.5 * t));
     let load: Vec<f64> = grid.squares().iter().map(|t| 1.0 - t).collect();
-    fast.stress_rows(&load, &mut out, 0..load.len());
+    fast.stress(&load, &mut out);
     assert!(is(&out, &|t| 2.0 * FRAC_1_PI * (1.0 - t).sqrt()));
 }
 
@@ -249,8 +228,8 @@ fn large_grids_keep_the_tolerance_node_by_node() {
             .collect();
         let (mut g, mut w, mut p) = (vec![0.0; t.len()], vec![0.0; t.len()], vec![0.0; t.len()]);
         fast.profile(&values, &mut g);
-        fast.displacement_rows(&values, &mut w, 0..values.len());
-        fast.stress_rows(&values, &mut p, 0..values.len());
+        fast.displacement(&values, &mut w);
+        fast.stress(&values, &mut p);
         for j in [700, 4321, 14_000, 20_011, 30_002, 35_555, cells - 1] {
             let r = x[j];
             let sums = |from: usize, to: usize, image: &dyn Fn(f64, f64) -> f64| {
@@ -297,7 +276,7 @@ fn kinks_between_nodes_are_as_exact_as_the_tolerance() {
             let fast = FastProduct::new(&grid, TOLERANCE).expect("a plan");
             let q: Vec<f64> = t.iter().map(|&t| load(t)).collect();
             let mut p = vec![f64::NAN; grid.len()];
-            fast.stress_rows(&q, &mut p, 0..q.len());
+            fast.stress(&q, &mut p);
             let mut kinks = Vec::new();
             for k in 0..cells {
                 let inner = places.map(|at| (at, load(at)));

@@ -3,15 +3,14 @@
 //! shows.
 
 use std::collections::BTreeMap;
-use std::fs;
-use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use serde::Deserialize;
 
-use super::Misuse;
 use super::args::{ColorChoice, MarkerChoice, ThemeChoice};
+use super::{Misuse, complain};
+use crate::scenario::limited::{self, Unread};
 use crate::scenario::nearest::nearest;
 use crate::scenario::printable;
 use crate::tui::command::{BINDINGS, Command};
@@ -46,6 +45,9 @@ struct Written {
     keys: BTreeMap<String, String>,
 }
 
+/// The largest file that is read, in bytes.
+const LARGEST: u64 = 1 << 20;
+
 impl Config {
     /// Reads the user's file; without one, returns empty preferences.
     ///
@@ -57,13 +59,17 @@ impl Config {
         let Some(path) = path() else {
             return Ok(Self::default());
         };
-        match fs::read_to_string(&path) {
+        match limited::regular_text(&path, LARGEST) {
             Ok(text) => Self::read(&text, &path),
-            Err(error) if error.kind() == ErrorKind::NotFound => Ok(Self::default()),
-            Err(error) => Err(Misuse(format!(
-                "{}: cannot be read: {error}",
-                path.display()
-            ))),
+            Err(Unread::Missing) => Ok(Self::default()),
+            Err(why @ (Unread::TooLarge(_) | Unread::NotText(_))) => {
+                Err(Misuse(format!("{}: {why}", path.display())))
+            }
+            // What stands there is no file of this program: no reason not to start.
+            Err(why) => {
+                complain(&format!("{}: {why}; goes on without it", path.display()));
+                Ok(Self::default())
+            }
         }
     }
 

@@ -15,10 +15,13 @@ use crate::figure::data::{Data, Table};
 use crate::figure::ink::{Ink, Look, Style};
 use crate::figure::panels::Panel;
 use crate::figure::{Format, Sheet, paper, study as figure_of_study};
-use crate::scenario::{Scenario, printable};
+use crate::scenario::{Scenario, limited, printable};
 use crate::studies::ghost::Ghost;
 use crate::studies::sweep::record::Record;
 use crate::studies::sweep::slice::Slice;
+
+/// The largest table of a run that is read, in bytes.
+const LARGEST: u64 = 1 << 30;
 
 /// How far the header of a table is read, in bytes.
 const LARGEST_HEADER: u64 = 1 << 26;
@@ -112,7 +115,7 @@ fn data_file(path: &Path, options: &Figure) -> PathBuf {
 
 /// Whether a file holds what [`Sheet::csv`] writes.
 fn is_data_of_a_figure(path: &Path) -> bool {
-    let text = fs::read_to_string(path).unwrap_or_default();
+    let text = limited::regular_text(path, LARGEST).unwrap_or_default();
     text.starts_with("# mdr-tui: ") && text.contains("\npanel,curve,x,y,value,error\n")
 }
 
@@ -361,7 +364,8 @@ fn from_directory(directory: &Path) -> Result<Data> {
 
 /// Reads a table of a run.
 fn take(data: &mut Data, path: &Path) -> Result<(), Misuse> {
-    let text = fs::read_to_string(path).map_err(|error| unread(path, &error.to_string()))?;
+    let text =
+        limited::regular_text(path, LARGEST).map_err(|why| unread(path, &why.to_string()))?;
     let table = Table::parse(&text).map_err(|why| unread(path, &why))?;
     data.take(table).map_err(|why| unread(path, &why))
 }

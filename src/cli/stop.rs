@@ -35,6 +35,16 @@ pub fn signal() -> Result<Arc<AtomicBool>> {
     Ok(stop)
 }
 
+/// Set by every signal that asks to end, and nothing else.
+pub fn noted() -> Result<Arc<AtomicBool>> {
+    let stop = Arc::new(AtomicBool::new(false));
+    for signal in ENDING {
+        signal_hook::flag::register(signal, Arc::clone(&stop))
+            .context("cannot listen for signals")?;
+    }
+    Ok(stop)
+}
+
 /// Like [`signal`], but only a second Ctrl-C ends the process at once: a scheduler may send SIGTERM
 /// twice.
 pub fn patient_signal() -> Result<Arc<AtomicBool>> {

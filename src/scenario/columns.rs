@@ -4,11 +4,10 @@
 //! is the unit: `r_m` and `r_mm` are both radii, and come out in m. Other columns may hold
 //! anything, so that a `state.csv` can serve as a scar and a `history.csv` as a history.
 
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
 
 use super::error::{ScenarioError, echo, printable};
+use super::limited::{self, Unread};
 
 /// The largest file that is read, in bytes.
 const LARGEST: u64 = 64 << 20;
@@ -65,24 +64,13 @@ impl Columns {
     /// A file that cannot be read, is no table, or has rows of different lengths.
     pub fn read(path: &Path) -> Result<Self, ScenarioError> {
         let name = printable(&path.display().to_string());
-        let refuse = |reason: String| unreadable(&name, reason);
-        let metadata = std::fs::metadata(path).map_err(|error| {
-            refuse(match error.kind() {
-                std::io::ErrorKind::NotFound => "no such file".into(),
-                _ => format!("cannot be read: {error}"),
-            })
+        let text = limited::regular_text(path, LARGEST).map_err(|why| {
+            let hint = match why {
+                Unread::Directory | Unread::Irregular => "; must be a CSV file",
+                _ => "",
+            };
+            unreadable(&name, format!("{why}{hint}"))
         })?;
-        if !metadata.is_file() {
-            return Err(refuse("is not a file; must be a CSV file".into()));
-        }
-        if metadata.len() > LARGEST {
-            let most = LARGEST >> 20;
-            return Err(refuse(format!("is larger than {most} MiB")));
-        }
-        let mut text = String::new();
-        File::open(path)
-            .and_then(|file| file.take(LARGEST).read_to_string(&mut text))
-            .map_err(|error| refuse(format!("cannot be read as text: {error}")))?;
         Self::parse(&text, &name)
     }
 

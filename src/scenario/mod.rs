@@ -21,6 +21,7 @@ mod derive;
 mod embed;
 mod error;
 pub mod keys;
+pub(crate) mod limited;
 mod motion;
 pub mod nearest;
 pub mod preset;

@@ -1,12 +1,11 @@
 //! From a file to a text, to a TOML table.
 
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
 
 use toml::Table;
 
 use super::error::{Origin, ScenarioError, printable};
+use super::limited::{self, Unread};
 use super::units::with_decimal_point;
 
 /// The largest file that is read as a scenario, in bytes.
@@ -18,32 +17,14 @@ pub(super) fn file(path: &str) -> Result<String, ScenarioError> {
         origin: printable(path),
         reason,
     };
-    if Path::new(path).is_dir() {
-        return Err(unreadable(
-            "is a directory; a scenario is a TOML file".into(),
-        ));
-    }
-    let failed = |error: std::io::Error| {
-        unreadable(match error.kind() {
-            std::io::ErrorKind::NotFound => "no such file; mdr-tui presets lists what ships".into(),
-            _ => format!("cannot be read: {error}"),
-        })
-    };
-    let file = File::open(path).map_err(failed)?;
-    let mut bytes = Vec::new();
-    file.take(LARGEST_FILE + 1)
-        .read_to_end(&mut bytes)
-        .map_err(failed)?;
-    if bytes.len() as u64 > LARGEST_FILE {
-        return Err(unreadable(
-            "is larger than 1 MiB; a scenario is a short TOML file".into(),
-        ));
-    }
-    String::from_utf8(bytes).map_err(|error| {
-        let at = error.utf8_error().valid_up_to();
-        unreadable(format!(
-            "is not UTF-8 text at byte {at}; a scenario is a TOML file"
-        ))
+    limited::text(Path::new(path), LARGEST_FILE).map_err(|why| {
+        let hint = match why {
+            Unread::Missing => "; mdr-tui presets lists what ships",
+            Unread::TooLarge(_) => "; a scenario is a short TOML file",
+            Unread::Io(_) => "",
+            _ => "; a scenario is a TOML file",
+        };
+        unreadable(format!("{why}{hint}"))
     })
 }
 

@@ -59,6 +59,8 @@ pub struct App {
     pub tour: Option<Tour>,
     /// A notice, shown until the next key.
     pub notice: Option<String>,
+    /// Why a file that a script asked for could not be written: the first one.
+    pub unwritten: Option<String>,
     /// True until the first key is pressed.
     pub is_new: bool,
     /// The theme.
@@ -108,6 +110,7 @@ impl App {
             overlay: Overlay::None,
             tour: None,
             notice: None,
+            unwritten: None,
             is_new: true,
             theme,
             leave: None,

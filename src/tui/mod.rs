@@ -115,6 +115,8 @@ pub enum Event {
     Frame,
     /// A notice for the user.
     Notice(String),
+    /// A file that was asked for could not be written, and why: a notice, and a failure of a script.
+    Unwritten(String),
     /// The refinement_check has come to its end.
     RefinementCheck(Result<RefinementCheck, String>),
     /// A study has begun.
@@ -308,8 +310,8 @@ fn converse(
     if app.leave != Some(Leave::KeepScreen) || !is_restored {
         return Ok(None);
     }
-    let (columns, rows) = crossterm::terminal::size()?;
-    let rows = rows.saturating_sub(1);
+    let size = terminal::size()?;
+    let (columns, rows) = (size.width, size.height.saturating_sub(1));
     Ok(Some(script::text(app, Size { columns, rows })))
 }
 
@@ -322,8 +324,8 @@ fn survive<T: Default>(action: impl FnOnce() -> Result<T>) -> Result<T> {
 /// Fits the screen and the app to the terminal's present size.
 fn refit(app: &mut App, screen: &mut terminal::Screen) -> Result<()> {
     screen.start_afresh()?;
-    let (columns, rows) = crossterm::terminal::size()?;
-    app.resize(columns, rows);
+    let size = terminal::size()?;
+    app.resize(size.width, size.height);
     Ok(())
 }
 
@@ -345,8 +347,8 @@ fn attend(
     screen: &mut terminal::Screen,
     mut record: Option<Cast>,
 ) -> Result<()> {
-    let (columns, rows) = crossterm::terminal::size()?;
-    app.resize(columns, rows);
+    let size = terminal::size()?;
+    app.resize(size.width, size.height);
     let mut is_due = !screen.draw(app)?;
     // Between suspension and continuation, the screen belongs to the shell.
     let mut is_away = false;
@@ -398,7 +400,7 @@ fn attend(
                         app.take_frame(frame);
                     }
                 }
-                Event::Notice(text) => app.notice = Some(text),
+                Event::Notice(text) | Event::Unwritten(text) => app.notice = Some(text),
                 Event::RefinementCheck(answer) => app.refinement_check = Some(answer),
                 Event::Sweep(live) => app.overlay = Overlay::Sweep(live),
                 Event::Resize if is_away => {}

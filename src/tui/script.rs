@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, anyhow};
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::Rect;
 use ratatui::style::Color;
@@ -155,7 +155,10 @@ pub fn play(
         Format::Svg => picture(app, size),
     };
     io::stdout().lock().write_all(screen.as_bytes())?;
-    Ok(())
+    match &app.unwritten {
+        Some(text) => Err(anyhow!("{text}")),
+        None => Ok(()),
+    }
 }
 
 /// Does what the script says, draws the screen after each stroke as a terminal would have it, and
@@ -210,6 +213,10 @@ fn catch_up(app: &mut App, orders: &Sender<Order>, events: &Receiver<Event>) -> 
     while let Ok(event) = events.try_recv() {
         match event {
             Event::Notice(text) => app.notice = Some(text),
+            Event::Unwritten(text) => {
+                app.unwritten.get_or_insert_with(|| text.clone());
+                app.notice = Some(text);
+            }
             Event::RefinementCheck(answer) => app.refinement_check = Some(answer),
             Event::Sweep(live) => {
                 // A script sees all points.

@@ -2,8 +2,7 @@
 //! last loop as tables, and a checkpoint.
 
 use std::fmt::Write;
-use std::fs;
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use serde::de::IgnoredAny;
@@ -11,7 +10,7 @@ use serde::de::IgnoredAny;
 use super::trend::{Cycle, OfCycle, Trend};
 use crate::export::file::{RUN_CHECKPOINT, RunDirectory, WriteError};
 use crate::export::header::{lines, number};
-use crate::export::state;
+use crate::export::{own, state};
 use crate::scenario::columns::{Columns, Quantity};
 use crate::scenario::session::Session;
 use crate::scenario::{checkpoint, printable};
@@ -21,6 +20,9 @@ const CHECKPOINT: &str = "state.checkpoint";
 
 /// Lines of a table that are searched for its header.
 const HEADER: usize = 50;
+
+/// And the most bytes.
+const LONGEST_HEADER: u64 = 1 << 20;
 
 /// A state to go on from, with its past as far as it is known.
 #[derive(Debug)]
@@ -44,15 +46,40 @@ pub(super) fn write(
     let cycle = number(session.simulation().cycle());
     let stem = session.loaded().stem();
     let directory = RunDirectory::claim_new(&format!("{stem}-cycle-{cycle}"))?;
+    let written = fill(&directory, session, trend, &kept);
+    if written.is_err() {
+        // Nothing half: the directory goes with its last file.
+        for name in FILES {
+            let _ = std::fs::remove_file(directory.path().join(name));
+        }
+    }
+    written.map(|()| directory.path().join("state.csv").components().collect())
+}
+
+/// The files of a state.
+const FILES: [&str; 5] = [
+    "scenario.toml",
+    "history.csv",
+    "loop.csv",
+    CHECKPOINT,
+    "state.csv",
+];
+
+fn fill(
+    directory: &RunDirectory,
+    session: &Session,
+    trend: &Trend,
+    kept: &[u8],
+) -> Result<(), WriteError> {
     let scenario = session.as_run(Vec::new()).to_toml();
     directory.write("scenario.toml", scenario.as_bytes())?;
     directory.write("history.csv", history(session, trend).as_bytes())?;
     if session.simulation().moment().stick_radius.is_some() {
         directory.write("loop.csv", last_loop(session, trend).as_bytes())?;
     }
-    directory.write(CHECKPOINT, &kept)?;
-    let path = directory.write("state.csv", state::table(session).as_bytes())?;
-    Ok(path.components().collect())
+    directory.write(CHECKPOINT, kept)?;
+    let state = state::table(session);
+    directory.write("state.csv", state.as_bytes()).map(|_| ())
 }
 
 /// The columns of the history and what they are of a cycle.
@@ -103,8 +130,10 @@ fn checkpoint_in(directory: &Path) -> Option<PathBuf> {
 /// What `path` is if a state can be opened from there: its cycle, title and note, in a line.
 pub(super) fn about(path: &Path) -> Option<String> {
     checkpoint_in(path)?;
-    let file = fs::File::open(path.join("state.csv")).ok()?;
-    let head = BufReader::new(file).lines().take(HEADER);
+    let file = own::read(&path.join("state.csv")).ok()?;
+    let head = BufReader::new(file.take(LONGEST_HEADER))
+        .lines()
+        .take(HEADER);
     let head: Vec<String> = head.map_while(Result::ok).collect();
     let fact = |key: &str| {
         let start = format!("# {key}: ");

@@ -14,7 +14,7 @@ use crossterm::terminal::{
     disable_raw_mode, enable_raw_mode,
 };
 use ratatui::Terminal;
-use ratatui::buffer::Buffer;
+use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::{Rect, Size};
 
 use super::Event;
@@ -59,14 +59,38 @@ pub struct Screen {
     is_restored: bool,
 }
 
+/// The most columns and rows that are drawn, as with `--print`: a terminal that says it has more shows the
+/// rest empty.
+const LARGEST: u16 = 1000;
+
+/// How many screens are in memory at once: what is shown and what is wanted, here and in the libraries.
+const SCREENS: usize = 6;
+
+/// The size of the terminal, as far as it is drawn on.
+///
+/// # Errors
+///
+/// If nothing tells the size, or if there is no memory for so many characters.
+pub fn size() -> io::Result<Size> {
+    let (columns, rows) = crossterm::terminal::size()?;
+    let size = Size::new(columns.min(LARGEST), rows.min(LARGEST));
+    let cells = SCREENS * usize::from(size.width) * usize::from(size.height);
+    // An allocation that fails later on ends the process, and leaves the terminal as it is.
+    match Vec::<Cell>::new().try_reserve_exact(cells) {
+        Ok(()) => Ok(size),
+        Err(_) => Err(io::Error::other(format!(
+            "no memory for a screen of {columns} by {rows} characters"
+        ))),
+    }
+}
+
 impl Screen {
     /// Takes the terminal over, and the mouse as well if it was asked for. `events` is told when the
     /// terminal has taken what was drawn, and when it is gone; with `asks`, also what the background is.
     pub fn open(mouse: Capture, asks: bool, events: Sender<Event>) -> io::Result<Self> {
         enable_raw_mode()?;
         let restore = RestoreOnFailure;
-        let size: fn() -> io::Result<Size> = || Ok(crossterm::terminal::size()?.into());
-        let backend = AnsiBackend::new(Output::open(events)?, size);
+        let backend = AnsiBackend::new(Output::open(events)?, size as fn() -> io::Result<Size>);
         backend.get_ref().send(&taking_over(mouse)?);
         if asks {
             backend.get_ref().send(BACKGROUND);

@@ -33,6 +33,8 @@ mod honest;
 mod hostile;
 mod key_fuzz;
 #[cfg(target_os = "linux")]
+mod limits;
+#[cfg(target_os = "linux")]
 mod lines;
 mod measured_shapes;
 #[cfg(unix)]

@@ -128,6 +128,7 @@ pub struct Explore {
         long,
         value_name = "SCRIPT",
         requires = "print",
+        allow_hyphen_values = true,
         long_help = "Press these keys instead of reading the keyboard, print the last screen and exit.\n\n\
             Ordinary characters stand for themselves; <Space>, <Tab>, <Esc>, <Enter>, <Left>, ... for \
             keys, <lt> for \"<\". Each key waits until the simulation has handled the previous one."

@@ -69,7 +69,12 @@ pub struct Sweep {
     #[arg(long, conflicts_with_all = ["resume", "shard", "shards", "merge", "view", "point", "slurm", "skip_invalid"])]
     pub sensitivity: bool,
     /// With --view, press these keys instead of reading the keyboard, print the screen and exit.
-    #[arg(long, value_name = "SCRIPT", requires = "print")]
+    #[arg(
+        long,
+        value_name = "SCRIPT",
+        requires = "print",
+        allow_hyphen_values = true
+    )]
     pub keys: Option<String>,
     /// With --view, print the screen at this size.
     #[arg(long, value_name = "COLUMNSxROWS", requires = "view")]

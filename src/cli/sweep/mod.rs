@@ -14,6 +14,7 @@ use rayon::ThreadPoolBuilder;
 use super::args::Sweep;
 use super::{FAILED, Misuse, UNFINISHED, complain, progress, stop};
 use crate::export::file::shell_word;
+use crate::scenario::limited;
 use crate::scenario::printable;
 use crate::studies::sweep::engine::{self, Check};
 use crate::studies::sweep::{Shard, Study, StudyError, record};
@@ -71,15 +72,8 @@ pub fn sweep(options: &Sweep) -> Result<ExitCode> {
 fn read(path: &Path, sets: &[String]) -> Result<Study> {
     let name = printable(&path.display().to_string());
     let refuse = |why: String| Misuse(format!("{name}: {why}"));
-    let about = std::fs::metadata(path).map_err(|error| match error.kind() {
-        io::ErrorKind::NotFound => refuse("no such file; a study is a TOML file".into()),
-        _ => refuse(format!("cannot be read: {error}")),
-    })?;
-    if about.is_dir() || about.len() > LARGEST_STUDY {
-        return Err(refuse("a study is a TOML file of 64 MiB or less".into()).into());
-    }
-    let text = std::fs::read_to_string(path)
-        .map_err(|error| refuse(format!("cannot be read: {error}")))?;
+    let text = limited::text(path, LARGEST_STUDY)
+        .map_err(|why| refuse(format!("{why}; a study is a TOML file")))?;
     let directory = path.parent().unwrap_or(Path::new(""));
     let mut study = Study::read(&text, &name, directory)?;
     for set in sets {

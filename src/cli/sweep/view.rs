@@ -4,18 +4,25 @@ use std::env;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, ExitCode};
-use std::time::SystemTime;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::{Duration, SystemTime};
 
 use anyhow::{Context, Result};
 use clap::ValueEnum;
+use nix::sys::signal::{Signal, kill};
+use nix::unistd::Pid;
 
-use super::super::Misuse;
 use super::super::args::{ColorChoice, Sweep, ThemeChoice};
+use super::super::{Misuse, stop};
 use crate::plot::Marker;
 use crate::studies::sweep::record::Record;
 use crate::tui::map::{self, Leave, View};
 use crate::tui::theme::Look;
 use crate::tui::{self, keys};
+
+/// How often is looked whether the explorer has ended, or is to end.
+const GLANCE: Duration = Duration::from_millis(20);
 
 /// Shows the table until the user quits.
 pub fn view(file: &Path, options: &Sweep) -> Result<ExitCode> {
@@ -36,6 +43,8 @@ pub fn view(file: &Path, options: &Sweep) -> Result<ExitCode> {
         }),
     );
     let mut seen = changed(file);
+    // Set by a signal in the map or in the explorer: either ends both.
+    let is_ending = stop::noted()?;
     loop {
         let leave = match options.print {
             Some(size) => map::play(&mut view, &theme, &keys, size)?,
@@ -51,15 +60,15 @@ pub fn view(file: &Path, options: &Sweep) -> Result<ExitCode> {
         let Leave::Open(point) = leave else {
             return Ok(ExitCode::SUCCESS);
         };
-        open(&view, point, options)?;
-        if options.print.is_some() {
+        open(&view, point, options, &is_ending)?;
+        if options.print.is_some() || is_ending.load(Ordering::Relaxed) {
             return Ok(ExitCode::SUCCESS);
         }
     }
 }
 
 /// Opens a point in the explorer, a separate process, and waits for its end.
-fn open(view: &View, point: usize, options: &Sweep) -> Result<()> {
+fn open(view: &View, point: usize, options: &Sweep, is_ending: &AtomicBool) -> Result<()> {
     let scenario = view.study().scenario(point)?;
     let directory = tempfile::tempdir().context("cannot make a temporary directory")?;
     let file = directory.path().join(format!("point-{point}.toml"));
@@ -83,7 +92,24 @@ fn open(view: &View, point: usize, options: &Sweep) -> Result<()> {
     for (flag, value) in [("--marker", marker), ("--theme", theme), ("--color", color)] {
         explorer.args(value.iter().flat_map(|value| [flag, value.as_str()]));
     }
-    explorer.status().context("cannot start the explorer")?;
+    if is_ending.load(Ordering::Relaxed) {
+        return Ok(());
+    }
+    let mut explorer = explorer.spawn().context("cannot start the explorer")?;
+    let mut is_told = false;
+    while explorer
+        .try_wait()
+        .context("cannot wait for the explorer")?
+        .is_none()
+    {
+        if is_ending.load(Ordering::Relaxed) && !is_told {
+            is_told = true;
+            let process = i32::try_from(explorer.id()).map(Pid::from_raw);
+            // It saves its session; one that has ended by now needs no signal.
+            let _ = process.map(|process| kill(process, Signal::SIGTERM));
+        }
+        thread::sleep(GLANCE);
+    }
     Ok(())
 }
 

@@ -24,7 +24,7 @@ use thiserror::Error;
 
 use crate::scenario::schema::{self, Kind as KeyKind, Range};
 use crate::scenario::session::SessionError;
-use crate::scenario::{Scenario, ScenarioError};
+use crate::scenario::{MOST_CYCLES, Scenario, ScenarioError};
 use crate::studies::measured::{Kind, Measured};
 use errors::{Errors, freedom};
 use solver::{Free, Solved};
@@ -170,6 +170,12 @@ impl Fit {
         let last = histories.fold(0.0, f64::max);
         let planned = cycles.or(scenario.run().cycles).unwrap_or(0.0);
         let cycles = planned.max(last);
+        if cycles > MOST_CYCLES {
+            let message = format!(
+                "the data end at cycle {cycles:e}; a run has at most {MOST_CYCLES:e} cycles"
+            );
+            return Err(FitError::Misuse(message));
+        }
         let loops = || data.iter().filter(|set| set.kind == Kind::Loop);
         if cycles <= 0.0 || loops().next().is_some() && cycles < 1.0 {
             let message = "the length of the run is unknown, or less than a cycle; give --cycles";

@@ -456,7 +456,11 @@ impl Origin {
         let plain = |value: &Value| !matches!(value, Value::Array(_) | Value::Table(_));
         let list = value.as_array().filter(|list| !list.is_empty());
         let Some(list) = list.filter(|list| list.iter().all(plain)) else {
-            return self.refuse(place, value, "must be a list of one value or more");
+            let rule = match value.as_array() {
+                Some(list) if !list.is_empty() => "its values must be numbers, texts or flags",
+                _ => "must be a list of one value or more",
+            };
+            return self.refuse(place, value, rule);
         };
         // 100 and 100.0 are one value, so that both are written alike.
         let normal = |value: &Value| match axis::numeric(value) {

@@ -354,15 +354,19 @@ impl Worker {
     fn snapshot(&self, note: Option<&str>) {
         match snapshot::write(&self.session, &self.trend, note) {
             Ok(path) => self.notice(&format!("snapshot in {}", path.display())),
-            Err(error) => self.notice(&error.to_string()),
+            Err(error) => self.unwritten(&error.to_string()),
         }
     }
 
     fn figure(&self, path: &Path) {
         match figure::write(&self.session, &self.trend, path) {
             Ok(()) => self.notice(&format!("figure in {}", path.display())),
-            Err(error) => self.notice(&error),
+            Err(error) => self.unwritten(&error),
         }
+    }
+
+    fn unwritten(&self, text: &str) {
+        let _ = self.events.send(Event::Unwritten(one_line(text)));
     }
 
     fn notice(&self, text: &str) {

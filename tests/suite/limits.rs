@@ -1,0 +1,227 @@
+//! What is read has a limit, what is drawn too, and what does not fit leaves nothing half.
+
+use std::fs;
+use std::io::{Read, Write};
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+use portable_pty::{CommandBuilder, PtySize, native_pty_system};
+
+use crate::pty::{Terminal, program};
+use crate::signals::SOON;
+use crate::test_dir::{Said, TestDir, end, names};
+
+fn fifo(dir: &TestDir, name: &str) {
+    let made = Command::new("mkfifo").arg(dir.path(name)).status();
+    assert!(made.expect("mkfifo").success());
+}
+
+#[test]
+fn what_never_ends_is_read_to_a_limit() {
+    let dir = TestDir::new();
+    for line in [
+        "sweep /dev/zero",
+        "sweep --view /dev/zero --print 80x24",
+        "run /dev/zero",
+        "fit hertz --cycles 1 --scar /dev/zero --free wear.coefficient",
+        "figure /dev/zero -o x.svg",
+    ] {
+        let arguments: Vec<&str> = line.split(' ').collect();
+        let said = dir.say(&arguments);
+        assert_eq!(
+            (said.code, said.err.lines().count()),
+            (2, 1),
+            "{line}: {}",
+            said.err
+        );
+    }
+}
+
+#[test]
+fn in_a_folder_nothing_but_files_is_read() {
+    let dir = TestDir::new();
+    fs::create_dir(dir.path("x")).expect("a directory");
+    fifo(&dir, "x/state.csv");
+    for line in ["figure x -o x.svg", "sweep --merge x"] {
+        let arguments: Vec<&str> = line.split(' ').collect();
+        let child = dir
+            .command(&arguments)
+            .stderr(std::process::Stdio::piped())
+            .spawn();
+        let said = end(child.expect("a process"));
+        assert_eq!(said.code, 2, "{line}: {}", said.err);
+    }
+    // The preferences are nobody's argument.
+    fs::create_dir(dir.path("mdr-tui")).expect("a directory");
+    fifo(&dir, "mdr-tui/config.toml");
+    let said = dir.say(&["--print", "80x24"]);
+    assert!(
+        said.code == 0 && said.err.contains("config.toml: is not a file"),
+        "{}",
+        said.err
+    );
+    let mut command = dir.command(&["--print", "80x24", "--keys", "-,"]);
+    let said: Said = command
+        .env("XDG_CONFIG_HOME", "/dev/null")
+        .output()
+        .expect("it")
+        .into();
+    assert!(
+        said.code == 0 && said.err.contains("goes on without it"),
+        "{}",
+        said.err
+    );
+}
+
+#[test]
+fn a_fit_of_data_without_end_is_refused() {
+    let dir = TestDir::new();
+    dir.write(
+        "h.csv",
+        b"cycle,wear_volume_m3\n0,0\n1,1e-18\n1e300,2e-18\n",
+    );
+    let said = dir.say(&[
+        "fit",
+        "li2019-fig3",
+        "--history",
+        "h.csv",
+        "--free",
+        "wear.coefficient",
+    ]);
+    assert!(
+        said.code == 2 && said.err.contains("a run has at most"),
+        "{}",
+        said.err
+    );
+}
+
+#[test]
+fn a_table_with_semicolons_and_decimal_commas_is_read_or_named() {
+    let dir = TestDir::new();
+    let table = "cycle;wear_volume_m3\n0;0\n1;1e-18\n2;2e-18\n3;3e-18\n";
+    dir.write("h.csv", table.as_bytes());
+    let line = [
+        "fit",
+        "li2019-fig3",
+        "--history",
+        "h.csv",
+        "--free",
+        "wear.coefficient",
+    ];
+    let line = [&line[..], &["--set", "numerics.points=10"]].concat();
+    let said = dir.say(&line);
+    assert_eq!(said.code, 0, "{}", said.err);
+    dir.write("h.csv", table.replace("2;2e-18", "2,5;2e-18").as_bytes());
+    let said = dir.say(&line);
+    assert!(said.code == 2 && said.err.contains("2,5"), "{}", said.err);
+}
+
+#[test]
+fn a_state_or_a_figure_that_does_not_fit_leaves_nothing_and_a_script_fails() {
+    let dir = TestDir::new();
+    let bin = env!("CARGO_BIN_EXE_mdr-tui");
+    // Blocks of 512 bytes: what comes first still fits.
+    for (keys, blocks) in [("....s", 5), ("....:figure x.svg<Enter>", 30)] {
+        let before = names(&dir.path(""));
+        let line = format!(
+            "ulimit -f {blocks}; exec '{bin}' hertz --set numerics.points=40 --print 80x24 --keys '{keys}'"
+        );
+        let output = Command::new("sh")
+            .args(["-c", &line])
+            .current_dir(dir.path(""))
+            .env("XDG_CONFIG_HOME", dir.path(""))
+            .output();
+        let said: Said = output.expect("a shell").into();
+        assert!(
+            said.code == 1 && said.err.contains("cannot write"),
+            "{keys}: {} {}",
+            said.code,
+            said.err
+        );
+        assert_eq!(names(&dir.path("")), before, "{keys}");
+    }
+    dir.done("hertz --set numerics.points=40 --print 80x24 --keys ....s");
+    assert_eq!(names(&dir.path("")).len(), 1);
+}
+
+#[test]
+fn a_huge_terminal_is_drawn_in_part_and_without_memory_it_is_given_back() {
+    let bin = env!("CARGO_BIN_EXE_mdr-tui");
+    for (limit, keys) in [("unlimited", "q"), ("400000", "")] {
+        let size = PtySize {
+            cols: 30_000,
+            rows: 30_000,
+            ..PtySize::default()
+        };
+        let pair = native_pty_system()
+            .openpty(size)
+            .expect("a pseudo-terminal");
+        let modes = || format!("{:?}", pair.master.get_termios());
+        let before = modes();
+        let mut command = CommandBuilder::new("sh");
+        // In KiB: a part of what so many characters would take.
+        command.args(["-c", &format!("ulimit -v {limit}; exec '{bin}' hertz")]);
+        command.env("TERM", "xterm-256color");
+        let state = tempfile::tempdir().expect("a directory");
+        command.env("XDG_STATE_HOME", state.path());
+        let mut child = pair.slave.spawn_command(command).expect("it starts");
+        let mut reader = pair.master.try_clone_reader().expect("a reader");
+        let (tell, told) = std::sync::mpsc::channel();
+        std::thread::spawn(move || {
+            let mut bytes = [0; 1 << 16];
+            while let Ok(count @ 1..) = reader.read(&mut bytes) {
+                let _ = tell.send(bytes[..count].to_vec());
+            }
+        });
+        let mut seen = Vec::new();
+        let wait = Duration::from_secs(60);
+        if !keys.is_empty() {
+            while !seen.windows(6).any(|bytes| bytes == b"cycles") {
+                seen.extend(told.recv_timeout(wait).expect("something is drawn"));
+            }
+            let mut writer = pair.master.take_writer().expect("a writer");
+            writer.write_all(keys.as_bytes()).expect("a key");
+        }
+        let status = child.wait().expect("an end");
+        assert_eq!(status.success(), !keys.is_empty(), "{status:?}");
+        assert_eq!(modes(), before, "{limit}");
+        if keys.is_empty() {
+            std::thread::sleep(Duration::from_millis(200));
+            seen.extend(told.try_iter().flatten());
+            let text = String::from_utf8_lossy(&seen).into_owned();
+            assert!(
+                text.contains("mdr-tui: ") && text.contains("memory"),
+                "{text}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_signal_ends_the_map_and_the_explorer_that_it_has_opened() {
+    let dir = TestDir::new();
+    dir.write(
+        "study.toml",
+        b"base = \"hertz\"\n[set]\n\"run.cycles\" = 1\n\"numerics.points\" = 10\n\
+          [[axis]]\nkey = \"motion.normal.mean\"\nvalues = [1e-6, 2e-6]\n",
+    );
+    dir.done("sweep study.toml --quiet");
+    let table = dir.path("study.csv").display().to_string();
+    for sign in ["TERM", "HUP", "INT"] {
+        let state = tempfile::tempdir().expect("a directory");
+        let mut command = program(&["sweep", "--view", &table]);
+        command.env("XDG_STATE_HOME", state.path());
+        let mut terminal = Terminal::start(command, 100, 30);
+        terminal.wait_for("motion.normal.mean");
+        terminal.press("\r");
+        terminal.wait_until("the explorer", |screen| {
+            crate::pty::cycle(screen).is_some_and(|cycle| cycle > 0.1)
+        });
+        let start = Instant::now();
+        terminal.signal(sign);
+        let (_, status) = terminal.end_since(start);
+        assert!(status.success() && start.elapsed() < SOON * 2, "{sign}");
+        assert!(terminal.has_its_modes_back(), "{sign}");
+        assert_eq!(names(&state.path().join("mdr-tui")).len(), 1, "{sign}");
+    }
+}

@@ -58,6 +58,8 @@ pub struct Curve<'a> {
     pub style: Style,
     /// Shades the area between the curve and this ordinate (y axis' unit).
     pub fill_to: Option<f64>,
+    /// Shades the area between the curve and these ordinates, one for each point.
+    pub fill_from: &'a [f64],
     /// How the line is interrupted.
     pub stroke: Stroke,
 }
@@ -96,6 +98,13 @@ impl<'a> Curve<'a> {
     #[must_use]
     pub fn fill_to(mut self, base: f64) -> Self {
         self.fill_to = Some(base);
+        self
+    }
+
+    /// The same curve, the area between it and another with the same abscissae hatched.
+    #[must_use]
+    pub fn fill_from(mut self, ys: &'a [f64]) -> Self {
+        self.fill_from = ys;
         self
     }
 

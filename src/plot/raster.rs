@@ -91,18 +91,26 @@ impl Raster {
         }
     }
 
-    /// Fills between `points` and the position `base` with a loose pattern.
-    pub(super) fn fill(&mut self, points: impl Iterator<Item = Position>, base: f64, style: Style) {
+    /// Fills between `points` and the position of the base under each with a loose pattern.
+    pub(super) fn fill(
+        &mut self,
+        points: impl Iterator<Item = (Position, Option<f64>)>,
+        style: Style,
+    ) {
         let ink = self.ink(style.add_modifier(Modifier::DIM));
         let (width, height) = self.size();
-        let mut previous: Position = None;
-        for point in points {
+        let mut previous: Option<((f64, f64), f64)> = None;
+        for (point, base) in points {
+            let point = point.zip(base);
             if let (Some(a), Some(b)) = (previous, point) {
-                let ((xa, ya), (xb, yb)) = if a.0 <= b.0 { (a, b) } else { (b, a) };
+                let (((xa, ya), base_a), ((xb, yb), base_b)) =
+                    if a.0.0 <= b.0.0 { (a, b) } else { (b, a) };
                 let columns = xa.ceil().max(0.0)..=xb.floor().min(width - 1.0);
                 let mut column = *columns.start();
                 while columns.contains(&column) && xb > xa {
-                    let y = ya + (yb - ya) * ((column - xa) / (xb - xa));
+                    let share = (column - xa) / (xb - xa);
+                    let y = ya + (yb - ya) * share;
+                    let base = base_a + (base_b - base_a) * share;
                     let low = y.min(base).round().max(0.0) as usize;
                     let high = y.max(base).round().min(height - 1.0);
                     let end = if high < 0.0 { 0 } else { high as usize + 1 };

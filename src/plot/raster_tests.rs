@@ -137,7 +137,10 @@ fn the_last_curve_gives_the_colour() {
 fn fills_reach_from_the_base_to_the_curve_and_give_way_to_it() {
     let mut raster = Raster::new(4, 4, Marker::Ascii);
     let slope = [Some((0.0, 0.0)), Some((3.0, 3.0))];
-    raster.fill(slope.into_iter(), 0.0, Style::new());
+    raster.fill(
+        slope.into_iter().map(|point| (point, Some(0.0))),
+        Style::new(),
+    );
     raster.line(slope.into_iter(), Style::new(), Stroke::Solid);
     let mut buf = Buffer::empty(Rect::new(0, 0, 4, 4));
     raster.render(0, 0, &mut buf);

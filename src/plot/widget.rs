@@ -224,8 +224,14 @@ impl<'p, 'a> Frame<'p, 'a> {
             if let Some(base) = curve.fill_to {
                 // A base without a place (zero on a log axis) lies below everything.
                 let base = self.y.position(base).unwrap_or(-1.0);
-                raster.fill(curve.points().map(place), base, curve.style);
+                raster.fill(
+                    curve.points().map(|point| (place(point), Some(base))),
+                    curve.style,
+                );
             }
+            let between = curve.points().zip(curve.fill_from);
+            let between = between.map(|((x, y), &base)| (place((x, y)), self.y.position(base)));
+            raster.fill(between, curve.style);
         }
         let crosses = |[lo, hi]: [f64; 2]| lo < 0.0 && hi > 0.0;
         if let Some(row) = self.y.dot(0.0).filter(|_| crosses(self.y.bounds())) {

@@ -29,13 +29,31 @@ const BEYOND_SETTLED: f64 = 1.05;
 const PIECES: u32 = 64;
 
 /// The contact of the unworn indenter.
-struct Pressed {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pressed {
     /// d, m.
-    depth: f64,
+    pub depth: f64,
     /// a, m.
-    radius: f64,
+    pub radius: f64,
     /// F_z, N.
-    force: f64,
+    pub force: f64,
+}
+
+impl Pressed {
+    /// Where a motion presses the unworn indenter deepest; `None` where it never touches.
+    pub fn of(indenter: &Indenter, material: &Material, drive: &Drive) -> Option<Self> {
+        let highest = drive.normal().oscillation().highest();
+        match drive.normal() {
+            _ if highest <= 0.0 => None,
+            Control::Displacement(_) => press_to(indenter, material, highest),
+            Control::Force(_) => press_by(indenter, material, highest),
+        }
+    }
+
+    /// F_z/(π a²), Pa.
+    pub fn mean_pressure(&self) -> f64 {
+        self.force / (PI * self.radius * self.radius)
+    }
 }
 
 /// Grid and scheme where the scenario gives none: the published methods run as they were published.
@@ -121,7 +139,7 @@ pub(super) fn references(
         Control::Displacement(_) => press_to(indenter, material, at)?,
         Control::Force(_) => press_by(indenter, material, at)?,
     };
-    let mean_pressure = pressed.force / (PI * pressed.radius * pressed.radius);
+    let mean_pressure = pressed.mean_pressure();
     // Without friction there is no stress to compare with, and any reference does.
     let friction = if material.friction() > 0.0 {
         material.friction()

@@ -38,6 +38,7 @@ mod validate;
 pub mod words;
 pub(crate) mod write;
 
+pub use derive::Pressed;
 use error::{Faults, Origin, echo};
 pub use error::{ScenarioError, printable};
 pub use run::{Change, MOST_CHANGES, MOST_CYCLES, MOST_SNAPSHOTS, RunPlan};

@@ -8,6 +8,7 @@ use crate::oracle::fretting_loop::Branch;
 use crate::oracle::limiting_profile::LimitingProfile;
 use crate::oracle::power_law::PowerLaw;
 use crate::oracle::truncated::{TruncatedCone, TruncatedParaboloid};
+use crate::scenario::Pressed;
 use crate::simulation::Setup;
 use crate::simulation::drive::{Control, Oscillation};
 use crate::simulation::waveform::Waveform;
@@ -87,6 +88,34 @@ impl Theory {
         self.limit
             .as_ref()
             .map(|limit| radii.iter().map(|&r| limit.profile(r)).collect())
+    }
+
+    /// About the deepest wear after `cycles` cycles, m: by Archard's law under the pressure of the unworn
+    /// contact, and never more than where wear ends. `None` where nothing slips or nobody knows how far.
+    pub fn expected_wear(&self, setup: &Setup, cycles: Option<f64>) -> Option<f64> {
+        let law = setup.wear?;
+        let nodes = setup.grid.nodes();
+        let unworn = |r: f64| setup.indenter.profile(r);
+        let settled = self.limiting_profile(nodes).map(|limit| {
+            let worn = limit.iter().zip(nodes).map(|(f, &r)| f - unworn(r));
+            worn.filter(|worn| worn.is_finite()).fold(0.0, f64::max)
+        });
+        let pressed = Pressed::of(&setup.indenter, &setup.material, &setup.drive);
+        let by_law = || {
+            let (pressed, Control::Displacement(shift)) = (pressed?, setup.drive.tangential()?)
+            else {
+                return None;
+            };
+            let stress = setup.material.friction() * pressed.mean_pressure();
+            Some(4.0 * law.coefficient() * stress * shift.amplitude() * cycles?)
+        };
+        let reached = by_law().into_iter().chain(settled).reduce(f64::min)?;
+        // A displacement holds no more than the depth that it presses to.
+        let most = match setup.drive.normal() {
+            Control::Displacement(depth) => depth.highest(),
+            Control::Force(_) => f64::INFINITY,
+        };
+        Some(reached.min(most)).filter(|depth| *depth > 0.0)
     }
 
     /// The amplitude of u_x, m, from which the unworn indenter slips as a whole under `load` (N):

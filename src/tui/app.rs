@@ -12,6 +12,7 @@ use ratatui::layout::Rect;
 
 use super::command::Command;
 use super::frame::{Activity, Frame};
+use super::held::Held;
 use super::keys::Key;
 use super::layout;
 use super::line::{LineEdit, one_line};
@@ -22,7 +23,7 @@ use super::refinement_check::RefinementCheck;
 use super::snapshot;
 use super::theme::Theme;
 use super::tour::Tour;
-use crate::plot::{Scale, sticky_bounds};
+use crate::plot::{Axis, Scale, sticky_bounds};
 use crate::scenario::Scenario;
 use crate::simulation::Curves;
 use crate::studies::theory::Theory;
@@ -79,7 +80,8 @@ pub struct App {
     /// Where the cursor stands, in hundredths of the domain.
     cursor: Option<i16>,
     log_panels: Vec<Panel>,
-    bounds: HashMap<(Panel, Scale), [f64; 2]>,
+    bounds: HashMap<(Panel, Scale), Held>,
+    across: HashMap<Panel, Held>,
     shown: Curves,
     /// The terminal's size.
     pub(super) area: Rect,
@@ -122,6 +124,7 @@ impl App {
             cursor: None,
             log_panels: Vec::new(),
             bounds: HashMap::new(),
+            across: HashMap::new(),
             shown: Curves::all(),
             area: Rect::new(0, 0, 80, 24),
             room: layout::room(80, 24),
@@ -132,11 +135,14 @@ impl App {
 
     /// Takes a new frame; the scales of the plots follow its data.
     pub fn take_frame(&mut self, frame: Arc<Frame>) {
+        let cycle = frame.observation.moment.cycle;
         for panel in Panel::ALL {
-            if let Some([low, high]) = panel.extent(&frame, self.scale(panel)) {
+            if let Some(extent) = panel.extent(&frame, self.scale(panel)) {
                 let key = (panel, self.scale(panel));
-                let bounds = sticky_bounds(self.bounds.get(&key).copied(), low, high);
-                self.bounds.insert(key, bounds);
+                Held::hold(self.bounds.entry(key), extent, cycle);
+            }
+            if let Some(extent) = panel.extent_across(&frame) {
+                Held::hold(self.across.entry(panel), extent, cycle);
             }
         }
         // Another scenario has another tour.
@@ -159,7 +165,16 @@ impl App {
 
     /// The bounds of a panel's ordinate.
     pub fn bounds(&self, panel: Panel) -> Option<[f64; 2]> {
-        self.bounds.get(&(panel, self.scale(panel))).copied()
+        let held = self.bounds.get(&(panel, self.scale(panel)));
+        held.map(|held| held.bounds)
+    }
+
+    /// An abscissa within the bounds that are kept for a panel.
+    pub fn across<'a>(&self, panel: Panel, axis: Axis<'a>) -> Axis<'a> {
+        match self.across.get(&panel) {
+            Some(held) => axis.bounds(held.bounds),
+            None => axis,
+        }
     }
 
     /// The range of the colours of the stress in the half-space, Pa; `None` where none is shown.
@@ -479,6 +494,7 @@ impl App {
 
     fn forget_scales(&mut self) {
         self.bounds.clear();
+        self.across.clear();
         self.stress_bounds = None;
     }
 

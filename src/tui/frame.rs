@@ -64,6 +64,8 @@ pub struct Frame {
     pub origin: String,
     /// Where the scenario's plan ends, cycles.
     pub planned_cycles: Option<f64>,
+    /// About the deepest wear at the planned end, m; 0 where it is not known.
+    pub expected_wear: f64,
     /// Steps per cycle.
     pub steps_per_cycle: u32,
     /// The cycle of the present, while the screen shows a state of the past.

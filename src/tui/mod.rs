@@ -42,6 +42,7 @@ mod figure;
 mod flow;
 pub mod frame;
 pub mod ghosts;
+mod held;
 mod input;
 pub mod keys;
 pub mod layout;

@@ -17,7 +17,30 @@ pub fn ordinates(frame: &Frame) -> Vec<f64> {
         return Vec::new();
     }
     let ghosts = ghosts::ordinates(&ghosts::on(frame, Axes::Loop, 1.0));
-    [frame.trend.fretting_loop().1, ghosts].concat()
+    let values = [frame.trend.fretting_loop().1, ghosts].concat();
+    symmetric(&values).to_vec()
+}
+
+/// The range of u_x, m.
+pub fn abscissae(frame: &Frame) -> Option<[f64; 2]> {
+    frame.observation.moment.stick_radius?;
+    let (shifts, _) = frame.trend.fretting_loop();
+    let (sensed, _) = frame.trend.sensed_loop();
+    let ghosts = ghosts::abscissae(&ghosts::on(frame, Axes::Loop, 1.0));
+    Some(symmetric(&[shifts, sensed, ghosts].concat()))
+}
+
+/// The range of values; as far on both sides of zero where they are on both.
+fn symmetric(values: &[f64]) -> [f64; 2] {
+    let finite = || values.iter().copied().filter(|value| value.is_finite());
+    let (low, high) = (finite().fold(0.0, f64::min), finite().fold(0.0, f64::max));
+    // A motion to one side has no other.
+    if low < -0.1 * high && high > -0.1 * low {
+        let most = high.max(-low);
+        [-most, most]
+    } else {
+        [low, high]
+    }
 }
 
 /// Draws the panel.
@@ -42,7 +65,7 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     let mut plot = plot(
         Panel::Loop,
         app,
-        Axis::new("u_x", "m"),
+        app.across(Panel::Loop, Axis::new("u_x", "m")),
         Axis::new("F_x", "N"),
     )
     .curves(ghosts::curves(&mut ghosts, app));

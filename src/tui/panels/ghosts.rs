@@ -80,6 +80,14 @@ fn lines(frame: &Frame, of: impl Fn(&Ghost) -> Option<Points>) -> Vec<Line> {
     lines.collect()
 }
 
+/// The abscissae of lines.
+pub(super) fn abscissae(lines: &[Line]) -> Vec<f64> {
+    lines
+        .iter()
+        .flat_map(|line| line.xs.iter().copied())
+        .collect()
+}
+
 /// The lines of the traces on `axes`, each ordinate times `factor`.
 pub(super) fn on(frame: &Frame, axes: Axes, factor: f64) -> Vec<Line> {
     lines(frame, |ghost| {

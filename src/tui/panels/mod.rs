@@ -193,6 +193,12 @@ impl Panel {
         ])
     }
 
+    /// The range of the abscissa where it is kept as that of the ordinate is: a loop is drawn on axes that
+    /// hold.
+    pub fn extent_across(self, frame: &Frame) -> Option<[f64; 2]> {
+        (self == Self::Loop).then(|| fretting_loop::abscissae(frame))?
+    }
+
     /// Whether a few values may be far above all others: a stress that is singular at a border, or
     /// a slow step.
     fn has_spikes(self) -> bool {
@@ -227,7 +233,11 @@ impl Panel {
         } else {
             Role::Title
         };
-        let inner = titled(self.title(), role, app, area, buffer);
+        let title = match self {
+            Self::Profile => profile::title(frame, app.theme.ascii()),
+            _ => self.title().to_owned(),
+        };
+        let inner = titled(&title, role, app, area, buffer);
         match self {
             Self::Profile => profile::plotted(frame, app, |plot| plot.render(inner, buffer)),
             Self::Stresses => stresses::plotted(frame, app, |plot| plot.render(inner, buffer)),
@@ -347,9 +357,10 @@ fn over_cycles<'a>(panel: Panel, frame: &Frame, app: &App, y: Axis<'a>) -> Plot<
     plot(panel, app, Axis::new("cycles", "").bounds(ends), y)
 }
 
-/// The cycles that the panels over cycles show.
+/// The cycles that the panels over cycles show: all that are planned, from the first one on.
 fn cycles_shown(frame: &Frame) -> [f64; 2] {
     let end = frame.trend.cycles().last().map_or(0.0, |entry| entry.cycle);
+    let end = end.max(frame.planned_cycles.unwrap_or(0.0));
     [0.0, round_end(end.max(ghosts::end(frame)))]
 }
 
@@ -387,7 +398,8 @@ fn nothing(text: &str, app: &App, area: Rect, buffer: &mut Buffer) {
     Line::styled(format!(" {text}"), app.theme.style(Role::Quiet)).render(area, buffer);
 }
 
-/// Marks at the contact radius a and at the stick radius c.
+/// Marks at the contact radius a and at the permanent stick radius c; where more sticks at the moment, a
+/// faint one there.
 fn edge_marks(frame: &Frame, theme: &Theme) -> Vec<VerticalMark<'static>> {
     let moment = &frame.observation.moment;
     let mut marks = Vec::new();
@@ -398,12 +410,19 @@ fn edge_marks(frame: &Frame, theme: &Theme) -> Vec<VerticalMark<'static>> {
             style: theme.style(Role::Contact),
         });
     }
-    if let Some(stick) = moment
-        .stick_radius
-        .filter(|&c| c > 0.0 && c < moment.contact_radius)
-    {
+    let within = |c: &f64| *c > 0.0 && *c < moment.contact_radius;
+    let permanent = moment.permanent_stick_radius.filter(within);
+    let now = moment.stick_radius.filter(within);
+    if let Some(stick) = now.filter(|now| permanent.is_none_or(|c| *now > c * (1.0 + 1e-9))) {
         marks.push(VerticalMark {
             x: stick,
+            label: "",
+            style: theme.style(Role::Faint),
+        });
+    }
+    if let Some(c) = permanent {
+        marks.push(VerticalMark {
+            x: c,
             label: "c",
             style: theme.style(Role::Stick),
         });

@@ -48,8 +48,8 @@ fn rows(frame: &Frame, ascii: bool) -> Vec<(&'static str, String)> {
     }
     rows.push(("contact radius a", value(moment.contact_radius, "m")));
     if let (Some(stick), Some(permanent)) = (moment.stick_radius, moment.permanent_stick_radius) {
-        rows.push(("stick radius c", value(stick, "m")));
-        rows.push(("c, whole cycle", value(permanent, "m")));
+        rows.push(("stick radius now", value(stick, "m")));
+        rows.push(("permanent stick radius c", value(permanent, "m")));
     }
     rows.push(("depth d", value(moment.depth, "m")));
     rows.push(("F_z", value(moment.normal_force, "N")));

@@ -42,11 +42,23 @@ fn magnified(frame: &Frame, wear: &[f64], times: f64) -> Vec<f64> {
     unworn.zip(wear).map(|(f, worn)| f + times * worn).collect()
 }
 
-/// The largest wear of the run and of the ghosts, m.
-fn deepest(frame: &Frame) -> f64 {
+/// How many times the wear is drawn: the same from the first cycle to the planned end, so that wear that
+/// grows is seen to grow. Only where there is more than was expected, the factor falls.
+pub fn times(frame: &Frame) -> f64 {
     let ghosts = ghosts::ordinates(&ghosts::worn(frame, None));
-    let seen = largest(&frame.observation.wear);
-    ghosts.into_iter().fold(seen, f64::max)
+    let seen = largest(&frame.observation.wear).max(frame.expected_wear);
+    let deepest = ghosts.into_iter().fold(seen, f64::max);
+    magnification(deepest, height(frame))
+}
+
+/// The title, with the factor.
+pub fn title(frame: &Frame, ascii: bool) -> String {
+    let name = Panel::Profile.title();
+    match times(frame) {
+        1.0 => name.to_owned(),
+        times if ascii => format!("{name}, wear drawn x{times}"),
+        times => format!("{name}, wear drawn ×{times}"),
+    }
 }
 
 /// What the ordinate must hold.
@@ -55,7 +67,7 @@ pub fn ordinates(frame: &Frame) -> Vec<f64> {
     if seen.profile.is_empty() {
         return Vec::new();
     }
-    let times = magnification(deepest(frame), height(frame));
+    let times = times(frame);
     let mut values = magnified(frame, &seen.wear, times);
     values.extend_from_slice(&seen.unworn);
     values.extend(ghosts::ordinates(&ghosts::worn(frame, Some(times))));
@@ -74,16 +86,11 @@ pub fn plotted<T>(frame: &Frame, app: &App, then: impl FnOnce(&Plot<'_>) -> T) -
             limit.iter().zip(unworn).map(|(f, f0)| f - f0).collect()
         })
         .unwrap_or_default();
-    let deepest = deepest(frame).max(largest(&limit));
-    let times = magnification(deepest, height(frame));
+    let times = times(frame);
     let (worn, limit) = (
         magnified(frame, &seen.wear, times),
         magnified(frame, &limit, times),
     );
-    let name = match times {
-        1.0 => "worn".to_owned(),
-        times => format!("wear ×{times}"),
-    };
     let mut plot = radial_plot(Panel::Profile, app, frame, "r", ("f", "m"))
         .curve(curve("unworn", &seen.radii, &seen.unworn, theme, Role::Unworn).dashed());
     if !limit.is_empty() {
@@ -92,7 +99,7 @@ pub fn plotted<T>(frame: &Frame, app: &App, then: impl FnOnce(&Plot<'_>) -> T) -
     let mut ghosts = ghosts::worn(frame, Some(times));
     plot = plot
         .curves(ghosts::curves(&mut ghosts, app))
-        .curve(curve(&name, &seen.radii, &worn, theme, Role::Profile))
+        .curve(curve("worn", &seen.radii, &worn, theme, Role::Profile).fill_from(&seen.unworn))
         .band(Band { zones: &zones });
     for mark in edge_marks(frame, theme) {
         plot = plot.mark(mark);

@@ -11,7 +11,7 @@ pub struct Words {
 }
 
 const A: (&str, &str) = ("a", "contact radius: the bodies touch inside it");
-const C: (&str, &str) = ("c", "stick radius: nothing slips inside it at this moment");
+const C: (&str, &str) = ("c", "stick radius: nothing slips inside it in a cycle");
 const BAND: (&str, &str) = ("band", "stick, slip and open zones along the radius");
 
 impl Panel {
@@ -19,10 +19,10 @@ impl Panel {
     pub fn words(self) -> Words {
         let (text, symbols): (&str, &[(&str, &str)]) = match self {
             Self::Profile => (
-                "The shape of the indenter against the radius, unworn and worn. Real wear is \
-                 often thinner than a line, so it is magnified by the factor in the legend. Wear \
-                 begins where the surfaces slide under pressure: in the ring between c and a. Whenever the motion \
-                 reverses, the whole contact sticks again, and c jumps to a.",
+                "The shape of the indenter against the radius, unworn and worn. Wear thinner than a \
+                 line is drawn magnified, by one factor for the whole run that the title tells. It begins \
+                 where surfaces slide under pressure: in the ring between c and a. A faint line ends what \
+                 sticks at the moment: all, whenever the motion reverses.",
                 &[("f", "height of the profile over its tip"), A, C, BAND],
             ),
             Self::Stresses => (

@@ -97,6 +97,7 @@ impl Worker {
     /// Updates what depends on the present scenario.
     pub(super) fn learn(&mut self) {
         self.theory = Arc::new(Theory::of(self.session.simulation().setup()));
+        self.expected_wear = super::expected_wear(&self.theory, &self.session);
         self.settings = Arc::new(Setting::all(self.session.scenario()));
         self.warnings = Arc::new(self.session.simulation().warnings());
     }

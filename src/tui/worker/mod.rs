@@ -49,6 +49,7 @@ pub struct Worker {
     comparison: Option<ComparisonRun>,
     ghosts: Vec<Source>,
     theory: Arc<Theory>,
+    expected_wear: f64,
     cycle_loads: CycleLoads,
     settings: Arc<Vec<Setting>>,
     warnings: Arc<Vec<String>>,
@@ -92,8 +93,10 @@ impl Worker {
         } else {
             Activity::Paused
         };
+        let theory = Theory::of(session.simulation().setup());
         Self {
-            theory: Arc::new(Theory::of(session.simulation().setup())),
+            expected_wear: expected_wear(&theory, &session),
+            theory: Arc::new(theory),
             settings: Arc::new(Setting::all(session.scenario())),
             warnings: Arc::new(session.simulation().warnings()),
             passed_hardness: session.simulation().passed_hardness(),
@@ -441,6 +444,7 @@ impl Worker {
             title: scenario.title().to_owned(),
             origin: scenario.origin().to_owned(),
             planned_cycles: self.session.loaded().run().cycles,
+            expected_wear: self.expected_wear,
             steps_per_cycle: simulation.setup().steps_in_a_cycle() as u32,
             present: self.past.present(),
             settings: Arc::clone(&self.settings),
@@ -458,6 +462,13 @@ impl Worker {
             comparison: self.comparison.as_ref().map(ComparisonRun::seen),
         }
     }
+}
+
+/// About the deepest wear of a run at its planned end, m; 0 where it is not known.
+fn expected_wear(theory: &Theory, session: &Session) -> f64 {
+    let planned = session.loaded().run().cycles;
+    let expected = theory.expected_wear(session.simulation().setup(), planned);
+    expected.unwrap_or(0.0)
 }
 
 /// The value is never half written, even after a panic.

@@ -1,0 +1,87 @@
+//! The bounds of an axis in a live run: they hold for a whole period of the motion.
+
+use std::collections::hash_map::Entry;
+
+use crate::plot::sticky_bounds;
+
+/// Bounds, and what has been seen within them since they were last judged.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Held {
+    /// The bounds to draw with.
+    pub bounds: [f64; 2],
+    seen: [f64; 2],
+    /// The cycle from which on that was seen.
+    since: f64,
+}
+
+impl Held {
+    /// Takes in the range of a frame at `cycle`. The bounds grow at once, and shrink only where a whole
+    /// period leaves half of them empty.
+    pub fn hold<K>(entry: Entry<'_, K, Self>, [low, high]: [f64; 2], cycle: f64) {
+        let held = entry.or_insert_with(|| Self {
+            bounds: sticky_bounds(None, low, high),
+            seen: [low, high],
+            since: cycle,
+        });
+        held.take([low, high], cycle);
+    }
+
+    fn take(&mut self, [low, high]: [f64; 2], cycle: f64) {
+        if cycle < self.since {
+            (self.seen, self.since) = ([low, high], cycle);
+        }
+        let [lowest, highest] = self.seen;
+        self.seen = [lowest.min(low), highest.max(high)];
+        let grows = low < self.bounds[0] || high > self.bounds[1];
+        let is_over = cycle - self.since >= 1.0;
+        if grows || is_over {
+            let [a, b] = match is_over {
+                true => self.seen,
+                // What is within them already stays within them.
+                false => [low.min(self.bounds[0]), high.max(self.bounds[1])],
+            };
+            self.bounds = sticky_bounds(Some(self.bounds), a, b);
+        }
+        if is_over {
+            (self.seen, self.since) = ([low, high], cycle);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bounds_hold_for_a_period_and_follow_a_trend() {
+        let start = Held {
+            bounds: sticky_bounds(None, 0.0, 0.1),
+            seen: [0.0, 0.1],
+            since: 0.0,
+        };
+        // A stress that comes and goes within each cycle, and falls from cycle to cycle.
+        let (mut held, mut changes) = (start, Vec::new());
+        for step in 0..=2000 {
+            let cycle = f64::from(step) / 100.0;
+            let swing = (std::f64::consts::TAU * cycle).sin().abs();
+            let before = held.bounds;
+            held.take([0.0, swing * (-cycle / 5.0).exp()], cycle);
+            if held.bounds != before {
+                changes.push(cycle);
+            }
+        }
+        let early = changes.iter().filter(|&&cycle| cycle < 1.0).count();
+        assert!(early <= 6, "{changes:?}");
+        let late: Vec<f64> = changes
+            .iter()
+            .copied()
+            .filter(|&cycle| cycle > 1.0)
+            .collect();
+        assert!(
+            late.windows(2).all(|pair| pair[1] - pair[0] > 1.0),
+            "{late:?}"
+        );
+        assert!((2..=6).contains(&late.len()), "{late:?}");
+        assert!(held.bounds[1] < 0.1);
+    }
+}

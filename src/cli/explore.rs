@@ -6,19 +6,21 @@ use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 
 use anyhow::Result;
+use clap::CommandFactory;
 use serde::de::IgnoredAny;
 
-use super::args::{ColorChoice, Explore, FormatChoice, ThemeChoice};
+use super::args::{Arguments, ColorChoice, Explore, FormatChoice, ThemeChoice};
 use super::config::Config;
 use super::{Misuse, accuracy, complain, patiently};
 use crate::export::autosave;
 use crate::plot::Marker;
+use crate::scenario::nearest::nearest;
 use crate::scenario::session::Session;
-use crate::scenario::{Scenario, checkpoint};
+use crate::scenario::{Scenario, ScenarioError, checkpoint, printable};
 use crate::studies::refinement::SCREEN_PATIENCE;
 use crate::tui::ghosts::{MOST, Source};
 use crate::tui::theme::Look;
-use crate::tui::{self, Capture, Cast, Format, Options, Script, Stroke, command, snapshot};
+use crate::tui::{self, Capture, Format, Options, Script, Stroke, command, snapshot};
 
 /// The largest number of frames per second.
 const DEFAULT_FPS: u16 = 10;
@@ -51,7 +53,8 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
             opened.session
         }
         None => {
-            let scenario = Scenario::load(&options.scenario, &options.changes.set)?;
+            let scenario = Scenario::load(&options.scenario, &options.changes.set)
+                .map_err(|error| or_command(&options.scenario, error))?;
             let never = AtomicBool::new(false);
             let found = accuracy::resolve(&scenario, None, SCREEN_PATIENCE, false, &never)?;
             if let Some(word) = found.warning {
@@ -71,17 +74,7 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
         return Err(Misuse(message).into());
     }
     let keep_in = autosave::state_directory();
-    let record = options.record.as_deref().map(|path| {
-        Cast::create(path, options.print.is_some()).map_err(|error| {
-            let why = match error.kind() {
-                io::ErrorKind::AlreadyExists => "already exists; choose another name".to_owned(),
-                _ => error.to_string(),
-            };
-            Misuse(format!("--record {}: {why}", path.display()))
-        })
-    });
     let farewell = tui::run(Options {
-        record: record.transpose()?,
         running: options.resume.is_none() && past.is_none(),
         session,
         past,
@@ -119,4 +112,21 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
         });
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// A mistyped command looks like the name of a preset: it is led to the command.
+fn or_command(given: &str, error: ScenarioError) -> anyhow::Error {
+    let names = Arguments::command();
+    let names = names.get_subcommands().map(clap::Command::get_name);
+    let near =
+        nearest(given, names).filter(|_| matches!(error, ScenarioError::UnknownPreset { .. }));
+    match near {
+        // A preset's name that is as near is told by the error itself.
+        Some(command) if !error.to_string().contains("did you mean") => Misuse(format!(
+            "{}: no such command or preset; did you mean mdr-tui {command}?",
+            printable(given)
+        ))
+        .into(),
+        _ => error.into(),
+    }
 }

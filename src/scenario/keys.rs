@@ -54,21 +54,21 @@ keys! {
     RADIUS: f64 = quantity("indenter.radius", "m", Positive,
             "radius of curvature, of the flat punch, or of a punch's rounded edge")
         .of_shapes(&["paraboloid", "flat-punch", "truncated-paraboloid", "rounded-punch"])
-        .effect("more: a wider contact and less pressure at the same depth");
+        .effect("raising it: a wider contact and less pressure at the same depth");
     ANGLE: f64 = quantity("indenter.angle", "rad", Acute, "rise of the flank, slope = tan(angle)")
         .of_shapes(&["cone", "truncated-cone"])
-        .effect("more: a sharper tip, a smaller contact, more pressure");
+        .effect("raising it: a sharper tip, a smaller contact, more pressure");
     TIP_RADIUS: f64 = quantity("indenter.tip_radius", "m", Positive, "radius of the flat tip")
         .of_shapes(&["truncated-paraboloid", "truncated-cone", "rounded-punch"])
-        .effect("more: the contact begins wider, its rim carries more");
+        .effect("raising it: the contact begins wider, its rim carries more");
     SHAPE_COEFFICIENT: f64 = quantity("indenter.coefficient", "m^(1-exponent)", Positive,
             "coefficient of f = coefficient * r^exponent")
         .of_shapes(&["power"])
-        .effect("more: a steeper profile, a smaller contact");
+        .effect("raising it: a steeper profile, a smaller contact");
     SHAPE_EXPONENT: f64 = quantity("indenter.exponent", "", Within(1.0, 20.0),
             "exponent of f = coefficient * r^exponent")
         .of_shapes(&["power"])
-        .effect("more: flatter in the middle, steeper outside");
+        .effect("raising it: flatter in the middle, steeper outside");
     TABLE_FILE: String = text("indenter.file",
             "CSV file with columns r_m and f_m, relative to the scenario's file")
         .of_shapes(&["table"])
@@ -77,7 +77,7 @@ keys! {
             "length over which noise of the table is smoothed")
         .of_shapes(&["table"])
         .default(Implied("0.0"))
-        .effect("more: less noise of the table, rounder edges");
+        .effect("raising it: less noise of the table, rounder edges");
     RADII: Vec<f64> = quantities("indenter.radii", "m", Any,
             "radii of the table, as read from indenter.file")
         .of_shapes(&["table"])
@@ -89,49 +89,49 @@ keys! {
 
     EFFECTIVE_MODULUS: f64 = quantity("material.effective_modulus", "Pa", Positive,
             "effective modulus E* of the pair")
-        .effect("more: more pressure and force at the same depth");
+        .effect("raising it: more pressure and force at the same depth");
     POISSON: f64 = quantity("material.poisson", "", Within(0.0, 0.5), "Poisson's ratio of the elastic body")
-        .effect("more: tangentially softer, so a wider stick zone");
+        .effect("raising it: tangentially softer, so a wider stick zone");
     HARDNESS: f64 = quantity("material.hardness", "Pa", Positive,
             "hardness of the softer body: the pressure beyond which a warning is given")
-        .effect("less: the warning that the material yields comes earlier");
+        .effect("lowering it: the warning that the material yields comes earlier");
     INDENTER_MODULUS: f64 = quantity("material.indenter.youngs_modulus", "Pa", Positive,
             "Young's modulus of the indenter")
-        .effect("more: a stiffer pair");
+        .effect("raising it: a stiffer pair");
     INDENTER_POISSON: f64 = quantity("material.indenter.poisson", "", Within(0.0, 0.5),
             "Poisson's ratio of the indenter")
-        .effect("more: tangentially softer, so a wider stick zone");
+        .effect("raising it: tangentially softer, so a wider stick zone");
     INDENTER_HARDNESS: f64 = quantity("material.indenter.hardness", "Pa", Positive,
             "hardness of the indenter: the pressure beyond which a warning is given")
-        .effect("less: the warning that the material yields comes earlier");
+        .effect("lowering it: the warning that the material yields comes earlier");
     INDENTER_RIGID: bool = flag("material.indenter.rigid", "whether the indenter is rigid")
         .default(Implied("false"))
         .effect("rigid: only the half-space yields");
     HALF_SPACE_MODULUS: f64 = quantity("material.half_space.youngs_modulus", "Pa", Positive,
             "Young's modulus of the half-space")
-        .effect("more: a stiffer pair");
+        .effect("raising it: a stiffer pair");
     HALF_SPACE_POISSON: f64 = quantity("material.half_space.poisson", "", Within(0.0, 0.5),
             "Poisson's ratio of the half-space")
-        .effect("more: tangentially softer, so a wider stick zone");
+        .effect("raising it: tangentially softer, so a wider stick zone");
     HALF_SPACE_HARDNESS: f64 = quantity("material.half_space.hardness", "Pa", Positive,
             "hardness of the half-space: the pressure beyond which a warning is given")
-        .effect("less: the warning that the material yields comes earlier");
+        .effect("lowering it: the warning that the material yields comes earlier");
     HALF_SPACE_RIGID: bool = flag("material.half_space.rigid", "whether the half-space is rigid")
         .default(Implied("false"))
         .effect("rigid: only the indenter yields");
 
     FRICTION: f64 = quantity("friction.coefficient", "", NotNegative, "coefficient of friction")
-        .effect("more: a wider stick zone, higher shear where it slips");
+        .effect("raising it: a wider stick zone, higher shear where it slips");
 
     FRICTION_SETTLED: f64 = quantity("friction.settled", "", NotNegative,
             "coefficient of friction after running in")
         .effect("friction after running in");
     FRICTION_CYCLES: f64 = quantity("friction.running_in_cycles", "cycles", Positive,
             "cycles in which the distance to settled falls by a factor e")
-        .effect("more: friction settles later");
+        .effect("raising it: friction settles later");
     FRICTION_ENERGY: f64 = quantity("friction.running_in_energy", "J", Positive,
             "friction work in which the distance to settled falls by a factor e")
-        .effect("more: friction settles later");
+        .effect("raising it: friction settles later");
     FRICTION_FILE: String = text("friction.file",
             "CSV file with columns coefficient and cycle or energy_J, instead of coefficient")
         .effect("another course of the friction coefficient");
@@ -151,11 +151,11 @@ keys! {
         .effect("displacement: wear unloads the contact; force: it sinks in");
     NORMAL_MEAN: f64 = quantity("motion.normal.mean", PRESCRIBED, Any,
             "mean depth or mean normal force")
-        .effect("more: a wider contact, a wider stick zone");
+        .effect("raising it: a wider contact, a wider stick zone");
     NORMAL_AMPLITUDE: f64 = quantity("motion.normal.amplitude", PRESCRIBED, NotNegative,
             "amplitude of the normal motion")
         .default(Implied("0.0"))
-        .effect("more: the edge of the contact opens and closes further");
+        .effect("raising it: the edge of the contact opens and closes further");
     NORMAL_FREQUENCY: f64 = quantity("motion.normal.angular_frequency", "rad/s", Positive,
             "angular frequency of the normal motion")
         .default(Derived("that of the tangential motion if the amplitude is 0"))
@@ -172,7 +172,7 @@ keys! {
         .effect("at constant depth only the turning points count");
     NORMAL_HOLD: f64 = quantity("motion.normal.hold", "", UpTo(0.99),
             "fraction of a period spent at rest, for waveform = \"trapezoid\"")
-        .effect("more: longer rests, faster strokes");
+        .effect("raising it: longer rests, faster strokes");
     NORMAL_FILE: String = text("motion.normal.file",
             "CSV file of waveform = \"table\": one period, columns time_s and u_m, or F_N, or value")
         .effect("another table of one period");
@@ -194,7 +194,7 @@ keys! {
     TANGENTIAL_AMPLITUDE: f64 = quantity("motion.tangential.amplitude", PRESCRIBED, NotNegative,
             "amplitude of the tangential motion")
         .default(Implied("0.0"))
-        .effect("more: a wider slip ring, then gross slip");
+        .effect("raising it: a wider slip ring, then gross slip");
     TANGENTIAL_FREQUENCY: f64 = quantity("motion.tangential.angular_frequency", "rad/s", Positive,
             "angular frequency of the tangential motion; one period is a cycle")
         .default(Derived("that of the normal motion if the amplitude is 0"))
@@ -210,14 +210,14 @@ keys! {
             "stiffness of the rig in series with the contact: the motion is then that of the \
              actuator")
         .default(Derived("infinite: the contact gets the whole motion"))
-        .effect("more: the contact gets more of the actuator's motion");
+        .effect("raising it: the contact gets more of the actuator's motion");
     TANGENTIAL_WAVEFORM: String = choice("motion.tangential.waveform", WAVEFORMS,
             "waveform of the tangential motion")
         .default(Implied("\"sine\""))
         .effect("at constant depth only the turning points count");
     TANGENTIAL_HOLD: f64 = quantity("motion.tangential.hold", "", UpTo(0.99),
             "fraction of a period spent at rest, for waveform = \"trapezoid\"")
-        .effect("more: longer rests, faster strokes");
+        .effect("raising it: longer rests, faster strokes");
     TANGENTIAL_FILE: String = text("motion.tangential.file",
             "CSV file of waveform = \"table\": one period, columns time_s and u_m, or F_N, or value")
         .effect("another table of one period");
@@ -233,7 +233,7 @@ keys! {
         .effect("archard: by friction work; power: by powers of stress and slip rate");
     WEAR_COEFFICIENT: f64 = quantity("wear.coefficient", "1/Pa", NotNegative,
             "wear coefficient k per friction work: V = k E_d")
-        .effect("more: the same wear in fewer cycles, until steps are too coarse");
+        .effect("raising it: the same wear in fewer cycles, until steps are too coarse");
     WEAR_PER_LOAD: f64 = quantity("wear.coefficient_per_load", "m^3/(N*m)", NotNegative,
             "Archard's, of a pin test: volume per load and sliding distance, instead of coefficient")
         .effect("as coefficient: k = coefficient_per_load / friction, of each moment");
@@ -242,14 +242,14 @@ keys! {
         .effect("the wear coefficient after running in");
     WEAR_CYCLES: f64 = quantity("wear.running_in_cycles", "cycles", Positive,
             "cycles in which the distance to settled falls by a factor e")
-        .effect("more: the wear coefficient settles later");
+        .effect("raising it: the wear coefficient settles later");
     WEAR_ENERGY: f64 = quantity("wear.running_in_energy", "J", Positive,
             "friction work in which the distance to settled falls by a factor e")
-        .effect("more: the wear coefficient settles later");
+        .effect("raising it: the wear coefficient settles later");
     WEAR_THRESHOLD: f64 = quantity("wear.threshold_energy", "J", NotNegative,
             "friction work below which nothing wears: V = k (E_d - threshold)")
         .default(Implied("0.0"))
-        .effect("more: wear begins later");
+        .effect("raising it: wear begins later");
     WEAR_FILE: String = text("wear.file",
             "CSV file with columns coefficient (1/Pa) and cycle or energy_J, instead of \
              coefficient")
@@ -275,42 +275,42 @@ keys! {
     WEAR_SHARE: f64 = quantity("wear.share", "", Within(0.0, 1.0),
             "share of the wear that the indenter takes, the rest is the half-space's")
         .default(Derived("1, and nothing is said of the half-space"))
-        .effect("more: the indenter wears, not the half-space; fixed during a run");
+        .effect("raising it: the indenter wears, not the half-space; fixed during a run");
     STRESS_EXPONENT: f64 = quantity("wear.stress_exponent", "", Within(0.1, 10.0),
             "exponent of the stress, used by law = \"power\"")
         .default(Implied("1.5"))
-        .effect("more: wear gathers where the stress is high");
+        .effect("raising it: wear gathers where the stress is high");
     SLIP_RATE_EXPONENT: f64 = quantity("wear.slip_rate_exponent", "", Within(0.1, 10.0),
             "exponent of the slip rate, used by law = \"power\"")
         .default(Implied("1.0"))
-        .effect("more: wear gathers where slip is fast");
+        .effect("raising it: wear gathers where slip is fast");
     REFERENCE_STRESS: f64 = quantity("wear.reference_stress", "Pa", Positive,
             "stress at which the power law wears like archard")
         .default(Derived("friction coefficient times the mean pressure of the unworn contact"))
-        .effect("more: less wear if the stress exponent is above 1");
+        .effect("raising it: less wear if the stress exponent is above 1");
     REFERENCE_SLIP_RATE: f64 = quantity("wear.reference_slip_rate", "m/s", Positive,
             "slip rate at which the power law wears like archard")
         .default(Derived("the largest tangential velocity"))
-        .effect("more: less wear if the slip-rate exponent is above 1");
+        .effect("raising it: less wear if the slip-rate exponent is above 1");
 
     ACCURACY: f64 = quantity("numerics.accuracy", "", Within(1e-5, 0.1),
             "largest error of the worn depth (rms over the scar, relative to its largest value) and of the volume: \
              chooses points, steps and jumps")
-        .effect("less: finer and slower; chooses points, steps, jumps");
+        .effect("lowering it: finer and slower; chooses points, steps, jumps");
     METHOD: String = choice("numerics.method", AbelMethod::NAMES, "transform method")
         .default(Written("\"product\""))
         .effect("how the three transforms are computed");
     POINTS: i64 = count("numerics.points", Within(MIN_CELLS as f64, MAX_CELLS as f64),
             "grid cells from r = 0 to the domain's edge")
         .default(Written("100"))
-        .effect("more: finer and slower");
+        .effect("raising it: finer and slower");
     STEPS_PER_CYCLE: i64 = count("numerics.steps_per_cycle", Within(1.0, 1e6), "time steps per period of the faster motion")
         .default(Written("100"))
-        .effect("more: finer in time and slower");
+        .effect("raising it: finer in time and slower");
     DOMAIN_RADIUS: f64 = quantity("numerics.domain_radius", "m", Positive,
             "outer radius of the computed domain; it grows when the contact reaches it")
         .default(Derived("the largest radius that can touch"))
-        .effect("more: room to grow, coarser at the same number of points");
+        .effect("raising it: room to grow, coarser at the same number of points");
     GRID: String = choice("numerics.grid", Spacing::NAMES,
             "spacing of the nodes; the default depends on the method")
         .default(Derived("graded with method = \"product\", else uniform"))
@@ -333,7 +333,7 @@ keys! {
     TOLERANCE: f64 = quantity("numerics.tolerance", "", UpTo(0.1),
             "error that cycle jumps aim at, relative to the largest depth")
         .default(Implied("2e-4"))
-        .effect("more: longer jumps over cycles, less accurate");
+        .effect("raising it: longer jumps over cycles, less accurate");
 
     CYCLES: f64 = quantity("run.cycles", "cycles", NotNegative, "length of the run");
     SNAPSHOT_AT: Vec<f64> = quantities("run.snapshot_at", "cycles", NotNegative,

@@ -524,14 +524,19 @@ fn places() -> Vec<&'static str> {
 pub fn hint(path: &str) -> String {
     let meant = meant(path);
     if !meant.is_empty() {
-        let more = |key: &str| MORE.iter().find(|(known, _)| *known == key);
-        let told =
-            meant.iter().map(
-                |key| match more(key).filter(|_| !path.ends_with(key.as_str())) {
-                    Some((_, more)) => format!("{key}{more}"),
-                    None => key.clone(),
-                },
-            );
+        // A slip of the pen needs no remark.
+        let word = split(path).1.to_lowercase();
+        let is_other_word = MEANT
+            .iter()
+            .any(|(words, _)| words.contains(&word.as_str()));
+        let more = |key: &str| {
+            MORE.iter()
+                .find(|(known, _)| *known == key && is_other_word)
+        };
+        let told = meant.iter().map(|key| match more(key) {
+            Some((_, more)) => format!("{key}{more}"),
+            None => key.clone(),
+        });
         return format!("did you mean {}?", told.collect::<Vec<_>>().join(" or "));
     }
     let section = split(path).0;
@@ -562,7 +567,7 @@ mod tests {
             assert!(parameter.shapes.iter().all(|shape| SHAPES.contains(shape)));
             let changes = !["", "run", "changes"].contains(&parameter.section());
             assert_eq!(!parameter.effect.is_empty(), changes, "{}", parameter.path);
-            assert!(parameter.effect.chars().count() <= 68, "{}", parameter.path);
+            assert!(parameter.effect.chars().count() <= 76, "{}", parameter.path);
         }
     }
 

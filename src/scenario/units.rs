@@ -231,7 +231,7 @@ fn in_unit(text: &str, unit: &str) -> Option<Result<f64, String>> {
     };
     if found.dimension != due.dimension {
         return Some(Err(format!(
-            "must have a unit compatible with {unit}, such as {example}; {} has not",
+            "must have a unit compatible with {unit}, such as {example}; {} is of another kind",
             echo(given)
         )));
     }
@@ -247,6 +247,11 @@ pub(super) fn with_decimal_point(text: &str) -> Option<String> {
     let is_number = !digits.is_empty() && digits.chars().all(|c| c.is_ascii_digit());
     let goes_on = fraction.starts_with(|c: char| c.is_ascii_digit());
     (is_number && goes_on && !fraction.contains(',')).then(|| format!("{whole}.{fraction}"))
+}
+
+/// Whether the text is a number with a unit of this dimension.
+fn is_of(text: &str, unit: &str) -> bool {
+    matches!(in_unit(text, unit), Some(Ok(_)))
 }
 
 /// How a value of a unit may be written.
@@ -283,7 +288,18 @@ fn section(table: &mut Table, path: &str, origin: &Origin, faults: &mut Faults) 
             (Value::String(text), Some(known)) => {
                 let unit = unit_of(known, is_force);
                 let written = write::value(&Value::String(text.clone()));
-                match in_unit(text, unit) {
+                let told = match in_unit(text, unit) {
+                    Some(Err(_)) if known.unit == PRESCRIBED && is_of(text, "N") => {
+                        let rule = "N is no length: set control = \"force\" for a load";
+                        Some(Err(rule.to_owned()))
+                    }
+                    Some(Err(_)) if known.unit == PRESCRIBED && is_of(text, "m") => {
+                        let rule = "m is no force: set control = \"displacement\" for a depth";
+                        Some(Err(rule.to_owned()))
+                    }
+                    told => told,
+                };
+                match told {
                     Some(Ok(number)) => *value = Value::Float(number),
                     Some(Err(rule)) => {
                         faults.note(&path, origin.refuse(&path, &echo(&written), rule));
@@ -490,7 +506,7 @@ mod tests {
         .expect("a scenario");
         assert_eq!(force.value("motion.normal.mean").as_deref(), Some("20.0"));
         for (set, word) in [
-            ("motion.normal.mean=20 N", "a unit compatible with m"),
+            ("motion.normal.mean=20 N", "N is no length: set control"),
             ("indenter.radius=10 mn", "mn is not a unit"),
             ("wear.coefficient=1 mm", "1/Pa"),
             ("friction.coefficient=0.1 m", "finite number"),

@@ -71,7 +71,7 @@ impl ComparisonRun {
     /// Method and cells.
     pub fn name(&self) -> String {
         let setup = self.beside.session().simulation().setup();
-        format!("{} {}", setup.method, setup.grid.cells())
+        format!("{}, N = {}", setup.method.spoken(), setup.grid.cells())
     }
 
     /// Whether it is not yet at `cycle`.

@@ -78,7 +78,10 @@ pub fn places(app: &App, area: Rect) -> Vec<(Panel, Rect)> {
     }
     let shown = app.page(columns * rows);
     // The last page may hold fewer panels, which are then larger.
-    let columns = columns.min(shown.len()).max(1);
+    let columns = columns
+        .min(shown.len().div_ceil(rows).max(2))
+        .min(shown.len())
+        .max(1);
     let rows = shown.len().div_ceil(columns);
     let bands = Layout::vertical(vec![Constraint::Fill(1); rows]).split(area);
     let mut places = Vec::with_capacity(shown.len());

@@ -34,7 +34,6 @@ pub mod ansi_backend;
 pub mod app;
 pub mod autosave;
 mod beside;
-mod cast;
 pub mod command;
 mod comparison;
 mod cycle_loads;
@@ -72,7 +71,6 @@ pub mod worker;
 use crate::plot::Marker;
 use app::{App, Leave};
 use autosave::ScreenAutosave;
-pub use cast::Cast;
 use flow::When;
 use frame::Slot;
 use input::Waiting;
@@ -154,8 +152,6 @@ pub struct Options {
     pub colored: Option<bool>,
     /// The colours; by default from the background that the terminal reports.
     pub look: Option<Look>,
-    /// Where the session is recorded.
-    pub record: Option<Cast>,
     /// Who handles the mouse.
     pub mouse: Capture,
     /// Keys to press instead of reading the keyboard, and the screen to print.
@@ -214,9 +210,9 @@ pub fn run(options: Options) -> Result<Farewell> {
         let _ = orders.send(Order::Quit);
     };
     let outcome = match options.script {
-        Some(script) => survive(|| {
-            script::play(&mut app, &script, &orders, &from_threads, options.record).map(|()| None)
-        }),
+        Some(script) => {
+            survive(|| script::play(&mut app, &script, &orders, &from_threads).map(|()| None))
+        }
         None => {
             let ways = Ways {
                 slot: &slot,
@@ -224,7 +220,7 @@ pub fn run(options: Options) -> Result<Farewell> {
                 inbox: &from_threads,
                 waiting: &waiting,
             };
-            converse(&mut app, options.mouse, &ways, options.record, end_worker)
+            converse(&mut app, options.mouse, &ways, end_worker)
         }
     };
     end_worker();
@@ -290,7 +286,6 @@ fn converse(
     app: &mut App,
     mouse: Capture,
     ways: &Ways,
-    record: Option<Cast>,
     end_worker: impl Fn(),
 ) -> Result<Option<String>> {
     listen_for_signals(ways.events.clone(), Arc::clone(ways.waiting))?;
@@ -299,7 +294,7 @@ fn converse(
     let mut screen = screen.context("cannot take over the terminal")?;
     let (events, waiting) = (ways.events.clone(), Arc::clone(ways.waiting));
     thread::spawn(move || input::listen(&events, &waiting, mouse));
-    let outcome = survive(|| attend(app, ways, &mut screen, record));
+    let outcome = survive(|| attend(app, ways, &mut screen));
     end_worker();
     hear_out(&mut screen, ways.inbox);
     let is_restored = screen.give_back();
@@ -342,12 +337,7 @@ fn hear_out(screen: &mut terminal::Screen, inbox: &Receiver<Event>) {
     }
 }
 
-fn attend(
-    app: &mut App,
-    ways: &Ways,
-    screen: &mut terminal::Screen,
-    mut record: Option<Cast>,
-) -> Result<()> {
+fn attend(app: &mut App, ways: &Ways, screen: &mut terminal::Screen) -> Result<()> {
     let size = terminal::size()?;
     app.resize(size.width, size.height);
     let mut is_due = !screen.draw(app)?;
@@ -439,11 +429,6 @@ fn attend(
         }
         if !is_away && is_due && screen.when() == When::Now {
             is_due = !screen.draw(app)?;
-            // A failed recording ends; the session continues.
-            if let Some(Err(error)) = record.as_mut().map(|cast| cast.frame(app)) {
-                app.notice = Some(format!("the recording has ended: {error}"));
-                record = None;
-            }
         }
     }
 }

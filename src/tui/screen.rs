@@ -144,7 +144,7 @@ fn status_parts(frame: &Frame, ascii: bool) -> Vec<Part> {
         (None, Pace::Unlimited) => "unlimited".into(),
     };
     let mut pace_width = "0.5 cycles/s".len();
-    if let Some(phase) = frame.phase {
+    if let Some(phase) = frame.phase.filter(|_| frame.activity == Activity::Running) {
         let degrees = if ascii { " deg" } else { "°" };
         pace.push_str(&format!(", phase {phase:.0}{degrees}"));
         pace_width = pace.len().max("1000 cycles/s, phase 90°".len());

@@ -14,7 +14,6 @@ use ratatui::text::Line;
 
 use super::Event;
 use super::app::App;
-use super::cast::Cast;
 use super::frame::Slot;
 use super::keys::{self, Key};
 use super::order::Order;
@@ -123,7 +122,7 @@ pub fn rehearse(session: Session, theme: Theme, strokes: &[Stroke], size: Size) 
     let worker = Worker::new(session, slot, events, Duration::MAX, false);
     let thread = std::thread::spawn(move || worker.serve(&to_worker));
     let mut app = App::new(theme, orders.clone());
-    let outcome = press(&mut app, strokes, size, &orders, &inbox, &mut None);
+    let outcome = press(&mut app, strokes, size, &orders, &inbox);
     let _ = orders.send(Order::Quit);
     if let Err(panic) = thread.join() {
         std::panic::resume_unwind(panic);
@@ -138,18 +137,10 @@ pub fn play(
     script: &Script,
     orders: &Sender<Order>,
     events: &Receiver<Event>,
-    mut record: Option<Cast>,
 ) -> Result<()> {
     #[cfg(debug_assertions)]
     crate::failpoint::hit("script");
-    let size = press(
-        app,
-        &script.strokes,
-        script.size,
-        orders,
-        events,
-        &mut record,
-    )?;
+    let size = press(app, &script.strokes, script.size, orders, events)?;
     let screen = match script.format {
         Format::Text => text(app, size),
         Format::Svg => picture(app, size),
@@ -169,16 +160,9 @@ fn press(
     mut size: Size,
     orders: &Sender<Order>,
     events: &Receiver<Event>,
-    record: &mut Option<Cast>,
 ) -> Result<Size> {
-    let mut seen = |app: &App| -> Result<()> {
-        let recorded = record.as_mut().map(|cast| cast.frame(app));
-        recorded.transpose().context("the recording has ended")?;
-        Ok(())
-    };
     app.resize(size.columns, size.rows);
     catch_up(app, orders, events)?;
-    seen(app)?;
     for stroke in strokes {
         match stroke {
             Stroke::Key(key) => app.press(*key),
@@ -189,7 +173,6 @@ fn press(
             }
         }
         catch_up(app, orders, events)?;
-        seen(app)?;
         if app.leave.is_some() {
             break;
         }

@@ -833,3 +833,12 @@ fn a_scenario_can_come_through_a_pipe() {
     let said = end(child);
     assert_eq!((said.code, said.err.as_str()), (0, ""));
 }
+
+#[test]
+fn a_mistyped_command_is_led_to_the_command() {
+    let dir = TestDir::new();
+    for (given, meant) in [("rum", "run"), ("figur", "figure"), ("swep", "sweep")] {
+        let expected = format!("no such command or preset; did you mean mdr-tui {meant}?");
+        assert_refused(&dir, &[given], &expected);
+    }
+}

@@ -11,7 +11,6 @@ mod test_dir;
 mod allocations;
 mod ansi_backend;
 mod attacks;
-mod cast;
 mod changes;
 mod checkpoint;
 mod cli;

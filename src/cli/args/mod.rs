@@ -140,9 +140,6 @@ pub struct Explore {
     /// Checkpoint interval in seconds; 0: only at the end.
     #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = interval)]
     pub checkpoint_every: Interval,
-    /// Record the session in a new file in asciinema's format (v2), at most 64 MB.
-    #[arg(long, value_name = "FILE")]
-    pub record: Option<PathBuf>,
     /// Print the screen at this size after the last key, and exit; the simulation starts paused.
     #[arg(long, value_name = "COLUMNSxROWS")]
     pub print: Option<Size>,

@@ -121,6 +121,17 @@ impl AbelMethod {
         }
     }
 
+    /// The name in a sentence: a letter of the paper as the paper has it.
+    pub fn spoken(self) -> &'static str {
+        match self {
+            Self::Product => "product",
+            Self::Benad => "Benad",
+            Self::A => "A",
+            Self::B => "B",
+            Self::APlusB => "A+B",
+        }
+    }
+
     /// One line on what the method does.
     pub fn description(self) -> &'static str {
         match self {

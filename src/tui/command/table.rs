@@ -234,7 +234,7 @@ pub static BINDINGS: &[Binding] = &[
     bind(
         C::CompareFromStart,
         &[Char('C')],
-        "compare all",
+        "compare from start",
         "compare from the start of the scenario",
         false,
     ),

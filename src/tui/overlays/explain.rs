@@ -8,7 +8,7 @@ use ratatui::widgets::{Paragraph, Widget, Wrap};
 use super::{Answer, App, Command, popup};
 use crate::plot::units::to_ascii;
 use crate::tui::theme::Role;
-use crate::tui::tour;
+use crate::tui::{layout, panels, tour};
 
 /// Handles a command while the explanation is open: it follows the focus, and the run can continue.
 pub(super) fn answer(command: Command) -> Answer {
@@ -28,9 +28,40 @@ pub(super) fn answer(command: Command) -> Answer {
     }
 }
 
+/// What the focused panel leaves free above or below it; all where it is zoomed.
+fn beside(app: &App, area: Rect) -> Rect {
+    let places = layout::places(app, area);
+    let focused = places.iter().find(|(panel, _)| *panel == app.focus);
+    let Some((_, place)) = focused.filter(|_| !app.zoomed) else {
+        return area;
+    };
+    let above = place.y.saturating_sub(area.y);
+    let below = area.bottom().saturating_sub(place.bottom());
+    match (above, below) {
+        (0, 0) => area,
+        (above, below) if below >= above => Rect {
+            y: place.bottom(),
+            height: below,
+            ..area
+        },
+        (above, _) => Rect {
+            height: above,
+            ..area
+        },
+    }
+}
+
 pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
-    let words = app.focus.words();
     let theme = &app.theme;
+    let is_compared = app
+        .frame
+        .as_ref()
+        .is_some_and(|frame| frame.comparison.is_some());
+    // In a comparison there are other panels than the focused one.
+    let (title, words) = match is_compared {
+        true => ("comparison", panels::COMPARISON),
+        false => (app.focus.title(), app.focus.words()),
+    };
     let spelled = |text: &str| match theme.ascii() {
         true => to_ascii(text).into_owned(),
         false => text.to_owned(),
@@ -45,7 +76,7 @@ pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let origin = app.frame.as_ref().map_or("", |frame| frame.origin.as_str());
     let captions = tour::captions(origin).iter();
     let here: Vec<&str> = captions
-        .filter(|caption| caption.panel() == Some(app.focus))
+        .filter(|caption| !is_compared && caption.panel() == Some(app.focus))
         .map(|caption| caption.text.as_str())
         .collect();
     if !here.is_empty() {
@@ -54,13 +85,29 @@ pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         lines.extend(here.iter().map(|text| Line::raw(spelled(text))));
     }
     let width = area.width.min(80);
-    let inner = usize::from(width.saturating_sub(4).max(1));
-    let rows: usize = lines
-        .iter()
-        .map(|line| line.width().div_ceil(inner.saturating_sub(6).max(1)).max(1))
-        .sum();
-    let title = format!("{} (Tab: next panel, Esc closes)", app.focus.title());
-    let inside = popup(app, &title, (width, rows as u16 + 2), area, buffer);
+    let inner = usize::from(width.saturating_sub(10).max(1));
+    let rows = |lines: &[Line]| -> u16 {
+        let rows = lines.iter().map(|line| line.width().div_ceil(inner).max(1));
+        2 + rows.sum::<usize>() as u16
+    };
+    // Where the whole would cover the panel, it is told in running text, without what can be done without.
+    let (mut place, mut height) = (beside(app, area), rows(&lines));
+    if height > place.height {
+        let symbols = words.symbols.iter();
+        let symbols = symbols.map(|(symbol, meaning)| format!("{symbol}: {meaning}"));
+        let symbols = symbols.collect::<Vec<_>>().join("; ");
+        let brief = vec![Line::raw(spelled(words.text)), Line::raw(spelled(&symbols))];
+        if rows(&brief) <= place.height {
+            (height, lines) = (rows(&brief), brief);
+        } else {
+            place = area;
+        }
+    }
+    let title = match is_compared {
+        true => format!("{title} (Esc closes)"),
+        false => format!("{title} (Tab: next panel, Esc closes)"),
+    };
+    let inside = popup(app, &title, (width, height), place, buffer);
     let inside = Rect {
         x: inside.x + 1,
         width: inside.width.saturating_sub(2),

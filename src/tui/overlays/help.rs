@@ -58,9 +58,18 @@ impl Help {
             }
             return Answer::Stay;
         }
+        const PAGE: u16 = 10;
+        let last = 2 * BINDINGS.len() as u16;
+        match key {
+            Key::Named(Named::PageUp) => self.first = self.first.saturating_sub(PAGE),
+            Key::Named(Named::PageDown) => self.first = (self.first + PAGE).min(last),
+            Key::Named(Named::Home) => self.first = 0,
+            Key::Named(Named::End) => self.first = last,
+            _ => {}
+        }
         match command {
             Some(Command::Up) => self.first = self.first.saturating_sub(1),
-            Some(Command::Down) => self.first = (self.first + 1).min(2 * BINDINGS.len() as u16),
+            Some(Command::Down) => self.first = (self.first + 1).min(last),
             Some(Command::Search) => self.search = Some(LineEdit::default()),
             Some(Command::Back | Command::Help | Command::Accept) => return Answer::Close,
             Some(other) => return Answer::Through(other),
@@ -104,7 +113,7 @@ impl Help {
         let title = if fits {
             "keys (/ searches, Esc closes)"
         } else {
-            "keys (up and down scroll, / searches, Esc closes)"
+            "keys (arrows, PgUp, PgDn scroll, / searches, Esc closes)"
         };
         let size = (columns as u16 * WIDTH, rows as u16 + 2);
         let inside = popup(app, title, size, area, buffer);

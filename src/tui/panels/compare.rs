@@ -6,10 +6,10 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::Line;
 use ratatui::widgets::Widget;
 
-use super::{App, Frame, bare_plot, curve, edge_marks, ghosts, nothing, panel_block};
+use super::{App, Frame, bare_plot, clip_spikes, curve, edge_marks, ghosts, nothing, panel_block};
 use crate::math::scan::largest;
 use crate::plot::units::{format_number, format_value_in};
-use crate::plot::{Axis, Scale};
+use crate::plot::{Axis, Scale, nice_bounds};
 use crate::simulation::Observation;
 use crate::studies::ghost::Axes;
 use crate::tui::frame::Comparison;
@@ -64,7 +64,15 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffe
     plot.render(inside, buffer);
     let inside = panel_block("pressure", app, right, buffer);
     let mut lines = ghosts::on(frame, Axes::Pressure, 1.0);
-    bare_plot(app, Axis::new("r", "m"), Axis::new("p", "Pa"))
+    // A spike at a border of stick must not flatten all the rest.
+    let mut pressures = [&seen.pressure[..], &other.pressure].concat();
+    clip_spikes(&mut pressures);
+    let highest = largest(&pressures);
+    let mut ordinate = Axis::new("p", "Pa");
+    if highest > 0.0 {
+        ordinate = ordinate.bounds(nice_bounds(0.0, highest));
+    }
+    bare_plot(app, Axis::new("r", "m"), ordinate)
         .cursor(app.cursor_radius(frame))
         .curves(ghosts::curves(&mut lines, app))
         .curve(curve(names.1, &other.radii, &other.pressure, theme, Role::Slip).dashed())
@@ -103,7 +111,7 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffe
             .curve(curve("", &other.radii, &difference, theme, Role::Slip))
             .render(inside, buffer);
     }
-    let inside = panel_block("both", app, numbers, buffer);
+    let inside = panel_block("side by side", app, numbers, buffer);
     let lines = rows
         .iter()
         .map(|(name, here, there)| format!(" {name:14} {here:>column$} {there:>column$}"));
@@ -115,8 +123,8 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffe
 
 fn this_name(frame: &Frame) -> String {
     format!(
-        "{} {}",
-        frame.observation.method,
+        "{}, N = {}",
+        frame.observation.method.spoken(),
         frame.observation.radii.len() - 1
     )
 }

@@ -35,6 +35,7 @@ mod volume;
 mod words;
 
 pub use stress_map::Shown;
+pub use words::COMPARISON;
 
 /// The panels of the explorer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

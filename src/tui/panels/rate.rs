@@ -6,7 +6,7 @@ use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 
 use super::{App, Frame, Panel, curve, finished_series, nothing, over_cycles};
-use crate::plot::{Axis, Scale};
+use crate::plot::Axis;
 use crate::tui::theme::Role;
 
 /// What the ordinate must hold.
@@ -23,10 +23,6 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     }
     let (cycles, rate) = finished_series(frame, |entry| entry.wear_rate);
     let now = curve("", &cycles, &rate, &app.theme, Role::Profile);
-    let now = match app.scale(Panel::Rate) {
-        Scale::Linear => now.fill_to(0.0),
-        Scale::Log => now,
-    };
     over_cycles(Panel::Rate, frame, app, Axis::new("V per cycle", "m³"))
         .curve(now)
         .render(area, buffer);

@@ -81,7 +81,8 @@ pub fn plotted<T>(frame: &Frame, app: &App, then: impl FnOnce(&Plot<'_>) -> T) -
         ));
     if !shear.is_empty() {
         plot = plot.curve(
-            curve(name, &seen.radii, &shear, theme, Role::Shear).dashed_if(!theme.colored()),
+            // Dashes: where the contact slips the pressure lies under it, and is still seen.
+            curve(name, &seen.radii, &shear, theme, Role::Shear).dashed(),
         );
     }
     if !hertz.is_empty() {

@@ -14,6 +14,14 @@ const A: (&str, &str) = ("a", "contact radius: the bodies touch inside it");
 const C: (&str, &str) = ("c", "stick radius: nothing slips inside it in a cycle");
 const BAND: (&str, &str) = ("band", "stick, slip and open zones along the radius");
 
+/// The explanation of a comparison, which takes the place of all panels.
+pub const COMPARISON: Words = Words {
+    text: "Two methods run side by side from one state: both profiles, both pressures, and below them the size \
+           of the difference of the profiles, which is logarithmic. m and M change the second method, C begins \
+           at the start of the scenario, c ends the comparison.",
+    symbols: &[A, C, ("side by side", "the same numbers of both runs")],
+};
+
 impl Panel {
     /// The explanation of the panel.
     pub fn words(self) -> Words {

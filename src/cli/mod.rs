@@ -34,6 +34,7 @@ mod job;
 mod keeper;
 mod presets;
 mod progress;
+pub(crate) mod provenance;
 mod results;
 mod run;
 mod small_multiples;

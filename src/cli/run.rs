@@ -15,7 +15,7 @@ use super::args::{CycleAsGiven, Run};
 use super::job::RunJob;
 use super::keeper::Keeper;
 use super::progress::Progress;
-use super::{FAILED, Misuse, accuracy, complain, stop};
+use super::{FAILED, Misuse, accuracy, complain, provenance, stop};
 use crate::export::autosave::COPY_INTERVAL;
 use crate::export::file::{RUN_CHECKPOINT, RunDirectory, WriteError, write_whole};
 use crate::export::header::{self, number};
@@ -430,6 +430,7 @@ impl Job {
                 self.session.as_run(self.job.snapshot_at()).to_toml(),
             ),
             ("state.csv".to_owned(), state::table(&self.session)),
+            (provenance::FILE.to_owned(), provenance::text()),
         ];
         let field = self
             .field

@@ -334,8 +334,14 @@ impl RunDirectory {
     }
 }
 
-/// The tables of a run, but for those of snapshots.
-const TABLES: [&str; 4] = ["history.csv", "state.csv", "loop.csv", "field.csv"];
+/// The files of a run that begin as its tables do, but for those of snapshots.
+const TABLES: [&str; 5] = [
+    "history.csv",
+    "state.csv",
+    "loop.csv",
+    "field.csv",
+    "provenance.toml",
+];
 
 /// Whether a run has written this table: it has the name and the header of one.
 fn is_of_a_run(path: &Path) -> bool {

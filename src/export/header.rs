@@ -82,7 +82,7 @@ pub fn entries(session: &Session) -> Vec<(String, String)> {
 }
 
 /// What the last digits depend on: whether the processor multiplies and adds with one rounding.
-fn arithmetic() -> &'static str {
+pub fn arithmetic() -> &'static str {
     #[cfg(target_arch = "x86_64")]
     {
         match is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {

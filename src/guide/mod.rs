@@ -59,6 +59,7 @@ topics! {
     checks = "checks.md": "what a run checks of itself, and what a failing check means";
     resuming = "resuming.md": "checkpoints: how to go on after a stop";
     performance = "performance.md": "speed, and what it was compared with";
+    installing = "installing.md": "one file for any host, packages";
     configuration = "configuration.md": "preferences, further keys, shell completion";
     glossary = "glossary.md": "symbols and words, with the names other papers use";
 }

@@ -209,3 +209,101 @@ fn a_forced_run_takes_the_old_run_s_files_away_and_no_others() {
         assert_eq!(dir.read(&format!("x/{name}")), "mine\n1\n");
     }
 }
+
+#[test]
+fn a_run_tells_how_it_was_made_and_its_tables_do_not_hang_on_it() {
+    let dir = dir();
+    let made = |epoch: &str, out: &str| {
+        let arguments = ["run", "hertz", "--cycles", "1", "--quiet", "--out", out];
+        let mut command = dir.command(&[&arguments[..], &["--set", "title=a b"]].concat());
+        let output = command.env("SOURCE_DATE_EPOCH", epoch).output();
+        assert!(output.expect("the program starts").status.success());
+        dir.read(&format!("{out}/provenance.toml"))
+    };
+    let text = made("951782400", "x");
+    let table: toml::Table = text.parse().expect("TOML");
+    let of = |key: &str| table[key].as_str().expect("a text").to_owned();
+    assert_eq!(of("date"), "2000-02-29T00:00:00Z");
+    assert_eq!(
+        of("command"),
+        "mdr-tui run hertz --cycles 1 --quiet --out x --set 'title=a b'"
+    );
+    assert!(of("version").starts_with(env!("CARGO_PKG_VERSION")));
+    assert!(of("arithmetic").contains(std::env::consts::ARCH));
+    // Later, elsewhere.
+    assert_ne!(made("1", "y"), text);
+    for name in names(&dir.path("x")) {
+        assert_eq!(
+            dir.read(&format!("x/{name}")),
+            dir.read(&format!("y/{name}"))
+        );
+    }
+    fs::remove_dir_all(dir.path("x")).expect("a directory");
+    assert_eq!(made("951782400", "x"), text);
+}
+
+/// Calls of the system by which files come to be as they are.
+const CALLS: [&str; 11] = [
+    "openat",
+    "write",
+    "pwrite64",
+    "fsync",
+    "rename",
+    "renameat",
+    "renameat2",
+    "unlink",
+    "flock",
+    "ftruncate",
+    "lseek",
+];
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_kill_at_every_system_call_of_a_study_resumes_to_the_same_bytes() {
+    let dir = dir();
+    let arguments = ["sweep", "s.toml", "--threads", "1", "--quiet", "--resume"];
+    dir.write("s.toml", STUDY.replace("2e-6, 12", "2e-6, 3").as_bytes());
+    let traced = std::process::Command::new("strace").arg("true").output();
+    if !traced.is_ok_and(|output| output.status.success()) {
+        eprintln!("not held here: there is no strace, or it may not trace");
+        return;
+    }
+    dir.done("sweep s.toml --quiet --out whole.csv");
+    let whole = dir.read("whole.csv");
+    let mut kills = 0;
+    for call in CALLS {
+        for count in 1.. {
+            let _ = fs::remove_file(dir.path("s.csv"));
+            let program = dir.command(&arguments);
+            let mut tracer = std::process::Command::new("strace");
+            tracer
+                .args([
+                    "-f",
+                    "-o",
+                    "/dev/null",
+                    "-e",
+                    &format!("trace={call}"),
+                    "-e",
+                ])
+                .arg(format!("inject={call}:signal=SIGKILL:when={count}"))
+                .arg(program.get_program())
+                .args(program.get_args())
+                .current_dir(dir.path(""))
+                .env("XDG_CONFIG_HOME", dir.path(""))
+                .stdin(Stdio::null());
+            // The tracer dies as its program does.
+            if tracer.status().expect("strace").success() {
+                break;
+            }
+            kills += 1;
+            dir.done(&arguments.join(" "));
+            assert!(dir.read("s.csv") == whole, "{call} {count}");
+            let left = names(&dir.path(""));
+            assert!(
+                left.iter().all(|name| !name.starts_with('.')),
+                "{call} {count}: {left:?}"
+            );
+        }
+    }
+    assert!(kills > 30, "{kills}");
+}

@@ -217,6 +217,12 @@ fn assert_whole(dir: &TestDir, out: &str) {
         let path = dir.path(out).join(&name);
         if name == "run.checkpoint" {
             checkpoint::read::<IgnoredAny>(&path).expect("a whole checkpoint");
+        } else if name == "provenance.toml" {
+            let text = dir.read(&format!("{out}/{name}"));
+            assert!(
+                text.contains("\narithmetic = \"") && text.ends_with("\"\n"),
+                "{text}"
+            );
         } else if !name.starts_with(".mdr-tui-") {
             assert!(
                 dir.read(&format!("{out}/{name}")) == dir.read(&format!("whole/{name}")),

@@ -731,6 +731,41 @@ fn bad_studies_are_refused_in_one_line() {
 }
 
 #[test]
+fn the_job_script_has_what_a_centre_asks_for() {
+    let dir = dir_with(STUDY);
+    let line = "sweep study.toml --shards 4 --slurm";
+    assert!(
+        dir.done(line)
+            .contains("\n#SBATCH --time=01:00:00\n#SBATCH --signal")
+    );
+    let script = dir.done(&format!(
+        "{line} --account a1 --partition long,short --time 2-12:00 --mem 2G --module gcc/13 --module x"
+    ));
+    for word in [
+        "#SBATCH --time=2-12:00\n#SBATCH --account=a1\n#SBATCH --partition=long,short\n#SBATCH --mem=2G\n",
+        "\nmodule load gcc/13\nmodule load x\nprogram= signals=0\n",
+    ] {
+        assert!(script.contains(word), "{word}\n{script}");
+    }
+    for word in ["a b", "a\nb", "$(x)", ""] {
+        let arguments = [
+            "sweep",
+            "study.toml",
+            "--shards",
+            "4",
+            "--slurm",
+            "--account",
+            word,
+        ];
+        assert!(
+            refusal(&dir, &arguments, 2).contains("without blanks"),
+            "{word}"
+        );
+    }
+    refusal(&dir, &["sweep", "study.toml", "--partition", "x"], 2);
+}
+
+#[test]
 fn the_job_script_is_a_script() {
     let dir = dir_with(STUDY);
     let script = dir.done("sweep study.toml --shards 16 --slurm --set friction.coefficient=0.2");

@@ -26,7 +26,7 @@ use values::{budget, cycles, interval};
 #[derive(Debug, Parser)]
 #[command(
     name = "mdr-tui",
-    version,
+    version = super::provenance::VERSION,
     args_conflicts_with_subcommands = true,
     subcommand_negates_reqs = true,
     disable_help_subcommand = true,

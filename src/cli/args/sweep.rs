@@ -2,10 +2,12 @@
 
 use std::path::PathBuf;
 
+use clap::builder::{StringValueParser, TypedValueParser};
 use clap::{ArgGroup, Args};
 
 use super::Changes;
 use super::values::{ColorChoice, MarkerChoice, ThemeChoice};
+use crate::scenario::printable;
 use crate::studies::sweep::Shard;
 use crate::tui::Size;
 
@@ -56,6 +58,21 @@ pub struct Sweep {
     /// Print a job script for Slurm, an array of --shards tasks.
     #[arg(long, requires = "shards", conflicts_with_all = ["resume", "force", "json", "merge"])]
     pub slurm: bool,
+    /// With --slurm, the account that pays.
+    #[arg(long, value_name = "NAME", requires = "slurm", value_parser = word())]
+    pub account: Option<String>,
+    /// With --slurm, the partition.
+    #[arg(long, value_name = "NAME", requires = "slurm", value_parser = word())]
+    pub partition: Option<String>,
+    /// With --slurm, the time limit of a task, as Slurm reads it.
+    #[arg(long, value_name = "TIME", requires = "slurm", default_value = "01:00:00", value_parser = word())]
+    pub time: String,
+    /// With --slurm, the memory of a task, as Slurm reads it.
+    #[arg(long, value_name = "SIZE", requires = "slurm", value_parser = word())]
+    pub mem: Option<String>,
+    /// With --slurm, a module to load (repeatable).
+    #[arg(long, value_name = "NAME", requires = "slurm", value_parser = word())]
+    pub module: Vec<String>,
     /// Print the scenario of this point as TOML, counted from 0 in the order of the rows.
     #[arg(long, value_name = "I", conflicts_with_all = ["slurm", "shard", "shards", "merge"])]
     pub point: Option<usize>,
@@ -94,4 +111,15 @@ pub struct Sweep {
     /// Print nothing but errors.
     #[arg(long)]
     pub quiet: bool,
+}
+
+/// A word that stands in a line of a job script as it is.
+fn word() -> impl TypedValueParser<Value = String> {
+    StringValueParser::new().try_map(|word| {
+        let is_plain = |c: char| !c.is_whitespace() && !"#'\"\\$`;&|<>()".contains(c);
+        match !word.is_empty() && printable(&word) == word && word.chars().all(is_plain) {
+            true => Ok(word),
+            false => Err("must be a word without blanks and quotes"),
+        }
+    })
 }

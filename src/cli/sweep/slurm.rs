@@ -35,6 +35,21 @@ pub fn script(study: &Path, options: &Sweep, points: usize) -> String {
         more.push_str(" --skip-invalid");
     }
     let last = shards - 1;
+    let mut wanted = format!("#SBATCH --time={}\n", options.time);
+    let more_wanted = [
+        ("account", &options.account),
+        ("partition", &options.partition),
+        ("mem", &options.mem),
+    ];
+    for (name, value) in more_wanted {
+        if let Some(value) = value {
+            wanted.push_str(&format!("#SBATCH --{name}={value}\n"));
+        }
+    }
+    let modules = options.module.iter();
+    let modules: String = modules
+        .map(|name| format!("module load {name}\n"))
+        .collect();
     format!(
         r#"#!/bin/bash
 # {points} points in {shards} shards. Submit with: sbatch FILE   (a throttle: sbatch --array=0-{last}%4 FILE)
@@ -43,13 +58,12 @@ pub fn script(study: &Path, options: &Sweep, points: usize) -> String {
 #SBATCH --array=0-{last}
 #SBATCH --ntasks=1
 #SBATCH --cpus-per-task=1
-#SBATCH --time=01:00:00
-#SBATCH --signal=B:TERM@60
+{wanted}#SBATCH --signal=B:TERM@60
 #SBATCH --requeue
 #SBATCH --open-mode=append
 #SBATCH --output=%x-%A_%a.log
 
-program= signals=0
+{modules}program= signals=0
 trap 'signals=$((signals + 1)); [ -z "$program" ] || kill -TERM "$program" 2>/dev/null' TERM
 mdr-tui sweep {study} --shards {shards} --resume --out {directory}/shard-"$SLURM_ARRAY_TASK_ID".csv \
     --threads "${{SLURM_CPUS_PER_TASK:-1}}" --quiet{more} &

@@ -114,12 +114,13 @@ pub fn end(mut child: Child) -> Said {
     child.wait_with_output().expect("an end").into()
 }
 
-/// Names in the directory, sorted.
+/// Names in the directory, sorted. The file that tells when and where a run was made is no result.
 pub fn names(directory: &Path) -> Vec<String> {
     let mut names: Vec<String> = fs::read_dir(directory)
         .expect("a directory")
         .map(|entry| entry.expect("an entry").file_name())
         .map(|name| name.to_string_lossy().into_owned())
+        .filter(|name| name != "provenance.toml")
         .collect();
     names.sort();
     names

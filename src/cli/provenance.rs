@@ -1,0 +1,99 @@
+//! How the files of a run were made: what their contents do not hang on, and what a reader may ask for.
+//!
+//! It stands in a file of its own. The tables of a run are the same to the byte whenever and wherever it is
+//! repeated on the same arithmetic, which their headers name; a date in them would end that.
+
+use std::fs;
+use std::path::Path;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use crate::export::file::shell_word;
+use crate::export::header;
+use crate::scenario::write::value;
+
+/// The name of the file.
+pub const FILE: &str = "provenance.toml";
+
+/// The version, with the commit where it is known.
+pub const VERSION: &str = env!("MDR_TUI_VERSION");
+
+/// What is known of this process and its machine.
+pub fn text() -> String {
+    let mut text =
+        "# mdr-tui: how the files beside this one were made; they do not depend on it\n".to_owned();
+    let known = [
+        ("version", VERSION.to_owned()),
+        ("command", command()),
+        ("date", date(now())),
+        (
+            "system",
+            format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
+        ),
+        ("processor", processor().unwrap_or_else(|| "unknown".into())),
+        ("arithmetic", header::arithmetic().to_owned()),
+    ];
+    for (key, known) in known {
+        text.push_str(&format!("{key} = {}\n", value(&known.into())));
+    }
+    text
+}
+
+/// The command line as a shell reads it back.
+fn command() -> String {
+    let words = std::env::args_os().skip(1);
+    let words = words.map(|word| shell_word(Path::new(&word)));
+    words.fold("mdr-tui".to_owned(), |line, word| line + " " + &word)
+}
+
+/// Seconds since 1970: those of `SOURCE_DATE_EPOCH`, as in reproducible builds, or those of the clock.
+fn now() -> u64 {
+    let given = std::env::var("SOURCE_DATE_EPOCH").ok();
+    given
+        .and_then(|given| given.parse().ok())
+        .unwrap_or_else(|| {
+            let since = SystemTime::now().duration_since(UNIX_EPOCH);
+            since.map_or(0, |since| since.as_secs())
+        })
+}
+
+/// A moment as ISO 8601 has it, in UTC. The days are counted from 1 March of the year 0, so that a leap
+/// day is the last of its year (H. Hinnant, "chrono-compatible low-level date algorithms").
+fn date(seconds: u64) -> String {
+    let (days, second) = (seconds / 86_400 + 719_468, seconds % 86_400);
+    let (era, day) = (days / 146_097, days % 146_097);
+    let year = (day - day / 1460 + day / 36_524 - day / 146_096) / 365;
+    let day = day - (365 * year + year / 4 - year / 100);
+    let month = (5 * day + 2) / 153;
+    let day = day - (153 * month + 2) / 5 + 1;
+    let (year, month) = match month {
+        0..=9 => (year + 400 * era, month + 3),
+        _ => (year + 400 * era + 1, month - 9),
+    };
+    let (hour, minute, second) = (second / 3600, second / 60 % 60, second % 60);
+    format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}Z")
+}
+
+/// The name of the processor, where the system tells it.
+fn processor() -> Option<String> {
+    let about = fs::read_to_string("/proc/cpuinfo").ok()?;
+    let line = about.lines().find(|line| line.starts_with("model name"))?;
+    Some(line.split_once(':')?.1.trim().to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dates_are_those_of_the_calendar() {
+        for (seconds, shown) in [
+            (0, "1970-01-01T00:00:00Z"),
+            (951_782_400, "2000-02-29T00:00:00Z"),
+            (1_709_251_199, "2024-02-29T23:59:59Z"),
+            (4_107_542_400, "2100-03-01T00:00:00Z"),
+            (1_795_391_999, "2026-11-22T23:59:59Z"),
+        ] {
+            assert_eq!(date(seconds), shown);
+        }
+    }
+}

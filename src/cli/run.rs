@@ -543,7 +543,7 @@ impl Job {
             };
             writeln!(out, "  estimated error         {value}   {words}")?;
         }
-        let checks = simulation.checks(&simulation.pressure());
+        let checks = simulation.checks();
         if let Some(verdict) = verdict(&checks) {
             let verdict = verdict.trim_start_matches("checks ");
             writeln!(out, "  checks                  {verdict}")?;

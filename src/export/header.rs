@@ -108,7 +108,7 @@ fn grid(setup: &Setup) -> &'static str {
 /// `ok`, or each check that fails with its size.
 fn checks(session: &Session) -> String {
     let simulation = session.simulation();
-    let checks = simulation.checks(&simulation.pressure());
+    let checks = simulation.checks();
     let failing: Vec<String> = checks
         .iter()
         .filter(|check| !check.holds())

@@ -42,10 +42,6 @@ pub struct State {
     /// Volume that was worn before the run, m³.
     #[serde(default)]
     pub initial_volume: f64,
-    /// What the wear at the contact's edge was changed by to make the worn volume that of the work, summed without
-    /// signs, m³.
-    #[serde(default)]
-    pub balanced_volume: f64,
     /// The smallest stick radius since the period of the motion began, m.
     pub smallest_stick_radius: f64,
     /// The smallest stick radius of the last complete period, m; none before there is one.
@@ -98,9 +94,6 @@ pub struct SteadyCycle {
     pub wear: Vec<f64>,
     /// Work of friction, J.
     pub friction_work: f64,
-    /// What was taken from the worn volume at the contact's edge to make it that of the work, m³.
-    #[serde(default)]
-    pub balanced: f64,
     /// The largest compression of a spring, m.
     #[serde(default)]
     pub elastic_depth: f64,
@@ -165,7 +158,6 @@ impl State {
             expected_volume: 0.0,
             unexplained_volume: 0.0,
             initial_volume: 0.0,
-            balanced_volume: 0.0,
             smallest_stick_radius: f64::INFINITY,
             settled_stick_radius: None,
             passed_hardness: None,
@@ -184,7 +176,6 @@ impl State {
         self.expected_volume = from.expected_volume;
         self.unexplained_volume = from.unexplained_volume;
         self.initial_volume = from.initial_volume;
-        self.balanced_volume = from.balanced_volume;
         self.smallest_stick_radius = from.smallest_stick_radius;
         self.settled_stick_radius = from.settled_stick_radius;
         self.passed_hardness = from.passed_hardness;

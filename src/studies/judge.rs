@@ -7,6 +7,7 @@ use super::random_scenarios::{self, Random};
 use super::refinement::{self, Difference, Level, Outcome, Verdict};
 use crate::scenario::Scenario;
 use crate::scenario::session::Session;
+use crate::simulation::Check;
 
 /// Ratio of the cells and steps of the fine run to those of the rung that it judges.
 const FINER: f64 = 3.0;
@@ -111,6 +112,22 @@ pub fn judge_estimate(seed: u64) -> Result<(Difference, Difference), String> {
     let estimate = estimate.map_err(|error| error.to_string())?;
     let fine = Outcome::of(&run(&level.scaled(FINER, FINER))?);
     Ok((estimate, Outcome::of(&session).against(&fine)))
+}
+
+/// Runs the scenario of a seed as it is: how far it is from a much finer run, and whether all its checks hold.
+///
+/// # Errors
+/// A reason, if one of the runs does not come to its end.
+pub fn judge_checks(seed: u64) -> Result<(Difference, bool), String> {
+    let scenario = random_scenarios::scenario(seed);
+    let cycles = scenario.run().cycles.unwrap_or(0.0);
+    let level = Level::of(&scenario);
+    let session = run_on(&scenario, &level, cycles)?;
+    let mut fine = level.scaled(FINER, FINER);
+    fine.tolerance = level.tolerance.map(|tolerance| tolerance / FINER_JUMPS);
+    let truth = Outcome::of(&session).against(&Outcome::of(&run_on(&scenario, &fine, cycles)?));
+    let checks = session.simulation().checks();
+    Ok((truth, checks.iter().all(Check::holds)))
 }
 
 /// A scenario on a level, at its end.

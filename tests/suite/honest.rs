@@ -1,7 +1,9 @@
 //! What the program says is right, or it says that it is not: scenes that were once wrong without a word.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_4, PI};
 
+use mdr_tui::oracle::dual_oscillation::{DualOscillation, Frequencies};
+use mdr_tui::oracle::partial_slip::stiffness_ratio;
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
 use mdr_tui::simulation::{Check, Subject, verdict};
@@ -27,7 +29,7 @@ fn run(name: &str, sets: &[&str], cycles: f64) -> Session {
 
 fn checks(session: &Session) -> Vec<Check> {
     let simulation = session.simulation();
-    simulation.checks(&simulation.pressure())
+    simulation.checks()
 }
 
 fn check(session: &Session, subject: Subject) -> f64 {
@@ -193,11 +195,24 @@ fn common_periods_of_many_cycles_are_found() {
     let session = run("li2019-fig3", &slow, 100.0);
     assert_eq!(session.simulation().setup().drive.repeats_after(), Some(50));
     assert_eq!(session.simulation().why_never_jumped(), None);
-    holds(
-        "c against theory",
-        check(&session, Subject::StickRadius).abs(),
-        0.02,
-    );
+    let motion = DualOscillation {
+        e_star: 1.0,
+        g_star: stiffness_ratio(0.3),
+        mu: 0.1,
+        depth: 1.0,
+        normal_amplitude: 0.1,
+        normal_phase: 0.0,
+        tangential_amplitude: 0.1,
+        tangential_phase: FRAC_PI_4,
+        frequencies: Frequencies::Rational {
+            tangential: 50,
+            normal: 1,
+        },
+    };
+    let simulation = session.simulation();
+    let c = simulation.state().permanent_stick_radius();
+    let due = motion.stick_radius(1.0) * 1e-4;
+    holds("c against theory", (c / due - 1.0).abs(), 0.02);
 }
 
 #[test]
@@ -374,20 +389,12 @@ fn gross_slip_under_a_held_load_wears_a_flat() {
     }
 }
 
-/// Next to the border of a long-worn stick zone p is singular, and its integral is off on any grid; at its limit
-/// a raw method loses the stick zone. Both are said, in words and with their size.
+/// At its limit a raw method loses the stick zone; that is said, in words and with its size.
 #[test]
 fn what_is_off_is_named_with_its_size() {
     let worn = run("limit-shape", &[], 60.0);
-    holds(
-        "stick radius",
-        check(&worn, Subject::StickRadius).abs(),
-        1e-2,
-    );
-    let told = says(&worn);
-    assert!(told.starts_with("force off by "), "{told}");
+    assert_eq!(says(&worn), "checks ok");
     let harsh = run("harsh-wear", &[], 10.0);
-    assert!(check(&harsh, Subject::StickRadius).abs() > 0.1);
     let told = says(&harsh);
     assert!(
         told.starts_with("stick radius off by ") && told.ends_with(" %"),
@@ -400,7 +407,6 @@ fn what_is_off_is_named_with_its_size() {
         check(&power, Subject::WearBalance).abs(),
         5e-3,
     );
-    holds("loop", check(&power, Subject::Loop).abs(), 5e-3);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 //! `cargo bench --bench judge`.
 
 use mdr_tui::scenario::Scenario;
-use mdr_tui::studies::judge::{judge, judge_estimate, quantile};
+use mdr_tui::studies::judge::{judge, judge_checks, judge_estimate, quantile};
 use mdr_tui::studies::refinement::{
     Difference, Ladder, Level, Next, Outcome, Verdict, run, run_to_accuracy,
 };
@@ -41,6 +41,29 @@ fn an_accuracy_is_kept_on_random_scenarios() {
         }
         assert!(met >= 1, "{met}");
     }
+}
+
+/// Over random scenarios: few runs that are right fail a check, and most that wear a wrong volume or do wrong work do.
+#[test]
+fn checks_tell_wrong_runs_from_right_ones() {
+    let (mut right, mut wrong) = ([0; 2], [0; 2]);
+    for seed in 430..460 {
+        let Ok((truth, passes)) = judge_checks(seed) else {
+            continue;
+        };
+        if truth.promised() == 0.0 {
+            continue;
+        }
+        if truth.promised() <= 1e-2 {
+            right[usize::from(passes)] += 1;
+        } else if truth.volume.max(truth.work) > 1e-2 {
+            wrong[usize::from(passes)] += 1;
+        }
+    }
+    let ([right_fail, right_pass], [wrong_fail, wrong_pass]) = (right, wrong);
+    assert!(right_pass >= 15, "{right:?} {wrong:?}");
+    assert!(wrong_fail >= 1 && wrong_pass <= wrong_fail, "{wrong:?}");
+    assert!(20 * right_fail <= right_pass, "{right:?}");
 }
 
 /// An estimate seldom understates by more than 3, whichever number it is of: in 5 of 100 at most in the long study.

@@ -923,10 +923,8 @@ fn the_accuracy_panel_waits_for_the_companion_and_shows_what_it_found() {
         "   100 cells, 100 steps per cycle, to cycle 3.00, in ",
     );
     for (meaning, largest) in [
-        ("V against k E_d over the last period", 5e-3),
-        ("F_z of the springs against", 5e-3),
-        ("permanent stick radius against theory", 5e-2),
         ("V of the profile against k E_d since the start", 5e-3),
+        ("permanent stick radius against theory", 5e-2),
         ("error of the worn depth", 1e-2),
         ("error of the worn volume", 1e-2),
         ("error of F_x", 1e-2),

@@ -130,7 +130,7 @@ pub(in super::super) fn jump(
             return Ok(Jumped::NotWorthIt);
         }
     };
-    *next = after_jump(model, state, &first, memory, jump);
+    *next = after_jump(model, state, memory, jump);
     Ok(match is_short {
         true => Jumped::Shortened,
         false => Jumped::Done,
@@ -310,13 +310,7 @@ fn error(
 }
 
 /// The state after a jump from `state`, with the springs of `memory`.
-fn after_jump(
-    model: &Model,
-    state: &State,
-    first: &SteadyCycle,
-    memory: State,
-    jump: Jump,
-) -> State {
+fn after_jump(model: &Model, state: &State, memory: State, jump: Jump) -> State {
     let Jump {
         covered,
         next,
@@ -324,12 +318,10 @@ fn after_jump(
     } = jump;
     // Rounding must not take work back where none is done any more.
     let friction_work = after.friction_work.max(0.0);
-    let balanced = 0.5 * (first.balanced.abs() + after.steady.balanced.abs());
     let mut end = State {
         cycle: state.cycle + covered,
         steps: state.steps + 1,
         dissipated_energy: state.dissipated_energy + friction_work,
-        balanced_volume: state.balanced_volume + covered * balanced,
         smallest_stick_radius: f64::INFINITY,
         settled_stick_radius: Some(after.steady.stick_radius),
         jump: JumpMemory {

@@ -210,14 +210,12 @@ fn plain_cycle(
     }
     increment.wear_by_load(model, &without_drop, p, (stuck, 1.0), 1.0);
     increment.nodes = stuck..model.nodes();
-    let balanced = match stuck {
-        0 => balance_edge(model, increment, memory.contact.normal.nodes),
-        _ => 0.0,
-    };
+    if stuck == 0 {
+        balance_edge(model, increment, memory.contact.normal.nodes);
+    }
     Ok(SteadyCycle {
         wear: increment.depth.iter().map(|worn| 2.0 * worn).collect(),
         friction_work: 2.0 * increment.friction_work,
-        balanced: 2.0 * balanced,
         elastic_depth: memory.contact.normal.strongest / material.normal_modulus(),
         stiffness: 2.0 * increment.stiffness(model, 1.0),
         stick_radius,
@@ -225,20 +223,19 @@ fn plain_cycle(
 }
 
 /// Makes the wear of an `increment` that of its friction work, at the last of the `nodes` that touch, where everything
-/// slips. Returns the volume that was taken, m³.
+/// slips.
 ///
 /// p falls to zero like a root within the cell of the edge, and p of the last node may be many times that of its
 /// cells, the nearer the edge is to it. A line from there to the next node would wear more than the load in the
 /// cells does work. Where a part sticks, the wear next to its border has an error of its own, which is none of the
 /// edge's.
-fn balance_edge(model: &Model, increment: &mut Increment, nodes: usize) -> f64 {
+fn balance_edge(model: &Model, increment: &mut Increment, nodes: usize) {
     let (Some(law), Some(last)) = (&model.setup.wear, nodes.checked_sub(1)) else {
-        return 0.0;
+        return;
     };
     let (worn, weight) = (increment.depth[last], model.volume_weights[last]);
     let excess = model.volume(&increment.depth) - law.coefficient() * increment.friction_work;
     increment.depth[last] = (worn - excess / weight).max(0.0);
-    (worn - increment.depth[last]) * weight
 }
 
 /// Brings the springs that slip in a steady-state cycle to where they stand at its end under a normal `load` (N/m):

@@ -200,7 +200,7 @@ fn one_run(
 fn sample(session: &Session, seconds: f64) -> Sample {
     let simulation = session.simulation();
     let moment = simulation.moment();
-    let mut failing = simulation.checks(&simulation.pressure());
+    let mut failing = simulation.checks();
     failing.retain(|check| !check.holds());
     Sample {
         outcome: Outcome::of(session),

@@ -183,7 +183,7 @@ mod tests {
         let mut unsound = trial(8, 0.01, 1e-6);
         if let Ok((sample, _)) = &mut unsound.outcome {
             sample.failing = vec![Check {
-                subject: Subject::Force,
+                subject: Subject::Energy,
                 error: 0.04,
             }];
         }
@@ -201,7 +201,7 @@ mod tests {
             .iter()
             .filter(|row| row[15] == Cell::Words("*".into()));
         assert_eq!(stars.count(), 3);
-        assert!(table.text().contains("broke") && table.text().contains("force off by 4.0 %"));
+        assert!(table.text().contains("broke") && table.text().contains("energy off by 4.0 %"));
         assert_eq!(table.rows()[0][13], Cell::Missing);
     }
 }

@@ -422,7 +422,7 @@ impl Worker {
         let checks = if observation.pressure.is_empty() {
             Vec::new()
         } else {
-            simulation.checks(&observation.pressure)
+            simulation.checks()
         };
         Frame {
             slip_border,

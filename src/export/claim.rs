@@ -132,6 +132,10 @@ impl Claim {
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
                     match own::open(path, false) {
                         Ok(file) => (file, false),
+                        // That of another user: locked all the same, and left where it is.
+                        Err(error) if error.kind() == io::ErrorKind::PermissionDenied => {
+                            (own::read(path)?, false)
+                        }
                         // The previous owner has removed it in the meantime.
                         Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
                         Err(error) => return Err(error),

@@ -58,7 +58,14 @@ impl Target {
         let claim = Claim::take_file(directory, &name.to_string_lossy());
         let claim = claim.map_err(|refusal| match refusal {
             Refusal::Taken(owner) => WriteError::BusyFile(path.to_owned(), owner),
-            Refusal::Io { path, cause } => WriteError::Io { path, cause },
+            Refusal::Io { path: lock, cause } => WriteError::Io {
+                // Where no lock can be made, no file can.
+                path: match lock.symlink_metadata() {
+                    Ok(_) => lock,
+                    Err(_) => path.to_owned(),
+                },
+                cause,
+            },
         })?;
         sweep_of(path);
         Ok(Self {

@@ -1,7 +1,7 @@
 //! Results that cannot be lost: one maker at a time for every file, and nothing replaced but files.
 
 use std::fs;
-use std::os::unix::fs::symlink;
+use std::os::unix::fs::{PermissionsExt, symlink};
 use std::process::Stdio;
 use std::thread;
 use std::time::Duration;
@@ -208,6 +208,51 @@ fn a_forced_run_takes_the_old_run_s_files_away_and_no_others() {
     for name in mine {
         assert_eq!(dir.read(&format!("x/{name}")), "mine\n1\n");
     }
+}
+
+#[test]
+fn a_folder_of_many_users_is_nobody_s_alone() {
+    let dir = dir();
+    let open = |name: &str, mode: u32| {
+        let mode = fs::Permissions::from_mode(mode);
+        fs::set_permissions(dir.path(name), mode).expect("its mode");
+    };
+    open("", 0o1777);
+    fs::create_dir(dir.path("closed")).expect("a directory");
+    open("closed", 0o755);
+    let program = dir.command(&[]).get_program().to_owned();
+    let as_nobody = |arguments: &[&str]| {
+        let mut command = std::process::Command::new("setpriv");
+        command.args(["--reuid=65534", "--regid=65534", "--clear-groups"]);
+        let command = command.arg(&program).args(arguments);
+        let output = command.current_dir(dir.path("")).output();
+        output.map(Said::from)
+    };
+    if !as_nobody(&["--version"]).is_ok_and(|said| said.code == 0) {
+        eprintln!("not held here: only root can be somebody else");
+        return;
+    }
+    let line = ["sweep", "a.toml", "--quiet", "--out"];
+    let say = |out: &str| as_nobody(&[&line[..], &[out]].concat()).expect("it starts");
+    // What another user's process has left behind, which only that user can remove.
+    dir.write(".mdr-tui-x.csv.lock", b"999999999 here\n");
+    let said = say("x.csv");
+    assert_eq!((said.code, &*said.err), (0, ""));
+    let held = fs::File::open(dir.path(".mdr-tui-x.csv.lock")).expect("the lock");
+    held.lock().expect("a lock");
+    let said = say("x.csv");
+    assert!(
+        said.code == 2 && said.err.contains("is writing this file"),
+        "{}",
+        said.err
+    );
+    let said = say("closed/x.csv");
+    assert!(
+        said.err
+            .contains(" closed/x.csv: cannot write: Permission denied"),
+        "{}",
+        said.err
+    );
 }
 
 #[test]

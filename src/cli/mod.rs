@@ -32,6 +32,7 @@ mod fit;
 mod guide;
 mod job;
 mod keeper;
+mod new;
 mod presets;
 mod progress;
 pub(crate) mod provenance;
@@ -99,6 +100,7 @@ fn dispatch(arguments: Arguments) -> anyhow::Result<ExitCode> {
     match arguments.command {
         None => explore::explore(&arguments.explore),
         Some(Command::Run(options)) => run::run(&options),
+        Some(Command::New(options)) => new::new(&options),
         Some(Command::Presets(options)) => presets::presets(&options),
         Some(Command::Verify(options)) => verify::verify(&options),
         Some(Command::Trade(options)) => trade::trade(&options),

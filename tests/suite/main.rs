@@ -38,6 +38,7 @@ mod lines;
 mod measured_shapes;
 #[cfg(unix)]
 mod mouse;
+mod new;
 mod oracles;
 #[cfg(unix)]
 mod outputs;

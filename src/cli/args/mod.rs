@@ -52,6 +52,8 @@ pub enum Command {
     Run(Run),
     /// List the presets, or print one as TOML.
     Presets(Presets),
+    /// Answer a few questions, and get a commented scenario of your own.
+    New(New),
     /// Compare every method with closed forms, for increasing N.
     Verify(Verify),
     /// Measure speed against accuracy of one scenario, for many settings.
@@ -233,6 +235,62 @@ pub struct Manual {
     /// Write each page to a file in this directory, as mdr-tui-run.1.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+}
+
+/// Options of `new`.
+#[derive(Debug, Args)]
+#[command(
+    long_about = "Answer a few questions, and get a commented scenario of your own.\n\n\
+        Each question tells what it means and has a default; what closed forms say of the answers \
+        (contact radius, Hertz pressure, stick or slip) stands below it. Options answer questions \
+        beforehand; without a terminal nothing is asked, and what is not given has its default.",
+    after_help = "Examples:\n  mdr-tui new\n  \
+        mdr-tui new pin.toml --ball '5 mm' --material steel --against 'titanium alloy' --load '10 N'\n  \
+        mdr-tui new punch.toml --punch '1 mm' --depth '1 um' --stroke '4 um' --wear none"
+)]
+pub struct New {
+    /// The file to write.
+    #[arg(default_value = "new.toml")]
+    pub file: String,
+    /// A ball of this radius.
+    #[arg(long, value_name = "RADIUS", conflicts_with = "punch")]
+    pub ball: Option<String>,
+    /// A flat punch of this radius.
+    #[arg(long, value_name = "RADIUS")]
+    pub punch: Option<String>,
+    /// The indenter's material: a name such as steel, bronze, alumina, rigid, or E,NU.
+    #[arg(long, value_name = "NAME|E,NU")]
+    pub material: Option<String>,
+    /// The flat body's material.
+    #[arg(long, value_name = "NAME|E,NU")]
+    pub against: Option<String>,
+    /// The load that is held.
+    #[arg(long, value_name = "FORCE", conflicts_with = "depth")]
+    pub load: Option<String>,
+    /// The depth that is held.
+    #[arg(long, value_name = "LENGTH")]
+    pub depth: Option<String>,
+    /// The stroke, from turning point to turning point.
+    #[arg(long, value_name = "LENGTH")]
+    pub stroke: Option<String>,
+    /// Cycles a second.
+    #[arg(long, value_name = "HZ")]
+    pub frequency: Option<String>,
+    /// The coefficient of friction.
+    #[arg(long, value_name = "MU")]
+    pub friction: Option<String>,
+    /// The wear coefficient of a pin test, per load and sliding distance, or none.
+    #[arg(long, value_name = "MM3/NM|none")]
+    pub wear: Option<String>,
+    /// The length of the test.
+    #[arg(long, value_name = "CYCLES")]
+    pub cycles: Option<String>,
+    /// Replace the file if it is there.
+    #[arg(long)]
+    pub force: bool,
+    /// Open the scenario in the explorer.
+    #[arg(long)]
+    pub open: bool,
 }
 
 /// Options of `presets`.

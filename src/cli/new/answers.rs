@@ -1,0 +1,297 @@
+//! What `mdr-tui new` has been told, and the commented scenario that it makes of it.
+
+use std::fmt::Write;
+
+use toml::Value;
+
+use crate::scenario::schema::{self, Kind};
+use crate::scenario::{Scenario, ScenarioError, units};
+
+/// A scenario with more cycles than this jumps over those that are alike.
+const JUMP_FROM: f64 = 1000.0;
+
+/// A material of the short list: name, Young's modulus, Poisson's ratio.
+pub const MATERIALS: &[(&str, &str, f64)] = &[
+    ("steel", "210 GPa", 0.3),
+    ("stainless steel", "193 GPa", 0.29),
+    ("titanium alloy", "114 GPa", 0.34),
+    ("aluminium alloy", "72 GPa", 0.33),
+    ("bronze", "110 GPa", 0.34),
+    ("alumina", "380 GPa", 0.22),
+    ("silicon nitride", "310 GPa", 0.27),
+    ("tungsten carbide", "630 GPa", 0.22),
+    ("glass", "70 GPa", 0.22),
+    ("PEEK", "3.8 GPa", 0.4),
+    ("UHMWPE", "0.8 GPa", 0.46),
+    (RIGID, "", 0.0),
+];
+
+/// The body that does not yield.
+const RIGID: &str = "rigid";
+
+/// One of the two bodies.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Body {
+    name: String,
+    /// Young's modulus with its unit, and Poisson's ratio; none if it is rigid.
+    elastic: Option<(String, f64)>,
+}
+
+impl Body {
+    /// Reads a name of the list, or `E,NU` such as `200 GPa,0.3`.
+    ///
+    /// # Errors
+    /// What would be right.
+    pub fn read(text: &str) -> Result<Self, String> {
+        let text = text.trim();
+        let known = MATERIALS
+            .iter()
+            .find(|(name, ..)| name.eq_ignore_ascii_case(text));
+        if let Some((name, modulus, poisson)) = known {
+            return Ok(Self {
+                name: (*name).to_owned(),
+                elastic: (*name != RIGID).then(|| ((*modulus).to_owned(), *poisson)),
+            });
+        }
+        let names: Vec<&str> = MATERIALS.iter().map(|(name, ..)| *name).collect();
+        let Some((modulus, poisson)) = text.split_once(',') else {
+            return Err(format!(
+                "must be one of {}, or E,NU such as \"200 GPa,0.3\"",
+                names.join(", ")
+            ));
+        };
+        let modulus = quantity(modulus, "material.indenter.youngs_modulus", "GPa", false)?;
+        let poisson = quantity(poisson, "material.indenter.poisson", "", false)?;
+        Ok(Self {
+            name: format!("E = {}", modulus.text),
+            elastic: Some((modulus.text, poisson.value)),
+        })
+    }
+}
+
+/// A number with its unit, as typed, and in SI.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Quantity {
+    /// As it stands in the scenario.
+    pub text: String,
+    /// In the unit of its key.
+    pub value: f64,
+}
+
+/// Reads a value of a key; a bare number is in `unit`.
+///
+/// # Errors
+/// The rule that it breaks.
+pub fn quantity(text: &str, key: &str, unit: &str, is_force: bool) -> Result<Quantity, String> {
+    let text = text.trim();
+    let known = schema::find(key).filter(|known| known.kind == Kind::Number);
+    let known = known.ok_or_else(|| format!("{key} is no number"))?;
+    let text = match text.parse::<f64>() {
+        Ok(_) => format!("{text} {unit}").trim_end().to_owned(),
+        Err(_) => text.to_owned(),
+    };
+    let value = match units::quantity(&text, known, is_force) {
+        Some(value) => value?,
+        None => text
+            .parse::<f64>()
+            .ok()
+            .filter(|value| value.is_finite())
+            .ok_or_else(|| match unit {
+                "" => "must be a number".to_owned(),
+                unit => format!("must be a number, in {unit} or with its unit"),
+            })?,
+    };
+    match known.range.holds(value) {
+        true => Ok(Quantity { text, value }),
+        false => Err(format!("must be {}", known.range)),
+    }
+}
+
+/// The shape of the indenter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Shape {
+    /// A ball, near its pole.
+    Ball,
+    /// A flat disc.
+    Punch,
+}
+
+/// What presses the bodies together.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Press {
+    /// A load that is held.
+    Load(Quantity),
+    /// A depth that is held.
+    Depth(Quantity),
+}
+
+/// All answers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Answers {
+    /// Ball or punch.
+    pub shape: Shape,
+    /// Its radius.
+    pub radius: Quantity,
+    /// The indenter's material.
+    pub indenter: Body,
+    /// The half-space's.
+    pub half_space: Body,
+    /// Load or depth.
+    pub press: Press,
+    /// From turning point to turning point.
+    pub stroke: Quantity,
+    /// Cycles a second.
+    pub frequency: Quantity,
+    /// The coefficient of friction.
+    pub friction: Quantity,
+    /// Archard's k of a pin test; none: no wear.
+    pub wear: Option<Quantity>,
+    /// The length of the test.
+    pub cycles: Quantity,
+}
+
+impl Answers {
+    /// The scenario of the answers.
+    ///
+    /// # Errors
+    /// Answers that make no contact together.
+    pub fn scenario(&self, origin: &str) -> Result<Scenario, ScenarioError> {
+        Scenario::from_toml(&self.to_toml(), origin, &[])
+    }
+
+    /// The scenario as a commented file.
+    pub fn to_toml(&self) -> String {
+        let mut text = String::new();
+        let quoted = |text: &str| Value::String(text.to_owned()).to_string();
+        let mut line = |key: &str, value: String, comment: &str| {
+            // A table opens on lines of its own.
+            let (table, key) = key
+                .rsplit_once('\n')
+                .map_or(("", key), |(table, key)| (table, key));
+            if !table.is_empty() {
+                let _ = writeln!(text, "{table}");
+            }
+            let entry = format!("{key} = {value}");
+            let _ = match comment {
+                "" => writeln!(text, "{entry}"),
+                comment => writeln!(text, "{entry:38} # {comment}"),
+            };
+        };
+        let (shape, name) = match self.shape {
+            Shape::Ball => ("paraboloid", "Ball"),
+            Shape::Punch => ("flat-punch", "Flat punch"),
+        };
+        let pressed = match &self.press {
+            Press::Load(load) => &load.text,
+            Press::Depth(depth) => &depth.text,
+        };
+        let title = format!(
+            "{name} of {} on {}, {pressed}, stroke {}",
+            self.indenter.name, self.half_space.name, self.stroke.text
+        );
+        line("title", quoted(&title), "");
+        line(
+            "\n[indenter]\nshape",
+            quoted(shape),
+            "mdr-tui guide scenarios lists all shapes and keys",
+        );
+        let meaning = match self.shape {
+            Shape::Ball => "of the ball",
+            Shape::Punch => "of the flat face",
+        };
+        line("radius", quoted(&self.radius.text), meaning);
+        for (section, body) in [
+            ("indenter", &self.indenter),
+            ("half_space", &self.half_space),
+        ] {
+            match &body.elastic {
+                None => line(&format!("\n[material.{section}]\nrigid"), "true".into(), ""),
+                Some((modulus, poisson)) => {
+                    let first = format!("\n[material.{section}]\nyoungs_modulus");
+                    line(&first, quoted(modulus), &body.name);
+                    line("poisson", poisson.to_string(), "");
+                }
+            }
+        }
+        line("\n[friction]\ncoefficient", self.friction.text.clone(), "");
+        match &self.press {
+            Press::Load(load) => {
+                let meaning = "the load is held: the contact sinks in as it wears";
+                line("\n[motion.normal]\ncontrol", quoted("force"), meaning);
+                line("mean", quoted(&load.text), "");
+            }
+            Press::Depth(depth) => {
+                let meaning = "the depth is held: wear unloads the contact";
+                line(
+                    "\n[motion.normal]\ncontrol",
+                    quoted("displacement"),
+                    meaning,
+                );
+                line("mean", quoted(&depth.text), "");
+            }
+        }
+        let amplitude = self.stroke.value / 2.0;
+        let meaning = format!("m: half the stroke of {}", self.stroke.text);
+        line(
+            "\n[motion.tangential]\namplitude",
+            format!("{amplitude:e}"),
+            &meaning,
+        );
+        line(
+            "frequency",
+            quoted(&self.frequency.text),
+            "one period is a cycle",
+        );
+        if let Some(wear) = &self.wear {
+            let meaning = "of a pin test: per load and sliding distance";
+            line(
+                "\n[wear]\ncoefficient_per_load",
+                quoted(&wear.text),
+                meaning,
+            );
+        }
+        if self.cycles.value > JUMP_FROM && self.wear.is_some() {
+            let meaning = "jumps over cycles that are alike; \"direct\": every step";
+            line("\n[numerics]\nintegrator", quoted("cycle-jump"), meaning);
+        }
+        line("\n[run]\ncycles", format!("{:?}", self.cycles.value), "");
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn materials_are_names_or_two_numbers() {
+        for (name, ..) in MATERIALS {
+            assert_eq!(Body::read(name).expect("a material").name, *name);
+        }
+        let body = Body::read(" 200 GPa , 0.28").expect("two numbers");
+        assert_eq!(body.elastic, Some(("200 GPa".into(), 0.28)));
+        assert_eq!(
+            Body::read("70,0.2").expect("in GPa").elastic,
+            Some(("70 GPa".into(), 0.2))
+        );
+        for text in ["stone", "200 GPa", "200 GPa,0.7", "200 mm,0.3", "-1,0.3"] {
+            assert!(Body::read(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn quantities_are_in_the_unit_that_is_asked_for_unless_they_say() {
+        let of = |text: &str| quantity(text, "indenter.radius", "mm", false);
+        assert_eq!(of("10").expect("a length").value, 0.01);
+        assert_eq!(of("200 um").expect("a length").value, 2e-4);
+        for (text, rule) in [
+            ("0", "greater than 0"),
+            ("ten", "in mm"),
+            ("1 N", "compatible"),
+            ("0,3", "point"),
+        ] {
+            let told = of(text).expect_err(text);
+            assert!(told.contains(rule), "{text}: {told}");
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! What closed forms say of a scenario before it is run: size and pressure of the unworn contact, and
+//! whether it will stick in the middle or slip as a whole.
+
+use crate::contact::indenter::Indenter;
+use crate::plot::units::format_value_in;
+use crate::scenario::{Pressed, Scenario};
+use crate::simulation::drive::Control;
+
+/// Seconds of a day.
+const DAY: f64 = 86_400.0;
+
+/// The closed forms of a scenario.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Forecast {
+    pressed: Pressed,
+    is_ball: bool,
+    /// The amplitude from which the whole contact slips, m.
+    threshold: f64,
+    amplitude: f64,
+    /// Hz.
+    frequency: f64,
+}
+
+impl Forecast {
+    /// What is known of a scenario; `None` where its bodies never touch or nothing is moved by a displacement.
+    pub fn of(scenario: &Scenario) -> Option<Self> {
+        let setup = scenario.setup();
+        let Some(Control::Displacement(shift)) = setup.drive.tangential() else {
+            return None;
+        };
+        let pressed = Pressed::of(&setup.indenter, &setup.material, &setup.drive)?;
+        Some(Self {
+            is_ball: matches!(setup.indenter, Indenter::Paraboloid { .. }),
+            // By Ciavarella and Jäger: u_t = (μ E*/G*) d, whatever the shape.
+            threshold: pressed.depth / setup.material.stick_ratio(),
+            amplitude: shift.amplitude(),
+            frequency: shift.angular_frequency() / std::f64::consts::TAU,
+            pressed,
+        })
+    }
+
+    /// Size and pressure of the unworn contact.
+    pub fn contact(&self) -> String {
+        let value = |value: f64, unit: &str| format_value_in(value, unit, 3, false);
+        let pressure = match self.is_ball {
+            // Hertz: p0 = 3/2 of the mean.
+            true => format!(
+                "Hertz pressure {} at its centre",
+                value(1.5 * self.pressed.mean_pressure(), "Pa")
+            ),
+            false => format!(
+                "mean pressure {}",
+                value(self.pressed.mean_pressure(), "Pa")
+            ),
+        };
+        format!(
+            "contact radius {}, depth {}, load {}, {pressure}",
+            value(self.pressed.radius, "m"),
+            value(self.pressed.depth, "m"),
+            value(self.pressed.force, "N"),
+        )
+    }
+
+    /// The regime that the unworn contact is in.
+    pub fn regime(&self) -> String {
+        let threshold = format_value_in(self.threshold, "m", 3, false);
+        let share = self.amplitude / self.threshold;
+        if share >= 1.0 {
+            return format!("gross slip: the amplitude is beyond {threshold}, where all slips");
+        }
+        // c² = a² (1 − U/u_t) of Cattaneo and Mindlin's sphere; a punch slips nowhere or everywhere.
+        match self.is_ball {
+            true => format!(
+                "partial slip: a ring outside {:.0} % of the contact radius; all slips from an amplitude of {threshold}",
+                100.0 * (1.0 - share).sqrt()
+            ),
+            false => format!("stick, but for the rim; all slips from an amplitude of {threshold}"),
+        }
+    }
+
+    /// How many cycles of the test a day takes.
+    pub fn a_day(&self) -> String {
+        format!(
+            "a day on the rig is {} cycles at {} Hz",
+            plain(self.frequency * DAY),
+            plain(self.frequency)
+        )
+    }
+}
+
+/// A number in a few digits.
+fn plain(value: f64) -> String {
+    let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
+    match rounded {
+        large if large >= 1e7 => format!("{large:e}"),
+        usual => usual.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::Scenario;
+
+    fn forecast(sets: &[&str]) -> Forecast {
+        let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+        let scenario = Scenario::load("li2019-fig3", &sets).expect("a scenario");
+        Forecast::of(&scenario).expect("a contact")
+    }
+
+    #[test]
+    fn the_contact_is_that_of_hertz() {
+        let found = forecast(&["motion.normal.amplitude=0"]);
+        // a = √(R d), F = 4/3 E* √R d^1.5, p0 = 2 E* √(d/R)/π.
+        assert!((found.pressed.radius / 1e-4 - 1.0).abs() < 1e-3);
+        let peak = 2.0 * 2.3077e11 * 1e-2 / std::f64::consts::PI;
+        let found = 1.5 * found.pressed.mean_pressure();
+        assert!((found / peak - 1.0).abs() < 2e-3, "{found}");
+    }
+
+    #[test]
+    fn the_regime_turns_where_the_whole_contact_slips() {
+        let found = forecast(&["motion.normal.amplitude=0"]);
+        let more = |factor: f64| {
+            let amplitude = format!("motion.tangential.amplitude={}", factor * found.threshold);
+            forecast(&["motion.normal.amplitude=0", &amplitude]).regime()
+        };
+        assert!(
+            more(0.99).starts_with("partial slip: a ring outside 10 %"),
+            "{}",
+            more(0.99)
+        );
+        assert!(more(1.01).starts_with("gross slip"));
+    }
+}

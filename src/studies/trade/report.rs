@@ -185,6 +185,7 @@ mod tests {
             sample.failing = vec![Check {
                 subject: Subject::Energy,
                 error: 0.04,
+                limit: 0.01,
             }];
         }
         trials.push(unsound);

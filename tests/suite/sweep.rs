@@ -449,6 +449,35 @@ fn whatever_a_text_holds_its_table_reads_back_and_stays_on_its_line() {
     );
 }
 
+#[test]
+fn a_table_names_the_arithmetic_of_all_machines_that_have_run_its_points() {
+    let dir = dir_with(STUDY);
+    for shard in 0..2 {
+        dir.done(&format!("sweep study.toml --shard {shard}/2"));
+    }
+    let path = "study.shards/shard-1.csv";
+    let (text, line) = (dir.read(path), "# arithmetic: ");
+    let here = text
+        .lines()
+        .find(|text| text.starts_with(line))
+        .expect("the line");
+    assert_eq!(
+        dir.done("sweep --merge study.shards").matches(here).count(),
+        1
+    );
+    // The same digits, as it happens.
+    dir.write(path, text.replace(here, "# arithmetic: abacus").as_bytes());
+    let both = format!("# arithmetic: abacus; {}\n", &here[line.len()..]);
+    let merged = dir.done("sweep --merge study.shards");
+    assert!(merged.contains(&both), "{merged}");
+    dir.done(&format!(
+        "sweep study.toml --shard 1/2 --out {path} --resume --quiet"
+    ));
+    assert!(dir.read(path).contains(&both));
+    dir.write("m.csv", merged.as_bytes());
+    dir.done("sweep --view m.csv --print 80x24");
+}
+
 /// A study of many points that take no time.
 fn many(points: usize) -> String {
     format!(

@@ -14,7 +14,7 @@ use super::super::{Misuse, complain};
 use crate::export::target::Target;
 use crate::scenario::printable;
 use crate::studies::sweep::ledger::Ledger;
-use crate::studies::sweep::record::{self, Record, Refused};
+use crate::studies::sweep::record::{self, Arithmetic, Record, Refused};
 use crate::studies::sweep::{Shard, Study};
 
 /// Maximum number of points named in a message.
@@ -29,6 +29,7 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
         .map(|out| Target::claim(out, options.force))
         .transpose()?;
     let files = tables(directory).map_err(|error| Misuse(format!("{shown}: {error}")))?;
+    let mut arithmetic = Arithmetic::new();
     let mut merged: Option<(Study, PathBuf, Ledger)> = None;
     let (mut doubles, mut contradictions, mut count) = (Vec::new(), Vec::new(), 1);
     for file in files {
@@ -39,6 +40,7 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
             .map_err(|error| Misuse(format!("{}: cannot be read: {error}", file.display())))?;
         let record = Record::open(source, &file.display().to_string())?;
         count = count.max(record.shard.count);
+        arithmetic.extend(record.arithmetic.iter().cloned());
         let (study, ledger) = match &mut merged {
             Some((study, first, ledger)) => {
                 record.expect(study, &first.display().to_string())?;
@@ -93,7 +95,7 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
     }
     refuse_missing(&shown, &study, &rows, count)?;
     let text = |out: &mut dyn Write| {
-        out.write_all(record::head(&study, Shard::WHOLE).as_bytes())?;
+        out.write_all(record::head(&study, Shard::WHOLE, &arithmetic).as_bytes())?;
         rows.each(|line| out.write_all(line))
     };
     match &target {

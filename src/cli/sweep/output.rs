@@ -11,10 +11,10 @@ use anyhow::{Result, anyhow};
 use super::super::Misuse;
 use super::super::args::Sweep;
 use crate::export::file::{WriteError, write_with};
-use crate::export::own;
 use crate::export::target::Target;
+use crate::export::{header, own};
 use crate::studies::sweep::ledger::{Done, Ledger};
-use crate::studies::sweep::record::{self, Record};
+use crate::studies::sweep::record::{self, Arithmetic, Record};
 use crate::studies::sweep::{OK, Shard, Study};
 
 /// How often rows are flushed to disk. A killed process loses none, since the system has them
@@ -25,7 +25,8 @@ const FLUSH_INTERVAL: Duration = Duration::from_secs(5);
 pub struct Output<'a> {
     target: Target,
     study: &'a Study,
-    head: String,
+    shard: Shard,
+    arithmetic: Arithmetic,
     /// The table that is continued.
     earlier: Option<Record>,
     without_failed: bool,
@@ -41,7 +42,8 @@ impl<'a> Output<'a> {
         let mut output = Self {
             target: Target::hold_in_new_directory(path)?,
             study,
-            head: record::head(study, shard),
+            shard,
+            arithmetic: [header::arithmetic().to_owned()].into(),
             earlier: None,
             without_failed: options.failed,
             ledger: None,
@@ -71,6 +73,7 @@ impl<'a> Output<'a> {
             let (theirs, ours) = (record.shard, shard);
             return refuse(&format!("holds shard {theirs}, not {ours}"));
         }
+        output.arithmetic.extend(record.arithmetic.iter().cloned());
         output.earlier = Some(record);
         Ok(output)
     }
@@ -84,10 +87,11 @@ impl<'a> Output<'a> {
             Some(record) => Some(record.rows(study)?),
             None => None,
         };
+        let head = self.head();
         let mut ledger = None;
         let mut refused = None;
         write_with(path, |file| {
-            file.write_all(self.head.as_bytes())?;
+            file.write_all(head.as_bytes())?;
             let mut new = Ledger::new(study, file.try_clone()?, directory)?;
             for row in rows.iter_mut().flatten() {
                 let row = match row {
@@ -115,6 +119,10 @@ impl<'a> Output<'a> {
         .map_err(|error| refused.take().unwrap_or_else(|| error.into()))?;
         self.ledger = ledger;
         Ok(())
+    }
+
+    fn head(&self) -> String {
+        record::head(self.study, self.shard, &self.arithmetic)
     }
 
     /// The points that have rows.
@@ -147,9 +155,10 @@ impl<'a> Output<'a> {
         let Some(ledger) = self.ledger.as_ref().filter(|_| self.is_whole) else {
             return Ok(());
         };
+        let head = self.head();
         let sorted = |file: &mut File| {
             let mut out = BufWriter::new(file);
-            out.write_all(self.head.as_bytes())?;
+            out.write_all(head.as_bytes())?;
             ledger.each(|line| out.write_all(line))?;
             out.flush()
         };

@@ -168,7 +168,8 @@ impl Ledger {
     pub fn row(&self, point: usize) -> io::Result<Vec<String>> {
         let mut at = [0; 8];
         self.index.read_exact_at(&mut at, 8 * point as u64)?;
-        Ok(record::split(&self.line_at(u64::from_le_bytes(at))?))
+        let line = self.line_at(u64::from_le_bytes(at))?;
+        Ok(record::split(&String::from_utf8_lossy(&line)))
     }
 
     fn line_at(&self, mut at: u64) -> io::Result<Vec<u8>> {

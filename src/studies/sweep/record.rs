@@ -5,6 +5,7 @@
 //! # mdr-tui: 0.1.0
 //! # study: base = "li2019-fig3"          the study, line by line
 //! # base: [indenter]                     the base scenario, line by line
+//! # arithmetic: x86_64, fused multiply-add    of each machine that has run points
 //! # shard: 3/16                          only in a part of a study
 //! motion.normal.mean,wear_volume_m3,status
 //! 5e-7,1.2e-18,ok
@@ -16,6 +17,7 @@
 //! What a spreadsheet does to a table is undone: columns are read by name, numbers in any form, lines
 //! with any end, and a byte order mark is skipped.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::io::{self, BufRead, BufReader, Read};
 
@@ -27,9 +29,16 @@ use crate::scenario::printable;
 /// The longest line and the longest header that are read, in bytes.
 const LONGEST: u64 = 1 << 26;
 
+/// What the last digits of rows hang on: the arithmetic of each machine that has run some of them.
+pub type Arithmetic = BTreeSet<String>;
+
 /// Returns the lines above the rows: the header and the names of the columns.
-pub fn head(study: &Study, shard: Shard) -> String {
+pub fn head(study: &Study, shard: Shard, arithmetic: &Arithmetic) -> String {
     let mut text = lines(study);
+    if !arithmetic.is_empty() {
+        let known: Vec<&str> = arithmetic.iter().map(String::as_str).collect();
+        let _ = writeln!(text, "# arithmetic: {}", known.join("; "));
+    }
     if shard != Shard::WHOLE {
         let _ = writeln!(text, "# shard: {shard}");
     }
@@ -37,7 +46,7 @@ pub fn head(study: &Study, shard: Shard) -> String {
     text
 }
 
-/// The header without the shard: equal for equal studies on equal bases.
+/// The header without arithmetic and shard: equal for equal studies on equal bases.
 fn lines(study: &Study) -> String {
     let mut text = format!("# mdr-tui: {}\n", env!("CARGO_PKG_VERSION"));
     // Whatever a text holds, it stands on one line in TOML's own escapes.
@@ -51,8 +60,22 @@ fn lines(study: &Study) -> String {
     text
 }
 
+/// Characters for which a field is put in quotes, beside the comma, or may be.
+const RARE: [char; 5] = ['"', '#', ';', '\n', '\r'];
+
 /// Returns one line of a CSV file, with its end.
-pub fn line<T: AsRef<[u8]>>(fields: impl IntoIterator<Item = T>) -> String {
+pub fn line<T: AsRef<str>>(fields: impl IntoIterator<Item = T>) -> String {
+    let fields: Vec<T> = fields.into_iter().collect();
+    // A writer costs more than most rows.
+    if fields.len() > 1
+        && fields
+            .iter()
+            .all(|field| !field.as_ref().contains(RARE) && !field.as_ref().contains(','))
+    {
+        let fields: Vec<&str> = fields.iter().map(T::as_ref).collect();
+        return fields.join(",") + "\n";
+    }
+    let fields = fields.iter().map(T::as_ref);
     let mut writer = csv::WriterBuilder::new()
         .comment(Some(b'#'))
         .from_writer(Vec::new());
@@ -63,9 +86,13 @@ pub fn line<T: AsRef<[u8]>>(fields: impl IntoIterator<Item = T>) -> String {
 }
 
 /// The fields of one line of a CSV file.
-pub(super) fn split(line: &[u8]) -> Vec<String> {
+pub(super) fn split(line: &str) -> Vec<String> {
+    let line = line.trim_end_matches(['\n', '\r']);
+    if !line.contains(RARE) {
+        return line.split(',').map(str::to_owned).collect();
+    }
     let mut reader = csv::ReaderBuilder::new();
-    let mut reader = reader.has_headers(false).from_reader(line);
+    let mut reader = reader.has_headers(false).from_reader(line.as_bytes());
     let mut row = csv::StringRecord::new();
     // Memory does not fail to be read.
     let _ = reader.read_record(&mut row);
@@ -101,8 +128,10 @@ pub fn json<'a>(columns: &[&str], fields: impl IntoIterator<Item = &'a String>) 
 pub struct Record {
     /// What messages call it.
     name: String,
-    /// The header without the shard.
+    /// The header without arithmetic and shard.
     header: String,
+    /// The arithmetic of its rows.
+    pub arithmetic: Arithmetic,
     /// The part of the study that it holds.
     pub shard: Shard,
     /// The names of the columns, as they stand.
@@ -122,6 +151,7 @@ impl Record {
         let unread = |error: io::Error| refuse(&format!("cannot be read: {error}"));
         let mut lines = Lines(Box::new(BufReader::new(source)));
         let (mut header, mut shard) = (String::new(), Shard::WHOLE);
+        let mut arithmetic = Arithmetic::new();
         let columns = loop {
             let line = lines.next().map_err(unread)?.unwrap_or_default();
             let line = match header.is_empty() {
@@ -135,14 +165,15 @@ impl Record {
                 ));
             }
             if !line.starts_with('#') {
-                break split(line.as_bytes());
+                break split(line);
             }
-            match line.strip_prefix("# shard: ") {
-                Some(given) => shard = given.parse().map_err(|why: String| refuse(&why))?,
-                None => {
-                    header.push_str(line);
-                    header.push('\n');
-                }
+            if let Some(given) = line.strip_prefix("# shard: ") {
+                shard = given.parse().map_err(|why: String| refuse(&why))?;
+            } else if let Some(given) = line.strip_prefix("# arithmetic: ") {
+                arithmetic.extend(given.split("; ").map(printable));
+            } else {
+                header.push_str(line);
+                header.push('\n');
             }
             if header.len() as u64 > LONGEST {
                 return Err(refuse("its header is too long"));
@@ -155,6 +186,7 @@ impl Record {
         }
         Ok(Self {
             header,
+            arithmetic,
             shard,
             columns,
             lines,
@@ -262,7 +294,7 @@ impl Iterator for Given {
             if line.trim_end().is_empty() || line.starts_with('#') {
                 continue;
             }
-            let mut row = split(line.as_bytes());
+            let mut row = split(&line);
             if row.len() != self.order.len() {
                 return Some(Ok(row));
             }

@@ -130,8 +130,8 @@ fn places(axis: &sweep::Axis) -> Vec<f64> {
         .collect()
 }
 
-/// An axis of a study on paper.
-fn paper_axis(slice: &Slice, axis: &sweep::Axis) -> Axis {
+/// An axis of a study in words, with its unit.
+pub fn paper_axis(slice: &Slice, axis: &sweep::Axis) -> Axis {
     let unit = slice.study.unit(axis);
     let words = WORDS.iter().find(|(key, _)| *key == axis.key);
     let mut label = match (words, unit) {
@@ -165,8 +165,8 @@ fn unit_of(column: &str) -> &'static str {
     found.map_or("", |(_, unit)| unit)
 }
 
-/// A column of a study on paper, logarithmic where its `values` span decades.
-fn quantity(column: &str, values: &[f64]) -> Axis {
+/// A column of a study in words, with its unit; logarithmic where its `values` span decades.
+pub fn quantity(column: &str, values: &[f64]) -> Axis {
     let label = scalars::find(column).map_or(column, |scalar| scalar.meaning);
     let shown = values.iter().copied().filter(|value| value.is_finite());
     let [low, high] = shown.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| {

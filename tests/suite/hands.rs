@@ -156,6 +156,11 @@ fn the_palette_completes_keys_and_their_values() {
         let text = shot(&format!(",:{typed}<Enter>"));
         assert!(foot(&text).contains(refusal), "{typed}: {}", foot(&text));
     }
+    // A key is found for a sweep as well, and a range may be written as it comes.
+    let text = shot(",:friction");
+    assert!(text.contains("sweep friction.coefficient"), "{text}");
+    let text = shot(",:sweep friction 0.1 to 0.5");
+    assert!(text.contains("runs 25 values on all cores"), "{text}");
     let text = shot(",:load her<Enter>");
     assert!(text.contains("cycle 0.00/2.5"), "{text}");
     assert_snapshot!("palette-80x24", shot(",:we"));

@@ -930,7 +930,7 @@ fn the_map_shows_two_axes_and_reads_points() {
     assert!((shown / volume - 1.0).abs() < 1e-3, "{read}");
     // The axes change places.
     let text = screen(&dir, "map.csv", "x").join("\n");
-    assert!(text.contains("motion.normal.mean\n"), "{text}");
+    assert!(text.contains("mean depth d [µm]\n"), "{text}");
     // Enter opens the point in the explorer.
     let text = screen(&dir, "map.csv", "l<Enter>").join("\n");
     assert!(text.contains("cycle 0.00/"), "{text}");
@@ -970,7 +970,10 @@ fn one_axis_is_a_curve() {
         text.contains("point 2 (motion.normal.mean = 3e-7)"),
         "{text}"
     );
-    assert!(lines[2].contains("F_z_N"), "{text}");
+    assert!(
+        lines[2].contains("[N]") && text.contains("mean depth d [µm]"),
+        "{text}"
+    );
 }
 
 /// The border between partial and gross slip on a line of amplitudes: halfway between the last point

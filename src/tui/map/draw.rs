@@ -19,8 +19,8 @@ use ratatui::widgets::Widget;
 
 use super::ramp::{self, Shade};
 use super::view::View;
-use crate::plot::units::format_number;
-use crate::plot::{Axis, Curve, Plot, Scale};
+use crate::plot::units::{axis_unit, format_number, format_value_in};
+use crate::plot::{Axis, Curve, Plot, Point, Scale};
 use crate::studies::sweep::Spread;
 use crate::studies::sweep::slice::{Line, REGIMES};
 use crate::tui::theme::{Role, Theme};
@@ -76,10 +76,12 @@ pub fn draw(view: &View, theme: &Theme, area: Rect, buffer: &mut Buffer) {
         Some(_) => map(view, theme, range, &overlays, body, buffer),
         None => curve(view, theme, body, buffer),
     }
-    let names: Vec<String> = overlays
-        .iter()
-        .map(|overlay| format!("{} {}", overlay.letter, overlay.name))
-        .collect();
+    let names = overlays.iter();
+    let names = names.map(|overlay| format!("{} {}", overlay.letter, overlay.name));
+    let here = view
+        .here()
+        .map(|_| format!("{} you are here", here_sign(theme)));
+    let names: Vec<String> = names.chain(here).collect();
     let quiet = theme.style(Role::Quiet);
     line(
         buffer,
@@ -140,12 +142,20 @@ fn legend(view: &View, theme: &Theme, range: Option<[f64; 2]>, area: Rect, buffe
         buffer.set_string(x, y, &text, style);
         x += text.chars().count() as u16;
     };
-    write(view.column(), theme.style(Role::Focus));
+    let quantity = view.quantity();
+    let name = match view.is_regime() {
+        true => view.column().to_owned(),
+        false => quantity.label.clone(),
+    };
+    write(&name, theme.style(Role::Focus));
     if view.is_regime() {
         for (at, (_, title)) in REGIMES.iter().enumerate() {
             let (sign, style) = swatch(Shade::Word(at), theme);
             write("  ", Style::new());
             write(&sign.to_string(), style);
+            if sign == '█' {
+                write(&Shade::Word(at).sign().to_string(), Style::new());
+            }
             write(&format!(" {title}"), Style::new());
         }
         return;
@@ -153,13 +163,14 @@ fn legend(view: &View, theme: &Theme, range: Option<[f64; 2]>, area: Rect, buffe
     let Some([low, high]) = range else {
         return;
     };
-    write(&format!("  {} ", format_number(low, DIGITS)), Style::new());
+    let value = |value: f64| format_value_in(value, quantity.unit, 3, theme.ascii());
+    write(&format!("  {} ", value(low)), Style::new());
     for shade in ramp::all() {
         let (sign, style) = swatch(shade, theme);
         write(&sign.to_string(), style);
     }
-    write(&format!(" {}", format_number(high, DIGITS)), Style::new());
-    if view.logarithmic {
+    write(&format!(" {}", value(high)), Style::new());
+    if view.is_log() {
         write("  log", theme.style(Role::Quiet));
     }
     for axis in view.hidden() {
@@ -194,15 +205,11 @@ fn map(
     let (Some(y_axis), x_axis) = (view.y(), view.x()) else {
         return;
     };
-    let label = |axis: &crate::studies::sweep::Axis, at: usize| short(&axis.text(at));
     let (last_x, last_y) = (x_axis.count() - 1, y_axis.count() - 1);
-    let ends = [label(y_axis, last_y), label(y_axis, 0)];
-    let margin = ends
-        .iter()
-        .map(|end| end.chars().count())
-        .max()
-        .unwrap_or(0) as u16
-        + 1;
+    let (y_title, y_labels) = labels(view, y_axis, theme);
+    let (x_title, x_labels) = labels(view, x_axis, theme);
+    let width = |text: &String| text.chars().count() as u16;
+    let margin = y_labels.iter().map(width).max().unwrap_or(0) + 1;
     let plot = Rect::new(
         area.x + margin,
         area.y + 1,
@@ -219,9 +226,10 @@ fn map(
     let rows = high.used.div_ceil(parts);
     // The map stands on its lower edge.
     let floor = plot.y + plot.height;
+    let is_log = view.is_log();
     let shade = |column: usize, half: usize| {
         let (x, y) = (wide.place(column), high.place(half));
-        view.shade(view.point_at(x, y), range)
+        view.shade(view.point_at(x, y), range, is_log)
     };
     for row in 0..rows {
         for column in 0..wide.used {
@@ -253,31 +261,124 @@ fn map(
             cell.set_style(style);
         }
     }
+    let at = |column: usize, row: usize| (plot.x + column as u16, floor - 1 - row as u16);
+    let mut sign = |place: (u16, u16), sign: char| {
+        let cell = &mut buffer[place];
+        cell.set_char(sign);
+        let style = theme.style(Role::Title);
+        cell.set_style(if theme.colored() {
+            style.fg(ratatui::style::Color::Black)
+        } else {
+            style
+        });
+    };
+    if view.is_regime() && parts == 2 {
+        letters(&shade, [&wide, &high], parts, |column, row, letter| {
+            sign(at(column, row), letter)
+        });
+    }
+    let dot = if theme.ascii() { '*' } else { '•' };
     for overlay in overlays {
-        for &(x, y) in &overlay.at {
-            let column = wide.middle(x as f64);
-            let row = high.middle(y) / parts;
-            let cell = &mut buffer[(plot.x + column as u16, floor - 1 - row as u16)];
-            cell.set_char(overlay.letter);
-            let style = theme.style(Role::Title);
-            cell.set_style(if theme.colored() {
-                style.fg(ratatui::style::Color::Black)
-            } else {
-                style
-            });
+        // A line from column to column, and its letter at the end.
+        for pair in overlay.at.windows(2) {
+            let [(x0, y0), (x1, y1)] = [pair[0], pair[1]];
+            let (first, last) = (wide.middle(x0 as f64), wide.middle(x1 as f64));
+            if x1 != x0 + 1 || last < first {
+                continue;
+            }
+            for column in first..=last {
+                let share = (column - first) as f64 / (last - first).max(1) as f64;
+                sign(at(column, high.middle(y0 + (y1 - y0) * share) / parts), dot);
+            }
+        }
+        if let Some(&(x, y)) = overlay.at.last() {
+            sign(
+                at(wide.middle(x as f64), high.middle(y) / parts),
+                overlay.letter,
+            );
         }
     }
+    if let Some((x, y)) = view.here() {
+        sign(at(wide.middle(x), high.middle(y) / parts), here_sign(theme));
+    }
     let (x, y) = view.cursor();
-    let (column, row) = (wide.middle(x as f64), high.middle(y as f64) / parts);
-    let cell = &mut buffer[(plot.x + column as u16, floor - 1 - row as u16)];
+    let cell = &mut buffer[at(wide.middle(x as f64), high.middle(y as f64) / parts)];
     cell.set_char(if theme.ascii() { 'X' } else { '╳' });
     cell.set_style(Style::reset().add_modifier(Modifier::REVERSED | Modifier::BOLD));
-    put(buffer, area.x, area.y, &y_axis.key, quiet, theme);
-    put(buffer, area.x, floor - rows as u16, &ends[0], quiet, theme);
-    put(buffer, area.x, floor - 1, &ends[1], quiet, theme);
-    let (first, last) = (label(x_axis, 0), label(x_axis, last_x));
-    let below = format!("{first} .. {last}  {}", x_axis.key);
-    put(buffer, plot.x, floor, &below, quiet, theme);
+    put(buffer, area.x, area.y, &y_title, quiet, theme);
+    let mut below = None;
+    for (place, label) in y_labels.iter().enumerate() {
+        let row = high.middle(place as f64) / parts;
+        if below.is_none_or(|below| row >= below + 2) {
+            let x = area.x + margin - 1 - width(label);
+            put(buffer, x, floor - 1 - row as u16, label, quiet, theme);
+            below = Some(row);
+        }
+    }
+    let title_at = (plot.right()).saturating_sub(width(&x_title));
+    put(buffer, title_at, floor, &x_title, quiet, theme);
+    let mut end = area.x;
+    for (place, label) in x_labels.iter().enumerate() {
+        let column = plot.x + wide.middle(place as f64) as u16;
+        let start = column.saturating_sub(width(label) / 2).max(area.x);
+        if start >= end && start + width(label) + 2 <= title_at {
+            put(buffer, start, floor, label, quiet, theme);
+            end = start + width(label) + 2;
+        }
+    }
+}
+
+/// The sign of the base scenario.
+fn here_sign(theme: &Theme) -> char {
+    if theme.ascii() { 'o' } else { '◆' }
+}
+
+/// The title of an axis with its unit, and the labels of its places.
+fn labels(view: &View, axis: &crate::studies::sweep::Axis, theme: &Theme) -> (String, Vec<String>) {
+    let words = view.in_words(axis);
+    let numbers: Vec<Option<f64>> = (0..axis.count()).map(|place| axis.number(place)).collect();
+    let most = numbers
+        .iter()
+        .flatten()
+        .fold(0.0, |most: f64, value| most.max(value.abs()));
+    let unit = axis_unit(most, words.unit, theme.ascii());
+    let title = match unit.text.as_str() {
+        "" => words.label,
+        unit => format!("{} [{unit}]", words.label),
+    };
+    let label = |(place, number): (usize, &Option<f64>)| match number {
+        Some(number) => format_number(number / unit.factor, 3),
+        None => axis.text(place),
+    };
+    (title, numbers.iter().enumerate().map(label).collect())
+}
+
+/// Gives each regime its letter, in the middle of where it is.
+fn letters(
+    shade: &impl Fn(usize, usize) -> Shade,
+    [wide, high]: [&Cells; 2],
+    parts: usize,
+    mut put: impl FnMut(usize, usize, char),
+) {
+    for word in 0..REGIMES.len() {
+        let cells =
+            (0..wide.used).flat_map(|column| (0..high.used).map(move |half| (column, half)));
+        let of: Vec<(usize, usize)> = cells
+            .filter(|&(column, half)| shade(column, half) == Shade::Word(word))
+            .collect();
+        let count = of.len().max(1);
+        let [column, half] = [
+            of.iter().map(|at| at.0).sum::<usize>() / count,
+            of.iter().map(|at| at.1).sum::<usize>() / count,
+        ];
+        // The middle of a bent region can lie outside of it.
+        let nearest = of
+            .iter()
+            .min_by_key(|at| at.0.abs_diff(column) + at.1.abs_diff(half));
+        if let Some(&(column, half)) = nearest {
+            put(column, half / parts, Shade::Word(word).sign());
+        }
+    }
 }
 
 /// Places of an axis over a number of cells: each place as many cells as fit, or some cells for
@@ -323,22 +424,32 @@ fn curve(view: &View, theme: &Theme, area: Rect, buffer: &mut Buffer) {
         Spread::Logarithmic => Scale::Log,
         Spread::Linear => Scale::Linear,
     };
-    let y_scale = if view.logarithmic {
-        Scale::Log
-    } else {
-        Scale::Linear
+    let y_scale = match view.is_log() {
+        true => Scale::Log,
+        false => Scale::Linear,
     };
+    let (across, up) = (view.in_words(axis), view.quantity());
     let here = view.cursor().0;
     let here = axis.number(here).unwrap_or(here as f64);
-    Plot::new(
-        Axis::new(&axis.key, "").scale(x_scale),
-        Axis::new(view.column(), "").scale(y_scale),
+    let curve = Curve::new("", &xs, &ys, theme.style(Role::Profile));
+    let base = view.here().and_then(|(place, _)| axis.value_at(place));
+    let base = base.and_then(|x| Some([x, curve.value_at(x)?]));
+    let mut plot = Plot::new(
+        Axis::new(&across.label, across.unit).scale(x_scale),
+        Axis::new(&up.label, up.unit).scale(y_scale),
     )
-    .curve(Curve::new("", &xs, &ys, theme.style(Role::Profile)))
+    .curve(curve)
     .cursor(Some(here))
     .marker(theme.marker)
-    .axis_style(theme.style(Role::Quiet))
-    .render(area, buffer);
+    .axis_style(theme.style(Role::Quiet));
+    if let Some(at) = base {
+        plot = plot.point(Point {
+            at,
+            sign: here_sign(theme),
+            style: theme.style(Role::Alarm),
+        });
+    }
+    plot.render(area, buffer);
 }
 
 /// A line of text, cut where the screen ends.

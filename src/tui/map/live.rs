@@ -14,14 +14,14 @@ use rayon::ThreadPoolBuilder;
 
 use super::draw;
 use super::view::{Leave, View};
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, schema, units};
 use crate::studies::sweep::engine::{self, Check};
 use crate::studies::sweep::{Shard, Study, StudyError, record};
 use crate::tui::keys::Key;
 use crate::tui::theme::Theme;
 
 /// The points of the study.
-const POINTS: usize = 25;
+pub const POINTS: usize = 25;
 
 /// From this ratio of its ends on, the axis is logarithmic.
 const DECADES: f64 = 20.0;
@@ -49,11 +49,30 @@ pub struct Range {
 }
 
 impl Range {
-    /// Reads `KEY A..B`.
-    pub fn parse(text: &str) -> Option<Self> {
-        let (key, ends) = text.trim().split_once(char::is_whitespace)?;
-        let (from, to) = ends.split_once("..")?;
-        let number = |text: &str| text.trim().parse().ok().filter(|end: &f64| end.is_finite());
+    /// Reads `KEY A..B`, and what else it may be written like: `KEY = A .. B`, `KEY A to B`, `KEY A B`,
+    /// each end with a unit if it has one. A part of a key does where one of `keys` alone has it.
+    pub fn parse(text: &str, keys: &[(&str, &'static str)]) -> Option<Self> {
+        let (key, ends) = text
+            .trim()
+            .split_once(|c: char| c.is_whitespace() || c == '=')?;
+        let ends = ends.trim_start_matches([' ', '=']).trim();
+        let mut signs = ["..", " to ", ",", ";"].into_iter();
+        let (from, to) = signs
+            .find_map(|sign| ends.split_once(sign))
+            .or_else(|| ends.split_once(' '))?;
+        let mut of = keys.iter().filter(|(path, _)| path.contains(key));
+        let exact = keys.iter().find(|(path, _)| *path == key);
+        let (key, unit) = match (exact, of.next(), of.next()) {
+            (Some((path, unit)), ..) | (None, Some((path, unit)), None) => (*path, *unit),
+            _ => (key, ""),
+        };
+        let known = schema::find(key);
+        let number = |text: &str| -> Option<f64> {
+            let text = text.trim().trim_start_matches('.');
+            let with_unit = || units::quantity(text, known?, unit == "N")?.ok();
+            let end = text.parse().ok().or_else(with_unit);
+            end.filter(|end: &f64| end.is_finite())
+        };
         Some(Self {
             key: key.to_owned(),
             from: number(from)?,
@@ -177,17 +196,33 @@ impl Live {
 mod tests {
     use super::*;
 
+    const KEYS: &[(&str, &str)] = &[
+        ("friction.coefficient", ""),
+        ("wear.coefficient", "1/Pa"),
+        ("motion.tangential.amplitude", "m"),
+    ];
+
     #[test]
     fn a_range_is_a_key_and_two_ends() {
-        let range = Range::parse(" friction.coefficient 0.1..0.5 ").expect("a range");
+        let range = Range::parse(" friction.coefficient 0.1..0.5 ", KEYS).expect("a range");
         assert_eq!(
             (range.key.as_str(), range.from, range.to),
             ("friction.coefficient", 0.1, 0.5)
         );
         assert_eq!(
-            Range::parse("wear.coefficient 1e-12 .. 1e-9").map(|r| r.to),
+            Range::parse("wear.coefficient 1e-12 .. 1e-9", KEYS).map(|r| r.to),
             Some(1e-9)
         );
+        for text in [
+            "friction 0.1..0.5",
+            "friction.coefficient = 0.1 .. 0.5",
+            "friction 0.1 to 0.5",
+            "friction 0.1 0.5",
+        ] {
+            assert_eq!(Range::parse(text, KEYS), Some(range.clone()), "{text}");
+        }
+        let range = Range::parse("tangential.amplitude 50 nm..0.2 um", KEYS).expect("units");
+        assert_eq!((range.from, range.to), (5e-8, 2e-7));
         for wrong in [
             "",
             "friction.coefficient",
@@ -195,7 +230,7 @@ mod tests {
             "a 1..x",
             "a ..2",
         ] {
-            assert_eq!(Range::parse(wrong), None, "{wrong}");
+            assert_eq!(Range::parse(wrong, KEYS), None, "{wrong}");
         }
     }
 }

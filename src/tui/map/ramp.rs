@@ -2,24 +2,13 @@
 
 use ratatui::style::Color;
 
+use crate::plot::colormap::ColorMap;
 use crate::studies::sweep::slice::REGIMES;
-use crate::tui::theme::{Look, Theme};
-
-/// Colours from low to high, of the 16 that every terminal has.
-const COLORS: [Color; 9] = [
-    Color::Blue,
-    Color::LightBlue,
-    Color::Cyan,
-    Color::LightCyan,
-    Color::Green,
-    Color::LightGreen,
-    Color::Yellow,
-    Color::LightRed,
-    Color::Red,
-];
+use crate::tui::panels::{SHADES, map_color};
+use crate::tui::theme::{Look, Role, Theme};
 
 /// Characters from low to high.
-const SIGNS: [char; 9] = ['.', ':', '-', '=', '+', 'o', '*', '%', '@'];
+const SIGNS: [char; SHADES] = ['.', ':', '-', '=', '+', 'c', 'o', 'x', '*', '%', '#', '@'];
 
 /// What a point shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,12 +23,12 @@ pub enum Shade {
     Word(usize),
 }
 
-/// The characters and colours of [`REGIMES`].
-const SWATCHES: [(char, Color); REGIMES.len()] = [
-    ('s', Color::Green),
-    ('~', Color::Yellow),
-    ('#', Color::Red),
-    (' ', Color::Blue),
+/// The characters and roles of [`REGIMES`]: stick and slip have the colours that they have in all panels.
+const SWATCHES: [(char, Role); REGIMES.len()] = [
+    ('s', Role::Stick),
+    ('~', Role::Profile),
+    ('#', Role::Slip),
+    (' ', Role::Pressure),
 ];
 
 impl Shade {
@@ -49,8 +38,8 @@ impl Shade {
             Self::Waiting => None,
             Self::Failed if theme.look == Look::Light => Some(Color::Gray),
             Self::Failed => Some(Color::DarkGray),
-            Self::Share(share) => Some(COLORS[level(share)]),
-            Self::Word(word) => Some(SWATCHES[word % SWATCHES.len()].1),
+            Self::Share(share) => map_color(theme, ColorMap::Sequential, level(share)),
+            Self::Word(word) => theme.style(SWATCHES[word % SWATCHES.len()].1).fg,
         }
     }
 
@@ -66,13 +55,12 @@ impl Shade {
 }
 
 fn level(share: f64) -> usize {
-    let levels = COLORS.len();
-    ((share * levels as f64) as usize).min(levels - 1)
+    ((share * SHADES as f64) as usize).min(SHADES - 1)
 }
 
 /// Every shade of a continuous range, for the legend.
 pub fn all() -> impl Iterator<Item = Shade> {
-    (0..COLORS.len()).map(|at| Shade::Share((at as f64 + 0.5) / COLORS.len() as f64))
+    (0..SHADES).map(|at| Shade::Share((at as f64 + 0.5) / SHADES as f64))
 }
 
 #[cfg(test)]
@@ -81,7 +69,7 @@ mod tests {
 
     #[test]
     fn both_ends_of_the_range_have_a_shade() {
-        assert_eq!((level(0.0), level(1.0)), (0, COLORS.len() - 1));
+        assert_eq!((level(0.0), level(1.0)), (0, SHADES - 1));
         assert_eq!(all().count(), SIGNS.len());
     }
 }

@@ -4,6 +4,8 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 
 use super::ramp::Shade;
+use crate::figure::{chart, study};
+use crate::plot::Scale;
 use crate::studies::sweep::record::Record;
 use crate::studies::sweep::slice::{Line, Slice};
 use crate::studies::sweep::{Axis, Design, Study, StudyError};
@@ -28,8 +30,8 @@ pub struct View {
     column: usize,
     /// Whether borders and criteria are drawn.
     pub with_overlays: bool,
-    /// Whether the range of the column is logarithmic.
-    pub logarithmic: bool,
+    /// Whether the scale of the column is the other one than what its values ask for.
+    is_flipped: bool,
     borders: RefCell<HashMap<Vec<usize>, Vec<Line>>>,
 }
 
@@ -56,7 +58,7 @@ impl View {
             name: name.to_owned(),
             column: 0,
             with_overlays: true,
-            logarithmic: false,
+            is_flipped: false,
             borders: RefCell::default(),
         })
     }
@@ -91,7 +93,7 @@ impl View {
                 self.column = (self.column + self.columns() - 1) % self.columns();
             }
             Key::Char('t') => self.with_overlays = !self.with_overlays,
-            Key::Char('L') => self.logarithmic = !self.logarithmic,
+            Key::Char('L') => self.is_flipped = !self.is_flipped,
             Key::Char('x') => self.turn_x(),
             Key::Char('y') => self.turn_y(),
             Key::Char(']') => self.move_others(1),
@@ -232,13 +234,46 @@ impl View {
         self.column() == "regime"
     }
 
+    /// Column and unit in words, logarithmic where the values span decades.
+    pub fn quantity(&self) -> chart::Axis {
+        let numbers = self.slice.points();
+        let numbers: Vec<f64> = numbers
+            .filter_map(|point| self.number(point, self.column()))
+            .collect();
+        study::quantity(self.column(), &numbers)
+    }
+
+    /// Whether the colours are spread by the logarithm: by themselves, unless the user wants the other way.
+    pub fn is_log(&self) -> bool {
+        (self.quantity().scale == Scale::Log) != self.is_flipped
+    }
+
+    /// An axis in words, with its unit.
+    pub fn in_words(&self, axis: &Axis) -> chart::Axis {
+        study::paper_axis(&self.slice, axis)
+    }
+
+    /// The places of the base scenario on the axes that are shown, where they are on the map.
+    pub fn here(&self) -> Option<(f64, f64)> {
+        let place = |axis: &Axis| {
+            let value = self.slice.study.base.value(&axis.key)?;
+            axis.place_of(value.parse().ok()?)
+        };
+        let y = match self.y() {
+            Some(axis) => place(axis)?,
+            None => 0.0,
+        };
+        Some((place(self.x())?, y))
+    }
+
     /// The smallest and the largest number of the column over the points that are shown; positive
     /// ones alone where the range is logarithmic.
     pub fn range(&self) -> Option<[f64; 2]> {
+        let is_log = self.is_log();
         self.slice
             .points()
             .filter_map(|point| self.number(point, self.column()))
-            .filter(|number| !self.logarithmic || *number > 0.0)
+            .filter(|number| !is_log || *number > 0.0)
             .fold(None, |range: Option<[f64; 2]>, number| {
                 let [low, high] = range.unwrap_or([number; 2]);
                 Some([low.min(number), high.max(number)])
@@ -246,7 +281,7 @@ impl View {
     }
 
     /// What a point shows of the column, whose `range` is known.
-    pub fn shade(&self, point: usize, range: Option<[f64; 2]>) -> Shade {
+    pub fn shade(&self, point: usize, range: Option<[f64; 2]>, is_log: bool) -> Shade {
         if self.row(point).is_none() {
             return Shade::Waiting;
         }
@@ -256,7 +291,7 @@ impl View {
         let (Some(number), Some([low, high])) = (self.number(point, self.column()), range) else {
             return Shade::Failed;
         };
-        let of = |value: f64| if self.logarithmic { value.ln() } else { value };
+        let of = |value: f64| if is_log { value.ln() } else { value };
         match (of(number) - of(low)) / (of(high) - of(low)) {
             share if share.is_finite() => Shade::Share(share.clamp(0.0, 1.0)),
             _ if number == low => Shade::Share(0.5),

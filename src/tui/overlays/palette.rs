@@ -13,7 +13,7 @@ use crate::scenario::schema::Kind;
 use crate::scenario::words::meaning;
 use crate::tui::command::BINDINGS;
 use crate::tui::keys::Named;
-use crate::tui::map::live::Range;
+use crate::tui::map::live::{POINTS, Range};
 use crate::tui::order::Order;
 use crate::tui::settings::Setting;
 use crate::tui::theme::Role;
@@ -135,6 +135,10 @@ fn completions(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
     if typed.len() >= 2 {
         let settings = settings(typed, frame).into_iter();
         list.extend(settings.map(|setting| (3, setting)));
+        let sweeps = sweeps(typed, frame).into_iter();
+        let is_key = !typed.trim_end().contains(' ');
+        let sweeps = sweeps.filter(|sweep| is_key && sweep.act == Act::Complete);
+        list.extend(sweeps.map(|sweep| (4, sweep)));
     }
     list.sort_by_key(|(rank, _)| *rank);
     list.into_iter().map(|(_, completion)| completion).collect()
@@ -202,23 +206,27 @@ fn settings(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
 
 /// `KEY`, or `KEY FROM..TO`.
 fn sweeps(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
-    if let Some(range) = Range::parse(typed) {
+    let known = frame.map_or(&[][..], |frame| frame.settings.as_slice());
+    let is_number =
+        |setting: &&Setting| matches!(setting.parameter.kind, Kind::Number | Kind::Whole);
+    let keys = known.iter().filter(is_number);
+    let keys: Vec<_> = keys
+        .map(|setting| (setting.parameter.path, setting.unit))
+        .collect();
+    if let Some(range) = Range::parse(typed, &keys) {
         return vec![Completion {
             line: format!("sweep {typed}"),
-            help: "runs the values on all cores; the map shows them".into(),
+            help: format!("runs {POINTS} values on all cores and shows the curve"),
             right: String::new(),
             act: Act::Sweep(range),
         }];
     }
-    let known = frame.map_or(&[][..], |frame| frame.settings.as_slice());
-    let key = typed.split_whitespace().next().unwrap_or_default();
-    let numbers = known.iter().filter(|setting| {
-        let kind = setting.parameter.kind;
-        matches!(kind, Kind::Number | Kind::Whole) && setting.parameter.path.contains(key)
-    });
+    let key = typed.split([' ', '=']).next().unwrap_or_default();
+    let numbers = known.iter().filter(is_number);
+    let numbers = numbers.filter(|setting| setting.parameter.path.contains(key));
     let completion = |path: &str, help: &str, right: String| Completion {
         line: format!("sweep {path} "),
-        help: help.to_owned(),
+        help: format!("FROM..TO: {help}"),
         right,
         act: Act::Complete,
     };

@@ -34,7 +34,7 @@ mod stresses;
 mod volume;
 mod words;
 
-pub use stress_map::Shown;
+pub use stress_map::{SHADES, Shown, color as map_color};
 pub use words::COMPARISON;
 
 /// The panels of the explorer.

@@ -167,6 +167,11 @@ fn links_and_devices_are_not_replaced_and_stdout_is_written_through() {
         dir.done(&format!("{table} /dev/stdout")),
         dir.read("table.csv")
     );
+    dir.done("sweep a.toml --quiet --out rows.csv");
+    assert_eq!(
+        dir.done("sweep a.toml --out /dev/stdout"),
+        dir.read("rows.csv")
+    );
 }
 
 #[test]

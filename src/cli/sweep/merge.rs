@@ -120,8 +120,7 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
 /// Rows in a file without a name, where the merged table will stand.
 fn spool(study: &Study, target: Option<&Target>) -> Result<Ledger> {
     let directory = target.map_or_else(env::temp_dir, |target| target.directory().to_owned());
-    tempfile::tempfile_in(&directory)
-        .and_then(|file| Ledger::new(study, file, &directory))
+    Ledger::unnamed(study, &directory)
         .with_context(|| format!("{}: cannot make a temporary file", directory.display()))
 }
 

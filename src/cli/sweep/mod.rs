@@ -200,7 +200,7 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
             false => ExitCode::SUCCESS,
         });
     }
-    if !options.quiet && !options.json {
+    if !options.quiet && !options.json && !output.is_stdout() {
         writeln!(io::stdout(), "{there} points in {}", shell_word(&out))?;
     }
     Ok(ExitCode::SUCCESS)

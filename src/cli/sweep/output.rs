@@ -1,12 +1,12 @@
 //! The output file: rows are appended as they finish, and sorted at the end. Its size is no matter of
 //! memory.
 
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::env;
+use std::io::{self, Write};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use anyhow::{Result, anyhow};
+use anyhow::{Context, Result, anyhow};
 
 use super::super::Misuse;
 use super::super::args::Sweep;
@@ -51,9 +51,6 @@ impl<'a> Output<'a> {
             flushed: Instant::now(),
         };
         let refuse = |why: &str| Err(Misuse(format!("{}: {why}", path.display())).into());
-        if output.target.is_stdout() {
-            return refuse("rows are sorted at the end, in a file; --json prints them");
-        }
         if !output.target.exists() || options.force {
             return Ok(output);
         }
@@ -87,6 +84,14 @@ impl<'a> Output<'a> {
             Some(record) => Some(record.rows(study)?),
             None => None,
         };
+        if self.target.is_stdout() {
+            // Sorted, they come out at the end.
+            let directory = env::temp_dir();
+            let ledger = Ledger::unnamed(study, &directory);
+            let ledger = ledger.with_context(|| directory.display().to_string())?;
+            self.ledger = Some(ledger);
+            return Ok(());
+        }
         let head = self.head();
         let mut ledger = None;
         let mut refused = None;
@@ -119,6 +124,11 @@ impl<'a> Output<'a> {
         .map_err(|error| refused.take().unwrap_or_else(|| error.into()))?;
         self.ledger = ledger;
         Ok(())
+    }
+
+    /// Whether the rows go to the standard output.
+    pub fn is_stdout(&self) -> bool {
+        self.target.is_stdout()
     }
 
     fn head(&self) -> String {
@@ -156,13 +166,10 @@ impl<'a> Output<'a> {
             return Ok(());
         };
         let head = self.head();
-        let sorted = |file: &mut File| {
-            let mut out = BufWriter::new(file);
+        self.target.write_with(|out| {
             out.write_all(head.as_bytes())?;
-            ledger.each(|line| out.write_all(line))?;
-            out.flush()
-        };
-        write_with(self.target.path(), sorted).map(|_| ())
+            ledger.each(|line| out.write_all(line))
+        })
     }
 
     /// The row of a point, if it has one.

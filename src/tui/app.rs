@@ -58,6 +58,8 @@ pub struct App {
     pub overlay: Overlay,
     /// The tour under way, if there is one.
     pub tour: Option<Tour>,
+    /// The panel that had the focus before the tour.
+    before_tour: Panel,
     /// A notice, shown until the next key.
     pub notice: Option<String>,
     /// Why a file that a script asked for could not be written: the first one.
@@ -111,6 +113,7 @@ impl App {
             zoomed: false,
             overlay: Overlay::None,
             tour: None,
+            before_tour: Panel::Profile,
             notice: None,
             unwritten: None,
             is_new: true,
@@ -297,7 +300,7 @@ impl App {
             Command::Quit => self.leave = Some(Leave::Clean),
             Command::QuitKeepingScreen => self.leave = Some(Leave::KeepScreen),
             Command::Back if self.zoomed => self.zoomed = false,
-            Command::Back => self.tour = None,
+            Command::Back => self.end_tour(),
             Command::Tour => self.continue_tour(),
             Command::Accept => self.overlay = Overlay::Explain,
             Command::CompareFromStart => self.order(Order::CompareFromStart),
@@ -383,6 +386,7 @@ impl App {
     /// Begins the tour of the scenario, whatever is on the screen.
     pub fn begin_tour(&mut self, origin: &str) {
         self.tour = Tour::of(origin);
+        self.before_tour = self.focus;
         self.follow_tour();
     }
 
@@ -391,6 +395,7 @@ impl App {
         if let Some(tour) = self.tour.take() {
             self.tour = tour.next();
             if self.tour.is_none() {
+                self.focus = self.before_tour;
                 self.notice =
                     Some("end of the tour; Enter explains a panel, p has more presets".into());
             }
@@ -401,6 +406,13 @@ impl App {
             }
         }
         self.follow_tour();
+    }
+
+    /// The tour is over: the focus is where it was before.
+    fn end_tour(&mut self) {
+        if self.tour.take().is_some() {
+            self.focus = self.before_tour;
+        }
     }
 
     /// The panel that the caption is about gets the focus.

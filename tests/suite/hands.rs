@@ -572,3 +572,15 @@ fn finer_and_coarser_change_cells_and_steps_together() {
     let text = shot_of(&dir, "li2019-fig3", &"<lt>".repeat(9));
     assert_eq!(foot(&text), "N = 9: this is the coarsest level");
 }
+
+/// A tour turns pages; its end turns them back.
+#[test]
+fn a_tour_ends_where_it_began() {
+    let dir = TestDir::new();
+    let shot = |keys: &str| shot_of(&dir, "limit-shape", keys);
+    let before = shot(",<Tab>");
+    assert_ne!(body(&shot(",<Tab>nnnn"))[..4], body(&before)[..4]);
+    for end in ["nnnnn", "nnn<Esc>"] {
+        assert_eq!(body(&shot(&format!(",<Tab>{end}"))), body(&before), "{end}");
+    }
+}

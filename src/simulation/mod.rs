@@ -182,6 +182,8 @@ struct Scratch {
     /// The 1D profile that the contact is solved on, m.
     g: Vec<f64>,
     increment: Increment,
+    /// A contact between the ends of a step.
+    moment: contact::Contact,
     stages: step::Stages,
     /// Transforms computed since they were last counted.
     transforms: u64,
@@ -192,6 +194,7 @@ impl Scratch {
         Self {
             g: vec![0.0; model.nodes()],
             increment: Increment::new(model),
+            moment: contact::Contact::new(model.nodes(), model.springs()),
             stages: step::Stages::default(),
             transforms: 0,
         }
@@ -385,7 +388,7 @@ impl Simulation {
             outcome => outcome.map_err(|cause| self.refused(cause))?,
         }
         std::mem::swap(&mut self.state, &mut self.spare);
-        cycle_figures::follow(&self.model, &mut self.state);
+        cycle_figures::follow(&self.model, &self.spare, &mut self.state, &mut self.scratch);
         self.watch_hardness();
         self.run_in();
         self.next = self.look_ahead();

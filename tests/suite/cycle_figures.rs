@@ -152,3 +152,20 @@ fn energy_per_cycle_adds_up_to_the_work_of_friction() {
     let per_energy = session.simulation().moment().wear_per_energy();
     close(per_energy.map(|k| k / 1.3e-10), 1.0, 5e-3);
 }
+
+/// F_x bends in a long step: a straight line would miss its zero by 6 %, and give loops that none can have, B > 1.
+#[test]
+fn the_opening_of_a_loop_does_not_depend_on_the_steps() {
+    for share in [0.3, 0.7, 0.95, 1.5] {
+        let of_steps = |steps: u32| {
+            let mut sets = amplitude(share * gross_slip("mindlin"));
+            sets.push(format!("numerics.steps_per_cycle={steps}"));
+            figures("mindlin", &sets, 2.0)
+        };
+        let (few, many) = (of_steps(12), of_steps(400));
+        let [few, exact] = [few, many].map(|figures| figures.sliding_ratio.expect("a loop"));
+        assert!((few / exact - 1.0).abs() < 2e-3, "{share}: {few} {exact}");
+        let b = many.energy_ratio_b.expect("a loop");
+        assert!(b <= 1.0, "{share}: {b}");
+    }
+}

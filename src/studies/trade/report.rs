@@ -185,7 +185,6 @@ mod tests {
             sample.failing = vec![Check {
                 subject: Subject::Energy,
                 error: 0.04,
-                limit: 0.01,
             }];
         }
         trials.push(unsound);

@@ -4,7 +4,7 @@
 //!
 //! Each round has four values: the worn profile and its 1D image in the [`State`], the
 //! [`Contact`](contact::Contact) of the springs, their [`Traction`](traction::Traction), and the
-//! wear. A [`step`] makes the next state from the last one and from a `Model`, which is planned
+//! wear. A `step` makes the next state from the last one and from a `Model`, which is planned
 //! once per run; a failed step changes nothing.
 //!
 //! ```

@@ -13,7 +13,7 @@ mod turning;
 
 pub use oscillation::Oscillation;
 
-/// The most cycles, and where they are more than [`FEW_CYCLES`] the most turns of the normal motion, of a common
+/// The most cycles, and where they are more than `FEW_CYCLES` the most turns of the normal motion, of a common
 /// period of both directions.
 pub const LONGEST_REPEAT: u32 = 1000;
 

@@ -5,8 +5,8 @@
 //! The elasticity of a result y with respect to a key x, E = d ln y/d ln x, by the central
 //! difference D(h) = [ln y(x eʰ) − ln y(x e⁻ʰ)]/2h and one step of Richardson's extrapolation, E =
 //! [4 D(h) − D(2h)]/3. |E − D(h)| covers both the remaining truncation error and the noise of the
-//! runs, and is taken as the error of E. Where an error is above [`WANTED`], all runs are repeated
-//! on a finer grid with more steps, at most [`LEVELS`] times.
+//! runs, and is taken as the error of E. Where an error is above `WANTED`, all runs are repeated
+//! on a finer grid with more steps, at most `LEVELS` times.
 //!
 //! With standard deviations σ of the keys, which are taken as independent, the relative spread of y
 //! is √Σ(E σ/x)².

@@ -35,11 +35,7 @@ pub fn fit(options: &args::Fit) -> Result<ExitCode> {
         options.robust,
     )
     .map_err(misuse)?;
-    let target = options
-        .out
-        .as_deref()
-        .map(|out| Target::claim(out, options.force))
-        .transpose()?;
+    let target = Target::claim_given(options.out.as_deref(), options.force)?;
     let bar = progress::bar(0, "{pos} runs  {elapsed} gone", options.printing.quiet);
     let outcome = fit.run(&mut || bar.inc(1));
     bar.finish_and_clear();

@@ -12,8 +12,7 @@ use crate::export::target::Target;
 impl Rows {
     /// Claims the file that is asked for, before anything is computed.
     pub(super) fn claim(&self) -> Result<Option<Target>, WriteError> {
-        let path = self.csv.as_deref();
-        path.map(|path| Target::claim(path, self.force)).transpose()
+        Target::claim_given(self.csv.as_deref(), self.force)
     }
 }
 

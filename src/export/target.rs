@@ -33,6 +33,15 @@ impl Target {
         Ok(target)
     }
 
+    /// [`claim`](Self::claim) for an option that may not be given.
+    ///
+    /// # Errors
+    ///
+    /// As [`claim`](Self::claim).
+    pub fn claim_given(path: Option<&Path>, force: bool) -> Result<Option<Self>, WriteError> {
+        path.map(|path| Self::claim(path, force)).transpose()
+    }
+
     /// Claims `path`, whether the file is there or not.
     ///
     /// # Errors

@@ -37,11 +37,11 @@ pub fn gauss(a: f64, b: f64, y: impl Fn(f64) -> f64) -> f64 {
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProductWeights {
     /// Of the product of the inner values.
-    pub inner: Vec<f64>,
+    inner: Vec<f64>,
     /// Of each of the two products of an inner and an outer value.
-    pub mixed: Vec<f64>,
+    mixed: Vec<f64>,
     /// Of the product of the outer values.
-    pub outer: Vec<f64>,
+    outer: Vec<f64>,
 }
 
 impl ProductWeights {

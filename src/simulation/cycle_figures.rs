@@ -131,14 +131,14 @@ impl LoopTally {
         }
     }
 
-    /// Adds the end of a step: cycle, u_x⁽⁰⁾ and F_x, with F_z (N) and a (m); `unloaded` is the u_x⁽⁰⁾ at which F_x passed
-    /// through zero in the step, if that is known.
+    /// Adds the end of a step: cycle, u_x⁽⁰⁾ and F_x, with F_z (N) and a (m). `unloaded` finds the u_x⁽⁰⁾ at which F_x
+    /// passes through zero in the step, and is asked only if it does; without an answer a straight line stands in.
     fn add(
         &mut self,
         moment: [f64; 3],
         normal_force: f64,
         contact_radius: f64,
-        unloaded: Option<f64>,
+        unloaded: impl FnOnce() -> Option<f64>,
     ) {
         let [cycle, shift, force] = moment;
         let [before, shift_before, force_before] = self.last;
@@ -150,7 +150,7 @@ impl LoopTally {
         self.opened |= contact_radius == 0.0;
         let crossing = || {
             let share = force_before / (force_before - force);
-            unloaded.unwrap_or(shift_before + share * (shift - shift_before))
+            unloaded().unwrap_or(shift_before + share * (shift - shift_before))
         };
         let into = if force_before > 0.0 && force <= 0.0 {
             &mut self.falling
@@ -216,30 +216,33 @@ pub(super) fn follow(model: &Model, start: &State, state: &mut State, scratch: &
     if model.springs() == 0 {
         return;
     }
-    let (setup, contact) = (&model.setup, &state.contact);
+    let State {
+        cycle,
+        contact,
+        tally,
+        ..
+    } = state;
+    let (setup, cycle) = (&model.setup, *cycle);
     let force = contact.tangential_force(model);
-    let moment = [state.cycle, sensed(setup, contact.shift, force), force];
+    let moment = [cycle, sensed(setup, contact.shift, force), force];
     let (normal_force, radius) = (contact.normal_force(model), contact.normal.radius);
-    let before = state.tally.last[0];
-    let unloaded = unloaded(model, start, state, scratch);
-    state.tally.add(moment, normal_force, radius, unloaded);
-    if state.cycle.floor() == before.floor() {
+    let before = tally.last[0];
+    tally.add(moment, normal_force, radius, || {
+        unloaded(model, start, cycle, scratch)
+    });
+    if cycle.floor() == before.floor() {
         return;
     }
     let period = f64::from(cycles_to_settle(&setup.drive));
-    if (state.cycle / period).floor() > (before / period).floor() {
+    if (cycle / period).floor() > (before / period).floor() {
         state.figures = state.tally.close(setup, state, period);
         state.tally = LoopTally::begin(state, moment);
     }
 }
 
-/// The displacement at which F_x passes through zero in a step from `start` to `end`, m: found, since F_x bends so much
-/// in the longest steps that a straight line misses it by 6 %. None where it does not pass through zero.
-fn unloaded(model: &Model, start: &State, end: &State, scratch: &mut Scratch) -> Option<f64> {
-    let forces = [start, end].map(|state| state.contact.tangential_force(model));
-    if forces[0] * forces[1] >= 0.0 {
-        return None;
-    }
+/// Returns the displacement at which F_x passes through zero between `start` and `cycle`, m. F_x bends so much in the
+/// longest steps that a straight line misses it by 6 %. `None` if the contact cannot be solved there.
+fn unloaded(model: &Model, start: &State, cycle: f64, scratch: &mut Scratch) -> Option<f64> {
     let Scratch {
         g,
         increment,
@@ -247,7 +250,7 @@ fn unloaded(model: &Model, start: &State, end: &State, scratch: &mut Scratch) ->
         ..
     } = scratch;
     model.profile(&start.image, 0.0, &[], g);
-    let span = end.cycle - start.cycle;
+    let span = cycle - start.cycle;
     let force = |share: f64| {
         let cycle = start.cycle + share * span;
         contact::solve(

@@ -13,7 +13,8 @@ use dialoguer::{Confirm, Input, Select};
 
 use super::args::{Arguments, New};
 use super::{Misuse, explore};
-use crate::export::file::{shell_word, write_whole};
+use crate::export::file::shell_word;
+use crate::export::target::Target;
 use crate::scenario::printable;
 
 mod answers;
@@ -25,7 +26,8 @@ use forecast::Forecast;
 /// Writes a new scenario.
 pub fn new(options: &New) -> Result<ExitCode> {
     let path = Path::new(&options.file);
-    if path.exists() && !options.force {
+    let target = Target::hold(path)?;
+    if target.exists() && !options.force {
         let message = format!(
             "{} already exists; choose another name, or --force replaces it",
             printable(&options.file)
@@ -40,7 +42,8 @@ pub fn new(options: &New) -> Result<ExitCode> {
     .answers()?;
     let text = answers.to_toml();
     let scenario = answers.scenario(&options.file)?;
-    write_whole(path, text.as_bytes())?;
+    target.write(text.as_bytes())?;
+    drop(target);
     let file = shell_word(path);
     let mut out = io::stdout().lock();
     if let Some(forecast) = Forecast::of(&scenario) {

@@ -23,11 +23,7 @@ const NAMED: usize = 3;
 /// Reads every table of the directory and writes the whole one.
 pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
     let shown = printable(&directory.display().to_string());
-    let target = options
-        .out
-        .as_deref()
-        .map(|out| Target::claim(out, options.force))
-        .transpose()?;
+    let target = Target::claim_given(options.out.as_deref(), options.force)?;
     let files = tables(directory).map_err(|error| Misuse(format!("{shown}: {error}")))?;
     let mut arithmetic = Arithmetic::new();
     let mut merged: Option<(Study, PathBuf, Ledger)> = None;

@@ -15,11 +15,7 @@ use crate::studies::table::{Cell, Column, Format, Table};
 
 /// Runs the study of sensitivities and prints, or writes, its table.
 pub fn sensitivity(options: &Sweep, study: &Study) -> Result<ExitCode> {
-    let target = options
-        .out
-        .as_deref()
-        .map(|out| Target::claim(out, options.force))
-        .transpose()?;
+    let target = Target::claim_given(options.out.as_deref(), options.force)?;
     let keys = study.varied();
     let mut builder = ThreadPoolBuilder::new();
     if let Some(threads) = options.threads {

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::Command;
 
 fn main() {
-    println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-changed=src/cli/build.rs");
     let version = std::env::var("CARGO_PKG_VERSION").unwrap_or_default();
     // What is built for tests need not be built again after every commit.
     let is_release = std::env::var("PROFILE").is_ok_and(|profile| profile == "release");

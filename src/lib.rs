@@ -14,6 +14,7 @@
 //! | [`contact`] | materials, indenters, normal and tangential springs | no time |
 //! | [`wear`] | wear laws | one step |
 //! | [`simulation`] | motion, state, stepping, observations | no scenario, no file, no screen |
+//! | [`reading`] | fatigue parameters of a cycle | only reads a simulation |
 //! | [`scenario`] | TOML in and out, presets, a session with its changes and checkpoints | no screen |
 //! | [`studies`] | errors against theory, speed against accuracy, stability, as tables | no file, no screen |
 //! | [`export`] | CSV files, whole or not at all | runs nothing |
@@ -57,6 +58,7 @@ pub mod math;
 pub mod oracle;
 mod panics;
 pub mod plot;
+pub mod reading;
 pub mod scenario;
 pub mod simulation;
 pub mod studies;

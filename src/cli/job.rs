@@ -63,13 +63,14 @@ impl RunJob {
             }
             None => planned(scenario),
         };
+        let history = History::with(&options.column);
         Self {
             cycles,
             every_step: options.history == HistoryChoice::EveryStep,
             snapshots,
             due: Vec::new(),
             taken: 0,
-            history: History::default(),
+            history: history.map_err(|why| Misuse(format!("--column: {why}")))?,
             last_loop: LastLoop::default(),
             statements: Vec::new(),
             home: None,

@@ -104,10 +104,50 @@ pub struct Peak {
     pub z: f64,
 }
 
-/// The places to a side of the grid that a largest stress is looked for on, and how often the best place
-/// is looked around from.
-const GRID: usize = 13;
+/// Columns and rows of the grid that a largest stress is looked for on.
+const GRID: [usize; 2] = [13, 13];
+
+/// How often the best place is looked around from.
 const REFINEMENTS: usize = 16;
+
+/// Where `of`, which gives a value at (r, z) and at (−r, z), m, is largest: on a grid of columns and rows
+/// over 1.2 times `radius` (m) first, then ever closer to its best place.
+pub fn peak(radius: f64, [columns, rows]: [usize; 2], of: impl Fn(f64, f64) -> [f64; 2]) -> Peak {
+    let at = |x: f64, z: f64| {
+        let [right, left] = of(x.abs(), z);
+        let value = if x < 0.0 { left } else { right };
+        Peak { value, x, z }
+    };
+    let higher = |a: Peak, b: Peak| if b.value > a.value { b } else { a };
+    let spacing = |count: usize| 1.2 * radius / (count - 1) as f64;
+    let mut best = at(0.0, 0.0);
+    for k in 0..rows {
+        for i in 0..columns {
+            let (x, z) = (spacing(columns) * i as f64, spacing(rows) * k as f64);
+            let [right, left] = of(x, z);
+            best = higher(best, Peak { value: right, x, z });
+            best = higher(
+                best,
+                Peak {
+                    value: left,
+                    x: -x,
+                    z,
+                },
+            );
+        }
+    }
+    let [mut across, mut down] = [columns, rows].map(|count| 0.5 * spacing(count));
+    for _ in 0..REFINEMENTS {
+        let (x, z) = (best.x, best.z);
+        for (dx, dz) in [(across, 0.0), (-across, 0.0), (0.0, down), (0.0, -down)] {
+            best = higher(best, at(x + dx, (z + dz).max(0.0)));
+        }
+        if (best.x, best.z) == (x, z) {
+            (across, down) = (0.5 * across, 0.5 * down);
+        }
+    }
+    best
+}
 
 /// What begins at x: by how much the slopes of q_z and q_x over x² rise there (Pa/m).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -163,36 +203,11 @@ impl SpringLoad {
         self.radius
     }
 
-    /// Where in the plane of motion a stress is largest: on a grid over the contact first, then ever closer
-    /// to its best place.
+    /// Where in the plane of motion a stress is largest.
     pub fn largest(&self, of: impl Fn(&Stress) -> f64) -> Peak {
-        let radius = self.radius;
-        let both = |r: f64, z: f64| {
-            let [right, left] = self.mirrored(r, z).map(|stress| of(&stress));
-            let (value, x) = if left > right { (left, -r) } else { (right, r) };
-            Peak { value, x, z }
-        };
-        let higher = |a: Peak, b: Peak| if b.value > a.value { b } else { a };
-        let mut best = both(0.0, 0.0);
-        for k in 0..GRID {
-            for i in 0..GRID {
-                let place = |n: usize| 1.2 * radius * n as f64 / (GRID - 1) as f64;
-                best = higher(best, both(place(i), place(k)));
-            }
-        }
-        let mut step = 0.6 * radius / (GRID - 1) as f64;
-        for _ in 0..REFINEMENTS {
-            let (x, z) = (best.x, best.z);
-            for (dx, dz) in [(step, 0.0), (-step, 0.0), (0.0, step), (0.0, -step)] {
-                let (x, z) = (x + dx, (z + dz).max(0.0));
-                let value = of(&self.stress(x, z));
-                best = higher(best, Peak { value, x, z });
-            }
-            if (best.x, best.z) == (x, z) {
-                step *= 0.5;
-            }
-        }
-        best
+        peak(self.radius, GRID, |r, z| {
+            self.mirrored(r, z).map(|stress| of(&stress))
+        })
     }
 
     /// The stresses at (x, z), m, in the plane of motion; z is the depth below the surface.

@@ -1,12 +1,15 @@
-//! `field.csv`: the stresses inside the half-space in the plane of motion y = 0, one row per point.
+//! `field.csv`: the stresses inside the half-space in the plane of motion y = 0, and the fatigue parameters
+//! of a steady cycle, one row per point.
 
-use super::header::{lines, number};
+use super::header::lines;
 use crate::contact::subsurface::Stress;
+use crate::reading::fatigue::{Fatigue, StressCycle};
+use crate::scenario::scalars::optional;
 use crate::scenario::session::Session;
 use crate::simulation::Curves;
 
 /// The columns, in order.
-pub const COLUMNS: [&str; 8] = [
+pub const COLUMNS: [&str; 11] = [
     "x_m",
     "z_m",
     "sigma_xx_Pa",
@@ -15,6 +18,9 @@ pub const COLUMNS: [&str; 8] = [
     "sigma_xz_Pa",
     "von_mises_Pa",
     "max_principal_Pa",
+    "swt_Pa",
+    "shear_amplitude_Pa",
+    "max_hydrostatic_Pa",
 ];
 
 /// Half the intervals along x, and the intervals in depth.
@@ -31,13 +37,14 @@ pub fn table(session: &Session) -> String {
     text.push_str(&COLUMNS.join(","));
     text.push('\n');
     for row in rows(session) {
-        text.push_str(&row.map(number).join(","));
+        let field = |value: f64| optional((!value.is_nan()).then_some(value));
+        text.push_str(&row.map(field).join(","));
         text.push('\n');
     }
     text
 }
 
-/// The rows of the file.
+/// The rows of the file; the fatigue parameters are NaN where the motion has no steady cycle.
 pub fn rows(session: &Session) -> Vec<[f64; COLUMNS.len()]> {
     let simulation = session.simulation();
     let seen = simulation.observe(Curves::SPRINGS);
@@ -46,21 +53,41 @@ pub fn rows(session: &Session) -> Vec<[f64; COLUMNS.len()]> {
         contact if contact > 0.0 => contact,
         _ => seen.radii.last().copied().unwrap_or_default(),
     };
+    let cycle = StressCycle::of(simulation);
     let step = REACH * radius / HALF_WIDTH as f64;
     let mut rows = Vec::new();
     for k in 0..=DEPTH {
         let z = REACH * radius * k as f64 / DEPTH as f64;
-        let row: Vec<[Stress; 2]> = (0..=HALF_WIDTH)
-            .map(|i| load.mirrored(step * i as f64, z))
-            .collect();
-        let left = (1..=HALF_WIDTH)
-            .rev()
-            .map(|i| (-step * i as f64, row[i][1]));
-        let right = (0..=HALF_WIDTH).map(|i| (step * i as f64, row[i][0]));
-        rows.extend(left.chain(right).map(|(x, stress)| {
+        let at = |i: usize| {
+            let r = step * i as f64;
+            (
+                load.mirrored(r, z),
+                cycle.as_ref().map(|cycle| cycle.mirrored(r, z)),
+            )
+        };
+        let row: Vec<_> = (0..=HALF_WIDTH).map(at).collect();
+        let left = (1..=HALF_WIDTH).rev().map(|i| (-step * i as f64, i, 1));
+        let right = (0..=HALF_WIDTH).map(|i| (step * i as f64, i, 0));
+        rows.extend(left.chain(right).map(|(x, i, side)| {
+            let (stress, fatigue) = (row[i].0[side], row[i].1.map(|both| both[side]));
             let Stress { xx, yy, zz, xz } = stress;
             let (mises, principal) = (stress.von_mises(), stress.max_principal());
-            [x, z, xx, yy, zz, xz, mises, principal]
+            let [swt, shear, hydrostatic] = fatigue.map_or([f64::NAN; 3], |fatigue: Fatigue| {
+                [fatigue.swt, fatigue.shear_amplitude, fatigue.hydrostatic]
+            });
+            [
+                x,
+                z,
+                xx,
+                yy,
+                zz,
+                xz,
+                mises,
+                principal,
+                swt,
+                shear,
+                hydrostatic,
+            ]
         }));
     }
     rows

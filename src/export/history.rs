@@ -61,6 +61,9 @@ pub struct History {
     #[serde(default)]
     written: u64,
     last_cycle: Option<f64>,
+    /// Columns after those of every history.
+    #[serde(default)]
+    further: Vec<String>,
 }
 
 /// A place in a history to go back to.
@@ -71,6 +74,42 @@ pub struct Mark {
 }
 
 impl History {
+    /// An empty history that records the scalars of these names beside its own columns.
+    ///
+    /// # Errors
+    ///
+    /// In one line, the first name that is no scalar, or a column already.
+    pub fn with(further: &[String]) -> Result<Self, String> {
+        for (at, name) in further.iter().enumerate() {
+            scalars::named(name)?;
+            if COLUMNS.contains(&name.as_str()) || further[..at].contains(name) {
+                return Err(format!("{name} is a column of the history already"));
+            }
+        }
+        Ok(Self {
+            further: further.to_vec(),
+            ..Self::default()
+        })
+    }
+
+    /// The names of all columns, as the head of the table.
+    fn head(&self) -> String {
+        let further = self.further.iter().map(String::as_str);
+        COLUMNS
+            .into_iter()
+            .chain(further)
+            .collect::<Vec<_>>()
+            .join(",")
+    }
+
+    fn row(&self, session: &Session) -> String {
+        let reading = Reading::new(session);
+        let further = self.further.iter().map(String::as_str);
+        let fields = COLUMNS.into_iter().chain(further);
+        let fields = fields.map(|name| read(name, &reading).field());
+        fields.collect::<Vec<_>>().join(",")
+    }
+
     /// Whether nothing is recorded yet.
     pub fn is_empty(&self) -> bool {
         self.length() == 0
@@ -104,7 +143,8 @@ impl History {
             return;
         }
         self.last_cycle = Some(simulation.cycle());
-        self.rows.push_str(&row(session));
+        let row = self.row(session);
+        self.rows.push_str(&row);
         self.rows.push('\n');
     }
 
@@ -162,7 +202,7 @@ impl History {
     /// The whole table up to the present state of `session`, of rows that are all in memory, as they are
     /// until the first [`spill`](Self::spill).
     pub fn table(&self, session: &Session) -> String {
-        let header = format!("{}{}\n", lines(session), COLUMNS.join(","));
+        let header = format!("{}{}\n", lines(session), self.head());
         [header.as_str(), &self.rows, &self.last_row(session)].concat()
     }
 
@@ -171,13 +211,13 @@ impl History {
         if self.last_cycle == Some(session.simulation().cycle()) {
             return String::new();
         }
-        row(session) + "\n"
+        self.row(session) + "\n"
     }
 
     /// Writes the whole table up to the present state of `session`, of which its header tells; the
     /// rows that are not in memory are read from the file at `rows`.
     pub fn write(&self, session: &Session, rows: &Path, out: &mut impl Write) -> io::Result<()> {
-        writeln!(out, "{}{}", lines(session), COLUMNS.join(","))?;
+        writeln!(out, "{}{}", lines(session), self.head())?;
         if self.written > 0 {
             let file = own::read(rows)?;
             let copied = io::copy(&mut file.take(self.written), out)?;
@@ -190,20 +230,14 @@ impl History {
     }
 }
 
-fn row(session: &Session) -> String {
-    values(session).map(|(_, value)| value.field()).join(",")
+fn read(name: &str, reading: &Reading) -> Value {
+    scalars::find(name).map_or(Value::Missing, |scalar| scalar.read(reading))
 }
 
 /// The columns of the present moment with their values.
 pub fn values(session: &Session) -> [(&'static str, Value); COLUMNS.len()] {
     let reading = Reading::new(session);
-    COLUMNS.map(|name| {
-        let scalar = scalars::find(name);
-        (
-            name,
-            scalar.map_or(Value::Missing, |scalar| scalar.read(&reading)),
-        )
-    })
+    COLUMNS.map(|name| (name, read(name, &reading)))
 }
 
 #[cfg(test)]

@@ -55,6 +55,7 @@ topics! {
     python = "python.md": "runs and figures from Python";
     rigs = "rigs.md": "real rigs: waveforms, load blocks, compliance, measured profiles, fits";
     published = "published.md": "published cases: what papers say, what this program gives";
+    cracks = "cracks.md": "wear or crack: fatigue parameters below the surface";
     stiff_wear = "stiff-wear.md": "large wear coefficients: why steps have a limit";
     checks = "checks.md": "what a run checks of itself, and what a failing check means";
     resuming = "resuming.md": "checkpoints: how to go on after a stop";

@@ -8,6 +8,7 @@ use std::path::Path;
 
 use toml::Table;
 
+use crate::reading::fatigue::Limits;
 use crate::simulation::{Domain, Setup, Spacing};
 
 mod assign;
@@ -222,6 +223,19 @@ impl Scenario {
     /// both bodies' wear alone, so the simulation does not know it.
     pub fn wear_share(&self) -> Option<f64> {
         keys::WEAR_SHARE.get(&self.table)
+    }
+
+    /// `material.fatigue_limit`, Pa, where it is given: what stresses are compared with after the run.
+    pub fn fatigue_limit(&self) -> Option<f64> {
+        keys::FATIGUE_LIMIT.get(&self.table)
+    }
+
+    /// Both fatigue limits, where both are given.
+    pub fn fatigue_limits(&self) -> Option<Limits> {
+        Some(Limits {
+            tension: self.fatigue_limit()?,
+            shear: keys::SHEAR_FATIGUE_LIMIT.get(&self.table)?,
+        })
     }
 
     /// The value at a dotted path as TOML, where the scenario gives one.

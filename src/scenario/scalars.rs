@@ -4,7 +4,11 @@
 
 use std::cell::OnceCell;
 
+use super::nearest::nearest;
+use super::printable;
+use crate::contact::subsurface::Peak;
 use crate::math::scan::largest;
+use crate::reading::fatigue::{Limits, StressCycle};
 use crate::scenario::session::Session;
 use crate::simulation::{CycleFigures, Moment};
 
@@ -89,6 +93,9 @@ pub struct Reading<'a> {
     moment: Moment,
     pressure: OnceCell<Vec<f64>>,
     figures: OnceCell<Option<CycleFigures>>,
+    stresses: OnceCell<Option<StressCycle>>,
+    swt: OnceCell<Option<Peak>>,
+    crossland: OnceCell<Option<Peak>>,
 }
 
 impl<'a> Reading<'a> {
@@ -99,6 +106,9 @@ impl<'a> Reading<'a> {
             moment: session.simulation().moment(),
             pressure: OnceCell::new(),
             figures: OnceCell::new(),
+            stresses: OnceCell::new(),
+            swt: OnceCell::new(),
+            crossland: OnceCell::new(),
         }
     }
 
@@ -116,6 +126,32 @@ impl<'a> Reading<'a> {
     fn figures(&self) -> &Option<CycleFigures> {
         self.figures
             .get_or_init(|| self.session.simulation().cycle_figures())
+    }
+
+    /// The loads of a steady cycle, which is stepped the first time.
+    fn stresses(&self) -> Option<&StressCycle> {
+        let simulation = self.session.simulation();
+        let stresses = self.stresses.get_or_init(|| StressCycle::of(simulation));
+        stresses.as_ref()
+    }
+
+    fn limits(&self) -> Option<Limits> {
+        self.session.scenario().fatigue_limits()
+    }
+
+    /// Where the Smith–Watson–Topper parameter is largest.
+    fn swt(&self, of: fn(&Peak) -> f64) -> Option<f64> {
+        let find = || Some(self.stresses()?.largest(|at| at.swt));
+        self.swt.get_or_init(find).as_ref().map(of)
+    }
+
+    /// Where Crossland's parameter is largest.
+    fn crossland(&self, of: fn(&Peak) -> f64) -> Option<f64> {
+        let find = || {
+            let limits = self.limits()?;
+            Some(self.stresses()?.largest(|at| at.crossland(limits)))
+        };
+        self.crossland.get_or_init(find).as_ref().map(of)
     }
 
     /// A number that the headers of the run's files state.
@@ -157,6 +193,22 @@ impl PartialEq for Scalar {
 /// Finds a scalar by its name.
 pub fn find(name: &str) -> Option<&'static Scalar> {
     SCALARS.iter().find(|scalar| scalar.name == name)
+}
+
+/// Finds a scalar by its name.
+///
+/// # Errors
+///
+/// In one line, the unknown name with the nearest known one.
+pub fn named(name: &str) -> Result<&'static Scalar, String> {
+    find(name).ok_or_else(|| {
+        let known = || SCALARS.iter().map(|scalar| scalar.name);
+        let hint = match nearest(name, known()) {
+            Some(near) => format!("did you mean {near}?"),
+            None => format!("known are {}", known().collect::<Vec<_>>().join(", ")),
+        };
+        format!("unknown column {}; {hint}", printable(name))
+    })
 }
 
 const fn scalar(name: &'static str, meaning: &'static str, read: fn(&Reading) -> Value) -> Scalar {
@@ -297,6 +349,40 @@ pub const SCALARS: &[Scalar] = &[
         "estimated_error_force",
         "estimated error of F_x, relative to its amplitude",
         |r| r.stated("estimated_error_force"),
+    ),
+    scalar(
+        "swt_Pa",
+        "largest Smith-Watson-Topper stress amplitude of a steady cycle",
+        |r| r.swt(|peak| peak.value).into(),
+    ),
+    scalar("swt_x_m", "its place along the motion", |r| {
+        r.swt(|peak| peak.x).into()
+    }),
+    scalar("swt_z_m", "its depth", |r| r.swt(|peak| peak.z).into()),
+    scalar("swt_ratio", "swt_Pa over material.fatigue_limit", |r| {
+        let limit = r.session.scenario().fatigue_limit();
+        let ratio = limit.and_then(|limit| Some(r.swt(|peak| peak.value)? / limit));
+        ratio.into()
+    }),
+    scalar(
+        "crossland_Pa",
+        "largest Crossland stress of a steady cycle; needs both fatigue limits",
+        |r| r.crossland(|peak| peak.value).into(),
+    ),
+    scalar("crossland_x_m", "its place along the motion", |r| {
+        r.crossland(|peak| peak.x).into()
+    }),
+    scalar("crossland_z_m", "its depth", |r| {
+        r.crossland(|peak| peak.z).into()
+    }),
+    scalar(
+        "crossland_ratio",
+        "crossland_Pa over material.shear_fatigue_limit",
+        |r| {
+            let limits = r.limits();
+            let ratio = limits.and_then(|both| Some(r.crossland(|peak| peak.value)? / both.shear));
+            ratio.into()
+        },
     ),
 ];
 

@@ -10,11 +10,12 @@ fn height(floor: &str) -> Option<u8> {
         "contact" => 1,
         "wear" => 2,
         "simulation" => 3,
-        "scenario" => 4,
-        "studies" | "export" | "plot" => 5,
-        "figure" => 6,
-        "tui" => 7,
-        "cli" => 8,
+        "reading" => 4,
+        "scenario" => 5,
+        "studies" | "export" | "plot" => 6,
+        "figure" => 7,
+        "tui" => 8,
+        "cli" => 9,
         _ => return None,
     })
 }
@@ -45,7 +46,7 @@ fn may_import(floor: &str, target: &str) -> bool {
         (Some(from), Some(to)) => to < from,
         // The judge serves the studies and the screens, never the judged.
         (Some(from), None) => {
-            let judged = target == "oracle" && from >= 5 && floor != "export" && floor != "plot";
+            let judged = target == "oracle" && from >= 6 && floor != "export" && floor != "plot";
             // What the process does when it fails: below every floor.
             judged || ["failpoint", "panics"].contains(&target)
         }

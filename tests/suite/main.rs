@@ -18,6 +18,7 @@ mod conformance;
 mod convergence;
 mod cycle_figures;
 mod cycle_jump;
+mod fatigue;
 mod figures;
 mod fit;
 mod floors;

@@ -170,7 +170,7 @@ pub struct Run {
     #[arg(
         long,
         value_name = "FILE",
-        conflicts_with_all = ["scenario", "set", "snapshot_at", "history"]
+        conflicts_with_all = ["scenario", "set", "snapshot_at", "history", "column"]
     )]
     pub resume: Option<PathBuf>,
     /// Number of cycles to run; default: run.cycles of the scenario.
@@ -204,6 +204,9 @@ pub struct Run {
     /// How often the history records a row.
     #[arg(long, value_enum, default_value_t = HistoryChoice::Cycle)]
     pub history: HistoryChoice,
+    /// Also record these quantities in the history, by the names that a study gives its columns.
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    pub column: Vec<String>,
     /// Checkpoint interval in seconds; 0: only when the run stops.
     #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = interval)]
     pub checkpoint_every: Interval,

@@ -10,7 +10,7 @@ use super::design::{self, Design, MOST_SOBOL_AXES, Strata};
 use super::sensitivity::Varied;
 use super::study::{self, Stop, Study};
 use crate::scenario::nearest::nearest;
-use crate::scenario::scalars::{self, SCALARS, Scalar};
+use crate::scenario::scalars::{self, Scalar};
 use crate::scenario::{Scenario, printable};
 use crate::scenario::{schema, units};
 
@@ -248,18 +248,8 @@ impl Origin {
         };
         let mut columns: Vec<&Scalar> = Vec::new();
         for name in names {
-            let known = || SCALARS.iter().map(|scalar| scalar.name);
-            let Some(column) = scalars::find(name) else {
-                let hint = match nearest(name, known()) {
-                    Some(near) => format!("did you mean {near}?"),
-                    None => format!("known are {}", known().collect::<Vec<_>>().join(", ")),
-                };
-                let name = printable(name);
-                let origin = &self.0;
-                return Err(StudyError(format!(
-                    "{origin}: columns: unknown column {name}; {hint}"
-                )));
-            };
+            let column = scalars::named(name);
+            let column = column.map_err(|why| StudyError(format!("{}: columns: {why}", self.0)))?;
             if columns.contains(&column) {
                 return self.refuse("columns", &Value::from(name), "stands twice");
             }

@@ -13,7 +13,7 @@ pub const REGIMES: [(&str, &str); 4] = [
 ];
 
 /// The field's criteria that can be laid over a map: column, value, letter, and what it holds for.
-const CRITERIA: [(&str, f64, char, &str); 3] = [
+const CRITERIA: [(&str, f64, char, &str); 5] = [
     (
         "energy_ratio",
         0.2,
@@ -27,6 +27,13 @@ const CRITERIA: [(&str, f64, char, &str); 3] = [
         "D = 0.26 (unworn sphere, stiff rig only)",
     ),
     ("energy_ratio_B", 0.77, 'B', "B = 0.77 (sphere, any rig)"),
+    ("swt_ratio", 1.0, 'S', "SWT at the fatigue limit"),
+    (
+        "crossland_ratio",
+        1.0,
+        'C',
+        "Crossland at the fatigue limit",
+    ),
 ];
 
 /// A line over a map, as places on its axes: 1.5 lies halfway between the second and the third value.

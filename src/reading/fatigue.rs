@@ -1,0 +1,199 @@
+//! Wear or crack? Fatigue parameters of the half-space over one steady cycle.
+//!
+//! A contact in gross slip wears, one in partial slip may crack first. The stresses below the surface
+//! give numbers to compare with fatigue tests; no crack grows here, and no life is predicted.
+//!
+//! # Formulas
+//! Over the moments t of one steady cycle on the present profile, tension positive, with E and ν of the
+//! half-space:
+//!
+//! - **Smith–Watson–Topper** on the critical plane: the largest σ_n,max ε_n,a over all planes, where
+//!   σ_n,max is the largest normal stress on a plane (0 if it is never in tension) and ε_n,a half the range
+//!   of the normal strain, E ε_n = (1 + ν)σ_n − ν tr σ. It is given as a stress amplitude
+//!   √(E σ_n,max ε_n,a), Pa, which no longer depends on E and is the amplitude itself for fully reversed
+//!   uniaxial stress: the limit to compare it with is the fully reversed fatigue limit σ₋₁. K. N. Smith,
+//!   P. Watson, T. H. Topper (1970), J. Mater. 5, 767–778; on planes D. F. Socie (1987), J. Eng. Mater.
+//!   Technol. 109, 293–298; in fretting M. P. Szolwinski, T. N. Farris (1996), Wear 198, 93–107.
+//! - **Crossland**: √J₂,a + α σ_H,max, Pa, with √J₂,a = ½ max √(½ ΔS:ΔS) over all pairs of moments, S the
+//!   deviatoric stress, σ_H = tr σ/3 and α = 3τ₋₁/σ₋₁ − √3; the limit is τ₋₁, the fully reversed fatigue
+//!   limit in torsion. B. Crossland (1956), Proc. Int. Conf. Fatigue of Metals, IMechE, 138–149; in
+//!   fretting S. Fouvry, P. Kapsa, L. Vincent (1996), Wear 200, 186–205.
+//!
+//! The y axis is a principal direction in the plane of motion y = 0, so a plane is given by the angle of
+//! its normal in the plane of motion and by the share of y in it.
+
+use std::f64::consts::PI;
+
+use crate::contact::subsurface::{Peak, SpringLoad, Stress, peak};
+use crate::simulation::{Curves, Simulation};
+
+/// Moments of a period at which the stresses are taken, besides those where the motion turns. A sine is
+/// missed by at most 5e-4 of its amplitude between them.
+const MOMENTS: usize = 100;
+
+/// Planes that the critical one is looked for on: angles, and shares of the y axis.
+const ANGLES: usize = 24;
+const SHARES: usize = 4;
+
+/// How often the best plane is looked around from; an angle is then known to about 1e-4.
+const REFINEMENTS: usize = 12;
+
+/// Columns and rows on which the largest value below the contact is looked for first.
+const GRID: [usize; 2] = [31, 9];
+
+/// What the stresses of one place amount to over a cycle.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Fatigue {
+    /// √(E σ_n,max ε_n,a) on the critical plane, Pa.
+    pub swt: f64,
+    /// √J₂,a, Pa.
+    pub shear_amplitude: f64,
+    /// σ_H,max, Pa.
+    pub hydrostatic: f64,
+}
+
+impl Fatigue {
+    /// Of the stresses of one place at the moments of a cycle, with ν; all zero without stresses.
+    pub fn of(stresses: &[Stress], poisson: f64) -> Self {
+        let hydrostatic = stresses.iter().map(|stress| -stress.pressure());
+        Self {
+            swt: swt(stresses, poisson),
+            shear_amplitude: shear_amplitude(stresses),
+            hydrostatic: hydrostatic.reduce(f64::max).unwrap_or(0.0),
+        }
+    }
+
+    /// Crossland's √J₂,a + α σ_H,max, Pa.
+    pub fn crossland(&self, limits: Limits) -> f64 {
+        self.shear_amplitude + limits.hydrostatic_share() * self.hydrostatic
+    }
+}
+
+/// Fully reversed fatigue limits of a material.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    /// σ₋₁, of tension or bending, Pa.
+    pub tension: f64,
+    /// τ₋₁, of torsion, Pa.
+    pub shear: f64,
+}
+
+impl Limits {
+    /// Crossland's α = 3τ₋₁/σ₋₁ − √3.
+    pub fn hydrostatic_share(self) -> f64 {
+        3.0 * self.shear / self.tension - 3.0_f64.sqrt()
+    }
+}
+
+/// √(E σ_n,max ε_n,a) on the critical plane, Pa.
+fn swt(stresses: &[Stress], poisson: f64) -> f64 {
+    if stresses.iter().all(|stress| stress.max_principal() <= 0.0) {
+        return 0.0;
+    }
+    let on_plane = |angle: f64, share: f64| {
+        let (sin, cos) = (2.0 * angle).sin_cos();
+        let (mut tension, mut low, mut high) = (0.0_f64, f64::INFINITY, f64::NEG_INFINITY);
+        for s in stresses {
+            let inside = 0.5 * (s.xx + s.zz + (s.xx - s.zz) * cos) + s.xz * sin;
+            let normal = (1.0 - share) * inside + share * s.yy;
+            let strain = (1.0 + poisson) * normal - poisson * (s.xx + s.yy + s.zz);
+            tension = tension.max(normal);
+            (low, high) = (low.min(strain), high.max(strain));
+        }
+        tension * 0.5 * (high - low)
+    };
+    let places = (0..ANGLES).flat_map(|i| (0..=SHARES).map(move |k| (i, k)));
+    let mut best = (0.0, 0.0, 0.0);
+    let look = |best: &mut (f64, f64, f64), angle: f64, share: f64| {
+        let value = on_plane(angle, share.clamp(0.0, 1.0));
+        if value > best.0 {
+            *best = (value, angle, share.clamp(0.0, 1.0));
+        }
+    };
+    for (i, k) in places {
+        let angle = PI * i as f64 / ANGLES as f64;
+        look(&mut best, angle, k as f64 / SHARES as f64);
+    }
+    let [mut turn, mut tilt] = [0.5 * PI / ANGLES as f64, 0.5 / SHARES as f64];
+    for _ in 0..REFINEMENTS {
+        let (_, angle, share) = best;
+        for (d_angle, d_share) in [(turn, 0.0), (-turn, 0.0), (0.0, tilt), (0.0, -tilt)] {
+            look(&mut best, angle + d_angle, share + d_share);
+        }
+        if (best.1, best.2) == (angle, share) {
+            (turn, tilt) = (0.5 * turn, 0.5 * tilt);
+        }
+    }
+    best.0.sqrt()
+}
+
+/// √J₂,a, Pa: half the longest chord of the path of the deviatoric stress.
+fn shear_amplitude(stresses: &[Stress]) -> f64 {
+    let mut longest: f64 = 0.0;
+    for (k, one) in stresses.iter().enumerate() {
+        for other in &stresses[..k] {
+            let [xx, yy, zz] = [one.xx - other.xx, one.yy - other.yy, one.zz - other.zz];
+            let [a, b, c] = [xx - yy, yy - zz, zz - xx];
+            let shear = one.xz - other.xz;
+            longest = longest.max((a * a + b * b + c * c) / 6.0 + shear * shear);
+        }
+    }
+    0.5 * longest.sqrt()
+}
+
+/// The loads on the half-space at the moments of one steady cycle.
+#[derive(Debug, Clone)]
+pub struct StressCycle {
+    loads: Vec<SpringLoad>,
+    poisson: f64,
+}
+
+impl StressCycle {
+    /// Steps a copy of `simulation` through two periods of the motion without wear, the first of which
+    /// settles it. `None` without a common period of the two motions, and where the contact cannot be held.
+    pub fn of(simulation: &Simulation) -> Option<Self> {
+        let period = f64::from(simulation.setup().drive.repeats_after()?);
+        let poisson = simulation.setup().material.poisson();
+        let mut probe = simulation.without_wear()?;
+        let start = probe.cycle() + period;
+        probe.advance_to(start).ok()?;
+        let mut motion = Vec::new();
+        let mut loads = Vec::new();
+        for k in 1..=MOMENTS {
+            let goal = start + period * k as f64 / MOMENTS as f64;
+            while probe.cycle() < goal {
+                probe.step_until(goal).ok()?;
+                let seen = probe.observe(Curves::SPRINGS);
+                motion.push([seen.moment.depth, seen.moment.shift]);
+                loads.push(seen.spring_load(poisson));
+            }
+        }
+        let count = motion.len();
+        let turns = |at: usize| {
+            let (before, after) = (motion[(at + count - 1) % count], motion[(at + 1) % count]);
+            (0..2).any(|i| (motion[at][i] - before[i]) * (after[i] - motion[at][i]) < 0.0)
+        };
+        let stride = count.div_ceil(MOMENTS);
+        let loads = loads.into_iter().enumerate();
+        let loads = loads.filter(|(at, _)| at % stride == 0 || turns(*at));
+        Some(Self {
+            loads: loads.map(|(_, load)| load).collect(),
+            poisson,
+        })
+    }
+
+    /// The parameters at (r, z) and at (−r, z), m; z is the depth below the surface.
+    pub fn mirrored(&self, r: f64, z: f64) -> [Fatigue; 2] {
+        let loads = self.loads.iter();
+        let (right, left): (Vec<Stress>, Vec<Stress>) =
+            loads.map(|load| load.mirrored(r, z).into()).unzip();
+        [right, left].map(|stresses| Fatigue::of(&stresses, self.poisson))
+    }
+
+    /// Where in the plane of motion a parameter is largest, below the widest contact of the cycle.
+    pub fn largest(&self, of: impl Fn(&Fatigue) -> f64) -> Peak {
+        let radii = self.loads.iter().map(SpringLoad::contact_radius);
+        let radius = radii.fold(0.0, f64::max);
+        peak(radius, GRID, |r, z| self.mirrored(r, z).map(|at| of(&at)))
+    }
+}

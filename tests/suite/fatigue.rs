@@ -1,0 +1,243 @@
+//! Fatigue parameters against closed forms and against an independent quadrature of point forces.
+
+use std::f64::consts::PI;
+
+use crate::common::{Scene, holds, ours, run_setup, swing};
+use crate::test_dir::{Table, TestDir};
+use mdr_tui::contact::subsurface::Stress;
+use mdr_tui::oracle::half_space::by_point_forces;
+use mdr_tui::reading::fatigue::{Fatigue, Limits, StressCycle};
+use mdr_tui::simulation::Curves;
+
+/// p₀ of the default scene: E* = R = d = 1 and a = 1.
+const P0: f64 = 2.0 / PI;
+const POISSON: f64 = 0.3;
+const LIMITS: Limits = Limits {
+    tension: 5e8,
+    shear: 3.5e8,
+};
+
+/// `stress` times mean + amplitude sin of a cycle.
+fn swung(stress: Stress, mean: f64, amplitude: f64) -> Vec<Stress> {
+    let at = |k: i32| mean + amplitude * (f64::from(k) / 100.0 * 2.0 * PI).sin();
+    let times = |f: f64| Stress {
+        xx: f * stress.xx,
+        yy: f * stress.yy,
+        zz: f * stress.zz,
+        xz: f * stress.xz,
+    };
+    (0..100).map(|k| times(at(k))).collect()
+}
+
+/// A unit uniaxial stress at an angle in the plane of motion.
+fn uniaxial(angle: f64) -> Stress {
+    let (sin, cos) = angle.sin_cos();
+    Stress {
+        xx: cos * cos,
+        zz: sin * sin,
+        xz: sin * cos,
+        yy: 0.0,
+    }
+}
+
+#[test]
+fn uniaxial_stress_is_its_own_amplitude() {
+    let across = Stress {
+        yy: 1.0,
+        ..Stress::default()
+    };
+    let along = [0.0, 0.4, 1.234, PI / 2.0].map(uniaxial);
+    for stress in along.into_iter().chain([across]) {
+        let reversed = Fatigue::of(&swung(stress, 0.0, LIMITS.tension), POISSON);
+        holds("SWT", (reversed.swt / LIMITS.tension - 1.0).abs(), 1e-6);
+        let shear = reversed.shear_amplitude * 3.0_f64.sqrt() / LIMITS.tension;
+        holds("√J₂", (shear - 1.0).abs(), 1e-6);
+        // At the fatigue limit in tension Crossland's sum reaches the limit in torsion.
+        let crossland = reversed.crossland(LIMITS) / LIMITS.shear;
+        holds("Crossland", (crossland - 1.0).abs(), 1e-6);
+        // SWT: √(σ_max σ_a).
+        let pulsating = Fatigue::of(&swung(stress, 3e8, 2e8), POISSON);
+        holds("mean", (pulsating.swt / 1e17_f64.sqrt() - 1.0).abs(), 1e-6);
+        let pressed = Fatigue::of(&swung(stress, -3e8, 2e8), POISSON);
+        assert_eq!(pressed.swt, 0.0);
+    }
+}
+
+#[test]
+fn pure_shear_strains_its_diagonal() {
+    let shear = Stress {
+        xz: 1.0,
+        ..Stress::default()
+    };
+    let seen = Fatigue::of(&swung(shear, 0.0, LIMITS.shear), POISSON);
+    let exact = LIMITS.shear * (1.0 + POISSON).sqrt();
+    holds("SWT", (seen.swt / exact - 1.0).abs(), 1e-6);
+    let crossland = seen.crossland(LIMITS) / LIMITS.shear;
+    holds("Crossland", (crossland - 1.0).abs(), 1e-6);
+    assert_eq!(seen.hydrostatic, 0.0);
+}
+
+/// √(E σ_n,max ε_n,a) by trying all planes, half a degree apart, and √J₂,a by trying all pairs.
+fn by_trial(stresses: &[[f64; 4]], poisson: f64) -> [f64; 3] {
+    let mut most: f64 = 0.0;
+    for i in 0..360 {
+        for k in 0..=90 {
+            let [angle, tilt] = [i, 2 * k].map(|n| f64::from(n) * PI / 360.0);
+            let (sin, cos) = angle.sin_cos();
+            let [x, y, z] = [cos * tilt.cos(), tilt.sin(), sin * tilt.cos()];
+            let (mut top, mut strains) = (0.0_f64, [f64::INFINITY, f64::NEG_INFINITY]);
+            for [xx, yy, zz, xz] in stresses {
+                let normal = x * x * xx + y * y * yy + z * z * zz + 2.0 * x * z * xz;
+                let strain = (1.0 + poisson) * normal - poisson * (xx + yy + zz);
+                top = top.max(normal);
+                strains = [strains[0].min(strain), strains[1].max(strain)];
+            }
+            most = most.max(top * 0.5 * (strains[1] - strains[0]));
+        }
+    }
+    let deviator = |[xx, yy, zz, xz]: [f64; 4]| {
+        let mean = (xx + yy + zz) / 3.0;
+        [xx - mean, yy - mean, zz - mean, xz, xz]
+    };
+    let mut chord: f64 = 0.0;
+    for one in stresses {
+        for other in stresses {
+            let pairs = deviator(*one).into_iter().zip(deviator(*other));
+            let sum: f64 = pairs.map(|(a, b)| (a - b) * (a - b)).sum();
+            chord = chord.max((0.5 * sum).sqrt());
+        }
+    }
+    let hydrostatic = stresses
+        .iter()
+        .map(|[xx, yy, zz, _]| (xx + yy + zz) / 3.0)
+        .fold(f64::NEG_INFINITY, f64::max);
+    [most.sqrt(), 0.5 * chord, hydrostatic]
+}
+
+fn agree(seen: Fatigue, exact: [f64; 3]) {
+    let seen = [seen.swt, seen.shear_amplitude, seen.hydrostatic];
+    for (seen, exact) in seen.into_iter().zip(exact) {
+        holds("parameter", (seen - exact).abs() / P0, 1e-3);
+    }
+}
+
+/// A Hertz contact that rolls and slides over a point of the half-space.
+#[test]
+fn a_hertz_load_that_moves_over_a_point_is_that_of_the_point_forces() {
+    let scene = Scene {
+        friction: 0.6,
+        tangential: Some(swing(0.0, 10.0, 1.0, 0.0)),
+        ..Scene::default()
+    };
+    let simulation = run_setup(ours(scene), 0.25);
+    let load = simulation.observe(Curves::SPRINGS).spring_load(POISSON);
+    let hertz = |r: f64| P0 * (1.0 - r * r).sqrt();
+    for z in [0.25, 0.5] {
+        let places = (-30..=30).map(|k| f64::from(k) / 10.0);
+        let seen: Vec<Stress> = places.clone().map(|x| load.stress(x, z)).collect();
+        let exact = places.map(|x| by_point_forces([x, z], POISSON, hertz, |r| 0.6 * hertz(r), 40));
+        let exact: Vec<[f64; 4]> = exact.collect();
+        let exact = by_trial(&exact, POISSON);
+        assert!(exact[0] > 0.1 * P0, "{exact:?}");
+        agree(Fatigue::of(&seen, POISSON), exact);
+    }
+}
+
+/// Cattaneo and Mindlin under a depth that is held: g(c) = d − κU where it turns, and half of that way back.
+#[test]
+fn a_cycle_of_partial_slip_is_that_of_its_closed_tractions() {
+    let amplitude = 0.4;
+    let scene = Scene {
+        friction: 0.6,
+        tangential: Some(swing(0.0, amplitude, 1.0, 0.0)),
+        ..Scene::default()
+    };
+    let cycle = StressCycle::of(&run_setup(ours(scene), 0.25)).expect("a cycle");
+    let hertz = |b: f64, r: f64| P0 * (b * b - r * r).max(0.0).sqrt();
+    let ratio = 2.0 * (1.0 - POISSON) / (2.0 - POISSON) / 0.6;
+    let slip = |way: f64, r: f64| 0.6 * (hertz(1.0, r) - hertz((1.0 - ratio * way).sqrt(), r));
+    for [x, z] in [[-1.05, 0.25], [-0.8, 0.4], [0.6, 0.25], [0.0, 0.5]] {
+        let mut stresses = Vec::new();
+        for k in 0..=12 {
+            let back = f64::from(k) / 12.0 * amplitude;
+            for sign in [1.0, -1.0] {
+                let shear = |r: f64| sign * (slip(amplitude, r) - 2.0 * slip(back, r));
+                let pressure = |r: f64| hertz(1.0, r);
+                stresses.push(by_point_forces([x, z], POISSON, pressure, shear, 40));
+            }
+        }
+        let [right, left] = cycle.mirrored(x.abs(), z);
+        agree(
+            if x < 0.0 { left } else { right },
+            by_trial(&stresses, POISSON),
+        );
+    }
+    // Cracks begin at the edge, on the surface.
+    let largest = cycle.largest(|at| at.swt);
+    assert!(
+        (largest.x.abs() - 1.0).abs() < 0.02 && largest.z < 0.02,
+        "{largest:?}"
+    );
+}
+
+#[test]
+fn runs_and_studies_tell_the_parameters_where_they_are_asked() {
+    let dir = TestDir::new();
+    let limits = "material.fatigue_limit = '400 MPa'\nmaterial.shear_fatigue_limit = '300 MPa'\n";
+    let study = format!(
+        "base = 'mindlin'\ncolumns = ['swt_Pa', 'swt_x_m', 'swt_z_m', 'swt_ratio', 'crossland_Pa', \
+         'crossland_ratio', 'contact_radius_m']\n[set]\n'run.cycles' = 1\n{limits}\
+         [[axis]]\nkey = 'friction.coefficient'\nvalues = [0.3, 0.6]\n"
+    );
+    dir.write("study.toml", study.as_bytes());
+    let said = dir.say(&["sweep", "study.toml", "--out", "map.csv", "--quiet"]);
+    assert_eq!(said.code, 0, "{}", said.err);
+    let map = Table::parse(&dir.read("map.csv"));
+    for row in 0..2 {
+        let at = |name: &str| map.column(name)[row];
+        holds(
+            "ratio",
+            (at("swt_Pa") / 4e8 / at("swt_ratio") - 1.0).abs(),
+            1e-12,
+        );
+        let ratio = at("crossland_Pa") / 3e8 / at("crossland_ratio");
+        holds("ratio", (ratio - 1.0).abs(), 1e-12);
+        let place = at("swt_x_m").abs() / at("contact_radius_m");
+        assert!(
+            (place - 1.0).abs() < 0.05 && at("swt_z_m") < 1e-6,
+            "{place}"
+        );
+    }
+    let swt = map.column("swt_Pa");
+    assert!(swt[1] > swt[0] && swt[0] > 0.0, "{swt:?}");
+    let run = |column: &str| {
+        dir.say(&[
+            "run", "mindlin", "--cycles", "2", "--column", column, "--out", "run", "--quiet",
+        ])
+    };
+    let said = run("swt_Pa,swt_ratio");
+    assert_eq!(said.code, 0, "{}", said.err);
+    let history = Table::parse(&dir.read("run/history.csv"));
+    let swt = history.column("swt_Pa");
+    assert_eq!(
+        history.columns.last().map(String::as_str),
+        Some("swt_ratio")
+    );
+    assert!(
+        swt.len() == 3 && swt.iter().all(|&each| (each / swt[0] - 1.0).abs() < 1e-3),
+        "{swt:?}"
+    );
+    for (column, why) in [
+        (
+            "swt_pa",
+            "mdr-tui: --column: unknown column swt_pa; did you mean swt_Pa?\n",
+        ),
+        (
+            "cycle",
+            "mdr-tui: --column: cycle is a column of the history already\n",
+        ),
+    ] {
+        let said = run(column);
+        assert_eq!((said.code, said.err.as_str()), (2, why));
+    }
+}

@@ -18,7 +18,7 @@ use ratatui::style::{Modifier, Style};
 use ratatui::widgets::Widget;
 
 use super::ramp::{self, Shade};
-use super::view::View;
+use super::view::{Scaled, View};
 use crate::plot::units::{axis_unit, format_number, format_value_in};
 use crate::plot::{Axis, Curve, Plot, Point, Scale};
 use crate::studies::sweep::Spread;
@@ -67,14 +67,14 @@ pub fn draw(view: &View, theme: &Theme, area: Rect, buffer: &mut Buffer) {
         theme.style(Role::Quiet),
         theme,
     );
-    let range = view.range();
-    legend(view, theme, range, area, buffer);
+    let scaled = view.scaled();
+    legend(view, theme, &scaled, area, buffer);
     let overlays = view.overlays();
     let bottom = area.y + area.height;
     let body = Rect::new(area.x, area.y + 2, area.width, area.height - 6);
     match view.y() {
-        Some(_) => map(view, theme, range, &overlays, body, buffer),
-        None => curve(view, theme, body, buffer),
+        Some(_) => map(view, theme, &scaled, &overlays, body, buffer),
+        None => curve(view, theme, &scaled, body, buffer),
     }
     let names = overlays.iter();
     let names = names.map(|overlay| format!("{} {}", overlay.letter, overlay.name));
@@ -134,7 +134,7 @@ fn short(field: &str) -> String {
 }
 
 /// The column, and its range or its words in their colours.
-fn legend(view: &View, theme: &Theme, range: Option<[f64; 2]>, area: Rect, buffer: &mut Buffer) {
+fn legend(view: &View, theme: &Theme, scaled: &Scaled, area: Rect, buffer: &mut Buffer) {
     let (mut x, y) = (area.x, area.y + 1);
     let mut write = |text: &str, style: Style| {
         let room = (area.x + area.width).saturating_sub(x);
@@ -142,7 +142,7 @@ fn legend(view: &View, theme: &Theme, range: Option<[f64; 2]>, area: Rect, buffe
         buffer.set_string(x, y, &text, style);
         x += text.chars().count() as u16;
     };
-    let quantity = view.quantity();
+    let quantity = &scaled.quantity;
     let name = match view.is_regime() {
         true => view.column().to_owned(),
         false => quantity.label.clone(),
@@ -160,7 +160,7 @@ fn legend(view: &View, theme: &Theme, range: Option<[f64; 2]>, area: Rect, buffe
         }
         return;
     }
-    let Some([low, high]) = range else {
+    let Some([low, high]) = scaled.range else {
         return;
     };
     let value = |value: f64| format_value_in(value, quantity.unit, 3, theme.ascii());
@@ -170,7 +170,7 @@ fn legend(view: &View, theme: &Theme, range: Option<[f64; 2]>, area: Rect, buffe
         write(&sign.to_string(), style);
     }
     write(&format!(" {}", value(high)), Style::new());
-    if view.is_log() {
+    if quantity.scale == Scale::Log {
         write("  log", theme.style(Role::Quiet));
     }
     for axis in view.hidden() {
@@ -197,7 +197,7 @@ fn has_blocks(theme: &Theme) -> bool {
 fn map(
     view: &View,
     theme: &Theme,
-    range: Option<[f64; 2]>,
+    scaled: &Scaled,
     overlays: &[Line],
     area: Rect,
     buffer: &mut Buffer,
@@ -226,10 +226,9 @@ fn map(
     let rows = high.used.div_ceil(parts);
     // The map stands on its lower edge.
     let floor = plot.y + plot.height;
-    let is_log = view.is_log();
     let shade = |column: usize, half: usize| {
         let (x, y) = (wide.place(column), high.place(half));
-        view.shade(view.point_at(x, y), range, is_log)
+        view.shade(view.point_at(x, y), scaled)
     };
     for row in 0..rows {
         for column in 0..wide.used {
@@ -410,7 +409,7 @@ impl Cells {
 }
 
 /// One axis, or no grid: the column over the axis.
-fn curve(view: &View, theme: &Theme, area: Rect, buffer: &mut Buffer) {
+fn curve(view: &View, theme: &Theme, scaled: &Scaled, area: Rect, buffer: &mut Buffer) {
     let axis = view.x();
     let mut points: Vec<(f64, f64)> = (0..axis.count())
         .filter_map(|x| {
@@ -424,11 +423,7 @@ fn curve(view: &View, theme: &Theme, area: Rect, buffer: &mut Buffer) {
         Spread::Logarithmic => Scale::Log,
         Spread::Linear => Scale::Linear,
     };
-    let y_scale = match view.is_log() {
-        true => Scale::Log,
-        false => Scale::Linear,
-    };
-    let (across, up) = (view.in_words(axis), view.quantity());
+    let (across, up) = (view.in_words(axis), &scaled.quantity);
     let here = view.cursor().0;
     let here = axis.number(here).unwrap_or(here as f64);
     let curve = Curve::new("", &xs, &ys, theme.style(Role::Profile));
@@ -436,7 +431,7 @@ fn curve(view: &View, theme: &Theme, area: Rect, buffer: &mut Buffer) {
     let base = base.and_then(|x| Some([x, curve.value_at(x)?]));
     let mut plot = Plot::new(
         Axis::new(&across.label, across.unit).scale(x_scale),
-        Axis::new(&up.label, up.unit).scale(y_scale),
+        Axis::new(&up.label, up.unit).scale(up.scale),
     )
     .curve(curve)
     .cursor(Some(here))

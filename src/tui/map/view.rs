@@ -20,6 +20,16 @@ pub enum Leave {
     Open(usize),
 }
 
+/// The column that is shown, with the scale of its colours.
+#[derive(Debug)]
+pub struct Scaled {
+    /// Column and unit in words. Logarithmic where the values span decades, unless the user wants the other
+    /// scale.
+    pub quantity: chart::Axis,
+    /// The smallest and the largest number, positive ones alone on a logarithmic scale; `None` without any.
+    pub range: Option<[f64; 2]>,
+}
+
 /// A study, and what of it is shown.
 #[derive(Debug)]
 pub struct View {
@@ -234,18 +244,26 @@ impl View {
         self.column() == "regime"
     }
 
-    /// Column and unit in words, logarithmic where the values span decades.
-    pub fn quantity(&self) -> chart::Axis {
+    /// Returns the column in words with its range, from one pass over the points that are shown.
+    pub fn scaled(&self) -> Scaled {
         let numbers = self.slice.points();
         let numbers: Vec<f64> = numbers
             .filter_map(|point| self.number(point, self.column()))
             .collect();
-        study::quantity(self.column(), &numbers)
-    }
-
-    /// Whether the colours are spread by the logarithm: by themselves, unless the user wants the other way.
-    pub fn is_log(&self) -> bool {
-        (self.quantity().scale == Scale::Log) != self.is_flipped
+        let mut quantity = study::quantity(self.column(), &numbers);
+        if self.is_flipped {
+            quantity.scale = match quantity.scale {
+                Scale::Linear => Scale::Log,
+                Scale::Log => Scale::Linear,
+            };
+        }
+        let shown = numbers.into_iter();
+        let shown = shown.filter(|number| quantity.scale == Scale::Linear || *number > 0.0);
+        let range = shown.fold(None, |range: Option<[f64; 2]>, number| {
+            let [low, high] = range.unwrap_or([number; 2]);
+            Some([low.min(number), high.max(number)])
+        });
+        Scaled { quantity, range }
     }
 
     /// An axis in words, with its unit.
@@ -266,32 +284,22 @@ impl View {
         Some((place(self.x())?, y))
     }
 
-    /// The smallest and the largest number of the column over the points that are shown; positive
-    /// ones alone where the range is logarithmic.
-    pub fn range(&self) -> Option<[f64; 2]> {
-        let is_log = self.is_log();
-        self.slice
-            .points()
-            .filter_map(|point| self.number(point, self.column()))
-            .filter(|number| !is_log || *number > 0.0)
-            .fold(None, |range: Option<[f64; 2]>, number| {
-                let [low, high] = range.unwrap_or([number; 2]);
-                Some([low.min(number), high.max(number)])
-            })
-    }
-
-    /// What a point shows of the column, whose `range` is known.
-    pub fn shade(&self, point: usize, range: Option<[f64; 2]>, is_log: bool) -> Shade {
+    /// What a point shows of the column.
+    pub fn shade(&self, point: usize, scaled: &Scaled) -> Shade {
         if self.row(point).is_none() {
             return Shade::Waiting;
         }
         if self.is_regime() {
             return self.slice.regime(point).map_or(Shade::Failed, Shade::Word);
         }
-        let (Some(number), Some([low, high])) = (self.number(point, self.column()), range) else {
+        let (Some(number), Some([low, high])) = (self.number(point, self.column()), scaled.range)
+        else {
             return Shade::Failed;
         };
-        let of = |value: f64| if is_log { value.ln() } else { value };
+        let of = |value: f64| match scaled.quantity.scale {
+            Scale::Linear => value,
+            Scale::Log => value.ln(),
+        };
         match (of(number) - of(low)) / (of(high) - of(low)) {
             share if share.is_finite() => Shade::Share(share.clamp(0.0, 1.0)),
             _ if number == low => Shade::Share(0.5),

@@ -8,11 +8,10 @@
 //!      0               1                      0               1   r/a
 //! ```
 
-use ratatui::style::Style;
-
 use super::small_multiples;
 use crate::math::abel::AbelMethod;
-use crate::plot::{Axis, Curve, Marker, Plot, Scale};
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve, Marker, Scale};
 use crate::studies::verify::errors::Errors;
 use crate::studies::verify::{Outcome, Problem};
 
@@ -39,11 +38,9 @@ pub fn draw(problem: Problem, outcomes: &[Outcome], marker: Marker) -> String {
         let Some(bounds) = bounds(&facets) else {
             continue;
         };
-        let plots: Vec<Plot> = facets
-            .iter()
-            .map(|facet| facet.plot(bounds, marker))
-            .collect();
-        text.push_str(&small_multiples::draw(&plots));
+        let charts = facets.iter().map(|facet| facet.chart(bounds));
+        let charts: Vec<Chart> = charts.collect();
+        text.push_str(&small_multiples::draw(&charts, marker));
     }
     text
 }
@@ -80,13 +77,15 @@ fn bounds(facets: &[Facet]) -> Option<Bounds> {
 }
 
 impl Facet<'_> {
-    fn plot(&self, [radii, errors]: Bounds, marker: Marker) -> Plot<'_> {
-        let curve = Curve::new("", &self.errors.radii, &self.errors.errors, Style::new());
-        Plot::new(
-            Axis::new("r/a", "").bounds(radii),
-            Axis::new(&self.name, "").bounds(errors).scale(Scale::Log),
-        )
-        .curve(curve)
-        .marker(marker)
+    fn chart(&self, [radii, errors]: Bounds) -> Chart {
+        let x = Axis::new("r/a", "").bounds(radii);
+        let y = Axis::new(self.name.clone(), "");
+        let (radii, values) = (self.errors.radii.clone(), self.errors.errors.clone());
+        Chart::new("", x, y.bounds(errors).scale(Scale::Log)).curve(Curve::new(
+            "",
+            radii,
+            values,
+            Role::Profile,
+        ))
     }
 }

@@ -10,11 +10,12 @@ use anyhow::{Context, Result};
 use super::args::{Figure, PaperFigure, StyleChoice};
 use super::{Misuse, accuracy, job};
 use crate::export::target::{Target, write_all};
-use crate::figure::chart::Chart;
 use crate::figure::data::{Data, Table};
-use crate::figure::ink::{Ink, Look, Style};
+use crate::figure::look::{Look, Style};
 use crate::figure::panels::Panel;
 use crate::figure::{Format, Sheet, paper, study as figure_of_study};
+use crate::plot::Chart;
+use crate::plot::theme::Role;
 use crate::scenario::{Scenario, limited, printable};
 use crate::studies::ghost::Ghost;
 use crate::studies::sweep::record::Record;
@@ -259,7 +260,7 @@ fn refuse_what_no_chart_shows(
 ) -> Result<(), Misuse> {
     for (k, (given, ghost)) in options.overlay.iter().zip(ghosts).enumerate() {
         let mut curves = charts.iter().flat_map(|chart| &chart.curves);
-        if curves.any(|curve| curve.ink == Ink::Ghost(k)) {
+        if curves.any(|curve| curve.role == Role::Ghost(k)) {
             continue;
         }
         let places = Panel::ALL.into_iter().filter(|panel| panel.shows(ghost));

@@ -6,15 +6,15 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::Result;
-use ratatui::style::Style;
 
 use super::args;
 use super::{Misuse, accuracy, progress, results, small_multiples};
 use crate::export::target::Target;
-use crate::plot::{Axis, Curve, Marker, Plot};
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve, Marker};
 use crate::scenario::Scenario;
 use crate::scenario::columns::Columns;
-use crate::studies::fit::{Compared, Fit, FitError, Fitted};
+use crate::studies::fit::{Fit, FitError, Fitted};
 use crate::studies::measured::{Kind, Measured};
 
 /// Fits, and prints, draws and writes what was asked for.
@@ -151,25 +151,11 @@ fn report(fitted: &Fitted) -> String {
 
 /// Measured minus simulated values, one plot per data set.
 fn residual_plots(fitted: &Fitted, marker: Marker) -> String {
-    let residuals: Vec<Vec<f64>> = fitted.compared.iter().map(Compared::residuals).collect();
-    let titles: Vec<String> = fitted
-        .compared
-        .iter()
-        .map(|set| format!("{}: residual", set.measured.name))
-        .collect();
-    let sets = fitted.compared.iter().zip(&residuals).zip(&titles);
-    let plots: Vec<Plot> = sets
-        .map(|((set, residuals), title)| {
-            let (name, unit) = set.measured.kind.abscissa();
-            let at = &set.measured.at;
-            Plot::new(
-                Axis::new(name, unit),
-                Axis::new(title, set.measured.kind.unit()),
-            )
-            .curve(Curve::new("", at, residuals, Style::default()))
-            .marker(marker)
-            .legend(false)
-        })
-        .collect();
-    small_multiples::draw(&plots)
+    let charts = fitted.compared.iter().map(|set| {
+        let (measured, (name, unit)) = (&set.measured, set.measured.kind.abscissa());
+        let ordinate = Axis::new(format!("{}: residual", measured.name), measured.kind.unit());
+        let curve = Curve::new("", measured.at.clone(), set.residuals(), Role::Profile);
+        Chart::new("", Axis::new(name, unit), ordinate).curve(curve)
+    });
+    small_multiples::draw(&charts.collect::<Vec<_>>(), marker)
 }

@@ -4,7 +4,8 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 
-use crate::plot::Plot;
+use crate::plot::theme::{Look, Theme};
+use crate::plot::{Chart, Marker, Plot};
 
 /// Size of one plot, cells.
 const SIZE: (u16, u16) = (39, 11);
@@ -15,15 +16,16 @@ const GAP: u16 = 2;
 /// Plots beside each other.
 const ACROSS: usize = 2;
 
-/// The plots in rows of two.
-pub fn draw(plots: &[Plot<'_>]) -> String {
+/// The charts in rows of two.
+pub fn draw(charts: &[Chart], marker: Marker) -> String {
+    let theme = Theme::new(Look::Mono, marker);
     let (width, height) = SIZE;
     let mut text = String::new();
-    for plots in plots.chunks(ACROSS) {
+    for charts in charts.chunks(ACROSS) {
         let mut buffer = Buffer::empty(Rect::new(0, 0, (width + GAP) * ACROSS as u16, height));
-        for (at, plot) in plots.iter().enumerate() {
+        for (at, chart) in charts.iter().enumerate() {
             let area = Rect::new(at as u16 * (width + GAP), 0, width, height);
-            plot.render(area, &mut buffer);
+            Plot::new(chart, &theme).render(area, &mut buffer);
         }
         text.push('\n');
         for row in buffer.area.rows() {

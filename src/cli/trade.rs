@@ -5,14 +5,14 @@ use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::{Context, Result};
-use ratatui::style::Style;
 
 use super::args::Trade;
 use super::job::end;
 use super::{FAILED, Misuse, complain, progress, results, small_multiples, stop};
 use crate::export::header::number;
 use crate::math::abel::AbelMethod;
-use crate::plot::{Axis, Curve, Plot, Scale};
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve, Scale};
 use crate::scenario::Scenario;
 use crate::studies::refinement::Verdict;
 use crate::studies::trade::report::{Trial, cheapest, front, points, table};
@@ -377,22 +377,16 @@ fn plots(found: &Found, options: &Trade) -> String {
     let (Some(times), Some(errors)) = (every(|front| &front.0), every(|front| &front.1)) else {
         return String::new();
     };
-    let names: Vec<String> = fronts
-        .iter()
-        .map(|(method, _)| format!("{method}: error"))
-        .collect();
-    let plots: Vec<Plot> = fronts
-        .iter()
-        .zip(&names)
-        .map(|((_, mine), name)| {
-            Plot::new(
-                Axis::new("time", "s").bounds(times).scale(Scale::Log),
-                Axis::new(name, "").bounds(errors).scale(Scale::Log),
-            )
-            .curve(Curve::new("", &all.0, &all.1, Style::new()).dashed())
-            .curve(Curve::new("", &mine.0, &mine.1, Style::new()))
-            .marker(options.drawing.marker.into())
-        })
-        .collect();
-    small_multiples::draw(&plots)
+    let charts = fronts.into_iter().map(|(method, mine)| {
+        let ordinate = Axis::new(format!("{method}: error"), "");
+        let curve = |(times, errors): Points| Curve::new("", times, errors, Role::Profile);
+        Chart::new(
+            "",
+            Axis::new("time", "s").bounds(times).scale(Scale::Log),
+            ordinate.bounds(errors).scale(Scale::Log),
+        )
+        .curve(curve(all.clone()).dashed())
+        .curve(curve(mine))
+    });
+    small_multiples::draw(&charts.collect::<Vec<_>>(), options.drawing.marker.into())
 }

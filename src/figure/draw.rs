@@ -1,13 +1,19 @@
 //! A chart on the paper: axes with the same ticks and units as on the screen, curves, a map, a legend.
 
 use super::canvas::{Anchor, BLACK, Canvas, WHITE};
-use super::chart::{Axis, Chart, Curve, Map, titled};
 use super::font;
-use super::ink::{Ink, Look};
-use crate::plot::Scale;
+use super::look::Look;
+use crate::plot::axis::titled;
+use crate::plot::segment::clip;
+use crate::plot::theme::Role;
 use crate::plot::ticks::{Labels, Tick, ticks};
 use crate::plot::units::{AxisUnit, axis_unit};
 use crate::plot::window::Window;
+use crate::plot::{Axis, Chart, Curve, Map, Scale};
+
+/// The share of the data's extent between them and the frame, above and below, so that no plateau lies on it.
+/// Zero may lie on the frame: it is an axis.
+const HEADROOM: f64 = 0.04;
 
 /// Width of curves, of axes, and of the white beside a line on a map, mm.
 const CURVE: f64 = 0.35;
@@ -61,7 +67,7 @@ impl Frame {
 
     /// Draws the points of a curve that lie inside, with their error bars, and returns them.
     fn points(&self, curve: &Curve, canvas: &mut Canvas, look: &Look) -> Vec<[f64; 2]> {
-        let ink = look.color(curve.ink);
+        let ink = look.color(curve.role);
         let mut drawn = Vec::new();
         for (k, (&x, &y)) in curve.xs.iter().zip(&curve.ys).enumerate() {
             if let Some(error) = curve.errors.get(k).filter(|error| error.is_finite()) {
@@ -75,7 +81,7 @@ impl Frame {
             }
             let place = self.place(x, y);
             if let Some(at) = place.filter(|at| self.inside(*at, *at).is_some()) {
-                canvas.line(symbol(curve.ink, at), ink, BAR, &[]);
+                canvas.line(symbol(curve.role, at), ink, BAR, &[]);
                 drawn.push(at);
             }
         }
@@ -101,27 +107,11 @@ impl Frame {
         parts
     }
 
-    /// The part of a segment inside the frame (Liang and Barsky).
+    /// The part of a segment inside the frame.
     fn inside(&self, from: [f64; 2], to: [f64; 2]) -> Option<[[f64; 2]; 2]> {
+        let [width, height] = self.size;
         let low = [self.left, self.top];
-        let (mut first, mut last) = (0.0_f64, 1.0_f64);
-        for k in 0..2 {
-            let (step, high) = (to[k] - from[k], low[k] + self.size[k]);
-            let bounds = [low[k] - from[k], high - from[k]];
-            if step == 0.0 {
-                if bounds[0] > 0.0 || bounds[1] < 0.0 {
-                    return None;
-                }
-                continue;
-            }
-            let (a, b) = (bounds[0] / step, bounds[1] / step);
-            first = first.max(a.min(b));
-            last = last.min(a.max(b));
-        }
-        let at = |share: f64| [0, 1].map(|k| from[k] + share * (to[k] - from[k]));
-        let start = if first == 0.0 { from } else { at(first) };
-        let end = if last == 1.0 { to } else { at(last) };
-        (first <= last).then_some([start, end])
+        clip(from, to, low, [low[0] + width, low[1] + height])
     }
 }
 
@@ -189,7 +179,11 @@ impl<'a> Key<'a> {
                 canvas.text([beside, y], &numeral(&tick.label), font, Anchor::Start);
             }
         }
-        let title = titled(&self.map.quantity.label, &numeral(&self.unit.text));
+        let title = titled(
+            &self.map.quantity.label,
+            &numeral(&self.unit.text),
+            ['(', ')'],
+        );
         let edge = frame.right() + self.width(font);
         canvas.text_upwards([edge, top + 0.5 * height], &title, font);
     }
@@ -197,7 +191,7 @@ impl<'a> Key<'a> {
 
 impl Chart {
     /// Draws the chart into the rectangle at `at` of `size` (mm).
-    pub fn draw(&self, canvas: &mut Canvas, at: [f64; 2], size: [f64; 2], look: &Look) {
+    pub(super) fn draw(&self, canvas: &mut Canvas, at: [f64; 2], size: [f64; 2], look: &Look) {
         self.draw_as(false, canvas, at, size, look);
     }
 
@@ -211,7 +205,7 @@ impl Chart {
         look: &Look,
     ) {
         let font = look.font;
-        let bounds = [self.bounds(0), self.bounds(1)];
+        let bounds = self.bounds_on_paper();
         let units = [unit_of(&self.x, bounds[0]), unit_of(&self.y, bounds[1])];
         let top = if self.title.is_empty() { 0.6 } else { 1.8 } * font;
         // The legend of a map stands below it: no colour is hidden.
@@ -252,8 +246,8 @@ impl Chart {
             draw_map(key.map, [&self.x, &self.y], &frame, canvas, look);
             key.draw(&frame, canvas, look);
         }
-        for &(x, letter) in &self.marks {
-            self.mark(x, letter, &frame, canvas, font);
+        for mark in &self.marks {
+            self.mark(mark.x, mark.label, &frame, canvas, font);
         }
         let mut drawn = Vec::new();
         if self.map.is_some() {
@@ -263,11 +257,11 @@ impl Chart {
             }
         }
         for curve in &self.curves {
-            let dashes = look.dashes(curve.ink, curve.dashed);
+            let dashes = look.dashes(curve.role, curve.dashed);
             let parts = frame.clipped(curve);
             for part in parts.into_iter().filter(|_| curve.has_line) {
                 drawn.extend(along(&part));
-                canvas.line(part, look.color(curve.ink), CURVE, dashes);
+                canvas.line(part, look.color(curve.role), CURVE, dashes);
             }
             if curve.has_symbols {
                 drawn.extend(frame.points(curve, canvas, look));
@@ -293,6 +287,30 @@ impl Chart {
         if !is_inset {
             self.legend(&frame, &drawn, canvas, look);
         }
+    }
+
+    /// The values at the ends of both axes: as given, else from the data, the ordinate's rounded.
+    pub fn bounds_on_paper(&self) -> [[f64; 2]; 2] {
+        let (extent, axes) = (self.extent(|_| true), [&self.x, &self.y]);
+        [0, 1].map(|k| {
+            let (axis, is_x) = (axes[k], k == 0);
+            let has_margin = is_x && self.margin > 0.0;
+            let is_full = is_x || self.map.is_some();
+            let apart = |end: f64, by: f64| if end == 0.0 { 0.0 } else { end + by };
+            let data = extent[k].map(|[low, high]| match axis.scale {
+                _ if has_margin && high > low => axis.with_margin([low, high], self.margin),
+                Scale::Linear if !is_full => {
+                    let more = HEADROOM * (high - low);
+                    [apart(low, -more), apart(high, more)]
+                }
+                _ => [low, high],
+            });
+            let is_rounded = match axis.scale {
+                Scale::Linear => !is_full,
+                Scale::Log => !has_margin,
+            };
+            axis.resolve(data, is_rounded)
+        })
     }
 
     fn mark(&self, x: f64, letter: &str, frame: &Frame, canvas: &mut Canvas, font: f64) {
@@ -355,7 +373,8 @@ impl Chart {
                 canvas.text(at, &numeral(&tick.label), font, anchor);
             }
         }
-        let label = |axis: &Axis, unit: &AxisUnit| titled(&axis.label, &numeral(&unit.text));
+        let label =
+            |axis: &Axis, unit: &AxisUnit| titled(&axis.label, &numeral(&unit.text), ['(', ')']);
         let below = [left + 0.5 * width, bottom + 2.7 * font];
         canvas.text(below, &label(&self.x, &units[0]), font, Anchor::Middle);
         let beside = [at[0] + 1.2 * font, top + 0.5 * height];
@@ -393,14 +412,14 @@ impl Chart {
         for (k, curve) in self.named().enumerate() {
             let middle = y + gap / 2.0 + line * (k as f64 + 0.5);
             let [from, to] = [x + gap / 2.0, x + gap / 2.0 + swatch];
-            let ink = look.color(curve.ink);
+            let ink = look.color(curve.role);
             if curve.has_line {
-                let dashes = look.dashes(curve.ink, curve.dashed);
+                let dashes = look.dashes(curve.role, curve.dashed);
                 canvas.line(vec![[from, middle], [to, middle]], ink, CURVE, dashes);
             }
             if curve.has_symbols {
                 let place = [0.5 * (from + to), middle];
-                canvas.line(symbol(curve.ink, place), ink, BAR, &[]);
+                canvas.line(symbol(curve.role, place), ink, BAR, &[]);
             }
             let place = [x + gap + swatch, middle + 0.36 * font];
             canvas.text(place, &curve.name, font, Anchor::Start);
@@ -463,10 +482,10 @@ fn draw_map(map: &Map, axes: [&Axis; 2], frame: &Frame, canvas: &mut Canvas, loo
 }
 
 /// The outline of the sign of a point: a square, a diamond or a triangle.
-fn symbol(ink: Ink, [x, y]: [f64; 2]) -> Vec<[f64; 2]> {
-    let corners: &[[f64; 2]] = match ink {
-        Ink::Ghost(k) if k % 3 == 1 => &[[0.0, -1.2], [1.2, 0.0], [0.0, 1.2], [-1.2, 0.0]],
-        Ink::Ghost(k) if k % 3 == 2 => &[[0.0, -1.1], [1.1, 0.8], [-1.1, 0.8]],
+fn symbol(role: Role, [x, y]: [f64; 2]) -> Vec<[f64; 2]> {
+    let corners: &[[f64; 2]] = match role {
+        Role::Ghost(k) if k % 3 == 1 => &[[0.0, -1.2], [1.2, 0.0], [0.0, 1.2], [-1.2, 0.0]],
+        Role::Ghost(k) if k % 3 == 2 => &[[0.0, -1.1], [1.1, 0.8], [-1.1, 0.8]],
         _ => &[[-0.9, -0.9], [0.9, -0.9], [0.9, 0.9], [-0.9, 0.9]],
     };
     let closed = corners.iter().chain(corners.first());

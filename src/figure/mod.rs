@@ -1,19 +1,18 @@
 //! Figures for a paper: charts on sheets, as SVG, PNG or PDF, and what they show as CSV.
 //!
 //! One idea per file: `canvas` (lines, areas and words in millimetres), `svg`, `png` and `pdf` (one
-//! writer each), `font`, `ink` (colours and greys), `chart` (axes, curves, map), `draw` (a chart on the canvas),
+//! writer each), `font`, `look` (colours and greys), `draw` (a chart on the canvas),
 //! `data` (the tables of a run, from its files or from memory), `panels` (one chart of a run each), `study` (those
-//! of a sweep), `paper` (the figures of the paper). Ticks and units are those of the screen (`plot`).
+//! of a sweep), `paper` (the figures of the paper). Charts, their ticks and units are those of the screen (`plot`).
 
 use std::fmt::Write;
 use std::path::Path;
 
 pub mod canvas;
-pub mod chart;
 pub mod data;
 mod draw;
 pub mod font;
-pub mod ink;
+pub mod look;
 pub mod panels;
 pub mod paper;
 pub mod pdf;
@@ -22,10 +21,10 @@ pub mod study;
 pub mod svg;
 
 use canvas::Canvas;
-use chart::Chart;
-use ink::Look;
+use look::Look;
 
 use crate::export::header::number;
+use crate::plot::Chart;
 use crate::scenario::printable;
 
 /// The kinds of files.

@@ -1,11 +1,10 @@
 //! The charts, each made from the tables of a run.
 
-use super::chart::{Axis, Chart, Curve, Map};
 use super::data::{Data, Table};
-use super::ink::Ink;
 use crate::math::scan::largest;
-use crate::plot::Scale;
 use crate::plot::colormap::ColorMap;
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve, Map};
 use crate::studies::ghost::{Axes, Ghost};
 use crate::studies::theory::Theory;
 
@@ -119,15 +118,16 @@ impl Panel {
 
     /// Draws ghost number `k`.
     fn lay_over(self, chart: &mut Chart, ghost: &Ghost, k: usize, data: &Data) {
-        let ink = Ink::Ghost(k);
+        let role = Role::Ghost(k);
         let mut draw = |name: &str, xs: &[f64], ys: &[f64], errors: &Option<Vec<f64>>| {
             if !ys.iter().any(|y| y.is_finite()) {
                 return;
             }
-            match ghost.is_measured {
-                true => chart.scattered(name, xs, ys, errors.as_deref().unwrap_or(&[]), ink),
-                false => chart.curve(name, xs, ys, ink, true),
-            }
+            let curve = Curve::new(name, xs, ys, role);
+            chart.curves.push(match ghost.is_measured {
+                true => curve.scattered(errors.clone().unwrap_or_default()),
+                false => curve.dashed(),
+            });
         };
         if matches!(self, Self::Profile | Self::WornDepth) {
             let indenter = data.scenario.as_ref().map(|known| &known.setup().indenter);
@@ -207,11 +207,11 @@ fn name_of(data: &Data, state: &Table, alone: &str) -> String {
     }
 }
 
-fn ink_of(data: &Data, k: usize, alone: Ink) -> Ink {
+fn ink_of(data: &Data, k: usize, alone: Role) -> Role {
     match data.states.len() {
         1 => alone,
         // The last state has the same, the darkest ink, however many there are.
-        count => Ink::Series(count - 1 - k),
+        count => Role::Series(count - 1 - k),
     }
 }
 
@@ -222,7 +222,9 @@ fn of_states(title: &str, data: &Data, [xs, ys]: [&str; 2], x: Axis, y: Axis) ->
             continue;
         };
         let name = name_of(data, state, "");
-        chart.curve(&name, xs, ys, ink_of(data, k, Ink::Profile), false);
+        chart
+            .curves
+            .push(Curve::new(name, xs, ys, ink_of(data, k, Role::Profile)));
     }
     chart
 }
@@ -236,11 +238,15 @@ fn profile(data: &Data) -> Chart {
     if let Some(state) = data.states.last()
         && let (Some(radii), Some(unworn)) = (state.column("r_m"), state.column("f0_m"))
     {
-        chart.curve("unworn", radii, unworn, Ink::Unworn, true);
+        chart
+            .curves
+            .push(Curve::new("unworn", radii, unworn, Role::Unworn).dashed());
         let theory = data.scenario.as_ref();
         let theory = theory.map(|scenario| Theory::of(scenario.setup()));
         if let Some(limit) = theory.and_then(|theory| theory.limiting_profile(radii)) {
-            chart.curve("limit", radii, &limit, Ink::Limit, true);
+            chart
+                .curves
+                .push(Curve::new("limit", radii, limit, Role::Limit).dashed());
         }
         // What a page hides in the profile.
         let (r, depth) = (Axis::new("r", "m"), Axis::new("worn depth", "m"));
@@ -260,11 +266,15 @@ pub fn stresses(state: &Table) -> Option<Chart> {
     let pressure = state.column("p_Pa")?;
     let (x, y) = (Axis::new("r", "m"), Axis::new("stress", "Pa"));
     let mut chart = Chart::new("stresses", x, y);
-    chart.curve("p", radii, pressure, Ink::Pressure, false);
+    chart
+        .curves
+        .push(Curve::new("p", radii, pressure, Role::Pressure));
     if let Some(shear) = state.column("tau_Pa")
         && shear.iter().any(|&shear| shear != 0.0)
     {
-        chart.curve("τ", radii, shear, Ink::Shear, false);
+        chart
+            .curves
+            .push(Curve::new("τ", radii, shear, Role::Shear));
     }
     Some(chart)
 }
@@ -296,22 +306,26 @@ fn loops(data: &Data) -> Result<Chart, &'static str> {
             1 if is_sensed => (
                 "contact".into(),
                 "rig's sensor".into(),
-                Ink::Shear,
-                Ink::Unworn,
+                Role::Shear,
+                Role::Unworn,
             ),
-            1 => (String::new(), String::new(), Ink::Shear, Ink::Unworn),
+            1 => (String::new(), String::new(), Role::Shear, Role::Unworn),
             _ => {
                 let name = format!("{end} cycles");
                 let sensor = format!("{name} (rig's sensor)");
-                let ink = Ink::Series(count - 1 - k);
+                let ink = Role::Series(count - 1 - k);
                 (name, sensor, ink, ink)
             }
         };
         if is_sensed {
-            chart.curve(&sensor, &sensed, &sensed_forces, sensor_ink, true);
+            chart
+                .curves
+                .push(Curve::new(sensor, sensed, sensed_forces, sensor_ink).dashed());
         }
         // The contact's comes last: another figure takes that as its ghost.
-        chart.curve(&name, &one.shifts, &one.forces, ink, false);
+        chart
+            .curves
+            .push(Curve::new(name, one.shifts, one.forces, ink));
     }
     let moves = chart
         .curves
@@ -353,9 +367,16 @@ fn radii(data: &Data) -> Option<Chart> {
     let largest = contact.iter().copied().fold(0.0, f64::max);
     y.bounds = Some([0.0, 1.1 * largest]).filter(|_| largest > 0.0);
     let mut chart = Chart::new("radii", Axis::new("cycles", ""), y);
-    chart.curve("contact radius a", &cycles, &contact, Ink::Contact, false);
+    chart.curves.push(Curve::new(
+        "contact radius a",
+        cycles.clone(),
+        contact,
+        Role::Contact,
+    ));
     if let Some([stick]) = over_cycles(data, ["permanent_stick_radius_m"]) {
-        chart.curve("stick radius c", &cycles, &stick, Ink::Stick, false);
+        chart
+            .curves
+            .push(Curve::new("stick radius c", cycles, stick, Role::Stick));
     }
     Some(chart)
 }
@@ -364,7 +385,9 @@ fn volume(data: &Data) -> Option<Chart> {
     let (x, y) = (Axis::new("cycles", ""), Axis::new("V", "m³"));
     let mut chart = Chart::new("worn volume", x, y);
     let [cycles, volume] = over_cycles(data, ["cycle", "wear_volume_m3"])?;
-    chart.curve("", &cycles, &volume, Ink::Profile, false);
+    chart
+        .curves
+        .push(Curve::new("", cycles, volume, Role::Profile));
     Some(chart)
 }
 
@@ -373,7 +396,9 @@ fn scar_depth(data: &Data) -> Option<Chart> {
     let (x, y) = (Axis::new("cycles", ""), Axis::new("worn depth", "m"));
     let mut chart = Chart::new("worn depth over cycles", x, y);
     if let Some([cycles, depths]) = over_cycles(data, ["cycle", "scar_depth_m"]) {
-        chart.curve("", &cycles, &depths, Ink::Profile, false);
+        chart
+            .curves
+            .push(Curve::new("", cycles, depths, Role::Profile));
         return Some(chart);
     }
     let wear = |state: &Table| state.column("wear_m").map(largest);
@@ -381,8 +406,13 @@ fn scar_depth(data: &Data) -> Option<Chart> {
     let (cycles, depths): (Vec<f64>, Vec<f64>) = states
         .filter_map(|state| Some((state.cycle(), wear(state)?)))
         .unzip();
-    chart.scattered("simulated", &cycles, &depths, &[], Ink::Profile);
-    (!cycles.is_empty()).then_some(chart)
+    let curve = Curve::new("simulated", cycles, depths, Role::Profile);
+    chart.curves.push(curve.scattered([]));
+    chart
+        .curves
+        .iter()
+        .any(|curve| !curve.xs.is_empty())
+        .then_some(chart)
 }
 
 fn field(panel: Panel, data: &Data) -> Option<Chart> {
@@ -410,7 +440,6 @@ fn field(panel: Panel, data: &Data) -> Option<Chart> {
     };
     let mut depth = Axis::new("z", "m");
     depth.downwards = true;
-    depth.scale = Scale::Linear;
     let mut chart = Chart::new(name, Axis::new("x", "m"), depth);
     chart.map = Some(Map {
         quantity: Axis::new(label, "Pa"),

@@ -1,12 +1,11 @@
 //! The figures of Li, Forsbach & Benad (2019), point by point.
 
 use super::Sheet;
-use super::chart::{Axis, Chart};
 use super::data::Data;
-use super::ink::Ink;
 use super::panels::{Missing, Panel, stresses};
 use crate::math::abel::AbelMethod;
-use crate::plot::Scale;
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve, Scale};
 use crate::studies::verify::{Problem, Stop, Task};
 
 /// N of the paper's figures.
@@ -20,11 +19,8 @@ pub const POINTS: usize = 100;
 pub fn errors(points: usize) -> Result<Sheet, Stop> {
     let titles = ["1D profile", "normal stress", "normal deformation"];
     let mut charts = titles.map(|title| {
-        let mut y = Axis::new("relative error", "");
-        y.scale = Scale::Log;
-        let mut x = Axis::new("r/a", "");
-        x.bounds = Some([0.0, 1.0]);
-        Chart::new(title, x, y)
+        let y = Axis::new("relative error", "").scale(Scale::Log);
+        Chart::new(title, Axis::new("r/a", "").bounds([0.0, 1.0]), y)
     });
     for (k, method) in [AbelMethod::A, AbelMethod::B].into_iter().enumerate() {
         let task = Task {
@@ -34,7 +30,8 @@ pub fn errors(points: usize) -> Result<Sheet, Stop> {
         };
         for (chart, errors) in charts.iter_mut().zip(task.run().errors?) {
             let name = format!("method {}", method.name().to_uppercase());
-            chart.curve(&name, &errors.radii, &errors.errors, Ink::Series(k), k > 0);
+            let curve = Curve::new(name, errors.radii, errors.errors, Role::Series(k));
+            chart.curves.push(curve.dashed_if(k > 0));
         }
     }
     Ok(Sheet {

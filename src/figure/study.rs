@@ -1,10 +1,9 @@
 //! Charts of a study's table: a map over two axes, curves over one, points of a sampled design.
 
 use super::Sheet;
-use super::chart::{Axis, Chart, Map};
-use super::ink::Ink;
-use crate::plot::Scale;
 use crate::plot::colormap::ColorMap;
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve, Map, Mark, Scale};
 use crate::scenario::scalars;
 use crate::studies::sweep::slice::{REGIMES, Slice};
 use crate::studies::sweep::{self, Design, Spread};
@@ -144,7 +143,7 @@ pub fn paper_axis(slice: &Slice, axis: &sweep::Axis) -> Axis {
         let words = (0..axis.count()).map(|place| format!("{place}: {}", axis.text(place)));
         label = format!("{label}, {}", words.collect::<Vec<_>>().join(", "));
     }
-    Axis::new(&label, unit).scale(match axis.spread {
+    Axis::new(label, unit).scale(match axis.spread {
         Spread::Linear => Scale::Linear,
         Spread::Logarithmic => Scale::Log,
     })
@@ -167,7 +166,9 @@ fn unit_of(column: &str) -> &'static str {
 
 /// A column of a study in words, with its unit; logarithmic where its `values` span decades.
 pub fn quantity(column: &str, values: &[f64]) -> Axis {
-    let label = scalars::find(column).map_or(column, |scalar| scalar.meaning);
+    let label = scalars::find(column)
+        .map_or(column, |scalar| scalar.meaning)
+        .to_owned();
     let shown = values.iter().copied().filter(|value| value.is_finite());
     let [low, high] = shown.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| {
         [low.min(v), high.max(v)]
@@ -219,11 +220,11 @@ fn map(slice: &Slice, column: &str) -> Chart {
     });
     if !is_regime && let Some([xs, ys]) = regime_border(slice, [&across, &up]) {
         let name = "running condition changes";
-        chart.curve(name, &xs, &ys, Ink::Border(2), false);
+        chart.curves.push(Curve::new(name, xs, ys, Role::Border(2)));
     }
     for (k, (name, points)) in slice.border_points().into_iter().enumerate() {
         let (xs, ys): (Vec<f64>, Vec<f64>) = points.into_iter().map(|[x, y]| (x, y)).unzip();
-        chart.curve(&name, &xs, &ys, Ink::Border(k), false);
+        chart.curves.push(Curve::new(name, xs, ys, Role::Border(k)));
     }
     for (k, line) in slice.criteria().into_iter().enumerate() {
         let at = line.at.iter().filter_map(|&(x, y)| {
@@ -231,7 +232,9 @@ fn map(slice: &Slice, column: &str) -> Chart {
             Some((slice.x().value_at(x as f64)?, y))
         });
         let (xs, ys): (Vec<f64>, Vec<f64>) = at.unzip();
-        chart.curve(&line.name, &xs, &ys, Ink::Border(3 + k), false);
+        chart
+            .curves
+            .push(Curve::new(line.name, xs, ys, Role::Border(3 + k)));
     }
     chart
 }
@@ -280,7 +283,11 @@ fn curve(slice: &Slice, column: &str) -> Chart {
         if let (Some(before), Some(after)) = (regime(x - 1), regime(x))
             && before != after
         {
-            chart.marks.push((edge, REGIMES[after].1));
+            chart.marks.push(Mark {
+                x: edge,
+                label: REGIMES[after].1,
+                role: Role::Quiet,
+            });
         }
     }
     chart
@@ -300,6 +307,6 @@ fn points(slice: &Slice, column: &str) -> Chart {
     });
     let mut chart = Chart::new("", paper_axis(slice, slice.x()), quantity(column, &ys));
     chart.margin = MARGIN;
-    chart.scattered("", &xs, &ys, &bars.unwrap_or_else(Vec::new), Ink::Profile);
-    chart
+    let curve = Curve::new("", xs, ys, Role::Profile);
+    chart.curve(curve.scattered(bars.unwrap_or_else(Vec::new)))
 }

@@ -1,5 +1,7 @@
 //! Axes: quantity, unit, bounds and scale.
 
+use std::borrow::Cow;
+
 use super::step::Step;
 
 /// How values spread along an axis.
@@ -13,23 +15,27 @@ pub enum Scale {
 }
 
 /// What an axis shows.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Axis<'a> {
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Axis {
     /// The quantity's symbol or name, as in `p`.
-    pub label: &'a str,
+    pub label: Cow<'static, str>,
     /// The unit of the data without prefix, as in `Pa`; empty for pure numbers.
-    pub unit: &'a str,
+    pub unit: &'static str,
     /// The values at the two ends, in `unit`; `None` takes them from the data.
     pub bounds: Option<[f64; 2]>,
+    /// A value that is within bounds from the data.
+    pub holds: Option<f64>,
     /// Linear or logarithmic.
     pub scale: Scale,
+    /// Whether the ordinate grows downwards, on paper.
+    pub downwards: bool,
 }
 
-impl<'a> Axis<'a> {
+impl Axis {
     /// A linear axis that takes its bounds from the data.
-    pub fn new(label: &'a str, unit: &'a str) -> Self {
+    pub fn new(label: impl Into<Cow<'static, str>>, unit: &'static str) -> Self {
         Axis {
-            label,
+            label: label.into(),
             unit,
             ..Axis::default()
         }
@@ -37,22 +43,74 @@ impl<'a> Axis<'a> {
 
     /// The same axis from `bounds[0]` to `bounds[1]` (in the data's unit).
     #[must_use]
-    pub fn bounds(mut self, bounds: [f64; 2]) -> Self {
-        self.bounds = Some(bounds);
-        self
+    pub fn bounds(self, bounds: [f64; 2]) -> Self {
+        Axis {
+            bounds: Some(bounds),
+            ..self
+        }
+    }
+
+    /// The same axis, which holds zero: volumes and radii grow from there.
+    #[must_use]
+    pub fn from_zero(self) -> Self {
+        Axis {
+            holds: Some(0.0),
+            ..self
+        }
     }
 
     /// The same axis with the given scale.
     #[must_use]
-    pub fn scale(mut self, scale: Scale) -> Self {
-        self.scale = scale;
-        self
+    pub fn scale(self, scale: Scale) -> Self {
+        Axis { scale, ..self }
+    }
+
+    /// The label with the unit of the data, as in `r (m)`.
+    pub fn in_data_units(&self) -> String {
+        titled(&self.label, self.unit, ['(', ')'])
+    }
+
+    /// A value as it is spread along the axis.
+    pub(super) fn spread(&self, value: f64) -> f64 {
+        match self.scale {
+            Scale::Linear => value,
+            Scale::Log => value.log10(),
+        }
+    }
+
+    /// The value that is spread to `spread`.
+    fn unspread(&self, spread: f64) -> f64 {
+        match self.scale {
+            Scale::Linear => spread,
+            Scale::Log => 10f64.powf(spread),
+        }
+    }
+
+    /// Values halfway between neighbouring `places`, and as far beyond the first and the last one.
+    pub fn edges(&self, places: &[f64]) -> Vec<f64> {
+        let at: Vec<f64> = places.iter().map(|&place| self.spread(place)).collect();
+        let last = at.len().saturating_sub(1);
+        let half = |a: usize, b: usize| match at[b] - at[a] {
+            0.0 => 0.5 * at[a].abs().max(1e-300),
+            step => 0.5 * step,
+        };
+        let mut edges = vec![at[0] - half(0, last.min(1))];
+        edges.extend(at.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])));
+        edges.push(at[last] + half(last.saturating_sub(1), last));
+        edges.into_iter().map(|edge| self.unspread(edge)).collect()
+    }
+
+    /// `bounds` with this share of their distance more on either side.
+    pub fn with_margin(&self, [low, high]: [f64; 2], share: f64) -> [f64; 2] {
+        let [low, high] = [low, high].map(|bound| self.spread(bound));
+        let more = share * (high - low);
+        [low - more, high + more].map(|bound| self.unspread(bound))
     }
 
     /// The bounds to draw with: the given ones where they make sense, else those of the
     /// `data`, rounded outwards to the tick grid if `round` asks for it. Always finite,
     /// increasing, and positive on a log axis.
-    pub(super) fn resolve(&self, data: Option<[f64; 2]>, round: bool) -> [f64; 2] {
+    pub fn resolve(&self, data: Option<[f64; 2]>, round: bool) -> [f64; 2] {
         let given = self.bounds.and_then(|[a, b]| self.usable(a, b));
         match (given, data, self.scale) {
             (Some([lo, hi]), ..) => widened(lo, hi, 1e-9),
@@ -69,6 +127,15 @@ impl<'a> Axis<'a> {
         let ordered = lo.is_finite() && hi.is_finite() && !(a.is_nan() || b.is_nan());
         let positive = self.scale == Scale::Linear || lo > 0.0;
         (ordered && positive).then_some([lo, hi])
+    }
+}
+
+/// A quantity with its unit between brackets, `p [MPa]`; either may be empty.
+pub fn titled(label: &str, unit: &str, [open, close]: [char; 2]) -> String {
+    match (label, unit) {
+        (label, "") => label.to_owned(),
+        ("", unit) => format!("{open}{unit}{close}"),
+        (label, unit) => format!("{label} {open}{unit}{close}"),
     }
 }
 
@@ -222,20 +289,21 @@ mod tests {
     #[test]
     fn senseless_bounds_give_way_to_the_data() {
         let data = Some([1.0, 9.0]);
-        let axis = Axis::new("x", "m");
-        assert_eq!(axis.bounds([4.0, 2.0]).resolve(data, false), [2.0, 4.0]);
+        let axis = || Axis::new("x", "m");
+        assert_eq!(axis().bounds([4.0, 2.0]).resolve(data, false), [2.0, 4.0]);
         assert_eq!(
-            axis.bounds([f64::NAN, 2.0]).resolve(data, false),
+            axis().bounds([f64::NAN, 2.0]).resolve(data, false),
             [1.0, 9.0]
         );
         assert_eq!(
-            axis.bounds([0.0, 2.0])
+            axis()
+                .bounds([0.0, 2.0])
                 .scale(Scale::Log)
                 .resolve(data, true),
             [1.0, 10.0]
         );
-        assert_eq!(axis.resolve(None, true), [0.0, 1.0]);
-        let [lo, hi] = axis.bounds([3.0, 3.0]).resolve(data, false);
+        assert_eq!(axis().resolve(None, true), [0.0, 1.0]);
+        let [lo, hi] = axis().bounds([3.0, 3.0]).resolve(data, false);
         assert!(lo < 3.0 && hi > 3.0);
     }
 }

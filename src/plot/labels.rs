@@ -1,5 +1,6 @@
 //! The row under the plot: tick labels and the axis' title, which share it.
 
+use super::axis::titled;
 use super::legend::cells;
 use super::ticks::{Labels, Tick, ticks};
 use super::units::AxisUnit;
@@ -30,7 +31,9 @@ impl LabelRow {
             before,
             cells: window.cells(),
         };
-        for (title, least) in [(titled(label, unit), 2), (titled("", unit), 1)] {
+        for (title, least) in [(label, 2), ("", 1)]
+            .map(|(label, least)| (titled(label, &unit.text, ['[', ']']), least))
+        {
             for kept in (least.min(full.len())..=full.len()).rev() {
                 let ticks = &full[..kept];
                 if let Some(start) = row.right_end(ticks, cells(&title)) {
@@ -58,15 +61,6 @@ impl LabelRow {
             .last()
             .map_or(0, |tick| self.start(tick) + tick.label.len() as u16 + 2);
         (width == 0 || taken <= start).then_some(start)
-    }
-}
-
-/// A quantity with its unit, `p [MPa]`; either may be empty.
-pub(super) fn titled(label: &str, unit: &AxisUnit) -> String {
-    match (label, unit.text.as_str()) {
-        (label, "") => label.to_owned(),
-        ("", unit) => format!("[{unit}]"),
-        (label, unit) => format!("{label} [{unit}]"),
     }
 }
 

@@ -5,8 +5,8 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::text::Span;
 
-use super::marker::Marker;
 use super::raster::Raster;
+use super::theme::Role;
 use super::units::{AxisUnit, format_number, format_value_in, to_ascii};
 use super::{Axis, Curve, Plot, Scale};
 
@@ -53,9 +53,6 @@ impl Legend {
         area: Rect,
         raster: &Raster,
     ) -> Option<(Legend, Rect)> {
-        if plot.hide_legend {
-            return None;
-        }
         let placed = |reading: Reading| {
             let legend = Legend::new(plot, units, reading);
             let lines = legend.lines.len();
@@ -81,7 +78,11 @@ impl Legend {
 
     fn new(plot: &Plot<'_>, units: [&AxisUnit; 2], reading: Reading) -> Legend {
         let header = plot.cursor.filter(|_| reading != Reading::None);
-        let named = plot.curves.iter().filter(|curve| !curve.name.is_empty());
+        let named = plot
+            .chart
+            .curves
+            .iter()
+            .filter(|curve| !curve.name.is_empty());
         let header = header.map(|x| header_line(plot, units[0], x));
         let curves = named.map(|curve| curve_line(plot, curve, units[1], reading));
         Legend::block(header.into_iter().chain(curves).collect())
@@ -137,37 +138,38 @@ impl Legend {
 
 /// The reading of the cursor itself.
 fn header_line(plot: &Plot<'_>, unit: &AxisUnit, x: f64) -> Line {
-    let ascii = plot.marker == Marker::Ascii;
+    let (axis, ascii) = (&plot.chart.x, plot.theme.ascii());
     Line {
-        left: text(plot.x_axis.label, ascii),
-        right: with_unit(x, &plot.x_axis, unit, ascii),
-        style: plot.axis_style,
+        left: text(&axis.label, ascii),
+        right: with_unit(x, axis, unit, ascii),
+        style: plot.theme.style(Role::Quiet),
     }
 }
 
-fn curve_line(plot: &Plot<'_>, curve: &Curve<'_>, unit: &AxisUnit, reading: Reading) -> Line {
-    let ascii = plot.marker == Marker::Ascii;
-    let swatch = curve.stroke.swatch(ascii);
-    let name: String = text(curve.name, ascii).chars().take(LONGEST_NAME).collect();
+fn curve_line(plot: &Plot<'_>, curve: &Curve, unit: &AxisUnit, reading: Reading) -> Line {
+    let ascii = plot.theme.ascii();
+    let swatch = curve.stroke().swatch(ascii);
+    let name = plot.theme.printable(&curve.name);
+    let name: String = name.chars().take(LONGEST_NAME).collect();
     let value = plot.cursor.and_then(|x| curve.value_at(x));
     Line {
         left: format!("{swatch} {name}"),
         right: match (reading, value) {
             (Reading::None, _) => String::new(),
             (_, None) => if ascii { "-" } else { "–" }.to_owned(),
-            (Reading::Full, Some(y)) => with_unit(y, &plot.y_axis, unit, ascii),
+            (Reading::Full, Some(y)) => with_unit(y, &plot.chart.y, unit, ascii),
             (Reading::Bare, Some(y)) => format_number(y / unit.factor, DIGITS),
         },
         style: Style {
             bg: None,
-            ..curve.style
+            ..plot.theme.style(curve.role)
         },
     }
 }
 
 /// A reading in the unit its axis is labelled in; in one of its own where the axis has none
 /// for it (log axes, powers of ten, values far below the axis' range).
-fn with_unit(value: f64, axis: &Axis<'_>, unit: &AxisUnit, ascii: bool) -> String {
+fn with_unit(value: f64, axis: &Axis, unit: &AxisUnit, ascii: bool) -> String {
     let scaled = value / unit.factor;
     let power = unit.text.starts_with(|c: char| c.is_ascii_digit());
     let small = scaled.abs() < 1e-3 && scaled != 0.0;
@@ -183,7 +185,12 @@ fn with_unit(value: f64, axis: &Axis<'_>, unit: &AxisUnit, ascii: bool) -> Strin
 pub(super) fn short_reading(plot: &Plot<'_>, factors: [f64; 2], width: u16) -> Option<String> {
     let x = plot.cursor.filter(|x| x.is_finite())?;
     let mut line = format!("{}:", format_number(x / factors[0], 3));
-    for y in plot.curves.iter().filter_map(|curve| curve.value_at(x)) {
+    for y in plot
+        .chart
+        .curves
+        .iter()
+        .filter_map(|curve| curve.value_at(x))
+    {
         let longer = format!("{line} {}", format_number(y / factors[1], 3));
         if cells(&longer) > width {
             break;

@@ -13,7 +13,8 @@ pub(super) fn walk(
     mut visit: impl FnMut(usize, usize, bool),
 ) {
     let (width, height) = size;
-    let Some((a, b)) = clip(a, b, width - 0.5, height - 0.5) else {
+    let ends = clip(a.into(), b.into(), [-0.5; 2], [width - 0.5, height - 0.5]);
+    let Some([a, b]): Option<[(f64, f64); 2]> = ends.map(|ends| ends.map(Into::into)) else {
         return;
     };
     let (dx, dy) = (b.0 - a.0, b.1 - a.1);
@@ -39,25 +40,25 @@ fn nearest(position: f64, size: f64) -> usize {
     position.round().clamp(0.0, (size - 1.0).max(0.0)) as usize
 }
 
-/// The part of the line from `a` to `b` inside -0.5..`right`, -0.5..`top` (Liang and Barsky).
-fn clip(a: (f64, f64), b: (f64, f64), right: f64, top: f64) -> Option<((f64, f64), (f64, f64))> {
-    let (dx, dy) = (b.0 - a.0, b.1 - a.1);
-    let (mut start, mut end) = (0.0f64, 1.0f64);
-    let edges = [
-        (-dx, a.0 + 0.5),
-        (dx, right - a.0),
-        (-dy, a.1 + 0.5),
-        (dy, top - a.1),
-    ];
-    for (outward, distance) in edges {
-        if outward < 0.0 {
-            start = start.max(distance / outward);
-        } else if outward > 0.0 {
-            end = end.min(distance / outward);
-        } else if distance < 0.0 {
-            return None;
+/// The part of the line from `from` to `to` within `low` and `high` (Liang and Barsky). Ends that lie inside
+/// stay as they are to the last bit.
+pub fn clip(from: [f64; 2], to: [f64; 2], low: [f64; 2], high: [f64; 2]) -> Option<[[f64; 2]; 2]> {
+    let (mut first, mut last) = (0.0_f64, 1.0_f64);
+    for k in 0..2 {
+        let step = to[k] - from[k];
+        let bounds = [low[k] - from[k], high[k] - from[k]];
+        if step == 0.0 {
+            if bounds[0] > 0.0 || bounds[1] < 0.0 {
+                return None;
+            }
+            continue;
         }
+        let (a, b) = (bounds[0] / step, bounds[1] / step);
+        first = first.max(a.min(b));
+        last = last.min(a.max(b));
     }
-    let at = |t: f64| (a.0 + t * dx, a.1 + t * dy);
-    (start <= end).then(|| (at(start), at(end)))
+    let at = |share: f64| [0, 1].map(|k| from[k] + share * (to[k] - from[k]));
+    let start = if first == 0.0 { from } else { at(first) };
+    let end = if last == 1.0 { to } else { at(last) };
+    (first <= last).then_some([start, end])
 }

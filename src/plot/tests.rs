@@ -1,9 +1,10 @@
 //! The whole widget: what it draws, how exactly, and that nothing makes it panic.
 
+use super::theme::{Look, Role};
 use super::*;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::style::Color;
+use ratatui::style::{Color, Style};
 use ratatui::widgets::Widget;
 
 const MARKERS: [Marker; 4] = [
@@ -13,8 +14,27 @@ const MARKERS: [Marker; 4] = [
     Marker::Ascii,
 ];
 
-fn draw(plot: &Plot<'_>, width: u16, height: u16) -> Vec<String> {
+/// A chart in the look of a test, at a cursor.
+struct Shown(Chart, Theme, Option<f64>);
+
+impl Shown {
+    fn marker(mut self, marker: Marker) -> Self {
+        self.1.marker = marker;
+        self
+    }
+
+    fn cursor(self, x: f64) -> Self {
+        Shown(self.0, self.1, Some(x))
+    }
+}
+
+fn shown(chart: Chart) -> Shown {
+    Shown(chart, Theme::new(Look::Mono, Marker::Braille), None)
+}
+
+fn draw(Shown(chart, theme, cursor): &Shown, width: u16, height: u16) -> Vec<String> {
     let mut buf = Buffer::empty(Rect::new(0, 0, width, height));
+    let plot = Plot::new(chart, theme).cursor(*cursor);
     plot.render(buf.area, &mut buf);
     let row = |y| (0..width).map(|x| buf[(x, y)].symbol()).collect::<String>();
     (0..height).map(row).collect()
@@ -56,8 +76,12 @@ fn braille_dots(lines: &[String]) -> (Vec<(usize, usize)>, (usize, usize)) {
     (dots, (width, height))
 }
 
-fn axes<'a>(x: [f64; 2], y: [f64; 2]) -> Plot<'a> {
-    Plot::new(Axis::new("x", "m").bounds(x), Axis::new("y", "N").bounds(y)).legend(false)
+fn axes(x: [f64; 2], y: [f64; 2]) -> Chart {
+    Chart::new(
+        "",
+        Axis::new("x", "m").bounds(x),
+        Axis::new("y", "N").bounds(y),
+    )
 }
 
 #[test]
@@ -71,8 +95,8 @@ fn a_value_lands_on_the_nearest_dot() {
             let x = x_bounds[0] + share[0] * (x_bounds[1] - x_bounds[0]);
             let y = y_bounds[0] + share[1] * (y_bounds[1] - y_bounds[0]);
             let (xs, ys) = ([x], [y]);
-            let plot = axes(x_bounds, y_bounds).curve(Curve::new("", &xs, &ys, Style::new()));
-            let (dots, size) = braille_dots(&draw(&plot, width, height));
+            let plot = axes(x_bounds, y_bounds).curve(Curve::new("", xs, ys, Role::Profile));
+            let (dots, size) = braille_dots(&draw(&shown(plot), width, height));
             let exact = [
                 share[0] * (size.0 - 1) as f64,
                 share[1] * (size.1 - 1) as f64,
@@ -93,9 +117,13 @@ fn peaks_survive() {
     for spike in [1, 17, 2500, 5003, 9998] {
         let mut ys = vec![1.0; xs.len()];
         ys[spike] = 10.0;
-        let plot =
-            axes([0.0, 9999.0], [0.1234, 10.0]).curve(Curve::new("", &xs, &ys, Style::new()));
-        let (dots, size) = braille_dots(&draw(&plot, 43, 12));
+        let plot = axes([0.0, 9999.0], [0.1234, 10.0]).curve(Curve::new(
+            "",
+            xs.clone(),
+            ys.clone(),
+            Role::Profile,
+        ));
+        let (dots, size) = braille_dots(&draw(&shown(plot), 43, 12));
         let column = (spike as f64 / 9999.0 * (size.0 - 1) as f64).round() as usize;
         assert!(dots.contains(&(column, size.1 - 1)), "{spike}");
         let low = ((1.0 - 0.1234) / (10.0 - 0.1234) * (size.1 - 1) as f64).round() as usize;
@@ -115,8 +143,13 @@ fn gaps_stay_open() {
         }
     });
     let ys: Vec<f64> = ys.collect();
-    let plot = axes([0.0, 100.0], [0.0, 10.0]).curve(Curve::new("", &xs, &ys, Style::new()));
-    let (dots, size) = braille_dots(&draw(&plot, 60, 12));
+    let plot = axes([0.0, 100.0], [0.0, 10.0]).curve(Curve::new(
+        "",
+        xs.clone(),
+        ys.clone(),
+        Role::Profile,
+    ));
+    let (dots, size) = braille_dots(&draw(&shown(plot), 60, 12));
     for column in 0..size.0 {
         let x = column as f64 / (size.0 - 1) as f64 * 100.0;
         let drawn = dots.iter().any(|dot| dot.0 == column);
@@ -136,24 +169,27 @@ fn snapshot_40x12() {
     let zone = |from, to, glyph| Zone {
         from,
         to,
-        style: Style::new(),
+        role: Role::Profile,
         glyph,
         name: "",
     };
-    let zones = [
+    let zones = vec![
         zone(0.0, 6e-5, 's'),
         zone(6e-5, 1e-4, '~'),
         zone(1e-4, 1.5e-4, '.'),
     ];
-    let plot = Plot::new(Axis::new("r", "m"), Axis::new("p", "Pa"))
-        .curve(Curve::new("now", &xs, &ys, Style::new()))
-        .band(Band { zones: &zones })
-        .mark(VerticalMark {
+    let plot = Chart {
+        curves: vec![Curve::new("now", xs, ys, Role::Profile)],
+        band: zones,
+        marks: vec![Mark {
             x: 1e-4,
             label: "a",
-            style: Style::new(),
-        })
-        .note("50.72");
+            role: Role::Profile,
+        }],
+        note: "50.72".into(),
+        ..Chart::new("", Axis::new("r", "m"), Axis::new("p", "Pa"))
+    };
+    let plot = shown(plot);
     let expected = [
         "p [GPa]                    a       50.72",
         " │                         ⡂       ─ now",
@@ -169,7 +205,7 @@ fn snapshot_40x12() {
         "  0   20   40   60   80   100     r [µm]",
     ];
     assert_eq!(draw(&plot, 40, 12), expected);
-    let ascii = plot.marker(Marker::Ascii).cursor(Some(5e-5));
+    let ascii = plot.marker(Marker::Ascii).cursor(5e-5);
     let expected = [
         "p [GPa]             a    50.72",
         " |         |      r   50.00 um",
@@ -189,8 +225,8 @@ fn snapshot_log_log() {
     let xs: Vec<f64> = (1..=6).map(|i| 10.0 * 2f64.powi(i)).collect();
     let ys: Vec<f64> = xs.iter().map(|n| 0.5 / n / n).collect();
     let log = |label| Axis::new(label, "").scale(Scale::Log);
-    let curve = Curve::new("order 2", &xs, &ys, Style::new());
-    let plot = Plot::new(log("N"), log("error")).curve(curve);
+    let curve = Curve::new("order 2", xs, ys, Role::Profile);
+    let plot = shown(Chart::new("", log("N"), log("error")).curve(curve));
     let expected = [
         "error                               ",
         "1e-2┤                      ─ order 2",
@@ -208,16 +244,16 @@ fn snapshot_log_log() {
 
 #[test]
 fn coloured_bands_are_strips_and_mono_bands_are_letters() {
-    let zone = |from, to, style| Zone {
+    let zone = |from, to, role| Zone {
         from,
         to,
-        style,
+        role,
         glyph: 's',
         name: "",
     };
-    let green = Style::new().fg(Color::Green);
-    let narrow = [zone(0.0, 0.5, green), zone(0.7, 0.7001, Style::new())];
-    let plot = axes([0.0, 1.0], [0.0, 1.0]).band(Band { zones: &narrow });
+    let mut chart = axes([0.0, 1.0], [0.0, 1.0]);
+    chart.band = vec![zone(0.0, 0.5, Role::Stick), zone(0.7, 0.7001, Role::Quiet)];
+    let plot = Shown(chart, Theme::new(Look::Dark, Marker::Braille), None);
     let lines = draw(&plot, 40, 12);
     assert_eq!(lines[9].matches('▀').count(), 18);
     assert_eq!(lines[9].matches('s').count(), 1);
@@ -229,12 +265,13 @@ fn coloured_bands_are_strips_and_mono_bands_are_letters() {
 fn the_legend_avoids_the_curve_and_reads_at_the_cursor() {
     let (xs, ys) = ([0.0, 1.0], [0.0, 1.0]);
     let falling = [1.0, 0.0];
-    let plot = axes([0.0, 1.0], [0.0, 1.0]).legend(true);
-    let rising = plot.clone().curve(Curve::new("u", &xs, &ys, Style::new()));
+    let plot = axes([0.0, 1.0], [0.0, 1.0]);
+    let rising = plot.clone().curve(Curve::new("u", xs, ys, Role::Profile));
+    let (rising, plot) = (shown(rising), plot);
     assert!(draw(&rising, 60, 16)[1].contains("┤─ u"));
-    let falling = plot.curve(Curve::new("u", &xs, &falling, Style::new()));
-    assert!(draw(&falling, 60, 16)[1].ends_with("─ u"));
-    let lines = draw(&rising.cursor(Some(0.25)), 60, 16);
+    let falling = plot.curve(Curve::new("u", xs, falling, Role::Profile));
+    assert!(draw(&shown(falling), 60, 16)[1].ends_with("─ u"));
+    let lines = draw(&rising.cursor(0.25), 60, 16);
     assert!(lines.iter().any(|line| line.contains("x    0.2500 m")));
     assert!(lines.iter().any(|line| line.contains("─ u  0.2500 N")));
 }
@@ -242,11 +279,10 @@ fn the_legend_avoids_the_curve_and_reads_at_the_cursor() {
 #[test]
 fn ascii_is_ascii() {
     let (xs, ys) = ([0.0, 1e-4, 2e-4], [-1e-12, f64::NAN, 3e-12]);
-    let plot = Plot::new(Axis::new("δ", "m"), Axis::new("τ∂", "m³"))
-        .curve(Curve::new("µ now", &xs, &ys, Style::new()).fill_to(0.0))
-        .cursor(Some(5e-5))
-        .note("é")
-        .marker(Marker::Ascii);
+    let mut chart = Chart::new("", Axis::new("δ", "m"), Axis::new("τ∂", "m³"))
+        .curve(Curve::new("µ now", xs, ys, Role::Profile).filled(Fill::To(0.0)));
+    chart.note = "é".into();
+    let plot = shown(chart).marker(Marker::Ascii).cursor(5e-5);
     for (width, height) in [(12, 4), (40, 12), (90, 25)] {
         assert!(
             draw(&plot, width, height)
@@ -284,13 +320,18 @@ fn nothing_makes_it_panic() {
         Some([0.0, 1e-300]),
     ];
     for (index, (xs, ys)) in nasty().into_iter().enumerate() {
-        let zones = [Zone {
+        let zone = Zone {
             from: xs.first().copied().unwrap_or(f64::NAN),
             to: 1e300,
-            style: Style::new(),
+            role: Role::Profile,
             glyph: '漢',
             name: "",
-        }];
+        };
+        let mark = |x, label| Mark {
+            x,
+            label,
+            role: Role::Profile,
+        };
         for (turn, scale) in [Scale::Linear, Scale::Log].into_iter().enumerate() {
             let markers = if scale == Scale::Log {
                 &MARKERS[..1]
@@ -299,31 +340,26 @@ fn nothing_makes_it_panic() {
             };
             for &marker in markers {
                 let axis = |i: usize| Axis {
-                    label: "τ 漢字",
-                    unit: "m³",
                     bounds: bounds[(index + turn + i) % bounds.len()],
-                    scale,
+                    ..Axis::new("τ 漢字", "m³").scale(scale)
                 };
-                let plot = Plot::new(axis(0), axis(1))
-                    .curve(Curve::new("now", &xs, &ys, Style::new()).fill_to(0.5))
-                    .curve(
-                        Curve::new("a name of some length, too long", &ys, &xs, Style::new())
-                            .dashed(),
-                    )
-                    .band(Band { zones: &zones })
-                    .mark(VerticalMark {
-                        x: 0.5,
-                        label: "c",
-                        style: Style::new(),
-                    })
-                    .mark(VerticalMark {
-                        x: f64::NAN,
-                        label: "a",
-                        style: Style::new(),
-                    })
-                    .cursor([None, Some(0.3), Some(f64::INFINITY)][index % 3])
-                    .marker(marker)
-                    .note("a note");
+                let name = "a name of some length, too long";
+                let curves = vec![
+                    Curve::new("now", xs.clone(), ys.clone(), Role::Profile)
+                        .filled(Fill::To(0.5))
+                        .scattered([f64::NAN, 1e300, 1.0]),
+                    Curve::new(name, ys.clone(), xs.clone(), Role::Profile).dashed(),
+                ];
+                let chart = Chart {
+                    curves,
+                    band: vec![zone.clone()],
+                    marks: vec![mark(0.5, "c"), mark(f64::NAN, "a")],
+                    note: "a note".into(),
+                    ..Chart::new("", axis(0), axis(1))
+                };
+                let theme = Theme::new(Look::Mono, marker);
+                let cursor = [None, Some(0.3), Some(f64::INFINITY)][index % 3];
+                let plot = Plot::new(&chart, &theme).cursor(cursor);
                 for width in 0..=30 {
                     for height in 0..=12 {
                         let mut buf = Buffer::empty(Rect::new(3, 2, width, height));
@@ -338,17 +374,18 @@ fn nothing_makes_it_panic() {
 #[test]
 fn it_stays_in_its_area() {
     let (xs, ys) = ([0.0, 1.0], [-1e9, 1e9]);
-    let plot = Plot::new(
-        Axis::new("a long title", "m"),
-        Axis::new("another long title", "Pa"),
-    )
-    .curve(Curve::new("curve", &xs, &ys, Style::new()).fill_to(0.0))
-    .mark(VerticalMark {
+    let long = [("a long title", "m"), ("another long title", "Pa")];
+    let [x, y] = long.map(|(label, unit)| Axis::new(label, unit));
+    let curve = Curve::new("curve", xs, ys, Role::Profile).filled(Fill::To(0.0));
+    let mut chart = Chart::new("", x, y).curve(curve);
+    chart.marks.push(Mark {
         x: 1.0,
         label: "label",
-        style: Style::new(),
-    })
-    .note("a note");
+        role: Role::Profile,
+    });
+    chart.note = "a note".into();
+    let Shown(chart, theme, _) = shown(chart);
+    let plot = Plot::new(&chart, &theme);
     for width in 0..=30 {
         for height in 0..=12 {
             let mut buf = Buffer::empty(Rect::new(0, 0, 40, 20));
@@ -366,12 +403,11 @@ fn later_curves_win_the_colour_and_backgrounds_stay() {
     let (xs, ys) = ([0.0, 1.0], [0.5, 0.5]);
     let mut buf = Buffer::empty(Rect::new(0, 0, 40, 12));
     buf.set_style(buf.area, Style::new().bg(Color::Black));
-    let style = |colour| Style::new().fg(colour).bg(Color::White);
-    axes([0.0, 1.0], [0.0, 1.0])
-        .legend(true)
-        .curve(Curve::new("a", &xs, &ys, style(Color::Red)))
-        .curve(Curve::new("b", &xs, &ys, style(Color::Blue)))
-        .render(buf.area, &mut buf);
+    let chart = axes([0.0, 1.0], [0.0, 1.0])
+        .curve(Curve::new("a", xs, ys, Role::Shear))
+        .curve(Curve::new("b", xs, ys, Role::Profile));
+    let theme = Theme::new(Look::Light, Marker::Braille);
+    Plot::new(&chart, &theme).render(buf.area, &mut buf);
     let is_dot = |c: char| ('\u{2801}'..='\u{28ff}').contains(&c);
     let curve = buf
         .content
@@ -385,7 +421,7 @@ fn later_curves_win_the_colour_and_backgrounds_stay() {
 #[test]
 fn values_between_points() {
     let (xs, ys) = ([0.0, 1.0, 2.0, 3.0, 5.0], [0.0, 10.0, f64::NAN, 4.0, 0.0]);
-    let curve = Curve::new("", &xs, &ys, Style::new());
+    let curve = Curve::new("", xs, ys, Role::Profile);
     assert_eq!(curve.value_at(0.25), Some(2.5));
     assert_eq!(curve.value_at(1.0), Some(10.0));
     assert_eq!(curve.value_at(1.5), None);
@@ -393,6 +429,6 @@ fn values_between_points() {
     assert_eq!(curve.value_at(4.0), Some(2.0));
     assert_eq!(curve.value_at(5.1), None);
     assert_eq!(curve.value_at(f64::NAN), None);
-    let back = Curve::new("", &[2.0, 0.0], &[1e308, -1e308], Style::new());
+    let back = Curve::new("", [2.0, 0.0], [1e308, -1e308], Role::Profile);
     assert_eq!(back.value_at(1.0), Some(0.0));
 }

@@ -190,13 +190,16 @@ pub fn to_ascii(text: &str) -> Cow<'_, str> {
     for c in text.chars() {
         match c {
             c if c.is_ascii() => folded.push(c),
-            'µ' | 'μ' => folded.push('u'),
+            // The prefix micro, and the letter of friction.
+            '\u{b5}' => folded.push('u'),
+            '\u{3bc}' => folded.push_str("mu"),
             '⁰' | '₀' => folded.push('0'),
             '¹' | '₁' => folded.push('1'),
             '²' | '₂' => folded.push('2'),
             '³' | '₃' => folded.push('3'),
             '⁻' | '−' | '–' | '—' => folded.push('-'),
-            '·' | '×' => folded.push('*'),
+            '·' => folded.push('*'),
+            '×' => folded.push('x'),
             '∞' => folded.push_str("inf"),
             'τ' => folded.push_str("tau"),
             'σ' => folded.push_str("sigma"),

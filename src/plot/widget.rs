@@ -5,15 +5,18 @@ use ratatui::layout::{self, Rect};
 use ratatui::style::{Color, Style};
 use ratatui::widgets::Widget;
 
-use super::axis::{Axis, Scale};
-use super::labels::{LabelRow, titled};
+use super::Plot;
+use super::axis::{Axis, Scale, titled};
+use super::chart::Fill;
+use super::labels::LabelRow;
 use super::legend::{self, Legend, cells, text};
-use super::marker::{Marker, Under};
+use super::marker::Under;
 use super::raster::{Position, Raster};
+use super::stroke::Stroke;
+use super::theme::Role;
 use super::ticks::{Labels, Tick, ticks};
 use super::units::{AxisUnit, axis_unit};
 use super::window::Window;
-use super::{Band, Plot};
 
 /// The smallest area that gets axes, in cells.
 const SMALLEST: (u16, u16) = (12, 4);
@@ -84,33 +87,6 @@ fn even(window: Window, unit: &AxisUnit) -> Window {
         .map_or(window, |end| window.up_to(end))
 }
 
-/// The range of the points that will be seen, in x and in y: those with a place on both
-/// axes, and within x bounds that are given. Bases of fills count in y.
-fn extent(plot: &Plot<'_>) -> [Option<[f64; 2]>; 2] {
-    let has_place = |axis: &Axis<'_>, value: f64| {
-        value.is_finite() && (axis.scale == Scale::Linear || value > 0.0)
-    };
-    let limits = plot.x_axis.bounds.map(|[a, b]| [a.min(b), a.max(b)]);
-    let seen = |x: f64| limits.is_none_or(|[lo, hi]| x >= lo && x <= hi);
-    let widen = |range: &mut Option<[f64; 2]>, value: f64| {
-        let [lo, hi] = range.unwrap_or([value; 2]);
-        *range = Some([lo.min(value), hi.max(value)]);
-    };
-    let [mut xs, mut ys] = [None, None];
-    for curve in &plot.curves {
-        for (x, y) in curve.points() {
-            if has_place(&plot.x_axis, x) && has_place(&plot.y_axis, y) && seen(x) {
-                widen(&mut xs, x);
-                widen(&mut ys, y);
-            }
-        }
-        if let Some(base) = curve.fill_to.filter(|&y| has_place(&plot.y_axis, y)) {
-            widen(&mut ys, base);
-        }
-    }
-    [xs, ys]
-}
-
 /// Where the name of a zone of `width` cells from `first` on begins, in a band of `cells`. Zones change
 /// with every frame, and a name that stayed in their middle could not be read: it keeps to the end that the
 /// zone shares with the band, else to every fourth cell.
@@ -133,8 +109,8 @@ fn name_start(first: u16, width: u16, name: u16, cells: u16) -> u16 {
 }
 
 /// Everything placed: the plot area, the maps on it, and the ticks around it.
-struct Frame<'p, 'a> {
-    plot: &'p Plot<'a>,
+struct Frame<'p> {
+    plot: &'p Plot<'p>,
     area: Rect,
     inner: Rect,
     /// Rows of the band, the axis line and the tick labels.
@@ -149,22 +125,21 @@ struct Frame<'p, 'a> {
     y_ticks: Vec<Tick>,
 }
 
-impl<'p, 'a> Frame<'p, 'a> {
-    fn of(plot: &'p Plot<'a>, area: Rect) -> Self {
-        let [x_data, y_data] = extent(plot);
-        let x_bounds = plot.x_axis.resolve(x_data, false);
-        let y_bounds = plot.y_axis.resolve(y_data, true);
+impl<'p> Frame<'p> {
+    fn of(plot: &'p Plot<'p>, area: Rect) -> Self {
+        let [x_data, y_data] = plot.chart.extent(|_| true);
+        let x_bounds = plot.chart.x.resolve(x_data, false);
+        let y_bounds = plot.chart.y.resolve(y_data, true);
         Self::new(plot, area, x_bounds, y_bounds)
     }
 
-    fn new(plot: &'p Plot<'a>, area: Rect, x_bounds: [f64; 2], y_bounds: [f64; 2]) -> Self {
+    fn new(plot: &'p Plot<'p>, area: Rect, x_bounds: [f64; 2], y_bounds: [f64; 2]) -> Self {
         let bare = area.width < SMALLEST.0 || area.height < SMALLEST.1;
-        let ascii = plot.marker == Marker::Ascii;
-        let unit = |axis: &Axis<'_>, [lo, hi]: [f64; 2]| {
-            axis_unit(lo.abs().max(hi.abs()), axis.unit, ascii)
-        };
-        let (x_unit, y_unit) = (unit(&plot.x_axis, x_bounds), unit(&plot.y_axis, y_bounds));
-        let (across, down) = plot.marker.dots();
+        let ascii = plot.theme.ascii();
+        let unit =
+            |axis: &Axis, [lo, hi]: [f64; 2]| axis_unit(lo.abs().max(hi.abs()), axis.unit, ascii);
+        let (x_unit, y_unit) = (unit(&plot.chart.x, x_bounds), unit(&plot.chart.y, y_bounds));
+        let (across, down) = plot.theme.marker.dots();
 
         // Rows, from the bottom up: labels, axis line, band, plot; the title on top.
         let mut bottom = area.bottom();
@@ -173,14 +148,14 @@ impl<'p, 'a> Frame<'p, 'a> {
             wanted.then_some(bottom)
         };
         let label_row = take(!bare).unwrap_or(0);
-        let has_band = !bare && plot.band.is_some() && area.height >= 5;
+        let has_band = !bare && !plot.chart.band.is_empty() && area.height >= 5;
         let line_row = take(!bare && area.height >= 8 + u16::from(has_band));
         let band_row = take(has_band);
         let top = area.y + u16::from(!bare);
         let rows = bottom.saturating_sub(top);
 
         let y = even(
-            Window::new(y_bounds, plot.y_axis.scale, rows, down),
+            Window::new(y_bounds, plot.chart.y.scale, rows, down),
             &y_unit,
         );
         let mut y_ticks = ticks(&y, y_unit.factor, Labels::Column);
@@ -195,8 +170,8 @@ impl<'p, 'a> Frame<'p, 'a> {
         }
         let left = if bare { 0 } else { gutter + 1 };
         let inner = Rect::new(area.x + left, top, area.width - left, rows);
-        let x = Window::new(x_bounds, plot.x_axis.scale, inner.width, across);
-        let label = text(plot.x_axis.label, ascii);
+        let x = Window::new(x_bounds, plot.chart.x.scale, inner.width, across);
+        let label = text(&plot.chart.x.label, ascii);
         let x_labels = LabelRow::new(&x, &x_unit, &label, left);
         Frame {
             plot,
@@ -216,77 +191,86 @@ impl<'p, 'a> Frame<'p, 'a> {
 
     /// The dots: fills, rules, curves in their order.
     fn raster(&self) -> Raster {
-        let plot = self.plot;
-        let mut raster = Raster::new(self.inner.width, self.inner.height, plot.marker);
+        let (plot, rule) = (self.plot, self.plot.theme.style(Role::Faint));
+        let style = |role| plot.theme.style(role);
+        let mut raster = Raster::new(self.inner.width, self.inner.height, plot.theme.marker);
         let place =
             |(x, y): (f64, f64)| -> Position { Some((self.x.position(x)?, self.y.position(y)?)) };
-        for curve in &plot.curves {
-            if let Some(base) = curve.fill_to {
-                // A base without a place (zero on a log axis) lies below everything.
-                let base = self.y.position(base).unwrap_or(-1.0);
-                raster.fill(
-                    curve.points().map(|point| (place(point), Some(base))),
-                    curve.style,
-                );
+        for curve in &plot.chart.curves {
+            let style = style(curve.role);
+            match &curve.fill {
+                Fill::None => {}
+                Fill::To(base) => {
+                    // A base without a place (zero on a log axis) lies below everything.
+                    let base = self.y.position(*base).unwrap_or(-1.0);
+                    let points = curve.points();
+                    raster.fill(points.map(|point| (place(point), Some(base))), style);
+                }
+                Fill::From(bases) => {
+                    let between = curve.points().zip(bases);
+                    let between = between.map(|(at, &base)| (place(at), self.y.position(base)));
+                    raster.fill(between, style);
+                }
             }
-            let between = curve.points().zip(curve.fill_from);
-            let between = between.map(|((x, y), &base)| (place((x, y)), self.y.position(base)));
-            raster.fill(between, curve.style);
         }
         let crosses = |[lo, hi]: [f64; 2]| lo < 0.0 && hi > 0.0;
         if let Some(row) = self.y.dot(0.0).filter(|_| crosses(self.y.bounds())) {
-            raster.zero_line(row, plot.rule_style);
+            raster.zero_line(row, rule);
         }
         if let Some(column) = self.x.dot(0.0).filter(|_| crosses(self.x.bounds())) {
-            raster.vertical(column, Under::Zero, plot.rule_style);
+            raster.vertical(column, Under::Zero, rule);
         }
-        for mark in &plot.marks {
+        for mark in &plot.chart.marks {
             if let Some(column) = self.x.dot(mark.x) {
-                raster.vertical(column, Under::Mark, mark.style);
+                raster.vertical(column, Under::Mark, style(mark.role));
             }
         }
         if let Some(column) = plot.cursor.and_then(|x| self.x.dot(x)) {
-            raster.vertical(column, Under::Cursor, plot.axis_style);
+            raster.vertical(column, Under::Cursor, style(Role::Quiet));
         }
-        for curve in &plot.curves {
-            raster.line(curve.points().map(place), curve.style, curve.stroke);
+        for curve in &plot.chart.curves {
+            let style = style(curve.role);
+            raster.line(curve.points().map(place), style, curve.stroke());
+            raster.line(curve.bars().map(place), style, Stroke::Solid);
         }
         raster
     }
 
     /// Points with a sign of their own, and arrows where a curve leaves through the top.
     fn signs(&self, buf: &mut Buffer) {
-        let ascii = self.plot.marker == Marker::Ascii;
+        let ascii = self.plot.theme.ascii();
         let top = self.y.bounds()[1];
-        for curve in &self.plot.curves {
-            let beyond = curve
-                .points()
-                .filter(|(x, y)| x.is_finite() && *y > top * (1.0 + 1e-9));
+        for curve in &self.plot.chart.curves {
+            let style = self.plot.theme.style(curve.role);
+            let beyond = curve.points().chain(curve.bars());
+            let beyond = beyond.filter(|(x, y)| x.is_finite() && *y > top * (1.0 + 1e-9));
             for column in beyond.filter_map(|(x, _)| self.x.cell(x)) {
                 let sign = if ascii { '^' } else { '▲' };
-                glyph(buf, self.inner.x + column, self.inner.y, sign, curve.style);
+                glyph(buf, self.inner.x + column, self.inner.y, sign, style);
             }
         }
-        for point in &self.plot.points {
+        for point in &self.plot.chart.points {
             if let (Some(column), Some(row)) = (self.x.cell(point.at[0]), self.y.cell(point.at[1]))
             {
                 let y = self.inner.bottom() - 1 - row;
                 let sign = text(point.sign.encode_utf8(&mut [0; 4]), ascii);
                 let sign = sign.chars().next().unwrap_or('o');
-                glyph(buf, self.inner.x + column, y, sign, point.style);
+                let style = self.plot.theme.style(point.role);
+                glyph(buf, self.inner.x + column, y, sign, style);
             }
         }
     }
 
     /// Axis lines, ticks and their labels, the x title, and the band.
     fn axes(&self, buf: &mut Buffer) {
-        let ascii = self.plot.marker == Marker::Ascii;
+        let ascii = self.plot.theme.ascii();
         let [upright, y_tick, level, x_tick, corner] = if ascii {
             ['|', '+', '-', '+', '+']
         } else {
             ['│', '┤', '─', '┬', '└']
         };
-        let (style, rule, inner) = (self.plot.axis_style, self.plot.rule_style, self.inner);
+        let (theme, inner) = (self.plot.theme, self.inner);
+        let (style, rule) = (theme.style(Role::Quiet), theme.style(Role::Faint));
         let axis_x = inner.x.saturating_sub(1);
         for y in inner.y..self.line_row.unwrap_or(self.label_row) {
             glyph(buf, axis_x, y, upright, rule);
@@ -306,8 +290,8 @@ impl<'p, 'a> Frame<'p, 'a> {
                 glyph(buf, inner.x + tick.cell, y, x_tick, rule);
             }
         }
-        if let (Some(y), Some(band)) = (self.band_row, self.plot.band) {
-            self.band(band, y, buf);
+        if let Some(y) = self.band_row {
+            self.band(y, buf);
         }
         for tick in &self.x_labels.ticks {
             let x = self.area.x + self.x_labels.start(tick);
@@ -318,9 +302,10 @@ impl<'p, 'a> Frame<'p, 'a> {
         }
     }
 
-    fn band(&self, band: Band<'_>, y: u16, buf: &mut Buffer) {
-        let ascii = self.plot.marker == Marker::Ascii;
-        for zone in band.zones {
+    fn band(&self, y: u16, buf: &mut Buffer) {
+        let ascii = self.plot.theme.ascii();
+        for zone in &self.plot.chart.band {
+            let style = self.plot.theme.style(zone.role);
             let ends = [zone.from, zone.to].map(|x| self.x.position(x));
             let [Some(a), Some(b)] = ends else { continue };
             let (from, to) = (a.min(b), a.max(b));
@@ -329,21 +314,21 @@ impl<'p, 'a> Frame<'p, 'a> {
             let last = self.x.dots() as f64 - 0.5;
             let middle = (from / 2.0 + to / 2.0).round();
             if painted.is_empty() && from < to && middle >= 0.0 && middle <= last {
-                let (across, _) = self.plot.marker.dots();
+                let (across, _) = self.plot.theme.marker.dots();
                 painted.push(middle as u16 / across);
             }
-            let coloured = zone.style.fg.is_some_and(|colour| colour != Color::Reset);
+            let coloured = style.fg.is_some_and(|colour| colour != Color::Reset);
             let letter = text(zone.glyph.encode_utf8(&mut [0; 4]), ascii);
             let letter = letter.chars().next().unwrap_or(' ');
             let sign = if coloured && !ascii { '▀' } else { letter };
             let (first, width) = (painted.first().copied(), painted.len() as u16);
             for cell in painted {
-                glyph(buf, self.inner.x + cell, y, sign, zone.style);
+                glyph(buf, self.inner.x + cell, y, sign, style);
             }
             let name = format!(" {} ", text(zone.name, ascii));
             if let Some(first) = first.filter(|_| !zone.name.is_empty() && cells(&name) <= width) {
                 let start = name_start(first, width, cells(&name), self.x.cells());
-                self.write(buf, self.inner.x + start, y, &name, zone.style);
+                self.write(buf, self.inner.x + start, y, &name, style);
             }
         }
     }
@@ -351,20 +336,22 @@ impl<'p, 'a> Frame<'p, 'a> {
     /// The legend, the title row, and the labels of the marks; the dots below them go.
     fn words(&self, raster: &mut Raster, buf: &mut Buffer) {
         let (plot, area, inner) = (self.plot, self.area, self.inner);
+        let quiet = plot.theme.style(Role::Quiet);
         let local = |spot: Rect| Rect {
             x: spot.x.saturating_sub(inner.x),
             y: spot.y.saturating_sub(inner.y),
             ..spot
         };
-        let ascii = plot.marker == Marker::Ascii;
+        let ascii = plot.theme.ascii();
         let legend = Legend::arrange(plot, [&self.x_unit, &self.y_unit], inner, raster);
         if let Some((legend, block)) = &legend {
             raster.blank(local(*block));
             legend.render(*block, buf);
         }
 
-        let title = titled(&text(plot.y_axis.label, ascii), &self.y_unit);
-        self.write(buf, area.x, area.y, &title, plot.axis_style);
+        let title = text(&plot.chart.y.label, ascii);
+        let title = titled(&title, &self.y_unit.text, ['[', ']']);
+        self.write(buf, area.x, area.y, &title, quiet);
         let left = (area.x + cells(&title)).min(area.right());
         let mut free = left + u16::from(left > area.x)..area.right();
 
@@ -373,15 +360,15 @@ impl<'p, 'a> Frame<'p, 'a> {
             None => legend::short_reading(plot, [self.x_unit.factor, self.y_unit.factor], room),
             Some(_) => None,
         };
-        let note = reading.unwrap_or_else(|| text(plot.note, ascii));
+        let note = reading.unwrap_or_else(|| text(&plot.chart.note, ascii));
         if !note.is_empty() && cells(&note) <= room {
             free.end -= cells(&note);
-            self.write(buf, free.end, area.y, &note, plot.axis_style);
+            self.write(buf, free.end, area.y, &note, quiet);
             free.end -= 1;
         }
 
         // From left to right: a label takes the room of the title row up to its own end.
-        let mut marks: Vec<_> = plot.marks.iter().collect();
+        let mut marks: Vec<_> = plot.chart.marks.iter().collect();
         marks.sort_by(|a, b| a.x.total_cmp(&b.x));
         for mark in marks {
             let label = text(mark.label, ascii);
@@ -391,7 +378,7 @@ impl<'p, 'a> Frame<'p, 'a> {
             let (column, width) = (inner.x + cell, cells(&label));
             let x = column.saturating_sub(width / 2);
             if x >= free.start && x + width <= free.end {
-                self.write(buf, x, area.y, &label, mark.style);
+                self.write(buf, x, area.y, &label, plot.theme.style(mark.role));
                 free.start = x + width + 1;
                 continue;
             }
@@ -408,7 +395,7 @@ impl<'p, 'a> Frame<'p, 'a> {
             });
             if let Some(x) = place {
                 raster.blank(local(Rect::new(x, inner.y, width, 1)));
-                self.write(buf, x, inner.y, &label, mark.style);
+                self.write(buf, x, inner.y, &label, plot.theme.style(mark.role));
             }
         }
     }

@@ -35,6 +35,30 @@ pub enum Axes {
     Stick,
 }
 
+impl Axes {
+    /// The symbol and the unit of what is shown.
+    pub fn quantity(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Profile => ("f", "m"),
+            Self::Wear => ("worn", "m"),
+            Self::Springs => ("g", "m"),
+            Self::Pressure => ("p", "Pa"),
+            Self::Shear => ("τ", "Pa"),
+            Self::Loop => ("F_x", "N"),
+            Self::Volume => ("V", "m³"),
+            Self::Depth => ("depth", "m"),
+            Self::Contact => ("a", "m"),
+            Self::Stick => ("c", "m"),
+        }
+    }
+
+    /// Whether it is shown over the radius.
+    pub fn over_r(self) -> bool {
+        use Axes::{Pressure, Profile, Shear, Springs, Wear};
+        matches!(self, Profile | Wear | Springs | Pressure | Shear)
+    }
+}
+
 /// One curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trace {

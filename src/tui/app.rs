@@ -3,6 +3,7 @@
 //! The app knows nothing of the simulation. It turns keys into orders for the worker, and frames
 //! into a screen.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
@@ -18,15 +19,14 @@ use super::layout;
 use super::line::{LineEdit, one_line};
 use super::order::Order;
 use super::overlays::{Answer, Form, Help, Library, Overlay, Palette};
-use super::panels::{Panel, Shown};
+use super::panels::{Panel, Shown, View};
 use super::refinement_check::RefinementCheck;
 use super::snapshot;
 use super::theme::Theme;
 use super::tour::Tour;
-use crate::plot::{Axis, Scale, sticky_bounds};
+use crate::plot::{Chart, Scale, sticky_bounds};
 use crate::scenario::Scenario;
 use crate::simulation::Curves;
-use crate::studies::theory::Theory;
 
 /// The number of cursor positions over the domain, and the initial one.
 const CURSOR_PLACES: i16 = 100;
@@ -84,6 +84,9 @@ pub struct App {
     log_panels: Vec<Panel>,
     bounds: HashMap<(Panel, Scale), Held>,
     across: HashMap<Panel, Held>,
+    charts: HashMap<Panel, Result<Chart, &'static str>>,
+    /// Whether the frame is one of another run than the next: scales no longer follow it.
+    is_outdated: bool,
     shown: Curves,
     /// The terminal's size.
     pub(super) area: Rect,
@@ -128,6 +131,8 @@ impl App {
             log_panels: Vec::new(),
             bounds: HashMap::new(),
             across: HashMap::new(),
+            charts: HashMap::new(),
+            is_outdated: false,
             shown: Curves::all(),
             area: Rect::new(0, 0, 80, 24),
             room: layout::room(80, 24),
@@ -136,18 +141,8 @@ impl App {
         }
     }
 
-    /// Takes a new frame; the scales of the plots follow its data.
+    /// Takes a new frame.
     pub fn take_frame(&mut self, frame: Arc<Frame>) {
-        let cycle = frame.observation.moment.cycle;
-        for panel in Panel::ALL {
-            if let Some(extent) = panel.extent(&frame, self.scale(panel)) {
-                let key = (panel, self.scale(panel));
-                Held::hold(self.bounds.entry(key), extent, cycle);
-            }
-            if let Some(extent) = panel.extent_across(&frame) {
-                Held::hold(self.across.entry(panel), extent, cycle);
-            }
-        }
         // Another scenario has another tour.
         self.tour = self.tour.take().filter(|tour| tour.is_of(&frame.origin));
         self.follow_stress(&frame);
@@ -158,26 +153,74 @@ impl App {
             _ => Some((Arc::clone(&frame), 1)),
         };
         self.frame = Some(frame);
+        self.is_outdated = false;
         self.tell_what_shows();
     }
 
-    /// What a calm panel shows where the others show `frame`.
-    pub(super) fn calm<'a>(&'a self, frame: &'a Frame) -> &'a Frame {
-        self.calm.as_ref().map_or(frame, |(calm, _)| calm)
+    /// The frame that a panel shows where the screen is that of `frame`.
+    pub(super) fn frame_of<'a>(&'a self, panel: Panel, frame: &'a Frame) -> &'a Frame {
+        let calm = self.calm.as_ref().filter(|_| panel.declared().is_calm);
+        calm.map_or(frame, |(calm, _)| calm)
+    }
+
+    /// The chart of a panel: as it was made when the frame came, else of `frame`.
+    pub(super) fn chart(
+        &self,
+        panel: Panel,
+        frame: &Frame,
+    ) -> Cow<'_, Result<Chart, &'static str>> {
+        match self.charts.get(&panel) {
+            Some(chart) => Cow::Borrowed(chart),
+            None => {
+                let shot = panel.shot(frame, &self.view(panel));
+                Cow::Owned(shot.chart.unwrap_or(Err("")))
+            }
+        }
+    }
+
+    /// What the user has chosen for a panel.
+    fn view(&self, panel: Panel) -> View {
+        View {
+            scale: self.scale(panel),
+            with_theory: self.with_theory,
+        }
+    }
+
+    /// Makes the charts that are seen, once for each frame and key; their scales follow their data.
+    fn make_charts(&mut self) {
+        self.charts.clear();
+        let Some(shown) = self.frame.clone() else {
+            return;
+        };
+        if shown.comparison.is_some() {
+            return;
+        }
+        let cycle = shown.observation.moment.cycle;
+        for panel in self.visible().to_vec() {
+            let view = self.view(panel);
+            let shot = panel.shot(self.frame_of(panel, &shown), &view);
+            if let Some(extent) = shot.extent.filter(|_| !self.is_outdated) {
+                Held::hold(self.bounds.entry((panel, view.scale)), extent, cycle);
+            }
+            if let Some(extent) = shot.across.filter(|_| !self.is_outdated) {
+                Held::hold(self.across.entry(panel), extent, cycle);
+            }
+            let Some(mut chart) = shot.chart else {
+                continue;
+            };
+            if let Ok(chart) = &mut chart {
+                chart.y.bounds = self.bounds(panel);
+                let across = self.across.get(&panel).map(|held| held.bounds);
+                chart.x.bounds = across.or(chart.x.bounds);
+            }
+            self.charts.insert(panel, chart);
+        }
     }
 
     /// The bounds of a panel's ordinate.
     pub fn bounds(&self, panel: Panel) -> Option<[f64; 2]> {
         let held = self.bounds.get(&(panel, self.scale(panel)));
         held.map(|held| held.bounds)
-    }
-
-    /// An abscissa within the bounds that are kept for a panel.
-    pub fn across<'a>(&self, panel: Panel, axis: Axis<'a>) -> Axis<'a> {
-        match self.across.get(&panel) {
-            Some(held) => axis.bounds(held.bounds),
-            None => axis,
-        }
     }
 
     /// The range of the colours of the stress in the half-space, Pa; `None` where none is shown.
@@ -451,11 +494,6 @@ impl App {
         }
     }
 
-    /// The closed forms, if they are shown.
-    pub fn theory_of<'a>(&self, frame: &'a Frame) -> Option<&'a Theory> {
-        self.with_theory.then_some(&*frame.theory)
-    }
-
     /// Whether the accuracy panel waits for the refinement_check.
     pub fn awaits_companion(&self) -> bool {
         self.overlay == Overlay::Accuracy && self.refinement_check.is_none()
@@ -489,7 +527,7 @@ impl App {
 
     fn toggle_log(&mut self) {
         let focus = self.focus;
-        if !focus.can_be_log() {
+        if !focus.declared().can_be_log {
             self.notice = Some(format!(
                 "the {} panel has no logarithmic scale",
                 focus.title()
@@ -499,23 +537,22 @@ impl App {
         } else {
             self.log_panels.push(focus);
         }
-        if let Some(frame) = self.frame.clone() {
-            self.take_frame(frame);
-        }
     }
 
     fn forget_scales(&mut self) {
         self.bounds.clear();
         self.across.clear();
+        self.is_outdated = true;
         self.stress_bounds = None;
     }
 
-    /// Hidden panels cost no transform.
+    /// Makes what shows, and tells the worker: hidden panels cost neither a chart nor a transform.
     pub(super) fn tell_what_shows(&mut self) {
+        self.make_charts();
         // The checks of the status line need the pressure, whatever panel shows it.
         let mut shown = Curves::PRESSURE;
         for panel in self.visible() {
-            shown |= panel.curves();
+            shown |= panel.declared().needs;
         }
         // A comparison covers all panels, and a cursor reads all curves.
         if self

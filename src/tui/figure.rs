@@ -5,7 +5,7 @@ use std::path::Path;
 use super::trend::Trend;
 use crate::export::target::{Target, write_all};
 use crate::figure::data::{Data, Loop};
-use crate::figure::ink::{Look, Style};
+use crate::figure::look::{Look, Style};
 use crate::figure::panels::Panel;
 use crate::figure::{Format, Sheet};
 use crate::scenario::session::Session;

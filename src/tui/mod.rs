@@ -62,13 +62,13 @@ pub mod settings;
 pub mod snapshot;
 mod suspend;
 mod terminal;
-pub mod theme;
 pub mod tour;
 pub mod trend;
 mod undo;
 pub mod worker;
 
 use crate::plot::Marker;
+pub use crate::plot::theme;
 use app::{App, Leave};
 use autosave::ScreenAutosave;
 use flow::When;

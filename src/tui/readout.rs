@@ -3,7 +3,7 @@
 
 use super::frame::Frame;
 use super::panels::Panel;
-use crate::plot::Curve;
+use crate::plot::chart::value_at;
 use crate::plot::units::{format_value_in, to_ascii};
 use crate::simulation::Zone;
 use crate::studies::ghost::{Axes, Ghost};
@@ -58,7 +58,7 @@ fn curves(frame: &Frame) -> [(&'static str, &[f64], &'static str); 5] {
 }
 
 fn at(frame: &Frame, values: &[f64], r: f64) -> Option<f64> {
-    Curve::new("", &frame.observation.radii, values, Default::default()).value_at(r)
+    value_at(&frame.observation.radii, values, r)
 }
 
 /// What a panel compares at one place.
@@ -73,67 +73,44 @@ struct Quantity {
     ghosts: Vec<Option<f64>>,
 }
 
-/// What the focused panel shows: at the radius, or at the present cycle and displacement.
+/// What the focused panel compares: at the radius, or at the present cycle and displacement.
 fn quantity(frame: &Frame, focus: Panel, r: f64) -> Option<Quantity> {
     let (seen, moment) = (&frame.observation, &frame.observation.moment);
-    let of_each = |of: &dyn Fn(&Ghost) -> Option<f64>| {
-        let ghosts = frame.ghosts.iter();
-        ghosts.map(|ghost| of(ghost)).collect()
+    let axes = focus.declared().compared;
+    let (name, unit) = axes.quantity();
+    let value = match axes {
+        Axes::Profile => at(frame, &seen.profile, r),
+        Axes::Wear => at(frame, &seen.wear, r),
+        Axes::Springs => at(frame, &seen.profile_1d, r),
+        Axes::Pressure => at(frame, &seen.pressure, r),
+        Axes::Shear => at(frame, &seen.shear, r),
+        Axes::Loop => Some(moment.tangential_force),
+        Axes::Volume => Some(moment.wear_volume),
+        Axes::Depth => frame.trend.cycles().last().map(|entry| entry.scar_depth),
+        Axes::Contact => Some(moment.contact_radius),
+        Axes::Stick => moment.permanent_stick_radius,
     };
-    let over_r = |name, unit, values: &[f64], axes| {
-        Some(Quantity {
-            name,
-            unit,
-            value: at(frame, values, r)?,
-            over_r: true,
-            ghosts: of_each(&|ghost| ghost.trace(axes)?.value_at(r)),
-        })
-    };
-    let now = |name, unit, value, axes| {
-        Some(Quantity {
-            name,
-            unit,
-            value,
-            over_r: false,
-            ghosts: of_each(&|ghost| ghost.trace(axes)?.value_at(moment.cycle)),
-        })
-    };
-    match focus {
-        Panel::Stresses => over_r("p", "Pa", &seen.pressure, Axes::Pressure),
-        Panel::Springs => over_r("g", "m", &seen.profile_1d, Axes::Springs),
-        Panel::Volume | Panel::Rate => now("V", "m³", moment.wear_volume, Axes::Volume),
-        Panel::Radii => now("a", "m", moment.contact_radius, Axes::Contact),
-        Panel::ScarDepth => {
-            let deepest = frame.trend.cycles().last()?.scar_depth;
-            now("depth", "m", deepest, Axes::Depth)
-        }
-        Panel::Loop => {
+    let of_ghost = |ghost: &Ghost| match axes {
+        Axes::Loop => {
             let shifts = frame.trend.fretting_loop().0;
             let before = shifts.iter().rev().nth(1).copied();
             let rises = before.is_none_or(|before| before <= moment.shift);
-            Some(Quantity {
-                name: "F_x",
-                unit: "N",
-                value: moment.tangential_force,
-                over_r: false,
-                ghosts: of_each(&|ghost| ghost.trace(Axes::Loop)?.force_at(moment.shift, rises)),
-            })
+            ghost.trace(axes)?.force_at(moment.shift, rises)
         }
-        _ => {
-            let value = at(frame, &seen.wear, r)?;
-            let worn = |ghost: &Ghost| {
-                let worn = ghost.worn(|r| frame.indenter.profile(r))?;
-                Curve::new("", &worn.radii, &worn.wear, Default::default()).value_at(r)
-            };
-            Some(Quantity {
-                name: "worn",
-                unit: "m",
-                value,
-                over_r: true,
-                ghosts: of_each(&worn),
-            })
+        Axes::Wear => {
+            let worn = ghost.worn(|r| frame.indenter.profile(r))?;
+            value_at(&worn.radii, &worn.wear, r)
         }
-    }
+        _ if axes.over_r() => ghost.trace(axes)?.value_at(r),
+        _ => ghost.trace(axes)?.value_at(moment.cycle),
+    };
+    Some(Quantity {
+        name,
+        unit,
+        value: value?,
+        over_r: axes.over_r(),
+        ghosts: frame.ghosts.iter().map(|ghost| of_ghost(ghost)).collect(),
+    })
 }
 
 /// The run's value of what the focused panel shows, and for each ghost that has it its value and how far

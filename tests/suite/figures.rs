@@ -5,12 +5,12 @@ use std::fs;
 use crate::test_dir::{Table, TestDir};
 use mdr_tui::figure::Sheet;
 use mdr_tui::figure::canvas::Shape;
-use mdr_tui::figure::chart::{Axis, Chart, Map};
-use mdr_tui::figure::ink::{Ink, Look, Style};
+use mdr_tui::figure::look::{Look, Style};
 use mdr_tui::figure::svg;
 use mdr_tui::oracle::dual_oscillation::{DualOscillation, Frequencies};
-use mdr_tui::plot::Scale;
 use mdr_tui::plot::colormap::ColorMap;
+use mdr_tui::plot::theme::Role;
+use mdr_tui::plot::{Axis, Chart, Curve, Map, Mark, Scale};
 
 /// The rows of one curve of a figure's data.
 fn curve(data: &Table, panel: &str, name: &str) -> (Vec<f64>, Vec<f64>) {
@@ -31,20 +31,27 @@ fn an_svg_is_lines_and_words_in_millimetres() {
     y.bounds = Some([0.0, 2e9]);
     let mut chart = Chart::new("pressure", Axis::new("r", "m"), y);
     let xs = [0.0, 5e-5, 1e-4];
-    chart.curve("p & τ", &xs, &[2e9, 1.5e9, 0.0], Ink::Pressure, false);
+    chart
+        .curves
+        .push(Curve::new("p & τ", xs, [2e9, 1.5e9, 0.0], Role::Pressure));
     // What leaves the frame is cut at its edge.
-    chart.curve("", &xs, &[1e9, 3e9, f64::NAN], Ink::Limit, true);
-    chart.marks.push((5e-5, "c"));
+    chart
+        .curves
+        .push(Curve::new("", xs, [1e9, 3e9, f64::NAN], Role::Limit).dashed());
+    chart.marks.push(Mark {
+        x: 5e-5,
+        label: "c",
+        role: Role::Stick,
+    });
     let mut logged = Axis::new("error", "");
     logged.scale = Scale::Log;
     let mut errors = Chart::new("errors", Axis::new("r/a", ""), logged);
-    errors.curve(
+    errors.curves.push(Curve::new(
         "A",
-        &[0.0, 0.5, 1.0],
-        &[1e-4, 0.0, 1e-2],
-        Ink::Series(0),
-        false,
-    );
+        [0.0, 0.5, 1.0],
+        [1e-4, 0.0, 1e-2],
+        Role::Series(0),
+    ));
     let sheet = Sheet {
         title: "a <figure>".into(),
         facts: vec![("method".into(), "product".into())],
@@ -481,19 +488,20 @@ fn a_run_leaves_the_loop_of_its_last_cycle() {
 #[test]
 fn data_keep_clear_of_the_frame() {
     let mut chart = Chart::new("loop", Axis::new("u_x", "m"), Axis::new("F_x", "N"));
-    chart.curve(
+    chart.curves.push(Curve::new(
         "",
-        &[-1.0, 1.0, 1.0, -1.0],
-        &[2.0, 2.0, -2.0, -2.0],
-        Ink::Shear,
-        false,
-    );
+        [-1.0, 1.0, 1.0, -1.0],
+        [2.0, 2.0, -2.0, -2.0],
+        Role::Shear,
+    ));
     chart.margin = 0.05;
-    let [[left, right], [low, high]] = [0, 1].map(|k| chart.bounds(k));
+    let [[left, right], [low, high]] = chart.bounds_on_paper();
     assert!(left < -1.05 && right > 1.05 && low < -2.05 && high > 2.05);
     let mut depth = Chart::new("depth", Axis::new("r", "m"), Axis::new("depth", "m"));
-    depth.curve("", &[0.0, 1.0], &[1.0, 0.0], Ink::Profile, false);
-    let [low, high] = depth.bounds(1);
+    depth
+        .curves
+        .push(Curve::new("", [0.0, 1.0], [1.0, 0.0], Role::Profile));
+    let [_, [low, high]] = depth.bounds_on_paper();
     assert!(low == 0.0 && high > 1.0);
 }
 

@@ -19,9 +19,9 @@ use ratatui::widgets::Widget;
 
 use super::ramp::{self, Shade};
 use super::view::{Scaled, View};
+use crate::plot::axis::titled;
 use crate::plot::units::{axis_unit, format_number, format_value_in};
-use crate::plot::{Axis, Curve, Plot, Point, Scale};
-use crate::studies::sweep::Spread;
+use crate::plot::{Chart, Curve, Plot, Point, Scale};
 use crate::studies::sweep::slice::{Line, REGIMES};
 use crate::tui::theme::{Role, Theme};
 
@@ -144,10 +144,10 @@ fn legend(view: &View, theme: &Theme, scaled: &Scaled, area: Rect, buffer: &mut 
     };
     let quantity = &scaled.quantity;
     let name = match view.is_regime() {
-        true => view.column().to_owned(),
-        false => quantity.label.clone(),
+        true => view.column(),
+        false => &quantity.label,
     };
-    write(&name, theme.style(Role::Focus));
+    write(name, theme.style(Role::Focus));
     if view.is_regime() {
         for (at, (_, title)) in REGIMES.iter().enumerate() {
             let (sign, style) = swatch(Shade::Word(at), theme);
@@ -341,10 +341,7 @@ fn labels(view: &View, axis: &crate::studies::sweep::Axis, theme: &Theme) -> (St
         .flatten()
         .fold(0.0, |most: f64, value| most.max(value.abs()));
     let unit = axis_unit(most, words.unit, theme.ascii());
-    let title = match unit.text.as_str() {
-        "" => words.label,
-        unit => format!("{} [{unit}]", words.label),
-    };
+    let title = titled(&words.label, &unit.text, ['[', ']']);
     let label = |(place, number): (usize, &Option<f64>)| match number {
         Some(number) => format_number(number / unit.factor, 3),
         None => axis.text(place),
@@ -419,32 +416,20 @@ fn curve(view: &View, theme: &Theme, scaled: &Scaled, area: Rect, buffer: &mut B
         .collect();
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
     let (xs, ys): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();
-    let x_scale = match axis.spread {
-        Spread::Logarithmic => Scale::Log,
-        Spread::Linear => Scale::Linear,
-    };
-    let (across, up) = (view.in_words(axis), &scaled.quantity);
     let here = view.cursor().0;
     let here = axis.number(here).unwrap_or(here as f64);
-    let curve = Curve::new("", &xs, &ys, theme.style(Role::Profile));
+    let curve = Curve::new("", xs, ys, Role::Profile);
     let base = view.here().and_then(|(place, _)| axis.value_at(place));
     let base = base.and_then(|x| Some([x, curve.value_at(x)?]));
-    let mut plot = Plot::new(
-        Axis::new(&across.label, across.unit).scale(x_scale),
-        Axis::new(&up.label, up.unit).scale(up.scale),
-    )
-    .curve(curve)
-    .cursor(Some(here))
-    .marker(theme.marker)
-    .axis_style(theme.style(Role::Quiet));
-    if let Some(at) = base {
-        plot = plot.point(Point {
-            at,
-            sign: here_sign(theme),
-            style: theme.style(Role::Alarm),
-        });
-    }
-    plot.render(area, buffer);
+    let mut chart = Chart::new("", view.in_words(axis), scaled.quantity.clone()).curve(curve);
+    chart.points.extend(base.map(|at| Point {
+        at,
+        sign: here_sign(theme),
+        role: Role::Alarm,
+    }));
+    Plot::new(&chart, theme)
+        .cursor(Some(here))
+        .render(area, buffer);
 }
 
 /// A line of text, cut where the screen ends.

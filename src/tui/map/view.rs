@@ -4,8 +4,8 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 
 use super::ramp::Shade;
-use crate::figure::{chart, study};
-use crate::plot::Scale;
+use crate::figure::study;
+use crate::plot::{self, Scale};
 use crate::studies::sweep::record::Record;
 use crate::studies::sweep::slice::{Line, Slice};
 use crate::studies::sweep::{Axis, Design, Study, StudyError};
@@ -25,7 +25,7 @@ pub enum Leave {
 pub struct Scaled {
     /// Column and unit in words. Logarithmic where the values span decades, unless the user wants the other
     /// scale.
-    pub quantity: chart::Axis,
+    pub quantity: plot::Axis,
     /// The smallest and the largest number, positive ones alone on a logarithmic scale; `None` without any.
     pub range: Option<[f64; 2]>,
 }
@@ -267,7 +267,7 @@ impl View {
     }
 
     /// An axis in words, with its unit.
-    pub fn in_words(&self, axis: &Axis) -> chart::Axis {
+    pub fn in_words(&self, axis: &Axis) -> plot::Axis {
         study::paper_axis(&self.slice, axis)
     }
 

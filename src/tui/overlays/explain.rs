@@ -59,7 +59,7 @@ pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         .is_some_and(|frame| frame.comparison.is_some());
     // In a comparison there are other panels than the focused one.
     let (title, words) = match is_compared {
-        true => ("comparison", panels::COMPARISON),
+        true => ("comparison", panels::compare::WORDS),
         false => (app.focus.title(), app.focus.words()),
     };
     let spelled = |text: &str| match theme.ascii() {

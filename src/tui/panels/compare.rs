@@ -6,10 +6,10 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::Line;
 use ratatui::widgets::Widget;
 
-use super::{App, Frame, bare_plot, clip_spikes, curve, edge_marks, ghosts, nothing, panel_block};
+use super::{App, Frame, Words, clip_spikes, edge, ghosts, nothing, over_r, titled};
 use crate::math::scan::largest;
 use crate::plot::units::{format_number, format_value_in};
-use crate::plot::{Axis, Scale, nice_bounds};
+use crate::plot::{Axis, Chart, Curve, Plot, Scale, nice_bounds};
 use crate::simulation::Observation;
 use crate::studies::ghost::Axes;
 use crate::tui::frame::Comparison;
@@ -20,6 +20,18 @@ const COLUMN: usize = 11;
 
 /// The difference is not drawn below this width.
 const NARROWEST: u16 = 17;
+
+/// The explanation of a comparison, which takes the place of all panels.
+pub const WORDS: Words = Words {
+    text: "Two methods run side by side from one state: both profiles, both pressures, and below them the size \
+           of the difference of the profiles, which is logarithmic. m and M change the second method, C begins \
+           at the start of the scenario, c ends the comparison.",
+    symbols: &[
+        super::A,
+        super::C,
+        ("side by side", "the same numbers of both runs"),
+    ],
+};
 
 /// Draws the comparison over the whole area of the panels.
 pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffer: &mut Buffer) {
@@ -45,73 +57,57 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffe
             .areas(bottom)
     };
     let names = (this_name(frame), comparison.name.as_str());
-    let inside = panel_block("3D profile", app, left, buffer);
-    let mut lines = ghosts::worn(frame, Some(1.0));
-    let mut plot = bare_plot(app, Axis::new("r", "m"), Axis::new("f", "m"))
-        .cursor(app.cursor_radius(frame))
-        .curves(ghosts::curves(&mut lines, app))
-        .curve(curve(names.1, &other.radii, &other.profile, theme, Role::Slip).dashed())
-        .curve(curve(
-            &names.0,
-            &seen.radii,
-            &seen.profile,
-            theme,
-            Role::Profile,
-        ));
-    for mark in edge_marks(frame, theme) {
-        plot = plot.mark(mark);
-    }
-    plot.render(inside, buffer);
-    let inside = panel_block("pressure", app, right, buffer);
-    let mut lines = ghosts::on(frame, Axes::Pressure, 1.0);
-    // A spike at a border of stick must not flatten all the rest.
-    let mut pressures = [&seen.pressure[..], &other.pressure].concat();
-    clip_spikes(&mut pressures);
-    let highest = largest(&pressures);
-    let mut ordinate = Axis::new("p", "Pa");
-    if highest > 0.0 {
-        ordinate = ordinate.bounds(nice_bounds(0.0, highest));
-    }
-    bare_plot(app, Axis::new("r", "m"), ordinate)
-        .cursor(app.cursor_radius(frame))
-        .curves(ghosts::curves(&mut lines, app))
-        .curve(curve(names.1, &other.radii, &other.pressure, theme, Role::Slip).dashed())
-        .curve(curve(
-            &names.0,
-            &seen.radii,
-            &seen.pressure,
-            theme,
-            Role::Pressure,
-        ))
-        .render(inside, buffer);
-    let inside = panel_block("difference of f", app, below, buffer);
-    let mut lines = ghosts::differences(frame);
-    let of_ghosts = ghosts::ordinates(&lines);
-    let largest = of_ghosts.into_iter().fold(largest(&difference), f64::max);
-    let edge = seen.radii.last().copied().unwrap_or(0.0);
-    // Six decades: what lies below is rounding.
-    let decade = largest.log10().ceil();
-    let bounds = if largest > 0.0 {
-        [10f64.powf(decade - 6.0), 10f64.powf(decade)]
-    } else {
-        [1e-18, 1e-12]
+    let inside = |title, place, buffer: &mut _| titled(title, Role::Title, app, place, buffer);
+    let render = |chart: &Chart, place, buffer: &mut _| {
+        let cursor = app.cursor_radius(frame);
+        Plot::new(chart, theme).cursor(cursor).render(place, buffer);
     };
-    let ordinate = Axis::new("|difference|", "m")
-        .scale(Scale::Log)
-        .bounds(bounds);
-    if largest == 0.0 {
+    let pair = |there: &[f64], here: &[f64], role| {
+        [
+            Curve::new(names.1, &other.radii[..], there, Role::Slip).dashed(),
+            Curve::new(&*names.0, &seen.radii[..], here, role),
+        ]
+    };
+    let profiles = over_r(frame, "r", ("f", "m"))
+        .curves(ghosts::worn(frame, Some(1.0)))
+        .curves(pair(&other.profile, &seen.profile, Role::Profile));
+    render(&profiles, inside("3D profile", left, buffer), buffer);
+    // A spike at a border of stick must not flatten all the rest.
+    let mut values = [&seen.pressure[..], &other.pressure].concat();
+    clip_spikes(&mut values);
+    let highest = largest(&values);
+    let mut ordinate = Axis::new("p", "Pa");
+    ordinate.bounds = (highest > 0.0).then(|| nice_bounds(0.0, highest));
+    let pressures = Chart::new("", Axis::new("r", "m"), ordinate)
+        .curves(ghosts::on(frame, Axes::Pressure, 1.0))
+        .curves(pair(&other.pressure, &seen.pressure, Role::Pressure));
+    render(&pressures, inside("pressure", right, buffer), buffer);
+    let inside_below = inside("difference of f", below, buffer);
+    let of_ghosts = ghosts::differences(frame);
+    let highest = of_ghosts.iter().map(Curve::highest);
+    let highest = highest.fold(largest(&difference), f64::max);
+    if highest == 0.0 {
         let words = ["equal so far", "C: from the start"];
-        for (text, row) in words.iter().zip(inside.rows()) {
+        for (text, row) in words.iter().zip(inside_below.rows()) {
             nothing(text, app, row, buffer);
         }
     } else {
-        bare_plot(app, Axis::new("r", "m").bounds([0.0, edge]), ordinate)
-            .cursor(app.cursor_radius(frame))
-            .curves(ghosts::curves(&mut lines, app))
-            .curve(curve("", &other.radii, &difference, theme, Role::Slip))
-            .render(inside, buffer);
+        // Six decades: what lies below is rounding.
+        let decade = highest.log10().ceil();
+        let bounds = [10f64.powf(decade - 6.0), 10f64.powf(decade)];
+        let ordinate = Axis::new("|difference|", "m").scale(Scale::Log);
+        let abscissa = Axis::new("r", "m").bounds([0.0, edge(frame)]);
+        let chart = Chart::new("", abscissa, ordinate.bounds(bounds))
+            .curves(of_ghosts)
+            .curve(Curve::new(
+                "",
+                &other.radii[..],
+                &difference[..],
+                Role::Slip,
+            ));
+        render(&chart, inside_below, buffer);
     }
-    let inside = panel_block("side by side", app, numbers, buffer);
+    let inside = inside("side by side", numbers, buffer);
     let lines = rows
         .iter()
         .map(|(name, here, there)| format!(" {name:14} {here:>column$} {there:>column$}"));

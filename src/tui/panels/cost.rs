@@ -1,27 +1,27 @@
 //! Time per step on this machine, over finished cycles.
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
-use ratatui::widgets::Widget;
+use super::{Declared, Frame, View, Words, finished_series, over_cycles};
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart};
 
-use super::{App, Frame, Panel, curve, finished_series, nothing, over_cycles};
-use crate::plot::Axis;
-use crate::tui::theme::Role;
+/// The panel.
+pub const PANEL: Declared = Declared {
+    title: "time per step",
+    can_be_log: true,
+    has_spikes: true,
+    is_calm: true,
+    words: Words {
+        text: "How long one step of the simulation takes on this machine.",
+        symbols: &[("t", "time per step")],
+    },
+    ..Declared::chart(draw)
+};
 
-/// What the ordinate must hold: costs are read from zero.
-pub fn ordinates(frame: &Frame) -> Vec<f64> {
-    let mut values = finished_series(frame, |entry| entry.step_cost).1;
-    values.push(0.0);
-    values
-}
-
-/// Draws the panel.
-pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
-    let (cycles, cost) = finished_series(frame, |entry| entry.step_cost);
-    if !cost.iter().any(|value| value.is_finite()) {
-        return nothing("measured while it runs", app, area, buffer);
+fn draw(frame: &Frame, _: &View) -> Result<Chart, &'static str> {
+    let cost = finished_series(frame, Role::Shear, |entry| entry.step_cost);
+    if !cost.ys.iter().any(|value| value.is_finite()) {
+        return Err("measured while it runs");
     }
-    over_cycles(Panel::Cost, frame, app, Axis::new("t", "s"))
-        .curve(curve("", &cycles, &cost, &app.theme, Role::Shear))
-        .render(area, buffer);
+    let ordinate = Axis::new("t", "s").from_zero();
+    Ok(over_cycles(frame, ordinate).curve(cost))
 }

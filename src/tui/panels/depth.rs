@@ -1,45 +1,37 @@
 //! The worn depth f − f₀ over the radius.
 
-use super::{App, Frame, Panel, curve, edge_marks, ghosts, radial_plot, zones};
-use crate::plot::{Band, Plot, Scale};
-use crate::tui::theme::Role;
+use super::{A, BAND, C, Declared, Frame, View, Words, ghosts, limit, over_r, zones};
+use crate::plot::theme::Role;
+use crate::plot::{Chart, Curve, Fill, Scale};
+use crate::simulation::Curves;
 
-/// What the ordinate must hold.
-pub fn ordinates(frame: &Frame) -> Vec<f64> {
-    let ghosts = ghosts::ordinates(&ghosts::worn(frame, None));
-    [frame.observation.wear.clone(), ghosts].concat()
-}
+/// The panel.
+pub const PANEL: Declared = Declared {
+    title: "worn depth",
+    can_be_log: true,
+    needs: Curves::PROFILE,
+    over_r: true,
+    words: Words {
+        text: "How much has worn off, against the radius. Inside the permanent stick zone it is \
+                 zero; the \
+                 ring outside it grows towards the limiting shape (t) if the depth is held.",
+        symbols: &[("f - f0", "worn depth"), A, C, BAND],
+    },
+    ..Declared::chart(draw)
+};
 
-/// Makes the plot and hands it to `then`.
-pub fn plotted<T>(frame: &Frame, app: &App, then: impl FnOnce(&Plot<'_>) -> T) -> T {
-    let (seen, theme) = (&frame.observation, &app.theme);
-    let zones = zones(frame, theme);
-    let limit: Vec<f64> = app
-        .theory_of(frame)
-        .and_then(|theory| theory.limiting_profile(&seen.radii))
-        .map(|limit| {
-            limit
-                .iter()
-                .zip(&*seen.unworn)
-                .map(|(f, f0)| f - f0)
-                .collect()
-        })
-        .unwrap_or_default();
-    let mut plot = radial_plot(Panel::Depth, app, frame, "r", ("f - f0", "m"));
-    if !limit.is_empty() {
-        plot = plot.curve(curve("limit", &seen.radii, &limit, theme, Role::Limit).dashed());
-    }
-    let now = curve("worn", &seen.radii, &seen.wear, theme, Role::Profile);
+fn draw(frame: &Frame, view: &View) -> Result<Chart, &'static str> {
+    let seen = &frame.observation;
     // Without a base on a log axis, the area would reach for minus infinity.
-    let now = match app.scale(Panel::Depth) {
-        Scale::Linear => now.fill_to(0.0),
-        Scale::Log => now,
+    let fill = match view.scale {
+        Scale::Linear => Fill::To(0.0),
+        Scale::Log => Fill::None,
     };
-    let mut ghosts = ghosts::worn(frame, None);
-    plot = plot.curves(ghosts::curves(&mut ghosts, app));
-    plot = plot.curve(now).band(Band { zones: &zones });
-    for mark in edge_marks(frame, theme) {
-        plot = plot.mark(mark);
-    }
-    then(&plot)
+    let worn = Curve::new("worn", &seen.radii[..], seen.wear.clone(), Role::Profile);
+    let mut chart = over_r(frame, "r", ("f - f0", "m"));
+    chart.band = zones(frame);
+    Ok(chart
+        .curves(limit(frame, view, None))
+        .curves(ghosts::worn(frame, None))
+        .curve(worn.filled(fill)))
 }

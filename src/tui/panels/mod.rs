@@ -1,4 +1,5 @@
-//! Panels, one per file: each draws one frame into one area.
+//! Panels, one per file: each declares what it is called, what it needs computed, how it is explained, and the
+//! chart or the picture that it makes of a frame.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
@@ -8,10 +9,12 @@ use ratatui::widgets::{Block, Borders, Widget};
 
 use super::app::App;
 use super::frame::Frame;
-use super::theme::{Role, Theme};
+use super::theme::Role;
 use super::trend::Cycle;
-use crate::plot::{Axis, Curve, Plot, Scale, VerticalMark, Zone};
+use crate::plot::{Axis, Chart, Curve, Mark, Plot, Scale, Zone};
 use crate::simulation::Curves;
+use crate::studies::ghost::Axes;
+use crate::studies::theory::Theory;
 
 pub mod compare;
 mod condition;
@@ -32,69 +35,167 @@ mod springs;
 mod stress_map;
 mod stresses;
 mod volume;
-mod words;
 
 pub use stress_map::{SHADES, Shown, color as map_color};
-pub use words::COMPARISON;
 
-/// The panels of the explorer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Panel {
-    /// The 3D profile.
-    Profile,
-    /// p and τ.
-    Stresses,
-    /// The 1D profile.
-    Springs,
-    /// F_x over u_x.
-    Loop,
-    /// Radii over cycles.
-    Radii,
-    /// The numbers of the moment.
-    Numbers,
-    /// A cut through indenter and half-space.
-    Section,
-    /// Worn depth over the radius.
-    Depth,
-    /// Worn volume and work of friction over cycles.
-    Volume,
-    /// Worn volume per cycle, over cycles.
-    Rate,
-    /// The energy residual of a period over cycles.
-    Residual,
-    /// Time per step over cycles.
-    Cost,
-    /// The scar from above.
-    Scar,
-    /// The loops of earlier cycles.
-    Log,
-    /// Normal load over displacement amplitude.
-    Condition,
-    /// Largest worn depth over cycles.
-    ScarDepth,
+/// An explanation, for a reader who knows Hertz and nothing else.
+#[derive(Debug, Clone, Copy)]
+pub struct Words {
+    /// A few sentences.
+    pub text: &'static str,
+    /// The symbols in the panel with their meaning.
+    pub symbols: &'static [(&'static str, &'static str)],
+}
+
+const A: (&str, &str) = ("a", "contact radius: the bodies touch inside it");
+const C: (&str, &str) = ("c", "stick radius: nothing slips inside it in a cycle");
+const BAND: (&str, &str) = ("band", "stick, slip and open zones along the radius");
+
+/// What panels say that have nothing to show.
+const NO_MOTION: &str = "no tangential motion in this scenario";
+const NO_WEAR: &str = "no wear in this scenario";
+const NO_CYCLE: &str = "no cycle is complete yet";
+
+/// Everything that the explorer knows of a panel.
+pub struct Declared {
+    /// The title.
+    pub title: &'static str,
+    /// Whether a logarithmic ordinate makes sense.
+    pub can_be_log: bool,
+    /// What it needs computed.
+    pub needs: Curves,
+    /// Whether it is a chart over the radius, which has the cursor.
+    pub over_r: bool,
+    /// Whether the range of the abscissa is kept as that of the ordinate is: a loop is drawn on axes that hold.
+    pub keeps_abscissa: bool,
+    /// Whether a few values may be far above all others: a stress that is singular at a border, or a slow step.
+    pub has_spikes: bool,
+    /// Whether a run may leave the panel as it is for two frames: numbers that nobody reads ten times a second,
+    /// pictures that are looked at rather than followed, and what grows from cycle to cycle. Marks of a and c,
+    /// though, are at the same places in all plots over r.
+    pub is_calm: bool,
+    /// What the line of the cursor compares with other sources.
+    pub compared: Axes,
+    /// The explanation.
+    pub words: Words,
+    /// What it shows.
+    content: Content,
+}
+
+/// Makes a chart of a frame, or says why there is nothing to show.
+type MakeChart = fn(&Frame, &View) -> Result<Chart, &'static str>;
+
+/// The values that a picture must hold.
+type Extent = fn(&Frame) -> Option<[f64; 2]>;
+
+/// Draws a picture of a frame.
+type Draw = fn(&Frame, &App, Rect, &mut Buffer);
+
+enum Content {
+    Chart(MakeChart),
+    Picture(Draw, Extent),
+}
+
+impl Declared {
+    const fn new(content: Content) -> Self {
+        Self {
+            title: "",
+            can_be_log: false,
+            needs: Curves::empty(),
+            over_r: false,
+            keeps_abscissa: false,
+            has_spikes: false,
+            is_calm: false,
+            compared: Axes::Wear,
+            words: Words {
+                text: "",
+                symbols: &[],
+            },
+            content,
+        }
+    }
+
+    /// A chart.
+    const fn chart(make: MakeChart) -> Self {
+        Self::new(Content::Chart(make))
+    }
+
+    /// A picture of cells.
+    const fn picture(draw: Draw, extent: Extent) -> Self {
+        Self::new(Content::Picture(draw, extent))
+    }
+}
+
+/// The names of all panels, in reading order; the first four fill a small screen.
+macro_rules! panels {
+    ($($name:ident in $file:ident: $what:literal;)*) => {
+        /// The panels of the explorer.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+        pub enum Panel {
+            $(#[doc = $what] $name,)*
+        }
+
+        impl Panel {
+            /// All panels, in reading order.
+            pub const ALL: [Self; [$(stringify!($name)),*].len()] = [$(Self::$name),*];
+
+            /// What its file declares.
+            pub fn declared(self) -> &'static Declared {
+                match self {
+                    $(Self::$name => &$file::PANEL,)*
+                }
+            }
+        }
+    };
+}
+
+panels! {
+    Profile in profile: "The 3D profile.";
+    Stresses in stresses: "p and τ.";
+    Loop in fretting_loop: "F_x over u_x.";
+    Radii in radii: "Radii over cycles.";
+    Section in section: "A cut through indenter and half-space.";
+    Numbers in numbers: "The numbers of the moment.";
+    Springs in springs: "The 1D profile.";
+    Depth in depth: "Worn depth over the radius.";
+    Volume in volume: "Worn volume and work of friction over cycles.";
+    Rate in rate: "Worn volume per cycle, over cycles.";
+    Residual in residual: "The energy residual of a period over cycles.";
+    Cost in cost: "Time per step over cycles.";
+    Scar in scar: "The scar from above.";
+    Log in fretting_log: "The loops of earlier cycles.";
+    Condition in condition: "Normal load over displacement amplitude.";
+    ScarDepth in scar_depth: "Largest worn depth over cycles.";
+}
+
+/// What the user has chosen for a chart.
+#[derive(Debug, Clone, Copy)]
+pub struct View {
+    /// The scale of the ordinate.
+    pub scale: Scale,
+    /// Whether closed forms are drawn.
+    pub with_theory: bool,
+}
+
+impl View {
+    /// The closed forms, if they are shown.
+    fn theory(self, frame: &Frame) -> Option<&Theory> {
+        self.with_theory.then_some(&*frame.theory)
+    }
+}
+
+/// What a panel shows of a frame.
+#[derive(Debug)]
+pub struct Shot {
+    /// The chart, or why there is nothing to show; `None` for a picture.
+    pub chart: Option<Result<Chart, &'static str>>,
+    /// The smallest and largest ordinate.
+    pub extent: Option<[f64; 2]>,
+    /// Those of the abscissa, where its range is kept.
+    pub across: Option<[f64; 2]>,
 }
 
 impl Panel {
-    /// All panels, in reading order; the first four fill a small screen.
-    pub const ALL: [Self; 16] = [
-        Self::Profile,
-        Self::Stresses,
-        Self::Loop,
-        Self::Radii,
-        Self::Section,
-        Self::Numbers,
-        Self::Springs,
-        Self::Depth,
-        Self::Volume,
-        Self::Rate,
-        Self::Residual,
-        Self::Cost,
-        Self::Scar,
-        Self::Log,
-        Self::Condition,
-        Self::ScarDepth,
-    ];
-
     /// The panel this many places on.
     pub fn shifted(self, places: isize) -> Self {
         let at = self.index() as isize;
@@ -103,163 +204,75 @@ impl Panel {
 
     /// Its place in reading order.
     pub fn index(self) -> usize {
-        let at = Self::ALL.iter().position(|panel| *panel == self);
-        at.unwrap_or(0)
+        self as usize
     }
 
     /// The title.
     pub fn title(self) -> &'static str {
-        match self {
-            Self::Profile => "3D profile",
-            Self::Stresses => "stresses",
-            Self::Springs => "1D profile",
-            Self::Loop => "fretting loop",
-            Self::Radii => "radii over cycles",
-            Self::Numbers => "numbers",
-            Self::Section => "cross-section",
-            Self::Depth => "worn depth",
-            Self::Volume => "wear volume",
-            Self::Rate => "wear rate",
-            Self::Residual => "V against k E_d",
-            Self::Cost => "time per step",
-            Self::Scar => "scar from above",
-            Self::Log => "fretting log",
-            Self::Condition => "running-condition map",
-            Self::ScarDepth => "depth over cycles",
-        }
+        self.declared().title
     }
 
-    /// Whether a logarithmic ordinate makes sense.
-    pub fn can_be_log(self) -> bool {
-        matches!(
-            self,
-            Self::Stresses
-                | Self::Profile
-                | Self::Depth
-                | Self::Volume
-                | Self::Rate
-                | Self::Cost
-                | Self::ScarDepth
-        )
+    /// The explanation of the panel.
+    pub fn words(self) -> Words {
+        self.declared().words
     }
 
-    /// What the panel needs computed.
-    pub fn curves(self) -> Curves {
-        match self {
-            Self::Profile => Curves::PROFILE,
-            Self::Stresses => Curves::PRESSURE | Curves::SHEAR,
-            Self::Springs => Curves::PROFILE_1D,
-            Self::Section => Curves::PROFILE | Curves::DEPRESSION | Curves::SPRINGS,
-            Self::Depth => Curves::PROFILE,
-            Self::Scar => Curves::PROFILE | Curves::SPRINGS,
-            Self::Condition => Curves::SPRINGS,
-            _ => Curves::empty(),
-        }
-    }
-
-    /// The smallest and largest ordinate that the panel shows of a frame.
-    pub fn extent(self, frame: &Frame, scale: Scale) -> Option<[f64; 2]> {
-        let mut values: Vec<f64> = match self {
-            Self::Profile => profile::ordinates(frame),
-            Self::Stresses => stresses::ordinates(frame),
-            Self::Springs => springs::ordinates(frame),
-            Self::Loop => fretting_loop::ordinates(frame),
-            Self::Radii => radii::ordinates(frame),
-            Self::Section => section::ordinates(frame),
-            Self::Depth => depth::ordinates(frame),
-            Self::Volume => volume::ordinates(frame),
-            Self::Rate => rate::ordinates(frame),
-            Self::Residual => residual::ordinates(frame),
-            Self::Cost => cost::ordinates(frame),
-            Self::Scar => scar::ordinates(frame),
-            Self::Log => fretting_log::ordinates(frame),
-            Self::Condition => condition::ordinates(frame),
-            Self::ScarDepth => scar_depth::ordinates(frame),
-            Self::Numbers => return None,
-        };
-        values.retain(|value| value.is_finite() && (scale == Scale::Linear || *value > 0.0));
-        if self.has_spikes() && scale == Scale::Linear {
-            clip_spikes(&mut values);
-        }
-        let high = values.iter().copied().reduce(f64::max)?;
-        let low = values.iter().copied().reduce(f64::min)?;
-        // Five decades show more than the last trace of stress at the contact edge.
-        Some([
-            if scale == Scale::Log {
-                low.max(1e-5 * high)
-            } else {
-                low
+    /// What the panel shows of a frame.
+    pub fn shot(self, frame: &Frame, view: &View) -> Shot {
+        let declared = self.declared();
+        match declared.content {
+            Content::Picture(_, extent) => Shot {
+                chart: None,
+                extent: extent(frame),
+                across: None,
             },
-            high,
-        ])
-    }
-
-    /// The range of the abscissa where it is kept as that of the ordinate is: a loop is drawn on axes that
-    /// hold.
-    pub fn extent_across(self, frame: &Frame) -> Option<[f64; 2]> {
-        (self == Self::Loop).then(|| fretting_loop::abscissae(frame))?
-    }
-
-    /// Whether a few values may be far above all others: a stress that is singular at a border, or
-    /// a slow step.
-    fn has_spikes(self) -> bool {
-        matches!(
-            self,
-            Self::Stresses | Self::Rate | Self::Residual | Self::Cost
-        )
-    }
-
-    /// Whether a run may leave the panel as it is for two frames: numbers that nobody reads ten times a
-    /// second, pictures that are looked at rather than followed, and what grows from cycle to cycle.
-    fn is_calm(self) -> bool {
-        match self {
-            Self::Numbers | Self::Section => true,
-            Self::Radii | Self::Volume | Self::Rate | Self::Residual => true,
-            Self::Cost | Self::ScarDepth | Self::Log => true,
-            // Marks of a and c are at the same places in all plots over r.
-            Self::Profile | Self::Stresses | Self::Springs | Self::Depth => false,
-            Self::Loop | Self::Scar | Self::Condition => false,
+            Content::Chart(make) => {
+                let chart = make(frame, view).map(|mut chart| {
+                    chart.y.scale = view.scale;
+                    if chart.title.is_empty() {
+                        chart.title = declared.title.to_owned();
+                    }
+                    chart
+                });
+                let made = chart.as_ref().ok();
+                let across = made.filter(|_| declared.keeps_abscissa);
+                Shot {
+                    extent: made.and_then(|chart| extent(chart, declared.has_spikes)),
+                    across: across.and_then(|chart| chart.x.bounds),
+                    chart: Some(chart),
+                }
+            }
         }
     }
 
     /// Draws the panel.
     pub fn draw(self, frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
-        let frame = if self.is_calm() {
-            app.calm(frame)
-        } else {
-            frame
-        };
+        let (declared, frame) = (self.declared(), app.frame_of(self, frame));
         let role = if app.focus == self {
             Role::Focus
         } else {
             Role::Title
         };
-        let title = match self {
-            Self::Profile => profile::title(frame, app.theme.ascii()),
-            _ => self.title().to_owned(),
-        };
-        let inner = titled(&title, role, app, area, buffer);
-        match self {
-            Self::Profile => profile::plotted(frame, app, |plot| plot.render(inner, buffer)),
-            Self::Stresses => stresses::plotted(frame, app, |plot| plot.render(inner, buffer)),
-            Self::Springs => springs::plotted(frame, app, |plot| plot.render(inner, buffer)),
-            Self::Loop => fretting_loop::draw(frame, app, inner, buffer),
-            Self::Radii => radii::draw(frame, app, inner, buffer),
-            Self::Numbers => numbers::draw(frame, app, inner, buffer),
-            Self::Section => section::draw(frame, app, inner, buffer),
-            Self::Depth => depth::plotted(frame, app, |plot| plot.render(inner, buffer)),
-            Self::Volume => volume::draw(frame, app, inner, buffer),
-            Self::Rate => rate::draw(frame, app, inner, buffer),
-            Self::Residual => residual::draw(frame, app, inner, buffer),
-            Self::Cost => cost::draw(frame, app, inner, buffer),
-            Self::Scar => scar::draw(frame, app, inner, buffer),
-            Self::Log => fretting_log::draw(frame, app, inner, buffer),
-            Self::Condition => condition::draw(frame, app, inner, buffer),
-            Self::ScarDepth => scar_depth::draw(frame, app, inner, buffer),
+        if let Content::Picture(draw, _) = declared.content {
+            let inner = titled(declared.title, role, app, area, buffer);
+            return draw(frame, app, inner, buffer);
+        }
+        match &*app.chart(self, frame) {
+            Ok(chart) => {
+                let inner = titled(&chart.title, role, app, area, buffer);
+                let cursor = app.cursor_radius(frame).filter(|_| declared.over_r);
+                Plot::new(chart, &app.theme)
+                    .cursor(cursor)
+                    .render(inner, buffer);
+            }
+            Err(why) => {
+                let inner = titled(declared.title, role, app, area, buffer);
+                nothing(why, app, inner, buffer);
+            }
         }
     }
 
-    /// The radius under a place of the screen, m, where the panel in `area` has a plot over r there.
+    /// The radius under a place of the screen, m, where the panel in `area` has a chart over r there.
     pub fn radius_at(self, frame: &Frame, app: &App, area: Rect, at: Position) -> Option<f64> {
         // The first row is the title's.
         let inner = Rect {
@@ -267,14 +280,34 @@ impl Panel {
             height: area.height.saturating_sub(1),
             ..area
         };
-        let radius = |plot: &Plot<'_>| plot.abscissa_at(inner, at);
-        match self {
-            Self::Profile => profile::plotted(frame, app, radius),
-            Self::Stresses => stresses::plotted(frame, app, radius),
-            Self::Springs => springs::plotted(frame, app, radius),
-            Self::Depth => depth::plotted(frame, app, radius),
-            _ => None,
+        let chart = app.chart(self, frame);
+        let chart = chart.as_ref().as_ref().ok()?;
+        let plot = Plot::new(chart, &app.theme);
+        let radius = plot.abscissa_at(inner, at);
+        radius.filter(|_| self.declared().over_r)
+    }
+}
+
+/// The smallest and largest ordinate of a live chart: given ones, or those of the run's own curves and of other
+/// sources.
+fn extent(chart: &Chart, has_spikes: bool) -> Option<[f64; 2]> {
+    if chart.y.bounds.is_some() {
+        return chart.y.bounds;
+    }
+    let [_, range] = chart.extent(|curve| !curve.is_theory);
+    let [low, high] = range?;
+    match chart.y.scale {
+        // Five decades show more than the last trace of stress at the contact edge.
+        Scale::Log => Some([low.max(1e-5 * high), high]),
+        Scale::Linear if has_spikes => {
+            let curves = chart.curves.iter().filter(|curve| !curve.is_theory);
+            let values = curves.flat_map(|curve| &curve.ys).chain(&chart.y.holds);
+            let mut values: Vec<f64> = values.copied().filter(|value| value.is_finite()).collect();
+            clip_spikes(&mut values);
+            let low = values.iter().copied().reduce(f64::min)?;
+            Some([low, values.into_iter().fold(low, f64::max)])
         }
+        Scale::Linear => Some([low, high]),
     }
 }
 
@@ -296,17 +329,13 @@ fn clip_spikes(values: &mut [f64]) {
     }
 }
 
-/// The frame of a panel that is not focused; returns its inside.
-fn panel_block(title: &str, app: &App, area: Rect, buffer: &mut Buffer) -> Rect {
-    titled(title, Role::Title, app, area, buffer)
-}
-
 /// A rule with a title; returns what is below it.
 pub(super) fn titled(title: &str, role: Role, app: &App, area: Rect, buffer: &mut Buffer) -> Rect {
     let theme = &app.theme;
     // The rule is dim; its title is not.
     let style = theme.style(role).remove_modifier(Modifier::DIM);
-    let title = Line::from(vec![Span::styled(format!(" {title} "), style)]);
+    let title = format!(" {} ", theme.printable(title));
+    let title = Line::from(vec![Span::styled(title, style)]);
     let mut block = Block::new()
         .borders(Borders::TOP)
         .border_style(theme.style(Role::Faint))
@@ -322,40 +351,23 @@ pub(super) fn titled(title: &str, role: Role, app: &App, area: Rect, buffer: &mu
     inner
 }
 
-/// A plot of nodal values over the radius, with the bounds that the app keeps for the panel and the
-/// cursor. The ordinate is a label and a unit.
-fn radial_plot<'a>(
-    panel: Panel,
-    app: &App,
+/// A chart of nodal values over the radius, with marks at the radii of contact and stick. The ordinate is a
+/// label and a unit.
+fn over_r(
     frame: &Frame,
-    abscissa: &'a str,
-    ordinate: (&'a str, &'a str),
-) -> Plot<'a> {
-    let (label, unit) = ordinate;
-    plot(panel, app, Axis::new(abscissa, "m"), Axis::new(label, unit))
-        .cursor(app.cursor_radius(frame))
-}
-
-fn plot<'a>(panel: Panel, app: &App, x: Axis<'a>, y: Axis<'a>) -> Plot<'a> {
-    let mut y = y.scale(app.scale(panel));
-    if let Some(bounds) = app.bounds(panel) {
-        y = y.bounds(bounds);
+    abscissa: &'static str,
+    (label, unit): (&'static str, &'static str),
+) -> Chart {
+    Chart {
+        marks: edge_marks(frame),
+        ..Chart::new("", Axis::new(abscissa, "m"), Axis::new(label, unit))
     }
-    bare_plot(app, x, y)
 }
 
-/// A plot in the app's look, without the bounds and the scale of a panel.
-fn bare_plot<'a>(app: &App, x: Axis<'a>, y: Axis<'a>) -> Plot<'a> {
-    Plot::new(x, y)
-        .marker(app.theme.marker)
-        .axis_style(app.theme.style(Role::Quiet))
-        .rule_style(app.theme.style(Role::Faint))
-}
-
-/// A quantity of every cycle over the cycles so far.
-fn over_cycles<'a>(panel: Panel, frame: &Frame, app: &App, y: Axis<'a>) -> Plot<'a> {
-    let ends = cycles_shown(frame);
-    plot(panel, app, Axis::new("cycles", "").bounds(ends), y)
+/// A chart of a quantity of every cycle over the cycles so far.
+fn over_cycles(frame: &Frame, y: Axis) -> Chart {
+    let cycles = Axis::new("cycles", "").bounds(cycles_shown(frame));
+    Chart::new("", cycles, y)
 }
 
 /// The cycles that the panels over cycles show: all that are planned, from the first one on.
@@ -379,19 +391,20 @@ fn round_end(end: f64) -> f64 {
         .unwrap_or(10.0 * decade)
 }
 
-/// One quantity of every cycle, with the cycles it belongs to.
-fn series(frame: &Frame, of: impl Fn(&Cycle) -> f64) -> (Vec<f64>, Vec<f64>) {
-    frame
-        .trend
-        .cycles()
-        .map(|entry| (entry.cycle, of(entry)))
-        .unzip()
+/// One quantity of every cycle, over the cycles it belongs to.
+fn series(frame: &Frame, name: &str, role: Role, of: impl Fn(&Cycle) -> f64) -> Curve {
+    let cycles = frame.trend.cycles();
+    let (cycles, values): (Vec<f64>, Vec<f64>) =
+        cycles.map(|entry| (entry.cycle, of(entry))).unzip();
+    Curve::new(name, cycles, values, role)
 }
 
-/// One quantity of every finished cycle, with the cycles it belongs to.
-fn finished_series(frame: &Frame, of: impl Fn(&Cycle) -> f64) -> (Vec<f64>, Vec<f64>) {
+/// One quantity of every finished cycle, over the cycles it belongs to.
+fn finished_series(frame: &Frame, role: Role, of: impl Fn(&Cycle) -> f64) -> Curve {
     let cycles = frame.trend.finished_cycles();
-    cycles.map(|entry| (entry.cycle, of(entry))).unzip()
+    let (cycles, values): (Vec<f64>, Vec<f64>) =
+        cycles.map(|entry| (entry.cycle, of(entry))).unzip();
+    Curve::new("", cycles, values, role)
 }
 
 /// Writes a message in a panel that has nothing to plot.
@@ -399,64 +412,64 @@ fn nothing(text: &str, app: &App, area: Rect, buffer: &mut Buffer) {
     Line::styled(format!(" {text}"), app.theme.style(Role::Quiet)).render(area, buffer);
 }
 
+/// The radius of the outermost node, m.
+fn edge(frame: &Frame) -> f64 {
+    frame.observation.radii.last().copied().unwrap_or(0.0)
+}
+
+/// The shape that ends all wear at this depth, if closed forms are shown: its worn depth, or that magnified by
+/// `times` on top of the unworn profile.
+fn limit(frame: &Frame, view: &View, times: Option<f64>) -> Option<Curve> {
+    let (radii, unworn) = (&frame.observation.radii[..], &frame.observation.unworn);
+    let limit = view.theory(frame)?.limiting_profile(radii)?;
+    let worn = limit.iter().zip(&unworn[..]);
+    let worn = worn.map(|(f, f0)| times.map_or(f - f0, |times| f0 + times * (f - f0)));
+    let worn: Vec<f64> = worn.collect();
+    Some(
+        Curve::new("limit", radii, worn, Role::Limit)
+            .dashed()
+            .theory(),
+    )
+}
+
 /// Marks at the contact radius a and at the permanent stick radius c; where more sticks at the moment, a
 /// faint one there.
-fn edge_marks(frame: &Frame, theme: &Theme) -> Vec<VerticalMark<'static>> {
+fn edge_marks(frame: &Frame) -> Vec<Mark> {
     let moment = &frame.observation.moment;
+    let mark = |x, label, role| Mark { x, label, role };
     let mut marks = Vec::new();
     if moment.contact_radius > 0.0 {
-        marks.push(VerticalMark {
-            x: moment.contact_radius,
-            label: "a",
-            style: theme.style(Role::Contact),
-        });
+        marks.push(mark(moment.contact_radius, "a", Role::Contact));
     }
     let within = |c: &f64| *c > 0.0 && *c < moment.contact_radius;
     let permanent = moment.permanent_stick_radius.filter(within);
     let now = moment.stick_radius.filter(within);
-    if let Some(stick) = now.filter(|now| permanent.is_none_or(|c| *now > c * (1.0 + 1e-9))) {
-        marks.push(VerticalMark {
-            x: stick,
-            label: "",
-            style: theme.style(Role::Faint),
-        });
-    }
-    if let Some(c) = permanent {
-        marks.push(VerticalMark {
-            x: c,
-            label: "c",
-            style: theme.style(Role::Stick),
-        });
-    }
+    let is_more = |now: &f64| permanent.is_none_or(|c| *now > c * (1.0 + 1e-9));
+    marks.extend(now.filter(is_more).map(|now| mark(now, "", Role::Faint)));
+    marks.extend(permanent.map(|c| mark(c, "c", Role::Stick)));
     marks
 }
 
 /// Stick, slip and open along the radius.
-fn zones(frame: &Frame, theme: &Theme) -> Vec<Zone<'static>> {
+fn zones(frame: &Frame) -> Vec<Zone> {
     let moment = &frame.observation.moment;
-    let edge = frame.observation.radii.last().copied().unwrap_or(0.0);
     let contact = moment.contact_radius;
     let stick = moment.stick_radius.unwrap_or(contact).min(contact);
     [
         (0.0, stick, Role::Stick, 's', "stick"),
         (stick, contact, Role::Slip, '~', "slip"),
-        (contact, edge, Role::Open, '.', "open"),
+        (contact, edge(frame), Role::Open, '.', "open"),
     ]
     .into_iter()
     .filter(|(from, to, ..)| to > from)
     .map(|(from, to, role, glyph, name)| Zone {
         from,
         to,
-        style: theme.style(role),
+        role,
         glyph,
         name,
     })
     .collect()
-}
-
-/// A solid curve of a role.
-fn curve<'a>(name: &'a str, xs: &'a [f64], ys: &'a [f64], theme: &Theme, role: Role) -> Curve<'a> {
-    Curve::new(name, xs, ys, theme.style(role))
 }
 
 #[cfg(test)]
@@ -493,5 +506,21 @@ mod tests {
         clip_spikes(&mut spiked);
         let high = spiked.iter().copied().fold(0.0, f64::max);
         assert!((10.0..30.0).contains(&high), "{high}");
+    }
+
+    #[test]
+    fn every_panel_is_explained_in_a_box_of_a_small_screen() {
+        for panel in Panel::ALL {
+            let Words { text, symbols } = panel.words();
+            assert!((50..=330).contains(&text.chars().count()), "{panel:?}");
+            assert!(!text.contains("  ") && text.ends_with('.'), "{panel:?}");
+            assert!((1..=5).contains(&symbols.len()), "{panel:?}");
+            for (symbol, meaning) in symbols {
+                assert!(
+                    symbol.chars().count() <= 11 && meaning.chars().count() <= 60,
+                    "{symbol}"
+                );
+            }
+        }
     }
 }

@@ -5,16 +5,39 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
-use super::{App, Frame};
-use crate::plot::units::{format_number, format_value_in};
+use super::{App, Declared, Frame, Words};
+use crate::plot::units::{format_number, format_value};
 use crate::tui::theme::Role;
 
-/// Draws the panel.
-pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
-    let rows = rows(frame, app.theme.ascii());
+/// The panel.
+pub const PANEL: Declared = Declared {
+    title: "numbers",
+    is_calm: true,
+    words: Words {
+        text: "The state in numbers, and what a fretting test reports for the last complete \
+                 cycle. A, B and D \
+                 are ratios of the loop: at the border of gross slip an unworn sphere has A = 0.2, B = 0.77 and \
+                 D = 0.26. k relates wear to friction work; Archard's rate per normal force is μ k.",
+        symbols: &[
+            ("E_d", "energy lost to friction"),
+            ("Q*/(μP)", "amplitude of F_x divided by the friction limit"),
+            (
+                "slip ratio",
+                "mean slip of the contact divided by the amplitude",
+            ),
+            ("D, A, B", "sliding ratio and energy ratios of the loop"),
+            ("V/E_d", "wear volume divided by accumulated energy"),
+        ],
+    },
+    ..Declared::picture(draw, |_| None)
+};
+
+fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
+    let rows = rows(frame).into_iter();
+    let rows = rows.map(|row| [row.0, &row.1].map(|text| app.theme.printable(text)));
     let columns = (area.width / 30).clamp(1, 2);
     let width = area.width / columns;
-    for (i, (name, value)) in rows.iter().enumerate() {
+    for (i, [name, value]) in rows.enumerate() {
         let (column, row) = (i as u16 / area.height.max(1), i as u16 % area.height.max(1));
         if column >= columns {
             return;
@@ -32,15 +55,15 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
                 format!(" {name} {}", " ".repeat(pad)),
                 app.theme.style(Role::Quiet),
             ),
-            Span::raw(value.clone()),
+            Span::raw(value),
         ]);
         line.render(cell, buffer);
     }
 }
 
-fn rows(frame: &Frame, ascii: bool) -> Vec<(&'static str, String)> {
+fn rows(frame: &Frame) -> Vec<(&'static str, String)> {
     let moment = &frame.observation.moment;
-    let value = |value: f64, unit: &str| format_value_in(value, unit, 4, ascii);
+    let value = |value: f64, unit: &str| format_value(value, unit, 4);
     let ratio = |value: Option<f64>| value.map(|value| format!("{value:.3}"));
     let mut rows = Vec::new();
     if let Some(figures) = &frame.figures {
@@ -60,10 +83,7 @@ fn rows(frame: &Frame, ascii: bool) -> Vec<(&'static str, String)> {
     if let Some(figures) = &frame.figures {
         rows.push(("E_d per cycle", value(figures.energy, "J")));
         let ratios = [
-            (
-                if ascii { "Q*/(mu P)" } else { "Q*/(μP)" },
-                figures.force_ratio,
-            ),
+            ("Q*/(μP)", figures.force_ratio),
             ("slip ratio", figures.slip_ratio),
             ("sliding ratio D", figures.sliding_ratio),
             ("energy ratio A", figures.energy_ratio),
@@ -78,14 +98,13 @@ fn rows(frame: &Frame, ascii: bool) -> Vec<(&'static str, String)> {
     rows.push(("wear volume V", value(moment.wear_volume, "m³")));
     rows.push(("friction work E_d", value(moment.dissipated_energy, "J")));
     if let Some(per_energy) = moment.wear_per_energy() {
-        rows.push(("V/E_d", cubic_micrometres(per_energy, ascii)));
+        rows.push(("V/E_d", cubic_micrometres(per_energy)));
     }
     if let Some(k) = frame.wear_coefficient {
-        let millimetres = if ascii { "mm3/(N*m)" } else { "mm³/(N·m)" };
         let per_load = format_number(k * frame.friction * 1e9, 3);
         rows.push(("k", format!("{} 1/Pa", format_number(k, 3))));
-        rows.push(("k", cubic_micrometres(k, ascii)));
-        rows.push(("k per load", format!("{per_load} {millimetres}")));
+        rows.push(("k", cubic_micrometres(k)));
+        rows.push(("k per load", format!("{per_load} mm³/(N·m)")));
     }
     if let Some(residual) = moment.energy_residual {
         rows.push(("1 - V/(k E_d)", format_number(residual, 2)));
@@ -109,7 +128,6 @@ fn rows(frame: &Frame, ascii: bool) -> Vec<(&'static str, String)> {
 }
 
 /// A volume per energy (1/Pa) in µm³/J.
-fn cubic_micrometres(per_energy: f64, ascii: bool) -> String {
-    let unit = if ascii { "um3/J" } else { "µm³/J" };
-    format!("{} {unit}", format_number(per_energy * 1e18, 3))
+fn cubic_micrometres(per_energy: f64) -> String {
+    format!("{} µm³/J", format_number(per_energy * 1e18, 3))
 }

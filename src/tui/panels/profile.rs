@@ -1,10 +1,27 @@
 //! The 3D profile f(r), worn and unworn, with the zones of the contact under it. The wear is drawn
 //! magnified where it would be thinner than a line.
 
-use super::{App, Frame, Panel, curve, edge_marks, ghosts, radial_plot, zones};
+use super::{A, BAND, C, Declared, Frame, View, Words, ghosts, limit, over_r, zones};
 use crate::math::scan::largest;
-use crate::plot::{Band, Plot};
-use crate::tui::theme::Role;
+use crate::plot::theme::Role;
+use crate::plot::{Chart, Curve, Fill};
+use crate::simulation::Curves;
+
+/// The panel.
+pub const PANEL: Declared = Declared {
+    title: "3D profile",
+    can_be_log: true,
+    needs: Curves::PROFILE,
+    over_r: true,
+    words: Words {
+        text: "The shape of the indenter against the radius, unworn and worn. Wear thinner than a \
+                 line is drawn magnified, by one factor for the whole run that the title tells. It begins \
+                 where surfaces slide under pressure: in the ring between c and a. A faint line ends what \
+                 sticks at the moment: all, whenever the motion reverses.",
+        symbols: &[("f", "height of the profile over its tip"), A, C, BAND],
+    },
+    ..Declared::chart(draw)
+};
 
 /// How much of the height of the unworn profile the magnified wear may take.
 const SHARE: f64 = 0.35;
@@ -36,75 +53,31 @@ fn height(frame: &Frame) -> f64 {
     }
 }
 
-/// f₀ plus `times` the `wear` (m).
-fn magnified(frame: &Frame, wear: &[f64], times: f64) -> Vec<f64> {
-    let unworn = frame.observation.unworn.iter();
-    unworn.zip(wear).map(|(f, worn)| f + times * worn).collect()
-}
-
 /// How many times the wear is drawn: the same from the first cycle to the planned end, so that wear that
 /// grows is seen to grow. Only where there is more than was expected, the factor falls.
-pub fn times(frame: &Frame) -> f64 {
-    let ghosts = ghosts::ordinates(&ghosts::worn(frame, None));
+fn times(frame: &Frame) -> f64 {
+    let ghosts = ghosts::worn(frame, None);
     let seen = largest(&frame.observation.wear).max(frame.expected_wear);
-    let deepest = ghosts.into_iter().fold(seen, f64::max);
+    let deepest = ghosts.iter().map(Curve::highest).fold(seen, f64::max);
     magnification(deepest, height(frame))
 }
 
-/// The title, with the factor.
-pub fn title(frame: &Frame, ascii: bool) -> String {
-    let name = Panel::Profile.title();
-    match times(frame) {
-        1.0 => name.to_owned(),
-        times if ascii => format!("{name}, wear drawn x{times}"),
-        times => format!("{name}, wear drawn ×{times}"),
+fn draw(frame: &Frame, view: &View) -> Result<Chart, &'static str> {
+    let (seen, times) = (&frame.observation, times(frame));
+    let worn = seen.unworn.iter().zip(&seen.wear);
+    let worn: Vec<f64> = worn.map(|(f0, wear)| f0 + times * wear).collect();
+    let mut chart = over_r(frame, "r", ("f", "m"));
+    if times > 1.0 {
+        chart.title = format!("{}, wear drawn ×{times}", PANEL.title);
     }
-}
-
-/// What the ordinate must hold.
-pub fn ordinates(frame: &Frame) -> Vec<f64> {
-    let seen = &frame.observation;
-    if seen.profile.is_empty() {
-        return Vec::new();
-    }
-    let times = times(frame);
-    let mut values = magnified(frame, &seen.wear, times);
-    values.extend_from_slice(&seen.unworn);
-    values.extend(ghosts::ordinates(&ghosts::worn(frame, Some(times))));
-    values
-}
-
-/// Makes the plot and hands it to `then`.
-pub fn plotted<T>(frame: &Frame, app: &App, then: impl FnOnce(&Plot<'_>) -> T) -> T {
-    let (seen, theme) = (&frame.observation, &app.theme);
-    let zones = zones(frame, theme);
-    let limit: Vec<f64> = app
-        .theory_of(frame)
-        .and_then(|theory| theory.limiting_profile(&seen.radii))
-        .map(|limit| {
-            let unworn = seen.unworn.iter();
-            limit.iter().zip(unworn).map(|(f, f0)| f - f0).collect()
-        })
-        .unwrap_or_default();
-    let times = times(frame);
-    let (worn, limit) = (
-        magnified(frame, &seen.wear, times),
-        magnified(frame, &limit, times),
-    );
-    let mut plot = radial_plot(Panel::Profile, app, frame, "r", ("f", "m"))
-        .curve(curve("unworn", &seen.radii, &seen.unworn, theme, Role::Unworn).dashed());
-    if !limit.is_empty() {
-        plot = plot.curve(curve("limit", &seen.radii, &limit, theme, Role::Limit).dashed());
-    }
-    let mut ghosts = ghosts::worn(frame, Some(times));
-    plot = plot
-        .curves(ghosts::curves(&mut ghosts, app))
-        .curve(curve("worn", &seen.radii, &worn, theme, Role::Profile).fill_from(&seen.unworn))
-        .band(Band { zones: &zones });
-    for mark in edge_marks(frame, theme) {
-        plot = plot.mark(mark);
-    }
-    then(&plot)
+    chart.band = zones(frame);
+    let unworn = Curve::new("unworn", &seen.radii[..], &seen.unworn[..], Role::Unworn);
+    let worn = Curve::new("worn", &seen.radii[..], worn, Role::Profile);
+    Ok(chart
+        .curve(unworn.dashed())
+        .curves(limit(frame, view, Some(times)))
+        .curves(ghosts::worn(frame, Some(times)))
+        .curve(worn.filled(Fill::From(seen.unworn.to_vec()))))
 }
 
 #[cfg(test)]

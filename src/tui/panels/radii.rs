@@ -1,52 +1,47 @@
 //! The largest contact radius and the smallest stick radius of every cycle.
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
-use ratatui::widgets::Widget;
-
-use super::{App, Frame, Panel, curve, cycles_shown, ghosts, over_cycles, series};
-use crate::plot::Axis;
+use super::{Declared, Frame, View, Words, cycles_shown, ghosts, over_cycles, series};
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve};
 use crate::studies::ghost::Axes;
-use crate::tui::theme::Role;
 
-/// What the ordinate must hold: radii grow from zero.
-pub fn ordinates(frame: &Frame) -> Vec<f64> {
-    std::iter::once(0.0)
-        .chain(
-            frame
-                .trend
-                .cycles()
-                .flat_map(|cycle| [cycle.contact_radius, cycle.stick_radius]),
-        )
-        .chain(ghosts::ordinates(&ghosts(frame)))
-        .collect()
-}
+/// The panel.
+pub const PANEL: Declared = Declared {
+    title: "radii over cycles",
+    is_calm: true,
+    compared: Axes::Contact,
+    words: Words {
+        text: "The largest contact radius and the smallest stick radius of each cycle. As the \
+                 ring wears, a grows; c settles, because what has stuck through a whole cycle \
+                 keeps sticking.",
+        symbols: &[
+            ("a", "contact radius"),
+            ("c", "stick radius: the smallest of the cycle"),
+        ],
+    },
+    ..Declared::chart(draw)
+};
 
-/// Contact radii, and below them stick radii, which need no name.
-fn ghosts(frame: &Frame) -> Vec<ghosts::Line> {
-    let mut lines = ghosts::on(frame, Axes::Contact, 1.0);
-    let stick = ghosts::on(frame, Axes::Stick, 1.0).into_iter();
-    lines.extend(stick.map(ghosts::Line::nameless));
-    lines
-}
-
-/// Draws the panel.
-pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
-    let theme = &app.theme;
-    let (cycles, contact) = series(frame, |entry| entry.contact_radius);
-    let stick = series(frame, |entry| entry.stick_radius).1;
-    let ends = cycles_shown(frame);
-    let mut ghosts = ghosts(frame);
-    let mut plot = over_cycles(Panel::Radii, frame, app, Axis::new("radius", "m"))
-        .curves(ghosts::curves(&mut ghosts, app))
-        .curve(curve("contact a", &cycles, &contact, theme, Role::Contact));
-    if stick.iter().any(|radius| radius.is_finite()) {
-        plot = plot.curve(curve("stick c", &cycles, &stick, theme, Role::Stick).dashed());
-    }
-    let theory = app.theory_of(frame).and_then(|theory| theory.stick_radius);
-    let line = theory.map(|radius| [radius; 2]);
-    if let Some(line) = &line {
-        plot = plot.curve(curve("theory c", &ends, line, theme, Role::Limit));
-    }
-    plot.render(area, buffer);
+fn draw(frame: &Frame, view: &View) -> Result<Chart, &'static str> {
+    let contact = series(frame, "contact a", Role::Contact, |entry| {
+        entry.contact_radius
+    });
+    let stick = series(frame, "stick c", Role::Stick, |entry| entry.stick_radius).dashed();
+    let has_stick = stick.ys.iter().any(|radius| radius.is_finite());
+    // Stick radii of other sources, below their contact radii, need no name.
+    let mut stick_of_ghosts = ghosts::on(frame, Axes::Stick, 1.0);
+    stick_of_ghosts
+        .iter_mut()
+        .for_each(|ghost| ghost.name.clear());
+    let theory = view.theory(frame).and_then(|theory| theory.stick_radius);
+    let theory = theory.map(|c| {
+        let ends = cycles_shown(frame);
+        Curve::new("theory c", ends, [c; 2], Role::Limit).theory()
+    });
+    Ok(over_cycles(frame, Axis::new("radius", "m").from_zero())
+        .curves(ghosts::on(frame, Axes::Contact, 1.0))
+        .curves(stick_of_ghosts)
+        .curve(contact)
+        .curves(has_stick.then_some(stick))
+        .curves(theory))
 }

@@ -15,13 +15,26 @@ use ratatui::style::{Color, Style};
 use ratatui::text::Line;
 
 use super::stress_map::{self, SHADES};
-use super::{App, Frame, Panel, nothing};
+use super::{App, Declared, Frame, Panel, Words, nothing};
 use crate::math::grid::interpolate;
 use crate::math::scan::largest;
 use crate::plot::colormap::ColorMap;
 use crate::plot::units::format_value_in;
-use crate::simulation::Zone;
+use crate::simulation::{Curves, Zone};
 use crate::tui::theme::Role;
+
+/// The panel.
+pub const PANEL: Declared = Declared {
+    title: "scar from above",
+    needs: Curves::PROFILE.union(Curves::SPRINGS),
+    words: Words {
+        text: "The contact from above. The left half shows where it sticks, slips and is open at this moment, the \
+                 right half the worn depth in colours. The arrow shows which way the indenter \
+                     slips.",
+        symbols: &[("s ~ .", "stick, slip, open (without colours)")],
+    },
+    ..Declared::picture(draw, depths)
+};
 
 /// The width, cells, from which the legend fits in one line, and the height from which it gets two
 /// lines below that width.
@@ -55,18 +68,12 @@ impl Place {
 }
 
 /// The depths that the colours span, m.
-pub fn ordinates(frame: &Frame) -> Vec<f64> {
-    let seen = &frame.observation;
-    seen.wear
-        .iter()
-        .copied()
-        .chain([0.0])
-        .filter(|_| !seen.wear.is_empty())
-        .collect()
+fn depths(frame: &Frame) -> Option<[f64; 2]> {
+    let wear = &frame.observation.wear;
+    (!wear.is_empty()).then(|| [0.0, largest(wear)])
 }
 
-/// Draws the panel.
-pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
+fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     let seen = &frame.observation;
     let Some(&edge) = seen.radii.last().filter(|_| !seen.wear.is_empty()) else {
         return;

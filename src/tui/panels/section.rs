@@ -12,10 +12,30 @@ use ratatui::style::{Color, Style};
 use ratatui::text::Line;
 
 use super::stress_map::{self, SHADES, Samples};
-use super::{App, Frame, Panel};
+use super::{App, Declared, Frame, Panel, Words, edge};
 use crate::math::grid::interpolate;
 use crate::plot::units::format_value_in;
+use crate::simulation::Curves;
 use crate::tui::theme::{Depth, Look, Role, Theme};
+
+/// The panel.
+pub const PANEL: Declared = Declared {
+    title: "cross-section",
+    needs: Curves::PROFILE
+        .union(Curves::DEPRESSION)
+        .union(Curves::SPRINGS),
+    is_calm: true,
+    words: Words {
+        text: "A cut through both bodies: the indenter above, the half-space it deforms below. \
+                 Heights are exaggerated by the factor shown. The contact surface is coloured by \
+                 stick and slip.",
+        symbols: &[
+            ("F_z", "normal force"),
+            ("u_x", "tangential displacement of the indenter"),
+        ],
+    },
+    ..Declared::picture(draw, heights)
+};
 
 /// The picture is this many times as wide as the domain: the sides of the bodies are seen.
 const WIDER: f64 = 1.5;
@@ -129,21 +149,19 @@ impl Cut {
 
 /// The heights that the picture spans, m: all of the indenter's flank within the domain, and as much
 /// of the half-space.
-pub fn ordinates(frame: &Frame) -> Vec<f64> {
-    let (seen, depth) = (&frame.observation, frame.observation.moment.depth);
-    if seen.depression.is_empty() {
-        return Vec::new();
+fn heights(frame: &Frame) -> Option<[f64; 2]> {
+    let depth = frame.observation.moment.depth;
+    if frame.observation.depression.is_empty() {
+        return None;
     }
-    let edge = seen.radii.last().copied().unwrap_or(0.0);
     let flank = match frame.indenter.rim() {
         Some(_) => depth.abs(),
-        None => frame.indenter.profile(WIDER * edge),
+        None => frame.indenter.profile(WIDER * edge(frame)),
     };
-    vec![-depth.max(0.0) - 1.2 * flank, flank - depth]
+    Some([-depth.max(0.0) - 1.2 * flank, flank - depth])
 }
 
-/// Draws the panel.
-pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
+fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     let seen = &frame.observation;
     let (Some([low, high]), Some(&edge)) = (app.bounds(Panel::Section), seen.radii.last()) else {
         return;
@@ -375,7 +393,7 @@ mod tests {
     use super::*;
     use crate::oracle::power_law::PowerLaw;
     use crate::scenario::Scenario;
-    use crate::simulation::{Curves, Simulation};
+    use crate::simulation::Simulation;
 
     #[test]
     fn bodies_lie_where_their_surfaces_say() {

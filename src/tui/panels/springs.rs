@@ -1,39 +1,32 @@
 //! The 1D profile g(x) against the depth to which it is pressed: springs touch where g is less.
 
-use super::{App, Frame, Panel, curve, edge_marks, ghosts, radial_plot};
-use crate::plot::Plot;
+use super::{A, C, Declared, Frame, View, Words, ghosts, over_r};
+use crate::plot::theme::Role;
+use crate::plot::{Chart, Curve};
+use crate::simulation::Curves;
 use crate::studies::ghost::Axes;
-use crate::tui::theme::Role;
 
-/// What the ordinate must hold.
-pub fn ordinates(frame: &Frame) -> Vec<f64> {
+/// The panel.
+pub const PANEL: Declared = Declared {
+    title: "1D profile",
+    needs: Curves::PROFILE_1D,
+    over_r: true,
+    compared: Axes::Springs,
+    words: Words {
+        text: "The method replaces the 3D contact with a row of independent springs, and the \
+                 shape f with its 1D image g. A spring at x touches where g(x) is below the depth \
+                 d. The contact force is exactly the sum of the spring forces.",
+        symbols: &[("g", "1D profile"), ("d", "indentation depth"), A, C],
+    },
+    ..Declared::chart(draw)
+};
+
+fn draw(frame: &Frame, _: &View) -> Result<Chart, &'static str> {
     let seen = &frame.observation;
-    seen.profile_1d
-        .iter()
-        .copied()
-        .chain((!seen.profile_1d.is_empty()).then_some(seen.moment.depth))
-        .chain(ghosts::ordinates(&ghosts::on(frame, Axes::Springs, 1.0)))
-        .collect()
-}
-
-/// Makes the plot and hands it to `then`.
-pub fn plotted<T>(frame: &Frame, app: &App, then: impl FnOnce(&Plot<'_>) -> T) -> T {
-    let (seen, theme) = (&frame.observation, &app.theme);
-    let ends = [0.0, seen.radii.last().copied().unwrap_or(0.0)];
-    let depth = [seen.moment.depth; 2];
-    let mut ghosts = ghosts::on(frame, Axes::Springs, 1.0);
-    let mut plot = radial_plot(Panel::Springs, app, frame, "x", ("g", "m"))
-        .curve(curve("depth d", &ends, &depth, theme, Role::Contact).dashed())
-        .curves(ghosts::curves(&mut ghosts, app))
-        .curve(curve(
-            "g",
-            &seen.radii,
-            &seen.profile_1d,
-            theme,
-            Role::Profile1d,
-        ));
-    for mark in edge_marks(frame, theme) {
-        plot = plot.mark(mark);
-    }
-    then(&plot)
+    let (ends, g) = ([0.0, super::edge(frame)], seen.profile_1d.clone());
+    let depth = Curve::new("depth d", ends, [seen.moment.depth; 2], Role::Contact);
+    Ok(over_r(frame, "x", ("g", "m"))
+        .curve(depth.dashed())
+        .curves(ghosts::on(frame, Axes::Springs, 1.0))
+        .curve(Curve::new("g", &seen.radii[..], g, Role::Profile1d)))
 }

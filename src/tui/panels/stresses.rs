@@ -1,98 +1,68 @@
 //! Pressure p(r) and shear stress τ(r). τ is drawn as τ/μ: it meets ±p where the contact slips.
 
-use super::{App, Frame, Panel, curve, edge_marks, ghosts, radial_plot};
-use crate::plot::{Plot, Scale};
+use super::{A, C, Declared, Frame, View, Words, ghosts, over_r};
+use crate::plot::theme::Role;
+use crate::plot::{Chart, Curve, Scale};
+use crate::simulation::Curves;
 use crate::studies::ghost::Axes;
-use crate::tui::theme::Role;
 
-/// τ/μ; empty without friction or tangential motion.
-fn scaled_shear(frame: &Frame, scale: Scale) -> Vec<f64> {
-    if frame.friction == 0.0 || frame.observation.moment.stick_radius.is_none() {
-        return Vec::new();
-    }
+/// The panel.
+pub const PANEL: Declared = Declared {
+    title: "stresses",
+    can_be_log: true,
+    needs: Curves::PRESSURE.union(Curves::SHEAR),
+    over_r: true,
+    has_spikes: true,
+    compared: Axes::Pressure,
+    words: Words {
+        text: "Pressure p and shear stress against the radius. The shear stress is divided by \
+                 μ, so it lies on p or -p where the contact slips and between them where it \
+                 sticks. The unworn p is Hertz's half-ellipse; wear moves the load into the stick \
+                 zone.",
+        symbols: &[
+            ("p", "pressure"),
+            ("τ/μ", "shear stress over the friction coefficient"),
+            A,
+            C,
+        ],
+    },
+    ..Declared::chart(draw)
+};
+
+fn draw(frame: &Frame, view: &View) -> Result<Chart, &'static str> {
+    let (seen, moment) = (&frame.observation, &frame.observation.moment);
     // A logarithmic ordinate shows the size of τ.
-    let sign = |shear: f64| {
-        if scale == Scale::Log {
-            shear.abs()
-        } else {
-            shear
+    let is_log = view.scale == Scale::Log;
+    let scaled = |shear: &f64| if is_log { shear.abs() } else { *shear } / frame.friction;
+    let curve = |name, ys: Vec<f64>, role| Curve::new(name, &seen.radii[..], ys, role);
+    let mut chart =
+        over_r(frame, "r", ("stress", "Pa")).curves(ghosts::on(frame, Axes::Pressure, 1.0));
+    let has_shear = frame.friction > 0.0 && moment.stick_radius.is_some();
+    if has_shear {
+        // Shear stresses of other sources, below their pressures, need no name.
+        for mut ghost in ghosts::on(frame, Axes::Shear, 1.0 / frame.friction) {
+            if is_log {
+                ghost.ys.iter_mut().for_each(|shear| *shear = shear.abs());
+            }
+            ghost.name.clear();
+            chart.curves.push(ghost);
         }
+    }
+    chart = chart.curve(curve("p", seen.pressure.clone(), Role::Pressure));
+    if has_shear && !seen.shear.is_empty() {
+        let name = if is_log { "|τ|/μ" } else { "τ/μ" };
+        let shear = seen.shear.iter().map(scaled).collect();
+        // Dashes: where the contact slips the pressure lies under it, and is still seen.
+        chart = chart.curve(curve(name, shear, Role::Shear).dashed());
+    }
+    let Some(theory) = view.theory(frame) else {
+        return Ok(chart);
     };
-    frame
-        .observation
-        .shear
-        .iter()
-        .map(|&shear| sign(shear) / frame.friction)
-        .collect()
-}
-
-/// Pressures, and below them shear stresses in the scale of those of the run, which need no name.
-fn ghosts(frame: &Frame, scale: Scale) -> Vec<ghosts::Line> {
-    let mut lines = ghosts::on(frame, Axes::Pressure, 1.0);
-    if frame.friction > 0.0 && frame.observation.moment.stick_radius.is_some() {
-        let shear = ghosts::on(frame, Axes::Shear, 1.0 / frame.friction).into_iter();
-        let shear = shear.map(ghosts::Line::nameless);
-        lines.extend(shear.map(|line| match scale {
-            Scale::Log => line.sizes(),
-            Scale::Linear => line,
-        }));
-    }
-    lines
-}
-
-/// What the ordinate must hold.
-pub fn ordinates(frame: &Frame) -> Vec<f64> {
-    let mut values = frame.observation.pressure.clone();
-    values.extend(scaled_shear(frame, Scale::Linear));
-    values.extend(ghosts::ordinates(&ghosts(frame, Scale::Linear)));
-    values
-}
-
-/// Makes the plot and hands it to `then`.
-pub fn plotted<T>(frame: &Frame, app: &App, then: impl FnOnce(&Plot<'_>) -> T) -> T {
-    let (seen, theme) = (&frame.observation, &app.theme);
-    let scale = app.scale(Panel::Stresses);
-    let shear = scaled_shear(frame, scale);
-    let name = match (theme.ascii(), scale) {
-        (true, Scale::Linear) => "tau/mu",
-        (true, Scale::Log) => "|tau|/mu",
-        (false, Scale::Linear) => "τ/μ",
-        (false, Scale::Log) => "|τ|/μ",
-    };
-    let theory = app.theory_of(frame);
-    let hertz = theory
-        .and_then(|theory| theory.unworn_pressure(seen.moment.depth, &seen.radii))
-        .unwrap_or_default();
-    let cattaneo: Vec<f64> = theory
-        .and_then(|theory| theory.unworn_shear(seen.moment.cycle, seen.moment.shift, &seen.radii))
-        .unwrap_or_default()
-        .into_iter()
-        .map(|shear| if scale == Scale::Log { shear.abs() } else { shear } / frame.friction)
-        .collect();
-    let mut ghosts = ghosts(frame, scale);
-    let mut plot = radial_plot(Panel::Stresses, app, frame, "r", ("stress", "Pa"))
-        .curves(ghosts::curves(&mut ghosts, app))
-        .curve(curve(
-            "p",
-            &seen.radii,
-            &seen.pressure,
-            theme,
-            Role::Pressure,
-        ));
-    if !shear.is_empty() {
-        plot = plot.curve(
-            // Dashes: where the contact slips the pressure lies under it, and is still seen.
-            curve(name, &seen.radii, &shear, theme, Role::Shear).dashed(),
-        );
-    }
-    if !hertz.is_empty() {
-        plot = plot.curve(curve("unworn p", &seen.radii, &hertz, theme, Role::Limit).dashed());
-    }
-    if !cattaneo.is_empty() {
-        plot = plot.curve(curve("Cattaneo", &seen.radii, &cattaneo, theme, Role::Unworn).dashed());
-    }
-    for mark in edge_marks(frame, theme) {
-        plot = plot.mark(mark);
-    }
-    then(&plot)
+    let hertz = theory.unworn_pressure(moment.depth, &seen.radii);
+    let hertz = hertz.map(|p| curve("unworn p", p, Role::Limit));
+    let cattaneo = theory.unworn_shear(moment.cycle, moment.shift, &seen.radii);
+    let cattaneo = cattaneo.map(|shear| shear.iter().map(scaled).collect());
+    let cattaneo = cattaneo.map(|shear| curve("Cattaneo", shear, Role::Unworn));
+    let closed_forms = [hertz, cattaneo].into_iter().flatten();
+    Ok(chart.curves(closed_forms.map(|curve| curve.dashed().theory())))
 }

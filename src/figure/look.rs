@@ -1,34 +1,9 @@
-//! The look of a figure: font size, and colours or shades of grey.
+//! The look of a figure: font size, and what roles look like in colours or shades of grey.
 
 use super::canvas::{BLACK, Rgb};
 use crate::plot::colormap::ColorMap;
-
-/// The role of a curve: the same quantity has the same colour in every chart.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ink {
-    /// The unworn profile, and past states.
-    Unworn,
-    /// Closed forms.
-    Limit,
-    /// f and the worn depth.
-    Profile,
-    /// g.
-    Profile1d,
-    /// p, F_z.
-    Pressure,
-    /// τ, F_x.
-    Shear,
-    /// The contact radius.
-    Contact,
-    /// The stick radius.
-    Stick,
-    /// One of several states or methods.
-    Series(usize),
-    /// One of several curves of other sources.
-    Ghost(usize),
-    /// One of several borders on a map.
-    Border(usize),
-}
+use crate::plot::map::WORDS;
+use crate::plot::theme::Role;
 
 /// Colours or greys.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,16 +37,13 @@ const SERIES: [Rgb; 6] = [
 const GHOSTS: [Rgb; 4] = [[200, 0, 60], [150, 75, 0], [90, 90, 90], [110, 0, 130]];
 
 /// Colours of words on a map: stick, partial slip, gross slip, lift-off.
-const REGIMES: [Rgb; REGIME_INKS] = [
+const REGIMES: [Rgb; WORDS] = [
     [69, 117, 180],
     [171, 217, 233],
     [253, 174, 97],
     [215, 48, 39],
 ];
-const REGIME_GREYS: [u8; REGIME_INKS] = [110, 165, 210, 245];
-
-/// How many words a map can tell apart.
-pub const REGIME_INKS: usize = 4;
+const REGIME_GREYS: [u8; WORDS] = [110, 165, 210, 245];
 
 /// Dashes that tell grey lines apart, mm: those of states and other sources, then those of closed forms and of
 /// the unworn profile, which are drawn beside any of them.
@@ -89,48 +61,45 @@ const DASHES: [&[f64]; SERIES.len() + 2] = [
 /// Their greys.
 const GREYS: [u8; DASHES.len()] = [0, 90, 130, 60, 110, 30, 100, 150];
 
-impl Ink {
-    /// Its place among the greys.
-    fn rank(self) -> usize {
-        match self {
-            Self::Profile | Self::Profile1d | Self::Pressure | Self::Contact => 0,
-            Self::Shear | Self::Stick => 1,
-            Self::Limit => SERIES.len(),
-            Self::Unworn => SERIES.len() + 1,
-            Self::Series(k) => k % SERIES.len(),
-            Self::Ghost(k) => (k + 1) % SERIES.len(),
-            Self::Border(k) => k % SERIES.len(),
-        }
+/// The place of a role among the greys.
+fn rank(role: Role) -> usize {
+    match role {
+        Role::Shear | Role::Stick => 1,
+        Role::Limit => SERIES.len(),
+        Role::Unworn => SERIES.len() + 1,
+        Role::Series(k) | Role::Border(k) => k % SERIES.len(),
+        Role::Ghost(k) => (k + 1) % SERIES.len(),
+        _ => 0,
     }
 }
 
 impl Look {
     /// The colour of a curve.
-    pub fn color(&self, ink: Ink) -> Rgb {
-        if matches!(ink, Ink::Border(_)) {
+    pub fn color(&self, role: Role) -> Rgb {
+        if matches!(role, Role::Border(_)) {
             return BLACK;
         }
         if self.style == Style::Grey {
-            return [GREYS[ink.rank()]; 3];
+            return [GREYS[rank(role)]; 3];
         }
-        match ink {
-            Ink::Unworn => [130, 130, 130],
-            Ink::Limit | Ink::Border(_) => BLACK,
-            Ink::Profile => [20, 60, 200],
-            Ink::Profile1d => [60, 110, 230],
-            Ink::Pressure | Ink::Contact => [0, 130, 150],
-            Ink::Shear => [170, 0, 150],
-            Ink::Stick => [0, 140, 60],
-            Ink::Series(k) => SERIES[k % SERIES.len()],
-            Ink::Ghost(k) => GHOSTS[k % GHOSTS.len()],
+        match role {
+            Role::Unworn => [130, 130, 130],
+            Role::Profile => [20, 60, 200],
+            Role::Profile1d => [60, 110, 230],
+            Role::Pressure | Role::Contact => [0, 130, 150],
+            Role::Shear => [170, 0, 150],
+            Role::Stick => [0, 140, 60],
+            Role::Series(k) => SERIES[k % SERIES.len()],
+            Role::Ghost(k) => GHOSTS[k % GHOSTS.len()],
+            _ => BLACK,
         }
     }
 
     /// Dashes and gaps of a curve, mm.
-    pub fn dashes(&self, ink: Ink, dashed: bool) -> &'static [f64] {
+    pub fn dashes(&self, role: Role, dashed: bool) -> &'static [f64] {
         match (self.style, dashed) {
-            (_, _) if matches!(ink, Ink::Border(_)) => DASHES[ink.rank()],
-            (Style::Grey, _) if ink.rank() > 0 => DASHES[ink.rank()],
+            (_, _) if matches!(role, Role::Border(_)) => DASHES[rank(role)],
+            (Style::Grey, _) if rank(role) > 0 => DASHES[rank(role)],
             (_, true) => DASHES[1],
             _ => DASHES[0],
         }
@@ -139,8 +108,8 @@ impl Look {
     /// The colour of a word on a map.
     pub fn regime(&self, word: usize) -> Rgb {
         match self.style {
-            Style::Color => REGIMES[word % REGIME_INKS],
-            Style::Grey => [REGIME_GREYS[word % REGIME_INKS]; 3],
+            Style::Color => REGIMES[word % WORDS],
+            Style::Grey => [REGIME_GREYS[word % WORDS]; 3],
         }
     }
 
@@ -167,8 +136,8 @@ mod tests {
             font: 2.8,
             style: Style::Grey,
         };
-        let states = (0..SERIES.len()).map(Ink::Series);
-        let inks: Vec<Ink> = states.chain([Ink::Limit, Ink::Unworn]).collect();
+        let states = (0..SERIES.len()).map(Role::Series);
+        let inks: Vec<Role> = states.chain([Role::Limit, Role::Unworn]).collect();
         for (k, &ink) in inks.iter().enumerate() {
             for &other in &inks[..k] {
                 assert_ne!(

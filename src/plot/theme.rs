@@ -9,16 +9,21 @@
 
 use ratatui::style::{Color, Modifier, Style};
 
-use crate::plot::Marker;
-use crate::plot::units::to_ascii;
+use super::Marker;
+use super::units::to_ascii;
 
-/// Quantities and parts of the screen that have a style of their own.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Quantities and parts of the screen that have a style of their own: the same quantity has the same colour in
+/// every chart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Role {
     /// The unworn profile, and past states.
     Unworn,
-    /// A curve of another source.
-    Ghost,
+    /// One of several curves of other sources.
+    Ghost(usize),
+    /// One of several states or methods.
+    Series(usize),
+    /// One of several borders on a map.
+    Border(usize),
     /// Closed forms.
     Limit,
     /// The worn profile f.
@@ -38,6 +43,7 @@ pub enum Role {
     /// What is not in contact.
     Open,
     /// Axes, labels, explanations: the terminal's own foreground.
+    #[default]
     Quiet,
     /// Rules and frames, which may vanish without loss.
     Faint,
@@ -208,7 +214,8 @@ impl Theme {
             (Look::Light, Depth::Indexed) => plain.fg(Color::Indexed(pair[1])),
         };
         match role {
-            Role::Unworn | Role::Ghost | Role::Quiet => plain,
+            Role::Unworn | Role::Quiet => plain,
+            Role::Ghost(_) | Role::Series(_) | Role::Border(_) => plain,
             Role::Open | Role::Faint => plain.add_modifier(Modifier::DIM),
             Role::Limit => with(YELLOW, Color::Blue, Color::Cyan),
             Role::Profile | Role::Profile1d => with(ORANGE, Color::Yellow, Color::Blue),

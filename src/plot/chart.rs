@@ -1,0 +1,293 @@
+//! One chart: axes, curves and what belongs to them. It owns its data, whatever it was made from; the terminal
+//! ([`super::Plot`]) and the paper (`figure`) both draw it.
+
+use super::axis::{Axis, Scale};
+use super::map::Map;
+use super::stroke::Stroke;
+use super::theme::Role;
+
+/// The dashes of curves of other sources in a terminal, by their number.
+const GHOSTS: [Stroke; 4] = [
+    Stroke::Dotted,
+    Stroke::DashDotted,
+    Stroke::LongDashed,
+    Stroke::Dashed,
+];
+
+/// What lies between a curve and the area that is shaded below or above it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub enum Fill {
+    /// Nothing is shaded.
+    #[default]
+    None,
+    /// One ordinate, in the y axis' unit.
+    To(f64),
+    /// An ordinate for each point.
+    From(Vec<f64>),
+}
+
+/// A line through points; where one is not finite, or not positive on a logarithmic axis, is a gap.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Curve {
+    /// The name in the legend; an empty name stays out of it.
+    pub name: String,
+    /// Abscissae, in the x axis' unit.
+    pub xs: Vec<f64>,
+    /// Ordinates, in the y axis' unit; the longer of the two is cut.
+    pub ys: Vec<f64>,
+    /// What it stands for, which decides its colour.
+    pub role: Role,
+    /// Whether it is dashed.
+    pub dashed: bool,
+    /// The shaded area, in a terminal.
+    pub fill: Fill,
+    /// Standard errors of the ordinates; empty where they are not known.
+    pub errors: Vec<f64>,
+    /// Whether its points are measured: on paper each has a symbol.
+    pub has_symbols: bool,
+    /// Whether a line joins its points on paper.
+    pub has_line: bool,
+    /// Whether it is a closed form beside the run's own curves, which alone decide what the axes of a live
+    /// chart hold.
+    pub is_theory: bool,
+}
+
+impl Curve {
+    /// A solid curve.
+    pub fn new(
+        name: impl Into<String>,
+        xs: impl Into<Vec<f64>>,
+        ys: impl Into<Vec<f64>>,
+        role: Role,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            xs: xs.into(),
+            ys: ys.into(),
+            role,
+            has_line: true,
+            ..Self::default()
+        }
+    }
+
+    /// The same curve, dashed.
+    #[must_use]
+    pub fn dashed(self) -> Self {
+        self.dashed_if(true)
+    }
+
+    /// The same curve, dashed or not.
+    #[must_use]
+    pub fn dashed_if(self, dashed: bool) -> Self {
+        Self { dashed, ..self }
+    }
+
+    /// The same curve, with this area shaded.
+    #[must_use]
+    pub fn filled(self, fill: Fill) -> Self {
+        Self { fill, ..self }
+    }
+
+    /// The same curve as a closed form beside the run.
+    #[must_use]
+    pub fn theory(self) -> Self {
+        Self {
+            is_theory: true,
+            ..self
+        }
+    }
+
+    /// The same as points, with standard errors if these are known.
+    #[must_use]
+    pub fn scattered(self, errors: impl Into<Vec<f64>>) -> Self {
+        Self {
+            has_symbols: true,
+            has_line: false,
+            errors: errors.into(),
+            ..self
+        }
+    }
+
+    /// The curve's value at `x`: at a point of it, or linearly interpolated between the first two
+    /// neighbouring points that have `x` between them. `None` in gaps and outside.
+    pub fn value_at(&self, x: f64) -> Option<f64> {
+        value_at(&self.xs, &self.ys, x)
+    }
+
+    /// The largest finite ordinate, 0 without a positive one; error bars count.
+    pub fn highest(&self) -> f64 {
+        let values = self.points().chain(self.bars()).map(|(_, y)| y);
+        values.filter(|y| y.is_finite()).fold(0.0, f64::max)
+    }
+
+    /// The points of the curve, gaps included.
+    pub(super) fn points(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.xs.iter().copied().zip(self.ys.iter().copied())
+    }
+
+    /// The ends of the error bars, a gap after each bar.
+    pub(super) fn bars(&self) -> impl Iterator<Item = (f64, f64)> {
+        let points = self.points().zip(&self.errors);
+        points.flat_map(|((x, y), error)| [(x, y - error), (x, y + error), (f64::NAN, f64::NAN)])
+    }
+
+    /// How its line is interrupted in a terminal.
+    pub(super) fn stroke(&self) -> Stroke {
+        match self.role {
+            Role::Ghost(k) => GHOSTS[k % GHOSTS.len()],
+            _ if self.dashed => Stroke::Dashed,
+            _ => Stroke::Solid,
+        }
+    }
+}
+
+/// The ordinate at `x` of the line through points, as [`Curve::value_at`] has it.
+pub fn value_at(xs: &[f64], ys: &[f64], x: f64) -> Option<f64> {
+    let mut previous: Option<(f64, f64)> = None;
+    for (&x1, &y1) in xs.iter().zip(ys) {
+        let point = (x1.is_finite() && y1.is_finite()).then_some((x1, y1));
+        if point.is_some() && x1 == x {
+            return Some(y1);
+        }
+        if let (Some((x0, y0)), Some(_)) = (previous, point)
+            && (x0.min(x1)..=x0.max(x1)).contains(&x)
+        {
+            let share = (x / 2.0 - x0 / 2.0) / (x1 / 2.0 - x0 / 2.0);
+            return Some(y0 * (1.0 - share) + y1 * share);
+        }
+        previous = point;
+    }
+    None
+}
+
+/// A range of x in the band under the plot area: where the contact sticks, slips, is open.
+///
+/// In a terminal, cells take the zone at their middle; a zone narrower than a cell still gets one. Of
+/// overlapping zones the last is seen.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Zone {
+    /// Where the zone begins, in the x axis' unit.
+    pub from: f64,
+    /// Where it ends.
+    pub to: f64,
+    /// What it is; where that has no colour, the letter is shown instead.
+    pub role: Role,
+    /// The letter that stands for it in mono and ASCII, as in `s`, `~`, `.`.
+    pub glyph: char,
+    /// Its name, written into it where it is wide enough; may be empty.
+    pub name: &'static str,
+}
+
+/// A thin dotted vertical line with a short label above it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mark {
+    /// Where, in the x axis' unit.
+    pub x: f64,
+    /// A letter or two, as in `a`.
+    pub label: &'static str,
+    /// What it stands for.
+    pub role: Role,
+}
+
+/// One place with a sign of its own, over the curves.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Point {
+    /// x and y, in the units of the axes.
+    pub at: [f64; 2],
+    /// The sign, as in `▶`.
+    pub sign: char,
+    /// What it stands for.
+    pub role: Role,
+}
+
+/// One chart. All data are in plain units (m, Pa); whoever draws it chooses the prefixes.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Chart {
+    /// What it shows.
+    pub title: String,
+    /// The abscissa.
+    pub x: Axis,
+    /// The ordinate.
+    pub y: Axis,
+    /// The curves, in drawing order: later ones win the colour of a shared cell.
+    pub curves: Vec<Curve>,
+    /// Single places, in a terminal.
+    pub points: Vec<Point>,
+    /// The zones of the band, in a terminal; none without a band.
+    pub band: Vec<Zone>,
+    /// Vertical dotted lines.
+    pub marks: Vec<Mark>,
+    /// A remark at the right end of the title row, in a terminal.
+    pub note: String,
+    /// The map below the curves, on paper.
+    pub map: Option<Map>,
+    /// The share of the data's extent that stays free at both ends of the abscissa, on paper.
+    pub margin: f64,
+    /// A smaller chart in the upper left corner, on paper.
+    pub inset: Option<Box<Chart>>,
+}
+
+impl Chart {
+    /// An empty chart.
+    pub fn new(title: impl Into<String>, x: Axis, y: Axis) -> Self {
+        Self {
+            title: title.into(),
+            x,
+            y,
+            ..Self::default()
+        }
+    }
+
+    /// Adds a curve.
+    #[must_use]
+    pub fn curve(mut self, curve: Curve) -> Self {
+        self.curves.push(curve);
+        self
+    }
+
+    /// Adds curves in order.
+    #[must_use]
+    pub fn curves(mut self, curves: impl IntoIterator<Item = Curve>) -> Self {
+        self.curves.extend(curves);
+        self
+    }
+
+    /// The ranges of abscissae and ordinates that will be seen: those of points and error bars with a place on
+    /// both axes, and within x bounds that are given; of the places of a map, of bases of fills, and of what
+    /// the axes always hold. Curves that are not `counted` are left out.
+    pub fn extent(&self, counted: impl Fn(&Curve) -> bool) -> [Option<[f64; 2]>; 2] {
+        let has_place = |axis: &Axis, value: f64| {
+            value.is_finite() && (axis.scale == Scale::Linear || value > 0.0)
+        };
+        let limits = self.x.bounds.map(|[a, b]| [a.min(b), a.max(b)]);
+        let seen = |x: f64| limits.is_none_or(|[lo, hi]| x >= lo && x <= hi);
+        let widen = |range: &mut Option<[f64; 2]>, value: f64| {
+            let [lo, hi] = range.unwrap_or([value; 2]);
+            *range = Some([lo.min(value), hi.max(value)]);
+        };
+        let axes = [&self.x, &self.y];
+        let mut ranges = [None, None];
+        for curve in self.curves.iter().filter(|curve| counted(curve)) {
+            for (x, y) in curve.points().chain(curve.bars()) {
+                if has_place(axes[0], x) && has_place(axes[1], y) && seen(x) {
+                    widen(&mut ranges[0], x);
+                    widen(&mut ranges[1], y);
+                }
+            }
+            if let Fill::To(base) = curve.fill
+                && has_place(axes[1], base)
+            {
+                widen(&mut ranges[1], base);
+            }
+        }
+        for (k, range) in ranges.iter_mut().enumerate() {
+            let places = self.map.iter().flat_map(|map| &map.places[k]);
+            for &value in places.chain(&axes[k].holds) {
+                if has_place(axes[k], value) {
+                    widen(range, value);
+                }
+            }
+        }
+        ranges
+    }
+}

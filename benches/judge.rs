@@ -9,9 +9,15 @@
 
 #![allow(clippy::print_stdout, reason = "a program whose output is its result")]
 
-use mdr_tui::studies::judge::{Case, judge, judge_estimate, quantile};
-use mdr_tui::studies::refinement::Difference;
-use mdr_tui::studies::refinement::Verdict;
+#[path = "../tests/suite/judge.rs"]
+mod judge;
+#[path = "../tests/suite/random.rs"]
+mod random;
+#[path = "../tests/suite/random_scenarios.rs"]
+mod random_scenarios;
+
+use judge::{Case, Found, judge, judge_estimate, quantile};
+use mdr_tui::studies::refinement::{Difference, Verdict};
 use nix::time::{ClockId, clock_gettime};
 
 fn cpu_seconds() -> f64 {
@@ -149,9 +155,7 @@ fn summarize(cases: &[Case], accuracy: f64) {
         .iter()
         .filter_map(|case| case.reached.as_ref().ok())
         .collect();
-    let of = |pick: &dyn Fn(&&&mdr_tui::studies::judge::Found) -> bool| {
-        found.iter().filter(|one| pick(one)).count()
-    };
+    let of = |pick: &dyn Fn(&&&Found) -> bool| found.iter().filter(|one| pick(one)).count();
     let times: Vec<f64> = found.iter().map(|one| one.seconds).collect();
     let last: Vec<f64> = found.iter().map(|one| one.last_rung).collect();
     println!(

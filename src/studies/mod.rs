@@ -3,9 +3,7 @@
 
 pub mod fit;
 pub mod ghost;
-pub mod judge;
 pub mod measured;
-pub mod random_scenarios;
 pub mod refinement;
 pub mod stability;
 pub mod sweep;

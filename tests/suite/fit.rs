@@ -9,6 +9,7 @@ use mdr_tui::simulation::Curves;
 use mdr_tui::studies::fit::{Fit, FitError, Fitted};
 use mdr_tui::studies::measured::Measured;
 
+use crate::random::Random;
 use crate::test_dir::TestDir;
 
 const TRUE: [(&str, f64); 2] = [("wear.coefficient", 2e-9), ("friction.coefficient", 0.12)];
@@ -28,19 +29,11 @@ fn scenario(k: f64, mu: f64) -> Scenario {
 }
 
 /// Normal noise, the same in every run.
-struct Noise(u64);
+struct Noise(Random);
 
 impl Noise {
-    fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
     fn normal(&mut self) -> f64 {
-        let (u, v) = (1.0 - self.uniform(), self.uniform());
+        let (u, v) = (1.0 - self.0.unit(), self.0.unit());
         (-2.0 * u.ln()).sqrt() * (std::f64::consts::TAU * v).cos()
     }
 }
@@ -97,7 +90,7 @@ fn fitted(texts: &[String; 2], robust: bool) -> Fitted {
 /// scar leaves. Over 2000 draws we find 93.
 #[test]
 fn the_errors_of_k_and_mu_are_honest_both_ways() {
-    let (exact, mut noise) = (exact(), Noise(7));
+    let (exact, mut noise) = (exact(), Noise(Random::new(7)));
     let mut within = [0; 2];
     for _ in 0..100 {
         let fitted = fitted(&with_noise(&exact, 0.02, &mut noise), false);
@@ -125,7 +118,7 @@ fn the_errors_of_k_and_mu_are_honest_both_ways() {
 #[test]
 fn outliers_weigh_less_with_the_robust_loss() {
     let exact = exact();
-    let mut texts = with_noise(&exact, 0.005, &mut Noise(3));
+    let mut texts = with_noise(&exact, 0.005, &mut Noise(Random::new(3)));
     for text in &mut texts {
         let lines: Vec<String> = text
             .lines()
@@ -149,7 +142,7 @@ fn outliers_weigh_less_with_the_robust_loss() {
 #[test]
 fn what_data_do_not_determine_is_said() {
     let exact = exact();
-    let texts = with_noise(&exact, 0.01, &mut Noise(5));
+    let texts = with_noise(&exact, 0.01, &mut Noise(Random::new(5)));
     let scar = Columns::parse(&texts[0], "scar.csv").expect("columns");
     let scar = || vec![Measured::scar(&scar).expect("a scar")];
     // Archard's law does not use the exponent.
@@ -196,7 +189,7 @@ fn what_data_do_not_determine_is_said() {
 #[test]
 fn the_command_prints_json_and_writes_the_fitted_scenario() {
     let dir = TestDir::new();
-    let [scar, fretting_loop] = with_noise(&exact(), 0.01, &mut Noise(11));
+    let [scar, fretting_loop] = with_noise(&exact(), 0.01, &mut Noise(Random::new(11)));
     dir.write("start.toml", scenario(3e-9, 0.1).to_toml().as_bytes());
     dir.write("scar.csv", scar.as_bytes());
     dir.write("loop.csv", fretting_loop.as_bytes());

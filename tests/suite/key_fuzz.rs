@@ -9,31 +9,11 @@ use std::time::{Duration, Instant};
 
 use mdr_tui::scenario::preset;
 
+use crate::random::Random;
 use crate::test_dir::{TestDir, end};
 
 /// How many sessions there are, unless a time is given.
 const SESSIONS: u64 = 150;
-
-/// A generator that needs no crate: splitmix64.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn below(&mut self, end: usize) -> usize {
-        (self.next() % end as u64) as usize
-    }
-
-    fn one_of<'a>(&mut self, choices: &[&'a str]) -> &'a str {
-        choices[self.below(choices.len())]
-    }
-}
 
 /// Keys of the table, those of lists and lines, and some that mean nothing.
 const KEYS: &[&str] = &[
@@ -132,8 +112,8 @@ fn script(random: &mut Random, keys: usize) -> String {
                 let (columns, rows) = (1 + random.below(150), 1 + random.below(50));
                 script.push_str(&format!("<resize:{columns}x{rows}>"));
             }
-            1..=2 => script.push_str(random.one_of(RARE)),
-            _ => script.push_str(random.one_of(KEYS)),
+            1..=2 => script.push_str(random.pick(RARE)),
+            _ => script.push_str(random.pick(KEYS)),
         }
     }
     script
@@ -141,12 +121,12 @@ fn script(random: &mut Random, keys: usize) -> String {
 
 /// One session; how many keys it has pressed.
 fn session(dir: &TestDir, seed: u64, keys: usize) -> usize {
-    let mut random = Random(seed);
+    let mut random = Random::new(seed);
     let preset = preset::ALL[random.below(preset::ALL.len())].name;
     let size = match random.below(4) {
         0 => format!("{}x{}", 1 + random.below(200), 1 + random.below(70)),
         _ => random
-            .one_of(&["80x24", "80x24", "120x40", "40x12", "20x8", "8x3", "1x1"])
+            .pick(&["80x24", "80x24", "120x40", "40x12", "20x8", "8x3", "1x1"])
             .to_owned(),
     };
     let points = format!("numerics.points={}", 4 + random.below(40));

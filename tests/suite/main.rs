@@ -4,8 +4,11 @@
 //! closed forms or `screens::` for the pinned screens.
 
 mod common;
+mod judge;
 #[cfg(unix)]
 mod pty;
+mod random;
+mod random_scenarios;
 mod test_dir;
 
 mod allocations;

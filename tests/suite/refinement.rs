@@ -2,11 +2,13 @@
 //! `cargo bench --bench judge`.
 
 use mdr_tui::scenario::Scenario;
-use mdr_tui::studies::judge::{judge, judge_checks, judge_estimate, quantile};
+use mdr_tui::simulation::drive::Control;
 use mdr_tui::studies::refinement::{
     Difference, Ladder, Level, Next, Outcome, Verdict, run, run_to_accuracy,
 };
 
+use crate::judge::{judge, judge_checks, judge_estimate, quantile};
+use crate::random_scenarios;
 use crate::test_dir::TestDir;
 
 fn load(name: &str, sets: &[&str]) -> Scenario {
@@ -17,6 +19,42 @@ fn load(name: &str, sets: &[&str]) -> Scenario {
 fn clock() -> impl Fn() -> f64 {
     let begin = std::time::Instant::now();
     move || begin.elapsed().as_secs_f64()
+}
+
+#[test]
+fn a_thousand_random_scenarios_are_valid_and_cover_every_kind() {
+    let all: Vec<Scenario> = (0..1000).map(random_scenarios::scenario).collect();
+    let count = |is: &dyn Fn(&Scenario) -> bool| all.iter().filter(|one| is(one)).count();
+    let drive = |one: &Scenario| one.setup().drive.clone();
+    for shape in [
+        "paraboloid",
+        "cone",
+        "power",
+        "flat-punch",
+        "truncated-paraboloid",
+        "truncated-cone",
+    ] {
+        let seen = count(&|one| one.setup().indenter.name() == shape);
+        assert!(seen >= 50, "{shape}: {seen}");
+    }
+    let force = |one: &Scenario| matches!(drive(one).normal(), Control::Force(_));
+    let both = |one: &Scenario| matches!(drive(one).tangential(), Some(Control::Force(_)));
+    let lifts = |one: &Scenario| drive(one).normal().oscillation().lowest() < 0.0;
+    let changes = |one: &Scenario| !one.changes().is_empty();
+    let never = |one: &Scenario| drive(one).repeats_after().is_none();
+    let power = |one: &Scenario| one.setup().wear.is_some_and(|law| law.name() == "power");
+    for (is, least) in [
+        (&force as &dyn Fn(&Scenario) -> bool, 200),
+        (&both, 80),
+        (&lifts, 50),
+        (&changes, 100),
+        (&never, 15),
+        (&power, 200),
+    ] {
+        assert!(count(is) >= least, "{}", count(is));
+    }
+    assert_eq!(random_scenarios::text(7), random_scenarios::text(7));
+    assert_ne!(random_scenarios::text(7), random_scenarios::text(8));
 }
 
 /// The promise over random scenarios: at most 3 % missed in the long study, so none of a few.

@@ -71,8 +71,11 @@ pub fn run_to_accuracy(
     climb(scenario, cycles, accuracy, budget, go_on, &clock)
 }
 
-/// The same by another clock.
-pub(super) fn climb(
+/// [`run_to_accuracy`] with the seconds of another clock.
+///
+/// # Errors
+/// As there.
+pub fn climb(
     scenario: &Scenario,
     cycles: f64,
     accuracy: f64,

@@ -3,11 +3,15 @@
 //!
 //! A change of a method, a special case or a tuned constant is judged by its effect on this table.
 
-use super::random_scenarios::{self, Random};
-use super::refinement::{self, Difference, Level, Outcome, Verdict};
-use crate::scenario::Scenario;
-use crate::scenario::session::Session;
-use crate::simulation::Check;
+#![allow(dead_code, reason = "the bench and the tests need a part of it each")]
+
+use mdr_tui::scenario::Scenario;
+use mdr_tui::scenario::session::Session;
+use mdr_tui::simulation::Check;
+use mdr_tui::studies::refinement::{self, Difference, Level, Outcome, Verdict};
+
+use crate::random::Random;
+use crate::random_scenarios;
 
 /// Ratio of the cells and steps of the fine run to those of the rung that it judges.
 const FINER: f64 = 3.0;
@@ -63,8 +67,7 @@ pub fn judge(seed: u64, accuracy: f64, budget: f64, clock: &dyn Fn() -> f64) -> 
     let climbed = refinement::climb(&scenario, cycles, accuracy, budget, &go_on, clock);
     let reached = climbed.map_err(|error| error.to_string()).map(|reached| {
         let level = reached.rung.level.clone();
-        let mut fine = level.scaled(FINER, FINER);
-        fine.tolerance = level.tolerance.map(|tolerance| tolerance / FINER_JUMPS);
+        let fine = finer(&level);
         // Cells of the same spacing, and those of a run that nothing is known of: what either confirms is right.
         let apart = Level {
             nodes: None,
@@ -92,7 +95,7 @@ pub fn judge(seed: u64, accuracy: f64, budget: f64, clock: &dyn Fn() -> f64) -> 
 }
 
 /// Runs the scenario of a seed on cells and steps drawn at random and estimates its error with
-/// [`refinement::estimate`]: the estimate and the difference from a much finer run.
+/// `refinement::estimate`: the estimate and the difference from a much finer run.
 ///
 /// # Errors
 /// A reason, if one of the runs does not come to its end.
@@ -110,7 +113,7 @@ pub fn judge_estimate(seed: u64) -> Result<(Difference, Difference), String> {
     let session = run(&level)?;
     let estimate = refinement::estimate(&session, &|| true).ok_or("interrupted")?;
     let estimate = estimate.map_err(|error| error.to_string())?;
-    let fine = Outcome::of(&run(&level.scaled(FINER, FINER))?);
+    let fine = Outcome::of(&run(&finer(&level))?);
     Ok((estimate, Outcome::of(&session).against(&fine)))
 }
 
@@ -123,11 +126,18 @@ pub fn judge_checks(seed: u64) -> Result<(Difference, bool), String> {
     let cycles = scenario.run().cycles.unwrap_or(0.0);
     let level = Level::of(&scenario);
     let session = run_on(&scenario, &level, cycles)?;
-    let mut fine = level.scaled(FINER, FINER);
-    fine.tolerance = level.tolerance.map(|tolerance| tolerance / FINER_JUMPS);
-    let truth = Outcome::of(&session).against(&Outcome::of(&run_on(&scenario, &fine, cycles)?));
+    let fine = run_on(&scenario, &finer(&level), cycles)?;
+    let truth = Outcome::of(&session).against(&Outcome::of(&fine));
     let checks = session.simulation().checks();
     Ok((truth, checks.iter().all(Check::holds)))
+}
+
+/// The level that judges another one.
+fn finer(level: &Level) -> Level {
+    Level {
+        tolerance: level.tolerance.map(|tolerance| tolerance / FINER_JUMPS),
+        ..level.scaled(FINER, FINER)
+    }
 }
 
 /// A scenario on a level, at its end.

@@ -1,8 +1,6 @@
 //! Random scenarios that a rig could run, to test error estimates on.
 //!
-//! Each seed gives one scenario, the same on every machine and in every version: the generator is
-//! SplitMix64 (G. L. Steele, D. Lea, C. H. Flood, 2014, OOPSLA, doi 10.1145/2660193.2660195), written out here
-//! because the random numbers of library crates may change from version to version.
+//! Each seed gives one scenario, the same on every machine and in every version.
 //!
 //! What is drawn are dimensionless numbers, in the ranges of real fretting tests:
 //!
@@ -18,52 +16,10 @@
 
 use std::f64::consts::{PI, SQRT_2, TAU};
 
-use crate::contact::indenter::Indenter;
-use crate::scenario::Scenario;
+use mdr_tui::contact::indenter::Indenter;
+use mdr_tui::scenario::Scenario;
 
-/// SplitMix64.
-#[derive(Debug, Clone)]
-pub struct Random(u64);
-
-impl Random {
-    /// The sequence of a seed.
-    pub fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// A number from 0 to 1, 1 excluded, on 53 bits.
-    pub fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// A number between two, all alike.
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    /// A number between two positive ones, all orders of magnitude alike.
-    pub fn log_between(&mut self, low: f64, high: f64) -> f64 {
-        self.between(low.ln(), high.ln()).exp()
-    }
-
-    /// True with this probability.
-    pub fn chance(&mut self, probability: f64) -> bool {
-        self.unit() < probability
-    }
-
-    /// One of these.
-    pub fn pick<T: Copy>(&mut self, from: &[T]) -> T {
-        from[(self.unit() * from.len() as f64) as usize % from.len()]
-    }
-}
+use crate::random::Random;
 
 /// The scenario of a seed.
 ///
@@ -291,62 +247,5 @@ impl Shape {
             radius,
             force: 2.0 * modulus * radius * sum * 0.5 * PI / f64::from(parts),
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::simulation::drive::Control;
-
-    #[test]
-    fn the_sequence_is_that_of_splitmix64() {
-        // The published test vector of the seed 1234567.
-        let mut random = Random::new(1_234_567);
-        let found: Vec<u64> = (0..3).map(|_| random.next()).collect();
-        assert_eq!(
-            found,
-            [
-                6_457_827_717_110_365_317,
-                3_203_168_211_198_807_973,
-                9_817_491_932_198_370_423
-            ]
-        );
-    }
-
-    #[test]
-    fn a_thousand_seeds_are_valid_and_cover_every_kind() {
-        let all: Vec<Scenario> = (0..1000).map(scenario).collect();
-        let count = |is: &dyn Fn(&Scenario) -> bool| all.iter().filter(|one| is(one)).count();
-        let drive = |one: &Scenario| one.setup().drive.clone();
-        for shape in [
-            "paraboloid",
-            "cone",
-            "power",
-            "flat-punch",
-            "truncated-paraboloid",
-            "truncated-cone",
-        ] {
-            let seen = count(&|one| one.setup().indenter.name() == shape);
-            assert!(seen >= 50, "{shape}: {seen}");
-        }
-        let force = |one: &Scenario| matches!(drive(one).normal(), Control::Force(_));
-        let both = |one: &Scenario| matches!(drive(one).tangential(), Some(Control::Force(_)));
-        let lifts = |one: &Scenario| drive(one).normal().oscillation().lowest() < 0.0;
-        let changes = |one: &Scenario| !one.changes().is_empty();
-        let never = |one: &Scenario| drive(one).repeats_after().is_none();
-        let power = |one: &Scenario| one.setup().wear.is_some_and(|law| law.name() == "power");
-        for (is, least) in [
-            (&force as &dyn Fn(&Scenario) -> bool, 200),
-            (&both, 80),
-            (&lifts, 50),
-            (&changes, 100),
-            (&never, 15),
-            (&power, 200),
-        ] {
-            assert!(count(is) >= least, "{}", count(is));
-        }
-        assert_eq!(text(7), text(7));
-        assert_ne!(text(7), text(8));
     }
 }

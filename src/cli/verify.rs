@@ -37,8 +37,10 @@ pub fn verify(options: &Verify) -> Result<ExitCode> {
     if options.printing.json {
         results::print_json(&all_rows(&outcomes), &mut out)?;
     } else {
-        write!(out, "{}", text(&study, &outcomes, options))?;
-        writeln!(out, "\n{}", verdict(&outcomes))?;
+        if options.all || options.drawing.plot || !options.problem.is_empty() {
+            writeln!(out, "{}", text(&study, &outcomes, options))?;
+        }
+        writeln!(out, "{}", verdict(&outcomes))?;
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -15,18 +15,22 @@ use crate::studies::{stability, trade};
 /// Options of `verify`.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
-    mdr-tui verify                                  the error tables of all problems\n  \
+    mdr-tui verify                                  how far the default method is from theory\n  \
+    mdr-tui verify --all                            the error tables of all methods and problems\n  \
     mdr-tui verify --problem hertz --csv fig2.csv   Fig. 2 of the paper, node by node\n  \
     mdr-tui verify --problem hertz --points 100 --plot")]
 #[command(mut_args = in_words(&[
     ("csv", "Write the error at every node to this file"),
     ("plot", "Draw the errors over r/a, on the finest grid of each method"),
-    ("json", "Print all rows as JSON instead of tables"),
+    ("json", "Print all rows as JSON"),
 ]))]
 pub struct Verify {
-    /// Run only this problem; can be repeated.
+    /// Run only this problem and print its table; can be repeated.
     #[arg(long, value_name = "NAME", value_parser = problem_parser())]
     pub problem: Vec<Problem>,
+    /// Print the tables of all problems, not only the verdict.
+    #[arg(long)]
+    pub all: bool,
     /// Numbers of grid cells N to try; default: 50,100,200,400,800.
     #[arg(
         long,
@@ -229,11 +233,11 @@ pub struct Fit {
 /// What `stability` does with stiff steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Guard {
-    /// The raw method.
+    /// Take every step as it is.
     Off,
-    /// Parts.
+    /// Split stiff steps.
     On,
-    /// One after the other.
+    /// Run each case both ways.
     Both,
 }
 

@@ -12,7 +12,7 @@ use super::args::{ColorChoice, MarkerChoice, ThemeChoice};
 use super::{Misuse, complain};
 use crate::scenario::limited::{self, Unread};
 use crate::scenario::nearest::nearest;
-use crate::scenario::printable;
+use crate::scenario::typed;
 use crate::tui::command::{BINDINGS, Command};
 use crate::tui::keys::{Key, parse_script};
 
@@ -75,11 +75,7 @@ impl Config {
 
     fn read(text: &str, path: &Path) -> Result<Self, Misuse> {
         let refuse = |rule: String| Misuse(format!("{}: {rule}", path.display()));
-        let written: Written = toml::from_str(text).map_err(|error| {
-            let at = error.span().map_or(0, |span| span.start);
-            let line = text.get(..at).unwrap_or(text).matches('\n').count() + 1;
-            refuse(format!("line {line}: {}", printable(error.message())))
-        })?;
+        let written: Written = typed::read(text).map_err(refuse)?;
         let mut keys = Vec::new();
         for (name, key) in &written.keys {
             keys.push((
@@ -181,7 +177,10 @@ mod tests {
                 "config.toml: theme = \"green\": must be one of dark, light, mono",
             ),
             ("fps = 0", "config.toml: fps = 0: must be from 1 to 120"),
-            ("\nthem = 1", "config.toml: line 2: unknown field `them`"),
+            (
+                "\nthem = 1",
+                "config.toml: line 2: unknown key them; did you mean theme?",
+            ),
             (
                 "[keys]\nstep = \"ab\"",
                 "config.toml: keys.\"step\" = \"ab\": must be one key",

@@ -34,6 +34,7 @@ mod scar;
 pub mod schema;
 pub mod session;
 mod shape;
+pub mod typed;
 pub mod units;
 mod validate;
 pub mod words;

@@ -1,7 +1,6 @@
 //! Combines the values of several axes into points: every combination, pairwise, or samples that
 //! fill the space evenly.
 
-use super::axis::Spread;
 use super::shuffle::{Shuffle, mix};
 
 /// The way from axes to points.
@@ -90,14 +89,6 @@ impl Strata {
     /// The sample in a stratum.
     pub(super) fn sample_in(self, stratum: usize) -> usize {
         self.order.back(stratum)
-    }
-}
-
-/// How the values of an axis are spread if its ends are given under this name.
-pub(super) fn spread_of(name: &str) -> Spread {
-    match name {
-        "logspace" => Spread::Logarithmic,
-        _ => Spread::Linear,
     }
 }
 

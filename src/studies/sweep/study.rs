@@ -1,5 +1,6 @@
 //! A study: the scenario of every point, and the columns to record.
 
+use serde::Deserialize;
 use toml::Value;
 
 use super::axis::{self, Axis, Values};
@@ -12,7 +13,8 @@ use crate::scenario::{schema, units};
 
 /// When a point ends before its `run.cycles`: at the end of the first cycle in which one of these is
 /// reached.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
 pub struct Stop {
     /// The largest worn depth, m.
     pub worn_depth: Option<f64>,

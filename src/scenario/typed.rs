@@ -1,0 +1,83 @@
+//! Reads a TOML text into a struct, and says in one line what is wrong in which of its lines.
+
+use serde::de::DeserializeOwned;
+
+use super::error::printable;
+use super::nearest::nearest;
+
+/// serde's words for the types that it expected, and a user's.
+const WORDS: [(&str, &str); 4] = [
+    ("a sequence", "a list"),
+    ("a map", "a table"),
+    ("i64", "a whole number"),
+    ("f64", "a number"),
+];
+
+/// Reads `text` as a `T`.
+///
+/// # Errors
+///
+/// One line, without the file: what is no TOML, an unknown key with the nearest known one, a value of the
+/// wrong type.
+pub fn read<T: DeserializeOwned>(text: &str) -> Result<T, String> {
+    toml::from_str(text).map_err(|error| {
+        let at = error.span().map_or(0, |span| span.start);
+        let line = text.get(..at).unwrap_or(text).matches('\n').count() + 1;
+        format!("line {line}: {}", in_words(error.message()))
+    })
+}
+
+fn in_words(message: &str) -> String {
+    let message = printable(&message.replace('\n', "; "));
+    let named: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
+    if let ([unknown, known @ ..], true) = (&named[..], message.starts_with("unknown field")) {
+        return match nearest(unknown, known.iter().copied()) {
+            Some(near) => format!("unknown key {unknown}; did you mean {near}?"),
+            None => format!("unknown key {unknown}; known are {}", known.join(", ")),
+        };
+    }
+    match message.rsplit_once(", expected ") {
+        Some((seen, wanted)) => {
+            let words = WORDS.iter().find(|(said, _)| *said == wanted);
+            format!(
+                "{seen}, expected {}",
+                words.map_or(wanted, |(_, words)| words)
+            )
+        }
+        None => message,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(Debug, serde::Deserialize)]
+    #[serde(deny_unknown_fields)]
+    #[expect(dead_code, reason = "read only to be refused")]
+    struct Sample {
+        count: Option<i64>,
+        list: Option<Vec<String>>,
+    }
+
+    #[test]
+    fn what_is_wrong_is_said_in_a_users_words() {
+        for (text, said) in [
+            (
+                "\ncuont = 1",
+                "line 2: unknown key cuont; did you mean count?",
+            ),
+            ("x = 1", "line 1: unknown key x; known are count, list"),
+            (
+                "count = \"a\"",
+                "line 1: invalid type: string \"a\", expected a whole number",
+            ),
+            (
+                "list = 3",
+                "line 1: invalid type: integer `3`, expected a list",
+            ),
+        ] {
+            assert_eq!(read::<Sample>(text).expect_err(text), said);
+        }
+    }
+}

@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 use mdr_tui::math::abel::AbelMethod;
 use mdr_tui::scenario::Scenario;
 use mdr_tui::simulation::Scheme;
-use mdr_tui::studies::trade::{self, Ladder, Setting};
+use mdr_tui::studies::trade::{self, POINTS, STEPS, Setting};
 use serde_json::Value;
 
 use crate::test_dir::{Said, TestDir};
@@ -123,7 +123,7 @@ fn the_cheapest_setting_for_an_accuracy_reaches_it() {
         steps: 50,
         tolerance: None,
     };
-    let go_on = |_| true;
+    let go_on = || true;
     let fine = trade::run(&scenario, &reference, 3.0, &go_on);
     let fine = fine.expect("not stopped").expect("a run");
     let recommended = load("li2019-fig3", &sets);
@@ -156,10 +156,10 @@ fn the_cheapest_setting_for_an_accuracy_reaches_it() {
 fn every_setting_is_a_scenario() {
     for name in ["li2019-fig3", "mild-million"] {
         let scenario = load(name, &[]);
-        let ladder = Ladder::default();
-        let settings = ladder.settings(&scenario);
+        let settings = trade::settings(&scenario, &AbelMethod::ALL, &POINTS, &STEPS);
+        let reference = trade::reference(&scenario, &POINTS, &STEPS);
         assert!(settings.len() > 50, "{}", settings.len());
-        for setting in settings.iter().chain([&ladder.reference(&scenario)]) {
+        for setting in settings.iter().chain([&reference]) {
             let made = setting.of(&scenario).expect("a scenario");
             let setup = made.setup();
             assert_eq!(

@@ -15,7 +15,7 @@ use crate::studies::refinement::{self, Level, Outcome, RefinementError, Verdict}
 pub mod report;
 mod setting;
 
-pub use setting::{Ladder, POINTS, STEPS, Setting, TOLERANCES};
+pub use setting::{POINTS, STEPS, Setting, reference, settings};
 
 /// A run on the front is repeated until it has taken this long, s, and its median time counts.
 const LONG_ENOUGH: f64 = 0.06;
@@ -60,62 +60,68 @@ pub struct Errors {
 impl Errors {
     /// The worst of depth, volume, work and force; NaN if one of them is.
     pub fn worst(&self) -> f64 {
-        let worse = |worst: f64, error: f64| match worst.is_nan() || error <= worst {
-            true => worst,
-            false => error,
-        };
         let errors = [self.rms, self.volume, self.work, self.force];
-        errors.into_iter().fold(0.0, worse)
+        match errors.iter().any(|error| error.is_nan()) {
+            true => f64::NAN,
+            false => errors.into_iter().fold(0.0, f64::max),
+        }
     }
 }
 
 impl Sample {
-    /// The checks that this run fails and the `reference` passes: what fails in both is no matter of the setting.
-    pub fn judged_by(mut self, reference: &Self) -> Self {
-        let is_common = |check: &Check| {
-            let mut others = reference.failing.iter();
-            others.any(|other| other.subject == check.subject)
-        };
-        self.failing.retain(|check| !is_common(check));
-        self
+    fn of(session: &Session, seconds: f64) -> Self {
+        let simulation = session.simulation();
+        let moment = simulation.moment();
+        let mut failing = simulation.checks();
+        failing.retain(|check| !check.holds());
+        Self {
+            outcome: Outcome::of(session),
+            stick_radius: moment.permanent_stick_radius.unwrap_or(f64::NAN),
+            contact_radius: moment.contact_radius,
+            failing,
+            seconds,
+            transforms: simulation.stats().transforms,
+            steps: simulation.steps(),
+        }
     }
 
-    /// What is wrong with it, in words; empty if nothing is.
-    pub fn complaints(&self) -> String {
-        let complaints: Vec<String> = self.failing.iter().map(Check::complaint).collect();
-        complaints.join(", ")
+    /// Without the failing checks that fail in the `reference` too: those are no matter of the setting.
+    pub fn judged_by(mut self, reference: &Self) -> Self {
+        let others = &reference.failing;
+        let is_common = |check: &Check| others.iter().any(|other| other.subject == check.subject);
+        self.failing.retain(|check| !is_common(check));
+        self
     }
 
     /// The differences of this run from another one.
     pub fn against(&self, reference: &Self) -> Errors {
         let difference = self.outcome.against(&reference.outcome);
+        let stick = (self.stick_radius - reference.stick_radius).abs();
         Errors {
             rms: difference.worn_depth,
             volume: difference.volume,
             work: difference.work,
             force: difference.force,
-            stick_radius: (self.stick_radius - reference.stick_radius).abs()
-                / reference.contact_radius,
+            stick_radius: stick / reference.contact_radius,
         }
     }
 }
 
-/// Runs `scenario` by `setting` over `cycles`. `go_on` is told after each cycle what share of the run is done; if it
-/// says no, there is no result.
+/// Runs `scenario` by `setting` over `cycles`; `None` if `go_on`, which is asked at every step, says no.
 pub fn run(
     scenario: &Scenario,
     setting: &Setting,
     cycles: f64,
-    go_on: &dyn Fn(f64) -> bool,
+    go_on: &dyn Fn() -> bool,
 ) -> Option<Result<Sample, SessionError>> {
     let scenario = match setting.of(scenario) {
         Ok(scenario) => scenario,
         Err(error) => return Some(Err(error.into())),
     };
     let start = Instant::now();
-    let session = one_run(&scenario, cycles, go_on)?;
+    let session = refinement::run(&scenario, cycles, go_on)?;
     let seconds = start.elapsed().as_secs_f64();
-    Some(session.map(|session| sample(&session, seconds)))
+    Some(session.map(|session| Sample::of(&session, seconds)))
 }
 
 /// The median time of one run, s, of as many as a clock needs, after `first` seconds were measured once.
@@ -124,7 +130,7 @@ pub fn median_time(
     setting: &Setting,
     cycles: f64,
     first: f64,
-    go_on: &dyn Fn(f64) -> bool,
+    go_on: &dyn Fn() -> bool,
 ) -> f64 {
     let mut times = vec![first];
     while times.iter().sum::<f64>() < LONG_ENOUGH && times.len() < REPETITIONS {
@@ -165,50 +171,7 @@ pub fn adaptive(
     Ok(Adaptive {
         accuracy,
         level: reached.rung.level,
-        sample: sample(&reached.session, reached.seconds),
+        sample: Sample::of(&reached.session, reached.seconds),
         verdict: reached.verdict,
     })
-}
-
-fn one_run(
-    scenario: &Scenario,
-    cycles: f64,
-    go_on: &dyn Fn(f64) -> bool,
-) -> Option<Result<Session, SessionError>> {
-    let mut session = match Session::start(scenario.clone()) {
-        Ok(session) => session,
-        Err(error) => return Some(Err(error)),
-    };
-    while session.simulation().cycle() < cycles {
-        if !go_on(session.simulation().cycle() / cycles) {
-            return None;
-        }
-        // A cycle at a time: a stop is seen soon, and asking costs nothing.
-        let cycle = session.simulation().cycle();
-        let outcome = if session.simulation().may_jump() {
-            session.step_until(cycles)
-        } else {
-            session.advance_to((cycle.floor() + 1.0).min(cycles))
-        };
-        if let Err(error) = outcome {
-            return Some(Err(error));
-        }
-    }
-    Some(Ok(session))
-}
-
-fn sample(session: &Session, seconds: f64) -> Sample {
-    let simulation = session.simulation();
-    let moment = simulation.moment();
-    let mut failing = simulation.checks();
-    failing.retain(|check| !check.holds());
-    Sample {
-        outcome: Outcome::of(session),
-        stick_radius: moment.permanent_stick_radius.unwrap_or(f64::NAN),
-        contact_radius: moment.contact_radius,
-        failing,
-        seconds,
-        transforms: simulation.stats().transforms,
-        steps: simulation.steps(),
-    }
 }

@@ -1,7 +1,7 @@
 //! Results of a trade study: rows, the Pareto front, the cheapest setting for an accuracy.
 
 use super::{Errors, Sample, Setting};
-use crate::simulation::Integrator;
+use crate::simulation::Check;
 use crate::studies::table::{Cell, Column, Format, Table};
 
 /// One setting, and how it did.
@@ -15,40 +15,36 @@ pub struct Trial {
 
 impl Trial {
     /// Time and worst error of a run that came to its end and passes its own checks.
-    pub fn point(&self) -> Option<(f64, f64)> {
+    pub fn point(&self) -> Option<[f64; 2]> {
         let (sample, errors) = self.outcome.as_ref().ok()?;
         let is_sound = sample.failing.is_empty() && errors.worst().is_finite();
-        is_sound.then(|| (sample.seconds, errors.worst()))
+        is_sound.then(|| [sample.seconds, errors.worst()])
     }
 }
 
+/// A trial with its time and its worst error.
+pub type Timed<'a> = (&'a Trial, [f64; 2]);
+
 /// The trials that no other one beats in both time and error, the fastest first.
-pub fn front<'a>(trials: impl IntoIterator<Item = &'a Trial>) -> Vec<&'a Trial> {
-    let mut sorted: Vec<(&Trial, (f64, f64))> = trials
-        .into_iter()
+pub fn front<'a>(trials: impl IntoIterator<Item = &'a Trial>) -> Vec<Timed<'a>> {
+    let trials = trials.into_iter();
+    let mut sorted: Vec<Timed> = trials
         .filter_map(|trial| Some((trial, trial.point()?)))
         .collect();
-    sorted.sort_by(|(_, a), (_, b)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    sorted.sort_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     let mut best = f64::INFINITY;
-    sorted.retain(|(_, (_, error))| {
+    sorted.retain(|(_, [_, error])| {
         let better = *error < best;
         best = best.min(*error);
         better
     });
-    sorted.into_iter().map(|(trial, _)| trial).collect()
+    sorted
 }
 
 /// The fastest trial whose error is at most `accuracy`.
-pub fn cheapest(trials: &[Trial], accuracy: f64) -> Option<&Trial> {
-    let front = front(trials);
-    front
-        .into_iter()
-        .find(|trial| trial.point().is_some_and(|(_, error)| error <= accuracy))
-}
-
-/// Time and error of each trial, for a plot.
-pub fn points<'a>(trials: impl IntoIterator<Item = &'a Trial>) -> (Vec<f64>, Vec<f64>) {
-    trials.into_iter().filter_map(Trial::point).unzip()
+pub fn cheapest(trials: &[Trial], accuracy: f64) -> Option<Timed<'_>> {
+    let mut front = front(trials).into_iter();
+    front.find(|(_, [_, error])| *error <= accuracy)
 }
 
 /// A row a trial: those of `shown`, marked where they stand on the front of all.
@@ -72,24 +68,17 @@ pub fn table<'a>(shown: impl IntoIterator<Item = &'a Trial>, all: &[Trial]) -> T
         Column::new("front", Format::Words),
     ]);
     let front = front(all);
-    let stands = |trial: &Trial| front.iter().any(|other| std::ptr::eq(*other, trial));
+    let stands = |trial: &Trial| front.iter().any(|(other, _)| std::ptr::eq(*other, trial));
     for trial in shown {
-        let Setting {
-            method,
-            scheme,
-            points,
-            steps,
-            tolerance,
-        } = trial.setting;
+        let setting = &trial.setting;
         let words = |text: &str| Cell::Words(text.to_owned());
-        let integrator = Integrator::NAMES[usize::from(tolerance.is_some())];
         let mut row = vec![
-            words(method.name()),
-            words(scheme.name()),
-            words(integrator),
-            Cell::Count(points),
-            Cell::Count(steps as usize),
-            tolerance.into(),
+            words(setting.method.name()),
+            words(setting.scheme.name()),
+            words(setting.integrator()),
+            Cell::Count(setting.points),
+            Cell::Count(setting.steps as usize),
+            setting.tolerance.into(),
         ];
         match &trial.outcome {
             Ok((sample, errors)) => row.extend([
@@ -101,10 +90,7 @@ pub fn table<'a>(shown: impl IntoIterator<Item = &'a Trial>, all: &[Trial]) -> T
                 finite(errors.work),
                 finite(errors.force),
                 finite(errors.stick_radius),
-                words(match sample.complaints().as_str() {
-                    "" => "ok",
-                    complaints => complaints,
-                }),
+                words(&complaints(sample)),
                 words(if stands(trial) { "*" } else { "" }),
             ]),
             Err(reason) => {
@@ -118,6 +104,15 @@ pub fn table<'a>(shown: impl IntoIterator<Item = &'a Trial>, all: &[Trial]) -> T
     table
 }
 
+/// What is wrong with a run, in words.
+fn complaints(sample: &Sample) -> String {
+    let complaints: Vec<String> = sample.failing.iter().map(Check::complaint).collect();
+    match complaints.is_empty() {
+        true => "ok".to_owned(),
+        false => complaints.join(", "),
+    }
+}
+
 fn finite(value: f64) -> Cell {
     Some(value).filter(|value| value.is_finite()).into()
 }
@@ -128,7 +123,7 @@ mod tests {
     use crate::math::abel::AbelMethod;
     use crate::scenario::Scenario;
     use crate::scenario::session::Session;
-    use crate::simulation::{Check, Scheme, Subject};
+    use crate::simulation::{Scheme, Subject};
     use crate::studies::refinement::Outcome;
 
     fn unworn() -> Outcome {
@@ -188,12 +183,11 @@ mod tests {
             }];
         }
         trials.push(unsound);
-        let points = |trials: Vec<&Trial>| -> Vec<usize> {
-            trials.iter().map(|trial| trial.setting.points).collect()
-        };
-        assert_eq!(points(front(&trials)), [2, 1, 4]);
-        assert_eq!(cheapest(&trials, 1e-2).map(|t| t.setting.points), Some(1));
-        assert_eq!(cheapest(&trials, 5e-3).map(|t| t.setting.points), Some(4));
+        let points = |(trial, _): Timed| trial.setting.points;
+        let found: Vec<usize> = front(&trials).into_iter().map(points).collect();
+        assert_eq!(found, [2, 1, 4]);
+        assert_eq!(cheapest(&trials, 1e-2).map(points), Some(1));
+        assert_eq!(cheapest(&trials, 5e-3).map(points), Some(4));
         assert_eq!(cheapest(&trials, 1e-4), None);
         let table = table(&trials, &trials);
         let stars = table

@@ -1,5 +1,7 @@
 //! A setting of everything that trades speed for accuracy, and the ladders of settings to try.
 
+use std::fmt::{self, Display, Formatter};
+
 use crate::math::abel::AbelMethod;
 use crate::scenario::{Change, Scenario, ScenarioError};
 use crate::simulation::{Integrator, Scheme};
@@ -11,7 +13,7 @@ pub const POINTS: [usize; 3] = [25, 50, 100];
 pub const STEPS: [u32; 3] = [12, 25, 50];
 
 /// Tolerances of jumps that are tried.
-pub const TOLERANCES: [f64; 5] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5];
+const TOLERANCES: [f64; 5] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5];
 
 /// Steps a cycle under jumps by another method than the best.
 const STEPS_UNDER_JUMPS: u32 = 50;
@@ -31,6 +33,19 @@ pub struct Setting {
     pub tolerance: Option<f64>,
 }
 
+/// A line's worth of it.
+impl Display for Setting {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        let Self {
+            method,
+            points,
+            steps,
+            ..
+        } = self;
+        write!(f, "{method}, N = {points}, {steps} steps")
+    }
+}
+
 impl Setting {
     /// The keys of a scenario and their values.
     pub fn keys(&self) -> Vec<(&'static str, String)> {
@@ -39,16 +54,16 @@ impl Setting {
             ("numerics.scheme", self.scheme.name().to_owned()),
             ("numerics.points", self.points.to_string()),
             ("numerics.steps_per_cycle", self.steps.to_string()),
+            ("numerics.integrator", self.integrator().to_owned()),
         ];
-        let integrator = usize::from(self.tolerance.is_some());
-        keys.push((
-            "numerics.integrator",
-            Integrator::NAMES[integrator].to_owned(),
-        ));
-        if let Some(tolerance) = self.tolerance {
-            keys.push(("numerics.tolerance", format!("{tolerance:e}")));
-        }
+        let tolerance = self.tolerance.iter();
+        keys.extend(tolerance.map(|tolerance| ("numerics.tolerance", format!("{tolerance:e}"))));
         keys
+    }
+
+    /// How cycles are gone through, by its name.
+    pub fn integrator(&self) -> &'static str {
+        Integrator::NAMES[usize::from(self.tolerance.is_some())]
     }
 
     /// The scenario computed so.
@@ -58,6 +73,16 @@ impl Setting {
             .try_fold(scenario.clone(), |scenario, (key, value)| {
                 scenario.after(&Change::new(0.0, key, value))
             })
+    }
+
+    /// The same half as fine.
+    pub fn halved(self) -> Self {
+        Self {
+            points: self.points / 2,
+            steps: self.steps / 2,
+            tolerance: self.tolerance.map(|tolerance| 4.0 * tolerance),
+            ..self
+        }
     }
 
     /// How much there is to compute in a run of `cycles`, to tell the progress by: kernel values.
@@ -72,81 +97,53 @@ impl Setting {
     }
 }
 
-/// What is tried.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Ladder {
-    /// Methods.
-    pub methods: Vec<AbelMethod>,
-    /// Numbers of cells.
-    pub points: Vec<usize>,
-    /// Steps a cycle.
-    pub steps: Vec<u32>,
-    /// Tolerances of jumps.
-    pub tolerances: Vec<f64>,
-}
-
-impl Default for Ladder {
-    fn default() -> Self {
-        Self {
-            methods: AbelMethod::ALL.to_vec(),
-            points: POINTS.to_vec(),
-            steps: STEPS.to_vec(),
-            tolerances: TOLERANCES.to_vec(),
-        }
-    }
-}
-
-impl Ladder {
-    /// Every setting, the cheapest first. Where cycles are alike they are tried with jumps as well, by
-    /// the best method; a scenario that asks for jumps is not tried without.
-    pub fn settings(&self, scenario: &Scenario) -> Vec<Setting> {
-        let setup = scenario.setup();
-        let wants_jumps = wants_jumps(scenario);
-        let repeats = setup.drive.repeats_after().is_some() && setup.wear.is_some();
-        let mut settings = Vec::new();
-        for &method in &self.methods {
-            for scheme in Scheme::ALL {
-                for &points in &self.points {
-                    let setting = |steps, tolerance| Setting {
-                        method,
-                        scheme,
-                        points,
-                        steps,
-                        tolerance,
-                    };
-                    if !wants_jumps {
-                        settings.extend(self.steps.iter().map(|&steps| setting(steps, None)));
-                    }
-                    let best = method == AbelMethod::Product && scheme == Scheme::Trapezoid;
-                    if repeats && (best || wants_jumps) {
-                        let steps = if best {
-                            &self.steps[..]
-                        } else {
-                            &[STEPS_UNDER_JUMPS]
-                        };
-                        for &tolerance in &self.tolerances {
-                            let jumps = steps.iter();
-                            settings.extend(jumps.map(|&steps| setting(steps, Some(tolerance))));
-                        }
-                    }
-                }
+/// Every setting of these methods, cells and steps, the cheapest first. Where cycles are alike they are tried with
+/// jumps as well, by the best method; a scenario that asks for jumps is not tried without.
+pub fn settings(
+    scenario: &Scenario,
+    methods: &[AbelMethod],
+    points: &[usize],
+    steps: &[u32],
+) -> Vec<Setting> {
+    let setup = scenario.setup();
+    let wants_jumps = wants_jumps(scenario);
+    let repeats = setup.drive.repeats_after().is_some() && setup.wear.is_some();
+    let mut settings = Vec::new();
+    for &method in methods {
+        for scheme in Scheme::ALL {
+            let best = method == AbelMethod::Product && scheme == Scheme::Trapezoid;
+            let direct = if wants_jumps { &[] } else { steps };
+            let jumped = match best {
+                _ if !repeats => &[],
+                true => steps,
+                false if wants_jumps => &[STEPS_UNDER_JUMPS],
+                false => &[],
+            };
+            let direct = direct.iter().map(|&steps| (steps, None));
+            let tolerances = |&steps| TOLERANCES.map(|tolerance| (steps, Some(tolerance)));
+            for (steps, tolerance) in direct.chain(jumped.iter().flat_map(tolerances)) {
+                settings.extend(points.iter().map(|&points| Setting {
+                    method,
+                    scheme,
+                    points,
+                    steps,
+                    tolerance,
+                }));
             }
         }
-        settings.sort_by_key(|setting| setting.effort(1.0));
-        settings
     }
+    settings.sort_by_key(|setting| setting.effort(1.0));
+    settings
+}
 
-    /// The reference: twice as fine as the finest of the ladder, by the best method.
-    pub fn reference(&self, scenario: &Scenario) -> Setting {
-        let wants_jumps = wants_jumps(scenario);
-        let finest = |ladder: &[f64]| ladder.iter().copied().fold(1.0, f64::min);
-        Setting {
-            method: AbelMethod::Product,
-            scheme: Scheme::Trapezoid,
-            points: 2 * self.points.iter().copied().max().unwrap_or(100),
-            steps: 2 * self.steps.iter().copied().max().unwrap_or(100),
-            tolerance: wants_jumps.then(|| 0.1 * finest(&self.tolerances)),
-        }
+/// The reference: twice as fine as the finest of these cells and steps, by the best method.
+pub fn reference(scenario: &Scenario, points: &[usize], steps: &[u32]) -> Setting {
+    Setting {
+        method: AbelMethod::Product,
+        scheme: Scheme::Trapezoid,
+        points: 2 * points.iter().copied().max().unwrap_or(100),
+        steps: 2 * steps.iter().copied().max().unwrap_or(100),
+        tolerance: wants_jumps(scenario).then(|| 0.1 * TOLERANCES.into_iter().fold(1.0, f64::min)),
     }
 }
 

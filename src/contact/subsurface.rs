@@ -198,6 +198,11 @@ impl SpringLoad {
         }
     }
 
+    /// ν of the half-space.
+    pub fn poisson(&self) -> f64 {
+        self.poisson
+    }
+
     /// The contact radius, m.
     pub fn contact_radius(&self) -> f64 {
         self.radius

@@ -23,6 +23,7 @@
 //! its normal in the plane of motion and by the share of y in it.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use crate::contact::subsurface::{Peak, SpringLoad, Stress, peak};
 use crate::simulation::{Curves, Simulation};
@@ -143,12 +144,14 @@ fn shear_amplitude(stresses: &[Stress]) -> f64 {
 
 /// The loads on the half-space at the moments of one steady cycle.
 #[derive(Debug, Clone)]
-pub struct StressCycle {
-    loads: Vec<SpringLoad>,
-    poisson: f64,
-}
+pub struct StressCycle(Vec<Arc<SpringLoad>>);
 
 impl StressCycle {
+    /// From the loads of a cycle, in any order.
+    pub fn new(loads: Vec<Arc<SpringLoad>>) -> Self {
+        Self(loads)
+    }
+
     /// Steps a copy of `simulation` through two periods of the motion without wear, the first of which
     /// settles it. `None` without a common period of the two motions, and where the contact cannot be held.
     pub fn of(simulation: &Simulation) -> Option<Self> {
@@ -176,23 +179,21 @@ impl StressCycle {
         let stride = count.div_ceil(MOMENTS);
         let loads = loads.into_iter().enumerate();
         let loads = loads.filter(|(at, _)| at % stride == 0 || turns(*at));
-        Some(Self {
-            loads: loads.map(|(_, load)| load).collect(),
-            poisson,
-        })
+        Some(Self(loads.map(|(_, load)| Arc::new(load)).collect()))
     }
 
     /// The parameters at (r, z) and at (−r, z), m; z is the depth below the surface.
     pub fn mirrored(&self, r: f64, z: f64) -> [Fatigue; 2] {
-        let loads = self.loads.iter();
+        let loads = self.0.iter();
+        let poisson = loads.clone().next().map_or(0.0, |load| load.poisson());
         let (right, left): (Vec<Stress>, Vec<Stress>) =
             loads.map(|load| load.mirrored(r, z).into()).unzip();
-        [right, left].map(|stresses| Fatigue::of(&stresses, self.poisson))
+        [right, left].map(|stresses| Fatigue::of(&stresses, poisson))
     }
 
     /// Where in the plane of motion a parameter is largest, below the widest contact of the cycle.
     pub fn largest(&self, of: impl Fn(&Fatigue) -> f64) -> Peak {
-        let radii = self.loads.iter().map(SpringLoad::contact_radius);
+        let radii = self.0.iter().map(|load| load.contact_radius());
         let radius = radii.fold(0.0, f64::max);
         peak(radius, GRID, |r, z| self.mirrored(r, z).map(|at| of(&at)))
     }

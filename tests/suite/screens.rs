@@ -198,13 +198,13 @@ fn the_scar_the_fretting_log_and_the_map() {
 fn another_stress_in_the_half_space() {
     let dir = dir();
     let shot = |keys: &str| shot(dir.path(), "li2019-fig3", keys, (80, 24));
-    let said = ["von Mises", "principal", "shear", "pressure"];
+    let said = ["von Mises", "principal", "shear", "pressure", "SWT"];
     for (k, name) in said.into_iter().enumerate() {
-        let text = shot(&format!(",vz{}", "o".repeat(k)));
+        let text = shot(&format!(",vz{},", "o".repeat(k)));
         let scale = panels(&text).last().copied().unwrap_or_default().to_owned();
         assert!(scale.contains(name) && scale.contains("Pa"), "{text}");
     }
-    assert!(shot(",vzoooo").contains("half-space, heights"));
+    assert!(shot(",vzooooo,").contains("half-space, heights"));
     // Half a cycle of loads or more: the largest of a cycle is at least that of the moment.
     assert!(shot(",vzO").contains("von Mises, cycle"));
 }

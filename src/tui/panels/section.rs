@@ -367,7 +367,7 @@ fn words(frame: &Frame, app: &App, area: Rect, half: f64, width: f64, buffer: &m
     };
     // The scale of the colours, between its two ends.
     let ends = [low, high].map(|end| value(end, "Pa"));
-    let name = if app.stress.over_cycle {
+    let name = if app.stress.is_largest_of_cycle() {
         format!("{}, cycle", app.stress.quantity.short())
     } else {
         app.stress.quantity.short().to_owned()

@@ -1,14 +1,21 @@
 //! The stresses inside the half-space as colours: which one is shown, on which samples, in what shades.
 
+use std::sync::Arc;
+
 use ratatui::style::Color;
 
 use super::Frame;
 use crate::contact::subsurface::{SpringLoad, Stress};
 use crate::plot::colormap::ColorMap;
+use crate::reading::fatigue::StressCycle;
 use crate::tui::theme::{Depth, Theme};
 
 /// Shades of a map: few, so that only the lines between them change from frame to frame.
 pub const SHADES: usize = 12;
+
+/// Places below the contact, and their depth in contact radii, that set the range of SWT.
+const SPANS: u32 = 24;
+const SKIN: f64 = 0.03;
 
 /// Signs for shades where there are no colours, from low to high.
 const SIGNS: [char; SHADES] = [' ', ' ', '.', '.', ':', '-', '=', '+', '*', '#', '%', '@'];
@@ -25,6 +32,8 @@ pub enum Quantity {
     Shear,
     /// The hydrostatic pressure.
     Pressure,
+    /// The Smith–Watson–Topper stress amplitude of the last cycle.
+    Swt,
     /// None: the half-space is a solid body.
     Off,
 }
@@ -36,7 +45,8 @@ impl Quantity {
             Self::VonMises => Self::Principal,
             Self::Principal => Self::Shear,
             Self::Shear => Self::Pressure,
-            Self::Pressure => Self::Off,
+            Self::Pressure => Self::Swt,
+            Self::Swt => Self::Off,
             Self::Off => Self::VonMises,
         }
     }
@@ -48,6 +58,7 @@ impl Quantity {
             Self::Principal => "largest principal stress",
             Self::Shear => "largest shear stress",
             Self::Pressure => "hydrostatic pressure",
+            Self::Swt => "crack parameter SWT of a cycle",
             Self::Off => "no stress",
         }
     }
@@ -59,18 +70,19 @@ impl Quantity {
             Self::Principal => "principal",
             Self::Shear => "shear",
             Self::Pressure => "pressure",
+            Self::Swt => "SWT, cycle",
             Self::Off => "",
         }
     }
 
-    /// Its value, Pa.
+    /// Its value, Pa; 0 for what belongs to no single moment.
     pub fn of(self, stress: &Stress) -> f64 {
         match self {
             Self::VonMises => stress.von_mises(),
             Self::Principal => stress.max_principal(),
             Self::Shear => stress.max_shear(),
             Self::Pressure => stress.pressure(),
-            Self::Off => 0.0,
+            Self::Swt | Self::Off => 0.0,
         }
     }
 
@@ -83,6 +95,9 @@ impl Quantity {
     }
 }
 
+/// Values at (r, z) and at (−r, z), Pa.
+type Values = Box<dyn Fn(f64, f64) -> [f64; 2]>;
+
 /// What the half-space shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Shown {
@@ -93,31 +108,66 @@ pub struct Shown {
 }
 
 impl Shown {
+    /// Whether the map is the largest value of a cycle of what each moment has.
+    pub fn is_largest_of_cycle(self) -> bool {
+        self.over_cycle && self.quantity != Quantity::Swt
+    }
+
     /// The title of the map.
     pub fn name(self) -> String {
-        match self.over_cycle {
+        match self.is_largest_of_cycle() {
             true => format!("{}, largest of a cycle", self.quantity.name()),
             false => self.quantity.name().to_owned(),
         }
     }
 
     /// The loads that the map is made of.
-    fn loads(self, frame: &Frame) -> Vec<&SpringLoad> {
-        let present = frame.load.as_deref();
-        let before = frame.cycle_loads.iter().map(|load| &**load);
-        match self.over_cycle {
-            true => before.chain(present).collect(),
-            false => present.into_iter().collect(),
+    fn loads(self, frame: &Frame) -> Vec<Arc<SpringLoad>> {
+        let present = frame.load.iter();
+        match self.over_cycle || self.quantity == Quantity::Swt {
+            true => frame.cycle_loads.iter().chain(present).cloned().collect(),
+            false => present.cloned().collect(),
+        }
+    }
+
+    /// The values of the map at (r, z) and at (−r, z), Pa; `None` without contact, or if nothing is to be shown.
+    fn values(self, frame: &Frame) -> Option<Values> {
+        let loads = self.loads(frame);
+        match self.quantity {
+            _ if loads.is_empty() => None,
+            Quantity::Off => None,
+            Quantity::Swt => {
+                let cycle = StressCycle::new(loads);
+                Some(Box::new(move |r, z| cycle.mirrored(r, z).map(|at| at.swt)))
+            }
+            quantity => Some(Box::new(move |r, z| {
+                let each = loads.iter();
+                let each = each.map(|load| load.mirrored(r, z).map(|stress| quantity.of(&stress)));
+                each.fold([f64::NEG_INFINITY; 2], |[a, b], [c, d]| {
+                    [a.max(c), b.max(d)]
+                })
+            })),
         }
     }
 
     /// What the colours must reach, Pa: the largest present value, and for signed stresses that of the
     /// other sign on the axis.
     pub fn extent(self, frame: &Frame) -> Option<[f64; 2]> {
-        if self.quantity == Quantity::Off {
-            return None;
-        }
         let load = frame.load.as_deref()?;
+        match self.quantity {
+            Quantity::Off => return None,
+            Quantity::Swt => {
+                // The largest value is a spike at the surface; colours are for what lies below it.
+                let cycle = StressCycle::new(self.loads(frame));
+                let a = load.contact_radius();
+                let below = (0..=SPANS).map(|k| 1.2 * a * f64::from(k) / f64::from(SPANS));
+                let below = below.flat_map(|r| cycle.mirrored(r, SKIN * a));
+                let top = below.map(|at| at.swt).fold(0.0, f64::max);
+                // Nothing is in tension, or no cycle has been seen yet.
+                return (top > 0.0).then_some([0.0, top]);
+            }
+            _ => {}
+        }
         let peak = load.largest(|stress| self.quantity.of(stress)).value;
         let top = self
             .quantity
@@ -142,23 +192,18 @@ impl Samples {
         rows: usize,
         size: f64,
     ) -> Option<Self> {
-        let loads = shown.loads(frame);
-        if shown.quantity == Quantity::Off || loads.is_empty() || columns == 0 {
-            return None;
-        }
-        let mut values = vec![f64::NEG_INFINITY; columns * rows];
+        let of = shown.values(frame).filter(|_| columns > 0)?;
+        let mut values = vec![0.0; columns * rows];
         for row in 0..rows {
             let z = (row as f64 + 0.5) * size;
             for column in columns / 2..columns {
                 let r = (column as f64 + 0.5 - columns as f64 / 2.0) * size;
                 let mirror = columns - 1 - column;
-                for load in &loads {
-                    let pair = load.mirrored(r, z);
-                    for (place, stress) in [column, mirror].into_iter().zip(pair) {
-                        let value = &mut values[row * columns + place];
-                        *value = value.max(shown.quantity.of(&stress));
-                    }
-                }
+                let [right, left] = of(r, z);
+                (
+                    values[row * columns + column],
+                    values[row * columns + mirror],
+                ) = (right, left);
             }
         }
         Some(Self { columns, values })

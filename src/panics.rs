@@ -1,12 +1,11 @@
-//! The word of a panic, kept until there is a place to say it.
+//! Keeps the first panic message until the terminal is restored.
 
 use std::sync::{Mutex, PoisonError};
 
-/// What the first panic in any thread said. It is told when the terminal is itself again: printed
-/// at once, it would be drawn over.
+/// The message of the first panic in any thread. Printed at once, the explorer would draw over it.
 static PANIC: Mutex<Option<String>> = Mutex::new(None);
 
-/// Has panics leave their word here instead of on the screen.
+/// Stores the messages of panics here instead of printing them.
 pub fn keep() {
     std::panic::set_hook(Box::new(|panic| {
         let mut kept = PANIC.lock().unwrap_or_else(PoisonError::into_inner);
@@ -16,7 +15,7 @@ pub fn keep() {
     }));
 }
 
-/// What a panic said, if there was one.
+/// Takes the message, if there was a panic.
 pub fn word() -> Option<String> {
     PANIC.lock().unwrap_or_else(PoisonError::into_inner).take()
 }

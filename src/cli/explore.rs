@@ -11,13 +11,13 @@ use serde::de::IgnoredAny;
 
 use super::args::{Arguments, ColorChoice, Explore, FormatChoice, ThemeChoice};
 use super::config::Config;
-use super::{Misuse, accuracy, complain, patiently};
+use super::{Misuse, accuracy, complain, without_waiting};
 use crate::export::autosave;
 use crate::plot::Marker;
 use crate::scenario::nearest::nearest;
 use crate::scenario::session::Session;
 use crate::scenario::{Scenario, ScenarioError, checkpoint, printable};
-use crate::studies::refinement::SCREEN_PATIENCE;
+use crate::studies::refinement::SCREEN_BUDGET;
 use crate::tui::ghosts::{MOST, Source};
 use crate::tui::theme::Look;
 use crate::tui::{self, Capture, Format, Options, Script, Stroke, command, snapshot};
@@ -56,7 +56,7 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
             let scenario = Scenario::load(&options.scenario, &options.changes.set)
                 .map_err(|error| or_command(&options.scenario, error))?;
             let never = AtomicBool::new(false);
-            let found = accuracy::resolve(&scenario, None, SCREEN_PATIENCE, false, &never)?;
+            let found = accuracy::resolve(&scenario, None, SCREEN_BUDGET, false, &never)?;
             if let Some(word) = found.warning {
                 complain(&word);
             }
@@ -107,7 +107,7 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
         complain(&word);
     }
     if let Some(screen) = farewell.screen {
-        patiently(io::stdout().is_terminal(), move || {
+        without_waiting(io::stdout().is_terminal(), move || {
             let _ = io::stdout().write_all(screen.as_bytes());
         });
     }

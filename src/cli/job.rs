@@ -208,15 +208,15 @@ impl RunJob {
     /// # Errors
     ///
     /// If rows are missing; the history then begins at the present moment.
-    pub fn settle_in(&mut self, from: Option<&Path>, to: &Path) -> io::Result<()> {
+    pub fn move_to(&mut self, from: Option<&Path>, to: &Path) -> io::Result<()> {
         let real = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_owned());
         let (from, to) = (real(from.unwrap_or(Path::new("."))), real(to));
-        self.live_in(&to);
+        self.set_home(&to);
         self.history.move_rows(&rows_in(&from), &rows_in(&to))
     }
 
     /// Stores the directory of the run's files in checkpoints.
-    pub fn live_in(&mut self, directory: &Path) {
+    pub fn set_home(&mut self, directory: &Path) {
         let real = directory.canonicalize().ok();
         self.home = real.and_then(|home| home.to_str().map(str::to_owned));
     }

@@ -22,6 +22,7 @@ use crate::tui::NoTerminal;
 
 mod accuracy;
 mod args;
+mod checkpoints;
 mod complete;
 mod config;
 mod documents;
@@ -31,7 +32,7 @@ mod figure;
 mod fit;
 mod guide;
 mod job;
-mod keeper;
+
 mod new;
 mod presets;
 mod progress;
@@ -115,28 +116,28 @@ fn dispatch(arguments: Arguments) -> anyhow::Result<ExitCode> {
 }
 
 /// Longest wait for a terminal that has stopped reading.
-const PATIENCE: Duration = Duration::from_millis(400);
+pub(crate) const TERMINAL_TIMEOUT: Duration = Duration::from_millis(400);
 
 /// Prints one line on stderr, even if names from the user contain line breaks.
 pub(crate) fn complain(message: &str) {
     let line = format!("mdr-tui: {}\n", printable(message.trim_end()));
     let is_terminal = io::stderr().is_terminal();
-    patiently(is_terminal, move || {
+    without_waiting(is_terminal, move || {
         let _ = io::stderr().write_all(line.as_bytes());
     });
 }
 
 /// Writes to stderr, but does not wait for a terminal that has stopped reading.
-pub(crate) fn patiently(is_terminal: bool, write: impl FnOnce() + Send + 'static) {
+pub(crate) fn without_waiting(is_terminal: bool, write: impl FnOnce() + Send + 'static) {
     if !is_terminal {
         return write();
     }
-    let (tell, told) = channel();
+    let (done, finished) = channel();
     thread::spawn(move || {
         write();
-        let _ = tell.send(());
+        let _ = done.send(());
     });
-    let _ = told.recv_timeout(PATIENCE);
+    let _ = finished.recv_timeout(TERMINAL_TIMEOUT);
 }
 
 /// Wrong use and wrong input are 2, a run that failed is 1.

@@ -46,9 +46,6 @@ pub fn spinner(message: &'static str, quiet: bool) -> ProgressBar {
     spinner
 }
 
-/// Longest wait for a terminal that has stopped reading.
-const PATIENCE: Duration = Duration::from_millis(200);
-
 /// The progress of a run in cycles, drawn by a thread of its own: a terminal that stops reading does
 /// not stop the run.
 pub struct Progress {
@@ -95,7 +92,7 @@ impl Progress {
     /// Takes the bar away.
     pub fn finish(&mut self) {
         if self.end.take().is_some() {
-            let _ = self.gone.recv_timeout(PATIENCE);
+            let _ = self.gone.recv_timeout(super::TERMINAL_TIMEOUT);
         }
     }
 }

@@ -12,8 +12,8 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, Result, anyhow};
 
 use super::args::{CycleAsGiven, Run};
+use super::checkpoints::Checkpoints;
 use super::job::RunJob;
-use super::keeper::Keeper;
 use super::progress::Progress;
 use super::{FAILED, Misuse, accuracy, complain, provenance, stop};
 use crate::export::autosave::COPY_INTERVAL;
@@ -28,8 +28,8 @@ use crate::simulation::verdict;
 /// Polling interval for signals.
 const GLANCE: Duration = Duration::from_millis(20);
 
-/// How long a signal waits for the current step to end.
-const PATIENCE: Duration = Duration::from_millis(500);
+/// Longest wait for the current step to end after a signal.
+const STEP_TIMEOUT: Duration = Duration::from_millis(500);
 
 /// Time between attempts to write rows to a full disk.
 const ANOTHER_TRY: Duration = Duration::from_secs(1);
@@ -69,7 +69,7 @@ pub fn run(options: &Run) -> Result<ExitCode> {
     }
     let outcome = outcome.unwrap_or_else(|_| Ok(Ended::Broken(job.go_back())));
     if matches!(outcome, Ok(Ended::Interrupted | Ended::Broken(_))) {
-        job.put_away();
+        job.save_checkpoint();
     }
     let warnings = job.session.simulation().warnings();
     if !options.quiet && warnings.len() > warned.len() {
@@ -105,11 +105,11 @@ pub fn run(options: &Run) -> Result<ExitCode> {
             complain(&format!(
                 "interrupted at cycle {cycle}; saved in {}; {}",
                 job.directory.path().display(),
-                job.way_on()
+                job.how_to_resume()
             ));
             Ok(ExitCode::from(FAILED))
         }
-        Ok(Ended::Broken(word)) => Err(anyhow!("{word}; {}", job.way_on())),
+        Ok(Ended::Broken(word)) => Err(anyhow!("{word}; {}", job.how_to_resume())),
         Err(error) => Err(error.context(format!(
             "{} (saved in {})",
             job.name,
@@ -131,7 +131,7 @@ struct Job {
     session: Session,
     job: RunJob,
     directory: RunDirectory,
-    keeper: Arc<Mutex<Keeper>>,
+    checkpoints: Arc<Mutex<Checkpoints>>,
     /// The run a moment ago, and the moment.
     copy: Arc<Mutex<(Session, RunJob)>>,
     copied: Instant,
@@ -224,7 +224,7 @@ impl Job {
                 Err(_) => complain(&format!("{}: no longer exists", from.display())),
             }
         }
-        if let Err(error) = job.settle_in(home, directory.path()) {
+        if let Err(error) = job.move_to(home, directory.path()) {
             let cycle = number(session.simulation().cycle());
             complain(&format!(
                 "{name}: the history before cycle {cycle} no longer exists: {error}"
@@ -252,14 +252,14 @@ impl Job {
         for (key, value) in &job.statements {
             session.state(key, value);
         }
-        let mut keeper = Keeper::new(directory.checkpoint(), options.checkpoint_every.0);
+        let mut checkpoints = Checkpoints::new(directory.checkpoint(), options.checkpoint_every.0);
         match from {
-            Some(file) => keeper.remember(file, session.simulation().cycle()),
-            None => job.live_in(directory.path()),
+            Some(file) => checkpoints.remember(file, session.simulation().cycle()),
+            None => job.set_home(directory.path()),
         }
         Self {
             name: name.to_owned(),
-            keeper: Arc::new(Mutex::new(keeper)),
+            checkpoints: Arc::new(Mutex::new(checkpoints)),
             directory,
             copy: Arc::new(Mutex::new((session.clone(), job.clone()))),
             session,
@@ -291,29 +291,29 @@ impl Job {
     /// Whoever sets the returned flag first ends the run.
     fn watch(&self, stop: Arc<AtomicBool>) -> Arc<AtomicBool> {
         let is_over = Arc::new(AtomicBool::new(false));
-        let (copy, keeper, over) = (
+        let (copy, checkpoints, over) = (
             Arc::clone(&self.copy),
-            Arc::clone(&self.keeper),
+            Arc::clone(&self.checkpoints),
             Arc::clone(&is_over),
         );
         thread::spawn(move || {
             while !stop.load(Ordering::Relaxed) {
                 thread::sleep(GLANCE);
             }
-            thread::sleep(PATIENCE);
+            thread::sleep(STEP_TIMEOUT);
             if over.swap(true, Ordering::SeqCst) {
                 return;
             }
             let (session, job) = &*locked(&copy);
-            let mut keeper = locked(&keeper);
-            if let Some(word) = keeper.keep(session, job) {
+            let mut checkpoints = locked(&checkpoints);
+            if let Some(word) = checkpoints.save(session, job) {
                 complain(&word);
             }
             let cycle = session.simulation().cycle();
             complain(&format!(
                 "interrupted at cycle {}, in the middle of a long step; {}",
                 number(cycle),
-                keeper.way_on(cycle)
+                checkpoints.how_to_resume(cycle)
             ));
             std::process::exit(FAILED.into());
         });
@@ -365,7 +365,7 @@ impl Job {
                 }
             }
             self.job.record(&self.session);
-            self.look_after();
+            self.checkpoint_if_due();
             progress.at(cycle);
         }
         progress.finish();
@@ -373,7 +373,7 @@ impl Job {
     }
 
     /// Keeps a copy in memory and a checkpoint on disk up to date.
-    fn look_after(&mut self) {
+    fn checkpoint_if_due(&mut self) {
         if self.copied.elapsed() >= COPY_INTERVAL {
             *locked(&self.copy) = (self.session.clone(), self.job.clone());
             self.copied = Instant::now();
@@ -383,14 +383,14 @@ impl Job {
             let written = self.job.spill(&self.directory.rows());
             self.unwritten = written.is_err().then(Instant::now);
         }
-        if locked(&self.keeper).is_due() {
-            self.put_away();
+        if locked(&self.checkpoints).is_due() {
+            self.save_checkpoint();
         }
     }
 
     /// Writes a checkpoint. If that fails, the user is told once and the run continues.
-    fn put_away(&mut self) {
-        if let Some(word) = locked(&self.keeper).keep(&self.session, &self.job) {
+    fn save_checkpoint(&mut self) {
+        if let Some(word) = locked(&self.checkpoints).save(&self.session, &self.job) {
             complain(&word);
         }
     }
@@ -406,8 +406,8 @@ impl Job {
     }
 
     /// Says how to resume a run that has stopped.
-    fn way_on(&self) -> String {
-        locked(&self.keeper).way_on(self.session.simulation().cycle())
+    fn how_to_resume(&self) -> String {
+        locked(&self.checkpoints).how_to_resume(self.session.simulation().cycle())
     }
 
     /// Writes a snapshot, or remembers to try again at the end.
@@ -455,9 +455,9 @@ impl Job {
     /// If the files cannot be written, tries a checkpoint in their place or in the directory of the
     /// explorer's checkpoints, and says where it is.
     fn rescue(&mut self) -> String {
-        let mut keeper = locked(&self.keeper);
-        keeper.keep(&self.session, &self.job);
-        keeper.way_on(self.session.simulation().cycle())
+        let mut checkpoints = locked(&self.checkpoints);
+        checkpoints.save(&self.session, &self.job);
+        checkpoints.how_to_resume(self.session.simulation().cycle())
     }
 
     /// The last row of the history and the header of the files, by the names that they have there.

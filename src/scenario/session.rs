@@ -131,7 +131,7 @@ impl Session {
             let is_last = made + together.len() == parts.changes.len();
             if let Some(saved) = parts.unchanged.as_ref().filter(|_| is_last) {
                 unchanged = Some(Box::new(Unchanged {
-                    simulation: taken_up(&before, saved.clone())?,
+                    simulation: restored(&before, saved.clone())?,
                     scenario: before,
                     changes: made,
                 }));
@@ -139,7 +139,7 @@ impl Session {
             made += together.len();
         }
         Ok(Self {
-            simulation: taken_up(&scenario, parts.saved)?,
+            simulation: restored(&scenario, parts.saved)?,
             loaded,
             scenario,
             changes: parts.changes.into_owned(),
@@ -342,7 +342,7 @@ impl Session {
 }
 
 /// Restores a saved simulation of `scenario`. A domain that has grown may be wider than the scenario's own.
-fn taken_up(scenario: &Scenario, saved: Saved) -> Result<Simulation, Unfit> {
+fn restored(scenario: &Scenario, saved: Saved) -> Result<Simulation, Unfit> {
     let mut setup = scenario.setup().clone();
     if setup.indenter.rim().is_none() && saved.radius() > setup.grid.radius() {
         let wider = RadialGrid::uniform(setup.grid.cells(), saved.radius());

@@ -15,7 +15,7 @@ use super::flow::QUESTION;
 
 /// How long the last output waits for a slow terminal, and again after everything queued before it
 /// has been dropped.
-const PATIENCE: Duration = Duration::from_millis(200);
+const DRAIN_TIMEOUT: Duration = Duration::from_millis(200);
 
 /// Bytes for the writer, and whom to tell when they are written.
 struct Chunk {
@@ -83,11 +83,11 @@ impl Output {
         });
         let bytes = bytes.to_vec();
         let _ = self.chunks.send(Chunk { bytes, then });
-        if told.recv_timeout(PATIENCE).is_ok() {
+        if told.recv_timeout(DRAIN_TIMEOUT).is_ok() {
             return true;
         }
         let _ = tcflush(io::stdout().as_fd(), FlushArg::TCOFLUSH);
-        told.recv_timeout(PATIENCE).is_ok()
+        told.recv_timeout(DRAIN_TIMEOUT).is_ok()
     }
 }
 

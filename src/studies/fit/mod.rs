@@ -12,7 +12,7 @@
 //! ρ(z²) = z², or 2(√(1 + z²) − 1) against outliers
 //! ```
 //!
-//! The errors of the keys, and those that the values of a file share, are told in `errors`.
+//! The errors of the keys, and those that the values of a file share, are computed in `errors`.
 //!
 //! The minimum is sought by `rmpfit`, MINPACK's Levenberg–Marquardt with bounds and derivatives by
 //! differences; it depends on nothing else. (`levenberg-marquardt` brings a second nalgebra and wants
@@ -241,20 +241,20 @@ impl Fit {
             simulated = simulate(&theta, &mut runs, on_run)
                 .map_err(|error| FitError::Failed(error.to_string()))?;
             let z = self.deviations(&simulated, &errors);
-            let told = Errors::new(&z, &derivatives, &self.estimated(), self.robust);
-            let leverages = told.leverages.clone();
-            solved = Some((found, told));
+            let uncertainty = Errors::new(&z, &derivatives, &self.estimated(), self.robust);
+            let leverages = uncertainty.leverages.clone();
+            solved = Some((found, uncertainty));
             let given = self.data.iter().all(|set| set.errors.is_some());
             if round + 1 == ROUNDS || given && !self.robust {
                 break;
             }
             self.update_errors(&simulated, &leverages, &mut errors);
         }
-        let (solved, told) = solved.ok_or_else(|| FitError::Failed("no round".into()))?;
+        let (solved, uncertainty) = solved.ok_or_else(|| FitError::Failed("no round".into()))?;
         let scenario = self
             .at(&theta)
             .map_err(|error| FitError::Failed(error.to_string()))?;
-        Ok(self.told(&theta, (&solved, &told), simulated, scenario, runs))
+        Ok(self.fitted(&theta, (&solved, &uncertainty), simulated, scenario, runs))
     }
 
     /// The scenario with these values of the keys.
@@ -352,10 +352,10 @@ impl Fit {
         }
     }
 
-    fn told(
+    fn fitted(
         &self,
         theta: &[f64],
-        (solved, told): (&Solved, &Errors),
+        (solved, uncertainty): (&Solved, &Errors),
         simulated: Vec<Vec<f64>>,
         scenario: Scenario,
         runs: usize,
@@ -364,7 +364,7 @@ impl Fit {
         let keys = self.free.len();
         let mut values = Vec::new();
         for (i, free) in self.free.iter().enumerate() {
-            let error = told.covariance[(i, i)].sqrt();
+            let error = uncertainty.covariance[(i, i)].sqrt();
             let is_known = error.is_finite() && error > 0.0 && !solved.at_bound[i];
             let key = free.key.clone();
             if solved.at_bound[i] {
@@ -384,9 +384,9 @@ impl Fit {
             });
         }
         let correlation = |i: usize, j: usize| {
-            let norm = (told.covariance[(i, i)] * told.covariance[(j, j)]).sqrt();
+            let norm = (uncertainty.covariance[(i, i)] * uncertainty.covariance[(j, j)]).sqrt();
             if norm > 0.0 {
-                told.covariance[(i, j)] / norm
+                uncertainty.covariance[(i, j)] / norm
             } else {
                 0.0
             }
@@ -434,12 +434,12 @@ impl Fitted {
                 .collect::<serde_json::Map<_, _>>()
         };
         let entry = |(i, value): (usize, &Value)| {
-            let told = serde_json::json!({
+            let entry = serde_json::json!({
                 "value": value.value,
                 "stderr": value.stderr,
                 "correlations": others(i),
             });
-            (value.key.clone(), told)
+            (value.key.clone(), entry)
         };
         self.values.iter().enumerate().map(entry).collect()
     }

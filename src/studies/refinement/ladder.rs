@@ -59,7 +59,7 @@ const MOST_POINTS: usize = 20_000;
 const MOST_STEPS: u32 = 100_000;
 
 /// The ladder ends after this many rungs in a row without progress.
-const PATIENCE: u32 = 3;
+const MOST_STALLS: u32 = 3;
 
 /// One run of the ladder.
 #[derive(Debug, Clone)]
@@ -251,7 +251,7 @@ impl Ladder {
     pub fn next(&self) -> Next {
         let failed = || Next::Done(Verdict::Failed(self.last_failure.clone()));
         let Some(top) = &self.top else {
-            return match self.failures > PATIENCE {
+            return match self.failures > MOST_STALLS {
                 true => failed(),
                 false if self.twins.len() == self.base.sources() => Next::Run(self.planned.clone()),
                 false => Next::Twin(self.planned.clone()),
@@ -264,15 +264,15 @@ impl Ladder {
                 _ => Next::Done(Verdict::Met),
             };
         }
-        if self.failures > PATIENCE {
+        if self.failures > MOST_STALLS {
             return failed();
         }
         Next::Done(
             if self.planned.points > MOST_POINTS || self.planned.steps > MOST_STEPS {
                 Verdict::Finest
-            } else if self.stalls >= PATIENCE && is_unworn {
+            } else if self.stalls >= MOST_STALLS && is_unworn {
                 Verdict::Unworn
-            } else if self.stalls >= PATIENCE {
+            } else if self.stalls >= MOST_STALLS {
                 Verdict::Stalled
             } else if !self.is_cut && self.affords(&self.planned) {
                 return Next::Run(self.planned.clone());

@@ -21,7 +21,7 @@ pub use estimate::estimate;
 pub use ladder::{Ladder, Next, Rung, Verdict};
 pub use level::Level;
 pub use outcome::{Difference, Outcome};
-pub use resolve::{Resolved, SCREEN_PATIENCE, resolve, statements_of};
+pub use resolve::{Resolved, SCREEN_BUDGET, resolve, statements_of};
 
 /// Why a run to an accuracy has no result at all.
 #[derive(Debug, Error)]

@@ -8,7 +8,7 @@ use crate::scenario::session::Session;
 const WITHOUT_END: f64 = 100.0;
 
 /// The longest that a screen waits for an accuracy, s.
-pub const SCREEN_PATIENCE: f64 = 10.0;
+pub const SCREEN_BUDGET: f64 = 10.0;
 
 /// A scenario with the points and steps that were found for its accuracy.
 #[derive(Debug, Clone)]

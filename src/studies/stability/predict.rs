@@ -131,7 +131,7 @@ fn letting_go(mut run: Session, small: f64, boundary: f64) -> Result<f64, Sessio
 /// Runs one cycle at `wear_number`; counts the nodes with enough pressure to keep a sawtooth of `height` (relative
 /// to the largest depth) in contact.
 fn cycle(session: &mut Session, wear_number: f64, height: f64) -> Result<Cycle, SessionError> {
-    let mut told = Cycle::default();
+    let mut cycle = Cycle::default();
     let before = session.simulation().worn_depth().to_vec();
     let mut last = session.simulation().pressure();
     let end = session.simulation().cycle().floor() + 1.0;
@@ -140,15 +140,15 @@ fn cycle(session: &mut Session, wear_number: f64, height: f64) -> Result<Cycle, 
         let simulation = session.simulation();
         let pressure = simulation.pressure();
         let (stiffness, gain) = step(simulation, &last, &pressure, height);
-        told.stiffness.push(stiffness / wear_number);
-        told.gain = told.gain.max(gain / wear_number);
+        cycle.stiffness.push(stiffness / wear_number);
+        cycle.gain = cycle.gain.max(gain / wear_number);
         last = pressure;
     }
     let wear = session.simulation().worn_depth();
     let deepest = wear.iter().zip(&before).map(|(now, was)| now - was);
     let deepest = deepest.fold(0.0, f64::max);
-    told.worn = deepest / (wear_number * depth(session.simulation()));
-    Ok(told)
+    cycle.worn = deepest / (wear_number * depth(session.simulation()));
+    Ok(cycle)
 }
 
 /// The largest z and G of the step that has just been taken, from the pressures before and after it.

@@ -216,7 +216,7 @@ impl Record {
     /// # Errors
     ///
     /// Names the first line of the headers that differs.
-    pub fn expect(&self, study: &Study, told: &str) -> Result<(), StudyError> {
+    pub fn expect(&self, study: &Study, origin: &str) -> Result<(), StudyError> {
         let expected = lines(study);
         if self.header == expected {
             return Ok(());
@@ -227,7 +227,7 @@ impl Record {
             if our != their || our.is_none() {
                 let (our, their) = (our.unwrap_or("nothing"), their.unwrap_or("nothing"));
                 return Err(StudyError(format!(
-                    "{}: holds another study: {} where {told} has {}",
+                    "{}: holds another study: {} where {origin} has {}",
                     self.name,
                     their.trim_start_matches("# "),
                     our.trim_start_matches("# ")

@@ -7,7 +7,7 @@ use crate::math::abel::AbelMethod;
 use crate::scenario::Scenario;
 use crate::scenario::schema::{Kind, find};
 use crate::scenario::session::Session;
-use crate::studies::refinement::{self, Level, SCREEN_PATIENCE};
+use crate::studies::refinement::{self, Level, SCREEN_BUDGET};
 use crate::studies::theory::Theory;
 use crate::tui::frame::Activity;
 use crate::tui::ghosts;
@@ -115,7 +115,7 @@ impl Worker {
 
     /// Another scenario, from its beginning.
     pub(super) fn load(&mut self, scenario: Scenario) {
-        let resolved = match refinement::resolve(&scenario, None, SCREEN_PATIENCE, &|| true) {
+        let resolved = match refinement::resolve(&scenario, None, SCREEN_BUDGET, &|| true) {
             Ok(resolved) => resolved,
             Err(error) => return self.notice(&error.to_string()),
         };

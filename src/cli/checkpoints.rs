@@ -13,7 +13,7 @@ use crate::scenario::session::Session;
 
 /// Saves the newest state of a run wherever there is room.
 #[derive(Debug)]
-pub struct Keeper {
+pub struct Checkpoints {
     home: Autosave,
     /// In use since the last attempt at home failed.
     elsewhere: Option<Autosave>,
@@ -23,7 +23,7 @@ pub struct Keeper {
     has_warned: bool,
 }
 
-impl Keeper {
+impl Checkpoints {
     /// Saves checkpoints at `path`, one per interval `every`, or only on request if `None`.
     pub fn new(path: PathBuf, every: Option<Duration>) -> Self {
         Self {
@@ -45,7 +45,7 @@ impl Keeper {
     }
 
     /// Writes a checkpoint; returns a message when that begins to fail or to go elsewhere.
-    pub fn keep(&mut self, session: &Session, job: &RunJob) -> Option<String> {
+    pub fn save(&mut self, session: &Session, job: &RunJob) -> Option<String> {
         let bytes = checkpoint::encode(session, Some(job));
         let cycle = session.simulation().cycle();
         let Err(error) = self.home.keep(&bytes) else {
@@ -56,7 +56,7 @@ impl Keeper {
             self.has_warned = false;
             return None;
         };
-        let word = match self.keep_elsewhere(&session.loaded().stem(), &bytes) {
+        let word = match self.save_elsewhere(&session.loaded().stem(), &bytes) {
             Some(path) => {
                 let word = format!("{error}; checkpoints go to {}", path.display());
                 self.kept = Some((path, cycle));
@@ -67,7 +67,7 @@ impl Keeper {
         (!std::mem::replace(&mut self.has_warned, true)).then_some(word)
     }
 
-    fn keep_elsewhere(&mut self, stem: &str, bytes: &[u8]) -> Option<PathBuf> {
+    fn save_elsewhere(&mut self, stem: &str, bytes: &[u8]) -> Option<PathBuf> {
         if self.elsewhere.is_none() {
             let place = Autosave::in_free_place(&state_directory()?, stem, None);
             self.elsewhere = place.ok();
@@ -83,7 +83,7 @@ impl Keeper {
     }
 
     /// Says how to resume a run that stopped at the cycle `now`, and which cycles are lost.
-    pub fn way_on(&self, now: f64) -> String {
+    pub fn how_to_resume(&self, now: f64) -> String {
         let kept = self.kept.as_ref().filter(|(path, _)| path.exists());
         let Some((path, cycle)) = kept else {
             return "there is no checkpoint".into();

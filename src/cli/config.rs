@@ -65,7 +65,7 @@ impl Config {
             Err(why @ (Unread::TooLarge(_) | Unread::NotText(_))) => {
                 Err(Misuse(format!("{}: {why}", path.display())))
             }
-            // What stands there is no file of this program: no reason not to start.
+            // Something else is at this path: no reason not to start.
             Err(why) => {
                 complain(&format!("{}: {why}; goes on without it", path.display()));
                 Ok(Self::default())

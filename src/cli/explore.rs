@@ -121,7 +121,7 @@ fn or_command(given: &str, error: ScenarioError) -> anyhow::Error {
     let near =
         nearest(given, names).filter(|_| matches!(error, ScenarioError::UnknownPreset { .. }));
     match near {
-        // A preset's name that is as near is told by the error itself.
+        // The error itself names a preset that is as near.
         Some(command) if !error.to_string().contains("did you mean") => Misuse(format!(
             "{}: no such command or preset; did you mean mdr-tui {command}?",
             printable(given)

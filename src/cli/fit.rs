@@ -89,7 +89,7 @@ fn data(options: &args::Fit) -> Result<Vec<Measured>> {
     Ok(data)
 }
 
-/// `FILE@CYCLE` as a file and a cycle; a file whose own name ends so comes first.
+/// `FILE@CYCLE` as a file and a cycle; an existing file with such a name takes precedence.
 fn at_cycle(given: &Path) -> (PathBuf, Option<f64>) {
     let text = given.to_string_lossy();
     let parts = text.rsplit_once('@').filter(|_| !given.exists());

@@ -1,6 +1,6 @@
 //! How the files of a run were made: what their contents do not hang on, and what a reader may ask for.
 //!
-//! It stands in a file of its own. The tables of a run are the same to the byte whenever and wherever it is
+//! It has its own file. The tables of a run are the same to the byte whenever and wherever it is
 //! repeated on the same arithmetic, which their headers name; a date in them would end that.
 
 use std::fs;
@@ -45,7 +45,7 @@ fn command() -> String {
     words.fold("mdr-tui".to_owned(), |line, word| line + " " + &word)
 }
 
-/// Seconds since 1970: those of `SOURCE_DATE_EPOCH`, as in reproducible builds, or those of the clock.
+/// Seconds since 1970: from `SOURCE_DATE_EPOCH`, as in reproducible builds, or from the clock.
 fn now() -> u64 {
     let given = std::env::var("SOURCE_DATE_EPOCH").ok();
     given
@@ -73,7 +73,7 @@ fn date(seconds: u64) -> String {
     format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}Z")
 }
 
-/// The name of the processor, where the system tells it.
+/// The name of the processor, if the system gives it.
 fn processor() -> Option<String> {
     let about = fs::read_to_string("/proc/cpuinfo").ok()?;
     let line = about.lines().find(|line| line.starts_with("model name"))?;

@@ -565,7 +565,7 @@ impl Job {
     }
 }
 
-/// The table of the state at a cycle at or after the one where `session` stands.
+/// The table of the state at a cycle that `session` has reached or is yet to reach.
 fn table_at(snapshot: &CycleAsGiven, session: &Session) -> Result<String> {
     let simulation = session.simulation();
     if snapshot.cycle <= simulation.cycle() + simulation.rounding() {

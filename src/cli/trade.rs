@@ -18,13 +18,13 @@ use crate::studies::refinement::Verdict;
 use crate::studies::trade::report::{Trial, cheapest, front, table};
 use crate::studies::trade::{self, Adaptive, Sample, Setting};
 
-/// Accuracies whose own search for a level is timed beside the fixed settings.
+/// Accuracies whose search for a level is timed as well as the fixed settings.
 const ACCURACIES: [f64; 2] = [1e-2, 1e-3];
 
 /// Errors below this one are small enough for any figure: the search ends there, or where the reference blurs.
 const FINE: f64 = 1e-3;
 
-/// By how many times more work a setting may still be tried after one that is fine enough: work tells the time of
+/// Once a setting is fine enough, others are tried up to this many times its work: work predicts the time of
 /// different methods only roughly.
 const SLOWER: f64 = 2.0;
 
@@ -149,7 +149,7 @@ fn run(
     let half = measure(&finest.halved(), "reference, ");
     let mut interrupted = half.is_none();
     let blur = half.and_then(|half| Some(half.ok()?.against(&reference).worst()));
-    // Settings that take longer than one that is as good as the reference can tell add nothing.
+    // Once a setting is as good as the reference can resolve, slower ones add nothing.
     let (resolved, mut enough) = (FINE.max(blur.unwrap_or(0.0)), f64::INFINITY);
     let mut trials: Vec<Trial> = Vec::new();
     for setting in &settings {

@@ -115,7 +115,7 @@ fn bubbles(nodes: &[f64]) -> Vec<f64> {
     std::iter::once(0.0).chain(whole).collect()
 }
 
-/// A load that changes by less than this part of it over two cells has no cusp but rounding.
+/// A relative change of the load over two cells below this is rounding, not a cusp.
 const NO_CUSP: f64 = 1e-9;
 
 /// The first three springs, which tell the cusp of a load at the tip: a cone's is linear in x and not in x².
@@ -174,7 +174,7 @@ mod tests {
             let q = |x: f64| (cone * (1.0 - x) + square * (1.0 - x * x)).max(0.0);
             let mut load = Field::zeros(x.len());
             load.nodal = x.iter().map(|&x| q(x)).collect();
-            // Of a cone the chord in x² of the last cell stands for its own line.
+            // For a cone, the chord in x² of the last cell replaces its straight line.
             let last = [nodes - 1, nodes];
             let cusp = row.cusp(&load.nodal, 1.0);
             assert!((cusp + cone).abs() < 1e-9, "{cusp} {cone}");

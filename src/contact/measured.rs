@@ -38,7 +38,7 @@ pub struct Treatment {
     pub tilt: Option<f64>,
     /// The rms of half the difference of both sides, the tilt taken off, m.
     pub asymmetry: f64,
-    /// The rms and the largest change by smoothing, m.
+    /// The rms and the largest change due to smoothing, m.
     pub smoothed: Option<(f64, f64)>,
 }
 
@@ -47,7 +47,7 @@ impl MeasuredProfile {
     /// a length of `smoothing` (m), 0 for none.
     ///
     /// # Errors
-    /// Rows that are no profile, and one whose contact would be no disc: the 1D image must not fall.
+    /// Rows that do not make a profile, or a profile whose contact would not be a disc: its 1D image must not fall.
     pub fn new(radii: &[f64], heights: &[f64], smoothing: f64) -> Result<Self, Invalid> {
         let smoothing = non_negative("smoothing", smoothing)?;
         let number = radii.len();

@@ -20,7 +20,7 @@ impl Scar {
     /// From radii (m, strictly increasing, 0 or greater) and as many depths (m, 0 or greater).
     ///
     /// # Errors
-    /// Rows that are no scar; the fields are `initial_radii` and `initial_depths`.
+    /// Rows that do not make a scar; the fields are `initial_radii` and `initial_depths`.
     pub fn new(radii: &[f64], depths: &[f64]) -> Result<Self, Invalid> {
         let number = radii.len();
         if number != depths.len() {

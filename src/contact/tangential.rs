@@ -16,7 +16,7 @@ use crate::math::vector::vectorized;
 
 /// How far beyond its limit, as a fraction of the limit, a spring still sticks.
 ///
-/// A spring that has shaken down touches its limit once a cycle and no more: rounding must not
+/// A spring that has shaken down touches its limit only once per cycle: rounding must not
 /// make it slip there.
 const TOUCH: f64 = 1e-10;
 
@@ -26,7 +26,7 @@ const TOUCH_OF_LARGEST: f64 = 1e-12;
 /// A border closer to a spring than this fraction of the cell counts as being on it.
 const ON_A_SPRING: f64 = 1e-9;
 
-/// What a spring does in a step.
+/// The motion of a spring in a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SpringState {
     /// Moves with the indenter.

@@ -27,7 +27,7 @@ pub struct Autosave {
     path: PathBuf,
     every: Option<Duration>,
     last: Instant,
-    /// Locked as long as it is open: the file is that of a living process.
+    /// Locked as long as it is open, so that others see a running process owns the file.
     file: Option<File>,
 }
 
@@ -42,8 +42,8 @@ impl Autosave {
         }
     }
 
-    /// Keeps checkpoints of a session on a scenario called `stem` in a file of its own: the directory
-    /// is made, and beside the new file only the newest checkpoints stay there and those of living
+    /// Saves checkpoints of a session on a scenario called `stem` in a new file: creates the directory,
+    /// in which only the newest checkpoints stay beside it and those of running
     /// sessions. A number that was given out is not given out again.
     pub fn in_free_place(
         directory: &Path,
@@ -112,7 +112,7 @@ impl Autosave {
     }
 }
 
-/// Removes the oldest checkpoints, but none of a living session and not the one with the highest
+/// Removes the oldest checkpoints, except those of running sessions and the one with the highest
 /// number, so that the next number is new.
 fn prune(mut others: Vec<Found>, highest: Option<u64>) {
     others.sort_by_key(|other| other.written);

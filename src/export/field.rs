@@ -31,7 +31,7 @@ const DEPTH: usize = 100;
 const REACH: f64 = 1.5;
 
 /// The whole file for the present state of `session`: depth by depth from the surface down, x from
-/// −1.5 a to 1.5 a. Without contact the domain stands for a, and all stresses are zero.
+/// −1.5 a to 1.5 a. Without contact the domain takes the place of a, and all stresses are zero.
 pub fn table(session: &Session) -> String {
     let mut text = lines(session);
     text.push_str(&COLUMNS.join(","));

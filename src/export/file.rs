@@ -34,10 +34,10 @@ pub enum WriteError {
     /// The path is not a directory.
     #[error("{}: is not a directory", .0.display())]
     NotADirectory(PathBuf),
-    /// The path is no name of a file.
+    /// The path does not name a file.
     #[error("{}: is not a file name", .0.display())]
     NotAFile(PathBuf),
-    /// There is no directory for the file.
+    /// The file's directory does not exist.
     #[error("{}: its directory does not exist", .0.display())]
     NoDirectory(PathBuf),
     /// The file is there.
@@ -135,7 +135,7 @@ pub fn write_with(
     file.persist(path).map_err(|error| failed(error.error))
 }
 
-/// The directory that a file stands in.
+/// The directory of a file.
 pub(super) fn directory_of(path: &Path) -> &Path {
     let parent = path.parent();
     let parent = parent.filter(|parent| !parent.as_os_str().is_empty());
@@ -334,7 +334,7 @@ impl RunDirectory {
     }
 }
 
-/// The files of a run that begin as its tables do, but for those of snapshots.
+/// The files of a run that begin as its tables do, except those of snapshots.
 const TABLES: [&str; 5] = [
     "history.csv",
     "state.csv",

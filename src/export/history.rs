@@ -61,7 +61,7 @@ pub struct History {
     #[serde(default)]
     written: u64,
     last_cycle: Option<f64>,
-    /// Columns after those of every history.
+    /// Columns after the ones that every history has.
     #[serde(default)]
     further: Vec<String>,
 }
@@ -78,7 +78,7 @@ impl History {
     ///
     /// # Errors
     ///
-    /// In one line, the first name that is no scalar, or a column already.
+    /// In one line, the first name that is not a scalar, or a column already.
     pub fn with(further: &[String]) -> Result<Self, String> {
         for (at, name) in further.iter().enumerate() {
             scalars::named(name)?;

@@ -22,12 +22,12 @@ impl LastLoop {
         if now < end - 1.0 - simulation.rounding() || simulation.setup().springs() == 0 {
             return;
         }
-        // A run that goes on beyond an earlier end leaves steps behind.
+        // A run continued beyond an earlier end leaves steps behind.
         self.rows.retain(|row| row[0] < now && row[0] >= end - 1.5);
         self.rows.push(row(simulation));
     }
 
-    /// The steps of the cycle that ends now. Where cycles were jumped over, those of a cycle on the present
+    /// The steps of the cycle that ends now. Where cycles were jumped over, the steps of a cycle on the present
     /// profile, which is stepped through without wear for that purpose; none without tangential motion.
     pub fn rows(&self, simulation: &Simulation) -> Vec<[f64; 4]> {
         let end = simulation.cycle();

@@ -125,7 +125,7 @@ impl Target {
         self.claim.is_none()
     }
 
-    /// The directory that the file stands in.
+    /// The directory of the file.
     pub fn directory(&self) -> &Path {
         directory_of(&self.path)
     }

@@ -29,9 +29,9 @@ pub enum Axes {
     Volume,
     /// The largest f − f₀, m, over cycles.
     Depth,
-    /// The largest a of a cycle, m, over cycles.
+    /// The largest a in each cycle, m, over cycles.
     Contact,
-    /// The smallest c of a cycle, m, over cycles.
+    /// The smallest c in each cycle, m, over cycles.
     Stick,
 }
 
@@ -144,7 +144,7 @@ impl Ghost {
             return Self::of_columns(&name, &Columns::read(path)?);
         }
         let mut ghost = Self::new(&name);
-        // The loop of a snapshot stands in a file of its own.
+        // The loop of a snapshot has its own file.
         for file in ["state.csv", "history.csv", "loop.csv"] {
             let file = path.join(file);
             if file.is_file() {

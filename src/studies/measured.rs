@@ -68,7 +68,7 @@ impl Measured {
     /// A scar: columns `r_m` and `wear_m`, or `f_m` for the worn profile; standard errors in `error_m`.
     ///
     /// # Errors
-    /// What is no such table; fewer than 3 rows.
+    /// A file that is not such a table; fewer than 3 rows.
     pub fn scar(columns: &Columns) -> Result<Self, ScenarioError> {
         let (name, kind) = match columns.has("wear", Quantity::Length) {
             true => ("wear", Kind::Wear),
@@ -102,7 +102,7 @@ impl Measured {
     /// own `loop.csv` they are the displacement that the rig senses, else `u_x_m`, and `F_x_N`.
     ///
     /// # Errors
-    /// What is no such table; fewer than 8 rows; a loop that does not close.
+    /// A file that is not such a table; fewer than 8 rows; a loop that does not close.
     pub fn fretting_loop(columns: &Columns) -> Result<Self, ScenarioError> {
         let is_own = columns.has("u_x", Quantity::Length) && columns.has("F_x", Quantity::Force);
         let sensed = columns.column_with_gaps("rig_displacement", Quantity::Length);
@@ -150,7 +150,7 @@ impl Measured {
     /// A history: columns `cycle` and `wear_volume_m3`, or `depth_m`; `error_m3` or `error_m`.
     ///
     /// # Errors
-    /// What is no such table; fewer than 3 rows; negative cycles.
+    /// A file that is not such a table; fewer than 3 rows; negative cycles.
     pub fn history(columns: &Columns) -> Result<Self, ScenarioError> {
         let cycle = ("cycle", Quantity::Number);
         let measured = match columns.has("depth", Quantity::Length) {

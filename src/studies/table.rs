@@ -45,7 +45,7 @@ impl Column {
     }
 }
 
-/// What stands in one place.
+/// One cell of a table.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cell {
     /// Words.

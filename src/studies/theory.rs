@@ -46,7 +46,7 @@ impl Theory {
         if setup.drive.rig_compliance() > 0.0 {
             return theory;
         }
-        // The closed forms are those of sines; of others the turning points alone would be.
+        // The closed forms hold for sines; for other waveforms only at the turning points.
         if [normal, tangential]
             .iter()
             .any(|swing| *swing.waveform() != Waveform::Sine && swing.amplitude() > 0.0)

@@ -91,7 +91,7 @@ pub struct Changes {
 /// Options of the explorer.
 #[derive(Debug, Args)]
 pub struct Explore {
-    /// A preset's name, a path to a .toml file, or a snapshot's directory, whose run goes on.
+    /// A preset's name, a path to a .toml file, or a snapshot's directory, to continue its run.
     #[arg(default_value = "li2019-fig3", add = ArgValueCompleter::new(complete::scenarios))]
     pub scenario: String,
     /// Changes to the scenario.
@@ -276,7 +276,7 @@ pub struct New {
     /// The stroke, from turning point to turning point.
     #[arg(long, value_name = "LENGTH")]
     pub stroke: Option<String>,
-    /// Cycles a second.
+    /// Cycles per second.
     #[arg(long, value_name = "HZ")]
     pub frequency: Option<String>,
     /// The coefficient of friction.

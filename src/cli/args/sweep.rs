@@ -113,7 +113,7 @@ pub struct Sweep {
     pub quiet: bool,
 }
 
-/// A word that stands in a line of a job script as it is.
+/// A word that a job script contains as it is.
 fn word() -> impl TypedValueParser<Value = String> {
     StringValueParser::new().try_map(|word| {
         let is_plain = |c: char| !c.is_whitespace() && !"#'\"\\$`;&|<>()".contains(c);

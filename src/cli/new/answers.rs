@@ -1,4 +1,4 @@
-//! What `mdr-tui new` has been told, and the commented scenario that it makes of it.
+//! The answers to `mdr-tui new`, and the commented scenario made from them.
 
 use std::fmt::Write;
 
@@ -72,7 +72,7 @@ impl Body {
 /// A number with its unit, as typed, and in SI.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quantity {
-    /// As it stands in the scenario.
+    /// As written in the scenario.
     pub text: String,
     /// In the unit of its key.
     pub value: f64,
@@ -140,7 +140,7 @@ pub struct Answers {
     pub press: Press,
     /// From turning point to turning point.
     pub stroke: Quantity,
-    /// Cycles a second.
+    /// Cycles per second.
     pub frequency: Quantity,
     /// The coefficient of friction.
     pub friction: Quantity,
@@ -164,7 +164,7 @@ impl Answers {
         let mut text = String::new();
         let quoted = |text: &str| Value::String(text.to_owned()).to_string();
         let mut line = |key: &str, value: String, comment: &str| {
-            // A table opens on lines of its own.
+            // A table starts on a new line.
             let (table, key) = key
                 .rsplit_once('\n')
                 .map_or(("", key), |(table, key)| (table, key));

@@ -65,7 +65,7 @@ pub fn new(options: &New) -> Result<ExitCode> {
         false => options.open,
     };
     match opens {
-        // A name that begins with a dash is no option.
+        // A name that begins with a dash is not an option.
         true => explore::explore(&Arguments::parse_from(["mdr-tui", "--", &options.file]).explore),
         false => Ok(ExitCode::SUCCESS),
     }
@@ -105,7 +105,7 @@ impl Interview<'_> {
         )?;
         let half_space = self.body("--against", &options.against, "And the flat body?")?;
         let press = self.press()?;
-        // What is not asked yet has its default, so that a contact can be told of already.
+        // Questions not asked yet have their defaults, so that the contact can be described already.
         let mut answers = Answers {
             shape,
             radius,

@@ -30,7 +30,7 @@ use output::Output;
 /// The largest file that is read as a study, in bytes.
 const LARGEST_STUDY: u64 = 1 << 26;
 
-/// The variable in which Slurm tells a task of an array its index.
+/// The variable in which Slurm gives a task of an array its index.
 const SLURM_INDEX: &str = "SLURM_ARRAY_TASK_ID";
 
 /// Runs the command.

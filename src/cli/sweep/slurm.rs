@@ -1,7 +1,7 @@
 //! `sweep --slurm`: a job script that runs a study as an array of tasks.
 //!
 //! It relies on this:
-//! - `--signal=B:TERM@60` goes to the batch shell alone, which passes it on; the trap stands before
+//! - `--signal=B:TERM@60` goes to the batch shell alone, which passes it on; the trap is set before
 //!   the program starts. `scancel`, preemption and `scontrol requeue` send SIGTERM to all processes,
 //!   so that the program may get it twice.
 //! - Interrupted, the program keeps its rows and exits with 75; then the task asks to be queued again,

@@ -167,7 +167,7 @@ mod tests {
         );
     }
 
-    /// Small z: ρ is z², and the robust errors are those of least squares.
+    /// Small z: ρ is z², and the robust errors equal the errors of least squares.
     #[test]
     fn the_robust_variance_of_small_residuals_is_the_plain_one() {
         let z: Vec<f64> = (1..40).map(|i| 1e-3 * f64::from(i).sin()).collect();

@@ -134,7 +134,7 @@ impl Fit {
     /// last cycle of the histories); `robust` against outliers.
     ///
     /// # Errors
-    /// Keys that are no numbers or have no value to start from, fewer points than keys, data that lie
+    /// Keys that are not numbers or have no value to start from, fewer points than keys, data that lie
     /// outside of what is simulated.
     pub fn new(
         scenario: Scenario,
@@ -294,7 +294,7 @@ impl Fit {
     }
 
     /// ∂z/∂θ of each key at the minimum by central differences, by one-sided ones at the end of what can be
-    /// computed; none for a key that stands at the end of its range.
+    /// computed; none for a key at the end of its range.
     fn derivatives(
         &self,
         solved: &Solved,
@@ -488,7 +488,7 @@ fn start(scenario: &Scenario, key: &str) -> Result<Free, FitError> {
     Ok(Free::new(key, parameter.unit, value, positive, limits))
 }
 
-/// The errors of a data set: its own, or its size until a fit tells more.
+/// The errors of a data set: as given, or its size until a fit estimates them.
 fn first_errors(set: &Measured) -> Vec<f64> {
     let size = rms(&set.values).max(f64::MIN_POSITIVE);
     set.errors

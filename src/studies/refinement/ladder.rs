@@ -32,7 +32,7 @@ const EXPECTED_ORDER: f64 = 1.4;
 /// No error falls faster than with this order; what seems to is a coincidence of two runs.
 const HIGHEST_ORDER: f64 = 2.0;
 
-/// The estimate must be below this part of the accuracy: it is a measurement with an error of its own.
+/// The estimate must be below this part of the accuracy: it is itself a measurement with an error.
 const MARGIN: f64 = 0.8;
 
 /// The part of the accuracy that all sources may use up, shared out equally.
@@ -94,7 +94,7 @@ pub enum Verdict {
 pub enum Next {
     /// Run this level and report it: it may be the result.
     Run(Level),
-    /// Run this level and report it: a coarser twin, which only tells an error.
+    /// Run this level and report it: a coarser twin, which serves only to estimate an error.
     Twin(Level),
     /// The last rung that was run is the result.
     Done(Verdict),

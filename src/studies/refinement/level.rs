@@ -119,7 +119,7 @@ impl Level {
         keys
     }
 
-    /// The scenario computed so; its changes stay.
+    /// The scenario on this level; its changes stay.
     ///
     /// # Errors
     /// If the scenario's method or shape does not allow this many cells.

@@ -2,7 +2,7 @@
 //!
 //! # Formula
 //!
-//! What a run can be right to is the interpolation error of its own cells. The worn depth w is linear in t = r²
+//! A run cannot be more accurate than the interpolation on its cells. The worn depth w is linear in t = r²
 //! between nodes, so cells whose widths share the integral of a monitor equally,
 //!
 //! ```text

@@ -7,7 +7,7 @@ use crate::simulation::stability::{amplification, limit};
 /// Steps of one percent in which the boundary is looked for, from where the stiffest step has its limit.
 const REACH: i32 = 300;
 
-/// By what the stiffness z of every step of a cycle is to be multiplied for the product of their
+/// The factor on the stiffness z of every step of a cycle at which the product of their
 /// amplifications to exceed 1. None if that cannot be.
 pub(super) fn growing_from(scheme: Scheme, stiffness: &[f64]) -> Option<f64> {
     let stiffest = largest(stiffness);

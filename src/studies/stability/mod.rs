@@ -69,7 +69,7 @@ pub struct Study {
     unit: f64,
 }
 
-/// What the runs of one setting told.
+/// The results of the runs of one setting.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Line {
     /// How it was run.

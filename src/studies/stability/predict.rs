@@ -6,7 +6,7 @@
 //!
 //! **Steps.** Errors grow over a cycle in which the amplifications of its steps, by the
 //! [stiffness](crate::simulation::stability) z, multiply to more than 1. In an unworn contact that is so from some K
-//! on. As the contact wears, z rises: what no longer bears, slips all the way. A run at a small K, with the guard,
+//! on. As the contact wears, z rises: springs that carry no load slip all the way. A run at a small K, with the guard,
 //! goes through the same shapes as one at a large K, X = K × cycles being the same. So each of its cycles tells
 //! the K(X) from which errors grow over it, and the boundary of explicit Euler is the smallest of
 //! max{K(X), X/cycles}. A node counts where a sawtooth that [counts](super::VISIBLE), of amplitude A, would stay in
@@ -39,7 +39,7 @@ use crate::scenario::session::{Session, SessionError};
 use crate::simulation::stability::{gain, response, sawtooth_from};
 use crate::simulation::{Curves, Scheme, Simulation, Zone};
 
-/// The wear number at which an unworn contact is looked at: nothing has changed shape by then.
+/// The wear number at which the unworn contact is examined: small enough for its shape not to change.
 const MILD: f64 = 1e-3;
 
 /// The small K is that from which an unworn contact would fail, divided by this.
@@ -48,7 +48,7 @@ const SMALLER: f64 = 8.0;
 /// Nodes that wear less than this, relative to the largest wear of a step, are left out.
 const LEAST: f64 = 1e-3;
 
-/// What a cycle tells, at K = 1.
+/// What a cycle shows, scaled to K = 1.
 #[derive(Default)]
 struct Cycle {
     /// The largest z of each step.

@@ -32,7 +32,7 @@ pub struct Axis {
 /// millions takes no memory.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Values {
-    /// As they stand in the study.
+    /// As written in the study.
     Listed(Vec<Value>),
     /// This many from the first to the last of two ends.
     Spaced([f64; 2], usize),
@@ -62,8 +62,8 @@ impl Axis {
         }
     }
 
-    /// Where `wanted` may stand between the two ends of an axis that is not listed: a few places, or
-    /// more where the key takes whole numbers.
+    /// Places at which an axis given by its two ends may have the value `wanted`: a few, or more if
+    /// the key takes whole numbers.
     pub(super) fn places_near(&self, wanted: f64) -> Vec<usize> {
         let (ends, parts) = match &self.values {
             Values::Listed(_) => return Vec::new(),

@@ -58,7 +58,7 @@ impl Border {
         let steady = normal.oscillation().amplitude() == 0.0;
         let lowest = normal.oscillation().lowest();
         let (depth, force) = match normal {
-            // What a rig takes under a load that changes has no closed form.
+            // No closed form for the share of a rig under a varying load.
             _ if rig > 0.0 && !steady => return None,
             Control::Force(_) => (unworn.depth(lowest.max(0.0)), lowest.max(0.0)),
             Control::Displacement(_) => (lowest, unworn.force(lowest)),
@@ -81,7 +81,7 @@ impl Border {
         if at_low * at_high > 0.0 {
             return None;
         }
-        // A value for which there is no scenario is beyond the border.
+        // Values that make no valid scenario count as beyond the border.
         let sign = |value| distance(value).unwrap_or(at_high);
         root::bracketed(sign, low, high, 1e-9 * (high - low))
     }
@@ -152,7 +152,7 @@ mod tests {
                 assert!(distance.abs() < 1e-5 * depth, "{share}: {distance:e}");
             }
         }
-        // Under a load that changes, nothing is known.
+        // Under a varying load there is no closed form.
         let swinging = scenario(&[set("motion.tangential.rig_stiffness", 1e7)]);
         assert_eq!(Border::GrossSlip.distance(&swinging), None);
     }

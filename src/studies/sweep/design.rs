@@ -59,7 +59,7 @@ pub(super) fn sobol(axis: usize, samples: usize, seed: u32) -> impl Iterator<Ite
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Strata {
     samples: usize,
-    /// Each axis has a key of its own, so that adding one leaves the others as they are.
+    /// Each axis has its own key, so that adding one leaves the others unchanged.
     key: u64,
     order: Shuffle,
 }

@@ -33,7 +33,7 @@ impl<'a> Check<'a> {
         }
     }
 
-    /// Checks points on the threads of `pool` as long as `go_on`, which is told how many are checked,
+    /// Checks points on the threads of `pool` as long as `go_on`, which is given the number checked so far,
     /// says so. An invalid point is most often where an axis ends, so both ends of all come first.
     ///
     /// # Errors

@@ -16,7 +16,7 @@ pub const OK: &str = "ok";
 /// How the status of a point begins that makes no valid scenario.
 pub(super) const INVALID: &str = "invalid: ";
 
-/// What a point has come to: its fields after those of the axes, without the status.
+/// The result of a point: its fields after the axes' fields, without the status.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Row {
     /// The columns; all empty if the point failed before its start.

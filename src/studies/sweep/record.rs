@@ -29,7 +29,7 @@ use crate::scenario::printable;
 /// The longest line and the longest header that are read, in bytes.
 const LONGEST: u64 = 1 << 26;
 
-/// What the last digits of rows hang on: the arithmetic of each machine that has run some of them.
+/// The arithmetic of each machine that has run some of the rows: their last digits depend on it.
 pub type Arithmetic = BTreeSet<String>;
 
 /// Returns the lines above the rows: the header and the names of the columns.
@@ -49,7 +49,7 @@ pub fn head(study: &Study, shard: Shard, arithmetic: &Arithmetic) -> String {
 /// The header without arithmetic and shard: equal for equal studies on equal bases.
 fn lines(study: &Study) -> String {
     let mut text = format!("# mdr-tui: {}\n", env!("CARGO_PKG_VERSION"));
-    // Whatever a text holds, it stands on one line in TOML's own escapes.
+    // TOML's escapes keep any text on one line.
     let mut push = |key: &str, toml: &str| {
         for line in toml.lines().filter(|line| !line.trim().is_empty()) {
             let _ = writeln!(text, "# {key}: {line}");
@@ -144,7 +144,7 @@ impl Record {
     ///
     /// # Errors
     ///
-    /// Refuses what is no table of a study.
+    /// Refuses a file that is not the table of a study.
     pub fn open(source: impl Read + 'static, name: &str) -> Result<Self, StudyError> {
         let name = printable(name);
         let refuse = |why: &str| StudyError(format!("{name}: {why}"));
@@ -198,7 +198,7 @@ impl Record {
     ///
     /// # Errors
     ///
-    /// Refuses a header that was changed by hand to something that is no study.
+    /// Refuses a header that was edited and no longer holds a study.
     pub fn study(&self) -> Result<Study, StudyError> {
         let part = |key: &str| -> String {
             let prefix = format!("# {key}: ");
@@ -240,7 +240,7 @@ impl Record {
     ///
     /// # Errors
     ///
-    /// Refuses columns that are not those of the study.
+    /// Refuses columns that differ from the study's.
     pub fn rows(self, study: &Study) -> Result<Given, StudyError> {
         let refuse = |why: String| Err(StudyError(format!("{}: {why}", self.name)));
         let wanted = study.columns();
@@ -397,12 +397,12 @@ impl Rows {
     }
 }
 
-/// Whether a row is that of a point that is no valid scenario.
+/// Whether a row belongs to a point that makes no valid scenario.
 pub(super) fn is_invalid(row: &[String]) -> bool {
     row.last().is_some_and(|status| status.starts_with(INVALID))
 }
 
-/// Whether a row is that of a point that went well.
+/// Whether a row belongs to a point that succeeded.
 pub(super) fn is_ok(row: &[String]) -> bool {
     row.last().is_some_and(|status| status == OK)
 }

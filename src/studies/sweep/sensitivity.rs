@@ -11,8 +11,8 @@
 //! With standard deviations σ of the keys, which are taken as independent, the relative spread of y
 //! is √Σ(E σ/x)².
 //!
-//! The numerics are those of the scenario in the middle for all runs: an accuracy chooses by the
-//! values of the keys, and each other choice would be noise in the difference.
+//! All runs use the numerics chosen for the scenario in the middle: an accuracy chooses by the values
+//! of the keys, and a different choice would be noise in the difference.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -46,7 +46,7 @@ pub struct Varied {
     pub deviation: Option<f64>,
 }
 
-/// How a result hangs on a key.
+/// How a result depends on a key.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Elasticity {
     /// The key.
@@ -104,7 +104,7 @@ impl Sensitivity {
 ///
 /// # Errors
 ///
-/// Refuses a key that is no number greater than 0 in the scenario, and reports a run that failed.
+/// Refuses a key whose value in the scenario is not a number greater than 0, and reports a run that failed.
 pub fn run(
     study: &Study,
     keys: &[Varied],
@@ -249,7 +249,7 @@ mod tests {
         let results = PLACES.map(|place| 7.0 * (STEP * place).exp().powf(1.5));
         let [elasticity, error] = difference(&results).expect("an elasticity");
         assert!((elasticity - 1.5).abs() < 1e-10 && error < 1e-10);
-        // Noise shows as an error of its own size.
+        // Noise shows up as an error of the same size.
         let noisy = [results[0], results[1], results[2] * 1.001, results[3]];
         let [elasticity, error] = difference(&noisy).expect("an elasticity");
         assert!(error > 0.2 * (elasticity - 1.5).abs() && error > 0.01);

@@ -110,7 +110,7 @@ impl Slice {
     ///
     /// # Errors
     ///
-    /// In one line, a key that is no axis, a value that it does not have, and no axis left.
+    /// In one line, for a key that is not an axis, a value that the axis does not have, or no axis left to show.
     pub fn hold(&mut self, key: &str, value: &str) -> Result<(), String> {
         if self.study.design != Design::Grid {
             return Err("only a grid has axes to hold".into());

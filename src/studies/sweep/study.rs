@@ -39,7 +39,7 @@ impl Stop {
 /// One scenario for many values of some of its keys.
 #[derive(Debug, Clone)]
 pub struct Study {
-    /// What stands in `title`, if anything does.
+    /// The `title`, if there is one.
     pub title: Option<String>,
     /// The base as the study names it: a preset, or a path relative to the study.
     pub base_name: String,
@@ -53,7 +53,7 @@ pub struct Study {
     pub design: Design,
     /// Number of samples and seed of a sampled design.
     pub samples: Option<(usize, u32)>,
-    /// The columns after those of the axes.
+    /// The columns after the axes' columns.
     pub columns: Vec<&'static Scalar>,
     /// When a point ends.
     pub stop: Stop,
@@ -152,7 +152,7 @@ impl Study {
         self.build(std::iter::empty())
     }
 
-    /// The keys whose sensitivities are asked for: those of `[sensitivity]`, or those of the axes.
+    /// The keys whose sensitivities are asked for: those in `[sensitivity]`, or the axes' keys.
     pub fn varied(&self) -> Vec<Varied> {
         if !self.sensitivity.is_empty() {
             return self.sensitivity.clone();
@@ -194,7 +194,7 @@ impl Study {
     ///
     /// # Errors
     ///
-    /// Refuses what is no assignment, an unknown key, and a key of an axis.
+    /// Refuses a text that is not an assignment, an unknown key, and the key of an axis.
     pub fn assign(&mut self, set: &str) -> Result<(), StudyError> {
         let refuse = |why: String| StudyError(format!("--set {}: {why}", printable(set)));
         let halves = set
@@ -279,7 +279,7 @@ pub(super) fn is_force(key: &str, set: &[(String, Value)], base: &Scenario) -> b
 /// The most values that an axis of two ends and a number lists in a table's header.
 const MOST_LISTED: usize = 1000;
 
-/// An axis as it stands in a study: its values listed, or its ends where there are many between.
+/// An axis as written in a study: its values listed, or its ends if there are many.
 fn written(axis: &Axis) -> String {
     let list = |values: Vec<Value>| toml_value(&Value::Array(values));
     let mut text = format!("key = {}\n", toml_value(&axis.key.clone().into()));

@@ -47,7 +47,7 @@ pub fn cheapest(trials: &[Trial], accuracy: f64) -> Option<Timed<'_>> {
     front.find(|(_, [_, error])| *error <= accuracy)
 }
 
-/// A row a trial: those of `shown`, marked where they stand on the front of all.
+/// One row per trial of `shown`, with a mark if it is on the front of all.
 pub fn table<'a>(shown: impl IntoIterator<Item = &'a Trial>, all: &[Trial]) -> Table {
     let mut table = Table::new(vec![
         Column::new("method", Format::Words),

@@ -9,13 +9,13 @@ use crate::simulation::{Integrator, Scheme};
 /// Numbers of cells that are tried.
 pub const POINTS: [usize; 3] = [25, 50, 100];
 
-/// Steps a cycle that are tried.
+/// Steps per cycle that are tried.
 pub const STEPS: [u32; 3] = [12, 25, 50];
 
 /// Tolerances of jumps that are tried.
 const TOLERANCES: [f64; 5] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5];
 
-/// Steps a cycle under jumps by another method than the best.
+/// Steps per cycle under jumps by any but the best method.
 const STEPS_UNDER_JUMPS: u32 = 50;
 
 /// A method, its scheme, and how fine.
@@ -27,7 +27,7 @@ pub struct Setting {
     pub scheme: Scheme,
     /// N.
     pub points: usize,
-    /// Steps a cycle.
+    /// Steps per cycle.
     pub steps: u32,
     /// The tolerance of jumps over cycles; none: every cycle is stepped.
     pub tolerance: Option<f64>,
@@ -85,7 +85,7 @@ impl Setting {
         }
     }
 
-    /// How much there is to compute in a run of `cycles`, to tell the progress by: kernel values.
+    /// An estimate of the work of a run of `cycles`, in kernel values, for the progress bar.
     pub fn effort(&self, cycles: f64) -> u64 {
         let cycles = match self.tolerance {
             // What a jump looks at hardly depends on how far it goes.

@@ -29,7 +29,7 @@ impl Errors {
         Self::collect(samples, |_| unit)
     }
 
-    /// The relative error of a single number that stands for the radius `r`/a.
+    /// The relative error of a single number, shown at the radius `r`/a.
     pub fn single(r: f64, result: f64, theory: f64) -> Self {
         Self::relative(std::iter::once((r, result, theory)))
     }

@@ -37,7 +37,7 @@ pub struct Scene {
     pub scheme: Scheme,
 }
 
-/// Steps a cycle.
+/// Steps per cycle.
 const STEPS: u32 = 40;
 
 impl Scene {

@@ -12,6 +12,7 @@ use super::args::{CycleAsGiven, HistoryChoice, Run};
 use crate::export::file::rows_in;
 use crate::export::history::History;
 use crate::export::last_loop::LastLoop;
+use crate::scenario::scalars::Value;
 use crate::scenario::session::Session;
 use crate::scenario::{MOST_SNAPSHOTS, Scenario};
 
@@ -178,6 +179,11 @@ impl RunJob {
         {
             self.history.record(session);
         }
+    }
+
+    /// The columns of the history at the present moment.
+    pub fn values(&self, session: &Session) -> Vec<(&str, Value)> {
+        self.history.values(session)
     }
 
     /// Appends the rows to the file at `path` once there are enough of them.

@@ -19,7 +19,7 @@ use super::{FAILED, Misuse, accuracy, complain, provenance, stop};
 use crate::export::autosave::COPY_INTERVAL;
 use crate::export::file::{RUN_CHECKPOINT, RunDirectory, WriteError, write_whole};
 use crate::export::header::{self, number};
-use crate::export::{field, history, state};
+use crate::export::{field, state};
 use crate::scenario::checkpoint;
 use crate::scenario::session::Session;
 use crate::scenario::{Scenario, printable};
@@ -470,7 +470,7 @@ impl Job {
             };
             summary.insert(key, value);
         }
-        for (name, value) in history::values(&self.session) {
+        for (name, value) in self.job.values(&self.session) {
             summary.insert(name.into(), value.into());
         }
         let directory = self.directory.path().display().to_string();

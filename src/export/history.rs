@@ -92,22 +92,31 @@ impl History {
         })
     }
 
-    /// The names of all columns, as the head of the table.
-    fn head(&self) -> String {
-        let further = self.further.iter().map(String::as_str);
+    /// The names of all columns.
+    fn names(&self) -> impl Iterator<Item = &str> {
         COLUMNS
             .into_iter()
-            .chain(further)
-            .collect::<Vec<_>>()
-            .join(",")
+            .chain(self.further.iter().map(String::as_str))
+    }
+
+    /// The line of their names.
+    fn head(&self) -> String {
+        self.names().collect::<Vec<_>>().join(",")
+    }
+
+    /// The columns of the present moment of `session` with their values.
+    pub fn values(&self, session: &Session) -> Vec<(&str, Value)> {
+        let reading = Reading::new(session);
+        let value = |name| scalars::find(name).map(|scalar| scalar.read(&reading));
+        self.names()
+            .map(|name| (name, value(name).unwrap_or(Value::Missing)))
+            .collect()
     }
 
     fn row(&self, session: &Session) -> String {
-        let reading = Reading::new(session);
-        let further = self.further.iter().map(String::as_str);
-        let fields = COLUMNS.into_iter().chain(further);
-        let fields = fields.map(|name| read(name, &reading).field());
-        fields.collect::<Vec<_>>().join(",")
+        let values = self.values(session).into_iter();
+        let fields: Vec<String> = values.map(|(_, value)| value.field()).collect();
+        fields.join(",")
     }
 
     /// Whether nothing is recorded yet.
@@ -228,16 +237,6 @@ impl History {
         out.write_all(self.rows.as_bytes())?;
         out.write_all(self.last_row(session).as_bytes())
     }
-}
-
-fn read(name: &str, reading: &Reading) -> Value {
-    scalars::find(name).map_or(Value::Missing, |scalar| scalar.read(reading))
-}
-
-/// The columns of the present moment with their values.
-pub fn values(session: &Session) -> [(&'static str, Value); COLUMNS.len()] {
-    let reading = Reading::new(session);
-    COLUMNS.map(|name| (name, read(name, &reading)))
 }
 
 #[cfg(test)]

@@ -327,7 +327,7 @@ fn a_connection_that_is_cut_keeps_the_session() {
     let path = loop {
         match kept(&home).filter(|path| fs::metadata(path).is_ok_and(|about| about.len() > 0)) {
             Some(path) => break path,
-            None => assert!(start.elapsed() < crate::pty::PATIENCE, "no checkpoint"),
+            None => assert!(start.elapsed() < crate::pty::TIMEOUT, "no checkpoint"),
         }
         thread::sleep(Duration::from_millis(10));
     };

@@ -11,9 +11,10 @@ mod random;
 mod random_scenarios;
 mod test_dir;
 
+mod accuracy_claims;
+mod accuracy_targets;
 mod allocations;
 mod ansi_backend;
-mod attacks;
 mod changes;
 mod checkpoint;
 mod cli;
@@ -29,16 +30,13 @@ mod ghosts;
 mod growth;
 mod guide;
 mod half_space;
-mod hands;
 #[cfg(target_os = "linux")]
 mod hangup;
-mod honest;
 mod hostile;
 mod key_fuzz;
+mod keyboard;
 #[cfg(target_os = "linux")]
 mod limits;
-#[cfg(target_os = "linux")]
-mod lines;
 mod measured_shapes;
 #[cfg(unix)]
 mod mouse;
@@ -52,6 +50,7 @@ mod published_methods;
 mod readme;
 mod real_scars;
 mod refinement;
+mod regressions;
 #[cfg(unix)]
 mod resume;
 mod rigs;
@@ -59,11 +58,12 @@ mod scenarios;
 mod screens;
 #[cfg(unix)]
 mod signals;
+#[cfg(target_os = "linux")]
+mod slow_terminal;
 #[cfg(unix)]
 mod small_disk;
 mod stability;
 mod sweep;
-mod targets;
 #[cfg(unix)]
 mod terminal;
 mod trade;

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use vt100::{Color, MouseProtocolEncoding, MouseProtocolMode};
 
-use crate::pty::{PATIENCE, Terminal, program};
+use crate::pty::{TIMEOUT, Terminal, program};
 
 const ON: &str = "\x1b[?1000h\x1b[?1006h";
 const OFF: &str = "\x1b[?1006l\x1b[?1000l";
@@ -49,7 +49,7 @@ fn panels(terminal: &Terminal) -> Vec<&'static str> {
 /// Waits until the screen shows these panels and no others.
 fn await_panels(terminal: &Terminal, expected: &[&str]) {
     let start = Instant::now();
-    while panels(terminal) != expected && start.elapsed() < PATIENCE {}
+    while panels(terminal) != expected && start.elapsed() < TIMEOUT {}
     assert_eq!(panels(terminal), expected);
 }
 
@@ -60,7 +60,7 @@ fn radius(terminal: &Terminal) -> f64 {
         terminal.wait_for_silence();
         let text = terminal.text();
         let foot = text.lines().last().unwrap_or_default().to_owned();
-        if foot.trim_start().starts_with("r ") || start.elapsed() > PATIENCE {
+        if foot.trim_start().starts_with("r ") || start.elapsed() > TIMEOUT {
             break foot;
         }
     };
@@ -220,7 +220,7 @@ fn shown_when(terminal: &Terminal, is_there: impl Fn(&Shown) -> bool) -> Shown {
     let start = Instant::now();
     loop {
         let now = shown(terminal);
-        if is_there(&now) || start.elapsed() > PATIENCE {
+        if is_there(&now) || start.elapsed() > TIMEOUT {
             return now;
         }
     }

@@ -166,7 +166,7 @@ fn a_history_of_many_rows_takes_neither_memory_nor_checkpoints() {
         while let Ok(None) = child.try_wait() {
             let length = fs::metadata(&checkpoint).map_or(0, |about| about.len());
             largest = largest.max(length);
-            peak = peak.max(crate::attacks::memory_of(&child));
+            peak = peak.max(crate::regressions::memory_of(&child));
             thread::sleep(Duration::from_millis(2));
         }
         assert!(child.wait().expect("an end").success());

@@ -235,7 +235,7 @@ fn what_is_no_terminal_is_refused_with_a_way_out() {
         .expect("the program starts");
     let start = Instant::now();
     while let Ok(None) = child.try_wait() {
-        if start.elapsed() > crate::pty::PATIENCE {
+        if start.elapsed() > crate::pty::TIMEOUT {
             let _ = child.kill();
             panic!("without a terminal it does not end");
         }

@@ -14,7 +14,7 @@ use portable_pty::{
 use vt100::{Parser, Screen};
 
 /// Longer than anything takes on a busy machine.
-pub const PATIENCE: Duration = Duration::from_secs(20);
+pub const TIMEOUT: Duration = Duration::from_secs(20);
 
 /// What has come out of the program.
 struct Output {
@@ -248,7 +248,7 @@ impl Terminal {
     fn assert_patience(&self, start: Instant, failure: &str) {
         let waited = start.elapsed();
         assert!(
-            waited < PATIENCE,
+            waited < TIMEOUT,
             "{failure} after {waited:.0?}; the screen:\n{}",
             self.text()
         );
@@ -285,7 +285,7 @@ impl Drop for Terminal {
         // A test that failed leaves no program behind.
         let start = Instant::now();
         while let Ok(None) = self.child.try_wait()
-            && start.elapsed() < PATIENCE
+            && start.elapsed() < TIMEOUT
         {
             let _ = self.child.kill();
             thread::sleep(Duration::from_millis(10));

@@ -1,6 +1,6 @@
-//! Lines that are slow or stop: keys are answered first, and every end comes within a second.
+//! Slow or stalled terminals: keys are answered first, and every end comes within a second.
 //!
-//! The line is a pseudo-terminal that is read at so many bytes a second. It holds some 16 kB that
+//! The line is a pseudo-terminal that is read at a limited rate. It holds some 16 kB that
 //! nobody has read yet, so that a program which sends what it has is soon half a minute behind.
 
 use std::path::{Path, PathBuf};
@@ -109,7 +109,7 @@ fn stalled(home: &Path, arguments: &[&str], fault: &str) -> Terminal {
     let terminal = Terminal::start_on(line, command, 400, 150);
     let start = Instant::now();
     while kept(home).is_empty() {
-        assert!(start.elapsed() < crate::pty::PATIENCE, "no checkpoint");
+        assert!(start.elapsed() < crate::pty::TIMEOUT, "no checkpoint");
         thread::sleep(Duration::from_millis(10));
     }
     thread::sleep(Duration::from_millis(100));
@@ -230,7 +230,7 @@ fn a_run_on_a_terminal_that_stops_reading_answers_signals() {
     let mut terminal = Terminal::start_on(line, command, 80, 24);
     let (checkpoint, start) = (home.path().join("x/run.checkpoint"), Instant::now());
     while !checkpoint.exists() {
-        assert!(start.elapsed() < crate::pty::PATIENCE, "no checkpoint");
+        assert!(start.elapsed() < crate::pty::TIMEOUT, "no checkpoint");
         thread::sleep(Duration::from_millis(10));
     }
     thread::sleep(Duration::from_millis(300));

@@ -1,5 +1,5 @@
-//! What an hour of attacks found, each held by a test: keys in any order, too many of anything, and
-//! runs that are replayed from what they wrote down.
+//! Defects that were found once stay away: keys in any order, too many of anything, and runs that are
+//! replayed from what they wrote.
 
 use std::fmt::Write;
 use std::process::{Child, Stdio};

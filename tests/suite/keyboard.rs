@@ -1,4 +1,4 @@
-//! What hands do in the explorer: reading values, typing commands, editing parameters, going back
+//! The keyboard in the explorer: reading values, typing commands, editing parameters, going back
 //! in time. Keys are played by `--keys`, and the screen comes from `--print`.
 
 use insta::assert_snapshot;

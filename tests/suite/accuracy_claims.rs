@@ -1,4 +1,4 @@
-//! What the program says is right, or it says that it is not: scenes that were once wrong without a word.
+//! Results are right, or the program says that they are not: scenes that were once wrong without a warning.
 
 use std::f64::consts::{FRAC_PI_4, PI};
 

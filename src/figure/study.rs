@@ -222,19 +222,24 @@ fn map(slice: &Slice, column: &str) -> Chart {
         let name = "running condition changes";
         chart.curves.push(Curve::new(name, xs, ys, Role::Border(2)));
     }
-    for (k, (name, points)) in slice.border_points().into_iter().enumerate() {
-        let (xs, ys): (Vec<f64>, Vec<f64>) = points.into_iter().map(|[x, y]| (x, y)).unzip();
-        chart.curves.push(Curve::new(name, xs, ys, Role::Border(k)));
-    }
-    for (k, line) in slice.criteria().into_iter().enumerate() {
-        let at = line.at.iter().filter_map(|&(x, y)| {
-            let y = slice.y()?.value_at(y)?;
-            Some((slice.x().value_at(x as f64)?, y))
-        });
-        let (xs, ys): (Vec<f64>, Vec<f64>) = at.unzip();
+    let borders = slice.borders().into_iter().enumerate();
+    let criteria = slice.criteria().into_iter().enumerate();
+    for (k, line) in borders.chain(criteria.map(|(k, line)| (3 + k, line))) {
+        let value = |[x, y]: [f64; 2]| Some((slice.x().value_at(x)?, slice.y()?.value_at(y)?));
+        let mut points = Vec::new();
+        let mut last = None;
+        for [from, to] in line.pieces() {
+            if last != Some(from) {
+                points.extend(last.map(|_| (f64::NAN, f64::NAN)));
+                points.extend(value(from));
+            }
+            points.extend(value(to));
+            last = Some(to);
+        }
+        let (xs, ys): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();
         chart
             .curves
-            .push(Curve::new(line.name, xs, ys, Role::Border(3 + k)));
+            .push(Curve::new(line.name, xs, ys, Role::Border(k)));
     }
     chart
 }

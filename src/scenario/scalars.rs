@@ -350,34 +350,38 @@ pub const SCALARS: &[Scalar] = &[
         "estimated error of F_x, relative to its amplitude",
         |r| r.stated("estimated_error_force"),
     ),
-    scalar(
-        "swt_Pa",
-        "largest Smith-Watson-Topper stress amplitude of a steady cycle",
-        |r| r.swt(|peak| peak.value).into(),
-    ),
-    scalar("swt_x_m", "its place along the motion", |r| {
-        r.swt(|peak| peak.x).into()
+    scalar("swt_Pa", "largest Smith-Watson-Topper stress", |r| {
+        r.swt(|peak| peak.value).into()
     }),
-    scalar("swt_z_m", "its depth", |r| r.swt(|peak| peak.z).into()),
-    scalar("swt_ratio", "swt_Pa over material.fatigue_limit", |r| {
+    scalar(
+        "swt_x_m",
+        "place of the largest SWT along the motion",
+        |r| r.swt(|peak| peak.x).into(),
+    ),
+    scalar("swt_z_m", "depth of the largest SWT", |r| {
+        r.swt(|peak| peak.z).into()
+    }),
+    scalar("swt_ratio", "SWT over the fatigue limit", |r| {
         let limit = r.session.scenario().fatigue_limit();
         let ratio = limit.and_then(|limit| Some(r.swt(|peak| peak.value)? / limit));
         ratio.into()
     }),
+    scalar("crossland_Pa", "largest Crossland stress", |r| {
+        r.crossland(|peak| peak.value).into()
+    }),
     scalar(
-        "crossland_Pa",
-        "largest Crossland stress of a steady cycle; needs both fatigue limits",
-        |r| r.crossland(|peak| peak.value).into(),
+        "crossland_x_m",
+        "place of the largest Crossland stress along the motion",
+        |r| r.crossland(|peak| peak.x).into(),
     ),
-    scalar("crossland_x_m", "its place along the motion", |r| {
-        r.crossland(|peak| peak.x).into()
-    }),
-    scalar("crossland_z_m", "its depth", |r| {
-        r.crossland(|peak| peak.z).into()
-    }),
+    scalar(
+        "crossland_z_m",
+        "depth of the largest Crossland stress",
+        |r| r.crossland(|peak| peak.z).into(),
+    ),
     scalar(
         "crossland_ratio",
-        "crossland_Pa over material.shear_fatigue_limit",
+        "Crossland over the shear fatigue limit",
         |r| {
             let limits = r.limits();
             let ratio = limits.and_then(|both| Some(r.crossland(|peak| peak.value)? / both.shear));

@@ -43,8 +43,25 @@ pub struct Line {
     pub letter: char,
     /// What it is.
     pub name: String,
-    /// Places on the x axis and on the y axis.
-    pub at: Vec<(usize, f64)>,
+    /// Places on the x axis and on the y axis, where it crosses columns and rows of the map, from left to right.
+    pub at: Vec<[f64; 2]>,
+}
+
+impl Line {
+    fn new(letter: char, name: impl Into<String>, mut at: Vec<[f64; 2]>) -> Option<Self> {
+        at.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+        (at.len() > 1).then(|| Self {
+            letter,
+            name: name.into(),
+            at,
+        })
+    }
+
+    /// Its pieces from crossing to crossing; it ends where a column is not crossed.
+    pub fn pieces(&self) -> impl Iterator<Item = [[f64; 2]; 2]> {
+        let pairs = self.at.windows(2).map(|pair| [pair[0], pair[1]]);
+        pairs.filter(|[from, to]| to[0] - from[0] <= 1.0)
+    }
 }
 
 /// A study with its rows, and the axes that are shown.
@@ -217,82 +234,52 @@ impl Slice {
         REGIMES.iter().position(|known| known.0 == word)
     }
 
-    /// The criteria of the field, where the study has their columns.
+    /// The criteria of the field, where the study has their columns: between neighbouring points of the map.
     pub fn criteria(&self) -> Vec<Line> {
-        let lines = CRITERIA.into_iter().map(|(column, value, letter, name)| {
-            let places = 0..self.x().count();
-            Line {
-                letter,
-                name: name.to_owned(),
-                at: places
-                    .flat_map(|x| self.crossings(x, column, value).map(move |y| (x, y)))
-                    .collect(),
-            }
-        });
-        lines.filter(|line| !line.at.is_empty()).collect()
+        let [wide, high] = self.size();
+        let line = |(column, value, letter, name): (&str, f64, char, &str)| {
+            let off = |x: usize, y: usize| {
+                let inside = x < wide && y < high;
+                let number = inside.then(|| self.number(self.point_at(x, y), column));
+                Some(number?? - value)
+            };
+            let share = |here: f64, there: f64| (here * there < 0.0).then(|| here / (here - there));
+            let points = (0..wide).flat_map(|x| (0..high).map(move |y| (x, y)));
+            let crossed = points.flat_map(|(x, y)| {
+                let part = |there: Option<f64>| share(off(x, y)?, there?);
+                let [column, row] = [x as f64, y as f64];
+                let up = part(off(x, y + 1)).map(|part| [column, row + part]);
+                let right = part(off(x + 1, y)).map(|part| [column + part, row]);
+                [up, right].into_iter().flatten()
+            });
+            Line::new(letter, name, crossed.collect())
+        };
+        CRITERIA.into_iter().filter_map(line).collect()
     }
 
-    /// The borders in closed form between the values of the y axis.
+    /// The borders in closed form.
     pub fn borders(&self) -> Vec<Line> {
         let Some(y) = self.y else {
             return Vec::new();
         };
-        let axis = &self.study.axes[y];
-        let lines = Border::ALL.into_iter().map(|border| Line {
-            letter: match border {
+        let [wide, high] = self.size();
+        let line = |border: Border| {
+            // Along one axis, the other one at a place.
+            let crossed = |along: usize, other: usize, place: usize| {
+                let mut places = self.at.clone();
+                places[other] = place;
+                let value = border.crossing(&self.study, &places, along)?;
+                self.study.axes[along].place_of(value)
+            };
+            let columns = (0..wide).filter_map(|at| Some([at as f64, crossed(y, self.x, at)?]));
+            let rows = (0..high).filter_map(|at| Some([crossed(self.x, y, at)?, at as f64]));
+            let letter = match border {
                 Border::GrossSlip => 'G',
                 Border::LiftOff => 'L',
-            },
-            name: format!("{}, closed form, unworn", border.name()),
-            at: (0..self.x().count())
-                .filter_map(|place| {
-                    let mut places = self.at.clone();
-                    places[self.x] = place;
-                    let value = border.crossing(&self.study, &places, y)?;
-                    Some((place, axis.place_of(value)?))
-                })
-                .collect(),
-        });
-        lines.filter(|line| !line.at.is_empty()).collect()
-    }
-
-    /// Points of the borders in closed form, as values of both axes with the border's name: where it crosses the
-    /// columns of the map, and where it crosses its rows.
-    pub fn border_points(&self) -> Vec<(String, Vec<[f64; 2]>)> {
-        let Some(y) = self.y else {
-            return Vec::new();
+            };
+            let name = format!("{}, closed form, unworn", border.name());
+            Line::new(letter, name, columns.chain(rows).collect())
         };
-        let [wide, high] = self.size();
-        let at = |axis: usize, place: usize| {
-            let mut places = self.at.clone();
-            places[axis] = place;
-            Some((places, self.study.axes[axis].number(place)?))
-        };
-        let of = |border: Border| {
-            let columns = (0..wide).filter_map(|place| {
-                let (places, value) = at(self.x, place)?;
-                Some([value, border.crossing(&self.study, &places, y)?])
-            });
-            let rows = (0..high).filter_map(|place| {
-                let (places, value) = at(y, place)?;
-                Some([border.crossing(&self.study, &places, self.x)?, value])
-            });
-            let mut points: Vec<[f64; 2]> = columns.chain(rows).collect();
-            points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-            (format!("{}, closed form, unworn", border.name()), points)
-        };
-        let borders = Border::ALL.into_iter().map(of);
-        borders.filter(|(_, points)| points.len() > 1).collect()
-    }
-
-    /// Where `column` passes through `value` above place `x`, between neighbouring points.
-    fn crossings(&self, x: usize, column: &str, value: f64) -> impl Iterator<Item = f64> {
-        let numbers: Vec<Option<f64>> = (0..self.size()[1])
-            .map(|y| self.number(self.point_at(x, y), column))
-            .collect();
-        (1..numbers.len()).filter_map(move |y| {
-            let (below, above) = (numbers[y - 1]? - value, numbers[y]? - value);
-            (below * above < 0.0).then(|| (y - 1) as f64 + below / (below - above))
-        })
+        Border::ALL.into_iter().filter_map(line).collect()
     }
 }

@@ -278,23 +278,21 @@ fn map(
     }
     let dot = if theme.ascii() { '*' } else { '•' };
     for overlay in overlays {
-        // A line from column to column, and its letter at the end.
-        for pair in overlay.at.windows(2) {
-            let [(x0, y0), (x1, y1)] = [pair[0], pair[1]];
-            let (first, last) = (wide.middle(x0 as f64), wide.middle(x1 as f64));
-            if x1 != x0 + 1 || last < first {
-                continue;
-            }
-            for column in first..=last {
-                let share = (column - first) as f64 / (last - first).max(1) as f64;
-                sign(at(column, high.middle(y0 + (y1 - y0) * share) / parts), dot);
+        // A line from crossing to crossing, and its letter at the end.
+        let cell = |[x, y]: [f64; 2]| [wide.middle(x), high.middle(y) / parts];
+        for [from, to] in overlay.pieces() {
+            let (a, b) = (cell(from), cell(to));
+            let steps = a[0].abs_diff(b[0]).max(a[1].abs_diff(b[1])).max(1);
+            for k in 0..=steps {
+                let share = k as f64 / steps as f64;
+                let between = |i: usize| from[i] + (to[i] - from[i]) * share;
+                let [column, row] = cell([between(0), between(1)]);
+                sign(at(column, row), dot);
             }
         }
-        if let Some(&(x, y)) = overlay.at.last() {
-            sign(
-                at(wide.middle(x as f64), high.middle(y) / parts),
-                overlay.letter,
-            );
+        if let Some(&end) = overlay.at.last() {
+            let [column, row] = cell(end);
+            sign(at(column, row), overlay.letter);
         }
     }
     if let Some((x, y)) = view.here() {

@@ -32,6 +32,8 @@ pub enum Panel {
     VonMises,
     /// The largest principal stress inside the half-space.
     Principal,
+    /// The Smith–Watson–Topper parameter inside the half-space over a cycle.
+    Swt,
 }
 
 /// Why the chart cannot be made.
@@ -50,7 +52,7 @@ const SHORTEST_LOOP: usize = 9;
 
 impl Panel {
     /// All of them.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Profile,
         Self::Profile1d,
         Self::Stresses,
@@ -61,6 +63,7 @@ impl Panel {
         Self::ScarDepth,
         Self::VonMises,
         Self::Principal,
+        Self::Swt,
     ];
 
     /// The name on the command line.
@@ -76,12 +79,13 @@ impl Panel {
             Self::ScarDepth => "scar-depth",
             Self::VonMises => "von-mises",
             Self::Principal => "principal",
+            Self::Swt => "swt",
         }
     }
 
     /// Whether it needs the stresses inside the half-space.
     pub fn needs_field(self) -> bool {
-        matches!(self, Self::VonMises | Self::Principal)
+        matches!(self, Self::VonMises | Self::Principal | Self::Swt)
     }
 
     /// The chart.
@@ -107,7 +111,7 @@ impl Panel {
             Self::Radii => &[Axes::Contact, Axes::Stick],
             Self::Volume => &[Axes::Volume],
             Self::ScarDepth => &[Axes::Depth],
-            Self::VonMises | Self::Principal => &[],
+            Self::VonMises | Self::Principal | Self::Swt => &[],
         }
     }
 
@@ -193,7 +197,7 @@ impl Panel {
             Self::Radii => radii(data).ok_or_else(|| missing("there is no history.csv")),
             Self::Volume => volume(data).ok_or_else(|| missing("there is no history.csv")),
             Self::ScarDepth => scar_depth(data).ok_or_else(|| missing("there is no state.csv")),
-            Self::VonMises | Self::Principal => field(self, data)
+            Self::VonMises | Self::Principal | Self::Swt => field(self, data)
                 .ok_or_else(|| missing("there is no field.csv; run --field writes it")),
         }
     }
@@ -430,6 +434,12 @@ fn field(panel: Panel, data: &Data) -> Option<Chart> {
             "σ max",
             "max_principal_Pa",
             ColorMap::Diverging,
+        ),
+        Panel::Swt => (
+            "Smith-Watson-Topper stress of a cycle",
+            "SWT",
+            "swt_Pa",
+            ColorMap::Sequential,
         ),
         _ => (
             "von Mises stress",

@@ -8,6 +8,8 @@ use mdr_tui::contact::subsurface::Stress;
 use mdr_tui::oracle::half_space::by_point_forces;
 use mdr_tui::reading::fatigue::{Fatigue, Limits, StressCycle};
 use mdr_tui::simulation::Curves;
+use mdr_tui::studies::sweep::record::Record;
+use mdr_tui::studies::sweep::slice::Slice;
 
 /// p₀ of the default scene: E* = R = d = 1 and a = 1.
 const P0: f64 = 2.0 / PI;
@@ -215,6 +217,19 @@ fn runs_and_studies_tell_the_parameters_where_they_are_asked() {
             "run", "mindlin", "--cycles", "2", "--column", column, "--out", "run", "--quiet",
         ])
     };
+    let said = dir.say(&[
+        "run", "mindlin", "--cycles", "1", "--field", "--out", "cracks", "--quiet",
+    ]);
+    assert_eq!(said.code, 0, "{}", said.err);
+    let field = Table::parse(&dir.read("cracks/field.csv"));
+    let swt = field.column("swt_Pa");
+    let deepest = swt
+        .iter()
+        .zip(field.column("z_m"))
+        .max_by(|a, b| a.0.total_cmp(b.0));
+    assert!(deepest.is_some_and(|(swt, z)| *swt > 0.0 && z == 0.0));
+    let said = dir.say(&["figure", "cracks", "--panel", "swt", "-o", "swt.svg"]);
+    assert_eq!(said.code, 0, "{}", said.err);
     let said = run("swt_Pa,swt_ratio");
     assert_eq!(said.code, 0, "{}", said.err);
     let history = Table::parse(&dir.read("run/history.csv"));
@@ -240,4 +255,30 @@ fn runs_and_studies_tell_the_parameters_where_they_are_asked() {
         let said = run(column);
         assert_eq!((said.code, said.err.as_str()), (2, why));
     }
+}
+
+/// SWT hardly depends on the depth in partial slip, so its line is steep: it crosses rows, and few columns.
+#[test]
+fn the_fatigue_limit_is_a_line_on_the_map() {
+    let dir = TestDir::new();
+    let study = "base = 'mindlin'\ncolumns = ['swt_ratio']\n[set]\n'run.cycles' = 1\n\
+         'friction.coefficient' = 0.7\nmaterial.fatigue_limit = '800 MPa'\n\
+         [[axis]]\nkey = 'motion.normal.mean'\nlinspace = ['0.5 um', '1 um', 4]\n\
+         [[axis]]\nkey = 'motion.tangential.amplitude'\nlogspace = ['0.05 um', '0.3 um', 4]\n";
+    dir.write("study.toml", study.as_bytes());
+    let said = dir.say(&["sweep", "study.toml", "--out", "map.csv", "--quiet"]);
+    assert_eq!(said.code, 0, "{}", said.err);
+    let file = std::fs::File::open(dir.path("map.csv")).expect("the table");
+    let record = Record::open(file, "map.csv").expect("a table");
+    let study = record.study().expect("a study");
+    let mut slice = Slice::new(study, "map.csv").expect("two axes");
+    slice.renew(record, "map.csv").expect("its rows");
+    let lines = slice.criteria();
+    let [line] = &lines[..] else {
+        panic!("{lines:?}")
+    };
+    // Every row is crossed once, and the pieces join them all.
+    let rows = line.at.iter().filter(|[_, y]| y.fract() == 0.0);
+    assert_eq!(rows.count(), 4, "{line:?}");
+    assert_eq!(line.pieces().count(), line.at.len() - 1, "{line:?}");
 }

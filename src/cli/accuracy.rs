@@ -20,16 +20,31 @@ pub(super) fn resolve(
     quiet: bool,
     stop: &AtomicBool,
 ) -> std::result::Result<Resolved, RefinementError> {
-    let spinner = progress::spinner(
-        "looking for points and steps that meet numerics.accuracy",
-        quiet || scenario.accuracy().is_none(),
-    );
     let go_on = || !stop.load(Ordering::Relaxed);
-    let resolved = refinement::resolve(scenario, cycles, budget, &go_on);
+    searching(quiet || scenario.accuracy().is_none(), || {
+        refinement::resolve(scenario, cycles, budget, &go_on)
+    })
+}
+
+/// The same for a screen, which does not wait for long.
+///
+/// # Errors
+/// If no level can be run.
+pub(super) fn resolve_soon(scenario: &Scenario) -> std::result::Result<Resolved, RefinementError> {
+    searching(scenario.accuracy().is_none(), || {
+        refinement::resolve_soon(scenario)
+    })
+}
+
+/// Shows a spinner on stderr while `search` runs.
+fn searching<T>(is_hidden: bool, search: impl FnOnce() -> T) -> T {
+    let message = "looking for points and steps that meet numerics.accuracy";
+    let spinner = progress::spinner(message, is_hidden);
+    let found = search();
     // What ticks would draw it once more.
     spinner.disable_steady_tick();
     spinner.finish_and_clear();
-    resolved
+    found
 }
 
 /// A session of `scenario` at its start, with points and steps that meet its accuracy in a run of `cycles`, if it

@@ -3,7 +3,6 @@
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 use std::process::ExitCode;
-use std::sync::atomic::AtomicBool;
 
 use anyhow::Result;
 use clap::CommandFactory;
@@ -17,7 +16,6 @@ use crate::plot::Marker;
 use crate::scenario::nearest::nearest;
 use crate::scenario::session::Session;
 use crate::scenario::{Scenario, ScenarioError, checkpoint, printable};
-use crate::studies::refinement::SCREEN_BUDGET;
 use crate::tui::ghosts::{MOST, Source};
 use crate::tui::theme::Look;
 use crate::tui::{self, Capture, Format, Options, Script, Stroke, command, snapshot};
@@ -55,8 +53,7 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
         None => {
             let scenario = Scenario::load(&options.scenario, &options.changes.set)
                 .map_err(|error| or_command(&options.scenario, error))?;
-            let never = AtomicBool::new(false);
-            let found = accuracy::resolve(&scenario, None, SCREEN_BUDGET, false, &never)?;
+            let found = accuracy::resolve_soon(&scenario)?;
             if let Some(word) = found.warning {
                 complain(&word);
             }

@@ -3,16 +3,22 @@
 
 use toml::{Table, Value};
 
-use super::keys::{ACCURACY, CHOSEN_BY_ACCURACY, INTEGRATOR, PARAMETERS};
+use super::keys::{
+    ACCURACY, CHOSEN_BY_ACCURACY, INTEGRATOR, PARAMETERS, WEAR_COEFFICIENT, WEAR_PER_LOAD,
+};
 use super::schema::{self, Default, Kind, Parameter};
 
 /// Tables that every scenario has, written or not.
 const ALWAYS: [&str; 2] = ["motion.normal", "numerics"];
 
+/// The accuracy of a run with wear whose numerics nobody has chosen.
+pub const USUAL_ACCURACY: f64 = 1e-2;
+
 /// The keys of `written`, which has passed [`check::keys`](super::check::keys), without `[run]` and
 /// `[[changes]]`: numbers as floats, defaults filled in.
 pub(super) fn table(written: &Table) -> Table {
-    let has_accuracy = ACCURACY.get(written).is_some();
+    let usual = has_usual_accuracy(written).then_some(Value::Float(USUAL_ACCURACY));
+    let has_accuracy = ACCURACY.get(written).is_some() || usual.is_some();
     let mut complete = Table::new();
     for parameter in PARAMETERS
         .iter()
@@ -25,6 +31,7 @@ pub(super) fn table(written: &Table) -> Table {
         let value = match schema::at(written, parameter.path) {
             Some(value) => Some(plain(value, parameter.kind)),
             None if chosen => None,
+            None if parameter.path == ACCURACY.path() => usual.clone(),
             None => default(written, parameter),
         };
         if let Some(value) = value {
@@ -32,6 +39,14 @@ pub(super) fn table(written: &Table) -> Table {
         }
     }
     complete
+}
+
+/// Whether wear is computed and nothing is written that says how finely.
+fn has_usual_accuracy(written: &Table) -> bool {
+    let is_written = |path: &str| schema::at(written, path).is_some();
+    let mut chosen = CHOSEN_BY_ACCURACY.into_iter().chain([ACCURACY.path()]);
+    let mut wear = [WEAR_COEFFICIENT.path(), WEAR_PER_LOAD.path()].into_iter();
+    wear.any(is_written) && !chosen.any(is_written)
 }
 
 /// The default that is written out where its table is used.

@@ -302,6 +302,7 @@ keys! {
     ACCURACY: f64 = quantity("numerics.accuracy", "", Within(1e-5, 0.1),
             "largest error of the worn depth (rms over the scar, relative to its largest value) and of the volume: \
              chooses points, steps and jumps")
+        .default(Derived("1e-2 with wear, unless points, steps_per_cycle, tolerance or nodes are given"))
         .effect("lowering it: finer and slower; chooses points, steps, jumps");
     METHOD: String = choice("numerics.method", AbelMethod::NAMES, "transform method")
         .default(Written("\"product\""))

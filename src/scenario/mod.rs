@@ -40,6 +40,7 @@ mod validate;
 pub mod words;
 pub(crate) mod write;
 
+pub use complete::USUAL_ACCURACY;
 pub use derive::Pressed;
 use error::{Faults, Origin, echo};
 pub use error::{ScenarioError, printable};
@@ -214,8 +215,9 @@ impl Scenario {
         &self.changes
     }
 
-    /// `numerics.accuracy`, where it is given: then points, steps and tolerance are still to be found, by
-    /// [`refinement`](crate::studies::refinement), and assigning one of them takes its place.
+    /// `numerics.accuracy`, where it is given, or [`USUAL_ACCURACY`] where something wears and no numerics are chosen:
+    /// then points, steps and tolerance are still to be found, by [`refinement`](crate::studies::refinement), and
+    /// assigning one of them takes its place.
     pub fn accuracy(&self) -> Option<f64> {
         keys::ACCURACY.get(&self.table)
     }

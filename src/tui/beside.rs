@@ -44,12 +44,21 @@ impl Beside {
         self.stopped.is_none() && self.session.simulation().cycle() < cycle
     }
 
-    /// Steps towards `cycle`, where the first run is, for about as long as `budget`: the first run may
+    /// Steps to `cycle`, where the first run is, for about as long as `budget`: the first run may
     /// have jumped over many cycles that this one has to step through. `on_step` sees every step.
-    pub fn follow_for(&mut self, cycle: f64, budget: Duration, mut on_step: impl FnMut(&Session)) {
+    pub fn follow_for(&mut self, cycle: f64, budget: Duration, on_step: impl FnMut(&Session)) {
+        self.step(cycle, cycle, budget, on_step);
+    }
+
+    /// The same, with steps that may lead past `cycle`, but not past `goal`.
+    pub fn follow_towards(&mut self, goal: f64, cycle: f64, budget: Duration) {
+        self.step(goal, cycle, budget, |_| {});
+    }
+
+    fn step(&mut self, goal: f64, cycle: f64, budget: Duration, mut on_step: impl FnMut(&Session)) {
         let (start, before) = (Instant::now(), self.session.simulation().steps());
         while self.lags(cycle) {
-            match self.session.step_until(cycle) {
+            match self.session.step_until(goal) {
                 Ok(()) => on_step(&self.session),
                 Err(error) => self.stopped = Some(error.to_string()),
             }

@@ -86,6 +86,8 @@ pub struct Frame {
     pub peaks: Option<[Peak; 2]>,
     /// The amplitude of u_x from which the present profile slips as a whole, m, where it is shown.
     pub slip_border: Option<f64>,
+    /// The estimated error of the worn depth or of the volume, whichever is larger, relative, where it is known.
+    pub error: Option<f64>,
     /// The checks of the moment; `None` if p is not computed.
     pub checks: Vec<Check>,
     /// Where the scenario leaves the theory.

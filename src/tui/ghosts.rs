@@ -11,7 +11,7 @@ use crate::scenario::Scenario;
 use crate::scenario::session::Session;
 use crate::simulation::Curves;
 use crate::studies::ghost::{Axes, Ghost};
-use crate::studies::refinement::{self, SCREEN_BUDGET};
+use crate::studies::refinement;
 
 /// The most ghosts at once: each has a stroke of its own.
 pub const MOST: usize = 4;
@@ -101,7 +101,7 @@ pub struct GhostRun {
 
 impl GhostRun {
     fn start(scenario: &Scenario) -> Result<Self, String> {
-        let resolved = refinement::resolve(scenario, None, SCREEN_BUDGET, &|| true);
+        let resolved = refinement::resolve_soon(scenario);
         let resolved = resolved.map_err(|error| error.to_string())?;
         let start = Session::start(resolved.scenario).map_err(|error| error.to_string())?;
         let mut trend = Trend::default();

@@ -64,6 +64,7 @@ mod suspend;
 mod terminal;
 pub mod tour;
 pub mod trend;
+mod twin;
 mod undo;
 pub mod worker;
 

@@ -173,7 +173,15 @@ fn status_parts(frame: &Frame, ascii: bool) -> Vec<Part> {
         part(3, frame.observation.method.to_string(), 7),
         part(1, law.into(), 7),
     ];
-    parts.extend(verdict(&frame.checks).map(|verdict| part(2, verdict, 12)));
+    parts.extend(verdict(&frame.checks).map(|verdict| {
+        let fails = verdict != "checks ok";
+        part(if fails { 3 } else { 2 }, verdict, 12)
+    }));
+    parts.extend(
+        frame
+            .error
+            .map(|error| part(2, wear_error(error, ascii), 12)),
+    );
     let outside = |warning: &String| warning.starts_with("outside");
     if frame.warnings.iter().any(outside) {
         parts.push(part(2, "! outside the theory".into(), 0));
@@ -182,6 +190,18 @@ fn status_parts(frame: &Frame, ascii: bool) -> Vec<Part> {
         parts.insert(2, part(4, format!("present {present:.2}"), 0));
     }
     parts
+}
+
+/// The estimated error of what has worn, to a digit.
+fn wear_error(error: f64, ascii: bool) -> String {
+    let sign = if ascii { "+-" } else { "±" };
+    let percent = 100.0 * error;
+    match percent {
+        size if size < 0.01 => format!("wear {sign}<0.01 %"),
+        size if size < 0.1 => format!("wear {sign}{size:.2} %"),
+        size if size < 1.0 => format!("wear {sign}{size:.1} %"),
+        size => format!("wear {sign}{size:.0} %"),
+    }
 }
 
 /// Two or three digits of a speed.

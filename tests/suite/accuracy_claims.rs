@@ -363,6 +363,7 @@ fn gross_slip_under_a_held_load_wears_a_flat() {
     let sets = [
         "wear.coefficient=1e-12",
         "motion.tangential.amplitude=1.5e-5",
+        "numerics.points=100",
     ];
     let start = run(HELD, &sets, 0.0).simulation().moment().contact_radius;
     for cycles in [100.0, 300.0] {

@@ -56,6 +56,7 @@ mod resume;
 mod rigs;
 mod scenarios;
 mod screens;
+mod second_code;
 #[cfg(unix)]
 mod signals;
 #[cfg(target_os = "linux")]

@@ -31,6 +31,9 @@ phase = 0.7853981633974483
 
 [wear]
 coefficient = 1.3e-10
+
+[numerics]
+points = 100
 "#;
 
 fn scenario(shape: &str) -> String {

@@ -83,3 +83,85 @@ fn partial_slip_stops_wearing() {
     let stick = session.simulation().moment().permanent_stick_radius;
     assert!(stick.expect("springs") > 0.0);
 }
+
+/// What the page `published` says of the program itself is what its presets give, to the last digit.
+#[test]
+fn the_figures_of_the_guide_are_those_of_the_presets() {
+    let page = include_str!("../../src/guide/published.md");
+    let mut found = Vec::new();
+    for (preset, section) in [
+        ("julia2022-gross-slip", "## Gross slip of steel on steel"),
+        (
+            "julia2022-partial-slip",
+            "## Partial slip of steel on steel",
+        ),
+    ] {
+        let section = page.split(section).nth(1).expect("the section");
+        let mut session = started(preset, &[]);
+        for (row, cycles) in [
+            ("| 100 cycles", 100.0),
+            ("| 10⁴ cycles", 1e4),
+            ("| 10⁵ cycles", 1e5),
+        ] {
+            session.advance_to(cycles).expect("the cycles");
+            let deepest = (session.simulation().worn_depth().iter()).fold(0.0f64, |a, b| a.max(*b));
+            found.push((
+                format!("{preset}, {row}"),
+                last_cell(section, row),
+                1e3 * deepest,
+            ));
+        }
+        if preset.ends_with("gross-slip") {
+            let moment = session.simulation().moment();
+            let (row, radius) = ("| radius of the scar", 1e3 * moment.contact_radius);
+            found.push((row.to_owned(), last_cell(section, row), radius));
+            let volume = section.split("run here\n(").nth(1).expect("V");
+            found.push(("V".to_owned(), volume.to_owned(), moment.wear_volume));
+        }
+    }
+    let mut session = started("cattaneo-kalker", &[]);
+    session.advance_to(0.25).expect("a quarter of a cycle");
+    let simulation = session.simulation();
+    let moment = simulation.moment();
+    let stick = moment.stick_radius.expect("springs") / moment.contact_radius;
+    for (row, value) in [
+        ("| F_x", moment.tangential_force),
+        ("| largest pressure", 1e-6 * simulation.pressure()[0]),
+        ("| depth", 1e6 * moment.depth),
+        ("| sticking part", stick * stick),
+    ] {
+        let line = page.lines().find(|line| line.starts_with(row)).expect(row);
+        let cell = line.split('|').nth(3).expect("a column");
+        found.push((row.to_owned(), cell.replace("c²/a² = ", ""), value));
+    }
+    let stale = found
+        .iter()
+        .filter(|(_, stated, value)| !is_rounded(stated, *value));
+    let stale: Vec<String> = stale
+        .map(|(what, stated, value)| format!("{what}: {stated} is {value:.4e}"))
+        .collect();
+    assert!(stale.is_empty(), "{stale:#?}");
+}
+
+/// The last cell of the table row that begins with `row`.
+fn last_cell(section: &str, row: &str) -> String {
+    let line = section
+        .lines()
+        .find(|line| line.starts_with(row))
+        .expect(row);
+    line.trim_end_matches('|')
+        .rsplit('|')
+        .next()
+        .expect("a cell")
+        .to_owned()
+}
+
+/// Whether the number at the start of `stated` is `value`, to within one of its last digit.
+fn is_rounded(stated: &str, value: f64) -> bool {
+    let word = stated.trim().split([' ', ')']).next().expect("a word");
+    let number: f64 = word.parse().expect("a number");
+    let (digits, exponent) = word.split_once('e').unwrap_or((word, "0"));
+    let places = digits.split_once('.').map_or(0, |(_, after)| after.len()) as i32;
+    let last = 10f64.powi(exponent.parse::<i32>().expect("an exponent") - places);
+    (number - value).abs() <= last
+}

@@ -981,7 +981,11 @@ fn the_status_line_begins_sensibly_however_narrow() {
             end.is_empty() || end == whole || is_begun,
             "{columns}: {status}"
         );
+        // That nothing is wrong is told less than how right it is.
         if columns >= 80 {
+            assert!(status.contains("wear ±0."), "{status}");
+        }
+        if columns >= 100 {
             assert!(status.contains("checks ok"), "{status}");
         }
     }

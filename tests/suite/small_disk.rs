@@ -73,6 +73,7 @@ fn on_a_full_disk_the_newest_state_is_kept_where_there_is_room() {
     };
     let out = disk.0.join("x");
     let child = start(&dir, &out, "60");
+    wait_for("snapshot", || out.join("state-1.csv").exists());
     wait_for("checkpoint", || out.join("run.checkpoint").exists());
     disk.fill();
     let said = end(child);

@@ -37,19 +37,15 @@ pub fn estimate(
     let level = Level::of(session.loaded());
     let cycle = session.simulation().cycle();
     let here = Outcome::of(session);
-    let twin = |factor: f64| -> Option<Result<Outcome, SessionError>> {
+    let ended = |factor: f64| -> Option<Result<Outcome, SessionError>> {
         let ended = match twin_of(session, factor) {
             Ok(scenario) => run(&scenario, cycle, go_on)?,
             Err(error) => Err(error),
         };
         Some(ended.map(|twin| Outcome::of(&twin)))
     };
-    let can_have = |factor: f64| {
-        level.points as f64 * factor >= COARSEST.0 as f64
-            && f64::from(level.steps) * factor >= f64::from(COARSEST.1)
-    };
-    if !can_have(0.25) {
-        let fine = match twin(2.0)? {
+    if !level.can_be(0.25) {
+        let fine = match ended(2.0)? {
             Ok(fine) => fine,
             Err(error) => return Some(Err(error)),
         };
@@ -59,17 +55,41 @@ pub fn estimate(
             difference.with(&difference, |d, _| d * ratio / (ratio - 1.0))
         ));
     }
-    let half = match twin(0.5)? {
+    let half = match ended(0.5)? {
         Ok(half) => half,
         Err(error) => return Some(Err(error)),
     };
-    let first = half.against(&here);
     // A quarter that breaks down leaves the order unknown, and no more.
-    let second = twin(0.25)?.ok().map(|quarter| quarter.against(&half));
-    Some(Ok(match second {
-        None => first.with(&first, |d, _| d / (2f64.powf(ASSUMED) - 1.0)),
-        Some(second) => first.with(&second, by_observed_order),
+    let quarter = ended(0.25)?.ok();
+    Some(Ok(match quarter {
+        None => by_twin(&half, &here),
+        Some(quarter) => half
+            .against(&here)
+            .with(&quarter.against(&half), by_observed_order),
     }))
+}
+
+/// Estimates the error of a run from its [`twin`] alone, at the same cycle: with the order that is usually seen.
+pub fn by_twin(twin: &Outcome, run: &Outcome) -> Difference {
+    let difference = twin.against(run);
+    difference.with(&difference, |d, _| d / (2f64.powf(ASSUMED) - 1.0))
+}
+
+/// The run with half its cells and steps, at its start; `None` if it is too coarse to be halved.
+pub fn twin(session: &Session) -> Option<Result<Session, SessionError>> {
+    let level = Level::of(session.loaded());
+    level
+        .can_be(0.5)
+        .then(|| Session::start(twin_of(session, 0.5)?))
+}
+
+impl Level {
+    /// Whether a twin of `factor` times its cells and steps is any good.
+    fn can_be(&self, factor: f64) -> bool {
+        let (cells, steps) = COARSEST;
+        self.points as f64 * factor >= cells as f64
+            && f64::from(self.steps) * factor >= f64::from(steps)
+    }
 }
 
 /// The error of the finest of three levels, from their two differences.

@@ -17,11 +17,11 @@ mod outcome;
 mod placing;
 mod resolve;
 
-pub use estimate::estimate;
+pub use estimate::{by_twin, estimate, twin};
 pub use ladder::{Ladder, Next, Rung, Verdict};
 pub use level::Level;
 pub use outcome::{Difference, Outcome};
-pub use resolve::{Resolved, SCREEN_BUDGET, resolve, statements_of};
+pub use resolve::{Resolved, resolve, resolve_soon, statements_of};
 
 /// Why a run to an accuracy has no result at all.
 #[derive(Debug, Error)]

@@ -1,14 +1,19 @@
 //! Resolves an accuracy to points and steps, and words the result for files and messages.
 
-use super::{Difference, Reached, RefinementError, Verdict, run_to_accuracy};
-use crate::scenario::Scenario;
+use std::time::Instant;
+
+use super::{Difference, Level, Reached, RefinementError, Verdict, run_to_accuracy};
 use crate::scenario::session::Session;
+use crate::scenario::{Scenario, USUAL_ACCURACY};
 
 /// Cycles over which an accuracy is met for a run without an end.
 const WITHOUT_END: f64 = 100.0;
 
-/// The longest that a screen waits for an accuracy, s.
-pub const SCREEN_BUDGET: f64 = 10.0;
+/// The longest that a screen waits for an accuracy: the usual one, and one that is asked for, s.
+const SCREEN_WAITS: [f64; 2] = [0.5, 10.0];
+
+/// No level is begun or gone on with after this part of the wait if there is another one to show.
+const SEARCH: f64 = 0.8;
 
 /// A scenario with the points and steps that were found for its accuracy.
 #[derive(Debug, Clone)]
@@ -56,6 +61,37 @@ pub fn resolve(
         warning,
         ended: Some(reached.session),
     })
+}
+
+/// [`resolve`] for a screen, which shows the scenario as it stands if no level ends in time.
+///
+/// # Errors
+/// If no level can be run.
+pub fn resolve_soon(scenario: &Scenario) -> Result<Resolved, RefinementError> {
+    let [usual, asked_for] = SCREEN_WAITS;
+    let patience = match scenario.accuracy() {
+        Some(USUAL_ACCURACY) => usual,
+        _ => asked_for,
+    };
+    let begin = Instant::now();
+    let go_on = || begin.elapsed().as_secs_f64() < patience;
+    match resolve(scenario, None, SEARCH * patience, &go_on) {
+        Err(RefinementError::Interrupted) => {
+            let level = Level::of(scenario);
+            let warning = format!(
+                "no level of refinement ended in {patience} s: these are {} points and {} steps per cycle, \
+                 of unknown error",
+                level.points, level.steps
+            );
+            Ok(Resolved {
+                scenario: level.of_scenario(scenario)?,
+                statements: Vec::new(),
+                warning: Some(warning),
+                ended: None,
+            })
+        }
+        other => other,
+    }
 }
 
 /// Estimated errors as the headers of files state them.

@@ -7,12 +7,13 @@ use crate::math::abel::AbelMethod;
 use crate::scenario::Scenario;
 use crate::scenario::schema::{Kind, find};
 use crate::scenario::session::Session;
-use crate::studies::refinement::{self, Level, SCREEN_BUDGET};
+use crate::studies::refinement::{self, Level};
 use crate::studies::theory::Theory;
 use crate::tui::frame::Activity;
 use crate::tui::ghosts;
 use crate::tui::settings::Setting;
 use crate::tui::trend::Trend;
+use crate::tui::twin::Twin;
 
 /// Factor by which each key press refines cells and steps.
 const STRIDE: f64 = 1.5;
@@ -83,6 +84,7 @@ impl Worker {
             Ok(()) => {
                 let branched = self.branch();
                 self.learn();
+                self.twin = Twin::of(&self.session);
                 if matches!(self.activity, Activity::Stopped(_)) {
                     self.activity = Activity::Paused;
                 }
@@ -115,7 +117,7 @@ impl Worker {
 
     /// Another scenario, from its beginning.
     pub(super) fn load(&mut self, scenario: Scenario) {
-        let resolved = match refinement::resolve(&scenario, None, SCREEN_BUDGET, &|| true) {
+        let resolved = match refinement::resolve_soon(&scenario) {
             Ok(resolved) => resolved,
             Err(error) => return self.notice(&error.to_string()),
         };
@@ -142,6 +144,7 @@ impl Worker {
         self.session = session;
         self.comparison = None;
         self.learn();
+        self.twin = Twin::of(&self.session);
         self.trend = trend;
         if self.activity != Activity::Running {
             self.activity = Activity::Paused;

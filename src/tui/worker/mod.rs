@@ -27,6 +27,7 @@ use super::refinement_check;
 use super::settings::Setting;
 use super::snapshot;
 use super::trend::Trend;
+use super::twin::Twin;
 use super::undo::Past;
 use crate::contact::subsurface::Stress;
 use crate::math::scan::largest;
@@ -50,6 +51,7 @@ pub struct Worker {
     ghosts: Vec<Source>,
     theory: Arc<Theory>,
     expected_wear: f64,
+    twin: Option<Twin>,
     cycle_loads: CycleLoads,
     settings: Arc<Vec<Setting>>,
     warnings: Arc<Vec<String>>,
@@ -100,6 +102,7 @@ impl Worker {
             settings: Arc::new(Setting::all(session.scenario())),
             warnings: Arc::new(session.simulation().warnings()),
             passed_hardness: session.simulation().passed_hardness(),
+            twin: Twin::of(&session),
             session,
             comparison: None,
             ghosts: Vec::new(),
@@ -232,6 +235,9 @@ impl Worker {
         let comparison = self.comparison.as_ref();
         comparison.is_some_and(|comparison| comparison.lags(cycle))
             || self.ghosts.iter().any(|ghost| ghost.lags(cycle))
+            // A run does not wait for its twin.
+            || self.activity != Activity::Running
+                && self.twin.as_ref().is_some_and(|twin| twin.lags(cycle))
     }
 
     /// Lets what runs beside come nearer to the run for a moment.
@@ -243,8 +249,17 @@ impl Worker {
         for ghost in &mut self.ghosts {
             ghost.follow_for(cycle, CATCH_UP);
         }
+        self.follow_with_twin(CATCH_UP);
         if self.published.elapsed() >= self.interval || !self.is_awaited() {
             self.publish();
+        }
+    }
+
+    /// Lets the twin come nearer to the run.
+    fn follow_with_twin(&mut self, budget: Duration) {
+        let cycle = self.session.simulation().cycle();
+        if let Some(twin) = &mut self.twin {
+            twin.follow_for(cycle, budget);
         }
     }
 
@@ -451,6 +466,10 @@ impl Worker {
             indenter: simulation.setup().indenter.clone(),
             wear_share: scenario.wear_share(),
             friction: simulation.setup().material.friction(),
+            // The twin has looked at the present.
+            error: (self.twin.as_ref())
+                .filter(|_| self.past.present().is_none())
+                .and_then(Twin::error),
             checks,
             warnings: Arc::clone(&self.warnings),
             theory: Arc::clone(&self.theory),

@@ -9,12 +9,16 @@ use crate::simulation::Curves;
 use crate::tui::frame::Activity;
 use crate::tui::ghosts;
 use crate::tui::pace::Pace;
+use crate::tui::twin::Twin;
 
 /// The time between two jumps over cycles, unless the pace is without limit.
 const JUMP_EVERY: Duration = Duration::from_millis(100);
 
 /// How long the worker steps before it looks for orders again.
 const STINT: Duration = Duration::from_millis(4);
+
+/// How long the run's twin steps after each stint: about a quarter of the work is its.
+const TWIN_STINT: Duration = Duration::from_millis(2);
 
 /// Frames of a fast run are taken at this fraction of a cycle: at its end, as the rows of a history
 /// are.
@@ -112,6 +116,7 @@ impl Worker {
             start.elapsed(),
         );
         self.trend.note_cost(self.meter.step_cost);
+        self.follow_with_twin(TWIN_STINT);
         let wait = match self.held_phase() {
             Some(_) => self.interval.max(AT_LEAST),
             None => self.interval,
@@ -123,6 +128,7 @@ impl Worker {
 
     fn step(&mut self) {
         if let Some(word) = self.branch() {
+            self.twin = Twin::of(&self.session);
             self.notice(&word);
         }
         if self.session.simulation().steps() == 0 {
@@ -136,6 +142,15 @@ impl Worker {
                     self.cycle_loads.note(self.session.simulation());
                 }
                 let simulation = self.session.simulation();
+                let end = self.session.loaded().run().cycles;
+                let is_end =
+                    end.is_some_and(|end| simulation.cycle() >= end - simulation.rounding());
+                let ends = ends_cycle(now, simulation.cycle());
+                if let Some(twin) = self.twin.as_mut().filter(|_| ends || is_end) {
+                    // Steps by hand are few, and each is looked at.
+                    let must = is_end || self.activity != Activity::Running;
+                    twin.look_at(&self.session, must);
+                }
                 if simulation.cycle().floor() > now.floor() {
                     let figures = simulation.cycle_figures();
                     self.trend.note_condition(

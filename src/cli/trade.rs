@@ -14,9 +14,9 @@ use crate::math::abel::AbelMethod;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Scale};
 use crate::scenario::Scenario;
-use crate::studies::refinement::Verdict;
+use crate::studies::refinement::{Reached, Verdict, run_to_accuracy};
 use crate::studies::trade::report::{Trial, cheapest, front, table};
-use crate::studies::trade::{self, Adaptive, Sample, Setting};
+use crate::studies::trade::{self, Sample, Setting};
 
 /// Accuracies whose search for a level is timed as well as the fixed settings.
 const ACCURACIES: [f64; 2] = [1e-2, 1e-3];
@@ -107,7 +107,7 @@ fn assignments(setting: &Setting) -> Vec<String> {
 struct Found {
     trials: Vec<Trial>,
     /// What accuracies cost that find their level by themselves.
-    adaptive: Vec<Adaptive>,
+    adaptive: Vec<(f64, Reached)>,
     /// What was compared with what.
     notes: Vec<String>,
     interrupted: bool,
@@ -189,14 +189,9 @@ fn run(
     let mut adaptive = Vec::new();
     for accuracy in ACCURACIES.into_iter().filter(|_| !interrupted) {
         bar.set_message(format!("numerics.accuracy = {accuracy:e}"));
-        // An accuracy that no level meets has no cost to tell.
-        adaptive.extend(trade::adaptive(
-            scenario,
-            accuracy,
-            cycles,
-            LONGEST_SEARCH,
-            &go_on,
-        ));
+        // If no level runs to its end, there is no cost to report.
+        let reached = run_to_accuracy(scenario, cycles, accuracy, LONGEST_SEARCH, &go_on);
+        adaptive.extend(reached.ok().map(|reached| (accuracy, reached)));
     }
     bar.finish_and_clear();
     let blur = blur.map_or(String::new(), |blur| {
@@ -228,42 +223,37 @@ fn run(
 }
 
 /// What an accuracy cost, beside the cheapest fixed setting that would have done.
-fn cost(adaptive: &Adaptive, trials: &[Trial], reference: &Sample) -> String {
-    let Adaptive {
-        accuracy,
-        level,
-        verdict,
-        sample,
-    } = adaptive;
-    let errors = sample.against(reference);
-    let error = errors.rms.max(errors.volume);
-    let met = match verdict {
+fn cost((accuracy, reached): &(f64, Reached), trials: &[Trial], reference: &Sample) -> String {
+    let (seconds, level) = (reached.seconds, &reached.rung.level);
+    let errors = Sample::of(&reached.session, seconds).against(reference);
+    let error = errors.of_run.promised();
+    let met = match reached.verdict {
         Verdict::Met => "",
         _ => ", not reached",
     };
     let beside = match cheapest(trials, *accuracy) {
-        Some((trial, [seconds, _])) => format!(
-            "{:.1} times the cheapest fixed setting ({}, {seconds:.1e} s)",
-            sample.seconds / seconds,
+        Some((trial, [fixed, _])) => format!(
+            "{:.1} times the cheapest fixed setting ({}, {fixed:.1e} s)",
+            seconds / fixed,
             trial.setting
         ),
         None => "no fixed setting tried is as good".into(),
     };
     format!(
-        "numerics.accuracy = {accuracy:e}{met}: {:.1e} s in all, ends at N = {}, {} steps per cycle; error of \
+        "numerics.accuracy = {accuracy:e}{met}: {seconds:.1e} s in all, ends at N = {}, {} steps per cycle; error of \
          scar and volume {error:.1e}; {beside}",
-        sample.seconds, level.points, level.steps
+        level.points, level.steps
     )
 }
 
 /// The last line: what to use, and what it costs beside the accuracy that chooses by itself.
 fn advice(found: &Found) -> String {
     let mut adaptive = found.adaptive.iter();
-    let usual = adaptive.find(|adaptive| adaptive.accuracy == USUAL);
-    let beside = usual.map_or(String::new(), |usual| {
+    let usual = adaptive.find(|(accuracy, _)| *accuracy == USUAL);
+    let beside = usual.map_or(String::new(), |(_, usual)| {
         format!(
             "; numerics.accuracy={USUAL:e} takes {:.1e} s, for any values of the other keys",
-            usual.sample.seconds
+            usual.seconds
         )
     });
     match cheapest(&found.trials, USUAL) {

@@ -140,7 +140,7 @@ fn the_cheapest_setting_for_an_accuracy_reaches_it() {
     };
     let found = trade::run(&scenario, &setting, 3.0, &go_on);
     let errors = found.expect("not stopped").expect("a run").against(&fine);
-    assert!(errors.rms <= 8e-3, "{errors:?}");
+    assert!(errors.of_run.worn_depth <= 8e-3, "{errors:?}");
     // The references differ by some of it.
     assert!(errors.worst() <= 1e-2, "{errors:?}");
 

@@ -10,7 +10,7 @@ use std::time::Instant;
 use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
 use crate::simulation::Check;
-use crate::studies::refinement::{self, Level, Outcome, RefinementError, Verdict};
+use crate::studies::refinement::{self, Difference, Outcome};
 
 pub mod report;
 mod setting;
@@ -45,14 +45,8 @@ pub struct Sample {
 /// How far a run is from the reference.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Errors {
-    /// Of the worn depth, rms over the scar, in largest depths.
-    pub rms: f64,
-    /// Of the worn volume, relative to it.
-    pub volume: f64,
-    /// Of the friction work, relative to it.
-    pub work: f64,
-    /// Of F_x, in μF_z.
-    pub force: f64,
+    /// Of depth, volume, work and force.
+    pub of_run: Difference,
     /// Of the permanent stick radius, in contact radii; it does not count towards the worst.
     pub stick_radius: f64,
 }
@@ -60,7 +54,14 @@ pub struct Errors {
 impl Errors {
     /// The worst of depth, volume, work and force; NaN if one of them is.
     pub fn worst(&self) -> f64 {
-        let errors = [self.rms, self.volume, self.work, self.force];
+        let Difference {
+            worn_depth,
+            volume,
+            work,
+            force,
+            ..
+        } = self.of_run;
+        let errors = [worn_depth, volume, work, force];
         match errors.iter().any(|error| error.is_nan()) {
             true => f64::NAN,
             false => errors.into_iter().fold(0.0, f64::max),
@@ -69,7 +70,8 @@ impl Errors {
 }
 
 impl Sample {
-    fn of(session: &Session, seconds: f64) -> Self {
+    /// The present moment of a run that has taken `seconds`.
+    pub fn of(session: &Session, seconds: f64) -> Self {
         let simulation = session.simulation();
         let moment = simulation.moment();
         let mut failing = simulation.checks();
@@ -95,13 +97,9 @@ impl Sample {
 
     /// The differences of this run from another one.
     pub fn against(&self, reference: &Self) -> Errors {
-        let difference = self.outcome.against(&reference.outcome);
         let stick = (self.stick_radius - reference.stick_radius).abs();
         Errors {
-            rms: difference.worn_depth,
-            volume: difference.volume,
-            work: difference.work,
-            force: difference.force,
+            of_run: self.outcome.against(&reference.outcome),
             stick_radius: stick / reference.contact_radius,
         }
     }
@@ -141,37 +139,4 @@ pub fn median_time(
     }
     times.sort_by(f64::total_cmp);
     times[times.len() / 2]
-}
-
-/// What `numerics.accuracy` costs and reaches.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Adaptive {
-    /// The accuracy asked for.
-    pub accuracy: f64,
-    /// The last level.
-    pub level: Level,
-    /// Whether the accuracy was met, or why not.
-    pub verdict: Verdict,
-    /// The last level's run; the time is that of all levels.
-    pub sample: Sample,
-}
-
-/// Runs `scenario` over `cycles` to an accuracy, for `budget` seconds at most.
-///
-/// # Errors
-/// If no level runs to its end, or `go_on` says no.
-pub fn adaptive(
-    scenario: &Scenario,
-    accuracy: f64,
-    cycles: f64,
-    budget: f64,
-    go_on: &dyn Fn() -> bool,
-) -> Result<Adaptive, RefinementError> {
-    let reached = refinement::run_to_accuracy(scenario, cycles, accuracy, budget, go_on)?;
-    Ok(Adaptive {
-        accuracy,
-        level: reached.rung.level,
-        sample: Sample::of(&reached.session, reached.seconds),
-        verdict: reached.verdict,
-    })
 }

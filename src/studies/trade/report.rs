@@ -85,10 +85,10 @@ pub fn table<'a>(shown: impl IntoIterator<Item = &'a Trial>, all: &[Trial]) -> T
                 Cell::Number(sample.seconds),
                 Cell::Count(sample.steps as usize),
                 Cell::Count(sample.transforms as usize),
-                finite(errors.rms),
-                finite(errors.volume),
-                finite(errors.work),
-                finite(errors.force),
+                finite(errors.of_run.worn_depth),
+                finite(errors.of_run.volume),
+                finite(errors.of_run.work),
+                finite(errors.of_run.force),
                 finite(errors.stick_radius),
                 words(&complaints(sample)),
                 words(if stands(trial) { "*" } else { "" }),
@@ -124,7 +124,7 @@ mod tests {
     use crate::scenario::Scenario;
     use crate::scenario::session::Session;
     use crate::simulation::{Scheme, Subject};
-    use crate::studies::refinement::Outcome;
+    use crate::studies::refinement::{Difference, Outcome};
 
     fn unworn() -> Outcome {
         let scenario = Scenario::load("hertz", &[]).expect("a preset");
@@ -142,10 +142,11 @@ mod tests {
             steps: 1,
         };
         let errors = Errors {
-            rms: 0.5 * worst,
-            volume: worst,
-            work: 0.0,
-            force: 0.0,
+            of_run: Difference {
+                worn_depth: 0.5 * worst,
+                volume: worst,
+                ..Difference::NONE
+            },
             stick_radius: f64::NAN,
         };
         Trial {

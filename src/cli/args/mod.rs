@@ -191,7 +191,8 @@ pub struct Run {
     /// far is used.
     #[arg(long, value_name = "TIME", value_parser = budget)]
     pub budget: Option<f64>,
-    /// Also write field.csv: the stresses inside the half-space at the end, in the plane of motion.
+    /// Also write field.csv: the stresses inside the half-space at the end and the fatigue parameters of a
+    /// steady cycle, in the plane of motion.
     #[arg(long)]
     pub field: bool,
     /// Directory for the files; default: a new one named after the scenario, or with --resume the

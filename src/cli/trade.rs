@@ -126,7 +126,7 @@ fn run(
     };
     let settings = trade::settings(scenario, methods, &options.points, &options.steps);
     let finest = trade::reference(scenario, &options.points, &options.steps);
-    // Where nobody chose what is tried, the slow rest is left out.
+    // With the default cells and steps, settings that are too slow are left out.
     let is_usual = options.points == trade::POINTS && options.steps == trade::STEPS;
     let effort = |setting: &Setting| setting.effort(cycles);
     let work: u64 = [finest, finest.halved()]
@@ -246,7 +246,7 @@ fn cost((accuracy, reached): &(f64, Reached), trials: &[Trial], reference: &Samp
     )
 }
 
-/// The last line: what to use, and what it costs beside the accuracy that chooses by itself.
+/// The last line: what to use, and what it costs compared with `numerics.accuracy`.
 fn advice(found: &Found) -> String {
     let mut adaptive = found.adaptive.iter();
     let usual = adaptive.find(|(accuracy, _)| *accuracy == USUAL);

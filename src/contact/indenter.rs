@@ -201,7 +201,7 @@ impl Indenter {
         }
     }
 
-    /// The radius beyond which nobody knows what the indenter is like, m: the rim, or the end of a table.
+    /// The radius beyond which the indenter's shape is unknown, m: the rim, or the end of a table.
     pub fn end(&self) -> Option<f64> {
         match self {
             Self::Table(measured) => Some(measured.last_radius()),

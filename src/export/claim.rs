@@ -180,7 +180,7 @@ impl Claim {
 
 impl Drop for Claim {
     fn drop(&mut self) {
-        // It is still locked: nobody else has claimed what is removed here.
+        // It is still locked, so no other process has claimed what is removed here.
         if is_at(&self.file, &self.path) {
             let _ = fs::remove_file(&self.path);
         }

@@ -83,7 +83,7 @@ const FILES: &[Embedded] = &[
 ];
 
 /// Reads the files that `table` names, relative to the directory of the scenario's file, and puts
-/// their columns in their place. Values that are no path stay, for the check of all keys to find.
+/// their columns in their place. Values that are not paths stay, for the check of all keys to reject.
 pub(super) fn files(
     table: &mut Table,
     scenario: &str,

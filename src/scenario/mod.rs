@@ -1,8 +1,9 @@
 //! Scenarios: from a TOML text, and what the command line adds to it, to parts that can be run.
 //!
-//! The way of a scenario: text → TOML table → assignments (`--set`) → every key held against the
-//! [`schema`] → defaults filled in → the parts' own constructors → [`Scenario`]. Each
-//! step refuses with one line that names the origin, the dotted path, the value and the rule.
+//! The pipeline: text (`read`) → TOML table → assignments (`assign`) → columns of other files (`embed`, `columns`)
+//! and numbers with units (`units`), in SI → every key checked against the [`schema`] (`check`) → defaults
+//! (`complete`, `derive`) → the parts' own constructors (`validate`) → [`Scenario`]. Each step refuses with one line
+//! that names the origin, the dotted path, the value and the rule.
 
 use std::path::Path;
 

@@ -185,7 +185,7 @@ impl Session {
         if self.unchanged().is_none() {
             self.unchanged = None;
         }
-        // A change is a record of its own.
+        // A step cut short for a recorded change need not be recorded again.
         let is_new = !self.goals.contains(&goal);
         if self.simulation.was_shortened() && is_new && change != Some(goal) {
             self.goals.push(goal);

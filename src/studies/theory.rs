@@ -91,7 +91,7 @@ impl Theory {
     }
 
     /// About the deepest wear after `cycles` cycles, m: by Archard's law under the pressure of the unworn
-    /// contact, and never more than where wear ends. `None` where nothing slips or nobody knows how far.
+    /// contact, and never more than where wear ends. `None` where nothing slips, or without a closed form.
     pub fn expected_wear(&self, setup: &Setup, cycles: Option<f64>) -> Option<f64> {
         let law = setup.wear?;
         let nodes = setup.grid.nodes();

@@ -81,7 +81,7 @@ fn theme() -> Box<dyn Theme> {
 /// Takes each answer from its option, from the user, or from its default.
 struct Interview<'a> {
     options: &'a New,
-    /// How questions look; `None` where nobody is there to answer.
+    /// How questions look; `None` without a terminal.
     theme: Option<Box<dyn Theme>>,
 }
 
@@ -305,7 +305,7 @@ impl Interview<'_> {
         Ok(read(&text).map_err(|rule| refused(&text, rule))?)
     }
 
-    /// The place of the item that is chosen; the first where nobody is asked.
+    /// The place of the item that is chosen; the first without a terminal.
     fn choose(&self, prompt: &str, items: &[impl std::fmt::Display]) -> Result<usize> {
         let Some(theme) = &self.theme else {
             return Ok(0);

@@ -357,7 +357,7 @@ impl Rows {
         }
     }
 
-    /// Takes a row to the point that it belongs to.
+    /// Assigns a row to its point.
     ///
     /// # Errors
     ///

@@ -3,7 +3,7 @@
 //! A run is judged by the worst of its errors: of the worn depth (rms over the scar, in largest depths), of V and
 //! E_d (relative), and of F_x (in μF_z). A run that fails its own checks is not recommended, whatever its errors.
 //! The reference is the best method, twice as fine as the finest setting tried; its own distance from half as fine
-//! is reported with it. What `numerics.accuracy` costs, which finds its level by itself, is measured beside.
+//! is reported with it. The cost of `numerics.accuracy`, which finds its own level, is measured as well.
 
 use std::time::Instant;
 

@@ -14,7 +14,7 @@ pub struct Trial {
 }
 
 impl Trial {
-    /// Time and worst error of a run that came to its end and passes its own checks.
+    /// Time and worst error of a run that reached its end and passes its own checks.
     pub fn point(&self) -> Option<[f64; 2]> {
         let (sample, errors) = self.outcome.as_ref().ok()?;
         let is_sound = sample.failing.is_empty() && errors.worst().is_finite();

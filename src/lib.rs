@@ -19,6 +19,7 @@
 //! | [`studies`] | errors against theory, speed against accuracy, stability, as tables | no file, no screen |
 //! | [`export`] | CSV files, whole or not at all | runs nothing |
 //! | [`plot`] | curves as text: ticks, axes, legends, raster | no physics, no screen |
+//! | [`charts`] | the charts of a run, each declared once: names, needs, help, curves | no screen, no paper |
 //! | [`figure`] | charts on sheets: SVG, PNG and PDF, with their data | no screen |
 //! | [`cli`], [`tui`] | the command line; the explorer | everything below |
 //!
@@ -47,6 +48,7 @@
 //! | k | wear coefficient | 1/Pa | (15) |
 //! | V, E_d | worn volume, friction work | m³, J | V = k E_d |
 
+pub mod charts;
 pub mod cli;
 pub mod contact;
 pub mod export;

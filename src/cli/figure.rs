@@ -4,15 +4,18 @@ use std::fs;
 use std::io::{self, BufRead, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use anyhow::{Context, Result};
 
 use super::args::{Figure, PaperFigure, StyleChoice};
 use super::{Misuse, accuracy, job};
+use crate::charts::{
+    ON_PAPER, Recipe, Run, Table, depth, fretting_loop, profile, scar_depth, springs, stresses,
+    volume,
+};
 use crate::export::target::{Target, write_all};
-use crate::figure::data::{Data, Table};
 use crate::figure::look::{Look, Style};
-use crate::figure::panels::Panel;
 use crate::figure::{Format, Sheet, paper, study as figure_of_study};
 use crate::plot::Chart;
 use crate::plot::theme::Role;
@@ -34,11 +37,11 @@ const OF_THE_PAPER: &str = "li2019-fig3";
 const POINT: f64 = 25.4 / 72.0;
 
 /// The default charts, drawn if there are data for them.
-const USUAL: [Panel; 4] = [
-    Panel::Profile,
-    Panel::Profile1d,
-    Panel::Stresses,
-    Panel::Loop,
+const USUAL: [&Recipe; 4] = [
+    &profile::RECIPE,
+    &springs::RECIPE,
+    &stresses::RECIPE,
+    &fretting_loop::RECIPE,
 ];
 
 /// Draws the figure and writes it, with its data beside it.
@@ -160,32 +163,32 @@ fn sheet(options: &Figure) -> Result<Sheet> {
         let message = format!("--column {column}: is for the table of a sweep; a run has --panel");
         return Err(Misuse(message).into());
     }
-    let mut data = data(source, options)?;
+    let mut run = run(source, options)?;
     for given in &options.overlay {
-        let ghost = ghost(given, &data)?;
-        data.ghosts.push(ghost);
+        let ghost = ghost(given, &run)?;
+        run.ghosts.push(Arc::new(ghost));
     }
     let refused = |error| Misuse(format!("{source}: {error}"));
     if options.figure.is_some() {
-        return Ok(paper::fretting(&data).map_err(refused)?);
+        return Ok(paper::fretting(&run).map_err(refused)?);
     }
     let charts = if options.panel.is_empty() {
-        let found = |panels: &[Panel]| -> Vec<_> {
-            let charts = panels.iter().map(|panel| panel.chart(&data));
+        let found = |panels: &[&Recipe]| -> Vec<_> {
+            let charts = panels.iter().map(|panel| panel.on_paper(&run));
             charts.filter_map(Result::ok).collect()
         };
-        let usual = found(&usual(&data.ghosts));
+        let usual = found(&usual(&run.ghosts));
         if usual.is_empty() {
-            found(&Panel::ALL)
+            found(&ON_PAPER)
         } else {
             usual
         }
     } else {
-        let charts = options.panel.iter().map(|panel| panel.chart(&data));
+        let charts = options.panel.iter().map(|panel| panel.on_paper(&run));
         charts.collect::<Result<_, _>>().map_err(refused)?
     };
-    refuse_what_no_chart_shows(options, &data.ghosts, &charts)?;
-    let facts = data.facts();
+    refuse_what_no_chart_shows(options, &run.ghosts, &charts)?;
+    let facts = run.facts();
     let title = facts.iter().find(|(key, _)| key == "scenario");
     Ok(Sheet {
         title: title.map_or_else(|| source.to_owned(), |(_, title)| title.clone()),
@@ -240,9 +243,9 @@ fn study(source: &str, record: Record, options: &Figure) -> Result<Sheet> {
 }
 
 /// The usual charts, and those that curves of other sources belong to.
-fn usual(ghosts: &[Ghost]) -> Vec<Panel> {
-    let of_ghosts = [Panel::WornDepth, Panel::Volume, Panel::ScarDepth];
-    let is_wanted = |panel: &Panel| {
+fn usual(ghosts: &[Arc<Ghost>]) -> Vec<&'static Recipe> {
+    let of_ghosts = [&depth::RECIPE, &volume::RECIPE, &scar_depth::RECIPE];
+    let is_wanted = |panel: &&Recipe| {
         let measured = ghosts.iter().filter(|ghost| ghost.is_measured);
         let mut shown = measured.filter(|ghost| panel.shows(ghost));
         shown.next().is_some()
@@ -255,7 +258,7 @@ fn usual(ghosts: &[Ghost]) -> Vec<Panel> {
 /// What was asked for over the charts is on one of them, or the user hears which one lacks.
 fn refuse_what_no_chart_shows(
     options: &Figure,
-    ghosts: &[Ghost],
+    ghosts: &[Arc<Ghost>],
     charts: &[Chart],
 ) -> Result<(), Misuse> {
     for (k, (given, ghost)) in options.overlay.iter().zip(ghosts).enumerate() {
@@ -263,8 +266,8 @@ fn refuse_what_no_chart_shows(
         if curves.any(|curve| curve.role == Role::Ghost(k)) {
             continue;
         }
-        let places = Panel::ALL.into_iter().filter(|panel| panel.shows(ghost));
-        let names: Vec<&str> = places.map(Panel::name).collect();
+        let places = ON_PAPER.into_iter().filter(|panel| panel.shows(ghost));
+        let names: Vec<&str> = places.map(|panel| panel.name).collect();
         return Err(Misuse(format!(
             "--overlay {given}: is on none of these charts; it belongs to --panel {}",
             names.join(" or ")
@@ -274,39 +277,39 @@ fn refuse_what_no_chart_shows(
 }
 
 /// The curves of a file or of a directory, or of a scenario that is run as far as the figure goes.
-fn ghost(given: &str, data: &Data) -> Result<Ghost> {
+fn ghost(given: &str, run: &Run) -> Result<Ghost> {
     let path = Path::new(given);
     let is_scenario = path
         .extension()
         .is_none_or(|end| end.eq_ignore_ascii_case("toml"));
     if !is_scenario || path.is_dir() {
         let ghost = Ghost::read(path)?;
-        if let Some(reach) = data.reach() {
+        if let Some(reach) = run.reach() {
             ghost.check_radii(reach).map_err(Misuse)?;
         }
         return Ok(ghost);
     }
     let scenario = Scenario::load(given, &[])?;
-    let end = data.end().or(scenario.run().cycles);
+    let end = run.end().or(scenario.run().cycles);
     let end = job::end(end, given)?;
     let name = scenario.stem();
     let session = accuracy::session(scenario, Some(end), true);
     let mut session = session.with_context(|| printable(given))?;
-    Ok(Data::run(&mut session, &[end], false)?.ghost(&name))
+    Ok(Run::to(&mut session, &[end], false)?.ghost(&name))
 }
 
 /// The tables of a run on disk, or of one run now.
-fn data(source: &str, options: &Figure) -> Result<Data> {
+fn run(source: &str, options: &Figure) -> Result<Run> {
     let path = Path::new(source);
     let is_table = path
         .extension()
         .is_some_and(|end| end.eq_ignore_ascii_case("csv"));
-    let mut data = if path.is_dir() {
+    let mut run = if path.is_dir() {
         from_directory(path)?
     } else if is_table {
-        let mut data = Data::default();
-        take(&mut data, path)?;
-        data
+        let mut run = Run::default();
+        take(&mut run, path)?;
+        run
     } else {
         return from_scenario(source, options);
     };
@@ -319,10 +322,10 @@ fn data(source: &str, options: &Figure) -> Result<Data> {
     }
     if let Some(wanted) = &options.at {
         let is_at = |state: &Table, cycle: f64| (state.cycle() - cycle).abs() < 1e-9;
-        let here: Vec<String> = data.states.iter().map(|s| s.cycle().to_string()).collect();
+        let here: Vec<String> = run.states.iter().map(|s| s.cycle().to_string()).collect();
         let absent = wanted
             .iter()
-            .find(|at| !data.states.iter().any(|s| is_at(s, at.cycle)));
+            .find(|at| !run.states.iter().any(|s| is_at(s, at.cycle)));
         if let Some(absent) = absent {
             let message = format!(
                 "--at {}: {source} has no such state; it has those at {}",
@@ -331,14 +334,14 @@ fn data(source: &str, options: &Figure) -> Result<Data> {
             );
             return Err(Misuse(message).into());
         }
-        data.states
+        run.states
             .retain(|state| wanted.iter().any(|at| is_at(state, at.cycle)));
     }
-    Ok(data)
+    Ok(run)
 }
 
-fn from_directory(directory: &Path) -> Result<Data> {
-    let mut data = Data::default();
+fn from_directory(directory: &Path) -> Result<Run> {
+    let mut run = Run::default();
     let entries = fs::read_dir(directory).map_err(|error| unread(directory, &error.to_string()))?;
     let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
     paths.sort();
@@ -349,33 +352,33 @@ fn from_directory(directory: &Path) -> Result<Data> {
         let name = name.unwrap_or_default();
         let is_state = name.starts_with("state") && name.ends_with(".csv");
         if is_state || ["history.csv", "loop.csv", "field.csv"].contains(&name.as_str()) {
-            take(&mut data, &path)?;
+            take(&mut run, &path)?;
         }
     }
-    if data.states.is_empty() && data.history.is_none() && data.field.is_none() {
+    if run.states.is_empty() && run.history.is_none() && run.field.is_none() {
         let why = "has no state.csv, history.csv or field.csv";
         return Err(unread(directory, why).into());
     }
     let scenario = directory.join("scenario.toml");
     if scenario.is_file() {
-        data.scenario = Some(Scenario::load(&scenario.to_string_lossy(), &[])?);
+        run = run.of(&Scenario::load(&scenario.to_string_lossy(), &[])?);
     }
-    Ok(data)
+    Ok(run)
 }
 
 /// Reads a table of a run.
-fn take(data: &mut Data, path: &Path) -> Result<(), Misuse> {
+fn take(run: &mut Run, path: &Path) -> Result<(), Misuse> {
     let text =
         limited::regular_text(path, LARGEST).map_err(|why| unread(path, &why.to_string()))?;
     let table = Table::parse(&text).map_err(|why| unread(path, &why))?;
-    data.take(table).map_err(|why| unread(path, &why))
+    run.take(table).map_err(|why| unread(path, &why))
 }
 
 fn unread(path: &Path, why: &str) -> Misuse {
     Misuse(format!("{}: {why}", path.display()))
 }
 
-fn from_scenario(name: &str, options: &Figure) -> Result<Data> {
+fn from_scenario(name: &str, options: &Figure) -> Result<Run> {
     let scenario = Scenario::load(name, &options.changes.set)?;
     let mut cycles: Vec<f64> = match &options.at {
         Some(at) => at.iter().map(|at| at.cycle).collect(),
@@ -386,8 +389,8 @@ fn from_scenario(name: &str, options: &Figure) -> Result<Data> {
         }
     };
     cycles.sort_by(f64::total_cmp);
-    let with_field = options.panel.iter().any(|panel| panel.needs_field());
+    let with_field = options.panel.iter().any(|panel| panel.needs_field);
     let session = accuracy::session(scenario, cycles.last().copied(), options.quiet);
     let mut session = session.with_context(|| printable(name))?;
-    Ok(Data::run(&mut session, &cycles, with_field)?)
+    Ok(Run::to(&mut session, &cycles, with_field)?)
 }

@@ -27,8 +27,7 @@ pub const COLUMNS_OF_BODIES: [&str; 2] = ["wear_indenter_m", "wear_half_space_m"
 /// The whole file for the present state of `session`.
 pub fn table(session: &Session) -> String {
     let observation = session.simulation().observe(Curves::all());
-    let columns = columns_of(session, &observation);
-    let (numbers, of_bodies) = columns.split_at(COLUMNS.len() - 1);
+    let (numbers, of_bodies) = (columns(&observation), of_bodies(session, &observation));
     let mut text = lines(session);
     let names = of_bodies.iter().map(|(name, _)| *name);
     let names: Vec<&str> = COLUMNS.into_iter().chain(names).collect();
@@ -44,13 +43,8 @@ pub fn table(session: &Session) -> String {
     text
 }
 
-/// The columns of numbers with their names, in the order of the file.
-pub fn columns(session: &Session) -> Vec<(&'static str, Vec<f64>)> {
-    let observation = session.simulation().observe(Curves::all());
-    columns_of(session, &observation)
-}
-
-fn columns_of(session: &Session, seen: &Observation) -> Vec<(&'static str, Vec<f64>)> {
+/// The columns of numbers with their names, in the order of the file, as far as they were asked for.
+pub fn columns(seen: &Observation) -> Vec<(&'static str, Vec<f64>)> {
     // The compression of the springs: d − g in contact, 0 elsewhere.
     let pressed = |g: &f64| (seen.moment.depth - g).max(0.0);
     let values = [
@@ -67,13 +61,19 @@ fn columns_of(session: &Session, seen: &Observation) -> Vec<(&'static str, Vec<f
         seen.surface.clone(),
         seen.wear.clone(),
     ];
-    let mut columns: Vec<(&str, Vec<f64>)> = COLUMNS.into_iter().zip(values).collect();
-    if let Some(share) = session.scenario().wear_share() {
-        columns.extend(COLUMNS_OF_BODIES.into_iter().enumerate().map(|(k, name)| {
-            let nodes = 0..seen.radii.len();
-            let depths = nodes.map(|j| seen.wear_of_bodies(share, j)[k]);
-            (name, depths.collect())
-        }));
-    }
-    columns
+    let named = COLUMNS.into_iter().zip(values);
+    named.filter(|(_, values)| !values.is_empty()).collect()
+}
+
+/// What has worn of each body, where the scenario shares the wear between both.
+fn of_bodies(session: &Session, seen: &Observation) -> Vec<(&'static str, Vec<f64>)> {
+    let Some(share) = session.scenario().wear_share() else {
+        return Vec::new();
+    };
+    let column = |k: usize| -> Vec<f64> {
+        let nodes = 0..seen.radii.len();
+        nodes.map(|j| seen.wear_of_bodies(share, j)[k]).collect()
+    };
+    let named = COLUMNS_OF_BODIES.into_iter().enumerate();
+    named.map(|(k, name)| (name, column(k))).collect()
 }

@@ -2,18 +2,15 @@
 //!
 //! One idea per file: `canvas` (lines, areas and words in millimetres), `svg`, `png` and `pdf` (one
 //! writer each), `font`, `look` (colours and greys), `draw` (a chart on the canvas),
-//! `data` (the tables of a run, from its files or from memory), `panels` (one chart of a run each), `study` (those
-//! of a sweep), `paper` (the figures of the paper). Charts, their ticks and units are those of the screen (`plot`).
+//! `study` (the charts of a sweep), `paper` (the figures of the paper). Charts, their ticks and units are those of the screen (`plot`).
 
 use std::fmt::Write;
 use std::path::Path;
 
 pub mod canvas;
-pub mod data;
 mod draw;
 pub mod font;
 pub mod look;
-pub mod panels;
 pub mod paper;
 pub mod pdf;
 pub mod png;

@@ -1,8 +1,7 @@
 //! The figures of Li, Forsbach & Benad (2019), point by point.
 
 use super::Sheet;
-use super::data::Data;
-use super::panels::{Missing, Panel, stresses};
+use crate::charts::{Missing, Run, profile, springs, stresses};
 use crate::math::abel::AbelMethod;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Scale};
@@ -53,22 +52,28 @@ pub fn errors(points: usize) -> Result<Sheet, Stop> {
 ///
 /// # Errors
 /// If the run has no data for it.
-pub fn fretting(data: &Data) -> Result<Sheet, Missing> {
-    let mut charts = vec![Panel::Profile.chart(data)?, Panel::Profile1d.chart(data)?];
-    // The panel reports a state without stresses.
-    Panel::Stresses.chart(data)?;
-    for state in [data.states.first(), data.states.last()]
+pub fn fretting(run: &Run) -> Result<Sheet, Missing> {
+    let mut charts = vec![
+        profile::RECIPE.on_paper(run)?,
+        springs::RECIPE.on_paper(run)?,
+    ];
+    // A run without states has none of the others.
+    for state in [run.states.first(), run.states.last()]
         .into_iter()
         .flatten()
     {
-        if let Some(mut chart) = stresses(state) {
-            chart.title = format!("stresses at {} cycles", state.cycle());
-            charts.push(chart);
-        }
+        let one = Run {
+            states: vec![state.clone()],
+            ..Run::default()
+        };
+        charts.push(Chart {
+            title: format!("stresses at {} cycles", state.cycle()),
+            ..stresses::RECIPE.on_paper(&one)?
+        });
     }
     Ok(Sheet {
         title: "Fretting wear (Fig. 3 of Li, Forsbach & Benad 2019)".into(),
-        facts: data.facts(),
+        facts: run.facts(),
         charts,
     })
 }

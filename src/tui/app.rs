@@ -19,11 +19,12 @@ use super::layout;
 use super::line::{LineEdit, one_line};
 use super::order::Order;
 use super::overlays::{Answer, Form, Help, Library, Overlay, Palette};
-use super::panels::{Panel, Shown, View};
+use super::panels::{Panel, Shown};
 use super::refinement_check::RefinementCheck;
 use super::snapshot;
 use super::theme::Theme;
 use super::tour::Tour;
+use crate::charts::{Medium, View};
 use crate::plot::{Chart, Scale, sticky_bounds};
 use crate::scenario::Scenario;
 use crate::simulation::Curves;
@@ -159,7 +160,7 @@ impl App {
 
     /// The frame that a panel shows where the screen is that of `frame`.
     pub(super) fn frame_of<'a>(&'a self, panel: Panel, frame: &'a Frame) -> &'a Frame {
-        let calm = self.calm.as_ref().filter(|_| panel.declared().is_calm);
+        let calm = self.calm.as_ref().filter(|_| panel.recipe().is_calm);
         calm.map_or(frame, |(calm, _)| calm)
     }
 
@@ -171,16 +172,14 @@ impl App {
     ) -> Cow<'_, Result<Chart, &'static str>> {
         match self.charts.get(&panel) {
             Some(chart) => Cow::Borrowed(chart),
-            None => {
-                let shot = panel.shot(frame, &self.view(panel));
-                Cow::Owned(shot.chart.unwrap_or(Err("")))
-            }
+            None => Cow::Owned(panel.recipe().chart(&frame.run(), &self.view(panel))),
         }
     }
 
     /// What the user has chosen for a panel.
     fn view(&self, panel: Panel) -> View {
         View {
+            medium: Medium::Screen,
             scale: self.scale(panel),
             with_theory: self.with_theory,
         }
@@ -195,19 +194,24 @@ impl App {
         if shown.comparison.is_some() {
             return;
         }
-        let cycle = shown.observation.moment.cycle;
+        let (cycle, run) = (shown.observation.moment.cycle, shown.run());
+        let calm = self.calm.as_ref().map(|(calm, _)| calm);
+        let calm = calm
+            .filter(|calm| !Arc::ptr_eq(calm, &shown))
+            .map(|calm| calm.run());
         for panel in self.visible().to_vec() {
-            let view = self.view(panel);
-            let shot = panel.shot(self.frame_of(panel, &shown), &view);
-            if let Some(extent) = shot.extent.filter(|_| !self.is_outdated) {
+            let (recipe, view) = (panel.recipe(), self.view(panel));
+            let calm = calm.as_ref().filter(|_| recipe.is_calm);
+            let mut chart = recipe.chart(calm.unwrap_or(&run), &view);
+            let made = chart.as_ref().ok();
+            let extent = panel.extent(self.frame_of(panel, &shown), made);
+            if let Some(extent) = extent.filter(|_| !self.is_outdated) {
                 Held::hold(self.bounds.entry((panel, view.scale)), extent, cycle);
             }
-            if let Some(extent) = shot.across.filter(|_| !self.is_outdated) {
-                Held::hold(self.across.entry(panel), extent, cycle);
+            let across = made.filter(|_| recipe.keeps_abscissa && !self.is_outdated);
+            if let Some(across) = across.and_then(|chart| chart.x.bounds) {
+                Held::hold(self.across.entry(panel), across, cycle);
             }
-            let Some(mut chart) = shot.chart else {
-                continue;
-            };
             if let Ok(chart) = &mut chart {
                 chart.y.bounds = self.bounds(panel);
                 let across = self.across.get(&panel).map(|held| held.bounds);
@@ -527,7 +531,7 @@ impl App {
 
     fn toggle_log(&mut self) {
         let focus = self.focus;
-        if !focus.declared().can_be_log {
+        if !focus.recipe().can_be_log {
             self.notice = Some(format!(
                 "the {} panel has no logarithmic scale",
                 focus.title()
@@ -552,7 +556,7 @@ impl App {
         // The checks of the status line need the pressure, whatever panel shows it.
         let mut shown = Curves::PRESSURE;
         for panel in self.visible() {
-            shown |= panel.declared().needs;
+            shown |= panel.recipe().needs;
         }
         // A comparison covers all panels, and a cursor reads all curves.
         if self

@@ -3,10 +3,9 @@
 use std::path::Path;
 
 use super::trend::Trend;
+use crate::charts::{Run, fretting_loop, profile, springs, stresses};
 use crate::export::target::{Target, write_all};
-use crate::figure::data::{Data, Loop};
 use crate::figure::look::{Look, Style};
-use crate::figure::panels::Panel;
 use crate::figure::{Format, Sheet};
 use crate::scenario::session::Session;
 
@@ -27,33 +26,22 @@ pub(super) fn write(session: &Session, trend: &Trend, path: &Path) -> Result<(),
     let beside = path.with_extension("csv");
     let claim = |path: &Path| Target::claim(path, false).map_err(|error| error.to_string());
     let (target, data_target) = (claim(path)?, claim(&beside)?);
-    let mut data = Data {
-        scenario: Some(session.scenario().clone()),
-        ..Data::default()
-    };
-    data.take_state(session);
-    let (shifts, forces) = trend.fretting_loop();
-    let end = session.simulation().cycle();
-    // A rig that was mounted within the cycle has sensed the end of it.
-    let (sensed, _) = trend.sensed_loop();
-    let mut displacements = vec![f64::NAN; shifts.len() - sensed.len()];
-    displacements.extend(sensed);
-    data.loops.push(Loop {
-        end,
-        shifts,
-        forces,
-        sensed: displacements,
-    });
-    let panels = [
-        Panel::Profile,
-        Panel::Profile1d,
-        Panel::Stresses,
-        Panel::Loop,
+    let mut run = Run::default().of(session.scenario());
+    run.take_state(session);
+    run.loops
+        .push(trend.last_loop(session.simulation().cycle()));
+    let recipes = [
+        &profile::RECIPE,
+        &springs::RECIPE,
+        &stresses::RECIPE,
+        &fretting_loop::RECIPE,
     ];
-    let charts = panels.iter().filter_map(|panel| panel.chart(&data).ok());
+    let charts = recipes
+        .iter()
+        .filter_map(|recipe| recipe.on_paper(&run).ok());
     let sheet = Sheet {
         title: session.scenario().title().to_owned(),
-        facts: data.facts(),
+        facts: run.facts(),
         charts: charts.collect(),
     };
     let look = Look {

@@ -5,8 +5,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::pace::Pace;
 use super::settings::Setting;
 use super::trend::Trend;
+use crate::charts::{Live, Loop, Run, Table};
 use crate::contact::indenter::Indenter;
 use crate::contact::subsurface::{Peak, SpringLoad};
+use crate::export::state;
 use crate::simulation::{Check, CycleFigures, Observation};
 use crate::studies::ghost::Ghost;
 use crate::studies::theory::Theory;
@@ -98,6 +100,44 @@ pub struct Frame {
     pub ghosts: Vec<Arc<Ghost>>,
     /// The comparison run.
     pub comparison: Option<Comparison>,
+}
+
+impl Frame {
+    /// What charts are made of: the curves that were computed, and the past.
+    pub fn run(&self) -> Run {
+        let seen = &self.observation;
+        let log = self.trend.loops().map(|(end, shifts, forces)| Loop {
+            end,
+            shifts,
+            forces,
+            ..Loop::default()
+        });
+        Run {
+            states: vec![Table::of_columns(Vec::new(), state::columns(seen))],
+            history: Some(self.trend.history()),
+            loops: vec![self.last_loop()],
+            ghosts: self.ghosts.clone(),
+            field: None,
+            theory: Some(Arc::clone(&self.theory)),
+            indenter: Some(self.indenter.clone()),
+            live: Some(Live {
+                moment: seen.moment,
+                wears: seen.law.is_some(),
+                friction: self.friction,
+                planned_cycles: self.planned_cycles,
+                expected_wear: self.expected_wear,
+                is_within_a_cycle: self.trend.is_within_a_cycle(),
+                regime: self.figures.as_ref().map(|figures| figures.regime.title()),
+                slip_border: self.slip_border,
+                log: log.collect(),
+            }),
+        }
+    }
+
+    /// The loop of the last cycle.
+    pub fn last_loop(&self) -> Loop {
+        self.trend.last_loop(f64::NAN)
+    }
 }
 
 /// The slot that holds the latest frame.

@@ -76,7 +76,12 @@ struct Quantity {
 /// What the focused panel compares: at the radius, or at the present cycle and displacement.
 fn quantity(frame: &Frame, focus: Panel, r: f64) -> Option<Quantity> {
     let (seen, moment) = (&frame.observation, &frame.observation.moment);
-    let axes = focus.declared().compared;
+    let axes = focus
+        .recipe()
+        .overlays
+        .first()
+        .copied()
+        .unwrap_or(Axes::Wear);
     let (name, unit) = axes.quantity();
     let value = match axes {
         Axes::Profile => at(frame, &seen.profile, r),
@@ -92,9 +97,7 @@ fn quantity(frame: &Frame, focus: Panel, r: f64) -> Option<Quantity> {
     };
     let of_ghost = |ghost: &Ghost| match axes {
         Axes::Loop => {
-            let shifts = frame.trend.fretting_loop().0;
-            let before = shifts.iter().rev().nth(1).copied();
-            let rises = before.is_none_or(|before| before <= moment.shift);
+            let rises = frame.last_loop().rises();
             ghost.trace(axes)?.force_at(moment.shift, rises)
         }
         Axes::Wear => {

@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
+use crate::charts::{Loop, Table};
 use crate::simulation::Moment;
 
 /// Maximum number of cycles stored one by one; then neighbours are merged in pairs.
@@ -46,9 +47,25 @@ pub struct Cycle {
 /// A quantity of a cycle.
 pub type OfCycle = fn(&Cycle) -> f64;
 
+/// The columns of a history, by their names in `history.csv` where they are there, and what they are of a cycle.
+const COLUMNS: [(&str, OfCycle); 10] = [
+    ("cycle", |entry| entry.cycle),
+    ("contact_radius_m", |entry| entry.contact_radius),
+    ("permanent_stick_radius_m", |entry| entry.stick_radius),
+    ("wear_volume_m3", |entry| entry.wear_volume),
+    ("scar_depth_m", |entry| entry.scar_depth),
+    ("energy_residual", |entry| {
+        1.0 - entry.wear_volume / entry.expected_volume
+    }),
+    ("wear_rate_m3", |entry| entry.wear_rate),
+    ("step_cost_s", |entry| entry.step_cost),
+    ("u_x_amplitude_m", |entry| entry.amplitude),
+    ("mean_F_z_N", |entry| entry.normal_force),
+];
+
 /// A stored loop of one cycle.
 #[derive(Debug, Clone, PartialEq)]
-struct Loop {
+struct KeptLoop {
     cycle: f64,
     shifts: Vec<f64>,
     forces: Vec<f64>,
@@ -113,7 +130,7 @@ pub struct Trend {
     /// Amplitude and load of the last cycle.
     condition: Option<[f64; 2]>,
     /// Loops of cycles so far apart, oldest first.
-    loops: Vec<Arc<Loop>>,
+    loops: Vec<Arc<KeptLoop>>,
     loop_stride: f64,
 }
 
@@ -289,7 +306,7 @@ impl Trend {
             let kept = kept.filter(|(k, _)| k % every == 0 || *k == last);
             kept.map(|(_, value)| *value).collect()
         };
-        self.loops.push(Arc::new(Loop {
+        self.loops.push(Arc::new(KeptLoop {
             cycle: whole,
             shifts: thinned(shifts),
             forces: thinned(forces),
@@ -319,6 +336,32 @@ impl Trend {
     pub fn finished_cycles(&self) -> impl Iterator<Item = &Cycle> {
         let first = self.tip.open.iter().filter(|_| self.cycles.is_empty());
         self.cycles.iter().chain(first)
+    }
+
+    /// Whether the last of them is unfinished.
+    pub fn is_within_a_cycle(&self) -> bool {
+        self.tip.open.is_some()
+    }
+
+    /// The cycles so far as columns.
+    pub fn history(&self) -> Table {
+        let columns = COLUMNS.map(|(name, of)| (name, self.cycles().map(of).collect()));
+        Table::of_columns(Vec::new(), columns.into())
+    }
+
+    /// The loop of the last cycle, which ends at `end`.
+    pub fn last_loop(&self, end: f64) -> Loop {
+        let (shifts, forces) = self.fretting_loop();
+        // A rig that was mounted within the cycle has sensed the end of it.
+        let (sensed, _) = self.sensed_loop();
+        let mut displacements = vec![f64::NAN; shifts.len() - sensed.len()];
+        displacements.extend(sensed);
+        Loop {
+            end,
+            shifts,
+            forces,
+            sensed: displacements,
+        }
     }
 
     /// The displacement of the rig's actuator (m) and F_x (N) of the last cycle, as far as there is a rig that

@@ -13,9 +13,10 @@ fn height(floor: &str) -> Option<u8> {
         "reading" => 4,
         "scenario" => 5,
         "studies" | "export" | "plot" => 6,
-        "figure" => 7,
-        "tui" => 8,
-        "cli" => 9,
+        "charts" => 7,
+        "figure" => 8,
+        "tui" => 9,
+        "cli" => 10,
         _ => return None,
     })
 }

@@ -8,8 +8,8 @@ use clap_complete::engine::ArgValueCompleter;
 
 use super::Changes;
 use super::values::{CycleAsGiven, cycles};
+use crate::charts::{ON_PAPER, Recipe};
 use crate::cli::complete;
-use crate::figure::panels::Panel;
 
 /// Options of `figure`.
 #[derive(Debug, Args)]
@@ -33,7 +33,7 @@ pub struct Figure {
     pub figure: Option<PaperFigure>,
     /// Chart to draw; can be repeated; default: profiles, stresses and loop, if the data are there.
     #[arg(long, value_name = "NAME", value_parser = panel_parser(), conflicts_with = "figure")]
-    pub panel: Vec<Panel>,
+    pub panel: Vec<&'static Recipe>,
     /// Column of a sweep's table to draw; can be repeated; default: the first one and regime, or over one axis up to
     /// four. With more than two axes, --set KEY=VALUE holds some of them.
     #[arg(long, value_name = "NAME")]
@@ -100,11 +100,11 @@ pub enum StyleChoice {
     Grey,
 }
 
-fn panel_parser() -> impl TypedValueParser<Value = Panel> {
-    PossibleValuesParser::new(Panel::ALL.map(Panel::name)).map(|name| {
-        let found = Panel::ALL.into_iter().find(|panel| panel.name() == name);
+fn panel_parser() -> impl TypedValueParser<Value = &'static Recipe> {
+    PossibleValuesParser::new(ON_PAPER.map(|recipe| recipe.name)).map(|name| {
+        let found = ON_PAPER.into_iter().find(|recipe| recipe.name == name);
         // The parser has let through nothing but these names.
-        found.unwrap_or(Panel::Profile)
+        found.unwrap_or(ON_PAPER[0])
     })
 }
 

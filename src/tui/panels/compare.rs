@@ -6,7 +6,8 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::Line;
 use ratatui::widgets::Widget;
 
-use super::{App, Frame, Words, clip_spikes, edge, ghosts, nothing, over_r, titled};
+use super::{App, Frame, clip_spikes, edge, nothing, titled};
+use crate::charts::{A, C, Live, Words, ghosts};
 use crate::math::scan::largest;
 use crate::plot::units::{format_number, format_value_in};
 use crate::plot::{Axis, Chart, Curve, Plot, Scale, nice_bounds};
@@ -26,11 +27,7 @@ pub const WORDS: Words = Words {
     text: "Two methods run side by side from one state: both profiles, both pressures, and below them the size \
            of the difference of the profiles, which is logarithmic. m and M change the second method, C begins \
            at the start of the scenario, c ends the comparison.",
-    symbols: &[
-        super::A,
-        super::C,
-        ("side by side", "the same numbers of both runs"),
-    ],
+    symbols: &[A, C, ("side by side", "the same numbers of both runs")],
 };
 
 /// Draws the comparison over the whole area of the panels.
@@ -68,9 +65,11 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffe
             Curve::new(&*names.0, &seen.radii[..], here, role),
         ]
     };
-    let profiles = over_r(frame, "r", ("f", "m"))
-        .curves(ghosts::worn(frame, Some(1.0)))
+    let run = frame.run();
+    let mut profiles = Chart::new("", Axis::new("r", "m"), Axis::new("f", "m"))
+        .curves(ghosts::worn(&run, Some(1.0)))
         .curves(pair(&other.profile, &seen.profile, Role::Profile));
+    profiles.marks = run.live.as_ref().map(Live::edge_marks).unwrap_or_default();
     render(&profiles, inside("3D profile", left, buffer), buffer);
     // A spike at a border of stick must not flatten all the rest.
     let mut values = [&seen.pressure[..], &other.pressure].concat();
@@ -79,11 +78,16 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffe
     let mut ordinate = Axis::new("p", "Pa");
     ordinate.bounds = (highest > 0.0).then(|| nice_bounds(0.0, highest));
     let pressures = Chart::new("", Axis::new("r", "m"), ordinate)
-        .curves(ghosts::on(frame, Axes::Pressure, 1.0))
+        .curves(ghosts::on(&run, Axes::Pressure))
         .curves(pair(&other.pressure, &seen.pressure, Role::Pressure));
     render(&pressures, inside("pressure", right, buffer), buffer);
     let inside_below = inside("difference of f", below, buffer);
-    let of_ghosts = ghosts::differences(frame);
+    let mut of_ghosts = ghosts::worn(&run, None);
+    for ghost in &mut of_ghosts {
+        let points = ghost.xs.iter().zip(&mut ghost.ys);
+        points.for_each(|(&r, worn)| *worn = (*worn - seen.worn_depth_at(r)).abs());
+        ghost.errors.clear();
+    }
     let highest = of_ghosts.iter().map(Curve::highest);
     let highest = highest.fold(largest(&difference), f64::max);
     if highest == 0.0 {

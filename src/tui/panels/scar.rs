@@ -15,7 +15,7 @@ use ratatui::style::{Color, Style};
 use ratatui::text::Line;
 
 use super::stress_map::{self, SHADES};
-use super::{App, Declared, Frame, Panel, Words, nothing};
+use super::{App, Frame, Panel, Picture, Recipe, Words, nothing};
 use crate::math::grid::interpolate;
 use crate::math::scan::largest;
 use crate::plot::colormap::ColorMap;
@@ -24,16 +24,20 @@ use crate::simulation::{Curves, Zone};
 use crate::tui::theme::Role;
 
 /// The panel.
-pub const PANEL: Declared = Declared {
-    title: "scar from above",
-    needs: Curves::PROFILE.union(Curves::SPRINGS),
-    words: Words {
-        text: "The contact from above. The left half shows where it sticks, slips and is open at this moment, the \
+pub static PICTURE: Picture = Picture {
+    recipe: Recipe {
+        title: "scar from above",
+        needs: Curves::PROFILE.union(Curves::SPRINGS),
+        words: Words {
+            text: "The contact from above. The left half shows where it sticks, slips and is open at this moment, the \
                  right half the worn depth in colours. The arrow shows which way the indenter \
                      slips.",
-        symbols: &[("s ~ .", "stick, slip, open (without colours)")],
+            symbols: &[("s ~ .", "stick, slip, open (without colours)")],
+        },
+        ..Recipe::new(|_, _| Err(""))
     },
-    ..Declared::picture(draw, depths)
+    draw,
+    extent: depths,
 };
 
 /// The width, cells, from which the legend fits in one line, and the height from which it gets two

@@ -12,29 +12,33 @@ use ratatui::style::{Color, Style};
 use ratatui::text::Line;
 
 use super::stress_map::{self, SHADES, Samples};
-use super::{App, Declared, Frame, Panel, Words, edge};
+use super::{App, Frame, Panel, Picture, Recipe, Words, edge};
 use crate::math::grid::interpolate;
 use crate::plot::units::format_value_in;
 use crate::simulation::Curves;
 use crate::tui::theme::{Depth, Look, Role, Theme};
 
 /// The panel.
-pub const PANEL: Declared = Declared {
-    title: "cross-section",
-    needs: Curves::PROFILE
-        .union(Curves::DEPRESSION)
-        .union(Curves::SPRINGS),
-    is_calm: true,
-    words: Words {
-        text: "A cut through both bodies: the indenter above, the half-space it deforms below. \
+pub static PICTURE: Picture = Picture {
+    recipe: Recipe {
+        title: "cross-section",
+        needs: Curves::PROFILE
+            .union(Curves::DEPRESSION)
+            .union(Curves::SPRINGS),
+        is_calm: true,
+        words: Words {
+            text: "A cut through both bodies: the indenter above, the half-space it deforms below. \
                  Heights are exaggerated by the factor shown. The contact surface is coloured by \
                  stick and slip.",
-        symbols: &[
-            ("F_z", "normal force"),
-            ("u_x", "tangential displacement of the indenter"),
-        ],
+            symbols: &[
+                ("F_z", "normal force"),
+                ("u_x", "tangential displacement of the indenter"),
+            ],
+        },
+        ..Recipe::new(|_, _| Err(""))
     },
-    ..Declared::picture(draw, heights)
+    draw,
+    extent: heights,
 };
 
 /// The picture is this many times as wide as the domain: the sides of the bodies are seen.
@@ -173,7 +177,7 @@ fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     let width = 2.0 * WIDER * edge / f64::from(area.width);
     let rows = 2 * usize::from(area.height);
     let samples = Samples::new(app.stress, frame, usize::from(area.width), rows, width);
-    let picture = Picture {
+    let picture = Canvas {
         theme: &app.theme,
         half,
         map: samples.zip(app.stress_bounds()),
@@ -194,7 +198,7 @@ fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
 }
 
 /// How the cut becomes cells.
-struct Picture<'a> {
+struct Canvas<'a> {
     theme: &'a Theme,
     /// The height of half a cell, m, on the scale of the surfaces.
     half: f64,
@@ -203,7 +207,7 @@ struct Picture<'a> {
     colors: crate::plot::colormap::ColorMap,
 }
 
-impl Picture<'_> {
+impl Canvas<'_> {
     /// The cell whose upper edge is at height `top`.
     fn cell(&self, cut: &Cut, column: usize, top: f64) -> (char, Style) {
         if !self.theme.colored() || self.theme.ascii() {

@@ -1,12 +1,12 @@
 //! The fretting log: the loops F_x over u_x of earlier cycles behind that of the last one, each a step
 //! further to the right and up. The axes are those of the last loop.
 
-use super::{Declared, Frame, NO_CYCLE, NO_MOTION, View, Words};
+use super::{Loop, NO_CYCLE, NO_MOTION, Recipe, Run, View, Words};
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve};
 
-/// The panel.
-pub const PANEL: Declared = Declared {
+/// The chart.
+pub static RECIPE: Recipe = Recipe {
     title: "fretting log",
     is_calm: true,
     words: Words {
@@ -17,7 +17,7 @@ pub const PANEL: Declared = Declared {
             ("F_x", "tangential force"),
         ],
     },
-    ..Declared::chart(draw)
+    ..Recipe::new(make)
 };
 
 /// The most loops that are drawn.
@@ -26,12 +26,9 @@ const MOST: usize = 12;
 /// How far the oldest loop lies behind the newest, in widths and heights of the largest.
 const SHIFT: [f64; 2] = [0.6, 1.2];
 
-/// The cycle that a loop ends, its u_x (m) and its F_x (N).
-type Seen = (f64, Vec<f64>, Vec<f64>);
-
-fn draw(frame: &Frame, _: &View) -> Result<Chart, &'static str> {
-    frame.observation.moment.stick_radius.ok_or(NO_MOTION)?;
-    let mut loops: Vec<Seen> = frame.trend.loops().collect();
+fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
+    let live = run.live.as_ref().filter(|live| live.moves());
+    let mut loops: Vec<&Loop> = live.ok_or(NO_MOTION)?.log.iter().collect();
     if loops.len() > MOST {
         let every = loops.len().div_ceil(MOST);
         let last = loops.len() - 1;
@@ -43,33 +40,31 @@ fn draw(frame: &Frame, _: &View) -> Result<Chart, &'static str> {
     }
     let ends = loops.first().zip(loops.last());
     let (first, last) = ends
-        .map(|(first, last)| (first.0, last.0))
+        .map(|(first, last)| (first.end, last.end))
         .ok_or(NO_CYCLE)?;
-    let extent = |of: fn(&Seen) -> &Vec<f64>| {
-        let values = loops.iter().flat_map(of);
+    let extent = |of: fn(&Loop) -> &Vec<f64>| {
+        let values = loops.iter().flat_map(|one| of(one));
         let bounds = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &v| {
             (a.min(v), b.max(v))
         });
         bounds.1 - bounds.0
     };
-    let size = [extent(|entry| &entry.1), extent(|entry| &entry.2)];
+    let size = [extent(|one| &one.shifts), extent(|one| &one.forces)];
     let newest = loops.len() - 1;
     let mut chart = Chart::new("", Axis::new("u_x", "m"), Axis::new("F_x", "N"));
     chart.note = format!("cycles {first:.0} (back) to {last:.0}");
     // The newest is drawn last, over the others.
-    Ok(
-        chart.curves(loops.iter().enumerate().map(|(k, (_, shifts, forces))| {
-            let step = (newest - k) as f64 / newest.max(1) as f64;
-            let moved = |values: &[f64], axis: usize| -> Vec<f64> {
-                let by = step * SHIFT[axis] * size[axis];
-                values.iter().map(|value| value + by).collect()
-            };
-            let role = if k == newest {
-                Role::Shear
-            } else {
-                Role::Unworn
-            };
-            Curve::new("", moved(shifts, 0), moved(forces, 1), role)
-        })),
-    )
+    Ok(chart.curves(loops.iter().enumerate().map(|(k, one)| {
+        let step = (newest - k) as f64 / newest.max(1) as f64;
+        let moved = |values: &[f64], axis: usize| -> Vec<f64> {
+            let by = step * SHIFT[axis] * size[axis];
+            values.iter().map(|value| value + by).collect()
+        };
+        let role = if k == newest {
+            Role::Shear
+        } else {
+            Role::Unworn
+        };
+        Curve::new("", moved(&one.shifts, 0), moved(&one.forces, 1), role)
+    })))
 }

@@ -1,13 +1,12 @@
 //! The difference between wear volume and friction work: V/(k E_d) − 1 since the start, in
 //! thousandths. The wear law says zero.
 
-use super::{Declared, Frame, View, Words, cycles_shown, over_cycles, series};
+use super::{Recipe, Run, View, Words, cycles_shown, over_cycles, series};
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve};
-use crate::tui::trend::Cycle;
 
-/// The panel.
-pub const PANEL: Declared = Declared {
+/// The chart.
+pub static RECIPE: Recipe = Recipe {
     title: "V against k E_d",
     has_spikes: true,
     is_calm: true,
@@ -20,22 +19,21 @@ pub const PANEL: Declared = Declared {
             ("E_d", "friction work"),
         ],
     },
-    ..Declared::chart(draw)
+    ..Recipe::new(make)
 };
 
-/// V/(k E_d) − 1 at the end of an entry, in ‰; NaN under laws that do not follow energy.
-fn difference(entry: &Cycle) -> f64 {
-    1e3 * (entry.wear_volume / entry.expected_volume - 1.0)
-}
-
-fn draw(frame: &Frame, _: &View) -> Result<Chart, &'static str> {
-    let differences = series(frame, "", Role::Profile, difference);
+fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
+    // The history has 1 − V/(k E_d); it is missing under laws that do not follow energy.
+    let mut differences = series(run, "energy_residual", "", Role::Profile)?;
+    for value in &mut differences.ys {
+        *value *= -1e3;
+    }
     if !differences.ys.iter().any(|value| value.is_finite()) {
         return Err("nothing to compare yet");
     }
-    let zero = Curve::new("", cycles_shown(frame), [0.0; 2], Role::Faint);
     let ordinate = Axis::new("V/(k E_d) - 1", "1e-3");
-    Ok(over_cycles(frame, ordinate)
-        .curve(zero.dashed())
+    let zero = cycles_shown(run).map(|ends| Curve::new("", ends, [0.0; 2], Role::Faint));
+    Ok(over_cycles(run, ordinate)
+        .curves(zero.map(Curve::dashed))
         .curve(differences))
 }

@@ -1,12 +1,18 @@
-//! The tables behind a figure: read from the files of a run, or taken from memory.
+//! What is known of a run: tables read from its files, or taken from memory.
 
-use super::panels::Panel;
+use std::sync::Arc;
+
+use super::{Medium, View};
+use crate::contact::indenter::Indenter;
 use crate::export::last_loop::LastLoop;
 use crate::export::{field, header, state};
+use crate::plot::Zone;
 use crate::scenario::Scenario;
 use crate::scenario::scalars::{self, Reading, Value};
 use crate::scenario::session::{Session, SessionError};
+use crate::simulation::{Curves, Moment};
 use crate::studies::ghost::{Axes, Ghost};
+use crate::studies::theory::Theory;
 
 /// A CSV file of this program: header lines and columns of numbers.
 #[derive(Debug, Clone, PartialEq)]
@@ -108,6 +114,11 @@ pub struct Loop {
 }
 
 impl Loop {
+    /// Whether the indenter moves to the right at its end.
+    pub fn rises(&self) -> bool {
+        !matches!(self.shifts[..], [.., before, now] if before > now)
+    }
+
     /// The cycle before `end` of a table with these columns for displacement and force.
     fn of(table: &Table, [shift, force]: [&str; 2], end: f64) -> Option<Self> {
         let column = |name: &str| table.column(name);
@@ -137,9 +148,39 @@ impl Loop {
     }
 }
 
-/// The tables of a run.
+/// What a run has only while it is on a screen.
+#[derive(Debug, Clone)]
+pub struct Live {
+    /// The present moment.
+    pub moment: Moment,
+    /// Whether the profile wears.
+    pub wears: bool,
+    /// μ.
+    pub friction: f64,
+    /// Where the scenario's plan ends, cycles.
+    pub planned_cycles: Option<f64>,
+    /// About the deepest wear at the planned end, m; 0 where it is not known.
+    pub expected_wear: f64,
+    /// Whether the last row of the history belongs to an unfinished cycle.
+    pub is_within_a_cycle: bool,
+    /// The running condition of the last cycle, in words.
+    pub regime: Option<&'static str>,
+    /// The amplitude of u_x from which the present profile slips as a whole, m, where it is known.
+    pub slip_border: Option<f64>,
+    /// Loops of earlier cycles, oldest first.
+    pub log: Vec<Loop>,
+}
+
+impl Live {
+    /// Whether there is a tangential motion.
+    pub fn moves(&self) -> bool {
+        self.moment.stick_radius.is_some()
+    }
+}
+
+/// What is known of a run: over the radius, over cycles, over a cycle, and beside it.
 #[derive(Debug, Clone, Default)]
-pub struct Data {
+pub struct Run {
     /// States, by their cycles.
     pub states: Vec<Table>,
     /// The history.
@@ -147,11 +188,15 @@ pub struct Data {
     /// Loops of single cycles.
     pub loops: Vec<Loop>,
     /// Curves of other sources.
-    pub ghosts: Vec<Ghost>,
+    pub ghosts: Vec<Arc<Ghost>>,
     /// The stresses inside the half-space.
     pub field: Option<Table>,
-    /// The scenario, for what theory says.
-    pub scenario: Option<Scenario>,
+    /// What theory says of the scenario.
+    pub theory: Option<Arc<Theory>>,
+    /// The unworn shape.
+    pub indenter: Option<Indenter>,
+    /// What belongs to a screen.
+    pub live: Option<Live>,
 }
 
 /// What the charts over cycles show.
@@ -163,7 +208,18 @@ const OVER_CYCLES: [&str; 5] = [
     "scar_depth_m",
 ];
 
-impl Data {
+impl Run {
+    /// The same with what the scenario tells.
+    #[must_use]
+    pub fn of(self, scenario: &Scenario) -> Self {
+        let setup = scenario.setup();
+        Self {
+            theory: Some(Arc::new(Theory::of(setup))),
+            indenter: Some(setup.indenter.clone()),
+            ..self
+        }
+    }
+
     /// Adds a table, recognised by its columns; refuses a table that is not from a run.
     pub fn take(&mut self, table: Table) -> Result<(), String> {
         let of_loop = [["u_x_m", "F_x_N"], ["u_m", "F_N"]];
@@ -188,7 +244,8 @@ impl Data {
 
     /// Takes the present state of `session` in.
     pub fn take_state(&mut self, session: &Session) {
-        let table = Table::of_columns(header::entries(session), state::columns(session));
+        let seen = session.simulation().observe(Curves::all());
+        let table = Table::of_columns(header::entries(session), state::columns(&seen));
         self.states.push(table);
     }
 
@@ -197,15 +254,12 @@ impl Data {
     ///
     /// # Errors
     /// If the run stops.
-    pub fn run(
+    pub fn to(
         session: &mut Session,
         cycles: &[f64],
         with_field: bool,
     ) -> Result<Self, SessionError> {
-        let mut data = Self {
-            scenario: Some(session.scenario().clone()),
-            ..Self::default()
-        };
+        let mut data = Self::default().of(session.scenario());
         let scalars = OVER_CYCLES.map(scalars::find);
         let mut seen: Vec<Vec<f64>> = vec![Vec::new(); scalars.len()];
         let mut record = |session: &Session| {
@@ -285,7 +339,7 @@ impl Data {
                 }
             }
         }
-        if let Ok(chart) = Panel::Loop.chart(self)
+        if let Ok(chart) = super::fretting_loop::RECIPE.on_paper(self)
             && let Some(curve) = chart.curves.into_iter().next_back()
         {
             ghost.add(Axes::Loop, curve.xs, curve.ys);
@@ -297,6 +351,57 @@ impl Data {
     pub fn reach(&self) -> Option<f64> {
         let radii = self.states.last()?.column("r_m")?;
         radii.last().copied()
+    }
+
+    /// The same, 0 without a state.
+    pub fn edge(&self) -> f64 {
+        self.reach().unwrap_or(0.0)
+    }
+
+    /// f₀ at a radius, m; NaN where the shape is not known.
+    pub fn unworn(&self, r: f64) -> f64 {
+        let indenter = self.indenter.as_ref();
+        indenter.map_or(f64::NAN, |indenter| indenter.profile(r))
+    }
+
+    /// μ, where there are friction and a tangential motion.
+    pub(super) fn friction(&self) -> Option<f64> {
+        let live = self.live.as_ref().filter(|live| live.moves());
+        live.map(|live| live.friction).filter(|mu| *mu > 0.0)
+    }
+
+    /// Says so if the scenario has no wear.
+    pub(super) fn wears(&self) -> Result<(), &'static str> {
+        match &self.live {
+            Some(live) if !live.wears => Err(super::NO_WEAR),
+            _ => Ok(()),
+        }
+    }
+
+    /// Stick, slip and open along the radius, on a screen.
+    pub(super) fn zones(&self, view: &View) -> Vec<Zone> {
+        let live = self.live.as_ref().filter(|_| view.medium == Medium::Screen);
+        live.map(|live| live.zones(self.edge())).unwrap_or_default()
+    }
+
+    /// Columns of the history over cycles. Of a finished run in which most rows end a cycle, others are left out:
+    /// they lie at other phases of the motion.
+    pub(super) fn over_cycles<const N: usize>(&self, names: [&str; N]) -> Option<[Vec<f64>; N]> {
+        let history = self.history.as_ref()?;
+        let cycles = history.column("cycle")?;
+        let is_whole = |row: &usize| cycles[*row].fract() == 0.0;
+        let rows = 0..cycles.len();
+        let whole: Vec<usize> = rows.clone().filter(is_whole).collect();
+        let rows = match 2 * whole.len() > cycles.len() && whole.len() > 1 {
+            true if self.live.is_none() => whole,
+            _ => rows.collect(),
+        };
+        let mut columns = [(); N].map(|()| Vec::new());
+        for (values, name) in columns.iter_mut().zip(names) {
+            let column = history.column(name)?;
+            values.extend(rows.iter().map(|&row| column[row]));
+        }
+        Some(columns)
     }
 
     /// The last cycle that there is anything of.

@@ -5,13 +5,13 @@
 //! depth and load of a power-law tip give it in closed form, u_t ∝ N^(2/3) for a sphere. The second border
 //! is that of the present, worn profile through the present point of load and u_t.
 
-use super::{Declared, Frame, NO_CYCLE, NO_MOTION, View, Words};
+use super::{NO_CYCLE, NO_MOTION, Recipe, Run, View, Words};
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Point};
 use crate::simulation::Curves;
 
-/// The panel.
-pub const PANEL: Declared = Declared {
+/// The chart.
+pub static RECIPE: Recipe = Recipe {
     title: "running-condition map",
     needs: Curves::SPRINGS,
     words: Words {
@@ -20,7 +20,7 @@ pub const PANEL: Declared = Declared {
                  dashed for the unworn shape, solid for the present one.",
         symbols: &[("F_z", "mean normal force of a cycle")],
     },
-    ..Declared::chart(draw)
+    ..Recipe::new(make)
 };
 
 /// Points of a border.
@@ -29,29 +29,30 @@ const POINTS: usize = 64;
 /// Loads up to this many times the largest are shown.
 const BEYOND: f64 = 1.5;
 
-fn draw(frame: &Frame, _: &View) -> Result<Chart, &'static str> {
-    frame.observation.moment.stick_radius.ok_or(NO_MOTION)?;
+fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
+    let live = run.live.as_ref().filter(|live| live.moves());
+    let live = live.ok_or(NO_MOTION)?;
     // The path so far, oldest first: m, N.
-    let cycles = frame.trend.cycles();
-    let known = cycles.filter(|cycle| cycle.amplitude > 0.0 && cycle.normal_force > 0.0);
-    let (amplitudes, loads): (Vec<f64>, Vec<f64>) = known
-        .map(|cycle| (cycle.amplitude, cycle.normal_force))
-        .unzip();
+    let path = run.over_cycles(["u_x_amplitude_m", "mean_F_z_N"]);
+    let [amplitudes, loads] = path.unwrap_or_default();
+    let path = amplitudes.into_iter().zip(loads);
+    let known = path.filter(|(amplitude, load)| *amplitude > 0.0 && *load > 0.0);
+    let (amplitudes, loads): (Vec<f64>, Vec<f64>) = known.unzip();
     let last = amplitudes.last().copied().zip(loads.last().copied());
     let (amplitude, load) = last.ok_or(NO_CYCLE)?;
     let top = BEYOND * loads.iter().copied().fold(0.0, f64::max);
+    let theory = run.theory.as_deref();
     let steps = (0..=POINTS).map(|k| top * k as f64 / POINTS as f64);
-    let unworn = steps.filter_map(|load| Some((frame.theory.gross_slip_amplitude(load)?, load)));
+    let unworn = steps.filter_map(|load| Some((theory?.gross_slip_amplitude(load)?, load)));
     let (unworn_u, unworn_load): (Vec<f64>, Vec<f64>) = unworn.unzip();
-    let worn = frame.slip_border.filter(|&border| border > 0.0);
+    let worn = live.slip_border.filter(|&border| border > 0.0);
     // Once wear has fixed a, the border goes with the load.
     let worn_u = worn.map(|border| [0.0, border * top / load]);
     let right = unworn_u.iter().chain(&amplitudes).copied();
     let right = right.chain(worn_u.map(|u| u[1])).fold(0.0, f64::max);
     let unworn = Curve::new("border, unworn", unworn_u, unworn_load, Role::Limit).dashed();
     let worn = worn_u.map(|u| Curve::new("border, now", u, [0.0, top], Role::Slip));
-    let regime = frame.figures.as_ref().map(|figures| figures.regime.title());
-    let (name, here) = (regime.unwrap_or("now"), [[amplitude; 2], [load; 2]]);
+    let (name, here) = (live.regime.unwrap_or("now"), [[amplitude; 2], [load; 2]]);
     let mut chart = Chart::new(
         "",
         Axis::new("amplitude of u_x", "m").bounds([0.0, 1.1 * right]),

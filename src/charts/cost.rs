@@ -1,11 +1,11 @@
 //! Time per step on this machine, over finished cycles.
 
-use super::{Declared, Frame, View, Words, finished_series, over_cycles};
+use super::{Recipe, Run, View, Words, finished_series, over_cycles};
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart};
 
-/// The panel.
-pub const PANEL: Declared = Declared {
+/// The chart.
+pub static RECIPE: Recipe = Recipe {
     title: "time per step",
     can_be_log: true,
     has_spikes: true,
@@ -14,14 +14,13 @@ pub const PANEL: Declared = Declared {
         text: "How long one step of the simulation takes on this machine.",
         symbols: &[("t", "time per step")],
     },
-    ..Declared::chart(draw)
+    ..Recipe::new(make)
 };
 
-fn draw(frame: &Frame, _: &View) -> Result<Chart, &'static str> {
-    let cost = finished_series(frame, Role::Shear, |entry| entry.step_cost);
+fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
+    let cost = finished_series(run, "step_cost_s", Role::Shear)?;
     if !cost.ys.iter().any(|value| value.is_finite()) {
         return Err("measured while it runs");
     }
-    let ordinate = Axis::new("t", "s").from_zero();
-    Ok(over_cycles(frame, ordinate).curve(cost))
+    Ok(over_cycles(run, Axis::new("t", "s").from_zero()).curve(cost))
 }

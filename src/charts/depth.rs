@@ -1,0 +1,42 @@
+//! The worn depth f − f₀ over the radius.
+
+use super::{
+    A, BAND, C, Medium, NO_STATE, Recipe, Run, View, Words, ghosts, limit, of_states, over_r,
+};
+use crate::plot::theme::Role;
+use crate::plot::{Chart, Fill, Scale};
+use crate::simulation::Curves;
+use crate::studies::ghost::Axes;
+
+/// The chart.
+pub static RECIPE: Recipe = Recipe {
+    name: "worn-depth",
+    title: "worn depth",
+    can_be_log: true,
+    needs: Curves::PROFILE,
+    over_r: true,
+    overlays: &[Axes::Wear, Axes::Profile],
+    words: Words {
+        text: "How much has worn off, against the radius. Inside the permanent stick zone it is \
+                 zero; the \
+                 ring outside it grows towards the limiting shape (t) if the depth is held.",
+        symbols: &[("f - f0", "worn depth"), A, C, BAND],
+    },
+    ..Recipe::new(make)
+};
+
+fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
+    run.states.last().ok_or(NO_STATE)?;
+    // Without a base on a log axis, the area would reach for minus infinity.
+    let fill = match (view.medium, view.scale) {
+        (Medium::Screen, Scale::Linear) => Fill::To(0.0),
+        _ => Fill::None,
+    };
+    let worn = of_states(run, "wear_m", view.pick("worn", ""), Role::Profile);
+    let mut chart = over_r(run, "r", (view.pick("f - f0", "worn depth"), "m"));
+    chart.band = run.zones(view);
+    Ok(chart
+        .curves(limit(run, view.theory(run), None))
+        .curves(ghosts::worn(run, None))
+        .curves(worn.into_iter().map(|curve| curve.filled(fill.clone()))))
+}

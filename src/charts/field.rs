@@ -1,0 +1,59 @@
+//! The stresses inside the half-space in the plane of motion, as colours.
+
+use super::{Recipe, Run, View};
+use crate::plot::colormap::ColorMap;
+use crate::plot::{Axis, Chart, Map};
+
+/// The von Mises stress.
+pub static VON_MISES: Recipe = Recipe {
+    name: "von-mises",
+    title: "von Mises stress",
+    needs_field: true,
+    ..Recipe::new(|run, _: &View| map(run, ("σ", "von_mises_Pa"), ColorMap::Sequential))
+};
+
+/// The largest principal stress.
+pub static PRINCIPAL: Recipe = Recipe {
+    name: "principal",
+    title: "largest principal stress",
+    needs_field: true,
+    ..Recipe::new(|run, _: &View| map(run, ("σ max", "max_principal_Pa"), ColorMap::Diverging))
+};
+
+/// The Smith–Watson–Topper parameter over a cycle.
+pub static SWT: Recipe = Recipe {
+    name: "swt",
+    title: "Smith-Watson-Topper stress of a cycle",
+    needs_field: true,
+    ..Recipe::new(|run, _: &View| map(run, ("SWT", "swt_Pa"), ColorMap::Sequential))
+};
+
+fn map(
+    run: &Run,
+    (label, column): (&'static str, &str),
+    colors: ColorMap,
+) -> Result<Chart, &'static str> {
+    made(run, (label, column), colors).ok_or("there is no field.csv; run --field writes it")
+}
+
+fn made(run: &Run, (label, column): (&'static str, &str), colors: ColorMap) -> Option<Chart> {
+    let table = run.field.as_ref()?;
+    let (all_x, all_z) = (table.column("x_m")?, table.column("z_m")?);
+    let count = all_z.iter().take_while(|&&z| z == all_z[0]).count();
+    let xs = all_x[..count].to_vec();
+    let zs: Vec<f64> = all_z.iter().step_by(count).copied().collect();
+    if xs.len() < 2 || zs.len() < 2 || xs.len() * zs.len() != all_x.len() {
+        return None;
+    }
+    let mut depth = Axis::new("z", "m");
+    depth.downwards = true;
+    let mut chart = Chart::new("", Axis::new("x", "m"), depth);
+    chart.map = Some(Map {
+        quantity: Axis::new(label, "Pa"),
+        places: [xs, zs],
+        values: table.column(column)?.to_vec(),
+        colors,
+        words: Vec::new(),
+    });
+    Some(chart)
+}

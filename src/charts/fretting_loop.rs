@@ -1,0 +1,130 @@
+//! The fretting loop: tangential force over displacement in the last cycle. Its area is the energy
+//! that the cycle dissipates. An arrow stands at the present moment and points the way it goes. On a rig that
+//! yields the loop of its sensor is drawn beside that of the contact: both have the same forces and the same area.
+
+use super::{Live, Loop, Medium, NO_MOTION, Recipe, Run, View, Words, ghosts};
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve, Point};
+use crate::studies::ghost::Axes;
+
+/// The chart.
+pub static RECIPE: Recipe = Recipe {
+    name: "loop",
+    title: "fretting loop",
+    keeps_abscissa: true,
+    overlays: &[Axes::Loop],
+    words: Words {
+        text: "Tangential force against tangential displacement in the last cycle. The area \
+                 inside is the energy lost to friction. A line means full stick, a thin loop \
+                 partial slip, a parallelogram with flat ends gross slip. The arrow marks the \
+                 present moment.",
+        symbols: &[
+            ("u_x", "tangential displacement of the indenter"),
+            ("F_x", "tangential force (Q in fretting tests)"),
+        ],
+    },
+    ..Recipe::new(make)
+};
+
+/// How much of its width is left free beside a loop, on paper.
+const MARGIN: f64 = 0.05;
+
+/// The fewest points of a loop on paper.
+const SHORTEST: usize = 9;
+
+/// The range of values; as far on both sides of zero where they are on both.
+fn symmetric<'a>(values: impl Iterator<Item = &'a f64> + Clone) -> [f64; 2] {
+    let finite = || values.clone().copied().filter(|value| value.is_finite());
+    let (low, high) = (finite().fold(0.0, f64::min), finite().fold(0.0, f64::max));
+    // A motion to one side has no other.
+    if low < -0.1 * high && high > -0.1 * low {
+        let most = high.max(-low);
+        [-most, most]
+    } else {
+        [low, high]
+    }
+}
+
+/// The loops before the states of a run, or the last one: that of the sensor, where the rig yields, and that of
+/// the contact.
+fn loops(run: &Run, view: &View) -> Vec<Curve> {
+    let ends: Vec<f64> = match &run.states[..] {
+        [] => run.end().into_iter().collect(),
+        states => states.iter().map(|state| state.cycle()).collect(),
+    };
+    let count = ends.len();
+    let fewest = view.pick(1, SHORTEST);
+    let mut curves = Vec::new();
+    for (k, end) in ends.into_iter().enumerate() {
+        let Some(one) = run.loop_at(end) else {
+            continue;
+        };
+        if one.shifts.len() < fewest {
+            continue;
+        }
+        let sensed = one.sensed.iter().zip(&one.forces);
+        let sensed = sensed.filter(|(u, _)| u.is_finite());
+        let (sensed, forces): (Vec<f64>, Vec<f64>) = sensed.unzip();
+        let is_sensed = sensed.len() >= fewest;
+        let (name, sensor, roles) = match count {
+            1 if is_sensed => (
+                "contact".into(),
+                "rig's sensor".into(),
+                [Role::Shear, Role::Unworn],
+            ),
+            1 => (String::new(), String::new(), [Role::Shear, Role::Unworn]),
+            _ => {
+                let name = format!("{end} cycles");
+                let sensor = format!("{name} (rig's sensor)");
+                (name, sensor, [Role::Series(count - 1 - k); 2])
+            }
+        };
+        if is_sensed {
+            let curve = Curve::new(sensor, sensed, forces, roles[1]);
+            curves.push(curve.dashed_if(view.medium == Medium::Paper));
+        }
+        // The contact's comes last: another figure takes that as its ghost.
+        curves.push(Curve::new(name, one.shifts, one.forces, roles[0]));
+    }
+    curves
+}
+
+fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
+    if run.live.as_ref().is_some_and(|live| !live.moves()) {
+        return Err(NO_MOTION);
+    }
+    let loops = loops(run, view);
+    let moves = |curve: &Curve| curve.xs.iter().any(|&x| x != curve.xs[0]);
+    if view.medium == Medium::Paper && !loops.iter().any(moves) {
+        return Err(match loops.is_empty() {
+            true => {
+                "there is no loop.csv, and the history has one row per cycle; run writes loop.csv if there is a \
+                 tangential motion, and run --history every-step records all loops"
+            }
+            false => "the indenter does not move tangentially",
+        });
+    }
+    let mut chart = Chart::new("", Axis::new("u_x", "m"), Axis::new("F_x", "N"))
+        .curves(ghosts::on(run, Axes::Loop))
+        .curves(loops);
+    chart.margin = MARGIN;
+    if let Some(live) = &run.live {
+        let across = symmetric(chart.curves.iter().flat_map(|curve| &curve.xs));
+        let upwards = symmetric(chart.curves.iter().flat_map(|curve| &curve.ys));
+        (chart.x.bounds, chart.y.bounds) = (Some(across), Some(upwards));
+        chart.points.push(here(run, live));
+    }
+    Ok(chart)
+}
+
+/// An arrow at the present moment.
+fn here(run: &Run, live: &Live) -> Point {
+    Point {
+        at: [live.moment.shift, live.moment.tangential_force],
+        sign: match run.loops.last().is_none_or(Loop::rises) {
+            true => '▶',
+            false => '◀',
+        },
+        role: Role::Alarm,
+    }
+}

@@ -1,0 +1,76 @@
+//! Curves of other sources in a chart: on a screen dashes in the colour of text, each its own pattern; error bars
+//! where there are any.
+
+use super::Run;
+use crate::plot::Curve;
+use crate::plot::theme::Role;
+use crate::studies::ghost::{Axes, Ghost};
+
+/// What one ghost gives for a chart: abscissae, ordinates, and errors if there are any.
+type Points = (Vec<f64>, Vec<f64>, Option<Vec<f64>>);
+
+/// The curve of ghost number `k`.
+fn curve(ghost: &Ghost, k: usize, (xs, ys, errors): Points) -> Curve {
+    let curve = Curve::new(ghost.name.clone(), xs, ys, Role::Ghost(k));
+    match ghost.is_measured {
+        true => curve.scattered(errors.unwrap_or_default()),
+        false => curve.dashed(),
+    }
+}
+
+/// The curves of all ghosts that `of` finds points in.
+fn curves(run: &Run, of: impl Fn(&Ghost) -> Option<Points>) -> Vec<Curve> {
+    let ghosts = run.ghosts.iter().enumerate();
+    let curves = ghosts.filter_map(|(k, ghost)| Some(curve(ghost, k, of(ghost)?)));
+    let is_there = |curve: &Curve| curve.ys.iter().any(|y| y.is_finite());
+    curves.filter(is_there).collect()
+}
+
+/// The curves of the traces on `axes`.
+pub fn on(run: &Run, axes: Axes) -> Vec<Curve> {
+    curves(run, |ghost| {
+        let trace = ghost.trace(axes)?;
+        Some((trace.xs.clone(), trace.ys.clone(), trace.errors.clone()))
+    })
+}
+
+/// The curves of the traces on both axes, each with its axes. One entry of the legend is for both.
+pub(super) fn both(run: &Run, axes: [Axes; 2]) -> Vec<(Axes, Curve)> {
+    let [first, second] = axes.map(|axes| on(run, axes));
+    let is_named = |curve: &Curve| first.iter().any(|other| other.role == curve.role);
+    let nameless = |curve: Curve| match is_named(&curve) {
+        true => Curve {
+            name: String::new(),
+            ..curve
+        },
+        false => curve,
+    };
+    let second: Vec<Curve> = second.into_iter().map(nameless).collect();
+    let all = [first, second].into_iter().zip(axes);
+    all.flat_map(|(curves, axes)| curves.into_iter().map(move |curve| (axes, curve)))
+        .collect()
+}
+
+/// The curves of the wear, magnified by `times` on top of the unworn profile; `None` draws the wear alone.
+pub fn worn(run: &Run, times: Option<f64>) -> Vec<Curve> {
+    curves(run, |ghost| {
+        let worn = ghost.worn(|r| run.unworn(r))?;
+        let drawn = worn.unworn.iter().zip(&worn.wear);
+        let ys = drawn.map(|(f0, wear)| times.map_or(*wear, |times| f0 + times * wear));
+        let ys = ys.collect();
+        let scaled = |error: f64| times.unwrap_or(1.0) * error;
+        let errors = worn.errors;
+        let errors = errors.map(|errors| errors.into_iter().map(scaled).collect());
+        Some((worn.radii, ys, errors))
+    })
+}
+
+/// The last cycle that ghosts tell of.
+pub(super) fn end(run: &Run) -> f64 {
+    let over_cycles = [Axes::Volume, Axes::Depth, Axes::Contact, Axes::Stick];
+    let traces = run.ghosts.iter().flat_map(|ghost| ghost.traces());
+    let traces = traces.filter(|trace| over_cycles.contains(&trace.axes));
+    traces
+        .filter_map(|trace| trace.xs.last().copied())
+        .fold(0.0, f64::max)
+}

@@ -1,0 +1,381 @@
+//! Charts of a run, one per file: each declares what it is called, what it needs, how it is explained, and how it
+//! is made. The terminal, the paper, the line of the cursor and the help all read that.
+
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve, Mark, Scale, Zone};
+use crate::simulation::Curves;
+use crate::studies::ghost::{Axes, Ghost};
+use crate::studies::theory::Theory;
+
+pub mod condition;
+pub mod cost;
+pub mod depth;
+pub mod field;
+pub mod fretting_log;
+pub mod fretting_loop;
+pub mod ghosts;
+pub mod profile;
+pub mod radii;
+pub mod rate;
+pub mod residual;
+pub mod run;
+pub mod scar_depth;
+pub mod springs;
+pub mod stresses;
+pub mod volume;
+
+pub use run::{Live, Loop, Run, Table};
+
+/// The charts that a paper can have, in the order in which they are offered.
+pub const ON_PAPER: [&Recipe; 11] = [
+    &profile::RECIPE,
+    &springs::RECIPE,
+    &stresses::RECIPE,
+    &depth::RECIPE,
+    &fretting_loop::RECIPE,
+    &radii::RECIPE,
+    &volume::RECIPE,
+    &scar_depth::RECIPE,
+    &field::VON_MISES,
+    &field::PRINCIPAL,
+    &field::SWT,
+];
+
+/// An explanation, for a reader who knows Hertz and nothing else.
+#[derive(Debug, Clone, Copy)]
+pub struct Words {
+    /// A few sentences.
+    pub text: &'static str,
+    /// The symbols in the chart with their meaning.
+    pub symbols: &'static [(&'static str, &'static str)],
+}
+
+/// The contact radius, explained.
+pub const A: (&str, &str) = ("a", "contact radius: the bodies touch inside it");
+/// The stick radius, explained.
+pub const C: (&str, &str) = ("c", "stick radius: nothing slips inside it in a cycle");
+const BAND: (&str, &str) = ("band", "stick, slip and open zones along the radius");
+
+/// What charts say that have nothing to show.
+const NO_MOTION: &str = "no tangential motion in this scenario";
+const NO_WEAR: &str = "no wear in this scenario";
+const NO_CYCLE: &str = "no cycle is complete yet";
+const NO_STATE: &str = "there is no state.csv";
+const NO_HISTORY: &str = "there is no history.csv";
+
+/// Makes a chart of a run, or says why there is nothing to show.
+pub type Make = fn(&Run, &View) -> Result<Chart, &'static str>;
+
+/// Everything that there is to know of a chart but its data.
+#[derive(Clone, Copy)]
+pub struct Recipe {
+    /// The name on the command line, for charts that a paper can have.
+    pub name: &'static str,
+    /// The title.
+    pub title: &'static str,
+    /// Whether a logarithmic ordinate makes sense.
+    pub can_be_log: bool,
+    /// What it needs computed.
+    pub needs: Curves,
+    /// Whether it needs the stresses inside the half-space.
+    pub needs_field: bool,
+    /// Whether its abscissa is the radius, which has the cursor.
+    pub over_r: bool,
+    /// Whether the range of the abscissa is kept as that of the ordinate is: a loop is drawn on axes that hold.
+    pub keeps_abscissa: bool,
+    /// Whether a few values may be far above all others: a stress that is singular at a border, or a slow step.
+    pub has_spikes: bool,
+    /// Whether a run may leave it as it is for two frames: numbers that nobody reads ten times a second, pictures
+    /// that are looked at rather than followed, and what grows from cycle to cycle. Marks of a and c, though, are
+    /// at the same places in all charts over r.
+    pub is_calm: bool,
+    /// What it shows of other sources; the line of the cursor compares the first.
+    pub overlays: &'static [Axes],
+    /// The explanation.
+    pub words: Words,
+    /// How it is made.
+    pub make: Make,
+}
+
+impl std::fmt::Debug for Recipe {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.title)
+    }
+}
+
+impl Recipe {
+    /// A recipe that is nothing but made.
+    pub const fn new(make: Make) -> Self {
+        Self {
+            name: "",
+            title: "",
+            can_be_log: false,
+            needs: Curves::empty(),
+            needs_field: false,
+            over_r: false,
+            keeps_abscissa: false,
+            has_spikes: false,
+            is_calm: false,
+            overlays: &[],
+            words: Words {
+                text: "",
+                symbols: &[],
+            },
+            make,
+        }
+    }
+
+    /// The chart of a run.
+    ///
+    /// # Errors
+    /// If there is nothing to show: why.
+    pub fn chart(&self, run: &Run, view: &View) -> Result<Chart, &'static str> {
+        let mut chart = (self.make)(run, view)?;
+        chart.y.scale = view.scale;
+        if chart.title.is_empty() {
+            chart.title = self.title.to_owned();
+        }
+        if view.medium == Medium::Paper {
+            // There, curves of other sources lie over those of the run.
+            chart.curves.sort_by_key(|curve| match curve.role {
+                Role::Ghost(k) => k + 1,
+                _ => 0,
+            });
+        }
+        Ok(chart)
+    }
+
+    /// The chart on paper.
+    ///
+    /// # Errors
+    /// If the run has no data for it.
+    pub fn on_paper(&self, run: &Run) -> Result<Chart, Missing> {
+        let missing = |why| Missing {
+            name: self.name,
+            why,
+        };
+        self.chart(run, &View::PAPER).map_err(missing)
+    }
+
+    /// Whether the chart has a place for what `ghost` holds.
+    pub fn shows(&self, ghost: &Ghost) -> bool {
+        let mut overlays = self.overlays.iter();
+        overlays.any(|axes| ghost.trace(*axes).is_some())
+    }
+}
+
+/// Why a chart cannot be made.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("no chart {name}: {why}")]
+pub struct Missing {
+    name: &'static str,
+    why: &'static str,
+}
+
+/// Where a chart is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Medium {
+    /// On a screen, of a run at one moment.
+    Screen,
+    /// On paper, of a run at one or several moments.
+    Paper,
+}
+
+/// How a chart is looked at.
+#[derive(Debug, Clone, Copy)]
+pub struct View {
+    /// Where it is drawn.
+    pub medium: Medium,
+    /// The scale of the ordinate.
+    pub scale: Scale,
+    /// Whether closed forms are drawn.
+    pub with_theory: bool,
+}
+
+impl View {
+    /// On paper.
+    pub const PAPER: Self = Self {
+        medium: Medium::Paper,
+        scale: Scale::Linear,
+        with_theory: false,
+    };
+
+    /// The closed forms, if they are shown.
+    fn theory(self, run: &Run) -> Option<&Theory> {
+        run.theory.as_deref().filter(|_| self.with_theory)
+    }
+
+    /// A name for little room on a screen, or in full on paper.
+    fn pick<T>(self, screen: T, paper: T) -> T {
+        match self.medium {
+            Medium::Screen => screen,
+            Medium::Paper => paper,
+        }
+    }
+}
+
+/// A chart of nodal values over the radius; on a screen with marks at the radii of contact and stick. The ordinate
+/// is a label and a unit.
+fn over_r(run: &Run, abscissa: &'static str, (label, unit): (&'static str, &'static str)) -> Chart {
+    Chart {
+        marks: run.live.as_ref().map(Live::edge_marks).unwrap_or_default(),
+        ..Chart::new("", Axis::new(abscissa, "m"), Axis::new(label, unit))
+    }
+}
+
+/// A column over the radius at every state, by the states' cycles where there are several; else under this name.
+fn of_states(run: &Run, column: &str, alone: &str, role: Role) -> Vec<Curve> {
+    let count = run.states.len();
+    let states = run.states.iter().enumerate();
+    let curves = states.filter_map(|(k, state)| {
+        let (name, role) = match count {
+            1 => (alone.to_owned(), role),
+            // The last state has the same, the darkest ink, however many there are.
+            _ => (
+                format!("{} cycles", state.cycle()),
+                Role::Series(count - 1 - k),
+            ),
+        };
+        Some(Curve::new(
+            name,
+            state.column("r_m")?,
+            state.column(column)?,
+            role,
+        ))
+    });
+    curves.collect()
+}
+
+/// The shape that ends all wear at this depth: its worn depth, or that magnified by `times` on top of the unworn
+/// profile.
+fn limit(run: &Run, theory: Option<&Theory>, times: Option<f64>) -> Option<Curve> {
+    let state = run.states.last()?;
+    let (radii, unworn) = (state.column("r_m")?, state.column("f0_m")?);
+    let limit = theory?.limiting_profile(radii)?;
+    let worn = limit.iter().zip(unworn);
+    let worn = worn.map(|(f, f0)| match times {
+        None => f - f0,
+        Some(1.0) => *f,
+        Some(times) => f0 + times * (f - f0),
+    });
+    let worn: Vec<f64> = worn.collect();
+    Some(
+        Curve::new("limit", radii, worn, Role::Limit)
+            .dashed()
+            .theory(),
+    )
+}
+
+/// A chart over cycles: on a screen over all that are planned, from the first one on.
+fn over_cycles(run: &Run, y: Axis) -> Chart {
+    let mut cycles = Axis::new("cycles", "");
+    cycles.bounds = cycles_shown(run);
+    Chart::new("", cycles, y)
+}
+
+/// A column of the history over its cycles.
+fn series(run: &Run, column: &str, name: &str, role: Role) -> Result<Curve, &'static str> {
+    let [cycles, values] = run.over_cycles(["cycle", column]).ok_or(NO_HISTORY)?;
+    Ok(Curve::new(name, cycles, values, role))
+}
+
+/// A column of the history over its finished cycles: the unfinished one only if there is no other.
+fn finished_series(run: &Run, column: &str, role: Role) -> Result<Curve, &'static str> {
+    let mut curve = series(run, column, "", role)?;
+    let is_open = run.live.as_ref().is_some_and(|live| live.is_within_a_cycle);
+    if is_open && curve.xs.len() > 1 {
+        curve.xs.pop();
+        curve.ys.pop();
+    }
+    Ok(curve)
+}
+
+/// The cycles that charts of a live run show.
+fn cycles_shown(run: &Run) -> Option<[f64; 2]> {
+    let live = run.live.as_ref()?;
+    let seen = run.history.as_ref().and_then(|table| table.column("cycle"));
+    let end = seen
+        .and_then(|cycles| cycles.last().copied())
+        .unwrap_or(0.0);
+    let end = end.max(live.planned_cycles.unwrap_or(0.0));
+    Some([0.0, round_end(end.max(ghosts::end(run)))])
+}
+
+/// The round number of cycles, at least one, that `end` does not exceed: an axis that ended at the
+/// present would squeeze the whole past with every frame.
+fn round_end(end: f64) -> f64 {
+    const ROUND: [f64; 11] = [1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0];
+    let decade = 10f64.powf(end.max(1.0).log10().floor());
+    ROUND
+        .into_iter()
+        .map(|round| round * decade)
+        // A part of a cycle is no round number.
+        .filter(|round| round.fract() == 0.0)
+        .find(|round| end <= round * (1.0 + 1e-9))
+        .unwrap_or(10.0 * decade)
+}
+
+impl Live {
+    /// Marks at the contact radius a and at the permanent stick radius c; where more sticks at the moment, a
+    /// faint one there.
+    pub fn edge_marks(&self) -> Vec<Mark> {
+        let moment = &self.moment;
+        let mark = |x, label, role| Mark { x, label, role };
+        let mut marks = Vec::new();
+        if moment.contact_radius > 0.0 {
+            marks.push(mark(moment.contact_radius, "a", Role::Contact));
+        }
+        let within = |c: &f64| *c > 0.0 && *c < moment.contact_radius;
+        let permanent = moment.permanent_stick_radius.filter(within);
+        let now = moment.stick_radius.filter(within);
+        let is_more = |now: &f64| permanent.is_none_or(|c| *now > c * (1.0 + 1e-9));
+        marks.extend(now.filter(is_more).map(|now| mark(now, "", Role::Faint)));
+        marks.extend(permanent.map(|c| mark(c, "c", Role::Stick)));
+        marks
+    }
+
+    /// Stick, slip and open along the radius.
+    fn zones(&self, edge: f64) -> Vec<Zone> {
+        let contact = self.moment.contact_radius;
+        let stick = self.moment.stick_radius.unwrap_or(contact).min(contact);
+        [
+            (0.0, stick, Role::Stick, 's', "stick"),
+            (stick, contact, Role::Slip, '~', "slip"),
+            (contact, edge, Role::Open, '.', "open"),
+        ]
+        .into_iter()
+        .filter(|(from, to, ..)| to > from)
+        .map(|(from, to, role, glyph, name)| Zone {
+            from,
+            to,
+            role,
+            glyph,
+            name,
+        })
+        .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_axis_of_cycles_ends_at_a_round_number() {
+        for (end, expected) in [
+            (0.0, 1.0),
+            (1.0, 1.0),
+            (1.01, 2.0),
+            (2.5, 3.0),
+            (6.5, 8.0),
+            (9.0, 10.0),
+            (10.5, 12.0),
+            (24.0, 25.0),
+            (99.0, 100.0),
+            (199.24, 200.0),
+            (8.1e5, 1e6),
+        ] {
+            assert_eq!(round_end(end), expected, "{end}");
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! The 3D profile f(r), worn and unworn, with the zones of the contact under it. The wear is drawn
+//! magnified where it would be thinner than a line.
+
+use super::{
+    A, BAND, C, Medium, NO_STATE, Recipe, Run, View, Words, ghosts, limit, of_states, over_r,
+};
+use crate::math::scan::largest;
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve, Fill};
+use crate::simulation::Curves;
+use crate::studies::ghost::Axes;
+
+/// The chart.
+pub static RECIPE: Recipe = Recipe {
+    name: "profile",
+    title: "3D profile",
+    can_be_log: true,
+    needs: Curves::PROFILE,
+    over_r: true,
+    overlays: &[Axes::Wear, Axes::Profile],
+    words: Words {
+        text: "The shape of the indenter against the radius, unworn and worn. Wear thinner than a \
+                 line is drawn magnified, by one factor for the whole run that the title tells. It begins \
+                 where surfaces slide under pressure: in the ring between c and a. A faint line ends what \
+                 sticks at the moment: all, whenever the motion reverses.",
+        symbols: &[("f", "height of the profile over its tip"), A, C, BAND],
+    },
+    ..Recipe::new(make)
+};
+
+/// How much of the height of the unworn profile the magnified wear may take.
+const SHARE: f64 = 0.35;
+
+/// The largest magnification.
+const MOST: f64 = 1e6;
+
+/// How many times the `deepest` wear (m) is drawn magnified over a profile of this `height` (m): 1, 2, 5,
+/// 10, …
+fn magnification(deepest: f64, height: f64) -> f64 {
+    if deepest <= 0.0 || deepest.is_nan() {
+        return 1.0;
+    }
+    let most = (SHARE * height / deepest).clamp(1.0, MOST);
+    let decade = 10f64.powf(most.log10().floor());
+    let fits = [5.0, 2.0].into_iter().find(|times| times * decade <= most);
+    fits.unwrap_or(1.0) * decade
+}
+
+/// The height of the `unworn` profile over the domain, m: what lies beyond the rim of a punch is left out.
+fn height(unworn: &[f64], depth: f64) -> f64 {
+    let finite = unworn.iter().copied().filter(|f| f.is_finite());
+    let height = finite.fold(0.0, f64::max);
+    // A flat punch has no height: its wear is drawn over the depth.
+    if height > 0.0 { height } else { depth.abs() }
+}
+
+/// How many times the `wear` is drawn on a screen: the same from the first cycle to the planned end, so that wear
+/// that grows is seen to grow. Only where there is more than was expected, the factor falls.
+fn times(run: &Run, unworn: &[f64], wear: &[f64]) -> f64 {
+    let Some(live) = &run.live else {
+        return 1.0;
+    };
+    let ghosts = ghosts::worn(run, None);
+    let seen = largest(wear).max(live.expected_wear);
+    let deepest = ghosts.iter().map(Curve::highest).fold(seen, f64::max);
+    magnification(deepest, height(unworn, live.moment.depth))
+}
+
+fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
+    let state = run.states.last().ok_or(NO_STATE)?;
+    let column = |name| state.column(name).unwrap_or_default();
+    let (radii, unworn, wear) = (column("r_m"), column("f0_m"), column("wear_m"));
+    let mut chart = over_r(run, "r", ("f", "m"));
+    let times = view.pick(times(run, unworn, wear), 1.0);
+    if times > 1.0 {
+        chart.title = format!("{}, wear drawn ×{times}", RECIPE.title);
+    }
+    let worn = match view.medium {
+        Medium::Screen => {
+            let worn = unworn.iter().zip(wear);
+            let worn: Vec<f64> = worn.map(|(f0, wear)| f0 + times * wear).collect();
+            let worn = Curve::new("worn", radii, worn, Role::Profile);
+            vec![worn.filled(Fill::From(unworn.to_vec()))]
+        }
+        Medium::Paper => {
+            // What a page hides in the profile.
+            let (r, depth) = (Axis::new("r", "m"), Axis::new("worn depth", "m"));
+            let inset = of_states(run, "wear_m", "", Role::Profile);
+            let is_worn = |curve: &Curve| curve.ys.iter().any(|&wear| wear != 0.0);
+            let is_worn = inset.iter().any(is_worn);
+            let inset = Chart::new("", r, depth).curves(inset);
+            chart.inset = is_worn.then(|| Box::new(inset));
+            of_states(run, "f_m", "worn", Role::Profile)
+        }
+    };
+    chart.band = run.zones(view);
+    let theory = view.theory(run).or(view.pick(None, run.theory.as_deref()));
+    // Unworn curves come first: the worn ones lie on them.
+    Ok(chart
+        .curve(Curve::new("unworn", radii, unworn, Role::Unworn).dashed())
+        .curves(limit(run, theory, Some(times)))
+        .curves(ghosts::worn(run, Some(times)))
+        .curves(worn))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wear_thinner_than_a_line_is_magnified_by_1_2_5() {
+        for (deepest, times) in [
+            (0.0, 1.0),
+            (f64::NAN, 1.0),
+            (1.0, 1.0),
+            (0.3, 1.0),
+            (0.17, 2.0),
+            (0.06, 5.0),
+            (3e-3, 100.0),
+            (1e-12, 1e6),
+        ] {
+            assert_eq!(magnification(deepest, 1.0), times, "{deepest}");
+        }
+    }
+}

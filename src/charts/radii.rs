@@ -1,0 +1,50 @@
+//! The largest contact radius and the smallest stick radius of every cycle.
+
+use super::{Medium, Recipe, Run, View, Words, cycles_shown, ghosts, over_cycles, series};
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve};
+use crate::studies::ghost::Axes;
+
+/// The chart.
+pub static RECIPE: Recipe = Recipe {
+    name: "radii",
+    title: "radii over cycles",
+    is_calm: true,
+    overlays: &[Axes::Contact, Axes::Stick],
+    words: Words {
+        text: "The largest contact radius and the smallest stick radius of each cycle. As the \
+                 ring wears, a grows; c settles, because what has stuck through a whole cycle \
+                 keeps sticking.",
+        symbols: &[
+            ("a", "contact radius"),
+            ("c", "stick radius: the smallest of the cycle"),
+        ],
+    },
+    ..Recipe::new(make)
+};
+
+fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
+    let names = view.pick(
+        ["contact a", "stick c"],
+        ["contact radius a", "stick radius c"],
+    );
+    let contact = series(run, "contact_radius_m", names[0], Role::Contact)?;
+    let stick = series(run, "permanent_stick_radius_m", names[1], Role::Stick).ok();
+    let stick = stick.filter(|stick| stick.ys.iter().any(|radius| radius.is_finite()));
+    let stick = stick.map(|stick| stick.dashed_if(view.medium == Medium::Screen));
+    let theory = view.theory(run).and_then(|theory| theory.stick_radius);
+    let theory = theory
+        .zip(cycles_shown(run))
+        .map(|(c, ends)| Curve::new("theory c", ends, [c; 2], Role::Limit).theory());
+    let mut ordinate = Axis::new("radius", "m").from_zero();
+    if view.medium == Medium::Paper {
+        let largest = contact.highest();
+        ordinate.bounds = (largest > 0.0).then_some([0.0, 1.1 * largest]);
+    }
+    let others = ghosts::both(run, [Axes::Contact, Axes::Stick]).into_iter();
+    Ok(over_cycles(run, ordinate)
+        .curves(others.map(|(_, ghost)| ghost))
+        .curve(contact)
+        .curves(stick)
+        .curves(theory))
+}

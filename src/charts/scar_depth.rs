@@ -1,0 +1,45 @@
+//! The largest worn depth over cycles.
+
+use super::{Recipe, Run, View, Words, ghosts, over_cycles, series};
+use crate::math::scan::largest;
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve};
+use crate::studies::ghost::Axes;
+
+/// The chart.
+pub static RECIPE: Recipe = Recipe {
+    name: "scar-depth",
+    title: "depth over cycles",
+    can_be_log: true,
+    is_calm: true,
+    overlays: &[Axes::Depth],
+    words: Words {
+        text: "The largest worn depth of the profile over cycles: what a profilometer reads in the deepest point of \
+                 the scar. Measured depths lie over it with --overlay.",
+        symbols: &[("depth", "largest f - f0 over the radius")],
+    },
+    ..Recipe::new(make)
+};
+
+/// The largest worn depth of every state, for histories of runs that did not record it.
+fn of_states(run: &Run) -> Option<Curve> {
+    let deepest = run
+        .states
+        .iter()
+        .map(|state| Some((state.cycle(), largest(state.column("wear_m")?))));
+    let (cycles, depths): (Vec<f64>, Vec<f64>) = deepest.flatten().unzip();
+    let curve = Curve::new("simulated", cycles, depths, Role::Profile);
+    Some(curve.scattered([])).filter(|curve| !curve.xs.is_empty())
+}
+
+fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
+    run.wears()?;
+    let depth = series(run, "scar_depth_m", "", Role::Profile).ok();
+    let depth = depth
+        .or_else(|| of_states(run))
+        .ok_or("there is no state.csv")?;
+    let ordinate = Axis::new(view.pick("depth", "worn depth"), "m").from_zero();
+    Ok(over_cycles(run, ordinate)
+        .curves(ghosts::on(run, Axes::Depth))
+        .curve(depth))
+}

@@ -1,0 +1,40 @@
+//! The 1D profile g(x) against the depth to which it is pressed: springs touch where g is less.
+
+use super::{A, C, NO_STATE, Recipe, Run, View, Words, ghosts, of_states, over_r};
+use crate::plot::theme::Role;
+use crate::plot::{Chart, Curve};
+use crate::simulation::Curves;
+use crate::studies::ghost::Axes;
+
+/// The chart.
+pub static RECIPE: Recipe = Recipe {
+    name: "profile-1d",
+    title: "1D profile",
+    needs: Curves::PROFILE_1D,
+    over_r: true,
+    overlays: &[Axes::Springs],
+    words: Words {
+        text: "The method replaces the 3D contact with a row of independent springs, and the \
+                 shape f with its 1D image g. A spring at x touches where g(x) is below the depth \
+                 d. The contact force is exactly the sum of the spring forces.",
+        symbols: &[("g", "1D profile"), ("d", "indentation depth"), A, C],
+    },
+    ..Recipe::new(make)
+};
+
+fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
+    run.states.last().ok_or(NO_STATE)?;
+    let depth = run.live.as_ref().map(|live| {
+        let (ends, depth) = ([0.0, run.edge()], [live.moment.depth; 2]);
+        Curve::new("depth d", ends, depth, Role::Contact).dashed()
+    });
+    Ok(over_r(run, "x", ("g", "m"))
+        .curves(depth)
+        .curves(ghosts::on(run, Axes::Springs))
+        .curves(of_states(
+            run,
+            "g_m",
+            view.pick("g", ""),
+            view.pick(Role::Profile1d, Role::Profile),
+        )))
+}

@@ -1,0 +1,77 @@
+//! Pressure p(r) and shear stress τ(r). τ is drawn as τ/μ: it meets ±p where the contact slips.
+
+use super::{A, C, Medium, NO_STATE, Recipe, Run, View, Words, ghosts, over_r};
+use crate::plot::theme::Role;
+use crate::plot::{Chart, Curve, Scale};
+use crate::simulation::Curves;
+use crate::studies::ghost::Axes;
+
+/// The chart.
+pub static RECIPE: Recipe = Recipe {
+    name: "stresses",
+    title: "stresses",
+    can_be_log: true,
+    needs: Curves::PRESSURE.union(Curves::SHEAR),
+    over_r: true,
+    has_spikes: true,
+    overlays: &[Axes::Pressure, Axes::Shear],
+    words: Words {
+        text: "Pressure p and shear stress against the radius. The shear stress is divided by \
+                 μ, so it lies on p or -p where the contact slips and between them where it \
+                 sticks. The unworn p is Hertz's half-ellipse; wear moves the load into the stick \
+                 zone.",
+        symbols: &[
+            ("p", "pressure"),
+            ("τ/μ", "shear stress over the friction coefficient"),
+            A,
+            C,
+        ],
+    },
+    ..Recipe::new(make)
+};
+
+fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
+    let state = run.states.last().ok_or(NO_STATE)?;
+    let columns = state.column("r_m").zip(state.column("p_Pa"));
+    let (radii, pressure) = columns.ok_or("the state has no column p_Pa")?;
+    let is_log = view.scale == Scale::Log;
+    // What τ is divided by; on paper it is drawn as it is.
+    let (name, divisor) = match view.medium {
+        Medium::Paper => ("τ", Some(1.0)),
+        Medium::Screen if is_log => ("|τ|/μ", run.friction()),
+        Medium::Screen => ("τ/μ", run.friction()),
+    };
+    // A logarithmic ordinate shows the size of τ.
+    let scaled = |shear: &f64| {
+        let shear = shear / divisor.unwrap_or(1.0);
+        if is_log { shear.abs() } else { shear }
+    };
+    let curve = |name, ys: Vec<f64>, role| Curve::new(name, radii, ys, role);
+    let mut others = ghosts::both(run, [Axes::Pressure, Axes::Shear]);
+    others.retain(|(axes, _)| *axes == Axes::Pressure || divisor.is_some());
+    for (_, ghost) in others.iter_mut().filter(|(axes, _)| *axes == Axes::Shear) {
+        ghost.ys = ghost.ys.iter().map(scaled).collect();
+    }
+    let mut chart = over_r(run, "r", ("stress", "Pa"))
+        .curves(others.into_iter().map(|(_, ghost)| ghost))
+        .curve(curve("p", pressure.to_vec(), Role::Pressure));
+    let shear = state.column("tau_Pa").filter(|_| divisor.is_some());
+    let is_seen =
+        |shear: &&[f64]| view.medium == Medium::Screen || shear.iter().any(|&tau| tau != 0.0);
+    if let Some(shear) = shear.filter(is_seen) {
+        let shear = curve(name, shear.iter().map(scaled).collect(), Role::Shear);
+        // Dashes: where the contact slips the pressure lies under it, and is still seen.
+        chart = chart.curve(shear.dashed_if(view.medium == Medium::Screen));
+    }
+    let (Some(theory), Some(live)) = (view.theory(run), &run.live) else {
+        return Ok(chart);
+    };
+    let moment = &live.moment;
+    let hertz = theory.unworn_pressure(moment.depth, radii);
+    let hertz = hertz.map(|p| curve("unworn p", p, Role::Limit));
+    let cattaneo = theory.unworn_shear(moment.cycle, moment.shift, radii);
+    let cattaneo = cattaneo.map(|shear| shear.iter().map(scaled).collect());
+    let cattaneo = cattaneo.map(|shear| curve("Cattaneo", shear, Role::Unworn));
+    let closed_forms = [hertz, cattaneo].into_iter().flatten();
+    Ok(chart.curves(closed_forms.map(|curve| curve.dashed().theory())))
+}

@@ -1,0 +1,38 @@
+//! Wear volume V over cycles. What the work of friction says of it, V = k E_d, differs by less than a line
+//! is wide: the panel beside shows the difference.
+
+use super::{Recipe, Run, View, Words, ghosts, over_cycles, series};
+use crate::plot::theme::Role;
+use crate::plot::units::format_value;
+use crate::plot::{Axis, Chart};
+use crate::studies::ghost::Axes;
+
+/// The chart.
+pub static RECIPE: Recipe = Recipe {
+    name: "volume",
+    title: "wear volume",
+    can_be_log: true,
+    is_calm: true,
+    overlays: &[Axes::Volume],
+    words: Words {
+        text: "The wear volume since the start. It grows by k times the energy that friction dissipates.",
+        symbols: &[
+            ("V", "wear volume"),
+            ("E_d", "energy lost to friction since the start"),
+        ],
+    },
+    ..Recipe::new(make)
+};
+
+fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
+    run.wears()?;
+    let volume = series(run, "wear_volume_m3", "", Role::Profile)?;
+    let mut chart = over_cycles(run, Axis::new("V", "m³").from_zero());
+    if let Some(live) = &run.live {
+        chart.note = format!(
+            "E_d {}",
+            format_value(live.moment.dissipated_energy, "J", 4)
+        );
+    }
+    Ok(chart.curves(ghosts::on(run, Axes::Volume)).curve(volume))
+}

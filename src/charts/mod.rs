@@ -20,6 +20,7 @@ pub mod rate;
 pub mod residual;
 pub mod run;
 pub mod scar_depth;
+pub mod scar_growth;
 pub mod springs;
 pub mod stresses;
 pub mod volume;
@@ -27,7 +28,7 @@ pub mod volume;
 pub use run::{Live, Loop, Run, Table};
 
 /// The charts that a paper can have, in the order in which they are offered.
-pub const ON_PAPER: [&Recipe; 11] = [
+pub const ON_PAPER: [&Recipe; 12] = [
     &profile::RECIPE,
     &springs::RECIPE,
     &stresses::RECIPE,
@@ -36,6 +37,7 @@ pub const ON_PAPER: [&Recipe; 11] = [
     &radii::RECIPE,
     &volume::RECIPE,
     &scar_depth::RECIPE,
+    &scar_growth::RECIPE,
     &field::VON_MISES,
     &field::PRINCIPAL,
     &field::SWT,
@@ -301,6 +303,18 @@ fn cycles_shown(run: &Run) -> Option<[f64; 2]> {
     Some([0.0, round_end(end.max(ghosts::end(run)))])
 }
 
+/// How many times what is at most `deepest` is drawn magnified, so that it takes no more than `height`: 1, 2, 5,
+/// 10, … up to a million.
+fn magnification(deepest: f64, height: f64) -> f64 {
+    if deepest <= 0.0 || deepest.is_nan() {
+        return 1.0;
+    }
+    let most = (height / deepest).clamp(1.0, 1e6);
+    let decade = 10f64.powf(most.log10().floor());
+    let fits = [5.0, 2.0].into_iter().find(|times| times * decade <= most);
+    fits.unwrap_or(1.0) * decade
+}
+
 /// The round number of cycles, at least one, that `end` does not exceed: an axis that ended at the
 /// present would squeeze the whole past with every frame.
 fn round_end(end: f64) -> f64 {
@@ -359,6 +373,22 @@ impl Live {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn wear_thinner_than_a_line_is_magnified_by_1_2_5() {
+        for (deepest, times) in [
+            (0.0, 1.0),
+            (f64::NAN, 1.0),
+            (1.0, 1.0),
+            (0.3, 1.0),
+            (0.17, 2.0),
+            (0.06, 5.0),
+            (3e-3, 100.0),
+            (1e-12, 1e6),
+        ] {
+            assert_eq!(magnification(deepest, 0.35), times, "{deepest}");
+        }
+    }
 
     #[test]
     fn an_axis_of_cycles_ends_at_a_round_number() {

@@ -2,7 +2,8 @@
 //! magnified where it would be thinner than a line.
 
 use super::{
-    A, BAND, C, Medium, NO_STATE, Recipe, Run, View, Words, ghosts, limit, of_states, over_r,
+    A, BAND, C, Medium, NO_STATE, Recipe, Run, View, Words, ghosts, limit, magnification,
+    of_states, over_r,
 };
 use crate::math::scan::largest;
 use crate::plot::theme::Role;
@@ -31,21 +32,6 @@ pub static RECIPE: Recipe = Recipe {
 /// How much of the height of the unworn profile the magnified wear may take.
 const SHARE: f64 = 0.35;
 
-/// The largest magnification.
-const MOST: f64 = 1e6;
-
-/// How many times the `deepest` wear (m) is drawn magnified over a profile of this `height` (m): 1, 2, 5,
-/// 10, …
-fn magnification(deepest: f64, height: f64) -> f64 {
-    if deepest <= 0.0 || deepest.is_nan() {
-        return 1.0;
-    }
-    let most = (SHARE * height / deepest).clamp(1.0, MOST);
-    let decade = 10f64.powf(most.log10().floor());
-    let fits = [5.0, 2.0].into_iter().find(|times| times * decade <= most);
-    fits.unwrap_or(1.0) * decade
-}
-
 /// The height of the `unworn` profile over the domain, m: what lies beyond the rim of a punch is left out.
 fn height(unworn: &[f64], depth: f64) -> f64 {
     let finite = unworn.iter().copied().filter(|f| f.is_finite());
@@ -63,7 +49,7 @@ fn times(run: &Run, unworn: &[f64], wear: &[f64]) -> f64 {
     let ghosts = ghosts::worn(run, None);
     let seen = largest(wear).max(live.expected_wear);
     let deepest = ghosts.iter().map(Curve::highest).fold(seen, f64::max);
-    magnification(deepest, height(unworn, live.moment.depth))
+    magnification(deepest, SHARE * height(unworn, live.moment.depth))
 }
 
 fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
@@ -101,25 +87,4 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
         .curves(limit(run, theory, Some(times)))
         .curves(ghosts::worn(run, Some(times)))
         .curves(worn))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn wear_thinner_than_a_line_is_magnified_by_1_2_5() {
-        for (deepest, times) in [
-            (0.0, 1.0),
-            (f64::NAN, 1.0),
-            (1.0, 1.0),
-            (0.3, 1.0),
-            (0.17, 2.0),
-            (0.06, 5.0),
-            (3e-3, 100.0),
-            (1e-12, 1e6),
-        ] {
-            assert_eq!(magnification(deepest, 1.0), times, "{deepest}");
-        }
-    }
 }

@@ -200,12 +200,14 @@ pub struct Run {
 }
 
 /// What the charts over cycles show.
-const OVER_CYCLES: [&str; 5] = [
+const OVER_CYCLES: [&str; 7] = [
     "cycle",
     "contact_radius_m",
     "permanent_stick_radius_m",
     "wear_volume_m3",
     "scar_depth_m",
+    "scar_radius_m",
+    "dissipated_energy_J",
 ];
 
 impl Run {

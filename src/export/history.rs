@@ -16,7 +16,7 @@ use crate::scenario::scalars::{self, Reading, Value};
 use crate::scenario::session::Session;
 
 /// The columns, in order.
-pub const COLUMNS: [&str; 30] = [
+pub const COLUMNS: [&str; 32] = [
     "cycle",
     "time_s",
     "u_z_m",
@@ -47,6 +47,8 @@ pub const COLUMNS: [&str; 30] = [
     "regime",
     "wear_per_energy_m3_per_J",
     "rig_displacement_m",
+    "scar_depth_m",
+    "scar_radius_m",
 ];
 
 /// Rows buffered in memory before they are written, bytes.

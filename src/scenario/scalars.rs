@@ -10,7 +10,7 @@ use crate::contact::subsurface::Peak;
 use crate::math::scan::largest;
 use crate::reading::fatigue::{Limits, StressCycle};
 use crate::scenario::session::Session;
-use crate::simulation::{CycleFigures, Moment};
+use crate::simulation::{CycleFigures, Moment, Simulation};
 
 /// A scalar's value.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -315,6 +315,12 @@ pub const SCALARS: &[Scalar] = &[
         "displacement of the rig's actuator",
         |r| r.moment.rig_displacement.into(),
     ),
+    scalar("scar_depth_m", "largest worn depth", |r| {
+        largest(r.worn()).into()
+    }),
+    scalar("scar_radius_m", "outer radius of the wear scar", |r| {
+        scar_radius(r.session.simulation()).into()
+    }),
     scalar("F_x_amplitude_N", "half the range of F_x in a cycle", |r| {
         r.figure(|figures| Some(figures.force_amplitude))
     }),
@@ -323,12 +329,6 @@ pub const SCALARS: &[Scalar] = &[
     }),
     scalar("mean_F_z_N", "mean normal force of a cycle", |r| {
         r.figure(|figures| Some(figures.normal_force))
-    }),
-    scalar("scar_depth_m", "largest worn depth", |r| {
-        largest(r.worn()).into()
-    }),
-    scalar("scar_radius_m", "outer radius of the wear scar", |r| {
-        scar_radius(r).into()
     }),
     scalar(
         "estimated_error",
@@ -391,11 +391,11 @@ pub const SCALARS: &[Scalar] = &[
 ];
 
 /// The outermost radius (m) at which the worn depth is at least a thousandth of the largest one.
-fn scar_radius(reading: &Reading) -> Option<f64> {
-    let worn = reading.worn();
+pub fn scar_radius(simulation: &Simulation) -> Option<f64> {
+    let worn = simulation.worn_depth();
     let edge = 1e-3 * largest(worn);
     let outermost = worn.iter().rposition(|&worn| worn >= edge && worn > 0.0)?;
-    let nodes = reading.session.simulation().setup().grid.nodes();
+    let nodes = simulation.setup().grid.nodes();
     let Some(next) = nodes.get(outermost + 1) else {
         return Some(nodes[outermost]);
     };

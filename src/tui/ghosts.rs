@@ -8,6 +8,7 @@ use super::beside::Beside;
 use super::trend::{OfCycle, Trend};
 use crate::math::scan::largest;
 use crate::scenario::Scenario;
+use crate::scenario::scalars::scar_radius;
 use crate::scenario::session::Session;
 use crate::simulation::Curves;
 use crate::studies::ghost::{Axes, Ghost};
@@ -143,7 +144,8 @@ impl GhostRun {
 /// Takes the present moment of `session` into its trend.
 pub(super) fn record(trend: &mut Trend, session: &Session) {
     let simulation = session.simulation();
-    trend.note_scar_depth(largest(simulation.worn_depth()));
+    let radius = scar_radius(simulation).unwrap_or(f64::NAN);
+    trend.note_scar([largest(simulation.worn_depth()), radius]);
     trend.record(&simulation.moment());
 }
 

@@ -83,12 +83,14 @@ fn fill(
 }
 
 /// The columns of the history and what they are of a cycle.
-const COLUMNS: [(&str, OfCycle); 6] = [
+const COLUMNS: [(&str, OfCycle); 8] = [
     ("cycle", |entry| entry.cycle),
     ("contact_radius_m", |entry| entry.contact_radius),
     ("permanent_stick_radius_m", |entry| entry.stick_radius),
     ("wear_volume_m3", |entry| entry.wear_volume),
     ("scar_depth_m", |entry| entry.scar_depth),
+    ("scar_radius_m", |entry| entry.scar_radius),
+    ("dissipated_energy_J", |entry| entry.dissipated_energy),
     ("period_energy_residual", |entry| entry.residual),
 ];
 
@@ -182,6 +184,8 @@ fn past(directory: &Path, cycle: f64, initial: f64) -> Option<Trend> {
     let stick = column("permanent_stick_radius", Quantity::Length);
     let volume = column("wear_volume", Quantity::Volume);
     let depth = column("scar_depth", Quantity::Length);
+    let radius = column("scar_radius", Quantity::Length);
+    let energy = column("dissipated_energy", Quantity::Energy);
     let residual = column("period_energy_residual", Quantity::Number);
     let entries = (0..history.rows()).filter(|&row| cycles[row] <= cycle);
     let entries = entries.map(|row| Cycle {
@@ -190,6 +194,8 @@ fn past(directory: &Path, cycle: f64, initial: f64) -> Option<Trend> {
         stick_radius: stick[row],
         wear_volume: volume[row],
         scar_depth: depth[row],
+        scar_radius: radius[row],
+        dissipated_energy: energy[row],
         residual: residual[row],
         ..Cycle::UNKNOWN
     });

@@ -30,7 +30,11 @@ pub struct Cycle {
     pub wear_volume: f64,
     /// Largest worn depth at the end, m.
     pub scar_depth: f64,
-    /// The same from friction work, k E_d, m³; NaN if the wear law does not follow energy.
+    /// Outer radius of the scar at the end, m; NaN without wear.
+    pub scar_radius: f64,
+    /// Energy lost to friction since the start, J.
+    pub dissipated_energy: f64,
+    /// The volume from friction work, k E_d, m³; NaN if the wear law does not follow energy.
     pub expected_volume: f64,
     /// Volume worn in a cycle, m³, on average over the entry.
     pub wear_rate: f64,
@@ -48,12 +52,14 @@ pub struct Cycle {
 pub type OfCycle = fn(&Cycle) -> f64;
 
 /// The columns of a history, by their names in `history.csv` where they are there, and what they are of a cycle.
-const COLUMNS: [(&str, OfCycle); 10] = [
+const COLUMNS: [(&str, OfCycle); 12] = [
     ("cycle", |entry| entry.cycle),
     ("contact_radius_m", |entry| entry.contact_radius),
     ("permanent_stick_radius_m", |entry| entry.stick_radius),
     ("wear_volume_m3", |entry| entry.wear_volume),
     ("scar_depth_m", |entry| entry.scar_depth),
+    ("scar_radius_m", |entry| entry.scar_radius),
+    ("dissipated_energy_J", |entry| entry.dissipated_energy),
     ("energy_residual", |entry| {
         1.0 - entry.wear_volume / entry.expected_volume
     }),
@@ -79,6 +85,8 @@ impl Cycle {
         stick_radius: f64::NAN,
         wear_volume: f64::NAN,
         scar_depth: f64::NAN,
+        scar_radius: f64::NAN,
+        dissipated_energy: f64::NAN,
         expected_volume: f64::NAN,
         wear_rate: f64::NAN,
         residual: f64::NAN,
@@ -126,7 +134,7 @@ pub struct Trend {
     step_cost: Option<f64>,
     /// Cycle and worn volume (m³) of the first moment.
     start: Option<(f64, f64)>,
-    scar_depth: f64,
+    scar: [f64; 2],
     /// Amplitude and load of the last cycle.
     condition: Option<[f64; 2]>,
     /// Loops of cycles so far apart, oldest first.
@@ -176,9 +184,10 @@ impl Trend {
         self.step_cost = step_cost;
     }
 
-    /// The largest worn depth of the moment that is recorded next, m.
-    pub fn note_scar_depth(&mut self, scar_depth: f64) {
-        self.scar_depth = scar_depth;
+    /// The largest worn depth and the outer radius of the scar (NaN without wear) at the moment that is recorded
+    /// next, m.
+    pub fn note_scar(&mut self, scar: [f64; 2]) {
+        self.scar = scar;
     }
 
     /// The amplitude of u_x (m) and the mean of F_z (N) of the last complete cycle.
@@ -208,7 +217,7 @@ impl Trend {
             tip: tip.clone(),
             step_cost: self.step_cost,
             start: self.start,
-            scar_depth: self.scar_depth,
+            scar: self.scar,
             condition: None,
             loops: self
                 .loops
@@ -231,7 +240,9 @@ impl Trend {
             contact_radius: moment.contact_radius,
             stick_radius: moment.stick_radius.unwrap_or(f64::NAN),
             wear_volume: moment.wear_volume,
-            scar_depth: self.scar_depth,
+            scar_depth: self.scar[0],
+            scar_radius: self.scar[1],
+            dissipated_energy: moment.dissipated_energy,
             expected_volume: moment
                 .energy_residual
                 .map_or(f64::NAN, |residual| moment.wear_volume / (1.0 - residual)),

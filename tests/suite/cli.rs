@@ -238,7 +238,7 @@ fn run_writes_the_files_of_the_contract() {
     let table = Table::parse(&dir.read("x/history.csv"));
     assert_eq!(
         table.columns.join(", "),
-        "cycle, time_s, u_z_m, u_x_m, F_z_N, F_x_N, contact_radius_m, stick_radius_m, permanent_stick_radius_m, wear_volume_m3, dissipated_energy_J, energy_residual, max_pressure_Pa, period_energy_residual, force_residual, steps, transforms, evaluated_cycles, rejected_jumps, stability_margin, parts, energy_per_cycle_J, force_ratio, slip_ratio, sliding_ratio, energy_ratio, energy_ratio_B, regime, wear_per_energy_m3_per_J, rig_displacement_m"
+        "cycle, time_s, u_z_m, u_x_m, F_z_N, F_x_N, contact_radius_m, stick_radius_m, permanent_stick_radius_m, wear_volume_m3, dissipated_energy_J, energy_residual, max_pressure_Pa, period_energy_residual, force_residual, steps, transforms, evaluated_cycles, rejected_jumps, stability_margin, parts, energy_per_cycle_J, force_ratio, slip_ratio, sliding_ratio, energy_ratio, energy_ratio_B, regime, wear_per_energy_m3_per_J, rig_displacement_m, scar_depth_m, scar_radius_m"
     );
     assert_eq!(table.columns, history::COLUMNS);
     assert_eq!(table.column("cycle"), [0.0, 1.0, 2.0, 3.0, 3.25]);

@@ -76,6 +76,7 @@ panels! {
     "The loops of earlier cycles." Log: charts::fretting_log::RECIPE, None;
     "Normal load over displacement amplitude." Condition: charts::condition::RECIPE, None;
     "Largest worn depth over cycles." ScarDepth: charts::scar_depth::RECIPE, None;
+    "The scar's radius and depth over friction work." ScarGrowth: charts::scar_growth::RECIPE, None;
 }
 
 impl Panel {

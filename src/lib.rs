@@ -16,9 +16,10 @@
 //! | [`simulation`] | motion, state, stepping, observations | no scenario, no file, no screen |
 //! | [`reading`] | fatigue parameters of a cycle | only reads a simulation |
 //! | [`scenario`] | TOML in and out, presets, a session with its changes and checkpoints | no screen |
+//! | [`traces`] | what is known of a run as named columns | no screen |
 //! | [`studies`] | errors against theory, speed against accuracy, stability, as tables | no file, no screen |
 //! | [`export`] | CSV files, whole or not at all | runs nothing |
-//! | [`plot`] | curves as text: ticks, axes, legends, raster | no physics, no screen |
+//! | [`plot`] | a chart, and how a terminal draws it: ticks, axes, legends, raster | no physics, no screen |
 //! | [`charts`] | the charts of a run, each declared once: names, needs, help, curves | no screen, no paper |
 //! | [`figure`] | charts on sheets: SVG, PNG and PDF, with their data | no screen |
 //! | [`cli`], [`tui`] | the command line; the explorer | everything below |
@@ -64,5 +65,6 @@ pub mod reading;
 pub mod scenario;
 pub mod simulation;
 pub mod studies;
+pub mod traces;
 pub mod tui;
 pub mod wear;

@@ -6,7 +6,7 @@ use super::{
 use crate::plot::theme::Role;
 use crate::plot::{Chart, Fill, Scale};
 use crate::simulation::Curves;
-use crate::studies::ghost::Axes;
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -15,7 +15,7 @@ pub static RECIPE: Recipe = Recipe {
     can_be_log: true,
     needs: Curves::PROFILE,
     over_r: true,
-    overlays: &[Axes::Wear, Axes::Profile],
+    overlays: &[Axes::WEAR, Axes::PROFILE],
     words: Words {
         text: "How much has worn off, against the radius. Inside the permanent stick zone it is \
                  zero; the \

@@ -5,14 +5,14 @@
 use super::{Live, Loop, Medium, NO_MOTION, Recipe, Run, View, Words, ghosts};
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Point};
-use crate::studies::ghost::Axes;
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
     name: "loop",
     title: "fretting loop",
     keeps_abscissa: true,
-    overlays: &[Axes::Loop],
+    overlays: &[Axes::LOOP],
     words: Words {
         text: "Tangential force against tangential displacement in the last cycle. The area \
                  inside is the energy lost to friction. A line means full stick, a thin loop \
@@ -105,7 +105,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
         });
     }
     let mut chart = Chart::new("", Axis::new("u_x", "m"), Axis::new("F_x", "N"))
-        .curves(ghosts::on(run, Axes::Loop))
+        .curves(ghosts::on(run, Axes::LOOP))
         .curves(loops);
     chart.margin = MARGIN;
     if let Some(live) = &run.live {

@@ -4,7 +4,8 @@
 use super::Run;
 use crate::plot::Curve;
 use crate::plot::theme::Role;
-use crate::studies::ghost::{Axes, Ghost};
+use crate::studies::ghost::Ghost;
+use crate::traces::Axes;
 
 /// What one ghost gives for a chart: abscissae, ordinates, and errors if there are any.
 type Points = (Vec<f64>, Vec<f64>, Option<Vec<f64>>);
@@ -30,7 +31,8 @@ fn curves(run: &Run, of: impl Fn(&Ghost) -> Option<Points>) -> Vec<Curve> {
 pub fn on(run: &Run, axes: Axes) -> Vec<Curve> {
     curves(run, |ghost| {
         let trace = ghost.trace(axes)?;
-        Some((trace.xs.clone(), trace.ys.clone(), trace.errors.clone()))
+        let errors = trace.errors.map(<[f64]>::to_vec);
+        Some((trace.xs.to_vec(), trace.ys.to_vec(), errors))
     })
 }
 
@@ -67,10 +69,8 @@ pub fn worn(run: &Run, times: Option<f64>) -> Vec<Curve> {
 
 /// The last cycle that ghosts tell of.
 pub(super) fn end(run: &Run) -> f64 {
-    let over_cycles = [Axes::Volume, Axes::Depth, Axes::Contact, Axes::Stick];
-    let traces = run.ghosts.iter().flat_map(|ghost| ghost.traces());
-    let traces = traces.filter(|trace| over_cycles.contains(&trace.axes));
-    traces
-        .filter_map(|trace| trace.xs.last().copied())
+    run.ghosts
+        .iter()
+        .map(|ghost| ghost.end())
         .fold(0.0, f64::max)
 }

@@ -4,8 +4,9 @@
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Mark, Scale, Zone};
 use crate::simulation::Curves;
-use crate::studies::ghost::{Axes, Ghost};
+use crate::studies::ghost::Ghost;
 use crate::studies::theory::Theory;
+use crate::traces::Axes;
 
 pub mod condition;
 pub mod cost;
@@ -25,7 +26,7 @@ pub mod springs;
 pub mod stresses;
 pub mod volume;
 
-pub use run::{Live, Loop, Run, Table};
+pub use run::{Live, Loop, Run};
 
 /// The charts that a paper can have, in the order in which they are offered.
 pub const ON_PAPER: [&Recipe; 12] = [

@@ -9,7 +9,7 @@ use crate::math::scan::largest;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Fill};
 use crate::simulation::Curves;
-use crate::studies::ghost::Axes;
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -18,7 +18,7 @@ pub static RECIPE: Recipe = Recipe {
     can_be_log: true,
     needs: Curves::PROFILE,
     over_r: true,
-    overlays: &[Axes::Wear, Axes::Profile],
+    overlays: &[Axes::WEAR, Axes::PROFILE],
     words: Words {
         text: "The shape of the indenter against the radius, unworn and worn. Wear thinner than a \
                  line is drawn magnified, by one factor for the whole run that the title tells. It begins \

@@ -3,14 +3,14 @@
 use super::{Medium, Recipe, Run, View, Words, cycles_shown, ghosts, over_cycles, series};
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve};
-use crate::studies::ghost::Axes;
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
     name: "radii",
     title: "radii over cycles",
     is_calm: true,
-    overlays: &[Axes::Contact, Axes::Stick],
+    overlays: &[Axes::CONTACT, Axes::STICK],
     words: Words {
         text: "The largest contact radius and the smallest stick radius of each cycle. As the \
                  ring wears, a grows; c settles, because what has stuck through a whole cycle \
@@ -41,7 +41,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
         let largest = contact.highest();
         ordinate.bounds = (largest > 0.0).then_some([0.0, 1.1 * largest]);
     }
-    let others = ghosts::both(run, [Axes::Contact, Axes::Stick]).into_iter();
+    let others = ghosts::both(run, [Axes::CONTACT, Axes::STICK]).into_iter();
     Ok(over_cycles(run, ordinate)
         .curves(others.map(|(_, ghost)| ghost))
         .curve(contact)

@@ -4,7 +4,7 @@
 use super::{Recipe, Run, View, Words, finished_series, over_cycles};
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart};
-use crate::studies::ghost::Axes;
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -12,7 +12,7 @@ pub static RECIPE: Recipe = Recipe {
     can_be_log: true,
     has_spikes: true,
     is_calm: true,
-    overlays: &[Axes::Volume],
+    overlays: &[Axes::VOLUME],
     words: Words {
         text: "The wear volume of each cycle. It falls as the ring wears free of load, and \
                  stays up if a force keeps pressing the indenter in.",

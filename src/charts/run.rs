@@ -11,94 +11,9 @@ use crate::scenario::Scenario;
 use crate::scenario::scalars::{self, Reading, Value};
 use crate::scenario::session::{Session, SessionError};
 use crate::simulation::{Curves, Moment};
-use crate::studies::ghost::{Axes, Ghost};
+use crate::studies::ghost::Ghost;
 use crate::studies::theory::Theory;
-
-/// A CSV file of this program: header lines and columns of numbers.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Table {
-    /// The `# key: value` lines.
-    pub header: Vec<(String, String)>,
-    names: Vec<String>,
-    columns: Vec<Vec<f64>>,
-}
-
-impl Table {
-    /// Reads a text; fields that are no numbers become NaN.
-    ///
-    /// # Errors
-    /// Says in which line there is no column, or another number of fields than of columns.
-    pub fn parse(text: &str) -> Result<Self, String> {
-        let mut table = Self {
-            header: Vec::new(),
-            names: Vec::new(),
-            columns: Vec::new(),
-        };
-        for (k, line) in text.lines().enumerate() {
-            if let Some(said) = line.strip_prefix('#') {
-                if let Some((key, value)) = said.split_once(':') {
-                    let entry = (key.trim().to_owned(), value.trim().to_owned());
-                    table.header.push(entry);
-                }
-            } else if table.names.is_empty() {
-                table.names = line.split(',').map(|name| name.trim().to_owned()).collect();
-                table.columns = vec![Vec::new(); table.names.len()];
-            } else if !line.trim().is_empty() {
-                let fields: Vec<&str> = line.split(',').collect();
-                if fields.len() != table.names.len() {
-                    let (seen, wanted) = (fields.len(), table.names.len());
-                    return Err(format!(
-                        "line {}: {seen} fields under {wanted} columns",
-                        k + 1
-                    ));
-                }
-                for (column, field) in table.columns.iter_mut().zip(fields) {
-                    column.push(field.trim().parse().unwrap_or(f64::NAN));
-                }
-            }
-        }
-        if table.columns.first().is_none_or(Vec::is_empty) {
-            return Err("has no rows of numbers".into());
-        }
-        Ok(table)
-    }
-
-    /// A table from memory: its header and named columns of one length.
-    pub fn of_columns(header: Vec<(String, String)>, columns: Vec<(&str, Vec<f64>)>) -> Self {
-        let (names, columns) = columns
-            .into_iter()
-            .map(|(name, values)| (name.to_owned(), values))
-            .unzip();
-        Self {
-            header,
-            names,
-            columns,
-        }
-    }
-
-    /// A column, if there is one of that name.
-    pub fn column(&self, name: &str) -> Option<&[f64]> {
-        let at = self.names.iter().position(|column| column == name)?;
-        Some(&self.columns[at])
-    }
-
-    /// Whether it has all of these columns.
-    pub fn has(&self, names: &[&str]) -> bool {
-        names.iter().all(|name| self.column(name).is_some())
-    }
-
-    /// The value of a header line.
-    pub fn fact(&self, key: &str) -> Option<&str> {
-        let found = self.header.iter().find(|(name, _)| name == key);
-        found.map(|(_, value)| value.as_str())
-    }
-
-    /// The cycle that the header gives.
-    pub fn cycle(&self) -> f64 {
-        let cycle = self.fact("cycle").and_then(|cycle| cycle.parse().ok());
-        cycle.unwrap_or(f64::NAN)
-    }
-}
+use crate::traces::Table;
 
 /// The loop of one cycle.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -122,17 +37,15 @@ impl Loop {
     /// The cycle before `end` of a table with these columns for displacement and force.
     fn of(table: &Table, [shift, force]: [&str; 2], end: f64) -> Option<Self> {
         let column = |name: &str| table.column(name);
-        let (cycles, shifts, forces) = (column("cycle")?, column(shift)?, column(force)?);
+        let (shifts, forces) = (column(shift)?, column(force)?);
         let sensed = column("rig_displacement_m");
-        let within = |cycle: f64| cycle > end - 1.0 - 1e-9 && cycle < end + 1e-9;
-        let rows = || (0..cycles.len()).filter(|&row| within(cycles[row]));
+        let rows = table.cycle_before(end);
+        let of = |values: &[f64]| rows.iter().map(|&row| values[row]).collect();
         Some(Self {
             end,
-            shifts: rows().map(|row| shifts[row]).collect(),
-            forces: rows().map(|row| forces[row]).collect(),
-            sensed: rows()
-                .map(|row| sensed.map_or(f64::NAN, |sensed| sensed[row]))
-                .collect(),
+            shifts: of(shifts),
+            forces: of(forces),
+            sensed: sensed.map_or_else(|| vec![f64::NAN; rows.len()], of),
         })
     }
 
@@ -297,13 +210,12 @@ impl Run {
         if session.simulation().cycle() < 1.0 {
             record(session);
         }
-        let columns = OVER_CYCLES.into_iter().zip(seen).collect();
+        let columns = OVER_CYCLES.into_iter().zip(seen);
         data.history = Some(Table::of_columns(header::entries(session), columns));
         data.field = with_field.then(|| {
             let rows = field::rows(session);
-            let column = |k: usize| rows.iter().map(|row| row[k]).collect();
             let columns = field::COLUMNS.into_iter().enumerate();
-            let columns = columns.map(|(k, name)| (name, column(k))).collect();
+            let columns = columns.map(|(k, name)| (name, rows.iter().map(|row| row[k]).collect()));
             Table::of_columns(header::entries(session), columns)
         });
         Ok(data)
@@ -320,31 +232,10 @@ impl Run {
     /// What there is of this run, to be laid over the charts of another one.
     pub fn ghost(&self, name: &str) -> Ghost {
         let mut ghost = Ghost::new(name);
-        let tables = [
-            (&self.states.last(), "r_m"),
-            (&self.history.as_ref(), "cycle"),
-        ];
-        for (axes, column) in [
-            (Axes::Profile, "f_m"),
-            (Axes::Wear, "wear_m"),
-            (Axes::Springs, "g_m"),
-            (Axes::Pressure, "p_Pa"),
-            (Axes::Shear, "tau_Pa"),
-            (Axes::Volume, "wear_volume_m3"),
-            (Axes::Contact, "contact_radius_m"),
-            (Axes::Stick, "permanent_stick_radius_m"),
-        ] {
-            for (table, at) in tables {
-                let columns = table.and_then(|table| table.column(at).zip(table.column(column)));
-                if let Some((xs, ys)) = columns {
-                    ghost.add(axes, xs.to_vec(), ys.to_vec());
-                }
-            }
-        }
-        if let Ok(chart) = super::fretting_loop::RECIPE.on_paper(self)
-            && let Some(curve) = chart.curves.into_iter().next_back()
-        {
-            ghost.add(Axes::Loop, curve.xs, curve.ys);
+        ghost.tables.extend(self.states.last().cloned());
+        ghost.tables.extend(self.history.clone());
+        if let Some(one) = self.end().and_then(|end| self.loop_at(end)) {
+            ghost.take_loop(one.shifts, one.forces);
         }
         ghost
     }

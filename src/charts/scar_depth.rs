@@ -4,7 +4,7 @@ use super::{Recipe, Run, View, Words, ghosts, over_cycles, series};
 use crate::math::scan::largest;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve};
-use crate::studies::ghost::Axes;
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -12,7 +12,7 @@ pub static RECIPE: Recipe = Recipe {
     title: "depth over cycles",
     can_be_log: true,
     is_calm: true,
-    overlays: &[Axes::Depth],
+    overlays: &[Axes::DEPTH],
     words: Words {
         text: "The largest worn depth of the profile over cycles: what a profilometer reads in the deepest point of \
                  the scar. Measured depths lie over it with --overlay.",
@@ -40,6 +40,6 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
         .ok_or("there is no state.csv")?;
     let ordinate = Axis::new(view.pick("depth", "worn depth"), "m").from_zero();
     Ok(over_cycles(run, ordinate)
-        .curves(ghosts::on(run, Axes::Depth))
+        .curves(ghosts::on(run, Axes::DEPTH))
         .curve(depth))
 }

@@ -1,8 +1,9 @@
 //! The scar's radius and depth over the work of friction: what a profilometer and a loop give of a test.
 
-use super::{NO_HISTORY, Recipe, Run, View, Words, magnification};
+use super::{NO_HISTORY, Recipe, Run, View, Words, ghosts, magnification};
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Scale};
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -10,6 +11,7 @@ pub static RECIPE: Recipe = Recipe {
     title: "scar over friction work",
     can_be_log: true,
     is_calm: true,
+    overlays: &[DEPTH, RADIUS],
     words: Words {
         text: "The outer radius of the wear scar and its depth over the energy that friction has dissipated. At \
                first the ring deepens where it is; then it grows outwards, and the depth per energy falls. The \
@@ -22,6 +24,10 @@ pub static RECIPE: Recipe = Recipe {
     },
     ..Recipe::new(make)
 };
+
+/// The columns.
+const DEPTH: Axes = Axes::new("dissipated_energy_J", "scar_depth_m", "depth");
+const RADIUS: Axes = Axes::new("dissipated_energy_J", "scar_radius_m", "radius");
 
 fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     run.wears()?;
@@ -39,8 +45,13 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
         1.0 => "depth".to_owned(),
         times => format!("depth ×{times}"),
     };
+    let mut others = ghosts::both(run, [DEPTH, RADIUS]);
+    for (_, ghost) in others.iter_mut().filter(|(axes, _)| *axes == DEPTH) {
+        ghost.ys.iter_mut().for_each(|depth| *depth *= times);
+    }
     let (work_axis, axis) = (Axis::new("E_d", "J").from_zero(), Axis::new("scar", "m"));
     Ok(Chart::new("", work_axis, axis.from_zero())
+        .curves(others.into_iter().map(|(_, ghost)| ghost))
         .curve(radius)
         .curve(Curve::new(name, work, depths, Role::Profile)))
 }

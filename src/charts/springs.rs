@@ -4,7 +4,7 @@ use super::{A, C, NO_STATE, Recipe, Run, View, Words, ghosts, of_states, over_r}
 use crate::plot::theme::Role;
 use crate::plot::{Chart, Curve};
 use crate::simulation::Curves;
-use crate::studies::ghost::Axes;
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -12,7 +12,7 @@ pub static RECIPE: Recipe = Recipe {
     title: "1D profile",
     needs: Curves::PROFILE_1D,
     over_r: true,
-    overlays: &[Axes::Springs],
+    overlays: &[Axes::SPRINGS],
     words: Words {
         text: "The method replaces the 3D contact with a row of independent springs, and the \
                  shape f with its 1D image g. A spring at x touches where g(x) is below the depth \
@@ -30,7 +30,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     });
     Ok(over_r(run, "x", ("g", "m"))
         .curves(depth)
-        .curves(ghosts::on(run, Axes::Springs))
+        .curves(ghosts::on(run, Axes::SPRINGS))
         .curves(of_states(
             run,
             "g_m",

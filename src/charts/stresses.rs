@@ -4,7 +4,7 @@ use super::{A, C, Medium, NO_STATE, Recipe, Run, View, Words, ghosts, over_r};
 use crate::plot::theme::Role;
 use crate::plot::{Chart, Curve, Scale};
 use crate::simulation::Curves;
-use crate::studies::ghost::Axes;
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -14,7 +14,7 @@ pub static RECIPE: Recipe = Recipe {
     needs: Curves::PRESSURE.union(Curves::SHEAR),
     over_r: true,
     has_spikes: true,
-    overlays: &[Axes::Pressure, Axes::Shear],
+    overlays: &[Axes::PRESSURE, Axes::SHEAR],
     words: Words {
         text: "Pressure p and shear stress against the radius. The shear stress is divided by \
                  μ, so it lies on p or -p where the contact slips and between them where it \
@@ -47,9 +47,9 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
         if is_log { shear.abs() } else { shear }
     };
     let curve = |name, ys: Vec<f64>, role| Curve::new(name, radii, ys, role);
-    let mut others = ghosts::both(run, [Axes::Pressure, Axes::Shear]);
-    others.retain(|(axes, _)| *axes == Axes::Pressure || divisor.is_some());
-    for (_, ghost) in others.iter_mut().filter(|(axes, _)| *axes == Axes::Shear) {
+    let mut others = ghosts::both(run, [Axes::PRESSURE, Axes::SHEAR]);
+    others.retain(|(axes, _)| *axes == Axes::PRESSURE || divisor.is_some());
+    for (_, ghost) in others.iter_mut().filter(|(axes, _)| *axes == Axes::SHEAR) {
         ghost.ys = ghost.ys.iter().map(scaled).collect();
     }
     let mut chart = over_r(run, "r", ("stress", "Pa"))

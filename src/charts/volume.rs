@@ -5,7 +5,7 @@ use super::{Recipe, Run, View, Words, ghosts, over_cycles, series};
 use crate::plot::theme::Role;
 use crate::plot::units::format_value;
 use crate::plot::{Axis, Chart};
-use crate::studies::ghost::Axes;
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -13,7 +13,7 @@ pub static RECIPE: Recipe = Recipe {
     title: "wear volume",
     can_be_log: true,
     is_calm: true,
-    overlays: &[Axes::Volume],
+    overlays: &[Axes::VOLUME],
     words: Words {
         text: "The wear volume since the start. It grows by k times the energy that friction dissipates.",
         symbols: &[
@@ -34,5 +34,5 @@ fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
             format_value(live.moment.dissipated_energy, "J", 4)
         );
     }
-    Ok(chart.curves(ghosts::on(run, Axes::Volume)).curve(volume))
+    Ok(chart.curves(ghosts::on(run, Axes::VOLUME)).curve(volume))
 }

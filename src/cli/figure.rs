@@ -11,8 +11,7 @@ use anyhow::{Context, Result};
 use super::args::{Figure, PaperFigure, StyleChoice};
 use super::{Misuse, accuracy, job};
 use crate::charts::{
-    ON_PAPER, Recipe, Run, Table, depth, fretting_loop, profile, scar_depth, springs, stresses,
-    volume,
+    ON_PAPER, Recipe, Run, depth, fretting_loop, profile, scar_depth, springs, stresses, volume,
 };
 use crate::export::target::{Target, write_all};
 use crate::figure::look::{Look, Style};
@@ -23,6 +22,7 @@ use crate::scenario::{Scenario, limited, printable};
 use crate::studies::ghost::Ghost;
 use crate::studies::sweep::record::Record;
 use crate::studies::sweep::slice::Slice;
+use crate::traces::Table;
 
 /// The largest table of a run that is read, in bytes.
 const LARGEST: u64 = 1 << 30;

@@ -7,6 +7,7 @@ use crate::plot::{Axis, Chart, Curve, Map, Mark, Scale};
 use crate::scenario::scalars;
 use crate::studies::sweep::slice::{REGIMES, Slice};
 use crate::studies::sweep::{self, Design, Spread};
+use crate::traces::unit_of;
 
 /// The most charts of a sheet that nobody chose the columns of.
 const MOST_CHARTS: usize = 4;
@@ -147,21 +148,6 @@ pub fn paper_axis(slice: &Slice, axis: &sweep::Axis) -> Axis {
         Spread::Linear => Scale::Linear,
         Spread::Logarithmic => Scale::Log,
     })
-}
-
-/// The unit that ends the name of a column.
-fn unit_of(column: &str) -> &'static str {
-    let ends = [
-        ("_m3_per_J", "m³/J"),
-        ("_m3", "m³"),
-        ("_m", "m"),
-        ("_N", "N"),
-        ("_J", "J"),
-        ("_Pa", "Pa"),
-        ("_s", "s"),
-    ];
-    let found = ends.into_iter().find(|(end, _)| column.ends_with(end));
-    found.map_or("", |(_, unit)| unit)
 }
 
 /// A column of a study in words, with its unit; logarithmic where its `values` span decades.

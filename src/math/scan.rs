@@ -63,6 +63,26 @@ pub fn support(values: &[f64]) -> Range<usize> {
     leading(&values[..end], |&value| value == 0.0)..end
 }
 
+/// The ordinate at `x` of the line through points: at a point, or linearly interpolated between the first two
+/// neighbouring points that have `x` between them. `None` in gaps, where a point is not finite, and outside.
+pub fn value_at(xs: &[f64], ys: &[f64], x: f64) -> Option<f64> {
+    let mut previous: Option<(f64, f64)> = None;
+    for (&x1, &y1) in xs.iter().zip(ys) {
+        let point = (x1.is_finite() && y1.is_finite()).then_some((x1, y1));
+        if point.is_some() && x1 == x {
+            return Some(y1);
+        }
+        if let (Some((x0, y0)), Some(_)) = (previous, point)
+            && (x0.min(x1)..=x0.max(x1)).contains(&x)
+        {
+            let share = (x / 2.0 - x0 / 2.0) / (x1 / 2.0 - x0 / 2.0);
+            return Some(y0 * (1.0 - share) + y1 * share);
+        }
+        previous = point;
+    }
+    None
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

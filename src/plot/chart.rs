@@ -5,6 +5,7 @@ use super::axis::{Axis, Scale};
 use super::map::Map;
 use super::stroke::Stroke;
 use super::theme::Role;
+use crate::math::scan::value_at;
 
 /// The dashes of curves of other sources in a terminal, by their number.
 const GHOSTS: [Stroke; 4] = [
@@ -139,25 +140,6 @@ impl Curve {
             _ => Stroke::Solid,
         }
     }
-}
-
-/// The ordinate at `x` of the line through points, as [`Curve::value_at`] has it.
-pub fn value_at(xs: &[f64], ys: &[f64], x: f64) -> Option<f64> {
-    let mut previous: Option<(f64, f64)> = None;
-    for (&x1, &y1) in xs.iter().zip(ys) {
-        let point = (x1.is_finite() && y1.is_finite()).then_some((x1, y1));
-        if point.is_some() && x1 == x {
-            return Some(y1);
-        }
-        if let (Some((x0, y0)), Some(_)) = (previous, point)
-            && (x0.min(x1)..=x0.max(x1)).contains(&x)
-        {
-            let share = (x / 2.0 - x0 / 2.0) / (x1 / 2.0 - x0 / 2.0);
-            return Some(y0 * (1.0 - share) + y1 * share);
-        }
-        previous = point;
-    }
-    None
 }
 
 /// A range of x in the band under the plot area: where the contact sticks, slips, is open.

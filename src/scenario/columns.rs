@@ -32,6 +32,16 @@ pub enum Quantity {
 }
 
 impl Quantity {
+    const ALL: [Self; 7] = [
+        Self::Length,
+        Self::Volume,
+        Self::Force,
+        Self::Time,
+        Self::Energy,
+        Self::Stress,
+        Self::Number,
+    ];
+
     /// The units in column names, each with its size in SI; the first is that of this program's files.
     fn units(self) -> &'static [(&'static str, f64)] {
         match self {
@@ -191,12 +201,38 @@ impl Columns {
     /// number, as in this program's own files; none if there is no such column.
     pub fn column_with_gaps(&self, name: &str, quantity: Quantity) -> Option<Vec<f64>> {
         let (at, size) = self.find(name, quantity)?;
+        Some(self.values(at, size))
+    }
+
+    fn values(&self, at: usize, size: f64) -> Vec<f64> {
         let value = |field: &str| field.parse::<f64>().ok().filter(|value| value.is_finite());
         let values = self.rows.iter().map(|(_, row)| {
             let value = row.get(at).and_then(value);
             value.map_or(f64::NAN, |value| size * value)
         });
-        Some(values.collect())
+        values.collect()
+    }
+
+    /// All columns, in SI units and by the names that this program's own files have; NaN where a field is no finite
+    /// number.
+    pub fn all(&self) -> Vec<(String, Vec<f64>)> {
+        let columns = self.names.iter().enumerate();
+        let column = |(at, name): (usize, &String)| {
+            let quantities = Quantity::ALL.iter().flat_map(|quantity| {
+                let own = quantity.units()[0].0;
+                quantity
+                    .units()
+                    .iter()
+                    .map(move |(unit, size)| (own, *unit, *size))
+            });
+            // "_mm" ends in no "_m", but every name ends in "".
+            let unit = quantities.filter(|(_, unit, _)| name.ends_with(unit));
+            let longest = unit.max_by_key(|(_, unit, _)| unit.len());
+            let (own, unit, size) = longest.unwrap_or(("", "", 1.0));
+            let base = &name[..name.len() - unit.len()];
+            (format!("{base}{own}"), self.values(at, size))
+        };
+        columns.map(column).collect()
     }
 
     /// The names of the columns, fit for a line.

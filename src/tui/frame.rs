@@ -5,13 +5,14 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::pace::Pace;
 use super::settings::Setting;
 use super::trend::Trend;
-use crate::charts::{Live, Loop, Run, Table};
+use crate::charts::{Live, Loop, Run};
 use crate::contact::indenter::Indenter;
 use crate::contact::subsurface::{Peak, SpringLoad};
 use crate::export::state;
 use crate::simulation::{Check, CycleFigures, Observation};
 use crate::studies::ghost::Ghost;
 use crate::studies::theory::Theory;
+use crate::traces::Table;
 
 /// What the worker is doing.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,14 +5,16 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::beside::Beside;
-use super::trend::{OfCycle, Trend};
+use super::trend::Trend;
+use crate::export::state;
 use crate::math::scan::largest;
 use crate::scenario::Scenario;
 use crate::scenario::scalars::scar_radius;
 use crate::scenario::session::Session;
 use crate::simulation::Curves;
-use crate::studies::ghost::{Axes, Ghost};
+use crate::studies::ghost::Ghost;
 use crate::studies::refinement;
+use crate::traces::Table;
 
 /// The most ghosts at once: each has a stroke of its own.
 pub const MOST: usize = 4;
@@ -151,20 +153,13 @@ pub(super) fn record(trend: &mut Trend, session: &Session) {
 
 fn ghost(name: &str, session: &Session, trend: &Trend, curves: Curves) -> Ghost {
     let seen = session.simulation().observe(curves);
-    let mut ghost = Ghost::of_observation(name, &seen);
+    let mut ghost = Ghost::new(name);
+    let columns = state::columns(&seen);
+    ghost.tables.push(Table::of_columns(Vec::new(), columns));
+    ghost.tables.push(trend.history());
     if seen.moment.stick_radius.is_some() {
         let (shifts, forces) = trend.fretting_loop();
-        ghost.add(Axes::Loop, shifts, forces);
-    }
-    let cycles: Vec<f64> = trend.cycles().map(|entry| entry.cycle).collect();
-    let series: [(Axes, OfCycle); 4] = [
-        (Axes::Volume, |entry| entry.wear_volume),
-        (Axes::Depth, |entry| entry.scar_depth),
-        (Axes::Contact, |entry| entry.contact_radius),
-        (Axes::Stick, |entry| entry.stick_radius),
-    ];
-    for (axes, of) in series {
-        ghost.add(axes, cycles.clone(), trend.cycles().map(of).collect());
+        ghost.take_loop(shifts, forces);
     }
     ghost
 }

@@ -3,10 +3,12 @@
 
 use super::frame::Frame;
 use super::panels::Panel;
-use crate::plot::chart::value_at;
+use crate::charts::{Loop, Run};
+use crate::math::scan::value_at;
 use crate::plot::units::{format_value_in, to_ascii};
 use crate::simulation::Zone;
-use crate::studies::ghost::{Axes, Ghost};
+use crate::studies::ghost::Ghost;
+use crate::traces::Axes;
 
 /// Significant digits.
 const DIGITS: usize = 4;
@@ -21,13 +23,18 @@ pub(super) fn line(frame: &Frame, focus: Panel, r: f64, width: usize, ascii: boo
         let name = if ascii { to_ascii(name) } else { name.into() };
         format!(" {name} {} ", format_value_in(value, unit, DIGITS, ascii))
     };
-    let mut parts = compared(frame, focus, r, ascii);
-    let at_radius = parts.is_empty() || quantity(frame, focus, r).is_some_and(|seen| seen.over_r);
+    let run = frame.run();
+    let mut parts = compared(&run, focus, r, ascii);
+    let at_radius = parts.is_empty() || compared_axes(focus).over_r();
     if at_radius {
         let place = [value("r", r, "m"), format!(" {} ", zone(frame, r).name())];
         parts.splice(0..0, place);
-        for (name, values, unit) in curves(frame) {
-            let at = at(frame, values, r).map(|seen| value(name, seen, unit));
+        let moves = frame.observation.moment.stick_radius.is_some();
+        let curves = CURVES
+            .into_iter()
+            .filter(|axes| moves || *axes != Axes::SHEAR);
+        for axes in curves {
+            let at = over_r(&run, axes, r).map(|seen| value(axes.symbol, seen, axes.unit()));
             parts.extend(at.filter(|part| !parts.contains(part)));
         }
     }
@@ -41,94 +48,70 @@ pub(super) fn line(frame: &Frame, focus: Panel, r: f64, width: usize, ascii: boo
     line
 }
 
-/// The curves over the radius: name, values, unit.
-fn curves(frame: &Frame) -> [(&'static str, &[f64], &'static str); 5] {
-    let seen = &frame.observation;
-    let shear: &[f64] = match seen.moment.stick_radius {
-        Some(_) => &seen.shear,
-        None => &[],
-    };
-    [
-        ("f", &seen.profile, "m"),
-        ("p", &seen.pressure, "Pa"),
-        ("τ", shear, "Pa"),
-        ("worn", &seen.wear, "m"),
-        ("g", &seen.profile_1d, "m"),
-    ]
+/// The curves over the radius, in their order in the line.
+const CURVES: [Axes; 5] = [
+    Axes::PROFILE,
+    Axes::PRESSURE,
+    Axes::SHEAR,
+    Axes::WEAR,
+    Axes::SPRINGS,
+];
+
+/// The run's value at a radius.
+fn over_r(run: &Run, axes: Axes, r: f64) -> Option<f64> {
+    let state = run.states.last()?;
+    value_at(state.column(axes.x)?, state.column(axes.y)?, r)
 }
 
-fn at(frame: &Frame, values: &[f64], r: f64) -> Option<f64> {
-    value_at(&frame.observation.radii, values, r)
+/// What a panel compares with other sources.
+fn compared_axes(focus: Panel) -> Axes {
+    let overlays = focus.recipe().overlays;
+    overlays.first().copied().unwrap_or(Axes::WEAR)
 }
 
-/// What a panel compares at one place.
-struct Quantity {
-    name: &'static str,
-    unit: &'static str,
-    /// The run's own value.
-    value: f64,
-    /// Whether the place is a radius, and not the present moment.
-    over_r: bool,
-    /// The value of each ghost there, where it has one.
-    ghosts: Vec<Option<f64>>,
+/// The place at which the panel compares: the radius, or the present displacement, cycle or work; and the run's
+/// value there.
+fn here(run: &Run, axes: Axes, r: f64) -> Option<(f64, f64)> {
+    if axes.over_r() {
+        return Some((r, over_r(run, axes, r)?));
+    }
+    if axes == Axes::LOOP {
+        let moment = &run.live.as_ref()?.moment;
+        return Some((moment.shift, moment.tangential_force));
+    }
+    let last = |name| run.history.as_ref()?.column(name)?.last().copied();
+    Some((last(axes.x)?, last(axes.y)?))
 }
 
-/// What the focused panel compares: at the radius, or at the present cycle and displacement.
-fn quantity(frame: &Frame, focus: Panel, r: f64) -> Option<Quantity> {
-    let (seen, moment) = (&frame.observation, &frame.observation.moment);
-    let axes = focus
-        .recipe()
-        .overlays
-        .first()
-        .copied()
-        .unwrap_or(Axes::Wear);
-    let (name, unit) = axes.quantity();
-    let value = match axes {
-        Axes::Profile => at(frame, &seen.profile, r),
-        Axes::Wear => at(frame, &seen.wear, r),
-        Axes::Springs => at(frame, &seen.profile_1d, r),
-        Axes::Pressure => at(frame, &seen.pressure, r),
-        Axes::Shear => at(frame, &seen.shear, r),
-        Axes::Loop => Some(moment.tangential_force),
-        Axes::Volume => Some(moment.wear_volume),
-        Axes::Depth => frame.trend.cycles().last().map(|entry| entry.scar_depth),
-        Axes::Contact => Some(moment.contact_radius),
-        Axes::Stick => moment.permanent_stick_radius,
-    };
-    let of_ghost = |ghost: &Ghost| match axes {
-        Axes::Loop => {
-            let rises = frame.last_loop().rises();
-            ghost.trace(axes)?.force_at(moment.shift, rises)
+/// The value of a ghost at the same place, where it has one.
+fn of_ghost(run: &Run, ghost: &Ghost, axes: Axes, place: f64) -> Option<f64> {
+    match axes {
+        Axes::LOOP => {
+            let rises = run.loops.last().is_none_or(Loop::rises);
+            ghost.trace(axes)?.force_at(place, rises)
         }
-        Axes::Wear => {
-            let worn = ghost.worn(|r| frame.indenter.profile(r))?;
-            value_at(&worn.radii, &worn.wear, r)
+        Axes::WEAR => {
+            let worn = ghost.worn(|r| run.unworn(r))?;
+            value_at(&worn.radii, &worn.wear, place)
         }
-        _ if axes.over_r() => ghost.trace(axes)?.value_at(r),
-        _ => ghost.trace(axes)?.value_at(moment.cycle),
-    };
-    Some(Quantity {
-        name,
-        unit,
-        value: value?,
-        over_r: axes.over_r(),
-        ghosts: frame.ghosts.iter().map(|ghost| of_ghost(ghost)).collect(),
-    })
+        _ => ghost.trace(axes)?.value_at(place),
+    }
 }
 
 /// The run's value of what the focused panel shows, and for each ghost that has it its value and how far
 /// it is above that of the run; nothing where no ghost has it.
-fn compared(frame: &Frame, focus: Panel, r: f64, ascii: bool) -> Vec<String> {
-    let Some(seen) = quantity(frame, focus, r) else {
+fn compared(run: &Run, focus: Panel, r: f64, ascii: bool) -> Vec<String> {
+    let axes = compared_axes(focus);
+    let Some((place, own)) = here(run, axes, r) else {
         return Vec::new();
     };
-    let shown = |value: f64| format_value_in(value, seen.unit, DIGITS, ascii);
-    let mut parts = vec![format!(" {} {} ", seen.name, shown(seen.value))];
-    for (ghost, value) in frame.ghosts.iter().zip(&seen.ghosts) {
-        let Some(value) = *value else {
+    let shown = |value: f64| format_value_in(value, axes.unit(), DIGITS, ascii);
+    let mut parts = vec![format!(" {} {} ", axes.symbol, shown(own))];
+    for ghost in &run.ghosts {
+        let Some(value) = of_ghost(run, ghost, axes, place) else {
             continue;
         };
-        let difference = value - seen.value;
+        let difference = value - own;
         let sign = if difference < 0.0 { "" } else { "+" };
         let name: String = ghost.name.chars().take(LONGEST_NAME).collect();
         let name = if ascii {

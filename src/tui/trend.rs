@@ -3,8 +3,9 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use crate::charts::{Loop, Table};
+use crate::charts::Loop;
 use crate::simulation::Moment;
+use crate::traces::Table;
 
 /// Maximum number of cycles stored one by one; then neighbours are merged in pairs.
 const CAPACITY: usize = 2048;
@@ -357,7 +358,7 @@ impl Trend {
     /// The cycles so far as columns.
     pub fn history(&self) -> Table {
         let columns = COLUMNS.map(|(name, of)| (name, self.cycles().map(of).collect()));
-        Table::of_columns(Vec::new(), columns.into())
+        Table::of_columns(Vec::new(), columns)
     }
 
     /// The loop of the last cycle, which ends at `end`.

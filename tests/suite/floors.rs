@@ -12,11 +12,12 @@ fn height(floor: &str) -> Option<u8> {
         "simulation" => 3,
         "reading" => 4,
         "scenario" => 5,
-        "studies" | "export" | "plot" => 6,
-        "charts" => 7,
-        "figure" => 8,
-        "tui" => 9,
-        "cli" => 10,
+        "traces" => 6,
+        "studies" | "export" | "plot" => 7,
+        "charts" => 8,
+        "figure" => 9,
+        "tui" => 10,
+        "cli" => 11,
         _ => return None,
     })
 }
@@ -47,7 +48,7 @@ fn may_import(floor: &str, target: &str) -> bool {
         (Some(from), Some(to)) => to < from,
         // The judge serves the studies and the screens, never the judged.
         (Some(from), None) => {
-            let judged = target == "oracle" && from >= 6 && floor != "export" && floor != "plot";
+            let judged = target == "oracle" && from >= 7 && floor != "export" && floor != "plot";
             // What the process does when it fails: below every floor.
             judged || ["failpoint", "panics"].contains(&target)
         }

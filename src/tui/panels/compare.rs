@@ -12,7 +12,7 @@ use crate::math::scan::largest;
 use crate::plot::units::{format_number, format_value_in};
 use crate::plot::{Axis, Chart, Curve, Plot, Scale, nice_bounds};
 use crate::simulation::Observation;
-use crate::studies::ghost::Axes;
+use crate::traces::Axes;
 use crate::tui::frame::Comparison;
 use crate::tui::theme::Role;
 
@@ -78,7 +78,7 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffe
     let mut ordinate = Axis::new("p", "Pa");
     ordinate.bounds = (highest > 0.0).then(|| nice_bounds(0.0, highest));
     let pressures = Chart::new("", Axis::new("r", "m"), ordinate)
-        .curves(ghosts::on(&run, Axes::Pressure))
+        .curves(ghosts::on(&run, Axes::PRESSURE))
         .curves(pair(&other.pressure, &seen.pressure, Role::Pressure));
     render(&pressures, inside("pressure", right, buffer), buffer);
     let inside_below = inside("difference of f", below, buffer);

@@ -1,0 +1,171 @@
+//! What is known of a run, or of another source, as named columns in SI units: over the radius, over cycles, over a
+//! loop. A column has the same name in a file, in memory and on an axis.
+
+use crate::scenario::columns::Columns;
+
+/// Two columns that make a curve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Axes {
+    /// The abscissa's column.
+    pub x: &'static str,
+    /// The ordinate's.
+    pub y: &'static str,
+    /// The ordinate's symbol.
+    pub symbol: &'static str,
+}
+
+impl Axes {
+    /// f over r.
+    pub const PROFILE: Self = Self::new("r_m", "f_m", "f");
+    /// f − f₀ over r.
+    pub const WEAR: Self = Self::new("r_m", "wear_m", "worn");
+    /// g over x.
+    pub const SPRINGS: Self = Self::new("r_m", "g_m", "g");
+    /// p over r.
+    pub const PRESSURE: Self = Self::new("r_m", "p_Pa", "p");
+    /// τ over r.
+    pub const SHEAR: Self = Self::new("r_m", "tau_Pa", "τ");
+    /// F_x over u_x, in tables of one cycle.
+    pub const LOOP: Self = Self::new("u_m", "F_N", "F_x");
+    /// V over cycles.
+    pub const VOLUME: Self = Self::new("cycle", "wear_volume_m3", "V");
+    /// The largest f − f₀ over cycles.
+    pub const DEPTH: Self = Self::new("cycle", "scar_depth_m", "depth");
+    /// a over cycles.
+    pub const CONTACT: Self = Self::new("cycle", "contact_radius_m", "a");
+    /// The smallest c in each cycle, over cycles.
+    pub const STICK: Self = Self::new("cycle", "permanent_stick_radius_m", "c");
+
+    /// These columns.
+    pub const fn new(x: &'static str, y: &'static str, symbol: &'static str) -> Self {
+        Self { x, y, symbol }
+    }
+
+    /// The unit of the ordinate.
+    pub fn unit(self) -> &'static str {
+        unit_of(self.y)
+    }
+
+    /// Whether the abscissa is the radius.
+    pub fn over_r(self) -> bool {
+        self.x == "r_m"
+    }
+}
+
+/// The unit that ends the name of a column.
+pub fn unit_of(column: &str) -> &'static str {
+    let ends = [
+        ("_m3_per_J", "m³/J"),
+        ("_m3", "m³"),
+        ("_m", "m"),
+        ("_N", "N"),
+        ("_J", "J"),
+        ("_Pa", "Pa"),
+        ("_s", "s"),
+    ];
+    let found = ends.into_iter().find(|(end, _)| column.ends_with(end));
+    found.map_or("", |(_, unit)| unit)
+}
+
+/// A table of this program: header lines and columns of numbers, each named with its unit at the end.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Table {
+    /// The `# key: value` lines.
+    pub header: Vec<(String, String)>,
+    names: Vec<String>,
+    columns: Vec<Vec<f64>>,
+}
+
+impl Table {
+    /// Reads a text; fields that are no numbers become NaN.
+    ///
+    /// # Errors
+    /// Says in which line there is no column, or another number of fields than of columns.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let mut table = Self {
+            header: Vec::new(),
+            names: Vec::new(),
+            columns: Vec::new(),
+        };
+        for (k, line) in text.lines().enumerate() {
+            if let Some(said) = line.strip_prefix('#') {
+                if let Some((key, value)) = said.split_once(':') {
+                    let entry = (key.trim().to_owned(), value.trim().to_owned());
+                    table.header.push(entry);
+                }
+            } else if table.names.is_empty() {
+                table.names = line.split(',').map(|name| name.trim().to_owned()).collect();
+                table.columns = vec![Vec::new(); table.names.len()];
+            } else if !line.trim().is_empty() {
+                let fields: Vec<&str> = line.split(',').collect();
+                if fields.len() != table.names.len() {
+                    let (seen, wanted) = (fields.len(), table.names.len());
+                    return Err(format!(
+                        "line {}: {seen} fields under {wanted} columns",
+                        k + 1
+                    ));
+                }
+                for (column, field) in table.columns.iter_mut().zip(fields) {
+                    column.push(field.trim().parse().unwrap_or(f64::NAN));
+                }
+            }
+        }
+        if table.columns.first().is_none_or(Vec::is_empty) {
+            return Err("has no rows of numbers".into());
+        }
+        Ok(table)
+    }
+
+    /// A table from memory: its header and named columns of one length.
+    pub fn of_columns<N: Into<String>>(
+        header: Vec<(String, String)>,
+        columns: impl IntoIterator<Item = (N, Vec<f64>)>,
+    ) -> Self {
+        let (names, columns) = columns
+            .into_iter()
+            .map(|(name, values)| (name.into(), values))
+            .unzip();
+        Self {
+            header,
+            names,
+            columns,
+        }
+    }
+
+    /// A column, if there is one of that name.
+    pub fn column(&self, name: &str) -> Option<&[f64]> {
+        let at = self.names.iter().position(|column| column == name)?;
+        Some(&self.columns[at])
+    }
+
+    /// Whether it has all of these columns.
+    pub fn has(&self, names: &[&str]) -> bool {
+        names.iter().all(|name| self.column(name).is_some())
+    }
+
+    /// The value of a header line.
+    pub fn fact(&self, key: &str) -> Option<&str> {
+        let found = self.header.iter().find(|(name, _)| name == key);
+        found.map(|(_, value)| value.as_str())
+    }
+
+    /// The cycle that the header gives.
+    pub fn cycle(&self) -> f64 {
+        let cycle = self.fact("cycle").and_then(|cycle| cycle.parse().ok());
+        cycle.unwrap_or(f64::NAN)
+    }
+
+    /// The columns of a file, in SI units; fields that are no numbers become NaN.
+    pub fn of_file(columns: &Columns) -> Self {
+        Self::of_columns(Vec::new(), columns.all())
+    }
+
+    /// The rows of the cycle before `end`, as far as there are any.
+    pub fn cycle_before(&self, end: f64) -> Vec<usize> {
+        let cycles = self.column("cycle").unwrap_or_default();
+        let within = |cycle: f64| cycle > end - 1.0 - 1e-9 && cycle < end + 1e-9;
+        (0..cycles.len())
+            .filter(|&row| within(cycles[row]))
+            .collect()
+    }
+}

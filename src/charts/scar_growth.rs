@@ -52,6 +52,6 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let (work_axis, axis) = (Axis::new("E_d", "J").from_zero(), Axis::new("scar", "m"));
     Ok(Chart::new("", work_axis, axis.from_zero())
         .curves(others.into_iter().map(|(_, ghost)| ghost))
-        .curve(radius)
+        .curve(radius.dashed())
         .curve(Curve::new(name, work, depths, Role::Profile)))
 }

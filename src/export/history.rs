@@ -109,10 +109,8 @@ impl History {
     /// The columns of the present moment of `session` with their values.
     pub fn values(&self, session: &Session) -> Vec<(&str, Value)> {
         let reading = Reading::new(session);
-        let value = |name| scalars::find(name).map(|scalar| scalar.read(&reading));
-        self.names()
-            .map(|name| (name, value(name).unwrap_or(Value::Missing)))
-            .collect()
+        let values = self.names().map(|name| (name, read(name, &reading)));
+        values.collect()
     }
 
     fn row(&self, session: &Session) -> String {
@@ -239,6 +237,15 @@ impl History {
         out.write_all(self.rows.as_bytes())?;
         out.write_all(self.last_row(session).as_bytes())
     }
+}
+
+/// The fields of a moment, in the order of the columns.
+pub fn fields(reading: &Reading) -> [String; COLUMNS.len()] {
+    COLUMNS.map(|name| read(name, reading).field())
+}
+
+fn read(name: &str, reading: &Reading) -> Value {
+    scalars::find(name).map_or(Value::Missing, |scalar| scalar.read(reading))
 }
 
 #[cfg(test)]

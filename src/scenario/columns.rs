@@ -235,6 +235,17 @@ impl Columns {
         columns.map(column).collect()
     }
 
+    /// The names of the columns, as they are in the file.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// The fields of a row, as they are in the file.
+    pub fn fields(&self, row: usize) -> Vec<String> {
+        let fields = self.rows.get(row).map(|(_, row)| row.iter());
+        fields.into_iter().flatten().map(str::to_owned).collect()
+    }
+
     /// The names of the columns, fit for a line.
     pub fn named(&self) -> String {
         echo(&self.names.join(", "))

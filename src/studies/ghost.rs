@@ -139,7 +139,7 @@ impl Ghost {
 
     /// The curve of these columns, if it has a finite value.
     pub fn trace(&self, axes: Axes) -> Option<Trace<'_>> {
-        let traces = self.tables.iter().filter_map(|table| {
+        let mut traces = self.tables.iter().filter_map(|table| {
             Some(Trace {
                 xs: table.column(axes.x)?,
                 ys: table.column(axes.y)?,
@@ -147,7 +147,7 @@ impl Ghost {
             })
         });
         let is_there = |trace: &Trace| trace.ys.iter().any(|value| value.is_finite());
-        traces.filter(is_there).next()
+        traces.find(is_there)
     }
 
     /// What has worn of it: as its traces say, or by its profile less `unworn`, m at r; `None` if
@@ -192,10 +192,8 @@ impl Ghost {
     /// A line that names both.
     pub fn check_radii(&self, reach: f64) -> Result<(), String> {
         let over_r = [Axes::PROFILE, Axes::WEAR];
-        let traces = over_r.into_iter().filter_map(|axes| self.trace(axes));
-        traces
-            .map(|trace| check_radii(&self.name, trace.xs, reach))
-            .collect()
+        let mut traces = over_r.into_iter().filter_map(|axes| self.trace(axes));
+        traces.try_for_each(|trace| check_radii(&self.name, trace.xs, reach))
     }
 
     /// Adds a closed loop: u, m, and F, N.

@@ -114,9 +114,12 @@ impl Frame {
             ..Loop::default()
         });
         Run {
-            states: vec![Table::of_columns(Vec::new(), state::columns(seen))],
+            states: vec![Table::of_columns(
+                vec![("cycle".to_owned(), seen.moment.cycle.to_string())],
+                state::columns(seen),
+            )],
             history: Some(self.trend.history()),
-            loops: vec![self.last_loop()],
+            loops: vec![self.trend.last_loop(seen.moment.cycle)],
             ghosts: self.ghosts.clone(),
             field: None,
             theory: Some(Arc::clone(&self.theory)),
@@ -133,11 +136,6 @@ impl Frame {
                 log: log.collect(),
             }),
         }
-    }
-
-    /// The loop of the last cycle.
-    pub fn last_loop(&self) -> Loop {
-        self.trend.last_loop(f64::NAN)
     }
 }
 

@@ -129,7 +129,9 @@ impl GhostRun {
             record(&mut self.trend, &self.start);
         }
         let Self { beside, trend, .. } = self;
-        beside.follow_for(cycle, budget, |session| record(trend, session));
+        beside.follow_for(cycle, budget, |session| {
+            record(trend, session);
+        });
     }
 
     fn shown_name(&self) -> String {
@@ -143,12 +145,12 @@ impl GhostRun {
     }
 }
 
-/// Takes the present moment of `session` into its trend.
-pub(super) fn record(trend: &mut Trend, session: &Session) {
+/// Takes the present moment of `session` into its trend; returns true where it ends an entry.
+pub(super) fn record(trend: &mut Trend, session: &Session) -> bool {
     let simulation = session.simulation();
     let radius = scar_radius(simulation).unwrap_or(f64::NAN);
     trend.note_scar([largest(simulation.worn_depth()), radius]);
-    trend.record(&simulation.moment());
+    trend.record(&simulation.moment())
 }
 
 fn ghost(name: &str, session: &Session, trend: &Trend, curves: Curves) -> Ghost {

@@ -75,9 +75,12 @@ fn here(run: &Run, axes: Axes, r: f64) -> Option<(f64, f64)> {
     if axes.over_r() {
         return Some((r, over_r(run, axes, r)?));
     }
-    if axes == Axes::LOOP {
-        let moment = &run.live.as_ref()?.moment;
-        return Some((moment.shift, moment.tangential_force));
+    let moment = &run.live.as_ref()?.moment;
+    match axes {
+        Axes::LOOP => return Some((moment.shift, moment.tangential_force)),
+        // The screen shows the largest of the cycle; histories have that of the moment.
+        Axes::CONTACT => return Some((moment.cycle, moment.contact_radius)),
+        _ => {}
     }
     let last = |name| run.history.as_ref()?.column(name)?.last().copied();
     Some((last(axes.x)?, last(axes.y)?))

@@ -7,13 +7,15 @@ use std::path::{Path, PathBuf};
 
 use serde::de::IgnoredAny;
 
-use super::trend::{Cycle, OfCycle, Trend};
+use super::trend::{self, Cycle, Trend};
 use crate::export::file::{RUN_CHECKPOINT, RunDirectory, WriteError};
 use crate::export::header::{lines, number};
-use crate::export::{own, state};
-use crate::scenario::columns::{Columns, Quantity};
+use crate::export::{history, own, state};
+use crate::scenario::columns::Columns;
+use crate::scenario::scalars::Reading;
 use crate::scenario::session::Session;
 use crate::scenario::{checkpoint, printable};
+use crate::traces::Table;
 
 /// The checkpoint of a snapshot.
 const CHECKPOINT: &str = "state.checkpoint";
@@ -82,27 +84,28 @@ fn fill(
     directory.write("state.csv", state.as_bytes()).map(|_| ())
 }
 
-/// The columns of the history and what they are of a cycle.
-const COLUMNS: [(&str, OfCycle); 8] = [
-    ("cycle", |entry| entry.cycle),
-    ("contact_radius_m", |entry| entry.contact_radius),
-    ("permanent_stick_radius_m", |entry| entry.stick_radius),
-    ("wear_volume_m3", |entry| entry.wear_volume),
-    ("scar_depth_m", |entry| entry.scar_depth),
-    ("scar_radius_m", |entry| entry.scar_radius),
-    ("dissipated_energy_J", |entry| entry.dissipated_energy),
-    ("period_energy_residual", |entry| entry.residual),
-];
-
+/// The history in the columns of a run's. Contact radii and stick radii are those that the screen shows: the
+/// largest and the smallest of each cycle.
 fn history(session: &Session, trend: &Trend) -> String {
-    let names = COLUMNS.map(|(name, _)| name).join(",");
-    let mut text = format!("{}{names}\n", lines(session));
+    let mut text = format!("{}{}\n", lines(session), history::COLUMNS.join(","));
     for entry in trend.cycles() {
-        let _ = writeln!(
-            text,
-            "{}",
-            COLUMNS.map(|(_, of)| field(of(entry))).join(",")
-        );
+        let (mut fields, is_open) = match &entry.fields {
+            Some(fields) => (fields.to_vec(), false),
+            None => (vec![String::new(); history::COLUMNS.len()], true),
+        };
+        if is_open && entry.cycle == session.simulation().cycle() {
+            fields = history::fields(&Reading::new(session)).to_vec();
+        }
+        for (name, of) in trend::COLUMNS {
+            let is_of_cycle = ["contact_radius_m", "permanent_stick_radius_m"].contains(&name);
+            let at = history::COLUMNS.iter().position(|column| *column == name);
+            if let Some(field) = at.map(|at| &mut fields[at])
+                && (is_of_cycle || field.is_empty())
+            {
+                *field = self::field(of(entry));
+            }
+        }
+        let _ = writeln!(text, "{}", fields.join(","));
     }
     text
 }
@@ -173,36 +176,34 @@ pub fn open(directory: &Path) -> Result<Opened, String> {
 
 /// The past up to `cycle` as the tables beside a checkpoint tell of it.
 fn past(directory: &Path, cycle: f64, initial: f64) -> Option<Trend> {
-    let table = |name: &str| Columns::read(&directory.join(name)).ok();
-    let history = table("history.csv")?;
-    let column = |name: &str, quantity| {
-        let values = history.column_with_gaps(name, quantity);
-        values.unwrap_or_else(|| vec![f64::NAN; history.rows()])
-    };
-    let cycles = column("cycle", Quantity::Number);
-    let contact = column("contact_radius", Quantity::Length);
-    let stick = column("permanent_stick_radius", Quantity::Length);
-    let volume = column("wear_volume", Quantity::Volume);
-    let depth = column("scar_depth", Quantity::Length);
-    let radius = column("scar_radius", Quantity::Length);
-    let energy = column("dissipated_energy", Quantity::Energy);
-    let residual = column("period_energy_residual", Quantity::Number);
-    let entries = (0..history.rows()).filter(|&row| cycles[row] <= cycle);
-    let entries = entries.map(|row| Cycle {
-        cycle: cycles[row],
-        contact_radius: contact[row],
-        stick_radius: stick[row],
-        wear_volume: volume[row],
-        scar_depth: depth[row],
-        scar_radius: radius[row],
-        dissipated_energy: energy[row],
-        residual: residual[row],
-        ..Cycle::UNKNOWN
+    let read = |name: &str| Columns::read(&directory.join(name)).ok();
+    let file = read("history.csv")?;
+    let history = Table::of_file(&file);
+    let cycles = history.column("cycle")?;
+    let has_all = file.names() == history::COLUMNS;
+    let entries = (0..cycles.len()).filter(|&row| cycles[row] <= cycle);
+    let entries = entries.map(|row| {
+        let value = |name| history.column(name).map_or(f64::NAN, |column| column[row]);
+        let volume = value("wear_volume_m3");
+        Cycle {
+            cycle: cycles[row],
+            contact_radius: value("contact_radius_m"),
+            stick_radius: value("permanent_stick_radius_m"),
+            wear_volume: volume,
+            scar_depth: value("scar_depth_m"),
+            scar_radius: value("scar_radius_m"),
+            dissipated_energy: value("dissipated_energy_J"),
+            expected_volume: volume / (1.0 - value("energy_residual")),
+            fields: has_all.then(|| file.fields(row).into()),
+            ..Cycle::UNKNOWN
+        }
     });
-    let rows = table("loop.csv").and_then(|table| {
-        let cycles = table.column_with_gaps("cycle", Quantity::Number)?;
-        let shifts = table.column_with_gaps("u", Quantity::Length)?;
-        let forces = table.column_with_gaps("F", Quantity::Force)?;
+    let rows = read("loop.csv").and_then(|file| {
+        let table = Table::of_file(&file);
+        let columns = ["cycle", "u_m", "F_N"].map(|name| table.column(name));
+        let [Some(cycles), Some(shifts), Some(forces)] = columns else {
+            return None;
+        };
         let rows = 0..cycles.len();
         Some(
             rows.map(|row| [cycles[row], shifts[row], forces[row]])

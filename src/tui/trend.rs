@@ -4,6 +4,8 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use crate::charts::Loop;
+use crate::export::history;
+use crate::scenario::scalars::{self, Reading, Value};
 use crate::simulation::Moment;
 use crate::traces::Table;
 
@@ -19,7 +21,7 @@ const LOOP_POINTS: usize = 64;
 const SHORTEST_LOOP: usize = 9;
 
 /// One cycle, or several that were merged: extremes survive merging.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Cycle {
     /// Where it ends.
     pub cycle: f64,
@@ -39,21 +41,21 @@ pub struct Cycle {
     pub expected_volume: f64,
     /// Volume worn in a cycle, m³, on average over the entry.
     pub wear_rate: f64,
-    /// Largest |1 − ΔV/(k ΔE_d)| of a period of the motion; NaN before there is one.
-    pub residual: f64,
     /// Time per step, s; NaN if not measured.
     pub step_cost: f64,
     /// Amplitude of u_x (m) and mean of F_z (N) of the last cycle; NaN before there is one.
     pub amplitude: f64,
     /// F_z.
     pub normal_force: f64,
+    /// The fields of its end in `history.csv`; none while it is unfinished.
+    pub fields: Option<Arc<[String]>>,
 }
 
 /// A quantity of a cycle.
 pub type OfCycle = fn(&Cycle) -> f64;
 
 /// The columns of a history, by their names in `history.csv` where they are there, and what they are of a cycle.
-const COLUMNS: [(&str, OfCycle); 12] = [
+pub const COLUMNS: [(&str, OfCycle); 12] = [
     ("cycle", |entry| entry.cycle),
     ("contact_radius_m", |entry| entry.contact_radius),
     ("permanent_stick_radius_m", |entry| entry.stick_radius),
@@ -90,17 +92,16 @@ impl Cycle {
         dissipated_energy: f64::NAN,
         expected_volume: f64::NAN,
         wear_rate: f64::NAN,
-        residual: f64::NAN,
         step_cost: f64::NAN,
         amplitude: f64::NAN,
         normal_force: f64::NAN,
+        fields: None,
     };
 
     fn merged(self, later: Self) -> Self {
         Self {
             contact_radius: self.contact_radius.max(later.contact_radius),
             stick_radius: self.stick_radius.min(later.stick_radius),
-            residual: self.residual.max(later.residual),
             step_cost: self.step_cost.max(later.step_cost),
             ..later
         }
@@ -191,11 +192,6 @@ impl Trend {
         self.scar = scar;
     }
 
-    /// The amplitude of u_x (m) and the mean of F_z (N) of the last complete cycle.
-    pub fn note_condition(&mut self, condition: Option<[f64; 2]>) {
-        self.condition = condition;
-    }
-
     /// The part that is lost when the trend is cut back to an earlier cycle.
     pub fn tip(&self) -> Tip {
         self.tip.clone()
@@ -203,7 +199,9 @@ impl Trend {
 
     /// Its memory, bytes.
     pub fn bytes(&self) -> usize {
-        std::mem::size_of_val(self.cycles.as_slice()) + self.tip.bytes()
+        let fields = self.cycles.iter().flat_map(|entry| entry.fields.iter());
+        let fields: usize = fields.map(|fields| 32 * fields.len()).sum();
+        std::mem::size_of_val(self.cycles.as_slice()) + fields + self.tip.bytes()
     }
 
     /// The trend as it was at `cycle`, where it had this tip.
@@ -212,7 +210,7 @@ impl Trend {
         Self {
             cycles: before
                 .take_while(|entry| entry.cycle <= cycle + 1e-9)
-                .copied()
+                .cloned()
                 .collect(),
             stride: self.stride,
             tip: tip.clone(),
@@ -230,8 +228,9 @@ impl Trend {
         }
     }
 
-    /// Takes in the moment after a step.
-    pub fn record(&mut self, moment: &Moment) {
+    /// Takes in the moment after a step; returns true where it ends an entry, of which [`end`](Self::end) tells
+    /// more.
+    pub fn record(&mut self, moment: &Moment) -> bool {
         let start = (moment.cycle, moment.wear_volume);
         let start = *self.start.get_or_insert(start);
         self.record_loop(moment);
@@ -248,12 +247,15 @@ impl Trend {
                 .energy_residual
                 .map_or(f64::NAN, |residual| moment.wear_volume / (1.0 - residual)),
             wear_rate: 0.0,
-            residual: moment.period_residual.map_or(f64::NAN, f64::abs),
             step_cost: self.step_cost.unwrap_or(f64::NAN),
             amplitude: self.condition.map_or(f64::NAN, |seen| seen[0]),
             normal_force: self.condition.map_or(f64::NAN, |seen| seen[1]),
+            fields: None,
         };
-        let mut merged = self.tip.open.map_or(now, |open| open.merged(now));
+        let mut merged = match self.tip.open.take() {
+            Some(open) => open.merged(now),
+            None => now,
+        };
         let (start, volume) = self
             .cycles
             .last()
@@ -266,17 +268,31 @@ impl Trend {
         };
         if merged.cycle < start + self.stride.max(1.0) - 1e-9 {
             self.tip.open = Some(merged);
-            return;
+            return false;
         }
-        self.tip.open = None;
         self.cycles.push(merged);
         if self.cycles.len() >= CAPACITY {
             self.cycles = self
                 .cycles
                 .chunks(2)
-                .filter_map(|pair| pair.iter().copied().reduce(Cycle::merged))
+                .filter_map(|pair| pair.iter().cloned().reduce(Cycle::merged))
                 .collect();
             self.stride = 2.0 * self.stride.max(1.0);
+        }
+        true
+    }
+
+    /// Notes the end of the last entry, which is the moment that is read.
+    pub fn end(&mut self, reading: &Reading) {
+        let number = |name| match scalars::find(name).map(|scalar| scalar.read(reading)) {
+            Some(Value::Number(number)) => number,
+            _ => f64::NAN,
+        };
+        let condition = ["u_x_amplitude_m", "mean_F_z_N"].map(number);
+        self.condition = Some(condition);
+        if let Some(entry) = self.cycles.last_mut() {
+            [entry.amplitude, entry.normal_force] = condition;
+            entry.fields = Some(Arc::new(history::fields(reading)));
         }
     }
 

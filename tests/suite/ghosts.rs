@@ -401,8 +401,8 @@ fn figures_have_measured_points_with_their_errors_beside_the_run() {
             .iter()
             .all(|row| row[5].is_empty())
     );
-    assert_eq!(rows("worn volume", "volume.csv")[3][5], "1e-17");
-    assert_eq!(rows("worn depth over", "depth.csv").len(), 4);
+    assert_eq!(rows("wear volume", "volume.csv")[3][5], "1e-17");
+    assert_eq!(rows("depth over cycles", "depth.csv").len(), 4);
     // A symbol of four corners and a bar for each point of the scar, in two charts.
     let svg = dir.read("f.svg");
     assert!(

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use super::travel::ends_cycle;
 use super::{CATCH_UP, Worker};
+use crate::scenario::scalars::Reading;
 use crate::simulation::Curves;
 use crate::tui::frame::Activity;
 use crate::tui::ghosts;
@@ -151,13 +152,9 @@ impl Worker {
                     let must = is_end || self.activity != Activity::Running;
                     twin.look_at(&self.session, must);
                 }
-                if simulation.cycle().floor() > now.floor() {
-                    let figures = simulation.cycle_figures();
-                    self.trend.note_condition(
-                        figures.map(|seen| [seen.displacement_amplitude, seen.normal_force]),
-                    );
+                if ghosts::record(&mut self.trend, &self.session) {
+                    self.trend.end(&Reading::new(&self.session));
                 }
-                ghosts::record(&mut self.trend, &self.session);
                 if let Some(comparison) = &mut self.comparison {
                     comparison.follow_for(self.session.simulation().cycle(), CATCH_UP);
                 }

@@ -24,6 +24,7 @@ use crate::scenario::checkpoint;
 use crate::scenario::session::Session;
 use crate::scenario::{Scenario, printable};
 use crate::simulation::verdict;
+use crate::studies::refinement;
 
 /// Polling interval for signals.
 const GLANCE: Duration = Duration::from_millis(20);
@@ -534,14 +535,10 @@ impl Job {
                 "  estimated error         not run (--estimate-error measures it)"
             )?;
         }
-        for (key, value) in stated.filter(|(key, _)| key.starts_with("estimated_error")) {
-            let words = match key.as_str() {
-                "estimated_error" => "of the worn depth (rms, relative to the largest)",
-                "estimated_error_volume" => "of the worn volume",
-                "estimated_error_force" => "of F_x",
-                _ => "of p, away from borders",
-            };
-            writeln!(out, "  estimated error         {value}   {words}")?;
+        for (key, value) in stated {
+            if let Some(words) = refinement::words_of(key) {
+                writeln!(out, "  estimated error         {value}   {words}")?;
+            }
         }
         let checks = simulation.checks();
         if let Some(verdict) = verdict(&checks) {

@@ -2,9 +2,10 @@
 //! `cargo bench --bench judge`.
 
 use mdr_tui::scenario::Scenario;
+use mdr_tui::simulation::Integrator;
 use mdr_tui::simulation::drive::Control;
 use mdr_tui::studies::refinement::{
-    Difference, Ladder, Level, Next, Outcome, Verdict, run, run_to_accuracy,
+    Difference, Ladder, Level, Next, Outcome, Verdict, resolve, resolve_soon, run, run_to_accuracy,
 };
 
 use crate::judge::{judge, judge_checks, judge_estimate, quantile};
@@ -226,7 +227,18 @@ fn an_accuracy_is_stated_and_its_scenario_gives_the_same_bits() {
     .concat();
     let said = dir.say(&asked);
     assert_eq!((said.code, said.err.as_str()), (0, ""));
-    assert!(said.out.contains("estimated error"), "{}", said.out);
+    for of in ["of the worn depth", "of the dissipated energy", "of F_x"] {
+        let lines = said
+            .out
+            .lines()
+            .filter(|line| line.contains("estimated error"));
+        assert_eq!(
+            lines.filter(|line| line.contains(of)).count(),
+            1,
+            "{}",
+            said.out
+        );
+    }
     for file in ["one/state.csv", "one/history.csv"] {
         let table = dir.read(file);
         assert_eq!(header(&table, "accuracy"), Some(1e-2));
@@ -322,5 +334,30 @@ fn what_is_not_met_is_told_in_one_line() {
         assert_eq!(said.code, code, "{more:?}: {}", said.err);
         assert!(said.err.contains(line), "{more:?}: {}", said.err);
         assert_eq!(said.err.lines().count(), 1, "{}", said.err);
+    }
+}
+
+/// A screen is there to watch the cycles that a run without one jumps over.
+#[test]
+fn a_screen_shows_every_cycle_of_a_run_that_can_be_watched() {
+    let text = |cycles: &str| {
+        let preset = include_str!("../../presets/li2019-fig3.toml");
+        let (before, _) = preset.split_once("[numerics]").expect("numerics");
+        format!("{before}[run]\ncycles = {cycles}\n")
+    };
+    for (cycles, jumps) in [("150.0", false), ("20000.0", true)] {
+        let scenario = Scenario::from_toml(&text(cycles), "watched", &[]).expect("a scenario");
+        assert_eq!(scenario.accuracy(), Some(1e-2));
+        let found = resolve(&scenario, None, f64::INFINITY, &|| true);
+        let found = found.expect("a level").scenario;
+        assert_ne!(found.setup().integrator, Integrator::Direct, "{cycles}");
+        let Ok(shown) = resolve_soon(&scenario) else {
+            panic!("{cycles}: nothing is shown");
+        };
+        // On a slow machine nothing was found in time, and the scenario is shown as it stands.
+        if shown.warning.is_none() {
+            let is_direct = shown.scenario.setup().integrator == Integrator::Direct;
+            assert_eq!(is_direct, !jumps, "{cycles}");
+        }
     }
 }

@@ -98,7 +98,7 @@ fn a_run_under_way_is_refused_to_others_even_by_force_and_a_killed_one_is_not() 
     }
     assert!(matches!(alive.try_wait(), Ok(None)), "it was disturbed");
     // A copy elsewhere disturbs nobody.
-    dir.done("run --resume x/run.checkpoint --cycles 300 --out y --quiet");
+    dir.done("run --resume x/run.checkpoint --cycles 3000 --out y --quiet");
     let _ = alive.kill();
     let _ = alive.wait();
     // What it has left behind is stale.

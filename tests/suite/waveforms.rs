@@ -96,6 +96,8 @@ mean = 1e-6
 file = "motion.csv"
 [wear]
 coefficient = 1.3e-10
+[numerics]
+points = 100
 "#,
     );
     let path = dir.path("mine.toml").display().to_string();

@@ -21,7 +21,7 @@ pub use estimate::{by_twin, estimate, twin};
 pub use ladder::{Ladder, Next, Rung, Verdict};
 pub use level::Level;
 pub use outcome::{Difference, Outcome};
-pub use resolve::{Resolved, resolve, resolve_soon, statements_of};
+pub use resolve::{Resolved, resolve, resolve_soon, statements_of, words_of};
 
 /// Why a run to an accuracy has no result at all.
 #[derive(Debug, Error)]

@@ -5,6 +5,7 @@ use std::time::Instant;
 use super::{Difference, Level, Reached, RefinementError, Verdict, run_to_accuracy};
 use crate::scenario::session::Session;
 use crate::scenario::{Scenario, USUAL_ACCURACY};
+use crate::simulation::Integrator;
 
 /// Cycles over which an accuracy is met for a run without an end.
 const WITHOUT_END: f64 = 100.0;
@@ -14,6 +15,9 @@ const SCREEN_WAITS: [f64; 2] = [0.5, 10.0];
 
 /// No level is begun or gone on with after this part of the wait if there is another one to show.
 const SEARCH: f64 = 0.8;
+
+/// A screen shows every cycle of a run of fewer cycles than this, unless the scenario wants jumps.
+const WATCHED: f64 = 1e4;
 
 /// A scenario with the points and steps that were found for its accuracy.
 #[derive(Debug, Clone)]
@@ -90,21 +94,57 @@ pub fn resolve_soon(scenario: &Scenario) -> Result<Resolved, RefinementError> {
                 ended: None,
             })
         }
+        Ok(found) if is_watched(scenario) => Ok(Resolved {
+            scenario: (found.scenario)
+                .with_all(&[("numerics.integrator", Integrator::Direct.name())])?,
+            ..found
+        }),
         other => other,
     }
 }
 
+/// Whether the cycles of a run are what a screen is there for, though it could jump over them.
+fn is_watched(scenario: &Scenario) -> bool {
+    let is_open = scenario.accuracy().is_some() && scenario.value("numerics.integrator").is_none();
+    is_open && scenario.run().cycles.is_none_or(|cycles| cycles < WATCHED)
+}
+
+/// What the headers of files and the summary of a run call an estimated error.
+type Stated = (&'static str, &'static str, fn(&Difference) -> f64);
+
+const STATED: [Stated; 5] = [
+    (
+        "estimated_error",
+        "of the worn depth (rms, relative to the largest)",
+        |error| error.worn_depth,
+    ),
+    ("estimated_error_volume", "of the worn volume", |error| {
+        error.volume
+    }),
+    (
+        "estimated_error_energy",
+        "of the dissipated energy",
+        |error| error.work,
+    ),
+    ("estimated_error_force", "of F_x", |error| error.force),
+    (
+        "estimated_error_pressure",
+        "of p, away from borders",
+        |error| error.pressure,
+    ),
+];
+
 /// Estimated errors as the headers of files state them.
 pub fn statements_of(error: &Difference) -> Vec<(String, String)> {
-    [
-        ("estimated_error", error.worn_depth),
-        ("estimated_error_volume", error.volume),
-        ("estimated_error_energy", error.work),
-        ("estimated_error_force", error.force),
-        ("estimated_error_pressure", error.pressure),
-    ]
-    .map(|(key, value)| (key.to_owned(), format!("{value:.1e}")))
-    .to_vec()
+    STATED
+        .map(|(key, _, of)| (key.to_owned(), format!("{:.1e}", of(error))))
+        .to_vec()
+}
+
+/// What the estimated error is of that a header states as `key`; `None` if that is something else.
+pub fn words_of(key: &str) -> Option<&'static str> {
+    let found = STATED.iter().find(|(stated, ..)| *stated == key);
+    found.map(|(_, words, _)| *words)
 }
 
 /// What is said of an accuracy that is not met.

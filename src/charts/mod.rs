@@ -306,7 +306,7 @@ fn cycles_shown(run: &Run) -> Option<[f64; 2]> {
 
 /// How many times what is at most `deepest` is drawn magnified, so that it takes no more than `height`: 1, 2, 5,
 /// 10, … up to a million.
-fn magnification(deepest: f64, height: f64) -> f64 {
+pub fn magnification(deepest: f64, height: f64) -> f64 {
     if deepest <= 0.0 || deepest.is_nan() {
         return 1.0;
     }
@@ -318,7 +318,7 @@ fn magnification(deepest: f64, height: f64) -> f64 {
 
 /// The round number of cycles, at least one, that `end` does not exceed: an axis that ended at the
 /// present would squeeze the whole past with every frame.
-fn round_end(end: f64) -> f64 {
+pub fn round_end(end: f64) -> f64 {
     const ROUND: [f64; 11] = [1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0];
     let decade = 10f64.powf(end.max(1.0).log10().floor());
     ROUND

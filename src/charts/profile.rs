@@ -30,7 +30,7 @@ pub static RECIPE: Recipe = Recipe {
 };
 
 /// How much of the height of the unworn profile the magnified wear may take.
-const SHARE: f64 = 0.35;
+const SHARE: f64 = 0.9;
 
 /// The height of the `unworn` profile over the domain, m: what lies beyond the rim of a punch is left out.
 fn height(unworn: &[f64], depth: f64) -> f64 {

@@ -86,6 +86,7 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
             ThemeChoice::Light => Look::Light,
             ThemeChoice::Mono => Look::Mono,
         }),
+        present: options.present,
         mouse: if options.mouse || config.mouse == Some(true) {
             Capture::Clicks
         } else {

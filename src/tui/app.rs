@@ -19,7 +19,9 @@ use super::layout;
 use super::line::{LineEdit, one_line};
 use super::order::Order;
 use super::overlays::{Answer, Form, Help, Library, Overlay, Palette};
+use super::pace::Pace;
 use super::panels::{Panel, Shown};
+use super::present;
 use super::refinement_check::RefinementCheck;
 use super::snapshot;
 use super::theme::Theme;
@@ -32,6 +34,9 @@ use crate::simulation::Curves;
 /// The number of cursor positions over the domain, and the initial one.
 const CURSOR_PLACES: i16 = 100;
 const CURSOR_START: i16 = 33;
+
+/// Columns from which on the contact is what a new user sees first.
+const CONTACT_FROM: u16 = 100;
 
 /// Calm panels take every third frame of a run: a third of the bytes, and of the stresses to compute.
 const CALM: u32 = 3;
@@ -55,6 +60,11 @@ pub struct App {
     pub focus: Panel,
     /// Whether the focused panel is zoomed.
     pub zoomed: bool,
+    /// The panel that had the focus before the contact was shown large.
+    before_contact: Option<Panel>,
+    /// Whether the contact and one chart are shown for a projector, and since which cycle at which pace.
+    pub presents: bool,
+    at_pace: (Pace, f64),
     /// The overlay on the panels.
     pub overlay: Overlay,
     /// The tour under way, if there is one.
@@ -115,6 +125,9 @@ impl App {
             calm: None,
             focus: Panel::Profile,
             zoomed: false,
+            before_contact: None,
+            presents: false,
+            at_pace: (Pace::Unlimited, 0.0),
             overlay: Overlay::None,
             tour: None,
             before_tour: Panel::Profile,
@@ -147,21 +160,53 @@ impl App {
         // Another scenario has another tour.
         self.tour = self.tour.take().filter(|tour| tour.is_of(&frame.origin));
         self.follow_stress(&frame);
+        // Where the contact is shown large, it is the stress of one phase of the motion.
+        let begins = |frame: &Frame| frame.observation.moment.cycle.floor();
+        let shows_contact = self.shows_contact();
+        let may_stay = |calm: &Frame, lasted| match shows_contact {
+            true => begins(calm) == begins(&frame),
+            false => lasted < CALM,
+        };
         self.calm = match self.calm.take() {
-            Some((calm, lasted)) if lasted < CALM && may_last(&calm, &frame) => {
+            Some((calm, lasted)) if may_stay(&calm, lasted) && may_last(&calm, &frame) => {
                 Some((calm, lasted + 1))
             }
             _ => Some((Arc::clone(&frame), 1)),
         };
+        self.rise(&frame);
         self.frame = Some(frame);
         self.is_outdated = false;
         self.tell_what_shows();
     }
 
+    /// For a projector, the pace rises when it has been shown for a while.
+    fn rise(&mut self, frame: &Frame) {
+        let (pace, began) = self.at_pace;
+        let cycle = frame.observation.moment.cycle;
+        let is_running = self.presents && frame.activity == Activity::Running;
+        let is_same = is_running && pace == frame.pace && cycle >= began;
+        let is_due = is_same && present::is_due(frame, began);
+        if is_due {
+            self.order(Order::Pace(1));
+        }
+        if is_due || !is_same {
+            self.at_pace = (frame.pace, cycle);
+        }
+    }
+
     /// The frame that a panel shows where the screen is that of `frame`.
     pub(super) fn frame_of<'a>(&'a self, panel: Panel, frame: &'a Frame) -> &'a Frame {
-        let calm = self.calm.as_ref().filter(|_| panel.recipe().is_calm);
-        calm.map_or(frame, |(calm, _)| calm)
+        // Large, the indenter moves with every frame.
+        let is_large = panel == Panel::Section && self.shows_contact();
+        match panel.recipe().is_calm && !is_large {
+            true => self.calm(frame),
+            false => frame,
+        }
+    }
+
+    /// What a calm panel shows where the others show `frame`.
+    pub(super) fn calm<'a>(&'a self, frame: &'a Frame) -> &'a Frame {
+        self.calm.as_ref().map_or(frame, |(calm, _)| calm)
     }
 
     /// The chart of a panel: as it was made when the frame came, else of `frame`.
@@ -199,7 +244,7 @@ impl App {
         let calm = calm
             .filter(|calm| !Arc::ptr_eq(calm, &shown))
             .map(|calm| calm.run());
-        for panel in self.visible().to_vec() {
+        for panel in self.visible() {
             let (recipe, view) = (panel.recipe(), self.view(panel));
             let calm = calm.as_ref().filter(|_| recipe.is_calm);
             let mut chart = recipe.chart(calm.unwrap_or(&run), &view);
@@ -262,11 +307,13 @@ impl App {
     }
 
     /// The panels on the screen.
-    pub fn visible(&self) -> &[Panel] {
-        if self.zoomed {
-            std::slice::from_ref(&self.focus)
+    pub fn visible(&self) -> Vec<Panel> {
+        if self.presents {
+            vec![Panel::Section, self.presented()]
+        } else if self.zoomed {
+            vec![self.focus]
         } else {
-            self.page(self.room)
+            self.page(self.room).to_vec()
         }
     }
 
@@ -346,8 +393,13 @@ impl App {
         match command {
             Command::Quit => self.leave = Some(Leave::Clean),
             Command::QuitKeepingScreen => self.leave = Some(Leave::KeepScreen),
+            Command::Back if self.tour.is_some() => self.end_tour(),
+            Command::Back | Command::Contact | Command::Zoom if self.shows_contact() => {
+                self.leave_contact();
+            }
+            Command::Contact => self.show_contact(),
             Command::Back if self.zoomed => self.zoomed = false,
-            Command::Back => self.end_tour(),
+            Command::Back => {}
             Command::Tour => self.continue_tour(),
             Command::Accept => self.overlay = Overlay::Explain,
             Command::CompareFromStart => self.order(Order::CompareFromStart),
@@ -419,6 +471,37 @@ impl App {
         }
     }
 
+    /// Whether the contact is shown large: the cross-section alone.
+    pub fn shows_contact(&self) -> bool {
+        self.presents || self.zoomed && self.focus == Panel::Section
+    }
+
+    /// Shows the contact itself, large.
+    pub fn show_contact(&mut self) {
+        self.before_contact = Some(std::mem::replace(&mut self.focus, Panel::Section));
+        self.zoomed = true;
+    }
+
+    /// Shows the contact and one chart for a projector, at a pace that rises by itself.
+    pub fn present(&mut self) {
+        self.presents = true;
+        self.focus = present::CHART;
+    }
+
+    /// The chart beside the contact.
+    pub fn presented(&self) -> Panel {
+        match self.focus {
+            Panel::Section => present::CHART,
+            panel => panel,
+        }
+    }
+
+    /// All panels again, and the focus where it was before.
+    fn leave_contact(&mut self) {
+        (self.zoomed, self.presents) = (false, false);
+        self.focus = self.before_contact.take().unwrap_or(self.focus);
+    }
+
     /// Opens the words of a key.
     fn choose(&mut self, path: &'static str) {
         let settings = self.frame.as_ref().map(|frame| Arc::clone(&frame.settings));
@@ -427,6 +510,15 @@ impl App {
             self.overlay = Overlay::Form(Form::choosing(path));
         } else {
             self.notice = Some(format!("this scenario has no {path}"));
+        }
+    }
+
+    /// Shows a new user the contact where there is room for it, and begins the tour of the default preset.
+    pub fn welcome(&mut self, origin: &str) {
+        if origin == super::FIRST {
+            self.begin_tour(origin);
+        } else if self.has_room_for_contact() {
+            self.show_contact();
         }
     }
 
@@ -442,7 +534,7 @@ impl App {
         if let Some(tour) = self.tour.take() {
             self.tour = tour.next();
             if self.tour.is_none() {
-                self.focus = self.before_tour;
+                self.return_from_tour();
                 self.notice =
                     Some("end of the tour; Enter explains a panel, p has more presets".into());
             }
@@ -458,16 +550,36 @@ impl App {
     /// The tour is over: the focus is where it was before.
     fn end_tour(&mut self) {
         if self.tour.take().is_some() {
-            self.focus = self.before_tour;
+            self.return_from_tour();
         }
     }
 
-    /// The panel that the caption is about gets the focus.
+    /// A contact that is shown large stays, and leads back to where the tour began.
+    fn return_from_tour(&mut self) {
+        match self.shows_contact() {
+            true => self.before_contact = Some(self.before_tour),
+            false => self.focus = self.before_tour,
+        }
+    }
+
+    /// The panel that the caption is about gets the focus; the contact is shown large where there is room.
     fn follow_tour(&mut self) {
         let caption = self.tour.as_ref().and_then(Tour::caption);
-        if let Some(panel) = caption.and_then(|caption| caption.panel()) {
-            self.focus = panel;
+        let Some(panel) = caption.and_then(|caption| caption.panel()) else {
+            return;
+        };
+        if self.shows_contact() {
+            self.leave_contact();
         }
+        match panel {
+            Panel::Section if self.has_room_for_contact() => self.show_contact(),
+            panel => self.focus = panel,
+        }
+    }
+
+    /// Whether the contact is worth seeing at first.
+    pub fn has_room_for_contact(&self) -> bool {
+        self.area.width >= CONTACT_FROM
     }
 
     /// Moves the cursor by a hundredth of the domain, or the focus where there is no cursor.
@@ -575,7 +687,7 @@ impl App {
         }
     }
 
-    fn order(&self, order: Order) {
+    pub(super) fn order(&self, order: Order) {
         // A worker that has ended has reported it already.
         let _ = self.orders.send(order);
     }

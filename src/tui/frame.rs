@@ -73,6 +73,10 @@ pub struct Frame {
     pub steps_per_cycle: u32,
     /// The cycle of the present, while the screen shows a state of the past.
     pub present: Option<f64>,
+    /// The changes of the run up to the present: the cycle of each, and `KEY = VALUE`.
+    pub changes: Vec<(f64, String)>,
+    /// The cycles at which snapshots were written.
+    pub snapshots: Vec<f64>,
     /// The keys that can be changed, with their values.
     pub settings: Arc<Vec<Setting>>,
     /// The unworn shape, also beyond the domain.

@@ -7,6 +7,7 @@ use ratatui::layout::{Constraint, Layout, Rect};
 
 use super::app::App;
 use super::panels::Panel;
+use super::present;
 
 /// Three panels fit side by side from this width on.
 const WIDE: u16 = 110;
@@ -22,6 +23,9 @@ const NARROW: u16 = 56;
 
 /// Rows of a tour, including its title.
 pub const TOUR: u16 = 4;
+
+/// Rows between title and footer from which on one of them is the timeline's.
+const WITH_TIMELINE: u16 = 28;
 
 /// Minimum rows for the panels beside a tour.
 const LEAST: u16 = 10;
@@ -42,9 +46,20 @@ pub fn bands(screen: Rect) -> Option<[Rect; 3]> {
     Some(Layout::vertical(lines).areas(screen))
 }
 
+/// The row of the timeline, where there is room for it, and what is left for the panels.
+pub fn timeline(middle: Rect) -> (Option<Rect>, Rect) {
+    if middle.height < WITH_TIMELINE {
+        return (None, middle);
+    }
+    let rows = [Constraint::Length(1), Constraint::Min(0)];
+    let [line, rest] = Layout::vertical(rows).areas(middle);
+    (Some(line), rest)
+}
+
 /// How many panels fit on a screen of this size.
 pub fn room(columns: u16, rows: u16) -> usize {
-    let (across, down) = grid(Rect::new(0, 0, columns, rows.saturating_sub(2)));
+    let middle = Rect::new(0, 0, columns, rows.saturating_sub(2));
+    let (across, down) = grid(timeline(middle).1);
     across * down
 }
 
@@ -73,6 +88,10 @@ pub fn with_tour(app: &App, area: Rect) -> (Rect, Option<Rect>) {
 pub fn places(app: &App, area: Rect) -> Vec<(Panel, Rect)> {
     let (columns, rows) = grid(area);
     let (area, _) = with_tour(app, area);
+    if app.presents {
+        let [contact, chart, _] = present::areas(area);
+        return vec![(Panel::Section, contact), (app.presented(), chart)];
+    }
     if app.zoomed {
         return vec![(app.focus, area)];
     }

@@ -44,6 +44,7 @@ const GROUPS: &[(&str, &[Command])] = &[
             Command::PreviousPanel,
             Command::NextPage,
             Command::Zoom,
+            Command::Contact,
             Command::LogScale,
             Command::Cursor,
             Command::Left,

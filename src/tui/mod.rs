@@ -54,6 +54,7 @@ mod output;
 pub mod overlays;
 pub mod pace;
 pub mod panels;
+mod present;
 mod readout;
 pub mod refinement_check;
 pub mod screen;
@@ -62,6 +63,7 @@ pub mod settings;
 pub mod snapshot;
 mod suspend;
 mod terminal;
+mod timeline;
 pub mod tour;
 pub mod trend;
 mod twin;
@@ -85,8 +87,8 @@ pub use terminal::Capture;
 use theme::{Depth, Look, Theme};
 use worker::Worker;
 
-/// The default preset.
-const FIRST: &str = "li2019-fig3";
+/// The default preset, whose tour begins by itself.
+pub(crate) const FIRST: &str = "li2019-fig3";
 
 /// How long the worker may take to finish its step on exit.
 const PATIENCE: Duration = Duration::from_millis(500);
@@ -153,6 +155,8 @@ pub struct Options {
     pub colored: Option<bool>,
     /// The colours; by default from the background that the terminal reports.
     pub look: Option<Look>,
+    /// Whether it is for a projector.
+    pub present: bool,
     /// Who handles the mouse.
     pub mouse: Capture,
     /// Keys to press instead of reading the keyboard, and the screen to print.
@@ -179,7 +183,8 @@ pub fn run(options: Options) -> Result<Farewell> {
         refuse_what_is_no_terminal()?;
     }
     let theme = theme(&options);
-    let tour = first_tour(&options);
+    let is_first = is_first_time(&options);
+    let origin = options.session.loaded().origin().to_owned();
     let waiting = Arc::new(Waiting::default());
     let (orders, to_worker) = channel();
     let (events, from_threads) = channel();
@@ -201,8 +206,11 @@ pub fn run(options: Options) -> Result<Farewell> {
     .with_ghosts(options.ghosts);
     let halt = worker.halt();
     let mut app = App::new(theme, orders.clone());
-    if let Some(origin) = tour {
-        app.begin_tour(&origin);
+    if options.present {
+        app.present();
+    } else if is_first && let Ok(size) = terminal::size() {
+        app.resize(size.width, size.height);
+        app.welcome(&origin);
     }
     crate::panics::keep();
     let kept = spawn_worker(worker, keeping.clone(), to_worker, events.clone())?;
@@ -236,22 +244,18 @@ pub fn run(options: Options) -> Result<Farewell> {
     }
 }
 
-/// The preset whose tour begins by itself: the default one, the first time that it is on a screen.
-fn first_tour(options: &Options) -> Option<String> {
-    let origin = options.session.loaded().origin();
-    let is_new = options.script.is_none() && options.running && origin == FIRST;
-    let seen = options
-        .keep_in
-        .as_ref()
-        .filter(|_| is_new)?
-        .join("tour-seen");
-    // If no file can be written, the tour would begin every time, so skip it.
-    let first = !seen.exists()
-        && seen
-            .parent()
-            .is_some_and(|parent| fs::create_dir_all(parent).is_ok())
-        && fs::write(&seen, "The tour of the default preset has been shown.\n").is_ok();
-    first.then(|| origin.to_owned())
+/// Whether nobody has seen a running contact on a screen before: it is then shown large, and the default preset
+/// begins its tour.
+fn is_first_time(options: &Options) -> bool {
+    let is_live = options.script.is_none() && options.running;
+    let Some(keep_in) = options.keep_in.as_ref().filter(|_| is_live) else {
+        return false;
+    };
+    let seen = keep_in.join("tour-seen");
+    // If no file can be written, every time would be the first, so skip it.
+    !seen.exists()
+        && fs::create_dir_all(keep_in).is_ok()
+        && fs::write(&seen, "The contact and the tour have been shown once.\n").is_ok()
 }
 
 /// Returns the worker's message about what it has saved. A worker in the middle of a long step is

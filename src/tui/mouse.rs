@@ -1,5 +1,5 @@
-//! Mouse handling (`--mouse`): a click focuses a panel or moves the cursor, a double click zooms,
-//! the wheel scrolls overlays.
+//! Mouse handling (`--mouse`): a click focuses a panel, moves the cursor or travels along the timeline, a double
+//! click zooms, the wheel scrolls overlays.
 
 use std::time::{Duration, Instant};
 
@@ -8,8 +8,9 @@ use ratatui::layout::Position;
 
 use super::app::App;
 use super::keys::{Key, Named};
-use super::layout;
+use super::order::Order;
 use super::overlays::Overlay;
+use super::{layout, timeline};
 
 /// Longest time between the clicks of a double click.
 const TOGETHER: Duration = Duration::from_millis(400);
@@ -92,6 +93,10 @@ impl App {
         let Some([_, area, _]) = layout::bands(self.area) else {
             return;
         };
+        let (line, area) = layout::timeline(area);
+        if let Some(cycle) = line.and_then(|line| timeline::cycle_at(&frame, line, at)) {
+            return self.order(Order::Visit(cycle));
+        }
         let places = layout::places(self, area);
         let Some((panel, place)) = places.into_iter().find(|(_, place)| place.contains(at)) else {
             return;

@@ -38,6 +38,8 @@ pub enum Order {
     Back,
     /// One saved state forward in time.
     Forth,
+    /// The saved state of this run that is nearest to a cycle.
+    Visit(f64),
     /// Start again as loaded.
     Restart,
     /// Another scenario, from the start.

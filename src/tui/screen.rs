@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! running | cycle 50.72/199.24 | 0.5 cycles/s | product | archard        Fig. 3 ...
+//!  0 ======v=====O=======------------------------------------------------- 199.24
 //! - 3D profile ----------------------- - stresses ---------------------------
 //!   plot                                 plot
 //! - 1D profile ----------------------- - fretting loop ----------------------
@@ -23,13 +24,13 @@ use super::layout;
 use super::overlays::Overlay;
 use super::pace::Pace;
 use super::panels::compare;
-use super::readout;
 use super::theme::Role;
+use super::{present, readout, timeline};
 use crate::simulation::verdict;
 
 /// The hint before the first key.
 const HINT: &str =
-    " Space pauses, + runs faster, Enter explains a panel, n: a tour.   ? help   q quit";
+    " Space pauses, + runs faster, Enter explains, V: the contact, n: a tour.   ? help   q quit";
 
 /// Draws everything.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
@@ -41,9 +42,13 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
             .render(area, buffer);
         return;
     };
+    let (line, middle) = layout::timeline(middle);
     match &app.frame {
         Some(frame) => {
             status(frame, app, top, buffer);
+            if let Some(line) = line {
+                timeline::draw(frame, app, line, buffer);
+            }
             panels(frame, app, middle, buffer);
         }
         None => Line::raw("starting ...").render(middle, buffer),
@@ -59,6 +64,10 @@ fn panels(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     }
     for (panel, place) in layout::places(app, area) {
         panel.draw(frame, app, place, buffer);
+    }
+    if app.presents {
+        let (above, _) = layout::with_tour(app, area);
+        present::draw(frame, app, present::areas(above)[2], buffer);
     }
     if let (Some(tour), (_, Some(place))) = (&app.tour, layout::with_tour(app, area)) {
         tour.draw(app, place, buffer);
@@ -234,7 +243,11 @@ fn footer(app: &App, area: Rect, buffer: &mut Buffer) {
         Line::styled(format!(" {text}"), app.theme.style(role)).render(area, buffer);
         return;
     }
-    if app.is_new && app.tour.is_none() && HINT.len() <= usize::from(area.width) {
+    if app.is_new
+        && app.tour.is_none()
+        && !app.shows_contact()
+        && HINT.len() <= usize::from(area.width)
+    {
         Line::styled(HINT, app.theme.style(Role::Notice)).render(area, buffer);
         return;
     }
@@ -300,6 +313,18 @@ fn footer_commands(app: &App) -> Vec<(&'static Binding, &'static str)> {
         (Command::Step, "step"),
         (Command::Cycle, "cycle"),
     ];
+    let contact: &[(Command, &str)] = &[
+        (Command::Contact, "all panels"),
+        (Command::RunPause, "run/pause"),
+        (Command::Faster, "faster"),
+        (Command::Step, "step"),
+        (Command::Cycle, "cycle"),
+        (Command::Accept, "explain"),
+        (Command::Stress, "other stress"),
+        (Command::Edit, "edit"),
+        (Command::Presets, "presets"),
+        (Command::Palette, "commands"),
+    ];
     let tour: &[(Command, &str)] = &[
         (Command::Tour, "next caption"),
         (Command::Back, "close the tour"),
@@ -311,6 +336,7 @@ fn footer_commands(app: &App) -> Vec<(&'static Binding, &'static str)> {
         Some(frame) if frame.comparison.is_some() => Some(compare),
         Some(frame) if frame.present.is_some() => Some(past),
         _ if app.tour.is_some() => Some(tour),
+        _ if app.shows_contact() => Some(contact),
         _ => None,
     };
     let of = |command: Command| BINDINGS.iter().find(|binding| binding.command == command);

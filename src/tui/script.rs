@@ -234,10 +234,11 @@ pub fn text(app: &App, size: Size) -> String {
     lines(&drawn(app, size))
 }
 
-/// The sign of a cell in text: a blank that a colour fills is a half block, as it is where two colours do.
+/// The sign of a cell in text: a blank that a colour fills is a half block, as it is where two colours do. A blank
+/// between words has their ink.
 fn sign(cell: &Cell) -> &str {
     match cell.symbol() {
-        " " if cell.bg != Color::Reset => "▀",
+        " " if cell.bg != Color::Reset && cell.fg == Color::Reset => "▀",
         symbol => symbol,
     }
 }

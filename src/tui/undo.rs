@@ -199,6 +199,18 @@ impl Past {
         found
     }
 
+    /// Goes to the state of the shown run that is nearest to `cycle`, the latest of them. The present must have
+    /// been stored.
+    pub fn visit(&mut self, cycle: f64) -> Option<Arc<Kept>> {
+        let last = self.kept.len().checked_sub(1)?;
+        let run = self.kept.get(self.at.unwrap_or(last))?.run;
+        let near = |at: &usize| (self.kept[*at].cycle() - cycle).abs();
+        let of_run = (0..=last).rev().filter(|&at| self.kept[at].run == run);
+        let nearest = of_run.min_by(|a, b| near(a).total_cmp(&near(b)))?;
+        self.at = (nearest < last).then_some(nearest);
+        self.kept.get(nearest).cloned()
+    }
+
     /// Notes the trend of the present, before the screen shows the past.
     pub fn note_trend(&mut self, trend: &Trend) {
         if self.at.is_none() {
@@ -344,6 +356,10 @@ mod tests {
         }
         assert!(past.back().is_none());
         assert_eq!(past.present(), Some(3.0));
+        for (cycle, nearest) in [(1.4, 1.0), (-7.0, 0.0), (2.6, 3.0), (1e9, 3.0)] {
+            assert_eq!(at(past.visit(cycle)), Some(nearest));
+            assert_eq!(past.present().is_none(), nearest == 3.0);
+        }
     }
 
     #[test]

@@ -173,6 +173,23 @@ fn a_frame_in_motion_takes_few_bytes() {
     }
 }
 
+/// The indenter moves with every frame, the stress below it with every third.
+#[test]
+fn the_contact_in_motion_takes_few_bytes() {
+    let sizes: [(Tell, usize); 3] = [
+        (|| Ok(Size::new(80, 24)), 560),
+        (|| Ok(Size::new(120, 40)), 1450),
+        (|| Ok(Size::new(200, 50)), 2200),
+    ];
+    for (size, budget) in sizes {
+        let mut counted = Counted::new(size);
+        counted.frame("V");
+        let bytes = at_the_initial_pace(&mut counted);
+        assert!(bytes <= budget, "{bytes} bytes per frame in {:?}", size());
+        assert_eq!(counted.draw(), 0, "a paused screen sends something");
+    }
+}
+
 #[test]
 fn stresses_in_the_half_space_take_few_bytes() {
     let size = || Ok(Size::new(120, 40));

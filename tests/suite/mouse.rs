@@ -41,8 +41,12 @@ fn panels(terminal: &Terminal) -> Vec<&'static str> {
         "radii over cycles",
         "numbers",
     ];
-    // A title stands at the beginning of a rule.
-    let is_shown = |title: &&str| text.contains(&format!(" {title} ─"));
+    // A title stands at the beginning of a rule, with what is magnified behind it.
+    let is_shown = |title: &&str| {
+        [" ─", ", wear"]
+            .iter()
+            .any(|end| text.contains(&format!(" {title}{end}")))
+    };
     titles.into_iter().filter(is_shown).collect()
 }
 

@@ -388,8 +388,8 @@ fn the_explorer_marks_the_limit_and_draws_both_bodies() {
     let later = screen(&sets, ",,,,,,", "140x30");
     assert!(later.contains(mark), "{later}");
     let shared = screen(&["--set", "wear.share=0.25"], ",,vz", "81x24");
-    assert!(shared.contains("worn: indenter"), "{shared}");
-    assert!(!screen(&[], ",,vz", "81x24").contains("worn: indenter"));
+    assert!(shared.contains("deep (indenter "), "{shared}");
+    assert!(!screen(&[], ",,vz", "81x24").contains("deep (indenter "));
 }
 
 #[test]

@@ -17,9 +17,10 @@ use mdr_tui::scenario::session::Session;
 use mdr_tui::scenario::{Scenario, preset};
 use mdr_tui::tui::app::App;
 use mdr_tui::tui::command::{self, BINDINGS};
-use mdr_tui::tui::frame::{Activity, Slot};
+use mdr_tui::tui::frame::{Activity, Frame, Slot};
 use mdr_tui::tui::keys::{Key, Named, parse_script};
 use mdr_tui::tui::manual;
+use mdr_tui::tui::mouse::Gesture;
 use mdr_tui::tui::order::Order;
 use mdr_tui::tui::pace::Pace;
 use mdr_tui::tui::panels::Panel;
@@ -27,7 +28,7 @@ use mdr_tui::tui::theme::{Look, Theme};
 use mdr_tui::tui::worker::Worker;
 use mdr_tui::tui::{Event, screen, tour};
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 use ratatui::text::Line;
 use tempfile::TempDir;
 
@@ -204,7 +205,7 @@ fn another_stress_in_the_half_space() {
         let scale = panels(&text).last().copied().unwrap_or_default().to_owned();
         assert!(scale.contains(name) && scale.contains("Pa"), "{text}");
     }
-    assert!(shot(",vzooooo,").contains("half-space, heights"));
+    assert!(!shot(",vzooooo,").contains("GPa"));
     // Half a cycle of loads or more: the largest of a cycle is at least that of the moment.
     assert!(shot(",vzO").contains("von Mises, cycle"));
 }
@@ -213,12 +214,205 @@ fn another_stress_in_the_half_space() {
 fn a_cut_through_the_bodies() {
     pin("section", "strong-wear", ",,,,,,,,,vz");
     let dir = dir();
-    let text = shot(dir.path(), "li2019-fig3", ",,vz", (81, 24));
+    let text = shot(dir.path(), "hertz", ",,vz", (81, 24));
     for line in panels(&text).iter().skip(4).take(12) {
         // Left and right are alike.
         let line: Vec<char> = format!("{line:81}").chars().collect();
         assert!(line.iter().eq(line.iter().rev()), "{text}");
     }
+}
+
+/// The contact itself, large: the same drawing as the panel, with captions.
+#[test]
+fn the_contact_is_shown_large() {
+    let steps = ".".repeat(30);
+    let sizes = [(60, 18), (80, 24), (120, 40), (160, 50)];
+    pin_sizes("contact", "li2019-fig3", &format!("V,,{steps}"), &sizes);
+    let dir = dir();
+    let shot = |scenario: &str, keys: &str| shot(dir.path(), scenario, keys, (100, 30));
+    for (scenario, keys, said) in [
+        (
+            "li2019-fig3",
+            "V,.............",
+            "All of it sticks: turning round",
+        ),
+        (
+            "li2019-fig3",
+            &format!("V,{steps}"),
+            "The outer ring slips, the middle sticks: sliding left",
+        ),
+        (
+            "gross-slip",
+            "V,..........",
+            "All of it slips: sliding right",
+        ),
+        ("gross-slip", "V,,,", " slides as a whole."),
+        ("hertz", "V,.....", "Nothing slides: pressed together"),
+        ("hertz", "V,", "Nothing wears in this scenario"),
+        (
+            "separation",
+            &format!("V,{}", ".".repeat(74)),
+            "Nothing touches: lifted off",
+        ),
+        // Every magnification is told, the wear's for the whole run.
+        (
+            "li2019-fig3",
+            "V,",
+            "cross-section, wear ×160, heights ×32, motion ×100",
+        ),
+        (
+            "li2019-fig3",
+            "V,,,,,,,,,,,,,,,,",
+            "wear ×160, heights ×32, motion ×100",
+        ),
+    ] {
+        let text = shot(scenario, keys);
+        assert!(text.contains(said), "{scenario} {keys}: {said}\n{text}");
+    }
+    // V, z and Esc lead back to where it was left.
+    for back in ["V", "z", "<Esc>"] {
+        assert_eq!(
+            shot("li2019-fig3", &format!(",<Tab>V{back}z")),
+            shot("li2019-fig3", ",<Tab>z")
+        );
+    }
+    assert_eq!(
+        panels(&shot("li2019-fig3", ",V")),
+        panels(&shot("li2019-fig3", ",vz"))
+    );
+}
+
+/// The line under the title: what is done and planned, what was changed and kept where, and what is on the screen.
+#[test]
+fn a_timeline_tells_what_was_done() {
+    let dir = dir();
+    let line = |keys: &str| {
+        let arguments = [
+            "li2019-fig3",
+            "--set=run.cycles=8",
+            "--print=100x30",
+            "--keys",
+        ];
+        let output = explorer(dir.path(), &[&arguments[..], &[keys]].concat());
+        let text = checked(output, (100, 30), keys);
+        text.lines().nth(1).unwrap_or_default().to_owned()
+    };
+    let plain = line(",,,,");
+    assert!(
+        plain.starts_with(" 0 ━━") && plain.ends_with("● 8") | plain.ends_with("─ 8"),
+        "{plain}"
+    );
+    let [done, planned] = ['━', '─'].map(|sign| plain.matches(sign).count() as i32);
+    assert!((done - planned).abs() < 4, "{plain}");
+    let edited = ",,:set friction.coefficient=0.2<Enter>,s,";
+    let after = line(edited);
+    for sign in ["▼", "◆", "●", "8   at cycle 2: friction.coefficient = 0.2"] {
+        assert!(after.contains(sign), "{sign}: {after}");
+    }
+    // Before the change nothing is said of it, but its tick stays.
+    let before = line(&format!("{edited}[[[["));
+    assert!(
+        before.contains("▼") && before.contains("◆") && !before.contains("friction"),
+        "{before}"
+    );
+    assert!(before.find("●") < before.find("▼"), "{before}");
+}
+
+#[test]
+fn a_click_on_the_timeline_travels_there() {
+    let mut stage = Stage::new("li2019-fig3", Marker::Braille);
+    stage.app.resize(100, 30);
+    stage.press(",,,,,,,,");
+    // 89 columns for 199.24 cycles.
+    stage.app.point(Gesture::Click(Position::new(4, 1)));
+    stage.press("<Esc>");
+    let frame = stage.app.frame.clone().expect("a frame");
+    assert_eq!(
+        (frame.observation.moment.cycle, frame.present),
+        (3.0, Some(8.0))
+    );
+    stage.app.point(Gesture::Click(Position::new(60, 1)));
+    stage.press("<Esc>");
+    let frame = stage.app.frame.clone().expect("a frame");
+    assert_eq!((frame.observation.moment.cycle, frame.present), (8.0, None));
+}
+
+/// For a projector: the contact, a chart, large words.
+#[test]
+fn a_lecture_shows_the_contact_and_a_chart() {
+    let dir = dir();
+    let steps = ".".repeat(30);
+    for (columns, rows) in [(80, 24), (120, 40)] {
+        let (print, keys) = (format!("--print={columns}x{rows}"), format!(",,{steps}"));
+        let arguments = ["--present", &print, "--keys", &keys];
+        let text = checked(explorer(dir.path(), &arguments), (columns, rows), &keys);
+        assert!(
+            text.contains("cross-section") && text.contains("fretting loop"),
+            "{text}"
+        );
+        insta::assert_snapshot!(format!("present-{columns}x{rows}"), text);
+    }
+}
+
+/// It begins slowly and speeds up, but not so much that the run would be over in a moment.
+#[test]
+fn a_lecture_speeds_up_by_itself() {
+    let stage = Stage::new("li2019-fig3", Marker::Braille);
+    let (reply, answer) = channel();
+    stage.orders.send(Order::Sync(reply)).expect("a worker");
+    let mut frame = Frame::clone(&answer.recv().expect("a frame"));
+    let (orders, told) = channel();
+    let mut app = App::new(Theme::new(Look::Dark, Marker::Braille), orders);
+    app.present();
+    let mut rises = |pace: f64, cycle: f64, activity: Activity| {
+        frame.observation.moment.cycle = cycle;
+        frame.pace = Pace::Cycles(pace);
+        frame.activity = activity;
+        app.take_frame(Arc::new(frame.clone()));
+        told.try_iter()
+            .filter(|order| matches!(order, Order::Pace(1)))
+            .count()
+    };
+    let running = || Activity::Running;
+    let seen = [
+        (0.5, 0.0),
+        (0.5, 3.9),
+        (0.5, 4.1),
+        (0.5, 4.2),
+        (1.0, 4.3),
+        (1.0, 12.2),
+        (1.0, 12.4),
+    ];
+    assert_eq!(
+        seen.map(|(pace, cycle)| rises(pace, cycle, running())),
+        [0, 0, 1, 0, 0, 0, 1]
+    );
+    assert_eq!(
+        [rises(5.0, 20.0, running()), rises(5.0, 90.0, running())],
+        [0, 0]
+    );
+    assert_eq!(
+        [
+            rises(0.5, 91.0, Activity::Paused),
+            rises(0.5, 99.0, Activity::Paused)
+        ],
+        [0, 0]
+    );
+}
+
+/// The indenter follows its motion.
+#[test]
+fn the_indenter_moves_with_every_step() {
+    let dir = dir();
+    let flank = |steps: usize| {
+        let keys = format!("V,{}", ".".repeat(steps));
+        let text = shot(dir.path(), "gross-slip", &keys, (100, 30));
+        let line = panels(&text)[8].to_owned();
+        line.chars().take_while(|c| *c == ' ').count()
+    };
+    // A quarter and three quarters of a cycle: far to the right, far to the left.
+    let [right, left] = [flank(25), flank(75)];
+    assert!(right >= left + 4, "{right} {left}");
 }
 
 #[test]

@@ -125,6 +125,9 @@ pub struct Explore {
     /// Without this option the terminal keeps it for selecting text.
     #[arg(long)]
     pub mouse: bool,
+    /// Show the contact and one chart with large words, for a projector: slowly first, then faster.
+    #[arg(long)]
+    pub present: bool,
     /// Press these keys instead of reading the keyboard, print the last screen and exit.
     #[arg(
         long,

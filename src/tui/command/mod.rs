@@ -55,6 +55,8 @@ pub enum Command {
     NextPage,
     /// The focused panel alone, or all of them.
     Zoom,
+    /// The contact alone, in motion, or all panels.
+    Contact,
     /// Write the present state to files.
     Snapshot,
     /// The same with a note.

@@ -120,6 +120,13 @@ pub static BINDINGS: &[Binding] = &[
         true,
     ),
     bind(
+        C::Contact,
+        &[Char('V')],
+        "contact",
+        "the contact itself, large and in motion, or all panels",
+        false,
+    ),
+    bind(
         C::NextPanel,
         &[Key::Named(Named::Tab)],
         "panel",

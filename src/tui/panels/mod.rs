@@ -12,12 +12,14 @@ use super::theme::Role;
 use crate::charts::{self, Recipe, Words};
 use crate::plot::{Chart, Plot, Scale};
 
+mod caption;
 pub mod compare;
 mod numbers;
 mod scar;
 mod section;
 mod stress_map;
 
+pub use caption::in_brief;
 pub use stress_map::{SHADES, Shown, color as map_color};
 
 /// A panel that no chart can be.
@@ -118,7 +120,11 @@ impl Panel {
             Role::Title
         };
         if let Some(picture) = self.picture() {
-            let inner = titled(recipe.title, role, app, area, buffer);
+            let title = match self {
+                Self::Section => section::title(frame, app, area),
+                _ => recipe.title.to_owned(),
+            };
+            let inner = titled(&title, role, app, area, buffer);
             return (picture.draw)(frame, app, inner, buffer);
         }
         match &*app.chart(self, frame) {

@@ -1,20 +1,29 @@
 //! A cut through indenter and half-space: one body pressed into the other, with the stress under
-//! the contact.
+//! the contact. Zoomed it is the contact itself, large: the indenter follows its motion, and captions
+//! tell the phase of the cycle ([`super::caption`]).
+//!
+//! ```text
+//!  ████████████████████████████████    indenter: heights exaggerated, shifted by its magnified motion
+//!    ▀▀██████████████████████████▀▀    ╱ what it has lost, magnified
+//!  ▄▄▄▄╱╱╱╱▀▀██████████████▀▀╱╱╱╱▄▄    contact: stick and slip in their colours
+//!  ░░░░░░░░░░▄▄▄▄▄▄▄▄▄▄▄▄▄▄░░░░░░░░    half-space: the stress inside, in true lengths
+//! ```
 //!
 //! Heights of the surfaces are exaggerated, each body's surface to an eighth of a cell. Below the surface
 //! lengths are true: a half cell is about as high as a column is wide, and both stand for the same length,
-//! so the stress lies under the contact as it does in the material. The contact is drawn on the first half
-//! cell below the indenter in the colours of stick and slip.
+//! so the stress lies under the contact as it does in the material. The motion is magnified too: short lines
+//! on both bodies stay in one where the contact sticks, and part where it slips. The flanks of the indenter
+//! move with it; between them the contact stays closed.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::style::{Color, Style};
-use ratatui::text::Line;
+use ratatui::style::{Color, Modifier, Style};
 
-use super::stress_map::{self, SHADES, Samples};
-use super::{App, Frame, Panel, Picture, Recipe, Words, edge};
+use super::stress_map::{self, Samples};
+use super::{App, Frame, Panel, Picture, Recipe, Words, caption, edge};
+use crate::charts::magnification;
 use crate::math::grid::interpolate;
-use crate::plot::units::format_value_in;
+use crate::math::scan::largest;
 use crate::simulation::Curves;
 use crate::tui::theme::{Depth, Look, Role, Theme};
 
@@ -24,12 +33,13 @@ pub static PICTURE: Picture = Picture {
         title: "cross-section",
         needs: Curves::PROFILE
             .union(Curves::DEPRESSION)
-            .union(Curves::SPRINGS),
+            .union(Curves::SPRINGS)
+            .union(Curves::SURFACE),
         is_calm: true,
         words: Words {
             text: "A cut through both bodies: the indenter above, the half-space it deforms below. \
-                 Heights are exaggerated by the factor shown. The contact surface is coloured by \
-                 stick and slip.",
+                 The title tells what is magnified. The contact surface is coloured by stick and slip; \
+                 the short lines across it (V) stay in one where it sticks, and part where it slips.",
             symbols: &[
                 ("F_z", "normal force"),
                 ("u_x", "tangential displacement of the indenter"),
@@ -42,13 +52,29 @@ pub static PICTURE: Picture = Picture {
 };
 
 /// The picture is this many times as wide as the domain: the sides of the bodies are seen.
-const WIDER: f64 = 1.5;
+const WIDER: f64 = 1.35;
 
 /// Parts of a cell that a surface is drawn to.
 const PARTS: usize = 8;
 
 /// Lower blocks, by the eighths of a cell that they fill.
 const LOWER: [char; PARTS + 1] = [' ', '▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
+
+/// The amplitude of the motion takes up to this share of the picture's width, the wear of its height.
+const SWING: f64 = 0.025;
+const WEAR: f64 = 0.4;
+
+/// And no more columns than this: each is redrawn in the flanks.
+const FARTHEST: f64 = 4.0;
+
+/// Rows from which on the contact surface is drawn two half cells thick, and lines show what sticks.
+const LARGE: u16 = 14;
+
+/// Rows from which on these lines are two cells long on each body.
+const LONG_LINES: u16 = 22;
+
+/// Greys of the indenter.
+const SHADES_OF_BODY: f64 = 6.0;
 
 /// What is at a place of the cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -80,7 +106,7 @@ impl Matter {
         let [fine, plain] = match self {
             Self::Air => [' ', ' '],
             Self::Indenter => ['█', '#'],
-            Self::Worn => ['▒', '+'],
+            Self::Worn => ['╱', '/'],
             Self::Stick => ['▀', 's'],
             Self::Slip => ['▀', '~'],
             Self::HalfSpace => ['░', '.'],
@@ -89,7 +115,7 @@ impl Matter {
     }
 }
 
-/// Heights over the undeformed surface, m, at one radius.
+/// Heights over the undeformed surface, m, at one place along the motion.
 struct Cut {
     indenter: f64,
     unworn: f64,
@@ -100,53 +126,54 @@ struct Cut {
 }
 
 impl Cut {
-    /// The cut at radius `r`. Beyond the domain the indenter goes on unworn, and the surface comes
-    /// back as under a point load, in proportion to 1/r.
-    fn at(frame: &Frame, r: f64) -> Self {
+    /// The cut at `x`, where the wear is drawn magnified and the indenter shifted. Beyond the domain the
+    /// indenter goes on unworn, and the surface comes back as under a point load, in proportion to 1/r.
+    fn at(frame: &Frame, scale: &Scale, x: f64) -> Self {
         let (seen, moment) = (&frame.observation, &frame.observation.moment);
         let edge = seen.radii.last().copied().unwrap_or(0.0);
-        let rim = frame.indenter.rim().unwrap_or(f64::INFINITY);
-        let inside = r.min(edge);
-        let sunk = interpolate(&seen.radii, &seen.depression, inside);
-        let surface = -sunk * if r > edge { edge / r } else { 1.0 };
+        let r = x.abs();
+        let sunk = |r: f64| interpolate(&seen.radii, &seen.depression, r.min(edge));
+        let back = if r > edge { edge / r } else { 1.0 };
+        // Far from the contact nothing is lifted.
+        let lifted = match r - moment.contact_radius {
+            beyond if beyond > 0.0 => sunk(r) * back / sunk(moment.contact_radius).max(sunk(r)),
+            _ => 1.0,
+        };
+        let surface = scale.lift * lifted - sunk(r) * back;
         // Nothing of the half-space is worn unless the scenario says so.
         let share = frame.wear_share.unwrap_or(1.0);
-        let wear = match frame.wear_share {
-            Some(_) if r <= edge => interpolate(&seen.radii, &seen.wear, r),
-            _ => 0.0,
+        let wear = |r: f64| match r <= edge {
+            true => interpolate(&seen.radii, &seen.wear, r),
+            false => 0.0,
         };
-        let of_half_space = wear - share * wear;
-        let (worn, unworn) = if r > rim {
-            (f64::INFINITY, f64::INFINITY)
-        } else if r > edge {
-            let f = frame.indenter.profile(r);
-            (f, f)
-        } else {
-            (
-                interpolate(&seen.radii, &seen.profile, r),
-                frame.indenter.profile(r),
-            )
+        let ground = surface - scale.wear * (1.0 - share) * wear(r);
+        let rim = frame.indenter.rim().unwrap_or(f64::INFINITY);
+        // Where it touches, the indenter stays on the surface; its flanks are shifted as a whole.
+        let along = (x - scale.given_way(moment.contact_radius, x)).abs();
+        let unworn = match (x - scale.shift).abs() > rim {
+            true => f64::INFINITY,
+            false => frame.indenter.profile(along.min(rim)) - moment.depth + scale.lift,
         };
         let sticks = moment.stick_radius.is_none_or(|stick| r < stick);
         let contact = if sticks { Matter::Stick } else { Matter::Slip };
         Self {
-            indenter: worn - of_half_space - moment.depth,
-            unworn: unworn - moment.depth,
-            surface: surface - of_half_space,
+            indenter: (unworn + scale.wear * share * wear(along)).max(ground),
+            unworn,
+            surface: ground,
             unworn_surface: surface,
             contact: (r < moment.contact_radius).then_some(contact),
         }
     }
 
-    /// What is at height `z`, where a sample is `size` high (m).
-    fn matter(&self, z: f64, size: f64) -> Matter {
+    /// What is at height `z`, where the surface of contact is drawn `thick` (m).
+    fn matter(&self, z: f64, thick: f64) -> Matter {
         match self.contact {
             _ if z >= self.indenter => Matter::Indenter,
-            Some(contact) if z >= self.indenter - size => contact,
-            Some(_) => Matter::HalfSpace,
-            None if z <= self.surface => Matter::HalfSpace,
+            Some(_) if z >= self.surface && self.unworn.is_finite() => Matter::Worn,
+            Some(contact) if z < self.surface && z >= self.surface - thick => contact,
+            _ if z <= self.surface => Matter::HalfSpace,
             None if z >= self.unworn || z <= self.unworn_surface => Matter::Worn,
-            None => Matter::Air,
+            _ => Matter::Air,
         }
     }
 }
@@ -165,43 +192,223 @@ fn heights(frame: &Frame) -> Option<[f64; 2]> {
     Some([-depth.max(0.0) - 1.2 * flank, flank - depth])
 }
 
+/// The lengths of a picture, m, and how much is magnified.
+pub(super) struct Scale {
+    /// The width of a column, and the height of half a cell on the scale of the surfaces.
+    pub width: f64,
+    half: f64,
+    /// The height of the upper edge.
+    high: f64,
+    /// How many times the wear is drawn, in heights of the picture; and the motion, in its widths.
+    wear: f64,
+    motion: f64,
+    /// The shift of the indenter as it is drawn, and how much higher both bodies are drawn: the indenter moves by
+    /// whole columns and rows, so that a small motion does not redraw everything with every frame.
+    shift: f64,
+    lift: f64,
+}
+
+impl Scale {
+    /// The scale of the picture in `area`; `None` where there is nothing to draw.
+    fn of(frame: &Frame, app: &App, area: Rect) -> Option<Self> {
+        let seen = &frame.observation;
+        let ([low, high], &edge) = (app.bounds(Panel::Section)?, seen.radii.last()?);
+        if seen.depression.is_empty() || area.is_empty() {
+            return None;
+        }
+        let width = 2.0 * WIDER * edge / f64::from(area.width);
+        let reach = (SWING * 2.0 * WIDER * edge).min(FARTHEST * width);
+        let motion = match amplitude(frame) {
+            amplitude if amplitude > 0.0 => magnification(amplitude, reach),
+            _ => 0.0,
+        };
+        let half = (high - low) / (2.0 * f64::from(area.height));
+        let row = 2.0 * half;
+        Some(Self {
+            width,
+            half,
+            lift: seen.moment.depth - whole(seen.moment.depth, row),
+            high,
+            wear: magnification(
+                largest(&seen.wear).max(frame.expected_wear),
+                WEAR * (high - low),
+            ),
+            motion,
+            shift: whole(motion * seen.moment.shift, width),
+        })
+    }
+
+    /// How far the indenter is shifted at `x`: not where it touches, and as a whole some way from there.
+    fn given_way(&self, contact: f64, x: f64) -> f64 {
+        let way = 4.0 * self.shift.abs();
+        match x.abs() - contact {
+            _ if contact == 0.0 => self.shift,
+            beyond if beyond > 0.0 && way > 0.0 => self.shift * (beyond / way).min(1.0),
+            _ => 0.0,
+        }
+    }
+
+    /// The title with what is magnified, the wear first, as far as `room` cells suffice.
+    fn title(&self, ascii: bool, room: usize) -> String {
+        let times = if ascii { "x" } else { "×" };
+        let heights = self.width / self.half;
+        let factors = [
+            ("wear", heights * self.wear, self.wear > 1.0),
+            ("heights", heights, heights >= 1.5),
+            ("motion", self.motion, self.motion > 1.0),
+        ];
+        let mut title = Panel::Section.title().to_owned();
+        for (name, factor, _) in factors.into_iter().filter(|factor| factor.2) {
+            let more = format!(", {name} {times}{}", caption::plain(factor));
+            if title.chars().count() + more.chars().count() <= room {
+                title.push_str(&more);
+            }
+        }
+        title
+    }
+}
+
+/// The nearest multiple of a step.
+fn whole(value: f64, step: f64) -> f64 {
+    (value / step).round() * step
+}
+
+/// The amplitude of u_x, m: the one that is prescribed, or that of the last cycle.
+fn amplitude(frame: &Frame) -> f64 {
+    let key = "motion.tangential.amplitude";
+    let mut settings = frame.settings.iter();
+    let given = settings.find(|setting| setting.parameter.path == key && setting.unit == "m");
+    let given = given.and_then(|setting| setting.value.as_deref()?.parse::<f64>().ok());
+    given.unwrap_or_else(|| {
+        let (shifts, _) = frame.trend.fretting_loop();
+        shifts.iter().fold(0.0, |most, shift| shift.abs().max(most))
+    })
+}
+
+/// The title, with what is magnified.
+pub fn title(frame: &Frame, app: &App, area: Rect) -> String {
+    let below = Rect {
+        height: area.height.saturating_sub(1),
+        ..area
+    };
+    let room = usize::from(area.width.saturating_sub(4));
+    Scale::of(frame, app, caption::beside(below)[0]).map_or_else(
+        || Panel::Section.title().to_owned(),
+        |scale| scale.title(app.theme.ascii(), room),
+    )
+}
+
 fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
-    let seen = &frame.observation;
-    let (Some([low, high]), Some(&edge)) = (app.bounds(Panel::Section), seen.radii.last()) else {
+    let [area, below] = caption::beside(area);
+    let Some(scale) = Scale::of(frame, app, area) else {
         return;
     };
-    if seen.depression.is_empty() || area.is_empty() {
-        return;
-    }
-    let half = (high - low) / (2.0 * f64::from(area.height));
-    let width = 2.0 * WIDER * edge / f64::from(area.width);
-    let rows = 2 * usize::from(area.height);
-    let samples = Samples::new(app.stress, frame, usize::from(area.width), rows, width);
+    // The bodies move with every frame, the stress below changes more calmly.
+    let calm = app.calm(frame);
+    let (columns, rows) = (usize::from(area.width), 2 * usize::from(area.height));
+    let samples = Samples::new(app.stress, calm, columns, rows, scale.width);
     let picture = Canvas {
         theme: &app.theme,
-        half,
+        half: scale.half,
+        thick: scale.half * if area.height >= LARGE { 2.0 } else { 1.0 },
+        high: scale.high,
+        tall: scale.high - Cut::at(frame, &scale, 0.0).surface,
+        slip: glow(&app.theme),
         map: samples.zip(app.stress_bounds()),
         colors: app.stress.quantity.colors(),
     };
     for column in 0..area.width {
-        let x = (f64::from(column) + 0.5 - f64::from(area.width) / 2.0) * width;
-        let cut = Cut::at(frame, x.abs());
+        let cut = Cut::at(frame, &scale, place(area, &scale, column));
         for row in 0..area.height {
-            let top = high - 2.0 * f64::from(row) * half;
+            let top = scale.high - 2.0 * f64::from(row) * scale.half;
             let (glyph, style) = picture.cell(&cut, usize::from(column), top);
             if let Some(cell) = buffer.cell_mut((area.x + column, area.y + row)) {
                 cell.set_char(glyph).set_style(style);
             }
         }
     }
-    words(frame, app, area, half, width, buffer);
+    if area.height >= LARGE {
+        lines(frame, app, area, &scale, buffer);
+    }
+    caption::draw(frame, app, [area, below], &scale, buffer);
+}
+
+/// The middle of a column along the motion, m.
+fn place(area: Rect, scale: &Scale, column: u16) -> f64 {
+    (f64::from(column) + 0.5 - f64::from(area.width) / 2.0) * scale.width
+}
+
+/// The column at `x`, m, where the picture has one.
+pub(super) fn column(area: Rect, scale: &Scale, x: f64) -> Option<u16> {
+    let at = (x / scale.width + f64::from(area.width) / 2.0).floor();
+    (at >= 0.0 && at < f64::from(area.width)).then(|| area.x + at as u16)
+}
+
+/// The rows of the lower end of the indenter and of the surface of the half-space at `x`, m: the last whole
+/// ones of what is above.
+pub(super) fn rows_above(frame: &Frame, area: Rect, scale: &Scale, x: f64) -> Option<[u16; 2]> {
+    let cut = Cut::at(frame, scale, x);
+    let row = |z: f64| {
+        let row = ((scale.high - z) / (2.0 * scale.half)).floor() - 1.0;
+        (row >= 1.0 && row < f64::from(area.height)).then(|| area.y + row as u16)
+    };
+    Some([row(cut.indenter)?, row(cut.surface)?])
+}
+
+/// Lines on both bodies: those of the indenter move with it, those of the half-space with its surface.
+fn lines(frame: &Frame, app: &App, area: Rect, scale: &Scale, buffer: &mut Buffer) {
+    let seen = &frame.observation;
+    if scale.motion == 0.0 || seen.surface.is_empty() || !app.theme.colored() || app.theme.ascii() {
+        return;
+    }
+    let a = seen.moment.contact_radius;
+    let apart = (f64::from(area.width) / 14.0).max(5.0).floor() * scale.width;
+    let ink = caption::ink(&app.theme);
+    for k in -7..=7 {
+        let x = f64::from(k) * apart;
+        if x.abs() >= a {
+            continue;
+        }
+        let surface = interpolate(&seen.radii, &seen.surface, x.abs());
+        let moved = whole(scale.motion * surface, scale.width);
+        let Some([above, below]) = rows_above(frame, area, scale, x) else {
+            continue;
+        };
+        // Upwards on the indenter, downwards on the half-space.
+        let long = u16::from(area.height >= LONG_LINES);
+        let of_indenter = (x + scale.shift, [above - long, above]);
+        for (x, rows) in [of_indenter, (x + moved, [below + 1, below + 1 + long])] {
+            let Some(column) = column(area, scale, x) else {
+                continue;
+            };
+            for row in rows.into_iter().filter(|&row| row < area.bottom()) {
+                let cell = &mut buffer[(column, row)];
+                caption::take_ground(cell);
+                cell.set_char('┃').set_style(ink);
+            }
+        }
+    }
+}
+
+/// The colour of what slips: it glows.
+fn glow(theme: &Theme) -> Option<Color> {
+    match (theme.depth, theme.look) {
+        (Depth::Indexed, Look::Dark) => Some(Color::Indexed(208)),
+        (Depth::Indexed, Look::Light) => Some(Color::Indexed(202)),
+        _ => theme.style(Role::Slip).fg,
+    }
 }
 
 /// How the cut becomes cells.
 struct Canvas<'a> {
     theme: &'a Theme,
-    /// The height of half a cell, m, on the scale of the surfaces.
+    /// The height of half a cell, and of the drawn surface of contact, m, on the scale of the surfaces.
     half: f64,
+    thick: f64,
+    /// The upper edge, and the height down to the lowest place of the indenter.
+    high: f64,
+    tall: f64,
+    slip: Option<Color>,
     /// The stress and the range of its colours.
     map: Option<(Samples, [f64; 2])>,
     colors: crate::plot::colormap::ColorMap,
@@ -214,7 +421,7 @@ impl Canvas<'_> {
             return self.plain(cut, column, top);
         }
         let part = |k: usize| top - (k as f64 + 0.5) * 2.0 * self.half / PARTS as f64;
-        let matter: [Matter; PARTS] = std::array::from_fn(|k| cut.matter(part(k), self.half));
+        let matter: [Matter; PARTS] = std::array::from_fn(|k| cut.matter(part(k), self.thick));
         if matter.iter().all(|&m| m == Matter::HalfSpace) {
             let halves =
                 [0.5, 1.5].map(|at| self.ink(cut, column, top - at * self.half, matter[0]));
@@ -235,20 +442,28 @@ impl Canvas<'_> {
             _ => [matter[0]; 2],
         };
         if upper == lower {
-            return match self.ink(cut, column, part(0), upper) {
-                None => (' ', Style::new()),
-                color => (LOWER[PARTS], ink(color)),
+            let color = self.ink(cut, column, part(0), upper);
+            let style = ground(ink(color), color);
+            return match upper {
+                Matter::Worn => (
+                    upper.glyph(false),
+                    style.patch(self.theme.style(Role::Profile)),
+                ),
+                Matter::Indenter => (upper.glyph(false), ink(color)),
+                Matter::Air => (' ', Style::new()),
+                _ => (' ', ground(Style::new(), color)),
             };
         }
         let count = share(lower) * PARTS / (share(lower) + share(upper)).max(1);
+        let count = count.clamp(1, PARTS - 1);
         let colors = [
             self.ink(cut, column, part(0), upper),
             self.ink(cut, column, part(PARTS - 1), lower),
         ];
         match colors {
-            // Nothing is drawn in air: the solid part has the ink.
-            [above, None] => ('▀', ink(above)),
-            [above, below] => (LOWER[count.clamp(1, PARTS - 1)], ground(ink(below), above)),
+            // Air has the colour of the screen, which nobody knows: the block is cut out of the other.
+            [above, None] => (LOWER[count], ink(above).add_modifier(Modifier::REVERSED)),
+            [above, below] => (LOWER[count], ground(ink(below), above)),
         }
     }
 
@@ -256,30 +471,38 @@ impl Canvas<'_> {
     fn ink(&self, cut: &Cut, column: usize, z: f64, matter: Matter) -> Option<Color> {
         match matter {
             Matter::Air => None,
-            Matter::Indenter => Some(body(self.theme)),
+            Matter::Indenter => Some(self.body(z)),
+            Matter::Worn => Some(hollow(self.theme)),
             Matter::HalfSpace => match self.shade(cut, column, z) {
                 Some(shade) => stress_map::color(self.theme, self.colors, shade),
                 None => self.theme.style(Role::Open).fg,
             },
-            other => self.theme.style(other.role()).fg,
+            Matter::Slip => self.slip,
+            Matter::Stick => self.theme.style(Role::Stick).fg,
+        }
+    }
+
+    /// The indenter at height `z`: greys, which no colour of the map is, brighter towards the contact.
+    fn body(&self, z: f64) -> Color {
+        let depth = ((self.high - z) / self.tall * SHADES_OF_BODY).clamp(0.0, SHADES_OF_BODY - 1.0);
+        match (self.theme.depth, self.theme.look) {
+            (Depth::Sixteen, _) => Color::Gray,
+            (_, Look::Light) => Color::Indexed(254 - depth as u8),
+            _ => Color::Indexed(236 + depth as u8),
         }
     }
 
     /// The shade of the stress at height `z`.
     fn shade(&self, cut: &Cut, column: usize, z: f64) -> Option<usize> {
         let (samples, range) = self.map.as_ref()?;
-        let surface = match cut.contact {
-            Some(_) => cut.indenter,
-            None => cut.surface,
-        };
-        let below = ((surface - z) / self.half).max(0.0) as usize;
+        let below = ((cut.surface - z) / self.half).max(0.0) as usize;
         Some(stress_map::shade(samples.value(column, below), *range))
     }
 
     /// A cell without colour: the bodies as signs, one a cell in ASCII.
     fn plain(&self, cut: &Cut, column: usize, top: f64) -> (char, Style) {
         let ascii = self.theme.ascii();
-        let [upper, lower] = [0.5, 1.5].map(|at| cut.matter(top - at * self.half, self.half));
+        let [upper, lower] = [0.5, 1.5].map(|at| cut.matter(top - at * self.half, self.thick));
         let is_contact = |matter| matches!(matter, Matter::Stick | Matter::Slip);
         let shown = match (is_contact(lower) && ascii, upper) {
             (true, _) => lower,
@@ -299,13 +522,12 @@ impl Canvas<'_> {
     }
 }
 
-/// The indenter: calm, so that the stress is seen.
-fn body(theme: &Theme) -> Color {
+/// Where the indenter was, under the hatching.
+fn hollow(theme: &Theme) -> Color {
     match (theme.depth, theme.look) {
-        (Depth::Sixteen, _) => Color::Gray,
-        (_, Look::Light) => Color::Indexed(146),
-        // A grey: no colour of the map is one.
-        _ => Color::Indexed(59),
+        (Depth::Sixteen, _) => Color::Black,
+        (_, Look::Light) => Color::Indexed(229),
+        _ => Color::Indexed(58),
     }
 }
 
@@ -324,72 +546,6 @@ fn ink(color: Option<Color>) -> Style {
 
 fn ground(style: Style, color: Option<Color>) -> Style {
     color.map_or(style, |color| style.bg(color))
-}
-
-/// Names of the bodies, load and shift, where there is room for them.
-fn words(frame: &Frame, app: &App, area: Rect, half: f64, width: f64, buffer: &mut Buffer) {
-    if area.height < 5 || area.width < 36 {
-        return;
-    }
-    let moment = &frame.observation.moment;
-    let ascii = app.theme.ascii();
-    let value = |value, unit| format_value_in(value, unit, 3, ascii);
-    let mut line = |text: &str, y: u16| -> Option<u16> {
-        let text = format!(" {text} ");
-        let cells = Line::raw(text.as_str()).width() as u16;
-        let x = area.x + area.width.checked_sub(cells)? / 2;
-        buffer.set_stringn(x, y, &text, usize::from(cells), Style::reset());
-        Some(x)
-    };
-    let load = format!("indenter, F_z {}", value(moment.normal_force, "N"));
-    line(&load, area.y);
-    if moment.stick_radius.is_some() && area.height >= 8 {
-        let arrows = if ascii { "<->" } else { "↔" };
-        line(
-            &format!("{arrows} u_x {}", value(moment.shift, "m")),
-            area.y + 1,
-        );
-    }
-    if let Some(share) = frame.wear_share.filter(|_| area.height >= 10) {
-        let seen = &frame.observation;
-        let deepest = seen.wear.iter().copied().fold(0.0, f64::max);
-        let [indenter, half_space] = [share, 1.0 - share].map(|part| value(part * deepest, "m"));
-        line(
-            &format!("worn: indenter {indenter}, half-space {half_space}"),
-            area.y + 2,
-        );
-    }
-    let times = if ascii { "x" } else { "×" };
-    let exaggerated = match width / half {
-        scale if scale >= 1.5 => format!("half-space, heights {times}{scale:.0}"),
-        _ => "half-space".to_owned(),
-    };
-    let bottom = area.bottom() - 1;
-    let Some([low, high]) = app.stress_bounds().filter(|_| frame.load.is_some()) else {
-        line(&exaggerated, bottom);
-        return;
-    };
-    // The scale of the colours, between its two ends.
-    let ends = [low, high].map(|end| value(end, "Pa"));
-    let name = if app.stress.is_largest_of_cycle() {
-        format!("{}, cycle", app.stress.quantity.short())
-    } else {
-        app.stress.quantity.short().to_owned()
-    };
-    let before = format!("{name} {} ", ends[0]);
-    let scale = format!("{before}{} {}", " ".repeat(SHADES), ends[1]);
-    if let Some(x) = line(&scale, bottom) {
-        let first = x + 1 + before.chars().count() as u16;
-        for shade in 0..SHADES {
-            let color = stress_map::color(&app.theme, app.stress.quantity.colors(), shade);
-            if let Some(cell) = buffer.cell_mut((first + shade as u16, bottom)) {
-                match color.filter(|_| !ascii) {
-                    Some(color) => cell.set_char(' ').set_bg(color),
-                    None => cell.set_char(stress_map::sign(shade)),
-                };
-            }
-        }
-    }
 }
 
 #[cfg(test)]

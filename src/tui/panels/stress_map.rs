@@ -8,7 +8,7 @@ use super::Frame;
 use crate::contact::subsurface::{SpringLoad, Stress};
 use crate::plot::colormap::ColorMap;
 use crate::reading::fatigue::StressCycle;
-use crate::tui::theme::{Depth, Theme};
+use crate::tui::theme::{Depth, Look, Theme};
 
 /// Shades of a map: few, so that only the lines between them change from frame to frame.
 pub const SHADES: usize = 12;
@@ -222,9 +222,10 @@ pub fn shade(value: f64, [low, high]: [f64; 2]) -> usize {
     ((share * SHADES as f64) as usize).min(SHADES - 1)
 }
 
-/// The shades of values that begin at zero, among the colours of a terminal: its cube has few dark ones, so
-/// that the nearest to neighbouring shades would be the same.
-const SEQUENTIAL: [u8; SHADES] = [53, 54, 60, 24, 31, 30, 36, 71, 77, 113, 149, 184];
+/// The shades of values that begin at zero, among the colours of a terminal, from the darkest to the brightest:
+/// blues, so that the colours of stick, slip and wear stand out, and any kind of colour vision tells them apart.
+/// On a light background they begin at the other end.
+const SEQUENTIAL: [u8; SHADES] = [17, 18, 24, 25, 31, 32, 38, 74, 80, 116, 152, 195];
 
 /// Shades of terminals that have sixteen colours: neighbours share one.
 const SIXTEEN: [Color; SHADES] = [
@@ -261,6 +262,7 @@ pub fn color(theme: &Theme, map: ColorMap, shade: usize) -> Option<Color> {
     let shade = shade.min(SHADES - 1);
     let share = (shade as f64 + 0.5) / SHADES as f64;
     let index = match map {
+        ColorMap::Sequential if theme.look == Look::Light => SEQUENTIAL[SHADES - 1 - shade],
         ColorMap::Sequential => SEQUENTIAL[shade],
         ColorMap::Diverging => indexed(map.color(share)),
     };
@@ -304,7 +306,6 @@ fn indexed(rgb: [u8; 3]) -> u8 {
 mod tests {
     use super::*;
     use crate::plot::Marker;
-    use crate::tui::theme::Look;
 
     #[test]
     fn colours_are_the_nearest_of_the_terminal() {

@@ -141,6 +141,7 @@ impl Worker {
             super::locked(keeping).turn_over(self.past.line(&self.session), &session);
         }
         self.past.leave(&self.trend);
+        self.snapshots.clear();
         self.session = session;
         self.comparison = None;
         self.learn();

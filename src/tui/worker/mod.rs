@@ -59,6 +59,8 @@ pub struct Worker {
     passed_hardness: Option<Passed>,
     trend: Trend,
     past: Past,
+    /// The cycles of the snapshots of this run.
+    snapshots: Vec<f64>,
     kept_at: Instant,
     curves: Curves,
     activity: Activity,
@@ -109,6 +111,7 @@ impl Worker {
             cycle_loads: CycleLoads::default(),
             trend,
             past: Past::default(),
+            snapshots: Vec::new(),
             kept_at: Instant::now(),
             curves: Curves::all(),
             activity,
@@ -303,6 +306,7 @@ impl Worker {
             Order::Cycle => self.by_hand(ends_cycle),
             Order::Back => self.travel(Past::back, "this is the start of the run"),
             Order::Forth => self.travel(Past::forth, "this is the present"),
+            Order::Visit(cycle) => self.travel(|past| past.visit(cycle), "no state is stored"),
             Order::Compare => match self.comparison.take() {
                 Some(_) => {}
                 None => self.comparison(0, From::Now),
@@ -369,9 +373,12 @@ impl Worker {
         }
     }
 
-    fn snapshot(&self, note: Option<&str>) {
+    fn snapshot(&mut self, note: Option<&str>) {
         match snapshot::write(&self.session, &self.trend, note) {
-            Ok(path) => self.notice(&format!("snapshot in {}", path.display())),
+            Ok(path) => {
+                self.snapshots.push(self.session.simulation().cycle());
+                self.notice(&format!("snapshot in {}", path.display()));
+            }
             Err(error) => self.unwritten(&error.to_string()),
         }
     }
@@ -462,6 +469,14 @@ impl Worker {
             expected_wear: self.expected_wear,
             steps_per_cycle: simulation.setup().steps_in_a_cycle() as u32,
             present: self.past.present(),
+            changes: self
+                .past
+                .line(&self.session)
+                .changes()
+                .iter()
+                .map(|change| (change.at_cycle, change.set.clone()))
+                .collect(),
+            snapshots: self.snapshots.clone(),
             settings: Arc::clone(&self.settings),
             indenter: simulation.setup().indenter.clone(),
             wear_share: scenario.wear_share(),

@@ -41,7 +41,7 @@ impl Worker {
     }
 
     /// Shows another stored state, or says why there is none.
-    pub(super) fn travel(&mut self, way: fn(&mut Past) -> Option<Arc<Kept>>, end: &str) {
+    pub(super) fn travel(&mut self, way: impl FnOnce(&mut Past) -> Option<Arc<Kept>>, end: &str) {
         self.keep();
         self.past.note_trend(&self.trend);
         match way(&mut self.past) {

@@ -1,0 +1,318 @@
+//! The words of the cross-section: the phase of the cycle in a plain sentence, what has worn, a and c, and
+//! what the colours mean. A small picture has the load and the scale of the stress alone.
+
+use ratatui::buffer::{Buffer, Cell};
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::style::{Color, Modifier, Style};
+use ratatui::text::Line;
+
+use super::section::{self, Scale};
+use super::stress_map::{self, SHADES};
+use super::{App, Frame};
+use crate::math::scan::largest;
+use crate::plot::units::{format_number, format_value_in};
+use crate::simulation::Moment;
+use crate::tui::theme::{Depth, Look, Role, Theme};
+
+/// The size from which the picture has captions below it, and their rows.
+const ROOMY: [u16; 2] = [60, 16];
+const ROWS: u16 = 2;
+
+/// Below this share of the fastest motion of a cycle the indenter turns.
+const TURNS: f64 = 0.2;
+
+/// Below this share of a nothing sticks that anyone could see.
+const NOTHING: f64 = 0.02;
+
+/// The width of the longest phase, "The outer ring slips, the middle sticks: sliding right".
+const LONGEST: u16 = 54;
+
+/// The picture and the rows of its captions.
+pub fn beside(area: Rect) -> [Rect; 2] {
+    let rows = match area.width >= ROOMY[0] && area.height >= ROOMY[1] {
+        true => ROWS,
+        false => 0,
+    };
+    Layout::vertical([Constraint::Min(0), Constraint::Length(rows)]).areas(area)
+}
+
+/// The speed of the indenter to the right, relative to the fastest of the last cycle.
+pub fn speed(frame: &Frame) -> f64 {
+    let (shifts, _) = frame.trend.fretting_loop();
+    let mut steps = shifts.windows(2).map(|pair| pair[1] - pair[0]);
+    let fastest = steps
+        .clone()
+        .fold(0.0, |most: f64, step| most.max(step.abs()));
+    match steps.next_back() {
+        Some(step) if fastest > 0.0 => step / fastest,
+        _ => 0.0,
+    }
+}
+
+/// What the contact does at the moment, for someone who has never heard of fretting.
+pub fn phase(moment: &Moment, speed: f64) -> String {
+    let (a, way) = (
+        moment.contact_radius,
+        if speed > 0.0 { "right" } else { "left" },
+    );
+    let Some(stick) = moment.stick_radius.filter(|_| a > 0.0) else {
+        let said = if a > 0.0 {
+            "Nothing slides: pressed together"
+        } else {
+            "Nothing touches: lifted off"
+        };
+        return said.into();
+    };
+    let turns = speed.abs() < TURNS;
+    let what = match stick {
+        stick if stick >= a * (1.0 - 1e-9) => "All of it sticks",
+        stick if stick <= NOTHING * a => "All of it slips",
+        _ => "The outer ring slips, the middle sticks",
+    };
+    match (turns, stick < a) {
+        (true, _) => format!("{what}: turning round"),
+        (false, true) => format!("{what}: sliding {way}"),
+        (false, false) => format!("{what}: pushed {way}"),
+    }
+}
+
+/// The same in capitals, for large letters, and the colour that it has.
+pub fn in_brief(moment: &Moment) -> (&'static str, Role) {
+    let a = moment.contact_radius;
+    match moment.stick_radius {
+        _ if a <= 0.0 => ("LIFTED OFF", Role::Quiet),
+        Some(stick) if stick <= NOTHING * a => ("ALL SLIPS", Role::Slip),
+        Some(stick) if stick < a => ("RING SLIPS", Role::Slip),
+        _ => ("ALL STICKS", Role::Stick),
+    }
+}
+
+/// What has worn since the start.
+fn worn(frame: &Frame, value: impl Fn(f64) -> String) -> String {
+    let seen = &frame.observation;
+    let deepest = largest(&seen.wear);
+    if seen.law.is_none() {
+        return "Nothing wears in this scenario: both bodies keep their shape.".into();
+    }
+    if deepest <= 0.0 {
+        return "Nothing has worn yet: wear needs pressure and sliding.".into();
+    }
+    let depth = value(deepest);
+    let bodies = frame.wear_share.map(|share| {
+        let [indenter, half_space] = [share, 1.0 - share].map(|part| value(part * deepest));
+        format!(" (indenter {indenter}, half-space {half_space})")
+    });
+    let bodies = bodies.unwrap_or_default();
+    let a = value(seen.moment.contact_radius);
+    match sticking(&seen.moment) {
+        Some(c) => {
+            let ring = format!("in the ring from c ({}) to a ({a})", value(c));
+            format!("Worn {depth} deep{bodies} {ring}, nothing inside c.")
+        }
+        None => format!("Worn {depth} deep{bodies}; the contact (a {a}) slides as a whole."),
+    }
+}
+
+/// The permanent stick radius, m, where there is one to be seen.
+fn sticking(moment: &Moment) -> Option<f64> {
+    let (a, c) = (moment.contact_radius, moment.permanent_stick_radius);
+    c.filter(|c| *c > NOTHING * a && *c < (1.0 - NOTHING) * a)
+}
+
+/// A factor as a number without a point or an exponent where it is below a million.
+pub fn plain(factor: f64) -> String {
+    match factor {
+        factor if (10.0..1e6).contains(&factor) => format!("{factor:.0}"),
+        factor => format_number(factor, 2),
+    }
+}
+
+/// The ink of words and lines on the bodies.
+pub fn ink(theme: &Theme) -> Style {
+    let color = match (theme.depth, theme.look) {
+        (Depth::Sixteen, _) | (_, Look::Light) => Color::Black,
+        _ => Color::Indexed(255),
+    };
+    Style::new().fg(color)
+}
+
+/// The ground of a sign that is written over a block is what fills most of the cell.
+pub fn take_ground(cell: &mut Cell) {
+    if ("▅"..="█").contains(&cell.symbol()) && !cell.modifier.contains(Modifier::REVERSED) {
+        cell.bg = cell.fg;
+    }
+}
+
+/// Writes on what is drawn already: the ground stays.
+fn on(buffer: &mut Buffer, x: u16, y: u16, text: &str, theme: &Theme) {
+    let style = match theme.colored() && !theme.ascii() {
+        true => ink(theme).remove_modifier(Modifier::REVERSED),
+        false => Style::reset(),
+    };
+    let room = buffer.area.right().saturating_sub(x);
+    for x in x..x + room.min(Line::raw(text).width() as u16) {
+        take_ground(&mut buffer[(x, y)]);
+    }
+    buffer.set_stringn(x, y, text, usize::from(room), style);
+}
+
+/// Writes in the middle of a row, where it fits.
+fn centred(buffer: &mut Buffer, area: Rect, row: u16, text: &str, theme: &Theme) -> Option<u16> {
+    let text = format!(" {text} ");
+    let cells = Line::raw(text.as_str()).width() as u16;
+    let x = area.x + area.width.checked_sub(cells)? / 2;
+    on(buffer, x, row, &text, theme);
+    Some(x + 1)
+}
+
+/// Draws the words on the picture and below it.
+pub fn draw(
+    frame: &Frame,
+    app: &App,
+    [area, below]: [Rect; 2],
+    scale: &Scale,
+    buffer: &mut Buffer,
+) {
+    let (moment, theme) = (&frame.observation.moment, &app.theme);
+    let value = |value, unit| format_value_in(value, unit, 3, theme.ascii());
+    if area.height < 5 || area.width < 30 {
+        return;
+    }
+    let names = if below.is_empty() {
+        ["F_z", "u_x"]
+    } else {
+        ["load F_z", "shift u_x"]
+    };
+    let mut forces = format!("{} {}", names[0], value(moment.normal_force, "N"));
+    if moment.stick_radius.is_some() {
+        // Rounding is no motion.
+        let shift = moment.shift * f64::from(moment.shift.abs() > 1e-12 * moment.contact_radius);
+        forces.push_str(&format!(", {} {}", names[1], value(shift, "m")));
+    }
+    if below.is_empty() {
+        centred(buffer, area, area.y, &forces, theme);
+        key(
+            app,
+            Rect {
+                y: area.bottom() - 1,
+                height: 1,
+                ..area
+            },
+            false,
+            buffer,
+        );
+        return;
+    }
+    let speed = speed(frame);
+    let said = phase(moment, speed);
+    // The words stay where they are when the motion turns.
+    let start = area.x + area.width.saturating_sub(LONGEST) / 2;
+    on(buffer, start, area.y, &said, theme);
+    let [left, right] = if theme.ascii() {
+        ["<--", "-->"]
+    } else {
+        ["◀━━", "━━▶"]
+    };
+    match speed {
+        _ if area.width < LONGEST + 10 => {}
+        speed if speed >= TURNS => on(buffer, start + LONGEST + 2, area.y, right, theme),
+        speed if speed <= -TURNS => on(buffer, start - 5, area.y, left, theme),
+        _ => {}
+    }
+    on(buffer, start, area.y + 1, &forces, theme);
+    radii(frame, app, area, scale, buffer);
+    let lines = Layout::vertical([Constraint::Length(1); ROWS as usize]);
+    let [first, second] = lines.areas(below);
+    let worn = worn(frame, |depth| value(depth, "m"));
+    // What is obvious from the rest is said where there is room for it.
+    let room = usize::from(first.width.saturating_sub(1));
+    let worn = match worn.rsplit_once(", ") {
+        Some((brief, _)) if Line::raw(worn.as_str()).width() > room => brief,
+        _ => worn.as_str(),
+    };
+    buffer.set_stringn(first.x + 1, first.y, worn, room, Style::new());
+    key(app, second, true, buffer);
+}
+
+/// c and a: a short line over the border of each, and its name.
+fn radii(frame: &Frame, app: &App, area: Rect, scale: &Scale, buffer: &mut Buffer) {
+    let (moment, theme) = (&frame.observation.moment, &app.theme);
+    let bar = if theme.ascii() { ":" } else { "┊" };
+    let a = Some(moment.contact_radius).filter(|a| *a > 0.0);
+    let marks = [("c", sticking(moment)), ("a", a)];
+    for (name, r) in marks.into_iter().filter_map(|(name, r)| Some((name, r?))) {
+        for x in [-r, r] {
+            let rows = section::rows_above(frame, area, scale, x);
+            if let (Some(column), Some([row, _])) = (section::column(area, scale, x), rows) {
+                on(
+                    buffer,
+                    column,
+                    row.saturating_sub(1).max(area.y),
+                    name,
+                    theme,
+                );
+                on(buffer, column, row, bar, theme);
+            }
+        }
+    }
+}
+
+/// What the colours mean: the bodies' on a roomy picture, and the scale of the stress.
+fn key(app: &App, area: Rect, whole: bool, buffer: &mut Buffer) {
+    let (theme, ascii) = (&app.theme, app.theme.ascii());
+    let mut parts: Vec<(String, Style)> = Vec::new();
+    if whole {
+        let swatch = if ascii {
+            ["s", "~", "/"]
+        } else {
+            ["▀▀", "▀▀", "╱╱"]
+        };
+        let roles = [Role::Stick, Role::Slip, Role::Profile];
+        for ((sign, role), name) in
+            swatch
+                .into_iter()
+                .zip(roles)
+                .zip(["sticks", "slips", "worn away"])
+        {
+            parts.push((format!(" {sign}"), theme.style(role)));
+            parts.push((format!(" {name} "), Style::new()));
+        }
+    }
+    // Nothing is loaded yet where the scale is that of no stress.
+    if let Some([low, high]) = app.stress_bounds().filter(|bounds| bounds[1] > 1.0) {
+        let [low, high] = [low, high].map(|end| format_value_in(end, "Pa", 3, ascii));
+        let over = if app.stress.is_largest_of_cycle() {
+            ", cycle"
+        } else {
+            ""
+        };
+        parts.push((
+            format!(" {}{over} {low} ", app.stress.quantity.short()),
+            Style::new(),
+        ));
+        for shade in 0..SHADES {
+            let color = stress_map::color(theme, app.stress.quantity.colors(), shade);
+            parts.push(match color.filter(|_| !ascii) {
+                Some(color) => (" ".into(), Style::new().bg(color)),
+                None => (stress_map::sign(shade).into(), Style::new()),
+            });
+        }
+        parts.push((format!(" {high} "), Style::new()));
+    }
+    let cells: usize = parts
+        .iter()
+        .map(|(text, _)| Line::raw(text.as_str()).width())
+        .sum();
+    let Some(spare) = area.width.checked_sub(cells as u16) else {
+        return;
+    };
+    let mut x = if whole { area.x } else { area.x + spare / 2 };
+    for (text, style) in parts {
+        let style = if whole {
+            style
+        } else {
+            Style::reset().patch(style)
+        };
+        (x, _) = buffer.set_stringn(x, area.y, &text, usize::from(area.width), style);
+    }
+}

@@ -1,0 +1,158 @@
+//! `--present`, for a projector: the contact and one chart, large words, and a pace that begins slowly and rises by
+//! itself.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::style::Style;
+
+use super::app::App;
+use super::frame::Frame;
+use super::pace::Pace;
+use super::panels::{Panel, in_brief};
+use super::theme::Role;
+
+/// The chart at first.
+pub const CHART: Panel = Panel::Loop;
+
+/// Seconds at each pace before the next, and the least seconds that the whole run shall last at the last one.
+const SECONDS: f64 = 8.0;
+const LEAST: f64 = 40.0;
+
+/// Columns from which on the chart stands beside the contact; below them it stands under it.
+const WIDE: u16 = 100;
+
+/// Rows of the large words with a blank one above, and the least rows of all that they are drawn on.
+const WORDS: u16 = 4;
+const TALL: u16 = 22;
+
+/// The contact, the chart, and the large words.
+pub fn areas(area: Rect) -> [Rect; 3] {
+    let words = if area.height >= TALL { WORDS } else { 0 };
+    let [above, words] =
+        Layout::vertical([Constraint::Min(0), Constraint::Length(words)]).areas(area);
+    let [contact, chart] = match area.width >= WIDE {
+        true => Layout::horizontal([Constraint::Fill(5), Constraint::Fill(3)])
+            .spacing(1)
+            .areas(above),
+        false => Layout::vertical([Constraint::Fill(3), Constraint::Fill(2)]).areas(above),
+    };
+    [contact, chart, words]
+}
+
+/// Whether a run that has been at this pace since the cycle `began` shall go faster.
+pub fn is_due(frame: &Frame, began: f64) -> bool {
+    let Pace::Cycles(pace) = frame.pace else {
+        return false;
+    };
+    let lasts = frame
+        .planned_cycles
+        .map_or(f64::INFINITY, |planned| planned / pace);
+    lasts > LEAST && frame.observation.moment.cycle - began >= SECONDS * pace
+}
+
+/// Draws what the contact does and the cycle in large letters.
+pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
+    if area.height < WORDS {
+        return;
+    }
+    let below = Rect {
+        y: area.y + 1,
+        height: area.height - 1,
+        x: area.x + 1,
+        width: area.width - 1,
+    };
+    let (words, role) = in_brief(&frame.observation.moment);
+    let used = large(words, app.theme.style(role), below, buffer);
+    let cycle = format!("CYCLE {:.0}", frame.observation.moment.cycle.floor());
+    let width = 4 * cycle.len() as u16;
+    if used + width + 4 < below.width {
+        let right = Rect {
+            x: below.right() - width,
+            width,
+            ..below
+        };
+        large(&cycle, app.theme.style(Role::Quiet), right, buffer);
+    }
+}
+
+/// Letters of three by five dots, a row an octal digit, its dots from left to right.
+const LETTERS: [(&str, [u16; 13]); 3] = [
+    (
+        "ABCDEFGHIJKLM",
+        [
+            0o25755, 0o65656, 0o34443, 0o65556, 0o74647, 0o74644, 0o34553, 0o55755, 0o72227,
+            0o11152, 0o55655, 0o44447, 0o57755,
+        ],
+    ),
+    (
+        "NOPQRSTUVWXYZ",
+        [
+            0o65555, 0o25552, 0o65644, 0o25563, 0o65655, 0o34216, 0o72222, 0o55557, 0o55552,
+            0o55775, 0o55255, 0o55222, 0o71247,
+        ],
+    ),
+    (
+        "0123456789.-,",
+        [
+            0o75557, 0o26227, 0o61247, 0o61216, 0o55711, 0o74616, 0o34652, 0o71222, 0o25252,
+            0o25316, 0o00002, 0o00700, 0o00024,
+        ],
+    ),
+];
+
+/// Whether the letter has a dot in a column and a row from the top.
+fn has_dot(letter: char, column: u16, row: u16) -> bool {
+    let mut rows = LETTERS
+        .iter()
+        .filter_map(|(letters, dots)| Some(dots[letters.find(letter)?]));
+    rows.next()
+        .is_some_and(|dots| row < 5 && dots >> (3 * (4 - row) + 2 - column) & 1 == 1)
+}
+
+/// Writes `words` in letters that are four cells wide and three high; returns the cells that they take.
+fn large(words: &str, style: Style, area: Rect, buffer: &mut Buffer) -> u16 {
+    let mut x = area.x;
+    for letter in words.chars() {
+        if x + 4 > area.right() + 1 {
+            break;
+        }
+        for (column, row) in (0..3).flat_map(|column| (0..3).map(move |row| (column, row))) {
+            let halves = [2 * row, 2 * row + 1].map(|row| has_dot(letter, column, row));
+            let sign = match halves {
+                [false, false] => continue,
+                [true, true] => '█',
+                [true, false] => '▀',
+                [false, true] => '▄',
+            };
+            if let Some(cell) = buffer.cell_mut((x + column, area.y + row)) {
+                cell.set_char(sign).set_style(style);
+            }
+        }
+        x += 4;
+    }
+    x - area.x
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn letters_are_drawn_in_dots() {
+        let drawn = |letter| -> Vec<String> {
+            let dots = |row| {
+                (0..3).map(move |column| {
+                    if has_dot(letter, column, row) {
+                        '#'
+                    } else {
+                        '.'
+                    }
+                })
+            };
+            (0..5).map(|row| dots(row).collect()).collect()
+        };
+        assert_eq!(drawn('A'), [".#.", "#.#", "###", "#.#", "#.#"]);
+        assert_eq!(drawn('7'), ["###", "..#", ".#.", ".#.", ".#."]);
+        assert_eq!(drawn(' '), ["..."; 5]);
+    }
+}

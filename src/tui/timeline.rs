@@ -1,0 +1,98 @@
+//! The timeline under the title: cycles done and planned, changes and snapshots as ticks, and the moment on the
+//! screen. `[` and `]` move along it, and so does a click.
+//!
+//! ```text
+//!  0 ━━━━━━━━━▼━━━━━━━●━━━◆━━━━━━────────────────── 200   at cycle 40: friction.coefficient = 0.2
+//! ```
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Position, Rect};
+use ratatui::text::{Line, Span};
+use ratatui::widgets::Widget;
+
+use super::app::App;
+use super::frame::Frame;
+use super::theme::Role;
+use crate::charts::round_end;
+
+/// The part of the row that words may take: half of it.
+const WORDS: u16 = 2;
+
+/// The cycle of the present, and the one at which the line ends.
+fn ends(frame: &Frame) -> [f64; 2] {
+    let now = frame.present.unwrap_or(frame.observation.moment.cycle);
+    let end = match frame.planned_cycles {
+        Some(planned) if now <= planned => planned,
+        _ => round_end(now),
+    };
+    [now, end]
+}
+
+/// Cycles with two decimals at most.
+fn short(cycle: f64) -> f64 {
+    (100.0 * cycle).round() / 100.0
+}
+
+/// The last change up to the moment on the screen.
+fn edit(frame: &Frame) -> Option<String> {
+    let shown = frame.observation.moment.cycle + 1e-9;
+    let made = frame.changes.iter().rev();
+    let (cycle, set) = made.into_iter().find(|(cycle, _)| *cycle <= shown)?;
+    Some(format!("at cycle {}: {set}", short(*cycle)))
+}
+
+/// The words behind the line, and the line's own cells.
+fn parts(frame: &Frame, area: Rect) -> (String, Rect) {
+    let mut words = format!(" {}", short(ends(frame)[1]));
+    words.extend(edit(frame).map(|edit| format!("   {edit}")));
+    let room = usize::from(area.width / WORDS);
+    let words: String = words.chars().take(room).collect();
+    let taken = Line::raw(words.as_str()).width() as u16 + 1;
+    let line = Rect {
+        x: area.x + 3,
+        width: area.width.saturating_sub(3 + taken),
+        ..area
+    };
+    (words, line)
+}
+
+/// The cycle under a place of the screen, where the timeline in `area` is there.
+pub fn cycle_at(frame: &Frame, area: Rect, at: Position) -> Option<f64> {
+    let (_, line) = parts(frame, area);
+    let share = (f64::from(at.x) + 0.5 - f64::from(line.x)) / f64::from(line.width);
+    line.contains(at).then(|| share * ends(frame)[1])
+}
+
+/// Draws the timeline.
+pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
+    let (theme, ascii) = (&app.theme, app.theme.ascii());
+    let ([now, end], (words, line)) = (ends(frame), parts(frame, area));
+    let place = |cycle: f64| {
+        let share = (cycle / end).clamp(0.0, 1.0) * f64::from(line.width);
+        (share as u16).min(line.width.saturating_sub(1))
+    };
+    let sign = |signs: [&'static str; 2]| signs[usize::from(ascii)];
+    let mut signs: Vec<Span<'_>> = (0..line.width)
+        .map(|column| match column <= place(now) && now > 0.0 {
+            true => Span::styled(sign(["━", "="]), theme.style(Role::Quiet)),
+            false => Span::styled(sign(["─", "-"]), theme.style(Role::Faint)),
+        })
+        .collect();
+    let changes = frame
+        .changes
+        .iter()
+        .map(|(cycle, _)| (*cycle, ["▼", "v"], Role::Notice));
+    let snapshots = frame
+        .snapshots
+        .iter()
+        .map(|cycle| (*cycle, ["◆", "s"], Role::Contact));
+    let shown = (frame.observation.moment.cycle, ["●", "O"], Role::Title);
+    for (cycle, signs_of, role) in changes.chain(snapshots).chain([shown]) {
+        if let Some(span) = signs.get_mut(usize::from(place(cycle))) {
+            *span = Span::styled(sign(signs_of), theme.style(role));
+        }
+    }
+    signs.insert(0, Span::raw(" 0 "));
+    signs.push(Span::raw(theme.printable(&words)));
+    Line::from(signs).render(area, buffer);
+}

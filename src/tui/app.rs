@@ -35,8 +35,9 @@ use crate::simulation::Curves;
 const CURSOR_PLACES: i16 = 100;
 const CURSOR_START: i16 = 33;
 
-/// Columns from which on the contact is what a new user sees first.
+/// Columns from which on the contact is what a new user sees first, and rows from which on a tour shows it large.
 const CONTACT_FROM: u16 = 100;
+const CONTACT_ROWS: u16 = 22;
 
 /// Calm panels take every third frame of a run: a third of the bytes, and of the stresses to compute.
 const CALM: u32 = 3;
@@ -572,7 +573,7 @@ impl App {
             self.leave_contact();
         }
         match panel {
-            Panel::Section if self.has_room_for_contact() => self.show_contact(),
+            Panel::Section if self.area.height >= CONTACT_ROWS => self.show_contact(),
             panel => self.focus = panel,
         }
     }

@@ -8,7 +8,7 @@ use ratatui::style::Style;
 use super::app::App;
 use super::frame::Frame;
 use super::pace::Pace;
-use super::panels::{Panel, in_brief};
+use super::panels::{Panel, contact_state};
 use super::theme::Role;
 
 /// The chart at first.
@@ -61,7 +61,7 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
         x: area.x + 1,
         width: area.width - 1,
     };
-    let (words, role) = in_brief(&frame.observation.moment);
+    let (_, words, role) = contact_state(&frame.observation.moment);
     let used = large(words, app.theme.style(role), below, buffer);
     let cycle = format!("CYCLE {:.0}", frame.observation.moment.cycle.floor());
     let width = 4 * cycle.len() as u16;

@@ -155,6 +155,9 @@ pub struct Explore {
 
 /// Options of `run`.
 #[derive(Debug, Args)]
+#[command(
+    override_usage = "mdr-tui run [OPTIONS] <SCENARIO>\n       mdr-tui run [OPTIONS] --resume <FILE>"
+)]
 #[command(after_help = "Examples:\n  \
     mdr-tui run li2019-fig3 --cycles 199.24 --snapshot-at 50.72,100 --out fig3\n  \
     mdr-tui run mine.toml --set numerics.method=b --out with-b\n  \

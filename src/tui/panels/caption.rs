@@ -36,54 +36,58 @@ pub fn beside(area: Rect) -> [Rect; 2] {
     Layout::vertical([Constraint::Min(0), Constraint::Length(rows)]).areas(area)
 }
 
-/// The speed of the indenter to the right, relative to the fastest of the last cycle.
-pub fn speed(frame: &Frame) -> f64 {
+/// The speed of the indenter to the right, relative to the fastest of the last cycle; `None` where no motion is
+/// seen, as after a jump over cycles.
+fn speed(frame: &Frame) -> Option<f64> {
     let (shifts, _) = frame.trend.fretting_loop();
     let mut steps = shifts.windows(2).map(|pair| pair[1] - pair[0]);
-    let fastest = steps
-        .clone()
-        .fold(0.0, |most: f64, step| most.max(step.abs()));
-    match steps.next_back() {
-        Some(step) if fastest > 0.0 => step / fastest,
-        _ => 0.0,
+    let sizes = steps.clone().map(f64::abs);
+    let fastest = sizes.fold(0.0, f64::max);
+    // Rounding is no motion.
+    let is_seen = fastest > 1e-12 * frame.observation.moment.contact_radius;
+    steps
+        .next_back()
+        .filter(|_| is_seen)
+        .map(|step| step / fastest)
+}
+
+/// What the contact does at the moment, for someone who has never heard of fretting; the same in capitals, for
+/// large letters, and the colour that it has.
+pub fn contact_state(moment: &Moment) -> (&'static str, &'static str, Role) {
+    let share = moment
+        .stick_radius
+        .map(|stick| stick / moment.contact_radius);
+    match share {
+        _ if moment.contact_radius <= 0.0 => {
+            ("Nothing touches: lifted off", "LIFTED OFF", Role::Quiet)
+        }
+        None => ("Nothing slides: pressed together", "PRESSED", Role::Stick),
+        Some(share) if share >= 1.0 - NOTHING => ("All of it sticks", "ALL STICKS", Role::Stick),
+        Some(share) if share <= NOTHING => ("All of it slips", "ALL SLIPS", Role::Slip),
+        Some(_) => (
+            "The outer ring slips, the middle sticks",
+            "RING SLIPS",
+            Role::Slip,
+        ),
     }
 }
 
-/// What the contact does at the moment, for someone who has never heard of fretting.
-pub fn phase(moment: &Moment, speed: f64) -> String {
-    let (a, way) = (
-        moment.contact_radius,
-        if speed > 0.0 { "right" } else { "left" },
-    );
-    let Some(stick) = moment.stick_radius.filter(|_| a > 0.0) else {
-        let said = if a > 0.0 {
-            "Nothing slides: pressed together"
-        } else {
-            "Nothing touches: lifted off"
-        };
-        return said.into();
+/// The same with the motion.
+fn phase(moment: &Moment, speed: Option<f64>) -> String {
+    let (what, _, role) = contact_state(moment);
+    let is_in_contact = moment.contact_radius > 0.0 && moment.stick_radius.is_some();
+    let Some(speed) = speed.filter(|_| is_in_contact) else {
+        return what.into();
     };
-    let turns = speed.abs() < TURNS;
-    let what = match stick {
-        stick if stick >= a * (1.0 - 1e-9) => "All of it sticks",
-        stick if stick <= NOTHING * a => "All of it slips",
-        _ => "The outer ring slips, the middle sticks",
+    let verb = if role == Role::Slip {
+        "sliding"
+    } else {
+        "pushed"
     };
-    match (turns, stick < a) {
-        (true, _) => format!("{what}: turning round"),
-        (false, true) => format!("{what}: sliding {way}"),
-        (false, false) => format!("{what}: pushed {way}"),
-    }
-}
-
-/// The same in capitals, for large letters, and the colour that it has.
-pub fn in_brief(moment: &Moment) -> (&'static str, Role) {
-    let a = moment.contact_radius;
-    match moment.stick_radius {
-        _ if a <= 0.0 => ("LIFTED OFF", Role::Quiet),
-        Some(stick) if stick <= NOTHING * a => ("ALL SLIPS", Role::Slip),
-        Some(stick) if stick < a => ("RING SLIPS", Role::Slip),
-        _ => ("ALL STICKS", Role::Stick),
+    match speed {
+        speed if speed.abs() < TURNS => format!("{what}: turning round"),
+        speed if speed > 0.0 => format!("{what}: {verb} right"),
+        _ => format!("{what}: {verb} left"),
     }
 }
 
@@ -215,8 +219,8 @@ pub fn draw(
     };
     match speed {
         _ if area.width < LONGEST + 10 => {}
-        speed if speed >= TURNS => on(buffer, start + LONGEST + 2, area.y, right, theme),
-        speed if speed <= -TURNS => on(buffer, start - 5, area.y, left, theme),
+        Some(speed) if speed >= TURNS => on(buffer, start + LONGEST + 2, area.y, right, theme),
+        Some(speed) if speed <= -TURNS => on(buffer, start - 5, area.y, left, theme),
         _ => {}
     }
     on(buffer, start, area.y + 1, &forces, theme);

@@ -19,7 +19,7 @@ mod scar;
 mod section;
 mod stress_map;
 
-pub use caption::in_brief;
+pub use caption::contact_state;
 pub use stress_map::{SHADES, Shown, color as map_color};
 
 /// A panel that no chart can be.

@@ -64,6 +64,9 @@ const LOWER: [char; PARTS + 1] = [' ', '▁', '▂', '▃', '▄', '▅', '▆',
 const SWING: f64 = 0.025;
 const WEAR: f64 = 0.4;
 
+/// The least magnification of the wear: in true size what is lost has no room, where the bodies touch.
+const LEAST_WEAR: f64 = 2.0;
+
 /// And no more columns than this: each is redrawn in the flanks.
 const FARTHEST: f64 = 4.0;
 
@@ -229,10 +232,13 @@ impl Scale {
             half,
             lift: seen.moment.depth - whole(seen.moment.depth, row),
             high,
-            wear: magnification(
-                largest(&seen.wear).max(frame.expected_wear),
-                WEAR * (high - low),
-            ),
+            wear: match seen.law {
+                Some(_) => {
+                    let deepest = largest(&seen.wear).max(frame.expected_wear);
+                    magnification(deepest, WEAR * (high - low)).max(LEAST_WEAR)
+                }
+                None => 1.0,
+            },
             motion,
             shift: whole(motion * seen.moment.shift, width),
         })

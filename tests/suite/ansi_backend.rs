@@ -178,7 +178,7 @@ fn a_frame_in_motion_takes_few_bytes() {
 fn the_contact_in_motion_takes_few_bytes() {
     let sizes: [(Tell, usize); 3] = [
         (|| Ok(Size::new(80, 24)), 560),
-        (|| Ok(Size::new(120, 40)), 1450),
+        (|| Ok(Size::new(120, 40)), 1500),
         (|| Ok(Size::new(200, 50)), 2200),
     ];
     for (size, budget) in sizes {

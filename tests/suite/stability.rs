@@ -285,3 +285,14 @@ fn a_map_has_its_sawtooth_where_predicted_and_with_the_guard_none() {
         assert_eq!(guarded.seen, None);
     }
 }
+
+#[test]
+fn a_scenario_without_numerics_has_limits_on_the_default_level() {
+    let text = preset::find("li2019-fig3").expect("a preset").text;
+    let (parts, _) = text.split_once("[numerics]").expect("numerics");
+    let scenario = Scenario::from_toml(&format!("{parts}[run]\n"), "plain", &[]);
+    let scenario = scenario.expect("a scenario");
+    assert!(scenario.accuracy().is_some());
+    let study = Study::new(scenario, 1.0).expect("a contact");
+    assert!(study.is_some(), "something wears");
+}

@@ -9,6 +9,7 @@ use std::ops::ControlFlow;
 use crate::math::abel::AbelMethod;
 use crate::scenario::session::{Session, SessionError};
 use crate::scenario::{Change, Scenario};
+use crate::studies::refinement::Level;
 use predict::predict;
 
 mod growth;
@@ -86,6 +87,11 @@ impl Study {
     /// Of a scenario that wears, over `cycles`. None if nothing wears, or nothing touches at the
     /// beginning: K = k E* d/a, with the depth and the contact radius there.
     pub fn new(scenario: Scenario, cycles: f64) -> Result<Option<Self>, SessionError> {
+        // The limits are those of one number of cells and steps, not of an accuracy.
+        let scenario = match scenario.accuracy() {
+            Some(_) => Level::of(&scenario).of_scenario(&scenario)?,
+            None => scenario,
+        };
         let session = Session::start(scenario.clone())?;
         let moment = session.simulation().moment();
         let modulus = scenario.setup().material.normal_modulus();

@@ -97,10 +97,10 @@ keys! {
         .effect("lowering it: the warning that the material yields comes earlier");
     FATIGUE_LIMIT: f64 = quantity("material.fatigue_limit", "Pa", Positive,
             "fully reversed fatigue limit of the half-space in tension or bending")
-        .effect("lowering it: cracks are to be expected earlier");
+        .effect("lowering it: cracks are expected sooner");
     SHEAR_FATIGUE_LIMIT: f64 = quantity("material.shear_fatigue_limit", "Pa", Positive,
             "fully reversed fatigue limit of the half-space in torsion")
-        .effect("lowering it: cracks are to be expected earlier");
+        .effect("lowering it: cracks are expected sooner");
     INDENTER_MODULUS: f64 = quantity("material.indenter.youngs_modulus", "Pa", Positive,
             "Young's modulus of the indenter")
         .effect("raising it: a stiffer pair");

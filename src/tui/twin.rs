@@ -25,7 +25,8 @@ pub(super) struct Twin {
 }
 
 impl Twin {
-    /// A twin of `session`, which it has to catch up with; `None` if nothing wears, or if the run is too coarse to be halved.
+    /// A twin of `session`, which it has to catch up with; `None` if nothing wears, or if the run is too coarse to be
+    /// halved.
     pub fn of(session: &Session) -> Option<Self> {
         session.simulation().setup().wear?;
         let mut twin = Self {
@@ -43,11 +44,12 @@ impl Twin {
         self.error.filter(|error| error.is_finite())
     }
 
-    /// Looks at the run if a comparison is due, or in any case if it `must`.
+    /// Looks at the run if a comparison is due, or in any case if it `must`; a jump may have led the twin past it.
     pub fn look_at(&mut self, session: &Session, must: bool) {
         let cycle = session.simulation().cycle();
         let is_due = self.run.is_none() && cycle >= self.due;
-        if cycle > 0.0 && (is_due || must) {
+        let is_ahead = self.beside.session().simulation().cycle() > cycle;
+        if cycle > 0.0 && (is_due || must) && !is_ahead {
             self.due = cycle;
             self.run = Some(Outcome::of(session));
         }

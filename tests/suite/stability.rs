@@ -1,6 +1,6 @@
 //! Harsh wear: the guard takes every K to its limit, the raw methods fail where it was predicted.
 
-use crate::common::{Scene, archard, holds, ours, run_setup, swing};
+use crate::common::{Scene, archard, holds, ours, run_setup, swing, without_numerics};
 use mdr_tui::math::abel::AbelMethod::{A, APlusB, B, Benad, Product};
 use mdr_tui::math::abel::worn;
 use mdr_tui::oracle::limiting_profile::LimitingProfile;
@@ -288,10 +288,7 @@ fn a_map_has_its_sawtooth_where_predicted_and_with_the_guard_none() {
 
 #[test]
 fn a_scenario_without_numerics_has_limits_on_the_default_level() {
-    let text = preset::find("li2019-fig3").expect("a preset").text;
-    let (parts, _) = text.split_once("[numerics]").expect("numerics");
-    let scenario = Scenario::from_toml(&format!("{parts}[run]\n"), "plain", &[]);
-    let scenario = scenario.expect("a scenario");
+    let scenario = without_numerics(1.0);
     assert!(scenario.accuracy().is_some());
     let study = Study::new(scenario, 1.0).expect("a contact");
     assert!(study.is_some(), "something wears");

@@ -13,7 +13,7 @@ const WITHOUT_END: f64 = 100.0;
 /// The longest that a screen waits for an accuracy: the usual one, and one that is asked for, s.
 const SCREEN_WAITS: [f64; 2] = [0.5, 10.0];
 
-/// No level is begun or gone on with after this part of the wait if there is another one to show.
+/// After this part of the wait the search ends if it has found a level.
 const SEARCH: f64 = 0.8;
 
 /// A screen shows every cycle of a run of fewer cycles than this, unless the scenario wants jumps.
@@ -67,7 +67,7 @@ pub fn resolve(
     })
 }
 
-/// [`resolve`] for a screen, which shows the scenario as it stands if no level ends in time.
+/// [`resolve`] for a screen: if no level ends in time, the scenario is shown on the default one.
 ///
 /// # Errors
 /// If no level can be run.
@@ -141,7 +141,7 @@ pub fn statements_of(error: &Difference) -> Vec<(String, String)> {
         .to_vec()
 }
 
-/// What the estimated error is of that a header states as `key`; `None` if that is something else.
+/// Names the quantity whose estimated error a header states as `key`; `None` for other keys.
 pub fn words_of(key: &str) -> Option<&'static str> {
     let found = STATED.iter().find(|(stated, ..)| *stated == key);
     found.map(|(_, words, _)| *words)

@@ -87,7 +87,7 @@ impl Sample {
         }
     }
 
-    /// Without the failing checks that fail in the `reference` too: those are no matter of the setting.
+    /// Drops the failing checks that fail in the `reference` too: the setting is not their cause.
     pub fn judged_by(mut self, reference: &Self) -> Self {
         let others = &reference.failing;
         let is_common = |check: &Check| others.iter().any(|other| other.subject == check.subject);

@@ -130,7 +130,7 @@ impl Shown {
         }
     }
 
-    /// The values of the map at (r, z) and at (−r, z), Pa; `None` without contact, or if nothing is to be shown.
+    /// Returns the values of the map at (r, z) and at (−r, z), Pa; `None` without contact or without a map.
     fn values(self, frame: &Frame) -> Option<Values> {
         let loads = self.loads(frame);
         match self.quantity {

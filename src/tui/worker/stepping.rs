@@ -143,9 +143,7 @@ impl Worker {
                     self.cycle_loads.note(self.session.simulation());
                 }
                 let simulation = self.session.simulation();
-                let end = self.session.loaded().run().cycles;
-                let is_end =
-                    end.is_some_and(|end| simulation.cycle() >= end - simulation.rounding());
+                let is_end = self.has_reached_end(now);
                 let ends = ends_cycle(now, simulation.cycle());
                 if let Some(twin) = self.twin.as_mut().filter(|_| ends || is_end) {
                     // Steps by hand are few, and each is looked at.
@@ -181,15 +179,18 @@ impl Worker {
 
     /// Pauses when a running simulation passes the end of the scenario's plan.
     fn end_where_planned(&mut self, before: f64) {
-        let Some(end) = self.session.loaded().run().cycles else {
-            return;
-        };
-        let simulation = self.session.simulation();
-        let end = end - simulation.rounding();
-        if self.activity == Activity::Running && before < end && simulation.cycle() >= end {
+        if self.activity == Activity::Running && self.has_reached_end(before) {
             self.activity = Activity::Done;
             self.told_of_end = false;
         }
+    }
+
+    /// Whether the planned end lies between the cycle `before` and now.
+    fn has_reached_end(&self, before: f64) -> bool {
+        let simulation = self.session.simulation();
+        let end = self.session.loaded().run().cycles;
+        let end = end.map(|end| end - simulation.rounding());
+        end.is_some_and(|end| before < end && simulation.cycle() >= end)
     }
 
     /// Pauses and steps until `done`, which is given the cycles before and now, is true.

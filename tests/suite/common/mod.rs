@@ -6,6 +6,7 @@ use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::contact::material::Material;
 use mdr_tui::math::abel::AbelMethod;
 use mdr_tui::math::grid::RadialGrid;
+use mdr_tui::scenario::{Scenario, preset};
 use mdr_tui::simulation::drive::{Control, Drive, Oscillation};
 use mdr_tui::simulation::{Integrator, Scheme, Setup, Simulation, Spacing, Stability};
 use mdr_tui::wear::WearLaw;
@@ -105,4 +106,12 @@ pub fn run_setup(setup: Setup, cycles: f64) -> Simulation {
 pub fn holds(what: &str, error: f64, bound: f64) {
     eprintln!("{what}: {error:.3e} of {bound:.3e}");
     assert!(error <= bound, "{what}: {error:e} exceeds {bound:e}");
+}
+
+/// Fig. 3 over some cycles, without a word on how finely it is computed.
+pub fn without_numerics(cycles: f64) -> Scenario {
+    let text = preset::find("li2019-fig3").expect("a preset").text;
+    let (parts, _) = text.split_once("[numerics]").expect("numerics");
+    let text = format!("{parts}[run]\ncycles = {cycles:e}\n");
+    Scenario::from_toml(&text, "without numerics", &[]).expect("a scenario")
 }

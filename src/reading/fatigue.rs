@@ -14,9 +14,11 @@
 //!   uniaxial stress: the limit to compare it with is the fully reversed fatigue limit σ₋₁. K. N. Smith,
 //!   P. Watson, T. H. Topper (1970), J. Mater. 5, 767–778; on planes D. F. Socie (1987), J. Eng. Mater.
 //!   Technol. 109, 293–298; in fretting M. P. Szolwinski, T. N. Farris (1996), Wear 198, 93–107.
-//! - **Crossland**: √J₂,a + α σ_H,max, Pa, with √J₂,a = ½ max √(½ ΔS:ΔS) over all pairs of moments, S the
-//!   deviatoric stress, σ_H = tr σ/3 and α = 3τ₋₁/σ₋₁ − √3; the limit is τ₋₁, the fully reversed fatigue
-//!   limit in torsion. B. Crossland (1956), Proc. Int. Conf. Fatigue of Metals, IMechE, 138–149; in
+//! - **Crossland**: √J₂,a + α σ_H,max, Pa, with √J₂,a the radius of the smallest ball that holds the path of
+//!   the deviatoric stress S, measured by |S|² = ½ S:S, σ_H = tr σ/3 and α = 3τ₋₁/σ₋₁ − √3; the limit is
+//!   τ₋₁, the fully reversed fatigue limit in torsion. Half the longest chord of the path is up to 18 % less
+//!   (15 % in a plane). B. Crossland (1956), Proc. Int. Conf. Fatigue of Metals, IMechE, 138–149; the ball
+//!   K. Dang Van, B. Griveau, O. Message (1989), in Biaxial and Multiaxial Fatigue, EGF 3, 479–496; in
 //!   fretting S. Fouvry, P. Kapsa, L. Vincent (1996), Wear 200, 186–205.
 //!
 //! The y axis is a principal direction in the plane of motion y = 0, so a plane is given by the angle of
@@ -24,6 +26,8 @@
 
 use std::f64::consts::PI;
 use std::sync::Arc;
+
+use nalgebra::Vector3;
 
 use crate::contact::subsurface::{Peak, SpringLoad, Stress, peak};
 use crate::simulation::{Curves, Simulation};
@@ -128,18 +132,89 @@ fn swt(stresses: &[Stress], poisson: f64) -> f64 {
     best.0.sqrt()
 }
 
-/// √J₂,a, Pa: half the longest chord of the path of the deviatoric stress.
+/// √J₂,a, Pa: the radius of the smallest ball that holds the path of the deviatoric stress.
 fn shear_amplitude(stresses: &[Stress]) -> f64 {
-    let mut longest: f64 = 0.0;
-    for (k, one) in stresses.iter().enumerate() {
-        for other in &stresses[..k] {
-            let [xx, yy, zz] = [one.xx - other.xx, one.yy - other.yy, one.zz - other.zz];
-            let [a, b, c] = [xx - yy, yy - zz, zz - xx];
-            let shear = one.xz - other.xz;
-            longest = longest.max((a * a + b * b + c * c) / 6.0 + shear * shear);
+    // With σ_xy = σ_yz = 0 the deviators are a space of three dimensions. In these coordinates |S|² = ½ S:S.
+    let deviator = |s: &Stress| {
+        let across = (2.0 * s.yy - s.xx - s.zz) / 12.0_f64.sqrt();
+        Vector3::new(0.5 * (s.xx - s.zz), across, s.xz)
+    };
+    let path: Vec<Vector3<f64>> = stresses.iter().map(deviator).collect();
+    smallest_ball(&path).squared_radius.sqrt()
+}
+
+/// A ball in the space of the deviators.
+#[derive(Debug, Clone, Copy, Default)]
+struct Ball {
+    centre: Vector3<f64>,
+    squared_radius: f64,
+}
+
+impl Ball {
+    /// The smallest ball through all of `points`; `None` where they do not span the ball.
+    fn through(points: &[Vector3<f64>]) -> Option<Self> {
+        let (first, others) = points.split_first()?;
+        let mut ball = Self {
+            centre: *first,
+            squared_radius: 0.0,
+        };
+        let mut axes: Vec<Vector3<f64>> = Vec::new();
+        for point in others {
+            // Away from the points before, the centre keeps equal distances to them.
+            let way = point - first;
+            let way = axes
+                .iter()
+                .fold(way, |way, axis| way - *axis * axis.dot(&way));
+            let length = way.norm();
+            if length <= 1e-9 * (point - first).norm() {
+                return None;
+            }
+            let axis = way / length;
+            let gap = (point - ball.centre).norm_squared() - ball.squared_radius;
+            let move_by = 0.5 * gap / length;
+            ball.centre += axis * move_by;
+            ball.squared_radius += move_by * move_by;
+            axes.push(axis);
+        }
+        Some(ball)
+    }
+
+    fn holds(&self, point: &Vector3<f64>) -> bool {
+        (point - self.centre).norm_squared() <= (1.0 + 1e-10) * self.squared_radius
+    }
+}
+
+/// The smallest ball that holds `points`, exact to rounding: the ball of up to four of them grows by the farthest one
+/// outside, which then lies on its surface, until none is outside. E. Welzl (1991), Smallest enclosing disks (balls
+/// and ellipsoids), LNCS 555, 359–370.
+fn smallest_ball(points: &[Vector3<f64>]) -> Ball {
+    let mut support: Vec<Vector3<f64>> = points.iter().take(1).copied().collect();
+    let mut ball = Ball::through(&support).unwrap_or_default();
+    loop {
+        let away = |point: &Vector3<f64>| (point - ball.centre).norm_squared();
+        let farthest = points.iter().max_by(|a, b| away(a).total_cmp(&away(b)));
+        let Some(farthest) = farthest.filter(|point| !ball.holds(point)) else {
+            return ball;
+        };
+        let larger = (0..1 << support.len()).filter_map(|chosen: u32| {
+            let kept = (0..support.len()).filter(|k| chosen >> k & 1 == 1);
+            let kept = kept.map(|k| support[k]);
+            let through: Vec<Vector3<f64>> = [*farthest].into_iter().chain(kept).collect();
+            let ball = Ball::through(&through)?;
+            support
+                .iter()
+                .all(|point| ball.holds(point))
+                .then_some((ball, through))
+        });
+        let radius = |(ball, _): &(Ball, Vec<_>)| ball.squared_radius;
+        match larger.min_by(|a, b| radius(a).total_cmp(&radius(b))) {
+            Some((larger, through)) if larger.squared_radius > ball.squared_radius => {
+                (ball, support) = (larger, through);
+            }
+            // What is left outside is rounding.
+            _ => return ball,
         }
     }
-    0.5 * longest.sqrt()
 }
 
 /// The loads on the half-space at the moments of one steady cycle.

@@ -79,7 +79,68 @@ fn pure_shear_strains_its_diagonal() {
     assert_eq!(seen.hydrostatic, 0.0);
 }
 
-/// √(E σ_n,max ε_n,a) by trying all planes, half a degree apart, and √J₂,a by trying all pairs.
+/// A stress whose deviator has these coordinates, measured by √(½ S:S).
+fn with_deviator([a, b, c]: [f64; 3], pressure: f64) -> Stress {
+    let part = b / 3.0_f64.sqrt();
+    Stress {
+        xx: a - part - pressure,
+        yy: 2.0 * part - pressure,
+        zz: -a - part - pressure,
+        xz: c,
+    }
+}
+
+#[test]
+fn the_amplitude_of_shear_is_the_radius_of_the_path() {
+    let amplitude = |path: &[[f64; 3]]| {
+        // Neither a constant stress nor a hydrostatic one matters.
+        let stresses = path.iter().enumerate().map(|(k, [a, b, c])| {
+            let shifted = [1e8 * a + 3e8, 1e8 * b - 1e8, 1e8 * c + 2e8];
+            with_deviator(shifted, 1e7 * k as f64)
+        });
+        let stresses: Vec<Stress> = stresses.collect();
+        Fatigue::of(&stresses, POISSON).shear_amplitude / 1e8
+    };
+    let circle = |k: usize| {
+        let (sin, cos) = (2.0 * PI * k as f64 / 360.0).sin_cos();
+        [0.6 * cos, sin, 0.8 * cos]
+    };
+    let circle: Vec<[f64; 3]> = (0..360).map(circle).collect();
+    let [high, edge] = [0.75_f64.sqrt(), 1.0 / 8.0_f64.sqrt()];
+    for (path, radius) in [
+        (&circle[..], 1.0),
+        // Straight to and fro.
+        (&[[0.0; 3], [0.6, 0.0, 0.8], [0.3, 0.0, 0.4]], 0.5),
+        // Equal sides: half the longest chord would be 0.5.
+        (
+            &[[0.0; 3], [0.0, 1.0, 0.0], [high, 0.5, 0.0]],
+            3.0_f64.sqrt().recip(),
+        ),
+        // Blunt: the third corner lies inside the ball of the long side.
+        (&[[0.0; 3], [0.0, 0.0, 1.0], [0.1, 0.0, 0.5]], 0.5),
+        // Sharp, with sides 5, 5 and 6: R = abc/(4 area).
+        (
+            &[[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 4.0, 0.0]],
+            150.0 / 48.0,
+        ),
+        // All corners of a tetrahedron, and a point inside.
+        (
+            &[
+                [edge, edge, edge],
+                [edge, -edge, -edge],
+                [-edge, edge, -edge],
+                [-edge, -edge, edge],
+                [0.1, 0.1, 0.0],
+            ],
+            0.375_f64.sqrt(),
+        ),
+        (&[[0.0; 3]], 0.0),
+    ] {
+        holds("radius", (amplitude(path) - radius).abs(), 1e-9);
+    }
+}
+
+/// √(E σ_n,max ε_n,a) by trying all planes, half a degree apart, and √J₂,a by an iteration.
 fn by_trial(stresses: &[[f64; 4]], poisson: f64) -> [f64; 3] {
     let mut most: f64 = 0.0;
     for i in 0..360 {
@@ -101,19 +162,27 @@ fn by_trial(stresses: &[[f64; 4]], poisson: f64) -> [f64; 3] {
         let mean = (xx + yy + zz) / 3.0;
         [xx - mean, yy - mean, zz - mean, xz, xz]
     };
-    let mut chord: f64 = 0.0;
-    for one in stresses {
-        for other in stresses {
-            let pairs = deviator(*one).into_iter().zip(deviator(*other));
+    // M. Bădoiu, K. L. Clarkson (2003): ever shorter ways towards the farthest point.
+    let (mut centre, mut radius) = ([0.0; 5], f64::INFINITY);
+    for k in 1..20_000 {
+        let away = |point: [f64; 5]| {
+            let pairs = point.into_iter().zip(centre);
             let sum: f64 = pairs.map(|(a, b)| (a - b) * (a - b)).sum();
-            chord = chord.max((0.5 * sum).sqrt());
+            ((0.5 * sum).sqrt(), point)
+        };
+        let points = stresses.iter().map(|stress| away(deviator(*stress)));
+        let farthest = points.max_by(|a, b| a.0.total_cmp(&b.0));
+        let (distance, farthest) = farthest.expect("a path");
+        radius = radius.min(distance);
+        for (at, goal) in centre.iter_mut().zip(farthest) {
+            *at += (goal - *at) / f64::from(k);
         }
     }
     let hydrostatic = stresses
         .iter()
         .map(|[xx, yy, zz, _]| (xx + yy + zz) / 3.0)
         .fold(f64::NEG_INFINITY, f64::max);
-    [most.sqrt(), 0.5 * chord, hydrostatic]
+    [most.sqrt(), radius, hydrostatic]
 }
 
 fn agree(seen: Fatigue, exact: [f64; 3]) {

@@ -158,6 +158,9 @@ impl Job {
             Some(path) => RunDirectory::claim(path, options.force)?,
             None => new_directory(&scenario)?,
         };
+        if scenario.run().cycles == Some(job.cycles) {
+            job.statements = scenario.statements();
+        }
         if scenario.accuracy().is_some() {
             let budget = options.budget.unwrap_or(f64::INFINITY);
             let found = accuracy::resolve(&scenario, Some(job.cycles), budget, options.quiet, stop);

@@ -351,6 +351,9 @@ keys! {
              program)")
         .default(Implied("[]"));
     NOTE: String = text("run.note", "a note written into the files");
+    STATED: String = text("run.stated",
+        "errors that the recorded run stated, for a replay to state again; an edit of the scenario ends that (written by \
+         the program)");
 
     AT_CYCLE: f64 = quantity("changes.at_cycle", "cycles", NotNegative,
         "when a key was changed during the run");

@@ -162,6 +162,33 @@ impl Scenario {
         }
     }
 
+    /// The same scenario with what its files state of its errors, keys and values, which [`statements`](Self::statements)
+    /// returns as long as nothing else changes.
+    #[must_use]
+    pub fn stating(mut self, statements: &[(String, String)]) -> Self {
+        let seal = self.seal();
+        self.run.state(statements, &seal);
+        self
+    }
+
+    /// What the files of the run that this scenario records state of its errors, keys and values; empty for a scenario
+    /// that records no run, or was edited since.
+    pub fn statements(&self) -> Vec<(String, String)> {
+        match self.run.statements() {
+            Some((statements, seal)) if seal == self.seal() => statements,
+            _ => Vec::new(),
+        }
+    }
+
+    /// Tells this scenario, without its statements, from others.
+    fn seal(&self) -> String {
+        let bare = self.with_run(RunPlan {
+            stated: None,
+            ..self.run.clone()
+        });
+        format!("{:08x}", crc32fast::hash(bare.to_toml().as_bytes()))
+    }
+
     /// The same scenario with other `[[changes]]`, which are taken as they are: in order, and each
     /// accepted by [`after`](Self::after).
     #[must_use]
@@ -323,7 +350,12 @@ impl Scenario {
         };
         validate::run(&scenario.run, from)?;
         scenario.check_changes(&changes, from)?;
-        Ok(scenario.with_changes(changes))
+        let mut scenario = scenario.with_changes(changes);
+        if scenario.run.stated.is_some() && scenario.statements().is_empty() {
+            // They are about the scenario before it was edited.
+            scenario.run.stated = None;
+        }
+        Ok(scenario)
     }
 
     /// Walks through the stages of a run, so that a change that cannot be made is found before it.

@@ -29,7 +29,13 @@ pub struct RunPlan {
     pub shortened_at: Vec<f64>,
     /// A remark that is kept with the files.
     pub note: Option<String>,
+    /// What the files of the recorded run state of its errors, sealed by
+    /// [`Scenario::stating`](super::Scenario::stating).
+    pub stated: Option<String>,
 }
+
+/// Between the parts of [`RunPlan::stated`], the last of which is the seal.
+const BETWEEN: &str = " | ";
 
 impl RunPlan {
     /// What a scenario's table says of its run.
@@ -39,6 +45,7 @@ impl RunPlan {
             snapshot_at: keys::SNAPSHOT_AT.get(table).unwrap_or_default(),
             shortened_at: keys::SHORTENED_AT.get(table).unwrap_or_default(),
             note: keys::NOTE.get(table),
+            stated: keys::STATED.get(table),
         }
     }
 
@@ -80,7 +87,29 @@ impl RunPlan {
         if let Some(note) = &self.note {
             table.insert("note".into(), Value::String(note.clone()));
         }
+        if let Some(stated) = &self.stated {
+            table.insert("stated".into(), Value::String(stated.clone()));
+        }
         table
+    }
+
+    /// Sets the statements, keys and values, with the seal of the scenario that they are about.
+    pub(super) fn state(&mut self, statements: &[(String, String)], seal: &str) {
+        let entries = statements.iter().map(|(key, value)| {
+            let value = value.replace(BETWEEN, ", ");
+            format!("{key}: {value}{BETWEEN}")
+        });
+        self.stated = (!statements.is_empty()).then(|| entries.collect::<String>() + seal);
+    }
+
+    /// The statements, keys and values, and the seal of the scenario that they are about.
+    pub(super) fn statements(&self) -> Option<(Vec<(String, String)>, &str)> {
+        let (entries, seal) = self.stated.as_deref()?.rsplit_once(BETWEEN)?;
+        let entries = entries.split(BETWEEN).map(|entry| {
+            let (key, value) = entry.split_once(": ")?;
+            Some((key.to_owned(), value.to_owned()))
+        });
+        Some((entries.collect::<Option<_>>()?, seal))
     }
 }
 

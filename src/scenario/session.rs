@@ -312,10 +312,12 @@ impl Session {
             snapshot_at,
             shortened_at: self.goals_but(self.simulation.cycle()),
             note: loaded.note.clone(),
+            ..RunPlan::default()
         };
         self.loaded
             .with_changes(self.changes.clone())
             .with_run(plan)
+            .stating(&self.statements)
     }
 
     /// Cycles at which steps were cut short, except the end of the run, which does so again anyway.

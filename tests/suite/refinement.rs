@@ -300,6 +300,54 @@ fn a_run_estimates_its_error_without_another_number_changing() {
 }
 
 #[test]
+fn a_replay_states_the_errors_of_the_run_and_an_edit_does_not() {
+    let dir = TestDir::new();
+    let run = "run li2019-fig3 --cycles 1 --snapshot-at 0.5 --set numerics.accuracy=1e-2 --out once --quiet";
+    dir.done(run);
+    dir.done("run once/scenario.toml --out twice --quiet");
+    for name in [
+        "state.csv",
+        "state-0.5.csv",
+        "history.csv",
+        "loop.csv",
+        "scenario.toml",
+    ] {
+        assert_eq!(
+            dir.read(&format!("twice/{name}")),
+            dir.read(&format!("once/{name}")),
+            "{name}"
+        );
+    }
+    let once = dir.read("once/state.csv");
+    assert!(header(&once, "accuracy") == Some(1e-2), "{once}");
+    assert!(
+        header(&once, "estimated_error").is_some_and(|error| error < 1e-2),
+        "{once}"
+    );
+    // Of another run nothing is known.
+    for edit in [
+        "--cycles 2",
+        "--set wear.coefficient=2e-10",
+        "--set numerics.points=60",
+    ] {
+        dir.done(&format!(
+            "run once/scenario.toml {edit} --out other --force --quiet"
+        ));
+        let other = dir.read("other/state.csv");
+        let unmeasured = "# estimated_error: not measured (--estimate-error)";
+        assert!(
+            other.lines().any(|line| line == unmeasured),
+            "{edit}: {other}"
+        );
+        assert!(header(&other, "accuracy").is_none(), "{edit}: {other}");
+        assert!(
+            !dir.read("other/scenario.toml").contains("stated"),
+            "{edit}"
+        );
+    }
+}
+
+#[test]
 fn what_is_not_met_is_told_in_one_line() {
     for (more, code, line) in [
         (

@@ -388,6 +388,7 @@ fn a_run_written_out_keeps_its_plan_and_its_changes() {
         cycles: Some(12.345),
         snapshot_at: vec![0.1 + 0.2, 7.0],
         note: Some("a \"remark\"\nin two lines".into()),
+        stated: None,
     };
     let changes = vec![
         Change::new(1.0, "numerics.method", "\"b\""),

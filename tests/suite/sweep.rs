@@ -5,6 +5,8 @@ use std::thread;
 use std::time::Duration;
 
 use crate::test_dir::{Table, TestDir, end};
+use mdr_tui::studies::sweep::record::Record;
+use mdr_tui::studies::sweep::slice::Slice;
 
 /// 4 × 3 points that take some milliseconds each.
 const STUDY: &str = r#"
@@ -607,6 +609,55 @@ values = [1e-6, 3e-6]
         "{last}"
     );
     assert!(last.contains("domain"), "{last}");
+}
+
+/// The slip ring of a tiny amplitude is narrower than cells can be; without wear there is no accuracy to reach.
+#[test]
+fn a_point_that_misses_its_accuracy_says_so_and_stays_on_the_map() {
+    let study = r#"
+base = "li2019-fig3"
+columns = ["wear_volume_m3", "estimated_error"]
+[set]
+"run.cycles" = 0.3
+"numerics.accuracy" = 1e-3
+"motion.tangential.amplitude" = 1e-9
+"motion.normal.amplitude" = 0.0
+[[axis]]
+key = "wear.coefficient"
+values = [0.0, 1e-10]
+"#;
+    let dir = dir_with(study);
+    let said = dir.say(&["sweep", "study.toml"]);
+    assert_eq!(
+        (said.code, said.out.as_str()),
+        (0, "2 points in study.csv\n")
+    );
+    let line = "1 of 2 points did not reach numerics.accuracy; their status says what they reached";
+    assert_eq!(said.err, format!("mdr-tui: {line}\n"));
+    let map = dir.read("study.csv");
+    let table = Table::parse(&map);
+    let [unworn, worn] = &table.rows[..] else {
+        panic!("{map}")
+    };
+    assert_eq!(unworn[3], "ok");
+    let reached = worn[3].strip_prefix("accuracy ");
+    let reached = reached.and_then(|rest| rest.strip_suffix(" instead of 1e-3"));
+    let reached: f64 = reached.expect(&worn[3]).parse().expect("a number");
+    assert!(reached > 1e-3 && reached >= table.column("estimated_error")[1]);
+    // It has its result: there is nothing to run again, and a figure shows it.
+    let said = dir.say(&["sweep", "study.toml", "--resume", "--failed", "--quiet"]);
+    assert_eq!((said.code, said.err.as_str()), (0, ""));
+    assert_eq!(dir.read("study.csv"), map);
+    dir.done("figure study.csv --column wear_volume_m3 -o map.svg");
+    let record = Record::open(fs::File::open(dir.path("study.csv")).expect("a file"), "");
+    let record = record.expect("a table");
+    let mut slice = Slice::new(record.study().expect("a study"), "").expect("an axis");
+    slice.renew(record, "").expect("its rows");
+    assert!(
+        slice
+            .number(1, "wear_volume_m3")
+            .is_some_and(|volume| volume > 0.0)
+    );
 }
 
 #[test]

@@ -104,7 +104,8 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
         }
         None => text(&mut io::stdout().lock())?,
     }
-    let (all, failed) = rows.count();
+    let counts = rows.counts();
+    let (all, failed) = (counts.rows, counts.failed);
     if failed > 0 {
         complain(&format!(
             "{failed} of {all} points failed; their status says why"
@@ -145,7 +146,7 @@ fn same(a: &Path, b: &Path) -> bool {
 /// Names points without a row, and the shards that should have them.
 fn refuse_missing(shown: &str, study: &Study, rows: &Ledger, count: usize) -> Result<()> {
     let missing = || rows.done().clone().missing(study, Shard::WHOLE);
-    let (all, (there, _)) = (study.points(), rows.count());
+    let (all, there) = (study.points(), rows.counts().rows);
     if there == all {
         return Ok(());
     }

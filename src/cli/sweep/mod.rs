@@ -151,7 +151,7 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
     crate::panics::keep();
     let bar = progress::bar(mine as u64, progress::TIMES, options.quiet);
     bar.set_message(printable(&out.display().to_string()));
-    bar.set_position(output.count().0 as u64);
+    bar.set_position(output.counts().rows as u64);
     bar.reset_eta();
     let mut lines = options.json.then(|| JsonLines::new(study, shard));
     let mut outcome = lines.as_mut().map_or(Ok(()), |lines| lines.print(&output));
@@ -172,7 +172,8 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
     }
     bar.finish_and_clear();
     let kept = output.close();
-    let (there, failed) = output.count();
+    let counts = output.counts();
+    let (there, failed) = (counts.rows, counts.failed);
     let go_on = format!(
         "{there} of {mine} points are in {}; continue with the same command and --resume",
         shell_word(&out)
@@ -189,13 +190,19 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
         complain(&format!("{why}: {go_on}"));
         return Ok(ExitCode::from(UNFINISHED));
     }
+    if counts.inaccurate > 0 && !options.quiet {
+        complain(&format!(
+            "{} of {there} points did not reach numerics.accuracy; their status says what they reached",
+            counts.inaccurate
+        ));
+    }
     if failed > 0 {
         complain(&format!(
             "{failed} of {there} points failed; their status says why, and --resume --failed runs \
              them again"
         ));
         // Invalid points were to be skipped.
-        return Ok(match output.has_failed() || failed == there {
+        return Ok(match failed > counts.invalid || failed == there {
             true => ExitCode::from(FAILED),
             false => ExitCode::SUCCESS,
         });

@@ -13,9 +13,9 @@ use super::super::args::Sweep;
 use crate::export::file::{WriteError, write_with};
 use crate::export::target::Target;
 use crate::export::{header, own};
-use crate::studies::sweep::ledger::{Done, Ledger};
+use crate::studies::sweep::ledger::{Counts, Done, Ledger};
 use crate::studies::sweep::record::{self, Arithmetic, Record};
-use crate::studies::sweep::{OK, Shard, Study};
+use crate::studies::sweep::{Shard, Study, Success};
 
 /// How often rows are flushed to disk. A killed process loses none, since the system has them
 /// already; a crash of the machine loses at most this much.
@@ -106,7 +106,7 @@ impl<'a> Output<'a> {
                         return Err(io::ErrorKind::InvalidData.into());
                     }
                 };
-                if self.without_failed && row.last().is_some_and(|status| status != OK) {
+                if self.without_failed && !Success::of_row(&row).has_result() {
                     continue;
                 }
                 let begins = row.join(",");
@@ -184,14 +184,9 @@ impl<'a> Output<'a> {
         }
     }
 
-    /// The number of rows, and how many of them failed.
-    pub fn count(&self) -> (usize, usize) {
-        self.ledger.as_ref().map_or((0, 0), Ledger::count)
-    }
-
-    /// Whether a point failed that was a valid scenario.
-    pub fn has_failed(&self) -> bool {
-        self.ledger.as_ref().is_some_and(Ledger::has_failed)
+    /// The rows, counted.
+    pub fn counts(&self) -> Counts {
+        self.ledger.as_ref().map(Ledger::counts).unwrap_or_default()
     }
 
     fn failed(&self, cause: io::Error) -> WriteError {

@@ -28,6 +28,8 @@ pub struct Resolved {
     pub statements: Vec<(String, String)>,
     /// One line if the accuracy is not met.
     pub warning: Option<String>,
+    /// The estimated error of a scar that is larger than the accuracy asked for.
+    pub missed_by: Option<f64>,
     /// The run on these points and steps at its end, if there was an accuracy to meet.
     pub ended: Option<Session>,
 }
@@ -48,6 +50,7 @@ pub fn resolve(
             scenario: scenario.clone(),
             statements: Vec::new(),
             warning: None,
+            missed_by: None,
             ended: None,
         });
     };
@@ -58,11 +61,13 @@ pub fn resolve(
         statements.extend(statements_of(&reached.error));
     }
     let warning = unmet(&reached, accuracy, budget);
+    let is_missed = !matches!(reached.verdict, Verdict::Met | Verdict::Unworn);
     statements.extend(warning.clone().map(|word| ("warning".to_owned(), word)));
     Ok(Resolved {
         scenario: reached.session.loaded().clone(),
         statements,
         warning,
+        missed_by: is_missed.then(|| error_of(&reached)),
         ended: Some(reached.session),
     })
 }
@@ -91,6 +96,7 @@ pub fn resolve_soon(scenario: &Scenario) -> Result<Resolved, RefinementError> {
                 scenario: level.of_scenario(scenario)?,
                 statements: Vec::new(),
                 warning: Some(warning),
+                missed_by: None,
                 ended: None,
             })
         }
@@ -172,8 +178,13 @@ fn unmet(reached: &Reached, accuracy: f64, budget: f64) -> Option<String> {
         "numerics.accuracy = {accuracy:e} was not reached \
          {why}; the estimated error is {:.1e} with {} points and \
          {} steps per cycle",
-        reached.error.promised().max(reached.rung.outcome.imbalance),
+        error_of(reached),
         level.points,
         level.steps
     ))
+}
+
+/// The estimated error that is compared with an accuracy.
+fn error_of(reached: &Reached) -> f64 {
+    reached.error.promised().max(reached.rung.outcome.imbalance)
 }

@@ -8,7 +8,7 @@ use std::sync::{Mutex, PoisonError, mpsc};
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
-use super::point::{self, Row};
+use super::point::{self, Row, Success};
 use super::{Shard, Study, StudyError};
 
 /// How many points are checked between two looks at the clock.
@@ -138,7 +138,7 @@ pub fn run(
                 return;
             };
             // Ahead of the check.
-            if is_strict && row.is_invalid() {
+            if is_strict && Success::of(&row.status) == Success::Invalid {
                 *refused.lock().unwrap_or_else(PoisonError::into_inner) = validated(study, point);
                 halt.store(true, Ordering::Relaxed);
                 return;

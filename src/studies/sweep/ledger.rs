@@ -8,7 +8,7 @@ use std::path::Path;
 
 use super::finder::Finder;
 use super::record::{self, Refused};
-use super::{Shard, Study};
+use super::{Shard, Study, Success};
 use crate::scenario::scalars::number;
 
 /// What is read of a row at first.
@@ -45,10 +45,20 @@ pub struct Ledger {
     /// process.
     index: File,
     done: Done,
-    there: usize,
-    failed: usize,
+    counts: Counts,
+}
+
+/// The number of rows, by how their points went.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Counts {
+    /// All of them.
+    pub rows: usize,
+    /// Those with a result that is less accurate than asked for.
+    pub inaccurate: usize,
+    /// Those without a result.
+    pub failed: usize,
     /// Those of the failed that were no valid scenarios.
-    invalid: usize,
+    pub invalid: usize,
 }
 
 impl Ledger {
@@ -66,9 +76,7 @@ impl Ledger {
             rows,
             index: tempfile::tempfile_in(directory)?,
             done: Done(vec![0; study.points().div_ceil(64)]),
-            there: 0,
-            failed: 0,
-            invalid: 0,
+            counts: Counts::default(),
         })
     }
 
@@ -99,9 +107,12 @@ impl Ledger {
         }
         self.length += line.len() as u64;
         self.done.0[point / 64] |= 1 << (point % 64);
-        self.there += 1;
-        self.failed += usize::from(!record::is_ok(fields));
-        self.invalid += usize::from(record::is_invalid(fields));
+        let success = Success::of_row(fields);
+        let counts = &mut self.counts;
+        counts.rows += 1;
+        counts.inaccurate += usize::from(success == Success::Inaccurate);
+        counts.failed += usize::from(!success.has_result());
+        counts.invalid += usize::from(success == Success::Invalid);
         Ok(())
     }
 
@@ -150,14 +161,9 @@ impl Ledger {
         &self.done
     }
 
-    /// The number of rows, and how many of them failed.
-    pub fn count(&self) -> (usize, usize) {
-        (self.there, self.failed)
-    }
-
-    /// Whether a point failed that was a valid scenario.
-    pub fn has_failed(&self) -> bool {
-        self.failed > self.invalid
+    /// The rows, counted.
+    pub fn counts(&self) -> Counts {
+        self.counts
     }
 
     /// Makes sure that a crash of the machine does not lose the rows.
@@ -208,7 +214,7 @@ impl Ledger {
     pub fn each(&self, mut take: impl FnMut(&[u8]) -> io::Result<()>) -> io::Result<()> {
         let mut index = BufReader::new(&self.index);
         index.rewind()?;
-        let mut left = self.there;
+        let mut left = self.counts.rows;
         for point in 0.. {
             if left == 0 {
                 break;

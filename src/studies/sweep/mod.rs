@@ -25,7 +25,7 @@ mod study;
 
 pub use axis::{Axis, Spread};
 pub use design::Design;
-pub use point::{OK, Row};
+pub use point::{Row, Success};
 pub use shard::Shard;
 pub use study::{Stop, Study};
 

@@ -16,19 +16,50 @@ pub const OK: &str = "ok";
 /// How the status of a point begins that makes no valid scenario.
 pub(super) const INVALID: &str = "invalid: ";
 
+/// How the status of a point begins that has its result, but not to the accuracy asked for.
+const INACCURATE: &str = "accuracy ";
+
 /// The result of a point: its fields after the axes' fields, without the status.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Row {
     /// The columns; all empty if the point failed before its start.
     pub fields: Vec<String>,
-    /// [`OK`], or why the point failed.
+    /// [`OK`], the accuracy that was reached instead of the one asked for, or why the point failed.
     pub status: String,
 }
 
-impl Row {
-    /// Whether the point made no valid scenario.
-    pub(super) fn is_invalid(&self) -> bool {
-        self.status.starts_with(INVALID)
+/// What the status of a row says of its point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Success {
+    /// It has its result, to the accuracy asked for if one was.
+    Full,
+    /// It has its result, less accurate than asked for.
+    Inaccurate,
+    /// It failed.
+    Failed,
+    /// It makes no valid scenario.
+    Invalid,
+}
+
+impl Success {
+    /// Of a status.
+    pub fn of(status: &str) -> Self {
+        match status {
+            OK => Self::Full,
+            _ if status.starts_with(INACCURATE) => Self::Inaccurate,
+            _ if status.starts_with(INVALID) => Self::Invalid,
+            _ => Self::Failed,
+        }
+    }
+
+    /// Of a row, whose status is its last field.
+    pub fn of_row(row: &[String]) -> Self {
+        row.last().map_or(Self::Failed, |status| Self::of(status))
+    }
+
+    /// Whether the row has a result.
+    pub fn has_result(self) -> bool {
+        matches!(self, Self::Full | Self::Inaccurate)
     }
 }
 
@@ -50,8 +81,8 @@ fn failed(study: &Study, why: &str) -> Row {
 
 /// Runs `scenario` as a point of `study`: for its columns, until one of its ends.
 pub(super) fn run_scenario(study: &Study, scenario: Scenario, halt: &AtomicBool) -> Option<Row> {
-    let mut session = match begun(&scenario, &study.stop, halt)? {
-        Ok(session) => session,
+    let (mut session, status) = match begun(&scenario, &study.stop, halt)? {
+        Ok(begun) => begun,
         Err(error) => return Some(failed(study, &error)),
     };
     let ended = catch_unwind(AssertUnwindSafe(|| {
@@ -70,10 +101,7 @@ pub(super) fn run_scenario(study: &Study, scenario: Scenario, halt: &AtomicBool)
     match ended {
         Err(_) => Some(failed(study, "bug in mdr-tui")),
         Ok((Ok(Ended::Halted), _)) => None,
-        Ok((Ok(Ended::Done), fields)) => Some(Row {
-            fields,
-            status: OK.to_owned(),
-        }),
+        Ok((Ok(Ended::Done), fields)) => Some(Row { fields, status }),
         Ok((Err(error), fields)) => Some(Row {
             fields,
             ..failed(study, &error.to_string())
@@ -81,10 +109,14 @@ pub(super) fn run_scenario(study: &Study, scenario: Scenario, halt: &AtomicBool)
     }
 }
 
-/// A session with the points and steps that meet the accuracy of the scenario if it asks for one; none if `halt`
-/// was set meanwhile. If only the scenario's last cycle ends the point, the run that met the accuracy
-/// is the point already; else the session is at its start.
-fn begun(scenario: &Scenario, stop: &Stop, halt: &AtomicBool) -> Option<Result<Session, String>> {
+/// A session with the points and steps that meet the accuracy of the scenario if it asks for one, and the status
+/// that its row gets; none if `halt` was set meanwhile. If only the scenario's last cycle ends the point, the run
+/// that met the accuracy is the point already; else the session is at its start.
+fn begun(
+    scenario: &Scenario,
+    stop: &Stop,
+    halt: &AtomicBool,
+) -> Option<Result<(Session, String), String>> {
     let go_on = || !halt.load(Ordering::Relaxed);
     let found = match refinement::resolve(scenario, None, f64::INFINITY, &go_on) {
         Ok(found) => found,
@@ -95,11 +127,15 @@ fn begun(scenario: &Scenario, stop: &Stop, halt: &AtomicBool) -> Option<Result<S
         Some(ended) if *stop == Stop::default() => Ok(ended),
         _ => Session::start(found.scenario).map_err(|error| error.to_string()),
     };
+    let status = match (found.missed_by, scenario.accuracy()) {
+        (Some(reached), Some(asked)) => format!("{INACCURATE}{reached:.1e} instead of {asked:e}"),
+        _ => OK.to_owned(),
+    };
     Some(session.map(|mut session| {
         for (key, value) in &found.statements {
             session.state(key, value);
         }
-        session
+        (session, status)
     }))
 }
 

@@ -22,8 +22,8 @@ use std::fmt::Write;
 use std::io::{self, BufRead, BufReader, Read};
 
 use super::finder::Finder;
-use super::point::INVALID;
-use super::{OK, Row, Shard, Study, StudyError};
+use super::point::Success;
+use super::{Row, Shard, Study, StudyError};
 use crate::scenario::printable;
 
 /// The longest line and the longest header that are read, in bytes.
@@ -392,17 +392,10 @@ impl Rows {
     pub fn count(&self) -> (usize, usize) {
         let rows = self.rows.iter().flatten();
         rows.fold((0, 0), |(all, failed), row| {
-            (all + 1, failed + usize::from(!is_ok(row)))
+            (
+                all + 1,
+                failed + usize::from(!Success::of_row(row).has_result()),
+            )
         })
     }
-}
-
-/// Whether a row belongs to a point that makes no valid scenario.
-pub(super) fn is_invalid(row: &[String]) -> bool {
-    row.last().is_some_and(|status| status.starts_with(INVALID))
-}
-
-/// Whether a row belongs to a point that succeeded.
-pub(super) fn is_ok(row: &[String]) -> bool {
-    row.last().is_some_and(|status| status == OK)
 }

@@ -19,7 +19,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
-use super::point::{self, OK};
+use super::point::{self, Success};
 use super::{Study, StudyError};
 use crate::scenario::Scenario;
 use crate::scenario::scalars::number;
@@ -172,7 +172,7 @@ fn on_level(
     }
     let mut results: Vec<Vec<Option<f64>>> = Vec::new();
     for row in runs.into_iter().flatten() {
-        if row.status != OK {
+        if !Success::of(&row.status).has_result() {
             return Err(broken(&row.status));
         }
         let numbers = row.fields.iter().map(|field| field.parse::<f64>().ok());

@@ -2,7 +2,7 @@
 
 use super::border::Border;
 use super::record::{Record, Rows};
-use super::{Axis, Design, OK, Study, StudyError};
+use super::{Axis, Design, Study, StudyError, Success};
 
 /// The words of the column `regime`, and what they mean.
 pub const REGIMES: [(&str, &str); 4] = [
@@ -217,9 +217,8 @@ impl Slice {
             .columns
             .iter()
             .position(|known| known.name == column)?;
-        let is_ok = row.last().is_some_and(|status| status == OK);
         let field = row.get(self.study.axes.len() + at)?;
-        (is_ok && !field.is_empty()).then_some(field)
+        (Success::of_row(row).has_result() && !field.is_empty()).then_some(field)
     }
 
     /// The number in `column` of a point.

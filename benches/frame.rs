@@ -5,7 +5,7 @@
 
 use std::io::{self, Read, Write};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::mpsc::{Receiver, channel};
 use std::thread;
 use std::time::Duration;
 
@@ -18,10 +18,9 @@ use mdr_tui::tui::ansi_backend::AnsiBackend;
 use mdr_tui::tui::app::App;
 use mdr_tui::tui::frame::{Activity, Slot};
 use mdr_tui::tui::keys::parse_script;
-use mdr_tui::tui::order::Order;
 use mdr_tui::tui::screen;
 use mdr_tui::tui::theme::{Look, Theme};
-use mdr_tui::tui::worker::Worker;
+use mdr_tui::tui::worker::{Orders, Worker};
 use portable_pty::{CommandBuilder, PtySize, native_pty_system};
 use ratatui::Terminal;
 use ratatui::layout::Size;
@@ -43,7 +42,7 @@ const LARGE: Tell = || Ok(Size::new(200, 50));
 struct Stage {
     app: App,
     slot: Arc<Slot>,
-    orders: Sender<Order>,
+    orders: Orders,
     events: Receiver<Event>,
     line: Terminal<AnsiBackend<io::Sink>>,
 }
@@ -53,7 +52,7 @@ impl Stage {
         let set = format!("run.cycles={CYCLES}");
         let scenario = Scenario::load("li2019-fig3", &[set]).expect("a preset");
         let session = Session::start(scenario).expect("a contact");
-        let (orders, to_worker) = channel();
+        let (orders, to_worker) = Orders::channel();
         let (sender, events) = channel();
         let slot = Arc::new(Slot::default());
         let interval = Duration::from_millis(100);
@@ -75,9 +74,7 @@ impl Stage {
         for key in parse_script(keys).expect("a script") {
             self.app.press(key);
         }
-        let (reply, answer) = channel();
-        self.orders.send(Order::Sync(reply)).expect("a worker");
-        self.app.take_frame(answer.recv().expect("a frame"));
+        self.app.take_frame(self.orders.frame().expect("a worker"));
     }
 
     fn draw(&mut self) {
@@ -90,7 +87,7 @@ impl Stage {
 
 impl Drop for Stage {
     fn drop(&mut self) {
-        let _ = self.orders.send(Order::Quit);
+        self.orders.send(Worker::quit);
     }
 }
 
@@ -115,11 +112,7 @@ fn frame(bencher: Bencher, size: &str) {
 fn observation(bencher: Bencher) {
     let mut stage = Stage::new(LARGE);
     stage.press(",");
-    bencher.bench_local(|| {
-        let (reply, answer) = channel();
-        stage.orders.send(Order::Sync(reply)).expect("a worker");
-        answer.recv().expect("a frame")
-    });
+    bencher.bench_local(|| stage.orders.frame().expect("a worker"));
 }
 
 /// The run of Fig. 3 alone.

@@ -13,7 +13,7 @@ use super::{Misuse, complain};
 use crate::scenario::limited::{self, Unread};
 use crate::scenario::nearest::nearest;
 use crate::scenario::typed;
-use crate::tui::command::{BINDINGS, Command};
+use crate::tui::command::{COMMANDS, Command};
 use crate::tui::keys::{Key, parse_script};
 
 /// The preferences, each of which may be left out.
@@ -131,9 +131,9 @@ fn one_key(name: &str, key: &str) -> Result<Key, String> {
 }
 
 fn command(name: &str) -> Result<Command, String> {
-    let found = BINDINGS.iter().find(|binding| binding.name == name);
-    found.map(|binding| binding.command).ok_or_else(|| {
-        let hint = match nearest(name, BINDINGS.iter().map(|binding| binding.name)) {
+    let found = COMMANDS.iter().find(|row| row.name == name);
+    found.map(|row| row.command).ok_or_else(|| {
+        let hint = match nearest(name, COMMANDS.iter().map(|row| row.name)) {
             Some(near) => format!("did you mean {near:?}?"),
             None => "the command palette (:) shows the names".to_owned(),
         };

@@ -7,18 +7,16 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
-use std::sync::mpsc::Sender;
 
 use ratatui::layout::Rect;
 
-use super::command::Command;
+use super::command::{Act, Command};
 use super::frame::{Activity, Frame};
 use super::held::Held;
 use super::keys::Key;
 use super::layout;
-use super::line::{LineEdit, one_line};
-use super::order::Order;
-use super::overlays::{Answer, Form, Help, Library, Overlay, Palette};
+use super::line::one_line;
+use super::overlays::{Answer, Form, Overlay, Palette};
 use super::pace::Pace;
 use super::panels::{Panel, Shown};
 use super::present;
@@ -26,6 +24,7 @@ use super::refinement_check::RefinementCheck;
 use super::snapshot;
 use super::theme::Theme;
 use super::tour::Tour;
+use super::worker::{Orders, Worker};
 use crate::charts::{Medium, View};
 use crate::plot::{Chart, Scale, sticky_bounds};
 use crate::scenario::Scenario;
@@ -106,7 +105,7 @@ pub struct App {
     room: usize,
     /// Whether the last click has zoomed, or the opposite.
     pub(super) click_has_zoomed: bool,
-    orders: Sender<Order>,
+    orders: Orders,
 }
 
 /// Whether a calm panel may still show `calm` where the others show `frame`: the run goes on, and both
@@ -120,7 +119,7 @@ fn may_last(calm: &Frame, frame: &Frame) -> bool {
 
 impl App {
     /// An app that sends its orders to a worker.
-    pub fn new(theme: Theme, orders: Sender<Order>) -> Self {
+    pub fn new(theme: Theme, orders: Orders) -> Self {
         Self {
             frame: None,
             calm: None,
@@ -188,7 +187,7 @@ impl App {
         let is_same = is_running && pace == frame.pace && cycle >= began;
         let is_due = is_same && present::is_due(frame, began);
         if is_due {
-            self.order(Order::Pace(1));
+            self.order(|run| run.change_pace(1));
         }
         if is_due || !is_same {
             self.at_pace = (frame.pace, cycle);
@@ -341,7 +340,7 @@ impl App {
     }
 
     /// The first panel of the next page gets the focus.
-    fn turn_page(&mut self) {
+    pub(super) fn turn_page(&mut self) {
         let (page, pages) = self.pages(self.room);
         self.focus = Panel::ALL[page % pages * self.room];
     }
@@ -357,24 +356,8 @@ impl App {
             return;
         }
         let mut overlay = std::mem::take(&mut self.overlay);
-        match overlay.press(key, self.frame.as_deref()) {
-            Answer::Stay => self.overlay = overlay,
-            Answer::Close => {}
-            Answer::Through(command) => self.command(command),
-            Answer::Meanwhile(command) => {
-                self.command(command);
-                self.overlay = overlay;
-            }
-            Answer::Order(order) => self.order(order),
-            Answer::Ask(order) => {
-                self.order(order);
-                self.overlay = overlay;
-            }
-            Answer::Load(name) => self.load(&name),
-            Answer::Say(text) => {
-                self.notice = Some(text);
-                self.overlay = overlay;
-            }
+        if overlay.press(key, self) == Answer::Stay {
+            self.overlay = overlay;
         }
         self.tell_what_shows();
     }
@@ -390,86 +373,78 @@ impl App {
         };
     }
 
-    fn command(&mut self, command: Command) {
-        match command {
-            Command::Quit => self.leave = Some(Leave::Clean),
-            Command::QuitKeepingScreen => self.leave = Some(Leave::KeepScreen),
-            Command::Back if self.tour.is_some() => self.end_tour(),
-            Command::Back | Command::Contact | Command::Zoom if self.shows_contact() => {
-                self.leave_contact();
-            }
-            Command::Contact => self.show_contact(),
-            Command::Back if self.zoomed => self.zoomed = false,
-            Command::Back => {}
-            Command::Tour => self.continue_tour(),
-            Command::Accept => self.overlay = Overlay::Explain,
-            Command::CompareFromStart => self.order(Order::CompareFromStart),
-            Command::Freeze => self.order(Order::Freeze),
-            Command::DropGhosts => {
-                self.forget_scales();
-                self.order(Order::DropGhosts);
-            }
-            Command::HoldPhase => self.order(Order::HoldPhase),
-            Command::Suspend => self.suspend = true,
-            Command::Help => self.overlay = Overlay::Help(Help::default()),
-            Command::Search => self.overlay = Overlay::Help(Help::searching()),
-            Command::Palette => self.overlay = Overlay::Palette(Palette::default()),
-            Command::RunPause => self.order(Order::RunPause),
-            Command::Step => self.order(Order::Step),
-            Command::Cycle => self.order(Order::Cycle),
-            Command::NextMethod => self.order(Order::Method(1)),
-            Command::PreviousMethod => self.order(Order::Method(-1)),
-            Command::NextLaw => self.order(Order::Law(1)),
-            Command::PreviousLaw => self.order(Order::Law(-1)),
-            Command::Faster => self.order(Order::Pace(1)),
-            Command::Slower => self.order(Order::Pace(-1)),
-            Command::Coarser => self.order(Order::Accuracy(-1)),
-            Command::Finer => self.order(Order::Accuracy(1)),
-            Command::NextPage => self.turn_page(),
-            Command::NextPanel | Command::Down => self.focus = self.focus.shifted(1),
-            Command::PreviousPanel | Command::Up => self.focus = self.focus.shifted(-1),
-            Command::Zoom => self.zoomed = !self.zoomed,
-            Command::Snapshot => self.order(Order::Snapshot(None)),
-            Command::TimeBack => self.order(Order::Back),
-            Command::TimeForth => self.order(Order::Forth),
-            Command::SnapshotNote => self.overlay = Overlay::Note(LineEdit::default()),
-            Command::Edit => self.overlay = Overlay::Form(Form::default()),
-            Command::Methods => self.choose("numerics.method"),
-            Command::Laws => self.choose("wear.law"),
-            Command::Presets => {
-                self.overlay = Overlay::Library(Library::open(self.frame.as_deref()));
-            }
-            Command::Theory => self.with_theory = !self.with_theory,
-            Command::Theme => {
-                self.theme.follows_background = false;
-                self.theme.look = self.theme.look.next();
-                self.notice = Some(format!("theme {}", self.theme.look.name()));
-            }
-            Command::Cursor => {
-                self.cursor = match self.cursor {
-                    None => Some(CURSOR_START),
-                    Some(_) => None,
-                }
-            }
-            Command::Left => self.move_sideways(-1),
-            Command::Right => self.move_sideways(1),
-            Command::Compare => self.order(Order::Compare),
-            Command::Accuracy => {
-                self.refinement_check = None;
-                self.overlay = Overlay::Accuracy;
-                self.order(Order::RefinementCheck);
-            }
-            Command::Restart => self.restart(),
-            Command::LogScale => self.toggle_log(),
-            Command::Stress => self.show_stress(Shown {
-                quantity: self.stress.quantity.next(),
-                ..self.stress
-            }),
-            Command::StressOfCycle => self.show_stress(Shown {
-                over_cycle: !self.stress.over_cycle,
-                ..self.stress
-            }),
+    /// Carries out a command.
+    pub(super) fn run(&mut self, command: Command) {
+        let row = command.row();
+        match row.act {
+            Act::Screen(act) => act(self),
+            Act::Worker(act) => self.order(act),
+            Act::Palette(_) => self.overlay = Overlay::Palette(Palette::begun(row.name)),
         }
+    }
+
+    /// Leaves the tour, the contact, or the zoomed panel.
+    pub(super) fn go_back(&mut self) {
+        match () {
+            () if self.tour.is_some() => self.end_tour(),
+            () if self.shows_contact() => self.leave_contact(),
+            () => self.zoomed = false,
+        }
+    }
+
+    pub(super) fn zoom_or_unzoom(&mut self) {
+        match self.shows_contact() {
+            true => self.leave_contact(),
+            false => self.zoomed = !self.zoomed,
+        }
+    }
+
+    pub(super) fn show_or_leave_contact(&mut self) {
+        match self.shows_contact() {
+            true => self.leave_contact(),
+            false => self.show_contact(),
+        }
+    }
+
+    pub(super) fn drop_ghosts(&mut self) {
+        self.forget_scales();
+        self.order(Worker::drop_ghosts);
+    }
+
+    /// Opens the checks of the run, and has its errors estimated.
+    pub(super) fn check_accuracy(&mut self) {
+        self.refinement_check = None;
+        self.overlay = Overlay::Accuracy;
+        self.order(|run| run.check_refinement());
+    }
+
+    pub(super) fn toggle_cursor(&mut self) {
+        self.cursor = match self.cursor {
+            None => Some(CURSOR_START),
+            Some(_) => None,
+        }
+    }
+
+    pub(super) fn change_theme(&mut self) {
+        self.theme.follows_background = false;
+        self.theme.look = self.theme.look.next();
+        self.notice = Some(format!("theme {}", self.theme.look.name()));
+    }
+
+    pub(super) fn show_next_stress(&mut self) {
+        let quantity = self.stress.quantity.next();
+        self.show_stress(Shown {
+            quantity,
+            ..self.stress
+        });
+    }
+
+    pub(super) fn show_stress_of_cycle_or_moment(&mut self) {
+        let over_cycle = !self.stress.over_cycle;
+        self.show_stress(Shown {
+            over_cycle,
+            ..self.stress
+        });
     }
 
     /// Whether the contact is shown large: the cross-section alone.
@@ -504,7 +479,7 @@ impl App {
     }
 
     /// Opens the words of a key.
-    fn choose(&mut self, path: &'static str) {
+    pub(super) fn list_words(&mut self, path: &'static str) {
         let settings = self.frame.as_ref().map(|frame| Arc::clone(&frame.settings));
         let mut known = settings.iter().flat_map(|settings| settings.iter());
         if known.any(|setting| setting.parameter.path == path) {
@@ -531,7 +506,7 @@ impl App {
     }
 
     /// Begins the tour, or shows its next caption.
-    fn continue_tour(&mut self) {
+    pub(super) fn continue_tour(&mut self) {
         if let Some(tour) = self.tour.take() {
             self.tour = tour.next();
             if self.tour.is_none() {
@@ -584,7 +559,7 @@ impl App {
     }
 
     /// Moves the cursor by a hundredth of the domain, or the focus where there is no cursor.
-    fn move_sideways(&mut self, places: i16) {
+    pub(super) fn move_sideways(&mut self, places: i16) {
         match &mut self.cursor {
             Some(place) => *place = (*place + places).clamp(0, CURSOR_PLACES),
             None => self.focus = self.focus.shifted(isize::from(places)),
@@ -616,13 +591,14 @@ impl App {
         self.overlay == Overlay::Accuracy && self.refinement_check.is_none()
     }
 
-    fn load(&mut self, name: &str) {
+    /// Loads a scenario, or the state in a directory.
+    pub(super) fn load(&mut self, name: &str) {
         let path = Path::new(name);
         if path.is_dir() {
             match snapshot::open(path) {
                 Ok(opened) => {
                     self.forget_scales();
-                    self.order(Order::Open(Box::new(opened)));
+                    self.order(|run| run.open(opened));
                 }
                 Err(error) => self.notice = Some(error),
             }
@@ -631,18 +607,18 @@ impl App {
         match Scenario::load(name, &[]) {
             Ok(scenario) => {
                 self.forget_scales();
-                self.order(Order::Load(Box::new(scenario)));
+                self.order(|run| run.load(scenario));
             }
             Err(error) => self.notice = Some(one_line(&error.to_string())),
         }
     }
 
-    fn restart(&mut self) {
+    pub(super) fn restart(&mut self) {
         self.forget_scales();
-        self.order(Order::Restart);
+        self.order(Worker::restart);
     }
 
-    fn toggle_log(&mut self) {
+    pub(super) fn toggle_log(&mut self) {
         let focus = self.focus;
         if !focus.recipe().can_be_log {
             self.notice = Some(format!(
@@ -684,12 +660,12 @@ impl App {
         }
         if shown != self.shown {
             self.shown = shown;
-            self.order(Order::Show(shown));
+            self.order(move |run| run.compute(shown));
         }
     }
 
-    pub(super) fn order(&self, order: Order) {
-        // A worker that has ended has reported it already.
-        let _ = self.orders.send(order);
+    /// Has the worker do something.
+    pub(super) fn order(&self, order: impl FnOnce(&mut Worker) + Send + 'static) {
+        self.orders.send(order);
     }
 }

@@ -39,6 +39,7 @@ mod comparison;
 mod cycle_loads;
 mod figure;
 mod flow;
+pub mod footer;
 pub mod frame;
 pub mod ghosts;
 mod held;
@@ -49,7 +50,6 @@ pub mod line;
 pub mod manual;
 pub mod map;
 pub mod mouse;
-pub mod order;
 mod output;
 pub mod overlays;
 pub mod pace;
@@ -79,13 +79,12 @@ use frame::Slot;
 use input::Waiting;
 use keys::Key;
 use mouse::Gesture;
-use order::Order;
 use overlays::Overlay;
 use refinement_check::RefinementCheck;
 pub use script::{Format, Script, Size, Stroke, rehearse};
 pub use terminal::Capture;
 use theme::{Depth, Look, Theme};
-use worker::Worker;
+use worker::{Order, Orders, Worker};
 
 /// The default preset, whose tour begins by itself.
 pub(crate) const FIRST: &str = "li2019-fig3";
@@ -186,7 +185,7 @@ pub fn run(options: Options) -> Result<Farewell> {
     let is_first = is_first_time(&options);
     let origin = options.session.loaded().origin().to_owned();
     let waiting = Arc::new(Waiting::default());
-    let (orders, to_worker) = channel();
+    let (orders, to_worker) = Orders::channel();
     let (events, from_threads) = channel();
     let slot = Arc::new(Slot::default());
     let interval = Duration::from_secs_f64(1.0 / f64::from(options.fps));
@@ -216,7 +215,7 @@ pub fn run(options: Options) -> Result<Farewell> {
     let kept = spawn_worker(worker, keeping.clone(), to_worker, events.clone())?;
     let end_worker = || {
         halt.store(true, Ordering::SeqCst);
-        let _ = orders.send(Order::Quit);
+        orders.send(Worker::quit);
     };
     let outcome = match options.script {
         Some(script) => {

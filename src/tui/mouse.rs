@@ -8,7 +8,6 @@ use ratatui::layout::Position;
 
 use super::app::App;
 use super::keys::{Key, Named};
-use super::order::Order;
 use super::overlays::Overlay;
 use super::{layout, timeline};
 
@@ -95,7 +94,7 @@ impl App {
         };
         let (line, area) = layout::timeline(area);
         if let Some(cycle) = line.and_then(|line| timeline::cycle_at(&frame, line, at)) {
-            return self.order(Order::Visit(cycle));
+            return self.order(move |run| run.go_to(cycle));
         }
         let places = layout::places(self, area);
         let Some((panel, place)) = places.into_iter().find(|(_, place)| place.contains(at)) else {

@@ -14,23 +14,17 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::text::{Line, Span};
+use ratatui::text::Line;
 use ratatui::widgets::{Paragraph, Widget};
 
 use super::app::App;
-use super::command::{BINDINGS, Binding, Command};
 use super::frame::{Activity, Frame};
 use super::layout;
-use super::overlays::Overlay;
 use super::pace::Pace;
 use super::panels::compare;
 use super::theme::Role;
-use super::{present, readout, timeline};
+use super::{footer, present, timeline};
 use crate::simulation::verdict;
-
-/// The hint before the first key.
-const HINT: &str =
-    " Space pauses, + runs faster, Enter explains, V: the contact, n: a tour.   ? help   q quit";
 
 /// Draws everything.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
@@ -53,7 +47,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         }
         None => Line::raw("starting ...").render(middle, buffer),
     }
-    footer(app, bottom, buffer);
+    footer::draw(app, bottom, buffer);
     app.overlay.draw(app, middle, buffer);
 }
 
@@ -220,147 +214,4 @@ fn short(value: f64) -> String {
         size if size >= 10.0 => format!("{value:.0}"),
         _ => format!("{value:.1}"),
     }
-}
-
-/// The notice if there is one, else the values at the cursor, else as many keys as fit.
-fn footer(app: &App, area: Rect, buffer: &mut Buffer) {
-    let stopped = app.frame.as_ref().and_then(|frame| match &frame.activity {
-        Activity::Stopped(reason) => Some(reason.as_str()),
-        _ => None,
-    });
-    // The form shows its own notices.
-    let notice = app
-        .notice
-        .as_deref()
-        .filter(|_| !matches!(app.overlay, Overlay::Form(_)));
-    if let Some(text) = notice.or(stopped) {
-        let text = app.theme.printable(text);
-        let role = if notice.is_some() {
-            Role::Notice
-        } else {
-            Role::Alarm
-        };
-        Line::styled(format!(" {text}"), app.theme.style(role)).render(area, buffer);
-        return;
-    }
-    if app.is_new
-        && app.tour.is_none()
-        && !app.shows_contact()
-        && HINT.len() <= usize::from(area.width)
-    {
-        Line::styled(HINT, app.theme.style(Role::Notice)).render(area, buffer);
-        return;
-    }
-    let frame = app.frame.as_ref();
-    if let Some((frame, r)) = frame.and_then(|frame| Some((frame, app.cursor_radius(frame)?))) {
-        let text = readout::line(
-            frame,
-            app.focus,
-            r,
-            usize::from(area.width),
-            app.theme.ascii(),
-        );
-        Line::raw(text).render(area, buffer);
-        return;
-    }
-    let mut spans = Vec::new();
-    let mut left = usize::from(area.width);
-    let commands = footer_commands(app);
-    // Help and quit are always shown; the others as far as they fit.
-    let reserved: usize = commands
-        .iter()
-        .rev()
-        .take(2)
-        .map(|(binding, name)| footer_width(name, binding.keys))
-        .sum();
-    for (i, (binding, name)) in commands.iter().enumerate() {
-        let width = footer_width(name, binding.keys);
-        if i + 2 < commands.len() && width + reserved > left {
-            continue;
-        }
-        left = left.saturating_sub(width);
-        let key = binding
-            .keys
-            .first()
-            .map(ToString::to_string)
-            .unwrap_or_default();
-        spans.push(Span::styled(
-            format!(" {key}"),
-            app.theme.style(Role::Title),
-        ));
-        spans.push(Span::styled(
-            format!(" {name}"),
-            app.theme.style(Role::Quiet),
-        ));
-    }
-    Line::from(spans).render(area, buffer);
-}
-
-/// The commands that the footer shows in the present mode, with the name they have in it.
-fn footer_commands(app: &App) -> Vec<(&'static Binding, &'static str)> {
-    let frame = app.frame.as_deref();
-    let past: &[(Command, &str)] = &[
-        (Command::TimeBack, "back"),
-        (Command::TimeForth, "forward"),
-        (Command::RunPause, "run on from here"),
-        (Command::Edit, "change from here"),
-    ];
-    let compare: &[(Command, &str)] = &[
-        (Command::NextMethod, "other method"),
-        (Command::CompareFromStart, "from the start"),
-        (Command::Compare, "end comparison"),
-        (Command::RunPause, "run/pause"),
-        (Command::Step, "step"),
-        (Command::Cycle, "cycle"),
-    ];
-    let contact: &[(Command, &str)] = &[
-        (Command::Contact, "all panels"),
-        (Command::RunPause, "run/pause"),
-        (Command::Faster, "faster"),
-        (Command::Step, "step"),
-        (Command::Cycle, "cycle"),
-        (Command::Accept, "explain"),
-        (Command::Stress, "other stress"),
-        (Command::Edit, "edit"),
-        (Command::Presets, "presets"),
-        (Command::Palette, "commands"),
-    ];
-    let tour: &[(Command, &str)] = &[
-        (Command::Tour, "next caption"),
-        (Command::Back, "close the tour"),
-        (Command::RunPause, "run/pause"),
-        (Command::Faster, "faster"),
-        (Command::Accept, "explain"),
-    ];
-    let mode = match frame {
-        Some(frame) if frame.comparison.is_some() => Some(compare),
-        Some(frame) if frame.present.is_some() => Some(past),
-        _ if app.tour.is_some() => Some(tour),
-        _ if app.shows_contact() => Some(contact),
-        _ => None,
-    };
-    let of = |command: Command| BINDINGS.iter().find(|binding| binding.command == command);
-    let always = [Command::Help, Command::Quit];
-    let Some(mode) = mode else {
-        return BINDINGS
-            .iter()
-            .filter(|binding| binding.in_footer)
-            .map(|binding| (binding, binding.name))
-            .collect();
-    };
-    let named = mode
-        .iter()
-        .filter_map(|&(command, name)| Some((of(command)?, name)));
-    let always = always
-        .into_iter()
-        .filter_map(of)
-        .map(|binding| (binding, binding.name));
-    named.chain(always).collect()
-}
-
-fn footer_width(name: &str, keys: &[super::keys::Key]) -> usize {
-    keys.first()
-        .map_or(0, |key| key.to_string().chars().count())
-        + name.len()
-        + 2
 }

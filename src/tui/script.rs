@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::str::FromStr;
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
 use anyhow::{Context, Result, anyhow};
@@ -16,11 +16,10 @@ use super::Event;
 use super::app::App;
 use super::frame::Slot;
 use super::keys::{self, Key};
-use super::order::Order;
 use super::overlays::Overlay;
 use super::screen;
 use super::theme::{Look, Theme};
-use super::worker::Worker;
+use super::worker::{Orders, Worker};
 use crate::plot::screen_svg::{self, Ground};
 use crate::scenario::session::Session;
 
@@ -116,14 +115,14 @@ impl Stroke {
 ///
 /// If the explorer cannot be started or ends too soon.
 pub fn rehearse(session: Session, theme: Theme, strokes: &[Stroke], size: Size) -> Result<String> {
-    let (orders, to_worker) = channel();
+    let (orders, to_worker) = Orders::channel();
     let (events, inbox) = channel();
     let slot = Arc::new(Slot::default());
     let worker = Worker::new(session, slot, events, Duration::MAX, false);
     let thread = std::thread::spawn(move || worker.serve(&to_worker));
     let mut app = App::new(theme, orders.clone());
     let outcome = press(&mut app, strokes, size, &orders, &inbox);
-    let _ = orders.send(Order::Quit);
+    orders.send(Worker::quit);
     if let Err(panic) = thread.join() {
         std::panic::resume_unwind(panic);
     }
@@ -135,7 +134,7 @@ pub fn rehearse(session: Session, theme: Theme, strokes: &[Stroke], size: Size) 
 pub fn play(
     app: &mut App,
     script: &Script,
-    orders: &Sender<Order>,
+    orders: &Orders,
     events: &Receiver<Event>,
 ) -> Result<()> {
     #[cfg(debug_assertions)]
@@ -158,7 +157,7 @@ fn press(
     app: &mut App,
     strokes: &[Stroke],
     mut size: Size,
-    orders: &Sender<Order>,
+    orders: &Orders,
     events: &Receiver<Event>,
 ) -> Result<Size> {
     app.resize(size.columns, size.rows);
@@ -181,12 +180,8 @@ fn press(
     Ok(size)
 }
 
-fn catch_up(app: &mut App, orders: &Sender<Order>, events: &Receiver<Event>) -> Result<()> {
-    let (reply, answer) = channel();
-    orders
-        .send(Order::Sync(reply))
-        .context("the simulation has ended")?;
-    app.take_frame(answer.recv().context("the simulation has ended")?);
+fn catch_up(app: &mut App, orders: &Orders, events: &Receiver<Event>) -> Result<()> {
+    app.take_frame(orders.frame().context("the simulation has ended")?);
     // Waits for the refinement check, so that a script always sees its result.
     while app.awaits_companion() {
         if let Event::RefinementCheck(answer) = events.recv().context("the simulation has ended")? {

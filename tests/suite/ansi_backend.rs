@@ -3,7 +3,7 @@
 use std::io;
 use std::num::NonZeroU16;
 use std::sync::Arc;
-use std::sync::mpsc::{Sender, channel};
+use std::sync::mpsc::channel;
 use std::thread;
 use std::time::Duration;
 
@@ -14,11 +14,10 @@ use mdr_tui::tui::ansi_backend::AnsiBackend;
 use mdr_tui::tui::app::App;
 use mdr_tui::tui::frame::{Activity, Frame, Slot};
 use mdr_tui::tui::keys::{Key, parse_script};
-use mdr_tui::tui::order::Order;
 use mdr_tui::tui::panels::Panel;
 use mdr_tui::tui::screen;
 use mdr_tui::tui::theme::{Depth, Look, Theme};
-use mdr_tui::tui::worker::Worker;
+use mdr_tui::tui::worker::{Orders, Worker};
 use proptest::prelude::*;
 use ratatui::Terminal;
 use ratatui::buffer::{Buffer, Cell};
@@ -44,14 +43,14 @@ fn sent(line: &Line) -> usize {
 struct Counted {
     line: Line,
     app: App,
-    orders: Sender<Order>,
+    orders: Orders,
 }
 
 impl Counted {
     fn new(size: Tell) -> Self {
         let scenario = Scenario::load("li2019-fig3", &[]).expect("a preset");
         let session = Session::start(scenario).expect("a contact");
-        let (orders, to_worker) = channel();
+        let (orders, to_worker) = Orders::channel();
         let (events, _) = channel();
         let interval = Duration::from_secs(1);
         let worker = Worker::new(session, Arc::new(Slot::default()), events, interval, false);
@@ -83,7 +82,7 @@ impl Counted {
     fn running_frame(&mut self, keys: &str) -> usize {
         for key in parse_script(keys).expect("a script") {
             assert_eq!(key, Key::Char('.'));
-            self.orders.send(Order::Step).expect("a worker");
+            self.orders.send(Worker::step_once);
         }
         let mut frame = Frame::clone(&self.sync());
         frame.activity = Activity::Running;
@@ -92,9 +91,7 @@ impl Counted {
     }
 
     fn sync(&self) -> Arc<Frame> {
-        let (reply, answer) = channel();
-        self.orders.send(Order::Sync(reply)).expect("a worker");
-        answer.recv().expect("a frame")
+        self.orders.frame().expect("a worker")
     }
 
     /// What the screen shows.
@@ -122,7 +119,7 @@ impl Counted {
 
 impl Drop for Counted {
     fn drop(&mut self) {
-        let _ = self.orders.send(Order::Quit);
+        self.orders.send(Worker::quit);
     }
 }
 

@@ -6,7 +6,8 @@ use std::path::Path;
 use std::process::Command;
 
 use mdr_tui::scenario::preset;
-use mdr_tui::tui::command::BINDINGS;
+use mdr_tui::tui::command::with_keys;
+use mdr_tui::tui::footer;
 
 fn said(arguments: &[&str]) -> String {
     let output = Command::new(env!("CARGO_BIN_EXE_mdr-tui"))
@@ -39,8 +40,8 @@ fn it_is_short_and_names_what_there_is() {
 fn the_manual_page_has_every_key() {
     let page = said(&["man"]);
     assert_eq!(page.matches(".SH KEYS").count(), 1);
-    for binding in BINDINGS {
-        let help = binding.help.replace('-', "\\-");
+    for row in with_keys() {
+        let help = row.help.replace('-', "\\-");
         assert!(page.contains(&help), "{help}");
     }
 }
@@ -49,8 +50,8 @@ fn the_manual_page_has_every_key() {
 fn the_footer_names_commands_of_the_table() {
     let screen = said(&["--keys", ",", "--print", "200x24"]);
     let footer = screen.lines().last().expect("a footer");
-    for binding in BINDINGS.iter().filter(|binding| binding.in_footer) {
-        let shown = format!(" {} {}", binding.keys[0], binding.name);
+    for row in footer::USUAL.iter().map(|command| command.row()) {
+        let shown = format!(" {} {}", row.keys[0], row.name);
         assert!(footer.contains(&shown), "{shown} is not in {footer}");
     }
 }

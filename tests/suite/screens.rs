@@ -8,7 +8,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::mpsc::{Receiver, channel};
 use std::thread;
 use std::time::Duration;
 
@@ -16,16 +16,15 @@ use mdr_tui::plot::Marker;
 use mdr_tui::scenario::session::Session;
 use mdr_tui::scenario::{Scenario, preset};
 use mdr_tui::tui::app::App;
-use mdr_tui::tui::command::{self, BINDINGS};
+use mdr_tui::tui::command::{self, COMMANDS};
 use mdr_tui::tui::frame::{Activity, Frame, Slot};
 use mdr_tui::tui::keys::{Key, Named, parse_script};
 use mdr_tui::tui::manual;
 use mdr_tui::tui::mouse::Gesture;
-use mdr_tui::tui::order::Order;
 use mdr_tui::tui::pace::Pace;
 use mdr_tui::tui::panels::Panel;
 use mdr_tui::tui::theme::{Look, Theme};
-use mdr_tui::tui::worker::Worker;
+use mdr_tui::tui::worker::{Orders, Worker};
 use mdr_tui::tui::{Event, screen, tour};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
@@ -358,20 +357,18 @@ fn a_lecture_shows_the_contact_and_a_chart() {
 #[test]
 fn a_lecture_speeds_up_by_itself() {
     let stage = Stage::new("li2019-fig3", Marker::Braille);
-    let (reply, answer) = channel();
-    stage.orders.send(Order::Sync(reply)).expect("a worker");
-    let mut frame = Frame::clone(&answer.recv().expect("a frame"));
-    let (orders, told) = channel();
-    let mut app = App::new(Theme::new(Look::Dark, Marker::Braille), orders);
+    let orders = stage.orders.clone();
+    let pace = || orders.frame().expect("a worker").pace;
+    let mut frame = Frame::clone(&orders.frame().expect("a worker"));
+    let mut app = App::new(Theme::new(Look::Dark, Marker::Braille), orders.clone());
     app.present();
-    let mut rises = |pace: f64, cycle: f64, activity: Activity| {
+    let mut rises = |at: f64, cycle: f64, activity: Activity| {
         frame.observation.moment.cycle = cycle;
-        frame.pace = Pace::Cycles(pace);
+        frame.pace = Pace::Cycles(at);
         frame.activity = activity;
+        let before = pace();
         app.take_frame(Arc::new(frame.clone()));
-        told.try_iter()
-            .filter(|order| matches!(order, Order::Pace(1)))
-            .count()
+        usize::from(pace() != before)
     };
     let running = || Activity::Running;
     let seen = [
@@ -511,9 +508,9 @@ fn spelled(key: Key) -> String {
 #[test]
 fn every_key_of_the_table_can_be_pressed() {
     let dir = dir();
-    let all: Vec<String> = BINDINGS
+    let all: Vec<String> = COMMANDS
         .iter()
-        .flat_map(|binding| binding.keys)
+        .flat_map(|row| row.keys)
         .map(|&key| spelled(key))
         .collect();
     assert!(all.len() >= 30);
@@ -618,7 +615,7 @@ fn a_snapshot_never_writes_over_another() {
 /// An app with its worker, without a terminal and without a process.
 struct Stage {
     app: App,
-    orders: Sender<Order>,
+    orders: Orders,
     events: Receiver<Event>,
     worker: Option<thread::JoinHandle<()>>,
 }
@@ -627,7 +624,7 @@ impl Stage {
     fn new(scenario: &str, marker: Marker) -> Self {
         let scenario = Scenario::load(scenario, &[]).expect("a preset");
         let session = Session::start(scenario).expect("a contact");
-        let (orders, to_worker) = channel();
+        let (orders, to_worker) = Orders::channel();
         let (sender, events) = channel();
         let slot = Arc::new(Slot::default());
         let worker = Worker::new(session, slot, sender, Duration::from_secs(1), false);
@@ -643,9 +640,7 @@ impl Stage {
     fn press(&mut self, keys: &str) {
         for key in parse_script(keys).expect("a script") {
             self.app.press(key);
-            let (reply, answer) = channel();
-            self.orders.send(Order::Sync(reply)).expect("a worker");
-            self.app.take_frame(answer.recv().expect("a frame"));
+            self.app.take_frame(self.orders.frame().expect("a worker"));
             for event in self.events.try_iter() {
                 if let Event::Notice(text) = event {
                     self.app.notice = Some(text);
@@ -674,7 +669,7 @@ impl Stage {
 
 impl Drop for Stage {
     fn drop(&mut self) {
-        let _ = self.orders.send(Order::Quit);
+        self.orders.send(Worker::quit);
         if let Some(worker) = self.worker.take() {
             let _ = worker.join();
         }
@@ -715,13 +710,12 @@ fn the_help_has_one_key_a_row_by_groups() {
     let large = shot("?", (200, 50));
     let pages = [0, 15, 30, 45].map(|rows| shot(&format!("?{}", "j".repeat(rows)), (80, 24)));
     for text in [large, pages.concat()] {
-        for (group, bindings) in manual::groups() {
+        for (group, rows) in manual::groups() {
             assert!(
                 text.contains(&format!("│ {group} ")) || text.contains(&format!("  {group}  "))
             );
-            for binding in bindings {
-                let keys = manual::keys(binding).join(" ");
-                let row = format!(" {keys}  {}", binding.help);
+            for row in rows {
+                let row = format!(" {}  {}", row.key_names().join(" "), row.help);
                 assert!(text.contains(&row), "{row} is not in\n{text}");
             }
         }
@@ -891,15 +885,10 @@ fn live(
     scenario: &str,
     cycles: f64,
     every: Duration,
-) -> (
-    Sender<Order>,
-    Receiver<Event>,
-    Arc<Slot>,
-    thread::JoinHandle<()>,
-) {
+) -> (Orders, Receiver<Event>, Arc<Slot>, thread::JoinHandle<()>) {
     let scenario = Scenario::load(scenario, &[format!("run.cycles={cycles}")]).expect("a preset");
     let session = Session::start(scenario).expect("a contact");
-    let (orders, to_worker) = channel();
+    let (orders, to_worker) = Orders::channel();
     let (sender, events) = channel();
     let slot = Arc::new(Slot::default());
     let worker = Worker::new(session, Arc::clone(&slot), sender, every, true);
@@ -925,7 +914,7 @@ fn fast_runs_are_shown_at_one_phase() {
     };
     assert_eq!(frames(1)[0].pace, Pace::Cycles(0.5));
     // To 20 cycles per second.
-    orders.send(Order::Pace(5)).expect("a worker");
+    orders.send(|worker| worker.change_pace(5));
     // What was on the way, and the answer to the order.
     frames(3);
     for frame in frames(8) {
@@ -933,14 +922,14 @@ fn fast_runs_are_shown_at_one_phase() {
         assert_eq!(frame.phase, Some(0.0));
         assert!(part < 0.011, "{part}");
     }
-    orders.send(Order::HoldPhase).expect("a worker");
+    orders.send(Worker::hold_or_release_phase);
     frames(3);
     let released = frames(8);
     let parts = released
         .iter()
         .map(|frame| frame.observation.moment.cycle.fract());
     assert!(parts.into_iter().any(|part| part > 0.05));
-    let _ = orders.send(Order::Quit);
+    orders.send(Worker::quit);
     worker.join().expect("a worker");
 }
 
@@ -955,7 +944,7 @@ fn space_at_the_end_asks_first() {
         {}
     };
     until(Activity::Done);
-    orders.send(Order::RunPause).expect("a worker");
+    orders.send(Worker::run_or_pause);
     let notice = loop {
         match next().expect("a notice") {
             Event::Notice(text) => break text,
@@ -964,9 +953,9 @@ fn space_at_the_end_asks_first() {
         }
     };
     assert!(notice.contains("planned end"), "{notice}");
-    orders.send(Order::RunPause).expect("a worker");
+    orders.send(Worker::run_or_pause);
     until(Activity::Running);
-    let _ = orders.send(Order::Quit);
+    orders.send(Worker::quit);
     worker.join().expect("a worker");
 }
 

@@ -5,17 +5,17 @@ use ratatui::layout::Rect;
 use ratatui::text::Line;
 use ratatui::widgets::{Paragraph, Widget};
 
-use super::{Answer, App, Command, popup};
+use super::{Answer, App, Command, leave_for, popup, stay_for};
 use crate::tui::theme::Role;
 
 /// Handles a command while the panel is open: the run can be watched from here.
-pub(super) fn answer(command: Command) -> Answer {
+pub(super) fn press(command: Command, app: &mut App) -> Answer {
     match command {
         Command::Back | Command::Accuracy | Command::Accept => Answer::Close,
         Command::RunPause | Command::Step | Command::Cycle | Command::Faster | Command::Slower => {
-            Answer::Meanwhile(command)
+            stay_for(command, app)
         }
-        other => Answer::Through(other),
+        other => leave_for(Some(other), app),
     }
 }
 

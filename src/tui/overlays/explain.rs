@@ -5,13 +5,13 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Paragraph, Widget, Wrap};
 
-use super::{Answer, App, Command, popup};
+use super::{Answer, App, Command, leave_for, popup, stay_for};
 use crate::plot::units::to_ascii;
 use crate::tui::theme::Role;
 use crate::tui::{layout, panels, tour};
 
 /// Handles a command while the explanation is open: it follows the focus, and the run can continue.
-pub(super) fn answer(command: Command) -> Answer {
+pub(super) fn press(command: Command, app: &mut App) -> Answer {
     match command {
         Command::Accept | Command::Back => Answer::Close,
         Command::NextPanel
@@ -23,8 +23,8 @@ pub(super) fn answer(command: Command) -> Answer {
         | Command::Down
         | Command::RunPause
         | Command::Step
-        | Command::Cycle => Answer::Meanwhile(command),
-        other => Answer::Through(other),
+        | Command::Cycle => stay_for(command, app),
+        other => leave_for(Some(other), app),
     }
 }
 

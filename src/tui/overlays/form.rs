@@ -6,11 +6,12 @@ use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
-use super::{Answer, App, Command, Frame, Key, LineEdit, docked, first_shown, typing};
+use super::{
+    Answer, App, Command, Key, LineEdit, docked, first_shown, leave_for, say, stay_for, typing,
+};
 use crate::scenario::words::meaning;
 use crate::tui::command;
 use crate::tui::keys::Named;
-use crate::tui::order::Order;
 use crate::tui::settings::Setting;
 use crate::tui::theme::Role;
 
@@ -75,15 +76,17 @@ impl Form {
         Some((at, setting, giving))
     }
 
-    pub(super) fn press(&mut self, key: Key, frame: Option<&Frame>) -> Answer {
-        let settings = frame.map_or(&[][..], |frame| frame.settings.as_slice());
+    pub(super) fn press(&mut self, key: Key, app: &mut App) -> Answer {
+        let frame = app.frame.clone();
+        let settings = frame.as_ref();
+        let settings = settings.map_or(&[][..], |frame| frame.settings.as_slice());
         let Some((at, setting, giving)) = self.seen(settings) else {
             return Answer::Close;
         };
         (self.at, self.giving, self.goal) = (at, giving, None);
         match self.giving {
-            Giving::Typed(_) => return self.type_on(key, setting),
-            Giving::Chosen(at) => return self.choose(key, at, setting),
+            Giving::Typed(_) => return self.type_on(key, setting, app),
+            Giving::Chosen(at) => return self.choose(key, at, setting, app),
             Giving::Nothing => self.sent = None,
         }
         let last = settings.len() - 1;
@@ -98,7 +101,7 @@ impl Form {
             (_, Some(Command::Down | Command::NextPanel)) => self.at = (self.at + 1) % (last + 1),
             (Key::Char('+' | '-' | '=') | Key::Named(Named::Left | Named::Right), Some(step)) => {
                 let up = matches!(step, Command::Faster | Command::Right);
-                return self.step(key, up, setting);
+                return self.step(key, up, setting, app);
             }
             (_, Some(Command::Back)) => return Answer::Close,
             // The run can be watched from here, and an edit undone.
@@ -110,32 +113,33 @@ impl Form {
                     | Command::TimeBack
                     | Command::TimeForth),
                 ),
-            ) => return Answer::Meanwhile(watch),
-            (Key::Char('?' | ':'), Some(other)) => return Answer::Through(other),
-            (Key::Char(character), _) => return self.edit(setting, Some(character)),
-            (_, Some(Command::Accept)) => return self.edit(setting, None),
-            (_, Some(other)) => return Answer::Through(other),
-            (_, None) => {}
+            ) => return stay_for(watch, app),
+            (Key::Char('?' | ':'), other) => return leave_for(other, app),
+            (Key::Char(character), _) => return self.edit(setting, Some(character), app),
+            (_, Some(Command::Accept)) => return self.edit(setting, None, app),
+            (_, other) => return leave_for(other, app),
         }
         Answer::Stay
     }
 
     /// Begins to give the value, with the character typed.
-    fn edit(&mut self, setting: &Setting, typed: Option<char>) -> Answer {
+    fn edit(&mut self, setting: &Setting, typed: Option<char>, app: &mut App) -> Answer {
         if let Some(because) = setting.fixed() {
-            return Answer::Say(because);
+            return say(because, app);
         }
         self.giving = begin(setting, typed);
         Answer::Stay
     }
 
     /// The next value of a parameter. Where there is none, the key is the first of a text.
-    fn step(&mut self, key: Key, up: bool, setting: &Setting) -> Answer {
+    fn step(&mut self, key: Key, up: bool, setting: &Setting, app: &mut App) -> Answer {
         let next = setting.next(up).filter(|_| setting.fixed().is_none());
         match (next, key) {
-            (Some(value), _) if setting.value.as_ref() != Some(&value) => change(setting, value),
-            (_, Key::Char('-')) => self.edit(setting, Some('-')),
-            _ => self.edit(setting, None),
+            (Some(value), _) if setting.value.as_ref() != Some(&value) => {
+                change(setting, value, app)
+            }
+            (_, Key::Char('-')) => self.edit(setting, Some('-'), app),
+            _ => self.edit(setting, None, app),
         }
     }
 
@@ -145,7 +149,7 @@ impl Form {
         sent.is_some_and(|before| *before != setting.value)
     }
 
-    fn type_on(&mut self, key: Key, setting: &Setting) -> Answer {
+    fn type_on(&mut self, key: Key, setting: &Setting, app: &mut App) -> Answer {
         let Giving::Typed(line) = &mut self.giving else {
             return Answer::Stay;
         };
@@ -156,7 +160,7 @@ impl Form {
             }
             Key::Named(Named::Enter) => {
                 let value = setting.in_shown_unit(line.text().trim());
-                return self.give(setting, value);
+                return self.give(setting, value, app);
             }
             key => {
                 line.press(key);
@@ -165,13 +169,13 @@ impl Form {
         Answer::Stay
     }
 
-    fn choose(&mut self, key: Key, at: usize, setting: &Setting) -> Answer {
+    fn choose(&mut self, key: Key, at: usize, setting: &Setting, app: &mut App) -> Answer {
         let words = setting.words().unwrap_or_default();
         let last = words.len().saturating_sub(1);
         match (key, command::of_key(key)) {
             (Key::Named(Named::Enter), _) => {
                 let word = words.get(at).copied().unwrap_or_default();
-                return self.give(setting, word.to_owned());
+                return self.give(setting, word.to_owned(), app);
             }
             (Key::Named(Named::Esc), _) => {
                 self.giving = Giving::Nothing;
@@ -194,14 +198,14 @@ impl Form {
     }
 
     /// Asks for a change to `value`, unless it is there already.
-    fn give(&mut self, setting: &Setting, value: String) -> Answer {
+    fn give(&mut self, setting: &Setting, value: String, app: &mut App) -> Answer {
         let is_same = setting.value.as_ref() == Some(&value) || setting.shown(true) == value;
         if value.is_empty() || is_same {
             self.giving = Giving::Nothing;
             return Answer::Stay;
         }
         self.sent = Some(setting.value.clone());
-        change(setting, value)
+        change(setting, value, app)
     }
 
     pub(super) fn draw(&self, app: &App, area: Rect, buffer: &mut Buffer) {
@@ -343,9 +347,8 @@ fn about_it(setting: &Setting, app: &App) -> Vec<Line<'static>> {
     ]
 }
 
-fn change(setting: &Setting, value: String) -> Answer {
-    Answer::Ask(Order::Change {
-        key: setting.parameter.path.to_owned(),
-        value,
-    })
+fn change(setting: &Setting, value: String, app: &mut App) -> Answer {
+    let key = setting.parameter.path;
+    app.order(move |run| run.change(key, &value));
+    Answer::Stay
 }

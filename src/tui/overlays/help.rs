@@ -5,10 +5,10 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Paragraph, Widget};
 
-use super::{Answer, App, Command, Key, LineEdit, popup, typing};
-use crate::tui::command::{self, BINDINGS};
+use super::{Answer, App, Command, Key, LineEdit, leave_for, popup, typing};
+use crate::tui::command::{self, Row, with_keys};
 use crate::tui::keys::Named;
-use crate::tui::manual::{Entry, groups, keys};
+use crate::tui::manual::groups;
 use crate::tui::theme::Role;
 
 /// The help: scrolled down by some lines, or searched.
@@ -19,18 +19,13 @@ pub struct Help {
 }
 
 /// The commands that have all of the words in key, name or help.
-fn found(search: &str) -> Vec<Entry> {
+fn found(search: &str) -> impl Iterator<Item = &'static Row> + use<> {
     let words: Vec<String> = search.split_whitespace().map(str::to_lowercase).collect();
-    BINDINGS
-        .iter()
-        .filter(|binding| {
-            let keys = keys(binding).join(" ");
-            let text = format!("{keys} {} {}", binding.name, binding.help);
-            let text = text.to_lowercase();
-            words.iter().all(|word| text.contains(word.as_str()))
-        })
-        .map(Entry::of)
-        .collect()
+    with_keys().filter(move |row| {
+        let text = format!("{} {} {}", row.key_names().join(" "), row.name, row.help);
+        let text = text.to_lowercase();
+        words.iter().all(|word| text.contains(word.as_str()))
+    })
 }
 
 impl Help {
@@ -47,8 +42,7 @@ impl Help {
         self.search.as_mut()
     }
 
-    pub(super) fn press(&mut self, key: Key) -> Answer {
-        let command = command::of_key(key);
+    pub(super) fn press(&mut self, key: Key, app: &mut App) -> Answer {
         if let Some(line) = &mut self.search {
             match key {
                 Key::Named(Named::Esc) => self.search = None,
@@ -59,7 +53,7 @@ impl Help {
             return Answer::Stay;
         }
         const PAGE: u16 = 10;
-        let last = 2 * BINDINGS.len() as u16;
+        let last = 2 * with_keys().count() as u16;
         match key {
             Key::Named(Named::PageUp) => self.first = self.first.saturating_sub(PAGE),
             Key::Named(Named::PageDown) => self.first = (self.first + PAGE).min(last),
@@ -67,13 +61,12 @@ impl Help {
             Key::Named(Named::End) => self.first = last,
             _ => {}
         }
-        match command {
+        match command::of_key(key) {
             Some(Command::Up) => self.first = self.first.saturating_sub(1),
             Some(Command::Down) => self.first = (self.first + 1).min(last),
             Some(Command::Search) => self.search = Some(LineEdit::default()),
             Some(Command::Back | Command::Help | Command::Accept) => return Answer::Close,
-            Some(other) => return Answer::Through(other),
-            None => {}
+            other => return leave_for(other, app),
         }
         Answer::Stay
     }
@@ -88,7 +81,7 @@ impl Help {
     /// All keys by groups: in two columns where there is room for them, else scrolled.
     fn draw_groups(&self, app: &App, area: Rect, buffer: &mut Buffer) {
         let mut lines = Vec::new();
-        for (group, bindings) in groups() {
+        for (group, rows) in groups() {
             if !lines.is_empty() {
                 lines.push(Line::default());
             }
@@ -96,11 +89,7 @@ impl Help {
                 format!(" {group}"),
                 app.theme.style(Role::Title),
             ));
-            lines.extend(
-                bindings
-                    .into_iter()
-                    .map(|binding| row(&Entry::of(binding), app)),
-            );
+            lines.extend(rows.iter().map(|row| line(row, app)));
         }
         let count = lines.len();
         let columns = if area.width >= 2 * WIDTH && count + 2 > usize::from(area.height) {
@@ -127,10 +116,8 @@ impl Help {
     }
 
     fn draw_search(&self, search: &LineEdit, app: &App, area: Rect, buffer: &mut Buffer) {
-        let mut lines: Vec<Line> = found(&search.text())
-            .iter()
-            .map(|entry| row(entry, app))
-            .collect();
+        let found = found(&search.text());
+        let mut lines: Vec<Line> = found.map(|row| line(row, app)).collect();
         if lines.is_empty() {
             let text = format!("{:>KEYS$}   no command matches", "");
             lines.push(Line::styled(text, app.theme.style(Role::Quiet)));
@@ -138,7 +125,7 @@ impl Help {
         let prompt = format!("{:>1$}", "/", KEYS + 3);
         lines.insert(0, typing(&prompt, search, app.theme.style(Role::Title)));
         // The box keeps its height while the list gets shorter.
-        let height = BINDINGS.len() as u16 + 3;
+        let height = with_keys().count() as u16 + 3;
         let title = "search the help (Esc ends)";
         let inside = popup(app, title, (WIDTH, height), area, buffer);
         Paragraph::new(lines).render(inside, buffer);
@@ -150,12 +137,8 @@ const WIDTH: u16 = 80;
 const KEYS: usize = 15;
 
 /// The keys of a command, and what they do.
-fn row(Entry { keys, help }: &Entry, app: &App) -> Line<'static> {
-    Line::from(vec![
-        Span::styled(
-            format!(" {:>KEYS$}  ", keys.join(" ")),
-            app.theme.style(Role::Title),
-        ),
-        Span::raw(*help),
-    ])
+fn line(row: &Row, app: &App) -> Line<'static> {
+    let keys = format!(" {:>KEYS$}  ", row.key_names().join(" "));
+    let keys = Span::styled(keys, app.theme.style(Role::Title));
+    Line::from(vec![keys, Span::raw(row.help)])
 }

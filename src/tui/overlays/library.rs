@@ -7,7 +7,7 @@ use ratatui::layout::Rect;
 use ratatui::text::Line;
 use ratatui::widgets::{Paragraph, Widget, Wrap};
 
-use super::{Answer, App, Command, Frame, Key, first_shown, popup};
+use super::{Answer, App, Command, Frame, Key, first_shown, leave_for, popup};
 use crate::scenario::preset::{self, Preset};
 use crate::scenario::{Scenario, printable};
 use crate::tui::command;
@@ -144,7 +144,7 @@ impl Library {
         self.about = self.entries[self.at].about();
     }
 
-    pub(super) fn press(&mut self, key: Key) -> Answer {
+    pub(super) fn press(&mut self, key: Key, app: &mut App) -> Answer {
         let count = self.entries.len();
         match (key, command::of_key(key)) {
             (Key::Named(Named::Home), _) => self.select(0),
@@ -156,27 +156,25 @@ impl Library {
             }
             (_, Some(Command::Down | Command::NextPanel)) => self.select((self.at + 1) % count),
             (_, Some(Command::Back | Command::Presets)) => return Answer::Close,
-            (_, Some(Command::Accept | Command::RunPause)) => return self.take(),
-            (_, Some(other)) => return Answer::Through(other),
-            (_, None) => {}
+            (_, Some(Command::Accept | Command::RunPause)) => return self.take(app),
+            (_, other) => return leave_for(other, app),
         }
         Answer::Stay
     }
 
     /// Loads the selected scenario, or opens the selected directory.
-    fn take(&mut self) -> Answer {
+    fn take(&mut self, app: &mut App) -> Answer {
         match &self.entries[self.at] {
-            Entry::Preset(preset) => Answer::Load(preset.name.to_owned()),
-            Entry::File(path) | Entry::Snapshot(path, _) => {
-                Answer::Load(path.to_string_lossy().into_owned())
-            }
+            Entry::Preset(preset) => app.load(preset.name),
+            Entry::File(path) | Entry::Snapshot(path, _) => app.load(&path.to_string_lossy()),
             Entry::Directory(path) => {
                 let path = path.clone();
                 self.enter(path);
                 self.select(preset::ALL.len());
-                Answer::Stay
+                return Answer::Stay;
             }
         }
+        Answer::Close
     }
 
     pub(super) fn draw(&self, app: &App, area: Rect, buffer: &mut Buffer) {

@@ -12,7 +12,6 @@ use super::frame::Frame;
 use super::keys::{Key, Named};
 use super::line::LineEdit;
 use super::map::live::Live;
-use super::order::Order;
 use super::theme::Role;
 
 mod accuracy;
@@ -20,12 +19,12 @@ mod explain;
 mod form;
 mod help;
 mod library;
-mod palette;
+pub(super) mod palette;
 
 pub use form::Form;
 pub use help::Help;
 pub use library::Library;
-pub use palette::Palette;
+pub use palette::{Completion, Palette};
 
 /// The overlay on the panels.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -53,36 +52,25 @@ pub enum Overlay {
     Sweep(Live),
 }
 
-/// The response of an overlay to a key.
-#[derive(Debug)]
+/// Whether an overlay stays open after a key.
+#[derive(Debug, PartialEq, Eq)]
 pub enum Answer {
     /// It stays.
     Stay,
     /// It closes.
     Close,
-    /// It closes, and the command is carried out.
-    Through(Command),
-    /// It stays, and the command is carried out below it.
-    Meanwhile(Command),
-    /// It closes, and the worker is told.
-    Order(Order),
-    /// It stays, and the worker is told.
-    Ask(Order),
-    /// It closes, and this scenario is loaded.
-    Load(String),
-    /// It stays, and the user is told.
-    Say(String),
 }
 
 impl Overlay {
-    /// Answers a key, given what is on the screen.
-    pub fn press(&mut self, key: Key, frame: Option<&Frame>) -> Answer {
+    /// Answers a key. Meanwhile the app has no overlay: what opens one takes this one's place.
+    pub fn press(&mut self, key: Key, app: &mut App) -> Answer {
+        let command = command::of_key(key);
         match self {
-            Self::None => command::of_key(key).map_or(Answer::Stay, Answer::Through),
-            Self::Help(help) => help.press(key),
-            Self::Library(library) => library.press(key),
-            Self::Explain => command::of_key(key).map_or(Answer::Stay, explain::answer),
-            Self::Accuracy | Self::Checks => match command::of_key(key) {
+            Self::None => leave_for(command, app),
+            Self::Help(help) => help.press(key, app),
+            Self::Library(library) => library.press(key, app),
+            Self::Explain => command.map_or(Answer::Stay, |command| explain::press(command, app)),
+            Self::Accuracy | Self::Checks => match command {
                 None => Answer::Stay,
                 Some(Command::NextPanel | Command::PreviousPanel) => {
                     *self = match self {
@@ -91,16 +79,19 @@ impl Overlay {
                     };
                     Answer::Stay
                 }
-                Some(command) => accuracy::answer(command),
+                Some(command) => accuracy::press(command, app),
             },
-            Self::Palette(palette) => palette.press(key, frame),
-            Self::Form(form) => form.press(key, frame),
-            Self::Note(line) => note(line, key),
+            Self::Palette(palette) => palette.press(key, app),
+            Self::Form(form) => form.press(key, app),
+            Self::Note(line) => note(line, key, app),
             Self::Sweep(live) => match live.press(key) {
                 None => Answer::Stay,
                 Some(Ok(None)) => Answer::Close,
-                Some(Ok(Some(scenario))) => Answer::Order(Order::Load(Box::new(scenario))),
-                Some(Err(error)) => Answer::Say(error),
+                Some(Ok(Some(scenario))) => {
+                    app.order(|run| run.load(scenario));
+                    Answer::Close
+                }
+                Some(Err(error)) => say(error, app),
             },
         }
     }
@@ -142,14 +133,36 @@ impl Overlay {
     }
 }
 
+/// Closes for a command; stays if there is none.
+fn leave_for(command: Option<Command>, app: &mut App) -> Answer {
+    let Some(command) = command else {
+        return Answer::Stay;
+    };
+    app.run(command);
+    Answer::Close
+}
+
+/// Stays while a command is carried out.
+fn stay_for(command: Command, app: &mut App) -> Answer {
+    app.run(command);
+    Answer::Stay
+}
+
+/// Stays and tells the user.
+fn say(text: String, app: &mut App) -> Answer {
+    app.notice = Some(text);
+    Answer::Stay
+}
+
 /// A note is typed; Enter takes the snapshot.
-fn note(line: &mut LineEdit, key: Key) -> Answer {
+fn note(line: &mut LineEdit, key: Key, app: &mut App) -> Answer {
     match key {
         Key::Named(Named::Esc) => return Answer::Close,
         Key::Named(Named::Enter) => {
             let text = line.text().trim().to_owned();
             let note = Some(text).filter(|text| !text.is_empty());
-            return Answer::Order(Order::Snapshot(note));
+            app.order(move |run| run.write_snapshot(note.as_deref()));
+            return Answer::Close;
         }
         key => line.press(key),
     };

@@ -25,15 +25,18 @@ const COARSEST: usize = 8;
 const LAWS: [&str; 2] = ["archard", "power"];
 
 impl Worker {
-    /// Changes the transform method by this many places.
-    pub(super) fn change_method(&mut self, places: isize) {
+    /// Changes the transform method by this many places, that of the comparison if there is one.
+    pub fn change_method(&mut self, places: isize) {
+        if let Some(comparison) = &self.comparison {
+            return self.compare(places, comparison.from());
+        }
         let now = self.session.simulation().setup().method;
         let method = shifted(&AbelMethod::ALL, |method| *method == now, places);
         self.change("numerics.method", method.name());
     }
 
     /// Changes the wear law by this many places.
-    pub(super) fn change_law(&mut self, places: isize) {
+    pub fn change_law(&mut self, places: isize) {
         match self.session.simulation().setup().wear {
             None => self.notice("this scenario has no wear, so it has no wear law to change"),
             Some(now) => {
@@ -44,7 +47,7 @@ impl Worker {
     }
 
     /// Refines or coarsens cells and steps together, by [`STRIDE`] for each place.
-    pub(super) fn refine(&mut self, places: isize) {
+    pub fn refine(&mut self, places: isize) {
         let scenario = self.session.scenario();
         let now = Level::of(scenario);
         let factor = STRIDE.powf(places as f64);
@@ -73,7 +76,7 @@ impl Worker {
     }
 
     /// Changes a key from here on; further `, KEY=VALUE` change at the same time.
-    pub(super) fn change(&mut self, key: &str, value: &str) {
+    pub fn change(&mut self, key: &str, value: &str) {
         self.keep();
         let assignments = assignments(key, value);
         let borrowed: Vec<(&str, &str)> = assignments
@@ -105,7 +108,7 @@ impl Worker {
     }
 
     /// The scenario as it was loaded, from its beginning; the run up to here can be gone back to.
-    pub(super) fn restart(&mut self) {
+    pub fn restart(&mut self) {
         let cycle = self.past.line(&self.session).simulation().cycle();
         self.load(self.session.loaded().clone());
         if cycle > 0.0 {
@@ -116,7 +119,7 @@ impl Worker {
     }
 
     /// Another scenario, from its beginning.
-    pub(super) fn load(&mut self, scenario: Scenario) {
+    pub fn load(&mut self, scenario: Scenario) {
         let resolved = match refinement::resolve_soon(&scenario) {
             Ok(resolved) => resolved,
             Err(error) => return self.notice(&error.to_string()),

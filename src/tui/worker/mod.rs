@@ -7,7 +7,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -21,11 +21,10 @@ use super::frame::{Activity, Frame, Slot};
 use super::ghosts::{self, Source};
 use super::line::one_line;
 use super::map::live::{Live, Range};
-use super::order::Order;
 use super::pace::{Meter, Pace};
 use super::refinement_check;
 use super::settings::Setting;
-use super::snapshot;
+use super::snapshot::{self, Opened};
 use super::trend::Trend;
 use super::twin::Twin;
 use super::undo::Past;
@@ -43,6 +42,35 @@ use travel::ends_cycle;
 
 /// How long a comparison catches up before the worker looks for orders again.
 const CATCH_UP: Duration = Duration::from_millis(10);
+
+/// What the worker is to do next.
+pub type Order = Box<dyn FnOnce(&mut Worker) + Send>;
+
+/// The way to the worker. One that has ended has reported it already.
+#[derive(Clone)]
+pub struct Orders(Sender<Order>);
+
+impl Orders {
+    /// A way to a worker that is to [`serve`](Worker::serve) its other end.
+    pub fn channel() -> (Self, Receiver<Order>) {
+        let (orders, to_worker) = channel();
+        (Self(orders), to_worker)
+    }
+
+    /// Sends an order.
+    pub fn send(&self, order: impl FnOnce(&mut Worker) + Send + 'static) {
+        let _ = self.0.send(Box::new(order));
+    }
+
+    /// Waits until all earlier orders are carried out; returns the frame then, and `None` if the worker has ended.
+    pub fn frame(&self) -> Option<Arc<Frame>> {
+        let (reply, answer) = channel();
+        self.send(move |worker| {
+            let _ = reply.send(worker.settled_frame());
+        });
+        answer.recv().ok()
+    }
+}
 
 /// The worker's side.
 pub struct Worker {
@@ -184,14 +212,17 @@ impl Worker {
                 || orders.recv().map_err(RecvTimeoutError::from),
                 |wait| orders.recv_timeout(wait),
             ) {
-                Ok(Order::Quit) | Err(RecvTimeoutError::Disconnected) => return,
+                Err(RecvTimeoutError::Disconnected) => return,
                 Ok(order) => {
                     // If many orders are waiting, not every one is shown.
                     for order in std::iter::once(order).chain(orders.try_iter()) {
-                        if matches!(order, Order::Quit) || self.halt.load(Ordering::Relaxed) {
+                        if self.is_over() {
                             return;
                         }
-                        self.obey(order);
+                        order(self);
+                        if self.is_over() {
+                            return;
+                        }
                         if self.published.elapsed() >= self.interval {
                             self.publish();
                         }
@@ -218,7 +249,7 @@ impl Worker {
     }
 
     /// Starts a comparison, this many places after the previous one, from now or from the start.
-    fn comparison(&mut self, places: isize, from: From) {
+    fn compare(&mut self, places: isize, from: From) {
         match ComparisonRun::beside(&self.session, self.comparison.as_ref(), places, from) {
             Ok(comparison) => {
                 let name = comparison.name();
@@ -267,7 +298,7 @@ impl Worker {
     }
 
     /// Runs the refinement check in its own thread; its result comes as an event.
-    fn refinement_check(&self) {
+    pub fn check_refinement(&self) {
         let (session, events) = (self.session.clone(), self.events.clone());
         thread::spawn(move || {
             // The receiver waits for an answer, whatever happens.
@@ -279,7 +310,7 @@ impl Worker {
     }
 
     /// Starts a study around the present scenario, up to the present cycle.
-    fn sweep(&self, range: &Range) {
+    pub fn sweep(&self, range: &Range) {
         let cycle = self.session.simulation().cycle();
         let planned = self.session.loaded().run().cycles;
         let cycles = if cycle > 0.0 {
@@ -299,57 +330,68 @@ impl Worker {
         }
     }
 
-    fn obey(&mut self, order: Order) {
-        match order {
-            Order::RunPause => self.run_or_pause(),
-            Order::Step => self.by_hand(|_, _| true),
-            Order::Cycle => self.by_hand(ends_cycle),
-            Order::Back => self.travel(Past::back, "this is the start of the run"),
-            Order::Forth => self.travel(Past::forth, "this is the present"),
-            Order::Visit(cycle) => self.travel(|past| past.visit(cycle), "no state is stored"),
-            Order::Compare => match self.comparison.take() {
-                Some(_) => {}
-                None => self.comparison(0, From::Now),
-            },
-            Order::CompareFromStart => self.comparison(0, From::Start),
-            Order::HoldPhase => self.hold_or_release_phase(),
-            Order::RefinementCheck => self.refinement_check(),
-            Order::Method(places) if self.comparison.is_some() => {
-                let from = self
-                    .comparison
-                    .as_ref()
-                    .map_or(From::Now, ComparisonRun::from);
-                self.comparison(places, from);
-            }
-            Order::Method(places) => self.change_method(places),
-            Order::Law(places) => self.change_law(places),
-            Order::Change { key, value } => self.change(&key, &value),
-            Order::Accuracy(places) => self.refine(places),
-            Order::Pace(rungs) => {
-                self.rung = (self.rung + rungs).clamp(Pace::SLOWEST, Pace::UNLIMITED)
-            }
-            Order::Restart => self.restart(),
-            Order::Load(scenario) => self.load(*scenario),
-            Order::Open(opened) => self.take_up(opened.session, opened.trend),
-            Order::Overlay(given) => self.overlay(&given),
-            Order::Freeze => self.add_ghost(Source::frozen(&self.session, &self.trend)),
-            Order::DropGhosts => self.drop_ghosts(),
-            Order::Snapshot(note) => self.snapshot(note.as_deref()),
-            Order::Sweep(range) => self.sweep(&range),
-            Order::Figure(path) => self.figure(&path),
-            Order::Show(curves) => self.curves = curves,
-            Order::Sync(reply) => {
-                while self.is_awaited() && !self.halt.load(Ordering::Relaxed) {
-                    self.catch_up();
-                }
-                self.follow_hardness();
-                let _ = reply.send(Arc::new(self.frame()));
-            }
-            Order::Quit => {}
+    /// Takes one step, paused.
+    pub fn step_once(&mut self) {
+        self.step_by_hand(|_, _| true);
+    }
+
+    /// Steps to the end of the cycle, paused.
+    pub fn step_to_end_of_cycle(&mut self) {
+        self.step_by_hand(ends_cycle);
+    }
+
+    /// Changes the pace by this many rungs.
+    pub fn change_pace(&mut self, rungs: i32) {
+        self.rung = (self.rung + rungs).clamp(Pace::SLOWEST, Pace::UNLIMITED);
+    }
+
+    /// Begins or ends the comparison with another method.
+    pub fn compare_or_stop(&mut self) {
+        if self.comparison.take().is_none() {
+            self.compare(0, From::Now);
         }
     }
 
-    fn overlay(&mut self, given: &str) {
+    /// Compares from the start of the scenario on.
+    pub fn compare_from_start(&mut self) {
+        self.compare(0, From::Start);
+    }
+
+    /// Computes these curves from now on.
+    pub fn compute(&mut self, curves: Curves) {
+        self.curves = curves;
+    }
+
+    /// Goes on from a state that was read.
+    pub fn open(&mut self, opened: Opened) {
+        self.take_up(opened.session, opened.trend);
+    }
+
+    /// Lays the present state over the panels.
+    pub fn freeze(&mut self) {
+        self.add_ghost(Source::frozen(&self.session, &self.trend));
+    }
+
+    /// Ends the worker.
+    pub fn quit(&mut self) {
+        self.halt.store(true, Ordering::Relaxed);
+    }
+
+    /// The present frame, when all that runs beside has come to it.
+    fn settled_frame(&mut self) -> Arc<Frame> {
+        while self.is_awaited() && !self.is_over() {
+            self.catch_up();
+        }
+        self.follow_hardness();
+        Arc::new(self.frame())
+    }
+
+    fn is_over(&self) -> bool {
+        self.halt.load(Ordering::Relaxed)
+    }
+
+    /// Lays the curves of a file, a directory or a scenario over the panels.
+    pub fn overlay(&mut self, given: &str) {
         let reach = self.session.simulation().setup().grid.radius();
         match Source::load(given, reach) {
             Ok(ghost) => self.add_ghost(ghost),
@@ -367,13 +409,15 @@ impl Worker {
         self.ghosts.push(ghost);
     }
 
-    fn drop_ghosts(&mut self) {
+    /// Takes all of them away.
+    pub fn drop_ghosts(&mut self) {
         if std::mem::take(&mut self.ghosts).is_empty() {
             self.notice("there is no ghost; g freezes this state, :overlay FILE takes a file");
         }
     }
 
-    fn snapshot(&mut self, note: Option<&str>) {
+    /// Writes the state to a new directory, with a note if there is one.
+    pub fn write_snapshot(&mut self, note: Option<&str>) {
         match snapshot::write(&self.session, &self.trend, note) {
             Ok(path) => {
                 self.snapshots.push(self.session.simulation().cycle());
@@ -383,7 +427,8 @@ impl Worker {
         }
     }
 
-    fn figure(&self, path: &Path) {
+    /// Draws a figure of the state into a file, its data beside it.
+    pub fn write_figure(&self, path: &Path) {
         match figure::write(&self.session, &self.trend, path) {
             Ok(()) => self.notice(&format!("figure in {}", path.display())),
             Err(error) => self.unwritten(&error),

@@ -1,6 +1,5 @@
 //! Stepping: as far as the pace allows while it runs, or by hand.
 
-use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use super::travel::ends_cycle;
@@ -36,7 +35,7 @@ const BROKEN_DOWN: &str = "the run has failed; r restarts it, m changes the meth
 
 impl Worker {
     /// Runs, or pauses.
-    pub(super) fn run_or_pause(&mut self) {
+    pub fn run_or_pause(&mut self) {
         match self.activity {
             Activity::Running => self.activity = Activity::Paused,
             Activity::Done if !self.told_of_end => {
@@ -57,7 +56,7 @@ impl Worker {
     }
 
     /// Takes frames at one phase of the motion from now on, or as they come.
-    pub(super) fn hold_or_release_phase(&mut self) {
+    pub fn hold_or_release_phase(&mut self) {
         self.holds_phase = !self.holds_phase;
         self.notice(if self.holds_phase {
             "above 2 cycles/s, all frames show the same phase of the motion"
@@ -194,7 +193,7 @@ impl Worker {
     }
 
     /// Pauses and steps until `done`, which is given the cycles before and now, is true.
-    pub(super) fn by_hand(&mut self, done: impl Fn(f64, f64) -> bool) {
+    pub(super) fn step_by_hand(&mut self, done: impl Fn(f64, f64) -> bool) {
         if matches!(self.activity, Activity::Stopped(_)) {
             return self.notice(BROKEN_DOWN);
         }
@@ -207,7 +206,7 @@ impl Worker {
             }
             if self.activity != Activity::Paused
                 || done(before, self.session.simulation().cycle())
-                || self.halt.load(Ordering::Relaxed)
+                || self.is_over()
             {
                 break;
             }

@@ -40,8 +40,23 @@ impl Worker {
         ))
     }
 
+    /// One stored state back in time.
+    pub fn go_back(&mut self) {
+        self.travel(Past::back, "this is the start of the run");
+    }
+
+    /// One stored state forward in time.
+    pub fn go_forward(&mut self) {
+        self.travel(Past::forth, "this is the present");
+    }
+
+    /// To the stored state of this run that is nearest to a cycle.
+    pub fn go_to(&mut self, cycle: f64) {
+        self.travel(|past| past.visit(cycle), "no state is stored");
+    }
+
     /// Shows another stored state, or says why there is none.
-    pub(super) fn travel(&mut self, way: impl FnOnce(&mut Past) -> Option<Arc<Kept>>, end: &str) {
+    fn travel(&mut self, way: impl FnOnce(&mut Past) -> Option<Arc<Kept>>, end: &str) {
         self.keep();
         self.past.note_trend(&self.trend);
         match way(&mut self.past) {

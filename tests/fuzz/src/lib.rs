@@ -1,7 +1,6 @@
 //! What each target does with what the fuzzer makes up. `tests/hostile.rs` replays some of it.
 
 use std::cell::OnceCell;
-use std::sync::mpsc::{Receiver, channel};
 
 use mdr_tui::plot::Marker;
 use mdr_tui::scenario::checkpoint::{encode, from_bytes, sealed};
@@ -11,6 +10,7 @@ use mdr_tui::tui::app::App;
 use mdr_tui::tui::keys::parse_script;
 use mdr_tui::tui::screen;
 use mdr_tui::tui::theme::{Look, Theme};
+use mdr_tui::tui::worker::Orders;
 use mdr_tui::tui::{Stroke, rehearse};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -98,7 +98,7 @@ pub fn keys(text: &str) {
     if !is_chosen(text, 64) {
         return;
     }
-    let (orders, _inbox): (_, Receiver<_>) = channel();
+    let (orders, _inbox) = Orders::channel();
     let mut app = App::new(Theme::new(Look::Dark, Marker::Braille), orders);
     let area = Rect::new(0, 0, 80, 24);
     for key in keys.into_iter().take(100) {

@@ -1,0 +1,212 @@
+//! Every command of the explorer, one row each: keys, name, group, help, and what it does.
+//!
+//! Footer, help, palette, configuration and manual are made from these rows. A command without keys
+//! is typed in the palette and takes an argument.
+
+use std::sync::OnceLock;
+
+use super::app::{App, Leave};
+use super::frame::Frame;
+use super::keys::Key::{self, Char, Ctrl, Named};
+use super::keys::Named as N;
+use super::overlays::{Completion, Form, Help, Library, Overlay, palette};
+use super::worker::Worker;
+use Act::{Palette, Screen, Worker as Work};
+
+/// A command, its keys and its help.
+pub struct Row {
+    /// The command.
+    pub command: Command,
+    /// Its keys; the first is shown in the footer.
+    pub keys: &'static [Key],
+    /// Its name, in a word or two.
+    pub name: &'static str,
+    /// Where the help lists it.
+    pub group: &'static str,
+    /// What it does, in a line.
+    pub help: &'static str,
+    /// What it does.
+    pub(super) act: Act,
+}
+
+/// What a command does.
+#[derive(Clone, Copy)]
+pub(super) enum Act {
+    /// Something on the screen.
+    Screen(fn(&mut App)),
+    /// Something in the run.
+    Worker(fn(&mut Worker)),
+    /// It lets an argument be typed, with these completions.
+    Palette(fn(&str, Option<&Frame>) -> Vec<Completion>),
+}
+
+macro_rules! commands {
+    ($($group:literal { $($id:ident [$($key:expr),*] $name:literal, $help:literal, $act:expr;)* })*) => {
+        /// A command of the explorer.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub enum Command { $($(#[doc = $help] $id,)*)* }
+
+        /// Every command, in the order of the help.
+        pub static COMMANDS: &[Row] = &[$($(Row {
+            command: Command::$id,
+            keys: &[$($key),*],
+            name: $name,
+            group: $group,
+            help: $help,
+            act: $act,
+        },)*)*];
+    };
+}
+
+commands! {
+    "palette" {
+        Set [] "set", "change keys of the scenario: set KEY=VALUE, KEY=VALUE", Palette(palette::settings);
+        Load [] "load", "another preset, or a file: load NAME", Palette(palette::presets);
+        Sweep [] "sweep", "run many values of a key up to this cycle: sweep KEY FROM..TO", Palette(palette::sweeps);
+        Figure [] "figure", "draw this state for a paper: figure FILE.svg", Palette(palette::figures);
+        Overlay [] "overlay", "data, a run or a scenario over the plots: overlay FILE", Palette(palette::overlays);
+    }
+    "run" {
+        RunPause [Char(' ')] "run/pause", "run or pause the simulation", Work(Worker::run_or_pause);
+        Step [Char('.')] "step", "pause and take one step", Work(Worker::step_once);
+        Cycle [Char(',')] "cycle", "pause and step to the end of the cycle", Work(Worker::step_to_end_of_cycle);
+        Faster [Char('+'), Char('=')] "faster", "more cycles per second, up to full speed", Work(|run| run.change_pace(1));
+        Slower [Char('-')] "slower", "fewer cycles per second", Work(|run| run.change_pace(-1));
+        HoldPhase [Char('f')] "phase", "fast runs: frames at one phase of the motion, or at any",
+            Work(Worker::hold_or_release_phase);
+        Restart [Char('r')] "restart", "restart the scenario as it was loaded", Screen(App::restart);
+    }
+    "look" {
+        Accept [Named(N::Enter)] "explain", "explain the focused panel; in a list, choose the entry",
+            Screen(|app| app.overlay = Overlay::Explain);
+        Tour [Char('n')] "tour", "tour of this preset: next caption", Screen(App::continue_tour);
+        NextPanel [Named(N::Tab)] "panel", "focus the next panel", Screen(|app| app.focus = app.focus.shifted(1));
+        PreviousPanel [Named(N::BackTab)] "panel back", "focus the previous panel",
+            Screen(|app| app.focus = app.focus.shifted(-1));
+        NextPage [Char('v')] "view", "the next page of panels", Screen(App::turn_page);
+        Zoom [Char('z')] "zoom", "zoom the focused panel, or show all panels", Screen(App::zoom_or_unzoom);
+        Contact [Char('V')] "contact", "the contact itself, large and in motion, or all panels",
+            Screen(App::show_or_leave_contact);
+        LogScale [Char('L')] "log", "logarithmic scale in the focused panel", Screen(App::toggle_log);
+        Cursor [Char('x')] "cursor", "a cursor that reads all curves at r; arrows move it", Screen(App::toggle_cursor);
+        Left [Named(N::Left), Char('h')] "left", "move the cursor inwards, or focus the previous panel",
+            Screen(|app| app.move_sideways(-1));
+        Right [Named(N::Right), Char('l')] "right", "move the cursor outwards, or focus the next panel",
+            Screen(|app| app.move_sideways(1));
+        Up [Named(N::Up), Char('k')] "up", "up in a list", Screen(|app| app.focus = app.focus.shifted(-1));
+        Down [Named(N::Down), Char('j')] "down", "down in a list", Screen(|app| app.focus = app.focus.shifted(1));
+        Theory [Char('t')] "theory", "show or hide closed forms in the plots",
+            Screen(|app| app.with_theory = !app.with_theory);
+        Stress [Char('o')] "stress", "next stress component in the cross-section", Screen(App::show_next_stress);
+        StressOfCycle [Char('O')] "stress, cycle", "largest stress of a cycle, or of this moment",
+            Screen(App::show_stress_of_cycle_or_moment);
+        Theme [Char('T')] "theme", "colours for a dark or light background, or none", Screen(App::change_theme);
+        Back [Named(N::Esc)] "back", "close what is open, or leave the zoomed panel", Screen(App::go_back);
+    }
+    "change" {
+        Presets [Char('p')] "presets", "another preset, or a file of your own",
+            Screen(|app| app.overlay = Overlay::Library(Library::open(app.frame.as_deref())));
+        Edit [Char('e')] "edit", "edit any parameter while it runs; changes are recorded",
+            Screen(|app| app.overlay = Overlay::Form(Form::default()));
+        NextMethod [Char('m')] "method", "next transform method; the state is carried over",
+            Work(|run| run.change_method(1));
+        PreviousMethod [Char('M')] "method back", "previous transform method", Work(|run| run.change_method(-1));
+        Methods [Char('i')] "methods", "all transform methods, and what each is",
+            Screen(|app| app.list_words("numerics.method"));
+        NextLaw [Char('w')] "wear law", "next wear law; the state is carried over", Work(|run| run.change_law(1));
+        PreviousLaw [Char('W')] "law back", "previous wear law", Work(|run| run.change_law(-1));
+        Laws [Char('I')] "wear laws", "all wear laws, and what each is", Screen(|app| app.list_words("wear.law"));
+        Coarser [Char('<')] "coarser", "less accurate, faster: chooses method, cells, steps", Work(|run| run.refine(-1));
+        Finer [Char('>')] "finer", "more accurate, slower: chooses method, cells, steps", Work(|run| run.refine(1));
+    }
+    "compare and check" {
+        Compare [Char('c')] "compare", "compare with a second method; m and M change it", Work(Worker::compare_or_stop);
+        CompareFromStart [Char('C')] "compare from start", "compare from the start of the scenario",
+            Work(Worker::compare_from_start);
+        Freeze [Char('g')] "ghost", "freeze this state as a ghost in the plots", Work(Worker::freeze);
+        DropGhosts [Char('G')] "no ghosts", "remove all ghosts: frozen states and overlays", Screen(App::drop_ghosts);
+        Accuracy [Char('a')] "accuracy", "checks of the run, and its estimated errors", Screen(App::check_accuracy);
+    }
+    "time and files" {
+        TimeBack [Char('[')] "back in time", "back in time; running or editing branches from there",
+            Work(Worker::go_back);
+        TimeForth [Char(']')] "forward in time", "forward in time, up to the present", Work(Worker::go_forward);
+        Snapshot [Char('s')] "snapshot", "write state, history and loop to a new directory",
+            Work(|run| run.write_snapshot(None));
+        SnapshotNote [Char('S')] "snapshot, note", "the same, with a note in both files",
+            Screen(|app| app.overlay = Overlay::Note(Default::default()));
+    }
+    "program" {
+        Palette [Char(':')] "commands", "every command by name, and set KEY=VALUE",
+            Screen(|app| app.overlay = Overlay::Palette(Default::default()));
+        Help [Char('?')] "help", "show or hide this help", Screen(|app| app.overlay = Overlay::Help(Help::default()));
+        Search [Char('/')] "search", "search in the help", Screen(|app| app.overlay = Overlay::Help(Help::searching()));
+        Quit [Char('q'), Ctrl('c')] "quit", "quit; Ctrl-C quits from anywhere",
+            Screen(|app| app.leave = Some(Leave::Clean));
+        QuitKeepingScreen [Char('Q')] "quit, keep", "quit, and leave the last screen in the terminal",
+            Screen(|app| app.leave = Some(Leave::KeepScreen));
+        Suspend [Ctrl('z')] "suspend", "suspend to the shell; fg returns", Screen(|app| app.suspend = true);
+    }
+}
+
+impl Command {
+    /// Its row.
+    pub fn row(self) -> &'static Row {
+        &COMMANDS[self as usize]
+    }
+}
+
+impl Row {
+    /// The names of its keys.
+    pub fn key_names(&self) -> Vec<String> {
+        self.keys.iter().map(ToString::to_string).collect()
+    }
+}
+
+/// The commands that have keys.
+pub fn with_keys() -> impl Iterator<Item = &'static Row> {
+    COMMANDS.iter().filter(|row| !row.keys.is_empty())
+}
+
+/// The user's own keys, which override those of the table.
+static OWN: OnceLock<Vec<(Key, Command)>> = OnceLock::new();
+
+/// Binds further keys to commands, once, before the explorer opens.
+pub fn bind(keys: Vec<(Key, Command)>) {
+    // A second explorer in the same process keeps the keys of the first.
+    let _ = OWN.set(keys);
+}
+
+/// The command of a key.
+pub fn of_key(key: Key) -> Option<Command> {
+    let mut own = OWN.get().into_iter().flatten();
+    let own = own.find(|(bound, _)| *bound == key);
+    own.map(|(_, command)| *command).or_else(|| {
+        let mut rows = COMMANDS.iter();
+        rows.find(|row| row.keys.contains(&key))
+            .map(|row| row.command)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_key_has_two_commands() {
+        let keys: Vec<Key> = COMMANDS.iter().flat_map(|row| row.keys).copied().collect();
+        for (i, key) in keys.iter().enumerate() {
+            assert!(!keys[..i].contains(key), "{key} is bound twice");
+        }
+    }
+
+    #[test]
+    fn every_command_says_what_it_does_and_can_be_called() {
+        for row in COMMANDS {
+            assert_eq!(row.command.row().name, row.name);
+            assert!(!row.help.is_empty() && row.help.len() < 66, "{}", row.name);
+            let is_typed = matches!(row.act, Palette(_));
+            assert_eq!(row.keys.is_empty(), is_typed, "{}", row.name);
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! The line below the panels: a notice, the values at the cursor, or the keys of the present mode.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::Widget;
+
+use super::app::App;
+use super::command::Command::{self, self as C};
+use super::frame::Activity;
+use super::overlays::Overlay;
+use super::readout;
+use super::theme::Role;
+
+/// The hint before the first key.
+const HINT: &str =
+    " Space pauses, + runs faster, Enter explains, V: the contact, n: a tour.   ? help   q quit";
+
+/// The commands of a mode, and the names that some of them have in it.
+type Mode = (&'static [Command], &'static [(Command, &'static str)]);
+
+/// The commands that are shown where nothing else is asked for.
+#[rustfmt::skip]
+pub const USUAL: &[Command] = &[
+    C::RunPause, C::Accept, C::Step, C::Cycle, C::NextMethod, C::NextLaw, C::NextPage, C::NextPanel, C::Zoom,
+    C::Snapshot, C::Edit, C::Presets, C::Compare, C::Palette,
+];
+
+/// The commands that are always shown.
+const ALWAYS: [Command; 2] = [C::Help, C::Quit];
+
+const IN_THE_PAST: Mode = (
+    &[C::TimeBack, C::TimeForth, C::RunPause, C::Edit],
+    &[
+        (C::TimeBack, "back"),
+        (C::TimeForth, "forward"),
+        (C::RunPause, "run on from here"),
+        (C::Edit, "change from here"),
+    ],
+);
+
+#[rustfmt::skip]
+const COMPARING: Mode = (
+    &[C::NextMethod, C::CompareFromStart, C::Compare, C::RunPause, C::Step, C::Cycle],
+    &[(C::NextMethod, "other method"), (C::CompareFromStart, "from the start"), (C::Compare, "end comparison")],
+);
+
+#[rustfmt::skip]
+const AT_THE_CONTACT: Mode = (
+    &[
+        C::Contact, C::RunPause, C::Faster, C::Step, C::Cycle, C::Accept, C::Stress, C::Edit, C::Presets, C::Palette,
+    ],
+    &[(C::Contact, "all panels"), (C::Stress, "other stress")],
+);
+
+const ON_TOUR: Mode = (
+    &[C::Tour, C::Back, C::RunPause, C::Faster, C::Accept],
+    &[(C::Tour, "next caption"), (C::Back, "close the tour")],
+);
+
+fn mode(app: &App) -> Mode {
+    match app.frame.as_deref() {
+        Some(frame) if frame.comparison.is_some() => COMPARING,
+        Some(frame) if frame.present.is_some() => IN_THE_PAST,
+        _ if app.tour.is_some() => ON_TOUR,
+        _ if app.shows_contact() => AT_THE_CONTACT,
+        _ => (USUAL, &[]),
+    }
+}
+
+/// The notice if there is one, else the values at the cursor, else as many keys as fit.
+pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
+    let stopped = app.frame.as_ref().and_then(|frame| match &frame.activity {
+        Activity::Stopped(reason) => Some(reason.as_str()),
+        _ => None,
+    });
+    // The form shows its own notices.
+    let notice = app
+        .notice
+        .as_deref()
+        .filter(|_| !matches!(app.overlay, Overlay::Form(_)));
+    if let Some(text) = notice.or(stopped) {
+        let text = app.theme.printable(text);
+        let role = if notice.is_some() {
+            Role::Notice
+        } else {
+            Role::Alarm
+        };
+        Line::styled(format!(" {text}"), app.theme.style(role)).render(area, buffer);
+        return;
+    }
+    if app.is_new
+        && app.tour.is_none()
+        && !app.shows_contact()
+        && HINT.len() <= usize::from(area.width)
+    {
+        Line::styled(HINT, app.theme.style(Role::Notice)).render(area, buffer);
+        return;
+    }
+    let frame = app.frame.as_ref();
+    if let Some((frame, r)) = frame.and_then(|frame| Some((frame, app.cursor_radius(frame)?))) {
+        let text = readout::line(
+            frame,
+            app.focus,
+            r,
+            usize::from(area.width),
+            app.theme.ascii(),
+        );
+        Line::raw(text).render(area, buffer);
+        return;
+    }
+    Line::from(keys(app, usize::from(area.width))).render(area, buffer);
+}
+
+/// The keys of the present mode, as far as they fit; help and quit always.
+fn keys(app: &App, room: usize) -> Vec<Span<'static>> {
+    let (commands, names) = mode(app);
+    let texts = |&command: &Command| {
+        let row = command.row();
+        let name = names.iter().find(|(renamed, _)| *renamed == command);
+        let name = name.map_or(row.name, |(_, name)| name);
+        [format!(" {}", row.keys[0]), format!(" {name}")]
+    };
+    let width = |texts: &[String; 2]| texts.iter().map(|text| text.chars().count()).sum::<usize>();
+    let always = ALWAYS.each_ref().map(texts);
+    let mut left = room.saturating_sub(always.iter().map(width).sum());
+    let mut shown: Vec<_> = commands.iter().map(texts).collect();
+    shown.retain(|texts| {
+        let fits = width(texts) <= left;
+        left -= if fits { width(texts) } else { 0 };
+        fits
+    });
+    let [key, name] = [Role::Title, Role::Quiet].map(|role| app.theme.style(role));
+    let shown = shown.into_iter().chain(always);
+    shown
+        .flat_map(|[first, second]| [Span::styled(first, key), Span::styled(second, name)])
+        .collect()
+}

@@ -14,7 +14,7 @@
 //! | [`contact`] | materials, indenters, normal and tangential springs | no time |
 //! | [`wear`] | wear laws | one step |
 //! | [`simulation`] | motion, state, stepping, observations | no scenario, no file, no screen |
-//! | [`reading`] | fatigue parameters of a cycle | only reads a simulation |
+//! | [`reading`] | observations, checks, warnings, stresses below the surface, fatigue | only reads a simulation |
 //! | [`scenario`] | TOML in and out, presets, a session with its changes and checkpoints | no screen |
 //! | [`traces`] | what is known of a run as named columns | no screen |
 //! | [`studies`] | errors against theory, speed against accuracy, stability, as tables | no file, no screen |
@@ -30,7 +30,7 @@
 //! against.
 //!
 //! A user's TOML becomes a [`scenario::Scenario`], a [`scenario::session::Session`] runs it, and
-//! screens and files see owned [`simulation::Observation`]s. The explorer and the headless commands
+//! screens and files see owned [`reading::Observation`]s. The explorer and the headless commands
 //! drive the same session, so the same scenario and the same changes give the same bits.
 //!
 //! # Symbols (SI)

@@ -8,7 +8,7 @@
 use super::{NO_CYCLE, NO_MOTION, Recipe, Run, View, Words};
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Point};
-use crate::simulation::Curves;
+use crate::reading::Curves;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {

@@ -5,7 +5,7 @@ use super::{
 };
 use crate::plot::theme::Role;
 use crate::plot::{Chart, Fill, Scale};
-use crate::simulation::Curves;
+use crate::reading::Curves;
 use crate::traces::Axes;
 
 /// The chart.

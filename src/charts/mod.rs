@@ -3,7 +3,7 @@
 
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Mark, Scale, Zone};
-use crate::simulation::Curves;
+use crate::reading::Curves;
 use crate::studies::ghost::Ghost;
 use crate::studies::theory::Theory;
 use crate::traces::Axes;

@@ -8,7 +8,7 @@ use super::{
 use crate::math::scan::largest;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Fill};
-use crate::simulation::Curves;
+use crate::reading::Curves;
 use crate::traces::Axes;
 
 /// The chart.

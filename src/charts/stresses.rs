@@ -3,7 +3,7 @@
 use super::{A, C, Medium, NO_STATE, Recipe, Run, View, Words, ghosts, over_r};
 use crate::plot::theme::Role;
 use crate::plot::{Chart, Curve, Scale};
-use crate::simulation::Curves;
+use crate::reading::Curves;
 use crate::traces::Axes;
 
 /// The chart.

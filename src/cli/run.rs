@@ -20,10 +20,10 @@ use crate::export::autosave::COPY_INTERVAL;
 use crate::export::file::{RUN_CHECKPOINT, RunDirectory, WriteError, write_whole};
 use crate::export::header::{self, number};
 use crate::export::{field, state};
+use crate::reading::verdict;
 use crate::scenario::checkpoint;
 use crate::scenario::session::Session;
 use crate::scenario::{Scenario, printable};
-use crate::simulation::verdict;
 use crate::studies::refinement;
 
 /// Polling interval for signals.

@@ -6,5 +6,4 @@ pub mod material;
 pub mod measured;
 pub mod normal;
 pub mod scar;
-pub mod subsurface;
 pub mod tangential;

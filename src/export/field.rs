@@ -2,11 +2,11 @@
 //! of a steady cycle, one row per point.
 
 use super::header::lines;
-use crate::contact::subsurface::Stress;
+use crate::reading::Curves;
 use crate::reading::fatigue::{Fatigue, StressCycle};
+use crate::reading::subsurface::Stress;
 use crate::scenario::scalars::optional;
 use crate::scenario::session::Session;
-use crate::simulation::Curves;
 
 /// The columns, in order.
 pub const COLUMNS: [&str; 11] = [

@@ -1,8 +1,8 @@
 //! `state.csv`: one row per node, at one moment.
 
 use super::header::{lines, number};
+use crate::reading::{Curves, Observation};
 use crate::scenario::session::Session;
-use crate::simulation::{Curves, Observation};
 
 /// The columns, in order.
 pub const COLUMNS: [&str; 13] = [

@@ -29,8 +29,9 @@ use std::sync::Arc;
 
 use nalgebra::Vector3;
 
-use crate::contact::subsurface::{Peak, SpringLoad, Stress, peak};
-use crate::simulation::{Curves, Simulation};
+use crate::reading::Curves;
+use crate::reading::subsurface::{Peak, SpringLoad, Stress, peak};
+use crate::simulation::Simulation;
 
 /// Moments of a period at which the stresses are taken, besides those where the motion turns. A sine is
 /// missed by at most 5e-4 of its amplitude between them.

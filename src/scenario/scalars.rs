@@ -6,11 +6,12 @@ use std::cell::OnceCell;
 
 use super::nearest::nearest;
 use super::printable;
-use crate::contact::subsurface::Peak;
 use crate::math::scan::largest;
+use crate::reading::Moment;
 use crate::reading::fatigue::{Limits, StressCycle};
+use crate::reading::subsurface::Peak;
 use crate::scenario::session::Session;
-use crate::simulation::{CycleFigures, Moment, Simulation};
+use crate::simulation::{CycleFigures, Simulation};
 
 /// A scalar's value.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -109,7 +109,7 @@ fn thin_ring(grid: &RadialGrid, border: f64, edge: f64) -> Option<usize> {
 }
 
 /// The width, m, of the ring of slip of a held load, where it is thinner than any cell can be.
-pub(super) fn unseen_ring(setup: &Setup) -> Option<f64> {
+pub(crate) fn unseen_ring(setup: &Setup) -> Option<f64> {
     let ring = Unworn(setup).ring()?;
     let width = ring.contact_radius - ring.stick_radius;
     (setup.indenter.rim().is_none() && width < THINNEST * setup.grid.radius()).then_some(width)

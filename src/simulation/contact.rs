@@ -46,13 +46,13 @@ impl Contact {
     }
 
     /// F_z, N.
-    pub(super) fn normal_force(&self, model: &Model) -> f64 {
+    pub(crate) fn normal_force(&self, model: &Model) -> f64 {
         let edge = self.normal.edge();
         model.foundation.force(&self.load, edge)
     }
 
     /// F_x, N; 0 without tangential motion.
-    pub(super) fn tangential_force(&self, model: &Model) -> f64 {
+    pub(crate) fn tangential_force(&self, model: &Model) -> f64 {
         if self.spring.nodal.is_empty() {
             return 0.0;
         }
@@ -61,12 +61,12 @@ impl Contact {
     }
 
     /// u_x(r), m, of the surface by Eq. (2).
-    pub(super) fn surface_displacement(&self, model: &Model, out: &mut [f64]) {
+    pub(crate) fn surface_displacement(&self, model: &Model, out: &mut [f64]) {
         self.spring.displacement(&model.plan, &model.grid, out);
     }
 
     /// u_z(r), m, of the surface by Eq. (2), downwards.
-    pub(super) fn depression(&self, model: &Model, out: &mut [f64]) {
+    pub(crate) fn depression(&self, model: &Model, out: &mut [f64]) {
         self.load.displacement(&model.plan, &model.grid, out);
         let modulus = model.setup.material.normal_modulus();
         for depth in out {

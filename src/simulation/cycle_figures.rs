@@ -273,7 +273,7 @@ fn unloaded(model: &Model, start: &State, cycle: f64, scratch: &mut Scratch) -> 
 
 /// The displacement of the actuator, m, where the contact is shifted by `shift` under `force` (N): what
 /// the rig's sensor sees.
-pub(super) fn sensed(setup: &Setup, shift: f64, force: f64) -> f64 {
+pub(crate) fn sensed(setup: &Setup, shift: f64, force: f64) -> f64 {
     shift + setup.drive.rig_compliance() * force
 }
 

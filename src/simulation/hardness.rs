@@ -3,9 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::drive::{Control, Drive, Oscillation};
-use super::{Setup, Simulation};
-use crate::math::invalid::Invalid;
+use super::Simulation;
 
 /// Where and when the pressure first passed the hardness.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -39,7 +37,7 @@ impl Simulation {
     }
 
     /// Where the largest pressure acts, m, and how large it is, Pa.
-    fn highest_pressure(&self) -> (f64, f64) {
+    pub(crate) fn highest_pressure(&self) -> (f64, f64) {
         let pressure = self.pressure();
         let points = self.setup().grid.nodes().iter().copied().zip(pressure);
         points.fold(
@@ -49,48 +47,4 @@ impl Simulation {
             },
         )
     }
-
-    /// What there is to say of the hardness: that the pressure has passed it, or, before the first step, that it
-    /// will when the contact is deepest.
-    pub(super) fn hardness_warning(&self) -> Option<String> {
-        let hardness = self.setup().hardness?;
-        let (pressure, radius, when) = match self.state.passed_hardness {
-            Some(passed) => (
-                passed.pressure,
-                passed.radius,
-                format!("at cycle {:.4}", passed.cycle),
-            ),
-            None if self.state.steps > 0 => return None,
-            None => {
-                let deepest = Self::begin(at_deepest(self.setup()).ok()?).ok()?;
-                let (radius, pressure) = deepest.highest_pressure();
-                (pressure, radius, "where the contact is deepest".to_owned())
-            }
-        };
-        (pressure > hardness).then(|| {
-            format!(
-                "outside the theory: the pressure exceeds the hardness, {hardness:.3e} Pa: it is \
-                 {pressure:.3e} Pa at r = {radius:.2e} m {when}, and the material yields there"
-            )
-        })
-    }
-}
-
-/// The same contact, held at the deepest point of its motion, on the same nodes.
-fn at_deepest(setup: &Setup) -> Result<Setup, Invalid> {
-    let normal = setup.drive.normal();
-    let held = Oscillation::new(normal.oscillation().highest(), 0.0, 1.0, 0.0)?;
-    Ok(Setup {
-        drive: Drive::new(
-            match normal {
-                Control::Displacement(_) => Control::Displacement(held),
-                Control::Force(_) => Control::Force(held),
-            },
-            None,
-        ),
-        wear: None,
-        running_in: None,
-        hardness: None,
-        ..setup.clone()
-    })
 }

@@ -56,18 +56,15 @@ use crate::math::abel::AbelMethod;
 use crate::math::grid::RadialGrid;
 use crate::wear::WearLaw;
 
-mod border;
+pub(crate) mod border;
 pub mod breakdown;
-mod checks;
 mod choices;
 pub mod contact;
-mod cycle_figures;
+pub(crate) mod cycle_figures;
 pub mod drive;
 mod hardness;
-mod limits;
-mod model;
+pub(crate) mod model;
 mod moments;
-pub mod observation;
 mod reconfigure;
 pub mod running_in;
 mod saved;
@@ -75,18 +72,16 @@ pub mod stability;
 pub mod state;
 mod step;
 pub mod traction;
-mod unworn;
+pub(crate) mod unworn;
 pub mod waveform;
 mod wear;
 
 pub use breakdown::{Breakdown, Cause};
-pub use checks::{Check, Subject, verdict};
 pub use choices::{Integrator, Scheme, Spacing, Stability};
 pub use cycle_figures::{CycleFigures, LoopTally, Regime};
 use drive::{Drive, WITHOUT_REPEAT};
 pub use hardness::Passed;
-use model::Model;
-pub use observation::{Curves, Moment, Observation, Zone};
+pub(crate) use model::Model;
 pub use reconfigure::Domain;
 use running_in::RunningIn;
 pub use saved::{Saved, Unfit};
@@ -268,6 +263,11 @@ impl Simulation {
         self.state.stats
     }
 
+    /// The operators of the run, for those who read its state.
+    pub(crate) fn model(&self) -> &Model {
+        &self.model
+    }
+
     /// The state after the last good step.
     pub fn state(&self) -> &State {
         &self.state
@@ -430,6 +430,20 @@ impl Simulation {
         }
     }
 
+    /// g, m, of the profile as it stands.
+    pub(crate) fn profile_1d(&self) -> Vec<f64> {
+        let mut g = vec![0.0; self.model.nodes()];
+        self.model.profile(&self.state.image, 0.0, &[], &mut g);
+        g
+    }
+
+    /// p(r), Pa, of the present moment: one transform.
+    pub fn pressure(&self) -> Vec<f64> {
+        let mut pressure = vec![0.0; self.setup().grid.len()];
+        traction::pressure(&self.model, &self.state.contact, &mut pressure);
+        pressure
+    }
+
     /// Worn volume 2π∫(f − f₀) r dr, m³.
     pub fn wear_volume(&self) -> f64 {
         self.model.volume(&self.state.wear)
@@ -437,6 +451,6 @@ impl Simulation {
 }
 
 /// Cycles after which the permanent stick radius is read anew: the common period of the motion.
-fn cycles_to_settle(drive: &Drive) -> u32 {
+pub(crate) fn cycles_to_settle(drive: &Drive) -> u32 {
     drive.repeats_after().unwrap_or(WITHOUT_REPEAT)
 }

@@ -13,14 +13,14 @@ use crate::math::vector::{vectorized, write_each};
 
 /// The parts of a run with the operators that they are computed by.
 #[derive(Debug, Clone)]
-pub(super) struct Model {
+pub(crate) struct Model {
     pub setup: Setup,
     operators: Arc<Operators>,
 }
 
 /// What depends on the grid, the method and the indenter alone; clones of a [`Model`] share it.
 #[derive(Debug)]
-pub(super) struct Operators {
+pub(crate) struct Operators {
     pub plan: AbelPlan,
     /// From the worn depth to its share of g, where that is not the plan's Eq. (1).
     worn: Option<WornPlan>,

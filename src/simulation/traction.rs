@@ -31,13 +31,13 @@ pub(super) fn of(model: &Model, contact: &Contact, traction: &mut Traction) {
 }
 
 /// p alone.
-pub(super) fn pressure(model: &Model, contact: &Contact, out: &mut [f64]) {
+pub(crate) fn pressure(model: &Model, contact: &Contact, out: &mut [f64]) {
     let touching = contact.normal.nodes;
     contact.load.stress(&model.plan, &model.grid, touching, out);
 }
 
 /// τ alone.
-pub(super) fn shear(model: &Model, contact: &Contact, out: &mut [f64]) {
+pub(crate) fn shear(model: &Model, contact: &Contact, out: &mut [f64]) {
     let touching = contact.normal.nodes;
     contact
         .spring

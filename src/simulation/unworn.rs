@@ -28,7 +28,7 @@ pub struct Unworn<'a>(pub &'a Setup);
 
 /// A contact that slips in a ring, under a normal load that is held.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Ring {
+pub(crate) struct Ring {
     /// a, m.
     pub contact_radius: f64,
     /// c, m; 0 in gross slip.
@@ -84,7 +84,7 @@ impl Unworn<'_> {
     }
 
     /// The contact under a constant normal load; `None` if the load varies, nothing touches, or nothing moves.
-    pub(super) fn ring(&self) -> Option<Ring> {
+    pub(crate) fn ring(&self) -> Option<Ring> {
         let setup = self.0;
         let normal = setup.drive.normal().oscillation();
         if normal.amplitude() != 0.0 || normal.mean() <= 0.0 {

@@ -27,8 +27,8 @@ use super::tour::Tour;
 use super::worker::{Orders, Worker};
 use crate::charts::{Medium, View};
 use crate::plot::{Chart, Scale, sticky_bounds};
+use crate::reading::Curves;
 use crate::scenario::Scenario;
-use crate::simulation::Curves;
 
 /// The number of cursor positions over the domain, and the initial one.
 const CURSOR_PLACES: i16 = 100;

@@ -6,8 +6,8 @@ use super::beside::Beside;
 use super::frame::Comparison;
 use crate::math::abel::AbelMethod;
 use crate::math::grid::MIN_CELLS;
+use crate::reading::Curves;
 use crate::scenario::session::{Session, SessionError};
-use crate::simulation::Curves;
 
 /// Where a comparison begins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,8 +3,9 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use crate::contact::subsurface::SpringLoad;
-use crate::simulation::{Curves, Simulation};
+use crate::reading::Curves;
+use crate::reading::subsurface::SpringLoad;
+use crate::simulation::Simulation;
 
 /// Moments stored per cycle: extremes between them are missed by about 1 %.
 const MOMENTS: f64 = 16.0;

@@ -6,7 +6,7 @@ use super::panels::Panel;
 use crate::charts::{Loop, Run};
 use crate::math::scan::value_at;
 use crate::plot::units::{format_value_in, to_ascii};
-use crate::simulation::Zone;
+use crate::reading::Zone;
 use crate::studies::ghost::Ghost;
 use crate::traces::Axes;
 

@@ -24,7 +24,7 @@ use super::pace::Pace;
 use super::panels::compare;
 use super::theme::Role;
 use super::{footer, present, timeline};
-use crate::simulation::verdict;
+use crate::reading::verdict;
 
 /// Draws everything.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {

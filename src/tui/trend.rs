@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use crate::charts::Loop;
 use crate::export::history;
+use crate::reading::Moment;
 use crate::scenario::scalars::{self, Reading, Value};
-use crate::simulation::Moment;
 use crate::traces::Table;
 
 /// Maximum number of cycles stored one by one; then neighbours are merged in pairs.

@@ -4,9 +4,9 @@ use std::f64::consts::{FRAC_PI_4, PI};
 
 use mdr_tui::oracle::dual_oscillation::{DualOscillation, Frequencies};
 use mdr_tui::oracle::partial_slip::stiffness_ratio;
+use mdr_tui::reading::{Check, Subject, verdict};
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
-use mdr_tui::simulation::{Check, Subject, verdict};
 
 use crate::common::holds;
 use crate::test_dir::TestDir;

@@ -12,8 +12,9 @@ use mdr_tui::oracle::cattaneo_mindlin::CattaneoMindlin;
 use mdr_tui::oracle::dual_oscillation::{DualOscillation, Frequencies};
 use mdr_tui::oracle::limiting_profile::LimitingProfile;
 use mdr_tui::oracle::partial_slip::stiffness_ratio;
+use mdr_tui::reading::Curves;
 use mdr_tui::scenario::Scenario;
-use mdr_tui::simulation::{Curves, Domain, Integrator, Scheme, Setup, Simulation, Spacing, State};
+use mdr_tui::simulation::{Domain, Integrator, Scheme, Setup, Simulation, Spacing, State};
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_3, FRAC_PI_4};
 
 fn run_ours(scene: Scene, cycles: f64) -> Simulation {

@@ -7,9 +7,9 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use mdr_tui::export::{history, state};
+use mdr_tui::reading::Curves;
 use mdr_tui::scenario::session::Session;
 use mdr_tui::scenario::{Scenario, preset};
-use mdr_tui::simulation::Curves;
 
 use crate::test_dir::{Said, Table, TestDir, bits, end, names};
 

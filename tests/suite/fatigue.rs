@@ -4,10 +4,10 @@ use std::f64::consts::PI;
 
 use crate::common::{Scene, holds, ours, run_setup, swing};
 use crate::test_dir::{Table, TestDir};
-use mdr_tui::contact::subsurface::Stress;
 use mdr_tui::oracle::half_space::by_point_forces;
+use mdr_tui::reading::Curves;
 use mdr_tui::reading::fatigue::{Fatigue, Limits, StressCycle};
-use mdr_tui::simulation::Curves;
+use mdr_tui::reading::subsurface::Stress;
 use mdr_tui::studies::sweep::record::Record;
 use mdr_tui::studies::sweep::slice::Slice;
 

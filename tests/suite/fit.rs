@@ -2,10 +2,10 @@
 
 use std::fmt::Write;
 
+use mdr_tui::reading::Curves;
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::columns::Columns;
 use mdr_tui::scenario::session::Session;
-use mdr_tui::simulation::Curves;
 use mdr_tui::studies::fit::{Fit, FitError, Fitted};
 use mdr_tui::studies::measured::Measured;
 

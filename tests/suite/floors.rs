@@ -33,8 +33,12 @@ fn faults(floor: &str, text: &str) -> Vec<String> {
     if floor == "oracle" {
         faults.extend(foreign_to_the_judge(&code));
     }
-    // What is above the simulation sees observations of it.
-    if height(floor) > height("simulation") && code.contains(".state()") {
+    // What is above the readers sees observations of it.
+    if height(floor) > height("reading")
+        && [".state()", ".model()"]
+            .iter()
+            .any(|inside| code.contains(inside))
+    {
         faults.push(format!("{floor} looks into the state of a simulation"));
     }
     faults

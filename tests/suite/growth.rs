@@ -79,7 +79,7 @@ fn a_domain_that_grows_says_what_a_wide_one_says() {
     let wear = |more: &[&str]| {
         let session = run(ball(50.0, 2e-5, more), 1e5);
         let simulation = session.simulation();
-        let observed = simulation.observe(mdr_tui::simulation::Curves::PROFILE);
+        let observed = simulation.observe(mdr_tui::reading::Curves::PROFILE);
         let depths = (0..40).map(|i| observed.worn_depth_at(1.4e-5 * f64::from(i)));
         (
             depths.collect::<Vec<f64>>(),

@@ -5,12 +5,13 @@ use std::f64::consts::PI;
 use crate::common::{Scene, holds, ours, run_setup, swing};
 use crate::test_dir::{Table, TestDir};
 use mdr_tui::contact::indenter::Indenter;
-use mdr_tui::contact::subsurface::{SpringLoad, Stress};
 use mdr_tui::oracle::half_space::{
     DEPTH_OF_LARGEST, LARGEST_VON_MISES, by_point_forces, hertz_on_axis, hertz_outside,
     sliding_at_trailing_edge, sliding_inside,
 };
-use mdr_tui::simulation::{Curves, Simulation};
+use mdr_tui::reading::Curves;
+use mdr_tui::reading::subsurface::{SpringLoad, Stress};
+use mdr_tui::simulation::Simulation;
 
 /// p₀ of the default scene: E* = R = d = 1 and a = 1.
 const P0: f64 = 2.0 / PI;

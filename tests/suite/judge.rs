@@ -5,9 +5,9 @@
 
 #![allow(dead_code, reason = "the bench and the tests need a part of it each")]
 
+use mdr_tui::reading::Check;
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
-use mdr_tui::simulation::Check;
 use mdr_tui::studies::refinement::{self, Difference, Level, Outcome, Verdict};
 
 use crate::random::Random;

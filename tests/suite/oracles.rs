@@ -11,8 +11,9 @@ use mdr_tui::oracle::fretting_loop::Branch;
 use mdr_tui::oracle::limiting_profile::LimitingProfile;
 use mdr_tui::oracle::partial_slip::stiffness_ratio;
 use mdr_tui::oracle::power_law::PowerLaw;
+use mdr_tui::reading::Curves;
+use mdr_tui::simulation::Simulation;
 use mdr_tui::simulation::drive::{Control, Oscillation};
-use mdr_tui::simulation::{Curves, Simulation};
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4};
 use std::ops::Range;
 

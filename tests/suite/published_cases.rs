@@ -1,8 +1,8 @@
 //! Presets of published cases, held against the numbers in the papers.
 
+use mdr_tui::reading::Curves;
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
-use mdr_tui::simulation::Curves;
 
 fn started(preset: &str, sets: &[&str]) -> Session {
     let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();

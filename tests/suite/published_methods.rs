@@ -4,8 +4,9 @@
 use crate::common::{Scene, archard, holds, run, swing};
 use mdr_tui::math::abel::AbelMethod::{self, A, APlusB, B, Benad};
 use mdr_tui::oracle::limiting_profile::LimitingProfile;
+use mdr_tui::reading::Curves;
 use mdr_tui::scenario::Scenario;
-use mdr_tui::simulation::{Breakdown, Cause, Curves, Simulation};
+use mdr_tui::simulation::{Breakdown, Cause, Simulation};
 use std::f64::consts::FRAC_PI_4;
 
 /// The exact permanent stick radius of the default scene in a₀: c² = 1 − κU.

@@ -1,8 +1,8 @@
 //! A scar as the initial wear, wear shared between both bodies, and the hardness limit.
 
+use mdr_tui::reading::Moment;
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
-use mdr_tui::simulation::Moment;
 
 use crate::test_dir::TestDir;
 

@@ -2,9 +2,9 @@
 
 use crate::math::grid::RadialGrid;
 use crate::math::scan::largest;
+use crate::reading::Curves;
 use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
-use crate::simulation::Curves;
 use crate::studies::measured::{Kind, Measured, Strokes, rises};
 
 /// The simulated value of every point, data set by data set, of a run of `cycles`.

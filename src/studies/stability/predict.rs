@@ -35,9 +35,10 @@
 use super::growth::growing_from;
 use super::{Setting, Study, VISIBLE};
 use crate::math::scan::largest;
+use crate::reading::{Curves, Zone};
 use crate::scenario::session::{Session, SessionError};
 use crate::simulation::stability::{gain, response, sawtooth_from};
-use crate::simulation::{Curves, Scheme, Simulation, Zone};
+use crate::simulation::{Scheme, Simulation};
 
 /// The wear number at which the unworn contact is examined: small enough for its shape not to change.
 const MILD: f64 = 1e-3;

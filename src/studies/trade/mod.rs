@@ -7,9 +7,9 @@
 
 use std::time::Instant;
 
+use crate::reading::Check;
 use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
-use crate::simulation::Check;
 use crate::studies::refinement::{self, Difference, Outcome};
 
 pub mod report;

@@ -1,7 +1,7 @@
 //! Results of a trade study: rows, the Pareto front, the cheapest setting for an accuracy.
 
 use super::{Errors, Sample, Setting};
-use crate::simulation::Check;
+use crate::reading::Check;
 use crate::studies::table::{Cell, Column, Format, Table};
 
 /// One setting, and how it did.
@@ -121,9 +121,10 @@ fn finite(value: f64) -> Cell {
 mod tests {
     use super::*;
     use crate::math::abel::AbelMethod;
+    use crate::reading::Subject;
     use crate::scenario::Scenario;
     use crate::scenario::session::Session;
-    use crate::simulation::{Scheme, Subject};
+    use crate::simulation::Scheme;
     use crate::studies::refinement::{Difference, Outcome};
 
     fn unworn() -> Outcome {

@@ -11,7 +11,8 @@ use crate::math::grid::RadialGrid;
 use crate::oracle::flat_punch::FlatPunch;
 use crate::oracle::power_law::PowerLaw;
 use crate::oracle::truncated;
-use crate::simulation::{Curves, Simulation};
+use crate::reading::Curves;
+use crate::simulation::Simulation;
 
 /// A grid on which the contact radius a = 1 and an inner radius of about a/2, the border c of the
 /// stick zone or the rim b of a flat tip, both lie a third of a cell outside a node, for every N: an

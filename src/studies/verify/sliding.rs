@@ -10,7 +10,8 @@ use crate::math::abel::AbelMethod;
 use crate::oracle::cattaneo_mindlin::CattaneoMindlin;
 use crate::oracle::limiting_profile::LimitingProfile;
 use crate::oracle::partial_slip::stiffness_ratio;
-use crate::simulation::{Curves, Scheme, Simulation, Spacing};
+use crate::reading::Curves;
+use crate::simulation::{Scheme, Simulation, Spacing};
 
 /// The closed form, moved by `amplitude`.
 fn theory(amplitude: f64) -> CattaneoMindlin {

@@ -11,7 +11,7 @@ use super::stress_map::{self, SHADES};
 use super::{App, Frame};
 use crate::math::scan::largest;
 use crate::plot::units::{format_number, format_value_in};
-use crate::simulation::Moment;
+use crate::reading::Moment;
 use crate::tui::theme::{Depth, Look, Role, Theme};
 
 /// The size from which the picture has captions below it, and their rows.

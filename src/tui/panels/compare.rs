@@ -11,7 +11,7 @@ use crate::charts::{A, C, Live, Words, ghosts};
 use crate::math::scan::largest;
 use crate::plot::units::{format_number, format_value_in};
 use crate::plot::{Axis, Chart, Curve, Plot, Scale, nice_bounds};
-use crate::simulation::Observation;
+use crate::reading::Observation;
 use crate::traces::Axes;
 use crate::tui::frame::Comparison;
 use crate::tui::theme::Role;

@@ -20,7 +20,7 @@ use crate::math::grid::interpolate;
 use crate::math::scan::largest;
 use crate::plot::colormap::ColorMap;
 use crate::plot::units::format_value_in;
-use crate::simulation::{Curves, Zone};
+use crate::reading::{Curves, Zone};
 use crate::tui::theme::Role;
 
 /// The panel.

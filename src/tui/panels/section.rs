@@ -24,7 +24,7 @@ use super::{App, Frame, Panel, Picture, Recipe, Words, caption, edge};
 use crate::charts::magnification;
 use crate::math::grid::interpolate;
 use crate::math::scan::largest;
-use crate::simulation::Curves;
+use crate::reading::Curves;
 use crate::tui::theme::{Depth, Look, Role, Theme};
 
 /// The panel.

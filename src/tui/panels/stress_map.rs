@@ -5,9 +5,9 @@ use std::sync::Arc;
 use ratatui::style::Color;
 
 use super::Frame;
-use crate::contact::subsurface::{SpringLoad, Stress};
 use crate::plot::colormap::ColorMap;
 use crate::reading::fatigue::StressCycle;
+use crate::reading::subsurface::{SpringLoad, Stress};
 use crate::tui::theme::{Depth, Look, Theme};
 
 /// Shades of a map: few, so that only the lines between them change from frame to frame.

@@ -28,10 +28,11 @@ use super::snapshot::{self, Opened};
 use super::trend::Trend;
 use super::twin::Twin;
 use super::undo::Past;
-use crate::contact::subsurface::Stress;
 use crate::math::scan::largest;
+use crate::reading::Curves;
+use crate::reading::subsurface::Stress;
 use crate::scenario::session::Session;
-use crate::simulation::{Curves, Passed};
+use crate::simulation::Passed;
 use crate::studies::theory::Theory;
 
 mod changes;

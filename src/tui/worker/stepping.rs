@@ -4,8 +4,8 @@ use std::time::{Duration, Instant};
 
 use super::travel::ends_cycle;
 use super::{CATCH_UP, Worker};
+use crate::reading::Curves;
 use crate::scenario::scalars::Reading;
-use crate::simulation::Curves;
 use crate::tui::frame::Activity;
 use crate::tui::ghosts;
 use crate::tui::pace::Pace;

@@ -3,8 +3,7 @@
 //! One list serves the status line, the accuracy panel, the header of every file and the end of a
 //! run. The guide's chapter on checks, which the panel shows too, explains each.
 
-use super::unworn::Unworn;
-use super::{Simulation, cycles_to_settle};
+use crate::simulation::{Simulation, Unworn, cycles_to_settle};
 
 /// The guide's chapter: a section a certificate.
 const GUIDE: &str = include_str!("../guide/checks.md");
@@ -134,7 +133,7 @@ impl Simulation {
         let nodal = self.wear_volume();
         let edge = self.setup().grid.radius();
         // With x = L sin θ the root at the edge is gone.
-        let points = self.setup().grid.nodes().iter().zip(&self.state.image);
+        let points = self.setup().grid.nodes().iter().zip(&self.state().image);
         let points: Vec<[f64; 2]> = points
             .map(|(x, g)| {
                 let sine = (x / edge).min(1.0);
@@ -160,10 +159,10 @@ impl Simulation {
     /// F_x and E_d of the last period over the closed forms of a held load, less 1, where nothing wears.
     fn closed_forms(&self) -> Option<[f64; 2]> {
         let worn = self.setup().wear.is_some_and(|law| law.coefficient() > 0.0);
-        if worn || self.state.wear.iter().any(|&worn| worn > 0.0) {
+        if worn || self.state().wear.iter().any(|&worn| worn > 0.0) {
             return None;
         }
-        let figures = self.state.figures.as_ref()?;
+        let figures = self.state().figures.as_ref()?;
         let ring = Unworn(self.setup()).ring()?;
         let of = |seen: f64, due: f64| seen / due - 1.0;
         let both = [

@@ -2,10 +2,9 @@
 
 use std::f64::consts::PI;
 
-use super::border;
-use super::drive::Control;
-use super::unworn::Unworn;
-use super::{Setup, Simulation};
+use crate::math::invalid::Invalid;
+use crate::simulation::drive::{Control, Drive, Oscillation};
+use crate::simulation::{Setup, Simulation, Spacing, Unworn, border};
 
 /// Slopes and a/R above this one are no half-space any more.
 const STEEP: f64 = 0.3;
@@ -41,11 +40,36 @@ impl Simulation {
             (x, reached - g)
         });
         let (x, fall) = falls.max_by(|a, b| a.1.total_cmp(&b.1))?;
-        let scale = self.setup().depth_scale(self.state.contact.depth);
+        let scale = self.setup().depth_scale(self.state().contact.depth);
         (fall > LEVEL * scale).then(|| {
             format!(
                 "outside the theory: with its scar the 1D profile g falls by {fall:.1e} m at x = {x:.2e} m, \
                  so the contact may be a ring, where the theory needs a disc"
+            )
+        })
+    }
+
+    /// What there is to say of the hardness: that the pressure has passed it, or, before the first step, that it
+    /// will when the contact is deepest.
+    fn hardness_warning(&self) -> Option<String> {
+        let hardness = self.setup().hardness?;
+        let (pressure, radius, when) = match self.state().passed_hardness {
+            Some(passed) => (
+                passed.pressure,
+                passed.radius,
+                format!("at cycle {:.4}", passed.cycle),
+            ),
+            None if self.state().steps > 0 => return None,
+            None => {
+                let deepest = Self::new(at_deepest(self.setup()).ok()?).ok()?;
+                let (radius, pressure) = deepest.highest_pressure();
+                (pressure, radius, "where the contact is deepest".to_owned())
+            }
+        };
+        (pressure > hardness).then(|| {
+            format!(
+                "outside the theory: the pressure exceeds the hardness, {hardness:.3e} Pa: it is \
+                 {pressure:.3e} Pa at r = {radius:.2e} m {when}, and the material yields there"
             )
         })
     }
@@ -117,5 +141,25 @@ fn gross_slip_under_force(setup: &Setup, unworn: Unworn<'_>) -> Option<String> {
             "outside the theory: a tangential force of {asked:.3e} N may exceed the friction \
              limit, {held:.3e} N; gross slip under a prescribed force never stops"
         )
+    })
+}
+
+/// The same contact, held at the deepest point of its motion, on the same nodes.
+fn at_deepest(setup: &Setup) -> Result<Setup, Invalid> {
+    let normal = setup.drive.normal();
+    let held = Oscillation::new(normal.oscillation().highest(), 0.0, 1.0, 0.0)?;
+    Ok(Setup {
+        drive: Drive::new(
+            match normal {
+                Control::Displacement(_) => Control::Displacement(held),
+                Control::Force(_) => Control::Force(held),
+            },
+            None,
+        ),
+        wear: None,
+        running_in: None,
+        hardness: None,
+        spacing: Spacing::Given,
+        ..setup.clone()
     })
 }

@@ -6,13 +6,13 @@ use bitflags::bitflags;
 use serde::Serialize;
 use strum::IntoStaticStr;
 
-use super::{Simulation, cycle_figures, stability, traction};
-use crate::contact::subsurface::SpringLoad;
+use super::subsurface::SpringLoad;
 use crate::contact::tangential::SpringState;
 use crate::math::abel::AbelMethod;
 use crate::math::abel::worn;
 use crate::math::grid::RadialGrid;
 use crate::math::quadrature::volume_of_revolution;
+use crate::simulation::{Simulation, cycle_figures, stability, traction};
 
 bitflags! {
     /// Which curves a reader shows. What nobody shows is not computed.
@@ -177,7 +177,7 @@ impl Observation {
 impl Simulation {
     /// The scalars of the present moment.
     pub fn moment(&self) -> Moment {
-        let (state, contact) = (&self.state, &self.state.contact);
+        let (state, contact) = (self.state(), &self.state().contact);
         let wear_volume = self.wear_volume();
         let residual = 1.0 - (wear_volume - state.unexplained_volume) / state.expected_volume;
         Moment {
@@ -186,11 +186,11 @@ impl Simulation {
             depth: contact.depth,
             shift: contact.shift,
             rig_displacement: (self.setup().drive.rig_compliance() > 0.0).then(|| {
-                let force = contact.tangential_force(&self.model);
+                let force = contact.tangential_force(self.model());
                 cycle_figures::sensed(self.setup(), contact.shift, force)
             }),
-            normal_force: contact.normal_force(&self.model),
-            tangential_force: contact.tangential_force(&self.model),
+            normal_force: contact.normal_force(self.model()),
+            tangential_force: contact.tangential_force(self.model()),
             contact_radius: contact.normal.radius,
             stick_radius: contact.stick_radius,
             permanent_stick_radius: contact
@@ -206,18 +206,11 @@ impl Simulation {
         }
     }
 
-    /// p(r), Pa, of the present moment: one transform.
-    pub fn pressure(&self) -> Vec<f64> {
-        let mut pressure = vec![0.0; self.setup().grid.len()];
-        traction::pressure(&self.model, &self.state.contact, &mut pressure);
-        pressure
-    }
-
     /// 1 − ∫p dA/F_z with the `pressure` p (Pa) of the present moment: the 3D side against the springs
     /// of the 1D side. None without load. Between nodes p is linear in r², and a root towards the edge.
     pub fn force_residual(&self, pressure: &[f64]) -> Option<f64> {
-        let contact = &self.state.contact.normal;
-        let force = self.state.contact.normal_force(&self.model);
+        let contact = &self.state().contact.normal;
+        let force = self.state().contact.normal_force(self.model());
         if force <= 0.0 || contact.nodes == 0 {
             return None;
         }
@@ -231,7 +224,7 @@ impl Simulation {
 
     /// The present moment with the curves of `curves`.
     pub fn observe(&self, curves: Curves) -> Observation {
-        let (model, contact) = (&self.model, &self.state.contact);
+        let (model, contact) = (self.model(), &self.state().contact);
         let nodes = model.nodes();
         let with_springs = model.springs() > 0;
         // Springs that the scene does not have carry nothing.
@@ -252,7 +245,7 @@ impl Simulation {
         let modulus = self.setup().material.tangential_modulus();
         let worn = || -> Vec<f64> {
             let unworn = model.unworn.iter();
-            unworn.zip(&self.state.wear).map(|(f, w)| f + w).collect()
+            unworn.zip(&self.state().wear).map(|(f, w)| f + w).collect()
         };
         Observation {
             moment: self.moment(),
@@ -262,7 +255,7 @@ impl Simulation {
             radii: self.setup().grid.nodes().into(),
             unworn: Arc::clone(&model.unworn),
             profile: when(Curves::PROFILE, &worn),
-            wear: when(Curves::PROFILE, &|| self.state.wear.clone()),
+            wear: when(Curves::PROFILE, &|| self.state().wear.clone()),
             profile_1d: when(Curves::PROFILE_1D, &|| self.profile_1d()),
             normal_load: when(Curves::SPRINGS, &|| contact.load.nodal.clone()),
             tangential_load: when(Curves::SPRINGS, &|| {
@@ -302,15 +295,8 @@ impl Simulation {
         }
     }
 
-    /// g, m, of the profile as it stands.
-    pub(super) fn profile_1d(&self) -> Vec<f64> {
-        let mut g = vec![0.0; self.model.nodes()];
-        self.model.profile(&self.state.image, 0.0, &[], &mut g);
-        g
-    }
-
     fn zones(&self) -> Vec<Zone> {
-        let contact = &self.state.contact;
+        let contact = &self.state().contact;
         let zone = |(j, &load): (usize, &f64)| match contact.spring_state.get(j) {
             _ if load <= 0.0 => Zone::Open,
             Some(SpringState::Forward | SpringState::Backward) => Zone::Slip,

@@ -6,7 +6,7 @@ use anyhow::Result;
 
 use super::{complain, progress};
 use crate::scenario::Scenario;
-use crate::scenario::session::Session;
+use crate::scenario::session::{Session, SessionError};
 use crate::studies::refinement::{self, RefinementError, Resolved};
 
 /// Finds the points and steps that meet the accuracy of `scenario`, with a spinner on stderr.
@@ -74,8 +74,8 @@ pub(super) fn estimated(
         return Err("nothing has worn, so there is no worn depth to estimate the error of".into());
     }
     match refinement::estimate(session, &|| !stop.load(Ordering::Relaxed)) {
-        Some(Ok(error)) => Ok(refinement::statements_of(&error)),
-        Some(Err(error)) => Err(format!("cannot estimate the error: a coarser run {error}")),
-        None => Err("interrupted: no error was estimated".into()),
+        Ok(error) => Ok(refinement::statements_of(&error)),
+        Err(SessionError::Interrupted) => Err("interrupted: no error was estimated".into()),
+        Err(error) => Err(format!("cannot estimate the error: a coarser run {error}")),
     }
 }

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 use std::process::ExitCode;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 
 use anyhow::Result;
 
@@ -27,7 +27,9 @@ pub fn stability(options: &Stability) -> Result<ExitCode> {
         return Err(Misuse(message).into());
     };
     let stop = stop::signal()?;
-    let (lines, interrupted) = lines(&study, options, &stop)?;
+    let go_on = || !stop.load(Ordering::Relaxed);
+    let lines = lines(&study, options, &go_on)?;
+    let interrupted = !go_on();
     let mut notes = vec![format!(
         "{title}, {} cycles, {} steps per cycle: K = k E* d/a at the start",
         number(options.cycles),
@@ -57,29 +59,22 @@ pub fn stability(options: &Stability) -> Result<ExitCode> {
     })
 }
 
-/// The lines of the study that were finished, and whether it was interrupted.
-fn lines(study: &Study, options: &Stability, stop: &AtomicBool) -> Result<(Vec<Line>, bool)> {
+/// The lines of the study, as far as `go_on` lets it come.
+fn lines(study: &Study, options: &Stability, go_on: &dyn Fn() -> bool) -> Result<Vec<Line>> {
     let settings = settings(options);
     let mut wear_numbers = options.wear_numbers.clone();
     wear_numbers.sort_by(f64::total_cmp);
     let length = settings.len() * wear_numbers.len();
     let behind = "{pos} of {len}  {elapsed} gone";
     let bar = progress::bar(length as u64, behind, options.printing.quiet);
-    let go_on = || !stop.load(Ordering::Relaxed);
-    let (mut lines, mut interrupted) = (Vec::new(), false);
-    for setting in settings {
-        let name = format!("{}, N = {}", setting.method, setting.points);
-        bar.set_message(name);
+    let mut lines = Vec::new();
+    for setting in settings.into_iter().take_while(|_| go_on()) {
+        bar.set_message(format!("{}, N = {}", setting.method, setting.points));
         bar.tick();
-        let (line, stopped) = study.line(setting, &wear_numbers, &go_on, |_| bar.inc(1))?;
-        lines.push(line);
-        if stopped {
-            interrupted = true;
-            break;
-        }
+        lines.push(study.line(setting, &wear_numbers, go_on, |_| bar.inc(1))?);
     }
     bar.finish_and_clear();
-    Ok((lines, interrupted))
+    Ok(lines)
 }
 
 /// Method by method, guard by guard, grid by grid.

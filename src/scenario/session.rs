@@ -27,6 +27,9 @@ pub enum SessionError {
          give numerics.points and numerics.steps_per_cycle instead"
     )]
     Unresolved(f64),
+    /// The caller wanted it to stop.
+    #[error("interrupted")]
+    Interrupted,
 }
 
 /// A saved run that cannot be restored.
@@ -213,10 +216,30 @@ impl Session {
 
     /// Steps to `cycle` exactly, making recorded changes on the way.
     pub fn advance_to(&mut self, cycle: f64) -> Result<(), SessionError> {
-        while self.simulation.cycle() < cycle {
+        self.advance_while(cycle, |_| true)
+    }
+
+    /// [`advance_to`](Self::advance_to) as long as `go_on`, which sees the session where it stands and after each step,
+    /// says so.
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError::Interrupted`] if it said no before `cycle`, and whatever stops the run.
+    pub fn advance_while(
+        &mut self,
+        cycle: f64,
+        mut go_on: impl FnMut(&Self) -> bool,
+    ) -> Result<(), SessionError> {
+        loop {
+            let goes_on = go_on(self);
+            if self.simulation.cycle() >= cycle {
+                return Ok(());
+            }
+            if !goes_on {
+                return Err(SessionError::Interrupted);
+            }
             self.step_until(cycle)?;
         }
-        Ok(())
     }
 
     /// Changes one key of the scenario now, carrying the state over, and records it.

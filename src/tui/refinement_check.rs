@@ -24,15 +24,12 @@ pub struct RefinementCheck {
 /// If the coarser run breaks down.
 pub fn run(session: &Session) -> Result<RefinementCheck, SessionError> {
     let start = Instant::now();
-    let error = match estimate(session, &|| true) {
-        Some(Ok(error)) if session.simulation().moment().wear_volume > 0.0 => Some(error),
-        Some(Err(error)) => return Err(error),
-        _ => None,
-    };
+    let error = estimate(session, &|| true)?;
+    let is_worn = session.simulation().moment().wear_volume > 0.0;
     Ok(RefinementCheck {
         level: Level::of(session.scenario()),
         cycle: session.simulation().cycle(),
-        error,
+        error: is_worn.then_some(error),
         seconds: start.elapsed().as_secs_f64(),
     })
 }

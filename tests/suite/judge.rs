@@ -111,7 +111,7 @@ pub fn judge_estimate(seed: u64) -> Result<(Difference, Difference), String> {
     };
     let run = |level: &Level| run_on(&scenario, level, cycles);
     let session = run(&level)?;
-    let estimate = refinement::estimate(&session, &|| true).ok_or("interrupted")?;
+    let estimate = refinement::estimate(&session, &|| true);
     let estimate = estimate.map_err(|error| error.to_string())?;
     let fine = Outcome::of(&run(&finer(&level))?);
     Ok((estimate, Outcome::of(&session).against(&fine)))
@@ -144,7 +144,7 @@ fn finer(level: &Level) -> Level {
 fn run_on(scenario: &Scenario, level: &Level, cycles: f64) -> Result<Session, String> {
     let scenario = level.of_scenario(scenario);
     let scenario = scenario.map_err(|error| error.to_string())?;
-    let ended = refinement::run(&scenario, cycles, &|| true).ok_or("interrupted")?;
+    let ended = refinement::run(&scenario, cycles, &|| true);
     ended.map_err(|error| error.to_string())
 }
 

@@ -151,9 +151,7 @@ fn the_result_is_the_run_of_the_last_rung() {
     // As a user runs it again: from its own file.
     let written = reached.session.loaded().to_toml();
     let again = Scenario::from_toml(&written, "again", &[]).expect("a scenario");
-    let again = run(&again, 10.0, &|| true)
-        .expect("not stopped")
-        .expect("a run");
+    let again = run(&again, 10.0, &|| true).expect("a run");
     assert_eq!(
         again.simulation().moment(),
         reached.session.simulation().moment()
@@ -165,9 +163,7 @@ fn the_result_is_the_run_of_the_last_rung() {
         nodes: None,
     };
     let fine = fine.of_scenario(&scenario).expect("a level");
-    let fine = run(&fine, 10.0, &|| true)
-        .expect("not stopped")
-        .expect("a run");
+    let fine = run(&fine, 10.0, &|| true).expect("a run");
     let truth = reached.rung.outcome.against(&Outcome::of(&fine));
     assert!(truth.promised() <= 1e-3, "{truth:?}");
 }

@@ -125,7 +125,7 @@ fn the_cheapest_setting_for_an_accuracy_reaches_it() {
     };
     let go_on = || true;
     let fine = trade::run(&scenario, &reference, 3.0, &go_on);
-    let fine = fine.expect("not stopped").expect("a run");
+    let fine = fine.expect("a run");
     let recommended = load("li2019-fig3", &sets);
     let setup = recommended.setup();
     let tolerance = out
@@ -139,8 +139,8 @@ fn the_cheapest_setting_for_an_accuracy_reaches_it() {
         tolerance: tolerance.map(|text| text.parse().expect("a number")),
     };
     let found = trade::run(&scenario, &setting, 3.0, &go_on);
-    let errors = found.expect("not stopped").expect("a run").against(&fine);
-    assert!(errors.of_run.worn_depth <= 8e-3, "{errors:?}");
+    let errors = found.expect("a run").against(&fine);
+    assert!(errors.worn_depth <= 8e-3, "{errors:?}");
     // The references differ by some of it.
     assert!(errors.worst() <= 1e-2, "{errors:?}");
 

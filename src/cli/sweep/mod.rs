@@ -2,7 +2,6 @@
 
 use std::env;
 use std::io::{self, Write};
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
@@ -164,10 +163,7 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
                 .map_err(|error| anyhow!("{error}"))
                 .and_then(|()| lines.as_mut().map_or(Ok(()), |lines| lines.print(&output)));
             bar.inc(1);
-            match outcome {
-                Ok(()) => ControlFlow::Continue(()),
-                Err(_) => ControlFlow::Break(()),
-            }
+            outcome.is_ok()
         });
     }
     bar.finish_and_clear();

@@ -2,12 +2,13 @@
 
 use std::io::{self, Write};
 use std::process::ExitCode;
+use std::sync::atomic::Ordering;
 
 use anyhow::{Context, Result};
 use rayon::ThreadPoolBuilder;
 
 use super::super::args::Sweep;
-use super::super::{FAILED, complain, stop};
+use super::super::{FAILED, complain, results, stop};
 use crate::export::target::Target;
 use crate::studies::sweep::Study;
 use crate::studies::sweep::sensitivity::{self, Sensitivity};
@@ -23,7 +24,8 @@ pub fn sensitivity(options: &Sweep, study: &Study) -> Result<ExitCode> {
     }
     let pool = builder.build().context("cannot start the threads")?;
     let halt = stop::patient_signal()?;
-    let Some(found) = sensitivity::run(study, &keys, &pool, &halt)? else {
+    let go_on = || !halt.load(Ordering::Relaxed);
+    let Some(found) = sensitivity::run(study, &keys, &pool, &go_on)? else {
         complain("interrupted before all runs had finished: nothing was saved");
         return Ok(ExitCode::from(FAILED));
     };
@@ -38,7 +40,7 @@ pub fn sensitivity(options: &Sweep, study: &Study) -> Result<ExitCode> {
     }
     let mut stdout = io::stdout().lock();
     if options.json {
-        writeln!(stdout, "{}", serde_json::to_string_pretty(&table)?)?;
+        results::print_json(&table, &mut stdout)?;
     } else if !options.quiet {
         let (cells, steps) = found.numerics;
         writeln!(

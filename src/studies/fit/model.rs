@@ -72,11 +72,11 @@ fn next_cycle(session: &Session) -> Result<Vec<(f64, f64)>, SessionError> {
     let mut session = session.clone();
     session.change("numerics.integrator", "direct")?;
     let end = session.simulation().cycle() + 1.0;
-    let mut trace = vec![point(&session)];
-    while session.simulation().cycle() < end {
-        session.step_until(end)?;
-        trace.push(point(&session));
-    }
+    let mut trace = Vec::new();
+    session.advance_while(end, |session| {
+        trace.push(point(session));
+        true
+    })?;
     Ok(trace)
 }
 

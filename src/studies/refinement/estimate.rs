@@ -26,47 +26,32 @@ const COARSEST: (usize, u32) = (8, 4);
 /// No difference falls faster than this from the quarter to the half: the schemes are of second order at best.
 const FASTEST: f64 = 4.0;
 
-/// Estimates the error of a run at its present moment; `None` if `go_on` said no on the way.
+/// Estimates the error of a run at its present moment.
 ///
 /// # Errors
-/// If the twin cannot be run.
-pub fn estimate(
-    session: &Session,
-    go_on: &dyn Fn() -> bool,
-) -> Option<Result<Difference, SessionError>> {
+/// If the twin cannot be run, or if `go_on` said no on the way.
+pub fn estimate(session: &Session, go_on: &dyn Fn() -> bool) -> Result<Difference, SessionError> {
     let level = Level::of(session.loaded());
     let cycle = session.simulation().cycle();
     let here = Outcome::of(session);
-    let ended = |factor: f64| -> Option<Result<Outcome, SessionError>> {
-        let ended = match twin_of(session, factor) {
-            Ok(scenario) => run(&scenario, cycle, go_on)?,
-            Err(error) => Err(error),
-        };
-        Some(ended.map(|twin| Outcome::of(&twin)))
+    let ended = |factor: f64| -> Result<Outcome, SessionError> {
+        let twin = run(&twin_of(session, factor)?, cycle, go_on)?;
+        Ok(Outcome::of(&twin))
     };
     if !level.can_be(0.25) {
-        let fine = match ended(2.0)? {
-            Ok(fine) => fine,
-            Err(error) => return Some(Err(error)),
-        };
         let ratio = 2f64.powf(ASSUMED);
-        let difference = here.against(&fine);
-        return Some(Ok(
-            difference.with(&difference, |d, _| d * ratio / (ratio - 1.0))
-        ));
+        let difference = here.against(&ended(2.0)?);
+        return Ok(difference.with(&difference, |d, _| d * ratio / (ratio - 1.0)));
     }
-    let half = match ended(0.5)? {
-        Ok(half) => half,
-        Err(error) => return Some(Err(error)),
-    };
-    // A quarter that breaks down leaves the order unknown, and no more.
-    let quarter = ended(0.25)?.ok();
-    Some(Ok(match quarter {
-        None => by_twin(&half, &here),
-        Some(quarter) => half
+    let half = ended(0.5)?;
+    match ended(0.25) {
+        Ok(quarter) => Ok(half
             .against(&here)
-            .with(&quarter.against(&half), by_observed_order),
-    }))
+            .with(&quarter.against(&half), by_observed_order)),
+        Err(SessionError::Interrupted) => Err(SessionError::Interrupted),
+        // A quarter that breaks down leaves the order unknown, and no more.
+        Err(_) => Ok(by_twin(&half, &here)),
+    }
 }
 
 /// Estimates the error of a run from its [`twin`] alone, at the same cycle: with the order that is usually seen.

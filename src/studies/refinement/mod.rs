@@ -112,13 +112,6 @@ pub fn climb(
             go_on() && !is_late()
         });
         let seconds = clock() - start;
-        let Some(ended) = ended else {
-            if !go_on() || !is_late() {
-                return Err(RefinementError::Interrupted);
-            }
-            ladder.cut(seconds);
-            continue;
-        };
         match ended {
             Ok(session) => {
                 ladder.report(Outcome::of(&session), seconds);
@@ -126,28 +119,23 @@ pub fn climb(
                     last = Some(session);
                 }
             }
+            Err(SessionError::Interrupted) if go_on() && is_late() => ladder.cut(seconds),
+            Err(SessionError::Interrupted) => return Err(RefinementError::Interrupted),
             Err(error) => ladder.fail(error.to_string(), seconds),
         }
     }
 }
 
-/// Runs a scenario to `cycles`; `None` if `go_on` said no on the way.
+/// Runs a scenario to `cycles`, as long as `go_on` says so.
+///
+/// # Errors
+/// If the run stops, or is [interrupted](SessionError::Interrupted).
 pub fn run(
     scenario: &Scenario,
     cycles: f64,
     go_on: &dyn Fn() -> bool,
-) -> Option<Result<Session, SessionError>> {
-    let mut session = match Session::start(scenario.clone()) {
-        Ok(session) => session,
-        Err(error) => return Some(Err(error)),
-    };
-    while session.simulation().cycle() < cycles {
-        if !go_on() {
-            return None;
-        }
-        if let Err(error) = session.step_until(cycles) {
-            return Some(Err(error));
-        }
-    }
-    Some(Ok(session))
+) -> Result<Session, SessionError> {
+    let mut session = Session::start(scenario.clone())?;
+    session.advance_while(cycles, |_| go_on())?;
+    Ok(session)
 }

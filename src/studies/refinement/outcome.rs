@@ -73,6 +73,16 @@ impl Difference {
         self.worn_depth.max(self.volume)
     }
 
+    /// The worst of depth, volume, work and force; NaN if one of them is.
+    pub fn worst(&self) -> f64 {
+        let errors = [self.worn_depth, self.volume, self.work, self.force];
+        // In this order NaN is the largest.
+        errors
+            .into_iter()
+            .max_by(|a, b| a.abs().total_cmp(&b.abs()))
+            .unwrap_or(f64::NAN)
+    }
+
     /// Combines two differences, number by number.
     pub(super) fn with(&self, other: &Self, combine: impl Fn(f64, f64) -> f64) -> Self {
         Self {

@@ -4,8 +4,6 @@
 //! A sawtooth is looked for at the end of every cycle: stiff wear may remove it again, so the last
 //! profile alone would not show it.
 
-use std::ops::ControlFlow;
-
 use crate::math::abel::AbelMethod;
 use crate::scenario::session::{Session, SessionError};
 use crate::scenario::{Change, Scenario};
@@ -122,93 +120,91 @@ impl Study {
         Session::start(scenario)
     }
 
-    /// Runs one setting at one wear number; breaks off if `go_on` says no.
+    /// Runs one setting at one wear number.
     fn run(
         &self,
         setting: Setting,
         wear_number: f64,
         go_on: &dyn Fn() -> bool,
-    ) -> ControlFlow<(), Result<Outcome, SessionError>> {
-        let mut session = match self.start(setting, wear_number) {
-            Ok(session) => session,
-            Err(error) => return ControlFlow::Continue(Err(error)),
-        };
+    ) -> Result<Outcome, SessionError> {
+        let mut session = self.start(setting, wear_number)?;
         let simulation = session.simulation();
         let depth = simulation.setup().depth_scale(simulation.moment().depth);
         let mut highest = 0.0_f64;
         while session.simulation().cycle() < self.cycles {
-            if !go_on() {
-                return ControlFlow::Break(());
-            }
             let end = (session.simulation().cycle().floor() + 1.0).min(self.cycles);
-            match session.step_until(end) {
-                Ok(()) => {}
+            match session.advance_while(end, |_| go_on()) {
                 Err(SessionError::Breakdown(breakdown)) => {
-                    return ControlFlow::Continue(Ok(Outcome::Exploded {
+                    return Ok(Outcome::Exploded {
                         cycle: breakdown.cycle,
                         reason: breakdown.cause.to_string(),
-                    }));
+                    });
                 }
-                Err(error) => return ControlFlow::Continue(Err(error)),
+                other => other?,
             }
-            if session.simulation().cycle() >= end {
-                highest = highest.max(sawtooth(session.simulation().worn_depth()) / depth);
-            }
+            highest = highest.max(sawtooth(session.simulation().worn_depth()) / depth);
         }
-        ControlFlow::Continue(Ok(if highest > VISIBLE {
-            Outcome::Sawtooth(highest)
-        } else {
-            Outcome::Stable
-        }))
+        Ok(match highest > VISIBLE {
+            true => Outcome::Sawtooth(highest),
+            false => Outcome::Stable,
+        })
     }
 
     /// Runs the ladder, and then between its last stable and its first other rung to find the boundary.
-    /// `on_run` hears of every rung. If `go_on` says no, what is done is returned with `true`.
+    /// `on_run` hears of every rung. If `go_on` says no, the line is left as far as it is done.
+    ///
+    /// # Errors
+    /// If a scenario cannot be made.
     pub fn line(
         &self,
         setting: Setting,
         wear_numbers: &[f64],
         go_on: &dyn Fn() -> bool,
         mut on_run: impl FnMut(f64),
-    ) -> Result<(Line, bool), SessionError> {
+    ) -> Result<Line, SessionError> {
         let mut line = Line {
             setting,
             outcomes: Vec::new(),
             predicted: predict(self, setting)?,
             seen: None,
         };
+        match self.climb(&mut line, wear_numbers, go_on, &mut on_run) {
+            Err(SessionError::Interrupted) => Ok(line),
+            climbed => climbed.map(|()| line),
+        }
+    }
+
+    fn climb(
+        &self,
+        line: &mut Line,
+        wear_numbers: &[f64],
+        go_on: &dyn Fn() -> bool,
+        on_run: &mut dyn FnMut(f64),
+    ) -> Result<(), SessionError> {
         let (mut below, mut above) = (None, None);
         for &wear_number in wear_numbers {
-            let ControlFlow::Continue(outcome) = self.run(setting, wear_number, go_on) else {
-                return Ok((line, true));
-            };
-            let outcome = outcome?;
+            let outcome = self.run(line.setting, wear_number, go_on)?;
             match (&outcome, above) {
                 (Outcome::Stable, None) => below = Some(wear_number),
-                (Outcome::Sawtooth(_) | Outcome::Exploded { .. }, None) => {
-                    above = Some(wear_number)
-                }
+                (_, None) => above = Some(wear_number),
                 _ => {}
             }
             line.outcomes.push((wear_number, outcome));
             on_run(wear_number);
         }
+        // After a sawtooth on the lowest rung: the boundary lies below the ladder.
         let (Some(mut low), Some(mut high)) = (below, above) else {
-            // A sawtooth on the lowest rung: the boundary lies below the ladder.
             line.seen = above;
-            return Ok((line, false));
+            return Ok(());
         };
         for _ in 0..HALVINGS {
             let middle = (low * high).sqrt();
-            let ControlFlow::Continue(outcome) = self.run(setting, middle, go_on) else {
-                return Ok((line, true));
-            };
-            match outcome? {
+            match self.run(line.setting, middle, go_on)? {
                 Outcome::Stable => low = middle,
-                Outcome::Sawtooth(_) | Outcome::Exploded { .. } => high = middle,
+                _ => high = middle,
             }
         }
         line.seen = Some(high);
-        Ok((line, false))
+        Ok(())
     }
 }

@@ -136,15 +136,18 @@ fn cycle(session: &mut Session, wear_number: f64, height: f64) -> Result<Cycle, 
     let before = session.simulation().worn_depth().to_vec();
     let mut last = session.simulation().pressure();
     let end = session.simulation().cycle().floor() + 1.0;
-    while session.simulation().cycle() < end {
-        session.step_until(end)?;
+    let start = session.simulation().steps();
+    session.advance_while(end, |session| {
         let simulation = session.simulation();
-        let pressure = simulation.pressure();
-        let (stiffness, gain) = step(simulation, &last, &pressure, height);
-        cycle.stiffness.push(stiffness / wear_number);
-        cycle.gain = cycle.gain.max(gain / wear_number);
-        last = pressure;
-    }
+        if simulation.steps() > start {
+            let pressure = simulation.pressure();
+            let (stiffness, gain) = step(simulation, &last, &pressure, height);
+            cycle.stiffness.push(stiffness / wear_number);
+            cycle.gain = cycle.gain.max(gain / wear_number);
+            last = pressure;
+        }
+        true
+    })?;
     let wear = session.simulation().worn_depth();
     let deepest = wear.iter().zip(&before).map(|(now, was)| now - was);
     let deepest = deepest.fold(0.0, f64::max);

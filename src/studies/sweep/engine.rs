@@ -1,7 +1,7 @@
 //! Many points on several threads. Each thread takes the next free point, so all threads end at
 //! about the same time, and rows arrive nearly in order.
 
-use std::ops::{ControlFlow, Range};
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError, mpsc};
 
@@ -109,7 +109,7 @@ fn validated(study: &Study, point: usize) -> Result<(), StudyError> {
 
 /// Runs the points `todo` of `study` on the threads of `pool`, and gives each row to `finished`, on
 /// the calling thread, when it is there. Stops after the present steps, losing the points that are
-/// not finished, if `halt` is set or `finished` breaks.
+/// not finished, if `halt` is set or `finished` says no.
 ///
 /// # Errors
 ///
@@ -120,7 +120,7 @@ pub fn run(
     check: Option<Check>,
     pool: &ThreadPool,
     halt: &AtomicBool,
-    mut finished: impl FnMut(usize, Row) -> ControlFlow<()>,
+    mut finished: impl FnMut(usize, Row) -> bool,
 ) -> Result<(), StudyError> {
     let (send, rows) = mpsc::channel();
     let todo = Mutex::new(todo);
@@ -130,11 +130,12 @@ pub fn run(
     let refused = Mutex::new(Ok(()));
     let next = || todo.lock().unwrap_or_else(PoisonError::into_inner).next();
     let work = |send: mpsc::Sender<(usize, Row)>| {
-        while !halt.load(Ordering::Relaxed) {
+        let go_on = || !halt.load(Ordering::Relaxed);
+        while go_on() {
             let Some(point) = next() else {
                 return;
             };
-            let Some(row) = point::run(study, point, halt) else {
+            let Some(row) = point::run(study, point, &go_on) else {
                 return;
             };
             // Ahead of the check.
@@ -163,7 +164,7 @@ pub fn run(
             }
             drop(send);
             for (point, row) in &rows {
-                if finished(point, row).is_break() {
+                if !finished(point, row) {
                     halt.store(true, Ordering::Relaxed);
                     return;
                 }

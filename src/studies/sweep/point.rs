@@ -1,7 +1,6 @@
 //! One point of a study, run from beginning to end.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::{Stop, Study};
 use crate::math::scan::largest;
@@ -63,11 +62,11 @@ impl Success {
     }
 }
 
-/// Runs `point`; none if `halt` was set before its end. A failure, even a defect of the program, is
+/// Runs `point`; none if `go_on` said no before its end. A failure, even a defect of the program, is
 /// the status of the row, which then shows the last good state if there is one.
-pub(super) fn run(study: &Study, point: usize, halt: &AtomicBool) -> Option<Row> {
+pub(super) fn run(study: &Study, point: usize, go_on: &dyn Fn() -> bool) -> Option<Row> {
     match study.scenario(point) {
-        Ok(scenario) => run_scenario(study, scenario, halt),
+        Ok(scenario) => run_scenario(study, scenario, go_on),
         Err(error) => Some(failed(study, &format!("{INVALID}{error}"))),
     }
 }
@@ -80,15 +79,19 @@ fn failed(study: &Study, why: &str) -> Row {
 }
 
 /// Runs `scenario` as a point of `study`: for its columns, until one of its ends.
-pub(super) fn run_scenario(study: &Study, scenario: Scenario, halt: &AtomicBool) -> Option<Row> {
-    let (mut session, status) = match begun(&scenario, &study.stop, halt)? {
+pub(super) fn run_scenario(
+    study: &Study,
+    scenario: Scenario,
+    go_on: &dyn Fn() -> bool,
+) -> Option<Row> {
+    let (mut session, status) = match begun(&scenario, &study.stop, go_on)? {
         Ok(begun) => begun,
         Err(error) => return Some(failed(study, &error)),
     };
     let ended = catch_unwind(AssertUnwindSafe(|| {
         #[cfg(debug_assertions)]
         crate::failpoint::hit("point");
-        let ended = advance(&mut session, &study.stop, halt);
+        let ended = advance(&mut session, &study.stop, go_on);
         let reading = Reading::new(&session);
         let columns = study.columns.iter();
         (
@@ -100,8 +103,8 @@ pub(super) fn run_scenario(study: &Study, scenario: Scenario, halt: &AtomicBool)
     }));
     match ended {
         Err(_) => Some(failed(study, "bug in mdr-tui")),
-        Ok((Ok(Ended::Halted), _)) => None,
-        Ok((Ok(Ended::Done), fields)) => Some(Row { fields, status }),
+        Ok((Err(SessionError::Interrupted), _)) => None,
+        Ok((Ok(()), fields)) => Some(Row { fields, status }),
         Ok((Err(error), fields)) => Some(Row {
             fields,
             ..failed(study, &error.to_string())
@@ -115,10 +118,9 @@ pub(super) fn run_scenario(study: &Study, scenario: Scenario, halt: &AtomicBool)
 fn begun(
     scenario: &Scenario,
     stop: &Stop,
-    halt: &AtomicBool,
+    go_on: &dyn Fn() -> bool,
 ) -> Option<Result<(Session, String), String>> {
-    let go_on = || !halt.load(Ordering::Relaxed);
-    let found = match refinement::resolve(scenario, None, f64::INFINITY, &go_on) {
+    let found = match refinement::resolve(scenario, None, f64::INFINITY, go_on) {
         Ok(found) => found,
         Err(RefinementError::Interrupted) => return None,
         Err(error) => return Some(Err(error.to_string())),
@@ -139,30 +141,25 @@ fn begun(
     }))
 }
 
-enum Ended {
-    Done,
-    Halted,
-}
-
 /// Runs to the end of the scenario, or until `stop` is reached, with the steps that `mdr-tui run` takes.
-fn advance(session: &mut Session, stop: &Stop, halt: &AtomicBool) -> Result<Ended, SessionError> {
+fn advance(
+    session: &mut Session,
+    stop: &Stop,
+    go_on: &dyn Fn() -> bool,
+) -> Result<(), SessionError> {
     let end = session.loaded().run().cycles.unwrap_or_default();
     let drive = &session.simulation().setup().drive;
     let period = f64::from(drive.repeats_after().unwrap_or(1));
-    let mut worn = Worn::default();
-    loop {
+    let (mut worn, mut is_reached) = (Worn::default(), false);
+    let ended = session.advance_while(end, |session| {
         let simulation = session.simulation();
-        let cycle = simulation.cycle();
-        if cycle >= end {
-            return Ok(Ended::Done);
-        }
-        if halt.load(Ordering::Relaxed) {
-            return Ok(Ended::Halted);
-        }
-        if (cycle % period == 0.0 || simulation.may_jump()) && worn.reaches(session, stop) {
-            return Ok(Ended::Done);
-        }
-        session.step_until(end)?;
+        let may_end = simulation.cycle() % period == 0.0 || simulation.may_jump();
+        is_reached = may_end && worn.reaches(session, stop);
+        !is_reached && go_on()
+    });
+    match ended {
+        Err(SessionError::Interrupted) if is_reached => Ok(()),
+        ended => ended,
     }
 }
 

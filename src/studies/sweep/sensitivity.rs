@@ -14,8 +14,6 @@
 //! All runs use the numerics chosen for the scenario in the middle: an accuracy chooses by the values
 //! of the keys, and a different choice would be noise in the difference.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
@@ -100,7 +98,7 @@ impl Sensitivity {
 }
 
 /// Finds the elasticities of the study's columns with respect to `keys`, around its base with what it
-/// sets. None if `halt` was set before the end.
+/// sets. None if `go_on` said no before the end.
 ///
 /// # Errors
 ///
@@ -109,7 +107,7 @@ pub fn run(
     study: &Study,
     keys: &[Varied],
     pool: &ThreadPool,
-    halt: &AtomicBool,
+    go_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Option<Sensitivity>, StudyError> {
     let middle = study
         .middle()
@@ -129,7 +127,7 @@ pub fn run(
     }
     let mut found = None;
     for level in 0..=LEVELS {
-        let Some(next) = on_level(study, &middle, keys, &values, level, pool, halt)? else {
+        let Some(next) = on_level(study, &middle, keys, &values, level, pool, go_on)? else {
             return Ok(None);
         };
         let is_resolved = next.is_resolved;
@@ -148,7 +146,7 @@ fn on_level(
     values: &[f64],
     level: u32,
     pool: &ThreadPool,
-    halt: &AtomicBool,
+    go_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Option<Sensitivity>, StudyError> {
     let broken = |error: &dyn std::fmt::Display| StudyError(format!("sensitivity: {error}"));
     let fixed = refined(middle, level).map_err(|error| broken(&error))?;
@@ -164,10 +162,10 @@ fn on_level(
     }
     let runs: Vec<_> = pool.install(|| {
         let runs = scenarios.into_par_iter();
-        runs.map(|scenario| point::run_scenario(study, scenario, halt))
+        runs.map(|scenario| point::run_scenario(study, scenario, go_on))
             .collect()
     });
-    if halt.load(Ordering::Relaxed) {
+    if !go_on() {
         return Ok(None);
     }
     let mut results: Vec<Vec<Option<f64>>> = Vec::new();

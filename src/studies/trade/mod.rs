@@ -37,36 +37,9 @@ pub struct Sample {
     /// Time of one run with its set-up, s.
     pub seconds: f64,
     /// Transforms computed.
-    pub transforms: u64,
+    transforms: u64,
     /// Steps and jumps taken.
-    pub steps: u64,
-}
-
-/// How far a run is from the reference.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Errors {
-    /// Of depth, volume, work and force.
-    pub of_run: Difference,
-    /// Of the permanent stick radius, in contact radii; it does not count towards the worst.
-    pub stick_radius: f64,
-}
-
-impl Errors {
-    /// The worst of depth, volume, work and force; NaN if one of them is.
-    pub fn worst(&self) -> f64 {
-        let Difference {
-            worn_depth,
-            volume,
-            work,
-            force,
-            ..
-        } = self.of_run;
-        let errors = [worn_depth, volume, work, force];
-        match errors.iter().any(|error| error.is_nan()) {
-            true => f64::NAN,
-            false => errors.into_iter().fold(0.0, f64::max),
-        }
-    }
+    steps: u64,
 }
 
 impl Sample {
@@ -87,56 +60,89 @@ impl Sample {
         }
     }
 
-    /// Drops the failing checks that fail in the `reference` too: the setting is not their cause.
-    pub fn judged_by(mut self, reference: &Self) -> Self {
-        let others = &reference.failing;
-        let is_common = |check: &Check| others.iter().any(|other| other.subject == check.subject);
-        self.failing.retain(|check| !is_common(check));
-        self
-    }
-
     /// The differences of this run from another one.
-    pub fn against(&self, reference: &Self) -> Errors {
-        let stick = (self.stick_radius - reference.stick_radius).abs();
-        Errors {
-            of_run: self.outcome.against(&reference.outcome),
-            stick_radius: stick / reference.contact_radius,
-        }
+    pub fn against(&self, reference: &Self) -> Difference {
+        self.outcome.against(&reference.outcome)
     }
 }
 
-/// Runs `scenario` by `setting` over `cycles`; `None` if `go_on`, which is asked at every step, says no.
+/// A run with its errors.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Judged {
+    /// The run; of its failing checks those that hold in the reference, as the setting is not the others' cause.
+    pub sample: Sample,
+    /// How far it is from the reference.
+    pub errors: Difference,
+    /// How far the permanent stick radius is, in contact radii; it does not count towards the worst.
+    stick_error: f64,
+}
+
+/// One setting, and how it did.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Trial {
+    /// The setting.
+    pub setting: Setting,
+    /// The run and its errors, or why there is none.
+    pub outcome: Result<Judged, String>,
+}
+
+impl Trial {
+    /// Judges how a run by `setting` ended.
+    pub fn new(setting: Setting, ended: Result<Sample, SessionError>, reference: &Sample) -> Self {
+        let judged = ended.map(|mut sample| {
+            let others = &reference.failing;
+            let is_common = |check: &Check| others.iter().any(|one| one.subject == check.subject);
+            sample.failing.retain(|check| !is_common(check));
+            let stick_error = (sample.stick_radius - reference.stick_radius).abs();
+            Judged {
+                errors: sample.against(reference),
+                stick_error: stick_error / reference.contact_radius,
+                sample,
+            }
+        });
+        Self {
+            setting,
+            outcome: judged.map_err(|error| error.to_string()),
+        }
+    }
+
+    /// Time and worst error of a run that reached its end and passes its own checks.
+    pub fn point(&self) -> Option<[f64; 2]> {
+        let judged = self.outcome.as_ref().ok()?;
+        let worst = judged.errors.worst();
+        let is_sound = judged.sample.failing.is_empty() && worst.is_finite();
+        is_sound.then_some([judged.sample.seconds, worst])
+    }
+
+    /// Repeats the run of `cycles` as often as a clock needs, and takes the median time.
+    pub fn time_well(&mut self, scenario: &Scenario, cycles: f64, go_on: &dyn Fn() -> bool) {
+        let Ok(judged) = &mut self.outcome else {
+            return;
+        };
+        let mut times = vec![judged.sample.seconds];
+        while times.iter().sum::<f64>() < LONG_ENOUGH && times.len() < REPETITIONS {
+            match run(scenario, &self.setting, cycles, go_on) {
+                Ok(sample) => times.push(sample.seconds),
+                Err(_) => break,
+            }
+        }
+        times.sort_by(f64::total_cmp);
+        judged.sample.seconds = times[times.len() / 2];
+    }
+}
+
+/// Runs `scenario` by `setting` over `cycles`, as long as `go_on`, which is asked at every step, says so.
+///
+/// # Errors
+/// If the run stops, or is [interrupted](SessionError::Interrupted).
 pub fn run(
     scenario: &Scenario,
     setting: &Setting,
     cycles: f64,
     go_on: &dyn Fn() -> bool,
-) -> Option<Result<Sample, SessionError>> {
-    let scenario = match setting.of(scenario) {
-        Ok(scenario) => scenario,
-        Err(error) => return Some(Err(error.into())),
-    };
+) -> Result<Sample, SessionError> {
+    let scenario = setting.of(scenario)?;
     let start = Instant::now();
     let session = refinement::run(&scenario, cycles, go_on)?;
-    let seconds = start.elapsed().as_secs_f64();
-    Some(session.map(|session| Sample::of(&session, seconds)))
-}
-
-/// The median time of one run, s, of as many as a clock needs, after `first` seconds were measured once.
-pub fn median_time(
-    scenario: &Scenario,
-    setting: &Setting,
-    cycles: f64,
-    first: f64,
-    go_on: &dyn Fn() -> bool,
-) -> f64 {
-    let mut times = vec![first];
-    while times.iter().sum::<f64>() < LONG_ENOUGH && times.len() < REPETITIONS {
-        match run(scenario, setting, cycles, go_on) {
-            Some(Ok(sample)) => times.push(sample.seconds),
-            _ => break,
-        }
-    }
-    times.sort_by(f64::total_cmp);
-    times[times.len() / 2]
+    Ok(Sample::of(&session, start.elapsed().as_secs_f64()))
 }

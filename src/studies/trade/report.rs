@@ -1,42 +1,22 @@
 //! Results of a trade study: rows, the Pareto front, the cheapest setting for an accuracy.
 
-use super::{Errors, Sample, Setting};
+use super::{Judged, Trial};
 use crate::reading::Check;
 use crate::studies::table::{Cell, Column, Format, Table};
-
-/// One setting, and how it did.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Trial {
-    /// The setting.
-    pub setting: Setting,
-    /// The run and its errors, or why there is none.
-    pub outcome: Result<(Sample, Errors), String>,
-}
-
-impl Trial {
-    /// Time and worst error of a run that reached its end and passes its own checks.
-    pub fn point(&self) -> Option<[f64; 2]> {
-        let (sample, errors) = self.outcome.as_ref().ok()?;
-        let is_sound = sample.failing.is_empty() && errors.worst().is_finite();
-        is_sound.then(|| [sample.seconds, errors.worst()])
-    }
-}
 
 /// A trial with its time and its worst error.
 pub type Timed<'a> = (&'a Trial, [f64; 2]);
 
 /// The trials that no other one beats in both time and error, the fastest first.
 pub fn front<'a>(trials: impl IntoIterator<Item = &'a Trial>) -> Vec<Timed<'a>> {
-    let trials = trials.into_iter();
-    let mut sorted: Vec<Timed> = trials
-        .filter_map(|trial| Some((trial, trial.point()?)))
-        .collect();
+    let timed = |trial: &'a Trial| Some((trial, trial.point()?));
+    let mut sorted: Vec<Timed> = trials.into_iter().filter_map(timed).collect();
     sorted.sort_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     let mut best = f64::INFINITY;
     sorted.retain(|(_, [_, error])| {
-        let better = *error < best;
+        let is_better = *error < best;
         best = best.min(*error);
-        better
+        is_better
     });
     sorted
 }
@@ -47,31 +27,36 @@ pub fn cheapest(trials: &[Trial], accuracy: f64) -> Option<Timed<'_>> {
     front.find(|(_, [_, error])| *error <= accuracy)
 }
 
+/// A heading over the columns of errors.
+const ERRORS: &str = "against the reference";
+
+/// The columns: a heading over some of them, the name, and how it is written.
+const COLUMNS: [(&str, &str, Format); 16] = [
+    ("", "method", Format::Words),
+    ("", "scheme", Format::Words),
+    ("", "integrator", Format::Words),
+    ("", "points", Format::Count),
+    ("", "steps_per_cycle", Format::Count),
+    ("", "tolerance", Format::Rough),
+    ("", "time_s", Format::Rough),
+    ("", "steps", Format::Count),
+    ("", "transforms", Format::Count),
+    (ERRORS, "error_rms", Format::Rough),
+    (ERRORS, "volume_error", Format::Rough),
+    (ERRORS, "work_error", Format::Rough),
+    (ERRORS, "force_error", Format::Rough),
+    (ERRORS, "stick_error", Format::Rough),
+    ("", "checks", Format::Words),
+    ("", "front", Format::Words),
+];
+
 /// One row per trial of `shown`, with a mark if it is on the front of all.
 pub fn table<'a>(shown: impl IntoIterator<Item = &'a Trial>, all: &[Trial]) -> Table {
-    let mut table = Table::new(vec![
-        Column::new("method", Format::Words),
-        Column::new("scheme", Format::Words),
-        Column::new("integrator", Format::Words),
-        Column::new("points", Format::Count),
-        Column::new("steps_per_cycle", Format::Count),
-        Column::new("tolerance", Format::Rough),
-        Column::new("time_s", Format::Rough),
-        Column::new("steps", Format::Count),
-        Column::new("transforms", Format::Count),
-        Column::grouped("against the reference", "error_rms", Format::Rough),
-        Column::grouped("against the reference", "volume_error", Format::Rough),
-        Column::grouped("against the reference", "work_error", Format::Rough),
-        Column::grouped("against the reference", "force_error", Format::Rough),
-        Column::grouped("against the reference", "stick_error", Format::Rough),
-        Column::new("checks", Format::Words),
-        Column::new("front", Format::Words),
-    ]);
+    let columns = COLUMNS.map(|(group, name, format)| Column::grouped(group, name, format));
+    let mut table = Table::new(columns.to_vec());
     let front = front(all);
-    let stands = |trial: &Trial| front.iter().any(|(other, _)| std::ptr::eq(*other, trial));
     for trial in shown {
         let setting = &trial.setting;
-        let words = |text: &str| Cell::Words(text.to_owned());
         let mut row = vec![
             words(setting.method.name()),
             words(setting.scheme.name()),
@@ -81,22 +66,14 @@ pub fn table<'a>(shown: impl IntoIterator<Item = &'a Trial>, all: &[Trial]) -> T
             setting.tolerance.into(),
         ];
         match &trial.outcome {
-            Ok((sample, errors)) => row.extend([
-                Cell::Number(sample.seconds),
-                Cell::Count(sample.steps as usize),
-                Cell::Count(sample.transforms as usize),
-                finite(errors.of_run.worn_depth),
-                finite(errors.of_run.volume),
-                finite(errors.of_run.work),
-                finite(errors.of_run.force),
-                finite(errors.stick_radius),
-                words(&complaints(sample)),
-                words(if stands(trial) { "*" } else { "" }),
-            ]),
+            Ok(judged) => {
+                row.extend(results(judged));
+                let is_on_it = front.iter().any(|(other, _)| std::ptr::eq(*other, trial));
+                row.push(words(if is_on_it { "*" } else { "" }));
+            }
             Err(reason) => {
-                row.resize(9, Cell::Missing);
+                row.extend([Cell::Missing, Cell::Missing, Cell::Missing]);
                 row.push(Cell::Across(reason.clone()));
-                row.resize(16, Cell::Missing);
             }
         }
         table.push(row);
@@ -104,17 +81,38 @@ pub fn table<'a>(shown: impl IntoIterator<Item = &'a Trial>, all: &[Trial]) -> T
     table
 }
 
-/// What is wrong with a run, in words.
-fn complaints(sample: &Sample) -> String {
+/// The cells from `time_s` to `checks`.
+fn results(
+    Judged {
+        sample,
+        errors,
+        stick_error,
+    }: &Judged,
+) -> Vec<Cell> {
     let complaints: Vec<String> = sample.failing.iter().map(Check::complaint).collect();
-    match complaints.is_empty() {
+    let checks = match complaints.is_empty() {
         true => "ok".to_owned(),
         false => complaints.join(", "),
-    }
+    };
+    let errors = [
+        errors.worn_depth,
+        errors.volume,
+        errors.work,
+        errors.force,
+        *stick_error,
+    ];
+    let mut row = vec![
+        Cell::Number(sample.seconds),
+        Cell::Count(sample.steps as usize),
+        Cell::Count(sample.transforms as usize),
+    ];
+    row.extend(errors.map(|error| Some(error).filter(|error| error.is_finite()).into()));
+    row.push(Cell::Words(checks));
+    row
 }
 
-fn finite(value: f64) -> Cell {
-    Some(value).filter(|value| value.is_finite()).into()
+fn words(text: &str) -> Cell {
+    Cell::Words(text.to_owned())
 }
 
 #[cfg(test)]
@@ -126,6 +124,7 @@ mod tests {
     use crate::scenario::session::Session;
     use crate::simulation::Scheme;
     use crate::studies::refinement::{Difference, Outcome};
+    use crate::studies::trade::{Sample, Setting};
 
     fn unworn() -> Outcome {
         let scenario = Scenario::load("hertz", &[]).expect("a preset");
@@ -142,13 +141,14 @@ mod tests {
             transforms: 4,
             steps: 1,
         };
-        let errors = Errors {
-            of_run: Difference {
+        let judged = Judged {
+            sample,
+            errors: Difference {
                 worn_depth: 0.5 * worst,
                 volume: worst,
                 ..Difference::NONE
             },
-            stick_radius: f64::NAN,
+            stick_error: f64::NAN,
         };
         Trial {
             setting: Setting {
@@ -158,7 +158,7 @@ mod tests {
                 steps: 100,
                 tolerance: None,
             },
-            outcome: Ok((sample, errors)),
+            outcome: Ok(judged),
         }
     }
 
@@ -178,8 +178,8 @@ mod tests {
         });
         // The fastest and best of all fails its own checks.
         let mut unsound = trial(8, 0.01, 1e-6);
-        if let Ok((sample, _)) = &mut unsound.outcome {
-            sample.failing = vec![Check {
+        if let Ok(judged) = &mut unsound.outcome {
+            judged.sample.failing = vec![Check {
                 subject: Subject::Energy,
                 error: 0.04,
             }];

@@ -33,16 +33,13 @@ pub struct Setting {
     pub tolerance: Option<f64>,
 }
 
-/// A line's worth of it.
 impl Display for Setting {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        let Self {
-            method,
-            points,
-            steps,
-            ..
-        } = self;
-        write!(f, "{method}, N = {points}, {steps} steps")
+        write!(
+            f,
+            "{}, N = {}, {} steps",
+            self.method, self.points, self.steps
+        )
     }
 }
 
@@ -67,12 +64,17 @@ impl Setting {
     }
 
     /// The scenario computed so.
+    ///
+    /// # Errors
+    /// If it cannot be.
     pub fn of(&self, scenario: &Scenario) -> Result<Scenario, ScenarioError> {
-        self.keys()
-            .iter()
-            .try_fold(scenario.clone(), |scenario, (key, value)| {
-                scenario.after(&Change::new(0.0, key, value))
-            })
+        let changes = self
+            .keys()
+            .into_iter()
+            .map(|(key, value)| Change::new(0.0, key, &value));
+        changes
+            .into_iter()
+            .try_fold(scenario.clone(), |scenario, change| scenario.after(&change))
     }
 
     /// The same half as fine.
@@ -85,15 +87,15 @@ impl Setting {
         }
     }
 
-    /// An estimate of the work of a run of `cycles`, in kernel values, for the progress bar.
-    pub fn effort(&self, cycles: f64) -> u64 {
+    /// An estimate of the work of a run of `cycles`, in kernel values.
+    pub fn effort(&self, cycles: f64) -> f64 {
         let cycles = match self.tolerance {
             // What a jump looks at hardly depends on how far it goes.
             Some(tolerance) => cycles.min(60.0 * tolerance.powf(-0.25)),
             None => cycles,
         };
         let nodes = self.points as f64;
-        (cycles * f64::from(self.steps) * (nodes * nodes + 60.0 * nodes + 1500.0)) as u64
+        cycles * f64::from(self.steps) * (nodes * nodes + 60.0 * nodes + 1500.0)
     }
 }
 
@@ -111,17 +113,17 @@ pub fn settings(
     let mut settings = Vec::new();
     for &method in methods {
         for scheme in Scheme::ALL {
-            let best = method == AbelMethod::Product && scheme == Scheme::Trapezoid;
-            let direct = if wants_jumps { &[] } else { steps };
-            let jumped = match best {
-                _ if !repeats => &[],
-                true => steps,
-                false if wants_jumps => &[STEPS_UNDER_JUMPS],
-                false => &[],
-            };
-            let direct = direct.iter().map(|&steps| (steps, None));
-            let tolerances = |&steps| TOLERANCES.map(|tolerance| (steps, Some(tolerance)));
-            for (steps, tolerance) in direct.chain(jumped.iter().flat_map(tolerances)) {
+            let is_best = method == AbelMethod::Product && scheme == Scheme::Trapezoid;
+            let mut ways: Vec<(u32, Option<f64>)> = Vec::new();
+            if !wants_jumps {
+                ways.extend(steps.iter().map(|&steps| (steps, None)));
+            }
+            if repeats && (is_best || wants_jumps) {
+                let steps = if is_best { steps } else { &[STEPS_UNDER_JUMPS] };
+                let jumps = |&steps| TOLERANCES.map(|tolerance| (steps, Some(tolerance)));
+                ways.extend(steps.iter().flat_map(jumps));
+            }
+            for (steps, tolerance) in ways {
                 settings.extend(points.iter().map(|&points| Setting {
                     method,
                     scheme,
@@ -132,7 +134,7 @@ pub fn settings(
             }
         }
     }
-    settings.sort_by_key(|setting| setting.effort(1.0));
+    settings.sort_by(|a, b| a.effort(1.0).total_cmp(&b.effort(1.0)));
     settings
 }
 

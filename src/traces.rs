@@ -77,45 +77,6 @@ pub struct Table {
 }
 
 impl Table {
-    /// Reads a text; fields that are no numbers become NaN.
-    ///
-    /// # Errors
-    /// Says in which line there is no column, or another number of fields than of columns.
-    pub fn parse(text: &str) -> Result<Self, String> {
-        let mut table = Self {
-            header: Vec::new(),
-            names: Vec::new(),
-            columns: Vec::new(),
-        };
-        for (k, line) in text.lines().enumerate() {
-            if let Some(said) = line.strip_prefix('#') {
-                if let Some((key, value)) = said.split_once(':') {
-                    let entry = (key.trim().to_owned(), value.trim().to_owned());
-                    table.header.push(entry);
-                }
-            } else if table.names.is_empty() {
-                table.names = line.split(',').map(|name| name.trim().to_owned()).collect();
-                table.columns = vec![Vec::new(); table.names.len()];
-            } else if !line.trim().is_empty() {
-                let fields: Vec<&str> = line.split(',').collect();
-                if fields.len() != table.names.len() {
-                    let (seen, wanted) = (fields.len(), table.names.len());
-                    return Err(format!(
-                        "line {}: {seen} fields under {wanted} columns",
-                        k + 1
-                    ));
-                }
-                for (column, field) in table.columns.iter_mut().zip(fields) {
-                    column.push(field.trim().parse().unwrap_or(f64::NAN));
-                }
-            }
-        }
-        if table.columns.first().is_none_or(Vec::is_empty) {
-            return Err("has no rows of numbers".into());
-        }
-        Ok(table)
-    }
-
     /// A table from memory: its header and named columns of one length.
     pub fn of_columns<N: Into<String>>(
         header: Vec<(String, String)>,
@@ -157,7 +118,12 @@ impl Table {
 
     /// The columns of a file, in SI units; fields that are no numbers become NaN.
     pub fn of_file(columns: &Columns) -> Self {
-        Self::of_columns(Vec::new(), columns.all())
+        Self::of_columns(columns.header().to_vec(), columns.all())
+    }
+
+    /// The number of rows.
+    pub fn rows(&self) -> usize {
+        self.columns.first().map_or(0, Vec::len)
     }
 
     /// The rows of the cycle before `end`, as far as there are any.

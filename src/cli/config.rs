@@ -8,8 +8,10 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use serde::Deserialize;
 
-use super::args::{ColorChoice, MarkerChoice, ThemeChoice};
+use super::args::ColorChoice;
 use super::{Misuse, complain};
+use crate::plot::Marker;
+use crate::plot::theme::Look;
 use crate::scenario::limited::{self, Unread};
 use crate::scenario::nearest::nearest;
 use crate::scenario::typed;
@@ -20,11 +22,11 @@ use crate::tui::keys::{Key, parse_script};
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Config {
     /// Which colours.
-    pub theme: Option<ThemeChoice>,
+    pub theme: Option<Look>,
     /// When to use colour.
     pub color: Option<ColorChoice>,
     /// How curves are drawn.
-    pub marker: Option<MarkerChoice>,
+    pub marker: Option<Marker>,
     /// The largest number of frames per second.
     pub fps: Option<u16>,
     /// Whether the mouse belongs to the explorer.
@@ -162,9 +164,9 @@ mod tests {
     fn the_commented_default_is_a_configuration() {
         assert_eq!(read(include_str!("config.toml")), Ok(Config::default()));
         let all = read(&uncommented()).expect("a configuration");
-        assert_eq!(all.theme, Some(ThemeChoice::Dark));
+        assert_eq!(all.theme, Some(Look::Dark));
         assert_eq!(all.color, Some(ColorChoice::Auto));
-        assert_eq!(all.marker, Some(MarkerChoice::Braille));
+        assert_eq!(all.marker, Some(Marker::Braille));
         assert_eq!((all.fps, all.mouse), (Some(10), Some(false)));
         assert!(all.keys.contains(&(Key::Char('R'), Command::RunPause)));
     }

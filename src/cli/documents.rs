@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use anyhow::{Context, Result};
-use clap::{Arg, ArgAction, Command, CommandFactory};
+use clap::{Command, CommandFactory};
 use clap_complete::env::Shells;
 use clap_mangen::Man;
 
@@ -14,9 +14,6 @@ use super::args::{Arguments, Manual};
 use super::complete::VARIABLE;
 use crate::export::file::write_whole;
 use crate::tui::manual;
-
-/// The longest list of choices that a synopsis spells out, in characters.
-const LONGEST_CHOICE: usize = 40;
 
 /// Prints a script with which the shell asks this program for completions.
 pub fn completions(shell: clap_complete::Shell) -> Result<ExitCode> {
@@ -75,7 +72,7 @@ fn page(command: &Command) -> Result<Vec<u8>> {
     let mut page = Vec::new();
     man.render_title(&mut page)?;
     man.render_name_section(&mut page)?;
-    page.extend(synopsis(command).into_bytes());
+    man.render_synopsis_section(&mut page)?;
     man.render_description_section(&mut page)?;
     man.render_options_section(&mut page)?;
     if is_program {
@@ -91,75 +88,6 @@ fn page(command: &Command) -> Result<Vec<u8>> {
 
 fn full_name(command: &Command) -> &str {
     command.get_bin_name().unwrap_or(command.get_name())
-}
-
-/// `mdr-tui run [--cycles X] ... SCENARIO`: each option with its value.
-fn synopsis(command: &Command) -> String {
-    let (positionals, options): (Vec<&Arg>, Vec<&Arg>) = command
-        .get_arguments()
-        .filter(|argument| !argument.is_hide_set() && !is_built_in(argument))
-        .partition(|argument| argument.is_positional());
-    let words: String = options
-        .into_iter()
-        .chain(positionals)
-        .map(|argument| format!(" {}", usage(argument)))
-        .collect();
-    let mut text = format!(
-        ".SH SYNOPSIS\n\\fB{}\\fR{words}\n",
-        plain(full_name(command))
-    );
-    if command.has_subcommands() {
-        text.push_str(".br\n\\fBmdr\\-tui\\fR \\fICOMMAND\\fR [\\fIOPTIONS\\fR]\n");
-    }
-    text
-}
-
-fn is_built_in(argument: &Arg) -> bool {
-    matches!(
-        argument.get_action(),
-        ArgAction::Help | ArgAction::HelpShort | ArgAction::HelpLong | ArgAction::Version
-    )
-}
-
-/// One argument: literal words bold, values in italics, brackets around what may be left out.
-fn usage(argument: &Arg) -> String {
-    let mut text = match argument.get_long() {
-        Some(long) => format!("\\fB\\-\\-{}\\fR", plain(long)),
-        None => String::new(),
-    };
-    if argument.get_action().takes_values() {
-        let gap = if text.is_empty() { "" } else { "\\ " };
-        text = format!("{text}{gap}{}", value(argument));
-    }
-    if !argument.is_required_set() {
-        text = format!("[{text}]");
-    }
-    if matches!(argument.get_action(), ArgAction::Append)
-        && argument.get_value_delimiter().is_none()
-    {
-        text.push_str("...");
-    }
-    text
-}
-
-/// The choices of an argument, or the name of its value.
-fn value(argument: &Arg) -> String {
-    let choices: Vec<String> = argument
-        .get_possible_values()
-        .iter()
-        .map(|choice| choice.get_name().to_owned())
-        .collect();
-    let choices = choices.join("|");
-    if !choices.is_empty() && choices.len() <= LONGEST_CHOICE {
-        return format!("\\fB{}\\fR", plain(&choices));
-    }
-    let names: Vec<String> = argument
-        .get_value_names()
-        .unwrap_or_default()
-        .iter()
-        .map(|name| format!("\\fI{}\\fR", plain(name)))
-        .collect();
-    names.join("\\ ")
 }
 
 /// The text after the options, line by line as it is written.

@@ -8,17 +8,15 @@ use anyhow::Result;
 use clap::CommandFactory;
 use serde::de::IgnoredAny;
 
-use super::args::{Arguments, ColorChoice, Explore, FormatChoice, ThemeChoice};
+use super::args::{Arguments, ColorChoice, Explore};
 use super::config::Config;
 use super::{Misuse, accuracy, complain, without_waiting};
 use crate::export::autosave;
-use crate::plot::Marker;
 use crate::scenario::nearest::nearest;
 use crate::scenario::session::Session;
 use crate::scenario::{Scenario, ScenarioError, checkpoint, printable};
 use crate::tui::ghosts::{MOST, Source};
-use crate::tui::theme::Look;
-use crate::tui::{self, Capture, Format, Options, Script, Stroke, command, snapshot};
+use crate::tui::{self, Capture, Options, Script, Stroke, command, snapshot};
 
 /// The largest number of frames per second.
 const DEFAULT_FPS: u16 = 10;
@@ -27,11 +25,7 @@ const DEFAULT_FPS: u16 = 10;
 pub fn explore(options: &Explore) -> Result<ExitCode> {
     let strokes = Stroke::script(options.keys.as_deref().unwrap_or("")).map_err(Misuse)?;
     let config = Config::load()?;
-    let colored = match options.color.or(config.color) {
-        Some(ColorChoice::Always) => Some(true),
-        Some(ColorChoice::Never) => Some(false),
-        Some(ColorChoice::Auto) | None => None,
-    };
+    let color = options.color.or(config.color);
     command::bind(config.keys);
     let directory = Path::new(&options.scenario);
     let mut past = None;
@@ -79,13 +73,9 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
         keep_in,
         keep_every: options.checkpoint_every.0,
         fps: options.fps.or(config.fps).unwrap_or(DEFAULT_FPS),
-        marker: options.marker.or(config.marker).map(Marker::from),
-        colored,
-        look: options.theme.or(config.theme).map(|choice| match choice {
-            ThemeChoice::Dark => Look::Dark,
-            ThemeChoice::Light => Look::Light,
-            ThemeChoice::Mono => Look::Mono,
-        }),
+        marker: options.marker.or(config.marker),
+        colored: color.and_then(ColorChoice::is_colored),
+        look: options.theme.or(config.theme),
         present: options.present,
         mouse: if options.mouse || config.mouse == Some(true) {
             Capture::Clicks
@@ -95,10 +85,7 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
         script: options.print.map(|size| Script {
             strokes,
             size,
-            format: match options.format {
-                FormatChoice::Text => Format::Text,
-                FormatChoice::Svg => Format::Svg,
-            },
+            format: options.format,
         }),
     })?;
     if let Some(word) = farewell.word {

@@ -8,16 +8,17 @@ use std::sync::Arc;
 
 use anyhow::{Context, Result};
 
-use super::args::{Figure, PaperFigure, StyleChoice};
+use super::args::{Figure, PaperFigure};
 use super::{Misuse, accuracy, job};
 use crate::charts::{
     ON_PAPER, Recipe, Run, depth, fretting_loop, profile, scar_depth, springs, stresses, volume,
 };
 use crate::export::target::{Target, write_all};
-use crate::figure::look::{Look, Style};
+use crate::figure::look::Look;
 use crate::figure::{Format, Sheet, paper, study as figure_of_study};
 use crate::plot::Chart;
 use crate::plot::theme::Role;
+use crate::scenario::columns::Columns;
 use crate::scenario::{Scenario, limited, printable};
 use crate::studies::ghost::Ghost;
 use crate::studies::sweep::record::Record;
@@ -77,10 +78,7 @@ pub fn figure(options: &Figure) -> Result<ExitCode> {
     }
     let look = Look {
         font: options.font_size * POINT,
-        style: match options.style {
-            StyleChoice::Color => Style::Color,
-            StyleChoice::Grey => Style::Grey,
-        },
+        style: options.style,
     };
     let size = options.size.unwrap_or_else(|| sheet.usual_size());
     let canvas = sheet.draw(size, &look);
@@ -370,7 +368,11 @@ fn from_directory(directory: &Path) -> Result<Run> {
 fn take(run: &mut Run, path: &Path) -> Result<(), Misuse> {
     let text =
         limited::regular_text(path, LARGEST).map_err(|why| unread(path, &why.to_string()))?;
-    let table = Table::parse(&text).map_err(|why| unread(path, &why))?;
+    let columns = Columns::parse(&text, &path.display().to_string());
+    let table = Table::of_file(&columns.map_err(|error| Misuse(error.to_string()))?);
+    if table.rows() == 0 {
+        return Err(unread(path, "has no rows of numbers"));
+    }
     run.take(table).map_err(|why| unread(path, &why))
 }
 

@@ -52,11 +52,7 @@ pub fn fit(options: &args::Fit) -> Result<ExitCode> {
     } else {
         write!(out, "{}", report(&fitted))?;
         if options.drawing.plot {
-            write!(
-                out,
-                "{}",
-                residual_plots(&fitted, options.drawing.marker.into())
-            )?;
+            write!(out, "{}", residual_plots(&fitted, options.drawing.marker))?;
         }
     }
     Ok(ExitCode::SUCCESS)

@@ -1,5 +1,6 @@
 //! The command line: arguments in, one line on stderr and an exit code out.
 
+use std::env;
 use std::io::{self, IsTerminal, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
@@ -32,7 +33,6 @@ mod figure;
 mod fit;
 mod guide;
 mod job;
-
 mod new;
 mod presets;
 mod progress;
@@ -186,16 +186,18 @@ fn refuse(error: &clap::Error) -> ExitCode {
         return ExitCode::SUCCESS;
     }
     let text = error.render().to_string();
-    let words = text
-        .lines()
-        .take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more information"))
-        .map(str::trim)
-        .filter(|line| !line.is_empty())
-        .collect::<Vec<_>>()
-        .join(" ")
-        .replace(" tip: ", "; ");
+    let is_end =
+        |line: &&str| line.starts_with("Usage:") || line.starts_with("For more information");
+    let words = text.lines().take_while(|line| !is_end(line)).map(str::trim);
+    let words: Vec<&str> = words.filter(|line| !line.is_empty()).collect();
+    let words = words.join(" ").replace(" tip: ", "; ");
+    let first = env::args().nth(1).unwrap_or_default();
+    let command = match Arguments::command().find_subcommand(&first) {
+        Some(_) => format!("mdr-tui {first}"),
+        None => "mdr-tui".into(),
+    };
     complain(&format!(
-        "{}; see mdr-tui --help",
+        "{}; see {command} --help",
         words.trim_start_matches("error: ")
     ));
     ExitCode::from(MISUSED)

@@ -276,5 +276,5 @@ fn plots(trials: &[Trial], options: &Trade) -> String {
             .curve(all.clone())
             .curve(curve.clone())
     });
-    small_multiples::draw(&charts.collect::<Vec<_>>(), options.drawing.marker.into())
+    small_multiples::draw(&charts.collect::<Vec<_>>(), options.drawing.marker)
 }

@@ -67,7 +67,7 @@ fn run(tasks: &[Task], quiet: bool) -> Vec<Outcome> {
 
 /// Every table under what it shows, and the curves under their table.
 fn text(study: &Study, outcomes: &[Outcome], options: &Verify) -> String {
-    let marker = options.drawing.marker.into();
+    let marker = options.drawing.marker;
     let mut text = String::new();
     for problem in Problem::ALL {
         if !outcomes.iter().any(|o| o.task.problem == problem) {

@@ -1,16 +1,18 @@
 //! The look of a figure: font size, and what roles look like in colours or shades of grey.
 
+use clap::ValueEnum;
+
 use super::canvas::{BLACK, Rgb};
 use crate::plot::colormap::ColorMap;
 use crate::plot::map::WORDS;
 use crate::plot::theme::Role;
 
 /// Colours or greys.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Style {
     /// The screen's colours for a light background, dark enough for print.
     Color,
-    /// Greys, told apart by dashes.
+    /// Greys and dashes.
     Grey,
 }
 

@@ -1,12 +1,15 @@
 //! Characters that dots are made of.
 
+use clap::ValueEnum;
+
 /// The character of a dot.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub enum Marker {
     /// Braille patterns: 2 by 4 dots per cell.
     #[default]
     Braille,
     /// Half blocks: 1 by 2 dots per cell.
+    #[value(name = "halfblock")]
     HalfBlock,
     /// A bullet: one dot per cell.
     Dot,

@@ -7,6 +7,7 @@
 //! terminal of 256 colours has: its names are half as long on the wire as red, green and blue. A
 //! terminal of sixteen colours gets the plain ones, which its user has chosen.
 
+use clap::ValueEnum;
 use ratatui::style::{Color, Modifier, Style};
 
 use super::Marker;
@@ -60,13 +61,13 @@ pub enum Role {
 }
 
 /// Which colours.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Look {
     /// For a dark background.
     Dark,
     /// For a light background.
     Light,
-    /// No colours at all: bold, dim and reversed.
+    /// No colours: bold, dim and reversed only.
     Mono,
 }
 

@@ -8,60 +8,20 @@ use std::path::Path;
 
 use super::error::{ScenarioError, echo, printable};
 use super::limited::{self, Unread};
+use super::units;
 
 /// The largest file that is read, in bytes.
 const LARGEST: u64 = 64 << 20;
 
-/// What a column holds, and so which units it may name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Quantity {
-    /// m.
-    Length,
-    /// m³.
-    Volume,
-    /// N.
-    Force,
-    /// s.
-    Time,
-    /// J.
-    Energy,
-    /// Pa.
-    Stress,
-    /// A pure number, whose column has no unit.
-    Number,
-}
-
-impl Quantity {
-    const ALL: [Self; 7] = [
-        Self::Length,
-        Self::Volume,
-        Self::Force,
-        Self::Time,
-        Self::Energy,
-        Self::Stress,
-        Self::Number,
-    ];
-
-    /// The units in column names, each with its size in SI; the first is that of this program's files.
-    fn units(self) -> &'static [(&'static str, f64)] {
-        match self {
-            Self::Length => &[("_m", 1.0), ("_mm", 1e-3), ("_um", 1e-6), ("_nm", 1e-9)],
-            Self::Volume => &[("_m3", 1.0), ("_mm3", 1e-9), ("_um3", 1e-18)],
-            Self::Force => &[("_N", 1.0), ("_mN", 1e-3), ("_kN", 1e3)],
-            Self::Time => &[("_s", 1.0), ("_ms", 1e-3)],
-            Self::Energy => &[("_J", 1.0), ("_mJ", 1e-3), ("_kJ", 1e3)],
-            Self::Stress => &[("_Pa", 1.0), ("_MPa", 1e6), ("_GPa", 1e9)],
-            Self::Number => &[("", 1.0)],
-        }
-    }
-}
+/// The units that all columns of a file are converted to.
+const OWN: [&str; 6] = ["m", "m3", "N", "s", "J", "Pa"];
 
 /// A file of columns, read whole.
 #[derive(Debug, Clone)]
 pub struct Columns {
     path: String,
-    /// What a line `# cycle: ` says.
-    cycle: Option<f64>,
+    /// The lines `# key: value`.
+    header: Vec<(String, String)>,
     names: Vec<String>,
     /// The line of each row, counted from 1, and its fields.
     rows: Vec<(u64, csv::StringRecord)>,
@@ -130,10 +90,13 @@ impl Columns {
             let line = row.position().map_or(0, csv::Position::line);
             rows.push((line, row));
         }
-        let stated = text.lines().find_map(|line| line.strip_prefix("# cycle:"));
+        let said = text
+            .lines()
+            .filter_map(|line| line.strip_prefix('#')?.split_once(':'));
+        let said = said.map(|(key, value)| (key.trim().to_owned(), value.trim().to_owned()));
         Ok(Self {
             path: path.to_owned(),
-            cycle: stated.and_then(|cycle| cycle.trim().parse().ok()),
+            header: said.collect(),
             names,
             rows,
         })
@@ -144,9 +107,15 @@ impl Columns {
         &self.path
     }
 
-    /// The cycle that the header states, as this program's own files do.
+    /// The lines `# key: value` above the names, which this program's own files have.
+    pub fn header(&self) -> &[(String, String)] {
+        &self.header
+    }
+
+    /// The cycle that the header states.
     pub fn stated_cycle(&self) -> Option<f64> {
-        self.cycle
+        let (_, cycle) = self.header.iter().find(|(key, _)| key == "cycle")?;
+        cycle.parse().ok()
     }
 
     /// The number of rows.
@@ -160,19 +129,19 @@ impl Columns {
     }
 
     /// Whether there is a column of this name, with any unit.
-    pub fn has(&self, name: &str, quantity: Quantity) -> bool {
-        self.find(name, quantity).is_some()
+    pub fn has(&self, name: &str, unit: &str) -> bool {
+        self.find(name, unit).is_some()
     }
 
     /// The numbers of the column `name` in SI units, one per row.
     ///
     /// # Errors
     /// If the column is missing, or one of its fields is empty or not a finite number.
-    pub fn column(&self, name: &str, quantity: Quantity) -> Result<Vec<f64>, ScenarioError> {
-        let Some((at, size)) = self.find(name, quantity) else {
-            let unit = quantity.units()[0].0;
+    pub fn column(&self, name: &str, unit: &str) -> Result<Vec<f64>, ScenarioError> {
+        let Some((at, size)) = self.find(name, unit) else {
+            let ending = if unit.is_empty() { "" } else { "_" };
             return Err(self.refuse(format!(
-                "has no column {name}{unit}; the first line names {}",
+                "has no column {name}{ending}{unit}; the first line names {}",
                 self.named()
             )));
         };
@@ -199,8 +168,8 @@ impl Columns {
 
     /// The column `name` as [`column`](Self::column) gives it, but NaN where a field is empty or no finite
     /// number, as in this program's own files; none if there is no such column.
-    pub fn column_with_gaps(&self, name: &str, quantity: Quantity) -> Option<Vec<f64>> {
-        let (at, size) = self.find(name, quantity)?;
+    pub fn column_with_gaps(&self, name: &str, unit: &str) -> Option<Vec<f64>> {
+        let (at, size) = self.find(name, unit)?;
         Some(self.values(at, size))
     }
 
@@ -216,23 +185,15 @@ impl Columns {
     /// All columns, in SI units and by the names that this program's own files have; NaN where a field is no finite
     /// number.
     pub fn all(&self) -> Vec<(String, Vec<f64>)> {
-        let columns = self.names.iter().enumerate();
         let column = |(at, name): (usize, &String)| {
-            let quantities = Quantity::ALL.iter().flat_map(|quantity| {
-                let own = quantity.units()[0].0;
-                quantity
-                    .units()
-                    .iter()
-                    .map(move |(unit, size)| (own, *unit, *size))
+            let in_si = name.rsplit_once('_').and_then(|(base, unit)| {
+                let of = |own: &&str| Some((format!("{base}_{own}"), units::ratio(unit, own)?));
+                OWN.iter().find_map(of)
             });
-            // "_mm" ends in no "_m", but every name ends in "".
-            let unit = quantities.filter(|(_, unit, _)| name.ends_with(unit));
-            let longest = unit.max_by_key(|(_, unit, _)| unit.len());
-            let (own, unit, size) = longest.unwrap_or(("", "", 1.0));
-            let base = &name[..name.len() - unit.len()];
-            (format!("{base}{own}"), self.values(at, size))
+            let (name, size) = in_si.unwrap_or((name.clone(), 1.0));
+            (name, self.values(at, size))
         };
-        columns.map(column).collect()
+        self.names.iter().enumerate().map(column).collect()
     }
 
     /// The names of the columns, as they are in the file.
@@ -256,12 +217,13 @@ impl Columns {
         unreadable(&self.path, reason.into())
     }
 
-    fn find(&self, name: &str, quantity: Quantity) -> Option<(usize, f64)> {
-        quantity.units().iter().find_map(|(unit, size)| {
-            let wanted = format!("{name}{unit}");
-            let at = self.names.iter().position(|known| *known == wanted)?;
-            Some((at, *size))
-        })
+    fn find(&self, name: &str, unit: &str) -> Option<(usize, f64)> {
+        let size = |column: &str| match (column.strip_prefix(name)?, unit) {
+            ("", "") => Some(1.0),
+            (ending, own) => units::ratio(ending.strip_prefix('_')?, own),
+        };
+        let mut columns = self.names.iter().enumerate();
+        columns.find_map(|(at, column)| Some((at, size(column)?)))
     }
 }
 
@@ -309,7 +271,7 @@ mod tests {
             let columns = parsed(text);
             assert_eq!(columns.rows(), 2);
             for (name, value) in ["r", "f"].into_iter().zip(expected) {
-                let column = columns.column(name, Quantity::Length).expect("a column");
+                let column = columns.column(name, "m").expect("a column");
                 assert!((column[1] / value - 1.0).abs() < 1e-14, "{text}");
             }
         }
@@ -319,7 +281,7 @@ mod tests {
     fn gaps_and_words_are_told_with_their_line() {
         let message = |text: &str| {
             let columns = Columns::parse(text, "scar.csv");
-            let column = columns.and_then(|columns| columns.column("f", Quantity::Length));
+            let column = columns.and_then(|columns| columns.column("f", "m"));
             column.expect_err("a refusal").to_string()
         };
         assert_eq!(

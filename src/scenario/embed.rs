@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 
 use toml::{Table, Value};
 
-use super::columns::{Columns, Quantity};
+use super::columns::Columns;
 use super::error::{Origin, ScenarioError};
 use super::schema;
 
 /// A list in a scenario, and the column that it is read from.
-type List = (&'static str, &'static str, Quantity);
+type List = (&'static str, &'static str, &'static str);
 
 /// A key that names a file, and its two columns; of those that may stand for each, the first that the
 /// file has.
@@ -24,29 +24,29 @@ const FILES: &[Embedded] = &[
     Embedded {
         file: "indenter.file",
         columns: [
-            &[("indenter.radii", "r", Quantity::Length)],
-            &[("indenter.heights", "f", Quantity::Length)],
+            &[("indenter.radii", "r", "m")],
+            &[("indenter.heights", "f", "m")],
         ],
     },
     Embedded {
         file: "motion.normal.file",
         columns: [
-            &[("motion.normal.times", "time", Quantity::Time)],
+            &[("motion.normal.times", "time", "s")],
             &[
-                ("motion.normal.values", "u", Quantity::Length),
-                ("motion.normal.values", "F", Quantity::Force),
-                ("motion.normal.values", "value", Quantity::Number),
+                ("motion.normal.values", "u", "m"),
+                ("motion.normal.values", "F", "N"),
+                ("motion.normal.values", "value", ""),
             ],
         ],
     },
     Embedded {
         file: "motion.tangential.file",
         columns: [
-            &[("motion.tangential.times", "time", Quantity::Time)],
+            &[("motion.tangential.times", "time", "s")],
             &[
-                ("motion.tangential.values", "u", Quantity::Length),
-                ("motion.tangential.values", "F", Quantity::Force),
-                ("motion.tangential.values", "value", Quantity::Number),
+                ("motion.tangential.values", "u", "m"),
+                ("motion.tangential.values", "F", "N"),
+                ("motion.tangential.values", "value", ""),
             ],
         ],
     },
@@ -54,19 +54,19 @@ const FILES: &[Embedded] = &[
         file: "friction.file",
         columns: [
             &[
-                ("friction.at_cycle", "cycle", Quantity::Number),
-                ("friction.at_energy", "energy", Quantity::Energy),
+                ("friction.at_cycle", "cycle", ""),
+                ("friction.at_energy", "energy", "J"),
             ],
-            &[("friction.values", "coefficient", Quantity::Number)],
+            &[("friction.values", "coefficient", "")],
         ],
     },
     Embedded {
         file: "wear.initial",
         columns: [
-            &[("wear.initial_radii", "r", Quantity::Length)],
+            &[("wear.initial_radii", "r", "m")],
             &[
-                ("wear.initial_depths", "depth", Quantity::Length),
-                ("wear.initial_depths", "wear", Quantity::Length),
+                ("wear.initial_depths", "depth", "m"),
+                ("wear.initial_depths", "wear", "m"),
             ],
         ],
     },
@@ -74,10 +74,10 @@ const FILES: &[Embedded] = &[
         file: "wear.file",
         columns: [
             &[
-                ("wear.at_cycle", "cycle", Quantity::Number),
-                ("wear.at_energy", "energy", Quantity::Energy),
+                ("wear.at_cycle", "cycle", ""),
+                ("wear.at_energy", "energy", "J"),
             ],
-            &[("wear.values", "coefficient", Quantity::Number)],
+            &[("wear.values", "coefficient", "")],
         ],
     },
 ];
@@ -99,11 +99,11 @@ pub(super) fn files(
         let columns = Columns::read(&beside(scenario, &file))?;
         remove(table, embedded.file);
         for lists in embedded.columns {
-            let (path, name, quantity) = *lists
+            let (path, name, unit) = *lists
                 .iter()
-                .find(|(_, name, quantity)| columns.has(name, *quantity))
+                .find(|(_, name, unit)| columns.has(name, unit))
                 .unwrap_or(&lists[0]);
-            let values = columns.column(name, quantity)?;
+            let values = columns.column(name, unit)?;
             schema::insert(table, path, values.into());
             origin.assign(path, &place);
         }

@@ -240,6 +240,13 @@ fn in_unit(text: &str, unit: &str) -> Option<Result<f64, String>> {
     Some(Ok(value * (found.factor / due.factor)))
 }
 
+/// What one `unit` is worth in `own`; `None` if they are not units of one kind.
+pub(super) fn ratio(unit: &str, own: &str) -> Option<f64> {
+    let (unit, own) = (Unit::read(unit)?, Unit::read(own)?);
+    let power: f64 = format!("1e{}", unit.exponent - own.exponent).parse().ok()?;
+    (unit.dimension == own.dimension).then_some(power * (unit.factor / own.factor))
+}
+
 /// The text with a point for the decimal comma of its number; `None` where it has none.
 pub(super) fn with_decimal_point(text: &str) -> Option<String> {
     let (whole, fraction) = text.split_once(',')?;

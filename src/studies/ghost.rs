@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::measured::{Measured, Strokes, check_radii};
 use crate::math::scan::value_at;
-use crate::scenario::columns::{Columns, Quantity};
+use crate::scenario::columns::Columns;
 use crate::scenario::{ScenarioError, printable};
 use crate::traces::{Axes, Table};
 
@@ -112,18 +112,18 @@ impl Ghost {
     /// Columns that make nothing that could be drawn; gaps and more in measured data.
     pub fn of_columns(name: &str, columns: &Columns) -> Result<Self, ScenarioError> {
         let mut ghost = Self::new(name);
-        let has = |name, quantity| columns.has(name, quantity);
+        let has = |name, unit| columns.has(name, unit);
         let own = ["f0", "u_z", "scar_depth"];
-        if own.iter().any(|name| has(name, Quantity::Length)) {
+        if own.iter().any(|name| has(name, "m")) {
             ghost.take(Table::of_file(columns));
         } else {
             ghost.is_measured = true;
-            if has("r", Quantity::Length) {
+            if has("r", "m") {
                 ghost.take_measured(Measured::scar(columns)?);
             }
-            if has("u", Quantity::Length) || has("u_x", Quantity::Length) {
+            if has("u", "m") || has("u_x", "m") {
                 ghost.take_measured(Measured::fretting_loop(columns)?);
-            } else if has("cycle", Quantity::Number) {
+            } else if has("cycle", "") {
                 ghost.take_measured(Measured::history(columns)?);
             }
         }

@@ -1,7 +1,7 @@
 //! Measured results to compare with simulated ones: scars, fretting loops, histories.
 
 use crate::scenario::ScenarioError;
-use crate::scenario::columns::{Columns, Quantity};
+use crate::scenario::columns::Columns;
 
 /// The fewest rows of a data set.
 const FEWEST: usize = 3;
@@ -70,16 +70,11 @@ impl Measured {
     /// # Errors
     /// A file that is not such a table; fewer than 3 rows.
     pub fn scar(columns: &Columns) -> Result<Self, ScenarioError> {
-        let (name, kind) = match columns.has("wear", Quantity::Length) {
+        let (name, kind) = match columns.has("wear", "m") {
             true => ("wear", Kind::Wear),
             false => ("f", Kind::Profile),
         };
-        let mut scar = read(
-            columns,
-            ("r", Quantity::Length),
-            (name, Quantity::Length),
-            kind,
-        )?;
+        let mut scar = read(columns, ("r", "m"), (name, "m"), kind)?;
         for r in &mut scar.at {
             *r = r.abs();
         }
@@ -104,20 +99,15 @@ impl Measured {
     /// # Errors
     /// A file that is not such a table; fewer than 8 rows; a loop that does not close.
     pub fn fretting_loop(columns: &Columns) -> Result<Self, ScenarioError> {
-        let is_own = columns.has("u_x", Quantity::Length) && columns.has("F_x", Quantity::Force);
-        let sensed = columns.column_with_gaps("rig_displacement", Quantity::Length);
+        let is_own = columns.has("u_x", "m") && columns.has("F_x", "N");
+        let sensed = columns.column_with_gaps("rig_displacement", "m");
         let is_sensed = sensed.is_some_and(|sensed| sensed.iter().all(|u| u.is_finite()));
         let (shift, force) = match (is_own, is_sensed) {
             (true, true) => ("rig_displacement", "F_x"),
             (true, false) => ("u_x", "F_x"),
             (false, _) => ("u", "F"),
         };
-        let measured = read(
-            columns,
-            (shift, Quantity::Length),
-            (force, Quantity::Force),
-            Kind::Loop,
-        )?;
+        let measured = read(columns, (shift, "m"), (force, "N"), Kind::Loop)?;
         if measured.at.len() < FEWEST_OF_LOOP {
             let reason = format!("a loop needs {FEWEST_OF_LOOP} rows or more");
             return Err(columns.refuse(reason));
@@ -152,15 +142,10 @@ impl Measured {
     /// # Errors
     /// A file that is not such a table; fewer than 3 rows; negative cycles.
     pub fn history(columns: &Columns) -> Result<Self, ScenarioError> {
-        let cycle = ("cycle", Quantity::Number);
-        let measured = match columns.has("depth", Quantity::Length) {
-            true => read(columns, cycle, ("depth", Quantity::Length), Kind::Depth)?,
-            false => read(
-                columns,
-                cycle,
-                ("wear_volume", Quantity::Volume),
-                Kind::Volume,
-            )?,
+        let cycle = ("cycle", "");
+        let measured = match columns.has("depth", "m") {
+            true => read(columns, cycle, ("depth", "m"), Kind::Depth)?,
+            false => read(columns, cycle, ("wear_volume", "m3"), Kind::Volume)?,
         };
         if let Some(row) = measured.at.iter().position(|cycle| *cycle < 0.0) {
             let line = columns.line(row);
@@ -172,8 +157,8 @@ impl Measured {
 
 fn read(
     columns: &Columns,
-    at: (&str, Quantity),
-    values: (&str, Quantity),
+    at: (&str, &str),
+    values: (&str, &str),
     kind: Kind,
 ) -> Result<Measured, ScenarioError> {
     let measured = Measured {

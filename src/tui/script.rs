@@ -52,11 +52,11 @@ impl FromStr for Size {
 }
 
 /// The output format.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Format {
-    /// The text of the screen.
+    /// Its text.
     Text,
-    /// A picture of it, with its colours.
+    /// A picture with its colours.
     Svg,
 }
 

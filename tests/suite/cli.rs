@@ -723,12 +723,12 @@ fn the_manual_page_names_the_commands() {
 }
 
 #[test]
-fn every_command_has_a_man_page_with_values_in_its_synopsis() {
+fn every_command_has_a_man_page_with_its_options_and_their_values() {
     let dir = TestDir::new();
     dir.done("man --out pages");
-    let synopsis = |name: &str| -> String {
+    let section = |name: &str, title: &str| -> String {
         let page = dir.read(&format!("pages/{name}.1"));
-        let (_, after) = page.split_once(".SH SYNOPSIS\n").expect("a synopsis");
+        let (_, after) = page.split_once(&format!(".SH {title}\n")).expect(title);
         let (lines, _) = after.split_once("\n.SH").expect("an end");
         let mut plain = lines.replace("\\-", "-").replace("\\ ", " ");
         for font in ["\\fB", "\\fI", "\\fR"] {
@@ -736,22 +736,37 @@ fn every_command_has_a_man_page_with_values_in_its_synopsis() {
         }
         plain
     };
-    let run = synopsis("mdr-tui-run");
-    for usage in [
-        "mdr-tui run ",
-        "[--cycles X]",
-        "[--snapshot-at C1,C2,...]",
-        "[--set KEY=VALUE]...",
-        "[--history cycle|every-step]",
-        "[--json]",
+    let options = section("mdr-tui-run", "OPTIONS");
+    for option in [
+        "--cycles <X>\n",
+        "--snapshot-at <C1,C2,...>\n",
+        "--set <KEY=VALUE>\n",
+        "--history <HISTORY>",
+        "every-step",
+        "--json\n",
     ] {
-        assert!(run.contains(usage), "{usage}: {run}");
+        assert!(options.contains(option), "{option}: {options}");
     }
-    assert!(synopsis("mdr-tui-figure").contains(" --out FILE"));
-    assert!(synopsis("mdr-tui").contains("mdr-tui COMMAND"));
+    assert!(section("mdr-tui-run", "SYNOPSIS").starts_with("mdr-tui run [OPTIONS] <SCENARIO>"));
+    assert!(section("mdr-tui-figure", "SYNOPSIS").contains("-o|--out"));
     assert_eq!(dir.read("pages/mdr-tui-fit.1"), dir.done("man fit"));
     let wrong = dir.say(&["man", "fitt"]);
     assert_eq!((wrong.code, wrong.err.lines().count()), (2, 1));
+}
+
+#[test]
+fn an_unknown_option_points_to_the_help_of_its_command() {
+    let dir = TestDir::new();
+    for (line, help) in [
+        ("run --bogus", "see mdr-tui run --help\n"),
+        ("run x --cycles few", "see mdr-tui run --help\n"),
+        ("sweep", "see mdr-tui sweep --help\n"),
+        ("--bogus", "see mdr-tui --help\n"),
+    ] {
+        let wrong = dir.say(&line.split(' ').collect::<Vec<_>>());
+        assert_eq!((wrong.code, wrong.err.lines().count()), (2, 1), "{line}");
+        assert!(wrong.err.ends_with(help), "{}", wrong.err);
+    }
 }
 
 #[test]

@@ -654,7 +654,7 @@ fn what_cannot_be_drawn_is_one_line_and_nothing_written() {
         ),
         (
             "figure torn.csv -o f.svg",
-            "line 2: 1 fields under 2 columns",
+            "line 2: has 1 fields; must have 2, one per column",
         ),
         (
             "figure x --size 2000x2000 --dpi 2400 -o f.png",

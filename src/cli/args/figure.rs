@@ -10,6 +10,7 @@ use super::Changes;
 use super::values::{CycleAsGiven, cycles};
 use crate::charts::{ON_PAPER, Recipe};
 use crate::cli::complete;
+use crate::figure::look::Style;
 
 /// Options of `figure`.
 #[derive(Debug, Args)]
@@ -66,8 +67,8 @@ pub struct Figure {
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<[f64; 2]>,
     /// Colours, or greys with dashes for print.
-    #[arg(long, value_enum, default_value_t = StyleChoice::Color)]
-    pub style: StyleChoice,
+    #[arg(long, value_enum, default_value_t = Style::Color)]
+    pub style: Style,
     /// Font size in points.
     #[arg(long, value_name = "PT", default_value = "8", value_parser = font_size)]
     pub font_size: f64,
@@ -89,15 +90,6 @@ pub enum PaperFigure {
     Fig2,
     /// Profiles and stresses of a fretting contact.
     Fig3,
-}
-
-/// Colours or greys.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum StyleChoice {
-    /// The screen's colours for a light background.
-    Color,
-    /// Greys and dashes.
-    Grey,
 }
 
 fn panel_parser() -> impl TypedValueParser<Value = &'static Recipe> {

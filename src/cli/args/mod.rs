@@ -7,19 +7,19 @@ use clap_complete::engine::{ArgValueCandidates, ArgValueCompleter};
 
 use super::complete;
 
-use crate::tui::Size;
+use crate::plot::Marker;
+use crate::plot::theme::Look;
+use crate::tui::{Format, Size};
 
 mod figure;
 mod studies;
 mod sweep;
 mod values;
 
-pub use figure::{Figure, PaperFigure, StyleChoice};
+pub use figure::{Figure, PaperFigure};
 pub use studies::{Fit, Guard, Rows, Stability, Trade, Verify};
 pub use sweep::Sweep;
-pub use values::{
-    ColorChoice, CycleAsGiven, FormatChoice, HistoryChoice, Interval, MarkerChoice, ThemeChoice,
-};
+pub use values::{ColorChoice, CycleAsGiven, HistoryChoice, Interval};
 use values::{budget, cycles, interval};
 
 /// Watch a fretting contact wear away, live in the terminal.
@@ -113,14 +113,14 @@ pub struct Explore {
     pub fps: Option<u16>,
     /// Characters for curves; default: braille in a UTF-8 locale, otherwise ascii.
     #[arg(long, value_enum)]
-    pub marker: Option<MarkerChoice>,
+    pub marker: Option<Marker>,
     /// When to use colour; the default, auto, obeys NO_COLOR.
     #[arg(long, value_enum)]
     pub color: Option<ColorChoice>,
     /// Colours for a dark or light background, or none; default: as the terminal reports its
     /// background, otherwise dark.
     #[arg(long, value_enum)]
-    pub theme: Option<ThemeChoice>,
+    pub theme: Option<Look>,
     /// Use the mouse: a click focuses a panel, a second one zooms it, the wheel scrolls lists.
     /// Without this option the terminal keeps it for selecting text.
     #[arg(long)]
@@ -149,8 +149,8 @@ pub struct Explore {
     #[arg(long, value_name = "COLUMNSxROWS")]
     pub print: Option<Size>,
     /// Print the screen as text, or as a picture with its colours.
-    #[arg(long, value_enum, default_value_t = FormatChoice::Text, requires = "print")]
-    pub format: FormatChoice,
+    #[arg(long, value_enum, default_value_t = Format::Text, requires = "print")]
+    pub format: Format,
 }
 
 /// Options of `run`.

@@ -5,10 +5,9 @@ use std::path::PathBuf;
 use clap::{Arg, Args, ValueEnum};
 
 use super::Changes;
-use super::values::{
-    MarkerChoice, accuracy, cycles, method_parser, points, problem_parser, wear_number,
-};
+use super::values::{accuracy, cycles, method_parser, points, problem_parser, wear_number};
 use crate::math::abel::AbelMethod;
+use crate::plot::Marker;
 use crate::studies::verify::{LADDER, Problem};
 use crate::studies::{stability, trade};
 
@@ -259,8 +258,8 @@ pub struct Drawing {
     #[arg(long, conflicts_with = "json")]
     pub plot: bool,
     /// What the curves of --plot are made of.
-    #[arg(long, value_enum, default_value_t = MarkerChoice::Braille, requires = "plot")]
-    pub marker: MarkerChoice,
+    #[arg(long, value_enum, default_value_t = Marker::Braille, requires = "plot")]
+    pub marker: Marker,
 }
 
 /// Output of a study on stdout and stderr.

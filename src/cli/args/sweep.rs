@@ -6,7 +6,9 @@ use clap::builder::{StringValueParser, TypedValueParser};
 use clap::{ArgGroup, Args};
 
 use super::Changes;
-use super::values::{ColorChoice, MarkerChoice, ThemeChoice};
+use super::values::ColorChoice;
+use crate::plot::Marker;
+use crate::plot::theme::Look;
 use crate::scenario::printable;
 use crate::studies::sweep::Shard;
 use crate::tui::Size;
@@ -98,13 +100,13 @@ pub struct Sweep {
     pub print: Option<Size>,
     /// With --view, how curves are drawn.
     #[arg(long, value_enum, requires = "view")]
-    pub marker: Option<MarkerChoice>,
+    pub marker: Option<Marker>,
     /// With --view, when to use colour; auto obeys NO_COLOR.
     #[arg(long, value_enum, default_value_t = ColorChoice::Auto)]
     pub color: ColorChoice,
     /// With --view, which colours.
     #[arg(long, value_enum, requires = "view")]
-    pub theme: Option<ThemeChoice>,
+    pub theme: Option<Look>,
     /// Print the rows as JSON lines, in the order of the axes, as soon as they are known.
     #[arg(long)]
     pub json: bool,

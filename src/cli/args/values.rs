@@ -9,7 +9,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::math::abel::{AbelMethod, MOST_DENSE_CELLS};
 use crate::math::grid::MIN_CELLS;
-use crate::plot::Marker;
 use crate::scenario::MOST_CYCLES;
 use crate::studies::verify::Problem;
 
@@ -22,39 +21,6 @@ pub enum HistoryChoice {
     EveryStep,
 }
 
-/// How curves are drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum MarkerChoice {
-    /// Eight dots per cell.
-    Braille,
-    /// Two blocks per cell.
-    Halfblock,
-    /// One dot per cell.
-    Dot,
-    /// One asterisk per cell.
-    Ascii,
-}
-
-impl From<MarkerChoice> for Marker {
-    fn from(choice: MarkerChoice) -> Self {
-        match choice {
-            MarkerChoice::Braille => Self::Braille,
-            MarkerChoice::Halfblock => Self::HalfBlock,
-            MarkerChoice::Dot => Self::Dot,
-            MarkerChoice::Ascii => Self::Ascii,
-        }
-    }
-}
-
-/// What a printed screen is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum FormatChoice {
-    /// Its text.
-    Text,
-    /// A picture with its colours.
-    Svg,
-}
-
 /// When colour is used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum ColorChoice {
@@ -64,6 +30,17 @@ pub enum ColorChoice {
     Always,
     /// Never.
     Never,
+}
+
+impl ColorChoice {
+    /// Whether colours are used; `None` where the environment decides.
+    pub fn is_colored(self) -> Option<bool> {
+        match self {
+            Self::Auto => None,
+            Self::Always => Some(true),
+            Self::Never => Some(false),
+        }
+    }
 }
 
 /// Time between two checkpoints; `None`: only at the end.
@@ -78,17 +55,6 @@ pub(super) fn interval(text: &str) -> Result<Interval, String> {
         }
         _ => Err("an interval is 0, or from 0.001 to 1000000 seconds, e.g. 60".into()),
     }
-}
-
-/// Which colours.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum ThemeChoice {
-    /// For a dark background.
-    Dark,
-    /// For a light background.
-    Light,
-    /// No colours: bold, dim and reversed only.
-    Mono,
 }
 
 /// A cycle and its spelling, which names the file.

@@ -13,12 +13,10 @@ use clap::ValueEnum;
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
 
-use super::super::args::{ColorChoice, Sweep, ThemeChoice};
+use super::super::args::Sweep;
 use super::super::{Misuse, stop};
-use crate::plot::Marker;
 use crate::studies::sweep::record::Record;
 use crate::tui::map::{self, Leave, View};
-use crate::tui::theme::Look;
 use crate::tui::{self, keys};
 
 /// How often is looked whether the explorer has ended, or is to end.
@@ -29,19 +27,7 @@ pub fn view(file: &Path, options: &Sweep) -> Result<ExitCode> {
     let name = file.display().to_string();
     let keys = keys::parse_script(options.keys.as_deref().unwrap_or("")).map_err(Misuse)?;
     let mut view = View::new(read(file)?, &name)?;
-    let theme = tui::theme_of(
-        options.marker.map(Marker::from),
-        match options.color {
-            ColorChoice::Always => Some(true),
-            ColorChoice::Never => Some(false),
-            ColorChoice::Auto => None,
-        },
-        options.theme.map(|choice| match choice {
-            ThemeChoice::Dark => Look::Dark,
-            ThemeChoice::Light => Look::Light,
-            ThemeChoice::Mono => Look::Mono,
-        }),
-    );
+    let theme = tui::theme_of(options.marker, options.color.is_colored(), options.theme);
     let mut seen = changed(file);
     // Set by a signal in the map or in the explorer: either ends both.
     let is_ending = stop::noted()?;

@@ -1,7 +1,6 @@
 //! `:sweep KEY A..B`: a study of one key around the present scenario, shown while it runs.
 
 use std::fmt;
-use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
@@ -153,7 +152,7 @@ impl Live {
                 let fields = record::fields(&study, point, row);
                 shared.with(|view| view.put(point, fields));
                 tell();
-                ControlFlow::Continue(())
+                true
             });
             shared.done.store(true, Ordering::Release);
             tell();

@@ -8,7 +8,6 @@
 #![allow(clippy::print_stdout, reason = "a bench prints what it measures")]
 
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use mdr_tui::studies::sweep::{Study, engine};
@@ -35,8 +34,7 @@ fn seconds(study: &Study, threads: usize) -> (f64, usize) {
     let todo = 0..study.points();
     let mut failed = 0;
     let start = Instant::now();
-    let halt = AtomicBool::new(false);
-    engine::run(study, todo, None, &pool, &halt, |_, row| {
+    engine::run(study, todo, None, &pool, &|| true, |_, row| {
         failed += usize::from(row.status != "ok");
         true
     })

@@ -1,7 +1,5 @@
 //! `numerics.accuracy` and `--estimate-error` on the command line.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-
 use anyhow::Result;
 
 use super::{complain, progress};
@@ -18,11 +16,10 @@ pub(super) fn resolve(
     cycles: Option<f64>,
     budget: f64,
     quiet: bool,
-    stop: &AtomicBool,
+    go_on: &dyn Fn() -> bool,
 ) -> std::result::Result<Resolved, RefinementError> {
-    let go_on = || !stop.load(Ordering::Relaxed);
     searching(quiet || scenario.accuracy().is_none(), || {
-        refinement::resolve(scenario, cycles, budget, &go_on)
+        refinement::resolve(scenario, cycles, budget, go_on)
     })
 }
 
@@ -53,8 +50,7 @@ fn searching<T>(is_hidden: bool, search: impl FnOnce() -> T) -> T {
 /// # Errors
 /// If no level runs to its end, and a contact that cannot be made.
 pub(super) fn session(scenario: Scenario, cycles: Option<f64>, quiet: bool) -> Result<Session> {
-    let never = AtomicBool::new(false);
-    let found = resolve(&scenario, cycles, f64::INFINITY, quiet, &never)?;
+    let found = resolve(&scenario, cycles, f64::INFINITY, quiet, &|| true)?;
     if let Some(word) = found.warning {
         complain(&word);
     }
@@ -68,12 +64,12 @@ pub(super) fn session(scenario: Scenario, cycles: Option<f64>, quiet: bool) -> R
 /// The estimated error of a finished run as header lines, or one line saying why there is none.
 pub(super) fn estimated(
     session: &Session,
-    stop: &AtomicBool,
+    go_on: &dyn Fn() -> bool,
 ) -> std::result::Result<Vec<(String, String)>, String> {
     if session.simulation().moment().wear_volume <= 0.0 {
         return Err("nothing has worn, so there is no worn depth to estimate the error of".into());
     }
-    match refinement::estimate(session, &|| !stop.load(Ordering::Relaxed)) {
+    match refinement::estimate(session, go_on) {
         Ok(error) => Ok(refinement::statements_of(&error)),
         Err(SessionError::Interrupted) => Err("interrupted: no error was estimated".into()),
         Err(error) => Err(format!("cannot estimate the error: a coarser run {error}")),

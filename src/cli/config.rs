@@ -9,9 +9,10 @@ use clap::ValueEnum;
 use serde::Deserialize;
 
 use super::args::ColorChoice;
-use super::{Misuse, complain};
+use super::complain;
 use crate::plot::Marker;
 use crate::plot::theme::Look;
+use crate::scenario::Refusal;
 use crate::scenario::limited::{self, Unread};
 use crate::scenario::nearest::nearest;
 use crate::scenario::typed;
@@ -57,7 +58,7 @@ impl Config {
     ///
     /// One line with the file and what is wrong in it: invalid TOML, an unknown key, an invalid
     /// value.
-    pub fn load() -> Result<Self, Misuse> {
+    pub fn load() -> Result<Self, Refusal> {
         let Some(path) = path() else {
             return Ok(Self::default());
         };
@@ -65,7 +66,7 @@ impl Config {
             Ok(text) => Self::read(&text, &path),
             Err(Unread::Missing) => Ok(Self::default()),
             Err(why @ (Unread::TooLarge(_) | Unread::NotText(_))) => {
-                Err(Misuse(format!("{}: {why}", path.display())))
+                Err(Refusal::new(path.display(), why))
             }
             // Something else is at this path: no reason not to start.
             Err(why) => {
@@ -75,8 +76,8 @@ impl Config {
         }
     }
 
-    fn read(text: &str, path: &Path) -> Result<Self, Misuse> {
-        let refuse = |rule: String| Misuse(format!("{}: {rule}", path.display()));
+    fn read(text: &str, path: &Path) -> Result<Self, Refusal> {
+        let refuse = |rule: String| Refusal::new(path.display(), rule);
         let written: Written = typed::read(text).map_err(refuse)?;
         let mut keys = Vec::new();
         for (name, key) in &written.keys {

@@ -4,15 +4,15 @@ use std::io::{self, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use clap::{Command, CommandFactory};
 use clap_complete::env::Shells;
 use clap_mangen::Man;
 
-use super::Misuse;
 use super::args::{Arguments, Manual};
 use super::complete::VARIABLE;
 use crate::export::file::write_whole;
+use crate::scenario::Refusal;
 use crate::tui::manual;
 
 /// Prints a script with which the shell asks this program for completions.
@@ -41,12 +41,11 @@ pub fn man(options: &Manual) -> Result<ExitCode> {
         .collect();
     if commands.is_empty() {
         let names: Vec<&str> = program.get_subcommands().map(Command::get_name).collect();
-        let message = format!(
-            "man {}: no such command; commands are {}",
-            options.command.as_deref().unwrap_or_default(),
-            names.join(", ")
-        );
-        return Err(Misuse(message).into());
+        let given = options.command.as_deref().unwrap_or_default();
+        bail!(Refusal::new(
+            format_args!("man {given}"),
+            format_args!("no such command; commands are {}", names.join(", "))
+        ));
     }
     for command in commands {
         let page = page(command)?;

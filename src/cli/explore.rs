@@ -4,17 +4,17 @@ use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 use clap::CommandFactory;
 use serde::de::IgnoredAny;
 
 use super::args::{Arguments, ColorChoice, Explore};
 use super::config::Config;
-use super::{Misuse, accuracy, complain, without_waiting};
+use super::{accuracy, complain, without_waiting};
 use crate::export::autosave;
 use crate::scenario::nearest::nearest;
 use crate::scenario::session::Session;
-use crate::scenario::{Scenario, ScenarioError, checkpoint, printable};
+use crate::scenario::{Refusal, Scenario, ScenarioError, checkpoint, printable};
 use crate::tui::ghosts::{MOST, Source};
 use crate::tui::{self, Capture, Options, Script, Stroke, command, snapshot};
 
@@ -23,7 +23,7 @@ const DEFAULT_FPS: u16 = 10;
 
 /// Opens the explorer.
 pub fn explore(options: &Explore) -> Result<ExitCode> {
-    let strokes = Stroke::script(options.keys.as_deref().unwrap_or("")).map_err(Misuse)?;
+    let strokes = Stroke::script(options.keys.as_deref().unwrap_or("")).map_err(Refusal::from)?;
     let config = Config::load()?;
     let color = options.color.or(config.color);
     command::bind(config.keys);
@@ -33,14 +33,11 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
         Some(file) => checkpoint::read::<IgnoredAny>(file)?.session,
         None if directory.is_dir() => {
             if !options.changes.set.is_empty() {
-                let message = format!(
-                    "{}: continues as it was saved, so --set changes nothing; \
-                     give its scenario.toml to start anew",
-                    options.scenario
-                );
-                return Err(Misuse(message).into());
+                let rule = "continues as it was saved, so --set changes nothing; give its \
+                    scenario.toml to start anew";
+                bail!(Refusal::new(&options.scenario, rule));
             }
-            let opened = snapshot::open(directory).map_err(Misuse)?;
+            let opened = snapshot::open(directory).map_err(Refusal::from)?;
             past = Some(opened.trend);
             opened.session
         }
@@ -55,14 +52,11 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
         }
     };
     let reach = session.simulation().setup().grid.radius();
-    let load = |given: &String| Source::load(given, reach).map_err(Misuse);
+    let load = |given: &String| Source::load(given, reach).map_err(Refusal::from);
     let ghosts: Vec<Source> = options.overlay.iter().map(load).collect::<Result<_, _>>()?;
     if ghosts.len() > MOST {
-        let message = format!(
-            "--overlay: takes {MOST} or fewer; there are {}",
-            ghosts.len()
-        );
-        return Err(Misuse(message).into());
+        let rule = format!("takes {MOST} or fewer; there are {}", ghosts.len());
+        bail!(Refusal::new("--overlay", rule));
     }
     let keep_in = autosave::state_directory();
     let farewell = tui::run(Options {
@@ -107,11 +101,12 @@ fn or_command(given: &str, error: ScenarioError) -> anyhow::Error {
         nearest(given, names).filter(|_| matches!(error, ScenarioError::UnknownPreset { .. }));
     match near {
         // The error itself names a preset that is as near.
-        Some(command) if !error.to_string().contains("did you mean") => Misuse(format!(
-            "{}: no such command or preset; did you mean mdr-tui {command}?",
-            printable(given)
-        ))
-        .into(),
+        Some(command) if !error.to_string().contains("did you mean") => {
+            let refusal = Refusal::new(printable(given), "no such command or preset");
+            refusal
+                .or(format_args!("did you mean mdr-tui {command}?"))
+                .into()
+        }
         _ => error.into(),
     }
 }

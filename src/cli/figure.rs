@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 
 use super::args::{Figure, PaperFigure};
-use super::{Misuse, accuracy, job};
+use super::{accuracy, job};
 use crate::charts::{
     ON_PAPER, Recipe, Run, depth, fretting_loop, profile, scar_depth, springs, stresses, volume,
 };
@@ -19,7 +19,7 @@ use crate::figure::{Format, Sheet, paper, study as figure_of_study};
 use crate::plot::Chart;
 use crate::plot::theme::Role;
 use crate::scenario::columns::Columns;
-use crate::scenario::{Scenario, limited, printable};
+use crate::scenario::{Refusal, Scenario, limited, printable};
 use crate::studies::ghost::Ghost;
 use crate::studies::sweep::record::Record;
 use crate::studies::sweep::slice::Slice;
@@ -52,7 +52,7 @@ pub fn figure(options: &Figure) -> Result<ExitCode> {
     for path in &options.out {
         let format = Format::of(path).ok_or_else(|| {
             let path = path.display();
-            Misuse(format!("-o {path}: must end in .svg, .png or .pdf"))
+            Refusal::new(format_args!("-o {path}"), "must end in .svg, .png or .pdf")
         })?;
         if files.iter().any(|(target, _)| target.path() == path) {
             continue;
@@ -85,7 +85,7 @@ pub fn figure(options: &Figure) -> Result<ExitCode> {
     let dpi = f64::from(options.dpi);
     let pictures = files.iter().map(|(target, format)| {
         let picture = format.write(&canvas, dpi);
-        picture.map_err(|error| Misuse(format!("{}: {error}", target.path().display())))
+        picture.map_err(|error| Refusal::new(target.path().display(), error))
     });
     let pictures = pictures.collect::<Result<Vec<_>, _>>()?;
     let targets = files.iter().map(|(target, _)| target);
@@ -122,7 +122,7 @@ fn is_data_of_a_figure(path: &Path) -> bool {
 }
 
 /// `--force` is for figures: measured data beside one are not written over.
-fn refuse_to_write_over_data(options: &Figure, data_file: &Path) -> Result<(), Misuse> {
+fn refuse_to_write_over_data(options: &Figure, data_file: &Path) -> Result<(), Refusal> {
     let same = |given: &&String| {
         let both = [Path::new(given), data_file].map(|path| path.canonicalize().ok());
         both[0].is_some() && both[0] == both[1]
@@ -130,19 +130,18 @@ fn refuse_to_write_over_data(options: &Figure, data_file: &Path) -> Result<(), M
     let sources = options.source.iter().chain(&options.overlay);
     match sources.clone().find(same) {
         None => Ok(()),
-        Some(given) => Err(Misuse(format!(
-            "-o {}: its data would be written over {given}; choose another name",
-            data_file.display()
-        ))),
+        Some(given) => Err(Refusal::new(
+            format_args!("-o {}", data_file.display()),
+            format_args!("its data would be written over {given}; choose another name"),
+        )),
     }
 }
 
 fn sheet(options: &Figure) -> Result<Sheet> {
     if options.figure == Some(PaperFigure::Fig2) {
         if let Some(source) = &options.source {
-            let message =
-                format!("{source}: fig2 is the paper's own error study and takes no source");
-            return Err(Misuse(message).into());
+            let rule = "fig2 is the paper's own error study and takes no source";
+            bail!(Refusal::new(source, rule));
         }
         return Ok(paper::errors(paper::POINTS)?);
     }
@@ -150,23 +149,23 @@ fn sheet(options: &Figure) -> Result<Sheet> {
         (Some(source), _) => source.as_str(),
         (None, Some(_)) => OF_THE_PAPER,
         (None, None) => {
-            let message = "figure: needs a run's directory, a CSV file of one, or a scenario";
-            return Err(Misuse(message.into()).into());
+            let rule = "needs a run's directory, a CSV file of one, or a scenario";
+            bail!(Refusal::new("figure", rule));
         }
     };
     if let Some(record) = record(source)? {
         return study(source, record, options);
     }
     if let Some(column) = options.column.first() {
-        let message = format!("--column {column}: is for the table of a sweep; a run has --panel");
-        return Err(Misuse(message).into());
+        let rule = "is for the table of a sweep; a run has --panel";
+        bail!(Refusal::new(format_args!("--column {column}"), rule));
     }
     let mut run = run(source, options)?;
     for given in &options.overlay {
         let ghost = ghost(given, &run)?;
         run.ghosts.push(Arc::new(ghost));
     }
-    let refused = |error| Misuse(format!("{source}: {error}"));
+    let refused = |error| Refusal::new(source, error);
     if options.figure.is_some() {
         return Ok(paper::fretting(&run).map_err(refused)?);
     }
@@ -202,7 +201,7 @@ fn record(source: &str) -> Result<Option<Record>> {
     if !is_table {
         return Ok(None);
     }
-    let open = || fs::File::open(path).map_err(|error| unread(path, &error.to_string()));
+    let open = || fs::File::open(path).map_err(|error| unread(path, error));
     let mut head = io::BufReader::new(open()?).take(LARGEST_HEADER).lines();
     let is_of_a_study = head
         .by_ref()
@@ -216,7 +215,6 @@ fn record(source: &str) -> Result<Option<Record>> {
 
 /// The charts of a sweep's table.
 fn study(source: &str, record: Record, options: &Figure) -> Result<Sheet> {
-    let refuse = |message: String| -> Result<Sheet> { Err(Misuse(message).into()) };
     let of_runs = [
         ("--figure", options.figure.is_some()),
         ("--panel", !options.panel.is_empty()),
@@ -225,9 +223,8 @@ fn study(source: &str, record: Record, options: &Figure) -> Result<Sheet> {
         ("--cycles", options.cycles.is_some()),
     ];
     if let Some((name, _)) = of_runs.iter().find(|(_, given)| *given) {
-        return refuse(format!(
-            "{name}: is for a run; {source} is the table of a sweep, which has --column"
-        ));
+        let rule = format!("is for a run; {source} is the table of a sweep, which has --column");
+        bail!(Refusal::new(name, rule));
     }
     let mut slice = Slice::new(record.study()?, source)?;
     slice.renew(record, source)?;
@@ -235,9 +232,9 @@ fn study(source: &str, record: Record, options: &Figure) -> Result<Sheet> {
         let (key, value) = set.split_once('=').unwrap_or((set, ""));
         slice
             .hold(key.trim(), value.trim())
-            .map_err(|why| Misuse(format!("--set {}: {why}", printable(set))))?;
+            .map_err(|why| Refusal::new(format_args!("--set {}", printable(set)), why))?;
     }
-    Ok(figure_of_study::sheet(&slice, &options.column, source).map_err(Misuse)?)
+    Ok(figure_of_study::sheet(&slice, &options.column, source).map_err(Refusal::from)?)
 }
 
 /// The usual charts, and those that curves of other sources belong to.
@@ -258,7 +255,7 @@ fn refuse_what_no_chart_shows(
     options: &Figure,
     ghosts: &[Arc<Ghost>],
     charts: &[Chart],
-) -> Result<(), Misuse> {
+) -> Result<(), Refusal> {
     for (k, (given, ghost)) in options.overlay.iter().zip(ghosts).enumerate() {
         let mut curves = charts.iter().flat_map(|chart| &chart.curves);
         if curves.any(|curve| curve.role == Role::Ghost(k)) {
@@ -266,10 +263,11 @@ fn refuse_what_no_chart_shows(
         }
         let places = ON_PAPER.into_iter().filter(|panel| panel.shows(ghost));
         let names: Vec<&str> = places.map(|panel| panel.name).collect();
-        return Err(Misuse(format!(
-            "--overlay {given}: is on none of these charts; it belongs to --panel {}",
-            names.join(" or ")
-        )));
+        let rule = "is on none of these charts; it belongs to --panel";
+        return Err(Refusal::new(
+            format_args!("--overlay {given}"),
+            format_args!("{rule} {}", names.join(" or ")),
+        ));
     }
     Ok(())
 }
@@ -283,7 +281,7 @@ fn ghost(given: &str, run: &Run) -> Result<Ghost> {
     if !is_scenario || path.is_dir() {
         let ghost = Ghost::read(path)?;
         if let Some(reach) = run.reach() {
-            ghost.check_radii(reach).map_err(Misuse)?;
+            ghost.check_radii(reach).map_err(Refusal::from)?;
         }
         return Ok(ghost);
     }
@@ -312,11 +310,8 @@ fn run(source: &str, options: &Figure) -> Result<Run> {
         return from_scenario(source, options);
     };
     if !options.changes.set.is_empty() || options.cycles.is_some() {
-        let message = format!(
-            "{source}: a finished run is not run again, so --set and --cycles \
-            have no effect"
-        );
-        return Err(Misuse(message).into());
+        let rule = "a finished run is not run again, so --set and --cycles have no effect";
+        bail!(Refusal::new(source, rule));
     }
     if let Some(wanted) = &options.at {
         let is_at = |state: &Table, cycle: f64| (state.cycle() - cycle).abs() < 1e-9;
@@ -325,12 +320,11 @@ fn run(source: &str, options: &Figure) -> Result<Run> {
             .iter()
             .find(|at| !run.states.iter().any(|s| is_at(s, at.cycle)));
         if let Some(absent) = absent {
-            let message = format!(
-                "--at {}: {source} has no such state; it has those at {}",
-                absent.spelling,
-                here.join(", ")
-            );
-            return Err(Misuse(message).into());
+            let here = here.join(", ");
+            bail!(Refusal::new(
+                format_args!("--at {}", absent.spelling),
+                format_args!("{source} has no such state; it has those at {here}")
+            ));
         }
         run.states
             .retain(|state| wanted.iter().any(|at| is_at(state, at.cycle)));
@@ -340,7 +334,7 @@ fn run(source: &str, options: &Figure) -> Result<Run> {
 
 fn from_directory(directory: &Path) -> Result<Run> {
     let mut run = Run::default();
-    let entries = fs::read_dir(directory).map_err(|error| unread(directory, &error.to_string()))?;
+    let entries = fs::read_dir(directory).map_err(|error| unread(directory, error))?;
     let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
     paths.sort();
     for path in paths {
@@ -365,19 +359,18 @@ fn from_directory(directory: &Path) -> Result<Run> {
 }
 
 /// Reads a table of a run.
-fn take(run: &mut Run, path: &Path) -> Result<(), Misuse> {
-    let text =
-        limited::regular_text(path, LARGEST).map_err(|why| unread(path, &why.to_string()))?;
+fn take(run: &mut Run, path: &Path) -> Result<()> {
+    let text = limited::regular_text(path, LARGEST).map_err(|why| unread(path, why))?;
     let columns = Columns::parse(&text, &path.display().to_string());
-    let table = Table::of_file(&columns.map_err(|error| Misuse(error.to_string()))?);
+    let table = Table::of_file(&columns?);
     if table.rows() == 0 {
-        return Err(unread(path, "has no rows of numbers"));
+        bail!(unread(path, "has no rows of numbers"));
     }
-    run.take(table).map_err(|why| unread(path, &why))
+    Ok(run.take(table).map_err(|why| unread(path, why))?)
 }
 
-fn unread(path: &Path, why: &str) -> Misuse {
-    Misuse(format!("{}: {why}", path.display()))
+fn unread(path: &Path, why: impl std::fmt::Display) -> Refusal {
+    Refusal::new(path.display(), why)
 }
 
 fn from_scenario(name: &str, options: &Figure) -> Result<Run> {

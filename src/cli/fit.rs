@@ -8,13 +8,13 @@ use std::process::ExitCode;
 use anyhow::Result;
 
 use super::args;
-use super::{Misuse, accuracy, progress, results, small_multiples};
+use super::{accuracy, progress, results, small_multiples};
 use crate::export::target::Target;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Marker};
 use crate::scenario::Scenario;
 use crate::scenario::columns::Columns;
-use crate::studies::fit::{Fit, FitError, Fitted};
+use crate::studies::fit::{Fit, Fitted};
 use crate::studies::measured::{Kind, Measured};
 
 /// Fits, and prints, draws and writes what was asked for.
@@ -33,13 +33,12 @@ pub fn fit(options: &args::Fit) -> Result<ExitCode> {
         &options.free,
         options.cycles,
         options.robust,
-    )
-    .map_err(misuse)?;
+    )?;
     let target = Target::claim_given(options.out.as_deref(), options.force)?;
     let bar = progress::bar(0, "{pos} runs  {elapsed} gone", options.printing.quiet);
     let outcome = fit.run(&mut || bar.inc(1));
     bar.finish_and_clear();
-    let fitted = outcome.map_err(misuse)?;
+    let fitted = outcome?;
     if let Some(target) = target {
         target.write(fitted.scenario.to_toml().as_bytes())?;
     }
@@ -56,15 +55,6 @@ pub fn fit(options: &args::Fit) -> Result<ExitCode> {
         }
     }
     Ok(ExitCode::SUCCESS)
-}
-
-/// Errors in keys and data are wrong use; anything else is a failed fit.
-fn misuse(error: FitError) -> anyhow::Error {
-    match error {
-        FitError::Misuse(message) => Misuse(message).into(),
-        FitError::Scenario(error) => error.into(),
-        other => other.into(),
-    }
 }
 
 /// All data sets that the options name.

@@ -5,9 +5,9 @@ use std::process::{Command, ExitCode, Stdio};
 
 use anyhow::Result;
 
-use super::Misuse;
 use super::args::Guide;
 use crate::guide::{TOPICS, Topic};
+use crate::scenario::Refusal;
 use crate::scenario::nearest::nearest;
 
 /// Shows a topic; without one, the list of topics.
@@ -33,13 +33,13 @@ fn list() -> String {
     format!("Topics:\n{topics}\nRead one with: mdr-tui guide TOPIC\n")
 }
 
-fn unknown(name: &str) -> Misuse {
+fn unknown(name: &str) -> Refusal {
     let names = || TOPICS.iter().map(|topic| topic.name);
     let hint = match nearest(name, names()) {
         Some(near) => format!("did you mean {near}?"),
         None => format!("topics are {}", names().collect::<Vec<_>>().join(", ")),
     };
-    Misuse(format!("guide {name}: no such topic; {hint}"))
+    Refusal::new(format_args!("guide {name}"), "no such topic").or(hint)
 }
 
 /// Markdown with headings in bold; everything else reads well as it is.

@@ -4,17 +4,16 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 use serde::{Deserialize, Serialize};
 
-use super::Misuse;
 use super::args::{CycleAsGiven, HistoryChoice, Run};
 use crate::export::file::rows_in;
 use crate::export::history::History;
 use crate::export::last_loop::LastLoop;
 use crate::scenario::scalars::Value;
 use crate::scenario::session::Session;
-use crate::scenario::{MOST_SNAPSHOTS, Scenario};
+use crate::scenario::{MOST_SNAPSHOTS, Refusal, Scenario};
 
 /// Maximum number of rows of a history: a file of some 3 GB.
 const MOST_ROWS: f64 = 1e7;
@@ -54,11 +53,10 @@ impl RunJob {
         let snapshots = match &options.snapshot_at {
             Some(given) => {
                 if let Some(late) = given.iter().find(|snapshot| snapshot.cycle > cycles) {
-                    let message = format!(
-                        "--snapshot-at {}: is after the end of the run, {cycles} cycles",
-                        late.spelling
-                    );
-                    return Err(Misuse(message).into());
+                    bail!(Refusal::new(
+                        format_args!("--snapshot-at {}", late.spelling),
+                        format_args!("is after the end of the run, {cycles} cycles")
+                    ));
                 }
                 given.clone()
             }
@@ -71,7 +69,7 @@ impl RunJob {
             snapshots,
             due: Vec::new(),
             taken: 0,
-            history: history.map_err(|why| Misuse(format!("--column: {why}")))?,
+            history: history.map_err(|why| Refusal::new("--column", why))?,
             last_loop: LastLoop::default(),
             statements: Vec::new(),
             home: None,
@@ -108,11 +106,8 @@ impl RunJob {
         };
         job.cycles = cycles.unwrap_or(job.cycles);
         if job.cycles < now {
-            let message = format!(
-                "--cycles {}: the checkpoint is already at cycle {now}",
-                job.cycles
-            );
-            return Err(Misuse(message).into());
+            let rule = format!("the checkpoint is already at cycle {now}");
+            bail!(Refusal::new(format_args!("--cycles {}", job.cycles), rule));
         }
         job.ready(session.scenario())
     }
@@ -123,19 +118,15 @@ impl RunJob {
         self.due.retain(|snapshot| snapshot.cycle <= self.cycles);
         self.due.sort_by(|a, b| a.cycle.total_cmp(&b.cycle));
         if self.due.len() > MOST_SNAPSHOTS {
-            let message = format!(
-                "--snapshot-at: {} snapshots; the limit is {MOST_SNAPSHOTS}",
-                self.due.len()
-            );
-            return Err(Misuse(message).into());
+            let count = self.due.len();
+            let rule = format!("{count} snapshots; the limit is {MOST_SNAPSHOTS}");
+            bail!(Refusal::new("--snapshot-at", rule));
         }
         let rows = self.cycles * scenario.setup().steps_in_a_cycle();
         if self.every_step && rows > MOST_ROWS {
-            let message = format!(
-                "--history every-step: {rows:.1e} rows; the limit is {MOST_ROWS:e}; reduce \
-                 --cycles or numerics.steps_per_cycle"
-            );
-            return Err(Misuse(message).into());
+            let rule = format!("{rows:.1e} rows; the limit is {MOST_ROWS:e}");
+            let hint = "reduce --cycles or numerics.steps_per_cycle";
+            bail!(Refusal::new("--history every-step", rule).or(hint));
         }
         Ok(self)
     }
@@ -241,8 +232,8 @@ impl RunJob {
 }
 
 /// The end of a run, which must be known.
-pub(super) fn end(cycles: Option<f64>, name: &str) -> Result<f64, Misuse> {
-    cycles.ok_or_else(|| Misuse(format!("{name}: run.cycles is missing; give --cycles X")))
+pub(super) fn end(cycles: Option<f64>, name: &str) -> Result<f64, Refusal> {
+    cycles.ok_or_else(|| Refusal::new(name, "run.cycles is missing; give --cycles X"))
 }
 
 /// The snapshots that the scenario itself asks for.

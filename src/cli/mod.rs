@@ -16,9 +16,9 @@ use clap_complete::CompleteEnv;
 use crate::export::file::WriteError;
 use crate::scenario::checkpoint::CheckpointError;
 use crate::scenario::session::SessionError;
-use crate::scenario::{ScenarioError, printable};
+use crate::scenario::{Refusal, ScenarioError, printable};
+use crate::studies::fit::FitError;
 use crate::studies::refinement::RefinementError;
-use crate::studies::sweep::StudyError;
 use crate::tui::NoTerminal;
 
 mod accuracy;
@@ -56,11 +56,6 @@ const MISUSED: u8 = 2;
 /// Exit code of an interrupted study (EX_TEMPFAIL): its rows are saved, and `--resume` continues
 /// it.
 const UNFINISHED: u8 = 75;
-
-/// Wrong use without a separate error type.
-#[derive(Debug, thiserror::Error)]
-#[error("{0}")]
-pub(crate) struct Misuse(pub String);
 
 /// Runs the program on the arguments of the process.
 pub fn main() -> ExitCode {
@@ -142,26 +137,24 @@ pub(crate) fn without_waiting(is_terminal: bool, write: impl FnOnce() + Send + '
 
 /// Wrong use and wrong input are 2, a run that failed is 1.
 fn exit_code(error: &anyhow::Error) -> u8 {
-    for cause in error.chain() {
-        if cause.is::<Misuse>()
+    let is_misuse = |cause: &(dyn std::error::Error + 'static)| {
+        let wraps_misuse = matches!(
+            cause.downcast_ref(),
+            Some(FitError::Refused(_) | FitError::Scenario(_))
+        ) || matches!(cause.downcast_ref(), Some(RefinementError::Scenario(_)))
+            || matches!(cause.downcast_ref(), Some(SessionError::Scenario(_)));
+        let written = cause.downcast_ref::<WriteError>();
+        wraps_misuse
+            || cause.is::<Refusal>()
             || cause.is::<ScenarioError>()
             || cause.is::<CheckpointError>()
-            || cause.is::<StudyError>()
             || cause.is::<NoTerminal>()
-        {
-            return MISUSED;
-        }
-        if let Some(RefinementError::Scenario(_)) = cause.downcast_ref() {
-            return MISUSED;
-        }
-        if let Some(SessionError::Scenario(_)) = cause.downcast_ref() {
-            return MISUSED;
-        }
-        if let Some(error) = cause.downcast_ref::<WriteError>() {
-            return if error.is_misuse() { MISUSED } else { FAILED };
-        }
+            || written.is_some_and(WriteError::is_misuse)
+    };
+    match error.chain().any(is_misuse) {
+        true => MISUSED,
+        false => FAILED,
     }
-    FAILED
 }
 
 /// `mdr-tui presets | head -1` is not an error.

@@ -3,11 +3,10 @@
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 
-use super::Misuse;
 use super::args::Presets;
-use crate::scenario::preset;
+use crate::scenario::{Refusal, preset};
 
 /// Lists the presets or prints one.
 pub fn presets(options: &Presets) -> Result<ExitCode> {
@@ -15,12 +14,10 @@ pub fn presets(options: &Presets) -> Result<ExitCode> {
     if let Some(name) = &options.name {
         let Some(found) = preset::find(name) else {
             let names: Vec<&str> = preset::ALL.iter().map(|preset| preset.name).collect();
-            let message = format!(
-                "presets {}: no such preset; the presets are {}",
-                name.escape_debug(),
-                names.join(", ")
-            );
-            return Err(Misuse(message).into());
+            bail!(Refusal::new(
+                format_args!("presets {}", name.escape_debug()),
+                format_args!("no such preset; the presets are {}", names.join(", "))
+            ));
         };
         write!(out, "{}", found.text)?;
         return Ok(ExitCode::SUCCESS);

@@ -9,13 +9,13 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result, anyhow, bail};
 
 use super::args::{CycleAsGiven, Run};
 use super::checkpoints::Checkpoints;
 use super::job::RunJob;
 use super::progress::Progress;
-use super::{FAILED, Misuse, accuracy, complain, provenance, stop};
+use super::{FAILED, accuracy, complain, provenance, stop};
 use crate::export::autosave::COPY_INTERVAL;
 use crate::export::file::{RUN_CHECKPOINT, RunDirectory, WriteError, write_whole};
 use crate::export::header::{self, number};
@@ -23,7 +23,7 @@ use crate::export::{field, state};
 use crate::reading::verdict;
 use crate::scenario::checkpoint;
 use crate::scenario::session::Session;
-use crate::scenario::{Scenario, printable};
+use crate::scenario::{Refusal, Scenario, printable};
 use crate::studies::refinement;
 
 /// Polling interval for signals.
@@ -38,11 +38,12 @@ const ANOTHER_TRY: Duration = Duration::from_secs(1);
 /// Runs or resumes a scenario and writes its files.
 pub fn run(options: &Run) -> Result<ExitCode> {
     let stop = stop::signal()?;
+    let go_on = || !stop.load(Ordering::Relaxed);
     let mut job = match (&options.resume, &options.scenario) {
         (Some(path), _) => Job::resume(options, path)?,
         (None, scenario) => {
             let name = scenario.as_deref().unwrap_or_default();
-            Job::start(options, name, &stop)?
+            Job::start(options, name, &go_on)?
         }
     };
     if let Some(why) = job.session.simulation().why_never_jumped()
@@ -63,7 +64,7 @@ pub fn run(options: &Run) -> Result<ExitCode> {
     }
     let is_over = job.watch(Arc::clone(&stop));
     // A bug must not destroy hours of computing.
-    let outcome = catch_unwind(AssertUnwindSafe(|| job.advance(&stop)));
+    let outcome = catch_unwind(AssertUnwindSafe(|| job.advance(&go_on)));
     while is_over.swap(true, Ordering::SeqCst) {
         // The copy is being saved, and the process ends.
         thread::park();
@@ -80,7 +81,7 @@ pub fn run(options: &Run) -> Result<ExitCode> {
         }
     }
     if options.estimate_error && matches!(outcome, Ok(Ended::Done)) {
-        job.estimate(&stop);
+        job.estimate(&go_on);
     }
     // Saves what was computed, whatever happened.
     if let Err(error) = job.write_end() {
@@ -146,13 +147,12 @@ struct Job {
 }
 
 impl Job {
-    fn start(options: &Run, name: &str, stop: &AtomicBool) -> Result<Self> {
+    fn start(options: &Run, name: &str, go_on: &dyn Fn() -> bool) -> Result<Self> {
         let mut scenario = Scenario::load(name, &options.changes.set)?;
         let mut job = RunJob::new(options, &scenario, name)?;
         if options.budget.is_some() && scenario.accuracy().is_none() {
-            let message = "--budget: limits the search for numerics.accuracy, but that key is not \
-                set";
-            return Err(Misuse(message.into()).into());
+            let rule = "limits the search for numerics.accuracy, but that key is not set";
+            bail!(Refusal::new("--budget", rule));
         }
         let directory = match &options.out {
             Some(path) => RunDirectory::claim(path, options.force)?,
@@ -163,7 +163,8 @@ impl Job {
         }
         if scenario.accuracy().is_some() {
             let budget = options.budget.unwrap_or(f64::INFINITY);
-            let found = accuracy::resolve(&scenario, Some(job.cycles), budget, options.quiet, stop);
+            let found =
+                accuracy::resolve(&scenario, Some(job.cycles), budget, options.quiet, go_on);
             let found = found.with_context(|| printable(name))?;
             scenario = found.scenario;
             job.statements = found.statements;
@@ -277,11 +278,11 @@ impl Job {
     }
 
     /// Estimates the error at the end, which the headers of the files then state. An accuracy has stated it before.
-    fn estimate(&mut self, stop: &AtomicBool) {
+    fn estimate(&mut self, go_on: &dyn Fn() -> bool) {
         if !self.job.statements.is_empty() {
             return;
         }
-        match accuracy::estimated(&self.session, stop) {
+        match accuracy::estimated(&self.session, go_on) {
             Ok(statements) => {
                 for (key, value) in statements {
                     self.session.state(&key, &value);
@@ -325,7 +326,7 @@ impl Job {
     }
 
     /// Steps to the end, taking snapshots on the way.
-    fn advance(&mut self, stop: &AtomicBool) -> Result<Ended> {
+    fn advance(&mut self, go_on: &dyn Fn() -> bool) -> Result<Ended> {
         let mut progress = Progress::new(self.job.cycles, self.quiet);
         self.job.record(&self.session);
         loop {
@@ -338,7 +339,7 @@ impl Job {
             if cycle >= self.job.cycles {
                 break;
             }
-            if stop.load(Ordering::Relaxed) {
+            if !go_on() {
                 progress.finish();
                 return Ok(Ended::Interrupted);
             }

@@ -4,13 +4,13 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 
 use super::args::{Guard, Stability};
-use super::{FAILED, Misuse, progress, results, stop};
+use super::{FAILED, progress, results, stop};
 use crate::export::header::number;
 use crate::math::abel::AbelMethod;
-use crate::scenario::Scenario;
+use crate::scenario::{Refusal, Scenario};
 use crate::studies::stability::report::{boundaries, maps, runs};
 use crate::studies::stability::{Line, Setting, Study};
 
@@ -20,11 +20,8 @@ pub fn stability(options: &Stability) -> Result<ExitCode> {
     let scenario = Scenario::load(&options.scenario, &options.changes.set)?;
     let title = scenario.title().to_owned();
     let Some(study) = Study::new(scenario, options.cycles)? else {
-        let message = format!(
-            "{}: nothing wears: the scenario needs [wear], and contact at its start",
-            options.scenario
-        );
-        return Err(Misuse(message).into());
+        let rule = "nothing wears: the scenario needs [wear], and contact at its start";
+        bail!(Refusal::new(&options.scenario, rule));
     };
     let stop = stop::signal()?;
     let go_on = || !stop.load(Ordering::Relaxed);

@@ -4,17 +4,17 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 
 use super::args::Trade;
 use super::job::end;
-use super::{FAILED, Misuse, complain, progress, results, small_multiples, stop};
+use super::{FAILED, complain, progress, results, small_multiples, stop};
 use crate::export::header::number;
 use crate::math::abel::AbelMethod;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Scale};
-use crate::scenario::Scenario;
 use crate::scenario::session::SessionError;
+use crate::scenario::{Refusal, Scenario};
 use crate::studies::refinement::{Reached, Verdict, run_to_accuracy};
 use crate::studies::trade::report::{cheapest, front, table};
 use crate::studies::trade::{self, Sample, Setting, Trial};
@@ -41,11 +41,8 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
     let scenario = Scenario::load(&options.scenario, &options.changes.set)?;
     let cycles = end(options.cycles.or(scenario.run().cycles), &options.scenario)?;
     if scenario.setup().wear.is_none() {
-        let message = format!(
-            "{}: nothing wears, so there is no worn profile to compare; see mdr-tui verify",
-            options.scenario
-        );
-        return Err(Misuse(message).into());
+        let rule = "nothing wears, so there is no worn profile to compare; see mdr-tui verify";
+        bail!(Refusal::new(&options.scenario, rule));
     }
     let stop = stop::signal()?;
     let go_on = || !stop.load(Ordering::Relaxed);

@@ -3,11 +3,12 @@
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 
 use super::args::Verify;
-use super::{Misuse, error_curves, progress, results};
+use super::{error_curves, progress, results};
 use crate::math::abel::AbelMethod;
+use crate::scenario::Refusal;
 use crate::studies::verify::errors::Errors;
 use crate::studies::verify::report::{all_nodes, all_rows, problem_table};
 use crate::studies::verify::{Outcome, Problem, Study, Task};
@@ -26,8 +27,10 @@ pub fn verify(options: &Verify) -> Result<ExitCode> {
     };
     let tasks = study.tasks();
     if tasks.is_empty() {
-        let message = "--points: these numbers of cells need --long";
-        return Err(Misuse(message.into()).into());
+        bail!(Refusal::new(
+            "--points",
+            "these numbers of cells need --long"
+        ));
     }
     let outcomes = run(&tasks, options.printing.quiet);
     // The file first: a closed pipe on stdout must not cost it.

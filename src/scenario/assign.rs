@@ -3,7 +3,7 @@
 use toml::{Table, Value};
 
 use super::check::unknown;
-use super::error::{Origin, ScenarioError, echo};
+use super::error::{Origin, Refusal, ScenarioError, echo};
 use super::keys::{self, CHOSEN_BY_ACCURACY};
 use super::schema::{self, Kind, Parameter};
 
@@ -28,10 +28,7 @@ pub(super) fn assign(
     value: &str,
     written: &str,
 ) -> Result<(), ScenarioError> {
-    let refuse = |rule: String| ScenarioError::Refused {
-        place: written.to_owned(),
-        rule,
-    };
+    let refuse = |rule: String| ScenarioError::from(Refusal::new(written, rule));
     if key == "changes" || key.starts_with("changes.") {
         return Err(refuse("changes are recorded during a run, not set".into()));
     }

@@ -1,5 +1,7 @@
 //! Scenario errors: one line that says what is wrong, where, and what would be right.
 
+use std::fmt::Display;
+
 use thiserror::Error;
 
 /// Maximum number of characters of a user's text in an error.
@@ -7,6 +9,37 @@ const LONGEST_ECHO: usize = 60;
 
 /// The most errors that are told at once.
 const MOST_ERRORS: usize = 20;
+
+/// Wrong input of a user, in one line: where it stands, with its value, and what would be right.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{0}")]
+pub struct Refusal(String);
+
+impl Refusal {
+    /// Refuses what stands at `place`: a file, an option, a key.
+    pub fn new(place: impl Display, rule: impl Display) -> Self {
+        Self(format!("{place}: {rule}"))
+    }
+
+    /// Refuses `value` at `place`; a long one is cut.
+    pub fn of_value(place: impl Display, value: impl Display, rule: impl Display) -> Self {
+        let value = echo(&value.to_string());
+        Self(format!("{place} = {value}: {rule}"))
+    }
+
+    /// The same with what else the user can do.
+    #[must_use]
+    pub fn or(self, hint: impl Display) -> Self {
+        Self(format!("{self}; {hint}"))
+    }
+}
+
+/// A line that says place and rule already.
+impl From<String> for Refusal {
+    fn from(line: String) -> Self {
+        Self(line)
+    }
+}
 
 /// A scenario that cannot be run. Each displays as one line, and several as one each.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -72,13 +105,8 @@ pub enum ScenarioError {
     #[error("and {0} more errors")]
     More(usize),
     /// A value that breaks a rule.
-    #[error("{place}: {rule}")]
-    Refused {
-        /// Origin, dotted path and value.
-        place: String,
-        /// What would be right.
-        rule: String,
-    },
+    #[error(transparent)]
+    Refused(#[from] Refusal),
 }
 
 /// The errors found in a scenario, and which keys they blame.
@@ -219,10 +247,7 @@ impl Origin {
 
     /// Refuses the value at `path`.
     pub fn refuse(&self, path: &str, value: &str, rule: impl Into<String>) -> ScenarioError {
-        ScenarioError::Refused {
-            place: self.place(path, value),
-            rule: rule.into(),
-        }
+        Refusal::new(self.place(path, value), rule.into()).into()
     }
 }
 

@@ -44,7 +44,7 @@ pub(crate) mod write;
 pub use complete::USUAL_ACCURACY;
 pub use derive::Pressed;
 use error::{Faults, Origin, echo};
-pub use error::{ScenarioError, printable};
+pub use error::{Refusal, ScenarioError, printable};
 pub use run::{Change, MOST_CHANGES, MOST_CYCLES, MOST_SNAPSHOTS, RunPlan};
 use schema::Parameter;
 
@@ -392,10 +392,8 @@ impl Scenario {
                     given: written.clone(),
                 })?;
             if let Some(because) = schema::find(key).and_then(Parameter::fixed) {
-                return Err(ScenarioError::Refused {
-                    place: written.clone(),
-                    rule: format!("{key} cannot change during a run: {because}"),
-                });
+                let rule = format!("{key} cannot change during a run: {because}");
+                return Err(Refusal::new(written, rule).into());
             }
             assign::assign(&mut table, &mut origin, key, value, written)?;
         }
@@ -432,10 +430,8 @@ impl Scenario {
                 let value = schema::at(&self.table, &path).and_then(toml::Value::as_float);
                 let is_given = changes.iter().any(|change| change.key() == path);
                 if !is_given && value.is_some_and(|value| value != 0.0) {
-                    return Err(ScenarioError::Refused {
-                        place: written.clone(),
-                        rule: format!("needs {path} in {unit}, changed at the same cycle"),
-                    });
+                    let rule = format!("needs {path} in {unit}, changed at the same cycle");
+                    return Err(Refusal::new(written, rule).into());
                 }
             }
         }

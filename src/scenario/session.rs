@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 
 use thiserror::Error;
 
-use super::{Change, MOST_CHANGES, RunPlan, Scenario, ScenarioError};
+use super::{Change, MOST_CHANGES, Refusal, RunPlan, Scenario, ScenarioError};
 use crate::math::grid::RadialGrid;
 use crate::simulation::{Breakdown, Domain, Saved, Simulation, Unfit};
 
@@ -274,11 +274,8 @@ impl Session {
         made.extend(changes);
         if made.len() > MOST_CHANGES {
             let last = made.last().map(|change| change.set.clone());
-            return Err(ScenarioError::Refused {
-                place: last.unwrap_or_default(),
-                rule: format!("a run takes at most {MOST_CHANGES} changes"),
-            }
-            .into());
+            let rule = format!("a run takes at most {MOST_CHANGES} changes");
+            return Err(ScenarioError::from(Refusal::new(last.unwrap_or_default(), rule)).into());
         }
         let scenario = before.scenario.after_all(&made[before.changes..])?;
         let mut simulation = before.simulation.clone();

@@ -12,10 +12,10 @@ use dialoguer::theme::{ColorfulTheme, SimpleTheme, Theme};
 use dialoguer::{Confirm, Input, Select};
 
 use super::args::{Arguments, New};
-use super::{Misuse, explore};
+use super::explore;
 use crate::export::file::shell_word;
 use crate::export::target::Target;
-use crate::scenario::printable;
+use crate::scenario::{Refusal, printable};
 
 mod answers;
 mod forecast;
@@ -26,14 +26,7 @@ use forecast::Forecast;
 /// Writes a new scenario.
 pub fn new(options: &New) -> Result<ExitCode> {
     let path = Path::new(&options.file);
-    let target = Target::hold(path)?;
-    if target.exists() && !options.force {
-        let message = format!(
-            "{} already exists; choose another name, or --force replaces it",
-            printable(&options.file)
-        );
-        return Err(Misuse(message).into());
-    }
+    let target = Target::claim(path, options.force)?;
     let asks = io::stdin().is_terminal() && io::stderr().is_terminal();
     let answers = Interview {
         options,
@@ -227,7 +220,7 @@ impl Interview<'_> {
             items.push("another: type E and Poisson's ratio".to_owned());
             let at = self.choose(prompt, &items)?;
             if let Some((name, ..)) = MATERIALS.get(at) {
-                return Body::read(name).map_err(|rule| Misuse(rule).into());
+                return Body::read(name).map_err(|rule| Refusal::from(rule).into());
             }
         }
         let question = Question {
@@ -287,7 +280,7 @@ impl Interview<'_> {
     fn ask<T>(&self, question: &Question, read: impl Fn(&str) -> Result<T, String>) -> Result<T> {
         let refused = |text: &str, rule: String| {
             let flag = question.flag;
-            Misuse(format!("{flag} {}: {rule}", printable(text)))
+            Refusal::new(format_args!("{flag} {}", printable(text)), rule)
         };
         let text = match (question.given, &self.theme) {
             (Some(given), _) => given.clone(),
@@ -335,5 +328,5 @@ impl Interview<'_> {
 
 /// A default, which is right.
 fn default(text: &str, key: &str, unit: &str) -> Result<Quantity> {
-    Ok(quantity(text, key, unit, false).map_err(Misuse)?)
+    Ok(quantity(text, key, unit, false).map_err(Refusal::from)?)
 }

@@ -7,12 +7,13 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result, anyhow, bail};
 
 use super::super::args::Sweep;
-use super::super::{Misuse, complain};
+use super::super::complain;
 use crate::export::target::Target;
-use crate::scenario::printable;
+use crate::scenario::limited::Unread;
+use crate::scenario::{Refusal, printable};
 use crate::studies::sweep::ledger::Ledger;
 use crate::studies::sweep::record::{self, Arithmetic, Record, Refused};
 use crate::studies::sweep::{Shard, Study};
@@ -24,7 +25,7 @@ const NAMED: usize = 3;
 pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
     let shown = printable(&directory.display().to_string());
     let target = Target::claim_given(options.out.as_deref(), options.force)?;
-    let files = tables(directory).map_err(|error| Misuse(format!("{shown}: {error}")))?;
+    let files = tables(directory).map_err(|error| Refusal::new(&shown, error))?;
     let mut arithmetic = Arithmetic::new();
     let mut merged: Option<(Study, PathBuf, Ledger)> = None;
     let (mut doubles, mut contradictions, mut count) = (Vec::new(), Vec::new(), 1);
@@ -33,7 +34,7 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
             continue;
         }
         let source = fs::File::open(&file)
-            .map_err(|error| Misuse(format!("{}: cannot be read: {error}", file.display())))?;
+            .map_err(|error| Refusal::new(file.display(), Unread::Io(error)))?;
         let record = Record::open(source, &file.display().to_string())?;
         count = count.max(record.shard.count);
         arithmetic.extend(record.arithmetic.iter().cloned());
@@ -73,7 +74,7 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
         }
     }
     let Some((study, _, rows)) = merged else {
-        return Err(Misuse(format!("{shown}: has no table written by mdr-tui sweep")).into());
+        bail!(Refusal::new(shown, "has no table written by mdr-tui sweep"));
     };
     if !doubles.is_empty() {
         complain(&format!(

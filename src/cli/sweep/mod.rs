@@ -7,16 +7,15 @@ use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result, anyhow, bail};
 use rayon::ThreadPoolBuilder;
 
 use super::args::Sweep;
-use super::{FAILED, Misuse, UNFINISHED, complain, progress, stop};
+use super::{FAILED, UNFINISHED, complain, progress, stop};
 use crate::export::file::shell_word;
-use crate::scenario::limited;
-use crate::scenario::printable;
+use crate::scenario::{Refusal, limited, printable};
 use crate::studies::sweep::engine::{self, Check};
-use crate::studies::sweep::{Shard, Study, StudyError, record};
+use crate::studies::sweep::{Shard, Study, record};
 
 mod merge;
 mod output;
@@ -49,11 +48,8 @@ pub fn sweep(options: &Sweep) -> Result<ExitCode> {
         return sensitivity::sensitivity(options, &study);
     }
     if study.axes.is_empty() {
-        let message = format!(
-            "{}: the study has no axis (only --sensitivity works without one)",
-            path.display()
-        );
-        return Err(Misuse(message).into());
+        let rule = "the study has no axis (only --sensitivity works without one)";
+        bail!(Refusal::new(path.display(), rule));
     }
     if options.slurm {
         let pool = ThreadPoolBuilder::new()
@@ -70,9 +66,8 @@ pub fn sweep(options: &Sweep) -> Result<ExitCode> {
 /// Reads a study, with the assignments of the command line in its `[set]`.
 fn read(path: &Path, sets: &[String]) -> Result<Study> {
     let name = printable(&path.display().to_string());
-    let refuse = |why: String| Misuse(format!("{name}: {why}"));
     let text = limited::text(path, LARGEST_STUDY)
-        .map_err(|why| refuse(format!("{why}; a study is a TOML file")))?;
+        .map_err(|why| Refusal::new(&name, why).or("a study is a TOML file"))?;
     let directory = path.parent().unwrap_or(Path::new(""));
     let mut study = Study::read(&text, &name, directory)?;
     for set in sets {
@@ -83,11 +78,8 @@ fn read(path: &Path, sets: &[String]) -> Result<Study> {
 
 fn print_point(study: &Study, point: usize) -> Result<ExitCode> {
     if point >= study.points() {
-        let message = format!(
-            "--point {point}: the study has {} points, counted from 0",
-            study.points()
-        );
-        return Err(Misuse(message).into());
+        let rule = format!("the study has {} points, counted from 0", study.points());
+        bail!(Refusal::new(format_args!("--point {point}"), rule));
     }
     let scenario = study.scenario(point)?;
     writeln!(
@@ -123,12 +115,12 @@ fn refuse_invalid<'a>(
         start.elapsed() < patience
     });
     bar.finish_and_clear();
-    checked.map_err(|error| invalid(&error))?;
+    checked.map_err(invalid)?;
     Ok((!check.is_over()).then_some(check))
 }
 
-fn invalid(error: &StudyError) -> Misuse {
-    Misuse(format!("{error}; --skip-invalid runs the other points"))
+fn invalid(refusal: Refusal) -> Refusal {
+    refusal.or("--skip-invalid runs the other points")
 }
 
 fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
@@ -146,7 +138,8 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
     let mut output = Output::open(&out, study, shard, options)?;
     let check = refuse_invalid(options, study, shard, &pool, CHECKED_FIRST)?;
     output.begin()?;
-    let halt = stop::patient_signal()?;
+    let stop = stop::patient_signal()?;
+    let go_on = || !stop.load(Ordering::Relaxed);
     crate::panics::keep();
     let bar = progress::bar(mine as u64, progress::TIMES, options.quiet);
     bar.set_message(printable(&out.display().to_string()));
@@ -157,7 +150,7 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
     let mut checked = Ok(());
     if let (Ok(()), Some(done)) = (&outcome, output.done()) {
         let todo = done.missing(study, shard);
-        checked = engine::run(study, todo, check, &pool, &halt, |point, row| {
+        checked = engine::run(study, todo, check, &pool, &go_on, |point, row| {
             outcome = output
                 .add(point, &record::fields(study, point, row))
                 .map_err(|error| anyhow!("{error}"))
@@ -170,20 +163,16 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
     let kept = output.close();
     let counts = output.counts();
     let (there, failed) = (counts.rows, counts.failed);
-    let go_on = format!(
+    let hint = format!(
         "{there} of {mine} points are in {}; continue with the same command and --resume",
         shell_word(&out)
     );
-    outcome.with_context(|| go_on.clone())?;
-    kept.map_err(|error| anyhow!("{error}; {go_on}"))?;
-    checked.map_err(|error| Misuse(format!("{}; {go_on}", invalid(&error).0)))?;
+    outcome.with_context(|| hint.clone())?;
+    kept.map_err(|error| anyhow!("{error}; {hint}"))?;
+    checked.map_err(|refusal| invalid(refusal).or(&hint))?;
     if there < mine {
-        let why = if halt.load(Ordering::Relaxed) {
-            "interrupted"
-        } else {
-            "unfinished"
-        };
-        complain(&format!("{why}: {go_on}"));
+        let why = if go_on() { "unfinished" } else { "interrupted" };
+        complain(&format!("{why}: {hint}"));
         return Ok(ExitCode::from(UNFINISHED));
     }
     if counts.inaccurate > 0 && !options.quiet {
@@ -215,14 +204,13 @@ fn shard(options: &Sweep) -> Result<Shard> {
         return Ok(options.shard.unwrap_or(Shard::WHOLE));
     };
     let Ok(index) = env::var(SLURM_INDEX) else {
-        let message = format!(
-            "--shards {count}: {SLURM_INDEX} is not set, so this is not a task of a Slurm array; \
-             use --shard i/{count}, or --slurm for a job script"
-        );
-        return Err(Misuse(message).into());
+        let rule = format!("{SLURM_INDEX} is not set, so this is not a task of a Slurm array");
+        let refusal = Refusal::new(format_args!("--shards {count}"), rule);
+        let hint = format!("use --shard i/{count}, or --slurm for a job script");
+        bail!(refusal.or(hint));
     };
     let shard = format!("{index}/{count}").parse();
-    shard.map_err(|why: String| Misuse(format!("{SLURM_INDEX} = {index}: {why}")).into())
+    shard.map_err(|why: String| Refusal::of_value(SLURM_INDEX, &index, why).into())
 }
 
 /// The default output file.

@@ -8,11 +8,11 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, anyhow};
 
-use super::super::Misuse;
 use super::super::args::Sweep;
 use crate::export::file::{WriteError, write_with};
 use crate::export::target::Target;
 use crate::export::{header, own};
+use crate::scenario::Refusal;
 use crate::studies::sweep::ledger::{Counts, Done, Ledger};
 use crate::studies::sweep::record::{self, Arithmetic, Record};
 use crate::studies::sweep::{Shard, Study, Success};
@@ -50,7 +50,7 @@ impl<'a> Output<'a> {
             is_whole: true,
             flushed: Instant::now(),
         };
-        let refuse = |why: &str| Err(Misuse(format!("{}: {why}", path.display())).into());
+        let refuse = |why: &str| Err(Refusal::new(path.display(), why).into());
         if !output.target.exists() || options.force {
             return Ok(output);
         }
@@ -111,10 +111,8 @@ impl<'a> Output<'a> {
                 }
                 let begins = row.join(",");
                 if let Err(why) = new.take(study, row)? {
-                    let path = path.display();
-                    let why =
-                        format!("{path}: row {begins} does not belong to the study ({why:?})");
-                    refused = Some(Misuse(why).into());
+                    let why = format!("row {begins} does not belong to the study ({why:?})");
+                    refused = Some(Refusal::new(path.display(), why).into());
                     return Err(io::ErrorKind::InvalidData.into());
                 }
             }

@@ -23,8 +23,8 @@ pub fn sensitivity(options: &Sweep, study: &Study) -> Result<ExitCode> {
         builder = builder.num_threads(threads.into());
     }
     let pool = builder.build().context("cannot start the threads")?;
-    let halt = stop::patient_signal()?;
-    let go_on = || !halt.load(Ordering::Relaxed);
+    let stop = stop::patient_signal()?;
+    let go_on = || !stop.load(Ordering::Relaxed);
     let Some(found) = sensitivity::run(study, &keys, &pool, &go_on)? else {
         complain("interrupted before all runs had finished: nothing was saved");
         return Ok(ExitCode::from(FAILED));

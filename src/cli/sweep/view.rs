@@ -14,7 +14,9 @@ use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
 
 use super::super::args::Sweep;
-use super::super::{Misuse, stop};
+use super::super::stop;
+use crate::scenario::Refusal;
+use crate::scenario::limited::Unread;
 use crate::studies::sweep::record::Record;
 use crate::tui::map::{self, Leave, View};
 use crate::tui::{self, keys};
@@ -25,7 +27,7 @@ const GLANCE: Duration = Duration::from_millis(20);
 /// Shows the table until the user quits.
 pub fn view(file: &Path, options: &Sweep) -> Result<ExitCode> {
     let name = file.display().to_string();
-    let keys = keys::parse_script(options.keys.as_deref().unwrap_or("")).map_err(Misuse)?;
+    let keys = keys::parse_script(options.keys.as_deref().unwrap_or("")).map_err(Refusal::from)?;
     let mut view = View::new(read(file)?, &name)?;
     let theme = tui::theme_of(options.marker, options.color.is_colored(), options.theme);
     let mut seen = changed(file);
@@ -101,8 +103,7 @@ fn open(view: &View, point: usize, options: &Sweep, is_ending: &AtomicBool) -> R
 
 fn read(file: &Path) -> Result<Record> {
     let name = file.display();
-    let source =
-        fs::File::open(file).map_err(|error| Misuse(format!("{name}: cannot be read: {error}")))?;
+    let source = fs::File::open(file).map_err(|error| Refusal::new(&name, Unread::Io(error)))?;
     Ok(Record::open(source, &name.to_string())?)
 }
 

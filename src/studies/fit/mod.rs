@@ -24,7 +24,7 @@ use thiserror::Error;
 
 use crate::scenario::schema::{self, Kind as KeyKind, Range};
 use crate::scenario::session::SessionError;
-use crate::scenario::{MOST_CYCLES, Scenario, ScenarioError};
+use crate::scenario::{MOST_CYCLES, Refusal, Scenario, ScenarioError};
 use crate::studies::measured::{Kind, Measured};
 use errors::{Errors, freedom};
 use solver::{Free, Solved};
@@ -53,8 +53,8 @@ pub enum FitError {
     #[error(transparent)]
     Scenario(#[from] ScenarioError),
     /// Keys or data that make no fit.
-    #[error("{0}")]
-    Misuse(String),
+    #[error(transparent)]
+    Refused(#[from] Refusal),
     /// The scenario as given cannot run.
     #[error("at the start values: {0}")]
     Start(SessionError),
@@ -149,18 +149,15 @@ impl Fit {
             .collect::<Result<_, _>>()?;
         let points: usize = data.iter().map(|set| set.values.len()).sum();
         if free.is_empty() || data.is_empty() {
-            let message = "needs a key to fit and a data set to fit it to";
-            return Err(FitError::Misuse(message.into()));
+            return refuse("needs a key to fit and a data set to fit it to".into());
         }
         if points <= free.len() {
-            return Err(FitError::Misuse(format!(
-                "{points} points cannot determine {} keys",
-                free.len()
-            )));
+            let keys = free.len();
+            return refuse(format!("{points} points cannot determine {keys} keys"));
         }
         for (i, key) in free.iter().enumerate() {
             if free[..i].iter().any(|other| other.key == key.key) {
-                return Err(FitError::Misuse(format!("{} is given twice", key.key)));
+                return refuse(format!("{} is given twice", key.key));
             }
         }
         let histories = data
@@ -171,29 +168,28 @@ impl Fit {
         let planned = cycles.or(scenario.run().cycles).unwrap_or(0.0);
         let cycles = planned.max(last);
         if cycles > MOST_CYCLES {
-            let message = format!(
+            return refuse(format!(
                 "the data end at cycle {cycles:e}; a run has at most {MOST_CYCLES:e} cycles"
-            );
-            return Err(FitError::Misuse(message));
+            ));
         }
         let loops = || data.iter().filter(|set| set.kind == Kind::Loop);
         if cycles <= 0.0 || loops().next().is_some() && cycles < 1.0 {
-            let message = "the length of the run is unknown, or less than a cycle; give --cycles";
-            return Err(FitError::Misuse(message.into()));
+            let rule = "the length of the run is unknown, or less than a cycle; give --cycles";
+            return refuse(rule.into());
         }
         let outside = |end: f64| !(1.0..=cycles).contains(&end);
         if let Some((set, end)) =
             loops().find_map(|set| Some((set, set.cycle.filter(|end| outside(*end))?)))
         {
             let name = &set.name;
-            return Err(FitError::Misuse(format!(
+            return refuse(format!(
                 "{name}: its loop ends at cycle {end}, but the run has the cycles 1 to {cycles}; --cycles and \
                  --loop FILE@CYCLE say others"
-            )));
+            ));
         }
         let domain = scenario.setup().grid.radius();
         for set in &data {
-            set.check_radii(domain).map_err(FitError::Misuse)?;
+            set.check_radii(domain).map_err(Refusal::from)?;
         }
         Ok(Self {
             scenario,
@@ -445,39 +441,42 @@ impl Fitted {
     }
 }
 
+fn refuse<T>(line: String) -> Result<T, FitError> {
+    Err(Refusal::from(line).into())
+}
+
 /// A key and where its search starts.
 fn start(scenario: &Scenario, key: &str) -> Result<Free, FitError> {
-    let misuse = |message: String| FitError::Misuse(message);
     let Some(parameter) = schema::find(key) else {
         // The scenario's own words for a key that is unknown.
         scenario.with(key, "1.0")?;
-        return Err(misuse(format!("{key}: no such key")));
+        return refuse(format!("{key}: no such key"));
     };
     if parameter.kind != KeyKind::Number {
-        return Err(misuse(format!("{key} is not a number that can be fitted")));
+        return refuse(format!("{key} is not a number that can be fitted"));
     }
     if ["run", "changes", "numerics"].contains(&parameter.section()) {
-        return Err(misuse(format!(
+        return refuse(format!(
             "{key} is not a physical property, so data cannot determine it"
-        )));
+        ));
     }
     let value = scenario
         .value(key)
         .and_then(|value| value.parse::<f64>().ok());
-    let value = value.ok_or_else(|| {
-        misuse(format!(
+    let Some(value) = value else {
+        return refuse(format!(
             "{key} has no value to start from; give one with --set {key}=..."
-        ))
-    })?;
+        ));
+    };
     let positive = match parameter.range {
         Range::Positive | Range::UpTo(_) | Range::Acute => true,
         Range::NotNegative | Range::Any => value > 0.0 && parameter.range == Range::NotNegative,
         Range::Within(least, _) => least > 0.0,
     };
     if parameter.range == Range::NotNegative && value == 0.0 {
-        return Err(misuse(format!(
+        return refuse(format!(
             "{key} starts at 0; give a value greater than 0 with --set"
-        )));
+        ));
     }
     let limits = match parameter.range {
         Range::Within(least, most) => (least, most),

@@ -9,7 +9,8 @@ use rayon::ThreadPool;
 use rayon::prelude::*;
 
 use super::point::{self, Row, Success};
-use super::{Shard, Study, StudyError};
+use super::{Shard, Study};
+use crate::scenario::Refusal;
 
 /// How many points are checked between two looks at the clock.
 const CHUNK: usize = 256;
@@ -43,10 +44,11 @@ impl<'a> Check<'a> {
         &mut self,
         pool: &ThreadPool,
         mut go_on: impl FnMut(usize) -> bool,
-    ) -> Result<(), StudyError> {
+    ) -> Result<(), Refusal> {
         if self.left.start == 0 && self.left.end > CHUNK {
             let edges = self.edges().into_par_iter();
-            let refused = pool.install(|| edges.find_map_first(|point| self.check(point).err()));
+            let refused =
+                pool.install(|| edges.find_map_first(|point| validated(self.study, point).err()));
             refused.map_or(Ok(()), Err)?;
         }
         while !self.left.is_empty() && go_on(self.left.start) {
@@ -60,17 +62,14 @@ impl<'a> Check<'a> {
         Ok(())
     }
 
-    /// Checks what is left on this thread, until `halt` is set.
+    /// Checks what is left on this thread, as long as `go_on` says so.
     ///
     /// # Errors
     ///
     /// The first point that is invalid, and why.
-    pub fn finish(self, halt: &AtomicBool) -> Result<(), StudyError> {
-        let mut left = self.left.clone();
-        left.try_for_each(|at| match halt.load(Ordering::Relaxed) {
-            true => Ok(()),
-            false => self.of(at),
-        })
+    fn finish(self, go_on: &dyn Fn() -> bool) -> Result<(), Refusal> {
+        let mut left = self.left.clone().take_while(|_| go_on());
+        left.try_for_each(|at| self.of(at))
     }
 
     /// Whether every point is checked.
@@ -78,12 +77,8 @@ impl<'a> Check<'a> {
         self.left.is_empty()
     }
 
-    fn of(&self, at: usize) -> Result<(), StudyError> {
-        self.check(self.shard.index + at * self.shard.count)
-    }
-
-    fn check(&self, point: usize) -> Result<(), StudyError> {
-        validated(self.study, point)
+    fn of(&self, at: usize) -> Result<(), Refusal> {
+        validated(self.study, self.shard.index + at * self.shard.count)
     }
 
     /// The points of the shard at the ends of each axis, the others at one of their ends.
@@ -102,14 +97,14 @@ impl<'a> Check<'a> {
 }
 
 /// Refuses a point that makes no valid scenario.
-fn validated(study: &Study, point: usize) -> Result<(), StudyError> {
-    let refused = |error| StudyError(format!("{}: {error}", study.name(point)));
+fn validated(study: &Study, point: usize) -> Result<(), Refusal> {
+    let refused = |error| Refusal::new(study.name(point), error);
     study.scenario(point).map(drop).map_err(refused)
 }
 
 /// Runs the points `todo` of `study` on the threads of `pool`, and gives each row to `finished`, on
 /// the calling thread, when it is there. Stops after the present steps, losing the points that are
-/// not finished, if `halt` is set or `finished` says no.
+/// not finished, if `go_on` or `finished` says no.
 ///
 /// # Errors
 ///
@@ -119,18 +114,20 @@ pub fn run(
     todo: impl Iterator<Item = usize> + Send,
     check: Option<Check>,
     pool: &ThreadPool,
-    halt: &AtomicBool,
+    go_on: &(dyn Fn() -> bool + Sync),
     mut finished: impl FnMut(usize, Row) -> bool,
-) -> Result<(), StudyError> {
+) -> Result<(), Refusal> {
     let (send, rows) = mpsc::channel();
     let todo = Mutex::new(todo);
+    let is_halted = AtomicBool::new(false);
+    let halt = || is_halted.store(true, Ordering::Relaxed);
+    let go_on = || go_on() && !is_halted.load(Ordering::Relaxed);
     // Nobody waits for the check once the points are done.
     let is_done = AtomicBool::new(false);
     let is_strict = check.is_some();
     let refused = Mutex::new(Ok(()));
     let next = || todo.lock().unwrap_or_else(PoisonError::into_inner).next();
     let work = |send: mpsc::Sender<(usize, Row)>| {
-        let go_on = || !halt.load(Ordering::Relaxed);
         while go_on() {
             let Some(point) = next() else {
                 return;
@@ -141,7 +138,7 @@ pub fn run(
             // Ahead of the check.
             if is_strict && Success::of(&row.status) == Success::Invalid {
                 *refused.lock().unwrap_or_else(PoisonError::into_inner) = validated(study, point);
-                halt.store(true, Ordering::Relaxed);
+                halt();
                 return;
             }
             if send.send((point, row)).is_err() {
@@ -151,9 +148,11 @@ pub fn run(
     };
     std::thread::scope(|scope| {
         let check = scope.spawn(|| {
-            let checked = check.map_or(Ok(()), |check| check.finish(&is_done));
+            let checked = check.map_or(Ok(()), |check| {
+                check.finish(&|| !is_done.load(Ordering::Relaxed))
+            });
             if checked.is_err() {
-                halt.store(true, Ordering::Relaxed);
+                halt();
             }
             checked
         });
@@ -165,7 +164,7 @@ pub fn run(
             drop(send);
             for (point, row) in &rows {
                 if !finished(point, row) {
-                    halt.store(true, Ordering::Relaxed);
+                    halt();
                     return;
                 }
             }

@@ -28,8 +28,3 @@ pub use design::Design;
 pub use point::{Row, Success};
 pub use shard::Shard;
 pub use study::{Stop, Study};
-
-/// A study that cannot be run, in one line: what is wrong, where, and what would be right.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{0}")]
-pub struct StudyError(pub String);

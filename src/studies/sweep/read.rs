@@ -6,13 +6,12 @@ use std::path::Path;
 use serde::Deserialize;
 use toml::{Table, Value};
 
-use super::StudyError;
 use super::axis::{self, Axis, Spread, Values};
 use super::design::{self, Design, MOST_SOBOL_AXES, Strata};
 use super::sensitivity::Varied;
 use super::study::{self, Stop, Study};
 use crate::scenario::scalars::{self, Scalar, number};
-use crate::scenario::{Scenario, printable, typed};
+use crate::scenario::{Refusal, Scenario, printable, typed};
 use crate::scenario::{schema, units};
 
 /// The columns of a study that names none.
@@ -26,7 +25,7 @@ const COLUMNS: [&str; 4] = [
 /// The most points of a study.
 const MOST_POINTS: usize = 10_000_000;
 
-type Result<T> = std::result::Result<T, StudyError>;
+type Result<T> = std::result::Result<T, Refusal>;
 
 /// A study as it is written.
 #[derive(Debug, Default, Deserialize)]
@@ -72,7 +71,7 @@ impl Study {
                 true => directory.join(name).to_string_lossy().into_owned(),
                 false => name.to_owned(),
             };
-            Scenario::load(&path, &[]).map_err(|error| StudyError(error.to_string()))
+            Scenario::load(&path, &[]).map_err(|error| Refusal::from(error.to_string()))
         })
     }
 
@@ -83,7 +82,7 @@ impl Study {
     /// As [`read`](Self::read).
     pub fn read_with_base(text: &str, origin: &str, base: &str) -> Result<Self> {
         Self::read_on(text, origin, |name| {
-            Scenario::from_toml(base, name, &[]).map_err(|error| StudyError(error.to_string()))
+            Scenario::from_toml(base, name, &[]).map_err(|error| Refusal::from(error.to_string()))
         })
     }
 
@@ -121,18 +120,13 @@ impl Study {
 struct Origin(String);
 
 impl Origin {
-    fn error(&self, why: impl Display) -> StudyError {
-        StudyError(format!("{}: {why}", self.0))
+    fn error(&self, why: impl Display) -> Refusal {
+        Refusal::new(&self.0, why)
     }
 
     fn refuse<T>(&self, place: &str, value: impl Display, rule: impl Display) -> Result<T> {
-        let whole = value.to_string();
-        let mut shown: String = whole.chars().take(60).collect();
-        if shown.len() < whole.len() {
-            shown.push_str("...");
-        }
-        let shown = printable(&shown);
-        Err(self.error(format!("{place} = {shown}: {rule}")))
+        let place = format!("{}: {place}", self.0);
+        Err(Refusal::of_value(place, value, rule))
     }
 
     /// The design, and the number of samples and the seed of a sampled one.

@@ -23,8 +23,9 @@ use std::io::{self, BufRead, BufReader, Read};
 
 use super::finder::Finder;
 use super::point::Success;
-use super::{Row, Shard, Study, StudyError};
-use crate::scenario::printable;
+use super::{Row, Shard, Study};
+use crate::scenario::limited::Unread;
+use crate::scenario::{Refusal, printable};
 
 /// The longest line and the longest header that are read, in bytes.
 const LONGEST: u64 = 1 << 26;
@@ -145,10 +146,10 @@ impl Record {
     /// # Errors
     ///
     /// Refuses a file that is not the table of a study.
-    pub fn open(source: impl Read + 'static, name: &str) -> Result<Self, StudyError> {
+    pub fn open(source: impl Read + 'static, name: &str) -> Result<Self, Refusal> {
         let name = printable(name);
-        let refuse = |why: &str| StudyError(format!("{name}: {why}"));
-        let unread = |error: io::Error| refuse(&format!("cannot be read: {error}"));
+        let refuse = |why: &str| Refusal::new(&name, why);
+        let unread = |error: io::Error| Refusal::new(&name, Unread::Io(error));
         let mut lines = Lines(Box::new(BufReader::new(source)));
         let (mut header, mut shard) = (String::new(), Shard::WHOLE);
         let mut arithmetic = Arithmetic::new();
@@ -199,7 +200,7 @@ impl Record {
     /// # Errors
     ///
     /// Refuses a header that was edited and no longer holds a study.
-    pub fn study(&self) -> Result<Study, StudyError> {
+    pub fn study(&self) -> Result<Study, Refusal> {
         let part = |key: &str| -> String {
             let prefix = format!("# {key}: ");
             let lines = self
@@ -216,7 +217,7 @@ impl Record {
     /// # Errors
     ///
     /// Names the first line of the headers that differs.
-    pub fn expect(&self, study: &Study, origin: &str) -> Result<(), StudyError> {
+    pub fn expect(&self, study: &Study, origin: &str) -> Result<(), Refusal> {
         let expected = lines(study);
         if self.header == expected {
             return Ok(());
@@ -226,12 +227,11 @@ impl Record {
             let (our, their) = (ours.next(), theirs.next());
             if our != their || our.is_none() {
                 let (our, their) = (our.unwrap_or("nothing"), their.unwrap_or("nothing"));
-                return Err(StudyError(format!(
-                    "{}: holds another study: {} where {origin} has {}",
-                    self.name,
-                    their.trim_start_matches("# "),
-                    our.trim_start_matches("# ")
-                )));
+                let [our, their] = [our, their].map(|line| line.trim_start_matches("# "));
+                return Err(Refusal::new(
+                    &self.name,
+                    format_args!("holds another study: {their} where {origin} has {our}"),
+                ));
             }
         }
     }
@@ -241,8 +241,8 @@ impl Record {
     /// # Errors
     ///
     /// Refuses columns that differ from the study's.
-    pub fn rows(self, study: &Study) -> Result<Given, StudyError> {
-        let refuse = |why: String| Err(StudyError(format!("{}: {why}", self.name)));
+    pub fn rows(self, study: &Study) -> Result<Given, Refusal> {
+        let refuse = |why: String| Err(Refusal::new(&self.name, why));
         let wanted = study.columns();
         if let Some(more) = self.columns.iter().find(|name| !wanted.contains(&&***name)) {
             let more = printable(more);
@@ -278,17 +278,14 @@ pub struct Given {
 }
 
 impl Iterator for Given {
-    type Item = Result<Vec<String>, StudyError>;
+    type Item = Result<Vec<String>, Refusal>;
 
     fn next(&mut self) -> Option<Self::Item> {
         loop {
             let line = match self.lines.next() {
                 Ok(line) => line?,
                 Err(error) => {
-                    return Some(Err(StudyError(format!(
-                        "{}: cannot be read: {error}",
-                        self.name
-                    ))));
+                    return Some(Err(Refusal::new(&self.name, Unread::Io(error))));
                 }
             };
             if line.trim_end().is_empty() || line.starts_with('#') {

@@ -17,10 +17,10 @@
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
+use super::Study;
 use super::point::{self, Success};
-use super::{Study, StudyError};
-use crate::scenario::Scenario;
 use crate::scenario::scalars::number;
+use crate::scenario::{Refusal, Scenario};
 use crate::simulation::Integrator;
 
 /// h, in ln x.
@@ -108,20 +108,21 @@ pub fn run(
     keys: &[Varied],
     pool: &ThreadPool,
     go_on: &(dyn Fn() -> bool + Sync),
-) -> Result<Option<Sensitivity>, StudyError> {
+) -> Result<Option<Sensitivity>, Refusal> {
     let middle = study
         .middle()
-        .map_err(|error| StudyError(error.to_string()))?;
+        .map_err(|error| Refusal::from(error.to_string()))?;
     let mut values = Vec::new();
     for varied in keys {
         let value = middle
             .value(&varied.key)
             .and_then(|value| value.parse::<f64>().ok());
         let Some(value) = value.filter(|value| *value > 0.0 && value.is_finite()) else {
-            return Err(StudyError(format!(
-                "sensitivity: {}: must be a number greater than 0 in the base or in [set]",
-                varied.key
-            )));
+            let rule = "must be a number greater than 0 in the base or in [set]";
+            return Err(Refusal::new(
+                format_args!("sensitivity: {}", varied.key),
+                rule,
+            ));
         };
         values.push(value);
     }
@@ -147,8 +148,8 @@ fn on_level(
     level: u32,
     pool: &ThreadPool,
     go_on: &(dyn Fn() -> bool + Sync),
-) -> Result<Option<Sensitivity>, StudyError> {
-    let broken = |error: &dyn std::fmt::Display| StudyError(format!("sensitivity: {error}"));
+) -> Result<Option<Sensitivity>, Refusal> {
+    let broken = |error: &dyn std::fmt::Display| Refusal::new("sensitivity", error);
     let fixed = refined(middle, level).map_err(|error| broken(&error))?;
     let mut scenarios = vec![fixed.clone()];
     for (varied, value) in keys.iter().zip(values) {

@@ -2,7 +2,8 @@
 
 use super::border::Border;
 use super::record::{Record, Rows};
-use super::{Axis, Design, Study, StudyError, Success};
+use super::{Axis, Design, Study, Success};
+use crate::scenario::Refusal;
 
 /// The words of the column `regime`, and what they mean.
 pub const REGIMES: [(&str, &str); 4] = [
@@ -87,9 +88,9 @@ impl Slice {
     /// # Errors
     ///
     /// If the study, which messages call `name`, has no axis.
-    pub fn new(study: Study, name: &str) -> Result<Self, StudyError> {
+    pub fn new(study: Study, name: &str) -> Result<Self, Refusal> {
         if study.axes.is_empty() {
-            return Err(StudyError(format!("{name}: there is no axis to show")));
+            return Err(Refusal::new(name, "there is no axis to show"));
         }
         let is_grid = study.design == Design::Grid;
         Ok(Self {
@@ -107,15 +108,14 @@ impl Slice {
     /// # Errors
     ///
     /// If rows do not belong to the study.
-    pub fn renew(&mut self, record: Record, name: &str) -> Result<(), StudyError> {
+    pub fn renew(&mut self, record: Record, name: &str) -> Result<(), Refusal> {
         let mut rows = Rows::new(&self.study);
         for row in record.rows(&self.study)? {
             let row = row?;
             let named = row.join(",");
             if let Err(why) = rows.take(row) {
-                return Err(StudyError(format!(
-                    "{name}: row {named} does not belong to the study ({why:?})"
-                )));
+                let rule = format!("row {named} does not belong to the study ({why:?})");
+                return Err(Refusal::new(name, rule));
             }
         }
         self.rows = rows;

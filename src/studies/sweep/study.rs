@@ -3,12 +3,12 @@
 use serde::Deserialize;
 use toml::Value;
 
+use super::Design;
 use super::axis::{self, Axis, Values};
 use super::sensitivity::Varied;
-use super::{Design, StudyError};
 use crate::scenario::scalars::Scalar;
 use crate::scenario::write::value as toml_value;
-use crate::scenario::{Scenario, ScenarioError, printable};
+use crate::scenario::{Refusal, Scenario, ScenarioError, printable};
 use crate::scenario::{schema, units};
 
 /// When a point ends before its `run.cycles`: at the end of the first cycle in which one of these is
@@ -195,8 +195,8 @@ impl Study {
     /// # Errors
     ///
     /// Refuses a text that is not an assignment, an unknown key, and the key of an axis.
-    pub fn assign(&mut self, set: &str) -> Result<(), StudyError> {
-        let refuse = |why: String| StudyError(format!("--set {}: {why}", printable(set)));
+    pub fn assign(&mut self, set: &str) -> Result<(), Refusal> {
+        let refuse = |why: String| Refusal::new(format_args!("--set {}", printable(set)), why);
         let halves = set
             .split_once('=')
             .map(|(key, value)| (key.trim(), value.trim()));

@@ -13,9 +13,9 @@ use rayon::ThreadPoolBuilder;
 
 use super::draw;
 use super::view::{Leave, View};
-use crate::scenario::{Scenario, schema, units};
+use crate::scenario::{Refusal, Scenario, schema, units};
 use crate::studies::sweep::engine::{self, Check};
-use crate::studies::sweep::{Shard, Study, StudyError, record};
+use crate::studies::sweep::{Shard, Study, record};
 use crate::tui::keys::Key;
 use crate::tui::theme::Theme;
 
@@ -80,8 +80,8 @@ impl Range {
     }
 
     /// The study of a scenario over this range, each point run for this many cycles.
-    fn study(&self, scenario: &Scenario, cycles: f64) -> Result<Study, StudyError> {
-        let broken = |error: &dyn fmt::Display| StudyError(error.to_string());
+    fn study(&self, scenario: &Scenario, cycles: f64) -> Result<Study, Refusal> {
+        let broken = |error: &dyn fmt::Display| Refusal::from(error.to_string());
         let base = scenario
             .with_changes(Vec::new())
             .with("run.cycles", &cycles.to_string())
@@ -132,12 +132,12 @@ impl Live {
         scenario: &Scenario,
         cycles: f64,
         tell: impl Fn() + Send + 'static,
-    ) -> Result<Self, StudyError> {
+    ) -> Result<Self, Refusal> {
         let study = range.study(scenario, cycles)?;
         let title = format!("{} at {cycles} cycles", scenario.title());
         let pool = ThreadPoolBuilder::new()
             .build()
-            .map_err(|error| StudyError(error.to_string()))?;
+            .map_err(|error| Refusal::from(error.to_string()))?;
         Check::new(&study, Shard::WHOLE).advance(&pool, |_| true)?;
         let live = Self {
             view: Arc::new(Mutex::new(View::of(study.clone(), &title)?)),
@@ -148,7 +148,8 @@ impl Live {
         thread::spawn(move || {
             let todo = 0..study.points();
             // Every point is checked already.
-            let _ = engine::run(&study, todo, None, &pool, &shared.halt, |point, row| {
+            let go_on = || !shared.halt.load(Ordering::Relaxed);
+            let _ = engine::run(&study, todo, None, &pool, &go_on, |point, row| {
                 let fields = record::fields(&study, point, row);
                 shared.with(|view| view.put(point, fields));
                 tell();

@@ -6,9 +6,10 @@ use std::collections::HashMap;
 use super::ramp::Shade;
 use crate::figure::study;
 use crate::plot::{self, Scale};
+use crate::scenario::Refusal;
 use crate::studies::sweep::record::Record;
 use crate::studies::sweep::slice::{Line, Slice};
-use crate::studies::sweep::{Axis, Design, Study, StudyError};
+use crate::studies::sweep::{Axis, Design, Study};
 use crate::tui::keys::{Key, Named};
 
 /// How the view is left.
@@ -51,7 +52,7 @@ impl View {
     /// # Errors
     ///
     /// If the header of the table has no study, or rows do not belong to it.
-    pub fn new(record: Record, name: &str) -> Result<Self, StudyError> {
+    pub fn new(record: Record, name: &str) -> Result<Self, Refusal> {
         let mut view = Self::of(record.study()?, name)?;
         view.renew(record)?;
         Ok(view)
@@ -62,7 +63,7 @@ impl View {
     /// # Errors
     ///
     /// If the study has no axis.
-    pub fn of(study: Study, name: &str) -> Result<Self, StudyError> {
+    pub fn of(study: Study, name: &str) -> Result<Self, Refusal> {
         Ok(Self {
             slice: Slice::new(study, name)?,
             name: name.to_owned(),
@@ -83,7 +84,7 @@ impl View {
     /// # Errors
     ///
     /// If rows do not belong to the study.
-    pub fn renew(&mut self, record: Record) -> Result<(), StudyError> {
+    pub fn renew(&mut self, record: Record) -> Result<(), Refusal> {
         self.slice.renew(record, &self.name)
     }
 

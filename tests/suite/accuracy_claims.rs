@@ -8,8 +8,8 @@ use mdr_tui::reading::{Check, Subject, verdict};
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
 
-use crate::common::holds;
-use crate::test_dir::TestDir;
+use crate::common::{fig3, holds};
+use crate::test_dir::{TestDir, has};
 
 /// A preset or a text with `sets`, at `cycles`.
 fn run(name: &str, sets: &[&str], cycles: f64) -> Session {
@@ -56,15 +56,9 @@ fn volume(session: &Session) -> f64 {
 const FORCE: [&str; 1] = ["motion.normal.control=force"];
 
 /// A force of 10 ± 20 N: contact is lost for a third of the cycle.
-const LIFT_OFF: &str = r#"
-[indenter]
-shape = "paraboloid"
-radius = 0.01
-[material]
-effective_modulus = 2.3077e11
-poisson = 0.3
-[friction]
-coefficient = 0.1
+const LIFT_OFF: &str = concat!(
+    fig3!(indenter pair),
+    r#"
 [motion.normal]
 control = "force"
 mean = 10.0
@@ -76,7 +70,8 @@ angular_frequency = 100.0
 phase = 0.7853981633974483
 [wear]
 coefficient = 1.3e-11
-"#;
+"#
+);
 
 /// Two steel bodies, the normal force and the amplitude of displacement held: the stick zone grows.
 const HELD: &str = r#"
@@ -446,7 +441,7 @@ fn what_lies_outside_of_the_theory_is_told_at_the_start() {
             );
         }
     }
-    let said = dir.say(&["run", "hertz", "--cycles", "1", "--out", "hertz"]);
+    let said = dir.line("run hertz --cycles 1 --out hertz");
     assert_eq!(said.err, "");
     assert!(file("hertz/state.csv").contains("\n# checks: ok\n"));
     assert!(!file("hertz/state.csv").contains("# warning"));
@@ -470,8 +465,5 @@ fn a_tangential_force_beyond_friction_is_told_before_it_slips() {
     ];
     let warnings = run("mindlin", &sets, 0.0).simulation().warnings();
     assert_eq!(warnings.len(), 1, "{warnings:?}");
-    assert!(
-        warnings[0].contains("may exceed the friction limit"),
-        "{warnings:?}"
-    );
+    has(&warnings[0], "may exceed the friction limit");
 }

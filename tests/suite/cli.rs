@@ -450,7 +450,7 @@ fn without_out_a_run_takes_a_new_directory_each_time() {
 fn a_run_that_breaks_down_keeps_the_last_good_cycle() {
     let dir = TestDir::new();
     let line = "run li2019-fig3 --cycles 50 --set numerics.method=benad --set wear.coefficient=1e-7 --out x";
-    let said = dir.say(&line.split(' ').collect::<Vec<_>>());
+    let said = dir.line(line);
     assert_eq!((said.code, said.out.as_str()), (1, ""));
     assert_eq!(said.err.lines().count(), 1, "{}", said.err);
     let after = said
@@ -507,7 +507,7 @@ fn broken_down(scheme: &str) -> i32 {
                  --set numerics.method={method} --set numerics.scheme={scheme} \
                  --set numerics.stability=off"
             );
-            let said = dir.say(&line.split_whitespace().collect::<Vec<_>>());
+            let said = dir.line(&line);
             assert!([0, 1].contains(&said.code), "{out}: {}", said.err);
             breakdowns += said.code;
             assert_replays(&dir, &out, &format!("{out}-again"));
@@ -750,7 +750,7 @@ fn every_command_has_a_man_page_with_its_options_and_their_values() {
     assert!(section("mdr-tui-run", "SYNOPSIS").starts_with("mdr-tui run [OPTIONS] <SCENARIO>"));
     assert!(section("mdr-tui-figure", "SYNOPSIS").contains("-o|--out"));
     assert_eq!(dir.read("pages/mdr-tui-fit.1"), dir.done("man fit"));
-    let wrong = dir.say(&["man", "fitt"]);
+    let wrong = dir.line("man fitt");
     assert_eq!((wrong.code, wrong.err.lines().count()), (2, 1));
 }
 
@@ -763,7 +763,7 @@ fn an_unknown_option_points_to_the_help_of_its_command() {
         ("sweep", "see mdr-tui sweep --help\n"),
         ("--bogus", "see mdr-tui --help\n"),
     ] {
-        let wrong = dir.say(&line.split(' ').collect::<Vec<_>>());
+        let wrong = dir.line(line);
         assert_eq!((wrong.code, wrong.err.lines().count()), (2, 1), "{line}");
         assert!(wrong.err.ends_with(help), "{}", wrong.err);
     }

@@ -261,7 +261,7 @@ fn runs_and_studies_tell_the_parameters_where_they_are_asked() {
          [[axis]]\nkey = 'friction.coefficient'\nvalues = [0.3, 0.6]\n"
     );
     dir.write("study.toml", study.as_bytes());
-    let said = dir.say(&["sweep", "study.toml", "--out", "map.csv", "--quiet"]);
+    let said = dir.line("sweep study.toml --out map.csv --quiet");
     assert_eq!(said.code, 0, "{}", said.err);
     let map = Table::parse(&dir.read("map.csv"));
     for row in 0..2 {
@@ -286,9 +286,7 @@ fn runs_and_studies_tell_the_parameters_where_they_are_asked() {
             "run", "mindlin", "--cycles", "2", "--column", column, "--out", "run", "--quiet",
         ])
     };
-    let said = dir.say(&[
-        "run", "mindlin", "--cycles", "1", "--field", "--out", "cracks", "--quiet",
-    ]);
+    let said = dir.line("run mindlin --cycles 1 --field --out cracks --quiet");
     assert_eq!(said.code, 0, "{}", said.err);
     let field = Table::parse(&dir.read("cracks/field.csv"));
     let swt = field.column("swt_Pa");
@@ -297,7 +295,7 @@ fn runs_and_studies_tell_the_parameters_where_they_are_asked() {
         .zip(field.column("z_m"))
         .max_by(|a, b| a.0.total_cmp(b.0));
     assert!(deepest.is_some_and(|(swt, z)| *swt > 0.0 && z == 0.0));
-    let said = dir.say(&["figure", "cracks", "--panel", "swt", "-o", "swt.svg"]);
+    let said = dir.line("figure cracks --panel swt -o swt.svg");
     assert_eq!(said.code, 0, "{}", said.err);
     let said = run("swt_Pa,swt_ratio");
     assert_eq!(said.code, 0, "{}", said.err);
@@ -335,7 +333,7 @@ fn the_fatigue_limit_is_a_line_on_the_map() {
          [[axis]]\nkey = 'motion.normal.mean'\nlinspace = ['0.5 um', '1 um', 4]\n\
          [[axis]]\nkey = 'motion.tangential.amplitude'\nlogspace = ['0.05 um', '0.3 um', 4]\n";
     dir.write("study.toml", study.as_bytes());
-    let said = dir.say(&["sweep", "study.toml", "--out", "map.csv", "--quiet"]);
+    let said = dir.line("sweep study.toml --out map.csv --quiet");
     assert_eq!(said.code, 0, "{}", said.err);
     let file = std::fs::File::open(dir.path("map.csv")).expect("the table");
     let record = Record::open(file, "map.csv").expect("a table");

@@ -425,19 +425,11 @@ fn a_figure_in_two_formats_has_one_file_of_data() {
     dir.done("run mindlin --cycles 1 --out x --quiet");
     dir.done("figure x --panel loop -o f.svg -o f.png --quiet");
     dir.done("figure x --panel loop -o f.pdf --quiet");
-    let said = dir.say(&["figure", "x", "--panel", "stresses", "-o", "f.pdf"]);
-    assert!(
-        said.code == 2 && said.err.contains("f.pdf: already exists"),
-        "{}",
-        said.err
-    );
+    let said = dir.line("figure x --panel stresses -o f.pdf");
+    said.ends(2, "f.pdf: already exists");
     fs::remove_file(dir.path("f.pdf")).expect("removed");
-    let said = dir.say(&["figure", "x", "--panel", "stresses", "-o", "f.pdf"]);
-    assert!(
-        said.code == 2 && said.err.contains("f.csv: already exists"),
-        "{}",
-        said.err
-    );
+    let said = dir.line("figure x --panel stresses -o f.pdf");
+    said.ends(2, "f.csv: already exists");
     assert!(!dir.path("f.pdf").exists());
 }
 

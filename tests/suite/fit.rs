@@ -10,7 +10,7 @@ use mdr_tui::studies::fit::{Fit, FitError, Fitted};
 use mdr_tui::studies::measured::Measured;
 
 use crate::random::Random;
-use crate::test_dir::TestDir;
+use crate::test_dir::{TestDir, has};
 
 const TRUE: [(&str, f64); 2] = [("wear.coefficient", 2e-9), ("friction.coefficient", 0.12)];
 
@@ -213,12 +213,8 @@ fn the_command_prints_json_and_writes_the_fitted_scenario() {
             .expect("a number");
         assert_eq!(written, value);
     }
-    let again = dir.say(&line.split_whitespace().collect::<Vec<_>>());
-    assert!(
-        again.code == 2 && again.err.contains("already exists"),
-        "{}",
-        again.err
-    );
+    let again = dir.line(&line);
+    again.ends(2, "already exists");
     let text = dir.done(&format!(
         "fit start.toml --scar scar.csv {keys} --plot --marker ascii"
     ));
@@ -251,7 +247,7 @@ fn the_command_prints_json_and_writes_the_fitted_scenario() {
             "are they in m?",
         ),
     ] {
-        let said = dir.say(&line.split_whitespace().collect::<Vec<_>>());
+        let said = dir.line(line);
         assert_eq!(
             (said.code, said.err.lines().count()),
             (2, 1),
@@ -298,18 +294,14 @@ fn a_loop_is_compared_with_its_own_cycle() {
         "{said}"
     );
     let line = format!("fit {early} --cycles 2 --loop loop.csv@3 --free friction.coefficient");
-    let said = dir.say(&line.split_whitespace().collect::<Vec<_>>());
+    let said = dir.line(&line);
     assert_eq!(
         (said.code, said.err.lines().count()),
         (2, 1),
         "{}",
         said.err
     );
-    assert!(
-        said.err.contains("its loop ends at cycle 3"),
-        "{}",
-        said.err
-    );
+    has(&said.err, "its loop ends at cycle 3");
 }
 
 /// `fit` and `figure` find the points and steps of an accuracy by themselves.

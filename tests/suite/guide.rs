@@ -13,7 +13,7 @@ use mdr_tui::scenario::keys::PARAMETERS;
 use mdr_tui::scenario::schema::{Default, Kind, Parameter};
 use mdr_tui::tui::manual;
 
-use crate::test_dir::TestDir;
+use crate::test_dir::{TestDir, has};
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
@@ -160,18 +160,14 @@ fn the_function_for_python_runs() {
 #[test]
 fn topics_are_listed_shown_and_found() {
     let dir = TestDir::new();
-    let list = dir.say(&["guide"]).out;
+    let list = dir.line("guide").out;
     for topic in TOPICS {
-        assert!(
-            list.contains(&format!("  {} ", topic.name)),
-            "{}",
-            topic.name
-        );
+        has(&list, &format!("  {} ", topic.name));
         assert_eq!(dir.say(&["guide", topic.name]).out, topic.text);
         let file = format!("src/guide/{}.md", topic.name);
         assert!(root().join(file).exists());
     }
-    let said = dir.say(&["guide", "fils"]);
+    let said = dir.line("guide fils");
     assert_eq!(said.code, 2);
     assert!(
         said.err.ends_with("no such topic; did you mean files?\n"),

@@ -209,9 +209,7 @@ fn nothing_in_contact_stresses_nothing() {
 #[test]
 fn a_run_writes_the_field_on_the_plane_of_motion() {
     let dir = TestDir::new();
-    let said = dir.say(&[
-        "run", "mindlin", "--cycles", "0.25", "--field", "--out", "x", "--quiet",
-    ]);
+    let said = dir.line("run mindlin --cycles 0.25 --field --out x --quiet");
     assert_eq!(said.code, 0, "{}", said.err);
     let read = |name: &str| Table::parse(&dir.read(name));
     let (field, state) = (read("x/field.csv"), read("x/state.csv"));
@@ -239,8 +237,6 @@ fn a_run_writes_the_field_on_the_plane_of_motion() {
     let xx = field.column("sigma_xx_Pa");
     let at = |place: f64| (place * a / (1.5 * a / 100.0)).round() as i32 + 100;
     assert!(xx[at(-1.0) as usize] > 0.0 && xx[at(1.0) as usize] < 0.0);
-    let plain = dir.say(&[
-        "run", "mindlin", "--cycles", "0.25", "--out", "y", "--quiet",
-    ]);
+    let plain = dir.line("run mindlin --cycles 0.25 --out y --quiet");
     assert!(plain.code == 0 && !dir.path("y/field.csv").exists());
 }

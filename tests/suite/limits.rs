@@ -54,23 +54,15 @@ fn in_a_folder_nothing_but_files_is_read() {
     // The preferences are nobody's argument.
     fs::create_dir(dir.path("mdr-tui")).expect("a directory");
     fifo(&dir, "mdr-tui/config.toml");
-    let said = dir.say(&["--print", "80x24"]);
-    assert!(
-        said.code == 0 && said.err.contains("config.toml: is not a file"),
-        "{}",
-        said.err
-    );
+    let said = dir.line("--print 80x24");
+    said.ends(0, "config.toml: is not a file");
     let mut command = dir.command(&["--print", "80x24", "--keys", "-,"]);
     let said: Said = command
         .env("XDG_CONFIG_HOME", "/dev/null")
         .output()
         .expect("it")
         .into();
-    assert!(
-        said.code == 0 && said.err.contains("goes on without it"),
-        "{}",
-        said.err
-    );
+    said.ends(0, "goes on without it");
 }
 
 #[test]
@@ -80,19 +72,8 @@ fn a_fit_of_data_without_end_is_refused() {
         "h.csv",
         b"cycle,wear_volume_m3\n0,0\n1,1e-18\n1e300,2e-18\n",
     );
-    let said = dir.say(&[
-        "fit",
-        "li2019-fig3",
-        "--history",
-        "h.csv",
-        "--free",
-        "wear.coefficient",
-    ]);
-    assert!(
-        said.code == 2 && said.err.contains("a run has at most"),
-        "{}",
-        said.err
-    );
+    let said = dir.line("fit li2019-fig3 --history h.csv --free wear.coefficient");
+    said.ends(2, "a run has at most");
 }
 
 #[test]
@@ -113,7 +94,7 @@ fn a_table_with_semicolons_and_decimal_commas_is_read_or_named() {
     assert_eq!(said.code, 0, "{}", said.err);
     dir.write("h.csv", table.replace("2;2e-18", "2,5;2e-18").as_bytes());
     let said = dir.say(&line);
-    assert!(said.code == 2 && said.err.contains("2,5"), "{}", said.err);
+    said.ends(2, "2,5");
 }
 
 #[test]
@@ -132,12 +113,7 @@ fn a_state_or_a_figure_that_does_not_fit_leaves_nothing_and_a_script_fails() {
             .env("XDG_CONFIG_HOME", dir.path(""))
             .output();
         let said: Said = output.expect("a shell").into();
-        assert!(
-            said.code == 1 && said.err.contains("cannot write"),
-            "{keys}: {} {}",
-            said.code,
-            said.err
-        );
+        said.ends(1, "cannot write");
         assert_eq!(names(&dir.path("")), before, "{keys}");
     }
     dir.done("hertz --set numerics.points=40 --print 80x24 --keys ....s");

@@ -5,39 +5,12 @@ use std::fmt::Write;
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
 
+use crate::common::fig3;
 use crate::test_dir::TestDir;
 
-const BASE: &str = r#"
-title = "A measured shape"
-[indenter]
-SHAPE
-
-[material]
-effective_modulus = 2.3077e11
-poisson = 0.3
-
-[friction]
-coefficient = 0.1
-
-[motion.normal]
-mean = 1e-6
-amplitude = 1e-7
-angular_frequency = 100.0
-
-[motion.tangential]
-amplitude = 1e-7
-angular_frequency = 100.0
-phase = 0.7853981633974483
-
-[wear]
-coefficient = 1.3e-10
-
-[numerics]
-points = 100
-"#;
-
 fn scenario(shape: &str) -> String {
-    BASE.replace("SHAPE", shape)
+    let rest = concat!(fig3!(pair motion), "[numerics]\npoints = 100\n");
+    format!("title = \"A measured shape\"\n[indenter]\n{shape}\n{rest}")
 }
 
 /// A table with `points` intervals from `from` to 2.5e-4 m.
@@ -105,7 +78,7 @@ fn a_run_of_a_table_can_be_run_again_without_the_table() {
     dir.write("mine.toml", text.as_bytes());
     let tilted = |r: f64| r * r / 0.02 + 2e-3 * r + 1e-7;
     dir.write("shape.csv", table(500, -2.5e-4, tilted).as_bytes());
-    let said = dir.say(&["run", "mine.toml", "--cycles", "1", "--out", "first"]);
+    let said = dir.line("run mine.toml --cycles 1 --out first");
     assert_eq!(said.code, 0, "{}", said.err);
     for word in [
         "tilt 2.000e-3 rad",
@@ -175,7 +148,7 @@ fn bad_tables_are_one_line() {
         ("r_m,f_m\n0,0\n".into(), "must be from 4 to 20000 points"),
     ] {
         dir.write("shape.csv", csv.as_bytes());
-        let said = dir.say(&["run", "mine.toml", "--cycles", "1", "--out", "new"]);
+        let said = dir.line("run mine.toml --cycles 1 --out new");
         assert_eq!(said.code, 2, "{expected}: {}", said.err);
         assert_eq!(said.err.lines().count(), 1, "{}", said.err);
         assert!(
@@ -188,10 +161,6 @@ fn bad_tables_are_one_line() {
     dir.write("shape.csv", format!("r_mm,f_mm\n{in_mm}").as_bytes());
     dir.done("run mine.toml --cycles 0.1 --out new --quiet");
     std::fs::remove_file(dir.path("shape.csv")).expect("removed");
-    let said = dir.say(&["run", "mine.toml", "--cycles", "1", "--out", "other"]);
-    assert!(
-        said.code == 2 && said.err.contains("shape.csv: no such file"),
-        "{}",
-        said.err
-    );
+    let said = dir.line("run mine.toml --cycles 1 --out other");
+    said.ends(2, "shape.csv: no such file");
 }

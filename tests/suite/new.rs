@@ -3,7 +3,7 @@
 use mdr_tui::scenario::Scenario;
 
 use crate::pty::{Terminal, program};
-use crate::test_dir::TestDir;
+use crate::test_dir::{TestDir, has};
 
 #[test]
 fn options_are_the_answers_where_nobody_is_asked() {
@@ -32,10 +32,7 @@ fn options_are_the_answers_where_nobody_is_asked() {
         assert!(said.out.contains(part), "{part}\n{}", said.out);
     }
     let text = dir.read("pin.toml");
-    assert!(
-        text.contains("# of a pin test: per load and sliding distance"),
-        "{text}"
-    );
+    has(&text, "# of a pin test: per load and sliding distance");
     let scenario = Scenario::from_toml(&text, "pin.toml", &[]).expect("a scenario");
     for (key, value) in [
         ("indenter.radius", "0.005"),
@@ -50,9 +47,9 @@ fn options_are_the_answers_where_nobody_is_asked() {
     }
     dir.done("run pin.toml --cycles 0.1 --out x");
     // Another file is not written over.
-    let said = dir.say(&["new", "pin.toml"]);
+    let said = dir.line("new pin.toml");
     assert_eq!(said.code, 2);
-    assert!(said.err.contains("pin.toml already exists"), "{}", said.err);
+    has(&said.err, "pin.toml: already exists");
 }
 
 #[test]

@@ -6,7 +6,7 @@ use std::process::Stdio;
 use std::thread;
 use std::time::Duration;
 
-use crate::test_dir::{Said, TestDir, end, names};
+use crate::test_dir::{Said, TestDir, end, has, names};
 
 const STUDY: &str = r#"
 base = "hertz"
@@ -108,11 +108,7 @@ fn a_study_under_way_is_refused_to_others_before_they_compute_even_by_force() {
         ] {
             let said = &together(&dir, &[line], Duration::ZERO, fault)[0];
             let owner = format!("is writing this file (process {} on ", alive.id());
-            assert!(
-                said.code == 2 && said.err.contains(&owner),
-                "{line}: {}",
-                said.err
-            );
+            said.ends(2, &owner);
         }
         alive.kill().expect("it lived");
         alive.wait().expect("an end");
@@ -153,12 +149,7 @@ fn links_and_devices_are_not_replaced_and_stdout_is_written_through() {
     ] {
         let arguments: Vec<&str> = line.split(' ').collect();
         let said = dir.say(&arguments);
-        assert!(
-            said.code == 2 && said.err.contains("is not a regular file"),
-            "{line}: {} {}",
-            said.code,
-            said.err
-        );
+        said.ends(2, "is not a regular file");
     }
     assert_eq!(dir.read("mine"), "mine");
     let table = "sweep --sensitivity a.toml --quiet --out";
@@ -181,7 +172,7 @@ fn locks_and_rows_of_a_run_are_not_followed_through_links() {
         dir.write("mine", b"mine");
         fs::create_dir(dir.path("x")).expect("a directory");
         symlink(dir.path("mine"), dir.path(&format!("x/{own}"))).expect("a link");
-        let said = dir.say(&["run", "hertz", "--cycles", "2", "--out", "x"]);
+        let said = dir.line("run hertz --cycles 2 --out x");
         assert!(
             said.code != 0 && said.err.contains("not a regular file") && said.err.contains(own),
             "{}",
@@ -203,7 +194,7 @@ fn a_forced_run_takes_the_old_run_s_files_away_and_no_others() {
         dir.write(&format!("x/{name}"), b"mine\n1\n");
     }
     // What is refused takes nothing away.
-    let refused = dir.say(&["run", "cone", "--cycles", "-1", "--out", "x", "--force"]);
+    let refused = dir.line("run cone --cycles -1 --out x --force");
     assert!(refused.code == 2 && dir.path("x/field.csv").exists());
     dir.done(&format!("run cone --cycles 1 --force {small}"));
     let mut expected = vec!["history.csv", "loop.csv", "scenario.toml", "state.csv"];
@@ -246,18 +237,9 @@ fn a_folder_of_many_users_is_nobody_s_alone() {
     let held = fs::File::open(dir.path(".mdr-tui-x.csv.lock")).expect("the lock");
     held.lock().expect("a lock");
     let said = say("x.csv");
-    assert!(
-        said.code == 2 && said.err.contains("is writing this file"),
-        "{}",
-        said.err
-    );
+    said.ends(2, "is writing this file");
     let said = say("closed/x.csv");
-    assert!(
-        said.err
-            .contains(" closed/x.csv: cannot write: Permission denied"),
-        "{}",
-        said.err
-    );
+    has(&said.err, " closed/x.csv: cannot write: Permission denied");
 }
 
 #[test]

@@ -2,6 +2,7 @@
 //! and states that stay finite at every extreme.
 
 use crate::common::{Scene, archard, holds, run, swing};
+use crate::test_dir::has;
 use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::math::abel::AbelMethod::{self, A, APlusB, B};
 use mdr_tui::math::abel::AbelPlan;
@@ -203,10 +204,7 @@ fn watch(scene: Scene, cycles: f64) -> Simulation {
     while simulation.cycle() < cycles {
         let state = simulation.state().clone();
         if let Err(breakdown) = simulation.step() {
-            assert!(
-                breakdown.to_string().contains("stopped after"),
-                "{breakdown}"
-            );
+            has(&breakdown.to_string(), "stopped after");
             assert_eq!(breakdown.cycle, state.cycle);
             assert_eq!(simulation.state(), &state, "{scene:?}");
             assert!(is_finite(&simulation.observe(Curves::all())), "{scene:?}");

@@ -9,6 +9,8 @@ use mdr_tui::scenario::preset;
 use mdr_tui::tui::command::with_keys;
 use mdr_tui::tui::footer;
 
+use crate::test_dir::has;
+
 fn said(arguments: &[&str]) -> String {
     let output = Command::new(env!("CARGO_BIN_EXE_mdr-tui"))
         .args(arguments)
@@ -25,11 +27,7 @@ fn it_is_short_and_names_what_there_is() {
     let text = fs::read_to_string(root.join("README.md")).expect("the README");
     assert!(text.lines().count() <= 200);
     for preset in preset::ALL {
-        assert!(
-            text.contains(&format!("`{}`", preset.name)),
-            "{}",
-            preset.name
-        );
+        has(&text, &format!("`{}`", preset.name));
     }
     let (_, picture) = text.split_once("](tests/pictures/").expect("a picture");
     let (file, _) = picture.split_once(')').expect("its file");

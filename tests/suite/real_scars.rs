@@ -341,16 +341,7 @@ fn pressure_that_passes_the_hardness_is_said() {
     let never = started("li2019-fig3", &[&sets(1e12)]);
     assert_eq!(warned(&never), None);
     let dir = TestDir::new();
-    let said = dir.say(&[
-        "run",
-        "hertz",
-        "--set",
-        "material.hardness=1e6",
-        "--cycles",
-        "1",
-        "--out",
-        "out",
-    ]);
+    let said = dir.line("run hertz --set material.hardness=1e6 --cycles 1 --out out");
     assert_eq!(said.code, 0, "{}", said.err);
     assert_eq!(
         said.err.matches("exceeds the hardness, 1.000e6 Pa").count(),

@@ -248,7 +248,7 @@ fn an_accuracy_is_stated_and_its_scenario_gives_the_same_bits() {
     let scenario = dir.read("one/scenario.toml");
     assert!(scenario.contains("\npoints = "), "{scenario}");
     assert!(!scenario.contains("\naccuracy"), "{scenario}");
-    let said = dir.say(&["run", "one/scenario.toml", "--quiet", "--out", "two"]);
+    let said = dir.line("run one/scenario.toml --quiet --out two");
     assert_eq!((said.code, said.err.as_str()), (0, ""));
     let rows = |file: &str| -> Vec<String> {
         let table = dir.read(file);

@@ -9,36 +9,13 @@ use std::time::{Duration, Instant};
 use mdr_tui::scenario::checkpoint;
 use serde::de::IgnoredAny;
 
-use crate::test_dir::{Said, Table, TestDir, bits, end, names};
+use crate::common::fig3;
+use crate::test_dir::{Said, Table, TestDir, bits, end, has, names};
 
 /// A run with snapshots between steps, a row a step, and changes on the way.
-const SCENARIO: &str = r#"
-title = "A run with changes"
-
-[indenter]
-shape = "paraboloid"
-radius = 0.01
-
-[material]
-effective_modulus = 2.3077e11
-poisson = 0.3
-
-[friction]
-coefficient = 0.1
-
-[motion.normal]
-mean = 1e-6
-amplitude = 1e-7
-angular_frequency = 100.0
-
-[motion.tangential]
-amplitude = 1e-7
-angular_frequency = 100.0
-phase = 0.7853981633974483
-
-[wear]
-coefficient = 1.3e-10
-
+const SCENARIO: &str = concat!(
+    fig3!(indenter pair motion),
+    r#"
 [numerics]
 points = 60
 
@@ -53,7 +30,8 @@ set = "numerics.method = product"
 [[changes]]
 at_cycle = 11.5
 set = "numerics.points = 71"
-"#;
+"#
+);
 
 const ORDER: &str = "run mine.toml --cycles 120.125 --snapshot-at 10.123,2,30 --history every-step";
 
@@ -143,13 +121,9 @@ fn a_resumed_run_may_go_further() {
     wait_for(&mut child, &dir.path("broken/run.checkpoint"));
     let _ = child.kill();
     end_by_signal(child);
-    let shorter = dir.say(&["run", "--resume", "broken/run.checkpoint", "--cycles", "0"]);
+    let shorter = dir.line("run --resume broken/run.checkpoint --cycles 0");
     assert_eq!(shorter.code, 2);
-    assert!(
-        shorter.err.contains("is already at cycle"),
-        "{}",
-        shorter.err
-    );
+    has(&shorter.err, "is already at cycle");
     dir.done("run --resume broken/run.checkpoint --cycles 5 --quiet");
     assert_alike(&dir, "whole", "broken");
 }
@@ -375,7 +349,7 @@ fn a_disk_that_is_full_at_the_end_leaves_a_checkpoint() {
                 let hint = format!("resume with: mdr-tui run --resume {out}/run.checkpoint");
                 assert!(last.contains(&hint), "{last}");
                 let line = format!("run --resume {out}/run.checkpoint --quiet");
-                dir.say(&line.split(' ').collect::<Vec<_>>());
+                dir.line(&line);
                 dir.done(
                     "run li2019-fig3 --cycles 3 --out whole --snapshot-at 1,2 \
                      --set numerics.points=400 --quiet",

@@ -8,7 +8,7 @@ use mdr_tui::scenario::session::Session;
 use mdr_tui::simulation::drive::Drive;
 use mdr_tui::simulation::{Setup, Simulation};
 
-use crate::common::{Scene, ours, swing};
+use crate::common::{Scene, fig3, ours, swing};
 use crate::test_dir::TestDir;
 
 /// E* = d = a₀ = 1, μ = 0.1, ν = 0.3: a contact moved by ±`amplitude` through a rig of this compliance.
@@ -249,16 +249,10 @@ fn a_scenario_names_its_rig() {
 #[test]
 fn blocks_add_up() {
     let dir = TestDir::new();
-    let head = r#"
-title = "Blocks"
-[indenter]
-shape = "paraboloid"
-radius = 0.01
-[material]
-effective_modulus = 2.3077e11
-poisson = 0.3
-[friction]
-coefficient = 0.1
+    let head = concat!(
+        "title = \"Blocks\"\n",
+        fig3!(indenter pair),
+        r#"
 [motion.normal]
 mean = 1e-6
 [motion.tangential]
@@ -271,7 +265,8 @@ points = 50
 steps_per_cycle = 40
 grid = "uniform"
 domain_radius = 1.7e-4
-"#;
+"#
+    );
     let with = |name: &str, blocks: &str| dir.write(name, format!("{head}{blocks}").as_bytes());
     with(
         "blocks.toml",

@@ -9,7 +9,7 @@ use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::test_dir::{TestDir, end, names};
+use crate::test_dir::{TestDir, end, has, names};
 
 /// A directory on a file system of its own.
 struct SmallDisk(PathBuf);
@@ -128,11 +128,7 @@ fn where_nothing_more_is_kept_the_end_says_from_which_cycle_on() {
     }
     let said = end(child);
     assert_eq!(said.code, 1, "{}", said.err);
-    assert!(
-        said.err.contains("the run continues without a checkpoint"),
-        "{}",
-        said.err
-    );
+    has(&said.err, "the run continues without a checkpoint");
     let last = said.err.lines().last().unwrap_or_default();
     let (_, rest) = last.split_once("; resume from cycle ").expect("a way on");
     let (from, rest) = rest

@@ -4,7 +4,7 @@ use std::fs;
 use std::thread;
 use std::time::Duration;
 
-use crate::test_dir::{Table, TestDir, end};
+use crate::test_dir::{Table, TestDir, end, has};
 use mdr_tui::studies::sweep::record::Record;
 use mdr_tui::studies::sweep::slice::Slice;
 
@@ -156,29 +156,18 @@ fn merging_names_what_is_missing_double_or_of_another_study() {
     dir.write("study.shards/again.csv", shard.as_bytes());
     let said = dir.say(&merge);
     assert_eq!(said.code, 0);
-    assert!(
-        said.err.contains("4 identical duplicate rows were dropped"),
-        "{}",
-        said.err
-    );
+    has(&said.err, "4 identical duplicate rows were dropped");
     let changed = shard.replace(",partial,", ",gross,");
     assert_ne!(changed, shard);
     dir.write("study.shards/again.csv", changed.as_bytes());
     let said = dir.say(&merge);
     assert_eq!(said.code, 1);
-    assert!(
-        said.err.contains("points have two rows that differ"),
-        "{}",
-        said.err
-    );
+    has(&said.err, "points have two rows that differ");
 
     let other = shard.replace("\"run.cycles\" = 3.0", "\"run.cycles\" = 4.0");
     dir.write("study.shards/again.csv", other.as_bytes());
     let said = refusal(&dir, &merge, 2);
-    assert!(
-        said.contains("holds another study: study: \"run.cycles\" = "),
-        "{said}"
-    );
+    has(&said, "holds another study: study: \"run.cycles\" = ");
     dir.write("study.shards/again.csv", b"r_m\n1\n");
     assert!(refusal(&dir, &merge, 2).contains("again.csv: is not a table of mdr-tui sweep"));
     let said = refusal(&dir, &["sweep", "--merge", "nowhere"], 2);
@@ -251,7 +240,7 @@ fn a_study_that_was_interrupted_goes_on_to_the_same_bytes() {
     // The rows that were there were not computed again.
     let marked = torn.replace(rows[2], &rows[2].replace(",ok\n", ",a reason\n"));
     dir.write("map.csv", marked.as_bytes());
-    let said = dir.say(&["sweep", "study.toml", "--out", "map.csv", "--resume"]);
+    let said = dir.line("sweep study.toml --out map.csv --resume");
     assert!(said.err.contains("1 of 12 points failed"), "{}", said.err);
     assert!(dir.read("map.csv").contains(",a reason\n"));
     // Those that failed are, on demand.
@@ -357,7 +346,7 @@ fn a_table_that_a_spreadsheet_has_saved_is_read_by_the_names_of_its_columns() {
     );
     let again = |saved: &str| {
         dir.write("map.csv", saved.as_bytes());
-        dir.say(&["sweep", "study.toml", "--out", "map.csv", "--resume"])
+        dir.line("sweep study.toml --out map.csv --resume")
     };
     let said = again(&saved);
     assert_eq!((said.code, &*said.err), (0, ""));
@@ -381,11 +370,7 @@ fn a_table_that_a_spreadsheet_has_saved_is_read_by_the_names_of_its_columns() {
         ("# study: base", "\"# study: base", "in quotes"),
     ] {
         let said = again(&saved.replace(from, to));
-        assert!(
-            said.code == 2 && said.err.contains(why),
-            "{why}: {}",
-            said.err
-        );
+        said.ends(2, why);
     }
 }
 
@@ -573,7 +558,7 @@ fn a_point_that_is_found_invalid_while_others_run_stops_them() {
         &format!("\"wear.coefficient\"\nvalues = [{}]", values.join(", ")),
     );
     let dir = dir_with(&study);
-    let said = dir.say(&["sweep", "study.toml", "--quiet"]);
+    let said = dir.line("sweep study.toml --quiet");
     assert_eq!(said.code, 2, "{}", said.err);
     assert!(
         said.err.contains("point 7499") && said.err.contains("--skip-invalid"),
@@ -599,7 +584,7 @@ values = [1e-6, 3e-6]
 "#;
     let dir = dir_with(study);
     // A queueing system must not take it for done.
-    let said = dir.say(&["sweep", "study.toml"]);
+    let said = dir.line("sweep study.toml");
     assert_eq!((said.code, said.out.as_str()), (1, ""));
     assert!(said.err.contains("1 of 2 points failed"), "{}", said.err);
     let text = dir.read("study.csv");
@@ -627,7 +612,7 @@ key = "wear.coefficient"
 values = [0.0, 1e-10]
 "#;
     let dir = dir_with(study);
-    let said = dir.say(&["sweep", "study.toml"]);
+    let said = dir.line("sweep study.toml");
     assert_eq!(
         (said.code, said.out.as_str()),
         (0, "2 points in study.csv\n")
@@ -645,7 +630,7 @@ values = [0.0, 1e-10]
     let reached: f64 = reached.expect(&worn[3]).parse().expect("a number");
     assert!(reached > 1e-3 && reached >= table.column("estimated_error")[1]);
     // It has its result: there is nothing to run again, and a figure shows it.
-    let said = dir.say(&["sweep", "study.toml", "--resume", "--failed", "--quiet"]);
+    let said = dir.line("sweep study.toml --resume --failed --quiet");
     assert_eq!((said.code, said.err.as_str()), (0, ""));
     assert_eq!(dir.read("study.csv"), map);
     dir.done("figure study.csv --column wear_volume_m3 -o map.svg");
@@ -665,13 +650,13 @@ fn invalid_points_are_named_before_anything_runs() {
     let study = STUDY.replace("linspace = [6e-7, 2e-6, 4]", "values = [1e-6, -1.0]");
     let dir = dir_with(&study);
     let said = refusal(&dir, &["sweep", "study.toml"], 2);
-    assert!(
-        said.contains("point 3 (motion.normal.mean = -1, motion.tangential.amplitude = 1e-8)"),
-        "{said}"
+    has(
+        &said,
+        "point 3 (motion.normal.mean = -1, motion.tangential.amplitude = 1e-8)",
     );
     assert!(said.contains("--skip-invalid"), "{said}");
     assert!(!dir.path("study.csv").exists());
-    let said = dir.say(&["sweep", "study.toml", "--skip-invalid"]);
+    let said = dir.line("sweep study.toml --skip-invalid");
     assert_eq!(said.code, 0);
     let text = dir.read("study.csv");
     assert_eq!(text.matches(",ok\n").count(), 3);
@@ -935,9 +920,9 @@ fn the_map_shows_two_axes_and_reads_points() {
         lines[1]
     );
     let text = lines.join("\n");
-    assert!(
-        text.contains("point 0 (motion.normal.mean = 6e-7, motion.tangential.amplitude = 1e-8)"),
-        "{text}"
+    has(
+        &text,
+        "point 0 (motion.normal.mean = 6e-7, motion.tangential.amplitude = 1e-8)",
     );
     // The lowest depth is the lowest row: sticking, partly slipping, sliding.
     let lowest = lines
@@ -953,10 +938,7 @@ fn the_map_shows_two_axes_and_reads_points() {
     assert_eq!(kinds.last(), Some(&'#'), "{text}");
     // The closed form of the border lies over it, the criterion A = 0.2 as well.
     assert!(text.contains("G gross slip, closed form, unworn"), "{text}");
-    assert!(
-        text.contains("A A = 0.2 (unworn sphere, stiff rig only)"),
-        "{text}"
-    );
+    has(&text, "A A = 0.2 (unworn sphere, stiff rig only)");
     assert!(
         !screen(&dir, "map.csv", "t")
             .join("\n")
@@ -1017,10 +999,7 @@ fn one_axis_is_a_curve() {
     dir.done("sweep study.toml");
     let lines = screen(&dir, "study.csv", "<Right><Right>");
     let text = lines.join("\n");
-    assert!(
-        text.contains("point 2 (motion.normal.mean = 3e-7)"),
-        "{text}"
-    );
+    has(&text, "point 2 (motion.normal.mean = 3e-7)");
     assert!(
         lines[2].contains("[N]") && text.contains("mean depth d [µm]"),
         "{text}"
@@ -1146,9 +1125,9 @@ fn sensitivities_are_those_of_the_closed_forms() {
             .as_bytes(),
     );
     let said = refusal(&dir, &["sweep", "none.toml", "--sensitivity"], 2);
-    assert!(
-        said.contains("motion.normal.phase: must be a number greater than 0"),
-        "{said}"
+    has(
+        &said,
+        "motion.normal.phase: must be a number greater than 0",
     );
 }
 
@@ -1209,10 +1188,7 @@ fn a_slurm_array_gives_the_rows_of_a_local_run() {
     let said = String::from_utf8_lossy(&output.stdout);
     let err = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{said}{err}");
-    assert!(
-        said.contains("1000 points, the same bytes as the local run"),
-        "{said}{err}"
-    );
+    has(&said, "1000 points, the same bytes as the local run");
 }
 
 #[test]

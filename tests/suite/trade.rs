@@ -9,7 +9,7 @@ use mdr_tui::simulation::Scheme;
 use mdr_tui::studies::trade::{self, POINTS, STEPS, Setting};
 use serde_json::Value;
 
-use crate::test_dir::{Said, TestDir};
+use crate::test_dir::{Said, TestDir, has};
 
 fn say(arguments: &[&str]) -> Said {
     TestDir::new().say(&[&["trade"], arguments].concat())
@@ -43,10 +43,7 @@ fn the_front_is_printed_and_drawn_and_everything_is_written() {
     let path = file.to_str().expect("a path");
     let Said { code, out, err } = small(&["--plot", "--marker", "ascii", "--csv", path]);
     assert_eq!((code, err.as_str()), (0, ""));
-    assert!(
-        out.contains("reference: product, N = 96, 200 steps per cycle"),
-        "{out}"
-    );
+    has(&out, "reference: product, N = 96, 200 steps per cycle");
     assert!(out.contains("half as fine differs by"), "{out}");
     // What an accuracy costs that finds its level by itself, beside the best fixed setting.
     for accuracy in ["1e-2: ", "1e-3: "] {
@@ -146,10 +143,7 @@ fn the_cheapest_setting_for_an_accuracy_reaches_it() {
 
     let Said { code, err, .. } = small(&["--accuracy", "1e-12"]);
     assert_eq!(code, 1);
-    assert!(
-        err.contains("no setting reached an error of 1e-12"),
-        "{err}"
-    );
+    has(&err, "no setting reached an error of 1e-12");
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
 
+use crate::common::fig3;
 use crate::test_dir::TestDir;
 
 /// V and E_d after `cycles` of a paraboloid held at a depth and shaken sideways.
@@ -81,15 +82,9 @@ fn a_table_of_a_triangle_is_the_triangle() {
     dir.write("motion.csv", b"time_s,u_um\n0,0\n0.5,0.2\n1.5,-0.2\n2,0\n");
     dir.write(
         "mine.toml",
-        br#"
-[indenter]
-shape = "paraboloid"
-radius = 0.01
-[material]
-effective_modulus = 2.3077e11
-poisson = 0.3
-[friction]
-coefficient = 0.1
+        concat!(
+            fig3!(indenter pair),
+            r#"
 [motion.normal]
 mean = 1e-6
 [motion.tangential]
@@ -98,7 +93,9 @@ file = "motion.csv"
 coefficient = 1.3e-10
 [numerics]
 points = 100
-"#,
+"#
+        )
+        .as_bytes(),
     );
     let path = dir.path("mine.toml").display().to_string();
     let scenario = Scenario::load(&path, &[]).expect("a scenario");

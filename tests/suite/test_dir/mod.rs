@@ -31,6 +31,21 @@ impl From<Output> for Said {
     }
 }
 
+impl Said {
+    /// Fails unless the program ended with `code` and a word on stderr.
+    #[track_caller]
+    pub fn ends(&self, code: i32, word: &str) {
+        let is_so = self.code == code && self.err.contains(word);
+        assert!(is_so, "{}, {:?} for {code}, {word:?}", self.code, self.err);
+    }
+}
+
+/// Fails unless `text` has `part`.
+#[track_caller]
+pub fn has(text: &str, part: &str) {
+    assert!(text.contains(part), "no {part:?} in {text}");
+}
+
 impl TestDir {
     /// A new one.
     pub fn new() -> Self {
@@ -56,10 +71,14 @@ impl TestDir {
         output.expect("the program starts").into()
     }
 
+    /// [`say`](Self::say) with the words of a line, without quoting.
+    pub fn line(&self, line: &str) -> Said {
+        self.say(&line.split_whitespace().collect::<Vec<_>>())
+    }
+
     /// Runs a line without quoting, which must succeed and tell nothing on stderr; returns stdout.
     pub fn done(&self, line: &str) -> String {
-        let arguments: Vec<&str> = line.split_whitespace().collect();
-        let said = self.say(&arguments);
+        let said = self.line(line);
         assert_eq!((said.code, said.err.as_str()), (0, ""), "{line}");
         said.out
     }

@@ -23,7 +23,6 @@ use crate::tui::NoTerminal;
 
 mod accuracy;
 mod args;
-mod checkpoints;
 mod complete;
 mod config;
 mod documents;

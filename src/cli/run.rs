@@ -12,12 +12,11 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, Result, anyhow, bail};
 
 use super::args::{CycleAsGiven, Run};
-use super::checkpoints::Checkpoints;
 use super::job::RunJob;
 use super::progress::Progress;
 use super::{FAILED, accuracy, complain, provenance, stop};
-use crate::export::autosave::COPY_INTERVAL;
-use crate::export::file::{RUN_CHECKPOINT, RunDirectory, WriteError, write_whole};
+use crate::export::autosave::{Autosave, Recent, state_directory};
+use crate::export::file::{RUN_CHECKPOINT, RunDirectory, WriteError, shell_word, write_whole};
 use crate::export::header::{self, number};
 use crate::export::{field, state};
 use crate::reading::verdict;
@@ -133,10 +132,9 @@ struct Job {
     session: Session,
     job: RunJob,
     directory: RunDirectory,
-    checkpoints: Arc<Mutex<Checkpoints>>,
-    /// The run a moment ago, and the moment.
-    copy: Arc<Mutex<(Session, RunJob)>>,
-    copied: Instant,
+    checkpoints: Arc<Mutex<Autosave>>,
+    /// The run a moment ago.
+    copy: Arc<Mutex<Recent<(Session, RunJob)>>>,
     /// When writing the rows of the history last failed.
     unwritten: Option<Instant>,
     /// Snapshots that could not be written when their cycle came, to be tried again at the end.
@@ -257,7 +255,8 @@ impl Job {
         for (key, value) in &job.statements {
             session.state(key, value);
         }
-        let mut checkpoints = Checkpoints::new(directory.checkpoint(), options.checkpoint_every.0);
+        let checkpoints = Autosave::new(state_directory(), options.checkpoint_every.0);
+        let mut checkpoints = checkpoints.at_home(directory.checkpoint());
         match from {
             Some(file) => checkpoints.remember(file, session.simulation().cycle()),
             None => job.set_home(directory.path()),
@@ -266,10 +265,9 @@ impl Job {
             name: name.to_owned(),
             checkpoints: Arc::new(Mutex::new(checkpoints)),
             directory,
-            copy: Arc::new(Mutex::new((session.clone(), job.clone()))),
+            copy: Arc::new(Mutex::new(Recent::new((session.clone(), job.clone())))),
             session,
             job,
-            copied: Instant::now(),
             unwritten: None,
             owed: Vec::new(),
             quiet: options.quiet,
@@ -309,16 +307,15 @@ impl Job {
             if over.swap(true, Ordering::SeqCst) {
                 return;
             }
-            let (session, job) = &*locked(&copy);
+            let copy = locked(&copy);
+            let (session, job) = copy.get();
             let mut checkpoints = locked(&checkpoints);
-            if let Some(word) = checkpoints.save(session, job) {
-                complain(&word);
-            }
+            save(&mut checkpoints, session, job);
             let cycle = session.simulation().cycle();
             complain(&format!(
                 "interrupted at cycle {}, in the middle of a long step; {}",
                 number(cycle),
-                checkpoints.how_to_resume(cycle)
+                how_to_resume(&checkpoints, cycle)
             ));
             std::process::exit(FAILED.into());
         });
@@ -379,10 +376,7 @@ impl Job {
 
     /// Keeps a copy in memory and a checkpoint on disk up to date.
     fn checkpoint_if_due(&mut self) {
-        if self.copied.elapsed() >= COPY_INTERVAL {
-            *locked(&self.copy) = (self.session.clone(), self.job.clone());
-            self.copied = Instant::now();
-        }
+        locked(&self.copy).look_after(|| (self.session.clone(), self.job.clone()));
         if self.unwritten.is_none_or(|at| at.elapsed() >= ANOTHER_TRY) {
             // Rows that cannot be written stay in memory.
             let written = self.job.spill(&self.directory.rows());
@@ -393,18 +387,17 @@ impl Job {
         }
     }
 
-    /// Writes a checkpoint. If that fails, the user is told once and the run continues.
     fn save_checkpoint(&mut self) {
-        if let Some(word) = locked(&self.checkpoints).save(&self.session, &self.job) {
-            complain(&word);
-        }
+        save(&mut locked(&self.checkpoints), &self.session, &self.job);
     }
 
     /// After a bug, goes back to the copy: the interrupted step has left half a state.
     fn go_back(&mut self) -> String {
-        let (session, job) = &*locked(&self.copy);
+        let copy = locked(&self.copy);
+        let (session, job) = copy.get();
         self.session = session.clone();
         self.job.rewind(job);
+        drop(copy);
         let cycle = number(self.session.simulation().cycle());
         let word = crate::panics::word().unwrap_or_default();
         format!("bug in mdr-tui: {word}; saved at cycle {cycle}")
@@ -412,7 +405,10 @@ impl Job {
 
     /// Says how to resume a run that has stopped.
     fn how_to_resume(&self) -> String {
-        locked(&self.checkpoints).how_to_resume(self.session.simulation().cycle())
+        how_to_resume(
+            &locked(&self.checkpoints),
+            self.session.simulation().cycle(),
+        )
     }
 
     /// Writes a snapshot, or remembers to try again at the end.
@@ -460,9 +456,9 @@ impl Job {
     /// If the files cannot be written, tries a checkpoint in their place or in the directory of the
     /// explorer's checkpoints, and says where it is.
     fn rescue(&mut self) -> String {
-        let mut checkpoints = locked(&self.checkpoints);
-        checkpoints.save(&self.session, &self.job);
-        checkpoints.how_to_resume(self.session.simulation().cycle())
+        let bytes = checkpoint::encode(&self.session, Some(&self.job));
+        locked(&self.checkpoints).save(&self.session, &bytes);
+        self.how_to_resume()
     }
 
     /// The last row of the history and the header of the files, by the names that they have there.
@@ -575,6 +571,29 @@ fn table_at(snapshot: &CycleAsGiven, session: &Session) -> Result<String> {
     let mut glimpse = session.clone();
     glimpse.advance_to(snapshot.cycle)?;
     Ok(state::table(&glimpse))
+}
+
+/// Writes a checkpoint. If that fails, the user is told once and the run continues.
+fn save(checkpoints: &mut Autosave, session: &Session, job: &RunJob) {
+    if let Some(word) = checkpoints.save(session, &checkpoint::encode(session, Some(job))) {
+        complain(&word);
+    }
+}
+
+/// Says how to resume a run that stopped at the cycle `now`, and which cycles are lost.
+fn how_to_resume(checkpoints: &Autosave, now: f64) -> String {
+    let Some((path, cycle)) = checkpoints.kept() else {
+        return "there is no checkpoint".into();
+    };
+    let path = shell_word(path);
+    if cycle == now {
+        return format!("resume with: mdr-tui run --resume {path}");
+    }
+    let (cycle, now) = (number(cycle), number(now));
+    format!(
+        "resume from cycle {cycle} with: mdr-tui run --resume {path} \
+         (cycles up to {now} could not be saved)"
+    )
 }
 
 /// A new directory named after the scenario.

@@ -1,10 +1,10 @@
 //! Checkpoints of an explorer: on a timer while something changes, and on exit.
 
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use crate::export::autosave::{Autosave, COPY_INTERVAL};
-use crate::export::file::{WriteError, shell_word};
+use crate::export::autosave::{Autosave, Recent};
+use crate::export::file::shell_word;
 use crate::export::header::number;
 use crate::scenario::checkpoint;
 use crate::scenario::session::Session;
@@ -12,19 +12,11 @@ use crate::scenario::session::Session;
 /// Saves a session.
 #[derive(Debug)]
 pub struct ScreenAutosave {
-    directory: PathBuf,
-    every: Option<Duration>,
-    /// `None` until there is something to save.
-    autosave: Option<Autosave>,
+    autosave: Autosave,
     /// What was last saved or loaded.
     kept: Mark,
-    /// When the last checkpoint was due.
-    since: Instant,
-    /// The session a moment ago, and the moment.
-    copy: Session,
-    copied: Instant,
-    /// The last attempt failed, and how.
-    failure: Option<String>,
+    /// The session a moment ago.
+    copy: Recent<Session>,
     /// The session is at its end.
     is_finished: bool,
 }
@@ -53,22 +45,17 @@ impl ScreenAutosave {
     /// end if `None`.
     pub fn new(directory: PathBuf, every: Option<Duration>, session: &Session) -> Self {
         Self {
-            directory,
-            every,
-            autosave: None,
+            autosave: Autosave::new(Some(directory), every),
             kept: Mark::of(session),
-            since: Instant::now(),
-            copy: session.clone(),
-            copied: Instant::now(),
-            failure: None,
+            copy: Recent::new(session.clone()),
             is_finished: false,
         }
     }
 
     /// Time until a checkpoint is due; `None` while there is nothing new to save.
     pub fn wait(&self, session: &Session) -> Option<Duration> {
-        let every = self.every?;
-        (self.kept != Mark::of(session)).then(|| every.saturating_sub(self.since.elapsed()))
+        let wait = self.autosave.wait()?;
+        (self.kept != Mark::of(session)).then_some(wait)
     }
 
     /// Saves what is due; returns a message when that begins to fail.
@@ -76,17 +63,11 @@ impl ScreenAutosave {
         if self.is_finished {
             return None;
         }
-        if self.copied.elapsed() >= COPY_INTERVAL {
-            self.copy = session.clone();
-            self.copied = Instant::now();
+        self.copy.look_after(|| session.clone());
+        match self.wait(session) {
+            Some(Duration::ZERO) => self.keep(session),
+            _ => None,
         }
-        if self.wait(session) != Some(Duration::ZERO) {
-            return None;
-        }
-        let had_failed = self.failure.is_some();
-        self.keep(session);
-        let failure = self.failure.as_ref().filter(|_| !had_failed)?;
-        Some(format!("{failure}; the run continues without a checkpoint"))
     }
 
     /// Switches to another session; the file of this one stays.
@@ -97,8 +78,9 @@ impl ScreenAutosave {
         if self.kept != Mark::of(from) {
             self.keep(from);
         }
-        (self.autosave, self.kept) = (None, Mark::of(to));
-        self.copy = to.clone();
+        self.autosave.turn_over();
+        self.kept = Mark::of(to);
+        self.copy = Recent::new(to.clone());
     }
 
     /// Saves `session`, or the copy after a bug, and returns the message for the user. Only the
@@ -107,44 +89,30 @@ impl ScreenAutosave {
         if std::mem::replace(&mut self.is_finished, true) {
             return None;
         }
-        let copy = self.copy.clone();
+        let copy = self.copy.get().clone();
         let session = session.unwrap_or(&copy);
         if self.kept != Mark::of(session) {
             self.keep(session);
         }
-        let place = self.autosave.as_ref().map(|autosave| {
-            let (cycle, path) = (f64::from_bits(self.kept.cycle), shell_word(autosave.path()));
-            format!(
-                "saved at cycle {}; resume with: mdr-tui --resume {path}",
-                number(cycle)
-            )
+        let place = self.autosave.kept().map(|(path, cycle)| {
+            let (cycle, path) = (number(cycle), shell_word(path));
+            format!("saved at cycle {cycle}; resume with: mdr-tui --resume {path}")
         });
-        match (self.failure.take(), place) {
+        match (self.autosave.failure(), place) {
             (None, place) => place,
             (Some(failure), Some(place)) => Some(format!("{failure}; {place}")),
             (Some(failure), None) => Some(format!("nothing was saved: {failure}")),
         }
     }
 
-    fn keep(&mut self, session: &Session) {
-        let written = self.write(session);
-        self.since = Instant::now();
-        self.failure = written.err().map(|error| error.to_string());
-        if self.failure.is_none() {
+    /// Saves a session; returns a message when that begins to fail.
+    fn keep(&mut self, session: &Session) -> Option<String> {
+        let word = self
+            .autosave
+            .save(session, &checkpoint::encode(session, None::<&()>));
+        if self.autosave.failure().is_none() {
             self.kept = Mark::of(session);
-        } else {
-            self.autosave = self.autosave.take().and_then(Autosave::if_ever);
         }
-    }
-
-    fn write(&mut self, session: &Session) -> Result<(), WriteError> {
-        let autosave = match &mut self.autosave {
-            Some(autosave) => autosave,
-            none => {
-                let stem = session.loaded().stem();
-                none.insert(Autosave::in_free_place(&self.directory, &stem, self.every)?)
-            }
-        };
-        autosave.keep(&checkpoint::encode(session, None::<&()>))
+        word
     }
 }

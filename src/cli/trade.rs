@@ -13,11 +13,10 @@ use crate::export::header::number;
 use crate::math::abel::AbelMethod;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Scale};
-use crate::scenario::session::SessionError;
+use crate::scenario::session::{Session, SessionError};
 use crate::scenario::{Refusal, Scenario};
-use crate::studies::refinement::{Reached, Verdict, run_to_accuracy};
-use crate::studies::trade::report::{cheapest, front, table};
-use crate::studies::trade::{self, Sample, Setting, Trial};
+use crate::studies::refinement::{Outcome, Reached, Verdict, run_to_accuracy};
+use crate::studies::trade::{self, Setting, Trial, cheapest, front, table};
 
 /// Accuracies whose search for a level is timed as well as the fixed settings.
 const ACCURACIES: [f64; 2] = [1e-2, 1e-3];
@@ -126,27 +125,32 @@ fn run(
     let measure = |setting: &Setting, what: &str| {
         bar.set_message(format!("{what}{setting} by {}", setting.scheme));
         bar.tick();
-        trade::run(scenario, setting, cycles, go_on)
+        setting.run(scenario, cycles, go_on)
     };
-    let reference = match measure(&finest, "reference, ") {
+    let (reference, seconds) = match measure(&finest, "reference, ") {
         Err(SessionError::Interrupted) => return Ok(None),
         ended => ended.context("the reference")?,
     };
-    let half = measure(&finest.halved(), "reference, ").ok();
-    let blur = half.map(|half| half.against(&reference).worst());
+    let half = Setting {
+        level: finest.level.scaled(0.5, 0.5),
+        ..finest.clone()
+    };
+    let half = measure(&half, "reference, ").ok();
+    let differs = |(half, _)| Outcome::of(&half).against(&Outcome::of(&reference)).worst();
+    let blur = half.map(differs);
     // With the default cells and steps, settings that are too slow are left out: once one is as good as the reference
     // can resolve, slower ones add nothing.
     let is_usual = options.points == trade::POINTS && options.steps == trade::STEPS;
     let (resolved, mut enough) = (FINE.max(blur.unwrap_or(0.0)), f64::INFINITY);
     let mut trials: Vec<Trial> = Vec::new();
-    for &setting in &settings {
+    for setting in &settings {
         let effort = setting.effort(cycles);
         if !is_usual || effort <= SLOWER * enough {
-            let ended = measure(&setting, "");
+            let ended = measure(setting, "");
             if !go_on() {
                 break;
             }
-            let trial = Trial::new(setting, ended, &reference);
+            let trial = Trial::new(setting.clone(), ended, &reference);
             if trial.point().is_some_and(|[_, error]| error <= resolved) {
                 enough = enough.min(effort);
             }
@@ -156,7 +160,9 @@ fn run(
     }
     // Those that the result names are timed well.
     bar.set_message("timing");
-    let named = front(&trials).into_iter().map(|(best, _)| best.setting);
+    let named = front(&trials)
+        .into_iter()
+        .map(|(best, _)| best.setting.clone());
     let named: Vec<Setting> = named.collect();
     for trial in trials
         .iter_mut()
@@ -174,10 +180,7 @@ fn run(
             scenario.title(),
             number(cycles)
         ),
-        format!(
-            "reference: {finest} per cycle, {:.1e} s{blur}",
-            reference.seconds
-        ),
+        format!("reference: {finest} per cycle, {seconds:.1e} s{blur}"),
     ];
     let mut usual = None;
     for accuracy in ACCURACIES.into_iter().take_while(|_| go_on()) {
@@ -201,9 +204,9 @@ fn run(
 }
 
 /// What an accuracy cost, beside the cheapest fixed setting that would have done.
-fn cost(accuracy: f64, reached: &Reached, trials: &[Trial], reference: &Sample) -> String {
+fn cost(accuracy: f64, reached: &Reached, trials: &[Trial], reference: &Session) -> String {
     let (seconds, level) = (reached.seconds, &reached.rung.level);
-    let errors = Sample::of(&reached.session, seconds).against(reference);
+    let errors = Outcome::of(&reached.session).against(&Outcome::of(reference));
     let met = match reached.verdict {
         Verdict::Met => "",
         _ => ", not reached",

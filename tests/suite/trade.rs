@@ -6,6 +6,7 @@ use std::process::{Command, Stdio};
 use mdr_tui::math::abel::AbelMethod;
 use mdr_tui::scenario::Scenario;
 use mdr_tui::simulation::Scheme;
+use mdr_tui::studies::refinement::{Level, Outcome};
 use mdr_tui::studies::trade::{self, POINTS, STEPS, Setting};
 use serde_json::Value;
 
@@ -113,30 +114,28 @@ fn the_cheapest_setting_for_an_accuracy_reaches_it() {
     );
     // Against a reference of another make: Method A on many cells.
     let scenario = load("li2019-fig3", &[]);
-    let reference = Setting {
-        method: AbelMethod::A,
-        scheme: Scheme::Trapezoid,
-        points: 1600,
-        steps: 50,
-        tolerance: None,
+    let end = |setting: &Setting| {
+        let (session, _) = setting.run(&scenario, 3.0, &|| true).expect("a run");
+        Outcome::of(&session)
     };
-    let go_on = || true;
-    let fine = trade::run(&scenario, &reference, 3.0, &go_on);
-    let fine = fine.expect("a run");
     let recommended = load("li2019-fig3", &sets);
     let setup = recommended.setup();
-    let tolerance = out
-        .lines()
-        .find_map(|line| line.strip_prefix("--set numerics.tolerance="));
     let setting = Setting {
         method: setup.method,
         scheme: setup.scheme,
-        points: setup.grid.cells(),
-        steps: setup.steps_per_cycle,
-        tolerance: tolerance.map(|text| text.parse().expect("a number")),
+        level: Level::of(&recommended),
     };
-    let found = trade::run(&scenario, &setting, 3.0, &go_on);
-    let errors = found.expect("a run").against(&fine);
+    let reference = Setting {
+        method: AbelMethod::A,
+        scheme: Scheme::Trapezoid,
+        level: Level {
+            points: 1600,
+            steps: 50,
+            tolerance: None,
+            nodes: None,
+        },
+    };
+    let errors = end(&setting).against(&end(&reference));
     assert!(errors.worn_depth <= 8e-3, "{errors:?}");
     // The references differ by some of it.
     assert!(errors.worst() <= 1e-2, "{errors:?}");
@@ -157,14 +156,13 @@ fn every_setting_is_a_scenario() {
             let made = setting.of(&scenario).expect("a scenario");
             let setup = made.setup();
             assert_eq!(
-                (setup.method, setup.scheme, setup.grid.cells()),
-                (setting.method, setting.scheme, setting.points)
+                (setup.method, setup.scheme, &Level::of(&made)),
+                (setting.method, setting.scheme, &setting.level)
             );
-            assert_eq!(setup.steps_per_cycle, setting.steps);
         }
         let direct = settings
             .iter()
-            .filter(|setting| setting.tolerance.is_none());
+            .filter(|setting| setting.level.tolerance.is_none());
         // A million cycles are not stepped for a table.
         assert_eq!(direct.count() == 0, name == "mild-million");
     }

@@ -97,7 +97,7 @@ pub(super) fn files(
         let shown = super::check::show(&Value::String(file.clone()));
         let place = origin.place(embedded.file, &shown);
         let columns = Columns::read(&beside(scenario, &file))?;
-        remove(table, embedded.file);
+        schema::remove(table, embedded.file);
         for lists in embedded.columns {
             let (path, name, unit) = *lists
                 .iter()
@@ -116,18 +116,5 @@ fn beside(scenario: &str, file: &str) -> PathBuf {
     match Path::new(scenario).parent() {
         Some(directory) => directory.join(file),
         None => PathBuf::from(file),
-    }
-}
-
-fn remove(table: &mut Table, path: &str) {
-    match path.split_once('.') {
-        None => {
-            table.remove(path);
-        }
-        Some((first, rest)) => {
-            if let Some(Value::Table(inner)) = table.get_mut(first) {
-                remove(inner, rest);
-            }
-        }
     }
 }

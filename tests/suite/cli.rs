@@ -3,30 +3,14 @@
 use std::fs;
 use std::io::Write;
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
-use std::time::{Duration, Instant};
+use std::process::Stdio;
 
 use mdr_tui::export::{history, state};
 use mdr_tui::reading::Curves;
 use mdr_tui::scenario::session::Session;
 use mdr_tui::scenario::{Scenario, preset};
 
-use crate::test_dir::{Said, Table, TestDir, bits, end, names};
-
-/// Lines on stderr, one of them with `expected` in it, code 2, nothing on stdout, nothing written.
-fn assert_refused(dir: &TestDir, arguments: &[&str], expected: &str) {
-    let before = dir.inventory();
-    let said = dir.say(arguments);
-    assert_eq!(said.code, 2, "{arguments:?}: {}", said.err);
-    assert_eq!(said.out, "", "{arguments:?}");
-    let lines = said.err.strip_suffix('\n').expect("whole lines");
-    for line in lines.lines() {
-        assert!(line.starts_with("mdr-tui: "), "{line}");
-        assert!(!line.chars().any(char::is_control), "{line:?}");
-    }
-    assert!(lines.contains(expected), "{lines:?} without {expected:?}");
-    assert!(dir.inventory() == before, "{arguments:?} wrote something");
-}
+use crate::test_dir::{Said, Table, TestDir, bits, end, has, names};
 
 #[test]
 fn a_bad_scenario_is_a_line_an_error_and_nothing_written() {
@@ -49,13 +33,12 @@ fn a_bad_scenario_is_a_line_an_error_and_nothing_written() {
         ("mindlyn", "did you mean mindlin?"),
         ("a\u{1b}[31mb\n.toml", "a\\u{1b}[31mb\\n.toml: no such file"),
     ] {
-        assert_refused(
-            &dir,
+        dir.refuse(
             &["run", scenario, "--cycles", "0.1", "--out", "new"],
             expected,
         );
-        assert_refused(&dir, &[scenario, "--print", "80x24"], expected);
-        assert_refused(&dir, &[scenario], expected);
+        dir.refuse(&[scenario, "--print", "80x24"], expected);
+        dir.refuse(&[scenario], expected);
     }
 }
 
@@ -92,77 +75,63 @@ fn a_bad_value_is_one_line_and_nothing_written() {
         ("radius", "must be KEY=VALUE"),
         ("ra\u{1b}[2J\u{7}dius=1", "ra\\u{1b}[2J\\u{7}dius"),
     ] {
-        let expected = format!("--set {}", &set[..2]);
-        for expected in [expected.as_str(), rule] {
-            let arguments = [
-                "run",
-                "li2019-fig3",
-                "--set",
-                set,
-                "--cycles",
-                "0.1",
-                "--out",
-                "new",
-            ];
-            assert_refused(&dir, &arguments, expected);
-        }
+        let arguments = ["run", "li2019-fig3", "--out", "new", "--set", set];
+        let said = dir.refuse(&arguments, rule);
+        has(&said, &format!("--set {}", &set[..2]));
     }
 }
 
 #[test]
 fn wrong_use_is_one_line_and_nothing_written() {
     let dir = TestDir::new();
-    let run = |options: &[&'static str]| {
-        let mut arguments = vec!["run", "li2019-fig3", "--out", "new"];
-        arguments.extend(options);
-        arguments
-    };
     let cycles = "cycles are a number of 0 or more";
     let size = "a size is COLUMNSxROWS";
-    for (arguments, expected) in [
-        (run(&["--cycles", "-1"]), cycles),
-        (run(&["--cycles", "nan"]), cycles),
-        (run(&["--cycles", "inf"]), cycles),
-        (run(&["--cycles", "many"]), cycles),
-        (run(&["--cycles", ""]), cycles),
-        (run(&["--cycles"]), "--cycles <X>"),
+    for (options, expected) in [
+        ("--cycles -1", cycles),
+        ("--cycles nan", cycles),
+        ("--cycles inf", cycles),
+        ("--cycles many", cycles),
+        ("--cycles=", cycles),
+        ("--cycles", "--cycles <X>"),
         (
-            run(&["--cycles", "1", "--snapshot-at", "0.5,2"]),
+            "--cycles 1 --snapshot-at 0.5,2",
             "--snapshot-at 2: is after the end of the run, 1 cycles",
         ),
-        (run(&["--cycles", "1", "--snapshot-at", "-1"]), cycles),
-        (run(&["--cycles", "1", "--snapshot-at", "0.5,,1"]), cycles),
-        (run(&["--history", "seldom"]), "every-step"),
-        (run(&["--frobnicate"]), "--frobnicate"),
-        (vec!["--frobnicate"], "--frobnicate"),
-        (vec!["run"], "<SCENARIO>"),
-        (vec!["presets", "nope"], "presets nope: no such preset"),
+        ("--cycles 1 --snapshot-at -1", cycles),
+        ("--cycles 1 --snapshot-at 0.5,,1", cycles),
+        ("--history seldom", "every-step"),
+        ("--frobnicate", "--frobnicate"),
+    ] {
+        dir.refuse_line(&format!("run li2019-fig3 --out new {options}"), expected);
+    }
+    for (line, expected) in [
+        ("run --bogus", "; see mdr-tui run --help"),
+        ("run x --cycles few", "; see mdr-tui run --help"),
+        ("sweep", "; see mdr-tui sweep --help"),
+        ("--bogus", "; see mdr-tui --help"),
+        ("run", "<SCENARIO>"),
+        ("presets nope", "presets nope: no such preset"),
+        ("presets no\u{1b}[31mpe", "presets no\\u{1b}[31mpe: no such"),
+        ("completions nosh", "possible values: bash"),
+        ("completions", "<SHELL>"),
+        ("man fitt", "no such command"),
         (
-            vec!["presets", "no\u{1b}[31mpe"],
-            "presets no\\u{1b}[31mpe: no such",
-        ),
-        (vec!["completions", "nosh"], "possible values: bash"),
-        (vec!["completions"], "<SHELL>"),
-        (
-            vec!["--keys", "m<Nope>", "--print", "80x24"],
+            "--keys m<Nope> --print 80x24",
             "--keys: \"<Nope>\" is not a key",
         ),
-        (vec!["--keys", "<", "--print", "80x24"], "--keys: \"<\""),
-        (
-            vec!["--keys", "m\u{1b}", "--print", "80x24"],
-            "is not a key",
-        ),
-        (vec!["--keys", "m"], "--print"),
-        (vec!["--print", "80"], size),
-        (vec!["--print", "0x24"], size),
-        (vec!["--print", "80x24x"], size),
-        (vec!["--print=-3x24"], size),
-        (vec!["--print", "99999x99999"], size),
-        (vec!["--fps", "0", "--print", "80x24"], "--fps"),
-        (vec!["--marker", "crayon"], "braille"),
-        (vec!["--color", "maybe"], "never"),
+        ("--keys < --print 80x24", "--keys: \"<\""),
+        ("--keys m\u{1b} --print 80x24", "is not a key"),
+        ("--keys m", "--print"),
+        ("--print 80", size),
+        ("--print 0x24", size),
+        ("--print 80x24x", size),
+        ("--print=-3x24", size),
+        ("--print 99999x99999", size),
+        ("--fps 0 --print 80x24", "--fps"),
+        ("--marker crayon", "braille"),
+        ("--color maybe", "never"),
     ] {
-        assert_refused(&dir, &arguments, expected);
+        dir.refuse_line(line, expected);
     }
 }
 
@@ -182,15 +151,10 @@ fn an_unwritable_out_is_one_line_and_nothing_written() {
         ),
         ("", "--out <DIR>"),
     ] {
-        assert_refused(
-            &dir,
-            &["run", "hertz", "--cycles", "0.1", "--out", out],
-            expected,
-        );
+        dir.refuse(&["run", "hertz", "--cycles", "0.1", "--out", out], expected);
     }
     if cfg!(target_os = "linux") {
-        let out = "/proc/mdr-tui";
-        assert_refused(&dir, &["run", "hertz", "--out", out], "cannot write");
+        dir.refuse_line("run hertz --out /proc/mdr-tui", "cannot write");
     }
 }
 
@@ -430,7 +394,7 @@ fn force_writes_over_the_files_of_another_run() {
     let dir = TestDir::new();
     dir.done("run hertz --cycles 1 --out x --quiet --force");
     dir.write("x/notes.txt", b"mine");
-    assert_refused(&dir, &["run", "cone", "--out", "x"], "--force");
+    dir.refuse_line("run cone --out x", "--force");
     dir.done("run cone --cycles 1 --out x --quiet --force");
     let table = Table::parse(&dir.read("x/state.csv"));
     assert_eq!(table.header("scenario"), "Dual oscillation of a cone");
@@ -526,67 +490,6 @@ fn a_breakdown_of_the_trapezoid_replays_to_the_last_bit() {
     assert!(broken_down("trapezoid") >= 2);
 }
 
-/// Starts a run that does not end by itself, and waits until it has written its first snapshot.
-fn long_run(dir: &TestDir, out: &str) -> Child {
-    let mut child = dir
-        .command(&[
-            "run",
-            "li2019-fig3",
-            "--cycles",
-            "1e9",
-            "--snapshot-at",
-            "0.5",
-            "--out",
-            out,
-        ])
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the program starts");
-    let sign = dir.path(out).join("state-0.5.csv");
-    let start = Instant::now();
-    while !sign.exists() {
-        let waiting = start.elapsed() < Duration::from_secs(20);
-        assert!(waiting && matches!(child.try_wait(), Ok(None)));
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    child
-}
-
-#[cfg(unix)]
-#[test]
-fn a_signal_ends_a_run_and_keeps_what_is_done() {
-    let dir = TestDir::new();
-    for signal in ["TERM", "INT", "HUP"] {
-        let child = long_run(&dir, signal);
-        let kill = format!("kill -{signal} {}", child.id());
-        let sent = Command::new("sh").args(["-c", &kill]).status();
-        assert!(sent.expect("a shell").success());
-        let said = end(child);
-        assert_eq!((said.code, said.out.as_str()), (1, ""), "{}", said.err);
-        let cycle = said
-            .err
-            .strip_prefix("mdr-tui: interrupted at cycle ")
-            .and_then(|rest| rest.split_once(&format!("; saved in {signal}; ")))
-            .expect("the cycle and the directory");
-        let (cycle, way_on) = cycle;
-        let command = format!("resume with: mdr-tui run --resume {signal}/run.checkpoint\n");
-        assert_eq!(way_on, command);
-        assert_eq!(
-            names(&dir.path(signal)),
-            [
-                "history.csv",
-                "run.checkpoint",
-                "scenario.toml",
-                "state-0.5.csv",
-                "state.csv"
-            ]
-        );
-        let state = Table::parse(&dir.read(&format!("{signal}/state.csv")));
-        assert_eq!(state.header("cycle"), cycle);
-    }
-}
-
 #[test]
 fn presets_are_listed_and_printed_as_they_stand() {
     let dir = TestDir::new();
@@ -615,27 +518,9 @@ fn presets_are_listed_and_printed_as_they_stand() {
 #[test]
 fn stability_draws_a_map_and_writes_its_runs() {
     let dir = TestDir::new();
-    let csv = dir.path("map.csv");
-    let csv = csv.to_str().expect("a path");
-    let arguments = [
-        "stability",
-        "li2019-fig3",
-        "--cycles",
-        "3",
-        "--points",
-        "25",
-        "--methods",
-        "a",
-        "--wear-numbers",
-        "1000,1",
-        "--steps",
-        "50",
-        "--guard",
-        "both",
-        "--csv",
-        csv,
-    ];
-    let said = dir.say(&arguments);
+    let line = "stability li2019-fig3 --cycles 3 --points 25 --methods a --wear-numbers 1000,1 --steps 50 \
+                --guard both --csv map.csv";
+    let said = dir.line(line);
     assert_eq!(said.code, 0, "{}", said.err);
     for map in [
         "a, guard off\n    25 ....|. ######\n",
@@ -644,7 +529,7 @@ fn stability_draws_a_map_and_writes_its_runs() {
         assert!(said.out.contains(map), "{}", said.out);
     }
     assert!(said.out.contains("critical K"), "{}", said.out);
-    let rows = fs::read_to_string(csv).expect("a file");
+    let rows = dir.read("map.csv");
     let rows: Vec<&str> = rows.lines().filter(|line| !line.starts_with('#')).collect();
     assert_eq!(rows.len(), 5, "{rows:?}");
     assert!(
@@ -653,13 +538,10 @@ fn stability_draws_a_map_and_writes_its_runs() {
         rows[1]
     );
     assert!(rows[4].starts_with("a,on,25,50,1e3,stable,"), "{}", rows[4]);
-    assert_refused(&dir, &arguments, "already exists");
-    assert_refused(&dir, &["stability", "hertz"], "nothing wears");
-    assert_refused(
-        &dir,
-        &["stability", "li2019-fig3", "--wear-numbers", "-1"],
-        "wear numbers are greater than 0",
-    );
+    dir.refuse_line(line, "already exists");
+    dir.refuse_line("stability hertz", "nothing wears");
+    let negative = "stability li2019-fig3 --wear-numbers -1";
+    dir.refuse_line(negative, "wear numbers are greater than 0");
 }
 
 /// What the program answers a shell that asks for the last of `words`.
@@ -709,7 +591,7 @@ fn shells_complete_presets_files_keys_and_words() {
 }
 
 #[test]
-fn the_manual_page_names_the_commands() {
+fn every_command_has_a_man_page_with_its_options_and_their_values() {
     let dir = TestDir::new();
     let page = dir.done("man");
     assert!(page.contains(".TH mdr-tui 1"), "{page}");
@@ -717,14 +599,7 @@ fn the_manual_page_names_the_commands() {
         let title = format!(".TH mdr-tui-{command} 1");
         assert_eq!(page.matches(&title).count(), 1, "{command}");
     }
-    for option in ["--snapshot-at", "--history", "--keys", "--set"] {
-        assert!(page.contains(&option.replace('-', "\\-")), "{option}");
-    }
-}
-
-#[test]
-fn every_command_has_a_man_page_with_its_options_and_their_values() {
-    let dir = TestDir::new();
+    has(&page, "\\-\\-keys");
     dir.done("man --out pages");
     let section = |name: &str, title: &str| -> String {
         let page = dir.read(&format!("pages/{name}.1"));
@@ -750,23 +625,6 @@ fn every_command_has_a_man_page_with_its_options_and_their_values() {
     assert!(section("mdr-tui-run", "SYNOPSIS").starts_with("mdr-tui run [OPTIONS] <SCENARIO>"));
     assert!(section("mdr-tui-figure", "SYNOPSIS").contains("-o|--out"));
     assert_eq!(dir.read("pages/mdr-tui-fit.1"), dir.done("man fit"));
-    let wrong = dir.line("man fitt");
-    assert_eq!((wrong.code, wrong.err.lines().count()), (2, 1));
-}
-
-#[test]
-fn an_unknown_option_points_to_the_help_of_its_command() {
-    let dir = TestDir::new();
-    for (line, help) in [
-        ("run --bogus", "see mdr-tui run --help\n"),
-        ("run x --cycles few", "see mdr-tui run --help\n"),
-        ("sweep", "see mdr-tui sweep --help\n"),
-        ("--bogus", "see mdr-tui --help\n"),
-    ] {
-        let wrong = dir.line(line);
-        assert_eq!((wrong.code, wrong.err.lines().count()), (2, 1), "{line}");
-        assert!(wrong.err.ends_with(help), "{}", wrong.err);
-    }
 }
 
 #[test]
@@ -854,6 +712,6 @@ fn a_mistyped_command_is_led_to_the_command() {
     let dir = TestDir::new();
     for (given, meant) in [("rum", "run"), ("figur", "figure"), ("swep", "sweep")] {
         let expected = format!("no such command or preset; did you mean mdr-tui {meant}?");
-        assert_refused(&dir, &[given], &expected);
+        dir.refuse_line(given, &expected);
     }
 }

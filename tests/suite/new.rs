@@ -47,9 +47,7 @@ fn options_are_the_answers_where_nobody_is_asked() {
     }
     dir.done("run pin.toml --cycles 0.1 --out x");
     // Another file is not written over.
-    let said = dir.line("new pin.toml");
-    assert_eq!(said.code, 2);
-    has(&said.err, "pin.toml: already exists");
+    dir.refuse_line("new pin.toml", "pin.toml: already exists");
 }
 
 #[test]
@@ -93,10 +91,7 @@ fn wrong_answers_are_told_and_nothing_is_written() {
         (&["--material", "rigid", "--against", "rigid"], "rigid"),
         (&["--ball", "1", "--punch", "1"], "cannot be used with"),
     ] {
-        let said = dir.say(&[&["new", "x.toml"], options].concat());
-        assert_eq!(said.code, 2, "{}", said.err);
-        assert!(said.err.contains(rule), "{rule}\n{}", said.err);
-        assert!(!dir.path("x.toml").exists());
+        dir.refuse(&[&["new", "x.toml"], options].concat(), rule);
     }
 }
 

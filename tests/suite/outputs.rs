@@ -6,7 +6,7 @@ use std::process::Stdio;
 use std::thread;
 use std::time::Duration;
 
-use crate::test_dir::{Said, TestDir, end, has, names};
+use crate::test_dir::{Said, TestDir, end, has, kill, names};
 
 const STUDY: &str = r#"
 base = "hertz"
@@ -33,11 +33,7 @@ fn together(dir: &TestDir, lines: &[&str], pause: Duration, fault: &str) -> Vec<
     let started: Vec<_> = lines
         .iter()
         .map(|line| {
-            let arguments: Vec<&str> = line.split_whitespace().collect();
-            let mut command = dir.command(&arguments);
-            command.env("MDR_TUI_FAULT", fault);
-            command.stdout(Stdio::piped()).stderr(Stdio::piped());
-            let child = command.spawn().expect("the program starts");
+            let child = dir.start(line, &[("MDR_TUI_FAULT", fault)]);
             thread::sleep(pause);
             child
         })
@@ -91,15 +87,9 @@ fn a_study_under_way_is_refused_to_others_before_they_compute_even_by_force() {
     let long = STUDY.replace("\"run.cycles\" = 1.0", "\"run.cycles\" = 1e9");
     dir.write("long.toml", long.as_bytes());
     for fault in ["", "no locks"] {
-        let arguments = ["sweep", "long.toml", "--out", "x.csv", "--force"];
-        let mut command = dir.command(&arguments);
-        let mut alive = command
-            .env("MDR_TUI_FAULT", fault)
-            .spawn()
-            .expect("it starts");
-        while !dir.path("x.csv").exists() {
-            thread::sleep(Duration::from_millis(1));
-        }
+        let line = "sweep long.toml --out x.csv --force";
+        let mut alive = dir.start(line, &[("MDR_TUI_FAULT", fault)]);
+        dir.wait_for(&mut alive, "x.csv");
         for line in [
             "sweep a.toml --out x.csv --force",
             "sweep long.toml --out x.csv --resume",
@@ -110,8 +100,7 @@ fn a_study_under_way_is_refused_to_others_before_they_compute_even_by_force() {
             let owner = format!("is writing this file (process {} on ", alive.id());
             said.ends(2, &owner);
         }
-        alive.kill().expect("it lived");
-        alive.wait().expect("an end");
+        kill(alive);
         // What it leaves behind is stale.
         let said = &together(
             &dir,
@@ -147,9 +136,7 @@ fn links_and_devices_are_not_replaced_and_stdout_is_written_through() {
         "figure hertz --cycles 1 -o link.svg --force",
         "verify --csv link.csv --force",
     ] {
-        let arguments: Vec<&str> = line.split(' ').collect();
-        let said = dir.say(&arguments);
-        said.ends(2, "is not a regular file");
+        dir.refuse_line(line, "is not a regular file");
     }
     assert_eq!(dir.read("mine"), "mine");
     let table = "sweep --sensitivity a.toml --quiet --out";

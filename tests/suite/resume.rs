@@ -1,16 +1,15 @@
 //! `run --resume`: what a run that was interrupted, killed or starved of disk writes in the end.
 
 use std::fs;
-use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::{Command, Stdio};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use mdr_tui::scenario::checkpoint;
 use serde::de::IgnoredAny;
 
 use crate::common::fig3;
-use crate::test_dir::{Said, Table, TestDir, bits, end, has, names};
+use crate::test_dir::{Said, Table, TestDir, bits, end, kill, names, signal};
 
 /// A run with snapshots between steps, a row a step, and changes on the way.
 const SCENARIO: &str = concat!(
@@ -42,48 +41,15 @@ fn dir() -> TestDir {
     dir
 }
 
-fn start(dir: &TestDir, line: &str) -> Child {
-    let arguments: Vec<&str> = line.split_whitespace().collect();
-    let mut command = dir.command(&arguments);
-    command.stdout(Stdio::piped()).stderr(Stdio::piped());
-    command.spawn().expect("the program starts")
-}
-
-fn signal(child: &Child, name: &str) {
-    let kill = format!("kill -{name} {}", child.id());
-    let sent = Command::new("sh").args(["-c", &kill]).status();
-    assert!(sent.expect("a shell").success());
-}
-
-fn wait_for(child: &mut Child, path: &Path) {
-    let start = Instant::now();
-    while !path.exists() {
-        assert!(start.elapsed() < Duration::from_secs(60), "no {path:?}");
-        assert!(matches!(child.try_wait(), Ok(None)), "an early end");
-        thread::sleep(Duration::from_millis(1));
-    }
-}
-
-/// Fails unless two directories hold the same files with the same bytes.
-fn assert_alike(dir: &TestDir, one: &str, other: &str) {
-    assert_eq!(names(&dir.path(one)), names(&dir.path(other)), "{other}");
-    for name in names(&dir.path(one)) {
-        let read = |directory| dir.read(&format!("{directory}/{name}"));
-        assert!(read(one) == read(other), "{other}: {name} differs");
-    }
-}
-
 #[test]
 fn a_run_that_was_interrupted_writes_what_one_that_was_not_writes() {
     let dir = dir();
     // Slowed down by a checkpoint after every step, so that the signal finds it under way.
     for (round, sign) in ["INT", "HUP"].into_iter().enumerate() {
         let out = format!("broken-{round}");
-        let mut child = start(
-            &dir,
-            &format!("{ORDER} --out {out} --checkpoint-every 0.001"),
-        );
-        wait_for(&mut child, &dir.path(&format!("{out}/state-2.csv")));
+        let line = format!("{ORDER} --out {out} --checkpoint-every 0.001");
+        let mut child = dir.start(&line, &[]);
+        dir.wait_for(&mut child, &format!("{out}/state-2.csv"));
         signal(&child, sign);
         let said = end(child);
         assert_eq!(said.code, 1, "{}", said.err);
@@ -96,18 +62,16 @@ fn a_run_that_was_interrupted_writes_what_one_that_was_not_writes() {
         assert_eq!(last, Some(cycle.to_bits()));
         assert_eq!(history.rows[0].len(), history.columns.len());
 
-        let refused = dir.say(&["run", "mine.toml", "--cycles", "1", "--out", &out]);
-        assert_eq!(refused.code, 2);
         let hint = format!("resume with: mdr-tui run --resume {checkpoint}");
-        assert!(refused.err.contains(&hint), "{}", refused.err);
+        dir.refuse_line(&format!("run mine.toml --cycles 1 --out {out}"), &hint);
 
         // Elsewhere, and then where it was; the checkpoint goes only with the latter.
         dir.done(&format!(
             "run --resume {checkpoint} --out moved-{round} --quiet"
         ));
-        assert_alike(&dir, "whole", &format!("moved-{round}"));
+        dir.alike("whole", &format!("moved-{round}"));
         dir.done(&format!("run --resume {checkpoint} --quiet"));
-        assert_alike(&dir, "whole", &out);
+        dir.alike("whole", &out);
     }
 }
 
@@ -117,20 +81,13 @@ fn a_resumed_run_may_go_further() {
     let plan = "run li2019-fig3 --set numerics.points=40 --set run.snapshot_at=[1,3.5]";
     dir.done(&format!("{plan} --cycles 5 --out whole --quiet"));
     let line = format!("{plan} --cycles 1e9 --out broken --checkpoint-every 0.001");
-    let mut child = start(&dir, &line);
-    wait_for(&mut child, &dir.path("broken/run.checkpoint"));
-    let _ = child.kill();
-    end_by_signal(child);
-    let shorter = dir.line("run --resume broken/run.checkpoint --cycles 0");
-    assert_eq!(shorter.code, 2);
-    has(&shorter.err, "is already at cycle");
+    let mut child = dir.start(&line, &[]);
+    dir.wait_for(&mut child, "broken/run.checkpoint");
+    kill(child);
+    let shorter = "run --resume broken/run.checkpoint --cycles 0";
+    dir.line(shorter).ends(2, "is already at cycle");
     dir.done("run --resume broken/run.checkpoint --cycles 5 --quiet");
-    assert_alike(&dir, "whole", "broken");
-}
-
-fn end_by_signal(mut child: Child) {
-    let status = child.wait().expect("an end");
-    assert_eq!(status.code(), None, "it ended by itself");
+    dir.alike("whole", "broken");
 }
 
 /// A number that looks random enough to choose a moment by.
@@ -160,7 +117,7 @@ fn killed_at_any_moment_nothing_is_torn_and_the_result_is_exact() {
             } else {
                 format!("{ORDER} --out {out} --checkpoint-every 0.003 --quiet --force")
             };
-            let mut child = start(&dir, &line);
+            let mut child = dir.start(&line, &[]);
             if killed < kills {
                 thread::sleep(Duration::from_micros(random(&mut seed) % 150_000));
                 let _ = child.kill();
@@ -175,7 +132,7 @@ fn killed_at_any_moment_nothing_is_torn_and_the_result_is_exact() {
                 }
             }
         }
-        assert_alike(&dir, "whole", &out);
+        dir.alike("whole", &out);
     }
     eprintln!("{killed} kills, {resumed} resumed, {rounds} rounds: nothing torn");
 }
@@ -206,23 +163,13 @@ fn assert_whole(dir: &TestDir, out: &str) {
     }
 }
 
-fn refused(dir: &TestDir, line: &str) -> String {
-    let (before, arguments) = (dir.inventory(), line.split_whitespace());
-    let Said { code, out, err } = dir.say(&arguments.collect::<Vec<_>>());
-    assert_eq!((code, out.as_str()), (2, ""), "{line}: {err}");
-    assert!(dir.inventory() == before, "{line} wrote something");
-    assert_eq!(err.lines().count(), 1, "{err}");
-    err
-}
-
 #[test]
 fn a_checkpoint_that_cannot_be_taken_up_is_one_line() {
     let dir = TestDir::new();
     let line = "run hertz --set numerics.points=8 --cycles 1e9 --out x --checkpoint-every 0.001";
-    let mut child = start(&dir, line);
-    wait_for(&mut child, &dir.path("x/run.checkpoint"));
-    let _ = child.kill();
-    end_by_signal(child);
+    let mut child = dir.start(line, &[]);
+    dir.wait_for(&mut child, "x/run.checkpoint");
+    kill(child);
     let whole = fs::read(dir.path("x/run.checkpoint")).expect("a checkpoint");
     let text = String::from_utf8_lossy(&whole).into_owned();
     let later = text.replacen("checkpoint 2", "checkpoint 7", 1);
@@ -241,12 +188,11 @@ fn a_checkpoint_that_cannot_be_taken_up_is_one_line() {
             format!("run --resume {name} --out new"),
             format!("--resume {name} --print 80x24"),
         ] {
-            let error = refused(&dir, &line);
-            assert!(error.contains(expected), "{error}");
+            dir.refuse_line(&line, expected);
         }
     }
-    assert!(refused(&dir, "run --resume missing").contains("missing: no such file"));
-    assert!(refused(&dir, "run --resume .").contains("is a directory"));
+    dir.refuse_line("run --resume missing", "missing: no such file");
+    dir.refuse_line("run --resume .", "is a directory");
     for line in [
         "run hertz --resume x/run.checkpoint",
         "run --resume x/run.checkpoint --set numerics.points=8",
@@ -254,14 +200,11 @@ fn a_checkpoint_that_cannot_be_taken_up_is_one_line() {
         "run --resume x/run.checkpoint --history every-step",
         "hertz --resume x/run.checkpoint --print 80x24",
     ] {
-        assert!(
-            refused(&dir, line).contains("cannot be used with"),
-            "{line}"
-        );
+        dir.refuse_line(line, "cannot be used with");
     }
     for every in ["-1", "nan", "often", "1e-9", "1e99"] {
         let line = format!("run hertz --out new --checkpoint-every={every}");
-        assert!(refused(&dir, &line).contains("an interval is 0, or"));
+        dir.refuse_line(&line, "an interval is 0, or");
     }
 }
 
@@ -280,11 +223,11 @@ fn under_nohup_a_run_outlives_its_terminal() {
         command.spawn().expect("a shell")
     });
     let mut child = child.expect("a directory");
-    wait_for(&mut child, &dir.path("nohup/run.checkpoint"));
+    dir.wait_for(&mut child, "nohup/run.checkpoint");
     signal(&child, "HUP");
     let said = end(child);
     assert_eq!((said.code, said.err.as_str()), (0, ""));
-    assert_alike(&dir, "whole", "nohup");
+    dir.alike("whole", "nohup");
 }
 
 // The faults are there in debug builds only.
@@ -313,7 +256,7 @@ fn a_defect_keeps_what_is_done_and_says_so_in_one_line() {
     );
     dir.done("run --resume x/run.checkpoint --quiet");
     dir.done("run hertz --cycles 1 --out whole --quiet");
-    assert_alike(&dir, "whole", "x");
+    dir.alike("whole", "x");
 }
 
 /// Room for a checkpoint and not for the files, as far as a limit on their size can say so.

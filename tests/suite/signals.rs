@@ -1,10 +1,10 @@
 //! Every signal that asks a program to end is answered soon, whatever the program waits for.
 
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Command};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::test_dir::{TestDir, end};
+use crate::test_dir::{Table, TestDir, end, names, signal};
 
 /// A second is what is promised; a machine that is busy with all the other tests takes longer.
 pub const SOON: Duration = Duration::from_millis(2500);
@@ -15,30 +15,16 @@ pub const ENDING: [&str; 9] = [
 ];
 
 fn start(dir: &TestDir, out: &str, fault: &str) -> Child {
-    let line =
-        "run li2019-fig3 --set numerics.points=20 --cycles 1e9 --checkpoint-every 0.01 --out";
-    let mut command = dir.command(&line.split(' ').collect::<Vec<_>>());
-    command.arg(out).env("MDR_TUI_FAULT", fault);
-    command.stdout(Stdio::piped()).stderr(Stdio::piped());
-    command.spawn().expect("the program starts")
+    let line = "run li2019-fig3 --set numerics.points=20 --cycles 1e9 --checkpoint-every 0.01 \
+                --snapshot-at 0.5 --out";
+    let mut child = dir.start(&format!("{line} {out}"), &[("MDR_TUI_FAULT", fault)]);
+    dir.wait_for(&mut child, &format!("{out}/run.checkpoint"));
+    dir.wait_for(&mut child, &format!("{out}/state-0.5.csv"));
+    child
 }
 
-fn wait_for(dir: &TestDir, name: &str) {
-    let start = Instant::now();
-    while !dir.path(name).exists() {
-        assert!(start.elapsed() < Duration::from_secs(60), "no {name}");
-        thread::sleep(Duration::from_millis(2));
-    }
-}
-
-fn signal(child: &Child, name: &str) {
-    let kill = format!("kill -{name} {}", child.id());
-    let sent = Command::new("sh").args(["-c", &kill]).status();
-    assert!(sent.expect("a shell").success());
-}
-
-/// The run ends soon with a checkpoint, which it names.
-fn assert_ends(dir: &TestDir, child: Child, sign: &str, out: &str) {
+/// The run ends soon with a checkpoint, which it names; the cycle that it tells.
+fn ends(dir: &TestDir, child: Child, sign: &str, out: &str) -> String {
     let start = Instant::now();
     signal(&child, sign);
     let said = end(child);
@@ -52,14 +38,16 @@ fn assert_ends(dir: &TestDir, child: Child, sign: &str, out: &str) {
         said.err
     );
     let path = format!("{out}/run.checkpoint");
+    let cycle = said.err.strip_prefix("mdr-tui: interrupted at cycle ");
+    let (cycle, rest) = cycle
+        .and_then(|rest| rest.split_once([';', ',']))
+        .expect("a cycle");
     let hint = format!("; resume with: mdr-tui run --resume {path}\n");
-    assert!(
-        said.err.contains("interrupted at cycle ") && said.err.ends_with(&hint),
-        "{}",
-        said.err
-    );
+    assert!(rest.ends_with(&hint), "{}", said.err);
     let kept = std::fs::read(dir.path(&path)).expect("a checkpoint");
     assert!(kept.starts_with(b"mdr-tui checkpoint "));
+    assert_eq!(said.out, "");
+    cycle.to_owned()
 }
 
 #[test]
@@ -67,8 +55,20 @@ fn a_run_keeps_itself_at_every_signal_that_asks_it_to_end() {
     let dir = TestDir::new();
     for sign in ENDING {
         let child = start(&dir, sign, "");
-        wait_for(&dir, &format!("{sign}/run.checkpoint"));
-        assert_ends(&dir, child, sign, sign);
+        let cycle = ends(&dir, child, sign, sign);
+        // What is done is there.
+        let state = Table::parse(&dir.read(&format!("{sign}/state.csv")));
+        assert_eq!(state.header("cycle"), cycle);
+        assert_eq!(
+            names(&dir.path(sign)),
+            [
+                "history.csv",
+                "run.checkpoint",
+                "scenario.toml",
+                "state-0.5.csv",
+                "state.csv"
+            ]
+        );
     }
 }
 
@@ -78,9 +78,8 @@ fn a_run_keeps_itself_at_every_signal_that_asks_it_to_end() {
 fn a_step_that_takes_an_hour_keeps_no_signal_waiting() {
     let dir = TestDir::new();
     let child = start(&dir, "x", "long step");
-    wait_for(&dir, "x/run.checkpoint");
     thread::sleep(Duration::from_millis(300));
-    assert_ends(&dir, child, "TERM", "x");
+    ends(&dir, child, "TERM", "x");
 }
 
 #[test]

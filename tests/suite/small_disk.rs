@@ -7,9 +7,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use crate::test_dir::{TestDir, end, has, names};
+use crate::test_dir::{TestDir, end, has, kill, names};
 
 /// A directory on a file system of its own.
 struct SmallDisk(PathBuf);
@@ -49,20 +49,18 @@ impl Drop for SmallDisk {
 
 const PLAN: &str = "run li2019-fig3 --set numerics.points=400 --snapshot-at 1 --history every-step";
 
-fn start(dir: &TestDir, out: &Path, cycles: &str) -> Child {
-    let mut command = dir.command(&PLAN.split(' ').collect::<Vec<_>>());
-    command.args(["--cycles", cycles, "--checkpoint-every", "0.02", "--out"]);
-    command.arg(out).env("XDG_STATE_HOME", dir.path("state"));
-    command.stdout(Stdio::piped()).stderr(Stdio::piped());
-    command.spawn().expect("the program starts")
-}
-
-fn wait_for(what: &str, mut seen: impl FnMut() -> bool) {
-    let start = Instant::now();
-    while !seen() {
-        assert!(start.elapsed() < Duration::from_secs(60), "no {what}");
-        thread::sleep(Duration::from_millis(2));
+fn start(dir: &TestDir, out: &Path) -> Child {
+    let line = format!(
+        "{PLAN} --cycles 60 --checkpoint-every 0.02 --out {}",
+        out.display()
+    );
+    let state = dir.path("state").display().to_string();
+    let mut child = dir.start(&line, &[("XDG_STATE_HOME", &state)]);
+    for name in ["state-1.csv", "run.checkpoint"] {
+        let path = out.join(name).display().to_string();
+        dir.wait_for(&mut child, &path);
     }
+    child
 }
 
 #[test]
@@ -72,9 +70,7 @@ fn on_a_full_disk_the_newest_state_is_kept_where_there_is_room() {
         return;
     };
     let out = disk.0.join("x");
-    let child = start(&dir, &out, "60");
-    wait_for("snapshot", || out.join("state-1.csv").exists());
-    wait_for("checkpoint", || out.join("run.checkpoint").exists());
+    let child = start(&dir, &out);
     disk.fill();
     let said = end(child);
     assert_eq!(said.code, 1, "{}", said.err);
@@ -102,28 +98,21 @@ fn on_a_full_disk_the_newest_state_is_kept_where_there_is_room() {
         "run --resume {path} --quiet --out {}",
         roomy.display()
     ));
-    let mut whole: Vec<&str> = PLAN.split(' ').collect();
-    whole.extend(["--cycles", "60", "--out", "whole", "--quiet"]);
-    assert_eq!(dir.say(&whole).code, 0);
-    assert_eq!(names(&roomy), names(&dir.path("whole")));
-    for name in names(&roomy) {
-        let read = |path: &Path| fs::read(path.join(&name)).expect("a file");
-        assert!(read(&roomy) == read(&dir.path("whole")), "{name} differs");
-    }
+    dir.done(&format!("{PLAN} --cycles 60 --out whole --quiet"));
+    dir.alike("whole", "roomy/x");
 }
 
 #[test]
 fn where_nothing_more_is_kept_the_end_says_from_which_cycle_on() {
     let dir = TestDir::new();
     let out = dir.path("x");
-    let child = start(&dir, &out, "60");
-    wait_for("checkpoint", || out.join("run.checkpoint").exists());
+    let child = start(&dir, &out);
     let limit = Command::new("prlimit")
         .args(["--fsize=0:0", "--pid", &child.id().to_string()])
         .status();
     if !limit.is_ok_and(|status| status.success()) {
         eprintln!("skipped: no prlimit here");
-        let _ = end_by_force(child);
+        kill(child);
         return;
     }
     let said = end(child);
@@ -141,11 +130,6 @@ fn where_nothing_more_is_kept_the_end_says_from_which_cycle_on() {
         rest.ends_with("run.checkpoint (cycles up to 60 could not be saved)"),
         "{last}"
     );
-}
-
-fn end_by_force(mut child: Child) -> std::io::Result<()> {
-    child.kill()?;
-    child.wait().map(|_| ())
 }
 
 #[cfg(target_os = "linux")]

@@ -33,14 +33,6 @@ fn dir_with(study: &str) -> TestDir {
     dir
 }
 
-/// Runs the program, which must refuse, and returns the one line on stderr.
-fn refusal(dir: &TestDir, arguments: &[&str], code: i32) -> String {
-    let said = dir.say(arguments);
-    assert_eq!(said.code, code, "{arguments:?}: {}", said.err);
-    assert_eq!(said.err.lines().count(), 1, "{arguments:?}: {}", said.err);
-    said.err
-}
-
 #[test]
 fn a_row_a_point_in_the_order_of_the_axes() {
     let dir = dir_with(STUDY);
@@ -102,8 +94,10 @@ fn a_point_is_an_ordinary_run() {
         let last = *run.column(name).last().expect("a row");
         assert_eq!(map.column(name)[7].to_bits(), last.to_bits(), "{name}");
     }
-    let said = refusal(&dir, &["sweep", "study.toml", "--point", "12"], 2);
-    assert!(said.contains("has 12 points, counted from 0"), "{said}");
+    dir.refuse_line(
+        "sweep study.toml --point 12",
+        "has 12 points, counted from 0",
+    );
 }
 
 #[test]
@@ -128,8 +122,10 @@ fn rows_are_the_same_on_any_number_of_threads_and_in_any_number_of_shards() {
         .expect("an end");
     assert!(output.status.success());
     assert_eq!(dir.read("s.csv"), dir.read("study.shards/shard-3.csv"));
-    let said = refusal(&dir, &["sweep", "study.toml", "--shards", "5"], 2);
-    assert!(said.contains("SLURM_ARRAY_TASK_ID is not set"), "{said}");
+    dir.refuse_line(
+        "sweep study.toml --shards 5",
+        "SLURM_ARRAY_TASK_ID is not set",
+    );
 }
 
 #[test]
@@ -141,16 +137,12 @@ fn merging_names_what_is_missing_double_or_of_another_study() {
     let merge = ["sweep", "--merge", "study.shards"];
     let shard = dir.read("study.shards/shard-1.csv");
     fs::remove_file(dir.path("study.shards/shard-1.csv")).expect("a file");
-    let said = refusal(&dir, &merge, 1);
-    assert!(
-        said.contains("4 of 12 points are missing: point 1 (motion.normal.mean = 6e-7"),
-        "{said}"
+    let said = dir.say(&merge);
+    said.ends(
+        1,
+        "4 of 12 points are missing: point 1 (motion.normal.mean = 6e-7",
     );
-    assert!(
-        said.trim_end()
-            .ends_with("of 3 shards, these are incomplete: 1"),
-        "{said}"
-    );
+    assert!(said.err.ends_with("of 3 shards, these are incomplete: 1\n"));
 
     dir.write("study.shards/shard-1.csv", shard.as_bytes());
     dir.write("study.shards/again.csv", shard.as_bytes());
@@ -166,12 +158,10 @@ fn merging_names_what_is_missing_double_or_of_another_study() {
 
     let other = shard.replace("\"run.cycles\" = 3.0", "\"run.cycles\" = 4.0");
     dir.write("study.shards/again.csv", other.as_bytes());
-    let said = refusal(&dir, &merge, 2);
-    has(&said, "holds another study: study: \"run.cycles\" = ");
+    dir.refuse(&merge, "holds another study: study: \"run.cycles\" = ");
     dir.write("study.shards/again.csv", b"r_m\n1\n");
-    assert!(refusal(&dir, &merge, 2).contains("again.csv: is not a table of mdr-tui sweep"));
-    let said = refusal(&dir, &["sweep", "--merge", "nowhere"], 2);
-    assert!(said.contains("nowhere: "), "{said}");
+    dir.refuse(&merge, "again.csv: is not a table of mdr-tui sweep");
+    dir.refuse_line("sweep --merge nowhere", "nowhere: ");
 }
 
 #[test]
@@ -229,12 +219,10 @@ fn a_study_that_was_interrupted_goes_on_to_the_same_bytes() {
     let rows = &lines[lines.len() - 12..];
     let torn = format!("{head}{}{}{}", rows[7], rows[2], &rows[5][..20]);
     dir.write("map.csv", torn.as_bytes());
-    let said = refusal(&dir, &["sweep", "study.toml", "--out", "map.csv"], 2);
-    assert!(
-        said.contains("map.csv: already exists; --resume continues it"),
-        "{said}"
+    dir.refuse_line(
+        "sweep study.toml --out map.csv",
+        "map.csv: already exists; --resume continues it",
     );
-    assert_eq!(dir.read("map.csv"), torn);
     dir.done("sweep study.toml --out map.csv --resume");
     assert_eq!(dir.read("map.csv"), whole);
     // The rows that were there were not computed again.
@@ -247,17 +235,10 @@ fn a_study_that_was_interrupted_goes_on_to_the_same_bytes() {
     dir.done("sweep study.toml --out map.csv --resume --failed");
     assert_eq!(dir.read("map.csv"), whole);
     // Another study does not go on with it.
-    let set = ["--set", "friction.coefficient=0.2"];
-    let said = refusal(
-        &dir,
-        &[
-            &["sweep", "study.toml", "--out", "map.csv", "--resume"],
-            &set[..],
-        ]
-        .concat(),
-        2,
+    dir.refuse_line(
+        "sweep study.toml --out map.csv --resume --set friction.coefficient=0.2",
+        "map.csv: holds another study: ",
     );
-    assert!(said.contains("map.csv: holds another study: "), "{said}");
     assert_eq!(dir.read("map.csv"), whole);
 }
 
@@ -649,13 +630,9 @@ values = [0.0, 1e-10]
 fn invalid_points_are_named_before_anything_runs() {
     let study = STUDY.replace("linspace = [6e-7, 2e-6, 4]", "values = [1e-6, -1.0]");
     let dir = dir_with(&study);
-    let said = refusal(&dir, &["sweep", "study.toml"], 2);
-    has(
-        &said,
-        "point 3 (motion.normal.mean = -1, motion.tangential.amplitude = 1e-8)",
-    );
-    assert!(said.contains("--skip-invalid"), "{said}");
-    assert!(!dir.path("study.csv").exists());
+    let point = "point 3 (motion.normal.mean = -1, motion.tangential.amplitude = 1e-8)";
+    let said = dir.refuse(&["sweep", "study.toml"], point);
+    has(&said, "--skip-invalid");
     let said = dir.line("sweep study.toml --skip-invalid");
     assert_eq!(said.code, 0);
     let text = dir.read("study.csv");
@@ -773,25 +750,23 @@ fn bad_studies_are_refused_in_one_line() {
     let dir = TestDir::new();
     for (study, word) in cases {
         dir.write("study.toml", study.as_bytes());
-        let said = refusal(&dir, &["sweep", "study.toml"], 2);
-        assert!(said.contains(word), "{study}\n{said}");
+        dir.refuse_line("sweep study.toml", word);
     }
-    assert!(refusal(&dir, &["sweep", "no.toml"], 2).contains("no.toml: no such file"));
+    dir.refuse_line("sweep no.toml", "no.toml: no such file");
     dir.write("study.toml", STUDY.as_bytes());
-    for (arguments, word) in [
+    for (options, word) in [
         (
-            &["--shard", "4/4"][..],
+            "--shard 4/4",
             "shards count from 0, so the last of 4 is 3/4",
         ),
-        (&["--shard", "x"], "a shard is INDEX/COUNT"),
-        (&["--set", "friction"], "must be KEY=VALUE"),
-        (&["--set", "motion.normal.mean=1"], "is varied by an axis"),
-        (&["--threads", "0"], "--threads"),
-        (&["--failed"], "--resume"),
-        (&["--slurm"], "--shards"),
+        ("--shard x", "a shard is INDEX/COUNT"),
+        ("--set friction", "must be KEY=VALUE"),
+        ("--set motion.normal.mean=1", "is varied by an axis"),
+        ("--threads 0", "--threads"),
+        ("--failed", "--resume"),
+        ("--slurm", "--shards"),
     ] {
-        let said = refusal(&dir, &[&["sweep", "study.toml"], arguments].concat(), 2);
-        assert!(said.contains(word), "{arguments:?}: {said}");
+        dir.refuse_line(&format!("sweep study.toml {options}"), word);
     }
 }
 
@@ -822,12 +797,9 @@ fn the_job_script_has_what_a_centre_asks_for() {
             "--account",
             word,
         ];
-        assert!(
-            refusal(&dir, &arguments, 2).contains("without blanks"),
-            "{word}"
-        );
+        dir.refuse(&arguments, "without blanks");
     }
-    refusal(&dir, &["sweep", "study.toml", "--partition", "x"], 2);
+    dir.refuse_line("sweep study.toml --partition x", "--slurm");
 }
 
 #[test]
@@ -983,12 +955,10 @@ fn the_map_shows_a_study_that_is_under_way() {
         lines.iter().any(|line| line == "not there yet"),
         "{lines:?}"
     );
-    let said = refusal(
-        &dir,
-        &["sweep", "--view", "study.toml", "--print", "80x24"],
-        2,
+    dir.refuse_line(
+        "sweep --view study.toml --print 80x24",
+        "is not a table of mdr-tui sweep",
     );
-    assert!(said.contains("is not a table of mdr-tui sweep"), "{said}");
 }
 
 #[test]
@@ -1116,19 +1086,15 @@ fn sensitivities_are_those_of_the_closed_forms() {
     let text = dir.done("sweep study.toml --sensitivity --out s.csv");
     assert!(text.contains("elasticity"), "{text}");
     assert!(dir.read("s.csv").contains("\nindenter.radius,"));
-    let said = refusal(&dir, &["sweep", "study.toml"], 2);
-    assert!(said.contains("the study has no axis"), "{said}");
+    dir.refuse_line("sweep study.toml", "the study has no axis");
     dir.write(
         "none.toml",
         study
             .replace("indenter.radius", "motion.normal.phase")
             .as_bytes(),
     );
-    let said = refusal(&dir, &["sweep", "none.toml", "--sensitivity"], 2);
-    has(
-        &said,
-        "motion.normal.phase: must be a number greater than 0",
-    );
+    let rule = "motion.normal.phase: must be a number greater than 0";
+    dir.refuse_line("sweep none.toml --sensitivity", rule);
 }
 
 #[test]

@@ -200,22 +200,14 @@ fn an_interrupt_keeps_what_is_done() {
 
 #[test]
 fn what_cannot_be_traded_is_refused_in_one_line() {
+    let dir = TestDir::new();
     for (arguments, line) in [
-        (&["hertz"][..], "hertz: nothing wears"),
-        (
-            &["li2019-fig3", "--points", "3"],
-            "points are whole numbers",
-        ),
-        (
-            &["li2019-fig3", "--accuracy", "0"],
-            "an accuracy is greater than 0",
-        ),
-        (&["li2019-fig3", "--methods", "c"], "invalid value 'c'"),
-        (&["nothing.toml"], "no such file"),
+        ("hertz", "hertz: nothing wears"),
+        ("li2019-fig3 --points 3", "points are whole numbers"),
+        ("li2019-fig3 --accuracy 0", "an accuracy is greater than 0"),
+        ("li2019-fig3 --methods c", "invalid value 'c'"),
+        ("nothing.toml", "no such file"),
     ] {
-        let Said { code, out, err } = say(arguments);
-        assert_eq!((code, out.as_str()), (2, ""), "{arguments:?}");
-        assert!(err.contains(line), "{err}");
-        assert_eq!(err.lines().count(), 1, "{err}");
+        dir.refuse_line(&format!("trade {arguments}"), line);
     }
 }

@@ -1,36 +1,20 @@
 //! Two programs that want the same files: one has them, the other is told so.
 
-use std::process::{Child, Stdio};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use crate::test_dir::{Said, TestDir, end, names};
-
-fn start(dir: &TestDir, line: &str) -> Child {
-    let arguments: Vec<&str> = line.split_whitespace().collect();
-    let mut command = dir.command(&arguments);
-    command.stdout(Stdio::piped()).stderr(Stdio::piped());
-    command.spawn().expect("the program starts")
-}
+use crate::test_dir::{Said, TestDir, end, kill, names};
 
 /// Starts two programs, the second one `pause` after the first; what the winner and the loser say.
 fn race(dir: &TestDir, lines: [&str; 2], pause: Duration) -> (usize, Said, Said) {
-    let first = start(dir, lines[0]);
+    let first = dir.start(lines[0], &[]);
     thread::sleep(pause);
-    let second = start(dir, lines[1]);
+    let second = dir.start(lines[1], &[]);
     let (first, second) = (end(first), end(second));
     match (first.code, second.code) {
         (0, 2) => (0, first, second),
         (2, 0) => (1, second, first),
         codes => panic!("{codes:?}: {}{}", first.err, second.err),
-    }
-}
-
-fn assert_alike(dir: &TestDir, one: &str, other: &str) {
-    assert_eq!(names(&dir.path(one)), names(&dir.path(other)), "{other}");
-    for name in names(&dir.path(one)) {
-        let read = |directory| dir.read(&format!("{directory}/{name}"));
-        assert!(read(one) == read(other), "{other}: {name} differs");
     }
 }
 
@@ -55,30 +39,20 @@ fn of_two_runs_into_one_directory_the_second_is_refused() {
             "{}",
             loser.err
         );
-        assert_alike(&dir, &format!("whole-{winner}"), &out);
+        dir.alike(&format!("whole-{winner}"), &out);
     }
     // Without --out each has a directory of its own.
-    let [first, second] = [0, 1].map(|_| start(&dir, "run hertz --cycles 1 --quiet"));
+    let [first, second] = [0, 1].map(|_| dir.start("run hertz --cycles 1 --quiet", &[]));
     assert_eq!((end(first).code, end(second).code), (0, 0));
-    assert_alike(&dir, "hertz-run", "hertz-run-2");
-}
-
-/// Waits until a file is there.
-fn wait_for(child: &mut Child, dir: &TestDir, name: &str) {
-    let start = Instant::now();
-    while !dir.path(name).exists() {
-        assert!(start.elapsed() < Duration::from_secs(60), "no {name}");
-        assert!(matches!(child.try_wait(), Ok(None)), "an early end");
-        thread::sleep(Duration::from_millis(1));
-    }
+    dir.alike("hertz-run", "hertz-run-2");
 }
 
 #[test]
 fn a_run_under_way_is_refused_to_others_even_by_force_and_a_killed_one_is_not() {
     let dir = TestDir::new();
     let plan = "run hertz --cycles 1e9 --set numerics.points=8 --out x --checkpoint-every 0.001";
-    let mut alive = start(&dir, plan);
-    wait_for(&mut alive, &dir, "x/run.checkpoint");
+    let mut alive = dir.start(plan, &[]);
+    dir.wait_for(&mut alive, "x/run.checkpoint");
     for line in [
         "run cone --cycles 1 --out x",
         "run cone --cycles 1 --out x --force",
@@ -99,8 +73,7 @@ fn a_run_under_way_is_refused_to_others_even_by_force_and_a_killed_one_is_not() 
     assert!(matches!(alive.try_wait(), Ok(None)), "it was disturbed");
     // A copy elsewhere disturbs nobody.
     dir.done("run --resume x/run.checkpoint --cycles 3000 --out y --quiet");
-    let _ = alive.kill();
-    let _ = alive.wait();
+    kill(alive);
     // What it has left behind is stale.
     dir.done("run cone --cycles 1 --out x --force --quiet");
     assert_eq!(
@@ -116,10 +89,9 @@ fn of_two_that_resume_one_checkpoint_the_second_is_refused() {
     dir.done(&format!("{plan} --cycles 12 --out whole"));
     for pause in [0, 3] {
         let line = format!("{plan} --cycles 12 --out x --checkpoint-every 0.001 --force");
-        let mut broken = start(&dir, &line);
-        wait_for(&mut broken, &dir, "x/run.checkpoint");
-        let _ = broken.kill();
-        let _ = broken.wait();
+        let mut broken = dir.start(&line, &[]);
+        dir.wait_for(&mut broken, "x/run.checkpoint");
+        kill(broken);
         let line = "run --resume x/run.checkpoint --quiet --checkpoint-every 0.001";
         let (_, _, loser) = race(&dir, [line; 2], Duration::from_millis(pause));
         assert_eq!(loser.err.lines().count(), 1, "{}", loser.err);
@@ -129,6 +101,6 @@ fn of_two_that_resume_one_checkpoint_the_second_is_refused() {
             "{}",
             loser.err
         );
-        assert_alike(&dir, "whole", "x");
+        dir.alike("whole", "x");
     }
 }

@@ -83,6 +83,60 @@ impl TestDir {
         said.out
     }
 
+    /// Runs the program, which must refuse: code 2, lines of its own without control characters that hold
+    /// `expected`, nothing else said and nothing written. Returns what it said.
+    #[track_caller]
+    pub fn refuse(&self, arguments: &[&str], expected: &str) -> String {
+        let before = self.inventory();
+        let Said { code, out, err } = self.say(arguments);
+        assert_eq!((code, out.as_str()), (2, ""), "{arguments:?}: {err}");
+        let lines = err.strip_suffix('\n').expect("whole lines");
+        assert!((1..=20).contains(&lines.lines().count()), "{err}");
+        for line in lines.lines() {
+            assert!(line.starts_with("mdr-tui: ") && line.len() < 1000, "{line}");
+            assert!(!line.chars().any(char::is_control), "{line:?}");
+        }
+        assert!(lines.contains(expected), "{lines:?} without {expected:?}");
+        assert!(self.inventory() == before, "{arguments:?} wrote something");
+        err
+    }
+
+    /// [`refuse`](Self::refuse) with the words of a line, without quoting, in one line.
+    #[track_caller]
+    pub fn refuse_line(&self, line: &str, expected: &str) {
+        let said = self.refuse(&line.split_whitespace().collect::<Vec<_>>(), expected);
+        assert_eq!(said.lines().count(), 1, "{line}: {said}");
+    }
+
+    /// Starts the program with the words of a line, and with an environment besides.
+    pub fn start(&self, line: &str, environment: &[(&str, &str)]) -> Child {
+        let mut command = self.command(&line.split_whitespace().collect::<Vec<_>>());
+        command.envs(environment.iter().copied());
+        command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        command.spawn().expect("the program starts")
+    }
+
+    /// Waits until a program has made the file `name`.
+    #[track_caller]
+    pub fn wait_for(&self, child: &mut Child, name: &str) {
+        let start = Instant::now();
+        while !self.path(name).exists() {
+            assert!(start.elapsed() < Duration::from_secs(60), "no {name}");
+            assert!(matches!(child.try_wait(), Ok(None)), "an early end");
+            thread::sleep(Duration::from_millis(1));
+        }
+    }
+
+    /// Fails unless two directories hold the same files with the same bytes.
+    #[track_caller]
+    pub fn alike(&self, one: &str, other: &str) {
+        assert_eq!(names(&self.path(one)), names(&self.path(other)), "{other}");
+        for name in names(&self.path(one)) {
+            let read = |directory| self.read(&format!("{directory}/{name}"));
+            assert!(read(one) == read(other), "{other}: {name} differs");
+        }
+    }
+
     /// Where `name` is.
     pub fn path(&self, name: &str) -> PathBuf {
         self.0.path().join(name)
@@ -109,7 +163,8 @@ impl TestDir {
                     found.push((path.clone(), Vec::new()));
                     waiting.push(path);
                 } else {
-                    let contents = fs::read(&path).expect("a file");
+                    // A link may lead nowhere.
+                    let contents = fs::read(&path).unwrap_or_default();
                     found.push((path, contents));
                 }
             }
@@ -117,6 +172,21 @@ impl TestDir {
         found.sort();
         found
     }
+}
+
+/// Sends a signal by its name.
+pub fn signal(child: &Child, name: &str) {
+    let kill = format!("kill -{name} {}", child.id());
+    let sent = Command::new("sh").args(["-c", &kill]).status();
+    assert!(sent.expect("a shell").success());
+}
+
+/// Kills a program that does not end by itself.
+#[track_caller]
+pub fn kill(mut child: Child) {
+    let _ = child.kill();
+    let status = child.wait().expect("an end");
+    assert_eq!(status.code(), None, "it ended by itself");
 }
 
 /// Waits until a program has ended that says no more than a pipe holds; fails if it does not end.

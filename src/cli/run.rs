@@ -45,22 +45,18 @@ pub fn run(options: &Run) -> Result<ExitCode> {
             Job::start(options, name, &go_on)?
         }
     };
-    if let Some(why) = job.session.simulation().why_never_jumped()
-        && !options.quiet
-    {
-        complain(&format!("no cycle jumps: {why}"));
-    }
-    if let Some(remark) = job.session.scenario().setup().indenter.remark()
-        && !options.quiet
-    {
-        complain(&format!("indenter: {remark}"));
-    }
-    let warned = job.session.simulation().warnings();
-    if !options.quiet {
-        for warning in &warned {
-            complain(warning);
-        }
-    }
+    let remark = |line: String| match options.quiet {
+        true => {}
+        false => complain(&line),
+    };
+    let simulation = job.session.simulation();
+    let never = simulation.why_never_jumped();
+    let never = never.map(|why| format!("no cycle jumps: {why}"));
+    let indenter = job.session.scenario().setup().indenter.remark();
+    let indenter = indenter.map(|told| format!("indenter: {told}"));
+    never.into_iter().chain(indenter).for_each(remark);
+    let warned = simulation.warnings();
+    warned.iter().cloned().for_each(remark);
     let is_over = job.watch(Arc::clone(&stop));
     // A bug must not destroy hours of computing.
     let outcome = catch_unwind(AssertUnwindSafe(|| job.advance(&go_on)));
@@ -72,13 +68,11 @@ pub fn run(options: &Run) -> Result<ExitCode> {
     if matches!(outcome, Ok(Ended::Interrupted | Ended::Broken(_))) {
         job.save_checkpoint();
     }
+    // What has come up during the run; the same warning may have got another cycle.
     let warnings = job.session.simulation().warnings();
-    if !options.quiet && warnings.len() > warned.len() {
-        // What has come up during the run.
-        for warning in warnings.iter().filter(|line| !warned.contains(line)) {
-            complain(warning);
-        }
-    }
+    let has_more = warnings.len() > warned.len();
+    let new = |line: &String| has_more && !warned.contains(line);
+    warnings.into_iter().filter(new).for_each(remark);
     if options.estimate_error && matches!(outcome, Ok(Ended::Done)) {
         job.estimate(&go_on);
     }
@@ -487,77 +481,49 @@ impl Job {
     fn summarize(&self) -> Result<()> {
         let simulation = self.session.simulation();
         let (moment, stats) = (simulation.moment(), simulation.stats());
-        let mut out = io::stdout().lock();
-        writeln!(
-            out,
-            "{}: {} cycles",
-            self.session.scenario().title(),
-            number(moment.cycle)
-        )?;
-        writeln!(
-            out,
-            "  contact radius          {:.4e} m",
-            moment.contact_radius
-        )?;
+        let mut lines = vec![("contact radius", format!("{:.4e} m", moment.contact_radius))];
         if let Some(radius) = moment.permanent_stick_radius {
-            writeln!(out, "  permanent stick radius  {radius:.4e} m")?;
+            lines.push(("permanent stick radius", format!("{radius:.4e} m")));
         }
-        writeln!(
-            out,
-            "  worn volume             {:.4e} m3",
-            moment.wear_volume
-        )?;
-        writeln!(
-            out,
-            "  dissipated energy       {:.4e} J",
-            moment.dissipated_energy
-        )?;
+        let (volume, work) = (moment.wear_volume, moment.dissipated_energy);
+        lines.push(("worn volume", format!("{volume:.4e} m3")));
+        lines.push(("dissipated energy", format!("{work:.4e} J")));
         let setup = simulation.setup();
         if let Some(law) = &setup.wear {
-            let (k, friction) = (law.coefficient(), setup.material.friction());
-            writeln!(
-                out,
-                "  wear coefficient        {k:.4e} 1/Pa per friction work, {:.4e} mm3/(N m) per load",
-                k * friction * 1e9
-            )?;
+            let k = law.coefficient();
+            let per_load = k * setup.material.friction() * 1e9;
+            let both = format!("{k:.4e} 1/Pa per friction work, {per_load:.4e} mm3/(N m) per load");
+            lines.push(("wear coefficient", both));
         }
         if let Some(residual) = moment.energy_residual {
-            writeln!(
-                out,
-                "  energy residual         {residual:.1e}   (1 - V/(k E_d))"
-            )?;
+            let residual = format!("{residual:.1e}   (1 - V/(k E_d))");
+            lines.push(("energy residual", residual));
         }
+        let error = "estimated error";
         let stated = self.session.statements().iter();
-        let is_estimated = stated.clone().any(|(key, _)| key == "estimated_error");
-        if moment.wear_volume > 0.0 && !is_estimated {
-            writeln!(
-                out,
-                "  estimated error         not run (--estimate-error measures it)"
-            )?;
+        if volume > 0.0 && stated.clone().all(|(key, _)| key != "estimated_error") {
+            lines.push((error, "not run (--estimate-error measures it)".into()));
         }
         for (key, value) in stated {
-            if let Some(words) = refinement::words_of(key) {
-                writeln!(out, "  estimated error         {value}   {words}")?;
-            }
+            let words = refinement::words_of(key);
+            lines.extend(words.map(|words| (error, format!("{value}   {words}"))));
         }
-        let checks = simulation.checks();
-        if let Some(verdict) = verdict(&checks) {
-            let verdict = verdict.trim_start_matches("checks ");
-            writeln!(out, "  checks                  {verdict}")?;
+        if let Some(verdict) = verdict(&simulation.checks()) {
+            lines.push(("checks", verdict.trim_start_matches("checks ").to_owned()));
         }
-        let (parts, steps) = (stats.parts, simulation.steps());
-        if parts > 0 {
-            writeln!(
-                out,
-                "  stiff wear              {parts} sub-steps in {steps} \
-                 steps   (numerics.stability)"
-            )?;
+        if stats.parts > 0 {
+            let (parts, steps) = (stats.parts, simulation.steps());
+            let parts = format!("{parts} sub-steps in {steps} steps   (numerics.stability)");
+            lines.push(("stiff wear", parts));
         }
-        writeln!(
-            out,
-            "  files in                {}",
-            printable(&self.directory.path().display().to_string())
-        )?;
+        let directory = self.directory.path().display().to_string();
+        lines.push(("files in", printable(&directory)));
+        let mut out = io::stdout().lock();
+        let title = self.session.scenario().title();
+        writeln!(out, "{title}: {} cycles", number(moment.cycle))?;
+        for (name, text) in lines {
+            writeln!(out, "  {name:<22}  {text}")?;
+        }
         Ok(())
     }
 }

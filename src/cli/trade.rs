@@ -258,23 +258,13 @@ fn plots(trials: &[Trial], options: &Trade) -> String {
         let (times, errors): (Vec<f64>, Vec<f64>) = points.unzip();
         Curve::new("", times, errors, Role::Profile)
     };
-    let mine = AbelMethod::ALL.map(|method| (method, curve(Some(method))));
-    let mine = || mine.iter().filter(|(_, curve)| !curve.xs.is_empty());
-    let ends = |of: fn(&Curve) -> &Vec<f64>| {
-        small_multiples::decades(mine().flat_map(|(_, curve)| of(curve).clone()))
-    };
-    let (Some(times), Some(errors)) = (ends(|curve| &curve.xs), ends(|curve| &curve.ys)) else {
-        return String::new();
-    };
     let all = curve(None).dashed();
-    let charts = mine().map(|(method, curve)| {
-        let time = Axis::new("time", "s").bounds(times).scale(Scale::Log);
-        let error = Axis::new(format!("{method}: error"), "")
-            .bounds(errors)
-            .scale(Scale::Log);
-        Chart::new("", time, error)
-            .curve(all.clone())
-            .curve(curve.clone())
+    let charts = AbelMethod::ALL.into_iter().filter_map(|method| {
+        let mine = curve(Some(method));
+        let time = Axis::new("time", "s").scale(Scale::Log);
+        let error = Axis::new(format!("{method}: error"), "").scale(Scale::Log);
+        let chart = Chart::new("", time, error).curve(all.clone());
+        (!mine.xs.is_empty()).then(|| chart.curve(mine))
     });
-    small_multiples::draw(&charts.collect::<Vec<_>>(), options.drawing.marker)
+    small_multiples::draw_alike(charts.collect(), options.drawing.marker)
 }

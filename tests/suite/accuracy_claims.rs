@@ -8,23 +8,19 @@ use mdr_tui::reading::{Check, Subject, verdict};
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
 
-use crate::common::{fig3, holds};
+use crate::common::{fig3, holds, load, ran};
 use crate::test_dir::{TestDir, has};
 
 /// A preset or a text with `sets`, at `cycles`.
 fn run(name: &str, sets: &[&str], cycles: f64) -> Session {
-    let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
-    let scenario = if name.contains('\n') {
-        Scenario::from_toml(name, "a text", &sets)
-    } else {
-        Scenario::load(name, &sets)
-    };
-    let scenario = scenario.unwrap_or_else(|error| panic!("{error}"));
-    let mut session = Session::start(scenario).unwrap_or_else(|error| panic!("{error}"));
-    session
-        .advance_to(cycles)
-        .unwrap_or_else(|error| panic!("{name} {sets:?}: {error}"));
-    session
+    let owned: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+    ran(
+        match name.contains('\n') {
+            true => Scenario::from_toml(name, "a text", &owned).expect("a scenario"),
+            false => load(name, sets),
+        },
+        cycles,
+    )
 }
 
 fn checks(session: &Session) -> Vec<Check> {

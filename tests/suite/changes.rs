@@ -4,14 +4,13 @@ use mdr_tui::scenario::checkpoint;
 use mdr_tui::scenario::session::Session;
 use mdr_tui::scenario::{Change, Scenario};
 
+use crate::common::{begin, load, ran};
+
 /// Fig. 3 of the paper with `changes`, KEY = VALUE at a cycle.
 fn figure(sets: &[&str], changes: &[(f64, &str, &str)]) -> Scenario {
-    let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
     let change = |&(at, key, value): &(f64, &str, &str)| Change::new(at, key, value);
     let changes = changes.iter().map(change).collect();
-    Scenario::load("li2019-fig3", &sets)
-        .expect("a preset")
-        .with_changes(changes)
+    load("li2019-fig3", sets).with_changes(changes)
 }
 
 fn volume(session: &Session) -> f64 {
@@ -27,7 +26,7 @@ fn a_shallower_contact_keeps_the_scar_of_a_deeper_one() {
             (5.0, "motion.normal.mean", "2e-7"),
             (10.0, "motion.normal.mean", "1e-6"),
         ];
-        let mut session = Session::start(figure(&[&grid], &changes)).expect("a contact");
+        let mut session = begin(figure(&[&grid], &changes));
         let mut before = 0.0;
         for cycle in [4.9999, 5.0, 5.0001, 9.9999, 10.0, 10.0001, 12.0] {
             session.advance_to(cycle).expect("a contact");
@@ -38,9 +37,7 @@ fn a_shallower_contact_keeps_the_scar_of_a_deeper_one() {
             );
             before = now;
         }
-        let direct = figure(&[&grid], &[]);
-        let mut direct = Session::start(direct).expect("a contact");
-        direct.advance_to(5.0).expect("a contact");
+        let direct = ran(figure(&[&grid], &[]), 5.0);
         assert!(before > 1.2 * volume(&direct), "{grid}");
         // The books of the energy balance bridge the change of nodes.
         let residual = session.simulation().moment().period_residual;
@@ -53,7 +50,7 @@ fn a_shallower_contact_keeps_the_scar_of_a_deeper_one() {
 
 #[test]
 fn a_domain_that_would_cut_wear_off_is_refused() {
-    let mut session = Session::start(figure(&[], &[])).expect("a contact");
+    let mut session = begin(figure(&[], &[]));
     session.advance_to(3.0).expect("a contact");
     let before = (volume(&session), session.simulation().state().clone());
     let told = session
@@ -84,7 +81,7 @@ fn a_domain_that_would_cut_wear_off_is_refused() {
 /// Few cells say another volume than many: a little is booked, a lot is refused.
 #[test]
 fn a_grid_too_coarse_for_the_scar_is_refused() {
-    let mut session = Session::start(figure(&[], &[])).expect("a contact");
+    let mut session = begin(figure(&[], &[]));
     session.advance_to(20.0).expect("a contact");
     let before = volume(&session);
     session
@@ -137,7 +134,7 @@ fn a_control_without_values_in_its_unit_is_refused() {
         "a.toml: changes[0].set = \"motion.normal.control = \"force\"\": \
          needs motion.normal.mean in N, changed at the same cycle"
     );
-    let mut session = Session::start(figure(&[], &[])).expect("a contact");
+    let mut session = begin(figure(&[], &[]));
     let told = session
         .change("motion.tangential.control", "force")
         .expect_err("metres");
@@ -161,7 +158,7 @@ fn a_control_without_values_in_its_unit_is_refused() {
 /// to the bit, also from a checkpoint between two changes.
 #[test]
 fn what_was_changed_by_hand_is_replayed_to_the_bit() {
-    let mut session = Session::start(figure(&[], &[])).expect("a contact");
+    let mut session = begin(figure(&[], &[]));
     session.advance_to(2.5).expect("a contact");
     let untouched = session.simulation().state().wear.clone();
     session.change("numerics.points", "30").expect("a change");

@@ -8,10 +8,10 @@ use mdr_tui::scenario::session::Session;
 use mdr_tui::scenario::{Scenario, preset};
 use mdr_tui::simulation::Simulation;
 
+use crate::common::{begin, load};
+
 fn session(preset: &str, sets: &[&str]) -> Session {
-    let sets: Vec<String> = sets.iter().map(ToString::to_string).collect();
-    let scenario = Scenario::load(preset, &sets).expect("a scenario");
-    Session::start(scenario).expect("a contact")
+    begin(load(preset, sets))
 }
 
 /// Through a file's bytes and back.

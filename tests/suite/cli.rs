@@ -7,9 +7,9 @@ use std::process::Stdio;
 
 use mdr_tui::export::{history, state};
 use mdr_tui::reading::Curves;
-use mdr_tui::scenario::session::Session;
-use mdr_tui::scenario::{Scenario, preset};
+use mdr_tui::scenario::preset;
 
+use crate::common::{load, ran};
 use crate::test_dir::{Said, Table, TestDir, bits, end, has, names};
 
 #[test]
@@ -222,9 +222,7 @@ fn run_writes_the_files_of_the_contract() {
 fn the_numbers_of_the_files_read_back_exactly() {
     let dir = TestDir::new();
     dir.done("run li2019-fig3 --cycles 2 --out x");
-    let scenario = Scenario::load("li2019-fig3", &[]).expect("a preset");
-    let mut session = Session::start(scenario).expect("a contact");
-    session.advance_to(2.0).expect("two cycles");
+    let session = ran(load("li2019-fig3", &[]), 2.0);
     let seen = session.simulation().observe(Curves::all());
     let table = Table::parse(&dir.read("x/state.csv"));
     for (name, values) in [
@@ -353,8 +351,7 @@ fn json_parses_and_quiet_is_quiet() {
     let summary = dir.done("run mindlin --out a --json");
     let summary: serde_json::Value = serde_json::from_str(&summary).expect("a JSON value");
     assert_eq!(summary["directory"], "a");
-    let scenario = Scenario::load("mindlin", &[]).expect("a preset");
-    assert_eq!(summary["cycle"].as_f64(), scenario.run().cycles);
+    assert_eq!(summary["cycle"].as_f64(), load("mindlin", &[]).run().cycles);
     // The names and the values of the files.
     let history = Table::parse(&dir.read("a/history.csv"));
     for name in &history.columns {

@@ -2,10 +2,8 @@
 //!
 //! Lengths are in a₀ or d₀ throughout.
 
-use crate::common::{Scene, archard, holds, ours, run_setup, swing};
+use crate::common::{Scene, archard, begin, holds, load, ours, ran, run_setup, swing};
 use mdr_tui::math::abel::AbelMethod::A;
-use mdr_tui::scenario::Scenario;
-use mdr_tui::scenario::session::Session;
 use mdr_tui::simulation::{Integrator, Scheme, Setup, Simulation, Spacing};
 use mdr_tui::wear::WearLaw;
 use std::f64::consts::{FRAC_PI_4, SQRT_2};
@@ -141,8 +139,7 @@ fn a_plain_swing_needs_no_steps() {
 /// Work counts: a million mild cycles cost what some hundred looks cost.
 #[test]
 fn a_million_cycles_cost_a_few_hundred() {
-    let scenario = Scenario::load("mild-million", &[]).expect("a preset");
-    let simulation = run_setup(scenario.setup().clone(), 1e6);
+    let simulation = run_setup(load("mild-million", &[]).setup().clone(), 1e6);
     let stats = simulation.state().stats;
     let deepest = simulation.state().wear.iter().copied().fold(0.0, f64::max);
     let depth = 1e-6;
@@ -163,9 +160,7 @@ fn a_million_cycles_cost_a_few_hundred() {
         "wear.coefficient=5e-12",
         "numerics.steps_per_cycle=40",
     ];
-    let harsh = harsh.map(str::to_owned);
-    let scenario = Scenario::load("mild-million", &harsh).expect("a preset");
-    let direct = run_setup(scenario.setup().clone(), 1000.0);
+    let direct = run_setup(load("mild-million", &harsh).setup().clone(), 1000.0);
     let radii = direct.setup().grid.nodes().iter().zip(&direct.state().wear);
     let worst = radii
         .map(|(&r, wear)| {
@@ -190,12 +185,7 @@ fn a_shallow_scar_is_jumped_as_well() {
         "numerics.steps_per_cycle=30",
     ];
     let with = |more: &[&str]| {
-        let all: Vec<String> = overrides
-            .iter()
-            .chain(more)
-            .map(|&text| text.to_owned())
-            .collect();
-        let scenario = Scenario::load("li2019-fig3", &all).expect("a scenario");
+        let scenario = load("li2019-fig3", &[&overrides[..], more].concat());
         run_setup(scenario.setup().clone(), 1000.0)
     };
     let stepped = with(&[]);
@@ -224,9 +214,7 @@ fn jumps_go_on_after_a_hard_place() {
         "numerics.integrator=cycle-jump",
         "numerics.tolerance=3e-7",
     ];
-    let overrides = overrides.map(ToOwned::to_owned);
-    let scenario = Scenario::load("li2019-fig3", &overrides).expect("a scenario");
-    let run = run_setup(scenario.setup().clone(), 1000.0);
+    let run = run_setup(load("li2019-fig3", &overrides).setup().clone(), 1000.0);
     let stats = run.state().stats;
     assert!(stats.rejected_jumps > 2, "{stats:?}");
     assert!(run.steps() < 20 * 75, "{} steps: {stats:?}", run.steps());
@@ -250,9 +238,8 @@ fn motions_that_never_repeat_are_stepped() {
 
 #[test]
 fn a_run_with_jumps_and_changes_repeats_itself() {
-    let overrides = ["numerics.integrator=cycle-jump", "wear.coefficient=1e-12"].map(str::to_owned);
-    let scenario = Scenario::load("li2019-fig3", &overrides).expect("a scenario");
-    let mut session = Session::start(scenario).expect("a session");
+    let overrides = ["numerics.integrator=cycle-jump", "wear.coefficient=1e-12"];
+    let mut session = begin(load("li2019-fig3", &overrides));
     while session.simulation().cycle() < 500.0 {
         session.step().expect("a step");
     }
@@ -265,9 +252,7 @@ fn a_run_with_jumps_and_changes_repeats_itself() {
     }
     let cycle = session.simulation().cycle();
     assert!(cycle > 1000.0, "{cycle}");
-    let again = session.as_run(Vec::new());
-    let mut replay = Session::start(again).expect("a session");
-    replay.advance_to(cycle).expect("the end");
+    let replay = ran(session.as_run(Vec::new()), cycle);
     assert_eq!(replay.simulation().state(), session.simulation().state());
 }
 

@@ -1,9 +1,8 @@
 //! Contacts that outgrow the domain that they began on, and what jumps make of them.
 
-use crate::common::holds;
+use crate::common::{holds, load, ran};
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::checkpoint;
-use mdr_tui::scenario::session::Session;
 use std::f64::consts::PI;
 
 /// A steel ball of 12.7 mm on steel under a force (N) that is held, moved by an amplitude (m), over jumps.
@@ -44,18 +43,12 @@ integrator = "cycle-jump"
     Scenario::from_toml(&text, "ball.toml", &more).expect("a scenario")
 }
 
-fn run(scenario: Scenario, cycles: f64) -> Session {
-    let mut session = Session::start(scenario).expect("a contact");
-    session.advance_to(cycles).expect("room for the contact");
-    session
-}
-
 /// Gross slip under a held force: the volume is k times the work, the same on other cells and at other tolerances,
 /// and the contact radius that of Argatov's a⁴ = a₀⁴ + 4VR/π.
 #[test]
 fn a_ball_wears_by_its_work_through_jumps() {
     for (force, amplitude, cycles) in [(200.0, 5e-5, 1e5), (20.0, 3e-5, 1e5), (8.0, 4.5e-5, 1e4)] {
-        let ball = |more: &[&str]| run(ball(force, amplitude, more), cycles);
+        let ball = |more: &[&str]| ran(ball(force, amplitude, more), cycles);
         let coarse = ball(&["numerics.tolerance=1e-2"]);
         let fine = ball(&["numerics.points=200", "numerics.tolerance=1e-3"]);
         let at = format!("{force} N, {amplitude} m");
@@ -77,7 +70,7 @@ fn a_ball_wears_by_its_work_through_jumps() {
 #[test]
 fn a_domain_that_grows_says_what_a_wide_one_says() {
     let wear = |more: &[&str]| {
-        let session = run(ball(50.0, 2e-5, more), 1e5);
+        let session = ran(ball(50.0, 2e-5, more), 1e5);
         let simulation = session.simulation();
         let observed = simulation.observe(mdr_tui::reading::Curves::PROFILE);
         let depths = (0..40).map(|i| observed.worn_depth_at(1.4e-5 * f64::from(i)));
@@ -97,10 +90,8 @@ fn a_domain_that_grows_says_what_a_wide_one_says() {
 /// Steps grow the domain as jumps do, a step at a time.
 #[test]
 fn steps_grow_the_domain_too() {
-    let overrides = ["numerics.domain_radius=1.02e-4".to_owned()];
-    let narrow = Scenario::load("li2019-fig3", &overrides).expect("a scenario");
-    let wide = Scenario::load("li2019-fig3", &[]).expect("a scenario");
-    let [narrow, wide] = [narrow, wide].map(|scenario| run(scenario, 10.0));
+    let at_end = |sets: &[&str]| ran(load("li2019-fig3", sets), 10.0);
+    let [narrow, wide] = [at_end(&["numerics.domain_radius=1.02e-4"]), at_end(&[])];
     assert!(narrow.simulation().setup().grid.radius() > 1.02e-4);
     let [volume, due] = [&narrow, &wide].map(|run| run.simulation().wear_volume());
     holds("volume", (volume / due - 1.0).abs(), 3e-3);
@@ -109,7 +100,7 @@ fn steps_grow_the_domain_too() {
 /// A run that has grown goes on from a checkpoint to the same bits, replays, and takes changes.
 #[test]
 fn a_grown_run_is_taken_up_and_repeated() {
-    let mut whole = run(ball(20.0, 3e-5, &["numerics.domain_radius=1.4e-4"]), 2e3);
+    let mut whole = ran(ball(20.0, 3e-5, &["numerics.domain_radius=1.4e-4"]), 2e3);
     let grown = whole.simulation().setup().grid.radius();
     assert!(grown > 1.5e-4, "{grown}");
     let bytes = checkpoint::encode::<()>(&whole, None);
@@ -126,7 +117,6 @@ fn a_grown_run_is_taken_up_and_repeated() {
     assert!(whole.simulation().setup().grid.radius() > grown);
     assert_eq!(whole.simulation().state(), resumed.simulation().state());
     let end = whole.simulation().cycle();
-    let mut replay = Session::start(whole.as_run(Vec::new())).expect("a contact");
-    replay.advance_to(end).expect("the end");
+    let replay = ran(whole.as_run(Vec::new()), end);
     assert_eq!(whole.simulation().state(), replay.simulation().state());
 }

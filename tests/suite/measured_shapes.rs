@@ -2,10 +2,7 @@
 
 use std::fmt::Write;
 
-use mdr_tui::scenario::Scenario;
-use mdr_tui::scenario::session::Session;
-
-use crate::common::fig3;
+use crate::common::{fig3, load, ran};
 use crate::test_dir::TestDir;
 
 fn scenario(shape: &str) -> String {
@@ -25,9 +22,7 @@ fn table(points: u32, from: f64, f: impl Fn(f64) -> f64) -> String {
 
 /// F_z, F_x, a and V after two cycles.
 fn results(path: &str) -> [f64; 4] {
-    let scenario = Scenario::load(path, &[]).expect("a scenario");
-    let mut session = Session::start(scenario).expect("a contact");
-    session.advance_to(2.0).expect("two cycles");
+    let session = ran(load(path, &[]), 2.0);
     let moment = session.simulation().moment();
     [
         moment.normal_force,

@@ -1,14 +1,9 @@
 //! Presets of published cases, held against the numbers in the papers.
 
 use mdr_tui::reading::Curves;
-use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
 
-fn started(preset: &str, sets: &[&str]) -> Session {
-    let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
-    let scenario = Scenario::load(preset, &sets).expect("a preset");
-    Session::start(scenario).expect("a contact")
-}
+use crate::common::{begin, load};
 
 fn within(what: &str, found: f64, published: f64, share: f64) {
     let error = found / published - 1.0;
@@ -25,7 +20,7 @@ fn within(what: &str, found: f64, published: f64, share: f64) {
 /// Kalker's CONTACT, case cattaneo.inp: its elements are 1/15 of the contact wide.
 #[test]
 fn cattaneo_as_kalkers_program_has_it() {
-    let mut session = started("cattaneo-kalker", &[]);
+    let mut session = begin(load("cattaneo-kalker", &[]));
     session.advance_to(0.25).expect("a quarter of a cycle");
     let simulation = session.simulation();
     let moment = simulation.moment();
@@ -46,7 +41,7 @@ fn gross_slip_grows_by_argatovs_law() {
         "numerics.steps_per_cycle=40",
         "numerics.tolerance=1e-3",
     ];
-    let mut session = started("julia2022-gross-slip", &sets);
+    let mut session = begin(load("julia2022-gross-slip", &sets));
     let first = session.simulation().moment().contact_radius;
     session.advance_to(1e5).expect("a hundred thousand cycles");
     let simulation = session.simulation();
@@ -68,7 +63,7 @@ fn partial_slip_stops_wearing() {
         "numerics.steps_per_cycle=40",
         "numerics.tolerance=1e-3",
     ];
-    let mut session = started("julia2022-partial-slip", &sets);
+    let mut session = begin(load("julia2022-partial-slip", &sets));
     let deepest = |session: &Session| {
         let wear = session.simulation().observe(Curves::PROFILE).wear;
         wear.into_iter().fold(0.0, f64::max)
@@ -97,7 +92,7 @@ fn the_figures_of_the_guide_are_those_of_the_presets() {
         ),
     ] {
         let section = page.split(section).nth(1).expect("the section");
-        let mut session = started(preset, &[]);
+        let mut session = begin(load(preset, &[]));
         for (row, cycles) in [
             ("| 100 cycles", 100.0),
             ("| 10⁴ cycles", 1e4),
@@ -119,7 +114,7 @@ fn the_figures_of_the_guide_are_those_of_the_presets() {
             found.push(("V".to_owned(), volume.to_owned(), moment.wear_volume));
         }
     }
-    let mut session = started("cattaneo-kalker", &[]);
+    let mut session = begin(load("cattaneo-kalker", &[]));
     session.advance_to(0.25).expect("a quarter of a cycle");
     let simulation = session.simulation();
     let moment = simulation.moment();

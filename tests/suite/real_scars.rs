@@ -4,7 +4,8 @@ use mdr_tui::reading::Moment;
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
 
-use crate::test_dir::TestDir;
+use crate::common::{begin, try_load};
+use crate::test_dir::{TestDir, has};
 
 const SMALL: [&str; 3] = [
     "numerics.points=60",
@@ -12,17 +13,12 @@ const SMALL: [&str; 3] = [
     "run.snapshot_at=[]",
 ];
 
-fn strings(sets: &[&str]) -> Vec<String> {
-    SMALL
-        .iter()
-        .chain(sets)
-        .map(|set| (*set).to_owned())
-        .collect()
+fn small(name: &str, sets: &[&str]) -> Result<Scenario, String> {
+    try_load(name, &[&SMALL[..], sets].concat())
 }
 
 fn started(name: &str, sets: &[&str]) -> Session {
-    let scenario = Scenario::load(name, &strings(sets)).expect("a scenario");
-    Session::start(scenario).expect("a contact")
+    begin(small(name, sets).expect("a scenario"))
 }
 
 fn preset(name: &str) -> &'static str {
@@ -34,14 +30,6 @@ fn preset(name: &str) -> &'static str {
 /// The preset with `line` in its `[wear]` table.
 fn with_wear(name: &str, line: &str) -> String {
     preset(name).replace("[wear]\n", &format!("[wear]\n{line}\n"))
-}
-
-fn refused(path: &str) -> String {
-    let refused = Scenario::load(path, &strings(&[]))
-        .expect_err("refused")
-        .to_string();
-    assert_eq!(refused.lines().count(), 1, "{refused}");
-    refused
 }
 
 /// 20 cycles, the scar in a table, and 20 more: as 40 cycles at once.
@@ -127,10 +115,10 @@ fn a_table_of_a_smooth_scar_is_met_with_the_order_of_its_points() {
         }
         dir.write("scar.csv", text.as_bytes());
         let sets = ["numerics.points=2000", "numerics.grid=uniform"];
-        let scenario = Scenario::load(&path, &strings(&sets)).expect("a scenario");
+        let scenario = small(&path, &sets).expect("a scenario");
         let again = Scenario::from_toml(&scenario.to_toml(), "again", &[]).expect("a scenario");
         assert_eq!(again.setup(), scenario.setup());
-        let session = Session::start(scenario).expect("a contact");
+        let session = begin(scenario);
         let moment = session.simulation().moment();
         assert_eq!(moment.wear_volume, moment.initial_volume);
         (moment.wear_volume / exact - 1.0).abs()
@@ -234,8 +222,9 @@ fn scars_that_do_not_fit_are_told_with_the_reason() {
         ("r_m,depth_m\n0,0\n5e-5,1e-7\n5e-5,0\n", "must increase"),
     ] {
         dir.write("scar.csv", text.as_bytes());
-        let refused = refused(&path);
-        assert!(refused.contains(expected), "{text}: {refused}");
+        let refused = small(&path, &[]).expect_err(text);
+        has(&refused, expected);
+        assert_eq!(refused.lines().count(), 1, "{refused}");
     }
     dir.write("scar.csv", b"r_m,depth_m\n0,0\n5e-5,2e-8\n1e-4,0\n");
     let ring = started(&path, &["motion.normal.mean=1e-6"]);
@@ -302,9 +291,8 @@ fn shared_wear_adds_up_to_the_same_bits() {
         dir.read("two/state.csv")
             .contains("# wear_share_of_indenter: 0.3\n")
     );
-    let refused = Scenario::load("li2019-fig3", &strings(&["wear.share=1.5"]));
-    let refused = refused.expect_err("refused").to_string();
-    assert!(refused.contains("from 0 to 1"), "{refused}");
+    let refused = small("li2019-fig3", &["wear.share=1.5"]).expect_err("refused");
+    has(&refused, "from 0 to 1");
 }
 
 /// Hertz: p₀ = (2/π) E* √(d/R) at the deepest point.
@@ -399,8 +387,8 @@ fn hardness_belongs_to_a_body_or_to_the_pair() {
         )
     };
     let limit = |text: &str, sets: &[&str]| {
-        Scenario::from_toml(text, "two.toml", &strings(sets))
-            .map(|scenario| scenario.setup().hardness)
+        let sets: Vec<String> = SMALL.iter().chain(sets).map(ToString::to_string).collect();
+        Scenario::from_toml(text, "two.toml", &sets).map(|scenario| scenario.setup().hardness)
     };
     let found = limit(&bodies("hardness = 7e9", "hardness = 2e9"), &[]).expect("a scenario");
     assert_eq!(found, Some(2e9));

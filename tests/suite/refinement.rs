@@ -8,15 +8,10 @@ use mdr_tui::studies::refinement::{
     Difference, Ladder, Level, Next, Outcome, Verdict, resolve, resolve_soon, run, run_to_accuracy,
 };
 
-use crate::common::without_numerics;
+use crate::common::{load, without_numerics};
 use crate::judge::{judge, judge_checks, judge_estimate, quantile};
 use crate::random_scenarios;
 use crate::test_dir::TestDir;
-
-fn load(name: &str, sets: &[&str]) -> Scenario {
-    let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();
-    Scenario::load(name, &sets).expect("a scenario")
-}
 
 fn clock() -> impl Fn() -> f64 {
     let begin = std::time::Instant::now();

@@ -7,9 +7,9 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use mdr_tui::scenario::checkpoint;
-use mdr_tui::scenario::session::Session;
-use mdr_tui::scenario::{Scenario, preset};
+use mdr_tui::scenario::preset;
 
+use crate::common::{begin, load, ran};
 use crate::test_dir::{TestDir, has};
 
 #[test]
@@ -129,9 +129,8 @@ fn past_an_end_between_two_steps_a_replay_takes_the_same_steps() {
     assert_eq!(first, again);
 
     // A run that is resumed and sent further.
-    let scenario = Scenario::load(dir.path("mine.toml").to_str().expect("a path"), &[]);
-    let mut session = Session::start(scenario.expect("a scenario")).expect("a contact");
-    session.advance_to(1.00613).expect("a step");
+    let path = dir.path("mine.toml").display().to_string();
+    let session = ran(load(&path, &[]), 1.00613);
     dir.write(
         "kept.checkpoint",
         &checkpoint::encode(&session, None::<&()>),
@@ -148,12 +147,12 @@ fn past_an_end_between_two_steps_a_replay_takes_the_same_steps() {
 #[test]
 fn a_run_that_was_stopped_on_its_way_jumps_in_a_replay_as_it_did() {
     let dir = TestDir::new();
-    let sets = ["numerics.points=40", "numerics.steps_per_cycle=20"].map(String::from);
-    let scenario = Scenario::load("mild-million", &sets).expect("a preset");
+    let sets = ["numerics.points=40", "numerics.steps_per_cycle=20"];
+    let scenario = load("mild-million", &sets);
     // A goal that cuts a jump short, and a stop somewhere before it.
     let (mut checked, mut shortened) = (0, 0);
     for goal in [37.3, 211.7, 1003.1, 2500.9] {
-        let mut session = Session::start(scenario.clone()).expect("a contact");
+        let mut session = begin(scenario.clone());
         while session.simulation().cycle() < goal {
             session.step_until(goal).expect("a step");
             let cycle = session.simulation().cycle();

@@ -13,6 +13,7 @@ use mdr_tui::simulation::{Scheme, Simulation, Spacing};
 use mdr_tui::wear::WearLaw;
 use proptest::prelude::*;
 
+use crate::common::{load, ran, try_load};
 use crate::test_dir::has;
 
 fn fixtures(kind: &str) -> Vec<(String, String)> {
@@ -33,15 +34,6 @@ fn fixtures(kind: &str) -> Vec<(String, String)> {
         (name, fs::read_to_string(path).expect("a text"))
     };
     paths.iter().map(read).collect()
-}
-
-fn load(name: &str, sets: &[&str]) -> Scenario {
-    try_load(name, sets).unwrap_or_else(|error| panic!("{error}"))
-}
-
-fn try_load(name: &str, sets: &[&str]) -> Result<Scenario, String> {
-    let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();
-    Scenario::load(name, &sets).map_err(|error| error.to_string())
 }
 
 /// The file has this line.
@@ -752,10 +744,7 @@ fn a_decimal_comma_is_told_with_the_number_that_was_meant() {
 
 #[test]
 fn a_frequency_is_given_in_either_unit_but_once() {
-    let load = |sets: &[&str]| {
-        let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
-        Scenario::load("li2019-fig3", &sets).map_err(|error| error.to_string())
-    };
+    let load = |sets: &[&str]| try_load("li2019-fig3", sets);
     let of = |scenario: &Scenario| {
         let drive = &scenario.setup().drive;
         drive
@@ -792,13 +781,7 @@ fn a_frequency_is_given_in_either_unit_but_once() {
 /// Archard's k of a pin test is per load and distance: per friction work it is k over friction.
 #[test]
 fn a_wear_coefficient_per_load_is_over_the_friction_of_the_moment() {
-    let run = |sets: &[&str]| {
-        let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
-        let scenario = Scenario::load("li2019-fig3", &sets).map_err(|error| error.to_string())?;
-        let mut session = Session::start(scenario).expect("a contact");
-        session.advance_to(2.0).expect("cycles");
-        Ok::<_, String>(session)
-    };
+    let run = |sets: &[&str]| Ok::<_, String>(ran(try_load("li2019-fig3", sets)?, 2.0));
     let k = |session: &Session| {
         session
             .simulation()

@@ -1,12 +1,12 @@
 //! Harsh wear: the guard takes every K to its limit, the raw methods fail where it was predicted.
 
-use crate::common::{Scene, archard, holds, ours, run_setup, swing, without_numerics};
+use crate::common::{Scene, archard, holds, load, ours, run_setup, swing, without_numerics};
 use crate::test_dir::has;
 use mdr_tui::math::abel::AbelMethod::{A, APlusB, B, Benad, Product};
 use mdr_tui::math::abel::worn;
 use mdr_tui::oracle::limiting_profile::LimitingProfile;
 use mdr_tui::oracle::partial_slip::stiffness_ratio;
-use mdr_tui::scenario::{Scenario, preset};
+use mdr_tui::scenario::preset;
 use mdr_tui::simulation::{Scheme, Setup, Simulation, Stability};
 use mdr_tui::studies::stability::{Outcome, Setting, Study, VISIBLE, sawtooth};
 use std::f64::consts::FRAC_PI_4;
@@ -185,7 +185,7 @@ fn the_stick_zone_of_the_first_pass_is_independent_of_the_step() {
 #[test]
 fn smooth_presets_have_no_sawtooth() {
     for preset in preset::ALL.iter().filter(|p| p.name != "harsh-wear") {
-        let scenario = Scenario::load(preset.name, &[]).expect("a preset");
+        let scenario = load(preset.name, &[]);
         let cycles = scenario.run().cycles.unwrap_or(20.0).min(20.0);
         let simulation = run_setup(scenario.setup().clone(), cycles);
         let depth = simulation.setup().largest_depth();
@@ -239,7 +239,7 @@ const APART: f64 = 1.6;
 
 /// Smooth below the prediction by that factor, and not above.
 fn seen_where_predicted(cycles: f64, setting: Setting) {
-    let scenario = Scenario::load("li2019-fig3", &[]).expect("a preset");
+    let scenario = load("li2019-fig3", &[]);
     let study = Study::new(scenario, cycles).expect("a contact");
     let study = study.expect("it wears");
     let run = |rungs: &[f64]| {
@@ -257,7 +257,7 @@ fn seen_where_predicted(cycles: f64, setting: Setting) {
 /// a cycle at other K, between 15 and 200, until later ones wear them off.
 #[test]
 fn a_map_has_its_sawtooth_where_predicted_and_with_the_guard_none() {
-    let scenario = Scenario::load("li2019-fig3", &[]).expect("a preset");
+    let scenario = load("li2019-fig3", &[]);
     let study = Study::new(scenario, 20.0).expect("a contact");
     let study = study.expect("it wears");
     for (method, points) in [(Product, 100), (A, 50), (A, 100), (APlusB, 100)] {

@@ -4,12 +4,12 @@ use std::fs;
 use std::process::{Command, Stdio};
 
 use mdr_tui::math::abel::AbelMethod;
-use mdr_tui::scenario::Scenario;
 use mdr_tui::simulation::Scheme;
 use mdr_tui::studies::refinement::{Level, Outcome};
 use mdr_tui::studies::trade::{self, POINTS, STEPS, Setting};
 use serde_json::Value;
 
+use crate::common::load;
 use crate::test_dir::{Said, TestDir, has};
 
 fn say(arguments: &[&str]) -> Said {
@@ -30,11 +30,6 @@ const SMALL: [&str; 9] = [
 
 fn small(more: &[&str]) -> Said {
     say(&[&SMALL[..], more].concat())
-}
-
-fn load(name: &str, sets: &[&str]) -> Scenario {
-    let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();
-    Scenario::load(name, &sets).expect("a scenario")
 }
 
 #[test]

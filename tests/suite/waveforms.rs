@@ -1,22 +1,14 @@
 //! Motions that are no sines: where only the turning points count, they wear as a sine does.
 
 use mdr_tui::scenario::Scenario;
-use mdr_tui::scenario::session::Session;
 
-use crate::common::fig3;
-use crate::test_dir::TestDir;
+use crate::common::{fig3, load, ran, try_load};
+use crate::test_dir::{TestDir, has};
 
 /// V and E_d after `cycles` of a paraboloid held at a depth and shaken sideways.
 fn worn(sets: &[&str], cycles: f64) -> [f64; 2] {
     let held = ["motion.normal.amplitude=0", "motion.tangential.phase=0"];
-    let sets: Vec<String> = held
-        .iter()
-        .chain(sets)
-        .map(|set| (*set).to_owned())
-        .collect();
-    let scenario = Scenario::load("li2019-fig3", &sets).expect("a scenario");
-    let mut session = Session::start(scenario).expect("a contact");
-    session.advance_to(cycles).expect("a run");
+    let session = ran(load("li2019-fig3", &[&held[..], sets].concat()), cycles);
     let moment = session.simulation().moment();
     [moment.wear_volume, moment.dissipated_energy]
 }
@@ -98,21 +90,14 @@ points = 100
         .as_bytes(),
     );
     let path = dir.path("mine.toml").display().to_string();
-    let scenario = Scenario::load(&path, &[]).expect("a scenario");
-    let motion = scenario
-        .setup()
-        .drive
-        .tangential()
-        .expect("a motion")
-        .oscillation()
-        .clone();
+    let scenario = load(&path, &[]);
+    let motion = scenario.setup().drive.tangential().expect("a motion");
+    let motion = motion.oscillation();
     assert!((motion.amplitude() / 2e-7 - 1.0).abs() < 1e-12 && motion.mean().abs() < 1e-20);
     assert!((scenario.setup().drive.period() - 2.0).abs() < 1e-12);
     let again = Scenario::from_toml(&scenario.to_toml(), "again", &[]).expect("a scenario");
     assert_eq!(again.setup(), scenario.setup());
-    let mut session = Session::start(scenario).expect("a contact");
-    session.advance_to(5.0).expect("a run");
-    let tabled = session.simulation().moment().wear_volume;
+    let tabled = ran(scenario, 5.0).simulation().moment().wear_volume;
     let sets = [
         "motion.tangential.amplitude=2e-7",
         "motion.tangential.waveform=triangle",
@@ -138,10 +123,7 @@ points = 100
         ("t,u\n0,0\n", "motion.csv: has no column time_s"),
     ] {
         dir.write("motion.csv", csv.as_bytes());
-        let refused = Scenario::load(&path, &[])
-            .expect_err("a refusal")
-            .to_string();
-        assert!(refused.contains(expected), "{refused}");
+        has(&try_load(&path, &[]).expect_err("a refusal"), expected);
     }
 }
 
@@ -165,10 +147,9 @@ fn waveforms_that_lack_something_are_refused() {
         ),
         (&["motion.tangential.waveform=square"][..], "must be one of"),
     ] {
-        let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
-        let refused = Scenario::load("li2019-fig3", &sets)
-            .expect_err("a refusal")
-            .to_string();
-        assert!(refused.contains(expected), "{refused}");
+        has(
+            &try_load("li2019-fig3", sets).expect_err("a refusal"),
+            expected,
+        );
     }
 }

@@ -6,6 +6,7 @@ use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::contact::material::Material;
 use mdr_tui::math::abel::AbelMethod;
 use mdr_tui::math::grid::RadialGrid;
+use mdr_tui::scenario::session::Session;
 use mdr_tui::scenario::{Scenario, preset};
 use mdr_tui::simulation::drive::{Control, Drive, Oscillation};
 use mdr_tui::simulation::{Integrator, Scheme, Setup, Simulation, Spacing, Stability};
@@ -119,6 +120,32 @@ pub fn run_setup(setup: Setup, cycles: f64) -> Simulation {
     let mut simulation = Simulation::new(setup).expect("a contact");
     simulation.advance_to(cycles).expect("a run to the end");
     simulation
+}
+
+/// A preset or a file with `sets`, or the line that refuses it.
+pub fn try_load(name: &str, sets: &[&str]) -> Result<Scenario, String> {
+    let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();
+    Scenario::load(name, &sets).map_err(|error| error.to_string())
+}
+
+/// A preset or a file with `sets`, which must be a scenario.
+#[track_caller]
+pub fn load(name: &str, sets: &[&str]) -> Scenario {
+    try_load(name, sets).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The scenario at its start.
+#[track_caller]
+pub fn begin(scenario: Scenario) -> Session {
+    Session::start(scenario).expect("a contact")
+}
+
+/// The scenario after `cycles`; a breakdown fails the test.
+#[track_caller]
+pub fn ran(scenario: Scenario, cycles: f64) -> Session {
+    let mut session = begin(scenario);
+    session.advance_to(cycles).expect("a run to the end");
+    session
 }
 
 /// Fails unless `error` is at most `bound` (so NaN fails); the numbers are printed.

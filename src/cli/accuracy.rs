@@ -5,7 +5,7 @@ use anyhow::Result;
 use super::{complain, progress};
 use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
-use crate::studies::refinement::{self, RefinementError, Resolved};
+use crate::studies::refinement::{self, Resolved};
 
 /// Finds the points and steps that meet the accuracy of `scenario`, with a spinner on stderr.
 ///
@@ -17,7 +17,7 @@ pub(super) fn resolve(
     budget: f64,
     quiet: bool,
     go_on: &dyn Fn() -> bool,
-) -> std::result::Result<Resolved, RefinementError> {
+) -> std::result::Result<Resolved, SessionError> {
     searching(quiet || scenario.accuracy().is_none(), || {
         refinement::resolve(scenario, cycles, budget, go_on)
     })
@@ -27,7 +27,7 @@ pub(super) fn resolve(
 ///
 /// # Errors
 /// If no level can be run.
-pub(super) fn resolve_soon(scenario: &Scenario) -> std::result::Result<Resolved, RefinementError> {
+pub(super) fn resolve_soon(scenario: &Scenario) -> std::result::Result<Resolved, SessionError> {
     searching(scenario.accuracy().is_none(), || {
         refinement::resolve_soon(scenario)
     })

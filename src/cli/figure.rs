@@ -281,7 +281,7 @@ fn ghost(given: &str, run: &Run) -> Result<Ghost> {
     if !is_scenario || path.is_dir() {
         let ghost = Ghost::read(path)?;
         if let Some(reach) = run.reach() {
-            ghost.check_radii(reach).map_err(Refusal::from)?;
+            ghost.check_radii(reach)?;
         }
         return Ok(ghost);
     }

@@ -18,7 +18,6 @@ use crate::scenario::checkpoint::CheckpointError;
 use crate::scenario::session::SessionError;
 use crate::scenario::{Refusal, ScenarioError, printable};
 use crate::studies::fit::FitError;
-use crate::studies::refinement::RefinementError;
 use crate::tui::NoTerminal;
 
 mod accuracy;
@@ -137,10 +136,7 @@ pub(crate) fn without_waiting(is_terminal: bool, write: impl FnOnce() + Send + '
 /// Wrong use and wrong input are 2, a run that failed is 1.
 fn exit_code(error: &anyhow::Error) -> u8 {
     let is_misuse = |cause: &(dyn std::error::Error + 'static)| {
-        let wraps_misuse = matches!(
-            cause.downcast_ref(),
-            Some(FitError::Refused(_) | FitError::Scenario(_))
-        ) || matches!(cause.downcast_ref(), Some(RefinementError::Scenario(_)))
+        let wraps_misuse = matches!(cause.downcast_ref(), Some(FitError::Scenario(_)))
             || matches!(cause.downcast_ref(), Some(SessionError::Scenario(_)));
         let written = cause.downcast_ref::<WriteError>();
         wraps_misuse

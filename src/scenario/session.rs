@@ -27,6 +27,9 @@ pub enum SessionError {
          give numerics.points and numerics.steps_per_cycle instead"
     )]
     Unresolved(f64),
+    /// A search for an accuracy in which no level came to its end, and why the last one stopped.
+    #[error("no refinement level finished; the last one: {0}")]
+    Unfinished(String),
     /// The caller wanted it to stop.
     #[error("interrupted")]
     Interrupted,

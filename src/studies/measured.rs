@@ -1,7 +1,7 @@
 //! Measured results to compare with simulated ones: scars, fretting loops, histories.
 
-use crate::scenario::ScenarioError;
 use crate::scenario::columns::Columns;
+use crate::scenario::{Refusal, ScenarioError};
 
 /// The fewest rows of a data set.
 const FEWEST: usize = 3;
@@ -86,7 +86,7 @@ impl Measured {
     ///
     /// # Errors
     /// A line that names both.
-    pub fn check_radii(&self, reach: f64) -> Result<(), String> {
+    pub fn check_radii(&self, reach: f64) -> Result<(), Refusal> {
         match self.kind {
             Kind::Profile | Kind::Wear => check_radii(&self.name, &self.at, reach),
             Kind::Loop | Kind::Volume | Kind::Depth => Ok(()),
@@ -185,12 +185,15 @@ fn read(
 
 /// Says so where the largest of `radii` and the `reach` of the contact, m, differ by so much that one of
 /// them is in another unit.
-pub(super) fn check_radii(name: &str, radii: &[f64], reach: f64) -> Result<(), String> {
+pub(super) fn check_radii(name: &str, radii: &[f64], reach: f64) -> Result<(), Refusal> {
     let widest = radii.iter().copied().fold(0.0, f64::max);
     match (0.01 * reach..=100.0 * reach).contains(&widest) {
         true => Ok(()),
-        false => Err(format!(
-            "{name}: radii up to {widest:.1e} m, but the contact reaches only {reach:.1e} m: are they in m?"
+        false => Err(Refusal::new(
+            name,
+            format_args!(
+                "radii up to {widest:.1e} m, but the contact reaches only {reach:.1e} m: are they in m?"
+            ),
         )),
     }
 }

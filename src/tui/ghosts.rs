@@ -44,7 +44,8 @@ impl Source {
             return Ok(Self::Run(Box::new(GhostRun::start(&scenario)?)));
         }
         let ghost = Ghost::read(path).map_err(|error| error.to_string())?;
-        ghost.check_radii(reach)?;
+        let checked = ghost.check_radii(reach);
+        checked.map_err(|refusal| refusal.to_string())?;
         Ok(Self::Still(Arc::new(ghost)))
     }
 

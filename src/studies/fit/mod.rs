@@ -49,12 +49,9 @@ const OF_MEDIAN: f64 = 1.4826;
 /// Why nothing could be fitted.
 #[derive(Debug, Error)]
 pub enum FitError {
-    /// A key or its value that is refused.
+    /// A key or its value that is refused, keys or data that make no fit.
     #[error(transparent)]
     Scenario(#[from] ScenarioError),
-    /// Keys or data that make no fit.
-    #[error(transparent)]
-    Refused(#[from] Refusal),
     /// The scenario as given cannot run.
     #[error("at the start values: {0}")]
     Start(SessionError),
@@ -189,7 +186,7 @@ impl Fit {
         }
         let domain = scenario.setup().grid.radius();
         for set in &data {
-            set.check_radii(domain).map_err(Refusal::from)?;
+            set.check_radii(domain).map_err(ScenarioError::from)?;
         }
         Ok(Self {
             scenario,
@@ -442,7 +439,7 @@ impl Fitted {
 }
 
 fn refuse<T>(line: String) -> Result<T, FitError> {
-    Err(Refusal::from(line).into())
+    Err(ScenarioError::from(Refusal::from(line)).into())
 }
 
 /// A key and where its search starts.

@@ -5,10 +5,8 @@
 
 use std::time::Instant;
 
-use thiserror::Error;
-
+use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
-use crate::scenario::{Scenario, ScenarioError};
 
 mod estimate;
 mod ladder;
@@ -22,20 +20,6 @@ pub use ladder::{Ladder, Next, Rung, Verdict};
 pub use level::Level;
 pub use outcome::{Difference, Outcome};
 pub use resolve::{Resolved, resolve, resolve_soon, statements_of, words_of};
-
-/// Why a run to an accuracy has no result at all.
-#[derive(Debug, Error)]
-pub enum RefinementError {
-    /// A level that the scenario does not take.
-    #[error(transparent)]
-    Scenario(#[from] ScenarioError),
-    /// No level could be run to its end.
-    #[error("no refinement level finished; the last one: {0}")]
-    Failed(String),
-    /// The caller wanted it to stop.
-    #[error("interrupted")]
-    Interrupted,
-}
 
 /// The end of a ladder.
 #[derive(Debug, Clone)]
@@ -65,7 +49,7 @@ pub fn run_to_accuracy(
     accuracy: f64,
     budget: f64,
     go_on: &dyn Fn() -> bool,
-) -> Result<Reached, RefinementError> {
+) -> Result<Reached, SessionError> {
     let begin = Instant::now();
     let clock = || begin.elapsed().as_secs_f64();
     climb(scenario, cycles, accuracy, budget, go_on, &clock)
@@ -82,7 +66,7 @@ pub fn climb(
     budget: f64,
     go_on: &dyn Fn() -> bool,
     clock: &dyn Fn() -> f64,
-) -> Result<Reached, RefinementError> {
+) -> Result<Reached, SessionError> {
     let mut ladder = Ladder::new(scenario, cycles, accuracy, budget);
     let begin = clock();
     let mut last = None;
@@ -93,8 +77,8 @@ pub fn climb(
             Next::Done(verdict) => {
                 let (Some(session), Some((rung, error))) = (last, ladder.reached()) else {
                     return Err(match verdict {
-                        Verdict::Failed(why) => RefinementError::Failed(why.clone()),
-                        _ => RefinementError::Interrupted,
+                        Verdict::Failed(why) => SessionError::Unfinished(why.clone()),
+                        _ => SessionError::Interrupted,
                     });
                 };
                 return Ok(Reached {
@@ -120,7 +104,7 @@ pub fn climb(
                 }
             }
             Err(SessionError::Interrupted) if go_on() && is_late() => ladder.cut(seconds),
-            Err(SessionError::Interrupted) => return Err(RefinementError::Interrupted),
+            Err(SessionError::Interrupted) => return Err(SessionError::Interrupted),
             Err(error) => ladder.fail(error.to_string(), seconds),
         }
     }

@@ -2,8 +2,8 @@
 
 use std::time::Instant;
 
-use super::{Difference, Level, Reached, RefinementError, Verdict, run_to_accuracy};
-use crate::scenario::session::Session;
+use super::{Difference, Level, Reached, Verdict, run_to_accuracy};
+use crate::scenario::session::{Session, SessionError};
 use crate::scenario::{Scenario, USUAL_ACCURACY};
 use crate::simulation::Integrator;
 
@@ -44,7 +44,7 @@ pub fn resolve(
     cycles: Option<f64>,
     budget: f64,
     go_on: &dyn Fn() -> bool,
-) -> Result<Resolved, RefinementError> {
+) -> Result<Resolved, SessionError> {
     let Some(accuracy) = scenario.accuracy() else {
         return Ok(Resolved {
             scenario: scenario.clone(),
@@ -76,7 +76,7 @@ pub fn resolve(
 ///
 /// # Errors
 /// If no level can be run.
-pub fn resolve_soon(scenario: &Scenario) -> Result<Resolved, RefinementError> {
+pub fn resolve_soon(scenario: &Scenario) -> Result<Resolved, SessionError> {
     let [usual, asked_for] = SCREEN_WAITS;
     let patience = match scenario.accuracy() {
         Some(USUAL_ACCURACY) => usual,
@@ -85,7 +85,7 @@ pub fn resolve_soon(scenario: &Scenario) -> Result<Resolved, RefinementError> {
     let begin = Instant::now();
     let go_on = || begin.elapsed().as_secs_f64() < patience;
     match resolve(scenario, None, SEARCH * patience, &go_on) {
-        Err(RefinementError::Interrupted) => {
+        Err(SessionError::Interrupted) => {
             let level = Level::of(scenario);
             let warning = format!(
                 "no level of refinement ended in {patience} s: these are {} points and {} steps per cycle, \

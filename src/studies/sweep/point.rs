@@ -7,7 +7,7 @@ use crate::math::scan::largest;
 use crate::scenario::scalars::Reading;
 use crate::scenario::session::{Session, SessionError};
 use crate::scenario::{Scenario, printable};
-use crate::studies::refinement::{self, RefinementError};
+use crate::studies::refinement;
 
 /// The status of a point that went well.
 pub const OK: &str = "ok";
@@ -122,7 +122,7 @@ fn begun(
 ) -> Option<Result<(Session, String), String>> {
     let found = match refinement::resolve(scenario, None, f64::INFINITY, go_on) {
         Ok(found) => found,
-        Err(RefinementError::Interrupted) => return None,
+        Err(SessionError::Interrupted) => return None,
         Err(error) => return Some(Err(error.to_string())),
     };
     let session = match found.ended {

@@ -26,14 +26,7 @@ fn what_never_ends_is_read_to_a_limit() {
         "fit hertz --cycles 1 --scar /dev/zero --free wear.coefficient",
         "figure /dev/zero -o x.svg",
     ] {
-        let arguments: Vec<&str> = line.split(' ').collect();
-        let said = dir.say(&arguments);
-        assert_eq!(
-            (said.code, said.err.lines().count()),
-            (2, 1),
-            "{line}: {}",
-            said.err
-        );
+        dir.refuse_line(line, "");
     }
 }
 
@@ -43,13 +36,7 @@ fn in_a_folder_nothing_but_files_is_read() {
     fs::create_dir(dir.path("x")).expect("a directory");
     fifo(&dir, "x/state.csv");
     for line in ["figure x -o x.svg", "sweep --merge x"] {
-        let arguments: Vec<&str> = line.split(' ').collect();
-        let child = dir
-            .command(&arguments)
-            .stderr(std::process::Stdio::piped())
-            .spawn();
-        let said = end(child.expect("a process"));
-        assert_eq!(said.code, 2, "{line}: {}", said.err);
+        end(dir.start(line, &[])).ends(2, "x");
     }
     // The preferences are nobody's argument.
     fs::create_dir(dir.path("mdr-tui")).expect("a directory");

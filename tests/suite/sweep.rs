@@ -4,7 +4,7 @@ use std::fs;
 use std::thread;
 use std::time::Duration;
 
-use crate::test_dir::{Table, TestDir, end, has};
+use crate::test_dir::{Table, TestDir, end, has, signal};
 use mdr_tui::studies::sweep::record::Record;
 use mdr_tui::studies::sweep::slice::Slice;
 
@@ -248,26 +248,17 @@ fn killed_studies_go_on_to_the_same_bytes() {
     let dir = dir_with(&STUDY.replace("\"run.cycles\" = 3.0", "\"run.cycles\" = 20.0"));
     dir.done("sweep study.toml --out whole.csv");
     let whole = dir.read("whole.csv");
-    let line = [
-        "sweep",
-        "study.toml",
-        "--out",
-        "map.csv",
-        "--resume",
-        "--threads",
-        "2",
-        "--quiet",
-    ];
+    let line = "sweep study.toml --out map.csv --resume --threads 2 --quiet";
     for round in 0..17 {
         let _ = fs::remove_file(dir.path("map.csv"));
         for _ in 0..3 {
-            let mut child = dir.command(&line).spawn().expect("a process");
+            let mut child = dir.start(line, &[]);
             thread::sleep(Duration::from_millis(10 + 5 * round));
             // SIGKILL.
             let _ = child.kill();
             let _ = child.wait();
         }
-        dir.done(&line.join(" "));
+        dir.done(line);
         assert_eq!(dir.read("map.csv"), whole, "round {round}");
     }
 }
@@ -276,12 +267,7 @@ fn killed_studies_go_on_to_the_same_bytes() {
 #[test]
 fn a_signal_keeps_what_is_done() {
     let dir = dir_with(&STUDY.replace("\"run.cycles\" = 3.0", "\"run.cycles\" = 400.0"));
-    let line = ["sweep", "study.toml", "--threads", "1", "--quiet"];
-    let child = dir
-        .command(&line)
-        .stderr(std::process::Stdio::piped())
-        .spawn()
-        .expect("a process");
+    let child = dir.start("sweep study.toml --threads 1 --quiet", &[]);
     let rows = || match fs::read_to_string(dir.path("study.csv")) {
         Ok(text) => text.lines().filter(|line| line.ends_with(",ok")).count(),
         Err(_) => 0,
@@ -290,18 +276,11 @@ fn a_signal_keeps_what_is_done() {
         thread::sleep(Duration::from_millis(2));
     }
     // A scheduler sends it twice.
-    let pid = nix::unistd::Pid::from_raw(child.id() as i32);
     for _ in 0..2 {
-        let _ = nix::sys::signal::kill(pid, nix::sys::signal::Signal::SIGTERM);
+        signal(&child, "TERM");
     }
-    let said = end(child);
-    assert_eq!(said.code, 75, "{}", said.err);
-    assert!(
-        said.err
-            .contains("of 12 points are in study.csv; continue with the same command and --resume"),
-        "{}",
-        said.err
-    );
+    let hint = "of 12 points are in study.csv; continue with the same command and --resume";
+    end(child).ends(75, hint);
     assert!((2..12).contains(&rows()));
     Table::parse(&dir.read("study.csv"));
 }
@@ -489,11 +468,8 @@ fn long_axes_are_written_by_their_ends_and_shards_of_them_merge() {
 fn memory_does_not_grow_with_the_number_of_points_and_the_first_row_comes_soon() {
     let peak = |points: usize| {
         let dir = dir_with(&many(points));
-        let arguments = ["sweep", "study.toml", "--threads", "2", "--quiet"];
         let start = std::time::Instant::now();
-        let mut command = dir.command(&arguments);
-        let command = command.stderr(std::process::Stdio::piped());
-        let child = command.spawn().expect("a process");
+        let child = dir.start("sweep study.toml --threads 2 --quiet", &[]);
         let status = format!("/proc/{}/status", child.id());
         let rows = || fs::metadata(dir.path("study.csv")).map_or(0, |about| about.len());
         while rows() < 4000 {
@@ -513,8 +489,7 @@ fn memory_does_not_grow_with_the_number_of_points_and_the_first_row_comes_soon()
             .split_whitespace()
             .nth(1)
             .and_then(|number| number.parse::<f64>().ok());
-        let pid = nix::unistd::Pid::from_raw(child.id() as i32);
-        let _ = nix::sys::signal::kill(pid, nix::sys::signal::Signal::SIGTERM);
+        signal(&child, "TERM");
         let said = end(child);
         assert!([0, 75].contains(&said.code), "{}", said.err);
         (memory.expect("a number"), first)
@@ -788,16 +763,11 @@ fn the_job_script_has_what_a_centre_asks_for() {
         assert!(script.contains(word), "{word}\n{script}");
     }
     for word in ["a b", "a\nb", "$(x)", ""] {
-        let arguments = [
-            "sweep",
-            "study.toml",
-            "--shards",
-            "4",
-            "--slurm",
-            "--account",
-            word,
-        ];
-        dir.refuse(&arguments, "without blanks");
+        let line = ["sweep", "study.toml", "--shards", "4", "--slurm"];
+        dir.refuse(
+            &[&line[..], &["--account", word]].concat(),
+            "without blanks",
+        );
     }
     dir.refuse_line("sweep study.toml --partition x", "--slurm");
 }
@@ -1115,11 +1085,8 @@ fn the_studies_of_the_guide_are_studies() {
             dir.done("sweep study.toml --point 0");
         } else {
             let few = "--set numerics.points=12 --set numerics.steps_per_cycle=12";
-            let said = dir.say(
-                &format!("sweep study.toml --sensitivity --quiet --set run.cycles=1 {few}")
-                    .split_whitespace()
-                    .collect::<Vec<_>>(),
-            );
+            let line = "sweep study.toml --sensitivity --quiet --set run.cycles=1";
+            let said = dir.line(&format!("{line} {few}"));
             assert_eq!(said.code, 0, "{}", said.err);
         }
     }
@@ -1161,22 +1128,10 @@ fn a_slurm_array_gives_the_rows_of_a_local_run() {
 fn the_explorer_sweeps_a_key_of_the_present_scenario() {
     let dir = TestDir::new();
     let explore = |keys: &str| {
-        let arguments = [
-            "li2019-fig3",
-            "--set",
-            "numerics.points=30",
-            "--set",
-            "numerics.steps_per_cycle=20",
-            "--set",
-            "run.cycles=2",
-            "--print",
-            "80x24",
-            "--color",
-            "never",
-            "--keys",
-            keys,
-        ];
-        let said = dir.say(&arguments);
+        let line = "li2019-fig3 --set numerics.points=30 --set numerics.steps_per_cycle=20 \
+                    --set run.cycles=2 --print 80x24 --color never --keys";
+        let words: Vec<&str> = line.split(' ').filter(|word| !word.is_empty()).collect();
+        let said = dir.say(&[&words[..], &[keys]].concat());
         assert_eq!((said.code, said.err.as_str()), (0, ""), "{keys}");
         said.out
     };

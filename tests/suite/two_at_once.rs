@@ -59,16 +59,10 @@ fn a_run_under_way_is_refused_to_others_even_by_force_and_a_killed_one_is_not() 
         "run --resume x/run.checkpoint",
         "run --resume x/run.checkpoint --out x",
     ] {
-        let arguments: Vec<&str> = line.split(' ').collect();
-        let said = dir.say(&arguments);
-        assert_eq!(
-            (said.code, said.err.lines().count()),
-            (2, 1),
-            "{line}: {}",
-            said.err
-        );
         let owner = format!("another run is writing there (process {} on ", alive.id());
-        assert!(said.err.contains(&owner), "{line}: {}", said.err);
+        let said = dir.line(line);
+        said.ends(2, &owner);
+        assert_eq!(said.err.lines().count(), 1, "{line}: {}", said.err);
     }
     assert!(matches!(alive.try_wait(), Ok(None)), "it was disturbed");
     // A copy elsewhere disturbs nobody.

@@ -3,13 +3,14 @@
 //! shows.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use clap::ValueEnum;
 use serde::Deserialize;
 
 use super::args::ColorChoice;
 use super::complain;
+use crate::export::own;
 use crate::plot::Marker;
 use crate::plot::theme::Look;
 use crate::scenario::Refusal;
@@ -59,9 +60,10 @@ impl Config {
     /// One line with the file and what is wrong in it: invalid TOML, an unknown key, an invalid
     /// value.
     pub fn load() -> Result<Self, Refusal> {
-        let Some(path) = path() else {
+        let Some(directory) = own::directory("XDG_CONFIG_HOME", ".config") else {
             return Ok(Self::default());
         };
+        let path = directory.join("config.toml");
         match limited::regular_text(&path, LARGEST) {
             Ok(text) => Self::read(&text, &path),
             Err(Unread::Missing) => Ok(Self::default()),
@@ -100,17 +102,6 @@ impl Config {
             keys,
         })
     }
-}
-
-/// The path of the file; `None` without a home directory.
-fn path() -> Option<PathBuf> {
-    let given = std::env::var_os("XDG_CONFIG_HOME").map(PathBuf::from);
-    // The specification says to ignore relative paths.
-    let base = given.filter(|path| path.is_absolute()).or_else(|| {
-        let home = std::env::home_dir().filter(|home| !home.as_os_str().is_empty());
-        home.map(|home| home.join(".config"))
-    });
-    base.map(|base| base.join("mdr-tui/config.toml"))
 }
 
 fn choice<T: ValueEnum>(key: &str, word: Option<String>) -> Result<Option<T>, String> {

@@ -295,16 +295,9 @@ fn checkpoints(directory: &Path) -> io::Result<Vec<Found>> {
     Ok(found)
 }
 
-/// Directory of the explorer's checkpoints: `mdr-tui` in `$XDG_STATE_HOME` or in `~/.local/state`;
-/// `None` without a home directory.
+/// Directory of the explorer's checkpoints; `None` without a home directory.
 pub fn state_directory() -> Option<PathBuf> {
-    let given = std::env::var_os("XDG_STATE_HOME").map(PathBuf::from);
-    // The specification says to ignore relative paths.
-    let base = given.filter(|path| path.is_absolute()).or_else(|| {
-        let home = std::env::home_dir().filter(|home| !home.as_os_str().is_empty());
-        home.map(|home| home.join(".local/state"))
-    });
-    base.map(|base| base.join("mdr-tui"))
+    own::directory("XDG_STATE_HOME", ".local/state")
 }
 
 #[cfg(test)]

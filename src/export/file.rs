@@ -149,22 +149,6 @@ pub(super) fn temporary_of(path: &Path) -> String {
     format!("{INTERNAL}{name:08x}-")
 }
 
-/// Removes what a killed process has left unfinished of the file `path`, which this process has
-/// claimed.
-pub(super) fn sweep_of(path: &Path) {
-    let prefix = temporary_of(path);
-    let Ok(entries) = fs::read_dir(directory_of(path)) else {
-        return;
-    };
-    for path in entries.flatten().map(|entry| entry.path()) {
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        if name.starts_with(&prefix) && name.ends_with(TEMPORARY) {
-            // One that cannot be removed does no harm.
-            let _ = fs::remove_file(path);
-        }
-    }
-}
-
 /// Prefix of files that are not results: unfinished files and locks.
 const INTERNAL: &str = ".mdr-tui-";
 
@@ -176,20 +160,31 @@ fn is_internal(path: &Path) -> bool {
     name.is_some_and(|name| name.starts_with(INTERNAL))
 }
 
-fn is_temporary(path: &Path) -> bool {
-    is_internal(path) && path.to_string_lossy().ends_with(TEMPORARY)
+/// Removes what a killed process has left unfinished of the file `path`, which this process has
+/// claimed.
+pub(super) fn sweep_of(path: &Path) {
+    let prefix = temporary_of(path);
+    remove_temporary(directory_of(path), |path| {
+        let name = path.file_name().map(|name| name.to_string_lossy());
+        name.is_some_and(|name| name.starts_with(&prefix))
+    });
 }
 
 /// Removes temporary files of at least this age, which processes that were killed have left behind.
 pub fn sweep(directory: &Path, age: Duration) {
-    let Ok(entries) = fs::read_dir(directory) else {
-        return;
-    };
-    for path in entries.flatten().map(|entry| entry.path()) {
-        let written = fs::metadata(&path).and_then(|about| about.modified()).ok();
-        let old = written.is_some_and(|at| at.elapsed().is_ok_and(|past| past >= age));
-        if is_temporary(&path) && (old || age.is_zero()) {
-            // One that cannot be removed does no harm.
+    remove_temporary(directory, |path| {
+        let written = fs::metadata(path).and_then(|about| about.modified()).ok();
+        let is_old = written.is_some_and(|at| at.elapsed().is_ok_and(|past| past >= age));
+        is_old || age.is_zero()
+    });
+}
+
+/// Removes the temporary files of a directory for which `is_left` holds. One that cannot be removed does no harm.
+fn remove_temporary(directory: &Path, is_left: impl Fn(&Path) -> bool) {
+    for entry in fs::read_dir(directory).into_iter().flatten().flatten() {
+        let path = entry.path();
+        let is_temporary = is_internal(&path) && path.to_string_lossy().ends_with(TEMPORARY);
+        if is_temporary && is_left(&path) {
             let _ = fs::remove_file(path);
         }
     }

@@ -3,7 +3,7 @@
 use std::fs::{File, OpenOptions};
 use std::io;
 use std::os::unix::fs::OpenOptionsExt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use nix::libc::{O_NOFOLLOW, O_NONBLOCK};
 
@@ -56,4 +56,16 @@ pub fn open_or_make(path: &Path) -> io::Result<File> {
             other => return other,
         }
     }
+}
+
+/// The program's directory in the one that the environment names in `variable`, or in `fallback` in the home
+/// directory; `None` without one.
+pub fn directory(variable: &str, fallback: &str) -> Option<PathBuf> {
+    let given = std::env::var_os(variable).map(PathBuf::from);
+    // The specification says to ignore relative paths.
+    let base = given.filter(|path| path.is_absolute()).or_else(|| {
+        let home = std::env::home_dir().filter(|home| !home.as_os_str().is_empty());
+        home.map(|home| home.join(fallback))
+    });
+    base.map(|base| base.join("mdr-tui"))
 }

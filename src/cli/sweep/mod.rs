@@ -8,7 +8,7 @@ use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, anyhow, bail};
-use rayon::ThreadPoolBuilder;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::args::Sweep;
 use super::{FAILED, UNFINISHED, complain, progress, stop};
@@ -52,15 +52,25 @@ pub fn sweep(options: &Sweep) -> Result<ExitCode> {
         bail!(Refusal::new(path.display(), rule));
     }
     if options.slurm {
-        let pool = ThreadPoolBuilder::new()
-            .build()
-            .context("cannot start threads")?;
-        refuse_invalid(options, &study, Shard::WHOLE, &pool, Duration::MAX)?;
+        refuse_invalid(
+            options,
+            &study,
+            Shard::WHOLE,
+            &pool(options)?,
+            Duration::MAX,
+        )?;
         let script = slurm::script(&path, options, study.points());
         io::stdout().write_all(script.as_bytes())?;
         return Ok(ExitCode::SUCCESS);
     }
     run(options, &path, &study)
+}
+
+/// The threads to run on: as many as are asked for, or one for each processor.
+fn pool(options: &Sweep) -> Result<ThreadPool> {
+    let threads = options.threads.map_or(0, usize::from);
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.context("cannot start the threads")
 }
 
 /// Reads a study, with the assignments of the command line in its `[set]`.
@@ -100,7 +110,7 @@ fn refuse_invalid<'a>(
     options: &Sweep,
     study: &'a Study,
     shard: Shard,
-    pool: &rayon::ThreadPool,
+    pool: &ThreadPool,
     patience: Duration,
 ) -> Result<Option<Check<'a>>> {
     if options.skip_invalid {
@@ -129,11 +139,7 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
         .out
         .clone()
         .unwrap_or_else(|| default_out(path, shard));
-    let mut builder = ThreadPoolBuilder::new();
-    if let Some(threads) = options.threads {
-        builder = builder.num_threads(threads.into());
-    }
-    let pool = builder.build().context("cannot start the threads")?;
+    let pool = pool(options)?;
     let mine = shard.points(study.points()).count();
     let mut output = Output::open(&out, study, shard, options)?;
     let check = refuse_invalid(options, study, shard, &pool, CHECKED_FIRST)?;

@@ -4,8 +4,7 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 
-use anyhow::{Context, Result};
-use rayon::ThreadPoolBuilder;
+use anyhow::Result;
 
 use super::super::args::Sweep;
 use super::super::{FAILED, complain, results, stop};
@@ -18,11 +17,7 @@ use crate::studies::table::{Cell, Column, Format, Table};
 pub fn sensitivity(options: &Sweep, study: &Study) -> Result<ExitCode> {
     let target = Target::claim_given(options.out.as_deref(), options.force)?;
     let keys = study.varied();
-    let mut builder = ThreadPoolBuilder::new();
-    if let Some(threads) = options.threads {
-        builder = builder.num_threads(threads.into());
-    }
-    let pool = builder.build().context("cannot start the threads")?;
+    let pool = super::pool(options)?;
     let stop = stop::patient_signal()?;
     let go_on = || !stop.load(Ordering::Relaxed);
     let Some(found) = sensitivity::run(study, &keys, &pool, &go_on)? else {

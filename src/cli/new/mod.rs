@@ -78,146 +78,196 @@ struct Interview<'a> {
     theme: Option<Box<dyn Theme>>,
 }
 
-/// A question that is answered by a line.
-struct Question<'a> {
-    flag: &'a str,
-    given: Option<&'a String>,
-    prompt: &'a str,
-    meaning: &'a str,
-    default: &'a str,
+/// A question that is answered by a line, about a key of the scenario.
+struct Question {
+    flag: &'static str,
+    given: fn(&New) -> &Option<String>,
+    prompt: &'static str,
+    meaning: &'static str,
+    default: &'static str,
+    key: &'static str,
+    /// The unit of a bare number.
+    unit: &'static str,
+}
+
+const BALL: Question = Question {
+    flag: "--ball",
+    given: |options| &options.ball,
+    prompt: "Radius of the ball",
+    meaning: "in mm unless said otherwise; for two curved bodies 1/R = 1/R1 + 1/R2",
+    default: "5 mm",
+    key: "indenter.radius",
+    unit: "mm",
+};
+
+const PUNCH: Question = Question {
+    flag: "--punch",
+    given: |options| &options.punch,
+    prompt: "Radius of the punch",
+    meaning: "of its flat face, in mm unless said otherwise",
+    default: "1 mm",
+    ..BALL
+};
+
+const LOAD: Question = Question {
+    flag: "--load",
+    given: |options| &options.load,
+    prompt: "Load",
+    meaning: "in N unless said otherwise",
+    default: "10 N",
+    key: "motion.normal.mean",
+    unit: "N",
+};
+
+const DEPTH: Question = Question {
+    flag: "--depth",
+    given: |options| &options.depth,
+    prompt: "Depth",
+    meaning: "by which the bodies approach, in um unless said otherwise",
+    default: "1 um",
+    unit: "um",
+    ..LOAD
+};
+
+const STROKE: Question = Question {
+    flag: "--stroke",
+    given: |options| &options.stroke,
+    prompt: "Stroke",
+    meaning: "from turning point to turning point, at the contact; in um unless said otherwise",
+    default: "20 um",
+    key: "motion.tangential.amplitude",
+    unit: "um",
+};
+
+const FRICTION: Question = Question {
+    flag: "--friction",
+    given: |options| &options.friction,
+    prompt: "Coefficient of friction",
+    meaning: "dry metals 0.5 to 0.9, ceramics 0.3 to 0.6, lubricated 0.1",
+    default: "0.6",
+    key: "friction.coefficient",
+    unit: "",
+};
+
+const FREQUENCY: Question = Question {
+    flag: "--frequency",
+    given: |options| &options.frequency,
+    prompt: "Frequency",
+    meaning: "cycles a second, in Hz; it matters for powers of the slip rate alone",
+    default: "10 Hz",
+    key: "motion.tangential.frequency",
+    unit: "Hz",
+};
+
+const WEAR: Question = Question {
+    flag: "--wear",
+    given: |options| &options.wear,
+    prompt: "Wear coefficient of a pin test, or none",
+    meaning: "volume per load and sliding distance, in mm3/Nm: mild wear 1e-7 to 1e-5, severe 1e-4",
+    default: "1e-6 mm3/Nm",
+    key: "wear.coefficient_per_load",
+    unit: "mm3/Nm",
+};
+
+const CYCLES: Question = Question {
+    flag: "--cycles",
+    given: |options| &options.cycles,
+    prompt: "Cycles",
+    meaning: "the length of the test; above 1000 cycles that are alike are jumped over",
+    default: "1000",
+    key: "run.cycles",
+    unit: "",
+};
+
+impl Question {
+    fn read(&self, text: &str) -> Result<Quantity, String> {
+        quantity(text, self.key, self.unit, self.unit == "N")
+    }
 }
 
 impl Interview<'_> {
     fn answers(&self) -> Result<Answers> {
-        let options = self.options;
-        let (shape, radius) = self.indenter()?;
-        let indenter = self.body(
-            "--material",
-            &options.material,
-            "What is the indenter made of?",
+        let (shape, radius) = match self.is_second(
+            [&BALL, &PUNCH],
+            "Which shape presses on the flat body?",
+            [
+                "ball: pressure is highest in the middle, slip begins at the edge",
+                "flat punch: a disc whose edge carries most; the contact keeps its size",
+            ],
+        )? {
+            false => (Shape::Ball, self.number(&BALL)?),
+            true => (Shape::Punch, self.number(&PUNCH)?),
+        };
+        let made_of = "What is the indenter made of?";
+        let indenter = self.body("--material", |options| &options.material, made_of)?;
+        let half_space = self.body(
+            "--against",
+            |options| &options.against,
+            "And the flat body?",
         )?;
-        let half_space = self.body("--against", &options.against, "And the flat body?")?;
-        let press = self.press()?;
+        let press = match self.is_second(
+            [&LOAD, &DEPTH],
+            "What presses the bodies together?",
+            [
+                "a load: it is held while the contact wears, as by a dead weight",
+                "a depth: it is held, and wear unloads the contact",
+            ],
+        )? {
+            false => Press::Load(self.number(&LOAD)?),
+            true => Press::Depth(self.number(&DEPTH)?),
+        };
         // Questions not asked yet have their defaults, so that the contact can be described already.
+        let default = |question: &Question| question.read(question.default).map_err(Refusal::from);
         let mut answers = Answers {
             shape,
             radius,
             indenter,
             half_space,
             press,
-            stroke: default("20 um", "motion.tangential.amplitude", "um")?,
-            frequency: default("10 Hz", "motion.tangential.frequency", "Hz")?,
-            friction: default("0.6", "friction.coefficient", "")?,
+            stroke: default(&STROKE)?,
+            frequency: default(&FREQUENCY)?,
+            friction: default(&FRICTION)?,
             wear: None,
-            cycles: default("1000", "run.cycles", "")?,
+            cycles: default(&CYCLES)?,
         };
         self.tell(&answers, Forecast::contact)?;
-        answers.stroke = self.ask(
-            &Question {
-                flag: "--stroke",
-                given: options.stroke.as_ref(),
-                prompt: "Stroke",
-                meaning: "from turning point to turning point, at the contact; in um unless said otherwise",
-                default: "20 um",
-            },
-            |text| quantity(text, "motion.tangential.amplitude", "um", false),
-        )?;
-        answers.friction = self.ask(
-            &Question {
-                flag: "--friction",
-                given: options.friction.as_ref(),
-                prompt: "Coefficient of friction",
-                meaning: "dry metals 0.5 to 0.9, ceramics 0.3 to 0.6, lubricated 0.1",
-                default: "0.6",
-            },
-            |text| quantity(text, "friction.coefficient", "", false),
-        )?;
+        answers.stroke = self.number(&STROKE)?;
+        answers.friction = self.number(&FRICTION)?;
         self.tell(&answers, Forecast::regime)?;
-        answers.frequency = self.ask(
-            &Question {
-                flag: "--frequency",
-                given: options.frequency.as_ref(),
-                prompt: "Frequency",
-                meaning: "cycles a second, in Hz; it matters for powers of the slip rate alone",
-                default: "10 Hz",
-            },
-            |text| quantity(text, "motion.tangential.frequency", "Hz", false),
-        )?;
+        answers.frequency = self.number(&FREQUENCY)?;
         self.tell(&answers, Forecast::a_day)?;
-        answers.wear = self.ask(
-            &Question {
-                flag: "--wear",
-                given: options.wear.as_ref(),
-                prompt: "Wear coefficient of a pin test, or none",
-                meaning: "volume per load and sliding distance, in mm3/Nm: mild wear 1e-7 to 1e-5, severe 1e-4",
-                default: "1e-6 mm3/Nm",
-            },
-            |text| match text.trim() {
-                "none" => Ok(None),
-                text => quantity(text, "wear.coefficient_per_load", "mm3/Nm", false).map(Some),
-            },
-        )?;
-        answers.cycles = self.ask(
-            &Question {
-                flag: "--cycles",
-                given: options.cycles.as_ref(),
-                prompt: "Cycles",
-                meaning: "the length of the test; above 1000 cycles that are alike are jumped over",
-                default: "1000",
-            },
-            |text| quantity(text, "run.cycles", "", false),
-        )?;
+        answers.wear = self.ask(&WEAR, |text| match text.trim() {
+            "none" => Ok(None),
+            text => WEAR.read(text).map(Some),
+        })?;
+        answers.cycles = self.number(&CYCLES)?;
         Ok(answers)
     }
 
-    fn indenter(&self) -> Result<(Shape, Quantity)> {
-        let options = self.options;
-        let shape = match (&options.ball, &options.punch) {
-            (None, None) => {
-                let items = [
-                    "ball: pressure is highest in the middle, slip begins at the edge",
-                    "flat punch: a disc whose edge carries most; the contact keeps its size",
-                ];
-                match self.choose("Which shape presses on the flat body?", &items)? {
-                    0 => Shape::Ball,
-                    _ => Shape::Punch,
-                }
-            }
-            (Some(_), _) => Shape::Ball,
-            (None, Some(_)) => Shape::Punch,
-        };
-        let question = match shape {
-            Shape::Ball => Question {
-                flag: "--ball",
-                given: options.ball.as_ref(),
-                prompt: "Radius of the ball",
-                meaning: "in mm unless said otherwise; for two curved bodies 1/R = 1/R1 + 1/R2",
-                default: "5 mm",
-            },
-            Shape::Punch => Question {
-                flag: "--punch",
-                given: options.punch.as_ref(),
-                prompt: "Radius of the punch",
-                meaning: "of its flat face, in mm unless said otherwise",
-                default: "1 mm",
-            },
-        };
-        let radius = self.ask(&question, |text| {
-            quantity(text, "indenter.radius", "mm", false)
-        })?;
-        Ok((shape, radius))
+    /// Whether the second of two questions is to be asked: that of the option that is given, or what the user chooses.
+    fn is_second(&self, both: [&Question; 2], prompt: &str, items: [&str; 2]) -> Result<bool> {
+        match both.map(|question| (question.given)(self.options)) {
+            [None, None] => Ok(self.choose(prompt, &items)? == 1),
+            [first, _] => Ok(first.is_none()),
+        }
     }
 
-    fn body(&self, flag: &str, given: &Option<String>, prompt: &str) -> Result<Body> {
-        if given.is_none() && self.theme.is_some() {
-            let mut items: Vec<String> = MATERIALS
+    fn body(
+        &self,
+        flag: &'static str,
+        given: fn(&New) -> &Option<String>,
+        prompt: &str,
+    ) -> Result<Body> {
+        let is_asked = self.theme.is_some();
+        if given(self.options).is_none() && is_asked {
+            let named = MATERIALS
                 .iter()
                 .map(|(name, modulus, poisson)| match *modulus {
                     "" => format!("{name}: does not yield"),
                     modulus => format!("{name}: E = {modulus}, Poisson's ratio {poisson}"),
-                })
-                .collect();
-            items.push("another: type E and Poisson's ratio".to_owned());
+                });
+            let another = "another: type E and Poisson's ratio".to_owned();
+            let items: Vec<String> = named.chain([another]).collect();
             let at = self.choose(prompt, &items)?;
             if let Some((name, ..)) = MATERIALS.get(at) {
                 return Body::read(name).map_err(|rule| Refusal::from(rule).into());
@@ -225,64 +275,23 @@ impl Interview<'_> {
         }
         let question = Question {
             flag,
-            given: given.as_ref(),
+            given,
             prompt: "E,NU",
             meaning: "Young's modulus and Poisson's ratio, a comma between them",
-            default: if self.theme.is_some() {
-                "210 GPa,0.3"
-            } else {
-                "steel"
-            },
+            default: if is_asked { "210 GPa,0.3" } else { "steel" },
+            key: "",
+            unit: "",
         };
         self.ask(&question, Body::read)
     }
 
-    fn press(&self) -> Result<Press> {
-        let options = self.options;
-        let is_depth = match (&options.load, &options.depth) {
-            (None, None) => {
-                let items = [
-                    "a load: it is held while the contact wears, as by a dead weight",
-                    "a depth: it is held, and wear unloads the contact",
-                ];
-                self.choose("What presses the bodies together?", &items)? == 1
-            }
-            (load, _) => load.is_none(),
-        };
-        if is_depth {
-            let question = Question {
-                flag: "--depth",
-                given: options.depth.as_ref(),
-                prompt: "Depth",
-                meaning: "by which the bodies approach, in um unless said otherwise",
-                default: "1 um",
-            };
-            return self
-                .ask(&question, |text| {
-                    quantity(text, "motion.normal.mean", "um", false)
-                })
-                .map(Press::Depth);
-        }
-        let question = Question {
-            flag: "--load",
-            given: options.load.as_ref(),
-            prompt: "Load",
-            meaning: "in N unless said otherwise",
-            default: "10 N",
-        };
-        self.ask(&question, |text| {
-            quantity(text, "motion.normal.mean", "N", true)
-        })
-        .map(Press::Load)
+    fn number(&self, question: &Question) -> Result<Quantity> {
+        self.ask(question, |text| question.read(text))
     }
 
     /// An answer of one line: the option's, the user's, or the default.
     fn ask<T>(&self, question: &Question, read: impl Fn(&str) -> Result<T, String>) -> Result<T> {
-        let refused = |text: &str, rule: String| {
-            let flag = question.flag;
-            Refusal::new(format_args!("{flag} {}", printable(text)), rule)
-        };
-        let text = match (question.given, &self.theme) {
+        let text = match ((question.given)(self.options), &self.theme) {
             (Some(given), _) => given.clone(),
             (None, None) => question.default.to_owned(),
             (None, Some(theme)) => {
@@ -295,7 +304,8 @@ impl Interview<'_> {
                     .context("nothing was written")?
             }
         };
-        Ok(read(&text).map_err(|rule| refused(&text, rule))?)
+        let place = format!("{} {}", question.flag, printable(&text));
+        Ok(read(&text).map_err(|rule| Refusal::new(place, rule))?)
     }
 
     /// The place of the item that is chosen; the first without a terminal.
@@ -314,19 +324,11 @@ impl Interview<'_> {
     /// Tells a user what closed forms say of the answers so far.
     fn tell(&self, answers: &Answers, what: fn(&Forecast) -> String) -> Result<()> {
         if self.theme.is_some()
-            && let Some(forecast) = answers
-                .scenario("so far")
-                .ok()
-                .as_ref()
-                .and_then(Forecast::of)
+            && let Ok(scenario) = answers.scenario("so far")
+            && let Some(forecast) = Forecast::of(&scenario)
         {
             writeln!(io::stderr(), "  = {}", what(&forecast))?;
         }
         Ok(())
     }
-}
-
-/// A default, which is right.
-fn default(text: &str, key: &str, unit: &str) -> Result<Quantity> {
-    Ok(quantity(text, key, unit, false).map_err(Refusal::from)?)
 }

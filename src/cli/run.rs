@@ -21,7 +21,7 @@ use crate::export::header::{self, number};
 use crate::export::{field, state};
 use crate::reading::verdict;
 use crate::scenario::checkpoint;
-use crate::scenario::session::Session;
+use crate::scenario::session::{Session, SessionError};
 use crate::scenario::{Refusal, Scenario, printable};
 use crate::studies::refinement;
 
@@ -66,7 +66,7 @@ pub fn run(options: &Run) -> Result<ExitCode> {
     }
     let outcome = outcome.unwrap_or_else(|_| Ok(Ended::Broken(job.go_back())));
     if matches!(outcome, Ok(Ended::Interrupted | Ended::Broken(_))) {
-        job.save_checkpoint();
+        save(&mut locked(&job.checkpoints), &job.session, &job.job);
     }
     // What has come up during the run; the same warning may have got another cycle.
     let warnings = job.session.simulation().warnings();
@@ -318,71 +318,73 @@ impl Job {
 
     /// Steps to the end, taking snapshots on the way.
     fn advance(&mut self, go_on: &dyn Fn() -> bool) -> Result<Ended> {
-        let mut progress = Progress::new(self.job.cycles, self.quiet);
-        self.job.record(&self.session);
-        loop {
-            let simulation = self.session.simulation();
-            let (cycle, close) = (simulation.cycle(), simulation.rounding());
-            while let Some(snapshot) = self.job.next_snapshot(cycle + close) {
-                let table = table_at(&snapshot, &self.session)?;
+        let end = self.job.cycles;
+        let mut progress = Progress::new(end, self.quiet);
+        // A bug leaves this one behind, and the copy takes its place.
+        let mut session = self.session.clone();
+        let (mut before, mut outcome) = (None, Ok(()));
+        let goal = session.heading(end);
+        let ended = session.advance_towards(goal, end, |session| {
+            outcome = self.step_is_over(session, &mut before);
+            progress.at(session.simulation().cycle());
+            outcome.is_ok() && go_on()
+        });
+        self.session = session;
+        outcome?;
+        let ended = match ended {
+            Ok(()) => Ended::Done,
+            Err(SessionError::Interrupted) => Ended::Interrupted,
+            Err(error) => return Err(error.into()),
+        };
+        progress.finish();
+        Ok(ended)
+    }
+
+    /// Takes the snapshots that are due, records the moment and saves what is due. `before` is the session before
+    /// the step, where a snapshot may lie within it.
+    fn step_is_over(&mut self, session: &Session, before: &mut Option<Session>) -> Result<()> {
+        let simulation = session.simulation();
+        let (cycle, close) = (simulation.cycle(), simulation.rounding());
+        if let Some(before) = before.take() {
+            while let Some(snapshot) = self.job.next_snapshot(cycle - close) {
+                let table = table_at(&snapshot, &before)?;
                 self.keep_snapshot(&snapshot, table);
             }
-            if cycle >= self.job.cycles {
-                break;
-            }
-            if !go_on() {
-                progress.finish();
-                return Ok(Ended::Interrupted);
-            }
-            #[cfg(debug_assertions)]
-            {
-                crate::failpoint::hit("run");
-                // Far enough for a first checkpoint.
-                if cycle > 500.0 {
-                    crate::failpoint::stall("long step");
-                }
-            }
-            let simulation = self.session.simulation();
-            let reach = if simulation.may_jump() {
-                f64::INFINITY
-            } else {
-                simulation.next_moment()
-            };
-            // A copy between two steps takes a fraction of a step and does not change the run.
-            let copied = self.job.has_snapshot_before(reach);
-            let before = copied.then(|| self.session.clone());
-            let goal = self.session.heading(self.job.cycles);
-            self.session.step_until(goal)?;
-            let now = self.session.simulation().cycle() - close;
-            if let Some(before) = before {
-                while let Some(snapshot) = self.job.next_snapshot(now) {
-                    let table = table_at(&snapshot, &before)?;
-                    self.keep_snapshot(&snapshot, table);
-                }
-            }
-            self.job.record(&self.session);
-            self.checkpoint_if_due();
-            progress.at(cycle);
         }
-        progress.finish();
-        Ok(Ended::Done)
+        self.job.record(session);
+        self.checkpoint_if_due(session);
+        while let Some(snapshot) = self.job.next_snapshot(cycle + close) {
+            let table = table_at(&snapshot, session)?;
+            self.keep_snapshot(&snapshot, table);
+        }
+        #[cfg(debug_assertions)]
+        if cycle < self.job.cycles {
+            crate::failpoint::hit("run");
+            // Far enough for a first checkpoint.
+            if cycle > 500.0 {
+                crate::failpoint::stall("long step");
+            }
+        }
+        let reach = match simulation.may_jump() {
+            true => f64::INFINITY,
+            false => simulation.next_moment(),
+        };
+        // A copy between two steps takes a fraction of a step and does not change the run.
+        *before = self.job.has_snapshot_before(reach).then(|| session.clone());
+        Ok(())
     }
 
     /// Keeps a copy in memory and a checkpoint on disk up to date.
-    fn checkpoint_if_due(&mut self) {
-        locked(&self.copy).look_after(|| (self.session.clone(), self.job.clone()));
+    fn checkpoint_if_due(&mut self, session: &Session) {
+        locked(&self.copy).refresh(|| (session.clone(), self.job.clone()));
         if self.unwritten.is_none_or(|at| at.elapsed() >= ANOTHER_TRY) {
             // Rows that cannot be written stay in memory.
             let written = self.job.spill(&self.directory.rows());
             self.unwritten = written.is_err().then(Instant::now);
         }
         if locked(&self.checkpoints).is_due() {
-            self.save_checkpoint();
+            save(&mut locked(&self.checkpoints), session, &self.job);
         }
-    }
-
-    fn save_checkpoint(&mut self) {
-        save(&mut locked(&self.checkpoints), &self.session, &self.job);
     }
 
     /// After a bug, goes back to the copy: the interrupted step has left half a state.

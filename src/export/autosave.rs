@@ -152,7 +152,7 @@ impl Autosave {
     }
 }
 
-/// A copy of what is computed that survives a bug: never older than [`COPY_INTERVAL`] where it is looked after.
+/// A copy of what is computed that survives a bug: never older than [`COPY_INTERVAL`] where it is refreshed at every step.
 #[derive(Debug)]
 pub struct Recent<T> {
     copy: T,
@@ -174,7 +174,7 @@ impl<T> Recent<T> {
     }
 
     /// Replaces the copy by what `make` makes, if it is too old.
-    pub fn look_after(&mut self, make: impl FnOnce() -> T) {
+    pub fn refresh(&mut self, make: impl FnOnce() -> T) {
         if self.at.elapsed() >= COPY_INTERVAL {
             *self = Self::new(make());
         }

@@ -231,6 +231,20 @@ impl Session {
     pub fn advance_while(
         &mut self,
         cycle: f64,
+        go_on: impl FnMut(&Self) -> bool,
+    ) -> Result<(), SessionError> {
+        self.advance_towards(cycle, cycle, go_on)
+    }
+
+    /// [`advance_while`](Self::advance_while) by steps and jumps that are headed for `goal`, at `cycle` or beyond it.
+    ///
+    /// # Errors
+    ///
+    /// As there.
+    pub fn advance_towards(
+        &mut self,
+        goal: f64,
+        cycle: f64,
         mut go_on: impl FnMut(&Self) -> bool,
     ) -> Result<(), SessionError> {
         loop {
@@ -241,7 +255,7 @@ impl Session {
             if !goes_on {
                 return Err(SessionError::Interrupted);
             }
-            self.step_until(cycle)?;
+            self.step_until(goal)?;
         }
     }
 

@@ -63,7 +63,7 @@ impl ScreenAutosave {
         if self.is_finished {
             return None;
         }
-        self.copy.look_after(|| session.clone());
+        self.copy.refresh(|| session.clone());
         match self.wait(session) {
             Some(Duration::ZERO) => self.keep(session),
             _ => None,

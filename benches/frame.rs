@@ -132,7 +132,7 @@ fn run_in_the_explorer() {
     stage.press(&"+".repeat(20));
     stage.press("<Space>");
     while let Ok(event) = stage.events.recv() {
-        if let Event::Frame = event
+        if let Event::Frame(_) = event
             && let Some(frame) = stage.slot.take()
         {
             let is_done = frame.activity == Activity::Done;

@@ -82,7 +82,7 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
             format: options.format,
         }),
     })?;
-    if let Some(word) = farewell.word {
+    if let Some(word) = farewell.saved {
         complain(&word);
     }
     if let Some(screen) = farewell.screen {

@@ -8,9 +8,11 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
 
-use ratatui::layout::Rect;
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Rect, Size};
 
 use super::command::{Act, Command};
+use super::event_loop::Scene;
 use super::frame::{Activity, Frame};
 use super::held::Held;
 use super::keys::Key;
@@ -19,12 +21,12 @@ use super::line::one_line;
 use super::overlays::{Answer, Form, Overlay, Palette};
 use super::pace::Pace;
 use super::panels::{Panel, Shown};
-use super::present;
 use super::refinement_check::RefinementCheck;
 use super::snapshot;
 use super::theme::Theme;
 use super::tour::Tour;
 use super::worker::{Orders, Worker};
+use super::{Event, present, screen};
 use crate::charts::{Medium, View};
 use crate::plot::{Chart, Scale, sticky_bounds};
 use crate::reading::Curves;
@@ -117,6 +119,53 @@ fn may_last(calm: &Frame, frame: &Frame) -> bool {
         && frame.comparison.is_some() == calm.comparison.is_some()
 }
 
+impl Scene for App {
+    fn theme(&mut self) -> &mut Theme {
+        &mut self.theme
+    }
+
+    fn resize(&mut self, size: Size) {
+        self.resize(size.width, size.height);
+    }
+
+    fn draw(&self, area: Rect, buffer: &mut Buffer) {
+        screen::draw(self, area, buffer);
+    }
+
+    fn handle(&mut self, event: Event) {
+        match event {
+            Event::Key(key) => self.press(key),
+            Event::Paste(text) => self.paste(&text),
+            Event::Point(gesture) => self.point(gesture),
+            Event::Frame(slot) => {
+                if let Some(frame) = slot.take() {
+                    self.take_frame(frame);
+                }
+            }
+            Event::Unwritten(text) => {
+                self.unwritten.get_or_insert_with(|| text.clone());
+                self.notice = Some(text);
+            }
+            Event::Notice(text) => self.notice = Some(text),
+            Event::RefinementCheck(answer) => self.refinement_check = Some(answer),
+            Event::Sweep(live) => self.overlay = Overlay::Sweep(live),
+            _ => {}
+        }
+    }
+
+    fn say(&mut self, notice: &str) {
+        self.notice = Some(notice.to_owned());
+    }
+
+    fn asks_to_suspend(&mut self) -> bool {
+        std::mem::take(&mut self.suspend)
+    }
+
+    fn is_left(&self) -> bool {
+        self.leave.is_some()
+    }
+}
+
 impl App {
     /// An app that sends its orders to a worker.
     pub fn new(theme: Theme, orders: Orders) -> Self {
@@ -173,14 +222,14 @@ impl App {
             }
             _ => Some((Arc::clone(&frame), 1)),
         };
-        self.rise(&frame);
+        self.hasten(&frame);
         self.frame = Some(frame);
         self.is_outdated = false;
         self.tell_what_shows();
     }
 
     /// For a projector, the pace rises when it has been shown for a while.
-    fn rise(&mut self, frame: &Frame) {
+    fn hasten(&mut self, frame: &Frame) {
         let (pace, began) = self.at_pace;
         let cycle = frame.observation.moment.cycle;
         let is_running = self.presents && frame.activity == Activity::Running;

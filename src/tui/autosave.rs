@@ -59,7 +59,7 @@ impl ScreenAutosave {
     }
 
     /// Saves what is due; returns a message when that begins to fail.
-    pub fn look_after(&mut self, session: &Session) -> Option<String> {
+    pub fn save_if_due(&mut self, session: &Session) -> Option<String> {
         if self.is_finished {
             return None;
         }

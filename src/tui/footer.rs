@@ -10,7 +10,7 @@ use super::command::Command::{self, self as C};
 use super::frame::Activity;
 use super::overlays::Overlay;
 use super::readout;
-use super::theme::Role;
+use super::theme::{Role, Theme};
 
 /// The hint before the first key.
 const HINT: &str =
@@ -109,30 +109,59 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         Line::raw(text).render(area, buffer);
         return;
     }
-    Line::from(keys(app, usize::from(area.width))).render(area, buffer);
+    keys(app, area, buffer);
 }
 
-/// The keys of the present mode, as far as they fit; help and quit always.
-fn keys(app: &App, room: usize) -> Vec<Span<'static>> {
-    let (commands, names) = mode(app);
-    let texts = |&command: &Command| {
-        let row = command.row();
-        let name = names.iter().find(|(renamed, _)| *renamed == command);
-        let name = name.map_or(row.name, |(_, name)| name);
-        [format!(" {}", row.keys[0]), format!(" {name}")]
+/// A notice, or else keys and what they do: as many of `keys` as fit, and those of `always`.
+pub fn draw_line(
+    notice: Option<&str>,
+    keys: &[[&str; 2]],
+    always: &[[&str; 2]],
+    theme: &Theme,
+    area: Rect,
+    buffer: &mut Buffer,
+) {
+    if let Some(text) = notice {
+        let text = format!(" {}", theme.printable(text));
+        return Line::styled(text, theme.style(Role::Notice)).render(area, buffer);
+    }
+    let width = |texts: &[&str; 2]| {
+        texts
+            .iter()
+            .map(|text| text.chars().count() + 1)
+            .sum::<usize>()
     };
-    let width = |texts: &[String; 2]| texts.iter().map(|text| text.chars().count()).sum::<usize>();
-    let always = ALWAYS.each_ref().map(texts);
-    let mut left = room.saturating_sub(always.iter().map(width).sum());
-    let mut shown: Vec<_> = commands.iter().map(texts).collect();
+    let mut left = usize::from(area.width).saturating_sub(always.iter().map(width).sum());
+    let mut shown = keys.to_vec();
     shown.retain(|texts| {
         let fits = width(texts) <= left;
         left -= if fits { width(texts) } else { 0 };
         fits
     });
-    let [key, name] = [Role::Title, Role::Quiet].map(|role| app.theme.style(role));
-    let shown = shown.into_iter().chain(always);
-    shown
-        .flat_map(|[first, second]| [Span::styled(first, key), Span::styled(second, name)])
-        .collect()
+    let styles = [Role::Title, Role::Quiet].map(|role| theme.style(role));
+    let spans = shown.iter().chain(always).flat_map(|texts| {
+        let parts = texts.iter().zip(styles);
+        parts.map(|(text, style)| Span::styled(format!(" {text}"), style))
+    });
+    Line::from_iter(spans).render(area, buffer);
+}
+
+/// The keys of the present mode; help and quit always.
+fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
+    let (commands, names) = mode(app);
+    let texts = |command: &Command| {
+        let row = command.row();
+        let name = names.iter().find(|(renamed, _)| renamed == command);
+        (
+            row.keys[0].to_string(),
+            name.map_or(row.name, |(_, name)| name),
+        )
+    };
+    let texts = |commands: &[Command]| commands.iter().map(texts).collect::<Vec<_>>();
+    let (shown, always) = (texts(commands), texts(&ALWAYS));
+    let [shown, always] = [&shown, &always].map(|list| {
+        let pairs = list.iter().map(|(key, name)| [key.as_str(), *name]);
+        pairs.collect::<Vec<_>>()
+    });
+    draw_line(None, &shown, &always, &app.theme, area, buffer);
 }

@@ -14,9 +14,9 @@ use ratatui::text::Line;
 
 use super::Event;
 use super::app::App;
+use super::event_loop::Scene;
 use super::frame::Slot;
 use super::keys::{self, Key};
-use super::overlays::Overlay;
 use super::screen;
 use super::theme::{Look, Theme};
 use super::worker::{Orders, Worker};
@@ -189,20 +189,13 @@ fn catch_up(app: &mut App, orders: &Orders, events: &Receiver<Event>) -> Result<
         }
     }
     while let Ok(event) = events.try_recv() {
-        match event {
-            Event::Notice(text) => app.notice = Some(text),
-            Event::Unwritten(text) => {
-                app.unwritten.get_or_insert_with(|| text.clone());
-                app.notice = Some(text);
-            }
-            Event::RefinementCheck(answer) => app.refinement_check = Some(answer),
-            Event::Sweep(live) => {
-                // A script sees all points.
-                live.finish();
-                app.overlay = Overlay::Sweep(live);
-            }
+        // A script sees all points; the frame that it sees is the one that it has waited for.
+        match &event {
+            Event::Sweep(live) => live.finish(),
+            Event::Frame(_) => continue,
             _ => {}
         }
+        app.handle(event);
     }
     Ok(())
 }

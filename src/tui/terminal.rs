@@ -19,10 +19,8 @@ use ratatui::layout::{Rect, Size};
 
 use super::Event;
 use super::ansi_backend::AnsiBackend;
-use super::app::App;
 use super::flow::{Flow, When};
 use super::output::Output;
-use super::screen;
 
 /// Asks for presses, releases and the wheel (mode 1000), in numbers that hold on any screen (1006).
 /// The terminal is not asked for the mouse's movements: each would be bytes on the wire.
@@ -143,14 +141,9 @@ impl Screen {
         &mut self.flow
     }
 
-    /// Draws the app: only changes are sent, and on a slow line only as many rows as do not delay a
+    /// Draws a screen: only changes are sent, and on a slow line only as many rows as do not delay a
     /// key. Returns false if rows are left for the next frame.
-    pub fn draw(&mut self, app: &App) -> io::Result<bool> {
-        self.paint(|area, buffer| screen::draw(app, area, buffer))
-    }
-
-    /// [`draw`](Self::draw) of something else.
-    pub fn paint(&mut self, draw: impl FnOnce(Rect, &mut Buffer)) -> io::Result<bool> {
+    pub fn draw(&mut self, draw: impl FnOnce(Rect, &mut Buffer)) -> io::Result<bool> {
         self.terminal.autoresize()?;
         let area = self.terminal.get_frame().area();
         let mut wanted = Buffer::empty(area);

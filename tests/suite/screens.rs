@@ -906,7 +906,7 @@ fn fast_runs_are_shown_at_one_phase() {
             let event = events
                 .recv_timeout(Duration::from_secs(30))
                 .expect("a frame");
-            if matches!(event, Event::Frame) {
+            if matches!(event, Event::Frame(_)) {
                 seen.extend(slot.take());
             }
         }
@@ -939,7 +939,7 @@ fn space_at_the_end_asks_first() {
     let (orders, events, slot, worker) = live("hertz", 0.2, Duration::from_millis(20));
     let next = || events.recv_timeout(Duration::from_secs(30));
     let until = |activity: Activity| {
-        while !matches!(next().expect("a frame"), Event::Frame)
+        while !matches!(next().expect("a frame"), Event::Frame(_))
             || slot.take().is_none_or(|frame| frame.activity != activity)
         {}
     };
@@ -948,7 +948,7 @@ fn space_at_the_end_asks_first() {
     let notice = loop {
         match next().expect("a notice") {
             Event::Notice(text) => break text,
-            Event::Frame => assert!(slot.take().is_none_or(|f| f.activity == Activity::Done)),
+            Event::Frame(_) => assert!(slot.take().is_none_or(|f| f.activity == Activity::Done)),
             _ => {}
         }
     };

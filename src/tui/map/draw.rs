@@ -23,11 +23,20 @@ use crate::plot::axis::titled;
 use crate::plot::units::{axis_unit, format_number, format_value_in};
 use crate::plot::{Chart, Curve, Plot, Point, Scale};
 use crate::studies::sweep::slice::{Line, REGIMES};
+use crate::tui::footer;
 use crate::tui::theme::{Role, Theme};
 
-/// The footer.
-const KEYS: &str =
-    "arrows move  Enter open  Tab column  L log  x y axes  [ ] other axes  t theory  q quit";
+/// The keys of the footer, as many as fit, and the one that is always there.
+const KEYS: [[&str; 2]; 7] = [
+    ["arrows", "move"],
+    ["Enter", "open"],
+    ["Tab", "column"],
+    ["L", "log"],
+    ["x y", "axes"],
+    ["[ ]", "other axes"],
+    ["t", "theory"],
+];
+const QUIT: [&str; 2] = ["q", "quit"];
 
 /// Significant digits of what is read.
 const DIGITS: usize = 4;
@@ -92,7 +101,12 @@ pub fn draw(view: &View, theme: &Theme, area: Rect, buffer: &mut Buffer) {
         theme,
     );
     readings(view, theme, area, bottom - 3 - area.y, buffer);
-    line(buffer, area, bottom - 1 - area.y, KEYS, quiet, theme);
+    let last = Rect {
+        y: bottom - 1,
+        height: 1,
+        ..area
+    };
+    footer::draw_line(view.notice.as_deref(), &KEYS, &[QUIT], theme, last, buffer);
 }
 
 /// The point under the cursor: its values, the column and the status.

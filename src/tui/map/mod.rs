@@ -5,19 +5,18 @@
 //! points as they finish.
 
 use std::io::{self, Write};
-use std::sync::Arc;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::sync::mpsc::channel;
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::flow::When;
-use super::input::{self, Waiting};
+use super::command::{self, Command};
+use super::event_loop::{self, Scene};
 use super::keys::Key;
-use super::terminal::{Capture, Screen};
+use super::terminal::Capture;
 use super::theme::Theme;
 use super::{Event, Size, script};
 
@@ -31,60 +30,74 @@ pub use view::{Leave, View};
 /// How often the file is checked.
 const LOOK_INTERVAL: Duration = Duration::from_millis(300);
 
+/// A map on the terminal.
+struct Shown<'a, F> {
+    view: &'a mut View,
+    theme: Theme,
+    renew: F,
+    suspends: bool,
+    leave: Option<Leave>,
+}
+
+impl<F: FnMut(&mut View)> Scene for Shown<'_, F> {
+    fn theme(&mut self) -> &mut Theme {
+        &mut self.theme
+    }
+
+    fn resize(&mut self, _: ratatui::layout::Size) {}
+
+    fn draw(&self, area: Rect, buffer: &mut Buffer) {
+        draw::draw(self.view, &self.theme, area, buffer);
+    }
+
+    fn handle(&mut self, event: Event) {
+        match event {
+            Event::Key(key) if command::of_key(key) == Some(Command::Suspend) => {
+                self.suspends = true;
+            }
+            Event::Key(key) => self.leave = self.view.press(key),
+            Event::News => (self.renew)(self.view),
+            _ => {}
+        }
+    }
+
+    fn say(&mut self, notice: &str) {
+        self.view.notice = Some(notice.to_owned());
+    }
+
+    fn asks_to_suspend(&mut self) -> bool {
+        std::mem::take(&mut self.suspends)
+    }
+
+    fn is_left(&self) -> bool {
+        self.leave.is_some()
+    }
+}
+
 /// Shows `view` until the user leaves it; calls `renew` regularly to update it.
 ///
 /// # Errors
 ///
 /// If stdout is not a terminal, or cannot be switched to raw mode.
-pub fn run(view: &mut View, theme: &Theme, mut renew: impl FnMut(&mut View)) -> Result<Leave> {
-    super::refuse_what_is_no_terminal()?;
+pub fn run(view: &mut View, theme: &Theme, renew: impl FnMut(&mut View)) -> Result<Leave> {
+    event_loop::require_terminal()?;
     crate::panics::keep();
     let (events, inbox) = channel();
-    let waiting = Arc::new(Waiting::default());
-    super::listen_for_signals(events.clone(), Arc::clone(&waiting))?;
-    let screen = Screen::open(Capture::None, theme.follows_background, events.clone());
-    let mut screen = screen.context("cannot take over the terminal")?;
-    let keys = Arc::clone(&waiting);
-    let listener = thread::spawn(move || input::listen(&events, &keys, Capture::None));
-    let outcome = attend(view, *theme, &mut renew, &mut screen, &inbox, &waiting);
-    super::hear_out(&mut screen, &inbox);
-    // Further keys are for the explorer or the shell.
-    waiting.close();
-    let _ = listener.join();
-    outcome
-}
-
-fn attend(
-    view: &mut View,
-    mut theme: Theme,
-    renew: &mut impl FnMut(&mut View),
-    screen: &mut Screen,
-    inbox: &Receiver<Event>,
-    waiting: &Waiting,
-) -> Result<Leave> {
-    while !waiting.is_over() {
-        if screen.when() == When::Now {
-            screen.paint(|area, buffer| draw::draw(view, &theme, area, buffer))?;
+    let watcher = events.clone();
+    thread::spawn(move || {
+        while watcher.send(Event::News).is_ok() {
+            thread::sleep(LOOK_INTERVAL);
         }
-        match inbox.recv_timeout(LOOK_INTERVAL) {
-            Err(RecvTimeoutError::Timeout) => renew(view),
-            Ok(Event::Key(key)) => {
-                waiting.leave();
-                screen.flow().hurry(Instant::now());
-                if let Some(leave) = view.press(key) {
-                    return Ok(leave);
-                }
-            }
-            Ok(Event::Paste(_)) => waiting.leave(),
-            Ok(Event::Ready) => screen.flow().answered(Instant::now()),
-            Ok(Event::Background(color)) => theme.follow(color),
-            Ok(Event::Written) => screen.flow().written(),
-            Ok(Event::Resize) => screen.start_afresh()?,
-            Ok(Event::HangUp) | Err(RecvTimeoutError::Disconnected) => break,
-            Ok(_) => {}
-        }
-    }
-    Ok(Leave::Quit)
+    });
+    let mut shown = Shown {
+        view,
+        theme: *theme,
+        renew,
+        suspends: false,
+        leave: None,
+    };
+    event_loop::run(&mut shown, Capture::None, &events, &inbox, || {})?;
+    Ok(shown.leave.unwrap_or(Leave::Quit))
 }
 
 /// Presses keys and prints the last screen, without a terminal.

@@ -86,7 +86,7 @@ impl Worker {
         match self.session.change_all(&borrowed) {
             Ok(()) => {
                 let branched = self.branch();
-                self.learn();
+                self.follow_scenario();
                 self.twin = Twin::of(&self.session);
                 if matches!(self.activity, Activity::Stopped(_)) {
                     self.activity = Activity::Paused;
@@ -100,7 +100,7 @@ impl Worker {
     }
 
     /// Updates what depends on the present scenario.
-    pub(super) fn learn(&mut self) {
+    pub(super) fn follow_scenario(&mut self) {
         self.theory = Arc::new(Theory::of(self.session.simulation().setup()));
         self.expected_wear = super::expected_wear(&self.theory, &self.session);
         self.settings = Arc::new(Setting::all(self.session.scenario()));
@@ -131,14 +131,14 @@ impl Worker {
             Ok(session) => {
                 let mut trend = Trend::default();
                 ghosts::record(&mut trend, &session);
-                self.take_up(session, trend);
+                self.replace_run(session, trend);
             }
             Err(error) => self.notice(&error.to_string()),
         }
     }
 
     /// Another run takes the place of this one.
-    pub(super) fn take_up(&mut self, session: Session, trend: Trend) {
+    pub(super) fn replace_run(&mut self, session: Session, trend: Trend) {
         self.keep();
         if let Some(keeping) = &self.keeping {
             super::locked(keeping).turn_over(self.past.line(&self.session), &session);
@@ -147,7 +147,7 @@ impl Worker {
         self.snapshots.clear();
         self.session = session;
         self.comparison = None;
-        self.learn();
+        self.follow_scenario();
         self.twin = Twin::of(&self.session);
         self.trend = trend;
         if self.activity != Activity::Running {

@@ -180,30 +180,30 @@ impl Worker {
 
     /// Handles orders and steps in between, until told to quit.
     pub fn serve(mut self, orders: &Receiver<Order>) {
-        self.attend(orders);
+        self.handle_orders(orders);
     }
 
     /// [`serve`](Self::serve), and saves the session regularly and at the end, even after a panic;
     /// returns the message for the user.
-    pub fn serve_and_keep(
+    pub fn run_with_checkpoints(
         mut self,
         orders: &Receiver<Order>,
         keeping: Option<Arc<Mutex<ScreenAutosave>>>,
     ) -> Option<String> {
         self.keeping = keeping;
-        let served = catch_unwind(AssertUnwindSafe(|| self.attend(orders)));
+        let served = catch_unwind(AssertUnwindSafe(|| self.handle_orders(orders)));
         // The interrupted step has left half a state.
         let session = served.is_ok().then(|| self.past.line(&self.session));
         let keeping = self.keeping.take()?;
         locked(&keeping).finish(session)
     }
 
-    fn attend(&mut self, orders: &Receiver<Order>) {
+    fn handle_orders(&mut self, orders: &Receiver<Order>) {
         self.publish();
         loop {
             #[cfg(debug_assertions)]
             crate::failpoint::hit("worker");
-            self.look_after();
+            self.checkpoint_if_due();
             let wait = if self.is_awaited() {
                 Some(Duration::ZERO)
             } else {
@@ -227,7 +227,7 @@ impl Worker {
                         if self.published.elapsed() >= self.interval {
                             self.publish();
                         }
-                        self.look_after();
+                        self.checkpoint_if_due();
                     }
                     self.meter.restart(self.session.simulation().cycle());
                     self.publish();
@@ -240,10 +240,10 @@ impl Worker {
     }
 
     /// Saves the session when due.
-    fn look_after(&mut self) {
+    fn checkpoint_if_due(&mut self) {
         let keeping = self.keeping.as_ref();
         let word =
-            keeping.and_then(|keeping| locked(keeping).look_after(self.past.line(&self.session)));
+            keeping.and_then(|keeping| locked(keeping).save_if_due(self.past.line(&self.session)));
         if let Some(word) = word {
             self.notice(&word);
         }
@@ -321,7 +321,7 @@ impl Worker {
         };
         let events = self.events.clone();
         let tell = move || {
-            let _ = events.send(Event::Frame);
+            let _ = events.send(Event::News);
         };
         match Live::start(range, self.session.scenario(), cycles, tell) {
             Ok(live) => {
@@ -365,7 +365,7 @@ impl Worker {
 
     /// Goes on from a state that was read.
     pub fn open(&mut self, opened: Opened) {
-        self.take_up(opened.session, opened.trend);
+        self.replace_run(opened.session, opened.trend);
     }
 
     /// Lays the present state over the panels.
@@ -448,7 +448,7 @@ impl Worker {
         self.follow_hardness();
         self.published = Instant::now();
         if self.slot.put(Arc::new(self.frame())) {
-            let _ = self.events.send(Event::Frame);
+            let _ = self.events.send(Event::Frame(Arc::clone(&self.slot)));
         }
     }
 

@@ -71,7 +71,7 @@ impl Worker {
         self.trend = self.past.trend(kept);
         self.comparison = None;
         self.activity = Activity::Paused;
-        self.learn();
+        self.follow_scenario();
     }
 }
 

@@ -1,0 +1,221 @@
+//! Shows a scene on the terminal and gives it keys, until it is left: the explorer, or the map of a study.
+
+use std::io::{self, IsTerminal};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, Result};
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Rect, Size};
+use signal_hook::consts::{
+    SIGABRT, SIGALRM, SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SIGUSR1, SIGUSR2,
+    SIGWINCH, SIGXCPU,
+};
+use signal_hook::iterator::Signals;
+
+use super::flow::When;
+use super::input::{self, Waiting};
+use super::terminal::{self, Capture, Screen};
+use super::theme::Theme;
+use super::{Event, catch, suspend};
+
+/// How long outstanding answers of the terminal are waited for on exit.
+const LAST_ANSWERS: Duration = Duration::from_millis(500);
+
+/// What a terminal shows.
+pub trait Scene {
+    /// Its colours and signs.
+    fn theme(&mut self) -> &mut Theme;
+    /// Takes the size of the terminal.
+    fn resize(&mut self, size: Size);
+    /// Draws it.
+    fn draw(&self, area: Rect, buffer: &mut Buffer);
+    /// Answers what is not the terminal's own.
+    fn handle(&mut self, event: Event);
+    /// Tells the user something until the next key.
+    fn say(&mut self, notice: &str);
+    /// Whether the user has asked for the shell since the last call.
+    fn asks_to_suspend(&mut self) -> bool;
+    /// Whether it is to be left.
+    fn is_left(&self) -> bool;
+}
+
+/// There is no usable terminal.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}; mdr-tui run SCENARIO works without a screen")]
+pub struct NoTerminal(&'static str);
+
+/// # Errors
+/// Fails where there is no terminal to draw on.
+pub fn require_terminal() -> Result<(), NoTerminal> {
+    if !io::stdout().is_terminal() || !io::stdin().is_terminal() {
+        return Err(NoTerminal("the explorer needs a terminal"));
+    }
+    if std::env::var("TERM").is_ok_and(|term| term == "dumb") {
+        return Err(NoTerminal(
+            "a dumb terminal (TERM=dumb) cannot show the explorer",
+        ));
+    }
+    Ok(())
+}
+
+/// Shows `scene` until it is left; calls `ending` before the terminal is restored. Returns whether that was restored.
+///
+/// # Errors
+/// If the terminal cannot be taken over or drawn on.
+pub fn run(
+    scene: &mut dyn Scene,
+    mouse: Capture,
+    events: &Sender<Event>,
+    inbox: &Receiver<Event>,
+    ending: impl FnOnce(),
+) -> Result<bool> {
+    let waiting = Arc::new(Waiting::default());
+    listen_for_signals(events.clone(), Arc::clone(&waiting))?;
+    let asks = scene.theme().follows_background;
+    let screen = Screen::open(mouse, asks, events.clone());
+    let mut screen = screen.context("cannot take over the terminal")?;
+    let (keys, to_loop) = (Arc::clone(&waiting), events.clone());
+    let listener = thread::spawn(move || input::listen(&to_loop, &keys, mouse));
+    let outcome = catch(|| handle_events(scene, &mut screen, inbox, &waiting));
+    ending();
+    drain_replies(&mut screen, inbox);
+    let is_restored = screen.give_back();
+    // Further keys are for whoever has the terminal next.
+    waiting.close();
+    let _ = listener.join();
+    match outcome {
+        // A terminal that closes while being drawn on has hung up; this is not an error.
+        Err(_) if !io::stdout().is_terminal() => Ok(false),
+        outcome => outcome.map(|()| is_restored),
+    }
+}
+
+fn handle_events(
+    scene: &mut dyn Scene,
+    screen: &mut Screen,
+    inbox: &Receiver<Event>,
+    waiting: &Waiting,
+) -> Result<()> {
+    scene.resize(terminal::size()?);
+    let mut is_due = !screen.draw(|area, buffer| scene.draw(area, buffer))?;
+    // Between suspension and continuation, the screen belongs to the shell.
+    let mut is_away = false;
+    loop {
+        let wait = match screen.when() {
+            When::At(then) if is_due && !is_away => {
+                Some(then.saturating_duration_since(Instant::now()))
+            }
+            _ => None,
+        };
+        let first = match wait.map_or_else(
+            || inbox.recv().map_err(RecvTimeoutError::from),
+            |wait| inbox.recv_timeout(wait),
+        ) {
+            Err(RecvTimeoutError::Disconnected) => return Ok(()),
+            event => event.ok(),
+        };
+        #[cfg(debug_assertions)]
+        crate::failpoint::hit("screen");
+        let mut suspends = false;
+        // Whatever else has come in is answered with the same drawing.
+        for event in first.into_iter().chain(inbox.try_iter()) {
+            if waiting.is_over() {
+                return Ok(());
+            }
+            is_due |= !matches!(event, Event::Ready | Event::Written);
+            match event {
+                Event::Ready => screen.flow().answered(Instant::now()),
+                Event::Written => screen.flow().written(),
+                Event::Background(color) => scene.theme().follow(color),
+                Event::Suspend => suspends = true,
+                Event::Resize if is_away => {}
+                Event::Resize => refit(scene, screen)?,
+                Event::Continue => {
+                    screen.take_back()?;
+                    refit(scene, screen)?;
+                    is_away = false;
+                }
+                Event::HangUp | Event::WorkerGone => return Ok(()),
+                event => {
+                    if matches!(event, Event::Key(_) | Event::Paste(_)) {
+                        waiting.leave();
+                    }
+                    if matches!(event, Event::Key(_) | Event::Paste(_) | Event::Point(_)) {
+                        screen.flow().hurry(Instant::now());
+                    }
+                    scene.handle(event);
+                }
+            }
+            if scene.is_left() {
+                return Ok(());
+            }
+        }
+        if waiting.has_dropped() {
+            scene.say("keys came faster than they could be handled; some were dropped");
+        }
+        if (scene.asks_to_suspend() || suspends) && !is_away {
+            drain_replies(screen, inbox);
+            if waiting.is_over() {
+                return Ok(());
+            }
+            screen.give_back();
+            is_away = suspend::stop();
+            if !is_away {
+                scene.say("there is no shell to return to");
+                screen.take_back()?;
+            }
+        }
+        if !is_away && is_due && screen.when() == When::Now {
+            is_due = !screen.draw(|area, buffer| scene.draw(area, buffer))?;
+        }
+    }
+}
+
+/// Fits screen and scene to the terminal's present size.
+fn refit(scene: &mut dyn Scene, screen: &mut Screen) -> Result<()> {
+    screen.start_afresh()?;
+    scene.resize(terminal::size()?);
+    Ok(())
+}
+
+/// Waits for outstanding answers of the terminal, so that they do not reach the shell.
+fn drain_replies(screen: &mut Screen, inbox: &Receiver<Event>) {
+    let end = Instant::now() + LAST_ANSWERS;
+    while screen.flow().is_awaited(Instant::now()) {
+        match inbox.recv_timeout(end.saturating_duration_since(Instant::now())) {
+            Ok(Event::Ready) => screen.flow().answered(Instant::now()),
+            Ok(_) => {}
+            Err(_) => return,
+        }
+    }
+}
+
+/// Signals that ask a process to end do so as `q` does, before all waiting keys; SIGTSTP and
+/// SIGCONT suspend and continue it.
+fn listen_for_signals(events: Sender<Event>, waiting: Arc<Waiting>) -> Result<()> {
+    let mut signals = Signals::new([
+        SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGABRT, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU, SIGTSTP,
+        SIGCONT, SIGWINCH,
+    ])
+    .context("cannot listen for signals")?;
+    thread::spawn(move || {
+        for signal in signals.forever() {
+            let event = match signal {
+                SIGTSTP => Event::Suspend,
+                SIGCONT => Event::Continue,
+                SIGWINCH => Event::Resize,
+                _ => {
+                    waiting.end();
+                    Event::HangUp
+                }
+            };
+            if events.send(event).is_err() {
+                return;
+            }
+        }
+    });
+    Ok(())
+}

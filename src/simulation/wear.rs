@@ -26,6 +26,9 @@ use crate::math::abel::kink;
 use crate::math::scan::{largest, leading, trailing};
 use crate::math::vector::{vectorized, write_each};
 
+/// The most times its own wear that the last node in contact is given to balance the work of friction.
+const MOST_BALANCED: f64 = 2.0;
+
 /// What a step wears, and by what.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Increment {
@@ -151,15 +154,27 @@ impl Increment {
     }
 
     /// The work of friction 2∫ μ (q_n + q_{n+1})/2 |Δs| dx: what each spring that slips turns into heat.
+    ///
+    /// Wear makes the load drop at the stick border, within a cell. A line from the spring that sticks to one that slips
+    /// and bears nothing would do work where nothing wears, for ever: the load of the first is no more than what the
+    /// springs outside lead to.
     pub fn rub(&mut self, model: &Model, [before, after]: [&Contact; 2]) {
         let friction = model.setup.material.friction();
+        let load = &mut self.rubbing.nodal;
         write_each(
-            &mut self.rubbing.nodal,
+            load,
             &after.load.nodal,
             &before.load.nodal,
             #[inline(always)]
             move |after, before| 0.5 * friction * (after + before),
         );
+        let outside = leading(&self.slip, |&slip| slip == 0.0);
+        if outside > 0 && outside + 1 < after.normal.nodes {
+            let [here, next, beyond] = [0, 1, 2].map(|k| model.grid.squares()[outside - 1 + k]);
+            let slope = (load[outside + 1] - load[outside]) / (beyond - next);
+            let led_to = load[outside] - slope * (next - here);
+            load[outside - 1] = load[outside - 1].min(led_to.max(0.0));
+        }
         let at_edge = match after.normal.nodes {
             0 => 0.0,
             nodes => self.slip[nodes - 1].abs(),
@@ -169,6 +184,24 @@ impl Increment {
         let (row, edge) = (&model.foundation, after.normal.edge());
         self.friction_work =
             friction * between_springs * at_edge + row.work(&self.rubbing.nodal, &self.slip, edge);
+    }
+
+    /// Makes the last of the nodes that `touch` wear what friction works there, where nothing sticks for ever.
+    ///
+    /// p falls to zero like a root within the cell of the edge, and p of the last node may be many times that of its
+    /// cells, the nearer the edge is to it. A line from there to the next node would wear more than the load in the
+    /// cells does work. Where a part sticks, the wear next to its border has an error of its own, which is none of the
+    /// edge's. What is missing beyond [`MOST_BALANCED`] is not the edge's either, and is left for V = k E_d to show.
+    pub fn balance_edge(&mut self, model: &Model, touch: usize) {
+        let Some(last) = touch.checked_sub(1) else {
+            return;
+        };
+        let weights = &model.volume_weights;
+        let work = |j: usize| weights[j] * (self.shear[j] * self.surface_slip[j]).abs();
+        let excess = self.nodes.clone().map(work).sum::<f64>() - self.friction_work;
+        if work(last) > 0.0 {
+            self.depth[last] *= (1.0 - excess / work(last)).clamp(0.0, MOST_BALANCED);
+        }
     }
 
     /// The work of friction 2∫ q_x Δs dx of explicit Euler, the integrand falling to zero at the contact's edge.

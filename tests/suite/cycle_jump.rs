@@ -106,7 +106,7 @@ fn a_jumped_scar_is_the_stepped_one() {
 /// normal motion too small to move anything keeps the closed form from being used.
 #[test]
 fn a_plain_swing_needs_no_steps() {
-    let plain = jumping(&held(0.01), 1e-4);
+    let plain = jumping(&held(0.01), 1e-5);
     let stepped = Setup {
         drive: mdr_tui::simulation::drive::Drive::new(
             swing(1.0, 1e-14, 1.0, 0.0),
@@ -121,7 +121,7 @@ fn a_plain_swing_needs_no_steps() {
     let worst = radii.iter().zip(&plain.state().wear).map(|(&r, wear)| {
         (wear - stepped.setup().grid.interpolate(&stepped.state().wear, r)).abs()
     });
-    holds("largest difference", worst.fold(0.0, f64::max), 3e-4);
+    holds("largest difference", worst.fold(0.0, f64::max), 1e-5);
     let sticks = [&plain, &stepped].map(|run| run.state().permanent_stick_radius());
     holds("stick radius", (sticks[0] - sticks[1]).abs(), 3e-5);
     for (plain, stepped) in plain

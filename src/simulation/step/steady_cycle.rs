@@ -22,7 +22,6 @@ use super::super::drive::{Control, Oscillation};
 use super::super::model::Model;
 use super::super::moments;
 use super::super::state::{State, SteadyCycle};
-use super::super::wear::Increment;
 use super::super::{Scratch, contact, traction};
 use super::wear;
 use crate::math::abel::field::Field;
@@ -201,17 +200,10 @@ fn plain_cycle(
     increment.shear[..stuck].fill(0.0);
     increment.slip.copy_from_slice(&slip.nodal);
     let p = &memory.traction.pressure;
-    // Wear makes the load drop at the border within a cell. A line from what sticks to what slips would do work in that
-    // cell where the slipping surface bears nothing and wears nothing.
-    let mut without_drop = contact.clone();
-    if let Some(k) = stuck.checked_sub(1).filter(|_| stuck < model.nodes()) {
-        let load = &mut without_drop.load.nodal;
-        load[k] = load[k].min(load[stuck]);
-    }
-    increment.wear_by_load(model, &without_drop, p, (stuck, 1.0), 1.0);
+    increment.wear_by_load(model, contact, p, (stuck, 1.0), 1.0);
     increment.nodes = stuck..model.nodes();
     if stuck == 0 {
-        balance_edge(model, increment, memory.contact.normal.nodes);
+        increment.balance_edge(model, contact.normal.nodes);
     }
     Ok(SteadyCycle {
         wear: increment.depth.iter().map(|worn| 2.0 * worn).collect(),
@@ -220,22 +212,6 @@ fn plain_cycle(
         stiffness: 2.0 * increment.stiffness(model, 1.0),
         stick_radius,
     })
-}
-
-/// Makes the wear of an `increment` that of its friction work, at the last of the `nodes` that touch, where everything
-/// slips.
-///
-/// p falls to zero like a root within the cell of the edge, and p of the last node may be many times that of its
-/// cells, the nearer the edge is to it. A line from there to the next node would wear more than the load in the
-/// cells does work. Where a part sticks, the wear next to its border has an error of its own, which is none of the
-/// edge's.
-fn balance_edge(model: &Model, increment: &mut Increment, nodes: usize) {
-    let (Some(law), Some(last)) = (&model.setup.wear, nodes.checked_sub(1)) else {
-        return;
-    };
-    let (worn, weight) = (increment.depth[last], model.volume_weights[last]);
-    let excess = model.volume(&increment.depth) - law.coefficient() * increment.friction_work;
-    increment.depth[last] = (worn - excess / weight).max(0.0);
 }
 
 /// Brings the springs that slip in a steady-state cycle to where they stand at its end under a normal `load` (N/m):

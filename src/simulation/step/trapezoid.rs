@@ -74,7 +74,13 @@ pub(super) fn wear(
         tractions(model, state, next, scratch);
         mean_shear(model, state, next, scratch);
         let seconds = model.seconds(cycle - state.cycle);
-        scratch.increment.wear(model, seconds);
+        let increment = &mut scratch.increment;
+        increment.wear(model, seconds);
+        if outer_slip_zone(&next.contact.spring_state).0 == 0
+            || state.settled_stick_radius == Some(0.0)
+        {
+            increment.balance_edge(model, next.contact.normal.nodes);
+        }
         let exponent = model.setup.wear.map_or(1.0, |law| law.slip_rate_exponent());
         if exponent != 1.0 {
             let uneven = model.setup.drive.unevenness(exponent, state.cycle, cycle);

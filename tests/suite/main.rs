@@ -44,6 +44,8 @@ mod new;
 mod oracles;
 #[cfg(unix)]
 mod outputs;
+#[cfg(target_os = "linux")]
+mod packages;
 mod properties;
 mod published_cases;
 mod published_methods;

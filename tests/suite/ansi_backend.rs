@@ -149,18 +149,18 @@ fn at_the_initial_pace(counted: &mut Counted) -> usize {
 #[test]
 fn a_frame_of_the_figure_takes_few_bytes() {
     let small = average(|| Ok(Size::new(80, 24)), 60);
-    assert!(small <= 235, "{small} bytes per frame in 80 by 24");
+    assert!(small <= 165, "{small} bytes per frame in 80 by 24");
     let large = average(|| Ok(Size::new(200, 50)), 60);
-    assert!(large <= 1140, "{large} bytes per frame in 200 by 50");
+    assert!(large <= 840, "{large} bytes per frame in 200 by 50");
 }
 
 /// Where motion is seen, every curve and every mark moves between two frames.
 #[test]
 fn a_frame_in_motion_takes_few_bytes() {
     let sizes: [(Tell, usize); 3] = [
-        (|| Ok(Size::new(80, 24)), 420),
-        (|| Ok(Size::new(120, 40)), 1115),
-        (|| Ok(Size::new(200, 50)), 1530),
+        (|| Ok(Size::new(80, 24)), 395),
+        (|| Ok(Size::new(120, 40)), 1150),
+        (|| Ok(Size::new(200, 50)), 1585),
     ];
     for (size, budget) in sizes {
         let mut counted = Counted::new(size);
@@ -174,9 +174,9 @@ fn a_frame_in_motion_takes_few_bytes() {
 #[test]
 fn the_contact_in_motion_takes_few_bytes() {
     let sizes: [(Tell, usize); 3] = [
-        (|| Ok(Size::new(80, 24)), 560),
-        (|| Ok(Size::new(120, 40)), 1500),
-        (|| Ok(Size::new(200, 50)), 2200),
+        (|| Ok(Size::new(80, 24)), 610),
+        (|| Ok(Size::new(120, 40)), 1655),
+        (|| Ok(Size::new(200, 50)), 2055),
     ];
     for (size, budget) in sizes {
         let mut counted = Counted::new(size);
@@ -197,7 +197,7 @@ fn stresses_in_the_half_space_take_few_bytes() {
     assert!(counted.app.stress_bounds().is_some());
     let frames = 60;
     let total: usize = (0..frames).map(|_| counted.frame(",..")).sum();
-    assert!(total / frames <= 625, "{} bytes a frame", total / frames);
+    assert!(total / frames <= 550, "{} bytes a frame", total / frames);
     assert_eq!(counted.draw(), 0, "a paused screen sends something");
 }
 

@@ -35,6 +35,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let worn = of_states(run, "wear_m", view.pick("worn", ""), Role::Profile);
     let mut chart = over_r(run, "r", (view.pick("f - f0", "worn depth"), "m"));
     chart.band = run.zones(view);
+    chart.y.expects = run.expected_wear();
     Ok(chart
         .curves(limit(run, view.theory(run), None))
         .curves(ghosts::worn(run, None))

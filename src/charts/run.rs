@@ -124,6 +124,18 @@ const OVER_CYCLES: [&str; 7] = [
 ];
 
 impl Run {
+    /// About the deepest wear at the planned end, m; 0 where it is not known.
+    pub fn expected_wear(&self) -> f64 {
+        self.live.as_ref().map_or(0.0, |live| live.expected_wear)
+    }
+
+    /// The size of the volume that is worn at the planned end, m³: as deep everywhere as where it is deepest.
+    pub fn expected_volume(&self) -> f64 {
+        let radius = |live: &Live| live.moment.contact_radius;
+        let area = std::f64::consts::PI * self.live.as_ref().map_or(0.0, radius).powi(2);
+        area * self.expected_wear()
+    }
+
     /// The same with what the scenario tells.
     #[must_use]
     pub fn of(self, scenario: &Scenario) -> Self {

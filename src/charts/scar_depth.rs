@@ -38,7 +38,9 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let depth = depth
         .or_else(|| of_states(run))
         .ok_or("there is no state.csv")?;
-    let ordinate = Axis::new(view.pick("depth", "worn depth"), "m").from_zero();
+    let ordinate = Axis::new(view.pick("depth", "worn depth"), "m")
+        .from_zero()
+        .expecting(run.expected_wear());
     Ok(over_cycles(run, ordinate)
         .curves(ghosts::on(run, Axes::DEPTH))
         .curve(depth))

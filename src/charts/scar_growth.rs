@@ -34,7 +34,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let columns = run.over_cycles(["dissipated_energy_J", "scar_radius_m", "scar_depth_m"]);
     let [work, radii, mut depths] = columns.ok_or(NO_HISTORY)?;
     let radius = Curve::new("radius", work.clone(), radii, Role::Contact);
-    let expected = run.live.as_ref().map_or(0.0, |live| live.expected_wear);
+    let expected = run.expected_wear();
     let deepest = depths.iter().copied().fold(expected, f64::max);
     let times = match view.scale {
         Scale::Linear => magnification(deepest, radius.highest()),
@@ -50,7 +50,11 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
         ghost.ys.iter_mut().for_each(|depth| *depth *= times);
     }
     let (work_axis, axis) = (Axis::new("E_d", "J").from_zero(), Axis::new("scar", "m"));
-    Ok(Chart::new("", work_axis, axis.from_zero())
+    let reach = run
+        .live
+        .as_ref()
+        .map_or(0.0, |live| live.moment.contact_radius);
+    Ok(Chart::new("", work_axis, axis.from_zero().expecting(reach))
         .curves(others.into_iter().map(|(_, ghost)| ghost))
         .curve(radius.dashed())
         .curve(Curve::new(name, work, depths, Role::Profile)))

@@ -27,7 +27,12 @@ pub static RECIPE: Recipe = Recipe {
 fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
     run.wears()?;
     let volume = series(run, "wear_volume_m3", "", Role::Profile)?;
-    let mut chart = over_cycles(run, Axis::new("V", "m³").from_zero());
+    let mut chart = over_cycles(
+        run,
+        Axis::new("V", "m³")
+            .from_zero()
+            .expecting(run.expected_volume()),
+    );
     if let Some(live) = &run.live {
         chart.note = format!(
             "E_d {}",

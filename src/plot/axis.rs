@@ -3,6 +3,10 @@
 use std::borrow::Cow;
 
 use super::step::Step;
+use super::units::{AxisUnit, axis_unit};
+
+/// The least number that is shown in the unit of what an axis is expected to reach.
+const LEAST: f64 = 1e-3;
 
 /// How values spread along an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -25,6 +29,9 @@ pub struct Axis {
     pub bounds: Option<[f64; 2]>,
     /// A value that is within bounds from the data.
     pub holds: Option<f64>,
+    /// What it is expected to reach, in the data's unit; 0 where that is not known. It tells the unit before the data
+    /// do.
+    pub expects: f64,
     /// Linear or logarithmic.
     pub scale: Scale,
     /// Whether the ordinate grows downwards, on paper.
@@ -56,6 +63,25 @@ impl Axis {
         Axis {
             holds: Some(0.0),
             ..self
+        }
+    }
+
+    /// The same axis, which is expected to reach `value`.
+    #[must_use]
+    pub fn expecting(self, value: f64) -> Self {
+        Axis {
+            expects: value,
+            ..self
+        }
+    }
+
+    /// The unit to label a range with: that of what is expected, unless the numbers would be too small in it.
+    pub(super) fn unit_for(&self, [low, high]: [f64; 2], ascii: bool) -> AxisUnit {
+        let most = low.abs().max(high.abs());
+        let expected = axis_unit(self.expects.max(most), self.unit, ascii);
+        match most >= LEAST * expected.factor {
+            true => expected,
+            false => axis_unit(most, self.unit, ascii),
         }
     }
 
@@ -114,6 +140,9 @@ impl Axis {
         let given = self.bounds.and_then(|[a, b]| self.usable(a, b));
         match (given, data, self.scale) {
             (Some([lo, hi]), ..) => widened(lo, hi, 1e-9),
+            (None, None | Some([0.0, 0.0]), Scale::Linear) if self.expects > 0.0 => {
+                nice_bounds(0.0, self.expects)
+            }
             (None, Some([lo, hi]), Scale::Linear) if round => nice_bounds(lo, hi),
             (None, Some([lo, hi]), Scale::Linear) => widened(lo, hi, 1e-9),
             (None, Some([lo, hi]), Scale::Log) => log_bounds(lo, hi, round),

@@ -45,14 +45,14 @@ pub(super) struct Legend {
 impl Legend {
     /// The legend of `plot` and its place in `area` (a plot area in buffer cells): with
     /// readings in the axes' `units` if there is a cursor and they fit, as bare numbers
-    /// rather than over a curve, else names only; `None` if nothing fits or there is
-    /// nothing to say.
+    /// rather than over a curve, else names only; with the dots of curves that it covers. `None` if
+    /// nothing fits or there is nothing to say.
     pub(super) fn arrange(
         plot: &Plot<'_>,
         units: [&AxisUnit; 2],
         area: Rect,
         raster: &Raster,
-    ) -> Option<(Legend, Rect)> {
+    ) -> Option<(Legend, Rect, u32)> {
         let placed = |reading: Reading| {
             let legend = Legend::new(plot, units, reading);
             let lines = legend.lines.len();
@@ -72,8 +72,7 @@ impl Legend {
             }
             _ => None,
         };
-        let (legend, place, _) = readings.or_else(|| placed(Reading::None))?;
-        Some((legend, place))
+        readings.or_else(|| placed(Reading::None))
     }
 
     fn new(plot: &Plot<'_>, units: [&AxisUnit; 2], reading: Reading) -> Legend {

@@ -6,7 +6,7 @@ use ratatui::style::{Color, Style};
 use ratatui::widgets::Widget;
 
 use super::Plot;
-use super::axis::{Axis, Scale, titled};
+use super::axis::{Scale, titled};
 use super::chart::Fill;
 use super::labels::LabelRow;
 use super::legend::{self, Legend, cells, text};
@@ -15,7 +15,7 @@ use super::raster::{Position, Raster};
 use super::stroke::Stroke;
 use super::theme::Role;
 use super::ticks::{Labels, Tick, ticks};
-use super::units::{AxisUnit, axis_unit};
+use super::units::AxisUnit;
 use super::window::Window;
 
 /// The smallest area that gets axes, in cells.
@@ -136,9 +136,8 @@ impl<'p> Frame<'p> {
     fn new(plot: &'p Plot<'p>, area: Rect, x_bounds: [f64; 2], y_bounds: [f64; 2]) -> Self {
         let bare = area.width < SMALLEST.0 || area.height < SMALLEST.1;
         let ascii = plot.theme.ascii();
-        let unit =
-            |axis: &Axis, [lo, hi]: [f64; 2]| axis_unit(lo.abs().max(hi.abs()), axis.unit, ascii);
-        let (x_unit, y_unit) = (unit(&plot.chart.x, x_bounds), unit(&plot.chart.y, y_bounds));
+        let x_unit = plot.chart.x.unit_for(x_bounds, ascii);
+        let y_unit = plot.chart.y.unit_for(y_bounds, ascii);
         let (across, down) = plot.theme.marker.dots();
 
         // Rows, from the bottom up: labels, axis line, band, plot; the title on top.
@@ -344,6 +343,18 @@ impl<'p> Frame<'p> {
         };
         let ascii = plot.theme.ascii();
         let legend = Legend::arrange(plot, [&self.x_unit, &self.y_unit], inner, raster);
+        // Rather than over a curve, its name stands at its end.
+        let covers = matches!(legend, Some((.., covered)) if covered > 0 && plot.cursor.is_none());
+        let at_ends = if covers {
+            self.names_at_ends(raster)
+        } else {
+            None
+        };
+        let legend = legend.filter(|_| at_ends.is_none());
+        for (place, name, style) in at_ends.into_iter().flatten() {
+            self.write(buf, place.x, place.y, &name, style);
+        }
+        let legend = legend.map(|(legend, block, _)| (legend, block));
         if let Some((legend, block)) = &legend {
             raster.blank(local(*block));
             legend.render(*block, buf);
@@ -398,6 +409,35 @@ impl<'p> Frame<'p> {
                 self.write(buf, x, inner.y, &label, plot.theme.style(mark.role));
             }
         }
+    }
+
+    /// The names of the curves above or below their last points, where no curve is; `None` unless each has its place.
+    fn names_at_ends(&self, raster: &Raster) -> Option<Vec<(Rect, String, Style)>> {
+        let (theme, inner) = (self.plot.theme, self.inner);
+        let mut placed: Vec<(Rect, String, Style)> = Vec::new();
+        let named = self.plot.chart.curves.iter();
+        for curve in named.filter(|curve| !curve.name.is_empty()) {
+            let name = theme.printable(&curve.name);
+            let width = cells(&name);
+            let seen = curve.points();
+            let seen = seen.filter_map(|(x, y)| Some((self.x.cell(x)?, self.y.cell(y)?)));
+            let (column, row) = seen.last()?;
+            let start = (column + 1).saturating_sub(width);
+            let row = inner.height - 1 - row;
+            let rows = [row.checked_sub(1), Some(row + 1)].into_iter().flatten();
+            let mut spots = rows.map(|row| Rect::new(start, row, width, 1));
+            let spot = spots.find(|spot| {
+                spot.right() <= inner.width
+                    && spot.bottom() <= inner.height
+                    && raster.dots_in(*spot) == 0
+            })?;
+            let place = Rect::new(inner.x + spot.x, inner.y + spot.y, width, 1);
+            if placed.iter().any(|(other, ..)| other.intersects(place)) {
+                return None;
+            }
+            placed.push((place, name, theme.style(curve.role)));
+        }
+        Some(placed)
     }
 
     /// Writes `words` from (`x`, `y`) on, no farther than the area.

@@ -75,9 +75,9 @@ fn status(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     buffer.set_style(area, bar);
     let ascii = app.theme.ascii();
     let separator = if ascii { " | " } else { " │ " };
-    let mut parts = status_parts(frame, ascii);
+    let mut parts = status_parts(frame, area.width >= WITH_WORDS, ascii);
     while parts.len() > 1
-        && Line::raw(parts_text(&parts, separator)).width() + 2 > usize::from(area.width)
+        && Line::raw(parts_text(&parts, separator)).width() + 1 > usize::from(area.width)
     {
         let least = parts
             .iter()
@@ -101,6 +101,9 @@ fn status(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
             buffer,
         );
 }
+
+/// Columns from which on the status line says what the method's name is.
+const WITH_WORDS: u16 = 80;
 
 /// A part of the status line; the least important parts are dropped first.
 struct Part {
@@ -133,7 +136,7 @@ fn shortened(mut text: String, room: usize) -> String {
 }
 
 /// What the status line says, the state first.
-fn status_parts(frame: &Frame, ascii: bool) -> Vec<Part> {
+fn status_parts(frame: &Frame, has_room: bool, ascii: bool) -> Vec<Part> {
     let moment = &frame.observation.moment;
     let mut cycle = format!("cycle {:.2}", moment.cycle);
     let mut widest = "cycle 0000.00".len();
@@ -173,7 +176,10 @@ fn status_parts(frame: &Frame, ascii: bool) -> Vec<Part> {
         part(6, activity.into(), 9),
         part(5, cycle, widest),
         part(4, pace, pace_width),
-        part(3, frame.observation.method.to_string(), 7),
+        match has_room {
+            true => part(3, format!("method: {}", frame.observation.method), 15),
+            false => part(3, frame.observation.method.to_string(), 7),
+        },
         part(1, law.into(), 7),
     ];
     parts.extend(verdict(&frame.checks).map(|verdict| {

@@ -825,6 +825,65 @@ fn the_status_line_has_fixed_slots() {
     }
 }
 
+/// Where the method stands alone among numbers, a word says what it is.
+#[test]
+fn the_status_line_names_the_method_in_80_columns() {
+    let dir = dir();
+    for keys in [",", ",m"] {
+        let text = shot(dir.path(), "li2019-fig3", keys, (80, 24));
+        let status = line_with(&text, "paused");
+        assert!(status.contains("│ method: "), "{status}");
+    }
+    let text = shot(dir.path(), "li2019-fig3", ",", (80, 24));
+    assert!(line_with(&text, "paused").contains("wear ±"), "{text}");
+}
+
+/// Before anything has worn, an axis has the unit of what is planned, and keeps it.
+#[test]
+fn no_axis_begins_in_metres() {
+    let dir = dir();
+    for keys in ["", "vv", ",r", ",rvv"] {
+        let text = shot(dir.path(), "li2019-fig3", keys, (120, 40));
+        for metres in ["[m]", "[m³]", "1.00 m"] {
+            assert!(!text.contains(metres), "{keys}: {metres} in\n{text}");
+        }
+    }
+    let unit = |keys: &str| {
+        let text = shot(dir.path(), "li2019-fig3", keys, (120, 40));
+        let (_, rest) = text.split_once("f - f0 [").expect("the worn depth");
+        rest.split(']').next().map(str::to_owned)
+    };
+    let first = unit("");
+    assert_eq!(
+        [unit("....."), unit(",,,"), unit(",,,[[[")],
+        [(); 3].map(|()| first.clone())
+    );
+}
+
+/// Where a legend has no room beside the curves, their names stand at their ends.
+#[test]
+fn a_small_panel_hides_no_curve_behind_its_names() {
+    let dir = dir();
+    let text = preset::find("li2019-fig3").expect("a preset").text;
+    let short = text.replace("cycles = 199.24", "cycles = 20");
+    std::fs::write(dir.path().join("short.toml"), short).expect("a file");
+    let text = shot(dir.path(), "short.toml", &",".repeat(19), (60, 18));
+    let rows = text
+        .lines()
+        .skip_while(|line| !line.contains("radii over cycles"));
+    let panel: String = rows
+        .map(|row| row.chars().skip(31).collect::<String>() + "\n")
+        .collect();
+    assert!(
+        panel.contains("stick c") && panel.contains("contact a"),
+        "{panel}"
+    );
+    assert!(!panel.contains("╌ stick c"), "{panel}");
+    // The last dashes of c are there, at the right end.
+    let dashes = panel.lines().filter(|row| row.contains("⠤⠤")).count();
+    assert!(dashes > 0, "{panel}");
+}
+
 #[test]
 fn wear_thinner_than_a_line_is_drawn_magnified_by_one_factor() {
     let dir = dir();
@@ -1152,9 +1211,12 @@ fn the_status_line_begins_sensibly_however_narrow() {
                 "{columns}: {status}"
             );
         }
-        if columns >= 60 {
-            assert!(status.contains("│ product"), "{columns}: {status}");
-        }
+        let method = match columns {
+            80.. => "│ method: product",
+            60.. => "│ product",
+            _ => "",
+        };
+        assert!(status.contains(method), "{columns}: {status}");
         // The title fills what is left, whole or begun.
         let whole = "Dual oscillation of a paraboloid";
         let end = status.find("Dual").map_or("", |at| &status[at..]);

@@ -74,7 +74,8 @@ impl Place {
 /// The depths that the colours span, m.
 fn depths(frame: &Frame) -> Option<[f64; 2]> {
     let wear = &frame.observation.wear;
-    (!wear.is_empty()).then(|| [0.0, largest(wear)])
+    let deepest = largest(wear);
+    (deepest > 0.0).then_some([0.0, deepest])
 }
 
 fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
@@ -95,7 +96,10 @@ fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
         ..area
     };
     let deepest = app.bounds(Panel::Scar).map_or(0.0, |[_, high]| high);
-    let deepest = deepest.max(largest(&seen.wear));
+    let deepest = match deepest.max(largest(&seen.wear)) {
+        0.0 => frame.expected_wear,
+        deepest => deepest,
+    };
     // Half a cell is about as high as a cell is wide.
     let across = f64::from(disc.width.min(2 * disc.height));
     let size = 2.0 * edge / across;

@@ -147,6 +147,9 @@ impl Axis {
             (None, Some([lo, hi]), Scale::Linear) => widened(lo, hi, 1e-9),
             (None, Some([lo, hi]), Scale::Log) => log_bounds(lo, hi, round),
             (None, None, Scale::Linear) => [0.0, 1.0],
+            (None, None, Scale::Log) if self.expects > 0.0 => {
+                log_bounds(LEAST * self.expects, self.expects, round)
+            }
             (None, None, Scale::Log) => [0.1, 10.0],
         }
     }

@@ -24,7 +24,7 @@ use super::panels::{Panel, Shown};
 use super::refinement_check::RefinementCheck;
 use super::snapshot;
 use super::theme::Theme;
-use super::tour::Tour;
+use super::tour::{self, Tour};
 use super::worker::{Orders, Worker};
 use super::{Event, present, screen};
 use crate::charts::{Medium, View};
@@ -208,6 +208,10 @@ impl App {
     pub fn take_frame(&mut self, frame: Arc<Frame>) {
         // Another scenario has another tour.
         self.tour = self.tour.take().filter(|tour| tour.is_of(&frame.origin));
+        let shown = self.frame.as_ref().map(|shown| shown.origin.as_str());
+        if shown != Some(frame.origin.as_str()) {
+            self.log_panels = tour::logarithmic(&frame.origin);
+        }
         self.follow_stress(&frame);
         // Where the contact is shown large, it is the stress of one phase of the motion.
         let begins = |frame: &Frame| frame.observation.moment.cycle.floor();

@@ -25,7 +25,7 @@ const NARROW: u16 = 56;
 pub const TOUR: u16 = 4;
 
 /// Rows between title and footer from which on one of them is the timeline's.
-const WITH_TIMELINE: u16 = 28;
+const WITH_TIMELINE: u16 = 22;
 
 /// Minimum rows for the panels beside a tour.
 const LEAST: u16 = 10;

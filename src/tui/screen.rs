@@ -20,6 +20,7 @@ use ratatui::widgets::{Paragraph, Widget};
 use super::app::App;
 use super::frame::{Activity, Frame};
 use super::layout;
+use super::overlays::Overlay;
 use super::pace::Pace;
 use super::panels::compare;
 use super::theme::Role;
@@ -36,7 +37,8 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
             .render(area, buffer);
         return;
     };
-    let (line, middle) = layout::timeline(middle);
+    let whole = middle;
+    let (line, middle) = layout::timeline(whole);
     match &app.frame {
         Some(frame) => {
             status(frame, app, top, buffer);
@@ -48,7 +50,12 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         None => Line::raw("starting ...").render(middle, buffer),
     }
     footer::draw(app, bottom, buffer);
-    app.overlay.draw(app, middle, buffer);
+    // An explanation stands beside its panel; lists need every row.
+    let under = match app.overlay {
+        Overlay::Explain => middle,
+        _ => whole,
+    };
+    app.overlay.draw(app, under, buffer);
 }
 
 fn panels(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {

@@ -21,6 +21,9 @@ pub struct Caption {
     panel: Option<String>,
     /// What it says.
     pub text: String,
+    /// Whether the panel has a logarithmic scale in this preset, unless the user chooses the other.
+    #[serde(default)]
+    log: bool,
 }
 
 impl Caption {
@@ -37,6 +40,12 @@ static TOURS: LazyLock<HashMap<String, Vec<Caption>>> =
 /// The captions of a preset; `None` for other scenarios.
 pub fn captions(origin: &str) -> &'static [Caption] {
     TOURS.get(origin).map_or(&[], Vec::as_slice)
+}
+
+/// The panels that a preset shows on a logarithmic scale.
+pub fn logarithmic(origin: &str) -> Vec<Panel> {
+    let asked = captions(origin).iter().filter(|caption| caption.log);
+    asked.filter_map(Caption::panel).collect()
 }
 
 /// A tour under way.

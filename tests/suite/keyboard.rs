@@ -333,6 +333,11 @@ fn body(text: &str) -> Vec<&str> {
     lines[..lines.len() - 1].to_vec()
 }
 
+/// Without the status line and the timeline too, which tell of the present.
+fn panels(text: &str) -> Vec<&str> {
+    body(text)[2..].to_vec()
+}
+
 #[test]
 fn time_goes_back_and_forth() {
     let status = |keys: &str| shot(keys).lines().next().unwrap_or_default().to_owned();
@@ -344,7 +349,7 @@ fn time_goes_back_and_forth() {
     }
     // A state of the past looks as it did, but for the words that say so.
     let (past, then) = (shot(",,,,[["), shot(",,"));
-    assert_eq!(body(&past)[1..], body(&then)[1..]);
+    assert_eq!(panels(&past), panels(&then));
     // Single steps are kept as well.
     assert!(status(",..[").contains("cycle 1.01/"));
     assert_eq!(foot(&shot(",[[[")), "this is the start of the run");
@@ -374,10 +379,7 @@ fn a_branch_from_the_past_is_the_run_without_what_came_after() {
 fn the_way_back_leads_to_what_a_branch_a_restart_and_an_edit_left() {
     // A branch with another friction, and back in the run before it.
     let branch = ",,,[[ejjjj+<Esc>,";
-    assert_eq!(
-        body(&shot(&format!("{branch}[[")))[1..],
-        body(&shot(",,,"))[1..]
-    );
+    assert_eq!(panels(&shot(&format!("{branch}[["))), panels(&shot(",,,")));
     let (state, again) = replayed(&format!("{branch}[[.s"));
     assert!(!state.contains("# at cycle ") && state == again);
     // A restart says so, and is undone.
@@ -385,15 +387,15 @@ fn the_way_back_leads_to_what_a_branch_a_restart_and_an_edit_left() {
         foot(&shot(",,,r")),
         "restarted; [ leads back to the run up to cycle 3.00"
     );
-    assert_eq!(body(&shot(",,,r["))[1..], body(&shot(",,,"))[1..]);
+    assert_eq!(panels(&shot(",,,r[")), panels(&shot(",,,")));
     assert_eq!(body(&shot(",,,r[,")), body(&shot(",,,,")));
     assert!(shot(",,,r[]").contains("⏸ paused  │ cycle 0.00/"));
     assert!(shot(",,,:load cone<Enter>[").contains("◂ past    │ cycle 3.00/199.24"));
     // So are a method, a law and a value.
     for edit in ["m", "w", "ejjjj+[<Esc>]"] {
         assert_eq!(
-            body(&shot(&format!(",,,{edit}[")))[1..],
-            body(&shot(",,,"))[1..],
+            panels(&shot(&format!(",,,{edit}["))),
+            panels(&shot(",,,")),
             "{edit}"
         );
     }

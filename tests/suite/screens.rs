@@ -12,7 +12,7 @@ use std::sync::mpsc::{Receiver, channel};
 use std::thread;
 use std::time::Duration;
 
-use mdr_tui::plot::Marker;
+use mdr_tui::plot::{Marker, Scale};
 use mdr_tui::scenario::session::Session;
 use mdr_tui::scenario::{Scenario, preset};
 use mdr_tui::tui::app::App;
@@ -296,6 +296,14 @@ fn a_timeline_tells_what_was_done() {
         let text = checked(output, (100, 30), keys);
         text.lines().nth(1).unwrap_or_default().to_owned()
     };
+    for size in [(80, 24), (120, 40)] {
+        let text = shot(dir.path(), "li2019-fig3", ",,,,", size);
+        let line = text.lines().nth(1).unwrap_or_default();
+        assert!(
+            line.starts_with(" 0 ") && line.ends_with(" 199.24"),
+            "{line}"
+        );
+    }
     let plain = line(",,,,");
     assert!(
         plain.starts_with(" 0 ━━") && plain.ends_with("● 8") | plain.ends_with("─ 8"),
@@ -836,6 +844,21 @@ fn the_status_line_names_the_method_in_80_columns() {
     }
     let text = shot(dir.path(), "li2019-fig3", ",", (80, 24));
     assert!(line_with(&text, "paused").contains("wear ±"), "{text}");
+}
+
+/// A preset may ask for a logarithmic scale; the user has the last word, and another scenario its own.
+#[test]
+fn a_preset_asks_for_a_logarithmic_scale() {
+    let mut stage = Stage::new("mild-million", Marker::Braille);
+    stage.press(".");
+    assert_eq!(stage.app.scale(Panel::Volume), Scale::Log);
+    assert_eq!(stage.app.scale(Panel::Radii), Scale::Linear);
+    stage.app.focus = Panel::Volume;
+    stage.press("L,");
+    assert_eq!(stage.app.scale(Panel::Volume), Scale::Linear);
+    let mut other = Stage::new("li2019-fig3", Marker::Braille);
+    other.press(".");
+    assert_eq!(other.app.scale(Panel::Volume), Scale::Linear);
 }
 
 /// Before anything has worn, an axis has the unit of what is planned, and keeps it.

@@ -144,7 +144,11 @@ fn resuming_shows_the_session_paused_where_it_was_and_goes_on() {
     let mut terminal = Terminal::start(at_home(&home, &["--resume", &again]), 80, 24);
     terminal.wait_for("paused");
     assert_eq!(terminal.look(cycle), Some(was));
-    assert!(terminal.text().contains(" │ a  "), "{}", terminal.text());
+    assert!(
+        terminal.text().contains(" │ method: a  "),
+        "{}",
+        terminal.text()
+    );
     // Nothing has happened, so nothing more is kept.
     terminal.resize(100, 30);
     terminal.wait_for("q quit");
@@ -339,7 +343,11 @@ fn a_connection_that_is_cut_keeps_the_session() {
     terminal.wait_for("paused");
     let shown = terminal.look(cycle).expect("a cycle");
     assert!((shown - session.simulation().cycle()).abs() < 0.0051);
-    assert!(terminal.text().contains(" │ a  "), "{}", terminal.text());
+    assert!(
+        terminal.text().contains(" │ method: a  "),
+        "{}",
+        terminal.text()
+    );
     terminal.press(" ");
     terminal.wait_until("later cycle", |screen| cycle(screen) > Some(shown));
     terminal.press("q");

@@ -73,7 +73,10 @@ fn it_runs_pauses_switches_resizes_and_quits() {
         let lines: Vec<&str> = text.lines().collect();
         // In 80 columns the title gives way to what runs and how.
         assert!(lines[0].starts_with(" ▶ running │ cycle "), "{text}");
-        assert!(lines[0].contains(" │ 0.5 cycles/s │ product │ "), "{text}");
+        assert!(
+            lines[0].contains(" │ 0.5 cycles/s │ method: product │ "),
+            "{text}"
+        );
         assert!(
             lines[23].contains("? help") && lines[23].contains("q quit"),
             "{text}"
@@ -96,7 +99,7 @@ fn it_runs_pauses_switches_resizes_and_quits() {
     terminal.press("m");
     terminal.wait_for("numerics.method = a+b at cycle");
     terminal.press(".");
-    terminal.wait_for(" │ a+b  ");
+    terminal.wait_for(" │ method: a+b ");
     terminal.wait_for("q quit");
     terminal.wait_until("later cycle", |screen| cycle(screen) > paused_at);
 
@@ -106,11 +109,7 @@ fn it_runs_pauses_switches_resizes_and_quits() {
             let lines: Vec<String> = screen.rows(0, columns).collect();
             let last = usize::from(rows) - 1;
             // Where there is room, the title ends the line.
-            let title = if columns < 100 {
-                ""
-            } else {
-                " Dual oscillation"
-            };
+            let title = if columns < 100 { "" } else { " Dual oscil" };
             lines[0].starts_with(" ⏸ paused")
                 && lines[0].contains(title)
                 && lines[last].contains("q quit")

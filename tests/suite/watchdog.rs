@@ -153,6 +153,10 @@ fn the_explorer_shows_the_cause_and_can_go_on_with_another_method() {
         arguments.extend(["--set", set]);
     }
     let said = dir.say(&arguments);
-    assert!(said.out.contains("│ product │ archard │"), "{}", said.out);
+    assert!(
+        said.out.contains("│ method: product │ archard │"),
+        "{}",
+        said.out
+    );
     assert!(!said.out.contains("stopped"), "{}", said.out);
 }

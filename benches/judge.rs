@@ -20,6 +20,18 @@ use judge::{Case, Found, judge, judge_estimate, quantile};
 use mdr_tui::studies::refinement::{Difference, Verdict};
 use nix::time::{ClockId, clock_gettime};
 
+/// The numbers that a run states with their errors.
+const QUANTITIES: [(&str, fn(&Difference) -> f64); 5] = [
+    ("worn depth", |one| one.worn_depth),
+    ("volume", |one| one.volume),
+    ("E_d", |one| one.work),
+    ("F_x", |one| one.force),
+    ("p", |one| one.pressure),
+];
+
+/// An error is understated where the estimate is less than it by more than this factor.
+const UNDERSTATED: f64 = 3.0;
+
 fn cpu_seconds() -> f64 {
     clock_gettime(ClockId::CLOCK_THREAD_CPUTIME_ID).map_or(0.0, |time| {
         time.tv_sec() as f64 + 1e-9 * time.tv_nsec() as f64
@@ -91,14 +103,7 @@ fn estimates(seeds: std::ops::Range<u64>, limit: f64, shows_all: bool) {
         }
     }
     println!("{} runs estimated", found.len());
-    type Pick = fn(&Difference) -> f64;
-    let quantities: [(&str, Pick); 4] = [
-        ("worn depth", |one| one.worn_depth),
-        ("volume", |one| one.volume),
-        ("F_x", |one| one.force),
-        ("p", |one| one.pressure),
-    ];
-    for (name, pick) in quantities {
+    for (name, pick) in QUANTITIES {
         println!("{name}");
         let ratios = found
             .iter()
@@ -118,17 +123,12 @@ fn show(case: &Case, accuracy: f64) {
         Err(why) => println!("  {:4}  failed: {why}", case.seed),
         Ok(found) => {
             let truth = match &found.truth {
-                Ok(truth) => format!(
-                    "depth {:.1e} (est {:.1e})  volume {:.1e} ({:.1e})  force {:.1e} ({:.1e})  p {:.1e} ({:.1e})",
-                    truth.worn_depth,
-                    found.estimate.worn_depth,
-                    truth.volume,
-                    found.estimate.volume,
-                    truth.force,
-                    found.estimate.force,
-                    truth.pressure,
-                    found.estimate.pressure
-                ),
+                Ok(truth) => QUANTITIES
+                    .map(|(name, pick)| {
+                        let (error, estimate) = (pick(truth), pick(&found.estimate));
+                        format!("{name} {error:.1e} (est {estimate:.1e})")
+                    })
+                    .join("  "),
                 Err(why) => why.clone(),
             };
             println!(
@@ -170,6 +170,20 @@ fn summarize(cases: &[Case], accuracy: f64) {
         cases.len() - found.len(),
         of(&|one| one.truth.is_err()),
     );
+    for (name, pick) in QUANTITIES {
+        let met = found.iter().filter(|one| one.verdict == Verdict::Met);
+        let pairs: Vec<_> = met
+            .filter_map(|one| Some((pick(&one.estimate), pick(one.truth.as_ref().ok()?))))
+            .collect();
+        let count =
+            |is: &dyn Fn(f64, f64) -> bool| pairs.iter().filter(|one| is(one.0, one.1)).count();
+        println!(
+            "          {name}: {} of {} beyond the accuracy, {} understated {UNDERSTATED} times",
+            count(&|_, truth| truth > accuracy),
+            pairs.len(),
+            count(&|estimate, truth| truth > (UNDERSTATED * estimate).max(1e-9)),
+        );
+    }
     histogram(
         &found
             .iter()

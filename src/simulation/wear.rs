@@ -20,6 +20,7 @@ use super::contact::Contact;
 use super::model::Model;
 use super::stability::response;
 use super::traction::Traction;
+use crate::contact::normal::NormalContact;
 use crate::contact::tangential::SpringState;
 use crate::math::abel::field::Field;
 use crate::math::abel::kink;
@@ -151,6 +152,9 @@ impl Increment {
         self.nodes = 0..self.depth.len();
         self.wear(model, seconds);
         self.rub(model, [contact, contact]);
+        if zone == 0 {
+            self.balance_edge(model, contact.normal.nodes);
+        }
     }
 
     /// The work of friction 2∫ μ (q_n + q_{n+1})/2 |Δs| dx: what each spring that slips turns into heat.
@@ -169,11 +173,9 @@ impl Increment {
             move |after, before| 0.5 * friction * (after + before),
         );
         let outside = leading(&self.slip, |&slip| slip == 0.0);
-        if outside > 0 && outside + 1 < after.normal.nodes {
-            let [here, next, beyond] = [0, 1, 2].map(|k| model.grid.squares()[outside - 1 + k]);
-            let slope = (load[outside + 1] - load[outside]) / (beyond - next);
-            let led_to = load[outside] - slope * (next - here);
-            load[outside - 1] = load[outside - 1].min(led_to.max(0.0));
+        if outside > 0 {
+            let led_to = led_to(model.grid.squares(), load, outside - 1, &after.normal);
+            load[outside - 1] = load[outside - 1].min(led_to);
         }
         let at_edge = match after.normal.nodes {
             0 => 0.0,
@@ -197,7 +199,7 @@ impl Increment {
             return;
         };
         let weights = &model.volume_weights;
-        let work = |j: usize| weights[j] * (self.shear[j] * self.surface_slip[j]).abs();
+        let work = |j: usize| weights[j] * (self.shear[j] * self.surface_slip[j]).max(0.0);
         let excess = self.nodes.clone().map(work).sum::<f64>() - self.friction_work;
         if work(last) > 0.0 {
             self.depth[last] *= (1.0 - excess / work(last)).clamp(0.0, MOST_BALANCED);
@@ -283,6 +285,26 @@ impl Increment {
             },
         );
     }
+}
+
+/// The load at the spring `k`, N/m, that its neighbours lead to on a line in x²: the two outside, the second of which is the
+/// edge of the contact where only one touches; where none does, the one inside, down to the edge.
+fn led_to(squares: &[f64], load: &[f64], k: usize, contact: &NormalContact) -> f64 {
+    let edge = contact.radius * contact.radius;
+    let (from, slope, to) = if k + 2 < contact.nodes {
+        let falls = (load[k + 1] - load[k + 2]) / (squares[k + 2] - squares[k + 1]);
+        (load[k + 1], falls, squares[k + 1])
+    } else if k + 1 < contact.nodes {
+        let falls = load[k + 1] / (edge - squares[k + 1]);
+        (load[k + 1], falls, squares[k + 1])
+    } else {
+        let Some(inside) = k.checked_sub(1) else {
+            return load[k];
+        };
+        let falls = (load[inside] - load[k]) / (squares[k] - squares[inside]);
+        (0.0, falls, edge)
+    };
+    (from + slope * (to - squares[k])).max(0.0)
 }
 
 /// The first node from which outwards every spring in contact slips in one direction, and that direction. Springs out

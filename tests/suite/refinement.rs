@@ -101,7 +101,8 @@ fn checks_tell_wrong_runs_from_right_ones() {
     assert!(10 * right_fail <= right_pass, "{right:?}");
 }
 
-/// An estimate seldom understates by more than 3, whichever number it is of: in 5 of 100 at most in the long study.
+/// An estimate seldom understates by more than 3, whichever number it is of: in 5 of 100 at most, and one for the last
+/// digits of another processor.
 #[test]
 fn coarser_twins_tell_the_errors_of_a_run() {
     type Pick = fn(&Difference) -> f64;
@@ -112,9 +113,9 @@ fn coarser_twins_tell_the_errors_of_a_run() {
         ("p", |one| one.pressure),
     ];
     // Number 723 alone takes as long as all the others.
-    let seeds = (700..723).chain(724..729);
+    let seeds = (700..723).chain(724..790);
     let cases: Vec<_> = seeds.filter_map(|seed| judge_estimate(seed).ok()).collect();
-    assert!(cases.len() >= 20, "{} runs came to their end", cases.len());
+    assert!(cases.len() >= 80, "{} runs came to their end", cases.len());
     for (name, pick) in numbers {
         let ratios = cases
             .iter()
@@ -126,7 +127,7 @@ fn coarser_twins_tell_the_errors_of_a_run() {
             .collect();
         let understated = ratios.iter().filter(|ratio| **ratio < 1.0 / 3.0).count();
         assert!(
-            understated <= 1,
+            understated <= 1 + ratios.len() / 20,
             "{name}: {understated} of {} by more than 3",
             ratios.len()
         );

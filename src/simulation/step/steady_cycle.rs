@@ -202,9 +202,6 @@ fn plain_cycle(
     let p = &memory.traction.pressure;
     increment.wear_by_load(model, contact, p, (stuck, 1.0), 1.0);
     increment.nodes = stuck..model.nodes();
-    if stuck == 0 {
-        increment.balance_edge(model, contact.normal.nodes);
-    }
     Ok(SteadyCycle {
         wear: increment.depth.iter().map(|worn| 2.0 * worn).collect(),
         friction_work: 2.0 * increment.friction_work,

@@ -20,8 +20,11 @@ use judge::{Case, Found, judge, judge_estimate, quantile};
 use mdr_tui::studies::refinement::{Difference, Verdict};
 use nix::time::{ClockId, clock_gettime};
 
+/// One number of a difference.
+type Pick = fn(&Difference) -> f64;
+
 /// The numbers that a run states with their errors.
-const QUANTITIES: [(&str, fn(&Difference) -> f64); 5] = [
+const QUANTITIES: [(&str, Pick); 5] = [
     ("worn depth", |one| one.worn_depth),
     ("volume", |one| one.volume),
     ("E_d", |one| one.work),

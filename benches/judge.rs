@@ -16,24 +16,9 @@ mod random;
 #[path = "../tests/suite/random_scenarios.rs"]
 mod random_scenarios;
 
-use judge::{Case, Found, judge, judge_estimate, quantile};
-use mdr_tui::studies::refinement::{Difference, Verdict};
+use judge::{Case, Found, QUANTITIES, UNDERSTATED, judge, judge_estimate, quantile};
+use mdr_tui::studies::refinement::Verdict;
 use nix::time::{ClockId, clock_gettime};
-
-/// One number of a difference.
-type Pick = fn(&Difference) -> f64;
-
-/// The numbers that a run states with their errors.
-const QUANTITIES: [(&str, Pick); 5] = [
-    ("worn depth", |one| one.worn_depth),
-    ("volume", |one| one.volume),
-    ("E_d", |one| one.work),
-    ("F_x", |one| one.force),
-    ("p", |one| one.pressure),
-];
-
-/// An error is understated where the estimate is less than it by more than this factor.
-const UNDERSTATED: f64 = 3.0;
 
 fn cpu_seconds() -> f64 {
     clock_gettime(ClockId::CLOCK_THREAD_CPUTIME_ID).map_or(0.0, |time| {

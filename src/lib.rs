@@ -13,7 +13,7 @@
 //! | [`math`] | grids, root solve, the three Abel transforms and the ways to compute them | no physics |
 //! | [`contact`] | materials, indenters, normal and tangential springs | no time |
 //! | [`wear`] | wear laws | one step |
-//! | [`simulation`] | motion, state, stepping, observations | no scenario, no file, no screen |
+//! | [`simulation`] | motion, state, stepping | no scenario, no file, no screen |
 //! | [`reading`] | observations, checks, warnings, stresses below the surface, fatigue | only reads a simulation |
 //! | [`scenario`] | TOML in and out, presets, a session with its changes and checkpoints | no screen |
 //! | [`traces`] | what is known of a run as named columns | no screen |

@@ -63,7 +63,7 @@ pub mod contact;
 pub(crate) mod cycle_figures;
 pub mod drive;
 mod hardness;
-pub(crate) mod model;
+mod model;
 mod moments;
 mod reconfigure;
 pub mod running_in;
@@ -72,7 +72,7 @@ pub mod stability;
 pub mod state;
 mod step;
 pub mod traction;
-pub(crate) mod unworn;
+mod unworn;
 pub mod waveform;
 mod wear;
 
@@ -430,7 +430,7 @@ impl Simulation {
         }
     }
 
-    /// g, m, of the profile as it stands.
+    /// g at the nodes, m, of the present profile.
     pub(crate) fn profile_1d(&self) -> Vec<f64> {
         let mut g = vec![0.0; self.model.nodes()];
         self.model.profile(&self.state.image, 0.0, &[], &mut g);

@@ -38,7 +38,7 @@ pub trait Scene {
     fn say(&mut self, notice: &str);
     /// Whether the user has asked for the shell since the last call.
     fn asks_to_suspend(&mut self) -> bool;
-    /// Whether it is to be left.
+    /// Whether the user has left it.
     fn is_left(&self) -> bool;
 }
 

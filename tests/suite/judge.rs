@@ -19,6 +19,21 @@ const FINER: f64 = 3.0;
 /// Ratio of the tolerances of their jumps over cycles.
 const FINER_JUMPS: f64 = 30.0;
 
+/// One number of a difference.
+pub type Pick = fn(&Difference) -> f64;
+
+/// The numbers that a run states with their errors.
+pub const QUANTITIES: [(&str, Pick); 5] = [
+    ("worn depth", |one| one.worn_depth),
+    ("volume", |one| one.volume),
+    ("E_d", |one| one.work),
+    ("F_x", |one| one.force),
+    ("p", |one| one.pressure),
+];
+
+/// An error is understated where the estimate is less than it by more than this factor.
+pub const UNDERSTATED: f64 = 3.0;
+
 /// What the judge saw of one scenario at one accuracy.
 #[derive(Debug, Clone)]
 pub struct Case {

@@ -5,11 +5,11 @@ use mdr_tui::scenario::Scenario;
 use mdr_tui::simulation::Integrator;
 use mdr_tui::simulation::drive::Control;
 use mdr_tui::studies::refinement::{
-    Difference, Ladder, Level, Next, Outcome, Verdict, resolve, resolve_soon, run, run_to_accuracy,
+    Ladder, Level, Next, Outcome, Verdict, resolve, resolve_soon, run, run_to_accuracy,
 };
 
 use crate::common::{load, without_numerics};
-use crate::judge::{judge, judge_checks, judge_estimate, quantile};
+use crate::judge::{QUANTITIES, UNDERSTATED, judge, judge_checks, judge_estimate, quantile};
 use crate::random_scenarios;
 use crate::test_dir::TestDir;
 
@@ -105,18 +105,11 @@ fn checks_tell_wrong_runs_from_right_ones() {
 /// digits of another processor.
 #[test]
 fn coarser_twins_tell_the_errors_of_a_run() {
-    type Pick = fn(&Difference) -> f64;
-    let numbers: [(&str, Pick); 4] = [
-        ("worn depth", |one| one.worn_depth),
-        ("volume", |one| one.volume),
-        ("F_x", |one| one.force),
-        ("p", |one| one.pressure),
-    ];
     // Number 723 alone takes as long as all the others.
     let seeds = (700..723).chain(724..790);
     let cases: Vec<_> = seeds.filter_map(|seed| judge_estimate(seed).ok()).collect();
     assert!(cases.len() >= 80, "{} runs came to their end", cases.len());
-    for (name, pick) in numbers {
+    for (name, pick) in QUANTITIES {
         let ratios = cases
             .iter()
             .map(|(estimate, truth)| (pick(estimate), pick(truth)));
@@ -125,7 +118,10 @@ fn coarser_twins_tell_the_errors_of_a_run() {
             .filter(|(_, truth)| *truth > 1e-9)
             .map(|(estimate, truth)| estimate / truth)
             .collect();
-        let understated = ratios.iter().filter(|ratio| **ratio < 1.0 / 3.0).count();
+        let understated = ratios
+            .iter()
+            .filter(|ratio| **ratio < 1.0 / UNDERSTATED)
+            .count();
         assert!(
             understated <= 1 + ratios.len() / 20,
             "{name}: {understated} of {} by more than 3",

@@ -244,7 +244,7 @@ impl Interview<'_> {
         Ok(answers)
     }
 
-    /// Whether the second of two questions is to be asked: that of the option that is given, or what the user chooses.
+    /// Whether the second of two questions applies: by the option that is given, or by the user's choice.
     fn is_second(&self, both: [&Question; 2], prompt: &str, items: [&str; 2]) -> Result<bool> {
         match both.map(|question| (question.given)(self.options)) {
             [None, None] => Ok(self.choose(prompt, &items)? == 1),

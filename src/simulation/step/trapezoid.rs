@@ -72,13 +72,11 @@ pub(super) fn wear(
     increment.rub(model, contacts);
     if model.setup.wear.is_some() {
         tractions(model, state, next, scratch);
-        mean_shear(model, state, next, scratch);
+        let slips_from = mean_shear(model, state, next, scratch);
         let seconds = model.seconds(cycle - state.cycle);
         let increment = &mut scratch.increment;
         increment.wear(model, seconds);
-        if outer_slip_zone(&next.contact.spring_state).0 == 0
-            || state.settled_stick_radius == Some(0.0)
-        {
+        if slips_from == 0 || state.settled_stick_radius == Some(0.0) {
             increment.balance_edge(model, next.contact.normal.nodes);
         }
         let exponent = model.setup.wear.map_or(1.0, |law| law.slip_rate_exponent());
@@ -103,11 +101,17 @@ pub(super) fn tractions(model: &Model, state: &State, next: &mut State, scratch:
     scratch.transforms += 3;
 }
 
-/// The stress by which the step wears.
-pub(super) fn mean_shear(model: &Model, state: &State, next: &State, scratch: &mut Scratch) {
+/// The stress by which the step wears; returns the first node of the outermost slip zone.
+pub(super) fn mean_shear(
+    model: &Model,
+    state: &State,
+    next: &State,
+    scratch: &mut Scratch,
+) -> usize {
     let zone = outer_slip_zone(&next.contact.spring_state);
     let friction = model.setup.material.friction();
     scratch
         .increment
         .mean_shear(friction, &state.traction, &next.traction, zone);
+    zone.0
 }

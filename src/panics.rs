@@ -6,7 +6,7 @@ use std::sync::{Mutex, PoisonError};
 static PANIC: Mutex<Option<String>> = Mutex::new(None);
 
 /// Stores the messages of panics here instead of printing them.
-pub fn keep() {
+pub fn capture() {
     std::panic::set_hook(Box::new(|panic| {
         let mut kept = PANIC.lock().unwrap_or_else(PoisonError::into_inner);
         if kept.is_none() {
@@ -16,6 +16,6 @@ pub fn keep() {
 }
 
 /// Takes the message, if there was a panic.
-pub fn word() -> Option<String> {
+pub fn take_message() -> Option<String> {
     PANIC.lock().unwrap_or_else(PoisonError::into_inner).take()
 }

@@ -65,11 +65,11 @@ pub fn main() -> ExitCode {
         Ok(arguments) => arguments,
         Err(error) => return refuse(&error),
     };
-    crate::panics::keep();
+    crate::panics::capture();
     // Ignores SIGXFSZ: a file at its size limit is an error like a full disk.
     let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
     let Ok(outcome) = catch_unwind(AssertUnwindSafe(|| dispatch(arguments))) else {
-        let word = crate::panics::word().unwrap_or_default();
+        let word = crate::panics::take_message().unwrap_or_default();
         complain(&format!("bug in mdr-tui: {word}"));
         return ExitCode::from(FAILED);
     };

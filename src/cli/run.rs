@@ -395,7 +395,7 @@ impl Job {
         self.job.rewind(job);
         drop(copy);
         let cycle = number(self.session.simulation().cycle());
-        let word = crate::panics::word().unwrap_or_default();
+        let word = crate::panics::take_message().unwrap_or_default();
         format!("bug in mdr-tui: {word}; saved at cycle {cycle}")
     }
 

@@ -85,7 +85,7 @@ impl Autosave {
 
     fn try_to_save(&mut self, session: &Session, checkpoint: &[u8]) -> Option<String> {
         let cycle = session.simulation().cycle();
-        let at_home = self.home.as_mut().map(|home| home.keep(checkpoint));
+        let at_home = self.home.as_mut().map(|home| home.write(checkpoint));
         if let Some(Ok(path)) = at_home {
             (self.kept, self.failure) = (Some((path, cycle)), None);
             if let Some(elsewhere) = self.elsewhere.take() {
@@ -126,7 +126,7 @@ impl Autosave {
             Ok(place) => place,
             Err(error) => return Some(Err(error)),
         };
-        let kept = place.keep(checkpoint);
+        let kept = place.write(checkpoint);
         // An older checkpoint there is better than nothing.
         self.elsewhere = match kept {
             Ok(_) => Some(place),
@@ -220,7 +220,7 @@ impl Place {
     }
 
     /// Replaces the checkpoint, and says where it is.
-    fn keep(&mut self, checkpoint: &[u8]) -> Result<PathBuf, WriteError> {
+    fn write(&mut self, checkpoint: &[u8]) -> Result<PathBuf, WriteError> {
         let written = write_with(&self.path, |file| file.write_all(checkpoint));
         // The new file is locked before the lock on the old one is given up.
         self.file = Some(written?);
@@ -308,7 +308,7 @@ mod tests {
     /// A session that comes, is kept, and goes.
     fn come_and_go(directory: &Path, stem: &str) -> PathBuf {
         let mut place = Place::free(directory, stem).expect("a place");
-        place.keep(stem.as_bytes()).expect("a file");
+        place.write(stem.as_bytes()).expect("a file");
         place.path.clone()
     }
 
@@ -332,7 +332,7 @@ mod tests {
     fn a_living_session_keeps_its_file_and_no_name_is_given_out_twice() {
         let base = tempfile::tempdir().expect("a directory");
         let mut paused = Place::free(base.path(), "hertz").expect("a place");
-        paused.keep(b"paused").expect("a file");
+        paused.write(b"paused").expect("a file");
         let unkept = Place::free(base.path(), "hertz").expect("a place");
         let mut names = vec![paused.path.clone(), unkept.path.clone()];
         for round in 0..60 {
@@ -340,7 +340,7 @@ mod tests {
         }
         assert_eq!(fs::read(&paused.path).expect("its file"), b"paused");
         assert!(unkept.path.exists());
-        paused.keep(b"later").expect("a file");
+        paused.write(b"later").expect("a file");
         come_and_go(base.path(), "hertz");
         assert_eq!(fs::read(&paused.path).expect("its file"), b"later");
         let count = names.len();

@@ -1,47 +1,33 @@
-//! The view: the focused panel, the overlays, and scales that follow the data.
+//! The screen's state: the stage and its charts, the overlay on them, and what is told to the user.
 //!
 //! The app knows nothing of the simulation. It turns keys into orders for the worker, and frames
 //! into a screen.
 
-use std::borrow::Cow;
-use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Rect, Size};
 
+use super::calm::Calm;
 use super::command::{Act, Command};
+use super::cursor::Cursor;
 use super::event_loop::Scene;
-use super::frame::{Activity, Frame};
-use super::held::Held;
+use super::frame::Frame;
 use super::keys::Key;
-use super::layout;
 use super::line::one_line;
+use super::live_charts::LiveCharts;
 use super::overlays::{Answer, Form, Overlay, Palette};
-use super::pace::Pace;
-use super::panels::{Panel, Shown};
+use super::panels::{Pane, Panel, StressMap};
+use super::present::SpeedUp;
 use super::refinement_check::RefinementCheck;
 use super::snapshot;
+use super::stage::Stage;
 use super::theme::Theme;
-use super::tour::{self, Tour};
 use super::worker::{Orders, Worker};
-use super::{Event, present, screen};
-use crate::charts::{Medium, View};
-use crate::plot::{Chart, Scale, sticky_bounds};
+use super::{Event, screen};
 use crate::reading::Curves;
 use crate::scenario::Scenario;
-
-/// The number of cursor positions over the domain, and the initial one.
-const CURSOR_PLACES: i16 = 100;
-const CURSOR_START: i16 = 33;
-
-/// Columns from which on the contact is what a new user sees first, and rows from which on a tour shows it large.
-const CONTACT_FROM: u16 = 100;
-const CONTACT_ROWS: u16 = 22;
-
-/// Calm panels take every third frame of a run: a third of the bytes, and of the stresses to compute.
-const CALM: u32 = 3;
 
 /// How the program is left.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -56,23 +42,20 @@ pub enum Leave {
 pub struct App {
     /// The latest frame; none before the worker's first.
     pub frame: Option<Arc<Frame>>,
-    /// The frame that calm panels show while the run goes on, and how many frames it has lasted.
-    calm: Option<(Arc<Frame>, u32)>,
-    /// The panel with the focus.
-    pub focus: Panel,
-    /// Whether the focused panel is zoomed.
-    pub zoomed: bool,
-    /// The panel that had the focus before the contact was shown large.
-    before_contact: Option<Panel>,
-    /// Whether the contact and one chart are shown for a projector, and since which cycle at which pace.
-    pub presents: bool,
-    at_pace: (Pace, f64),
+    /// The frame of calm panels.
+    calm: Calm,
+    /// Which panels there are.
+    pub stage: Stage,
+    /// Their charts and scales.
+    pub charts: LiveCharts,
+    /// The stress in the half-space.
+    pub stress: StressMap,
+    /// The cursor over r.
+    pub cursor: Cursor,
+    /// How a lecture speeds up.
+    speed_up: SpeedUp,
     /// The overlay on the panels.
     pub overlay: Overlay,
-    /// The tour under way, if there is one.
-    pub tour: Option<Tour>,
-    /// The panel that had the focus before the tour.
-    before_tour: Panel,
     /// A notice, shown until the next key.
     pub notice: Option<String>,
     /// Why a file that a script asked for could not be written: the first one.
@@ -85,38 +68,11 @@ pub struct App {
     pub leave: Option<Leave>,
     /// Set to suspend the program to its shell.
     pub suspend: bool,
-    /// Whether closed forms are drawn over the plots.
-    pub with_theory: bool,
     /// The result of the refinement check; `None` until it has finished.
     pub refinement_check: Option<Result<RefinementCheck, String>>,
-    /// Which stress the half-space shows.
-    pub stress: Shown,
-    stress_bounds: Option<[f64; 2]>,
-    /// Where the cursor stands, in hundredths of the domain.
-    cursor: Option<i16>,
-    log_panels: Vec<Panel>,
-    bounds: HashMap<(Panel, Scale), Held>,
-    across: HashMap<Panel, Held>,
-    charts: HashMap<Panel, Result<Chart, &'static str>>,
-    /// Whether the frame is one of another run than the next: scales no longer follow it.
-    is_outdated: bool,
-    shown: Curves,
-    /// The terminal's size.
-    pub(super) area: Rect,
-    /// How many panels the screen has room for.
-    room: usize,
-    /// Whether the last click has zoomed, or the opposite.
-    pub(super) click_has_zoomed: bool,
+    /// What the worker computes.
+    computed: Curves,
     orders: Orders,
-}
-
-/// Whether a calm panel may still show `calm` where the others show `frame`: the run goes on, and both
-/// have what the panel shows.
-fn may_last(calm: &Frame, frame: &Frame) -> bool {
-    frame.activity == Activity::Running
-        && frame.observation.moment.cycle >= calm.observation.moment.cycle
-        && frame.load.is_some() == calm.load.is_some()
-        && frame.comparison.is_some() == calm.comparison.is_some()
 }
 
 impl Scene for App {
@@ -171,238 +127,73 @@ impl App {
     pub fn new(theme: Theme, orders: Orders) -> Self {
         Self {
             frame: None,
-            calm: None,
-            focus: Panel::Profile,
-            zoomed: false,
-            before_contact: None,
-            presents: false,
-            at_pace: (Pace::Unlimited, 0.0),
+            calm: Calm::default(),
+            stage: Stage::default(),
+            charts: LiveCharts::default(),
+            stress: StressMap::default(),
+            cursor: Cursor::default(),
+            speed_up: SpeedUp::default(),
             overlay: Overlay::None,
-            tour: None,
-            before_tour: Panel::Profile,
             notice: None,
             unwritten: None,
             is_new: true,
             theme,
             leave: None,
             suspend: false,
-            with_theory: false,
             refinement_check: None,
-            stress: Shown::default(),
-            stress_bounds: None,
-            cursor: None,
-            log_panels: Vec::new(),
-            bounds: HashMap::new(),
-            across: HashMap::new(),
-            charts: HashMap::new(),
-            is_outdated: false,
-            shown: Curves::all(),
-            area: Rect::new(0, 0, 80, 24),
-            room: layout::room(80, 24),
-            click_has_zoomed: false,
+            computed: Curves::all(),
             orders,
         }
     }
 
     /// Takes a new frame.
     pub fn take_frame(&mut self, frame: Arc<Frame>) {
+        let before = self.frame.as_ref().map(|shown| shown.origin.as_str());
+        self.charts
+            .begin(&frame.origin, before != Some(&frame.origin));
         // Another scenario has another tour.
-        self.tour = self.tour.take().filter(|tour| tour.is_of(&frame.origin));
-        let shown = self.frame.as_ref().map(|shown| shown.origin.as_str());
-        if shown != Some(frame.origin.as_str()) {
-            self.log_panels = tour::logarithmic(&frame.origin);
-        }
-        self.follow_stress(&frame);
-        // Where the contact is shown large, it is the stress of one phase of the motion.
-        let begins = |frame: &Frame| frame.observation.moment.cycle.floor();
-        let shows_contact = self.shows_contact();
-        let may_stay = |calm: &Frame, lasted| match shows_contact {
-            true => begins(calm) == begins(&frame),
-            false => lasted < CALM,
-        };
-        self.calm = match self.calm.take() {
-            Some((calm, lasted)) if may_stay(&calm, lasted) && may_last(&calm, &frame) => {
-                Some((calm, lasted + 1))
-            }
-            _ => Some((Arc::clone(&frame), 1)),
-        };
-        self.hasten(&frame);
-        self.frame = Some(frame);
-        self.is_outdated = false;
-        self.tell_what_shows();
-    }
-
-    /// For a projector, the pace rises when it has been shown for a while.
-    fn hasten(&mut self, frame: &Frame) {
-        let (pace, began) = self.at_pace;
-        let cycle = frame.observation.moment.cycle;
-        let is_running = self.presents && frame.activity == Activity::Running;
-        let is_same = is_running && pace == frame.pace && cycle >= began;
-        let is_due = is_same && present::is_due(frame, began);
-        if is_due {
+        self.stage.tour.take_if(|tour| !tour.is_of(&frame.origin));
+        self.stress.follow(&frame);
+        self.calm.take(&frame, self.stage.shows_contact());
+        if self.speed_up.is_due(&frame, self.stage.presents) {
             self.order(|run| run.change_pace(1));
         }
-        if is_due || !is_same {
-            self.at_pace = (frame.pace, cycle);
-        }
+        self.frame = Some(frame);
+        self.show();
     }
 
-    /// The frame that a panel shows where the screen is that of `frame`.
-    pub(super) fn frame_of<'a>(&'a self, panel: Panel, frame: &'a Frame) -> &'a Frame {
-        // Large, the indenter moves with every frame.
-        let is_large = panel == Panel::Section && self.shows_contact();
-        match panel.recipe().is_calm && !is_large {
-            true => self.calm(frame),
-            false => frame,
-        }
-    }
-
-    /// What a calm panel shows where the others show `frame`.
-    pub(super) fn calm<'a>(&'a self, frame: &'a Frame) -> &'a Frame {
-        self.calm.as_ref().map_or(frame, |(calm, _)| calm)
-    }
-
-    /// The chart of a panel: as it was made when the frame came, else of `frame`.
-    pub(super) fn chart(
-        &self,
-        panel: Panel,
-        frame: &Frame,
-    ) -> Cow<'_, Result<Chart, &'static str>> {
-        match self.charts.get(&panel) {
-            Some(chart) => Cow::Borrowed(chart),
-            None => Cow::Owned(panel.recipe().chart(&frame.run(), &self.view(panel))),
-        }
-    }
-
-    /// What the user has chosen for a panel.
-    fn view(&self, panel: Panel) -> View {
-        View {
-            medium: Medium::Screen,
-            scale: self.scale(panel),
-            with_theory: self.with_theory,
-        }
-    }
-
-    /// Makes the charts that are seen, once for each frame and key; their scales follow their data.
-    fn make_charts(&mut self) {
-        self.charts.clear();
-        let Some(shown) = self.frame.clone() else {
-            return;
+    /// Draws a panel where the screen is that of `frame`.
+    pub(super) fn draw_panel(&self, panel: Panel, frame: &Frame, area: Rect, buffer: &mut Buffer) {
+        let chart = self.charts.get(panel, frame);
+        let pane = Pane {
+            theme: &self.theme,
+            has_focus: self.stage.focus == panel,
+            bounds: self.charts.bounds(panel),
+            cursor: self.cursor.radius(frame),
+            stress: self.stress,
+            calm: self.calm.of(frame),
         };
-        if shown.comparison.is_some() {
-            return;
-        }
-        let (cycle, run) = (shown.observation.moment.cycle, shown.run());
-        let calm = self.calm.as_ref().map(|(calm, _)| calm);
-        let calm = calm
-            .filter(|calm| !Arc::ptr_eq(calm, &shown))
-            .map(|calm| calm.run());
-        for panel in self.visible() {
-            let (recipe, view) = (panel.recipe(), self.view(panel));
-            let calm = calm.as_ref().filter(|_| recipe.is_calm);
-            let mut chart = recipe.chart(calm.unwrap_or(&run), &view);
-            let made = chart.as_ref().ok();
-            let extent = panel.extent(self.frame_of(panel, &shown), made);
-            if let Some(extent) = extent.filter(|_| !self.is_outdated) {
-                Held::hold(self.bounds.entry((panel, view.scale)), extent, cycle);
-            }
-            let across = made.filter(|_| recipe.keeps_abscissa && !self.is_outdated);
-            if let Some(across) = across.and_then(|chart| chart.x.bounds) {
-                Held::hold(self.across.entry(panel), across, cycle);
-            }
-            if let Ok(chart) = &mut chart {
-                chart.y.bounds = self.bounds(panel);
-                let across = self.across.get(&panel).map(|held| held.bounds);
-                chart.x.bounds = across.or(chart.x.bounds);
-            }
-            self.charts.insert(panel, chart);
-        }
+        let frame = self.calm.shown(panel, &self.stage, frame);
+        panel.draw(frame, &chart, &pane, area, buffer);
     }
 
-    /// The bounds of a panel's ordinate.
-    pub fn bounds(&self, panel: Panel) -> Option<[f64; 2]> {
-        let held = self.bounds.get(&(panel, self.scale(panel)));
-        held.map(|held| held.bounds)
-    }
-
-    /// The range of the colours of the stress in the half-space, Pa; `None` where none is shown.
-    pub fn stress_bounds(&self) -> Option<[f64; 2]> {
-        self.stress_bounds
-    }
-
-    /// The colours follow the stress as the scales of the plots follow their data.
-    fn follow_stress(&mut self, frame: &Frame) {
-        let extent = self.stress.extent(frame);
-        self.stress_bounds = extent.map(|extent| {
-            let [low, high] = self.stress.quantity.colors().range(extent);
-            let [low, high] = sticky_bounds(self.stress_bounds, low, high);
-            self.stress.quantity.colors().range([low, high])
-        });
-    }
-
-    /// Switches the stress shown in the half-space, or to its largest value in a cycle.
-    fn show_stress(&mut self, shown: Shown) {
-        self.stress = shown;
-        self.stress_bounds = None;
-        if let Some(frame) = self.frame.clone() {
-            self.follow_stress(&frame);
-        }
-        self.notice = Some(format!("cross-section: {}", self.stress.name()));
-    }
-
-    /// Whether a panel's ordinate is logarithmic.
-    pub fn scale(&self, panel: Panel) -> Scale {
-        if self.log_panels.contains(&panel) {
-            Scale::Log
-        } else {
-            Scale::Linear
-        }
-    }
-
-    /// The panels on the screen.
-    pub fn visible(&self) -> Vec<Panel> {
-        if self.presents {
-            vec![Panel::Section, self.presented()]
-        } else if self.zoomed {
-            vec![self.focus]
-        } else {
-            self.page(self.room).to_vec()
-        }
-    }
-
-    /// The panels beside the focused one where `room` of them fit.
-    pub fn page(&self, room: usize) -> &[Panel] {
-        let at = self.focus.index() / room.max(1) * room;
-        &Panel::ALL[at..(at + room).min(Panel::ALL.len())]
-    }
-
-    /// Which page that is, counted from 1, and how many there are.
-    pub fn pages(&self, room: usize) -> (usize, usize) {
-        let room = room.max(1);
-        (
-            self.focus.index() / room + 1,
-            Panel::ALL.len().div_ceil(room),
-        )
+    /// Whether a second run takes the place of all panels.
+    pub(super) fn compares(&self) -> bool {
+        let frame = self.frame.as_ref();
+        frame.is_some_and(|frame| frame.comparison.is_some())
     }
 
     /// Notes the terminal's size: hidden panels are not computed.
     pub fn resize(&mut self, columns: u16, rows: u16) {
-        self.area = Rect::new(0, 0, columns, rows);
-        self.room = layout::room(columns, rows);
-        self.tell_what_shows();
-    }
-
-    /// The first panel of the next page gets the focus.
-    pub(super) fn turn_page(&mut self) {
-        let (page, pages) = self.pages(self.room);
-        self.focus = Panel::ALL[page % pages * self.room];
+        self.stage.area = Rect::new(0, 0, columns, rows);
+        self.show();
     }
 
     /// Handles a key. `Ctrl-C` quits from anywhere, even while typing.
     pub fn press(&mut self, key: Key) {
         self.notice = None;
         // The answer to a key is seen at once.
-        self.calm = None;
+        self.calm.wake();
         self.is_new = false;
         if key == Key::Ctrl('c') {
             self.leave = Some(Leave::Clean);
@@ -412,7 +203,7 @@ impl App {
         if overlay.press(key, self) == Answer::Stay {
             self.overlay = overlay;
         }
-        self.tell_what_shows();
+        self.show();
     }
 
     /// Takes pasted text where a line is typed.
@@ -436,34 +227,6 @@ impl App {
         }
     }
 
-    /// Leaves the tour, the contact, or the zoomed panel.
-    pub(super) fn go_back(&mut self) {
-        match () {
-            () if self.tour.is_some() => self.end_tour(),
-            () if self.shows_contact() => self.leave_contact(),
-            () => self.zoomed = false,
-        }
-    }
-
-    pub(super) fn zoom_or_unzoom(&mut self) {
-        match self.shows_contact() {
-            true => self.leave_contact(),
-            false => self.zoomed = !self.zoomed,
-        }
-    }
-
-    pub(super) fn show_or_leave_contact(&mut self) {
-        match self.shows_contact() {
-            true => self.leave_contact(),
-            false => self.show_contact(),
-        }
-    }
-
-    pub(super) fn drop_ghosts(&mut self) {
-        self.forget_scales();
-        self.order(Worker::drop_ghosts);
-    }
-
     /// Opens the checks of the run, and has its errors estimated.
     pub(super) fn check_accuracy(&mut self) {
         self.refinement_check = None;
@@ -471,11 +234,9 @@ impl App {
         self.order(|run| run.check_refinement());
     }
 
-    pub(super) fn toggle_cursor(&mut self) {
-        self.cursor = match self.cursor {
-            None => Some(CURSOR_START),
-            Some(_) => None,
-        }
+    /// Whether the accuracy panel waits for the refinement check.
+    pub fn awaits_refinement(&self) -> bool {
+        self.overlay == Overlay::Accuracy && self.refinement_check.is_none()
     }
 
     pub(super) fn change_theme(&mut self) {
@@ -484,51 +245,13 @@ impl App {
         self.notice = Some(format!("theme {}", self.theme.look.name()));
     }
 
-    pub(super) fn show_next_stress(&mut self) {
-        let quantity = self.stress.quantity.next();
-        self.show_stress(Shown {
-            quantity,
-            ..self.stress
-        });
-    }
-
-    pub(super) fn show_stress_of_cycle_or_moment(&mut self) {
-        let over_cycle = !self.stress.over_cycle;
-        self.show_stress(Shown {
-            over_cycle,
-            ..self.stress
-        });
-    }
-
-    /// Whether the contact is shown large: the cross-section alone.
-    pub fn shows_contact(&self) -> bool {
-        self.presents || self.zoomed && self.focus == Panel::Section
-    }
-
-    /// Shows the contact itself, large.
-    pub fn show_contact(&mut self) {
-        self.before_contact = Some(std::mem::replace(&mut self.focus, Panel::Section));
-        self.zoomed = true;
-    }
-
-    /// Shows the contact and one chart for a projector, at a pace that rises by itself.
-    pub fn present(&mut self) {
-        self.presents = true;
-        self.focus = present::CHART;
-    }
-
-    /// The chart beside the contact.
-    pub fn presented(&self) -> Panel {
-        match self.focus {
-            Panel::Section => present::CHART,
-            panel => panel,
+    /// Changes the stress in the half-space.
+    pub(super) fn change_stress(&mut self, change: fn(&mut StressMap)) {
+        change(&mut self.stress);
+        if let Some(frame) = &self.frame {
+            self.stress.follow(frame);
         }
-    }
-
-    /// All panels again, and the focus where it was before.
-    fn leave_contact(&mut self) {
-        (self.zoomed, self.presents) = (false, false);
-        self.focus = self.before_contact.take().unwrap_or(self.focus);
+        self.notice = Some(format!("cross-section: {}", self.stress.name()));
     }
 
     /// Opens the words of a key.
@@ -542,106 +265,31 @@ impl App {
         }
     }
 
-    /// Shows a new user the contact where there is room for it, and begins the tour of the default preset.
-    pub fn welcome(&mut self, origin: &str) {
-        if origin == super::FIRST {
-            self.begin_tour(origin);
-        } else if self.has_room_for_contact() {
-            self.show_contact();
-        }
-    }
-
-    /// Begins the tour of the scenario, whatever is on the screen.
-    pub fn begin_tour(&mut self, origin: &str) {
-        self.tour = Tour::of(origin);
-        self.before_tour = self.focus;
-        self.follow_tour();
-    }
-
     /// Begins the tour, or shows its next caption.
     pub(super) fn continue_tour(&mut self) {
-        if let Some(tour) = self.tour.take() {
-            self.tour = tour.next();
-            if self.tour.is_none() {
-                self.return_from_tour();
-                self.notice =
-                    Some("end of the tour; Enter explains a panel, p has more presets".into());
-            }
-        } else if let Some(frame) = self.frame.clone() {
-            self.begin_tour(&frame.origin);
-            if self.tour.is_none() {
-                self.notice = Some("only presets have tours; p lists them".into());
-            }
+        if let Some(frame) = &self.frame {
+            let notice = self.stage.continue_tour(&frame.origin);
+            self.notice = notice.map(str::to_owned);
         }
-        self.follow_tour();
-    }
-
-    /// The tour is over: the focus is where it was before.
-    fn end_tour(&mut self) {
-        if self.tour.take().is_some() {
-            self.return_from_tour();
-        }
-    }
-
-    /// A contact that is shown large stays, and leads back to where the tour began.
-    fn return_from_tour(&mut self) {
-        match self.shows_contact() {
-            true => self.before_contact = Some(self.before_tour),
-            false => self.focus = self.before_tour,
-        }
-    }
-
-    /// The panel that the caption is about gets the focus; the contact is shown large where there is room.
-    fn follow_tour(&mut self) {
-        let caption = self.tour.as_ref().and_then(Tour::caption);
-        let Some(panel) = caption.and_then(|caption| caption.panel()) else {
-            return;
-        };
-        if self.shows_contact() {
-            self.leave_contact();
-        }
-        match panel {
-            Panel::Section if self.area.height >= CONTACT_ROWS => self.show_contact(),
-            panel => self.focus = panel,
-        }
-    }
-
-    /// Whether the contact is worth seeing at first.
-    pub fn has_room_for_contact(&self) -> bool {
-        self.area.width >= CONTACT_FROM
     }
 
     /// Moves the cursor by a hundredth of the domain, or the focus where there is no cursor.
     pub(super) fn move_sideways(&mut self, places: i16) {
-        match &mut self.cursor {
-            Some(place) => *place = (*place + places).clamp(0, CURSOR_PLACES),
-            None => self.focus = self.focus.shifted(isize::from(places)),
+        match self.cursor.is_shown() {
+            true => self.cursor.shift(places),
+            false => self.stage.shift_focus(isize::from(places)),
         }
     }
 
-    /// The radius at the cursor, m, if there is one.
-    pub fn cursor_radius(&self, frame: &Frame) -> Option<f64> {
-        let edge = frame.observation.radii.last()?;
-        let place = self.cursor?;
-        Some(edge * f64::from(place) / f64::from(CURSOR_PLACES))
-    }
-
-    /// Whether there is a cursor.
-    pub(super) fn has_cursor(&self) -> bool {
-        self.cursor.is_some()
-    }
-
-    /// Puts the cursor to the place nearest to a radius, m.
-    pub(super) fn put_cursor(&mut self, frame: &Frame, radius: f64) {
-        if let Some(edge) = frame.observation.radii.last() {
-            let place = (radius / edge * f64::from(CURSOR_PLACES)).round();
-            self.cursor = Some((place as i16).clamp(0, CURSOR_PLACES));
+    pub(super) fn toggle_log(&mut self) {
+        let focus = self.stage.focus;
+        match focus.recipe().can_be_log {
+            true => self.charts.toggle_log(focus),
+            false => {
+                let title = focus.title();
+                self.notice = Some(format!("the {title} panel has no logarithmic scale"));
+            }
         }
-    }
-
-    /// Whether the accuracy panel waits for the refinement_check.
-    pub fn awaits_companion(&self) -> bool {
-        self.overlay == Overlay::Accuracy && self.refinement_check.is_none()
     }
 
     /// Loads a scenario, or the state in a directory.
@@ -671,49 +319,36 @@ impl App {
         self.order(Worker::restart);
     }
 
-    pub(super) fn toggle_log(&mut self) {
-        let focus = self.focus;
-        if !focus.recipe().can_be_log {
-            self.notice = Some(format!(
-                "the {} panel has no logarithmic scale",
-                focus.title()
-            ));
-        } else if self.log_panels.contains(&focus) {
-            self.log_panels.retain(|panel| *panel != focus);
-        } else {
-            self.log_panels.push(focus);
-        }
+    pub(super) fn drop_ghosts(&mut self) {
+        self.forget_scales();
+        self.order(Worker::drop_ghosts);
     }
 
     fn forget_scales(&mut self) {
-        self.bounds.clear();
-        self.across.clear();
-        self.is_outdated = true;
-        self.stress_bounds = None;
+        self.charts.forget_scales();
+        self.stress.bounds = None;
     }
 
     /// Makes what shows, and tells the worker: hidden panels cost neither a chart nor a transform.
-    pub(super) fn tell_what_shows(&mut self) {
-        self.make_charts();
+    pub(super) fn show(&mut self) {
+        let visible = self.stage.visible();
+        if let Some(frame) = &self.frame {
+            let shown = |panel| self.calm.shown(panel, &self.stage, frame);
+            self.charts.make(&visible, frame, shown);
+        }
+        let needs = visible.iter().map(|panel| panel.recipe().needs);
         // The checks of the status line need the pressure, whatever panel shows it.
-        let mut shown = Curves::PRESSURE;
-        for panel in self.visible() {
-            shown |= panel.recipe().needs;
-        }
+        let mut needed = needs.fold(Curves::PRESSURE, Curves::union);
         // A comparison covers all panels, and a cursor reads all curves.
-        if self
-            .frame
-            .as_ref()
-            .is_some_and(|frame| frame.comparison.is_some())
-        {
-            shown |= Curves::PROFILE;
+        if self.compares() {
+            needed |= Curves::PROFILE;
         }
-        if self.cursor.is_some() {
-            shown |= Curves::PROFILE | Curves::SHEAR | Curves::PROFILE_1D;
+        if self.cursor.is_shown() {
+            needed |= Curves::PROFILE | Curves::SHEAR | Curves::PROFILE_1D;
         }
-        if shown != self.shown {
-            self.shown = shown;
-            self.order(move |run| run.compute(shown));
+        if needed != self.computed {
+            self.computed = needed;
+            self.order(move |run| run.compute(needed));
         }
     }
 

@@ -65,7 +65,7 @@ impl ScreenAutosave {
         }
         self.copy.refresh(|| session.clone());
         match self.wait(session) {
-            Some(Duration::ZERO) => self.keep(session),
+            Some(Duration::ZERO) => self.save(session),
             _ => None,
         }
     }
@@ -76,7 +76,7 @@ impl ScreenAutosave {
             return;
         }
         if self.kept != Mark::of(from) {
-            self.keep(from);
+            self.save(from);
         }
         self.autosave.turn_over();
         self.kept = Mark::of(to);
@@ -92,7 +92,7 @@ impl ScreenAutosave {
         let copy = self.copy.get().clone();
         let session = session.unwrap_or(&copy);
         if self.kept != Mark::of(session) {
-            self.keep(session);
+            self.save(session);
         }
         let place = self.autosave.kept().map(|(path, cycle)| {
             let (cycle, path) = (number(cycle), shell_word(path));
@@ -106,7 +106,7 @@ impl ScreenAutosave {
     }
 
     /// Saves a session; returns a message when that begins to fail.
-    fn keep(&mut self, session: &Session) -> Option<String> {
+    fn save(&mut self, session: &Session) -> Option<String> {
         let word = self
             .autosave
             .save(session, &checkpoint::encode(session, None::<&()>));

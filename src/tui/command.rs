@@ -10,6 +10,7 @@ use super::frame::Frame;
 use super::keys::Key::{self, Char, Ctrl, Named};
 use super::keys::Named as N;
 use super::overlays::{Completion, Form, Help, Library, Overlay, palette};
+use super::panels::StressMap;
 use super::worker::Worker;
 use Act::{Palette, Screen, Worker as Work};
 
@@ -80,28 +81,28 @@ commands! {
         Accept [Named(N::Enter)] "explain", "explain the focused panel; in a list, choose the entry",
             Screen(|app| app.overlay = Overlay::Explain);
         Tour [Char('n')] "tour", "tour of this preset: next caption", Screen(App::continue_tour);
-        NextPanel [Named(N::Tab)] "panel", "focus the next panel", Screen(|app| app.focus = app.focus.shifted(1));
+        NextPanel [Named(N::Tab)] "panel", "focus the next panel", Screen(|app| app.stage.shift_focus(1));
         PreviousPanel [Named(N::BackTab)] "panel back", "focus the previous panel",
-            Screen(|app| app.focus = app.focus.shifted(-1));
-        NextPage [Char('v')] "view", "the next page of panels", Screen(App::turn_page);
-        Zoom [Char('z')] "zoom", "zoom the focused panel, or show all panels", Screen(App::zoom_or_unzoom);
+            Screen(|app| app.stage.shift_focus(-1));
+        NextPage [Char('v')] "view", "the next page of panels", Screen(|app| app.stage.turn_page());
+        Zoom [Char('z')] "zoom", "zoom the focused panel, or show all panels", Screen(|app| app.stage.toggle_zoom());
         Contact [Char('V')] "contact", "the contact itself, large and in motion, or all panels",
-            Screen(App::show_or_leave_contact);
+            Screen(|app| app.stage.toggle_contact());
         LogScale [Char('L')] "log", "logarithmic scale in the focused panel", Screen(App::toggle_log);
-        Cursor [Char('x')] "cursor", "a cursor that reads all curves at r; arrows move it", Screen(App::toggle_cursor);
+        Cursor [Char('x')] "cursor", "a cursor that reads all curves at r; arrows move it", Screen(|app| app.cursor.toggle());
         Left [Named(N::Left), Char('h')] "left", "move the cursor inwards, or focus the previous panel",
             Screen(|app| app.move_sideways(-1));
         Right [Named(N::Right), Char('l')] "right", "move the cursor outwards, or focus the next panel",
             Screen(|app| app.move_sideways(1));
-        Up [Named(N::Up), Char('k')] "up", "up in a list", Screen(|app| app.focus = app.focus.shifted(-1));
-        Down [Named(N::Down), Char('j')] "down", "down in a list", Screen(|app| app.focus = app.focus.shifted(1));
+        Up [Named(N::Up), Char('k')] "up", "up in a list", Screen(|app| app.stage.shift_focus(-1));
+        Down [Named(N::Down), Char('j')] "down", "down in a list", Screen(|app| app.stage.shift_focus(1));
         Theory [Char('t')] "theory", "show or hide closed forms in the plots",
-            Screen(|app| app.with_theory = !app.with_theory);
-        Stress [Char('o')] "stress", "next stress component in the cross-section", Screen(App::show_next_stress);
+            Screen(|app| app.charts.with_theory ^= true);
+        Stress [Char('o')] "stress", "next stress component in the cross-section", Screen(|app| app.change_stress(StressMap::next));
         StressOfCycle [Char('O')] "stress, cycle", "largest stress of a cycle, or of this moment",
-            Screen(App::show_stress_of_cycle_or_moment);
+            Screen(|app| app.change_stress(StressMap::toggle_cycle));
         Theme [Char('T')] "theme", "colours for a dark or light background, or none", Screen(App::change_theme);
-        Back [Named(N::Esc)] "back", "close what is open, or leave the zoomed panel", Screen(App::go_back);
+        Back [Named(N::Esc)] "back", "close what is open, or leave the zoomed panel", Screen(|app| app.stage.go_back());
     }
     "change" {
         Presets [Char('p')] "presets", "another preset, or a file of your own",

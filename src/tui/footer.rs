@@ -62,8 +62,8 @@ fn mode(app: &App) -> Mode {
     match app.frame.as_deref() {
         Some(frame) if frame.comparison.is_some() => COMPARING,
         Some(frame) if frame.present.is_some() => IN_THE_PAST,
-        _ if app.tour.is_some() => ON_TOUR,
-        _ if app.shows_contact() => AT_THE_CONTACT,
+        _ if app.stage.tour.is_some() => ON_TOUR,
+        _ if app.stage.shows_contact() => AT_THE_CONTACT,
         _ => (USUAL, &[]),
     }
 }
@@ -90,18 +90,18 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         return;
     }
     if app.is_new
-        && app.tour.is_none()
-        && !app.shows_contact()
+        && app.stage.tour.is_none()
+        && !app.stage.shows_contact()
         && HINT.len() <= usize::from(area.width)
     {
         Line::styled(HINT, app.theme.style(Role::Notice)).render(area, buffer);
         return;
     }
     let frame = app.frame.as_ref();
-    if let Some((frame, r)) = frame.and_then(|frame| Some((frame, app.cursor_radius(frame)?))) {
+    if let Some((frame, r)) = frame.and_then(|frame| Some((frame, app.cursor.radius(frame)?))) {
         let text = readout::line(
             frame,
-            app.focus,
+            app.stage.focus,
             r,
             usize::from(area.width),
             app.theme.ascii(),

@@ -5,9 +5,9 @@
 
 use ratatui::layout::{Constraint, Layout, Rect};
 
-use super::app::App;
 use super::panels::Panel;
 use super::present;
+use super::stage::Stage;
 
 /// Three panels fit side by side from this width on.
 const WIDE: u16 = 110;
@@ -75,8 +75,8 @@ fn grid(area: Rect) -> (usize, usize) {
 }
 
 /// The area of the panels, and that of a tour's caption below them while there is one.
-pub fn with_tour(app: &App, area: Rect) -> (Rect, Option<Rect>) {
-    if app.tour.is_none() || area.height < LEAST + TOUR {
+pub fn with_tour(stage: &Stage, area: Rect) -> (Rect, Option<Rect>) {
+    if stage.tour.is_none() || area.height < LEAST + TOUR {
         return (area, None);
     }
     let rows = [Constraint::Min(0), Constraint::Length(TOUR)];
@@ -85,17 +85,17 @@ pub fn with_tour(app: &App, area: Rect) -> (Rect, Option<Rect>) {
 }
 
 /// The panels in their area, each with its place.
-pub fn places(app: &App, area: Rect) -> Vec<(Panel, Rect)> {
+pub fn places(stage: &Stage, area: Rect) -> Vec<(Panel, Rect)> {
     let (columns, rows) = grid(area);
-    let (area, _) = with_tour(app, area);
-    if app.presents {
+    let (area, _) = with_tour(stage, area);
+    if stage.presents {
         let [contact, chart, _] = present::areas(area);
-        return vec![(Panel::Section, contact), (app.presented(), chart)];
+        return vec![(Panel::Section, contact), (stage.presented(), chart)];
     }
-    if app.zoomed {
-        return vec![(app.focus, area)];
+    if stage.zoomed {
+        return vec![(stage.focus, area)];
     }
-    let shown = app.page(columns * rows);
+    let shown = stage.page(columns * rows);
     // The last page may hold fewer panels, which are then larger.
     let columns = columns
         .min(shown.len().div_ceil(rows).max(2))

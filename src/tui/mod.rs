@@ -28,8 +28,10 @@ pub mod app;
 mod appearance;
 pub mod autosave;
 mod beside;
+mod calm;
 pub mod command;
 mod comparison;
+mod cursor;
 mod cycle_loads;
 mod event_loop;
 mod figure;
@@ -42,6 +44,7 @@ mod input;
 pub mod keys;
 pub mod layout;
 pub mod line;
+mod live_charts;
 pub mod manual;
 pub mod map;
 pub mod mouse;
@@ -56,6 +59,7 @@ pub mod screen;
 mod script;
 pub mod settings;
 pub mod snapshot;
+pub mod stage;
 mod suspend;
 mod terminal;
 mod timeline;
@@ -196,12 +200,12 @@ pub fn run(options: Options) -> Result<Farewell> {
     let halt = worker.halt();
     let mut app = App::new(theme, orders.clone());
     if options.present {
-        app.present();
+        app.stage.present();
     } else if is_first && let Ok(size) = terminal::size() {
         app.resize(size.width, size.height);
-        app.welcome(&origin);
+        app.stage.welcome(&origin);
     }
-    crate::panics::keep();
+    crate::panics::capture();
     let kept = spawn_worker(worker, keeping.clone(), to_worker, events.clone())?;
     let end_worker = || {
         halt.store(true, Ordering::SeqCst);
@@ -216,7 +220,7 @@ pub fn run(options: Options) -> Result<Farewell> {
     };
     end_worker();
     let kept = saved_where(&kept, keeping.as_deref());
-    if let Some(word) = crate::panics::word() {
+    if let Some(word) = crate::panics::take_message() {
         let kept = kept.unwrap_or_else(|| "there was nothing to save".into());
         bail!("bug in mdr-tui: {word}; {kept}");
     }

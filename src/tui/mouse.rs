@@ -77,8 +77,7 @@ impl App {
         }
     }
 
-    /// A click goes to another panel, moves the cursor in its plot, or else zooms; the second one of
-    /// a double click zooms unless the first has.
+    /// A click travels along the timeline, moves the cursor in a chart, or is the stage's.
     fn click(&mut self, at: Position, is_second: bool) {
         self.notice = None;
         self.is_new = false;
@@ -89,32 +88,25 @@ impl App {
         else {
             return;
         };
-        let Some([_, area, _]) = layout::bands(self.area) else {
+        let Some([_, area, _]) = layout::bands(self.stage.area) else {
             return;
         };
         let (line, area) = layout::timeline(area);
         if let Some(cycle) = line.and_then(|line| timeline::cycle_at(&frame, line, at)) {
             return self.order(move |run| run.go_to(cycle));
         }
-        let places = layout::places(self, area);
-        let Some((panel, place)) = places.into_iter().find(|(_, place)| place.contains(at)) else {
+        let mut places = layout::places(&self.stage, area).into_iter();
+        let Some((panel, place)) = places.find(|(_, place)| place.contains(at)) else {
             return;
         };
-        if is_second {
-            self.zoomed ^= !self.click_has_zoomed;
-        } else {
-            let was_focused = std::mem::replace(&mut self.focus, panel) == panel;
-            let radius = self
-                .has_cursor()
-                .then(|| panel.radius_at(&frame, self, place, at))
-                .flatten();
-            if let Some(radius) = radius {
-                self.put_cursor(&frame, radius);
-            }
-            self.click_has_zoomed = was_focused && radius.is_none();
-            self.zoomed ^= self.click_has_zoomed;
+        let chart = self.charts.get(panel, &frame);
+        let radius = panel.radius_at(&chart, &self.theme, place, at);
+        let radius = radius.filter(|_| self.cursor.is_shown() && !is_second);
+        if let Some(radius) = radius {
+            self.cursor.put(&frame, radius);
         }
-        self.tell_what_shows();
+        self.stage.click(panel, is_second, radius.is_some());
+        self.show();
     }
 }
 

@@ -5,11 +5,10 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::Style;
 
-use super::app::App;
-use super::frame::Frame;
+use super::frame::{Activity, Frame};
 use super::pace::Pace;
 use super::panels::{Panel, contact_state};
-use super::theme::Role;
+use super::theme::{Role, Theme};
 
 /// The chart at first.
 pub const CHART: Panel = Panel::Loop;
@@ -39,8 +38,28 @@ pub fn areas(area: Rect) -> [Rect; 3] {
     [contact, chart, words]
 }
 
+/// Since which cycle the run is at its pace.
+#[derive(Debug, Default)]
+pub struct SpeedUp(Option<(Pace, f64)>);
+
+impl SpeedUp {
+    /// Whether the run of a lecture has been at its pace for a while.
+    pub fn is_due(&mut self, frame: &Frame, presents: bool) -> bool {
+        let cycle = frame.observation.moment.cycle;
+        let is_running = presents && frame.activity == Activity::Running;
+        let since = self
+            .0
+            .filter(|(pace, began)| is_running && *pace == frame.pace && cycle >= *began);
+        let is_due = since.is_some_and(|(_, began)| is_due(frame, began));
+        if is_due || since.is_none() {
+            self.0 = Some((frame.pace, cycle));
+        }
+        is_due
+    }
+}
+
 /// Whether a run that has been at this pace since the cycle `began` shall go faster.
-pub fn is_due(frame: &Frame, began: f64) -> bool {
+fn is_due(frame: &Frame, began: f64) -> bool {
     let Pace::Cycles(pace) = frame.pace else {
         return false;
     };
@@ -51,7 +70,7 @@ pub fn is_due(frame: &Frame, began: f64) -> bool {
 }
 
 /// Draws what the contact does and the cycle in large letters.
-pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
+pub fn draw(frame: &Frame, theme: &Theme, area: Rect, buffer: &mut Buffer) {
     if area.height < WORDS {
         return;
     }
@@ -62,7 +81,7 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
         width: area.width - 1,
     };
     let (_, words, role) = contact_state(&frame.observation.moment);
-    let used = large(words, app.theme.style(role), below, buffer);
+    let used = large(words, theme.style(role), below, buffer);
     let cycle = format!("CYCLE {:.0}", frame.observation.moment.cycle.floor());
     let width = 4 * cycle.len() as u16;
     if used + width + 4 < below.width {
@@ -71,7 +90,7 @@ pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
             width,
             ..below
         };
-        large(&cycle, app.theme.style(Role::Quiet), right, buffer);
+        large(&cycle, theme.style(Role::Quiet), right, buffer);
     }
 }
 

@@ -23,7 +23,7 @@ use super::layout;
 use super::overlays::Overlay;
 use super::pace::Pace;
 use super::panels::compare;
-use super::theme::Role;
+use super::theme::{Role, Theme};
 use super::{footer, present, timeline};
 use crate::reading::verdict;
 
@@ -41,9 +41,9 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let (line, middle) = layout::timeline(whole);
     match &app.frame {
         Some(frame) => {
-            status(frame, app, top, buffer);
+            status(frame, &app.theme, top, buffer);
             if let Some(line) = line {
-                timeline::draw(frame, app, line, buffer);
+                timeline::draw(frame, &app.theme, line, buffer);
             }
             panels(frame, app, middle, buffer);
         }
@@ -60,27 +60,34 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
 
 fn panels(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     if let Some(comparison) = &frame.comparison {
-        compare::draw(frame, comparison, app, area, buffer);
+        compare::draw(
+            frame,
+            comparison,
+            app.cursor.radius(frame),
+            &app.theme,
+            area,
+            buffer,
+        );
         return;
     }
-    for (panel, place) in layout::places(app, area) {
-        panel.draw(frame, app, place, buffer);
+    for (panel, place) in layout::places(&app.stage, area) {
+        app.draw_panel(panel, frame, place, buffer);
     }
-    if app.presents {
-        let (above, _) = layout::with_tour(app, area);
-        present::draw(frame, app, present::areas(above)[2], buffer);
+    if app.stage.presents {
+        let (above, _) = layout::with_tour(&app.stage, area);
+        present::draw(frame, &app.theme, present::areas(above)[2], buffer);
     }
-    if let (Some(tour), (_, Some(place))) = (&app.tour, layout::with_tour(app, area)) {
-        tour.draw(app, place, buffer);
+    if let (Some(tour), (_, Some(place))) = (&app.stage.tour, layout::with_tour(&app.stage, area)) {
+        tour.draw(&app.theme, place, buffer);
     }
 }
 
 /// The state of the run on the left, in slots of fixed width, and the title on the right. A narrow
 /// screen drops the title first, then the least important parts.
-fn status(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
-    let bar = app.theme.style(Role::Bar);
+fn status(frame: &Frame, theme: &Theme, area: Rect, buffer: &mut Buffer) {
+    let bar = theme.style(Role::Bar);
     buffer.set_style(area, bar);
-    let ascii = app.theme.ascii();
+    let ascii = theme.ascii();
     let separator = if ascii { " | " } else { " │ " };
     let mut parts = status_parts(frame, area.width >= WITH_WORDS, ascii);
     while parts.len() > 1
@@ -95,7 +102,7 @@ fn status(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     }
     let left = parts_text(&parts, separator);
     let room = usize::from(area.width).saturating_sub(Line::raw(left.as_str()).width() + 4);
-    let title = shortened(app.theme.printable(&frame.title), room);
+    let title = shortened(theme.printable(&frame.title), room);
     Line::styled(format!(" {left}"), bar).render(area, buffer);
     Line::styled(format!("{title} "), bar)
         .right_aligned()

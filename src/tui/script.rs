@@ -183,7 +183,7 @@ fn press(
 fn catch_up(app: &mut App, orders: &Orders, events: &Receiver<Event>) -> Result<()> {
     app.take_frame(orders.frame().context("the simulation has ended")?);
     // Waits for the refinement check, so that a script always sees its result.
-    while app.awaits_companion() {
+    while app.awaits_refinement() {
         if let Event::RefinementCheck(answer) = events.recv().context("the simulation has ended")? {
             app.refinement_check = Some(answer);
         }

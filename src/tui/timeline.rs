@@ -10,9 +10,8 @@ use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
-use super::app::App;
 use super::frame::Frame;
-use super::theme::Role;
+use super::theme::{Role, Theme};
 use crate::charts::round_end;
 
 /// The part of the row that words may take: half of it.
@@ -64,8 +63,8 @@ pub fn cycle_at(frame: &Frame, area: Rect, at: Position) -> Option<f64> {
 }
 
 /// Draws the timeline.
-pub fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
-    let (theme, ascii) = (&app.theme, app.theme.ascii());
+pub fn draw(frame: &Frame, theme: &Theme, area: Rect, buffer: &mut Buffer) {
+    let ascii = theme.ascii();
     let ([now, end], (words, line)) = (ends(frame), parts(frame, area));
     let place = |cycle: f64| {
         let share = (cycle / end).clamp(0.0, 1.0) * f64::from(line.width);

@@ -8,9 +8,8 @@ use ratatui::layout::Rect;
 use ratatui::text::Line;
 use ratatui::widgets::{Paragraph, Widget, Wrap};
 
-use super::app::App;
 use super::panels::{self, Panel};
-use super::theme::Role;
+use super::theme::{Role, Theme};
 use crate::plot::units::to_ascii;
 
 /// A caption.
@@ -81,7 +80,7 @@ impl Tour {
     }
 
     /// Draws the caption into `area`.
-    pub fn draw(&self, app: &App, area: Rect, buffer: &mut Buffer) {
+    pub fn draw(&self, theme: &Theme, area: Rect, buffer: &mut Buffer) {
         let Some(caption) = self.caption() else {
             return;
         };
@@ -90,13 +89,13 @@ impl Tour {
             self.at + 1,
             captions(&self.origin).len()
         );
-        let inside = panels::titled(&title, Role::Notice, app, area, buffer);
+        let inside = panels::titled(&title, Role::Notice, theme, area, buffer);
         let inside = Rect {
             x: inside.x + 1,
             width: inside.width.saturating_sub(2),
             ..inside
         };
-        let text = if app.theme.ascii() {
+        let text = if theme.ascii() {
             to_ascii(&caption.text).into_owned()
         } else {
             caption.text.clone()

@@ -193,8 +193,8 @@ fn stresses_in_the_half_space_take_few_bytes() {
     let mut counted = Counted::new(size);
     counted.frame("");
     // The cross-section is among the nine panels of this screen, and shows stresses.
-    assert!(counted.app.visible().contains(&Panel::Section));
-    assert!(counted.app.stress_bounds().is_some());
+    assert!(counted.app.stage.visible().contains(&Panel::Section));
+    assert!(counted.app.stress.bounds.is_some());
     let frames = 60;
     let total: usize = (0..frames).map(|_| counted.frame(",..")).sum();
     assert!(total / frames <= 550, "{} bytes a frame", total / frames);

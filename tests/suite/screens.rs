@@ -369,7 +369,7 @@ fn a_lecture_speeds_up_by_itself() {
     let pace = || orders.frame().expect("a worker").pace;
     let mut frame = Frame::clone(&orders.frame().expect("a worker"));
     let mut app = App::new(Theme::new(Look::Dark, Marker::Braille), orders.clone());
-    app.present();
+    app.stage.present();
     let mut rises = |at: f64, cycle: f64, activity: Activity| {
         frame.observation.moment.cycle = cycle;
         frame.pace = Pace::Cycles(at);
@@ -777,17 +777,17 @@ fn every_tour_can_be_walked_to_its_end() {
             stage.press("n");
             // The caption is there, and the panel that it is about has the focus.
             assert_eq!(
-                stage.app.tour.as_ref().and_then(tour::Tour::caption),
+                stage.app.stage.tour.as_ref().and_then(tour::Tour::caption),
                 Some(caption)
             );
-            let panel = caption.panel().unwrap_or(stage.app.focus);
-            assert_eq!(stage.app.focus, panel, "{caption:?}");
+            let panel = caption.panel().unwrap_or(stage.app.stage.focus);
+            assert_eq!(stage.app.stage.focus, panel, "{caption:?}");
             stage.draw(80, 24);
         }
         stage.press("n");
-        assert_eq!(stage.app.tour, None);
+        assert_eq!(stage.app.stage.tour, None);
         stage.press("n<Esc>");
-        assert_eq!(stage.app.tour, None);
+        assert_eq!(stage.app.stage.tour, None);
     }
     let own = preset::find("hertz").expect("a preset").text;
     fs::write(dir.path().join("own.toml"), own).expect("a file");
@@ -851,14 +851,14 @@ fn the_status_line_names_the_method_in_80_columns() {
 fn a_preset_asks_for_a_logarithmic_scale() {
     let mut stage = Stage::new("mild-million", Marker::Braille);
     stage.press(".");
-    assert_eq!(stage.app.scale(Panel::Volume), Scale::Log);
-    assert_eq!(stage.app.scale(Panel::Radii), Scale::Linear);
-    stage.app.focus = Panel::Volume;
+    assert_eq!(stage.app.charts.scale(Panel::Volume), Scale::Log);
+    assert_eq!(stage.app.charts.scale(Panel::Radii), Scale::Linear);
+    stage.app.stage.focus = Panel::Volume;
     stage.press("L,");
-    assert_eq!(stage.app.scale(Panel::Volume), Scale::Linear);
+    assert_eq!(stage.app.charts.scale(Panel::Volume), Scale::Linear);
     let mut other = Stage::new("li2019-fig3", Marker::Braille);
     other.press(".");
-    assert_eq!(other.app.scale(Panel::Volume), Scale::Linear);
+    assert_eq!(other.app.charts.scale(Panel::Volume), Scale::Linear);
 }
 
 /// Before anything has worn, an axis has the unit of what is planned, and keeps it.

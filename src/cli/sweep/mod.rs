@@ -146,7 +146,7 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
     output.begin()?;
     let stop = stop::patient_signal()?;
     let go_on = || !stop.load(Ordering::Relaxed);
-    crate::panics::keep();
+    crate::panics::capture();
     let bar = progress::bar(mine as u64, progress::TIMES, options.quiet);
     bar.set_message(printable(&out.display().to_string()));
     bar.set_position(output.counts().rows as u64);

@@ -81,7 +81,7 @@ impl<F: FnMut(&mut View)> Scene for Shown<'_, F> {
 /// If stdout is not a terminal, or cannot be switched to raw mode.
 pub fn run(view: &mut View, theme: &Theme, renew: impl FnMut(&mut View)) -> Result<Leave> {
     event_loop::require_terminal()?;
-    crate::panics::keep();
+    crate::panics::capture();
     let (events, inbox) = channel();
     let watcher = events.clone();
     thread::spawn(move || {

@@ -72,7 +72,7 @@ pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     }
     let size = (76, lines.len() as u16 + 2);
     let title = "accuracy (Esc closes, Tab explains)";
-    let inside = popup(app, title, size, area, buffer);
+    let inside = popup(&app.theme, title, size, area, buffer);
     Paragraph::new(lines).render(inside, buffer);
 }
 
@@ -105,7 +105,7 @@ pub(super) fn draw_explanations(app: &App, area: Rect, buffer: &mut Buffer) {
     }
     let size = (WIDTH as u16, lines.len() as u16 + 2);
     let inside = popup(
-        app,
+        &app.theme,
         "checks (Esc closes, Tab goes back)",
         size,
         area,

@@ -30,9 +30,9 @@ pub(super) fn press(command: Command, app: &mut App) -> Answer {
 
 /// What the focused panel leaves free above or below it; all where it is zoomed.
 fn beside(app: &App, area: Rect) -> Rect {
-    let places = layout::places(app, area);
-    let focused = places.iter().find(|(panel, _)| *panel == app.focus);
-    let Some((_, place)) = focused.filter(|_| !app.zoomed) else {
+    let places = layout::places(&app.stage, area);
+    let focused = places.iter().find(|(panel, _)| *panel == app.stage.focus);
+    let Some((_, place)) = focused.filter(|_| !app.stage.zoomed) else {
         return area;
     };
     let above = place.y.saturating_sub(area.y);
@@ -53,14 +53,11 @@ fn beside(app: &App, area: Rect) -> Rect {
 
 pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = &app.theme;
-    let is_compared = app
-        .frame
-        .as_ref()
-        .is_some_and(|frame| frame.comparison.is_some());
+    let is_compared = app.compares();
     // In a comparison there are other panels than the focused one.
     let (title, words) = match is_compared {
         true => ("comparison", panels::compare::WORDS),
-        false => (app.focus.title(), app.focus.words()),
+        false => (app.stage.focus.title(), app.stage.focus.words()),
     };
     let spelled = |text: &str| match theme.ascii() {
         true => to_ascii(text).into_owned(),
@@ -76,7 +73,7 @@ pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let origin = app.frame.as_ref().map_or("", |frame| frame.origin.as_str());
     let captions = tour::captions(origin).iter();
     let here: Vec<&str> = captions
-        .filter(|caption| !is_compared && caption.panel() == Some(app.focus))
+        .filter(|caption| !is_compared && caption.panel() == Some(app.stage.focus))
         .map(|caption| caption.text.as_str())
         .collect();
     if !here.is_empty() {
@@ -107,7 +104,7 @@ pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         true => format!("{title} (Esc closes)"),
         false => format!("{title} (Tab: next panel, Esc closes)"),
     };
-    let inside = popup(app, &title, (width, height), place, buffer);
+    let inside = popup(&app.theme, &title, (width, height), place, buffer);
     let inside = Rect {
         x: inside.x + 1,
         width: inside.width.saturating_sub(2),

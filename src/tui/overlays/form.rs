@@ -220,7 +220,7 @@ impl Form {
             }
             _ => "parameters (type or Enter: edit, + -: step, [: undo, Esc: close)".to_owned(),
         };
-        let inside = docked(app, &title, (100, rows + 3), area, buffer);
+        let inside = docked(&app.theme, &title, (100, rows + 3), area, buffer);
         let Some((at, setting, giving)) = seen else {
             return;
         };

@@ -105,7 +105,7 @@ impl Help {
             "keys (arrows, PgUp, PgDn scroll, / searches, Esc closes)"
         };
         let size = (columns as u16 * WIDTH, rows as u16 + 2);
-        let inside = popup(app, title, size, area, buffer);
+        let inside = popup(&app.theme, title, size, area, buffer);
         let first = self.first.min((rows as u16).saturating_sub(inside.height));
         let places = Layout::horizontal(vec![Constraint::Fill(1); columns]).split(inside);
         for (part, place) in lines.chunks(rows.max(1)).zip(places.iter()) {
@@ -127,7 +127,7 @@ impl Help {
         // The box keeps its height while the list gets shorter.
         let height = with_keys().count() as u16 + 3;
         let title = "search the help (Esc ends)";
-        let inside = popup(app, title, (WIDTH, height), area, buffer);
+        let inside = popup(&app.theme, title, (WIDTH, height), area, buffer);
         Paragraph::new(lines).render(inside, buffer);
     }
 }

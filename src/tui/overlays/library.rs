@@ -182,7 +182,7 @@ impl Library {
         let width = names.max().unwrap_or(0);
         let height = self.entries.len() as u16 + WORDS + 2;
         let title = "presets and your own files (Enter starts, Esc closes)";
-        let inside = popup(app, title, (80, height), area, buffer);
+        let inside = popup(&app.theme, title, (80, height), area, buffer);
         let list = Rect {
             height: inside.height.saturating_sub(WORDS),
             ..inside

@@ -12,7 +12,7 @@ use super::frame::Frame;
 use super::keys::{Key, Named};
 use super::line::LineEdit;
 use super::map::live::Live;
-use super::theme::Role;
+use super::theme::{Role, Theme};
 
 mod accuracy;
 mod explain;
@@ -126,7 +126,7 @@ impl Overlay {
             Self::Sweep(live) => live.draw(&app.theme, area, buffer),
             Self::Note(line) => {
                 let title = "snapshot with a note (Enter writes, Esc closes)";
-                let inside = docked(app, title, (100, 3), area, buffer);
+                let inside = docked(&app.theme, title, (100, 3), area, buffer);
                 typing(" ", line, Style::new()).render(inside, buffer);
             }
         }
@@ -170,26 +170,26 @@ fn note(line: &mut LineEdit, key: Key, app: &mut App) -> Answer {
 }
 
 /// A cleared box in the middle of `area`, with a title; returns its inside.
-fn popup(app: &App, title: &str, size: (u16, u16), area: Rect, buffer: &mut Buffer) -> Rect {
+fn popup(theme: &Theme, title: &str, size: (u16, u16), area: Rect, buffer: &mut Buffer) -> Rect {
     let height = size.1.min(area.height);
     let place = Rect {
         y: area.y + (area.height - height) / 2,
         ..area
     };
-    boxed(app, title, (size.0, height), place, buffer)
+    boxed(theme, title, (size.0, height), place, buffer)
 }
 
 /// The same at the lower end of `area`: what lies above can be watched.
-fn docked(app: &App, title: &str, size: (u16, u16), area: Rect, buffer: &mut Buffer) -> Rect {
+fn docked(theme: &Theme, title: &str, size: (u16, u16), area: Rect, buffer: &mut Buffer) -> Rect {
     let height = size.1.min(area.height);
     let place = Rect {
         y: area.bottom() - height,
         ..area
     };
-    boxed(app, title, (size.0, height), place, buffer)
+    boxed(theme, title, (size.0, height), place, buffer)
 }
 
-fn boxed(app: &App, title: &str, size: (u16, u16), area: Rect, buffer: &mut Buffer) -> Rect {
+fn boxed(theme: &Theme, title: &str, size: (u16, u16), area: Rect, buffer: &mut Buffer) -> Rect {
     let width = size.0.min(area.width);
     let place = Rect::new(
         area.x + (area.width - width) / 2,
@@ -199,12 +199,12 @@ fn boxed(app: &App, title: &str, size: (u16, u16), area: Rect, buffer: &mut Buff
     );
     Clear.render(place, buffer);
     let mut block = Block::bordered()
-        .border_style(app.theme.style(Role::Faint))
+        .border_style(theme.style(Role::Faint))
         .title(Span::styled(
             format!(" {title} "),
-            app.theme.style(Role::Title).remove_modifier(Modifier::DIM),
+            theme.style(Role::Title).remove_modifier(Modifier::DIM),
         ));
-    if app.theme.ascii() {
+    if theme.ascii() {
         block = block.border_set(ASCII_BORDER);
     }
     let inside = block.inner(place);

@@ -279,7 +279,7 @@ impl Palette {
         let list = completions(&self.line.text(), app.frame.as_deref());
         let rows = (area.height / 2).clamp(6, 12);
         let title = "commands (Tab completes, Enter runs, Esc closes)";
-        let inside = docked(app, title, (100, rows + 3), area, buffer);
+        let inside = docked(&app.theme, title, (100, rows + 3), area, buffer);
         let [quiet, focus] = [Role::Quiet, Role::Focus].map(|role| app.theme.style(role));
         typing(" :", &self.line, app.theme.style(Role::Title)).render(inside, buffer);
         let at = self.at.min(list.len().saturating_sub(1));

@@ -8,7 +8,7 @@ use ratatui::text::Line;
 
 use super::section::{self, Scale};
 use super::stress_map::{self, SHADES};
-use super::{App, Frame};
+use super::{Frame, Pane};
 use crate::math::scan::largest;
 use crate::plot::units::{format_number, format_value_in};
 use crate::reading::Moment;
@@ -172,12 +172,12 @@ fn centred(buffer: &mut Buffer, area: Rect, row: u16, text: &str, theme: &Theme)
 /// Draws the words on the picture and below it.
 pub fn draw(
     frame: &Frame,
-    app: &App,
+    pane: &Pane,
     [area, below]: [Rect; 2],
     scale: &Scale,
     buffer: &mut Buffer,
 ) {
-    let (moment, theme) = (&frame.observation.moment, &app.theme);
+    let (moment, theme) = (&frame.observation.moment, pane.theme);
     let value = |value, unit| format_value_in(value, unit, 3, theme.ascii());
     if area.height < 5 || area.width < 30 {
         return;
@@ -196,7 +196,7 @@ pub fn draw(
     if below.is_empty() {
         centred(buffer, area, area.y, &forces, theme);
         key(
-            app,
+            pane,
             Rect {
                 y: area.bottom() - 1,
                 height: 1,
@@ -224,7 +224,7 @@ pub fn draw(
         _ => {}
     }
     on(buffer, start, area.y + 1, &forces, theme);
-    radii(frame, app, area, scale, buffer);
+    radii(frame, pane, area, scale, buffer);
     let lines = Layout::vertical([Constraint::Length(1); ROWS as usize]);
     let [first, second] = lines.areas(below);
     let worn = worn(frame, |depth| value(depth, "m"));
@@ -235,12 +235,12 @@ pub fn draw(
         _ => worn.as_str(),
     };
     buffer.set_stringn(first.x + 1, first.y, worn, room, Style::new());
-    key(app, second, true, buffer);
+    key(pane, second, true, buffer);
 }
 
 /// c and a: a short line over the border of each, and its name.
-fn radii(frame: &Frame, app: &App, area: Rect, scale: &Scale, buffer: &mut Buffer) {
-    let (moment, theme) = (&frame.observation.moment, &app.theme);
+fn radii(frame: &Frame, pane: &Pane, area: Rect, scale: &Scale, buffer: &mut Buffer) {
+    let (moment, theme) = (&frame.observation.moment, pane.theme);
     let bar = if theme.ascii() { ":" } else { "┊" };
     let a = Some(moment.contact_radius).filter(|a| *a > 0.0);
     let marks = [("c", sticking(moment)), ("a", a)];
@@ -262,8 +262,8 @@ fn radii(frame: &Frame, app: &App, area: Rect, scale: &Scale, buffer: &mut Buffe
 }
 
 /// What the colours mean: the bodies' on a roomy picture, and the scale of the stress.
-fn key(app: &App, area: Rect, whole: bool, buffer: &mut Buffer) {
-    let (theme, ascii) = (&app.theme, app.theme.ascii());
+fn key(pane: &Pane, area: Rect, whole: bool, buffer: &mut Buffer) {
+    let (theme, ascii) = (pane.theme, pane.theme.ascii());
     let mut parts: Vec<(String, Style)> = Vec::new();
     if whole {
         let swatch = if ascii {
@@ -283,19 +283,19 @@ fn key(app: &App, area: Rect, whole: bool, buffer: &mut Buffer) {
         }
     }
     // Nothing is loaded yet where the scale is that of no stress.
-    if let Some([low, high]) = app.stress_bounds().filter(|bounds| bounds[1] > 1.0) {
+    if let Some([low, high]) = pane.stress.bounds.filter(|bounds| bounds[1] > 1.0) {
         let [low, high] = [low, high].map(|end| format_value_in(end, "Pa", 3, ascii));
-        let over = if app.stress.is_largest_of_cycle() {
+        let over = if pane.stress.is_largest_of_cycle() {
             ", cycle"
         } else {
             ""
         };
         parts.push((
-            format!(" {}{over} {low} ", app.stress.quantity.short()),
+            format!(" {}{over} {low} ", pane.stress.quantity.short()),
             Style::new(),
         ));
         for shade in 0..SHADES {
-            let color = stress_map::color(theme, app.stress.quantity.colors(), shade);
+            let color = stress_map::color(theme, pane.stress.quantity.colors(), shade);
             parts.push(match color.filter(|_| !ascii) {
                 Some(color) => (" ".into(), Style::new().bg(color)),
                 None => (stress_map::sign(shade).into(), Style::new()),

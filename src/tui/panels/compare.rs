@@ -6,7 +6,7 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::Line;
 use ratatui::widgets::Widget;
 
-use super::{App, Frame, clip_spikes, edge, nothing, titled};
+use super::{Frame, clip_spikes, edge, nothing, titled};
 use crate::charts::{A, C, Live, Words, ghosts};
 use crate::math::scan::largest;
 use crate::plot::units::{format_number, format_value_in};
@@ -14,7 +14,7 @@ use crate::plot::{Axis, Chart, Curve, Plot, Scale, nice_bounds};
 use crate::reading::Observation;
 use crate::traces::Axes;
 use crate::tui::frame::Comparison;
-use crate::tui::theme::Role;
+use crate::tui::theme::{Role, Theme};
 
 /// Least width of a column of numbers, cells.
 const COLUMN: usize = 11;
@@ -31,12 +31,19 @@ pub const WORDS: Words = Words {
 };
 
 /// Draws the comparison over the whole area of the panels.
-pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffer: &mut Buffer) {
+pub fn draw(
+    frame: &Frame,
+    comparison: &Comparison,
+    cursor: Option<f64>,
+    theme: &Theme,
+    area: Rect,
+    buffer: &mut Buffer,
+) {
     let [top, bottom] = Layout::vertical([Constraint::Fill(3), Constraint::Fill(2)]).areas(area);
     let [left, right] = Layout::horizontal([Constraint::Fill(1); 2])
         .spacing(1)
         .areas(top);
-    let (seen, other, theme) = (&frame.observation, &comparison.observation, &app.theme);
+    let (seen, other) = (&frame.observation, &comparison.observation);
     let difference: Vec<f64> = differences(other, seen).into_iter().map(f64::abs).collect();
     let rows = rows(frame, comparison, &difference, theme.ascii());
     let cells = rows.iter().flat_map(|(_, here, there)| [here, there]);
@@ -54,9 +61,8 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffe
             .areas(bottom)
     };
     let names = (this_name(frame), comparison.name.as_str());
-    let inside = |title, place, buffer: &mut _| titled(title, Role::Title, app, place, buffer);
+    let inside = |title, place, buffer: &mut _| titled(title, Role::Title, theme, place, buffer);
     let render = |chart: &Chart, place, buffer: &mut _| {
-        let cursor = app.cursor_radius(frame);
         Plot::new(chart, theme).cursor(cursor).render(place, buffer);
     };
     let pair = |there: &[f64], here: &[f64], role| {
@@ -93,7 +99,7 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffe
     if highest == 0.0 {
         let words = ["equal so far", "C: from the start"];
         for (text, row) in words.iter().zip(inside_below.rows()) {
-            nothing(text, app, row, buffer);
+            nothing(text, theme, row, buffer);
         }
     } else {
         // Six decades: what lies below is rounding.

@@ -6,9 +6,9 @@ use ratatui::style::Modifier;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Widget};
 
-use super::app::App;
 use super::frame::Frame;
-use super::theme::Role;
+use super::live_charts::Made;
+use super::theme::{Role, Theme};
 use crate::charts::{self, Recipe, Words};
 use crate::plot::{Chart, Plot, Scale};
 
@@ -20,14 +20,31 @@ mod section;
 mod stress_map;
 
 pub use caption::contact_state;
-pub use stress_map::{SHADES, Shown, color as map_color};
+pub use stress_map::{SHADES, StressMap, color as map_color};
+
+/// How a panel is drawn.
+#[derive(Debug)]
+pub struct Pane<'a> {
+    /// The colours and signs.
+    pub theme: &'a Theme,
+    /// Whether it has the focus.
+    pub has_focus: bool,
+    /// The bounds that its ordinate holds.
+    pub bounds: Option<[f64; 2]>,
+    /// The radius under the cursor, m.
+    pub cursor: Option<f64>,
+    /// The stress in the half-space.
+    pub stress: StressMap,
+    /// The frame of what moves more calmly than the rest.
+    pub calm: &'a Frame,
+}
 
 /// A panel that no chart can be.
 pub struct Picture {
     /// Its names and needs.
     recipe: Recipe,
     /// Draws a frame.
-    draw: fn(&Frame, &App, Rect, &mut Buffer),
+    draw: fn(&Frame, &Pane, Rect, &mut Buffer),
     /// The values that it must hold.
     extent: fn(&Frame) -> Option<[f64; 2]>,
 }
@@ -111,50 +128,44 @@ impl Panel {
         }
     }
 
-    /// Draws the panel.
-    pub fn draw(self, frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
-        let (recipe, frame) = (self.recipe(), app.frame_of(self, frame));
-        let role = if app.focus == self {
-            Role::Focus
-        } else {
-            Role::Title
+    /// Draws the panel: its picture, or its chart.
+    pub fn draw(self, frame: &Frame, chart: &Made, pane: &Pane, area: Rect, buffer: &mut Buffer) {
+        let (recipe, theme) = (self.recipe(), pane.theme);
+        let role = match pane.has_focus {
+            true => Role::Focus,
+            false => Role::Title,
         };
         if let Some(picture) = self.picture() {
             let title = match self {
-                Self::Section => section::title(frame, app, area),
+                Self::Section => section::title(frame, pane, area),
                 _ => recipe.title.to_owned(),
             };
-            let inner = titled(&title, role, app, area, buffer);
-            return (picture.draw)(frame, app, inner, buffer);
+            let inner = titled(&title, role, theme, area, buffer);
+            return (picture.draw)(frame, pane, inner, buffer);
         }
-        match &*app.chart(self, frame) {
+        match chart {
             Ok(chart) => {
-                let inner = titled(&chart.title, role, app, area, buffer);
-                let cursor = app.cursor_radius(frame).filter(|_| recipe.over_r);
-                Plot::new(chart, &app.theme)
-                    .cursor(cursor)
-                    .render(inner, buffer);
+                let inner = titled(&chart.title, role, theme, area, buffer);
+                let cursor = pane.cursor.filter(|_| recipe.over_r);
+                Plot::new(chart, theme).cursor(cursor).render(inner, buffer);
             }
             Err(why) => {
-                let inner = titled(recipe.title, role, app, area, buffer);
-                nothing(why, app, inner, buffer);
+                let inner = titled(recipe.title, role, theme, area, buffer);
+                nothing(why, theme, inner, buffer);
             }
         }
     }
 
     /// The radius under a place of the screen, m, where the panel in `area` has a chart over r there.
-    pub fn radius_at(self, frame: &Frame, app: &App, area: Rect, at: Position) -> Option<f64> {
-        if !self.recipe().over_r {
-            return None;
-        }
+    pub fn radius_at(self, chart: &Made, theme: &Theme, area: Rect, at: Position) -> Option<f64> {
+        let chart = chart.as_ref().ok().filter(|_| self.recipe().over_r)?;
         // The first row is the title's.
         let inner = Rect {
             y: area.y.saturating_add(1),
             height: area.height.saturating_sub(1),
             ..area
         };
-        let chart = app.chart(self, frame);
-        Plot::new(chart.as_ref().as_ref().ok()?, &app.theme).abscissa_at(inner, at)
+        Plot::new(chart, theme).abscissa_at(inner, at)
     }
 }
 
@@ -202,8 +213,13 @@ fn clip_spikes(values: &mut [f64]) {
 }
 
 /// A rule with a title; returns what is below it.
-pub(super) fn titled(title: &str, role: Role, app: &App, area: Rect, buffer: &mut Buffer) -> Rect {
-    let theme = &app.theme;
+pub(super) fn titled(
+    title: &str,
+    role: Role,
+    theme: &Theme,
+    area: Rect,
+    buffer: &mut Buffer,
+) -> Rect {
     // The rule is dim; its title is not.
     let style = theme.style(role).remove_modifier(Modifier::DIM);
     let title = format!(" {} ", theme.printable(title));
@@ -224,8 +240,8 @@ pub(super) fn titled(title: &str, role: Role, app: &App, area: Rect, buffer: &mu
 }
 
 /// Writes a message in a panel that has nothing to plot.
-fn nothing(text: &str, app: &App, area: Rect, buffer: &mut Buffer) {
-    Line::styled(format!(" {text}"), app.theme.style(Role::Quiet)).render(area, buffer);
+fn nothing(text: &str, theme: &Theme, area: Rect, buffer: &mut Buffer) {
+    Line::styled(format!(" {text}"), theme.style(Role::Quiet)).render(area, buffer);
 }
 
 /// The radius of the outermost node, m.

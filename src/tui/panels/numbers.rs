@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
-use super::{App, Frame, Picture, Recipe, Words};
+use super::{Frame, Pane, Picture, Recipe, Words};
 use crate::plot::units::{format_number, format_value};
 use crate::tui::theme::Role;
 
@@ -36,9 +36,9 @@ pub static PICTURE: Picture = Picture {
     extent: |_| None,
 };
 
-fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
+fn draw(frame: &Frame, pane: &Pane, area: Rect, buffer: &mut Buffer) {
     let rows = rows(frame).into_iter();
-    let rows = rows.map(|row| [row.0, &row.1].map(|text| app.theme.printable(text)));
+    let rows = rows.map(|row| [row.0, &row.1].map(|text| pane.theme.printable(text)));
     let columns = (area.width / 30).clamp(1, 2);
     let width = area.width / columns;
     for (i, [name, value]) in rows.enumerate() {
@@ -57,7 +57,7 @@ fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
         let line = Line::from(vec![
             Span::styled(
                 format!(" {name} {}", " ".repeat(pad)),
-                app.theme.style(Role::Quiet),
+                pane.theme.style(Role::Quiet),
             ),
             Span::raw(value),
         ]);

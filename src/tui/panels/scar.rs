@@ -15,7 +15,7 @@ use ratatui::style::{Color, Style};
 use ratatui::text::Line;
 
 use super::stress_map::{self, SHADES};
-use super::{App, Frame, Panel, Picture, Recipe, Words, nothing};
+use super::{Frame, Pane, Picture, Recipe, Words, nothing};
 use crate::math::grid::interpolate;
 use crate::math::scan::largest;
 use crate::plot::colormap::ColorMap;
@@ -78,13 +78,13 @@ fn depths(frame: &Frame) -> Option<[f64; 2]> {
     (deepest > 0.0).then_some([0.0, deepest])
 }
 
-fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
+fn draw(frame: &Frame, pane: &Pane, area: Rect, buffer: &mut Buffer) {
     let seen = &frame.observation;
     let Some(&edge) = seen.radii.last().filter(|_| !seen.wear.is_empty()) else {
         return;
     };
     if area.height < 4 || area.width < 12 {
-        return nothing("too small for the scar", app, area, buffer);
+        return nothing("too small for the scar", pane.theme, area, buffer);
     }
     let lines = if area.width < ONE_LINE && area.height >= TWO_LINES {
         2
@@ -95,7 +95,7 @@ fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
         height: area.height - lines,
         ..area
     };
-    let deepest = app.bounds(Panel::Scar).map_or(0.0, |[_, high]| high);
+    let deepest = pane.bounds.map_or(0.0, |[_, high]| high);
     let deepest = match deepest.max(largest(&seen.wear)) {
         0.0 => frame.expected_wear,
         deepest => deepest,
@@ -109,12 +109,12 @@ fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
         for column in 0..disc.width {
             let [upper, lower] = [2 * row, 2 * row + 1].map(|half| {
                 let place = Place::at(frame, x(column), y(half));
-                (place, color(place, deepest, app))
+                (place, color(place, deepest, pane))
             });
             let Some(cell) = buffer.cell_mut((disc.x + column, disc.y + row)) else {
                 continue;
             };
-            if app.theme.ascii() || !app.theme.colored() {
+            if pane.theme.ascii() || !pane.theme.colored() {
                 cell.set_char(sign(upper.0, deepest));
                 continue;
             }
@@ -132,18 +132,18 @@ fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
             }
         }
     }
-    legend(frame, app, area, size, deepest, buffer);
+    legend(frame, pane, area, size, deepest, buffer);
 }
 
-fn color(place: Place, deepest: f64, app: &App) -> Option<Color> {
-    let style = |role| app.theme.style(role).fg;
+fn color(place: Place, deepest: f64, pane: &Pane) -> Option<Color> {
+    let style = |role| pane.theme.style(role).fg;
     match place {
         Place::Blank => None,
         Place::Zone(Zone::Stick) => style(Role::Stick),
         Place::Zone(Zone::Slip) => style(Role::Slip),
         Place::Zone(Zone::Open) => style(Role::Open),
         Place::Worn(depth) => {
-            stress_map::color(&app.theme, ColorMap::Sequential, shade(depth, deepest))
+            stress_map::color(pane.theme, ColorMap::Sequential, shade(depth, deepest))
         }
     }
 }
@@ -178,8 +178,8 @@ fn slip_direction(frame: &Frame) -> Option<f64> {
 }
 
 /// The scale bar, the direction of slip, and the scale of the depth, as far as there is room.
-fn legend(frame: &Frame, app: &App, area: Rect, size: f64, deepest: f64, buffer: &mut Buffer) {
-    let ascii = app.theme.ascii();
+fn legend(frame: &Frame, pane: &Pane, area: Rect, size: f64, deepest: f64, buffer: &mut Buffer) {
+    let ascii = pane.theme.ascii();
     let value = |value, unit| format_value_in(value, unit, 3, ascii);
     // A round length near a fifth of the disc.
     let decade = 10f64.powf((10.0 * size).log10().floor());
@@ -226,7 +226,7 @@ fn legend(frame: &Frame, app: &App, area: Rect, size: f64, deepest: f64, buffer:
     x += before.len() as u16;
     for shade in 0..SHADES {
         if let Some(cell) = buffer.cell_mut((x, y)) {
-            match stress_map::color(&app.theme, ColorMap::Sequential, shade).filter(|_| !ascii) {
+            match stress_map::color(pane.theme, ColorMap::Sequential, shade).filter(|_| !ascii) {
                 Some(color) => cell.set_char('█').set_fg(color),
                 None => cell.set_char(stress_map::sign(shade)),
             };

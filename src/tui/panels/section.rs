@@ -20,7 +20,7 @@ use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier, Style};
 
 use super::stress_map::{self, Samples};
-use super::{App, Frame, Panel, Picture, Recipe, Words, caption, edge};
+use super::{Frame, Pane, Panel, Picture, Recipe, Words, caption, edge};
 use crate::charts::magnification;
 use crate::math::grid::interpolate;
 use crate::math::scan::largest;
@@ -213,9 +213,9 @@ pub(super) struct Scale {
 
 impl Scale {
     /// The scale of the picture in `area`; `None` where there is nothing to draw.
-    fn of(frame: &Frame, app: &App, area: Rect) -> Option<Self> {
+    fn of(frame: &Frame, pane: &Pane, area: Rect) -> Option<Self> {
         let seen = &frame.observation;
-        let ([low, high], &edge) = (app.bounds(Panel::Section)?, seen.radii.last()?);
+        let ([low, high], &edge) = (pane.bounds?, seen.radii.last()?);
         if seen.depression.is_empty() || area.is_empty() {
             return None;
         }
@@ -292,36 +292,36 @@ fn amplitude(frame: &Frame) -> f64 {
 }
 
 /// The title, with what is magnified.
-pub fn title(frame: &Frame, app: &App, area: Rect) -> String {
+pub fn title(frame: &Frame, pane: &Pane, area: Rect) -> String {
     let below = Rect {
         height: area.height.saturating_sub(1),
         ..area
     };
     let room = usize::from(area.width.saturating_sub(4));
-    Scale::of(frame, app, caption::beside(below)[0]).map_or_else(
+    Scale::of(frame, pane, caption::beside(below)[0]).map_or_else(
         || Panel::Section.title().to_owned(),
-        |scale| scale.title(app.theme.ascii(), room),
+        |scale| scale.title(pane.theme.ascii(), room),
     )
 }
 
-fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
+fn draw(frame: &Frame, pane: &Pane, area: Rect, buffer: &mut Buffer) {
     let [area, below] = caption::beside(area);
-    let Some(scale) = Scale::of(frame, app, area) else {
+    let Some(scale) = Scale::of(frame, pane, area) else {
         return;
     };
     // The bodies move with every frame, the stress below changes more calmly.
-    let calm = app.calm(frame);
+    let calm = pane.calm;
     let (columns, rows) = (usize::from(area.width), 2 * usize::from(area.height));
-    let samples = Samples::new(app.stress, calm, columns, rows, scale.width);
+    let samples = Samples::new(pane.stress, calm, columns, rows, scale.width);
     let picture = Canvas {
-        theme: &app.theme,
+        theme: pane.theme,
         half: scale.half,
         thick: scale.half * if area.height >= LARGE { 2.0 } else { 1.0 },
         high: scale.high,
         tall: scale.high - Cut::at(frame, &scale, 0.0).surface,
-        slip: glow(&app.theme),
-        map: samples.zip(app.stress_bounds()),
-        colors: app.stress.quantity.colors(),
+        slip: glow(pane.theme),
+        map: samples.zip(pane.stress.bounds),
+        colors: pane.stress.quantity.colors(),
     };
     for column in 0..area.width {
         let cut = Cut::at(frame, &scale, place(area, &scale, column));
@@ -334,9 +334,9 @@ fn draw(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
         }
     }
     if area.height >= LARGE {
-        lines(frame, app, area, &scale, buffer);
+        lines(frame, pane, area, &scale, buffer);
     }
-    caption::draw(frame, app, [area, below], &scale, buffer);
+    caption::draw(frame, pane, [area, below], &scale, buffer);
 }
 
 /// The middle of a column along the motion, m.
@@ -362,14 +362,15 @@ pub(super) fn rows_above(frame: &Frame, area: Rect, scale: &Scale, x: f64) -> Op
 }
 
 /// Lines on both bodies: those of the indenter move with it, those of the half-space with its surface.
-fn lines(frame: &Frame, app: &App, area: Rect, scale: &Scale, buffer: &mut Buffer) {
+fn lines(frame: &Frame, pane: &Pane, area: Rect, scale: &Scale, buffer: &mut Buffer) {
     let seen = &frame.observation;
-    if scale.motion == 0.0 || seen.surface.is_empty() || !app.theme.colored() || app.theme.ascii() {
+    if scale.motion == 0.0 || seen.surface.is_empty() || !pane.theme.colored() || pane.theme.ascii()
+    {
         return;
     }
     let a = seen.moment.contact_radius;
     let apart = (f64::from(area.width) / 14.0).max(5.0).floor() * scale.width;
-    let ink = caption::ink(&app.theme);
+    let ink = caption::ink(pane.theme);
     for k in -7..=7 {
         let x = f64::from(k) * apart;
         if x.abs() >= a {

@@ -6,6 +6,7 @@ use ratatui::style::Color;
 
 use super::Frame;
 use crate::plot::colormap::ColorMap;
+use crate::plot::sticky_bounds;
 use crate::reading::fatigue::StressCycle;
 use crate::reading::subsurface::{SpringLoad, Stress};
 use crate::tui::theme::{Depth, Look, Theme};
@@ -99,15 +100,36 @@ impl Quantity {
 type Values = Box<dyn Fn(f64, f64) -> [f64; 2]>;
 
 /// What the half-space shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Shown {
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct StressMap {
     /// Which stress.
     pub quantity: Quantity,
     /// Its largest value in the last cycle instead of the present one.
     pub over_cycle: bool,
+    /// The range of the colours, Pa; `None` where nothing is shown.
+    pub bounds: Option<[f64; 2]>,
 }
 
-impl Shown {
+impl StressMap {
+    /// Shows the next stress.
+    pub fn next(&mut self) {
+        (self.quantity, self.bounds) = (self.quantity.next(), None);
+    }
+
+    /// Shows the largest stress of a cycle, or that of the moment.
+    pub fn toggle_cycle(&mut self) {
+        (self.over_cycle, self.bounds) = (!self.over_cycle, None);
+    }
+
+    /// The colours follow the stress as the scales of the plots follow their data.
+    pub fn follow(&mut self, frame: &Frame) {
+        let colors = self.quantity.colors();
+        self.bounds = self.extent(frame).map(|extent| {
+            let [low, high] = colors.range(extent);
+            colors.range(sticky_bounds(self.bounds, low, high))
+        });
+    }
+
     /// Whether the map is the largest value of a cycle of what each moment has.
     pub fn is_largest_of_cycle(self) -> bool {
         self.over_cycle && self.quantity != Quantity::Swt
@@ -152,7 +174,7 @@ impl Shown {
 
     /// What the colours must reach, Pa: the largest present value, and for signed stresses that of the
     /// other sign on the axis.
-    pub fn extent(self, frame: &Frame) -> Option<[f64; 2]> {
+    fn extent(self, frame: &Frame) -> Option<[f64; 2]> {
         let load = frame.load.as_deref()?;
         match self.quantity {
             Quantity::Off => return None,
@@ -186,7 +208,7 @@ pub struct Samples {
 impl Samples {
     /// Computes them; `None` without contact, or if nothing is to be shown.
     pub fn new(
-        shown: Shown,
+        shown: StressMap,
         frame: &Frame,
         columns: usize,
         rows: usize,

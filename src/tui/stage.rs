@@ -1,0 +1,210 @@
+//! Which panels are on the screen, and how large: the focus and its page, one panel zoomed, the contact, a projector's
+//! two, or those that a tour leads to.
+
+use ratatui::layout::Rect;
+
+use super::layout;
+use super::panels::Panel;
+use super::present;
+use super::tour::Tour;
+
+/// Columns from which on the contact is what a new user sees first, and rows from which on a tour shows it large.
+const CONTACT_FROM: u16 = 100;
+const CONTACT_ROWS: u16 = 22;
+
+/// The panels' stage.
+#[derive(Debug)]
+pub struct Stage {
+    /// The panel with the focus.
+    pub focus: Panel,
+    /// Whether the focused panel is zoomed.
+    pub zoomed: bool,
+    /// The panel that had the focus before the contact was shown large.
+    before_contact: Option<Panel>,
+    /// Whether the contact and one chart are shown for a projector.
+    pub presents: bool,
+    /// The tour under way, if there is one.
+    pub tour: Option<Tour>,
+    /// The panel that had the focus before the tour.
+    before_tour: Panel,
+    /// The whole terminal.
+    pub area: Rect,
+    /// Whether the last click has zoomed, or the opposite.
+    click_has_zoomed: bool,
+}
+
+impl Default for Stage {
+    fn default() -> Self {
+        Self {
+            focus: Panel::Profile,
+            zoomed: false,
+            before_contact: None,
+            presents: false,
+            tour: None,
+            before_tour: Panel::Profile,
+            area: Rect::new(0, 0, 80, 24),
+            click_has_zoomed: false,
+        }
+    }
+}
+
+impl Stage {
+    /// The panels on the screen.
+    pub fn visible(&self) -> Vec<Panel> {
+        if self.presents {
+            vec![Panel::Section, self.presented()]
+        } else if self.zoomed {
+            vec![self.focus]
+        } else {
+            self.page(self.room()).to_vec()
+        }
+    }
+
+    /// How many panels the terminal has room for.
+    fn room(&self) -> usize {
+        layout::room(self.area.width, self.area.height)
+    }
+
+    /// The panels beside the focused one where `room` of them fit.
+    pub fn page(&self, room: usize) -> &'static [Panel] {
+        let at = self.focus.index() / room.max(1) * room;
+        &Panel::ALL[at..(at + room).min(Panel::ALL.len())]
+    }
+
+    /// The first panel of the next page gets the focus.
+    pub fn turn_page(&mut self) {
+        let room = self.room().max(1);
+        let next = (self.focus.index() / room + 1) * room;
+        self.focus = Panel::ALL.get(next).copied().unwrap_or(Panel::ALL[0]);
+    }
+
+    /// The panel this many places on gets the focus.
+    pub fn shift_focus(&mut self, places: isize) {
+        self.focus = self.focus.shifted(places);
+    }
+
+    /// A click on a panel gives it the focus, or else zooms unless it has `moved` the cursor; the second one of a
+    /// double click zooms unless the first has.
+    pub fn click(&mut self, panel: Panel, is_second: bool, moved: bool) {
+        if is_second {
+            self.zoomed ^= !self.click_has_zoomed;
+        } else {
+            let was_focused = std::mem::replace(&mut self.focus, panel) == panel;
+            self.click_has_zoomed = was_focused && !moved;
+            self.zoomed ^= self.click_has_zoomed;
+        }
+    }
+
+    /// Leaves the tour, the contact, or the zoomed panel.
+    pub fn go_back(&mut self) {
+        if self.tour.take().is_some() {
+            self.return_from_tour();
+        } else if self.shows_contact() {
+            self.leave_contact();
+        } else {
+            self.zoomed = false;
+        }
+    }
+
+    /// Zooms the focused panel, or shows all panels.
+    pub fn toggle_zoom(&mut self) {
+        match self.shows_contact() {
+            true => self.leave_contact(),
+            false => self.zoomed = !self.zoomed,
+        }
+    }
+
+    /// Shows the contact large, or all panels.
+    pub fn toggle_contact(&mut self) {
+        match self.shows_contact() {
+            true => self.leave_contact(),
+            false => self.show_contact(),
+        }
+    }
+
+    /// Whether the contact is shown large: the cross-section alone.
+    pub fn shows_contact(&self) -> bool {
+        self.presents || self.zoomed && self.focus == Panel::Section
+    }
+
+    /// Shows the contact itself, large.
+    fn show_contact(&mut self) {
+        self.before_contact = Some(std::mem::replace(&mut self.focus, Panel::Section));
+        self.zoomed = true;
+    }
+
+    /// All panels again, and the focus where it was before.
+    fn leave_contact(&mut self) {
+        (self.zoomed, self.presents) = (false, false);
+        self.focus = self.before_contact.take().unwrap_or(self.focus);
+    }
+
+    /// Shows the contact and one chart for a projector.
+    pub fn present(&mut self) {
+        self.presents = true;
+        self.focus = present::CHART;
+    }
+
+    /// The chart beside the contact.
+    pub fn presented(&self) -> Panel {
+        match self.focus {
+            Panel::Section => present::CHART,
+            panel => panel,
+        }
+    }
+
+    /// Shows a new user the contact where there is room for it, and begins the tour of the default preset.
+    pub fn welcome(&mut self, origin: &str) {
+        if origin == super::FIRST {
+            self.begin_tour(origin);
+        } else if self.area.width >= CONTACT_FROM {
+            self.show_contact();
+        }
+    }
+
+    /// Begins the tour of the scenario, whatever is on the screen.
+    fn begin_tour(&mut self, origin: &str) {
+        self.tour = Tour::of(origin);
+        self.before_tour = self.focus;
+        self.follow_tour();
+    }
+
+    /// Begins the tour of the scenario `origin`, or shows its next caption; returns a notice where there is none.
+    pub fn continue_tour(&mut self, origin: &str) -> Option<&'static str> {
+        if let Some(tour) = self.tour.take() {
+            self.tour = tour.next();
+            if self.tour.is_none() {
+                self.return_from_tour();
+                return Some("end of the tour; Enter explains a panel, p has more presets");
+            }
+            self.follow_tour();
+        } else {
+            self.begin_tour(origin);
+        }
+        let is_none = self.tour.is_none();
+        is_none.then_some("only presets have tours; p lists them")
+    }
+
+    /// A contact that is shown large stays, and leads back to where the tour began.
+    fn return_from_tour(&mut self) {
+        match self.shows_contact() {
+            true => self.before_contact = Some(self.before_tour),
+            false => self.focus = self.before_tour,
+        }
+    }
+
+    /// The panel that the caption is about gets the focus; the contact is shown large where there is room.
+    fn follow_tour(&mut self) {
+        let caption = self.tour.as_ref().and_then(Tour::caption);
+        let Some(panel) = caption.and_then(|caption| caption.panel()) else {
+            return;
+        };
+        if self.shows_contact() {
+            self.leave_contact();
+        }
+        match panel {
+            Panel::Section if self.area.height >= CONTACT_ROWS => self.show_contact(),
+            panel => self.focus = panel,
+        }
+    }
+}

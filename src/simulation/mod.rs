@@ -179,7 +179,6 @@ struct Scratch {
     increment: Increment,
     /// A contact between the ends of a step.
     moment: contact::Contact,
-    stages: step::Stages,
     /// Transforms computed since they were last counted.
     transforms: u64,
 }
@@ -190,7 +189,6 @@ impl Scratch {
             g: vec![0.0; model.nodes()],
             increment: Increment::new(model),
             moment: contact::Contact::new(model.nodes(), model.springs()),
-            stages: step::Stages::default(),
             transforms: 0,
         }
     }

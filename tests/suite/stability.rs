@@ -103,19 +103,6 @@ fn parts_of_harsh_steps_end_where_fine_steps_do() {
     }
 }
 
-/// What has worn until it bears next to nothing slips all the way, z in the tens: such steps go whole.
-#[test]
-fn stiff_steps_that_change_nothing_are_taken_whole() {
-    let mut run = run_setup(fig3(100.0, 200), 10.0);
-    let before = run.state().stats;
-    run.advance_to(11.0).expect("a cycle");
-    let after = run.state().stats;
-    // In parts the cycle would take 1500 of them, and 6300 transforms.
-    assert!(after.parts - before.parts < 40, "{after:?}");
-    let transforms = after.transforms - before.transforms;
-    assert!(transforms < 2000, "{transforms}");
-}
-
 #[test]
 fn mild_wear_is_the_same_to_the_last_bit_with_and_without_the_guard() {
     for scheme in Scheme::ALL {

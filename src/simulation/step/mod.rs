@@ -12,8 +12,8 @@
 //! last: nothing is allocated, and a failed step changes nothing.
 //!
 //! [`euler`] and [`trapezoid`] choose the profile for the contact and the stress for the wear.
-//! [`substep`] takes their steps, in parts where they are too stiff, or in the stages of [`stabilised`]; [`cycle_jump`] takes
-//! many cycles at once, by the wear of a [steady-state cycle](steady_cycle).
+//! [`substep`] takes their steps, in parts where they are too stiff; [`cycle_jump`] takes many cycles at once, by the
+//! wear of a [steady-state cycle](steady_cycle).
 
 use super::breakdown::Cause;
 use super::choices::Scheme;
@@ -26,13 +26,11 @@ use crate::math::vector::{vectorized, write_each};
 
 mod cycle_jump;
 mod euler;
-mod stabilised;
 mod steady_cycle;
 mod substep;
 mod trapezoid;
 
 pub(super) use cycle_jump::{Jumped, is_possible, jump};
-pub(super) use stabilised::Stages;
 
 /// A worn depth of this many times the largest depth of indentation cannot come from contact.
 const RUNAWAY: f64 = 10.0;

@@ -1,8 +1,8 @@
 //! Takes a step of either scheme, in sub-steps where it is too stiff for it.
 //!
-//! A step is tried, and its stiffness is known before its wear is accepted. If that is too large, the step is taken
-//! whole in [stages](super::stabilised) where that does; elsewhere it is split into sub-steps just short enough, which
-//! grow again as the wear allows. Other steps are taken exactly as without the guard.
+//! A step is tried, and its stiffness is known before its wear is accepted. If that is too large, the step is split
+//! into sub-steps just short enough, which grow again as the wear allows. Other steps are taken exactly as without the
+//! guard.
 //!
 //! # Slip instabilities
 //!
@@ -18,7 +18,7 @@ use super::super::choices::{Scheme, Stability};
 use super::super::model::Model;
 use super::super::state::State;
 use super::super::{Scratch, contact};
-use super::{accept, euler, stabilised, trapezoid, wear};
+use super::{accept, euler, trapezoid, wear};
 
 /// By how much a sub-step may be longer than the one before it.
 const GROWTH: f64 = 1.5;
@@ -39,8 +39,6 @@ pub(super) struct Bounds {
 enum Outcome {
     /// Accepted, at this stiffness.
     Done(f64),
-    /// Accepted, and its stiffness did not matter.
-    Stabilised,
     /// Not accepted, for this stiffness.
     TooStiff(f64),
 }
@@ -100,10 +98,6 @@ pub(super) fn step(
                 part = (part * aim / stiffness).max(SMALLEST);
                 continue;
             }
-            Outcome::Stabilised => {
-                stiffest = stiffest.max(aim);
-                GROWTH
-            }
             Outcome::Done(stiffness) => {
                 stiffest = stiffest.max(stiffness);
                 (aim / stiffness).clamp(1.0, GROWTH)
@@ -143,20 +137,11 @@ fn attempt(
     contact::solve(model, &scratch.g, &state.contact, cycle, contact, slip)?;
     wear(model, state, next, scratch, cycle);
     let stiffness = scratch.increment.stiffness(model, model.seconds(duration));
-    let mut outcome = Outcome::Done(stiffness);
     match part {
-        Part::Guarded { stiff } if stiffness > stiff => {
-            // Stages integrate the mean of a step's stresses.
-            let in_stages = scheme == Scheme::Trapezoid
-                && stabilised::step(model, state, next, scratch, cycle, stiffness);
-            if !in_stages {
-                return Ok(Outcome::TooStiff(stiffness));
-            }
-            outcome = Outcome::Stabilised;
-        }
+        Part::Guarded { stiff } if stiffness > stiff => return Ok(Outcome::TooStiff(stiffness)),
         Part::Guarded { .. } | Part::Raw => {}
         Part::Unstable => scratch.increment.damp(model),
     }
     accept(model, state, next, scratch, cycle)?;
-    Ok(outcome)
+    Ok(Outcome::Done(stiffness))
 }

@@ -20,8 +20,7 @@
 //! # Stability
 //!
 //! At the [stiffness](super::super::wear::Increment::stiffness) z, steps stay clean up to z = 0.7. One beyond is
-//! taken whole in [stages](super::stabilised) where it is stiff and hardly changes anything, and in
-//! [sub-steps](super::substep) elsewhere.
+//! taken in [sub-steps](super::substep).
 //!
 //! - **Order**: second. Fig. 3 shows 1.9 to 2.0 from 25 to 400 steps per cycle at K = 0.3, and from 50 to 400
 //!   at K = 1: with longer steps wear next to the border is stiff, z near 1. Turning points cut steps at
@@ -71,12 +70,16 @@ pub(super) fn wear(
     let increment = &mut scratch.increment;
     increment.rub(model, contacts);
     if model.setup.wear.is_some() {
-        tractions(model, state, next, scratch);
-        let slips_from = mean_shear(model, state, next, scratch);
-        let seconds = model.seconds(cycle - state.cycle);
-        let increment = &mut scratch.increment;
-        increment.wear(model, seconds);
-        if slips_from == 0 || state.settled_stick_radius == Some(0.0) {
+        let states = &next.contact.spring_state;
+        let stuck = leading(states, |&spring| spring == SpringState::Stick);
+        let zone = outer_slip_zone(states);
+        traction::of(model, &next.contact, &mut next.traction);
+        increment.find_sliding(model, &state.traction, &next.contact, stuck);
+        scratch.transforms += 3;
+        let friction = model.setup.material.friction();
+        increment.mean_shear(friction, &state.traction, &next.traction, zone);
+        increment.wear(model, model.seconds(cycle - state.cycle));
+        if zone.0 == 0 || state.settled_stick_radius == Some(0.0) {
             increment.balance_edge(model, next.contact.normal.nodes);
         }
         let exponent = model.setup.wear.map_or(1.0, |law| law.slip_rate_exponent());
@@ -87,31 +90,4 @@ pub(super) fn wear(
             worn.iter_mut().for_each(|worn| *worn *= uneven);
         }
     }
-}
-
-/// p and τ at the end of the step, and the slip of the surface in it.
-pub(super) fn tractions(model: &Model, state: &State, next: &mut State, scratch: &mut Scratch) {
-    let contact = &next.contact;
-    let stuck = leading(&contact.spring_state, |&spring| {
-        spring == SpringState::Stick
-    });
-    traction::of(model, contact, &mut next.traction);
-    let increment = &mut scratch.increment;
-    increment.find_sliding(model, &state.traction, contact, stuck);
-    scratch.transforms += 3;
-}
-
-/// The stress by which the step wears; returns the first node of the outermost slip zone.
-pub(super) fn mean_shear(
-    model: &Model,
-    state: &State,
-    next: &State,
-    scratch: &mut Scratch,
-) -> usize {
-    let zone = outer_slip_zone(&next.contact.spring_state);
-    let friction = model.setup.material.friction();
-    scratch
-        .increment
-        .mean_shear(friction, &state.traction, &next.traction, zone);
-    zone.0
 }

@@ -28,7 +28,12 @@ const SHIFT: [f64; 2] = [0.6, 1.2];
 
 fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
     let live = run.live.as_ref().filter(|live| live.moves());
-    let mut loops: Vec<&Loop> = live.ok_or(NO_MOTION)?.log.iter().collect();
+    let mut loops: Vec<&Loop> = live
+        .ok_or(NO_MOTION)?
+        .log
+        .iter()
+        .map(AsRef::as_ref)
+        .collect();
     if loops.len() > MOST {
         let every = loops.len().div_ceil(MOST);
         let last = loops.len() - 1;

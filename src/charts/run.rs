@@ -49,8 +49,8 @@ impl Loop {
         })
     }
 
-    /// The last cycle of a simulation.
-    fn of_rows(end: f64, rows: &[[f64; 4]]) -> Self {
+    /// From steps: cycle, u_x⁽⁰⁾, F_x and the displacement of the actuator.
+    pub fn of_rows(end: f64, rows: &[[f64; 4]]) -> Self {
         let column = |k: usize| rows.iter().map(|row| row[k]).collect();
         Self {
             end,
@@ -81,7 +81,7 @@ pub struct Live {
     /// The amplitude of u_x from which the present profile slips as a whole, m, where it is known.
     pub slip_border: Option<f64>,
     /// Loops of earlier cycles, oldest first.
-    pub log: Vec<Loop>,
+    pub log: Vec<Arc<Loop>>,
 }
 
 impl Live {

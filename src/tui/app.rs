@@ -148,11 +148,13 @@ impl App {
 
     /// Takes a new frame.
     pub fn take_frame(&mut self, frame: Arc<Frame>) {
-        let before = self.frame.as_ref().map(|shown| shown.origin.as_str());
+        let before = self.frame.as_ref().map(|shown| shown.facts.origin.as_str());
         self.charts
-            .begin(&frame.origin, before != Some(&frame.origin));
+            .begin(&frame.facts.origin, before != Some(&frame.facts.origin));
         // Another scenario has another tour.
-        self.stage.tour.take_if(|tour| !tour.is_of(&frame.origin));
+        self.stage
+            .tour
+            .take_if(|tour| !tour.is_of(&frame.facts.origin));
         self.stress.follow(&frame);
         self.calm.take(&frame, self.stage.shows_contact());
         if self.speed_up.is_due(&frame, self.stage.presents) {
@@ -256,8 +258,8 @@ impl App {
 
     /// Opens the words of a key.
     pub(super) fn list_words(&mut self, path: &'static str) {
-        let settings = self.frame.as_ref().map(|frame| Arc::clone(&frame.settings));
-        let mut known = settings.iter().flat_map(|settings| settings.iter());
+        let known = self.frame.iter();
+        let mut known = known.flat_map(|frame| &frame.facts.settings);
         if known.any(|setting| setting.parameter.path == path) {
             self.overlay = Overlay::Form(Form::choosing(path));
         } else {
@@ -268,7 +270,7 @@ impl App {
     /// Begins the tour, or shows its next caption.
     pub(super) fn continue_tour(&mut self) {
         if let Some(frame) = &self.frame {
-            let notice = self.stage.continue_tour(&frame.origin);
+            let notice = self.stage.continue_tour(&frame.facts.origin);
             self.notice = notice.map(str::to_owned);
         }
     }

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use crate::scenario::session::Session;
+use crate::scenario::session::{Session, SessionError};
 
 /// The second run, and what its steps have cost.
 #[derive(Debug, Clone)]
@@ -56,15 +56,23 @@ impl Beside {
     }
 
     fn step(&mut self, goal: f64, cycle: f64, budget: Duration, mut on_step: impl FnMut(&Session)) {
+        if self.stopped.is_some() {
+            return;
+        }
         let (start, before) = (Instant::now(), self.session.simulation().steps());
-        while self.lags(cycle) {
-            match self.session.step_until(goal) {
-                Ok(()) => on_step(&self.session),
-                Err(error) => self.stopped = Some(error.to_string()),
+        let mut stands = true;
+        let ended = self.session.advance_towards(goal, cycle, |session| {
+            // Whatever the budget, it takes a step.
+            if std::mem::take(&mut stands) {
+                return true;
             }
-            if start.elapsed() >= budget {
-                break;
-            }
+            on_step(session);
+            start.elapsed() < budget
+        });
+        if let Err(error) = ended
+            && !matches!(error, SessionError::Interrupted)
+        {
+            self.stopped = Some(error.to_string());
         }
         self.busy += start.elapsed();
         self.steps += self.session.simulation().steps() - before;

@@ -29,7 +29,7 @@ pub(super) fn write(session: &Session, trend: &Trend, path: &Path) -> Result<(),
     let mut run = Run::default().of(session.scenario());
     run.take_state(session);
     run.loops
-        .push(trend.last_loop(session.simulation().cycle()));
+        .push(trend.loops.last(session.simulation().cycle()));
     let recipes = [
         &profile::RECIPE,
         &springs::RECIPE,

@@ -2,17 +2,15 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
+use super::facts::Facts;
 use super::pace::Pace;
-use super::settings::Setting;
 use super::trend::Trend;
-use crate::charts::{Live, Loop, Run};
-use crate::contact::indenter::Indenter;
+use crate::charts::{Live, Run};
 use crate::export::state;
 use crate::reading::subsurface::{Peak, SpringLoad};
 use crate::reading::{Check, Observation};
 use crate::simulation::CycleFigures;
 use crate::studies::ghost::Ghost;
-use crate::studies::theory::Theory;
 use crate::traces::Table;
 
 /// What the worker is doing.
@@ -44,12 +42,12 @@ pub struct Comparison {
 /// Everything that the screen shows of the simulation.
 #[derive(Debug, Clone)]
 pub struct Frame {
+    /// What is known of the scenario.
+    pub facts: Arc<Facts>,
     /// The curves and scalars.
     pub observation: Observation,
     /// What a fretting test reports of the last cycle.
     pub figures: Option<CycleFigures>,
-    /// The wear coefficient k, 1/Pa; `None` without wear.
-    pub wear_coefficient: Option<f64>,
     /// The phase of the tangential motion at which frames are taken, degrees; `None` while the motion is shown.
     pub phase: Option<f64>,
     /// The past.
@@ -62,30 +60,12 @@ pub struct Frame {
     pub speed: Option<f64>,
     /// Time per step, s.
     pub step_cost: Option<f64>,
-    /// The scenario's title.
-    pub title: String,
-    /// The preset's name or the file.
-    pub origin: String,
-    /// Where the scenario's plan ends, cycles.
-    pub planned_cycles: Option<f64>,
-    /// About the deepest wear at the planned end, m; 0 where it is not known.
-    pub expected_wear: f64,
-    /// Steps per cycle.
-    pub steps_per_cycle: u32,
     /// The cycle of the present, while the screen shows a state of the past.
     pub present: Option<f64>,
     /// The changes of the run up to the present: the cycle of each, and `KEY = VALUE`.
     pub changes: Vec<(f64, String)>,
     /// The cycles at which snapshots were written.
     pub snapshots: Vec<f64>,
-    /// The keys that can be changed, with their values.
-    pub settings: Arc<Vec<Setting>>,
-    /// The unworn shape, also beyond the domain.
-    pub indenter: Indenter,
-    /// The indenter's share of the wear, where the scenario gives one.
-    pub wear_share: Option<f64>,
-    /// μ, for the scale of τ.
-    pub friction: f64,
     /// The load on the half-space, where its stresses are shown.
     pub load: Option<Arc<SpringLoad>>,
     /// The loads of the last cycle, where they are shown.
@@ -98,10 +78,6 @@ pub struct Frame {
     pub error: Option<f64>,
     /// The checks of the moment; `None` if p is not computed.
     pub checks: Vec<Check>,
-    /// Where the scenario leaves the theory.
-    pub warnings: Arc<Vec<String>>,
-    /// Closed forms for the scenario.
-    pub theory: Arc<Theory>,
     /// Curves of other sources, to be drawn over those of the run.
     pub ghosts: Vec<Arc<Ghost>>,
     /// The comparison run.
@@ -112,33 +88,27 @@ impl Frame {
     /// What charts are made of: the curves that were computed, and the past.
     pub fn run(&self) -> Run {
         let seen = &self.observation;
-        let log = self.trend.loops().map(|(end, shifts, forces)| Loop {
-            end,
-            shifts,
-            forces,
-            ..Loop::default()
-        });
         Run {
             states: vec![Table::of_columns(
                 vec![("cycle".to_owned(), seen.moment.cycle.to_string())],
                 state::columns(seen),
             )],
             history: Some(self.trend.history()),
-            loops: vec![self.trend.last_loop(seen.moment.cycle)],
+            loops: vec![self.trend.loops.last(seen.moment.cycle)],
             ghosts: self.ghosts.clone(),
             field: None,
-            theory: Some(Arc::clone(&self.theory)),
-            indenter: Some(self.indenter.clone()),
+            theory: Some(Arc::clone(&self.facts.theory)),
+            indenter: Some(self.facts.indenter.clone()),
             live: Some(Live {
                 moment: seen.moment,
                 wears: seen.law.is_some(),
-                friction: self.friction,
-                planned_cycles: self.planned_cycles,
-                expected_wear: self.expected_wear,
+                friction: self.facts.friction,
+                planned_cycles: self.facts.planned_cycles,
+                expected_wear: self.facts.expected_wear,
                 is_within_a_cycle: self.trend.is_within_a_cycle(),
                 regime: self.figures.as_ref().map(|figures| figures.regime.title()),
                 slip_border: self.slip_border,
-                log: log.collect(),
+                log: self.trend.loops.kept().to_vec(),
             }),
         }
     }

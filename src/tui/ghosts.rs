@@ -7,10 +7,8 @@ use std::time::Duration;
 use super::beside::Beside;
 use super::trend::Trend;
 use crate::export::state;
-use crate::math::scan::largest;
 use crate::reading::Curves;
 use crate::scenario::Scenario;
-use crate::scenario::scalars::scar_radius;
 use crate::scenario::session::Session;
 use crate::studies::ghost::Ghost;
 use crate::studies::refinement;
@@ -108,13 +106,11 @@ impl GhostRun {
         let resolved = refinement::resolve_soon(scenario);
         let resolved = resolved.map_err(|error| error.to_string())?;
         let start = Session::start(resolved.scenario).map_err(|error| error.to_string())?;
-        let mut trend = Trend::default();
-        record(&mut trend, &start);
         Ok(Self {
             name: scenario.stem(),
             beside: Beside::new(start.clone()),
+            trend: Trend::from(&start),
             start,
-            trend,
         })
     }
 
@@ -126,12 +122,11 @@ impl GhostRun {
     fn follow_for(&mut self, cycle: f64, budget: Duration) {
         if self.is_ahead(cycle) {
             self.beside = Beside::new(self.start.clone());
-            self.trend = Trend::default();
-            record(&mut self.trend, &self.start);
+            self.trend = Trend::from(&self.start);
         }
         let Self { beside, trend, .. } = self;
         beside.follow_for(cycle, budget, |session| {
-            record(trend, session);
+            trend.record(session);
         });
     }
 
@@ -146,14 +141,6 @@ impl GhostRun {
     }
 }
 
-/// Takes the present moment of `session` into its trend; returns true where it ends an entry.
-pub(super) fn record(trend: &mut Trend, session: &Session) -> bool {
-    let simulation = session.simulation();
-    let radius = scar_radius(simulation).unwrap_or(f64::NAN);
-    trend.note_scar([largest(simulation.worn_depth()), radius]);
-    trend.record(&simulation.moment())
-}
-
 fn ghost(name: &str, session: &Session, trend: &Trend, curves: Curves) -> Ghost {
     let seen = session.simulation().observe(curves);
     let mut ghost = Ghost::new(name);
@@ -161,8 +148,8 @@ fn ghost(name: &str, session: &Session, trend: &Trend, curves: Curves) -> Ghost 
     ghost.tables.push(Table::of_columns(Vec::new(), columns));
     ghost.tables.push(trend.history());
     if seen.moment.stick_radius.is_some() {
-        let (shifts, forces) = trend.fretting_loop();
-        ghost.take_loop(shifts, forces);
+        let last = trend.loops.last(seen.moment.cycle);
+        ghost.take_loop(last.shifts, last.forces);
     }
     ghost
 }

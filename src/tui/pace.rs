@@ -2,6 +2,8 @@
 
 use std::time::{Duration, Instant};
 
+use crate::simulation::Simulation;
+
 /// The requested speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Pace {
@@ -35,6 +37,62 @@ impl Pace {
         }
         let mantissa = [1.0, 2.0, 5.0][rung.rem_euclid(3) as usize];
         Self::Cycles(mantissa * 10f64.powi(rung.div_euclid(3)))
+    }
+}
+
+/// The time between two jumps over cycles, unless the pace is without limit.
+const JUMP_EVERY: Duration = Duration::from_millis(100);
+
+/// When the next step of a run is due, and at which phase of the motion its frames are taken.
+#[derive(Debug)]
+pub(super) struct Clock {
+    rung: i32,
+    /// Whether frames of a fast run are taken at one phase of the motion.
+    pub holds_phase: bool,
+    /// When the last step began.
+    pub stepped: Instant,
+    pub meter: Meter,
+}
+
+impl Default for Clock {
+    fn default() -> Self {
+        Self {
+            rung: Pace::START,
+            holds_phase: true,
+            stepped: Instant::now(),
+            meter: Meter::default(),
+        }
+    }
+}
+
+impl Clock {
+    /// The requested speed.
+    pub fn pace(&self) -> Pace {
+        Pace::of_rung(self.rung)
+    }
+
+    /// Changes it by this many rungs.
+    pub fn change(&mut self, rungs: i32) {
+        self.rung = (self.rung + rungs).clamp(Pace::SLOWEST, Pace::UNLIMITED);
+    }
+
+    /// The phase at which frames are taken, degrees: the end of a cycle, as the rows of a history are; `None` while
+    /// the motion itself is shown.
+    pub fn held_phase(&self, simulation: &Simulation) -> Option<f64> {
+        let holds = self.holds_phase && self.pace().blurs_motion() && !simulation.may_jump();
+        holds.then_some(0.0)
+    }
+
+    /// Seconds until the next step is due. A jump over many cycles is due a moment after the one
+    /// before: its length must not depend on the pace, or runs would not be repeatable.
+    pub fn ahead(&self, simulation: &Simulation) -> f64 {
+        match self.pace() {
+            Pace::Unlimited => 0.0,
+            Pace::Cycles(_) if simulation.may_jump() => {
+                JUMP_EVERY.as_secs_f64() - self.stepped.elapsed().as_secs_f64()
+            }
+            Pace::Cycles(pace) => self.meter.ahead(simulation.next_moment(), pace),
+        }
     }
 }
 

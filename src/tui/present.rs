@@ -64,6 +64,7 @@ fn is_due(frame: &Frame, began: f64) -> bool {
         return false;
     };
     let lasts = frame
+        .facts
         .planned_cycles
         .map_or(f64::INFINITY, |planned| planned / pace);
     lasts > LEAST && frame.observation.moment.cycle - began >= SECONDS * pace

@@ -102,7 +102,7 @@ fn status(frame: &Frame, theme: &Theme, area: Rect, buffer: &mut Buffer) {
     }
     let left = parts_text(&parts, separator);
     let room = usize::from(area.width).saturating_sub(Line::raw(left.as_str()).width() + 4);
-    let title = shortened(theme.printable(&frame.title), room);
+    let title = shortened(theme.printable(&frame.facts.title), room);
     Line::styled(format!(" {left}"), bar).render(area, buffer);
     Line::styled(format!("{title} "), bar)
         .right_aligned()
@@ -154,7 +154,7 @@ fn status_parts(frame: &Frame, has_room: bool, ascii: bool) -> Vec<Part> {
     let moment = &frame.observation.moment;
     let mut cycle = format!("cycle {:.2}", moment.cycle);
     let mut widest = "cycle 0000.00".len();
-    if let Some(planned) = frame.planned_cycles {
+    if let Some(planned) = frame.facts.planned_cycles {
         cycle.push_str(&format!("/{planned}"));
         widest = format!("cycle {planned:.2}/{planned}").len();
     }
@@ -206,7 +206,7 @@ fn status_parts(frame: &Frame, has_room: bool, ascii: bool) -> Vec<Part> {
             .map(|error| part(2, wear_error(error, ascii), 12)),
     );
     let outside = |warning: &String| warning.starts_with("outside");
-    if frame.warnings.iter().any(outside) {
+    if frame.facts.warnings.iter().any(outside) {
         parts.push(part(2, "! outside the theory".into(), 0));
     }
     if let Some(present) = frame.present {

@@ -93,16 +93,16 @@ fn history(session: &Session, trend: &Trend) -> String {
             Some(fields) => (fields.to_vec(), false),
             None => (vec![String::new(); history::COLUMNS.len()], true),
         };
-        if is_open && entry.cycle == session.simulation().cycle() {
+        if is_open && entry.end() == session.simulation().cycle() {
             fields = history::fields(&Reading::new(session)).to_vec();
         }
-        for (name, of) in trend::COLUMNS {
+        for ((name, _), value) in trend::COLUMNS.into_iter().zip(entry.values) {
             let is_of_cycle = ["contact_radius_m", "permanent_stick_radius_m"].contains(&name);
             let at = history::COLUMNS.iter().position(|column| *column == name);
             if let Some(field) = at.map(|at| &mut fields[at])
                 && (is_of_cycle || field.is_empty())
             {
-                *field = self::field(of(entry));
+                *field = self::field(value);
             }
         }
         let _ = writeln!(text, "{}", fields.join(","));
@@ -113,8 +113,9 @@ fn history(session: &Session, trend: &Trend) -> String {
 /// The last cycle, in the columns of a measured loop.
 fn last_loop(session: &Session, trend: &Trend) -> String {
     let mut text = format!("{}cycle,u_m,F_N\n", lines(session));
-    for row in trend.loop_rows() {
-        let _ = writeln!(text, "{}", row.map(field).join(","));
+    for [cycle, shift, force, _] in &trend.loops.steps {
+        let fields = [cycle, shift, force].map(|value| field(*value));
+        let _ = writeln!(text, "{}", fields.join(","));
     }
     text
 }
@@ -166,11 +167,8 @@ pub fn open(directory: &Path) -> Result<Opened, String> {
     let kept = checkpoint::read::<IgnoredAny>(&path).map_err(|error| error.to_string())?;
     let session = kept.session;
     let moment = session.simulation().moment();
-    let trend = past(directory, moment.cycle, moment.initial_volume).unwrap_or_else(|| {
-        let mut trend = Trend::default();
-        super::ghosts::record(&mut trend, &session);
-        trend
-    });
+    let trend = past(directory, moment.cycle, moment.initial_volume)
+        .unwrap_or_else(|| Trend::from(&session));
     Ok(Opened { session, trend })
 }
 
@@ -184,18 +182,9 @@ fn past(directory: &Path, cycle: f64, initial: f64) -> Option<Trend> {
     let entries = (0..cycles.len()).filter(|&row| cycles[row] <= cycle);
     let entries = entries.map(|row| {
         let value = |name| history.column(name).map_or(f64::NAN, |column| column[row]);
-        let volume = value("wear_volume_m3");
         Cycle {
-            cycle: cycles[row],
-            contact_radius: value("contact_radius_m"),
-            stick_radius: value("permanent_stick_radius_m"),
-            wear_volume: volume,
-            scar_depth: value("scar_depth_m"),
-            scar_radius: value("scar_radius_m"),
-            dissipated_energy: value("dissipated_energy_J"),
-            expected_volume: volume / (1.0 - value("energy_residual")),
+            values: trend::COLUMNS.map(|(name, _)| value(name)),
             fields: has_all.then(|| file.fields(row).into()),
-            ..Cycle::UNKNOWN
         }
     });
     let rows = read("loop.csv").and_then(|file| {

@@ -20,7 +20,7 @@ const WORDS: u16 = 2;
 /// The cycle of the present, and the one at which the line ends.
 fn ends(frame: &Frame) -> [f64; 2] {
     let now = frame.present.unwrap_or(frame.observation.moment.cycle);
-    let end = match frame.planned_cycles {
+    let end = match frame.facts.planned_cycles {
         Some(planned) if now <= planned => planned,
         _ => round_end(now),
     };

@@ -85,7 +85,7 @@ pub(super) fn draw_explanations(app: &App, area: Rect, buffer: &mut Buffer) {
     let mut paragraph = |text: &str| {
         lines.extend(wrapped(text, width).into_iter().map(Line::raw));
     };
-    for warning in frame.warnings.iter() {
+    for warning in frame.facts.warnings.iter() {
         paragraph(&format!("! {warning}"));
     }
     for check in &frame.checks {

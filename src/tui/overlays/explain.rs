@@ -70,7 +70,10 @@ pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
             Span::raw(spelled(meaning)),
         ])
     }));
-    let origin = app.frame.as_ref().map_or("", |frame| frame.origin.as_str());
+    let origin = app
+        .frame
+        .as_ref()
+        .map_or("", |frame| frame.facts.origin.as_str());
     let captions = tour::captions(origin).iter();
     let here: Vec<&str> = captions
         .filter(|caption| !is_compared && caption.panel() == Some(app.stage.focus))

@@ -79,7 +79,7 @@ impl Form {
     pub(super) fn press(&mut self, key: Key, app: &mut App) -> Answer {
         let frame = app.frame.clone();
         let settings = frame.as_ref();
-        let settings = settings.map_or(&[][..], |frame| frame.settings.as_slice());
+        let settings = settings.map_or(&[][..], |frame| frame.facts.settings.as_slice());
         let Some((at, setting, giving)) = self.seen(settings) else {
             return Answer::Close;
         };
@@ -210,7 +210,7 @@ impl Form {
 
     pub(super) fn draw(&self, app: &App, area: Rect, buffer: &mut Buffer) {
         let frame = app.frame.as_deref();
-        let settings = frame.map_or(&[][..], |frame| frame.settings.as_slice());
+        let settings = frame.map_or(&[][..], |frame| frame.facts.settings.as_slice());
         let seen = self.seen(settings);
         let rows = (area.height / 2).clamp(8, 20);
         let title = match &seen {

@@ -122,7 +122,7 @@ impl Library {
     pub fn open(frame: Option<&Frame>) -> Self {
         let mut library = Self::default();
         library.enter(PathBuf::from("."));
-        let origin = frame.map_or("", |frame| frame.origin.as_str());
+        let origin = frame.map_or("", |frame| frame.facts.origin.as_str());
         let is_shown = |entry: &Entry| match entry {
             Entry::Preset(preset) => preset.name == origin,
             Entry::File(path) => path.as_path() == Path::new(".").join(origin),

@@ -111,7 +111,7 @@ fn rank(typed: &str, name: &str, help: &str) -> Option<usize> {
 
 /// `KEY`, or `KEY=` with the values that the key takes.
 pub fn settings(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
-    let known = frame.map_or(&[][..], |frame| frame.settings.as_slice());
+    let known = frame.map_or(&[][..], |frame| frame.facts.settings.as_slice());
     let Some((key, value)) = typed.split_once('=') else {
         let typed = typed.trim_end();
         let mut fitting: Vec<_> = known
@@ -152,7 +152,7 @@ pub fn settings(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
 
 /// `KEY`, or `KEY FROM..TO`.
 pub fn sweeps(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
-    let known = frame.map_or(&[][..], |frame| frame.settings.as_slice());
+    let known = frame.map_or(&[][..], |frame| frame.facts.settings.as_slice());
     let numbers = known
         .iter()
         .filter(|setting| matches!(setting.parameter.kind, Kind::Number | Kind::Whole));

@@ -39,8 +39,9 @@ pub fn beside(area: Rect) -> [Rect; 2] {
 /// The speed of the indenter to the right, relative to the fastest of the last cycle; `None` where no motion is
 /// seen, as after a jump over cycles.
 fn speed(frame: &Frame) -> Option<f64> {
-    let (shifts, _) = frame.trend.fretting_loop();
-    let mut steps = shifts.windows(2).map(|pair| pair[1] - pair[0]);
+    let past = &frame.trend.loops.steps;
+    let later = past.iter().skip(1);
+    let mut steps = later.zip(past).map(|(later, before)| later[1] - before[1]);
     let sizes = steps.clone().map(f64::abs);
     let fastest = sizes.fold(0.0, f64::max);
     // Rounding is no motion.
@@ -102,7 +103,7 @@ fn worn(frame: &Frame, value: impl Fn(f64) -> String) -> String {
         return "Nothing has worn yet: wear needs pressure and sliding.".into();
     }
     let depth = value(deepest);
-    let bodies = frame.wear_share.map(|share| {
+    let bodies = frame.facts.wear_share.map(|share| {
         let [indenter, half_space] = [share, 1.0 - share].map(|part| value(part * deepest));
         format!(" (indenter {indenter}, half-space {half_space})")
     });

@@ -104,8 +104,8 @@ fn rows(frame: &Frame) -> Vec<(&'static str, String)> {
     if let Some(per_energy) = moment.wear_per_energy() {
         rows.push(("V/E_d", cubic_micrometres(per_energy)));
     }
-    if let Some(k) = frame.wear_coefficient {
-        let per_load = format_number(k * frame.friction * 1e9, 3);
+    if let Some(k) = frame.facts.wear_coefficient {
+        let per_load = format_number(k * frame.facts.friction * 1e9, 3);
         rows.push(("k", format!("{} 1/Pa", format_number(k, 3))));
         rows.push(("k", cubic_micrometres(k)));
         rows.push(("k per load", format!("{per_load} mm³/(N·m)")));
@@ -127,7 +127,7 @@ fn rows(frame: &Frame) -> Vec<(&'static str, String)> {
         rows.push(("  at x", place(tension.x)));
     }
     rows.push(("cells", (frame.observation.radii.len() - 1).to_string()));
-    rows.push(("steps per cycle", frame.steps_per_cycle.to_string()));
+    rows.push(("steps per cycle", frame.facts.steps_per_cycle.to_string()));
     rows
 }
 

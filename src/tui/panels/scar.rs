@@ -97,7 +97,7 @@ fn draw(frame: &Frame, pane: &Pane, area: Rect, buffer: &mut Buffer) {
     };
     let deepest = pane.bounds.map_or(0.0, |[_, high]| high);
     let deepest = match deepest.max(largest(&seen.wear)) {
-        0.0 => frame.expected_wear,
+        0.0 => frame.facts.expected_wear,
         deepest => deepest,
     };
     // Half a cell is about as high as a cell is wide.

@@ -144,18 +144,18 @@ impl Cut {
         };
         let surface = scale.lift * lifted - sunk(r) * back;
         // Nothing of the half-space is worn unless the scenario says so.
-        let share = frame.wear_share.unwrap_or(1.0);
+        let share = frame.facts.wear_share.unwrap_or(1.0);
         let wear = |r: f64| match r <= edge {
             true => interpolate(&seen.radii, &seen.wear, r),
             false => 0.0,
         };
         let ground = surface - scale.wear * (1.0 - share) * wear(r);
-        let rim = frame.indenter.rim().unwrap_or(f64::INFINITY);
+        let rim = frame.facts.indenter.rim().unwrap_or(f64::INFINITY);
         // Where it touches, the indenter stays on the surface; its flanks are shifted as a whole.
         let along = (x - scale.given_way(moment.contact_radius, x)).abs();
         let unworn = match (x - scale.shift).abs() > rim {
             true => f64::INFINITY,
-            false => frame.indenter.profile(along.min(rim)) - moment.depth + scale.lift,
+            false => frame.facts.indenter.profile(along.min(rim)) - moment.depth + scale.lift,
         };
         let sticks = moment.stick_radius.is_none_or(|stick| r < stick);
         let contact = if sticks { Matter::Stick } else { Matter::Slip };
@@ -188,9 +188,9 @@ fn heights(frame: &Frame) -> Option<[f64; 2]> {
     if frame.observation.depression.is_empty() {
         return None;
     }
-    let flank = match frame.indenter.rim() {
+    let flank = match frame.facts.indenter.rim() {
         Some(_) => depth.abs(),
-        None => frame.indenter.profile(WIDER * edge(frame)),
+        None => frame.facts.indenter.profile(WIDER * edge(frame)),
     };
     Some([-depth.max(0.0) - 1.2 * flank, flank - depth])
 }
@@ -234,7 +234,7 @@ impl Scale {
             high,
             wear: match seen.law {
                 Some(_) => {
-                    let deepest = largest(&seen.wear).max(frame.expected_wear);
+                    let deepest = largest(&seen.wear).max(frame.facts.expected_wear);
                     magnification(deepest, WEAR * (high - low)).max(LEAST_WEAR)
                 }
                 None => 1.0,
@@ -282,12 +282,12 @@ fn whole(value: f64, step: f64) -> f64 {
 /// The amplitude of u_x, m: the one that is prescribed, or that of the last cycle.
 fn amplitude(frame: &Frame) -> f64 {
     let key = "motion.tangential.amplitude";
-    let mut settings = frame.settings.iter();
+    let mut settings = frame.facts.settings.iter();
     let given = settings.find(|setting| setting.parameter.path == key && setting.unit == "m");
     let given = given.and_then(|setting| setting.value.as_deref()?.parse::<f64>().ok());
     given.unwrap_or_else(|| {
-        let (shifts, _) = frame.trend.fretting_loop();
-        shifts.iter().fold(0.0, |most, shift| shift.abs().max(most))
+        let steps = frame.trend.loops.steps.iter();
+        steps.fold(0.0, |most, step| step[1].abs().max(most))
     })
 }
 

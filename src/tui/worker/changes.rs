@@ -1,17 +1,13 @@
 //! Changes during the run: a value, method or law, or another scenario.
 
-use std::sync::Arc;
-
 use super::Worker;
 use crate::math::abel::AbelMethod;
 use crate::scenario::Scenario;
 use crate::scenario::schema::{Kind, find};
 use crate::scenario::session::Session;
 use crate::studies::refinement::{self, Level};
-use crate::studies::theory::Theory;
+use crate::tui::facts::Facts;
 use crate::tui::frame::Activity;
-use crate::tui::ghosts;
-use crate::tui::settings::Setting;
 use crate::tui::trend::Trend;
 use crate::tui::twin::Twin;
 
@@ -27,7 +23,7 @@ const LAWS: [&str; 2] = ["archard", "power"];
 impl Worker {
     /// Changes the transform method by this many places, that of the comparison if there is one.
     pub fn change_method(&mut self, places: isize) {
-        if let Some(comparison) = &self.comparison {
+        if let Some(comparison) = &self.company.comparison {
             return self.compare(places, comparison.from());
         }
         let now = self.session.simulation().setup().method;
@@ -38,7 +34,9 @@ impl Worker {
     /// Changes the wear law by this many places.
     pub fn change_law(&mut self, places: isize) {
         match self.session.simulation().setup().wear {
-            None => self.notice("this scenario has no wear, so it has no wear law to change"),
+            None => self
+                .screen
+                .notice("this scenario has no wear, so it has no wear law to change"),
             Some(now) => {
                 let law = shifted(&LAWS, |law| *law == now.name(), places);
                 self.change("wear.law", law);
@@ -56,7 +54,9 @@ impl Worker {
         if next == now || !within.contains(&next.points) {
             let end = if places > 0 { "finest" } else { "coarsest" };
             let cells = now.points;
-            return self.notice(&format!("N = {cells}: this is the {end} level"));
+            return self
+                .screen
+                .notice(&format!("N = {cells}: this is the {end} level"));
         }
         let keys = next.keys();
         let mut changes = keys.iter().filter(|(key, _)| *key != "numerics.integrator");
@@ -68,7 +68,7 @@ impl Worker {
         });
         self.change(key, &all);
         if Level::of(self.session.scenario()) == next {
-            self.notice(&format!(
+            self.screen.notice(&format!(
                 "N = {}, {} steps per cycle; a estimates the error",
                 next.points, next.steps
             ));
@@ -86,25 +86,18 @@ impl Worker {
         match self.session.change_all(&borrowed) {
             Ok(()) => {
                 let branched = self.branch();
-                self.follow_scenario();
-                self.twin = Twin::of(&self.session);
+                self.facts = Facts::of(&self.session);
+                self.company.twin = Twin::of(&self.session);
                 if matches!(self.activity, Activity::Stopped(_)) {
                     self.activity = Activity::Paused;
                 }
-                let cycle = self.session.simulation().cycle();
+                let cycle = self.cycle();
                 let said = format!("{key} = {value} at cycle {cycle:.2}");
-                self.notice(&branched.map_or(said.clone(), |word| format!("{said}; {word}")));
+                self.screen
+                    .notice(&branched.map_or(said.clone(), |word| format!("{said}; {word}")));
             }
-            Err(error) => self.notice(&error.to_string()),
+            Err(error) => self.screen.notice(&error.to_string()),
         }
-    }
-
-    /// Updates what depends on the present scenario.
-    pub(super) fn follow_scenario(&mut self) {
-        self.theory = Arc::new(Theory::of(self.session.simulation().setup()));
-        self.expected_wear = super::expected_wear(&self.theory, &self.session);
-        self.settings = Arc::new(Setting::all(self.session.scenario()));
-        self.warnings = Arc::new(self.session.simulation().warnings());
     }
 
     /// The scenario as it was loaded, from its beginning; the run up to here can be gone back to.
@@ -112,7 +105,7 @@ impl Worker {
         let cycle = self.past.line(&self.session).simulation().cycle();
         self.load(self.session.loaded().clone());
         if cycle > 0.0 {
-            self.notice(&format!(
+            self.screen.notice(&format!(
                 "restarted; [ leads back to the run up to cycle {cycle:.2}"
             ));
         }
@@ -122,18 +115,17 @@ impl Worker {
     pub fn load(&mut self, scenario: Scenario) {
         let resolved = match refinement::resolve_soon(&scenario) {
             Ok(resolved) => resolved,
-            Err(error) => return self.notice(&error.to_string()),
+            Err(error) => return self.screen.notice(&error.to_string()),
         };
         if let Some(word) = resolved.warning {
-            self.notice(&word);
+            self.screen.notice(&word);
         }
         match Session::start(resolved.scenario) {
             Ok(session) => {
-                let mut trend = Trend::default();
-                ghosts::record(&mut trend, &session);
+                let trend = Trend::from(&session);
                 self.replace_run(session, trend);
             }
-            Err(error) => self.notice(&error.to_string()),
+            Err(error) => self.screen.notice(&error.to_string()),
         }
     }
 
@@ -146,9 +138,9 @@ impl Worker {
         self.past.leave(&self.trend);
         self.snapshots.clear();
         self.session = session;
-        self.comparison = None;
-        self.follow_scenario();
-        self.twin = Twin::of(&self.session);
+        self.company.comparison = None;
+        self.facts = Facts::of(&self.session);
+        self.company.twin = Twin::of(&self.session);
         self.trend = trend;
         if self.activity != Activity::Running {
             self.activity = Activity::Paused;

@@ -2,27 +2,18 @@
 
 use std::time::{Duration, Instant};
 
+use super::Worker;
 use super::travel::ends_cycle;
-use super::{CATCH_UP, Worker};
 use crate::reading::Curves;
 use crate::scenario::scalars::Reading;
 use crate::tui::frame::Activity;
-use crate::tui::ghosts;
-use crate::tui::pace::Pace;
 use crate::tui::twin::Twin;
-
-/// The time between two jumps over cycles, unless the pace is without limit.
-const JUMP_EVERY: Duration = Duration::from_millis(100);
 
 /// How long the worker steps before it looks for orders again.
 const STINT: Duration = Duration::from_millis(4);
 
 /// How long the run's twin steps after each stint: about a quarter of the work is its.
 const TWIN_STINT: Duration = Duration::from_millis(2);
-
-/// Frames of a fast run are taken at this fraction of a cycle: at its end, as the rows of a history
-/// are.
-const HELD: f64 = 0.0;
 
 /// A run too slow for a frame at each cycle shows one at least this often.
 const AT_LEAST: Duration = Duration::from_secs(1);
@@ -40,25 +31,18 @@ impl Worker {
             Activity::Running => self.activity = Activity::Paused,
             Activity::Done if !self.told_of_end => {
                 self.told_of_end = true;
-                self.notice("planned end reached; Space again continues without limit, r restarts");
+                self.screen
+                    .notice("planned end reached; Space again continues without limit, r restarts");
             }
             Activity::Paused | Activity::Done => self.activity = Activity::Running,
-            Activity::Stopped(_) => self.notice(BROKEN_DOWN),
+            Activity::Stopped(_) => self.screen.notice(BROKEN_DOWN),
         }
-    }
-
-    /// The phase at which frames are taken, degrees; `None` while the motion itself is shown.
-    pub(super) fn held_phase(&self) -> Option<f64> {
-        let holds = self.holds_phase
-            && Pace::of_rung(self.rung).blurs_motion()
-            && !self.session.simulation().may_jump();
-        holds.then_some(360.0 * HELD)
     }
 
     /// Takes frames at one phase of the motion from now on, or as they come.
     pub fn hold_or_release_phase(&mut self) {
-        self.holds_phase = !self.holds_phase;
-        self.notice(if self.holds_phase {
+        self.clock.holds_phase ^= true;
+        self.screen.notice(if self.clock.holds_phase {
             "above 2 cycles/s, all frames show the same phase of the motion"
         } else {
             "frames at any phase: in a fast run the motion seems to jump"
@@ -72,30 +56,19 @@ impl Worker {
             let line = self.past.line(&self.session);
             return super::locked(self.keeping.as_ref()?).wait(line);
         }
-        Some(Duration::from_secs_f64(self.ahead().clamp(0.0, 0.1)))
-    }
-
-    /// Seconds until the next step is due. A jump over many cycles is due a moment after the one
-    /// before: its length must not depend on the pace, or runs would not be repeatable.
-    fn ahead(&self) -> f64 {
-        let simulation = self.session.simulation();
-        match Pace::of_rung(self.rung) {
-            Pace::Unlimited => 0.0,
-            Pace::Cycles(_) if simulation.may_jump() => {
-                JUMP_EVERY.as_secs_f64() - self.stepped.elapsed().as_secs_f64()
-            }
-            Pace::Cycles(pace) => self.meter.ahead(simulation.next_moment(), pace),
-        }
+        let ahead = self.clock.ahead(self.session.simulation());
+        Some(Duration::from_secs_f64(ahead.clamp(0.0, 0.1)))
     }
 
     /// Steps while the pace allows it, for no longer than orders may wait.
     pub(super) fn step_for_a_stint(&mut self) {
         let start = Instant::now();
         while self.activity == Activity::Running && start.elapsed() < STINT {
-            if self.ahead() > 0.0 {
+            let simulation = self.session.simulation();
+            if self.clock.ahead(simulation) > 0.0 {
                 break;
             }
-            let before = self.session.simulation().cycle();
+            let before = simulation.cycle();
             #[cfg(debug_assertions)]
             if before > 5.0 {
                 crate::failpoint::hit("sixth cycle");
@@ -104,63 +77,58 @@ impl Worker {
             self.step();
             self.keep_cycle(before);
             self.end_where_planned(before);
-            let now = self.session.simulation().cycle() + 1e-9;
-            let passed = (now - HELD).floor() > (before + 1e-9 - HELD).floor();
-            if passed && self.held_phase().is_some() && self.published.elapsed() >= self.interval {
+            if ends_cycle(before, self.cycle()) && self.holds_phase() && self.screen.is_due() {
                 self.publish();
             }
         }
-        self.meter.measure(
-            self.session.simulation().cycle(),
-            self.session.simulation().steps(),
-            start.elapsed(),
-        );
-        self.trend.note_cost(self.meter.step_cost);
-        self.follow_with_twin(TWIN_STINT);
-        let wait = match self.held_phase() {
-            Some(_) => self.interval.max(AT_LEAST),
-            None => self.interval,
+        let simulation = self.session.simulation();
+        let (cycle, steps) = (simulation.cycle(), simulation.steps());
+        self.clock.meter.measure(cycle, steps, start.elapsed());
+        self.trend.note_cost(self.clock.meter.step_cost);
+        self.company.follow_with_twin(cycle, TWIN_STINT);
+        let wait = match self.holds_phase() {
+            true => self.screen.interval.max(AT_LEAST),
+            false => self.screen.interval,
         };
-        if self.published.elapsed() >= wait || self.activity != Activity::Running {
+        if self.screen.is_due_after(wait) || self.activity != Activity::Running {
             self.publish();
         }
     }
 
+    /// Whether frames are taken at the ends of cycles.
+    fn holds_phase(&self) -> bool {
+        self.clock.held_phase(self.session.simulation()).is_some()
+    }
+
     fn step(&mut self) {
         if let Some(word) = self.branch() {
-            self.twin = Twin::of(&self.session);
-            self.notice(&word);
+            self.company.twin = Twin::of(&self.session);
+            self.screen.notice(&word);
         }
         if self.session.simulation().steps() == 0 {
             self.keep();
         }
-        self.stepped = Instant::now();
-        let now = self.session.simulation().cycle();
-        match self.session.step_until(self.goal()) {
-            Ok(()) => {
-                if self.curves.contains(Curves::SPRINGS) {
-                    self.cycle_loads.note(self.session.simulation());
-                }
-                let simulation = self.session.simulation();
-                let is_end = self.has_reached_end(now);
-                let ends = ends_cycle(now, simulation.cycle());
-                if let Some(twin) = self.twin.as_mut().filter(|_| ends || is_end) {
-                    // Steps by hand are few, and each is looked at.
-                    let must = is_end || self.activity != Activity::Running;
-                    twin.look_at(&self.session, must);
-                }
-                if ghosts::record(&mut self.trend, &self.session) {
-                    self.trend.end(&Reading::new(&self.session));
-                }
-                if let Some(comparison) = &mut self.comparison {
-                    comparison.follow_for(self.session.simulation().cycle(), CATCH_UP);
-                }
-                for ghost in &mut self.ghosts {
-                    ghost.follow_for(self.session.simulation().cycle(), CATCH_UP);
-                }
-            }
-            Err(error) => self.activity = Activity::Stopped(error.to_string()),
+        self.clock.stepped = Instant::now();
+        let before = self.cycle();
+        if let Err(error) = self.session.step_until(self.goal()) {
+            self.activity = Activity::Stopped(error.to_string());
+            return;
         }
+        let cycle = self.cycle();
+        if self.curves.contains(Curves::SPRINGS) {
+            self.cycle_loads.note(self.session.simulation());
+        }
+        let is_end = self.has_reached_end(before);
+        let twin = self.company.twin.as_mut();
+        if let Some(twin) = twin.filter(|_| ends_cycle(before, cycle) || is_end) {
+            // Steps by hand are few, and each is looked at.
+            let must = is_end || self.activity != Activity::Running;
+            twin.look_at(&self.session, must);
+        }
+        if self.trend.record(&self.session) {
+            self.trend.end(&Reading::new(&self.session));
+        }
+        self.company.follow(cycle);
     }
 
     /// The cycle at which the next step or jump ends at the latest: the planned end, and beyond it as far
@@ -195,19 +163,16 @@ impl Worker {
     /// Pauses and steps until `done`, which is given the cycles before and now, is true.
     pub(super) fn step_by_hand(&mut self, done: impl Fn(f64, f64) -> bool) {
         if matches!(self.activity, Activity::Stopped(_)) {
-            return self.notice(BROKEN_DOWN);
+            return self.screen.notice(BROKEN_DOWN);
         }
         self.activity = Activity::Paused;
-        let before = self.session.simulation().cycle();
+        let before = self.cycle();
         loop {
             self.step();
-            if ends_cycle(before, self.session.simulation().cycle()) {
+            if ends_cycle(before, self.cycle()) {
                 self.keep();
             }
-            if self.activity != Activity::Paused
-                || done(before, self.session.simulation().cycle())
-                || self.is_over()
-            {
+            if self.activity != Activity::Paused || done(before, self.cycle()) || self.is_over() {
                 break;
             }
         }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::Worker;
+use crate::tui::facts::Facts;
 use crate::tui::frame::Activity;
 use crate::tui::undo::{Kept, Past};
 
@@ -19,7 +20,7 @@ impl Worker {
 
     /// Stores the end of a cycle, but not so often that it takes noticeable time.
     pub(super) fn keep_cycle(&mut self, before: f64) {
-        if ends_cycle(before, self.session.simulation().cycle()) && self.kept_at.elapsed() > APART {
+        if ends_cycle(before, self.cycle()) && self.kept_at.elapsed() > APART {
             self.keep();
         }
     }
@@ -28,10 +29,7 @@ impl Worker {
     /// it leaves; returns the notice about that.
     pub(super) fn branch(&mut self) -> Option<String> {
         let left = self.past.branch()?;
-        let (cycle, end) = (
-            self.session.simulation().cycle(),
-            left.end.session.simulation().cycle(),
-        );
+        let (cycle, end) = (self.cycle(), left.end.session.simulation().cycle());
         if let Some(keeping) = self.keeping.as_ref().filter(|_| left.is_other_run) {
             super::locked(keeping).turn_over(&left.end.session, &self.session);
         }
@@ -61,7 +59,7 @@ impl Worker {
         self.past.note_trend(&self.trend);
         match way(&mut self.past) {
             Some(kept) => self.show(&kept),
-            None => self.notice(end),
+            None => self.screen.notice(end),
         }
     }
 
@@ -69,9 +67,9 @@ impl Worker {
     fn show(&mut self, kept: &Kept) {
         self.session = kept.session.clone();
         self.trend = self.past.trend(kept);
-        self.comparison = None;
+        self.company.comparison = None;
         self.activity = Activity::Paused;
-        self.follow_scenario();
+        self.facts = Facts::of(&self.session);
     }
 }
 

@@ -1,0 +1,154 @@
+//! The fretting loops of a run's past: the last one in full, those of earlier cycles thinned and ever further apart.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+use crate::charts::Loop;
+use crate::reading::Moment;
+
+/// Maximum number of steps of the last loop.
+const CAPACITY: usize = 4096;
+
+/// Maximum number of stored loops, maximum points of each, and minimum points of a loop.
+const MOST: usize = 24;
+const POINTS: usize = 64;
+const SHORTEST: usize = 9;
+
+/// Steps: cycle, u_x⁽⁰⁾ (m), F_x (N), and the displacement of the rig's actuator (m), NaN on a stiff rig.
+pub type Steps = VecDeque<[f64; 4]>;
+
+/// The loops.
+#[derive(Debug, Clone, Default)]
+pub struct Loops {
+    /// The steps of the last cycle, and the point that closes it.
+    pub steps: Steps,
+    /// Loops of cycles so far apart, oldest first.
+    kept: Vec<Arc<Loop>>,
+    apart: f64,
+}
+
+impl Loops {
+    /// From the steps of the last cycle: cycle, u_x⁽⁰⁾ (m), F_x (N).
+    pub fn of_steps(steps: Vec<[f64; 3]>) -> Self {
+        let steps = steps.into_iter().take(CAPACITY);
+        Self {
+            steps: steps
+                .map(|[cycle, u, force]| [cycle, u, force, f64::NAN])
+                .collect(),
+            ..Self::default()
+        }
+    }
+
+    /// The loops as they were at `cycle`, when `steps` were the last ones.
+    pub fn until(&self, cycle: f64, steps: &Steps) -> Self {
+        let mut kept = self.kept.clone();
+        kept.retain(|one| one.end <= cycle + 1e-9);
+        Self {
+            steps: steps.clone(),
+            kept,
+            apart: self.apart,
+        }
+    }
+
+    /// Takes in the moment after a step.
+    pub fn record(&mut self, moment: &Moment) {
+        let sensed = moment.rig_displacement.unwrap_or(f64::NAN);
+        let (shift, force) = (moment.shift, moment.tangential_force);
+        self.steps.push_back([moment.cycle, shift, force, sensed]);
+        while self.steps.len() > 1
+            && (self.steps[0][0] < moment.cycle - 1.0 - 1e-9 || self.steps.len() > CAPACITY)
+        {
+            self.steps.pop_front();
+        }
+        self.keep(moment.cycle);
+    }
+
+    /// Stores the loop of a finished cycle; when there are too many, every second one is dropped.
+    fn keep(&mut self, cycle: f64) {
+        let whole = (cycle + 1e-9).floor();
+        let last = self.kept.last().map_or(0.0, |kept| kept.end);
+        let ends = cycle - whole < 1e-9 && whole >= last + self.apart.max(1.0);
+        if !ends || self.steps.len() < SHORTEST {
+            return;
+        }
+        let (every, last) = (self.steps.len().div_ceil(POINTS), self.steps.len() - 1);
+        let steps = self.steps.iter().enumerate();
+        let thinned = steps.filter(|(k, _)| k % every == 0 || *k == last);
+        let thinned: Vec<_> = thinned.map(|(_, step)| *step).collect();
+        self.kept.push(Arc::new(Loop::of_rows(whole, &thinned)));
+        if self.kept.len() > MOST {
+            let mut k = 0;
+            self.kept.retain(|_| {
+                k += 1;
+                k % 2 == 1
+            });
+            self.apart = 2.0 * self.apart.max(1.0);
+        }
+    }
+
+    /// The stored loops, oldest first.
+    pub fn kept(&self) -> &[Arc<Loop>] {
+        &self.kept
+    }
+
+    /// The loop of the last cycle, which ends at `end`.
+    pub fn last(&self, end: f64) -> Loop {
+        Loop::of_rows(end, &Vec::from(self.steps.clone()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::trend::tests::moment;
+    use super::*;
+
+    fn of_steps(steps: u32) -> Loops {
+        let mut loops = Loops::default();
+        for step in 1..=steps {
+            loops.record(&moment(f64::from(step) / 100.0, 1.0));
+        }
+        loops
+    }
+
+    #[test]
+    fn loops_are_kept_ever_further_apart() {
+        let loops = of_steps(100_000);
+        let cycles: Vec<f64> = loops.kept().iter().map(|kept| kept.end).collect();
+        assert!((12..=MOST).contains(&cycles.len()), "{cycles:?}");
+        let steps: Vec<f64> = cycles.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        assert!(steps.iter().all(|step| *step == steps[0]), "{cycles:?}");
+        assert!(1000.0 - cycles[cycles.len() - 1] < steps[0]);
+        let mut points = loops.kept().iter().map(|kept| kept.shifts.len());
+        assert!(points.all(|points| (50..=66).contains(&points)));
+        let before = loops.until(500.0, &Steps::new());
+        assert!(before.kept().iter().all(|kept| kept.end <= 500.0) && before.kept().len() > 3);
+    }
+
+    /// The sensor's loop begins where a rig is mounted.
+    #[test]
+    fn the_loop_of_the_sensor_is_that_of_the_rig() {
+        let mut loops = Loops::default();
+        for step in 1..=1000_u32 {
+            let mut moment = moment(f64::from(step) / 100.0, 1.0);
+            moment.tangential_force = f64::from(step);
+            moment.rig_displacement = (step > 950).then_some(2.0 * f64::from(step));
+            loops.record(&moment);
+        }
+        let last = loops.last(10.0);
+        let pairs = last.sensed.iter().zip(&last.forces);
+        let sensed: Vec<_> = pairs.filter(|(u, _)| !u.is_nan()).collect();
+        assert_eq!(sensed.len(), 50);
+        assert!(sensed.iter().all(|(u, force)| **u == 2.0 * **force));
+        for step in 1001..=1200_u32 {
+            let mut moment = moment(f64::from(step) / 100.0, 1.0);
+            moment.rig_displacement = Some(0.0);
+            loops.record(&moment);
+        }
+        assert!(loops.last(12.0).sensed.iter().all(|u| !u.is_nan()));
+    }
+
+    #[test]
+    fn the_last_loop_holds_one_cycle() {
+        assert_eq!(of_steps(1000).last(10.0).shifts.len(), 101);
+    }
+}

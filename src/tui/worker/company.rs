@@ -1,0 +1,137 @@
+//! What accompanies the run: a comparison, ghosts over the plots, and the twin that tells its error.
+
+use std::time::Duration;
+
+use super::Worker;
+use crate::scenario::session::Session;
+use crate::tui::comparison::{ComparisonRun, From};
+use crate::tui::frame::Activity;
+use crate::tui::ghosts::{self, Source};
+use crate::tui::twin::Twin;
+
+/// How long each catches up before the worker looks for orders again.
+pub(super) const CATCH_UP: Duration = Duration::from_millis(10);
+
+/// The runs and curves beside the run.
+pub(super) struct Company {
+    pub comparison: Option<ComparisonRun>,
+    pub ghosts: Vec<Source>,
+    pub twin: Option<Twin>,
+}
+
+impl Company {
+    /// The twin of `session`, and nothing else.
+    pub fn of(session: &Session) -> Self {
+        Self {
+            comparison: None,
+            ghosts: Vec::new(),
+            twin: Twin::of(session),
+        }
+    }
+
+    /// Whether what is seen is not yet at `cycle`.
+    fn lags(&self, cycle: f64) -> bool {
+        let comparison = self.comparison.as_ref();
+        comparison.is_some_and(|comparison| comparison.lags(cycle))
+            || self.ghosts.iter().any(|ghost| ghost.lags(cycle))
+    }
+
+    /// Lets what is seen come nearer to `cycle`.
+    pub fn follow(&mut self, cycle: f64) {
+        if let Some(comparison) = &mut self.comparison {
+            comparison.follow_for(cycle, CATCH_UP);
+        }
+        for ghost in &mut self.ghosts {
+            ghost.follow_for(cycle, CATCH_UP);
+        }
+    }
+
+    /// Lets the twin come nearer to `cycle`.
+    pub fn follow_with_twin(&mut self, cycle: f64, budget: Duration) {
+        if let Some(twin) = &mut self.twin {
+            twin.follow_for(cycle, budget);
+        }
+    }
+}
+
+impl Worker {
+    /// Whether anything is not yet where the run is; a run does not wait for its twin.
+    pub(super) fn is_awaited(&self) -> bool {
+        let cycle = self.cycle();
+        let twin = self.company.twin.as_ref();
+        let twin = twin.filter(|_| self.activity != Activity::Running);
+        self.company.lags(cycle) || twin.is_some_and(|twin| twin.lags(cycle))
+    }
+
+    /// Lets what runs beside come nearer to the run for a moment.
+    pub(super) fn catch_up(&mut self) {
+        let cycle = self.cycle();
+        self.company.follow(cycle);
+        self.company.follow_with_twin(cycle, CATCH_UP);
+        if self.screen.is_due() || !self.is_awaited() {
+            self.publish();
+        }
+    }
+
+    /// Begins or ends the comparison with another method.
+    pub fn compare_or_stop(&mut self) {
+        if self.company.comparison.take().is_none() {
+            self.compare(0, From::Now);
+        }
+    }
+
+    /// Compares from the start of the scenario on.
+    pub fn compare_from_start(&mut self) {
+        self.compare(0, From::Start);
+    }
+
+    /// Starts a comparison, this many places after the previous one, from now or from the start.
+    pub(super) fn compare(&mut self, places: isize, from: From) {
+        let before = self.company.comparison.as_ref();
+        match ComparisonRun::beside(&self.session, before, places, from) {
+            Ok(comparison) => {
+                let name = comparison.name();
+                self.screen.notice(&match from {
+                    From::Now => format!("comparing with {name} from here; C: from the start"),
+                    From::Start => format!("comparing with {name} from the start"),
+                });
+                self.company.comparison = Some(comparison);
+            }
+            Err(error) => self.screen.notice(&error.to_string()),
+        }
+    }
+
+    /// Lays the present state over the panels.
+    pub fn freeze(&mut self) {
+        self.add_ghost(Source::frozen(&self.session, &self.trend));
+    }
+
+    /// Lays the curves of a file, a directory or a scenario over the panels.
+    pub fn overlay(&mut self, given: &str) {
+        let reach = self.session.simulation().setup().grid.radius();
+        match Source::load(given, reach) {
+            Ok(ghost) => self.add_ghost(ghost),
+            Err(error) => self.screen.notice(&error),
+        }
+    }
+
+    fn add_ghost(&mut self, ghost: Source) {
+        let most = ghosts::MOST;
+        if self.company.ghosts.len() >= most {
+            let told = format!("{most} ghosts are there already; G removes them");
+            return self.screen.notice(&told);
+        }
+        let name = ghost.name();
+        self.screen
+            .notice(&format!("{name} is over the plots now; G removes it"));
+        self.company.ghosts.push(ghost);
+    }
+
+    /// Takes all of them away.
+    pub fn drop_ghosts(&mut self) {
+        if std::mem::take(&mut self.company.ghosts).is_empty() {
+            let told = "there is no ghost; g freezes this state, :overlay FILE takes a file";
+            self.screen.notice(told);
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! What the user asks for beside the run: files, a study, and an estimate of the errors.
+
+use std::path::Path;
+use std::thread;
+
+use super::Worker;
+use crate::tui::map::live::{Live, Range};
+use crate::tui::{Event, figure, refinement_check, snapshot};
+
+impl Worker {
+    /// Runs the refinement check in its own thread; its result comes as an event.
+    pub fn check_refinement(&self) {
+        let (session, events) = (self.session.clone(), self.screen.events.clone());
+        thread::spawn(move || {
+            // The receiver waits for an answer, whatever happens.
+            let answer = std::panic::catch_unwind(|| refinement_check::run(&session))
+                .map_err(|_| "the refinement check failed".to_owned())
+                .and_then(|answer| answer.map_err(|error| error.to_string()));
+            let _ = events.send(Event::RefinementCheck(answer));
+        });
+    }
+
+    /// Starts a study around the present scenario, up to the present cycle.
+    pub fn sweep(&self, range: &Range) {
+        let cycle = self.cycle();
+        let planned = self.session.loaded().run().cycles;
+        let cycles = if cycle > 0.0 {
+            cycle
+        } else {
+            planned.unwrap_or(1.0)
+        };
+        let events = self.screen.events.clone();
+        let tell = move || {
+            let _ = events.send(Event::News);
+        };
+        match Live::start(range, self.session.scenario(), cycles, tell) {
+            Ok(live) => {
+                self.screen.send(Event::Sweep(live));
+            }
+            Err(error) => self.screen.notice(&error.to_string()),
+        }
+    }
+
+    /// Writes the state to a new directory, with a note if there is one.
+    pub fn write_snapshot(&mut self, note: Option<&str>) {
+        match snapshot::write(&self.session, &self.trend, note) {
+            Ok(path) => {
+                self.snapshots.push(self.cycle());
+                self.screen
+                    .notice(&format!("snapshot in {}", path.display()));
+            }
+            Err(error) => self.screen.unwritten(&error.to_string()),
+        }
+    }
+
+    /// Draws a figure of the state into a file, its data beside it.
+    pub fn write_figure(&self, path: &Path) {
+        match figure::write(&self.session, &self.trend, path) {
+            Ok(()) => self.screen.notice(&format!("figure in {}", path.display())),
+            Err(error) => self.screen.unwritten(&error),
+        }
+    }
+}

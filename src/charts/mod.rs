@@ -22,6 +22,7 @@ pub mod residual;
 pub mod run;
 pub mod scar_depth;
 pub mod scar_growth;
+mod simulated;
 pub mod springs;
 pub mod stresses;
 pub mod volume;

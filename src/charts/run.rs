@@ -4,13 +4,9 @@ use std::sync::Arc;
 
 use super::{Medium, View};
 use crate::contact::indenter::Indenter;
-use crate::export::last_loop::LastLoop;
-use crate::export::{field, header, state};
 use crate::plot::Zone;
-use crate::reading::{Curves, Moment};
+use crate::reading::Moment;
 use crate::scenario::Scenario;
-use crate::scenario::scalars::{self, Reading, Value};
-use crate::scenario::session::{Session, SessionError};
 use crate::studies::ghost::Ghost;
 use crate::studies::theory::Theory;
 use crate::traces::Table;
@@ -112,17 +108,6 @@ pub struct Run {
     pub live: Option<Live>,
 }
 
-/// What the charts over cycles show.
-const OVER_CYCLES: [&str; 7] = [
-    "cycle",
-    "contact_radius_m",
-    "permanent_stick_radius_m",
-    "wear_volume_m3",
-    "scar_depth_m",
-    "scar_radius_m",
-    "dissipated_energy_J",
-];
-
 impl Run {
     /// About the deepest wear at the planned end, m; 0 where it is not known.
     pub fn expected_wear(&self) -> f64 {
@@ -167,70 +152,6 @@ impl Run {
             return Err("does not have the columns of a state, a history or a field".into());
         }
         Ok(())
-    }
-
-    /// Takes the present state of `session` in.
-    pub fn take_state(&mut self, session: &Session) {
-        let seen = session.simulation().observe(Curves::all());
-        let table = Table::of_columns(header::entries(session), state::columns(&seen));
-        self.states.push(table);
-    }
-
-    /// Runs `session` to the last of `cycles` (rising) and takes in the states there, the loop before each of
-    /// them, whole cycles over the run, and the field at the end if `with_field`.
-    ///
-    /// # Errors
-    /// If the run stops.
-    pub fn to(
-        session: &mut Session,
-        cycles: &[f64],
-        with_field: bool,
-    ) -> Result<Self, SessionError> {
-        let mut data = Self::default().of(session.scenario());
-        let scalars = OVER_CYCLES.map(scalars::find);
-        let mut seen: Vec<Vec<f64>> = vec![Vec::new(); scalars.len()];
-        let mut record = |session: &Session| {
-            let reading = Reading::new(session);
-            for (values, scalar) in seen.iter_mut().zip(scalars) {
-                let value = scalar.map(|scalar| scalar.read(&reading));
-                values.push(match value {
-                    Some(Value::Number(number)) => number,
-                    _ => f64::NAN,
-                });
-            }
-        };
-        record(session);
-        for &end in cycles {
-            let mut last = LastLoop::default();
-            last.record(session.simulation(), end);
-            while session.simulation().cycle() < end {
-                let simulation = session.simulation();
-                let next = match simulation.may_jump() {
-                    true => end,
-                    false => end.min(simulation.cycle().floor() + 1.0),
-                };
-                session.step_until(next)?;
-                last.record(session.simulation(), end);
-                if session.simulation().cycle().fract() == 0.0 {
-                    record(session);
-                }
-            }
-            data.take_state(session);
-            let rows = last.rows(session.simulation());
-            data.loops.push(Loop::of_rows(end, &rows));
-        }
-        if session.simulation().cycle() < 1.0 {
-            record(session);
-        }
-        let columns = OVER_CYCLES.into_iter().zip(seen);
-        data.history = Some(Table::of_columns(header::entries(session), columns));
-        data.field = with_field.then(|| {
-            let rows = field::rows(session);
-            let columns = field::COLUMNS.into_iter().enumerate();
-            let columns = columns.map(|(k, name)| (name, rows.iter().map(|row| row[k]).collect()));
-            Table::of_columns(header::entries(session), columns)
-        });
-        Ok(data)
     }
 
     /// The loop of the cycle before `end`: on its own, or from a history of every step.

@@ -91,10 +91,10 @@ fn trade_nodes_for_others(table: &mut Table, path: &str) {
 /// One of two keys for the same takes the place of the other.
 fn trade_twin(table: &mut Table, path: &str) {
     const TWINS: [[&str; 2]; 3] = [
-        [keys::NORMAL_FREQUENCY.path(), keys::NORMAL_HERTZ.path()],
+        [keys::NORMAL.frequency.path(), keys::NORMAL.hertz.path()],
         [
-            keys::TANGENTIAL_FREQUENCY.path(),
-            keys::TANGENTIAL_HERTZ.path(),
+            keys::TANGENTIAL.frequency.path(),
+            keys::TANGENTIAL.hertz.path(),
         ],
         [keys::WEAR_COEFFICIENT.path(), keys::WEAR_PER_LOAD.path()],
     ];

@@ -10,7 +10,7 @@ use crate::math::invalid::Invalid;
 impl Parts<'_> {
     /// The moduli and the coefficient of friction.
     pub(super) fn material(&self) -> Result<Material, ScenarioError> {
-        let first = self.get(&keys::FRICTION_VALUES);
+        let first = self.get(&keys::FRICTION_COURSE.values);
         let first = first.and_then(|values| values.first().copied());
         let friction = match self.get(&keys::FRICTION).or(first) {
             None if self.has("motion.tangential") => {

@@ -8,15 +8,177 @@ use crate::math::abel::AbelMethod;
 use crate::math::grid::{MAX_CELLS, MIN_CELLS};
 use crate::simulation::{Integrator, Scheme, Spacing, Stability};
 
-/// Makes a constant of each key, and the list of all.
+/// Makes a constant of each key, and the list of all, those of the groups that are named in brackets among them.
 macro_rules! keys {
-    ($($name:ident: $type:ty = $key:expr;)*) => {
-        $(pub(super) const $name: Key<$type> = $key;)*
+    ($({ $($name:ident: $type:ty = $key:expr;)* } $([$($of:ident.$field:ident)*])?)*) => {
+        $($(pub(super) const $name: Key<$type> = $key;)*)*
 
         /// All keys, in the order in which a scenario is written.
-        pub const PARAMETERS: &[Parameter] = &[$($name.parameter),*];
+        pub const PARAMETERS: &[Parameter] = &[$($($name.parameter,)* $($($of.$field.parameter,)*)?)*];
     };
 }
+
+/// The keys of one direction of the motion.
+pub(super) struct Motion {
+    pub section: &'static str,
+    pub control: Key<String>,
+    pub mean: Key<f64>,
+    pub amplitude: Key<f64>,
+    pub frequency: Key<f64>,
+    pub hertz: Key<f64>,
+    pub phase: Key<f64>,
+    pub waveform: Key<String>,
+    pub hold: Key<f64>,
+    pub file: Key<String>,
+    pub times: Key<Vec<f64>>,
+    pub values: Key<Vec<f64>>,
+}
+
+/// The keys of a direction, with what is said of it alone.
+macro_rules! motion {
+    (
+        $way:literal beside $other:literal: control $control:literal,
+        mean $mean:literal $mean_effect:literal $(default $default:literal)?, amplitude $amplitude:literal,
+        frequency $cycle:literal $frequency:literal, phase $phase:literal
+    ) => {
+        Motion {
+            section: concat!("motion.", $way),
+            control: choice(concat!("motion.", $way, ".control"), CONTROLS,
+                    concat!("what is prescribed in the ", $way, " direction"))
+                .default(Written("\"displacement\""))
+                .effect($control),
+            mean: quantity(concat!("motion.", $way, ".mean"), PRESCRIBED, Any, $mean)
+                $(.default(Implied($default)))?
+                .effect($mean_effect),
+            amplitude: quantity(concat!("motion.", $way, ".amplitude"), PRESCRIBED, NotNegative,
+                    concat!("amplitude of the ", $way, " motion"))
+                .default(Implied("0.0"))
+                .effect($amplitude),
+            frequency: quantity(concat!("motion.", $way, ".angular_frequency"), "rad/s", Positive,
+                    concat!("angular frequency of the ", $way, " motion", $cycle))
+                .default(Derived(concat!("that of the ", $other, " motion if the amplitude is 0")))
+                .effect($frequency),
+            hertz: quantity(concat!("motion.", $way, ".frequency"), "Hz", Positive,
+                    concat!("frequency of the ", $way, " motion, instead of angular_frequency", $cycle))
+                .effect($frequency),
+            phase: quantity(concat!("motion.", $way, ".phase"), "rad", Any, concat!("phase of the ", $way, " motion"))
+                .default(Implied("0.0"))
+                .effect($phase),
+            waveform: choice(concat!("motion.", $way, ".waveform"), WAVEFORMS,
+                    concat!("waveform of the ", $way, " motion"))
+                .default(Implied("\"sine\""))
+                .effect("at constant depth only the turning points count"),
+            hold: quantity(concat!("motion.", $way, ".hold"), "", UpTo(0.99),
+                    "fraction of a period spent at rest, for waveform = \"trapezoid\"")
+                .effect("raising it: longer rests, faster strokes"),
+            file: text(concat!("motion.", $way, ".file"),
+                    "CSV file of waveform = \"table\": one period, columns time_s and u_m, or F_N, or value")
+                .effect("another table of one period"),
+            times: quantities(concat!("motion.", $way, ".times"), "s", Any,
+                    concat!("times of the table, as read from motion.", $way, ".file"))
+                .effect("the times of the table"),
+            values: quantities(concat!("motion.", $way, ".values"), PRESCRIBED, Any,
+                    concat!("values of the table, as read from motion.", $way, ".file"))
+                .effect("the values of the table"),
+        }
+    };
+}
+
+pub(super) const NORMAL: Motion = motion!(
+    "normal" beside "tangential": control "displacement: wear unloads the contact; force: it sinks in",
+    mean "mean depth or mean normal force" "raising it: a wider contact, a wider stick zone",
+    amplitude "raising it: the edge of the contact opens and closes further",
+    frequency "" "a different ratio to the tangential one: a different loop",
+    phase "when the contact is deepest, relative to the tangential motion"
+);
+
+pub(super) const TANGENTIAL: Motion = motion!(
+    "tangential" beside "normal": control "displacement or force oscillates",
+    mean "mean displacement or mean tangential force" "where the motion is centred; forgotten after a cycle"
+        default "0.0",
+    amplitude "raising it: a wider slip ring, then gross slip",
+    frequency "; one period is a cycle" "one period is a cycle; matters for powers of the slip rate",
+    phase "when the shift is largest, relative to the depth"
+);
+
+/// The keys of a coefficient that runs in, but for that which it begins with.
+pub(super) struct RunsIn {
+    pub section: &'static str,
+    pub settled: Key<f64>,
+    pub cycles: Key<f64>,
+    pub energy: Key<f64>,
+    pub file: Key<String>,
+    pub at_cycle: Key<Vec<f64>>,
+    pub at_energy: Key<Vec<f64>>,
+    pub values: Key<Vec<f64>>,
+}
+
+/// The keys of a coefficient in a unit, with what is said of it alone.
+macro_rules! runs_in {
+    (
+        $of:literal $unit:literal: settled $settled:literal $settled_effect:literal, later $later:literal,
+        file $file:literal $file_effect:literal, values $values:literal
+    ) => {
+        RunsIn {
+            section: $of,
+            settled: quantity(concat!($of, ".settled"), $unit, NotNegative, $settled)
+                .effect($settled_effect),
+            cycles: quantity(
+                concat!($of, ".running_in_cycles"),
+                "cycles",
+                Positive,
+                "cycles in which the distance to settled falls by a factor e",
+            )
+            .effect($later),
+            energy: quantity(
+                concat!($of, ".running_in_energy"),
+                "J",
+                Positive,
+                "friction work in which the distance to settled falls by a factor e",
+            )
+            .effect($later),
+            file: text(concat!($of, ".file"), $file).effect($file_effect),
+            at_cycle: quantities(
+                concat!($of, ".at_cycle"),
+                "cycles",
+                NotNegative,
+                concat!("cycles of the table, as read from ", $of, ".file"),
+            )
+            .effect("the cycles of the course"),
+            at_energy: quantities(
+                concat!($of, ".at_energy"),
+                "J",
+                NotNegative,
+                concat!("energies of the table, as read from ", $of, ".file"),
+            )
+            .effect("the energies of the course"),
+            values: quantities(
+                concat!($of, ".values"),
+                $unit,
+                NotNegative,
+                concat!($values, " of the table, as read from ", $of, ".file"),
+            )
+            .effect("the coefficients of the course"),
+        }
+    };
+}
+
+pub(super) const FRICTION_COURSE: RunsIn = runs_in!(
+    "friction" "": settled "coefficient of friction after running in" "friction after running in",
+    later "raising it: friction settles later",
+    file "CSV file with columns coefficient and cycle or energy_J, instead of coefficient"
+        "another course of the friction coefficient",
+    values "coefficients"
+);
+
+pub(super) const WEAR_COURSE: RunsIn = runs_in!(
+    "wear" "1/Pa": settled "wear coefficient per friction work after running in"
+        "the wear coefficient after running in",
+    later "raising it: the wear coefficient settles later",
+    file "CSV file with columns coefficient (1/Pa) and cycle or energy_J, instead of coefficient"
+        "another course of the wear coefficient",
+    values "wear coefficients"
+);
 
 /// The shapes that `indenter.shape` names.
 pub(super) const SHAPES: &[&str] = &[
@@ -46,6 +208,7 @@ pub(super) const CHOSEN_BY_ACCURACY: [&str; 4] = [
 ];
 
 keys! {
+    {
     TITLE: String = text("title", "a short name, shown on screens and in files");
     DESCRIPTION: String = text("description", "what the scenario shows");
 
@@ -129,111 +292,23 @@ keys! {
     FRICTION: f64 = quantity("friction.coefficient", "", NotNegative, "coefficient of friction")
         .effect("raising it: a wider stick zone, higher shear where it slips");
 
-    FRICTION_SETTLED: f64 = quantity("friction.settled", "", NotNegative,
-            "coefficient of friction after running in")
-        .effect("friction after running in");
-    FRICTION_CYCLES: f64 = quantity("friction.running_in_cycles", "cycles", Positive,
-            "cycles in which the distance to settled falls by a factor e")
-        .effect("raising it: friction settles later");
-    FRICTION_ENERGY: f64 = quantity("friction.running_in_energy", "J", Positive,
-            "friction work in which the distance to settled falls by a factor e")
-        .effect("raising it: friction settles later");
-    FRICTION_FILE: String = text("friction.file",
-            "CSV file with columns coefficient and cycle or energy_J, instead of coefficient")
-        .effect("another course of the friction coefficient");
-    FRICTION_AT_CYCLE: Vec<f64> = quantities("friction.at_cycle", "cycles", NotNegative,
-            "cycles of the table, as read from friction.file")
-        .effect("the cycles of the course");
-    FRICTION_AT_ENERGY: Vec<f64> = quantities("friction.at_energy", "J", NotNegative,
-            "energies of the table, as read from friction.file")
-        .effect("the energies of the course");
-    FRICTION_VALUES: Vec<f64> = quantities("friction.values", "", NotNegative,
-            "coefficients of the table, as read from friction.file")
-        .effect("the coefficients of the course");
-
-    NORMAL_CONTROL: String = choice("motion.normal.control", CONTROLS,
-            "what is prescribed in the normal direction")
-        .default(Written("\"displacement\""))
-        .effect("displacement: wear unloads the contact; force: it sinks in");
-    NORMAL_MEAN: f64 = quantity("motion.normal.mean", PRESCRIBED, Any,
-            "mean depth or mean normal force")
-        .effect("raising it: a wider contact, a wider stick zone");
-    NORMAL_AMPLITUDE: f64 = quantity("motion.normal.amplitude", PRESCRIBED, NotNegative,
-            "amplitude of the normal motion")
-        .default(Implied("0.0"))
-        .effect("raising it: the edge of the contact opens and closes further");
-    NORMAL_FREQUENCY: f64 = quantity("motion.normal.angular_frequency", "rad/s", Positive,
-            "angular frequency of the normal motion")
-        .default(Derived("that of the tangential motion if the amplitude is 0"))
-        .effect("a different ratio to the tangential one: a different loop");
-    NORMAL_HERTZ: f64 = quantity("motion.normal.frequency", "Hz", Positive,
-            "frequency of the normal motion, instead of angular_frequency")
-        .effect("a different ratio to the tangential one: a different loop");
-    NORMAL_PHASE: f64 = quantity("motion.normal.phase", "rad", Any, "phase of the normal motion")
-        .default(Implied("0.0"))
-        .effect("when the contact is deepest, relative to the tangential motion");
-    NORMAL_WAVEFORM: String = choice("motion.normal.waveform", WAVEFORMS,
-            "waveform of the normal motion")
-        .default(Implied("\"sine\""))
-        .effect("at constant depth only the turning points count");
-    NORMAL_HOLD: f64 = quantity("motion.normal.hold", "", UpTo(0.99),
-            "fraction of a period spent at rest, for waveform = \"trapezoid\"")
-        .effect("raising it: longer rests, faster strokes");
-    NORMAL_FILE: String = text("motion.normal.file",
-            "CSV file of waveform = \"table\": one period, columns time_s and u_m, or F_N, or value")
-        .effect("another table of one period");
-    NORMAL_TIMES: Vec<f64> = quantities("motion.normal.times", "s", Any,
-            "times of the table, as read from motion.normal.file")
-        .effect("the times of the table");
-    NORMAL_VALUES: Vec<f64> = quantities("motion.normal.values", PRESCRIBED, Any,
-            "values of the table, as read from motion.normal.file")
-        .effect("the values of the table");
-
-    TANGENTIAL_CONTROL: String = choice("motion.tangential.control", CONTROLS,
-            "what is prescribed in the tangential direction")
-        .default(Written("\"displacement\""))
-        .effect("displacement or force oscillates");
-    TANGENTIAL_MEAN: f64 = quantity("motion.tangential.mean", PRESCRIBED, Any,
-            "mean displacement or mean tangential force")
-        .default(Implied("0.0"))
-        .effect("where the motion is centred; forgotten after a cycle");
-    TANGENTIAL_AMPLITUDE: f64 = quantity("motion.tangential.amplitude", PRESCRIBED, NotNegative,
-            "amplitude of the tangential motion")
-        .default(Implied("0.0"))
-        .effect("raising it: a wider slip ring, then gross slip");
-    TANGENTIAL_FREQUENCY: f64 = quantity("motion.tangential.angular_frequency", "rad/s", Positive,
-            "angular frequency of the tangential motion; one period is a cycle")
-        .default(Derived("that of the normal motion if the amplitude is 0"))
-        .effect("one period is a cycle; matters for powers of the slip rate");
-    TANGENTIAL_HERTZ: f64 = quantity("motion.tangential.frequency", "Hz", Positive,
-            "frequency of the tangential motion, instead of angular_frequency; one period is a cycle")
-        .effect("one period is a cycle; matters for powers of the slip rate");
-    TANGENTIAL_PHASE: f64 = quantity("motion.tangential.phase", "rad", Any,
-            "phase of the tangential motion")
-        .default(Implied("0.0"))
-        .effect("when the shift is largest, relative to the depth");
+    }
+    [
+        FRICTION_COURSE.settled FRICTION_COURSE.cycles FRICTION_COURSE.energy FRICTION_COURSE.file
+        FRICTION_COURSE.at_cycle FRICTION_COURSE.at_energy FRICTION_COURSE.values
+        NORMAL.control NORMAL.mean NORMAL.amplitude NORMAL.frequency NORMAL.hertz NORMAL.phase NORMAL.waveform
+        NORMAL.hold NORMAL.file NORMAL.times NORMAL.values
+        TANGENTIAL.control TANGENTIAL.mean TANGENTIAL.amplitude TANGENTIAL.frequency TANGENTIAL.hertz TANGENTIAL.phase
+    ]
+    {
     RIG_STIFFNESS: f64 = quantity("motion.tangential.rig_stiffness", "N/m", Positive,
             "stiffness of the rig in series with the contact: the motion is then that of the \
              actuator")
         .default(Derived("infinite: the contact gets the whole motion"))
         .effect("raising it: the contact gets more of the actuator's motion");
-    TANGENTIAL_WAVEFORM: String = choice("motion.tangential.waveform", WAVEFORMS,
-            "waveform of the tangential motion")
-        .default(Implied("\"sine\""))
-        .effect("at constant depth only the turning points count");
-    TANGENTIAL_HOLD: f64 = quantity("motion.tangential.hold", "", UpTo(0.99),
-            "fraction of a period spent at rest, for waveform = \"trapezoid\"")
-        .effect("raising it: longer rests, faster strokes");
-    TANGENTIAL_FILE: String = text("motion.tangential.file",
-            "CSV file of waveform = \"table\": one period, columns time_s and u_m, or F_N, or value")
-        .effect("another table of one period");
-    TANGENTIAL_TIMES: Vec<f64> = quantities("motion.tangential.times", "s", Any,
-            "times of the table, as read from motion.tangential.file")
-        .effect("the times of the table");
-    TANGENTIAL_VALUES: Vec<f64> = quantities("motion.tangential.values", PRESCRIBED, Any,
-            "values of the table, as read from motion.tangential.file")
-        .effect("the values of the table");
-
+    }
+    [TANGENTIAL.waveform TANGENTIAL.hold TANGENTIAL.file TANGENTIAL.times TANGENTIAL.values]
+    {
     LAW: String = choice("wear.law", LAWS, "law of wear")
         .default(Written("\"archard\""))
         .effect("archard: by friction work; power: by powers of stress and slip rate");
@@ -243,32 +318,16 @@ keys! {
     WEAR_PER_LOAD: f64 = quantity("wear.coefficient_per_load", "m^3/(N*m)", NotNegative,
             "Archard's, of a pin test: volume per load and sliding distance, instead of coefficient")
         .effect("as coefficient: k = coefficient_per_load / friction, of each moment");
-    WEAR_SETTLED: f64 = quantity("wear.settled", "1/Pa", NotNegative,
-            "wear coefficient per friction work after running in")
-        .effect("the wear coefficient after running in");
-    WEAR_CYCLES: f64 = quantity("wear.running_in_cycles", "cycles", Positive,
-            "cycles in which the distance to settled falls by a factor e")
-        .effect("raising it: the wear coefficient settles later");
-    WEAR_ENERGY: f64 = quantity("wear.running_in_energy", "J", Positive,
-            "friction work in which the distance to settled falls by a factor e")
-        .effect("raising it: the wear coefficient settles later");
+    }
+    [WEAR_COURSE.settled WEAR_COURSE.cycles WEAR_COURSE.energy]
+    {
     WEAR_THRESHOLD: f64 = quantity("wear.threshold_energy", "J", NotNegative,
             "friction work below which nothing wears: V = k (E_d - threshold)")
         .default(Implied("0.0"))
         .effect("raising it: wear begins later");
-    WEAR_FILE: String = text("wear.file",
-            "CSV file with columns coefficient (1/Pa) and cycle or energy_J, instead of \
-             coefficient")
-        .effect("another course of the wear coefficient");
-    WEAR_AT_CYCLE: Vec<f64> = quantities("wear.at_cycle", "cycles", NotNegative,
-            "cycles of the table, as read from wear.file")
-        .effect("the cycles of the course");
-    WEAR_AT_ENERGY: Vec<f64> = quantities("wear.at_energy", "J", NotNegative,
-            "energies of the table, as read from wear.file")
-        .effect("the energies of the course");
-    WEAR_VALUES: Vec<f64> = quantities("wear.values", "1/Pa", NotNegative,
-            "wear coefficients of the table, as read from wear.file")
-        .effect("the coefficients of the course");
+    }
+    [WEAR_COURSE.file WEAR_COURSE.at_cycle WEAR_COURSE.at_energy WEAR_COURSE.values]
+    {
     WEAR_INITIAL: String = text("wear.initial",
             "CSV file of the scar that the run begins with: columns r_m and depth_m, or wear_m as in state.csv")
         .effect("another scar to begin with; fixed during a run");
@@ -358,4 +417,5 @@ keys! {
     AT_CYCLE: f64 = quantity("changes.at_cycle", "cycles", NotNegative,
         "when a key was changed during the run");
     SET: String = text("changes.set", "the key and its new value, as KEY = VALUE");
+    }
 }

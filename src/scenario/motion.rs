@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::check::missing;
 use super::error::ScenarioError;
-use super::keys;
+use super::keys::{self, Motion, NORMAL, TANGENTIAL};
 use super::schema::Key;
 use super::validate::Parts;
 use crate::simulation::drive::{Control, Drive, Oscillation};
@@ -13,59 +13,13 @@ use crate::simulation::waveform::{Tabled, Waveform};
 /// The most periods of the normal motion in a cycle.
 const HIGHEST_RATIO: f64 = 1000.0;
 
-/// The keys of one direction of the motion.
-struct Motion {
-    section: &'static str,
-    control: Key<String>,
-    mean: Key<f64>,
-    amplitude: Key<f64>,
-    frequency: Key<f64>,
-    hertz: Key<f64>,
-    phase: Key<f64>,
-    waveform: Key<String>,
-    hold: Key<f64>,
-    file: Key<String>,
-    times: Key<Vec<f64>>,
-    values: Key<Vec<f64>>,
-}
-
-const NORMAL: Motion = Motion {
-    section: "motion.normal",
-    control: keys::NORMAL_CONTROL,
-    mean: keys::NORMAL_MEAN,
-    amplitude: keys::NORMAL_AMPLITUDE,
-    frequency: keys::NORMAL_FREQUENCY,
-    hertz: keys::NORMAL_HERTZ,
-    phase: keys::NORMAL_PHASE,
-    waveform: keys::NORMAL_WAVEFORM,
-    hold: keys::NORMAL_HOLD,
-    file: keys::NORMAL_FILE,
-    times: keys::NORMAL_TIMES,
-    values: keys::NORMAL_VALUES,
-};
-
-const TANGENTIAL: Motion = Motion {
-    section: "motion.tangential",
-    control: keys::TANGENTIAL_CONTROL,
-    mean: keys::TANGENTIAL_MEAN,
-    amplitude: keys::TANGENTIAL_AMPLITUDE,
-    frequency: keys::TANGENTIAL_FREQUENCY,
-    hertz: keys::TANGENTIAL_HERTZ,
-    phase: keys::TANGENTIAL_PHASE,
-    waveform: keys::TANGENTIAL_WAVEFORM,
-    hold: keys::TANGENTIAL_HOLD,
-    file: keys::TANGENTIAL_FILE,
-    times: keys::TANGENTIAL_TIMES,
-    values: keys::TANGENTIAL_VALUES,
-};
-
 impl Parts<'_> {
     /// Both directions of the motion, on their rig.
     pub(super) fn drive(&self) -> Result<Drive, ScenarioError> {
         let normal = self.control(&NORMAL, &TANGENTIAL)?;
         if normal.oscillation().highest() <= 0.0 {
             let rule = "never touches; mean + amplitude must be greater than 0";
-            return Err(self.refuse(keys::NORMAL_MEAN.path(), "", rule));
+            return Err(self.refuse(NORMAL.mean.path(), "", rule));
         }
         let tangential = self
             .has(TANGENTIAL.section)
@@ -78,9 +32,9 @@ impl Parts<'_> {
                 "must be at most {HIGHEST_RATIO} times motion.tangential.angular_frequency, \
                  whose period is the cycle"
             );
-            let given = match self.has(keys::NORMAL_HERTZ.path()) {
-                true => keys::NORMAL_HERTZ.path(),
-                false => keys::NORMAL_FREQUENCY.path(),
+            let given = match self.has(NORMAL.hertz.path()) {
+                true => NORMAL.hertz.path(),
+                false => NORMAL.frequency.path(),
             };
             return Err(self.refuse(given, "", rule));
         }

@@ -1,46 +1,12 @@
 //! Builds coefficients that run in from the keys of a scenario.
 
 use super::error::ScenarioError;
-use super::keys;
+use super::keys::{self, FRICTION_COURSE, RunsIn, WEAR_COURSE};
 use super::schema::Key;
 use super::validate::Parts;
 use crate::contact::material::Material;
 use crate::math::invalid::Invalid;
 use crate::simulation::running_in::{Course, Over, RunningIn};
-
-/// The keys of a coefficient that runs in.
-struct Keys {
-    section: &'static str,
-    first: Key<f64>,
-    settled: Key<f64>,
-    cycles: Key<f64>,
-    energy: Key<f64>,
-    at_cycle: Key<Vec<f64>>,
-    at_energy: Key<Vec<f64>>,
-    values: Key<Vec<f64>>,
-}
-
-const FRICTION: Keys = Keys {
-    section: "friction",
-    first: keys::FRICTION,
-    settled: keys::FRICTION_SETTLED,
-    cycles: keys::FRICTION_CYCLES,
-    energy: keys::FRICTION_ENERGY,
-    at_cycle: keys::FRICTION_AT_CYCLE,
-    at_energy: keys::FRICTION_AT_ENERGY,
-    values: keys::FRICTION_VALUES,
-};
-
-const WEAR: Keys = Keys {
-    section: "wear",
-    first: keys::WEAR_COEFFICIENT,
-    settled: keys::WEAR_SETTLED,
-    cycles: keys::WEAR_CYCLES,
-    energy: keys::WEAR_ENERGY,
-    at_cycle: keys::WEAR_AT_CYCLE,
-    at_energy: keys::WEAR_AT_ENERGY,
-    values: keys::WEAR_VALUES,
-};
 
 impl Parts<'_> {
     /// The coefficients that run in; `None` if they are constant.
@@ -50,9 +16,9 @@ impl Parts<'_> {
     ) -> Result<Option<RunningIn>, ScenarioError> {
         self.refuse_coefficients_of_both_kinds()?;
         let mut all = RunningIn {
-            friction: self.course(&FRICTION)?,
-            wear: self.course(&WEAR)?,
-            threshold: match self.has(WEAR.section) {
+            friction: self.course(&keys::FRICTION, &FRICTION_COURSE)?,
+            wear: self.course(&keys::WEAR_COEFFICIENT, &WEAR_COURSE)?,
+            threshold: match self.has(WEAR_COURSE.section) {
                 true => self.require(&keys::WEAR_THRESHOLD)?,
                 false => 0.0,
             },
@@ -64,7 +30,8 @@ impl Parts<'_> {
         if all.threshold > 0.0 && all.wear.is_none() {
             let coefficient = self.wear_coefficient(material)?;
             let constant = Course::table(&[0.0], &[coefficient], Over::Cycles);
-            all.wear = Some(constant.map_err(|invalid| self.refused(WEAR.section, invalid))?);
+            all.wear =
+                Some(constant.map_err(|invalid| self.refused(WEAR_COURSE.section, invalid))?);
         }
         Ok((all != RunningIn::default()).then_some(all))
     }
@@ -73,10 +40,10 @@ impl Parts<'_> {
     fn refuse_coefficients_of_both_kinds(&self) -> Result<(), ScenarioError> {
         const PER_WORK: [&str; 5] = [
             keys::WEAR_COEFFICIENT.path(),
-            keys::WEAR_SETTLED.path(),
-            keys::WEAR_CYCLES.path(),
-            keys::WEAR_ENERGY.path(),
-            keys::WEAR_VALUES.path(),
+            WEAR_COURSE.settled.path(),
+            WEAR_COURSE.cycles.path(),
+            WEAR_COURSE.energy.path(),
+            WEAR_COURSE.values.path(),
         ];
         let path = keys::WEAR_PER_LOAD.path();
         let mut others = PER_WORK.into_iter().filter(|other| self.has(other));
@@ -104,7 +71,7 @@ impl Parts<'_> {
         })
     }
 
-    fn course(&self, keys: &Keys) -> Result<Option<Course>, ScenarioError> {
+    fn course(&self, first: &Key<f64>, keys: &RunsIn) -> Result<Option<Course>, ScenarioError> {
         let table = match (self.get(&keys.at_cycle), self.get(&keys.at_energy)) {
             (Some(at), None) => Some((at, Over::Cycles, keys.at_cycle.path())),
             (None, Some(at)) => Some((at, Over::Energy, keys.at_energy.path())),
@@ -149,7 +116,7 @@ impl Parts<'_> {
                 false => Ok(None),
             };
         };
-        let (first, settled) = (self.require(&keys.first)?, self.require(&keys.settled)?);
+        let (first, settled) = (self.require(first)?, self.require(&keys.settled)?);
         Course::exponential(first, settled, constant, over)
             .map(Some)
             .map_err(|invalid: Invalid| self.refused(keys.section, invalid))

@@ -187,7 +187,7 @@ impl Parts<'_> {
             return Ok(None);
         }
         let is_power = self.require(&keys::LAW)? == "power";
-        let first = self.get(&keys::WEAR_VALUES);
+        let first = self.get(&keys::WEAR_COURSE.values);
         let coefficient = match first.and_then(|values| values.first().copied()) {
             Some(first) => self.get(&keys::WEAR_COEFFICIENT).unwrap_or(first),
             None => self.wear_coefficient(material)?,
@@ -278,7 +278,7 @@ impl Parts<'_> {
         }
         let radius = domain.ok_or_else(|| {
             self.refuse(
-                keys::NORMAL_MEAN.path(),
+                keys::NORMAL.mean.path(),
                 "",
                 "no contact can carry this force; must be smaller",
             )

@@ -14,14 +14,12 @@
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
-use std::sync::atomic::Ordering;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
-use std::sync::{Arc, Mutex, TryLockError};
-use std::thread;
+use std::sync::mpsc::channel;
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use crate::scenario::session::Session;
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 
 pub mod ansi_backend;
 pub mod app;
@@ -84,16 +82,10 @@ use refinement_check::RefinementCheck;
 pub use script::{Format, Script, Size, Stroke, rehearse};
 pub use terminal::Capture;
 use theme::{Depth, Look, Theme};
-use worker::{Order, Orders, Worker};
+use worker::{Orders, Worker, WorkerThread};
 
 /// The default preset, whose tour begins by itself.
 pub(crate) const FIRST: &str = "li2019-fig3";
-
-/// How long the worker may take to finish its step on exit.
-const LAST_STEP: Duration = Duration::from_millis(500);
-
-/// How long a checkpoint being written may take on exit.
-const SAVING_TIME: Duration = Duration::from_secs(5);
 
 /// An event for the main thread.
 #[derive(Debug)]
@@ -199,7 +191,6 @@ pub fn run(options: Options) -> Result<Farewell> {
     )
     .with_past(options.past)
     .with_ghosts(options.ghosts);
-    let halt = worker.halt();
     let mut app = App::new(theme, orders.clone());
     if options.present {
         app.stage.present();
@@ -208,20 +199,18 @@ pub fn run(options: Options) -> Result<Farewell> {
         app.stage.welcome(&origin);
     }
     crate::panics::capture();
-    let kept = spawn_worker(worker, keeping.clone(), to_worker, events.clone())?;
-    let end_worker = || {
-        halt.store(true, Ordering::SeqCst);
-        orders.send(Worker::quit);
-    };
+    let worker = WorkerThread::start(worker, orders.clone(), to_worker, keeping)?;
     let outcome = match options.script {
         Some(script) => {
             catch(|| script::play(&mut app, &script, &orders, &from_threads).map(|()| None))
         }
-        None => event_loop::run(&mut app, options.mouse, &events, &from_threads, end_worker)
-            .and_then(|is_restored| left_behind(&app, is_restored)),
+        None => event_loop::run(&mut app, options.mouse, &events, &from_threads, || {
+            worker.end()
+        })
+        .and_then(|is_restored| left_behind(&app, is_restored)),
     };
-    end_worker();
-    let kept = saved_where(&kept, keeping.as_deref());
+    worker.end();
+    let kept = worker.saved();
     if let Some(word) = crate::panics::take_message() {
         let kept = kept.unwrap_or_else(|| "there was nothing to save".into());
         bail!("bug in mdr-tui: {word}; {kept}");
@@ -246,25 +235,6 @@ fn is_first_time(options: &Options) -> bool {
         && fs::write(&seen, "The contact and the tour have been shown once.\n").is_ok()
 }
 
-/// Returns the worker's message about what it has saved. A worker in the middle of a long step is
-/// not waited for: its most recent copy is saved instead.
-fn saved_where(
-    kept: &Receiver<Option<String>>,
-    keeping: Option<&Mutex<ScreenAutosave>>,
-) -> Option<String> {
-    match kept.recv_timeout(LAST_STEP) {
-        Ok(word) => return word,
-        Err(RecvTimeoutError::Disconnected) => return None,
-        Err(RecvTimeoutError::Timeout) => {}
-    }
-    match keeping?.try_lock() {
-        Ok(mut keeping) => keeping.finish(None),
-        Err(TryLockError::Poisoned(keeping)) => keeping.into_inner().finish(None),
-        // It is being saved, which may take a while on a slow disk.
-        Err(TryLockError::WouldBlock) => kept.recv_timeout(SAVING_TIME).ok().flatten(),
-    }
-}
-
 /// The last screen, if it should stay visible.
 fn left_behind(app: &App, is_restored: bool) -> Result<Option<String>> {
     if app.leave != Some(Leave::KeepScreen) || !is_restored {
@@ -278,33 +248,6 @@ fn left_behind(app: &App, is_restored: bool) -> Result<Option<String>> {
 /// Carries out `action`; a panic in it is reported by the caller, when the terminal is itself again.
 fn catch<T: Default>(action: impl FnOnce() -> Result<T>) -> Result<T> {
     catch_unwind(AssertUnwindSafe(action)).unwrap_or_else(|_| Ok(T::default()))
-}
-
-/// Reports its end, however it ends.
-struct EndReport(Sender<Event>);
-
-impl Drop for EndReport {
-    fn drop(&mut self) {
-        let _ = self.0.send(Event::WorkerGone);
-    }
-}
-
-/// Starts the worker; its final message about what it has saved comes from the returned receiver.
-fn spawn_worker(
-    worker: Worker,
-    keeping: Option<Arc<Mutex<ScreenAutosave>>>,
-    orders: Receiver<Order>,
-    events: Sender<Event>,
-) -> Result<Receiver<Option<String>>> {
-    let (tell, kept) = channel();
-    thread::Builder::new()
-        .name("simulation".into())
-        .spawn(move || {
-            let _report = EndReport(events);
-            let _ = tell.send(worker.run_with_checkpoints(&orders, keeping));
-        })
-        .context("cannot start the simulation's thread")?;
-    Ok(kept)
 }
 
 fn theme(options: &Options) -> Theme {

@@ -28,16 +28,10 @@ fn measured() -> TestDir {
     dir
 }
 
-/// The screen after `keys`; nothing on stderr.
 fn shot(dir: &TestDir, size: &str, keys: &str, arguments: &[&str]) -> String {
-    let rest = ["--keys", keys, "--print", size];
-    let said = dir.say(&[arguments, &rest].concat());
-    assert_eq!(
-        (said.code, said.err.as_str()),
-        (0, ""),
-        "{keys} {arguments:?}"
-    );
-    said.out
+    let (columns, rows) = size.split_once('x').expect("a size");
+    let number = |side: &str| side.parse().expect("a number");
+    dir.screen(arguments, keys, (number(columns), number(rows)))
 }
 
 fn foot(screen: &str) -> &str {

@@ -2,7 +2,7 @@
 //! that are refused before they cost anything; and text that would do something to a terminal.
 
 #[path = "../fuzz/src/lib.rs"]
-mod fuzzed;
+pub mod fuzzed;
 
 use std::fs;
 

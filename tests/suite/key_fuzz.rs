@@ -9,102 +9,18 @@ use std::time::{Duration, Instant};
 
 use mdr_tui::scenario::preset;
 
+use crate::hostile::fuzzed::strokes;
 use crate::random::Random;
 use crate::test_dir::{TestDir, end};
 
 /// How many sessions there are, unless a time is given.
 const SESSIONS: u64 = 150;
 
-/// Keys of the table, those of lists and lines, and some that mean nothing.
-const KEYS: &[&str] = &[
-    "<Space>",
-    ".",
-    ".",
-    ".",
-    "m",
-    "M",
-    "w",
-    "W",
-    "+",
-    "-",
-    "=",
-    "<Tab>",
-    "<S-Tab>",
-    "z",
-    "z",
-    "s",
-    "v",
-    "p",
-    "e",
-    "c",
-    "c",
-    "[",
-    "]",
-    "[",
-    "]",
-    "r",
-    "L",
-    "t",
-    "T",
-    "x",
-    "i",
-    "I",
-    "h",
-    "j",
-    "k",
-    "l",
-    "<Left>",
-    "<Right>",
-    "<Up>",
-    "<Down>",
-    "<Enter>",
-    "<Enter>",
-    "<Esc>",
-    "<Esc>",
-    "<Esc>",
-    "?",
-    "/",
-    ":",
-    "S",
-    "<Home>",
-    "<End>",
-    "<PageUp>",
-    "<PageDown>",
-    "<Delete>",
-    "<Backspace>",
-    "<C-u>",
-    "<C-w>",
-    "<C-n>",
-    "<C-p>",
-    "1",
-    "5",
-    "0",
-    "é",
-    "∂",
-    "~",
-    "<C-l>",
-];
-
-/// What takes longer, or is typed as a whole.
-const RARE: &[&str] = &[
-    ",",
-    ",,",
-    "a",
-    "<lt>",
-    ">",
-    "<Esc>:set numerics.method=a<Enter>",
-    "<Esc>:set numerics.points=33<Enter>",
-    "<Esc>:set wear.coefficient=0<Enter>",
-    "<Esc>:set motion.tangential.amplitude=0<Enter>",
-    "<Esc>:set friction.coefficient=1e9<Enter>",
-    "<Esc>:set motion.normal.mean=-1<Enter>",
-    "<Esc>:load cone<Enter>",
-    "<Esc>:load flat-punch<Enter>",
-    "<paste:numerics>",
-    "<paste:set numerics.points = 12\u{2202}>",
-];
+/// What writes files, and what a session does most of all.
+const MORE: [&str; 8] = ["s", "S", ".", ".", "z", "<Enter>", "<Esc>", "<Esc>"];
 
 fn script(random: &mut Random, keys: usize) -> String {
+    let all: Vec<&str> = strokes::KEYS.split_whitespace().chain(MORE).collect();
     let mut script = String::new();
     for _ in 0..keys {
         match random.below(60) {
@@ -112,8 +28,8 @@ fn script(random: &mut Random, keys: usize) -> String {
                 let (columns, rows) = (1 + random.below(150), 1 + random.below(50));
                 script.push_str(&format!("<resize:{columns}x{rows}>"));
             }
-            1..=2 => script.push_str(random.pick(RARE)),
-            _ => script.push_str(random.pick(KEYS)),
+            1..=2 => script.push_str(random.pick(strokes::RARE)),
+            _ => script.push_str(random.pick(&all)),
         }
     }
     script

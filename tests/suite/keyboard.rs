@@ -7,9 +7,7 @@ use crate::test_dir::TestDir;
 
 /// The screen in 80 by 24 after `keys` on a scenario.
 fn shot_of(dir: &TestDir, scenario: &str, keys: &str) -> String {
-    let said = dir.say(&[scenario, "--keys", keys, "--print", "80x24"]);
-    assert_eq!((said.code, said.err.as_str()), (0, ""), "{keys}");
-    said.out
+    dir.screen(&[scenario], keys, (80, 24))
 }
 
 fn shot(keys: &str) -> String {

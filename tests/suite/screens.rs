@@ -6,12 +6,12 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 use std::thread;
 use std::time::Duration;
 
+use crate::test_dir::{TestDir, names};
 use mdr_tui::plot::{Marker, Scale};
 use mdr_tui::scenario::session::Session;
 use mdr_tui::scenario::{Scenario, preset};
@@ -29,40 +29,10 @@ use mdr_tui::tui::{Event, screen, tour};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::text::Line;
-use tempfile::TempDir;
 
-fn explorer(directory: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_mdr-tui"))
-        .args(arguments)
-        .current_dir(directory)
-        .env("LC_ALL", "C.UTF-8")
-        .stdin(Stdio::null())
-        .output()
-        .expect("the program starts")
-}
-
-/// The screen of `size` after `keys`; nothing on stderr, every line within the size.
-fn shot(directory: &Path, scenario: &str, keys: &str, size: (usize, usize)) -> String {
-    let print = format!("{}x{}", size.0, size.1);
-    let arguments = [scenario, "--keys", keys, "--print", &print];
-    checked(explorer(directory, &arguments), size, keys)
-}
-
-fn checked(output: Output, size: (usize, usize), what: &str) -> String {
-    let complaint = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{what} at {size:?}: {complaint}");
-    assert_eq!(complaint, "", "{what} at {size:?}");
-    let text = String::from_utf8(output.stdout).expect("text");
-    assert_eq!(text.lines().count(), size.1, "{what} at {size:?}");
-    for line in text.lines() {
-        assert!(line.chars().count() <= size.0, "{what} at {size:?}: {line}");
-        assert!(!line.chars().any(char::is_control), "{line:?}");
-    }
-    text
-}
-
-fn dir() -> TempDir {
-    tempfile::tempdir().expect("a directory")
+/// The screen of `size` after `keys`.
+fn shot(scenario: &str, keys: &str, size: (usize, usize)) -> String {
+    TestDir::new().screen(&[scenario], keys, size)
 }
 
 /// Pins the screens of `keys` in 80 by 24 and 200 by 50.
@@ -74,9 +44,8 @@ fn pin(name: &str, scenario: &str, keys: &str) {
 const SIZES: [(usize, usize); 4] = [(60, 18), (80, 24), (120, 40), (200, 50)];
 
 fn pin_sizes(name: &str, scenario: &str, keys: &str, sizes: &[(usize, usize)]) {
-    let dir = dir();
     for &size in sizes {
-        let text = shot(dir.path(), scenario, keys, size);
+        let text = shot(scenario, keys, size);
         insta::assert_snapshot!(format!("{name}-{}x{}", size.0, size.1), text);
     }
 }
@@ -123,9 +92,8 @@ fn every_page_of_panels() {
 
 #[test]
 fn two_methods_side_by_side() {
-    let dir = dir();
     for size in SIZES {
-        let text = shot(dir.path(), "li2019-fig3", ",,,,C", size);
+        let text = shot("li2019-fig3", ",,,,C", size);
         // The time per step is another on every machine.
         let mut lines: Vec<&str> = text.lines().collect();
         for line in &mut lines {
@@ -141,18 +109,15 @@ fn two_methods_side_by_side() {
 /// A number as long as `2.015e-12 m³` is whole in every column.
 #[test]
 fn numbers_side_by_side_are_not_cut() {
-    let dir = dir();
-    for (columns, rows) in SIZES {
-        let print = format!("{columns}x{rows}");
-        let mut arguments = vec!["julia2022-gross-slip", "--keys", ",,C", "--print", &print];
-        for set in [
-            "wear.coefficient=1e-9",
-            "numerics.integrator=direct",
-            "numerics.points=50",
-        ] {
-            arguments.extend(["--set", set]);
-        }
-        let text = checked(explorer(dir.path(), &arguments), (columns, rows), "C");
+    let dir = TestDir::new();
+    let arguments = [
+        "julia2022-gross-slip",
+        "--set=wear.coefficient=1e-9",
+        "--set=numerics.integrator=direct",
+        "--set=numerics.points=50",
+    ];
+    for size in SIZES {
+        let text = dir.screen(&arguments, ",,C", size);
         let (_, values) = line_with(&text, "wear volume ")
             .split_once("wear volume")
             .expect("a row");
@@ -173,9 +138,8 @@ fn running(text: &str) -> String {
 
 #[test]
 fn a_newcomers_questions_are_answered_by_one_key() {
-    let dir = dir();
     for size in SIZES {
-        let text = shot(dir.path(), "li2019-fig3", ",<Enter>", size);
+        let text = shot("li2019-fig3", ",<Enter>", size);
         for answer in [
             "contact radius: the bodies touch inside it",
             "stick radius: nothing slips inside it",
@@ -196,8 +160,7 @@ fn the_scar_the_fretting_log_and_the_map() {
 
 #[test]
 fn another_stress_in_the_half_space() {
-    let dir = dir();
-    let shot = |keys: &str| shot(dir.path(), "li2019-fig3", keys, (80, 24));
+    let shot = |keys: &str| shot("li2019-fig3", keys, (80, 24));
     let said = ["von Mises", "principal", "shear", "pressure", "SWT"];
     for (k, name) in said.into_iter().enumerate() {
         let text = shot(&format!(",vz{},", "o".repeat(k)));
@@ -212,8 +175,7 @@ fn another_stress_in_the_half_space() {
 #[test]
 fn a_cut_through_the_bodies() {
     pin("section", "strong-wear", ",,,,,,,,,vz");
-    let dir = dir();
-    let text = shot(dir.path(), "hertz", ",,vz", (81, 24));
+    let text = shot("hertz", ",,vz", (81, 24));
     for line in panels(&text).iter().skip(4).take(12) {
         // Left and right are alike.
         let line: Vec<char> = format!("{line:81}").chars().collect();
@@ -227,8 +189,7 @@ fn the_contact_is_shown_large() {
     let steps = ".".repeat(30);
     let sizes = [(60, 18), (80, 24), (120, 40), (160, 50)];
     pin_sizes("contact", "li2019-fig3", &format!("V,,{steps}"), &sizes);
-    let dir = dir();
-    let shot = |scenario: &str, keys: &str| shot(dir.path(), scenario, keys, (100, 30));
+    let shot = |scenario: &str, keys: &str| shot(scenario, keys, (100, 30));
     for (scenario, keys, said) in [
         (
             "li2019-fig3",
@@ -284,20 +245,13 @@ fn the_contact_is_shown_large() {
 /// The line under the title: what is done and planned, what was changed and kept where, and what is on the screen.
 #[test]
 fn a_timeline_tells_what_was_done() {
-    let dir = dir();
+    let dir = TestDir::new();
     let line = |keys: &str| {
-        let arguments = [
-            "li2019-fig3",
-            "--set=run.cycles=8",
-            "--print=100x30",
-            "--keys",
-        ];
-        let output = explorer(dir.path(), &[&arguments[..], &[keys]].concat());
-        let text = checked(output, (100, 30), keys);
+        let text = dir.screen(&["li2019-fig3", "--set=run.cycles=8"], keys, (100, 30));
         text.lines().nth(1).unwrap_or_default().to_owned()
     };
     for size in [(80, 24), (120, 40)] {
-        let text = shot(dir.path(), "li2019-fig3", ",,,,", size);
+        let text = shot("li2019-fig3", ",,,,", size);
         let line = text.lines().nth(1).unwrap_or_default();
         assert!(
             line.starts_with(" 0 ") && line.ends_with(" 199.24"),
@@ -347,12 +301,10 @@ fn a_click_on_the_timeline_travels_there() {
 /// For a projector: the contact, a chart, large words.
 #[test]
 fn a_lecture_shows_the_contact_and_a_chart() {
-    let dir = dir();
+    let dir = TestDir::new();
     let steps = ".".repeat(30);
     for (columns, rows) in [(80, 24), (120, 40)] {
-        let (print, keys) = (format!("--print={columns}x{rows}"), format!(",,{steps}"));
-        let arguments = ["--present", &print, "--keys", &keys];
-        let text = checked(explorer(dir.path(), &arguments), (columns, rows), &keys);
+        let text = dir.screen(&["--present"], &format!(",,{steps}"), (columns, rows));
         assert!(
             text.contains("cross-section") && text.contains("fretting loop"),
             "{text}"
@@ -408,10 +360,9 @@ fn a_lecture_speeds_up_by_itself() {
 /// The indenter follows its motion.
 #[test]
 fn the_indenter_moves_with_every_step() {
-    let dir = dir();
     let flank = |steps: usize| {
         let keys = format!("V,{}", ".".repeat(steps));
-        let text = shot(dir.path(), "gross-slip", &keys, (100, 30));
+        let text = shot("gross-slip", &keys, (100, 30));
         let line = panels(&text)[8].to_owned();
         line.chars().take_while(|c| *c == ' ').count()
     };
@@ -422,15 +373,13 @@ fn the_indenter_moves_with_every_step() {
 
 #[test]
 fn nine_panels_on_a_middling_screen() {
-    let dir = dir();
-    let text = shot(dir.path(), "gross-slip", ",,,", (120, 40));
+    let text = shot("gross-slip", ",,,", (120, 40));
     insta::assert_snapshot!("gross-slip-120x40", text);
 }
 
 #[test]
 fn panels_come_in_pages() {
-    let dir = dir();
-    let shot = |keys: &str, size| shot(dir.path(), "li2019-fig3", keys, size);
+    let shot = |keys: &str, size| shot("li2019-fig3", keys, size);
     let first = shot(",", (80, 24));
     assert!(first.contains("fretting loop") && !first.contains("cross-section"));
     let second = shot(",v", (80, 24));
@@ -470,15 +419,14 @@ fn contact_lost() {
 
 #[test]
 fn ascii_is_ascii() {
-    let dir = dir();
+    let dir = TestDir::new();
     for (name, keys) in [
         ("cycles", ",,"),
         ("zoomed", ",<Tab><Tab><Tab>z"),
         ("help", "?"),
         ("notice", ",m"),
     ] {
-        let arguments = ["--marker", "ascii", "--keys", keys, "--print", "80x24"];
-        let text = checked(explorer(dir.path(), &arguments), (80, 24), keys);
+        let text = dir.screen(&["--marker", "ascii"], keys, (80, 24));
         assert!(text.is_ascii(), "{text}");
         insta::assert_snapshot!(format!("ascii-{name}-80x24"), text);
     }
@@ -486,18 +434,16 @@ fn ascii_is_ascii() {
 
 #[test]
 fn every_marker_draws() {
-    let dir = dir();
+    let dir = TestDir::new();
     for marker in ["braille", "halfblock", "dot", "ascii"] {
-        let arguments = ["--marker", marker, "--keys", ",,", "--print", "80x24"];
-        let text = checked(explorer(dir.path(), &arguments), (80, 24), marker);
+        let text = dir.screen(&["--marker", marker], ",,", (80, 24));
         assert!(text.contains("fretting loop"), "{text}");
     }
 }
 
 #[test]
 fn a_tiny_screen_says_what_it_needs() {
-    let dir = dir();
-    let text = shot(dir.path(), "li2019-fig3", ",", (30, 8));
+    let text = shot("li2019-fig3", ",", (30, 8));
     insta::assert_snapshot!("tiny-30x8", text);
 }
 
@@ -515,7 +461,6 @@ fn spelled(key: Key) -> String {
 
 #[test]
 fn every_key_of_the_table_can_be_pressed() {
-    let dir = dir();
     let all: Vec<String> = COMMANDS
         .iter()
         .flat_map(|row| row.keys)
@@ -527,12 +472,7 @@ fn every_key_of_the_table_can_be_pressed() {
     }
     for key in &all {
         for before in ["", ",", "?", "p", "z", "c", "a"] {
-            shot(
-                dir.path(),
-                "li2019-fig3",
-                &format!("{before}{key}"),
-                (80, 24),
-            );
+            shot("li2019-fig3", &format!("{before}{key}"), (80, 24));
         }
     }
     // All of them, in the table's order and backwards, up to the first that quits.
@@ -546,24 +486,22 @@ fn every_key_of_the_table_can_be_pressed() {
             )
         })
         .collect();
-    shot(dir.path(), "li2019-fig3", &keys.concat(), (80, 24));
+    shot("li2019-fig3", &keys.concat(), (80, 24));
     keys.reverse();
-    shot(dir.path(), "li2019-fig3", &keys.concat(), (80, 24));
+    shot("li2019-fig3", &keys.concat(), (80, 24));
 }
 
 #[test]
 fn keys_that_mean_nothing_change_nothing() {
-    let dir = dir();
-    let plain = shot(dir.path(), "li2019-fig3", ",", (80, 24));
-    let with = shot(dir.path(), "li2019-fig3", ",€é%0<C-z><Backspace>", (80, 24));
+    let plain = shot("li2019-fig3", ",", (80, 24));
+    let with = shot("li2019-fig3", ",€é%0<C-z><Backspace>", (80, 24));
     assert_eq!(plain, with);
 }
 
 #[test]
 fn quitting_ends_the_script() {
-    let dir = dir();
     for quit in ["q", "Q", "<C-c>", "?q", "p<C-c>"] {
-        let text = shot(dir.path(), "li2019-fig3", &format!(",{quit},,"), (80, 24));
+        let text = shot("li2019-fig3", &format!(",{quit},,"), (80, 24));
         assert!(text.contains("cycle 1.00/"), "{quit}: {text}");
     }
 }
@@ -579,17 +517,14 @@ fn a_snapshot_tells_of_the_switches_and_runs_again_bit_for_bit() {
     .into_iter()
     .enumerate()
     {
-        let dir = dir();
-        shot(dir.path(), "li2019-fig3", keys, (80, 24));
-        let snapshot = fs::read_dir(dir.path())
-            .expect("a directory")
-            .map(|entry| entry.expect("an entry").path())
-            .collect::<Vec<_>>();
-        let [directory] = snapshot.as_slice() else {
-            panic!("{keys}: {snapshot:?}");
+        let dir = TestDir::new();
+        dir.screen(&["li2019-fig3"], keys, (80, 24));
+        let written = names(&dir.path(""));
+        let [directory] = written.as_slice() else {
+            panic!("{keys}: {written:?}");
         };
-        let state = fs::read_to_string(directory.join("state.csv")).expect("the state");
-        let scenario = fs::read_to_string(directory.join("scenario.toml")).expect("the scenario");
+        let state = dir.read(&format!("{directory}/state.csv"));
+        let scenario = dir.read(&format!("{directory}/scenario.toml"));
         let changes = state.matches("# at cycle ").count();
         let switches = keys.matches(|c| "mMwW".contains(c)).count();
         assert_eq!(changes, switches, "{keys}");
@@ -600,24 +535,22 @@ fn a_snapshot_tells_of_the_switches_and_runs_again_bit_for_bit() {
                 state.contains("\n# at cycle 1: numerics.method = \"a\"\n"),
                 "{state}"
             );
-            assert!(directory.ends_with("li2019-fig3-cycle-2"));
+            assert_eq!(directory, "li2019-fig3-cycle-2");
         }
-        let given = directory.join("scenario.toml");
-        let given = given.to_string_lossy();
-        let output = explorer(dir.path(), &["run", &given, "--out", "again", "--quiet"]);
-        assert_eq!(String::from_utf8_lossy(&output.stderr), "", "{keys}");
-        let again = fs::read_to_string(dir.path().join("again/state.csv")).expect("the state");
+        dir.done(&format!(
+            "run {directory}/scenario.toml --out again --quiet"
+        ));
+        let again = dir.read("again/state.csv");
         assert!(again == state, "{keys}: the states differ");
     }
 }
 
 #[test]
 fn a_snapshot_never_writes_over_another() {
-    let dir = dir();
-    let text = shot(dir.path(), "hertz", ",sss", (80, 24));
+    let dir = TestDir::new();
+    let text = dir.screen(&["hertz"], ",sss", (80, 24));
     assert!(text.contains("snapshot in hertz-cycle-1-3"), "{text}");
-    let count = fs::read_dir(dir.path()).expect("a directory").count();
-    assert_eq!(count, 3);
+    assert_eq!(names(&dir.path("")).len(), 3);
 }
 
 /// An app with its worker, without a terminal and without a process.
@@ -712,8 +645,7 @@ fn difference(text: &str, meaning: &str) -> f64 {
 
 #[test]
 fn the_help_has_one_key_a_row_by_groups() {
-    let dir = dir();
-    let shot = |keys: &str, size| shot(dir.path(), "li2019-fig3", keys, size);
+    let shot = |keys: &str, size| shot("li2019-fig3", keys, size);
     // On a large screen all of it, on a small one by scrolling.
     let large = shot("?", (200, 50));
     let pages = [0, 15, 30, 45].map(|rows| shot(&format!("?{}", "j".repeat(rows)), (80, 24)));
@@ -732,8 +664,7 @@ fn the_help_has_one_key_a_row_by_groups() {
 
 #[test]
 fn a_panel_is_explained_where_it_stands() {
-    let dir = dir();
-    let shot = |keys: &str, size| shot(dir.path(), "li2019-fig3", keys, size);
+    let shot = |keys: &str, size| shot("li2019-fig3", keys, size);
     pin("explained", "li2019-fig3", ",<Enter>");
     // A newcomer's questions, within two keys: what is a, what is the strip?
     let profile = running(&shot(",<Enter>", (80, 24)));
@@ -767,7 +698,7 @@ fn a_panel_is_explained_where_it_stands() {
 
 #[test]
 fn every_tour_can_be_walked_to_its_end() {
-    let dir = dir();
+    let dir = TestDir::new();
     pin("tour", "li2019-fig3", ",,nn");
     for preset in preset::ALL {
         let captions = tour::captions(preset.name);
@@ -790,16 +721,15 @@ fn every_tour_can_be_walked_to_its_end() {
         assert_eq!(stage.app.stage.tour, None);
     }
     let own = preset::find("hertz").expect("a preset").text;
-    fs::write(dir.path().join("own.toml"), own).expect("a file");
-    let text = shot(dir.path(), "own.toml", ",n", (80, 24));
+    dir.write("own.toml", own.as_bytes());
+    let text = dir.screen(&["own.toml"], ",n", (80, 24));
     assert!(text.contains("only presets have tours"), "{text}");
 }
 
 #[test]
 fn the_footer_follows_the_mode() {
-    let dir = dir();
     let foot = |keys: &str| {
-        let text = shot(dir.path(), "li2019-fig3", keys, (120, 24));
+        let text = shot("li2019-fig3", keys, (120, 24));
         text.lines().last().expect("a footer").to_owned()
     };
     for (keys, words) in [
@@ -819,9 +749,8 @@ fn the_footer_follows_the_mode() {
 
 #[test]
 fn the_status_line_has_fixed_slots() {
-    let dir = dir();
     let places = |keys: &str| {
-        let text = shot(dir.path(), "li2019-fig3", keys, (120, 24));
+        let text = shot("li2019-fig3", keys, (120, 24));
         let status = text.lines().next().expect("a status line").to_owned();
         let bars = status.chars().enumerate().filter(|(_, c)| *c == '│');
         bars.map(|(at, _)| at).take(4).collect::<Vec<_>>()
@@ -836,13 +765,12 @@ fn the_status_line_has_fixed_slots() {
 /// Where the method stands alone among numbers, a word says what it is.
 #[test]
 fn the_status_line_names_the_method_in_80_columns() {
-    let dir = dir();
     for keys in [",", ",m"] {
-        let text = shot(dir.path(), "li2019-fig3", keys, (80, 24));
+        let text = shot("li2019-fig3", keys, (80, 24));
         let status = line_with(&text, "paused");
         assert!(status.contains("│ method: "), "{status}");
     }
-    let text = shot(dir.path(), "li2019-fig3", ",", (80, 24));
+    let text = shot("li2019-fig3", ",", (80, 24));
     assert!(line_with(&text, "paused").contains("wear ±"), "{text}");
 }
 
@@ -864,15 +792,14 @@ fn a_preset_asks_for_a_logarithmic_scale() {
 /// Before anything has worn, an axis has the unit of what is planned, and keeps it.
 #[test]
 fn no_axis_begins_in_metres() {
-    let dir = dir();
     for keys in ["", "vv", ",r", ",rvv"] {
-        let text = shot(dir.path(), "li2019-fig3", keys, (120, 40));
+        let text = shot("li2019-fig3", keys, (120, 40));
         for metres in ["[m]", "[m³]", "1.00 m"] {
             assert!(!text.contains(metres), "{keys}: {metres} in\n{text}");
         }
     }
     let unit = |keys: &str| {
-        let text = shot(dir.path(), "li2019-fig3", keys, (120, 40));
+        let text = shot("li2019-fig3", keys, (120, 40));
         let (_, rest) = text.split_once("f - f0 [").expect("the worn depth");
         rest.split(']').next().map(str::to_owned)
     };
@@ -883,14 +810,14 @@ fn no_axis_begins_in_metres() {
     );
 }
 
+/// A run of 20 cycles.
+const SHORT: [&str; 2] = ["li2019-fig3", "--set=run.cycles=20"];
+
 /// Where a legend has no room beside the curves, their names stand at their ends.
 #[test]
 fn a_small_panel_hides_no_curve_behind_its_names() {
-    let dir = dir();
-    let text = preset::find("li2019-fig3").expect("a preset").text;
-    let short = text.replace("cycles = 199.24", "cycles = 20");
-    std::fs::write(dir.path().join("short.toml"), short).expect("a file");
-    let text = shot(dir.path(), "short.toml", &",".repeat(19), (60, 18));
+    let dir = TestDir::new();
+    let text = dir.screen(&SHORT, &",".repeat(19), (60, 18));
     let rows = text
         .lines()
         .skip_while(|line| !line.contains("radii over cycles"));
@@ -909,12 +836,9 @@ fn a_small_panel_hides_no_curve_behind_its_names() {
 
 #[test]
 fn wear_thinner_than_a_line_is_drawn_magnified_by_one_factor() {
-    let dir = dir();
-    let text = preset::find("li2019-fig3").expect("a preset").text;
-    let short = text.replace("cycles = 199.24", "cycles = 20");
-    std::fs::write(dir.path().join("short.toml"), short).expect("a file");
+    let dir = TestDir::new();
     let times = |keys: &str| -> f64 {
-        let text = shot(dir.path(), "short.toml", keys, (80, 24));
+        let text = dir.screen(&SHORT, keys, (80, 24));
         let after = text.split("wear drawn ×").nth(1);
         let word = after.and_then(|after| after.split_whitespace().next());
         word.and_then(|word| word.parse().ok())
@@ -926,10 +850,9 @@ fn wear_thinner_than_a_line_is_drawn_magnified_by_one_factor() {
 
 #[test]
 fn a_logarithmic_axis_keeps_its_unit() {
-    let dir = dir();
     for (keys, unit) in [(",z", "f [µm]"), (",<Tab>z", "stress [GPa]")] {
-        let linear = shot(dir.path(), "li2019-fig3", keys, (80, 24));
-        let log = shot(dir.path(), "li2019-fig3", &format!("{keys}L"), (80, 24));
+        let linear = shot("li2019-fig3", keys, (80, 24));
+        let log = shot("li2019-fig3", &format!("{keys}L"), (80, 24));
         assert!(
             linear.contains(unit) && log.contains(unit),
             "{linear}\n{log}"
@@ -939,8 +862,7 @@ fn a_logarithmic_axis_keeps_its_unit() {
 
 #[test]
 fn a_comparison_can_begin_at_the_start() {
-    let dir = dir();
-    let shot = |keys: &str| shot(dir.path(), "strong-wear", keys, (120, 40));
+    let shot = |keys: &str| shot("strong-wear", keys, (120, 40));
     let text = shot(",,,,,,c");
     assert!(text.contains("equal so far"), "{text}");
     assert!(text.contains("C: from the start"), "{text}");
@@ -1045,14 +967,12 @@ fn space_at_the_end_asks_first() {
 /// comparison run can follow.
 #[test]
 fn a_jump_beyond_the_planned_end_covers_as_much_again() {
-    let (dir, keys) = (dir(), "M.M.Mcm.");
-    let sets = [
+    let arguments = [
+        "julia2022-partial-slip",
         "--set=numerics.points=34",
         "--set=numerics.steps_per_cycle=1",
     ];
-    let print = ["--print", "100x30", "--keys", keys];
-    let arguments = [&["julia2022-partial-slip"], &sets[..], &print].concat();
-    let screen = checked(explorer(dir.path(), &arguments), (100, 30), keys);
+    let screen = TestDir::new().screen(&arguments, "M.M.Mcm.", (100, 30));
     assert!(screen.contains("cycle 200000.00/100000"), "{screen}");
 }
 
@@ -1071,7 +991,7 @@ fn assert_picture(file: &str, svg: &str) {
 /// `explorer.svg` is the picture in the README.
 #[test]
 fn a_screen_can_be_printed_as_a_picture() {
-    let dir = dir();
+    let dir = TestDir::new();
     let long = ",".repeat(30);
     for (file, keys, size, theme) in [
         ("explorer.svg", long.as_str(), "120x40", "dark"),
@@ -1079,20 +999,17 @@ fn a_screen_can_be_printed_as_a_picture() {
         ("mono-80x24.svg", ",", "80x24", "mono"),
         ("dark-200x50.svg", ",", "200x50", "dark"),
     ] {
-        let print = [
-            "--keys", keys, "--print", size, "--format", "svg", "--theme", theme,
-        ];
-        let output = explorer(dir.path(), &print);
-        assert_eq!(String::from_utf8_lossy(&output.stderr), "");
-        let svg = String::from_utf8(output.stdout).expect("text");
+        let keys = format!("--keys={keys}");
+        let svg = dir.done(&format!(
+            "{keys} --print {size} --format svg --theme {theme}"
+        ));
         assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
         assert!(svg.contains("stroke-linecap"), "{file}");
         assert_eq!(svg.contains("#d7af00"), theme == "dark", "{file}");
         assert_picture(file, &svg);
     }
     // The format alone is refused.
-    let output = explorer(dir.path(), &["--format", "svg"]);
-    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(dir.line("--format svg").code, 2);
 }
 
 #[test]
@@ -1102,8 +1019,7 @@ fn theory_over_the_plots() {
 
 #[test]
 fn theory_comes_and_goes() {
-    let dir = dir();
-    let shot = |keys: &str| shot(dir.path(), "li2019-fig3", keys, (80, 24));
+    let shot = |keys: &str| shot("li2019-fig3", keys, (80, 24));
     let (plain, with, without) = (shot(",,"), shot(",,t"), shot(",,tt"));
     assert_ne!(plain, with);
     assert_eq!(plain, without);
@@ -1118,8 +1034,7 @@ fn theory_comes_and_goes() {
 
 #[test]
 fn a_comparison_sets_a_rival_beside_the_run() {
-    let dir = dir();
-    let shot = |keys: &str| shot(dir.path(), "li2019-fig3", keys, (80, 24));
+    let shot = |keys: &str| shot("li2019-fig3", keys, (80, 24));
     let before = shot(",,,");
     let mut seen = Vec::new();
     for (keys, rival) in [
@@ -1176,8 +1091,7 @@ fn a_comparison_sets_a_rival_beside_the_run() {
 
 #[test]
 fn the_accuracy_panel_waits_for_the_companion_and_shows_what_it_found() {
-    let dir = dir();
-    let shot = |keys: &str| shot(dir.path(), "li2019-fig3", keys, (80, 24));
+    let shot = |keys: &str| shot("li2019-fig3", keys, (80, 24));
     let text = shot(",,,a");
     assert!(
         text.contains(" accuracy (Esc closes, Tab explains) "),
@@ -1216,9 +1130,8 @@ fn the_accuracy_panel_waits_for_the_companion_and_shows_what_it_found() {
 
 #[test]
 fn the_status_line_begins_sensibly_however_narrow() {
-    let dir = dir();
     for columns in 40..=130 {
-        let text = shot(dir.path(), "li2019-fig3", ",,", (columns, 10));
+        let text = shot("li2019-fig3", ",,", (columns, 10));
         let status = text.lines().next().expect("a status line");
         assert!(status.starts_with(" ⏸ paused "), "{columns}: {status}");
         let parts: Vec<&str> = status.split('│').map(str::trim).collect();
@@ -1262,21 +1175,13 @@ fn the_status_line_begins_sensibly_however_narrow() {
 
 #[test]
 fn a_title_of_wide_characters_stays_within_the_screen() {
-    let dir = dir();
+    let dir = TestDir::new();
     let title =
         "title=接触\u{1b}[31mの摩耗 𝒻 é e\u{301} 👩\u{200d}🔬 — längerer Titel als Platz ist";
     for locale in ["C", "C.UTF-8"] {
         for columns in (1..=200).step_by(7).chain([40, 80, 110]) {
-            let print = format!("{columns}x24");
             for keys in [",", ",s"] {
-                let output = Command::new(env!("CARGO_BIN_EXE_mdr-tui"))
-                    .args(["--set", title, "--keys", keys, "--print", &print])
-                    .current_dir(dir.path())
-                    .env("LC_ALL", locale)
-                    .stdin(Stdio::null())
-                    .output()
-                    .expect("the program starts");
-                let text = checked(output, (columns, 24), &format!("{locale} {keys}"));
+                let text = dir.screen_in(locale, &["--set", title], keys, (columns, 24));
                 assert!(locale != "C" || text.is_ascii(), "{text}");
                 for line in text.lines() {
                     let width = Line::raw(line).width();
@@ -1289,17 +1194,10 @@ fn a_title_of_wide_characters_stays_within_the_screen() {
 
 #[test]
 fn a_file_with_a_wide_name_is_told_in_ascii_where_it_must_be() {
-    let dir = dir();
+    let dir = TestDir::new();
     let text = preset::find("hertz").expect("a preset").text;
-    fs::write(dir.path().join("接触.toml"), text).expect("a file");
-    let output = Command::new(env!("CARGO_BIN_EXE_mdr-tui"))
-        .args(["接触.toml", "--keys", ",s", "--print", "80x24"])
-        .current_dir(dir.path())
-        .env("LC_ALL", "C")
-        .stdin(Stdio::null())
-        .output()
-        .expect("the program starts");
-    let text = checked(output, (80, 24), "a wide name");
+    dir.write("接触.toml", text.as_bytes());
+    let text = dir.screen_in("C", &["接触.toml"], ",s", (80, 24));
     assert!(text.is_ascii(), "{text}");
     assert!(text.contains(" snapshot in ??-cycle-1"), "{text}");
 }
@@ -1375,10 +1273,9 @@ fn no_size_makes_any_preset_fail() {
 
 #[test]
 fn the_printed_screen_has_the_size_asked_for() {
-    let dir = dir();
     for columns in [1, 20, 39, 40, 57, 80, 110, 163, 220] {
         for rows in [1, 5, 10, 24, 60] {
-            shot(dir.path(), "li2019-fig3", ",", (columns, rows));
+            shot("li2019-fig3", ",", (columns, rows));
         }
     }
 }

@@ -57,7 +57,7 @@ pub fn view(file: &Path, options: &Sweep) -> Result<ExitCode> {
 
 /// Opens a point in the explorer, a separate process, and waits for its end.
 fn open(view: &View, point: usize, options: &Sweep, is_ending: &AtomicBool) -> Result<()> {
-    let scenario = view.study().scenario(point)?;
+    let scenario = view.slice.study.scenario(point)?;
     let directory = tempfile::tempdir().context("cannot make a temporary directory")?;
     let file = directory.path().join(format!("point-{point}.toml"));
     fs::write(&file, scenario.to_toml()).context("cannot write the point's scenario")?;

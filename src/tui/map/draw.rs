@@ -44,14 +44,8 @@ const DIGITS: usize = 4;
 /// Draws the whole screen.
 pub fn draw(view: &View, theme: &Theme, area: Rect, buffer: &mut Buffer) {
     if area.width < 20 || area.height < 10 {
-        return line(
-            buffer,
-            area,
-            0,
-            "too small: needs 20x10 or more",
-            Style::new(),
-            theme,
-        );
+        let text = "too small: needs 20x10 or more";
+        return put(buffer, area.x, area.y, text, Style::new(), theme);
     }
     let (there, failed, points) = view.count();
     let failed = match failed {
@@ -59,86 +53,54 @@ pub fn draw(view: &View, theme: &Theme, area: Rect, buffer: &mut Buffer) {
         failed => format!(", {failed} failed"),
     };
     let count = format!("{there} of {points} points{failed}");
-    line(
-        buffer,
-        area,
-        0,
-        view.name(),
-        theme.style(Role::Title),
-        theme,
-    );
-    let at = area.width.saturating_sub(count.chars().count() as u16);
-    put(
-        buffer,
-        area.x + at,
-        area.y,
-        &count,
-        theme.style(Role::Quiet),
-        theme,
-    );
+    let behind = area.width.saturating_sub(count.chars().count() as u16);
     let scaled = view.scaled();
-    legend(view, theme, &scaled, area, buffer);
     let overlays = view.overlays();
-    let bottom = area.y + area.height;
+    let names = overlays.iter();
+    let names = names.map(|overlay| format!("{} {}", overlay.letter, overlay.name));
+    let here = view.here();
+    let here = here.map(|_| format!("{} you are here", here_sign(theme)));
+    let names: Vec<String> = names.chain(here).collect();
+    let (point, quiet) = (view.point(), theme.style(Role::Quiet));
+    let below = area.height - 4;
+    for (column, row, text, style) in [
+        (0, 0, view.name.clone(), theme.style(Role::Title)),
+        (behind, 0, count, quiet),
+        (0, below, names.join("   "), quiet),
+        (0, below + 1, view.slice.study.name(point), Style::new()),
+        (
+            0,
+            below + 2,
+            reading(view, point),
+            theme.style(Role::Notice),
+        ),
+    ] {
+        put(buffer, area.x + column, area.y + row, &text, style, theme);
+    }
+    legend(view, theme, &scaled, area, buffer);
     let body = Rect::new(area.x, area.y + 2, area.width, area.height - 6);
-    match view.y() {
+    match view.slice.y() {
         Some(_) => map(view, theme, &scaled, &overlays, body, buffer),
         None => curve(view, theme, &scaled, body, buffer),
     }
-    let names = overlays.iter();
-    let names = names.map(|overlay| format!("{} {}", overlay.letter, overlay.name));
-    let here = view
-        .here()
-        .map(|_| format!("{} you are here", here_sign(theme)));
-    let names: Vec<String> = names.chain(here).collect();
-    let quiet = theme.style(Role::Quiet);
-    line(
-        buffer,
-        area,
-        bottom - 4 - area.y,
-        &names.join("   "),
-        quiet,
-        theme,
-    );
-    readings(view, theme, area, bottom - 3 - area.y, buffer);
     let last = Rect {
-        y: bottom - 1,
+        y: area.bottom() - 1,
         height: 1,
         ..area
     };
     footer::draw_line(view.notice.as_deref(), &KEYS, &[QUIT], theme, last, buffer);
 }
 
-/// The point under the cursor: its values, the column and the status.
-fn readings(view: &View, theme: &Theme, area: Rect, row: u16, buffer: &mut Buffer) {
-    let point = view.point();
-    line(
-        buffer,
-        area,
-        row,
-        &view.study().name(point),
-        Style::new(),
-        theme,
-    );
-    let columns = view.study().columns();
-    let axes = view.study().axes.len();
-    let text = match view.row(point) {
-        None => "not there yet".to_owned(),
-        Some(fields) => columns[axes..]
-            .iter()
-            .zip(&fields[axes..])
-            .map(|(name, field)| format!("{name} {}", short(field)))
-            .collect::<Vec<_>>()
-            .join("  "),
+/// The values of a point: the columns and the status.
+fn reading(view: &View, point: usize) -> String {
+    let study = &view.slice.study;
+    let Some(fields) = view.slice.row(point) else {
+        return "not there yet".to_owned();
     };
-    line(
-        buffer,
-        area,
-        row + 1,
-        &text,
-        theme.style(Role::Notice),
-        theme,
-    );
+    let columns = study.columns();
+    let read = columns.iter().zip(fields).skip(study.axes.len());
+    let read = read.map(|(name, field)| format!("{name} {}", short(field)));
+    read.collect::<Vec<_>>().join("  ")
 }
 
 fn short(field: &str) -> String {
@@ -187,9 +149,9 @@ fn legend(view: &View, theme: &Theme, scaled: &Scaled, area: Rect, buffer: &mut 
     if quantity.scale == Scale::Log {
         write("  log", theme.style(Role::Quiet));
     }
-    for axis in view.hidden() {
-        let axis_of = &view.study().axes[axis];
-        let text = format!("  {} = {}", axis_of.key, axis_of.text(view.place(axis)));
+    for axis in view.slice.hidden() {
+        let (place, axis) = (view.slice.at[axis], &view.slice.study.axes[axis]);
+        let text = format!("  {} = {}", axis.key, axis.text(place));
         write(&text, theme.style(Role::Quiet));
     }
 }
@@ -216,7 +178,7 @@ fn map(
     area: Rect,
     buffer: &mut Buffer,
 ) {
-    let (Some(y_axis), x_axis) = (view.y(), view.x()) else {
+    let (Some(y_axis), x_axis) = (view.slice.y(), view.slice.x()) else {
         return;
     };
     let (last_x, last_y) = (x_axis.count() - 1, y_axis.count() - 1);
@@ -242,7 +204,7 @@ fn map(
     let floor = plot.y + plot.height;
     let shade = |column: usize, half: usize| {
         let (x, y) = (wide.place(column), high.place(half));
-        view.shade(view.point_at(x, y), scaled)
+        view.shade(view.slice.point_at(x, y), scaled)
     };
     for row in 0..rows {
         for column in 0..wide.used {
@@ -419,10 +381,12 @@ impl Cells {
 
 /// One axis, or no grid: the column over the axis.
 fn curve(view: &View, theme: &Theme, scaled: &Scaled, area: Rect, buffer: &mut Buffer) {
-    let axis = view.x();
+    let axis = view.slice.x();
     let mut points: Vec<(f64, f64)> = (0..axis.count())
         .filter_map(|x| {
-            let number = view.number(view.point_at(x, 0), view.column())?;
+            let number = view
+                .slice
+                .number(view.slice.point_at(x, 0), view.column())?;
             Some((axis.number(x).unwrap_or(x as f64), number))
         })
         .collect();
@@ -444,11 +408,7 @@ fn curve(view: &View, theme: &Theme, scaled: &Scaled, area: Rect, buffer: &mut B
         .render(area, buffer);
 }
 
-/// A line of text, cut where the screen ends.
-fn line(buffer: &mut Buffer, area: Rect, row: u16, text: &str, style: Style, theme: &Theme) {
-    put(buffer, area.x, area.y + row, text, style, theme);
-}
-
+/// A text, cut where the screen ends.
 fn put(buffer: &mut Buffer, x: u16, y: u16, text: &str, style: Style, theme: &Theme) {
     let room = buffer.area.right().saturating_sub(x);
     if y < buffer.area.bottom() {

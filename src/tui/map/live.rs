@@ -172,7 +172,7 @@ impl Live {
         Some(match leave {
             Leave::Quit => Ok(None),
             Leave::Open(point) => self
-                .with(|view| view.study().scenario(point))
+                .with(|view| view.slice.study.scenario(point))
                 .map(Some)
                 .map_err(|error| error.to_string()),
         })

@@ -34,9 +34,10 @@ pub struct Scaled {
 /// A study, and what of it is shown.
 #[derive(Debug)]
 pub struct View {
-    slice: Slice,
+    /// The study, and what of it is shown.
+    pub slice: Slice,
     /// The title.
-    name: String,
+    pub name: String,
     /// Which of the columns.
     column: usize,
     /// Whether borders and criteria are drawn.
@@ -159,7 +160,7 @@ impl View {
 
     /// Moves along the axes that are not shown, the last of them fastest.
     fn move_others(&mut self, by: isize) {
-        let hidden: Vec<usize> = self.hidden().collect();
+        let hidden: Vec<usize> = self.slice.hidden().collect();
         for axis in hidden.into_iter().rev() {
             let length = self.slice.study.axes[axis].count() as isize;
             let place = self.slice.at[axis] as isize + by;
@@ -170,42 +171,12 @@ impl View {
         }
     }
 
-    /// The axes that are not shown.
-    pub fn hidden(&self) -> impl Iterator<Item = usize> {
-        self.slice.hidden()
-    }
-
-    /// The study.
-    pub fn study(&self) -> &Study {
-        &self.slice.study
-    }
-
-    /// The title.
-    pub fn name(&self) -> &str {
-        &self.name
-    }
-
-    /// The axis to the right.
-    pub fn x(&self) -> &Axis {
-        self.slice.x()
-    }
-
-    /// The axis upwards.
-    pub fn y(&self) -> Option<&Axis> {
-        self.slice.y()
-    }
-
     /// The cursor's places on the axes to the right and upwards.
     pub fn cursor(&self) -> (usize, usize) {
         (
             self.slice.at[self.slice.x],
             self.slice.y.map_or(0, |y| self.slice.at[y]),
         )
-    }
-
-    /// The place of the cursor on an axis.
-    pub fn place(&self, axis: usize) -> usize {
-        self.slice.at[axis]
     }
 
     /// The name of the column; empty if the study has none.
@@ -220,28 +191,13 @@ impl View {
     /// The point under the cursor.
     pub fn point(&self) -> usize {
         let (x, y) = self.cursor();
-        self.point_at(x, y)
-    }
-
-    /// The point at a place to the right and upwards.
-    pub fn point_at(&self, x: usize, y: usize) -> usize {
         self.slice.point_at(x, y)
-    }
-
-    /// The row of a point.
-    pub fn row(&self, point: usize) -> Option<&Vec<String>> {
-        self.slice.row(point)
     }
 
     /// The number of rows, of those that failed, and of points.
     pub fn count(&self) -> (usize, usize, usize) {
         let (there, failed) = self.slice.rows.count();
         (there, failed, self.slice.study.points())
-    }
-
-    /// The number in `column` of a point.
-    pub fn number(&self, point: usize, column: &str) -> Option<f64> {
-        self.slice.number(point, column)
     }
 
     /// Whether the column holds words.
@@ -253,7 +209,7 @@ impl View {
     pub fn scaled(&self) -> Scaled {
         let numbers = self.slice.points();
         let numbers: Vec<f64> = numbers
-            .filter_map(|point| self.number(point, self.column()))
+            .filter_map(|point| self.slice.number(point, self.column()))
             .collect();
         let mut quantity = study::quantity(self.column(), &numbers);
         if self.is_flipped {
@@ -282,22 +238,23 @@ impl View {
             let value = self.slice.study.base.value(&axis.key)?;
             axis.place_of(value.parse().ok()?)
         };
-        let y = match self.y() {
+        let y = match self.slice.y() {
             Some(axis) => place(axis)?,
             None => 0.0,
         };
-        Some((place(self.x())?, y))
+        Some((place(self.slice.x())?, y))
     }
 
     /// What a point shows of the column.
     pub fn shade(&self, point: usize, scaled: &Scaled) -> Shade {
-        if self.row(point).is_none() {
+        if self.slice.row(point).is_none() {
             return Shade::Waiting;
         }
         if self.is_regime() {
             return self.slice.regime(point).map_or(Shade::Failed, Shade::Word);
         }
-        let (Some(number), Some([low, high])) = (self.number(point, self.column()), scaled.range)
+        let (Some(number), Some([low, high])) =
+            (self.slice.number(point, self.column()), scaled.range)
         else {
             return Shade::Failed;
         };

@@ -29,10 +29,12 @@ mod files;
 mod frames;
 mod outlet;
 mod stepping;
+mod thread;
 mod travel;
 
 use company::Company;
 use outlet::Outlet;
+pub(super) use thread::WorkerThread;
 use travel::ends_cycle;
 
 /// What the worker is to do next.
@@ -137,11 +139,6 @@ impl Worker {
         self
     }
 
-    /// A flag that makes the worker interrupt its work, to be set before it is told to quit.
-    pub fn halt(&self) -> Arc<AtomicBool> {
-        Arc::clone(&self.halt)
-    }
-
     /// Handles orders and steps in between, until told to quit.
     pub fn serve(mut self, orders: &Receiver<Order>) {
         self.handle_orders(orders);
@@ -149,7 +146,7 @@ impl Worker {
 
     /// [`serve`](Self::serve), and saves the session regularly and at the end, even after a panic;
     /// returns the message for the user.
-    pub fn run_with_checkpoints(
+    fn run_with_checkpoints(
         mut self,
         orders: &Receiver<Order>,
         keeping: Option<Arc<Mutex<ScreenAutosave>>>,

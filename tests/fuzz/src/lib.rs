@@ -15,6 +15,8 @@ use mdr_tui::tui::{Stroke, rehearse};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
+pub mod strokes;
+
 /// Grids up to this many cells are stepped on.
 const CELLS: usize = 16;
 
@@ -107,65 +109,6 @@ pub fn keys(text: &str) {
     screen::draw(&app, area, &mut Buffer::empty(area));
 }
 
-/// What a byte does in a session: nothing that writes files.
-const STROKES: &[&str] = &[
-    "<Space>",
-    ".",
-    ",",
-    "m",
-    "M",
-    "w",
-    "W",
-    "+",
-    "-",
-    "<Tab>",
-    "<S-Tab>",
-    "z",
-    "v",
-    "p",
-    "e",
-    "c",
-    "[",
-    "]",
-    "r",
-    "L",
-    "t",
-    "T",
-    "x",
-    "b",
-    "B",
-    "h",
-    "j",
-    "k",
-    "l",
-    "<Left>",
-    "<Right>",
-    "<Up>",
-    "<Down>",
-    "<Enter>",
-    "<Esc>",
-    "?",
-    "/",
-    ":",
-    "<Home>",
-    "<End>",
-    "<PageUp>",
-    "<PageDown>",
-    "<Delete>",
-    "<Backspace>",
-    "<C-u>",
-    "<C-w>",
-    "<lt>",
-    "<resize:80x24>",
-    "<resize:30x9>",
-    "<resize:1x1>",
-    "<resize:200x60>",
-    "<paste:numerics.points=12>",
-    "<paste:load cone>",
-    "1",
-    "0",
-];
-
 /// A sequence of keys, pastes and resizes, a byte each, in an explorer with its worker; the first byte
 /// chooses the preset.
 pub fn session(bytes: &[u8]) {
@@ -180,10 +123,11 @@ pub fn session(bytes: &[u8]) {
     let Ok(session) = Session::start(scenario) else {
         return;
     };
+    let all: Vec<&str> = strokes::KEYS.split_whitespace().collect();
+    let all = [&all[..], strokes::RARE].concat();
+    let bytes = bytes.iter().take(200);
     let script: String = bytes
-        .iter()
-        .take(200)
-        .map(|byte| STROKES[usize::from(*byte) % STROKES.len()])
+        .map(|byte| all[usize::from(*byte) % all.len()])
         .collect();
     let strokes = Stroke::script(&script).expect("a script");
     let theme = Theme::new(Look::Dark, Marker::Braille);

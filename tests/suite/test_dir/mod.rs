@@ -108,6 +108,36 @@ impl TestDir {
         assert_eq!(said.lines().count(), 1, "{line}: {said}");
     }
 
+    /// The screen of `size` after `keys`: nothing on stderr, every line within the size.
+    #[track_caller]
+    pub fn screen(&self, arguments: &[&str], keys: &str, size: (usize, usize)) -> String {
+        self.screen_in("C.UTF-8", arguments, keys, size)
+    }
+
+    /// [`screen`](Self::screen) in another locale.
+    #[track_caller]
+    pub fn screen_in(
+        &self,
+        locale: &str,
+        arguments: &[&str],
+        keys: &str,
+        size: (usize, usize),
+    ) -> String {
+        let print = format!("{}x{}", size.0, size.1);
+        let mut command = self.command(arguments);
+        command.args(["--keys", keys, "--print", &print]);
+        command.env("LC_ALL", locale);
+        let said = Said::from(command.output().expect("the program starts"));
+        let what = format!("{arguments:?} {keys} at {size:?}");
+        assert_eq!((said.code, said.err.as_str()), (0, ""), "{what}");
+        assert_eq!(said.out.lines().count(), size.1, "{what}");
+        for line in said.out.lines() {
+            assert!(line.chars().count() <= size.0, "{what}: {line}");
+            assert!(!line.chars().any(char::is_control), "{line:?}");
+        }
+        said.out
+    }
+
     /// Starts the program with the words of a line, and with an environment besides.
     pub fn start(&self, line: &str, environment: &[(&str, &str)]) -> Child {
         let mut command = self.command(&line.split_whitespace().collect::<Vec<_>>());

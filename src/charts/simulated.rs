@@ -1,0 +1,91 @@
+//! What is known of a session: its present state, and all that charts show of it where it is run for them.
+
+use super::Run;
+use super::run::Loop;
+use crate::export::last_loop::LastLoop;
+use crate::export::{field, header, state};
+use crate::reading::Curves;
+use crate::scenario::scalars::{self, Reading, Value};
+use crate::scenario::session::{Session, SessionError};
+use crate::traces::Table;
+
+/// What the charts over cycles show.
+const OVER_CYCLES: [&str; 7] = [
+    "cycle",
+    "contact_radius_m",
+    "permanent_stick_radius_m",
+    "wear_volume_m3",
+    "scar_depth_m",
+    "scar_radius_m",
+    "dissipated_energy_J",
+];
+
+impl Run {
+    /// Takes the present state of `session` in.
+    pub fn take_state(&mut self, session: &Session) {
+        let seen = session.simulation().observe(Curves::all());
+        let table = Table::of_columns(header::entries(session), state::columns(&seen));
+        self.states.push(table);
+    }
+
+    /// Runs `session` to the last of `cycles` (rising) and takes in the states there, the loop before each of
+    /// them, whole cycles over the run, and the field at the end if `with_field`.
+    ///
+    /// # Errors
+    /// If the run stops.
+    pub fn to(
+        session: &mut Session,
+        cycles: &[f64],
+        with_field: bool,
+    ) -> Result<Self, SessionError> {
+        let mut data = Self::default().of(session.scenario());
+        let mut seen: Vec<[f64; OVER_CYCLES.len()]> = Vec::new();
+        let mut record = |session: &Session| {
+            let reading = Reading::new(session);
+            let row =
+                OVER_CYCLES.map(
+                    |name| match scalars::find(name).map(|of| of.read(&reading)) {
+                        Some(Value::Number(number)) => number,
+                        _ => f64::NAN,
+                    },
+                );
+            if seen.last().is_none_or(|last| last[0] < row[0]) {
+                seen.push(row);
+            }
+        };
+        for &end in cycles {
+            let mut last = LastLoop::default();
+            last.record(session.simulation(), end);
+            while session.simulation().cycle() < end {
+                let simulation = session.simulation();
+                let next = match simulation.may_jump() {
+                    true => end,
+                    false => end.min(simulation.cycle().floor() + 1.0),
+                };
+                session.advance_while(next, |session| {
+                    last.record(session.simulation(), end);
+                    if session.simulation().cycle().fract() == 0.0 {
+                        record(session);
+                    }
+                    true
+                })?;
+            }
+            data.take_state(session);
+            let rows = last.rows(session.simulation());
+            data.loops.push(Loop::of_rows(end, &rows));
+        }
+        if session.simulation().cycle() < 1.0 {
+            record(session);
+        }
+        let columns = OVER_CYCLES.into_iter().enumerate();
+        let columns = columns.map(|(k, name)| (name, seen.iter().map(|row| row[k]).collect()));
+        data.history = Some(Table::of_columns(header::entries(session), columns));
+        data.field = with_field.then(|| {
+            let rows = field::rows(session);
+            let columns = field::COLUMNS.into_iter().enumerate();
+            let columns = columns.map(|(k, name)| (name, rows.iter().map(|row| row[k]).collect()));
+            Table::of_columns(header::entries(session), columns)
+        });
+        Ok(data)
+    }
+}

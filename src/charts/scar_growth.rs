@@ -1,6 +1,6 @@
 //! The scar's radius and depth over the work of friction: what a profilometer and a loop give of a test.
 
-use super::{NO_HISTORY, Recipe, Run, View, Words, ghosts, magnification};
+use super::{NO_CYCLE, NO_HISTORY, Recipe, Run, View, Words, ghosts, magnification};
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Scale};
 use crate::traces::Axes;
@@ -10,6 +10,7 @@ pub static RECIPE: Recipe = Recipe {
     name: "scar-growth",
     title: "scar over friction work",
     can_be_log: true,
+    keeps_abscissa: true,
     is_calm: true,
     overlays: &[DEPTH, RADIUS],
     words: Words {
@@ -28,6 +29,14 @@ pub static RECIPE: Recipe = Recipe {
 /// The columns.
 const DEPTH: Axes = Axes::new("dissipated_energy_J", "scar_depth_m", "depth");
 const RADIUS: Axes = Axes::new("dissipated_energy_J", "scar_radius_m", "radius");
+
+/// The work at the planned end of a live run, J, where each cycle takes as much as those so far.
+fn planned_work(run: &Run) -> Option<f64> {
+    let [cycles, work] = run.over_cycles(["cycle", "dissipated_energy_J"])?;
+    let (cycle, done) = (*cycles.last()?, *work.last()?);
+    let planned = run.live.as_ref()?.planned_cycles.unwrap_or(cycle);
+    (cycle >= 1.0).then(|| done * (planned / cycle).max(1.0))
+}
 
 fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     run.wears()?;
@@ -49,11 +58,14 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     for (_, ghost) in others.iter_mut().filter(|(axes, _)| *axes == DEPTH) {
         ghost.ys.iter_mut().for_each(|depth| *depth *= times);
     }
-    let (work_axis, axis) = (Axis::new("E_d", "J").from_zero(), Axis::new("scar", "m"));
-    let reach = run
-        .live
-        .as_ref()
-        .map_or(0.0, |live| live.moment.contact_radius);
+    let (mut work_axis, axis) = (Axis::new("E_d", "J").from_zero(), Axis::new("scar", "m"));
+    let mut reach = 0.0;
+    if let Some(live) = &run.live {
+        reach = live.moment.contact_radius;
+        let of_others = others.iter().flat_map(|(_, ghost)| &ghost.xs).copied();
+        let end = of_others.fold(planned_work(run).ok_or(NO_CYCLE)?, f64::max);
+        work_axis = work_axis.bounds([0.0, end]);
+    }
     Ok(Chart::new("", work_axis, axis.from_zero().expecting(reach))
         .curves(others.into_iter().map(|(_, ghost)| ghost))
         .curve(radius.dashed())

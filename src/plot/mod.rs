@@ -1,20 +1,19 @@
 //! Charts, and how a terminal draws one: a pure function of chart, look and area.
 //!
 //! ```text
-//! p [GPa]                   c      a           note    title, mark labels, note
+//! p [GPa]                   c      a    note r [µm] →   titles, mark labels, note
 //!   3 ┤⠉⠑⠢⣀                 ⡂      ⡂    ─ now          plot, legend in its emptiest corner
 //!   2 ┤    ⠈⠢⣀              ⡂      ⡂    ╌ unworn
 //!   1 ┤       ⠈⠢⡀           ⡂      ⡂
 //!   0 ┤          ⠈⠒⠤⣀⣀⣀⣀⣀⣀⣀⣀⡂⣀⣀⣀⣀⣀⣀⡂
 //!      ▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀▀     band (zones along x)
 //!     └┬─────────────┬─────────────┬───────────────     axis line, from 8 rows up
-//!      0            50    r [µm]  100                  tick labels, x title
+//!      0            50            100                  tick labels
 //! ```
 //!
 //! One idea per file: `chart` (what is drawn, on a screen or on paper), `map` (values as colours in it), `theme`
 //! (what roles look like), `units` (SI prefixes), `axis` (what an axis shows, its bounds), `window` (the
-//! map from values to dots), `step` (the 1-2-5 grid), `ticks`, `labels` (the row under the plot),
-//! `marker`, `stroke`, `raster` and `segment` (dots finer than a cell), `legend`, `widget` (the layout
+//! map from values to dots), `step` (the 1-2-5 grid), `ticks`, `marker`, `stroke`, `raster` and `segment` (dots finer than a cell), `legend`, `widget` (the layout
 //! above), `screen_svg` (a screen as a picture).
 //!
 //! All data are in plain units (m, Pa); the plot chooses the prefixes. Points where x or y
@@ -25,7 +24,6 @@
 pub mod axis;
 pub mod chart;
 pub mod colormap;
-mod labels;
 mod legend;
 pub mod map;
 mod marker;
@@ -47,6 +45,7 @@ pub use axis::{Axis, Scale, nice_bounds, sticky_bounds};
 pub use chart::{Chart, Curve, Fill, Mark, Point, Zone};
 pub use map::Map;
 pub use marker::Marker;
+use ratatui::layout::Rect;
 use theme::Theme;
 
 /// The widget: a chart, the look of the terminal, and perhaps a cursor. See the [module](self) for its parts.
@@ -55,6 +54,7 @@ pub struct Plot<'a> {
     chart: &'a Chart,
     theme: &'a Theme,
     cursor: Option<f64>,
+    rule: Option<Rect>,
 }
 
 impl<'a> Plot<'a> {
@@ -64,6 +64,16 @@ impl<'a> Plot<'a> {
             chart,
             theme,
             cursor: None,
+            rule: None,
+        }
+    }
+
+    /// The free part of the rule above the plot, in which the abscissa is named.
+    #[must_use]
+    pub fn rule(self, rule: Rect) -> Self {
+        Plot {
+            rule: Some(rule),
+            ..self
         }
     }
 

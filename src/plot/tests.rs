@@ -191,8 +191,8 @@ fn snapshot_40x12() {
     };
     let plot = shown(plot);
     let expected = [
-        "p [GPa]                    a       50.72",
-        " │                         ⡂       ─ now",
+        "p [GPa]                   50.72 r [µm] →",
+        " │                         ⡂a      ─ now",
         "2┤⠤⠤⠤⠤⠤⠤⣄⣀⣀⡀                            ",
         " │         ⠈⠉⠙⠒⠢⠤⣀⡀                     ",
         " │                ⠉⠓⠦⣄     ⡂            ",
@@ -201,23 +201,33 @@ fn snapshot_40x12() {
         " │                        ⢱⡀            ",
         "0┤                         ⣇⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀",
         " │sssssssssssssss~~~~~~~~~~.............",
-        " └┬────┬────┬────┬────┬────┬────────────",
-        "  0   20   40   60   80   100     r [µm]",
+        " └┬────┬────┬────┬────┬────┬────┬────┬──",
+        "  0   20   40   60   80   100  120  140 ",
     ];
     assert_eq!(draw(&plot, 40, 12), expected);
     let ascii = plot.marker(Marker::Ascii).cursor(5e-5);
     let expected = [
-        "p [GPa]             a    50.72",
+        "p [GPa]         50.72 r [um] >",
         " |         |      r   50.00 um",
         "2+*************   - now  1.819",
         " |         |  ***** :         ",
         " |         |      ***         ",
         "0+         |        **********",
         " |sssssssssss~~~~~~~~.........",
-        " ++--------+--------+---------",
-        "  0       50       100  r [um]",
+        " ++--------+--------+--------+",
+        "  0       50       100     150",
     ];
     assert_eq!(draw(&ascii, 30, 9), expected);
+    // In a rule with room for it the name of the abscissa takes no place of the labels of marks.
+    let Shown(chart, theme, _) = ascii;
+    let mut buf = Buffer::empty(Rect::new(0, 0, 30, 10));
+    let plot = Plot::new(&chart, &theme).rule(Rect::new(20, 0, 10, 1));
+    plot.render(Rect::new(0, 1, 30, 9), &mut buf);
+    let row = |y| (0..30).map(|x| buf[(x, y)].symbol()).collect::<String>();
+    let rows = [0, 1, 9].map(row);
+    assert!(rows[0].ends_with("  r [um] >"), "{rows:?}");
+    assert_eq!(rows[1], "p [GPa]             a    50.72");
+    assert!(rows[2].ends_with(" 150"), "{rows:?}");
 }
 
 #[test]
@@ -228,7 +238,7 @@ fn snapshot_log_log() {
     let curve = Curve::new("order 2", xs, ys, Role::Profile);
     let plot = shown(Chart::new("", log("N"), log("error")).curve(curve));
     let expected = [
-        "error                               ",
+        "error                            N →",
         "1e-2┤                      ─ order 2",
         "    │⠤⣀⡀                            ",
         "    │  ⠈⠉⠒⠢⠤⣀⡀                      ",
@@ -236,8 +246,8 @@ fn snapshot_log_log() {
         "    │              ⠈⠉⠒⠢⠤⣀⡀          ",
         "    │                    ⠈⠉⠒⠢⠤⣀⡀    ",
         "1e-6┤                          ⠈⠉⠒⠢⠤",
-        "    └┬───────┬─────┬─────┬──────────",
-        "    20      50    100   200        N",
+        "    └┬───────┬─────┬─────┬───────┬──",
+        "    20      50    100   200     500 ",
     ];
     assert_eq!(draw(&plot, 36, 10), expected);
 }

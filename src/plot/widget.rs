@@ -1,4 +1,6 @@
-//! The layout: where title, ticks, plot area, band and labels go.
+//! The layout: where titles, ticks, plot area, band and labels go.
+
+use std::ops::Range;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{self, Rect};
@@ -8,7 +10,6 @@ use ratatui::widgets::Widget;
 use super::Plot;
 use super::axis::{Scale, titled};
 use super::chart::Fill;
-use super::labels::LabelRow;
 use super::legend::{self, Legend, cells, text};
 use super::marker::Under;
 use super::raster::{Position, Raster};
@@ -121,7 +122,7 @@ struct Frame<'p> {
     y: Window,
     x_unit: AxisUnit,
     y_unit: AxisUnit,
-    x_labels: LabelRow,
+    x_ticks: Vec<Tick>,
     y_ticks: Vec<Tick>,
 }
 
@@ -170,8 +171,11 @@ impl<'p> Frame<'p> {
         let left = if bare { 0 } else { gutter + 1 };
         let inner = Rect::new(area.x + left, top, area.width - left, rows);
         let x = Window::new(x_bounds, plot.chart.x.scale, inner.width, across);
-        let label = text(&plot.chart.x.label, ascii);
-        let x_labels = LabelRow::new(&x, &x_unit, &label, left);
+        let row = Labels::Row {
+            before: left,
+            apart: 0,
+        };
+        let x_ticks = ticks(&x, x_unit.factor, row);
         Frame {
             plot,
             area,
@@ -183,7 +187,7 @@ impl<'p> Frame<'p> {
             y,
             x_unit,
             y_unit,
-            x_labels,
+            x_ticks,
             y_ticks,
         }
     }
@@ -260,7 +264,7 @@ impl<'p> Frame<'p> {
         }
     }
 
-    /// Axis lines, ticks and their labels, the x title, and the band.
+    /// Axis lines, ticks and their labels, and the band.
     fn axes(&self, buf: &mut Buffer) {
         let ascii = self.plot.theme.ascii();
         let [upright, y_tick, level, x_tick, corner] = if ascii {
@@ -285,19 +289,17 @@ impl<'p> Frame<'p> {
             for x in inner.left()..inner.right() {
                 glyph(buf, x, y, level, rule);
             }
-            for tick in &self.x_labels.ticks {
+            for tick in &self.x_ticks {
                 glyph(buf, inner.x + tick.cell, y, x_tick, rule);
             }
         }
         if let Some(y) = self.band_row {
             self.band(y, buf);
         }
-        for tick in &self.x_labels.ticks {
-            let x = self.area.x + self.x_labels.start(tick);
+        for tick in &self.x_ticks {
+            let start = tick.label_start(inner.width, inner.x - self.area.x);
+            let x = inner.x.saturating_add_signed(start as i16);
             self.write(buf, x, self.label_row, &tick.label, style);
-        }
-        if let Some((start, title)) = &self.x_labels.title {
-            self.write(buf, self.area.x + start, self.label_row, title, style);
         }
     }
 
@@ -365,6 +367,7 @@ impl<'p> Frame<'p> {
         self.write(buf, area.x, area.y, &title, quiet);
         let left = (area.x + cells(&title)).min(area.right());
         let mut free = left + u16::from(left > area.x)..area.right();
+        free.end -= self.x_title(free.clone(), buf);
 
         let room = free.end.saturating_sub(free.start + 1);
         let reading = match &legend {
@@ -409,6 +412,31 @@ impl<'p> Frame<'p> {
                 self.write(buf, x, inner.y, &label, plot.theme.style(mark.role));
             }
         }
+    }
+
+    /// Writes what the abscissa is into the rule above the plot, where there is one with room for it, else to the
+    /// right end of the `free` part of the title row; returns the cells that it takes there. In the row of the ticks
+    /// it would stand where the last of them is.
+    fn x_title(&self, free: Range<u16>, buf: &mut Buffer) -> u16 {
+        let ascii = self.plot.theme.ascii();
+        let label = text(&self.plot.chart.x.label, ascii);
+        let title = |label: &str| match titled(label, &self.x_unit.text, ['[', ']']) {
+            title if title.is_empty() => title,
+            title => format!(" {title} {}", if ascii { ">" } else { "→" }),
+        };
+        let quiet = self.plot.theme.style(Role::Quiet);
+        let whole = title(&label);
+        if let Some(rule) = self.plot.rule.filter(|rule| cells(&whole) <= rule.width) {
+            buf.set_string(rule.right() - cells(&whole), rule.y, whole, quiet);
+            return 0;
+        }
+        let room = free.end.saturating_sub(free.start);
+        let fitting = [whole, title("")];
+        let Some(title) = fitting.iter().find(|title| cells(title) <= room) else {
+            return 0;
+        };
+        self.write(buf, free.end - cells(title), self.area.y, title, quiet);
+        cells(title)
     }
 
     /// The names of the curves above or below their last points, where no curve is; `None` unless each has its place.

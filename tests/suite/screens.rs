@@ -26,7 +26,7 @@ use mdr_tui::tui::panels::Panel;
 use mdr_tui::tui::theme::{Look, Theme};
 use mdr_tui::tui::worker::{Orders, Worker};
 use mdr_tui::tui::{Event, screen, tour};
-use ratatui::buffer::Buffer;
+use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::{Position, Rect};
 use ratatui::text::Line;
 
@@ -591,7 +591,7 @@ impl Stage {
     }
 
     /// Draws at `columns` by `rows`, within a larger buffer that must stay clean around it.
-    fn draw(&self, columns: u16, rows: u16) {
+    fn draw(&self, columns: u16, rows: u16) -> String {
         let mut buffer = Buffer::empty(Rect::new(0, 0, columns + 2, rows + 2));
         for cell in &mut buffer.content {
             cell.set_char('#');
@@ -605,6 +605,7 @@ impl Stage {
                 "{columns}x{rows} draws at {at}"
             );
         }
+        buffer.content.iter().map(Cell::symbol).collect()
     }
 }
 
@@ -760,6 +761,34 @@ fn the_status_line_has_fixed_slots() {
     for keys in [",,", ",,,,,,,,,,", ",m", ",mm.", ",---"] {
         assert_eq!(places(keys), first, "{keys}");
     }
+}
+
+/// The phase of the motion is told of a run that is shown at one phase, and of no other.
+#[test]
+fn no_phase_is_told_when_the_run_is_done() {
+    let mut stage = Stage::new("li2019-fig3", Marker::Braille);
+    let mut frame = Frame::clone(&stage.orders.frame().expect("a worker"));
+    frame.phase = Some(0.0);
+    for activity in [Activity::Running, Activity::Paused, Activity::Done] {
+        frame.activity = activity.clone();
+        stage.app.take_frame(Arc::new(frame.clone()));
+        let is_told = stage.draw(120, 24).contains("phase 0°");
+        assert_eq!(is_told, activity == Activity::Running, "{activity:?}");
+    }
+}
+
+/// The axis of the friction work is that of the whole plan from its first dot on.
+#[test]
+fn the_axis_of_the_friction_work_holds() {
+    let zoomed = |cycles: &str| shot("li2019-fig3", &format!("{cycles}<S-Tab>z"), (80, 24));
+    assert!(zoomed("").contains("no cycle is complete yet"));
+    let axis = |cycles: usize| {
+        let text = zoomed(&",".repeat(cycles));
+        let labels = panels(&text).last().copied().unwrap_or_default().to_owned();
+        assert!(text.contains("E_d [µJ] →"), "{text}");
+        labels
+    };
+    assert_eq!([axis(2), axis(12)], [(); 2].map(|()| axis(1)));
 }
 
 /// Where the method stands alone among numbers, a word says what it is.

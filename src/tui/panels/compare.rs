@@ -6,11 +6,11 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::Line;
 use ratatui::widgets::Widget;
 
-use super::{Frame, clip_spikes, edge, nothing, titled};
+use super::{Frame, clip_spikes, edge, nothing, plot, titled};
 use crate::charts::{A, C, Live, Words, ghosts};
 use crate::math::scan::largest;
 use crate::plot::units::{format_number, format_value_in};
-use crate::plot::{Axis, Chart, Curve, Plot, Scale, nice_bounds};
+use crate::plot::{Axis, Chart, Curve, Scale, nice_bounds};
 use crate::reading::Observation;
 use crate::traces::Axes;
 use crate::tui::frame::Comparison;
@@ -21,6 +21,9 @@ const COLUMN: usize = 11;
 
 /// The difference is not drawn below this width.
 const NARROWEST: u16 = 17;
+
+/// The title of the difference.
+const DIFFERENCE: &str = "difference of f";
 
 /// The explanation of a comparison, which takes the place of all panels.
 pub const WORDS: Words = Words {
@@ -62,9 +65,9 @@ pub fn draw(
     };
     let names = (this_name(frame), comparison.name.as_str());
     let inside = |title, place, buffer: &mut _| titled(title, Role::Title, theme, place, buffer);
-    let render = |chart: &Chart, place, buffer: &mut _| {
-        Plot::new(chart, theme).cursor(cursor).render(place, buffer);
-    };
+    let look = (theme, cursor);
+    let render =
+        |chart: &Chart, place, buffer: &mut _| plot(chart, Role::Title, look, place, buffer);
     let pair = |there: &[f64], here: &[f64], role| {
         [
             Curve::new(names.1, &other.radii[..], there, Role::Slip).dashed(),
@@ -72,22 +75,21 @@ pub fn draw(
         ]
     };
     let run = frame.run();
-    let mut profiles = Chart::new("", Axis::new("r", "m"), Axis::new("f", "m"))
+    let mut profiles = Chart::new("3D profile", Axis::new("r", "m"), Axis::new("f", "m"))
         .curves(ghosts::worn(&run, Some(1.0)))
         .curves(pair(&other.profile, &seen.profile, Role::Profile));
     profiles.marks = run.live.as_ref().map(Live::edge_marks).unwrap_or_default();
-    render(&profiles, inside("3D profile", left, buffer), buffer);
+    render(&profiles, left, buffer);
     // A spike at a border of stick must not flatten all the rest.
     let mut values = [&seen.pressure[..], &other.pressure].concat();
     clip_spikes(&mut values);
     let highest = largest(&values);
     let mut ordinate = Axis::new("p", "Pa");
     ordinate.bounds = (highest > 0.0).then(|| nice_bounds(0.0, highest));
-    let pressures = Chart::new("", Axis::new("r", "m"), ordinate)
+    let pressures = Chart::new("pressure", Axis::new("r", "m"), ordinate)
         .curves(ghosts::on(&run, Axes::PRESSURE))
         .curves(pair(&other.pressure, &seen.pressure, Role::Pressure));
-    render(&pressures, inside("pressure", right, buffer), buffer);
-    let inside_below = inside("difference of f", below, buffer);
+    render(&pressures, right, buffer);
     let mut of_ghosts = ghosts::worn(&run, None);
     for ghost in &mut of_ghosts {
         let points = ghost.xs.iter().zip(&mut ghost.ys);
@@ -98,7 +100,8 @@ pub fn draw(
     let highest = highest.fold(largest(&difference), f64::max);
     if highest == 0.0 {
         let words = ["equal so far", "C: from the start"];
-        for (text, row) in words.iter().zip(inside_below.rows()) {
+        let inside = inside(DIFFERENCE, below, buffer);
+        for (text, row) in words.iter().zip(inside.rows()) {
             nothing(text, theme, row, buffer);
         }
     } else {
@@ -107,7 +110,7 @@ pub fn draw(
         let bounds = [10f64.powf(decade - 6.0), 10f64.powf(decade)];
         let ordinate = Axis::new("|difference|", "m").scale(Scale::Log);
         let abscissa = Axis::new("r", "m").bounds([0.0, edge(frame)]);
-        let chart = Chart::new("", abscissa, ordinate.bounds(bounds))
+        let chart = Chart::new(DIFFERENCE, abscissa, ordinate.bounds(bounds))
             .curves(of_ghosts)
             .curve(Curve::new(
                 "",
@@ -115,7 +118,7 @@ pub fn draw(
                 &difference[..],
                 Role::Slip,
             ));
-        render(&chart, inside_below, buffer);
+        render(&chart, below, buffer);
     }
     let inside = inside("side by side", numbers, buffer);
     let lines = rows

@@ -145,9 +145,8 @@ impl Panel {
         }
         match chart {
             Ok(chart) => {
-                let inner = titled(&chart.title, role, theme, area, buffer);
                 let cursor = pane.cursor.filter(|_| recipe.over_r);
-                Plot::new(chart, theme).cursor(cursor).render(inner, buffer);
+                plot(chart, role, (theme, cursor), area, buffer);
             }
             Err(why) => {
                 let inner = titled(recipe.title, role, theme, area, buffer);
@@ -237,6 +236,26 @@ pub(super) fn titled(
     let inner = block.inner(area);
     block.render(area, buffer);
     inner
+}
+
+/// A chart below a rule with its title.
+fn plot(
+    chart: &Chart,
+    role: Role,
+    (theme, cursor): (&Theme, Option<f64>),
+    area: Rect,
+    buffer: &mut Buffer,
+) {
+    let inner = titled(&chart.title, role, theme, area, buffer);
+    let taken = theme.printable(&chart.title).chars().count() as u16 + 2;
+    let rule = Rect {
+        x: area.x.saturating_add(taken),
+        width: area.width.saturating_sub(taken),
+        height: 1,
+        ..area
+    };
+    let plot = Plot::new(chart, theme).cursor(cursor).rule(rule);
+    plot.render(inner, buffer);
 }
 
 /// Writes a message in a panel that has nothing to plot.

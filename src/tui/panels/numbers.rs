@@ -18,7 +18,7 @@ pub static PICTURE: Picture = Picture {
             text: "The state in numbers, and what a fretting test reports for the last complete \
                  cycle. A, B and D \
                  are ratios of the loop: at the border of gross slip an unworn sphere has A = 0.2, B = 0.77 and \
-                 D = 0.26. k relates wear to friction work; Archard's rate per normal force is μ k.",
+                 D = 0.26. k is wear per friction work; Archard's, per normal force and distance, is μ k.",
             symbols: &[
                 ("E_d", "energy lost to friction"),
                 ("Q*/(μP)", "amplitude of F_x divided by the friction limit"),
@@ -106,8 +106,7 @@ fn rows(frame: &Frame) -> Vec<(&'static str, String)> {
     }
     if let Some(k) = frame.facts.wear_coefficient {
         let per_load = format_number(k * frame.facts.friction * 1e9, 3);
-        rows.push(("k", format!("{} 1/Pa", format_number(k, 3))));
-        rows.push(("k", cubic_micrometres(k)));
+        rows.push(("k per friction work", cubic_micrometres(k)));
         rows.push(("k per load", format!("{per_load} mm³/(N·m)")));
     }
     if let Some(residual) = moment.energy_residual {

@@ -153,8 +153,12 @@ impl RunJob {
 
     /// The snapshots as `scenario.toml` is to name them.
     pub fn snapshot_at(&self) -> Vec<f64> {
-        let all = self.snapshots.iter();
-        all.map(|snapshot| snapshot.cycle).collect()
+        self.snapshots().map(|snapshot| snapshot.cycle).collect()
+    }
+
+    /// The snapshots, as given.
+    pub fn snapshots(&self) -> impl Iterator<Item = &CycleAsGiven> {
+        self.snapshots.iter()
     }
 
     /// Records the present moment in the history, if it is due.

@@ -1,5 +1,6 @@
 //! `mdr-tui run`: the simulation without a screen.
 
+use std::fs;
 use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -279,8 +280,29 @@ impl Job {
                 for (key, value) in statements {
                     self.session.state(&key, &value);
                 }
+                self.restate();
             }
             Err(word) => complain(&word),
+        }
+    }
+
+    /// The snapshots state what the run states at its end, as they do where its `scenario.toml` is run again.
+    fn restate(&mut self) {
+        let unmeasured = header::unmeasured();
+        let stated = self.session.statements().iter();
+        let stated: String = stated
+            .map(|(key, value)| header::line(key, value))
+            .collect();
+        let due = self.job.snapshots().map(file_of);
+        let unwritten = |name: &String| self.owed.iter().all(|(owed, _)| owed != name);
+        let written = due.filter(unwritten).filter_map(|name| {
+            let table = fs::read_to_string(self.directory.path().join(&name)).ok()?;
+            Some((name, table))
+        });
+        let written: Vec<_> = written.collect();
+        self.owed.extend(written);
+        for (_, table) in &mut self.owed {
+            *table = table.replacen(&unmeasured, &stated, 1);
         }
     }
 

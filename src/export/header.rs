@@ -1,7 +1,5 @@
 //! The `# key: value` lines that open every CSV file, and numbers that read back exactly.
 
-use std::fmt::Write;
-
 use crate::math::grid::RadialGrid;
 use crate::scenario::printable;
 pub use crate::scenario::scalars::{number, optional};
@@ -12,11 +10,24 @@ use crate::simulation::{Setup, Spacing};
 pub fn lines(session: &Session) -> String {
     let mut text = String::new();
     for (key, value) in entries(session) {
-        // A title must stay on its line and must not control a terminal.
-        let _ = writeln!(text, "# {key}: {}", printable(&value));
+        text += &line(&key, &value);
     }
     text
 }
+
+/// A line of a header.
+pub fn line(key: &str, value: &str) -> String {
+    // A title must stay on its line and must not control a terminal.
+    format!("# {key}: {}\n", printable(value))
+}
+
+/// The line of a run whose error is not known.
+pub fn unmeasured() -> String {
+    line(UNMEASURED.0, UNMEASURED.1)
+}
+
+/// Key and value of that line.
+const UNMEASURED: (&str, &str) = ("estimated_error", "not measured (--estimate-error)");
 
 /// What the header of a file says of the present state of `session`: keys and values.
 pub fn entries(session: &Session) -> Vec<(String, String)> {
@@ -68,9 +79,9 @@ pub fn entries(session: &Session) -> Vec<(String, String)> {
     for (key, value) in session.statements() {
         line(key, value);
     }
-    let is_measured = |(key, _): &(String, String)| key == "estimated_error";
+    let is_measured = |(key, _): &(String, String)| key == UNMEASURED.0;
     if setup.wear.is_some() && !session.statements().iter().any(is_measured) {
-        line("estimated_error", "not measured (--estimate-error)");
+        line(UNMEASURED.0, UNMEASURED.1);
     }
     for change in session.changes() {
         line(

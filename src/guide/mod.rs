@@ -50,6 +50,7 @@ topics! {
     accuracy = "accuracy.md": "asking for an accuracy, estimating errors, and what the method leaves out";
     methods = "methods.md": "the transform methods and how they compare";
     comparing = "comparing.md": "measured data, other runs and earlier states over the plots";
+    paper = "paper.md": "from a test to a paper: fit, sheet, map and supplement in one sitting";
     figures = "figures.md": "figures for a paper, and the figures of the paper";
     studies = "studies.md": "many runs at once: maps, sensitivities, clusters";
     python = "python.md": "runs and figures from Python";

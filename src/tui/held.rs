@@ -32,6 +32,11 @@ impl Held {
         }
         let [lowest, highest] = self.seen;
         self.seen = [lowest.min(low), highest.max(high)];
+        // What reaches as far on both sides of zero is drawn so, also where it was on one side at first.
+        if low == -high && high > 0.0 {
+            let most = self.bounds[1].max(-self.bounds[0]);
+            self.bounds = [-most, most];
+        }
         let grows = low < self.bounds[0] || high > self.bounds[1];
         let is_over = cycle - self.since >= 1.0;
         if grows || is_over {
@@ -51,6 +56,22 @@ impl Held {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A motion begins to one side, and swings to both.
+    #[test]
+    fn bounds_of_a_swing_are_symmetric() {
+        let mut held = Held {
+            bounds: sticky_bounds(None, 0.0, 7.0),
+            seen: [0.0, 7.0],
+            since: 0.0,
+        };
+        for step in 0..300 {
+            let most = 7.0 + 0.01 * f64::from(step);
+            held.take([-most, most], f64::from(step) / 100.0);
+            let [low, high] = held.bounds;
+            assert!(low == -high && high >= most && high < 16.0, "{held:?}");
+        }
+    }
 
     #[test]
     fn bounds_hold_for_a_period_and_follow_a_trend() {

@@ -174,7 +174,7 @@ fn a_frame_in_motion_takes_few_bytes() {
 #[test]
 fn the_contact_in_motion_takes_few_bytes() {
     let sizes: [(Tell, usize); 3] = [
-        (|| Ok(Size::new(80, 24)), 610),
+        (|| Ok(Size::new(80, 24)), 560),
         (|| Ok(Size::new(120, 40)), 1655),
         (|| Ok(Size::new(200, 50)), 2055),
     ];

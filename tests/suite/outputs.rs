@@ -261,6 +261,37 @@ fn a_run_tells_how_it_was_made_and_its_tables_do_not_hang_on_it() {
     assert_eq!(made("951782400", "x"), text);
 }
 
+/// What a supplement to a paper holds: a run from its `scenario.toml` writes the same files, snapshots with the error
+/// that is known at the end alone included, and figures of both are the same.
+#[test]
+fn a_supplement_gives_the_same_files() {
+    let dir = dir();
+    dir.done(
+        "run li2019-fig3 --set numerics.points=40 --set numerics.steps_per_cycle=24 --cycles 3 --snapshot-at 1,2.5 \
+         --estimate-error --out x --quiet",
+    );
+    dir.done("run x/scenario.toml --out y --quiet");
+    for out in ["x", "y"] {
+        dir.done(&format!(
+            "figure {out} --panel profile --panel loop -o {out}.pdf"
+        ));
+        fs::remove_file(dir.path(&format!("{out}/provenance.toml"))).expect("a file");
+    }
+    let mut names: Vec<String> = names(&dir.path("x")).into_iter().collect();
+    names.sort();
+    for name in &names {
+        let [first, again] = ["x", "y"].map(|out| dir.read(&format!("{out}/{name}")));
+        assert!(first == again, "{name}");
+    }
+    assert!(names.contains(&"state-2.5.csv".to_owned()), "{names:?}");
+    assert!(
+        dir.read("x/state-2.5.csv")
+            .contains("# estimated_error_volume: ")
+    );
+    let [first, again] = ["x.pdf", "y.pdf"].map(|name| fs::read(dir.path(name)).expect("a file"));
+    assert!(first == again);
+}
+
 /// Calls of the system by which files come to be as they are.
 const CALLS: [&str; 11] = [
     "openat",

@@ -178,7 +178,8 @@ pub fn draw(
     scale: &Scale,
     buffer: &mut Buffer,
 ) {
-    let (moment, theme) = (&frame.observation.moment, pane.theme);
+    // Nobody reads numbers ten times a second.
+    let (calm, theme) = (&pane.calm.observation.moment, pane.theme);
     let value = |value, unit| format_value_in(value, unit, 3, theme.ascii());
     if area.height < 5 || area.width < 30 {
         return;
@@ -188,10 +189,10 @@ pub fn draw(
     } else {
         ["load F_z", "shift u_x"]
     };
-    let mut forces = format!("{} {}", names[0], value(moment.normal_force, "N"));
-    if moment.stick_radius.is_some() {
+    let mut forces = format!("{} {}", names[0], value(calm.normal_force, "N"));
+    if calm.stick_radius.is_some() {
         // Rounding is no motion.
-        let shift = moment.shift * f64::from(moment.shift.abs() > 1e-12 * moment.contact_radius);
+        let shift = calm.shift * f64::from(calm.shift.abs() > 1e-12 * calm.contact_radius);
         forces.push_str(&format!(", {} {}", names[1], value(shift, "m")));
     }
     if below.is_empty() {
@@ -209,7 +210,7 @@ pub fn draw(
         return;
     }
     let speed = speed(frame);
-    let said = phase(moment, speed);
+    let said = phase(&frame.observation.moment, speed);
     // The words stay where they are when the motion turns.
     let start = area.x + area.width.saturating_sub(LONGEST) / 2;
     on(buffer, start, area.y, &said, theme);
@@ -228,7 +229,7 @@ pub fn draw(
     radii(frame, pane, area, scale, buffer);
     let lines = Layout::vertical([Constraint::Length(1); ROWS as usize]);
     let [first, second] = lines.areas(below);
-    let worn = worn(frame, |depth| value(depth, "m"));
+    let worn = worn(pane.calm, |depth| value(depth, "m"));
     // What is obvious from the rest is said where there is room for it.
     let room = usize::from(first.width.saturating_sub(1));
     let worn = match worn.rsplit_once(", ") {
@@ -241,7 +242,7 @@ pub fn draw(
 
 /// c and a: a short line over the border of each, and its name.
 fn radii(frame: &Frame, pane: &Pane, area: Rect, scale: &Scale, buffer: &mut Buffer) {
-    let (moment, theme) = (&frame.observation.moment, pane.theme);
+    let (moment, theme) = (&pane.calm.observation.moment, pane.theme);
     let bar = if theme.ascii() { ":" } else { "┊" };
     let a = Some(moment.contact_radius).filter(|a| *a > 0.0);
     let marks = [("c", sticking(moment)), ("a", a)];

@@ -905,7 +905,9 @@ fn the_map_shows_two_axes_and_reads_points() {
     assert!((shown / volume - 1.0).abs() < 1e-3, "{read}");
     // The axes change places.
     let text = screen(&dir, "map.csv", "x").join("\n");
-    assert!(text.contains("mean depth d [µm]\n"), "{text}");
+    assert!(text.contains("mean depth d [µm] →\n"), "{text}");
+    // The last tick is there, too.
+    assert!(text.contains(" 2.00\n"), "{text}");
     // Enter opens the point in the explorer.
     let text = screen(&dir, "map.csv", "l<Enter>").join("\n");
     assert!(text.contains("cycle 0.00/"), "{text}");

@@ -20,7 +20,7 @@ use ratatui::widgets::Widget;
 use super::ramp::{self, Shade};
 use super::view::{Scaled, View};
 use crate::plot::axis::titled;
-use crate::plot::units::{axis_unit, format_number, format_value_in};
+use crate::plot::units::{axis_unit, format_number};
 use crate::plot::{Chart, Curve, Plot, Point, Scale};
 use crate::studies::sweep::slice::{Line, REGIMES};
 use crate::tui::footer;
@@ -139,13 +139,14 @@ fn legend(view: &View, theme: &Theme, scaled: &Scaled, area: Rect, buffer: &mut 
     let Some([low, high]) = scaled.range else {
         return;
     };
-    let value = |value: f64| format_value_in(value, quantity.unit, 3, theme.ascii());
+    let unit = axis_unit(high.abs().max(low.abs()), quantity.unit, theme.ascii());
+    let value = |value: f64| format_number(value / unit.factor, 3);
     write(&format!("  {} ", value(low)), Style::new());
     for shade in ramp::all() {
         let (sign, style) = swatch(shade, theme);
         write(&sign.to_string(), style);
     }
-    write(&format!(" {}", value(high)), Style::new());
+    write(&format!(" {} {}", value(high), unit.text), Style::new());
     if quantity.scale == Scale::Log {
         write("  log", theme.style(Role::Quiet));
     }
@@ -278,7 +279,12 @@ fn map(
     let cell = &mut buffer[at(wide.middle(x as f64), high.middle(y as f64) / parts)];
     cell.set_char(if theme.ascii() { 'X' } else { '╳' });
     cell.set_style(Style::reset().add_modifier(Modifier::REVERSED | Modifier::BOLD));
+    // The ticks' row is theirs to the last one.
+    let x_title = format!("{x_title} {}", if theme.ascii() { '>' } else { '→' });
+    let right = plot.right().saturating_sub(width(&x_title));
+    let after = area.x + width(&y_title) + 2;
     put(buffer, area.x, area.y, &y_title, quiet, theme);
+    put(buffer, right.max(after), area.y, &x_title, quiet, theme);
     let mut below = None;
     for (place, label) in y_labels.iter().enumerate() {
         let row = high.middle(place as f64) / parts;
@@ -288,13 +294,11 @@ fn map(
             below = Some(row);
         }
     }
-    let title_at = (plot.right()).saturating_sub(width(&x_title));
-    put(buffer, title_at, floor, &x_title, quiet, theme);
     let mut end = area.x;
     for (place, label) in x_labels.iter().enumerate() {
         let column = plot.x + wide.middle(place as f64) as u16;
         let start = column.saturating_sub(width(label) / 2).max(area.x);
-        if start >= end && start + width(label) + 2 <= title_at {
+        if start >= end && start + width(label) <= area.right() {
             put(buffer, start, floor, label, quiet, theme);
             end = start + width(label) + 2;
         }

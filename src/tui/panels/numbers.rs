@@ -52,8 +52,10 @@ fn draw(frame: &Frame, pane: &Pane, area: Rect, buffer: &mut Buffer) {
             width.saturating_sub(1),
             1,
         );
-        let pad = usize::from(cell.width)
-            .saturating_sub(name.chars().count() + value.chars().count() + 2);
+        // Rather than the value, the name is cut.
+        let room = usize::from(cell.width).saturating_sub(value.chars().count() + 2);
+        let name: String = name.chars().take(room).collect();
+        let pad = room - name.chars().count();
         let line = Line::from(vec![
             Span::styled(
                 format!(" {name} {}", " ".repeat(pad)),

@@ -427,7 +427,9 @@ impl<'p> Frame<'p> {
         let quiet = self.plot.theme.style(Role::Quiet);
         let whole = title(&label);
         if let Some(rule) = self.plot.rule.filter(|rule| cells(&whole) <= rule.width) {
-            buf.set_string(rule.right() - cells(&whole), rule.y, whole, quiet);
+            // The rule is dim; what stands in it is not.
+            let style = Style::reset().patch(quiet);
+            buf.set_string(rule.right() - cells(&whole), rule.y, whole, style);
             return 0;
         }
         let room = free.end.saturating_sub(free.start);

@@ -661,6 +661,9 @@ fn the_help_has_one_key_a_row_by_groups() {
             }
         }
     }
+    // And by pages.
+    assert_ne!(shot("?<PageDown>", (80, 24)), shot("?", (80, 24)));
+    assert_eq!(shot("?<PageDown><PageUp>", (80, 24)), shot("?", (80, 24)));
 }
 
 #[test]

@@ -297,7 +297,7 @@ pub fn title(frame: &Frame, pane: &Pane, area: Rect) -> String {
         height: area.height.saturating_sub(1),
         ..area
     };
-    let room = usize::from(area.width.saturating_sub(4));
+    let room = usize::from(area.width.saturating_sub(2));
     Scale::of(frame, pane, caption::beside(below)[0]).map_or_else(
         || Panel::Section.title().to_owned(),
         |scale| scale.title(pane.theme.ascii(), room),

@@ -63,8 +63,10 @@ fn perform(what: &str, times: &str) -> Result<()> {
     if what == "step" {
         let points = cells.to_string();
         let preset = Scenario::load("li2019-fig3", &[])?;
-        let scenario =
-            preset.with_all(&[("numerics.points", &points), ("numerics.method", method)])?;
+        let scenario = preset.with_all(&[
+            ("numerics.points", points.as_str()),
+            ("numerics.method", method),
+        ])?;
         let mut simulation = Simulation::new(scenario.setup().clone())?;
         for _ in 0..times {
             simulation.step()?;

@@ -14,7 +14,10 @@ fn fig3(method: &str, cells: usize) -> Simulation {
     let scenario = Scenario::load("li2019-fig3", &[])
         .and_then(|scenario| {
             let points = cells.to_string();
-            scenario.with_all(&[("numerics.points", &points), ("numerics.method", method)])
+            scenario.with_all(&[
+                ("numerics.points", points.as_str()),
+                ("numerics.method", method),
+            ])
         })
         .expect("the preset");
     Simulation::new(scenario.setup().clone()).expect("a contact")

@@ -29,22 +29,6 @@ pub mod volume;
 
 pub use run::{Live, Loop, Run};
 
-/// The charts that a paper can have, in the order in which they are offered.
-pub const ON_PAPER: [&Recipe; 12] = [
-    &profile::RECIPE,
-    &springs::RECIPE,
-    &stresses::RECIPE,
-    &depth::RECIPE,
-    &fretting_loop::RECIPE,
-    &radii::RECIPE,
-    &volume::RECIPE,
-    &scar_depth::RECIPE,
-    &scar_growth::RECIPE,
-    &field::VON_MISES,
-    &field::PRINCIPAL,
-    &field::SWT,
-];
-
 /// An explanation, for a reader who knows Hertz and nothing else.
 #[derive(Debug, Clone, Copy)]
 pub struct Words {

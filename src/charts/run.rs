@@ -46,8 +46,8 @@ impl Loop {
     }
 
     /// From steps: cycle, u_x⁽⁰⁾, F_x and the displacement of the actuator.
-    pub fn of_rows(end: f64, rows: &[[f64; 4]]) -> Self {
-        let column = |k: usize| rows.iter().map(|row| row[k]).collect();
+    pub fn of_rows<'a>(end: f64, rows: impl Iterator<Item = &'a [f64; 4]> + Clone) -> Self {
+        let column = |k: usize| rows.clone().map(|row| row[k]).collect();
         Self {
             end,
             shifts: column(1),

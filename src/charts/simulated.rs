@@ -72,7 +72,7 @@ impl Run {
             }
             data.take_state(session);
             let rows = last.rows(session.simulation());
-            data.loops.push(Loop::of_rows(end, &rows));
+            data.loops.push(Loop::of_rows(end, rows.iter()));
         }
         if session.simulation().cycle() < 1.0 {
             record(session);

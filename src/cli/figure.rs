@@ -8,10 +8,10 @@ use std::sync::Arc;
 
 use anyhow::{Context, Result, bail};
 
-use super::args::{Figure, PaperFigure};
+use super::args::{Figure, PaperFigure, on_paper};
 use super::{accuracy, job};
 use crate::charts::{
-    ON_PAPER, Recipe, Run, depth, fretting_loop, profile, scar_depth, springs, stresses, volume,
+    Recipe, Run, depth, fretting_loop, profile, scar_depth, springs, stresses, volume,
 };
 use crate::export::target::{Target, write_all};
 use crate::figure::look::Look;
@@ -170,15 +170,13 @@ fn sheet(options: &Figure) -> Result<Sheet> {
         return Ok(paper::fretting(&run).map_err(refused)?);
     }
     let charts = if options.panel.is_empty() {
-        let found = |panels: &[&Recipe]| -> Vec<_> {
-            let charts = panels.iter().map(|panel| panel.on_paper(&run));
+        let found = |panels: Vec<&Recipe>| -> Vec<_> {
+            let charts = panels.into_iter().map(|panel| panel.on_paper(&run));
             charts.filter_map(Result::ok).collect()
         };
-        let usual = found(&usual(&run.ghosts));
-        if usual.is_empty() {
-            found(&ON_PAPER)
-        } else {
-            usual
+        match found(usual(&run.ghosts)) {
+            none if none.is_empty() => found(on_paper().collect()),
+            usual => usual,
         }
     } else {
         let charts = options.panel.iter().map(|panel| panel.on_paper(&run));
@@ -261,7 +259,7 @@ fn refuse_what_no_chart_shows(
         if curves.any(|curve| curve.role == Role::Ghost(k)) {
             continue;
         }
-        let places = ON_PAPER.into_iter().filter(|panel| panel.shows(ghost));
+        let places = on_paper().filter(|panel| panel.shows(ghost));
         let names: Vec<&str> = places.map(|panel| panel.name).collect();
         let rule = "is on none of these charts; it belongs to --panel";
         return Err(Refusal::new(

@@ -7,6 +7,7 @@ use anyhow::{Context, Result};
 use signal_hook::consts::{
     SIGABRT, SIGALRM, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU,
 };
+use signal_hook::flag;
 
 use super::FAILED;
 
@@ -17,44 +18,37 @@ pub const ENDING: [i32; 9] = [
 ];
 
 /// Set by the first signal that asks to end: stop after the step and save. A second one ends the
-/// process at once. Under `nohup` a run outlives its terminal, as intended.
+/// process at once.
 pub fn signal() -> Result<Arc<AtomicBool>> {
-    let stop = Arc::new(AtomicBool::new(false));
-    for signal in ENDING {
-        if signal == SIGHUP && is_ignored(SIGHUP) {
-            continue;
-        }
-        signal_hook::flag::register_conditional_shutdown(
-            signal,
-            i32::from(FAILED),
-            Arc::clone(&stop),
-        )
-        .and_then(|_| signal_hook::flag::register(signal, Arc::clone(&stop)))
-        .context("cannot listen for signals")?;
-    }
-    Ok(stop)
+    set_by(&ENDING, &ENDING)
 }
 
 /// Set by every signal that asks to end, and nothing else.
 pub fn noted() -> Result<Arc<AtomicBool>> {
-    let stop = Arc::new(AtomicBool::new(false));
-    for signal in ENDING {
-        signal_hook::flag::register(signal, Arc::clone(&stop))
-            .context("cannot listen for signals")?;
-    }
-    Ok(stop)
+    set_by(&ENDING, &[])
 }
 
 /// Like [`signal`], but only a second Ctrl-C ends the process at once: a scheduler may send SIGTERM
 /// twice.
 pub fn patient_signal() -> Result<Arc<AtomicBool>> {
+    set_by(&[SIGINT, SIGTERM, SIGHUP], &[SIGINT])
+}
+
+/// A flag that these signals set; the second of those that end `at_once` ends the process. Under `nohup` a run
+/// outlives its terminal, as intended.
+fn set_by(signals: &[i32], at_once: &[i32]) -> Result<Arc<AtomicBool>> {
     let stop = Arc::new(AtomicBool::new(false));
-    signal_hook::flag::register_conditional_shutdown(SIGINT, i32::from(FAILED), Arc::clone(&stop))
-        .context("cannot listen for signals")?;
-    for signal in [SIGINT, SIGTERM, SIGHUP] {
-        if signal != SIGHUP || !is_ignored(SIGHUP) {
-            signal_hook::flag::register(signal, Arc::clone(&stop))
-                .context("cannot listen for signals")?;
+    let exit = i32::from(FAILED);
+    for at_once in at_once {
+        if *at_once != SIGHUP || !is_ignored(SIGHUP) {
+            let ended = flag::register_conditional_shutdown(*at_once, exit, Arc::clone(&stop));
+            ended.context("cannot listen for signals")?;
+        }
+    }
+    for signal in signals {
+        if *signal != SIGHUP || !is_ignored(SIGHUP) {
+            let noted = flag::register(*signal, Arc::clone(&stop));
+            noted.context("cannot listen for signals")?;
         }
     }
     Ok(stop)

@@ -5,7 +5,7 @@ use super::header::lines;
 use crate::reading::Curves;
 use crate::reading::fatigue::{Fatigue, StressCycle};
 use crate::reading::subsurface::Stress;
-use crate::scenario::scalars::optional;
+use crate::scenario::scalars::field;
 use crate::scenario::session::Session;
 
 /// The columns, in order.
@@ -37,7 +37,6 @@ pub fn table(session: &Session) -> String {
     text.push_str(&COLUMNS.join(","));
     text.push('\n');
     for row in rows(session) {
-        let field = |value: f64| optional((!value.is_nan()).then_some(value));
         text.push_str(&row.map(field).join(","));
         text.push('\n');
     }

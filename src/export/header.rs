@@ -2,7 +2,7 @@
 
 use crate::math::grid::RadialGrid;
 use crate::scenario::printable;
-pub use crate::scenario::scalars::{number, optional};
+pub use crate::scenario::scalars::{field, number};
 use crate::scenario::session::Session;
 use crate::simulation::{Setup, Spacing};
 
@@ -157,6 +157,6 @@ mod tests {
             );
         }
         assert_eq!(number(-0.0), "0");
-        assert_eq!(optional(None), "");
+        assert_eq!(field(f64::NAN), "");
     }
 }

@@ -15,41 +15,7 @@ use super::own;
 use crate::scenario::scalars::{self, Reading, Value};
 use crate::scenario::session::Session;
 
-/// The columns, in order.
-pub const COLUMNS: [&str; 32] = [
-    "cycle",
-    "time_s",
-    "u_z_m",
-    "u_x_m",
-    "F_z_N",
-    "F_x_N",
-    "contact_radius_m",
-    "stick_radius_m",
-    "permanent_stick_radius_m",
-    "wear_volume_m3",
-    "dissipated_energy_J",
-    "energy_residual",
-    "max_pressure_Pa",
-    "period_energy_residual",
-    "force_residual",
-    "steps",
-    "transforms",
-    "evaluated_cycles",
-    "rejected_jumps",
-    "stability_margin",
-    "parts",
-    "energy_per_cycle_J",
-    "force_ratio",
-    "slip_ratio",
-    "sliding_ratio",
-    "energy_ratio",
-    "energy_ratio_B",
-    "regime",
-    "wear_per_energy_m3_per_J",
-    "rig_displacement_m",
-    "scar_depth_m",
-    "scar_radius_m",
-];
+pub use crate::scenario::scalars::HISTORY as COLUMNS;
 
 /// Rows buffered in memory before they are written, bytes.
 const CHUNK: usize = 64 << 10;
@@ -246,19 +212,4 @@ pub fn fields(reading: &Reading) -> [String; COLUMNS.len()] {
 
 fn read(name: &str, reading: &Reading) -> Value {
     scalars::find(name).map_or(Value::Missing, |scalar| scalar.read(reading))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_column_is_a_scalar_that_studies_can_name() {
-        for name in COLUMNS {
-            assert!(
-                scalars::find(name).is_some(),
-                "scenario/scalars.rs lacks {name}"
-            );
-        }
-    }
 }

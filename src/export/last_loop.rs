@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::header::{lines, number};
+use super::header::{field, lines};
 use crate::scenario::session::Session;
 use crate::simulation::Simulation;
 
@@ -51,10 +51,6 @@ impl LastLoop {
             return None;
         }
         let mut text = format!("{}{}\n", lines(session), COLUMNS.join(","));
-        let field = |value: f64| match value.is_nan() {
-            true => String::new(),
-            false => number(value),
-        };
         for row in rows {
             text.push_str(&row.map(field).join(","));
             text.push('\n');

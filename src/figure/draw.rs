@@ -2,14 +2,14 @@
 
 use super::canvas::{Anchor, BLACK, Canvas, WHITE};
 use super::font;
+use super::frame::{BAR, Frame, symbol};
 use super::look::Look;
+use super::map::Key;
 use crate::plot::axis::titled;
-use crate::plot::segment::clip;
-use crate::plot::theme::Role;
 use crate::plot::ticks::{Labels, Tick, ticks};
 use crate::plot::units::{AxisUnit, axis_unit};
 use crate::plot::window::Window;
-use crate::plot::{Axis, Chart, Curve, Map, Scale};
+use crate::plot::{Axis, Chart, Curve, Scale};
 
 /// The share of the data's extent between them and the frame, above and below, so that no plateau lies on it.
 /// Zero may lie on the frame: it is an axis.
@@ -20,10 +20,6 @@ const CURVE: f64 = 0.35;
 const FRAME: f64 = 0.15;
 const HALO: f64 = 0.2;
 
-/// Width of error bars and of the outline of symbols, and half of the size of a symbol, mm.
-const BAR: f64 = 0.2;
-const SYMBOL: f64 = 0.45;
-
 /// Length of a tick, mm.
 const TICK: f64 = 1.0;
 
@@ -32,162 +28,6 @@ const INSET: [f64; 2] = [0.58, 0.5];
 
 /// The ratio of the ends of a logarithmic axis up to which its labels have one prefix instead of powers of ten.
 const ONE_PREFIX: f64 = 1.1e4;
-
-/// The inside of a chart, with its two scales.
-struct Frame {
-    left: f64,
-    top: f64,
-    size: [f64; 2],
-    windows: [Window; 2],
-    downwards: bool,
-}
-
-impl Frame {
-    fn right(&self) -> f64 {
-        self.left + self.size[0]
-    }
-
-    fn bottom(&self) -> f64 {
-        self.top + self.size[1]
-    }
-
-    /// Where a point lies, mm; `None` where it has no place.
-    fn place(&self, x: f64, y: f64) -> Option<[f64; 2]> {
-        let share = |window: &Window, value: f64| {
-            let last = (window.dots().max(2) - 1) as f64;
-            window.position(value).map(|dots| dots / last)
-        };
-        let (across, up) = (share(&self.windows[0], x)?, share(&self.windows[1], y)?);
-        let down = if self.downwards { up } else { 1.0 - up };
-        Some([
-            self.left + across * self.size[0],
-            self.top + down * self.size[1],
-        ])
-    }
-
-    /// Draws the points of a curve that lie inside, with their error bars, and returns them.
-    fn points(&self, curve: &Curve, canvas: &mut Canvas, look: &Look) -> Vec<[f64; 2]> {
-        let ink = look.color(curve.role);
-        let mut drawn = Vec::new();
-        for (k, (&x, &y)) in curve.xs.iter().zip(&curve.ys).enumerate() {
-            if let Some(error) = curve.errors.get(k).filter(|error| error.is_finite()) {
-                let lowest = self.windows[1].bounds()[0];
-                let low = self.place(x, y - error).or(self.place(x, lowest));
-                if let (Some(low), Some(high)) = (low, self.place(x, y + error))
-                    && let Some(bar) = self.inside(low, high)
-                {
-                    canvas.line(bar.to_vec(), ink, BAR, &[]);
-                }
-            }
-            let place = self.place(x, y);
-            if let Some(at) = place.filter(|at| self.inside(*at, *at).is_some()) {
-                canvas.line(symbol(curve.role, at), ink, BAR, &[]);
-                drawn.push(at);
-            }
-        }
-        drawn
-    }
-
-    /// The parts of a line that lie inside.
-    fn clipped(&self, curve: &Curve) -> Vec<Vec<[f64; 2]>> {
-        let mut parts: Vec<Vec<[f64; 2]>> = Vec::new();
-        let mut before: Option<[f64; 2]> = None;
-        for (&x, &y) in curve.xs.iter().zip(&curve.ys) {
-            let here = self.place(x, y);
-            if let (Some(from), Some(to)) = (before, here)
-                && let Some([start, end]) = self.inside(from, to)
-            {
-                match parts.last_mut() {
-                    Some(part) if part.last() == Some(&start) => part.push(end),
-                    _ => parts.push(vec![start, end]),
-                }
-            }
-            before = here;
-        }
-        parts
-    }
-
-    /// The part of a segment inside the frame.
-    fn inside(&self, from: [f64; 2], to: [f64; 2]) -> Option<[[f64; 2]; 2]> {
-        let [width, height] = self.size;
-        let low = [self.left, self.top];
-        clip(from, to, low, [low[0] + width, low[1] + height])
-    }
-}
-
-/// What stands to the right of a map: the ticks of its colours, or its words.
-struct Key<'a> {
-    map: &'a Map,
-    unit: AxisUnit,
-    window: Window,
-    ticks: Vec<Tick>,
-}
-
-impl<'a> Key<'a> {
-    fn new(map: &'a Map, height: f64, font: f64) -> Self {
-        let range = map.range();
-        let unit = unit_of(&map.quantity, range);
-        let cells = (height / (1.2 * font)).clamp(2.0, 400.0) as u16;
-        let window = Window::new(range, map.quantity.scale, cells, 16);
-        let ticks = match map.words.is_empty() {
-            true => ticks(&window, unit.factor, Labels::Column),
-            false => Vec::new(),
-        };
-        Self {
-            map,
-            unit,
-            window,
-            ticks,
-        }
-    }
-
-    /// The width of it all, mm.
-    fn width(&self, font: f64) -> f64 {
-        let labels = self.ticks.iter().map(|tick| numeral(&tick.label));
-        let words = self.map.words.iter().map(|word| (*word).to_owned());
-        let widest = labels.chain(words).map(|text| font::set_width(&text));
-        let title = if self.map.words.is_empty() { 2.0 } else { 0.5 };
-        (widest.fold(0.0, f64::max) + 2.3 + title) * font
-    }
-
-    fn draw(&self, frame: &Frame, canvas: &mut Canvas, look: &Look) {
-        let font = look.font;
-        let (left, top, height) = (frame.right() + 0.8 * font, frame.top, frame.size[1]);
-        let beside = left + 1.4 * font;
-        let is_there = |k: usize| self.map.values.contains(&(k as f64));
-        let words = self.map.words.iter().enumerate();
-        for (line, (k, word)) in words.filter(|(k, _)| is_there(*k)).enumerate() {
-            let y = top + 1.4 * font * line as f64;
-            canvas.area([left, y], [font, font], look.regime(k));
-            canvas.text([beside, y + 0.86 * font], word, font, Anchor::Start);
-        }
-        if !self.map.words.is_empty() {
-            return;
-        }
-        const STEPS: usize = 32;
-        for k in 0..STEPS {
-            let share = (k as f64 + 0.5) / STEPS as f64;
-            let [low, high] =
-                [k, (k + 2).min(STEPS)].map(|step| height * step as f64 / STEPS as f64);
-            let ink = look.mapped(self.map.colors, share);
-            canvas.area([left, top + height - high], [font, high - low], ink);
-        }
-        let last = (self.window.dots().max(2) - 1) as f64;
-        for tick in &self.ticks {
-            if let Some(dots) = self.window.position(tick.value) {
-                let y = top + height * (1.0 - dots / last) + 0.36 * font;
-                canvas.text([beside, y], &numeral(&tick.label), font, Anchor::Start);
-            }
-        }
-        let title = titled(
-            &self.map.quantity.label,
-            &numeral(&self.unit.text),
-            ['(', ')'],
-        );
-        let edge = frame.right() + self.width(font);
-        canvas.text_upwards([edge, top + 0.5 * height], &title, font);
-    }
-}
 
 impl Chart {
     /// Draws the chart into the rectangle at `at` of `size` (mm).
@@ -243,7 +83,7 @@ impl Chart {
             downwards: self.y.downwards,
         };
         if let Some(key) = &key {
-            draw_map(key.map, [&self.x, &self.y], &frame, canvas, look);
+            key.fill([&self.x, &self.y], &frame, canvas, look);
             key.draw(&frame, canvas, look);
         }
         for mark in &self.marks {
@@ -430,70 +270,6 @@ impl Chart {
 /// Height of a line of the legend, in sizes of the font.
 const LEGEND_LINE: f64 = 1.17;
 
-/// Colours of the map, equal neighbours as one area. Each area also lies below the ones that are drawn after it,
-/// but not below blank ones: where areas only touch, viewers show the paper between them.
-fn draw_map(map: &Map, axes: [&Axis; 2], frame: &Frame, canvas: &mut Canvas, look: &Look) {
-    let range = map.range();
-    let color = |value: f64| {
-        let shown = value.is_finite();
-        shown.then(|| match map.words.is_empty() {
-            true => look.mapped(map.colors, map.share(value, range)),
-            false => look.regime(value as usize),
-        })
-    };
-    let within = |k: usize| {
-        let [low, high] = frame.windows[k].bounds();
-        let edges = axes[k].edges(&map.places[k]).into_iter();
-        edges
-            .map(|edge| edge.clamp(low.min(high), low.max(high)))
-            .collect::<Vec<f64>>()
-    };
-    let (across, down) = (within(0), within(1));
-    let width = map.places[0].len();
-    let rows: Vec<&[f64]> = map.values.chunks(width).collect();
-    for (row, values) in rows.iter().enumerate() {
-        let mut start = 0;
-        for end in 1..=width {
-            let ink = color(values[start]);
-            if end < width && color(values[end]) == ink {
-                continue;
-            }
-            let right = match values.get(end) {
-                Some(next) if next.is_finite() => end + 1,
-                _ => end,
-            };
-            let next = rows.get(row + 1).map(|below| &below[start..right]);
-            let bottom = match next {
-                Some(below) if below.iter().all(|value| value.is_finite()) => row + 2,
-                _ => row + 1,
-            };
-            let corners = [
-                frame.place(across[start], down[row]),
-                frame.place(across[right], down[bottom]),
-            ];
-            if let ([Some(a), Some(b)], Some(ink)) = (corners, ink) {
-                let at = [a[0].min(b[0]), a[1].min(b[1])];
-                let size = [(b[0] - a[0]).abs(), (b[1] - a[1]).abs()];
-                canvas.area(at, size, ink);
-            }
-            start = end;
-        }
-    }
-}
-
-/// The outline of the sign of a point: a square, a diamond or a triangle.
-fn symbol(role: Role, [x, y]: [f64; 2]) -> Vec<[f64; 2]> {
-    let corners: &[[f64; 2]] = match role {
-        Role::Ghost(k) if k % 3 == 1 => &[[0.0, -1.2], [1.2, 0.0], [0.0, 1.2], [-1.2, 0.0]],
-        Role::Ghost(k) if k % 3 == 2 => &[[0.0, -1.1], [1.1, 0.8], [-1.1, 0.8]],
-        _ => &[[-0.9, -0.9], [0.9, -0.9], [0.9, 0.9], [-0.9, 0.9]],
-    };
-    let closed = corners.iter().chain(corners.first());
-    closed
-        .map(|[dx, dy]| [x + SYMBOL * dx, y + SYMBOL * dy])
-        .collect()
-}
-
 /// Points along a drawn line, half a millimetre apart.
 fn along(part: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut points = Vec::new();
@@ -509,7 +285,7 @@ fn along(part: &[[f64; 2]]) -> Vec<[f64; 2]> {
 }
 
 /// The unit that an axis is labelled in; logarithmic ones over many decades keep that of the data.
-fn unit_of(axis: &Axis, bounds: [f64; 2]) -> AxisUnit {
+pub(super) fn unit_of(axis: &Axis, bounds: [f64; 2]) -> AxisUnit {
     let largest = bounds[0].abs().max(bounds[1].abs());
     let is_narrow = !axis.unit.is_empty() && bounds[1] / bounds[0] < ONE_PREFIX;
     match axis.scale {
@@ -549,7 +325,7 @@ fn minor(window: &Window, labelled: &[Tick]) -> Vec<f64> {
 }
 
 /// A number, alone or before a unit, as print has it: a true minus sign, and 2e-8 as 2·10^−8.
-fn numeral(text: &str) -> String {
+pub(super) fn numeral(text: &str) -> String {
     let (number, unit) = text.split_once(' ').unwrap_or((text, ""));
     let is_number = number.parse::<f64>().is_ok();
     let (mantissa, exponent) = match number.split_once('e') {

@@ -1,7 +1,7 @@
 //! Figures for a paper: charts on sheets, as SVG, PNG or PDF, and what they show as CSV.
 //!
 //! One idea per file: `canvas` (lines, areas and words in millimetres), `svg`, `png` and `pdf` (one
-//! writer each), `font`, `look` (colours and greys), `draw` (a chart on the canvas),
+//! writer each), `font`, `look` (colours and greys), `draw` (a chart on the canvas), `frame` and `map` (its parts),
 //! `study` (the charts of a sweep), `paper` (the figures of the paper). Charts, their ticks and units are those of the screen (`plot`).
 
 use std::fmt::Write;
@@ -10,7 +10,9 @@ use std::path::Path;
 pub mod canvas;
 mod draw;
 pub mod font;
+mod frame;
 pub mod look;
+mod map;
 pub mod paper;
 pub mod pdf;
 pub mod png;
@@ -20,9 +22,10 @@ pub mod svg;
 use canvas::Canvas;
 use look::Look;
 
-use crate::export::header::number;
+use crate::export::header::{field, number};
 use crate::plot::Chart;
 use crate::scenario::printable;
+use crate::scenario::scalars::quoted;
 
 /// The kinds of files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -144,13 +147,9 @@ impl Sheet {
             let inset = inset.map(|curve| ("-inset", curve));
             let curves = chart.curves.iter().map(|curve| ("", curve));
             for (part, curve) in curves.chain(inset) {
-                let name = field(&curve.name);
+                let name = quoted(&curve.name);
                 for (i, (&x, &y)) in curve.xs.iter().zip(&curve.ys).enumerate() {
-                    let error = curve
-                        .errors
-                        .get(i)
-                        .copied()
-                        .map_or_else(String::new, number);
+                    let error = field(curve.errors.get(i).copied().unwrap_or(f64::NAN));
                     let _ = writeln!(
                         text,
                         "{panel}{part},{name},{},{},,{error}",
@@ -175,13 +174,4 @@ impl Sheet {
 /// The letter of a chart.
 fn letter(k: usize) -> char {
     char::from(b'a' + (k % 26) as u8)
-}
-
-/// A name as a field of CSV.
-fn field(name: &str) -> String {
-    if name.contains([',', '"']) {
-        format!("\"{}\"", name.replace('"', "\"\""))
-    } else {
-        name.to_owned()
-    }
 }

@@ -61,7 +61,8 @@ pub enum Role {
 }
 
 /// Which colours.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, strum::IntoStaticStr)]
+#[strum(serialize_all = "lowercase")]
 pub enum Look {
     /// For a dark background.
     Dark,
@@ -72,16 +73,9 @@ pub enum Look {
 }
 
 impl Look {
-    /// All themes, in the order in which a key cycles through them.
-    pub const ALL: [Self; 3] = [Self::Dark, Self::Light, Self::Mono];
-
     /// Its name.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Dark => "dark",
-            Self::Light => "light",
-            Self::Mono => "mono",
-        }
+        self.into()
     }
 
     /// The one for a background of this red, green and blue.

@@ -41,12 +41,6 @@ impl Prefix {
     /// No prefix: factor 1.
     pub const NONE: Prefix = prefix(1.0, "");
 
-    /// The prefix that brings `max` (in plain units) into 1..1000, or the nearest there is.
-    /// Zero and non-finite values get none.
-    pub fn for_max(max: f64) -> Prefix {
-        Prefix::for_power(max, 1)
-    }
-
     /// The prefix for values up to `max` of `unit`, with regard to the unit's power
     /// (`m³`) and to units that take none (an empty unit, `1/Pa`, `cycles`).
     pub fn for_unit(max: f64, unit: &str) -> Prefix {
@@ -247,9 +241,9 @@ mod tests {
             (f64::INFINITY, ""),
         ];
         for (max, symbol) in cases {
-            assert_eq!(Prefix::for_max(max).symbol, symbol, "{max}");
+            assert_eq!(Prefix::for_power(max, 1).symbol, symbol, "{max}");
         }
-        assert_eq!(Prefix::for_max(2e-6).symbol_in(true), "u");
+        assert_eq!(Prefix::for_power(2e-6, 1).symbol_in(true), "u");
     }
 
     #[test]

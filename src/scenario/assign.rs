@@ -4,6 +4,7 @@ use toml::{Table, Value};
 
 use super::check::unknown;
 use super::error::{Origin, Refusal, ScenarioError, echo};
+use super::hints;
 use super::keys::{self, CHOSEN_BY_ACCURACY};
 use super::schema::{self, Kind, Parameter};
 
@@ -36,7 +37,7 @@ pub(super) fn assign(
         return Err(if schema::is_section(key) {
             refuse(format!(
                 "{key} is a table; {}",
-                schema::hint(&format!("{key}.*"))
+                hints::hint(&format!("{key}.*"))
             ))
         } else {
             unknown(written, key, key)

@@ -4,6 +4,7 @@
 use toml::{Table, Value};
 
 use super::error::{Faults, Origin, ScenarioError, echo};
+use super::hints;
 use super::keys::PARAMETERS;
 use super::schema::{self, Parameter};
 use super::{words, write};
@@ -39,7 +40,7 @@ fn section(table: &Table, path: &str, shown: &str, origin: &Origin, faults: &mut
         } else {
             faults.note(&shown, unknown(origin.name(), &path, &shown));
             // What was meant is not missing as well.
-            for meant in schema::meant(&path) {
+            for meant in hints::meant(&path) {
                 faults.blame(&meant);
             }
         }
@@ -79,7 +80,7 @@ pub(super) fn unknown(place: &str, path: &str, shown: &str) -> ScenarioError {
     ScenarioError::UnknownKey {
         place: place.to_owned(),
         key: echo(shown),
-        hint: schema::hint(path),
+        hint: hints::hint(path),
     }
 }
 

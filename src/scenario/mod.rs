@@ -22,6 +22,7 @@ mod complete;
 mod derive;
 mod embed;
 mod error;
+pub mod hints;
 pub mod keys;
 pub(crate) mod limited;
 mod motion;
@@ -120,10 +121,14 @@ impl Scenario {
 
     /// [`with`](Self::with) for several keys that are only right together, such as another shape
     /// and its size.
-    pub fn with_all(&self, assignments: &[(&str, &str)]) -> Result<Self, ScenarioError> {
+    pub fn with_all(
+        &self,
+        assignments: &[(impl AsRef<str>, impl AsRef<str>)],
+    ) -> Result<Self, ScenarioError> {
         let mut origin = Origin::new(&self.origin);
         let mut table = self.whole();
         for (key, value) in assignments {
+            let (key, value) = (key.as_ref(), value.as_ref());
             let written = assign::written(key, value);
             assign::assign(&mut table, &mut origin, key.trim(), value.trim(), &written)?;
         }

@@ -81,9 +81,20 @@ pub fn number(value: f64) -> String {
     }
 }
 
-/// Returns a number, or an empty field where there is none.
-pub fn optional(value: Option<f64>) -> String {
-    value.map_or_else(String::new, number)
+/// Returns words as a field, in quotes where they would break the row.
+pub fn quoted(words: &str) -> String {
+    match words.contains([',', '"', '\n', '\r']) {
+        true => format!("\"{}\"", words.replace('"', "\"\"")),
+        false => words.to_owned(),
+    }
+}
+
+/// Returns a number as a field, empty where it is not known.
+pub fn field(value: f64) -> String {
+    match value.is_finite() {
+        true => number(value),
+        false => String::new(),
+    }
 }
 
 /// The present moment of a session, read for some scalars. What several scalars need is computed
@@ -212,184 +223,84 @@ pub fn named(name: &str) -> Result<&'static Scalar, String> {
     })
 }
 
-const fn scalar(name: &'static str, meaning: &'static str, read: fn(&Reading) -> Value) -> Scalar {
-    Scalar {
-        name,
-        meaning,
-        read,
-    }
+/// Makes the list of all scalars, and of the names of those in every history.
+macro_rules! scalars {
+    (history { $($column:literal, $of:literal, |$row:ident| $value:expr;)* }
+     further { $($name:literal, $meaning:literal, |$r:ident| $read:expr;)* }) => {
+        /// All scalars; those of `history.csv` stand first, in the order of its columns.
+        pub const SCALARS: &[Scalar] = &[
+            $(Scalar { name: $column, meaning: $of, read: |$row| Value::from($value) },)*
+            $(Scalar { name: $name, meaning: $meaning, read: |$r| Value::from($read) },)*
+        ];
+
+        /// The columns of `history.csv`, in order.
+        pub const HISTORY: [&str; [$($column),*].len()] = [$($column),*];
+    };
 }
 
-/// All scalars; those of `history.csv` stand first, in the order of its columns.
-pub const SCALARS: &[Scalar] = &[
-    scalar("cycle", "cycles since the start", |r| r.moment.cycle.into()),
-    scalar("time_s", "time", |r| r.moment.time.into()),
-    scalar("u_z_m", "indentation depth d", |r| r.moment.depth.into()),
-    scalar("u_x_m", "tangential displacement", |r| {
-        r.moment.shift.into()
-    }),
-    scalar("F_z_N", "normal force", |r| r.moment.normal_force.into()),
-    scalar("F_x_N", "tangential force", |r| {
-        r.moment.tangential_force.into()
-    }),
-    scalar("contact_radius_m", "contact radius a", |r| {
-        r.moment.contact_radius.into()
-    }),
-    scalar("stick_radius_m", "stick radius c at this moment", |r| {
-        r.moment.stick_radius.into()
-    }),
-    scalar(
-        "permanent_stick_radius_m",
-        "smallest stick radius of the last period",
-        |r| r.moment.permanent_stick_radius.into(),
-    ),
-    scalar("wear_volume_m3", "worn volume V", |r| {
-        r.moment.wear_volume.into()
-    }),
-    scalar("dissipated_energy_J", "friction work E_d", |r| {
-        r.moment.dissipated_energy.into()
-    }),
-    scalar("energy_residual", "1 - V/(k E_d)", |r| {
-        r.moment.energy_residual.into()
-    }),
-    scalar("max_pressure_Pa", "largest pressure", |r| {
-        largest(r.pressure()).into()
-    }),
-    scalar(
-        "period_energy_residual",
-        "1 - V/(k E_d) of the last period",
-        |r| r.moment.period_residual.into(),
-    ),
-    scalar("force_residual", "1 - (integral of p)/F_z", |r| {
-        let simulation = r.session.simulation();
-        simulation.force_residual(r.pressure()).into()
-    }),
-    scalar("steps", "steps taken", |r| {
-        r.session.simulation().steps().into()
-    }),
-    scalar("transforms", "transforms computed", |r| {
-        r.session.simulation().stats().transforms.into()
-    }),
-    scalar(
-        "evaluated_cycles",
-        "cycles stepped in full for jumps",
-        |r| r.session.simulation().stats().evaluated_cycles.into(),
-    ),
-    scalar("rejected_jumps", "jumps rejected for their error", |r| {
-        r.session.simulation().stats().rejected_jumps.into()
-    }),
-    scalar(
-        "stability_margin",
-        "largest stable stiffness divided by the stiffness of the last step",
-        |r| r.moment.stability_margin.into(),
-    ),
-    scalar("parts", "sub-steps of stiff steps", |r| {
-        r.session.simulation().stats().parts.into()
-    }),
-    scalar("energy_per_cycle_J", "friction work of a cycle", |r| {
-        r.figure(|figures| Some(figures.energy))
-    }),
-    scalar("force_ratio", "Q*/(mu P)", |r| {
-        r.figure(|figures| figures.force_ratio)
-    }),
-    scalar("slip_ratio", "1 - Q*/(2 G* a U)", |r| {
-        r.figure(|figures| figures.slip_ratio)
-    }),
-    scalar("sliding_ratio", "D = delta_0/U", |r| {
-        r.figure(|figures| figures.sliding_ratio)
-    }),
-    scalar("energy_ratio", "A = E_d/(4 Q* U)", |r| {
-        r.figure(|figures| figures.energy_ratio)
-    }),
-    scalar("energy_ratio_B", "B = E_d/(4 Q* delta_0)", |r| {
-        r.figure(|figures| figures.energy_ratio_b)
-    }),
-    scalar("regime", "stick, partial, gross or open", |r| {
-        let regime = r.figures().map(|figures| figures.regime.name());
-        regime.map_or(Value::Missing, Value::Word)
-    }),
-    scalar("wear_per_energy_m3_per_J", "V/E_d", |r| {
-        r.moment.wear_per_energy().into()
-    }),
-    scalar(
-        "rig_displacement_m",
-        "displacement of the rig's actuator",
-        |r| r.moment.rig_displacement.into(),
-    ),
-    scalar("scar_depth_m", "largest worn depth", |r| {
-        largest(r.worn()).into()
-    }),
-    scalar("scar_radius_m", "outer radius of the wear scar", |r| {
-        scar_radius(r.session.simulation()).into()
-    }),
-    scalar("F_x_amplitude_N", "half the range of F_x in a cycle", |r| {
-        r.figure(|figures| Some(figures.force_amplitude))
-    }),
-    scalar("u_x_amplitude_m", "half the range of u_x in a cycle", |r| {
-        r.figure(|figures| Some(figures.displacement_amplitude))
-    }),
-    scalar("mean_F_z_N", "mean normal force of a cycle", |r| {
-        r.figure(|figures| Some(figures.normal_force))
-    }),
-    scalar(
-        "estimated_error",
-        "estimated error of the worn depth, rms over the scar, relative to its largest value",
-        |r| r.stated("estimated_error"),
-    ),
-    scalar(
-        "estimated_error_volume",
-        "estimated error of the worn volume, relative to it",
-        |r| r.stated("estimated_error_volume"),
-    ),
-    scalar(
-        "estimated_error_energy",
-        "estimated error of the friction work, relative to it",
-        |r| r.stated("estimated_error_energy"),
-    ),
-    scalar(
-        "estimated_error_force",
-        "estimated error of F_x, relative to its amplitude",
-        |r| r.stated("estimated_error_force"),
-    ),
-    scalar("swt_Pa", "largest Smith-Watson-Topper stress", |r| {
-        r.swt(|peak| peak.value).into()
-    }),
-    scalar(
-        "swt_x_m",
-        "place of the largest SWT along the motion",
-        |r| r.swt(|peak| peak.x).into(),
-    ),
-    scalar("swt_z_m", "depth of the largest SWT", |r| {
-        r.swt(|peak| peak.z).into()
-    }),
-    scalar("swt_ratio", "SWT over the fatigue limit", |r| {
-        let limit = r.session.scenario().fatigue_limit();
-        let ratio = limit.and_then(|limit| Some(r.swt(|peak| peak.value)? / limit));
-        ratio.into()
-    }),
-    scalar("crossland_Pa", "largest Crossland stress", |r| {
-        r.crossland(|peak| peak.value).into()
-    }),
-    scalar(
-        "crossland_x_m",
-        "place of the largest Crossland stress along the motion",
-        |r| r.crossland(|peak| peak.x).into(),
-    ),
-    scalar(
-        "crossland_z_m",
-        "depth of the largest Crossland stress",
-        |r| r.crossland(|peak| peak.z).into(),
-    ),
-    scalar(
-        "crossland_ratio",
-        "Crossland over the shear fatigue limit",
-        |r| {
-            let limits = r.limits();
-            let ratio = limits.and_then(|both| Some(r.crossland(|peak| peak.value)? / both.shear));
-            ratio.into()
-        },
-    ),
-];
+scalars! {
+    history {
+        "cycle", "cycles since the start", |r| r.moment.cycle;
+        "time_s", "time", |r| r.moment.time;
+        "u_z_m", "indentation depth d", |r| r.moment.depth;
+        "u_x_m", "tangential displacement", |r| r.moment.shift;
+        "F_z_N", "normal force", |r| r.moment.normal_force;
+        "F_x_N", "tangential force", |r| r.moment.tangential_force;
+        "contact_radius_m", "contact radius a", |r| r.moment.contact_radius;
+        "stick_radius_m", "stick radius c at this moment", |r| r.moment.stick_radius;
+        "permanent_stick_radius_m", "smallest stick radius of the last period", |r| r.moment.permanent_stick_radius;
+        "wear_volume_m3", "worn volume V", |r| r.moment.wear_volume;
+        "dissipated_energy_J", "friction work E_d", |r| r.moment.dissipated_energy;
+        "energy_residual", "1 - V/(k E_d)", |r| r.moment.energy_residual;
+        "max_pressure_Pa", "largest pressure", |r| largest(r.pressure());
+        "period_energy_residual", "1 - V/(k E_d) of the last period", |r| r.moment.period_residual;
+        "force_residual", "1 - (integral of p)/F_z",
+            |r| r.session.simulation().force_residual(r.pressure());
+        "steps", "steps taken", |r| r.session.simulation().steps();
+        "transforms", "transforms computed", |r| r.session.simulation().stats().transforms;
+        "evaluated_cycles", "cycles stepped in full for jumps", |r| r.session.simulation().stats().evaluated_cycles;
+        "rejected_jumps", "jumps rejected for their error", |r| r.session.simulation().stats().rejected_jumps;
+        "stability_margin", "largest stable stiffness divided by the stiffness of the last step",
+            |r| r.moment.stability_margin;
+        "parts", "sub-steps of stiff steps", |r| r.session.simulation().stats().parts;
+        "energy_per_cycle_J", "friction work of a cycle", |r| r.figure(|figures| Some(figures.energy));
+        "force_ratio", "Q*/(mu P)", |r| r.figure(|figures| figures.force_ratio);
+        "slip_ratio", "1 - Q*/(2 G* a U)", |r| r.figure(|figures| figures.slip_ratio);
+        "sliding_ratio", "D = delta_0/U", |r| r.figure(|figures| figures.sliding_ratio);
+        "energy_ratio", "A = E_d/(4 Q* U)", |r| r.figure(|figures| figures.energy_ratio);
+        "energy_ratio_B", "B = E_d/(4 Q* delta_0)", |r| r.figure(|figures| figures.energy_ratio_b);
+        "regime", "stick, partial, gross or open",
+            |r| r.figures().map_or(Value::Missing, |figures| Value::Word(figures.regime.name()));
+        "wear_per_energy_m3_per_J", "V/E_d", |r| r.moment.wear_per_energy();
+        "rig_displacement_m", "displacement of the rig's actuator", |r| r.moment.rig_displacement;
+        "scar_depth_m", "largest worn depth", |r| largest(r.worn());
+        "scar_radius_m", "outer radius of the wear scar", |r| scar_radius(r.session.simulation());
+    }
+    further {
+        "F_x_amplitude_N", "half the range of F_x in a cycle", |r| r.figure(|figures| Some(figures.force_amplitude));
+        "u_x_amplitude_m", "half the range of u_x in a cycle",
+            |r| r.figure(|figures| Some(figures.displacement_amplitude));
+        "mean_F_z_N", "mean normal force of a cycle", |r| r.figure(|figures| Some(figures.normal_force));
+        "estimated_error", "estimated error of the worn depth, rms over the scar, relative to its largest value",
+            |r| r.stated("estimated_error");
+        "estimated_error_volume", "estimated error of the worn volume, relative to it",
+            |r| r.stated("estimated_error_volume");
+        "estimated_error_energy", "estimated error of the friction work, relative to it",
+            |r| r.stated("estimated_error_energy");
+        "estimated_error_force", "estimated error of F_x, relative to its amplitude",
+            |r| r.stated("estimated_error_force");
+        "swt_Pa", "largest Smith-Watson-Topper stress", |r| r.swt(|peak| peak.value);
+        "swt_x_m", "place of the largest SWT along the motion", |r| r.swt(|peak| peak.x);
+        "swt_z_m", "depth of the largest SWT", |r| r.swt(|peak| peak.z);
+        "swt_ratio", "SWT over the fatigue limit",
+            |r| r.session.scenario().fatigue_limit().and_then(|limit| Some(r.swt(|peak| peak.value)? / limit));
+        "crossland_Pa", "largest Crossland stress", |r| r.crossland(|peak| peak.value);
+        "crossland_x_m", "place of the largest Crossland stress along the motion", |r| r.crossland(|peak| peak.x);
+        "crossland_z_m", "depth of the largest Crossland stress", |r| r.crossland(|peak| peak.z);
+        "crossland_ratio", "Crossland over the shear fatigue limit",
+            |r| r.limits().and_then(|both| Some(r.crossland(|peak| peak.value)? / both.shear));
+    }
+}
 
 /// The outermost radius (m) at which the worn depth is at least a thousandth of the largest one.
 pub fn scar_radius(simulation: &Simulation) -> Option<f64> {

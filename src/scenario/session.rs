@@ -271,10 +271,13 @@ impl Session {
     ///
     /// A value that is refused, a contact that cannot be held, or wear that would be lost; then nothing
     /// has changed.
-    pub fn change_all(&mut self, assignments: &[(&str, &str)]) -> Result<(), SessionError> {
+    pub fn change_all(
+        &mut self,
+        assignments: &[(impl AsRef<str>, impl AsRef<str>)],
+    ) -> Result<(), SessionError> {
         let cycle = self.simulation.cycle();
         let changes = assignments.iter();
-        self.make(changes.map(|(key, value)| Change::new(cycle, key, value)))
+        self.make(changes.map(|(key, value)| Change::new(cycle, key.as_ref(), value.as_ref())))
     }
 
     /// Makes changes together with those that were made at this cycle already.

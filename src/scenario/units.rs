@@ -384,7 +384,7 @@ fn prefixed(value: f64, unit: &str) -> Option<(f64, String)> {
 }
 
 /// A number in a few digits, without trailing zeros.
-fn plain(number: f64) -> String {
+pub fn plain(number: f64) -> String {
     let rounded = format!("{number:.*e}", DIGITS - 1)
         .parse::<f64>()
         .unwrap_or(number);

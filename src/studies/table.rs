@@ -5,6 +5,8 @@ use std::fmt::Write;
 use serde::Serialize;
 use serde::ser::{SerializeSeq, Serializer};
 
+use crate::scenario::scalars::quoted;
+
 /// How a column is written as text; files always get every digit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
@@ -80,10 +82,7 @@ impl Cell {
     /// Every digit; the shortest form that reads back to the same bits.
     fn field(&self) -> String {
         match self {
-            Self::Words(words) | Self::Across(words) if words.contains([',', '"', '\n', '\r']) => {
-                format!("\"{}\"", words.replace('"', "\"\""))
-            }
-            Self::Words(words) | Self::Across(words) => words.clone(),
+            Self::Words(words) | Self::Across(words) => quoted(words),
             Self::Count(count) => count.to_string(),
             Self::Number(value) if *value == 0.0 => "0".into(),
             Self::Number(value) => format!("{value:e}"),
@@ -118,6 +117,16 @@ impl Table {
             columns,
             rows: Vec::new(),
         }
+    }
+
+    /// A table without rows, of columns by the headings that they share, their names with blanks between them, and how
+    /// they are written.
+    pub fn of(columns: &[(&str, &str, Format)]) -> Self {
+        let columns = columns.iter().flat_map(|(group, names, format)| {
+            let names = names.split(' ');
+            names.map(|name| Column::grouped(group, name, *format))
+        });
+        Self::new(columns.collect())
     }
 
     /// Adds a row: cells that are not given are missing, cells beyond the columns are dropped.
@@ -254,11 +263,11 @@ mod tests {
     use super::*;
 
     fn table() -> Table {
-        let mut table = Table::new(vec![
-            Column::new("method", Format::Words),
-            Column::new("N", Format::Count),
-            Column::grouped("g", "max", Format::Rough),
-            Column::grouped("g", "order", Format::Fixed),
+        let mut table = Table::of(&[
+            ("", "method", Format::Words),
+            ("", "N", Format::Count),
+            ("g", "max", Format::Rough),
+            ("g", "order", Format::Fixed),
         ]);
         table.push(vec![
             Cell::Words("a".into()),

@@ -14,7 +14,7 @@ use crate::scenario::session::{Session, SessionError};
 use crate::scenario::{Scenario, ScenarioError};
 use crate::simulation::{Integrator, Scheme};
 use crate::studies::refinement::{self, Difference, Level, Outcome};
-use crate::studies::table::{Cell, Column, Format, Table};
+use crate::studies::table::{Cell, Format, Table};
 
 /// Numbers of cells that are tried.
 pub const POINTS: [usize; 3] = [25, 50, 100];
@@ -68,9 +68,7 @@ impl Setting {
     /// # Errors
     /// If it cannot be.
     pub fn of(&self, scenario: &Scenario) -> Result<Scenario, ScenarioError> {
-        let keys = self.keys();
-        let keys: Vec<_> = keys.iter().map(|(k, v)| (*k, v.as_str())).collect();
-        scenario.with_all(&keys)
+        scenario.with_all(&self.keys())
     }
 
     /// An estimate of the work of a run of `cycles`, in kernel values.
@@ -257,30 +255,23 @@ pub fn cheapest(trials: &[Trial], accuracy: f64) -> Option<Timed<'_>> {
 /// A heading over the columns of errors.
 const ERRORS: &str = "against the reference";
 
-/// The columns: a heading over some of them, the name, and how it is written.
-const COLUMNS: [(&str, &str, Format); 16] = [
-    ("", "method", Format::Words),
-    ("", "scheme", Format::Words),
-    ("", "integrator", Format::Words),
-    ("", "points", Format::Count),
-    ("", "steps_per_cycle", Format::Count),
-    ("", "tolerance", Format::Rough),
-    ("", "time_s", Format::Rough),
-    ("", "steps", Format::Count),
-    ("", "transforms", Format::Count),
-    (ERRORS, "error_rms", Format::Rough),
-    (ERRORS, "volume_error", Format::Rough),
-    (ERRORS, "work_error", Format::Rough),
-    (ERRORS, "force_error", Format::Rough),
-    (ERRORS, "stick_error", Format::Rough),
-    ("", "checks", Format::Words),
-    ("", "front", Format::Words),
+/// The columns: a heading over some of them, names, and how they are written.
+const COLUMNS: [(&str, &str, Format); 6] = [
+    ("", "method scheme integrator", Format::Words),
+    ("", "points steps_per_cycle", Format::Count),
+    ("", "tolerance time_s", Format::Rough),
+    ("", "steps transforms", Format::Count),
+    (
+        ERRORS,
+        "error_rms volume_error work_error force_error stick_error",
+        Format::Rough,
+    ),
+    ("", "checks front", Format::Words),
 ];
 
 /// One row per trial of `shown`, with a mark if it is on the front of all.
 pub fn table<'a>(shown: impl IntoIterator<Item = &'a Trial>, all: &[Trial]) -> Table {
-    let columns = COLUMNS.map(|(group, name, format)| Column::grouped(group, name, format));
-    let mut table = Table::new(columns.to_vec());
+    let mut table = Table::of(&COLUMNS);
     let front = front(all);
     for trial in shown {
         let level = &trial.setting.level;

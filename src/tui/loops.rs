@@ -74,8 +74,8 @@ impl Loops {
         let (every, last) = (self.steps.len().div_ceil(POINTS), self.steps.len() - 1);
         let steps = self.steps.iter().enumerate();
         let thinned = steps.filter(|(k, _)| k % every == 0 || *k == last);
-        let thinned: Vec<_> = thinned.map(|(_, step)| *step).collect();
-        self.kept.push(Arc::new(Loop::of_rows(whole, &thinned)));
+        let thinned = thinned.map(|(_, step)| step);
+        self.kept.push(Arc::new(Loop::of_rows(whole, thinned)));
         if self.kept.len() > MOST {
             let mut k = 0;
             self.kept.retain(|_| {
@@ -93,7 +93,7 @@ impl Loops {
 
     /// The loop of the last cycle, which ends at `end`.
     pub fn last(&self, end: f64) -> Loop {
-        Loop::of_rows(end, &Vec::from(self.steps.clone()))
+        Loop::of_rows(end, self.steps.iter())
     }
 }
 

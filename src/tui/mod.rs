@@ -53,6 +53,7 @@ pub mod overlays;
 pub mod pace;
 pub mod panels;
 mod present;
+mod reader;
 mod readout;
 pub mod refinement_check;
 pub mod screen;

@@ -124,10 +124,10 @@ impl Setting {
             // A step of the number that is shown: 46 degrees follow 45.
             Kind::Number => match self.reading(true) {
                 Some((number, unit)) => {
-                    let next = plain(next_number(number.parse().ok()?, up));
+                    let next = units::plain(next_number(number.parse().ok()?, up));
                     Some(format!("{next} {unit}"))
                 }
-                None => Some(plain(next_number(value.parse().ok()?, up))),
+                None => Some(units::plain(next_number(value.parse().ok()?, up))),
             },
             Kind::Text | Kind::Numbers => None,
         }
@@ -153,15 +153,6 @@ fn next_number(value: f64, up: bool) -> f64 {
     // Read back from text, so that 1.4e-10 is the number that a user would type.
     let text = format!("{count:.0}e{exponent}");
     text.parse::<f64>().unwrap_or(size).copysign(value)
-}
-
-/// A number as a reader writes it.
-fn plain(value: f64) -> String {
-    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
-        value.to_string()
-    } else {
-        format!("{value:e}")
-    }
 }
 
 #[cfg(test)]

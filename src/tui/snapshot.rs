@@ -9,7 +9,7 @@ use serde::de::IgnoredAny;
 
 use super::trend::{self, Cycle, Trend};
 use crate::export::file::{RUN_CHECKPOINT, RunDirectory, WriteError};
-use crate::export::header::{lines, number};
+use crate::export::header::{field as written, lines, number};
 use crate::export::{history, own, state};
 use crate::scenario::columns::Columns;
 use crate::scenario::scalars::Reading;
@@ -102,7 +102,7 @@ fn history(session: &Session, trend: &Trend) -> String {
             if let Some(field) = at.map(|at| &mut fields[at])
                 && (is_of_cycle || field.is_empty())
             {
-                *field = self::field(value);
+                *field = written(value);
             }
         }
         let _ = writeln!(text, "{}", fields.join(","));
@@ -114,17 +114,10 @@ fn history(session: &Session, trend: &Trend) -> String {
 fn last_loop(session: &Session, trend: &Trend) -> String {
     let mut text = format!("{}cycle,u_m,F_N\n", lines(session));
     for [cycle, shift, force, _] in &trend.loops.steps {
-        let fields = [cycle, shift, force].map(|value| field(*value));
+        let fields = [cycle, shift, force].map(|value| written(*value));
         let _ = writeln!(text, "{}", fields.join(","));
     }
     text
-}
-
-fn field(value: f64) -> String {
-    match value.is_finite() {
-        true => number(value),
-        false => String::new(),
-    }
 }
 
 /// Where in a directory a state to go on from is: that of a snapshot, or of a run that was interrupted.

@@ -4,13 +4,11 @@ use std::collections::HashMap;
 use std::sync::LazyLock;
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
-use ratatui::text::Line;
+use ratatui::layout::{Margin, Rect};
 use ratatui::widgets::{Paragraph, Widget, Wrap};
 
 use super::panels::{self, Panel};
 use super::theme::{Role, Theme};
-use crate::plot::units::to_ascii;
 
 /// A caption.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Deserialize)]
@@ -90,17 +88,8 @@ impl Tour {
             captions(&self.origin).len()
         );
         let inside = panels::titled(&title, Role::Notice, theme, area, buffer);
-        let inside = Rect {
-            x: inside.x + 1,
-            width: inside.width.saturating_sub(2),
-            ..inside
-        };
-        let text = if theme.ascii() {
-            to_ascii(&caption.text).into_owned()
-        } else {
-            caption.text.clone()
-        };
-        Paragraph::new(Line::raw(text))
+        let inside = inside.inner(Margin::new(1, 0));
+        Paragraph::new(theme.printable(&caption.text))
             .wrap(Wrap { trim: true })
             .render(inside, buffer);
     }

@@ -85,8 +85,12 @@ pub struct Tip {
 impl Tip {
     /// Its memory, bytes.
     pub fn bytes(&self) -> usize {
-        size_of::<[f64; 4]>() * self.steps.len()
+        bytes(&self.steps)
     }
+}
+
+fn bytes(steps: &Steps) -> usize {
+    size_of::<[f64; 4]>() * steps.len()
 }
 
 /// The past of a run.
@@ -162,7 +166,7 @@ impl Trend {
     pub fn bytes(&self) -> usize {
         let fields = self.cycles.iter().flat_map(|entry| entry.fields.iter());
         let fields: usize = fields.map(|fields| 32 * fields.len()).sum();
-        size_of_val(self.cycles.as_slice()) + fields + self.tip().bytes()
+        size_of_val(self.cycles.as_slice()) + fields + bytes(&self.loops.steps)
     }
 
     /// The trend as it was at `cycle`, where it had this tip.

@@ -32,10 +32,7 @@ fn fig3(wear_number: f64, cells: usize, steps: u32) -> Scene {
     Scene {
         cells,
         steps,
-        normal: swing(1.0, 0.1, 1.0, 0.0),
-        tangential: Some(swing(0.0, 0.1, 1.0, FRAC_PI_4)),
-        law: archard(wear_number),
-        ..Scene::default()
+        ..Scene::fig3(wear_number)
     }
 }
 

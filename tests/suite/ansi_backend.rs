@@ -3,27 +3,25 @@
 use std::io;
 use std::num::NonZeroU16;
 use std::sync::Arc;
-use std::sync::mpsc::channel;
-use std::thread;
 use std::time::Duration;
 
 use mdr_tui::plot::Marker;
-use mdr_tui::scenario::Scenario;
-use mdr_tui::scenario::session::Session;
 use mdr_tui::tui::ansi_backend::AnsiBackend;
 use mdr_tui::tui::app::App;
-use mdr_tui::tui::frame::{Activity, Frame, Slot};
+use mdr_tui::tui::frame::{Activity, Frame};
 use mdr_tui::tui::keys::{Key, parse_script};
 use mdr_tui::tui::panels::Panel;
 use mdr_tui::tui::screen;
 use mdr_tui::tui::theme::{Depth, Look, Theme};
-use mdr_tui::tui::worker::{Orders, Worker};
+use mdr_tui::tui::worker::Worker;
 use proptest::prelude::*;
 use ratatui::Terminal;
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::{Rect, Size};
 use ratatui::style::{Color, Modifier, Style};
 use vt100::Parser;
+
+use crate::common::{LiveWorker, load};
 
 /// How a terminal tells its size.
 type Tell = fn() -> io::Result<Size>;
@@ -43,27 +41,21 @@ fn sent(line: &Line) -> usize {
 struct Counted {
     line: Line,
     app: App,
-    orders: Orders,
+    worker: LiveWorker,
 }
 
 impl Counted {
     fn new(size: Tell) -> Self {
-        let scenario = Scenario::load("li2019-fig3", &[]).expect("a preset");
-        let session = Session::start(scenario).expect("a contact");
-        let (orders, to_worker) = Orders::channel();
-        let (events, _) = channel();
-        let interval = Duration::from_secs(1);
-        let worker = Worker::new(session, Arc::new(Slot::default()), events, interval, false);
-        thread::spawn(move || worker.serve(&to_worker));
+        let worker = LiveWorker::on(load("li2019-fig3", &[]), Duration::from_secs(1), false);
         // The longest names of colours.
         let theme = Theme::new(Look::Dark, Marker::Braille).with_depth(Depth::Indexed);
-        let mut app = App::new(theme, orders.clone());
+        let mut app = App::new(theme, worker.orders.clone());
         let Size { width, height } = size().expect("a size");
         app.resize(width, height);
         Self {
             line: line(size),
             app,
-            orders,
+            worker,
         }
     }
 
@@ -82,7 +74,7 @@ impl Counted {
     fn running_frame(&mut self, keys: &str) -> usize {
         for key in parse_script(keys).expect("a script") {
             assert_eq!(key, Key::Char('.'));
-            self.orders.send(Worker::step_once);
+            self.worker.orders.send(Worker::step_once);
         }
         let mut frame = Frame::clone(&self.sync());
         frame.activity = Activity::Running;
@@ -91,7 +83,7 @@ impl Counted {
     }
 
     fn sync(&self) -> Arc<Frame> {
-        self.orders.frame().expect("a worker")
+        self.worker.orders.frame().expect("a worker")
     }
 
     /// What the screen shows.
@@ -114,12 +106,6 @@ impl Counted {
             .draw(|frame| screen::draw(app, frame.area(), frame.buffer_mut()))
             .expect("a drawing");
         sent(&self.line) - before
-    }
-}
-
-impl Drop for Counted {
-    fn drop(&mut self) {
-        self.orders.send(Worker::quit);
     }
 }
 

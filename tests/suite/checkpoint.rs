@@ -15,12 +15,12 @@ fn session(preset: &str, sets: &[&str]) -> Session {
 }
 
 /// Through a file's bytes and back.
-fn put_away(session: &Session) -> Session {
+fn through_a_file(session: &Session) -> Session {
     let bytes = encode(session, None::<&()>);
-    let taken_up = from_bytes::<()>(&bytes, "a file").expect("a checkpoint");
+    let kept = from_bytes::<()>(&bytes, "a file").expect("a checkpoint");
     // What has been taken up is put away alike.
-    assert!(encode(&taken_up.session, None::<&()>) == bytes);
-    taken_up.session
+    assert!(encode(&kept.session, None::<&()>) == bytes);
+    kept.session
 }
 
 /// Everything that a user can see of a session.
@@ -39,11 +39,11 @@ fn seen(session: &Session) -> String {
 
 /// Steps `straight` and a copy that is put away before every `every`th step; they must stay one.
 fn follow(mut straight: Session, steps: usize, every: usize, what: &str) -> Session {
-    let mut broken = put_away(&straight);
+    let mut broken = through_a_file(&straight);
     for step in 0..steps {
         assert!(seen(&straight) == seen(&broken), "{what}: step {step}");
         if step % every == 0 {
-            broken = put_away(&broken);
+            broken = through_a_file(&broken);
             assert!(
                 seen(&straight) == seen(&broken),
                 "{what}: put away at {step}"
@@ -122,10 +122,10 @@ fn a_run_with_changes_goes_on_as_if_nothing_had_been() {
     ] {
         session = follow(session, 37, 5, key);
         session.change(key, value).expect("a change");
-        let put_away = put_away(&session);
-        assert_eq!(put_away.changes(), session.changes());
-        assert_eq!(put_away.loaded(), session.loaded());
-        assert_eq!(put_away.scenario(), session.scenario());
+        let again = through_a_file(&session);
+        assert_eq!(again.changes(), session.changes());
+        assert_eq!(again.loaded(), session.loaded());
+        assert_eq!(again.scenario(), session.scenario());
     }
     follow(session, 120, 11, "all changes");
 }

@@ -26,12 +26,7 @@ fn held(wear_number: f64) -> Setup {
 
 /// Fig. 3 of the paper.
 fn fig3(wear_number: f64) -> Setup {
-    ours(Scene {
-        normal: swing(1.0, 0.1, 1.0, 0.0),
-        tangential: Some(swing(0.0, 0.1, 1.0, FRAC_PI_4)),
-        law: archard(wear_number),
-        ..Scene::default()
-    })
+    ours(Scene::fig3(wear_number))
 }
 
 /// The rms and the largest difference of the worn depth, both runs on the same nodes.

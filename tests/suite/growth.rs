@@ -104,8 +104,8 @@ fn a_grown_run_is_taken_up_and_repeated() {
     let grown = whole.simulation().setup().grid.radius();
     assert!(grown > 1.5e-4, "{grown}");
     let bytes = checkpoint::encode::<()>(&whole, None);
-    let taken_up = checkpoint::from_bytes::<()>(&bytes, "it").expect("a checkpoint");
-    let mut resumed = taken_up.session;
+    let kept = checkpoint::from_bytes::<()>(&bytes, "it").expect("a checkpoint");
+    let mut resumed = kept.session;
     for session in [&mut whole, &mut resumed] {
         session
             .change("friction.coefficient", "0.5")

@@ -2,29 +2,19 @@
 
 use std::fs;
 use std::net::TcpListener;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use mdr_tui::scenario::checkpoint;
 use mdr_tui::scenario::session::Session;
-use portable_pty::CommandBuilder;
-use serde::de::IgnoredAny;
 use tempfile::TempDir;
 use vt100::Screen;
 
-use crate::pty::{Terminal, cycle, program};
+use crate::pty::{Terminal, at_home, cycle, home, kept, program, read};
 
 fn is_under_way(screen: &Screen) -> bool {
     cycle(screen).is_some_and(|cycle| cycle > 0.5)
-}
-
-/// The program, keeping its checkpoints in `home`.
-fn at_home(home: &TempDir, arguments: &[&str]) -> CommandBuilder {
-    let mut command = program(arguments);
-    command.env("XDG_STATE_HOME", home.path());
-    command
 }
 
 /// The explorer in a terminal so many columns wide, as soon as it has stepped for a while.
@@ -32,27 +22,6 @@ fn under_way(home: &TempDir, arguments: &[&str], columns: u16) -> Terminal {
     let terminal = Terminal::start(at_home(home, arguments), columns, 24);
     terminal.wait_until("explorer under way", is_under_way);
     terminal
-}
-
-fn home() -> TempDir {
-    tempfile::tempdir().expect("a directory")
-}
-
-/// The only checkpoint in `home`; none if there is none yet.
-fn kept(home: &TempDir) -> Option<PathBuf> {
-    let entries = fs::read_dir(home.path().join("mdr-tui")).ok()?;
-    let paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
-    let mut whole = paths
-        .into_iter()
-        .filter(|path| path.extension().is_some_and(|end| end == "checkpoint"));
-    let path = whole.next();
-    assert_eq!(whole.next(), None, "more than one checkpoint");
-    path
-}
-
-fn read(path: &Path) -> Session {
-    let checkpoint = checkpoint::read::<IgnoredAny>(path);
-    checkpoint.expect("a checkpoint").session
 }
 
 /// A kept session is where an undisturbed one would be.

@@ -1,13 +1,12 @@
 //! The paper's verdict on its methods, in numbers: who keeps the stick zone, who fails first as the
 //! wear coefficient grows, and what the worn contact of Fig. 3 looks like.
 
-use crate::common::{Scene, archard, holds, run, swing};
+use crate::common::{Scene, archard, holds, run};
 use mdr_tui::math::abel::AbelMethod::{self, A, APlusB, B, Benad};
 use mdr_tui::oracle::limiting_profile::LimitingProfile;
 use mdr_tui::reading::Curves;
 use mdr_tui::scenario::Scenario;
 use mdr_tui::simulation::{Breakdown, Cause, Simulation};
-use std::f64::consts::FRAC_PI_4;
 
 /// The exact permanent stick radius of the default scene in a₀: c² = 1 − κU.
 fn stick_radius() -> f64 {
@@ -31,10 +30,7 @@ fn fig3(method: AbelMethod, wear_number: f64, cells: usize, steps: u32) -> Scene
         cells,
         steps,
         domain: 2.2f64.sqrt(),
-        normal: swing(1.0, 0.1, 1.0, 0.0),
-        tangential: Some(swing(0.0, 0.1, 1.0, FRAC_PI_4)),
-        law: archard(wear_number),
-        ..Scene::default()
+        ..Scene::fig3(wear_number)
     }
 }
 

@@ -3,23 +3,12 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 
 use mdr_tui::scenario::preset;
 use mdr_tui::tui::command::with_keys;
 use mdr_tui::tui::footer;
 
-use crate::test_dir::has;
-
-fn said(arguments: &[&str]) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_mdr-tui"))
-        .args(arguments)
-        .env("LC_ALL", "C.UTF-8")
-        .output()
-        .expect("the program starts");
-    assert!(output.status.success(), "{arguments:?}");
-    String::from_utf8(output.stdout).expect("text")
-}
+use crate::test_dir::{TestDir, has};
 
 #[test]
 fn it_is_short_and_names_what_there_is() {
@@ -36,7 +25,7 @@ fn it_is_short_and_names_what_there_is() {
 
 #[test]
 fn the_manual_page_has_every_key() {
-    let page = said(&["man"]);
+    let page = TestDir::new().done("man");
     assert_eq!(page.matches(".SH KEYS").count(), 1);
     for row in with_keys() {
         let help = row.help.replace('-', "\\-");
@@ -46,7 +35,7 @@ fn the_manual_page_has_every_key() {
 
 #[test]
 fn the_footer_names_commands_of_the_table() {
-    let screen = said(&["--keys", ",", "--print", "200x24"]);
+    let screen = TestDir::new().done("--keys , --print 200x24");
     let footer = screen.lines().last().expect("a footer");
     for row in footer::USUAL.iter().map(|command| command.row()) {
         let shown = format!(" {} {}", row.keys[0], row.name);

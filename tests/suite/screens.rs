@@ -7,24 +7,22 @@
 use std::fs;
 use std::path::Path;
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, channel};
-use std::thread;
 use std::time::Duration;
 
+use crate::common::{LiveWorker, load, ran};
 use crate::test_dir::{TestDir, names};
 use mdr_tui::plot::{Marker, Scale};
-use mdr_tui::scenario::session::Session;
-use mdr_tui::scenario::{Scenario, preset};
+use mdr_tui::scenario::preset;
 use mdr_tui::tui::app::App;
 use mdr_tui::tui::command::{self, COMMANDS};
-use mdr_tui::tui::frame::{Activity, Frame, Slot};
+use mdr_tui::tui::frame::{Activity, Frame};
 use mdr_tui::tui::keys::{Key, Named, parse_script};
 use mdr_tui::tui::manual;
 use mdr_tui::tui::mouse::Gesture;
 use mdr_tui::tui::pace::Pace;
 use mdr_tui::tui::panels::Panel;
 use mdr_tui::tui::theme::{Look, Theme};
-use mdr_tui::tui::worker::{Orders, Worker};
+use mdr_tui::tui::worker::Worker;
 use mdr_tui::tui::{Event, screen, tour};
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::{Position, Rect};
@@ -317,10 +315,10 @@ fn a_lecture_shows_the_contact_and_a_chart() {
 #[test]
 fn a_lecture_speeds_up_by_itself() {
     let stage = Stage::new("li2019-fig3", Marker::Braille);
-    let orders = stage.orders.clone();
-    let pace = || orders.frame().expect("a worker").pace;
-    let mut frame = Frame::clone(&orders.frame().expect("a worker"));
-    let mut app = App::new(Theme::new(Look::Dark, Marker::Braille), orders.clone());
+    let pace = || stage.frame().pace;
+    let mut frame = Frame::clone(&stage.frame());
+    let orders = stage.worker.orders.clone();
+    let mut app = App::new(Theme::new(Look::Dark, Marker::Braille), orders);
     app.stage.present();
     let mut rises = |at: f64, cycle: f64, activity: Activity| {
         frame.observation.moment.cycle = cycle;
@@ -556,33 +554,27 @@ fn a_snapshot_never_writes_over_another() {
 /// An app with its worker, without a terminal and without a process.
 struct Stage {
     app: App,
-    orders: Orders,
-    events: Receiver<Event>,
-    worker: Option<thread::JoinHandle<()>>,
+    worker: LiveWorker,
 }
 
 impl Stage {
     fn new(scenario: &str, marker: Marker) -> Self {
-        let scenario = Scenario::load(scenario, &[]).expect("a preset");
-        let session = Session::start(scenario).expect("a contact");
-        let (orders, to_worker) = Orders::channel();
-        let (sender, events) = channel();
-        let slot = Arc::new(Slot::default());
-        let worker = Worker::new(session, slot, sender, Duration::from_secs(1), false);
-        let worker = thread::spawn(move || worker.serve(&to_worker));
-        Self {
-            app: App::new(Theme::new(Look::Dark, marker), orders.clone()),
-            orders,
-            events,
-            worker: Some(worker),
-        }
+        let worker = LiveWorker::on(load(scenario, &[]), Duration::from_secs(1), false);
+        let theme = Theme::new(Look::Dark, marker);
+        let app = App::new(theme, worker.orders.clone());
+        Self { app, worker }
+    }
+
+    /// The worker's present frame.
+    fn frame(&self) -> Arc<Frame> {
+        self.worker.orders.frame().expect("a worker")
     }
 
     fn press(&mut self, keys: &str) {
         for key in parse_script(keys).expect("a script") {
             self.app.press(key);
-            self.app.take_frame(self.orders.frame().expect("a worker"));
-            for event in self.events.try_iter() {
+            self.app.take_frame(self.frame());
+            for event in self.worker.events.try_iter() {
                 if let Event::Notice(text) = event {
                     self.app.notice = Some(text);
                 }
@@ -606,15 +598,6 @@ impl Stage {
             );
         }
         buffer.content.iter().map(Cell::symbol).collect()
-    }
-}
-
-impl Drop for Stage {
-    fn drop(&mut self) {
-        self.orders.send(Worker::quit);
-        if let Some(worker) = self.worker.take() {
-            let _ = worker.join();
-        }
     }
 }
 
@@ -770,7 +753,7 @@ fn the_status_line_has_fixed_slots() {
 #[test]
 fn no_phase_is_told_when_the_run_is_done() {
     let mut stage = Stage::new("li2019-fig3", Marker::Braille);
-    let mut frame = Frame::clone(&stage.orders.frame().expect("a worker"));
+    let mut frame = Frame::clone(&stage.frame());
     frame.phase = Some(0.0);
     for activity in [Activity::Running, Activity::Paused, Activity::Done] {
         frame.activity = activity.clone();
@@ -905,9 +888,7 @@ fn a_comparison_can_begin_at_the_start() {
         "{text}"
     );
     // It is the run of that method: the same numbers as in a run of its own.
-    let alone = Scenario::load("strong-wear", &["numerics.method=b".into()]).expect("a preset");
-    let mut alone = Session::start(alone).expect("a contact");
-    alone.advance_to(6.0).expect("cycles");
+    let alone = ran(load("strong-wear", &["numerics.method=b"]), 6.0);
     let volume = alone.simulation().moment().wear_volume;
     let shown = mdr_tui::plot::units::format_value(volume, "m³", 4);
     assert!(
@@ -916,26 +897,17 @@ fn a_comparison_can_begin_at_the_start() {
     );
 }
 
-/// A worker that runs, its orders and what it publishes.
-fn live(
-    scenario: &str,
-    cycles: f64,
-    every: Duration,
-) -> (Orders, Receiver<Event>, Arc<Slot>, thread::JoinHandle<()>) {
-    let scenario = Scenario::load(scenario, &[format!("run.cycles={cycles}")]).expect("a preset");
-    let session = Session::start(scenario).expect("a contact");
-    let (orders, to_worker) = Orders::channel();
-    let (sender, events) = channel();
-    let slot = Arc::new(Slot::default());
-    let worker = Worker::new(session, Arc::clone(&slot), sender, every, true);
-    let worker = thread::spawn(move || worker.serve(&to_worker));
-    (orders, events, slot, worker)
+/// A worker that runs for so many cycles.
+fn live(scenario: &str, cycles: f64) -> LiveWorker {
+    let scenario = load(scenario, &[&format!("run.cycles={cycles}")]);
+    LiveWorker::on(scenario, Duration::from_millis(20), true)
 }
 
 /// A fast run is shown at one phase of the motion: frames as they come would be a stroboscope.
 #[test]
 fn fast_runs_are_shown_at_one_phase() {
-    let (orders, events, slot, worker) = live("li2019-fig3", 1e6, Duration::from_millis(20));
+    let worker = live("li2019-fig3", 1e6);
+    let (orders, events, slot) = (&worker.orders, &worker.events, &worker.slot);
     let frames = |wanted: usize| {
         let mut seen = Vec::new();
         while seen.len() < wanted {
@@ -965,14 +937,13 @@ fn fast_runs_are_shown_at_one_phase() {
         .iter()
         .map(|frame| frame.observation.moment.cycle.fract());
     assert!(parts.into_iter().any(|part| part > 0.05));
-    orders.send(Worker::quit);
-    worker.join().expect("a worker");
 }
 
 /// Space at the planned end runs on only when pressed twice.
 #[test]
 fn space_at_the_end_asks_first() {
-    let (orders, events, slot, worker) = live("hertz", 0.2, Duration::from_millis(20));
+    let worker = live("hertz", 0.2);
+    let (orders, events, slot) = (&worker.orders, &worker.events, &worker.slot);
     let next = || events.recv_timeout(Duration::from_secs(30));
     let until = |activity: Activity| {
         while !matches!(next().expect("a frame"), Event::Frame(_))
@@ -991,8 +962,6 @@ fn space_at_the_end_asks_first() {
     assert!(notice.contains("planned end"), "{notice}");
     orders.send(Worker::run_or_pause);
     until(Activity::Running);
-    orders.send(Worker::quit);
-    worker.join().expect("a worker");
 }
 
 /// Where the scar has settled, a jump could go on for ever: beyond the planned end it covers as much again, and a

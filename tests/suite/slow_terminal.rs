@@ -3,52 +3,22 @@
 //! The line is a pseudo-terminal that is read at a limited rate. It holds some 16 kB that
 //! nobody has read yet, so that a program which sends what it has is soon half a minute behind.
 
-use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use mdr_tui::scenario::checkpoint;
 use mdr_tui::scenario::session::Session;
-use portable_pty::CommandBuilder;
-use serde::de::IgnoredAny;
 use tempfile::TempDir;
 use vt100::Screen;
 
-use crate::pty::{Line, Terminal, cycle, program};
+use crate::pty::{Line, Terminal, at_home, cycle, home, kept, read};
 use crate::signals::SOON;
-
-fn home() -> TempDir {
-    tempfile::tempdir().expect("a directory")
-}
-
-fn at_home(home: &Path, arguments: &[&str]) -> CommandBuilder {
-    let mut command = program(arguments);
-    command.env("XDG_STATE_HOME", home);
-    command
-}
 
 fn is_under_way(screen: &Screen) -> bool {
     cycle(screen).is_some_and(|cycle| cycle > 0.0)
 }
 
-/// The checkpoints in `home`.
-fn kept(home: &Path) -> Vec<PathBuf> {
-    let entries = std::fs::read_dir(home.join("mdr-tui"));
-    let paths = entries
-        .into_iter()
-        .flatten()
-        .flatten()
-        .map(|entry| entry.path());
-    let is_one = |path: &PathBuf| path.extension().is_some_and(|end| end == "checkpoint");
-    paths.filter(is_one).collect()
-}
-
-fn session(home: &Path) -> Session {
-    let kept = kept(home);
-    assert_eq!(kept.len(), 1, "{kept:?}");
-    checkpoint::read::<IgnoredAny>(&kept[0])
-        .expect("a checkpoint")
-        .session
+fn session(home: &TempDir) -> Session {
+    read(&kept(home).expect("a checkpoint"))
 }
 
 /// How long keys take to show, on a line of so many bytes a second.
@@ -58,7 +28,7 @@ fn latencies(rate: u32, answers: bool) -> Vec<Duration> {
         rate: None,
         answers,
     };
-    let mut terminal = Terminal::start_on(line, at_home(home.path(), &[]), 80, 24);
+    let mut terminal = Terminal::start_on(line, at_home(&home, &[]), 80, 24);
     terminal.wait_until("explorer under way", is_under_way);
     terminal.slow_down(rate);
     // Long enough to fall behind.
@@ -77,7 +47,7 @@ fn latencies(rate: u32, answers: bool) -> Vec<Duration> {
     eprintln!("{rate} B/s, answers {answers}: {latencies:.1?}, the end after {waited:.1?}");
     assert_eq!(status.exit_code(), 0);
     assert!(waited < SOON, "{waited:.1?}");
-    assert!(session(home.path()).simulation().cycle() > 0.0);
+    assert!(session(&home).simulation().cycle() > 0.0);
     latencies
 }
 
@@ -99,7 +69,7 @@ fn at_600_bytes_a_second_a_key_shows_within_two_seconds() {
 }
 
 /// An explorer whose first screen is more than a line holds that nobody reads.
-fn stalled(home: &Path, arguments: &[&str], fault: &str) -> Terminal {
+fn stalled(home: &TempDir, arguments: &[&str], fault: &str) -> Terminal {
     let line = Line {
         rate: Some(0),
         answers: true,
@@ -108,7 +78,7 @@ fn stalled(home: &Path, arguments: &[&str], fault: &str) -> Terminal {
     command.env("MDR_TUI_FAULT", fault);
     let terminal = Terminal::start_on(line, command, 400, 150);
     let start = Instant::now();
-    while kept(home).is_empty() {
+    while kept(home).is_none() {
         assert!(start.elapsed() < crate::pty::TIMEOUT, "no checkpoint");
         thread::sleep(Duration::from_millis(10));
     }
@@ -123,7 +93,7 @@ fn a_terminal_that_stops_reading_keeps_nobody_from_ending() {
         let ends = some.iter().map(|&way| {
             thread::spawn(move || {
                 let home = home();
-                let mut terminal = stalled(home.path(), &[], "");
+                let mut terminal = stalled(&home, &[], "");
                 let start = Instant::now();
                 match way {
                     "q" | "Q" | "\x03" => terminal.press(way),
@@ -134,7 +104,7 @@ fn a_terminal_that_stops_reading_keeps_nobody_from_ending() {
                 assert!(waited < SOON, "{way:?}: {waited:.1?}");
                 assert_eq!((status.exit_code(), status.signal()), (0, None), "{way:?}");
                 assert!(terminal.has_its_modes_back(), "{way:?}: still in raw mode");
-                let kept = session(home.path());
+                let kept = session(&home);
                 assert!(kept.simulation().cycle() > 0.0);
             })
         });
@@ -149,7 +119,7 @@ fn a_terminal_that_stops_reading_keeps_nobody_from_ending() {
 #[test]
 fn a_step_that_takes_an_hour_keeps_no_end_waiting() {
     let home = home();
-    let mut command = at_home(home.path(), &[]);
+    let mut command = at_home(&home, &[]);
     command.env("MDR_TUI_FAULT", "long step");
     let mut terminal = Terminal::start(command, 200, 24);
     terminal.wait_until("sixth cycle", |screen| cycle(screen) > Some(4.5));
@@ -160,7 +130,7 @@ fn a_step_that_takes_an_hour_keeps_no_end_waiting() {
     assert!(waited < SOON, "{waited:.1?}");
     assert_eq!(status.exit_code(), 0);
     terminal.wait_for("mdr-tui: saved at cycle ");
-    assert!(session(home.path()).simulation().cycle() > 4.0);
+    assert!(session(&home).simulation().cycle() > 4.0);
 }
 
 #[test]
@@ -176,7 +146,7 @@ fn whatever_was_typed_or_pasted_ctrl_c_comes_first() {
         ("steps", &steps),
     ] {
         let home = home();
-        let mut terminal = Terminal::start(at_home(home.path(), &[]), 80, 24);
+        let mut terminal = Terminal::start(at_home(&home, &[]), 80, 24);
         terminal.wait_until("explorer under way", is_under_way);
         if what != "steps" {
             terminal.press(":");
@@ -197,7 +167,7 @@ fn whatever_was_typed_or_pasted_ctrl_c_comes_first() {
 #[test]
 fn what_is_pasted_is_typed_into_a_line_and_nowhere_else() {
     let home = home();
-    let mut terminal = Terminal::start(at_home(home.path(), &[]), 100, 24);
+    let mut terminal = Terminal::start(at_home(&home, &[]), 100, 24);
     terminal.wait_until("explorer under way", is_under_way);
     terminal.press("\x1b[200~q\x1b[201~");
     terminal.wait_for("there is no line to paste into");
@@ -225,7 +195,7 @@ fn a_run_on_a_terminal_that_stops_reading_answers_signals() {
          --checkpoint-every 0.02 --out '{}/x'",
         home.path().display()
     );
-    let mut command = at_home(home.path(), &[]);
+    let mut command = at_home(&home, &[]);
     *command.get_argv_mut() = ["sh", "-c", &start].map(Into::into).to_vec();
     let mut terminal = Terminal::start_on(line, command, 80, 24);
     let (checkpoint, start) = (home.path().join("x/run.checkpoint"), Instant::now());

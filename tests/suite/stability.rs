@@ -1,6 +1,6 @@
 //! Harsh wear: the guard takes every K to its limit, the raw methods fail where it was predicted.
 
-use crate::common::{Scene, archard, holds, load, ours, run_setup, swing, without_numerics};
+use crate::common::{Scene, holds, load, ours, run_setup, without_numerics};
 use crate::test_dir::has;
 use mdr_tui::math::abel::AbelMethod::{A, APlusB, B, Benad, Product};
 use mdr_tui::math::abel::worn;
@@ -17,10 +17,7 @@ fn fig3(wear_number: f64, cells: usize) -> Setup {
         cells,
         domain: 2.2f64.sqrt(),
         steps: 100,
-        normal: swing(1.0, 0.1, 1.0, 0.0),
-        tangential: Some(swing(0.0, 0.1, 1.0, FRAC_PI_4)),
-        law: archard(wear_number),
-        ..Scene::default()
+        ..Scene::fig3(wear_number)
     })
 }
 

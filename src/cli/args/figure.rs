@@ -8,9 +8,10 @@ use clap_complete::engine::ArgValueCompleter;
 
 use super::Changes;
 use super::values::{CycleAsGiven, cycles};
-use crate::charts::{ON_PAPER, Recipe};
+use crate::charts::{Recipe, field};
 use crate::cli::complete;
 use crate::figure::look::Style;
+use crate::tui::panels::Panel;
 
 /// Options of `figure`.
 #[derive(Debug, Args)]
@@ -92,11 +93,18 @@ pub enum PaperFigure {
     Fig3,
 }
 
+/// The charts that a paper can have: those of the explorer that have a name here, and maps of the half-space.
+pub fn on_paper() -> impl Iterator<Item = &'static Recipe> {
+    let maps = [&field::VON_MISES, &field::PRINCIPAL, &field::SWT];
+    let charts = Panel::ALL.into_iter().map(Panel::recipe).chain(maps);
+    charts.filter(|recipe| !recipe.name.is_empty())
+}
+
 fn panel_parser() -> impl TypedValueParser<Value = &'static Recipe> {
-    PossibleValuesParser::new(ON_PAPER.map(|recipe| recipe.name)).map(|name| {
-        let found = ON_PAPER.into_iter().find(|recipe| recipe.name == name);
-        // The parser has let through nothing but these names.
-        found.unwrap_or(ON_PAPER[0])
+    let names = on_paper().map(|recipe| recipe.name);
+    PossibleValuesParser::new(names).try_map(|name| {
+        let found = on_paper().find(|recipe| recipe.name == name);
+        found.ok_or("no such chart")
     })
 }
 

@@ -16,7 +16,7 @@ mod studies;
 mod sweep;
 mod values;
 
-pub use figure::{Figure, PaperFigure};
+pub use figure::{Figure, PaperFigure, on_paper};
 pub use studies::{Fit, Guard, Rows, Stability, Trade, Verify};
 pub use sweep::Sweep;
 pub use values::{ColorChoice, CycleAsGiven, HistoryChoice, Interval};

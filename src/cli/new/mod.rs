@@ -90,94 +90,42 @@ struct Question {
     unit: &'static str,
 }
 
-const BALL: Question = Question {
-    flag: "--ball",
-    given: |options| &options.ball,
-    prompt: "Radius of the ball",
-    meaning: "in mm unless said otherwise; for two curved bodies 1/R = 1/R1 + 1/R2",
-    default: "5 mm",
-    key: "indenter.radius",
-    unit: "mm",
-};
+macro_rules! questions {
+    ($($name:ident --$option:ident in $unit:literal: $prompt:literal ($meaning:literal), $default:literal, $key:literal;)*) => {
+        $(const $name: Question = Question {
+            flag: concat!("--", stringify!($option)),
+            given: |options| &options.$option,
+            prompt: $prompt,
+            meaning: $meaning,
+            default: $default,
+            key: $key,
+            unit: $unit,
+        };)*
+    };
+}
 
-const PUNCH: Question = Question {
-    flag: "--punch",
-    given: |options| &options.punch,
-    prompt: "Radius of the punch",
-    meaning: "of its flat face, in mm unless said otherwise",
-    default: "1 mm",
-    ..BALL
-};
-
-const LOAD: Question = Question {
-    flag: "--load",
-    given: |options| &options.load,
-    prompt: "Load",
-    meaning: "in N unless said otherwise",
-    default: "10 N",
-    key: "motion.normal.mean",
-    unit: "N",
-};
-
-const DEPTH: Question = Question {
-    flag: "--depth",
-    given: |options| &options.depth,
-    prompt: "Depth",
-    meaning: "by which the bodies approach, in um unless said otherwise",
-    default: "1 um",
-    unit: "um",
-    ..LOAD
-};
-
-const STROKE: Question = Question {
-    flag: "--stroke",
-    given: |options| &options.stroke,
-    prompt: "Stroke",
-    meaning: "from turning point to turning point, at the contact; in um unless said otherwise",
-    default: "20 um",
-    key: "motion.tangential.amplitude",
-    unit: "um",
-};
-
-const FRICTION: Question = Question {
-    flag: "--friction",
-    given: |options| &options.friction,
-    prompt: "Coefficient of friction",
-    meaning: "dry metals 0.5 to 0.9, ceramics 0.3 to 0.6, lubricated 0.1",
-    default: "0.6",
-    key: "friction.coefficient",
-    unit: "",
-};
-
-const FREQUENCY: Question = Question {
-    flag: "--frequency",
-    given: |options| &options.frequency,
-    prompt: "Frequency",
-    meaning: "cycles a second, in Hz; it matters for powers of the slip rate alone",
-    default: "10 Hz",
-    key: "motion.tangential.frequency",
-    unit: "Hz",
-};
-
-const WEAR: Question = Question {
-    flag: "--wear",
-    given: |options| &options.wear,
-    prompt: "Wear coefficient of a pin test, or none",
-    meaning: "volume per load and sliding distance, in mm3/Nm: mild wear 1e-7 to 1e-5, severe 1e-4",
-    default: "1e-6 mm3/Nm",
-    key: "wear.coefficient_per_load",
-    unit: "mm3/Nm",
-};
-
-const CYCLES: Question = Question {
-    flag: "--cycles",
-    given: |options| &options.cycles,
-    prompt: "Cycles",
-    meaning: "the length of the test; above 1000 cycles that are alike are jumped over",
-    default: "1000",
-    key: "run.cycles",
-    unit: "",
-};
+questions! {
+    BALL --ball in "mm": "Radius of the ball"
+        ("in mm unless said otherwise; for two curved bodies 1/R = 1/R1 + 1/R2"), "5 mm", "indenter.radius";
+    PUNCH --punch in "mm": "Radius of the punch"
+        ("of its flat face, in mm unless said otherwise"), "1 mm", "indenter.radius";
+    LOAD --load in "N": "Load" ("in N unless said otherwise"), "10 N", "motion.normal.mean";
+    DEPTH --depth in "um": "Depth"
+        ("by which the bodies approach, in um unless said otherwise"), "1 um", "motion.normal.mean";
+    STROKE --stroke in "um": "Stroke"
+        ("from turning point to turning point, at the contact; in um unless said otherwise"), "20 um",
+        "motion.tangential.amplitude";
+    FRICTION --friction in "": "Coefficient of friction"
+        ("dry metals 0.5 to 0.9, ceramics 0.3 to 0.6, lubricated 0.1"), "0.6", "friction.coefficient";
+    FREQUENCY --frequency in "Hz": "Frequency"
+        ("cycles a second, in Hz; it matters for powers of the slip rate alone"), "10 Hz",
+        "motion.tangential.frequency";
+    WEAR --wear in "mm3/Nm": "Wear coefficient of a pin test, or none"
+        ("volume per load and sliding distance, in mm3/Nm: mild wear 1e-7 to 1e-5, severe 1e-4"), "1e-6 mm3/Nm",
+        "wear.coefficient_per_load";
+    CYCLES --cycles in "": "Cycles"
+        ("the length of the test; above 1000 cycles that are alike are jumped over"), "1000", "run.cycles";
+}
 
 impl Question {
     fn read(&self, text: &str) -> Result<Quantity, String> {

@@ -11,7 +11,7 @@ use super::super::{FAILED, complain, results, stop};
 use crate::export::target::Target;
 use crate::studies::sweep::Study;
 use crate::studies::sweep::sensitivity::{self, Sensitivity};
-use crate::studies::table::{Cell, Column, Format, Table};
+use crate::studies::table::{Cell, Format, Table};
 
 /// Runs the study of sensitivities and prints, or writes, its table.
 pub fn sensitivity(options: &Sweep, study: &Study) -> Result<ExitCode> {
@@ -55,15 +55,13 @@ pub fn sensitivity(options: &Sweep, study: &Study) -> Result<ExitCode> {
 
 /// A row per key and column; at the end the spread that all keys bring about together.
 fn table(found: &Sensitivity) -> Table {
-    let mut table = Table::new(vec![
-        Column::new("key", Format::Words),
-        Column::new("value", Format::Rough),
-        Column::new("column", Format::Words),
-        Column::new("result", Format::Rough),
-        Column::new("elasticity", Format::Fixed),
-        Column::new("error", Format::Rough),
-        Column::new("deviation", Format::Rough),
-        Column::new("relative_spread", Format::Rough),
+    let mut table = Table::of(&[
+        ("", "key", Format::Words),
+        ("", "value", Format::Rough),
+        ("", "column", Format::Words),
+        ("", "result", Format::Rough),
+        ("", "elasticity", Format::Fixed),
+        ("", "error deviation relative_spread", Format::Rough),
     ]);
     let mut columns: Vec<&str> = Vec::new();
     for one in &found.elasticities {

@@ -252,17 +252,9 @@ impl Fit {
 
     /// The scenario with these values of the keys.
     fn at(&self, theta: &[f64]) -> Result<Scenario, SessionError> {
-        let texts: Vec<(&str, String)> = self
-            .free
-            .iter()
-            .zip(theta)
-            .map(|(free, theta)| (free.key.as_str(), format!("{:e}", free.value(*theta))))
-            .collect();
-        let assignments: Vec<(&str, &str)> = texts
-            .iter()
-            .map(|(key, text)| (*key, text.as_str()))
-            .collect();
-        Ok(self.scenario.with_all(&assignments)?)
+        let keys = self.free.iter().zip(theta);
+        let values = keys.map(|(free, theta)| (&free.key, format!("{:e}", free.value(*theta))));
+        Ok(self.scenario.with_all(&values.collect::<Vec<_>>())?)
     }
 
     /// z of all points.

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::{Line, Outcome};
 use crate::simulation::stability;
-use crate::studies::table::{Cell, Column, Format, Table};
+use crate::studies::table::{Cell, Format, Table};
 
 impl Outcome {
     /// The word for it in tables.
@@ -39,17 +39,14 @@ fn guard(line: &Line) -> &'static str {
 
 /// A row a run.
 pub fn runs(lines: &[Line]) -> Table {
-    let mut table = Table::new(vec![
-        Column::new("method", Format::Words),
-        Column::new("guard", Format::Words),
-        Column::new("points", Format::Count),
-        Column::new("steps_per_cycle", Format::Count),
-        Column::new("wear_number", Format::Rough),
-        Column::new("outcome", Format::Words),
-        Column::new("exploded_at_cycle", Format::Fixed),
-        Column::new("sawtooth", Format::Rough),
-        Column::new("predicted_wear_number", Format::Rough),
-        Column::new("reason", Format::Words),
+    let mut table = Table::of(&[
+        ("", "method guard", Format::Words),
+        ("", "points steps_per_cycle", Format::Count),
+        ("", "wear_number", Format::Rough),
+        ("", "outcome", Format::Words),
+        ("", "exploded_at_cycle", Format::Fixed),
+        ("", "sawtooth predicted_wear_number", Format::Rough),
+        ("", "reason", Format::Words),
     ]);
     for line in lines {
         for (wear_number, outcome) in &line.outcomes {
@@ -81,13 +78,11 @@ pub fn runs(lines: &[Line]) -> Table {
 
 /// A row a method and grid: where the boundary was predicted, and where it was seen.
 pub fn boundaries(lines: &[Line]) -> Table {
-    let mut table = Table::new(vec![
-        Column::new("method", Format::Words),
-        Column::new("guard", Format::Words),
-        Column::new("points", Format::Count),
-        Column::grouped("critical K", "predicted", Format::Rough),
-        Column::grouped("critical K", "seen", Format::Rough),
-        Column::grouped("critical K", "ratio", Format::Fixed),
+    let mut table = Table::of(&[
+        ("", "method guard", Format::Words),
+        ("", "points", Format::Count),
+        ("critical K", "predicted seen", Format::Rough),
+        ("critical K", "ratio", Format::Fixed),
     ]);
     for line in lines {
         table.push(vec![

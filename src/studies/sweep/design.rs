@@ -1,10 +1,13 @@
 //! Combines the values of several axes into points: every combination, pairwise, or samples that
 //! fill the space evenly.
 
+use strum::{EnumString, IntoStaticStr, VariantNames};
+
 use super::shuffle::{Shuffle, mix};
 
 /// The way from axes to points.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, EnumString, IntoStaticStr, VariantNames)]
+#[strum(serialize_all = "kebab-case")]
 pub enum Design {
     /// Every combination; the last axis changes fastest.
     Grid,
@@ -18,17 +21,12 @@ pub enum Design {
 }
 
 impl Design {
-    /// All designs.
-    pub const ALL: [Self; 4] = [Self::Grid, Self::Zip, Self::LatinHypercube, Self::Sobol];
+    /// The names in study files.
+    pub const NAMES: &[&str] = Self::VARIANTS;
 
     /// The name in study files.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Grid => "grid",
-            Self::Zip => "zip",
-            Self::LatinHypercube => "latin-hypercube",
-            Self::Sobol => "sobol",
-        }
+        self.into()
     }
 
     /// Whether the values of the axes are drawn, so that an axis names its ends alone.

@@ -12,7 +12,7 @@ use super::sensitivity::Varied;
 use super::study::{self, Stop, Study};
 use crate::scenario::scalars::{self, Scalar, number};
 use crate::scenario::{Refusal, Scenario, printable, typed};
-use crate::scenario::{schema, units};
+use crate::scenario::{hints, schema, units};
 
 /// The columns of a study that names none.
 const COLUMNS: [&str; 4] = [
@@ -132,8 +132,11 @@ impl Origin {
     /// The design, and the number of samples and the seed of a sampled one.
     fn design(&self, written: &Written) -> Result<(Design, Option<(usize, u32)>)> {
         let name = written.design.as_deref().unwrap_or(Design::Grid.name());
-        let Some(design) = Design::ALL.into_iter().find(|known| known.name() == name) else {
-            let names = Design::ALL.map(|design| format!("\"{}\"", design.name()));
+        let Ok(design) = name.parse::<Design>() else {
+            let names: Vec<_> = Design::NAMES
+                .iter()
+                .map(|name| format!("{name:?}"))
+                .collect();
             let rule = format!("must be one of {}", names.join(", "));
             return self.refuse("design", Value::from(name), rule);
         };
@@ -193,7 +196,7 @@ impl Origin {
         if schema::find(key).is_some() && !key.starts_with("changes") {
             return Ok(());
         }
-        let hint = schema::hint(key);
+        let hint = hints::hint(key);
         let key = printable(key);
         Err(self.error(format!("{place}: unknown key {key}; {hint}")))
     }

@@ -223,17 +223,12 @@ fn refined(middle: &Scenario, level: u32) -> Result<Scenario, crate::scenario::S
     let setup = middle.setup();
     let cells = (setup.grid.cells() << level).to_string();
     let steps = (setup.steps_per_cycle << level).to_string();
-    let tolerance = match setup.integrator {
-        Integrator::Direct => None,
-        Integrator::CycleJump { tolerance } => {
-            Some(number(tolerance / f64::from(1 << (2 * level))))
-        }
-    };
     let mut set = vec![
-        ("numerics.points", cells.as_str()),
-        ("numerics.steps_per_cycle", steps.as_str()),
+        ("numerics.points", cells),
+        ("numerics.steps_per_cycle", steps),
     ];
-    if let Some(tolerance) = &tolerance {
+    if let Integrator::CycleJump { tolerance } = setup.integrator {
+        let tolerance = number(tolerance / f64::from(1 << (2 * level)));
         set.push(("numerics.tolerance", tolerance));
     }
     middle.with_all(&set)

@@ -9,7 +9,7 @@ use super::sensitivity::Varied;
 use crate::scenario::scalars::Scalar;
 use crate::scenario::write::value as toml_value;
 use crate::scenario::{Refusal, Scenario, ScenarioError, printable};
-use crate::scenario::{schema, units};
+use crate::scenario::{hints, schema, units};
 
 /// When a point ends before its `run.cycles`: at the end of the first cycle in which one of these is
 /// reached.
@@ -177,7 +177,6 @@ impl Study {
         let set = self.set.iter();
         let set = set.map(|(key, value)| (key.as_str(), assigned(value)));
         let all: Vec<(&str, String)> = set.chain(axes).collect();
-        let all: Vec<(&str, &str)> = all.iter().map(|(key, value)| (*key, &**value)).collect();
         let scenario = self.base.with_all(&all)?;
         match scenario.run().cycles {
             Some(_) => Ok(scenario),
@@ -207,7 +206,7 @@ impl Study {
             ));
         };
         if schema::find(key).is_none() {
-            return Err(refuse(format!("unknown key {key}; {}", schema::hint(key))));
+            return Err(refuse(format!("unknown key {key}; {}", hints::hint(key))));
         }
         let varied = |axis: &Axis| axis.key == key || axis.tied.iter().any(|(tied, _)| tied == key);
         if self.axes.iter().any(varied) {

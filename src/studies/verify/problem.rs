@@ -1,13 +1,13 @@
 //! The problems of the study, by name.
 
-use std::fmt;
-use std::str::FromStr;
+use strum::{Display, EnumString, IntoStaticStr, VariantNames};
 
 use crate::math::abel::AbelMethod;
 use crate::math::invalid::Invalid;
 
 /// A problem with a closed form.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Display, EnumString, IntoStaticStr, VariantNames)]
+#[strum(serialize_all = "kebab-case", parse_err_ty = Invalid, parse_err_fn = Problem::unknown)]
 pub enum Problem {
     /// The paraboloid of the paper's Fig. 2.
     Hertz,
@@ -58,15 +58,11 @@ impl Problem {
 
     /// The name on the command line and in files.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Hertz => "hertz",
-            Self::Cone => "cone",
-            Self::Quartic => "quartic",
-            Self::TruncatedParaboloid => "truncated-paraboloid",
-            Self::FlatPunch => "flat-punch",
-            Self::Cattaneo => "cattaneo",
-            Self::Limit => "limit",
-        }
+        self.into()
+    }
+
+    fn unknown(name: &str) -> Invalid {
+        Invalid::choice("problem", name, Self::VARIANTS)
     }
 
     /// What is solved, how, where the edges lie, in what the error is measured and what is left
@@ -149,30 +145,7 @@ impl Problem {
     }
 }
 
-/// The paper's methods, which stay on the paper's grid and scheme.
-const PUBLISHED: [AbelMethod; 4] = [
-    AbelMethod::A,
-    AbelMethod::APlusB,
-    AbelMethod::B,
-    AbelMethod::Benad,
-];
-
-/// Whether a method is one of the paper's.
+/// Whether a method is one of the paper's, which stay on the paper's grid and scheme.
 pub fn is_published(method: AbelMethod) -> bool {
-    PUBLISHED.contains(&method)
-}
-
-impl fmt::Display for Problem {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(self.name())
-    }
-}
-
-impl FromStr for Problem {
-    type Err = Invalid;
-
-    fn from_str(name: &str) -> Result<Self, Invalid> {
-        let found = Self::ALL.into_iter().find(|problem| problem.name() == name);
-        found.ok_or_else(|| Invalid::choice("problem", name, &Self::ALL.map(Self::name)))
-    }
+    AbelMethod::PUBLISHED.contains(&method)
 }

@@ -101,19 +101,16 @@ fn order(
 
 /// Every row of every problem, a quantity a row.
 pub fn all_rows(outcomes: &[Outcome]) -> Table {
-    let mut table = Table::new(vec![
-        Column::new("problem", Format::Words),
-        Column::new("quantity", Format::Words),
-        Column::new("method", Format::Words),
-        Column::new("points", Format::Count),
-        Column::new("max", Format::Rough),
-        Column::new("max_order", Format::Fixed),
-        Column::new("rms", Format::Rough),
-        Column::new("rms_order", Format::Fixed),
-        Column::new("nodes", Format::Count),
-        Column::new("nodes_left_out", Format::Count),
-        Column::new("stopped_at_cycle", Format::Fixed),
-        Column::new("stopped_because", Format::Words),
+    let mut table = Table::of(&[
+        ("", "problem quantity method", Format::Words),
+        ("", "points", Format::Count),
+        ("", "max", Format::Rough),
+        ("", "max_order", Format::Fixed),
+        ("", "rms", Format::Rough),
+        ("", "rms_order", Format::Fixed),
+        ("", "nodes nodes_left_out", Format::Count),
+        ("", "stopped_at_cycle", Format::Fixed),
+        ("", "stopped_because", Format::Words),
     ]);
     for outcome in outcomes {
         for (at, quantity) in outcome.task.problem.quantities().iter().enumerate() {
@@ -138,13 +135,11 @@ pub fn all_rows(outcomes: &[Outcome]) -> Table {
 
 /// The error at every node.
 pub fn all_nodes(outcomes: &[Outcome]) -> Table {
-    let mut table = Table::new(vec![
-        Column::new("problem", Format::Words),
-        Column::new("quantity", Format::Words),
-        Column::new("method", Format::Words),
-        Column::new("points", Format::Count),
-        Column::new("r_over_a", Format::Fixed),
-        Column::new("error", Format::Rough),
+    let mut table = Table::of(&[
+        ("", "problem quantity method", Format::Words),
+        ("", "points", Format::Count),
+        ("", "r_over_a", Format::Fixed),
+        ("", "error", Format::Rough),
     ]);
     for outcome in outcomes {
         let Ok(all) = &outcome.errors else { continue };

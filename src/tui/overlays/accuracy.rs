@@ -19,7 +19,7 @@ pub(super) fn press(command: Command, app: &mut App) -> Answer {
     }
 }
 
-/// The checks of the run and the refinement_check.
+/// The checks of the run and the refinement check.
 pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let Some(frame) = &app.frame else { return };
     let mut lines = vec![Line::styled(

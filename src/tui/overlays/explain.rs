@@ -1,12 +1,11 @@
 //! What the focused panel shows: a few sentences, its symbols, and what to look for in this scenario.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use ratatui::layout::{Margin, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Paragraph, Widget, Wrap};
 
 use super::{Answer, App, Command, leave_for, popup, stay_for};
-use crate::plot::units::to_ascii;
 use crate::tui::theme::Role;
 use crate::tui::{layout, panels, tour};
 
@@ -59,10 +58,7 @@ pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         true => ("comparison", panels::compare::WORDS),
         false => (app.stage.focus.title(), app.stage.focus.words()),
     };
-    let spelled = |text: &str| match theme.ascii() {
-        true => to_ascii(text).into_owned(),
-        false => text.to_owned(),
-    };
+    let spelled = |text: &str| theme.printable(text);
     let mut lines = vec![Line::raw(spelled(words.text)), Line::default()];
     lines.extend(words.symbols.iter().map(|(symbol, meaning)| {
         Line::from(vec![
@@ -108,11 +104,7 @@ pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         false => format!("{title} (Tab: next panel, Esc closes)"),
     };
     let inside = popup(&app.theme, &title, (width, height), place, buffer);
-    let inside = Rect {
-        x: inside.x + 1,
-        width: inside.width.saturating_sub(2),
-        ..inside
-    };
+    let inside = inside.inner(Margin::new(1, 0));
     Paragraph::new(lines)
         .wrap(Wrap { trim: false })
         .render(inside, buffer);

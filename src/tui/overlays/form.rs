@@ -1,7 +1,8 @@
 //! The parameters of the scenario, edited while it runs: value, unit, range and effect of each.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use ratatui::layout::Constraint::{Fill, Length};
+use ratatui::layout::{Layout, Rect};
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
@@ -225,10 +226,7 @@ impl Form {
             return;
         };
         let about = 3.min(inside.height);
-        let list = Rect {
-            height: inside.height - about,
-            ..inside
-        };
+        let [list, below] = Layout::vertical([Fill(1), Length(about)]).areas(inside);
         match giving {
             Giving::Chosen(word) => words(setting, word, app, list, buffer),
             giving => {
@@ -243,11 +241,6 @@ impl Form {
                 }
             }
         }
-        let below = Rect {
-            y: list.bottom(),
-            height: about,
-            ..inside
-        };
         for (line, row) in about_it(setting, app).into_iter().zip(below.rows()) {
             line.render(row, buffer);
         }

@@ -36,7 +36,7 @@ pub enum Overlay {
     Help(Help),
     /// The presets.
     Library(Library),
-    /// Checks and refinement_check.
+    /// Checks and the refinement check.
     Accuracy,
     /// What the focused panel shows.
     Explain,

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use ratatui::layout::Constraint::{Fill, Length};
+use ratatui::layout::{Layout, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
@@ -284,11 +285,7 @@ impl Palette {
         typing(" :", &self.line, app.theme.style(Role::Title)).render(inside, buffer);
         let at = self.at.min(list.len().saturating_sub(1));
         let shown = list.iter().enumerate();
-        let below = Rect {
-            y: inside.y + 1,
-            height: inside.height.saturating_sub(1),
-            ..inside
-        };
+        let [_, below] = Layout::vertical([Length(1), Fill(1)]).areas(inside);
         for ((i, completion), row) in shown
             .skip(first_shown(at, list.len(), below.height))
             .zip(below.rows())

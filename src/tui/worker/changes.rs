@@ -23,7 +23,7 @@ const LAWS: [&str; 2] = ["archard", "power"];
 impl Worker {
     /// Changes the transform method by this many places, that of the comparison if there is one.
     pub fn change_method(&mut self, places: isize) {
-        if let Some(comparison) = &self.company.comparison {
+        if let Some(comparison) = &self.companions.comparison {
             return self.compare(places, comparison.from());
         }
         let now = self.session.simulation().setup().method;
@@ -78,26 +78,19 @@ impl Worker {
     /// Changes a key from here on; further `, KEY=VALUE` change at the same time.
     pub fn change(&mut self, key: &str, value: &str) {
         self.keep();
-        let assignments = assignments(key, value);
-        let borrowed: Vec<(&str, &str)> = assignments
-            .iter()
-            .map(|(key, value)| (key.as_str(), value.as_str()))
-            .collect();
-        match self.session.change_all(&borrowed) {
-            Ok(()) => {
-                let branched = self.branch();
-                self.facts = Facts::of(&self.session);
-                self.company.twin = Twin::of(&self.session);
-                if matches!(self.activity, Activity::Stopped(_)) {
-                    self.activity = Activity::Paused;
-                }
-                let cycle = self.cycle();
-                let said = format!("{key} = {value} at cycle {cycle:.2}");
-                self.screen
-                    .notice(&branched.map_or(said.clone(), |word| format!("{said}; {word}")));
-            }
-            Err(error) => self.screen.notice(&error.to_string()),
+        let changed = self.session.change_all(&assignments(key, value));
+        if self.screen.or_notice(changed).is_none() {
+            return;
         }
+        let branched = self.branch();
+        self.facts = Facts::of(&self.session);
+        self.companions.twin = Twin::of(&self.session);
+        if matches!(self.activity, Activity::Stopped(_)) {
+            self.activity = Activity::Paused;
+        }
+        let said = format!("{key} = {value} at cycle {:.2}", self.cycle());
+        let branched = branched.map(|word| format!("; {word}"));
+        self.screen.notice(&(said + &branched.unwrap_or_default()));
     }
 
     /// The scenario as it was loaded, from its beginning; the run up to here can be gone back to.
@@ -113,19 +106,17 @@ impl Worker {
 
     /// Another scenario, from its beginning.
     pub fn load(&mut self, scenario: Scenario) {
-        let resolved = match refinement::resolve_soon(&scenario) {
-            Ok(resolved) => resolved,
-            Err(error) => return self.screen.notice(&error.to_string()),
+        let resolved = refinement::resolve_soon(&scenario);
+        let Some(resolved) = self.screen.or_notice(resolved) else {
+            return;
         };
         if let Some(word) = resolved.warning {
             self.screen.notice(&word);
         }
-        match Session::start(resolved.scenario) {
-            Ok(session) => {
-                let trend = Trend::from(&session);
-                self.replace_run(session, trend);
-            }
-            Err(error) => self.screen.notice(&error.to_string()),
+        let session = Session::start(resolved.scenario);
+        if let Some(session) = self.screen.or_notice(session) {
+            let trend = Trend::from(&session);
+            self.replace_run(session, trend);
         }
     }
 
@@ -138,9 +129,9 @@ impl Worker {
         self.past.leave(&self.trend);
         self.snapshots.clear();
         self.session = session;
-        self.company.comparison = None;
+        self.companions.comparison = None;
         self.facts = Facts::of(&self.session);
-        self.company.twin = Twin::of(&self.session);
+        self.companions.twin = Twin::of(&self.session);
         self.trend = trend;
         if self.activity != Activity::Running {
             self.activity = Activity::Paused;

@@ -33,11 +33,9 @@ impl Worker {
         let tell = move || {
             let _ = events.send(Event::News);
         };
-        match Live::start(range, self.session.scenario(), cycles, tell) {
-            Ok(live) => {
-                self.screen.send(Event::Sweep(live));
-            }
-            Err(error) => self.screen.notice(&error.to_string()),
+        let live = Live::start(range, self.session.scenario(), cycles, tell);
+        if let Some(live) = self.screen.or_notice(live) {
+            self.screen.send(Event::Sweep(live));
         }
     }
 

@@ -33,7 +33,7 @@ impl Worker {
         }
         let simulation = self.session.simulation();
         // A comparison subtracts profiles; the screen that asked for it may not have shown one.
-        let compared = match self.company.comparison {
+        let compared = match self.companions.comparison {
             Some(_) => Curves::PROFILE | Curves::PRESSURE,
             None => Curves::empty(),
         };
@@ -88,17 +88,17 @@ impl Worker {
                 .collect(),
             snapshots: self.snapshots.clone(),
             // The twin has looked at the present.
-            error: (self.company.twin.as_ref())
+            error: (self.companions.twin.as_ref())
                 .filter(|_| self.past.present().is_none())
                 .and_then(Twin::error),
             checks,
             ghosts: self
-                .company
+                .companions
                 .ghosts
                 .iter()
                 .map(|ghost| ghost.seen(self.curves))
                 .collect(),
-            comparison: self.company.comparison.as_ref().map(ComparisonRun::seen),
+            comparison: self.companions.comparison.as_ref().map(ComparisonRun::seen),
         }
     }
 }

@@ -24,7 +24,7 @@ use crate::reading::Curves;
 use crate::scenario::session::Session;
 
 mod changes;
-mod company;
+mod companions;
 mod files;
 mod frames;
 mod outlet;
@@ -32,7 +32,7 @@ mod stepping;
 mod thread;
 mod travel;
 
-use company::Company;
+use companions::Companions;
 use outlet::Outlet;
 pub(super) use thread::WorkerThread;
 use travel::ends_cycle;
@@ -78,7 +78,7 @@ pub struct Worker {
     snapshots: Vec<f64>,
     cycle_loads: CycleLoads,
     /// What runs beside, or lies over the plots.
-    company: Company,
+    companions: Companions,
     activity: Activity,
     /// Whether the user has been told that the planned end is reached.
     told_of_end: bool,
@@ -103,7 +103,7 @@ impl Worker {
     ) -> Self {
         Self {
             facts: Facts::of(&session),
-            company: Company::of(&session),
+            companions: Companions::of(&session),
             trend: Trend::from(&session),
             session,
             past: Past::default(),
@@ -135,7 +135,7 @@ impl Worker {
     /// The same with ghosts over the plots.
     #[must_use]
     pub fn with_ghosts(mut self, ghosts: Vec<Source>) -> Self {
-        self.company.ghosts = ghosts;
+        self.companions.ghosts = ghosts;
         self
     }
 

@@ -1,5 +1,6 @@
 //! What the worker tells the screen.
 
+use std::fmt::Display;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
 use std::time::{Duration, Instant};
@@ -46,6 +47,12 @@ impl Outlet {
     /// Tells the user something.
     pub fn notice(&self, text: &str) {
         self.send(Event::Notice(one_line(text)));
+    }
+
+    /// What there is, or else a notice of why there is nothing.
+    pub fn or_notice<T>(&self, result: Result<T, impl Display>) -> Option<T> {
+        let told = |error| self.notice(&format!("{error}"));
+        result.map_err(told).ok()
     }
 
     /// Tells the user why a file was not written.

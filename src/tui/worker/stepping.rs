@@ -85,7 +85,7 @@ impl Worker {
         let (cycle, steps) = (simulation.cycle(), simulation.steps());
         self.clock.meter.measure(cycle, steps, start.elapsed());
         self.trend.note_cost(self.clock.meter.step_cost);
-        self.company.follow_with_twin(cycle, TWIN_STINT);
+        self.companions.follow_with_twin(cycle, TWIN_STINT);
         let wait = match self.holds_phase() {
             true => self.screen.interval.max(AT_LEAST),
             false => self.screen.interval,
@@ -102,7 +102,7 @@ impl Worker {
 
     fn step(&mut self) {
         if let Some(word) = self.branch() {
-            self.company.twin = Twin::of(&self.session);
+            self.companions.twin = Twin::of(&self.session);
             self.screen.notice(&word);
         }
         if self.session.simulation().steps() == 0 {
@@ -119,7 +119,7 @@ impl Worker {
             self.cycle_loads.note(self.session.simulation());
         }
         let is_end = self.has_reached_end(before);
-        let twin = self.company.twin.as_mut();
+        let twin = self.companions.twin.as_mut();
         if let Some(twin) = twin.filter(|_| ends_cycle(before, cycle) || is_end) {
             // Steps by hand are few, and each is looked at.
             let must = is_end || self.activity != Activity::Running;
@@ -128,7 +128,7 @@ impl Worker {
         if self.trend.record(&self.session) {
             self.trend.end(&Reading::new(&self.session));
         }
-        self.company.follow(cycle);
+        self.companions.follow(cycle);
     }
 
     /// The cycle at which the next step or jump ends at the latest: the planned end, and beyond it as far

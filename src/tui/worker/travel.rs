@@ -67,7 +67,7 @@ impl Worker {
     fn show(&mut self, kept: &Kept) {
         self.session = kept.session.clone();
         self.trend = self.past.trend(kept);
-        self.company.comparison = None;
+        self.companions.comparison = None;
         self.activity = Activity::Paused;
         self.facts = Facts::of(&self.session);
     }

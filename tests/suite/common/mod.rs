@@ -2,6 +2,12 @@
 
 #![allow(dead_code, reason = "not every file of tests needs all of it")]
 
+use std::f64::consts::FRAC_PI_4;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, channel};
+use std::thread::{self, JoinHandle};
+use std::time::Duration;
+
 use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::contact::material::Material;
 use mdr_tui::math::abel::AbelMethod;
@@ -10,6 +16,9 @@ use mdr_tui::scenario::session::Session;
 use mdr_tui::scenario::{Scenario, preset};
 use mdr_tui::simulation::drive::{Control, Drive, Oscillation};
 use mdr_tui::simulation::{Integrator, Scheme, Setup, Simulation, Spacing, Stability};
+use mdr_tui::tui::Event;
+use mdr_tui::tui::frame::Slot;
+use mdr_tui::tui::worker::{Orders, Worker};
 use mdr_tui::wear::WearLaw;
 
 /// Tables of Fig. 3 of the paper: its indenter, its pair of materials, its motions and wear.
@@ -63,6 +72,18 @@ impl Default for Scene {
             tangential: Some(swing(0.0, 0.05, 1.0, 0.0)),
             law: None,
             steps: 40,
+        }
+    }
+}
+
+impl Scene {
+    /// Fig. 3 of the paper at a wear number K, on the default domain.
+    pub fn fig3(wear_number: f64) -> Self {
+        Self {
+            normal: swing(1.0, 0.1, 1.0, 0.0),
+            tangential: Some(swing(0.0, 0.1, 1.0, FRAC_PI_4)),
+            law: archard(wear_number),
+            ..Self::default()
         }
     }
 }
@@ -160,4 +181,46 @@ pub fn without_numerics(cycles: f64) -> Scenario {
     let (parts, _) = text.split_once("[numerics]").expect("numerics");
     let text = format!("{parts}[run]\ncycles = {cycles:e}\n");
     Scenario::from_toml(&text, "without numerics", &[]).expect("a scenario")
+}
+
+/// An explorer's worker in a thread of its own, which ends with it.
+pub struct LiveWorker {
+    /// The way to it.
+    pub orders: Orders,
+    /// What it tells.
+    pub events: Receiver<Event>,
+    /// Where its frames wait.
+    pub slot: Arc<Slot>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl LiveWorker {
+    /// A worker that publishes at most every `interval`.
+    pub fn on(scenario: Scenario, interval: Duration, running: bool) -> Self {
+        let (orders, to_worker) = Orders::channel();
+        let (sender, events) = channel();
+        let slot = Arc::new(Slot::default());
+        let worker = Worker::new(
+            begin(scenario),
+            Arc::clone(&slot),
+            sender,
+            interval,
+            running,
+        );
+        Self {
+            orders,
+            events,
+            slot,
+            thread: Some(thread::spawn(move || worker.serve(&to_worker))),
+        }
+    }
+}
+
+impl Drop for LiveWorker {
+    fn drop(&mut self) {
+        self.orders.send(Worker::quit);
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+    }
 }

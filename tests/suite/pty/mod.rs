@@ -2,15 +2,19 @@
 
 use std::io::{Read, Write};
 use std::num::NonZeroU16;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use mdr_tui::scenario::checkpoint;
+use mdr_tui::scenario::session::Session;
 use portable_pty::{
     Child, CommandBuilder, ExitStatus, MasterPty, PtyPair, PtySize, SlavePty, native_pty_system,
 };
+use serde::de::IgnoredAny;
+use tempfile::TempDir;
 use vt100::{Parser, Screen};
 
 /// Longer than anything takes on a busy machine.
@@ -84,6 +88,36 @@ pub fn program(arguments: &[&str]) -> CommandBuilder {
     command.env("TERM", "xterm-256color");
     command.env("LC_ALL", "C.UTF-8");
     command
+}
+
+/// The program, keeping its checkpoints in `home`.
+pub fn at_home(home: &TempDir, arguments: &[&str]) -> CommandBuilder {
+    let mut command = program(arguments);
+    command.env("XDG_STATE_HOME", home.path());
+    command
+}
+
+/// A directory for the checkpoints of one test.
+pub fn home() -> TempDir {
+    tempfile::tempdir().expect("a directory")
+}
+
+/// The only checkpoint in `home`; none if there is none yet.
+pub fn kept(home: &TempDir) -> Option<PathBuf> {
+    let entries = std::fs::read_dir(home.path().join("mdr-tui")).ok()?;
+    let paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    let mut whole = paths
+        .into_iter()
+        .filter(|path| path.extension().is_some_and(|end| end == "checkpoint"));
+    let path = whole.next();
+    assert_eq!(whole.next(), None, "more than one checkpoint");
+    path
+}
+
+/// The session in a checkpoint.
+pub fn read(path: &Path) -> Session {
+    let checkpoint = checkpoint::read::<IgnoredAny>(path);
+    checkpoint.expect("a checkpoint").session
 }
 
 /// The cycle in the explorer's status line.

@@ -13,13 +13,13 @@ use crate::tui::twin::Twin;
 pub(super) const CATCH_UP: Duration = Duration::from_millis(10);
 
 /// The runs and curves beside the run.
-pub(super) struct Company {
+pub(super) struct Companions {
     pub comparison: Option<ComparisonRun>,
     pub ghosts: Vec<Source>,
     pub twin: Option<Twin>,
 }
 
-impl Company {
+impl Companions {
     /// The twin of `session`, and nothing else.
     pub fn of(session: &Session) -> Self {
         Self {
@@ -58,16 +58,16 @@ impl Worker {
     /// Whether anything is not yet where the run is; a run does not wait for its twin.
     pub(super) fn is_awaited(&self) -> bool {
         let cycle = self.cycle();
-        let twin = self.company.twin.as_ref();
+        let twin = self.companions.twin.as_ref();
         let twin = twin.filter(|_| self.activity != Activity::Running);
-        self.company.lags(cycle) || twin.is_some_and(|twin| twin.lags(cycle))
+        self.companions.lags(cycle) || twin.is_some_and(|twin| twin.lags(cycle))
     }
 
     /// Lets what runs beside come nearer to the run for a moment.
     pub(super) fn catch_up(&mut self) {
         let cycle = self.cycle();
-        self.company.follow(cycle);
-        self.company.follow_with_twin(cycle, CATCH_UP);
+        self.companions.follow(cycle);
+        self.companions.follow_with_twin(cycle, CATCH_UP);
         if self.screen.is_due() || !self.is_awaited() {
             self.publish();
         }
@@ -75,7 +75,7 @@ impl Worker {
 
     /// Begins or ends the comparison with another method.
     pub fn compare_or_stop(&mut self) {
-        if self.company.comparison.take().is_none() {
+        if self.companions.comparison.take().is_none() {
             self.compare(0, From::Now);
         }
     }
@@ -87,17 +87,15 @@ impl Worker {
 
     /// Starts a comparison, this many places after the previous one, from now or from the start.
     pub(super) fn compare(&mut self, places: isize, from: From) {
-        let before = self.company.comparison.as_ref();
-        match ComparisonRun::beside(&self.session, before, places, from) {
-            Ok(comparison) => {
-                let name = comparison.name();
-                self.screen.notice(&match from {
-                    From::Now => format!("comparing with {name} from here; C: from the start"),
-                    From::Start => format!("comparing with {name} from the start"),
-                });
-                self.company.comparison = Some(comparison);
-            }
-            Err(error) => self.screen.notice(&error.to_string()),
+        let before = self.companions.comparison.as_ref();
+        let begun = ComparisonRun::beside(&self.session, before, places, from);
+        if let Some(comparison) = self.screen.or_notice(begun) {
+            let name = comparison.name();
+            self.screen.notice(&match from {
+                From::Now => format!("comparing with {name} from here; C: from the start"),
+                From::Start => format!("comparing with {name} from the start"),
+            });
+            self.companions.comparison = Some(comparison);
         }
     }
 
@@ -109,27 +107,26 @@ impl Worker {
     /// Lays the curves of a file, a directory or a scenario over the panels.
     pub fn overlay(&mut self, given: &str) {
         let reach = self.session.simulation().setup().grid.radius();
-        match Source::load(given, reach) {
-            Ok(ghost) => self.add_ghost(ghost),
-            Err(error) => self.screen.notice(&error),
+        if let Some(ghost) = self.screen.or_notice(Source::load(given, reach)) {
+            self.add_ghost(ghost);
         }
     }
 
     fn add_ghost(&mut self, ghost: Source) {
         let most = ghosts::MOST;
-        if self.company.ghosts.len() >= most {
+        if self.companions.ghosts.len() >= most {
             let told = format!("{most} ghosts are there already; G removes them");
             return self.screen.notice(&told);
         }
         let name = ghost.name();
         self.screen
             .notice(&format!("{name} is over the plots now; G removes it"));
-        self.company.ghosts.push(ghost);
+        self.companions.ghosts.push(ghost);
     }
 
     /// Takes all of them away.
     pub fn drop_ghosts(&mut self) {
-        if std::mem::take(&mut self.company.ghosts).is_empty() {
+        if std::mem::take(&mut self.companions.ghosts).is_empty() {
             let told = "there is no ghost; g freezes this state, :overlay FILE takes a file";
             self.screen.notice(told);
         }

@@ -1,0 +1,107 @@
+//! The inside of a chart on paper: where its values lie, and what of its curves lies within.
+
+use super::canvas::Canvas;
+use super::look::Look;
+use crate::plot::Curve;
+use crate::plot::segment::clip;
+use crate::plot::theme::Role;
+use crate::plot::window::Window;
+
+/// Width of error bars and of the outline of symbols, and half of the size of a symbol, mm.
+pub(super) const BAR: f64 = 0.2;
+const SYMBOL: f64 = 0.45;
+
+/// The inside of a chart, with its two scales.
+pub(super) struct Frame {
+    pub left: f64,
+    pub top: f64,
+    pub size: [f64; 2],
+    pub windows: [Window; 2],
+    pub downwards: bool,
+}
+
+impl Frame {
+    pub fn right(&self) -> f64 {
+        self.left + self.size[0]
+    }
+
+    pub fn bottom(&self) -> f64 {
+        self.top + self.size[1]
+    }
+
+    /// Where a point lies, mm; `None` where it has no place.
+    pub fn place(&self, x: f64, y: f64) -> Option<[f64; 2]> {
+        let share = |window: &Window, value: f64| {
+            let last = (window.dots().max(2) - 1) as f64;
+            window.position(value).map(|dots| dots / last)
+        };
+        let (across, up) = (share(&self.windows[0], x)?, share(&self.windows[1], y)?);
+        let down = if self.downwards { up } else { 1.0 - up };
+        Some([
+            self.left + across * self.size[0],
+            self.top + down * self.size[1],
+        ])
+    }
+
+    /// Draws the points of a curve that lie inside, with their error bars, and returns them.
+    pub fn points(&self, curve: &Curve, canvas: &mut Canvas, look: &Look) -> Vec<[f64; 2]> {
+        let ink = look.color(curve.role);
+        let mut drawn = Vec::new();
+        for (k, (&x, &y)) in curve.xs.iter().zip(&curve.ys).enumerate() {
+            if let Some(error) = curve.errors.get(k).filter(|error| error.is_finite()) {
+                let lowest = self.windows[1].bounds()[0];
+                let low = self.place(x, y - error).or(self.place(x, lowest));
+                if let (Some(low), Some(high)) = (low, self.place(x, y + error))
+                    && let Some(bar) = self.inside(low, high)
+                {
+                    canvas.line(bar.to_vec(), ink, BAR, &[]);
+                }
+            }
+            let place = self.place(x, y);
+            if let Some(at) = place.filter(|at| self.inside(*at, *at).is_some()) {
+                canvas.line(symbol(curve.role, at), ink, BAR, &[]);
+                drawn.push(at);
+            }
+        }
+        drawn
+    }
+
+    /// The parts of a line that lie inside.
+    pub fn clipped(&self, curve: &Curve) -> Vec<Vec<[f64; 2]>> {
+        let mut parts: Vec<Vec<[f64; 2]>> = Vec::new();
+        let mut before: Option<[f64; 2]> = None;
+        for (&x, &y) in curve.xs.iter().zip(&curve.ys) {
+            let here = self.place(x, y);
+            if let (Some(from), Some(to)) = (before, here)
+                && let Some([start, end]) = self.inside(from, to)
+            {
+                match parts.last_mut() {
+                    Some(part) if part.last() == Some(&start) => part.push(end),
+                    _ => parts.push(vec![start, end]),
+                }
+            }
+            before = here;
+        }
+        parts
+    }
+
+    /// The part of a segment inside the frame.
+    pub fn inside(&self, from: [f64; 2], to: [f64; 2]) -> Option<[[f64; 2]; 2]> {
+        let [width, height] = self.size;
+        let low = [self.left, self.top];
+        clip(from, to, low, [low[0] + width, low[1] + height])
+    }
+}
+
+/// The outline of the sign of a point: a square, a diamond or a triangle.
+pub(super) fn symbol(role: Role, [x, y]: [f64; 2]) -> Vec<[f64; 2]> {
+    let corners: &[[f64; 2]] = match role {
+        Role::Ghost(k) if k % 3 == 1 => &[[0.0, -1.2], [1.2, 0.0], [0.0, 1.2], [-1.2, 0.0]],
+        Role::Ghost(k) if k % 3 == 2 => &[[0.0, -1.1], [1.1, 0.8], [-1.1, 0.8]],
+        _ => &[[-0.9, -0.9], [0.9, -0.9], [0.9, 0.9], [-0.9, 0.9]],
+    };
+    let closed = corners.iter().chain(corners.first());
+    closed
+        .map(|[dx, dy]| [x + SYMBOL * dx, y + SYMBOL * dy])
+        .collect()
+}

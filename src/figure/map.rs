@@ -1,0 +1,138 @@
+//! A map on paper, and the key to its colours.
+
+use super::canvas::{Anchor, Canvas};
+use super::draw::{numeral, unit_of};
+use super::font;
+use super::frame::Frame;
+use super::look::Look;
+use crate::plot::axis::titled;
+use crate::plot::ticks::{Labels, Tick, ticks};
+use crate::plot::units::AxisUnit;
+use crate::plot::window::Window;
+use crate::plot::{Axis, Map};
+
+/// What stands to the right of a map: the ticks of its colours, or its words.
+pub(super) struct Key<'a> {
+    map: &'a Map,
+    unit: AxisUnit,
+    window: Window,
+    ticks: Vec<Tick>,
+}
+
+impl<'a> Key<'a> {
+    pub fn new(map: &'a Map, height: f64, font: f64) -> Self {
+        let range = map.range();
+        let unit = unit_of(&map.quantity, range);
+        let cells = (height / (1.2 * font)).clamp(2.0, 400.0) as u16;
+        let window = Window::new(range, map.quantity.scale, cells, 16);
+        let ticks = match map.words.is_empty() {
+            true => ticks(&window, unit.factor, Labels::Column),
+            false => Vec::new(),
+        };
+        Self {
+            map,
+            unit,
+            window,
+            ticks,
+        }
+    }
+
+    /// The width of it all, mm.
+    pub fn width(&self, font: f64) -> f64 {
+        let labels = self.ticks.iter().map(|tick| numeral(&tick.label));
+        let words = self.map.words.iter().map(|word| (*word).to_owned());
+        let widest = labels.chain(words).map(|text| font::set_width(&text));
+        let title = if self.map.words.is_empty() { 2.0 } else { 0.5 };
+        (widest.fold(0.0, f64::max) + 2.3 + title) * font
+    }
+
+    pub fn draw(&self, frame: &Frame, canvas: &mut Canvas, look: &Look) {
+        let font = look.font;
+        let (left, top, height) = (frame.right() + 0.8 * font, frame.top, frame.size[1]);
+        let beside = left + 1.4 * font;
+        let is_there = |k: usize| self.map.values.contains(&(k as f64));
+        let words = self.map.words.iter().enumerate();
+        for (line, (k, word)) in words.filter(|(k, _)| is_there(*k)).enumerate() {
+            let y = top + 1.4 * font * line as f64;
+            canvas.area([left, y], [font, font], look.regime(k));
+            canvas.text([beside, y + 0.86 * font], word, font, Anchor::Start);
+        }
+        if !self.map.words.is_empty() {
+            return;
+        }
+        const STEPS: usize = 32;
+        for k in 0..STEPS {
+            let share = (k as f64 + 0.5) / STEPS as f64;
+            let [low, high] =
+                [k, (k + 2).min(STEPS)].map(|step| height * step as f64 / STEPS as f64);
+            let ink = look.mapped(self.map.colors, share);
+            canvas.area([left, top + height - high], [font, high - low], ink);
+        }
+        let last = (self.window.dots().max(2) - 1) as f64;
+        for tick in &self.ticks {
+            if let Some(dots) = self.window.position(tick.value) {
+                let y = top + height * (1.0 - dots / last) + 0.36 * font;
+                canvas.text([beside, y], &numeral(&tick.label), font, Anchor::Start);
+            }
+        }
+        let title = titled(
+            &self.map.quantity.label,
+            &numeral(&self.unit.text),
+            ['(', ')'],
+        );
+        let edge = frame.right() + self.width(font);
+        canvas.text_upwards([edge, top + 0.5 * height], &title, font);
+    }
+
+    /// Colours of the map, equal neighbours as one area. Each area also lies below the ones that are drawn after it,
+    /// but not below blank ones: where areas only touch, viewers show the paper between them.
+    pub fn fill(&self, axes: [&Axis; 2], frame: &Frame, canvas: &mut Canvas, look: &Look) {
+        let map = self.map;
+        let range = map.range();
+        let color = |value: f64| {
+            let shown = value.is_finite();
+            shown.then(|| match map.words.is_empty() {
+                true => look.mapped(map.colors, map.share(value, range)),
+                false => look.regime(value as usize),
+            })
+        };
+        let within = |k: usize| {
+            let [low, high] = frame.windows[k].bounds();
+            let edges = axes[k].edges(&map.places[k]).into_iter();
+            edges
+                .map(|edge| edge.clamp(low.min(high), low.max(high)))
+                .collect::<Vec<f64>>()
+        };
+        let (across, down) = (within(0), within(1));
+        let width = map.places[0].len();
+        let rows: Vec<&[f64]> = map.values.chunks(width).collect();
+        for (row, values) in rows.iter().enumerate() {
+            let mut start = 0;
+            for end in 1..=width {
+                let ink = color(values[start]);
+                if end < width && color(values[end]) == ink {
+                    continue;
+                }
+                let right = match values.get(end) {
+                    Some(next) if next.is_finite() => end + 1,
+                    _ => end,
+                };
+                let next = rows.get(row + 1).map(|below| &below[start..right]);
+                let bottom = match next {
+                    Some(below) if below.iter().all(|value| value.is_finite()) => row + 2,
+                    _ => row + 1,
+                };
+                let corners = [
+                    frame.place(across[start], down[row]),
+                    frame.place(across[right], down[bottom]),
+                ];
+                if let ([Some(a), Some(b)], Some(ink)) = (corners, ink) {
+                    let at = [a[0].min(b[0]), a[1].min(b[1])];
+                    let size = [(b[0] - a[0]).abs(), (b[1] - a[1]).abs()];
+                    canvas.area(at, size, ink);
+                }
+                start = end;
+            }
+        }
+    }
+}

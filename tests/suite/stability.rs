@@ -100,6 +100,19 @@ fn parts_of_harsh_steps_end_where_fine_steps_do() {
     }
 }
 
+/// What merely is stiff is taken in short parts, not limited: a part whose wear is limited loses volume.
+#[test]
+fn few_steps_of_harsh_wear_lose_no_volume() {
+    let volume = |steps_per_cycle| {
+        let setup = Setup {
+            steps_per_cycle,
+            ..fig3(300.0, 100)
+        };
+        run_setup(setup, 1.0).moment().wear_volume
+    };
+    holds("V of 12 steps", (volume(12) / volume(400) - 1.0).abs(), 1e-3);
+}
+
 #[test]
 fn mild_wear_is_the_same_to_the_last_bit_with_and_without_the_guard() {
     for scheme in Scheme::ALL {

@@ -103,8 +103,11 @@ fn handle_events(
     let mut is_due = !screen.draw(|area, buffer| scene.draw(area, buffer))?;
     // Between suspension and continuation, the screen belongs to the shell.
     let mut is_away = false;
+    // What came in while the terminal's answers were awaited.
+    let mut held = Vec::new();
     loop {
         let wait = match screen.when() {
+            _ if !held.is_empty() => Some(Duration::ZERO),
             When::At(then) if is_due && !is_away => {
                 Some(then.saturating_duration_since(Instant::now()))
             }
@@ -121,7 +124,7 @@ fn handle_events(
         crate::failpoint::hit("screen");
         let mut suspends = false;
         // Whatever else has come in is answered with the same drawing.
-        for event in first.into_iter().chain(inbox.try_iter()) {
+        for event in held.drain(..).chain(first).chain(inbox.try_iter()) {
             if waiting.is_over() {
                 return Ok(());
             }
@@ -157,7 +160,7 @@ fn handle_events(
             scene.say("keys came faster than they could be handled; some were dropped");
         }
         if (scene.asks_to_suspend() || suspends) && !is_away {
-            drain_replies(screen, inbox);
+            held = drain_replies(screen, inbox);
             if waiting.is_over() {
                 return Ok(());
             }
@@ -181,16 +184,18 @@ fn refit(scene: &mut dyn Scene, screen: &mut Screen) -> Result<()> {
     Ok(())
 }
 
-/// Waits for outstanding answers of the terminal, so that they do not reach the shell.
-fn drain_replies(screen: &mut Screen, inbox: &Receiver<Event>) {
+/// Waits for outstanding answers of the terminal, so that they do not reach the shell. Returns what else has come in.
+fn drain_replies(screen: &mut Screen, inbox: &Receiver<Event>) -> Vec<Event> {
     let end = Instant::now() + LAST_ANSWERS;
+    let mut held = Vec::new();
     while screen.flow().is_awaited(Instant::now()) {
         match inbox.recv_timeout(end.saturating_duration_since(Instant::now())) {
             Ok(Event::Ready) => screen.flow().answered(Instant::now()),
-            Ok(_) => {}
-            Err(_) => return,
+            Ok(event) => held.push(event),
+            Err(_) => break,
         }
     }
+    held
 }
 
 /// Signals that ask a process to end do so as `q` does, before all waiting keys; SIGTSTP and

@@ -357,7 +357,9 @@ fn an_explorer_that_is_killed_loses_an_interval_at_most() {
 fn without_a_shell_ctrl_z_says_so_and_nothing_stops() {
     let home = home();
     let mut terminal = under_way(&home, &[], 80);
-    for stop in ["key", "signal"] {
+    // On a slow line the terminal's answer is awaited before the stop; what comes in meanwhile must not be lost.
+    terminal.slow_down(6000);
+    for stop in ["key", "signal"].repeat(4) {
         match stop {
             "key" => terminal.press("\x1a"),
             _ => terminal.signal("TSTP"),

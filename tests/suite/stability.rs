@@ -110,7 +110,11 @@ fn few_steps_of_harsh_wear_lose_no_volume() {
         };
         run_setup(setup, 1.0).moment().wear_volume
     };
-    holds("V of 12 steps", (volume(12) / volume(400) - 1.0).abs(), 1e-3);
+    holds(
+        "V of 12 steps",
+        (volume(12) / volume(400) - 1.0).abs(),
+        1e-3,
+    );
 }
 
 #[test]

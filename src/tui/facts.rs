@@ -17,7 +17,8 @@ pub struct Facts {
     pub origin: String,
     /// Where the scenario's plan ends, cycles.
     pub planned_cycles: Option<f64>,
-    /// About the deepest wear at the planned end, m; 0 where it is not known.
+    /// About the deepest wear at the planned end of the scenario as it was loaded, m; 0 where it is not known. An
+    /// edit does not change it: wear is drawn by one factor from the start of a run to its end.
     pub expected_wear: f64,
     /// Steps per cycle.
     pub steps_per_cycle: u32,
@@ -46,11 +47,13 @@ impl Facts {
         let setup = simulation.setup();
         let planned_cycles = session.loaded().run().cycles;
         let theory = Theory::of(setup);
+        let loaded = session.loaded().setup();
+        let expected_wear = Theory::of(loaded).expected_wear(loaded, planned_cycles);
         Arc::new(Self {
             title: scenario.title().to_owned(),
             origin: scenario.origin().to_owned(),
             planned_cycles,
-            expected_wear: theory.expected_wear(setup, planned_cycles).unwrap_or(0.0),
+            expected_wear: expected_wear.unwrap_or(0.0),
             steps_per_cycle: setup.steps_in_a_cycle() as u32,
             settings: Setting::all(scenario),
             indenter: setup.indenter.clone(),

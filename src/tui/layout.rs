@@ -96,7 +96,7 @@ pub fn places(stage: &Stage, area: Rect) -> Vec<(Panel, Rect)> {
         return vec![(stage.focus, area)];
     }
     let shown = stage.page(columns * rows);
-    // The last page may hold fewer panels, which are then larger.
+    // The last page may hold fewer panels, which are then larger; its last row leaves no hole.
     let columns = columns
         .min(shown.len().div_ceil(rows).max(2))
         .min(shown.len())
@@ -105,7 +105,7 @@ pub fn places(stage: &Stage, area: Rect) -> Vec<(Panel, Rect)> {
     let bands = Layout::vertical(vec![Constraint::Fill(1); rows]).split(area);
     let mut places = Vec::with_capacity(shown.len());
     for (band, row) in bands.iter().zip(shown.chunks(columns)) {
-        let cells = Layout::horizontal(vec![Constraint::Fill(1); columns])
+        let cells = Layout::horizontal(vec![Constraint::Fill(1); row.len()])
             .spacing(1)
             .split(*band);
         places.extend(row.iter().copied().zip(cells.iter().copied()));

@@ -102,18 +102,14 @@ fn status(frame: &Frame, theme: &Theme, area: Rect, buffer: &mut Buffer) {
     }
     let left = parts_text(&parts, separator);
     let room = usize::from(area.width).saturating_sub(Line::raw(left.as_str()).width() + 4);
-    let title = shortened(theme.printable(&frame.facts.title), room);
-    Line::styled(format!(" {left}"), bar).render(area, buffer);
-    Line::styled(format!("{title} "), bar)
+    let mut title = shortened(theme.printable(&frame.facts.title), room);
+    if !title.is_empty() {
+        title.push(' ');
+    }
+    Line::styled(title, bar)
         .right_aligned()
-        .render(
-            Rect {
-                x: area.right() - (room as u16 + 1).min(area.width),
-                width: (room as u16 + 1).min(area.width),
-                ..area
-            },
-            buffer,
-        );
+        .render(area, buffer);
+    buffer.set_string(area.x, area.y, format!(" {left}"), bar);
 }
 
 /// Columns from which on the status line says what the method's name is.

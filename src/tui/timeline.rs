@@ -14,8 +14,8 @@ use super::frame::Frame;
 use super::theme::{Role, Theme};
 use crate::charts::round_end;
 
-/// The part of the row that words may take: half of it.
-const WORDS: u16 = 2;
+/// The cells that words leave to the line, where half of the row is not enough for them.
+const LEAST: u16 = 30;
 
 /// The cycle of the present, and the one at which the line ends.
 fn ends(frame: &Frame) -> [f64; 2] {
@@ -32,19 +32,26 @@ fn short(cycle: f64) -> f64 {
     (100.0 * cycle).round() / 100.0
 }
 
-/// The last change up to the moment on the screen.
-fn edit(frame: &Frame) -> Option<String> {
+/// The last change up to the moment on the screen, in as many words as fit: where it was made is seen on the line,
+/// and the end of a key tells more than its beginning.
+fn edit(frame: &Frame, room: usize) -> Option<String> {
     let shown = frame.observation.moment.cycle + 1e-9;
     let made = frame.changes.iter().rev();
     let (cycle, set) = made.into_iter().find(|(cycle, _)| *cycle <= shown)?;
-    Some(format!("at cycle {}: {set}", short(*cycle)))
+    let whole = format!("at cycle {}: {set}", short(*cycle));
+    let key = set.split(" = ").next().unwrap_or_default();
+    let ends = key.match_indices('.').map(|(at, _)| &set[at + 1..]);
+    let mut shorter = [whole.as_str(), set.as_str()].into_iter().chain(ends);
+    let fits = shorter.find(|text| Line::raw(*text).width() <= room);
+    Some(fits.unwrap_or(set).to_owned())
 }
 
 /// The words behind the line, and the line's own cells.
 fn parts(frame: &Frame, area: Rect) -> (String, Rect) {
     let mut words = format!(" {}", short(ends(frame)[1]));
-    words.extend(edit(frame).map(|edit| format!("   {edit}")));
-    let room = usize::from(area.width / WORDS);
+    let room = usize::from((area.width / 2).max(area.width.saturating_sub(LEAST)));
+    let left = room.saturating_sub(words.len() + 3);
+    words.extend(edit(frame, left).map(|edit| format!("   {edit}")));
     let words: String = words.chars().take(room).collect();
     let taken = Line::raw(words.as_str()).width() as u16 + 1;
     let line = Rect {

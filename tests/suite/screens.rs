@@ -166,6 +166,18 @@ fn another_stress_in_the_half_space() {
         assert!(scale.contains(name) && scale.contains("Pa"), "{text}");
     }
     assert!(!shot(",vzooooo,").contains("GPa"));
+    // In a narrow panel, too, and the largest of a cycle as well.
+    for (k, name) in said.into_iter().enumerate() {
+        for more in ["", "O"] {
+            let text = self::shot(
+                "li2019-fig3",
+                &format!(",,{}{more},", "o".repeat(k)),
+                (120, 40),
+            );
+            let scale = text.lines().find(|line| line.contains(&format!(" {name}")));
+            assert!(scale.is_some_and(|line| line.contains("Pa")), "{text}");
+        }
+    }
     // Half a cycle of loads or more: the largest of a cycle is at least that of the moment.
     assert!(shot(",vzO").contains("von Mises, cycle"));
 }
@@ -255,6 +267,21 @@ fn a_timeline_tells_what_was_done() {
             line.starts_with(" 0 ") && line.ends_with(" 199.24"),
             "{line}"
         );
+    }
+    // At 80 columns the key is whole, or its end is.
+    for (set, told) in [
+        (
+            "friction.coefficient=0.2",
+            "99.24   at cycle 2: friction.coefficient = 0.2",
+        ),
+        (
+            "motion.tangential.angular_frequency=90",
+            "99.24   motion.tangential.angular_frequency = 90",
+        ),
+    ] {
+        let text = shot("li2019-fig3", &format!(",,:set {set}<Enter>"), (80, 24));
+        let line = text.lines().nth(1).unwrap_or_default();
+        assert!(line.ends_with(told), "{line}");
     }
     let plain = line(",,,,");
     assert!(
@@ -747,6 +774,15 @@ fn the_status_line_has_fixed_slots() {
     for keys in [",,", ",,,,,,,,,,", ",m", ",mm.", ",---"] {
         assert_eq!(places(keys), first, "{keys}");
     }
+    // A line that is full to its last cell is not cut.
+    let past = shot("li2019-fig3", ",,,[", (80, 24));
+    assert!(
+        past.lines()
+            .next()
+            .unwrap_or_default()
+            .ends_with("method: product"),
+        "{past}"
+    );
 }
 
 /// The phase of the motion is told of a run that is shown at one phase, and of no other.
@@ -861,6 +897,9 @@ fn wear_thinner_than_a_line_is_drawn_magnified_by_one_factor() {
     };
     let all = [",", ",.........................", &",".repeat(20)].map(times);
     assert!(all.iter().all(|of| *of == all[0] && *of >= 2.0), "{all:?}");
+    // An edit during the run expects less wear, and changes nothing of what is drawn.
+    let edited = times(",:set wear.coefficient=1e-12<Enter>,");
+    assert_eq!(edited, all[0]);
 }
 
 #[test]

@@ -285,17 +285,30 @@ fn key(pane: &Pane, area: Rect, whole: bool, buffer: &mut Buffer) {
         }
     }
     // Nothing is loaded yet where the scale is that of no stress.
-    if let Some([low, high]) = pane.stress.bounds.filter(|bounds| bounds[1] > 1.0) {
-        let [low, high] = [low, high].map(|end| format_value_in(end, "Pa", 3, ascii));
+    if let Some(bounds) = pane.stress.bounds.filter(|bounds| bounds[1] > 1.0) {
         let over = if pane.stress.is_largest_of_cycle() {
             ", cycle"
         } else {
             ""
         };
-        parts.push((
-            format!(" {}{over} {low} ", pane.stress.quantity.short()),
-            Style::new(),
-        ));
+        let name = format!(" {}{over} ", pane.stress.quantity.short());
+        let [low, high] = bounds.map(|end| format_value_in(end, "Pa", 3, ascii));
+        // With little room the number of the other end stands for both.
+        let short = match bounds {
+            [0.0, _] => "0 ",
+            [low, high] if low == -high => "- ",
+            _ => "",
+        };
+        let room = usize::from(area.width).saturating_sub(SHADES);
+        let ends = [
+            [format!("{low} "), format!(" {high} ")],
+            [short.into(), format!(" {high} ")],
+            [String::new(), format!(" {high}")],
+        ];
+        let cells = |text: &str| Line::raw(text).width();
+        let fits = |ends: &&[String; 2]| cells(&name) + cells(&ends[0]) + cells(&ends[1]) <= room;
+        let [from, to] = ends.iter().find(fits).unwrap_or(&ends[2]).clone();
+        parts.push((name + &from, Style::new()));
         for shade in 0..SHADES {
             let color = stress_map::color(theme, pane.stress.quantity.colors(), shade);
             parts.push(match color.filter(|_| !ascii) {
@@ -303,7 +316,7 @@ fn key(pane: &Pane, area: Rect, whole: bool, buffer: &mut Buffer) {
                 None => (stress_map::sign(shade).into(), Style::new()),
             });
         }
-        parts.push((format!(" {high} "), Style::new()));
+        parts.push((to, Style::new()));
     }
     let cells: usize = parts
         .iter()

@@ -249,6 +249,10 @@ pub fn shade(value: f64, [low, high]: [f64; 2]) -> usize {
 /// On a light background they begin at the other end.
 const SEQUENTIAL: [u8; SHADES] = [17, 18, 24, 25, 31, 32, 38, 74, 80, 116, 152, 195];
 
+/// The shades of values of both signs on a dark background: brighter with the size, and grey at zero, where white
+/// would be the brightest of all.
+const DIVERGING: [u8; SHADES] = [117, 75, 33, 26, 24, 237, 237, 88, 124, 160, 203, 217];
+
 /// Shades of terminals that have sixteen colours: neighbours share one.
 const SIXTEEN: [Color; SHADES] = [
     Color::Blue,
@@ -286,7 +290,8 @@ pub fn color(theme: &Theme, map: ColorMap, shade: usize) -> Option<Color> {
     let index = match map {
         ColorMap::Sequential if theme.look == Look::Light => SEQUENTIAL[SHADES - 1 - shade],
         ColorMap::Sequential => SEQUENTIAL[shade],
-        ColorMap::Diverging => indexed(map.color(share)),
+        ColorMap::Diverging if theme.look == Look::Light => indexed(map.color(share)),
+        ColorMap::Diverging => DIVERGING[shade],
     };
     let color = match (theme.depth, map) {
         (Depth::Sixteen, ColorMap::Sequential) => SIXTEEN[shade],
@@ -346,9 +351,9 @@ mod tests {
             let theme = Theme::new(Look::Dark, Marker::Braille).with_depth(Depth::Indexed);
             let mut told: Vec<_> = (0..SHADES).map(|k| color(&theme, map, k)).collect();
             told.dedup();
-            // The two beside zero of a diverging map may share their white.
-            let whites = usize::from(map == ColorMap::Diverging);
-            assert!(told.len() >= SHADES - whites, "{told:?}");
+            // The two beside zero of a diverging map share their grey.
+            let shared = usize::from(map == ColorMap::Diverging);
+            assert_eq!(told.len(), SHADES - shared, "{told:?}");
         }
     }
 }

@@ -1,11 +1,12 @@
 //! The judge: time to a verified accuracy over random scenarios, what was missed, and how far estimates are right.
 //!
 //! `cargo bench --bench judge -- [--scenarios 100] [--first 0] [--accuracy 1e-2,1e-3] [--limit SECONDS]
-//! [--budget SECONDS] [--all] [--estimate]`
+//! [--budget SECONDS] [--all] [--estimate | --checks | --toml]`
 //!
 //! Times are CPU times of this thread, so that other work on the machine hardly counts. `--limit` ends
 //! the study after that many seconds; `--all` prints a line per scenario. `--estimate` judges
-//! the estimates of `run --estimate-error` on cells and steps drawn at random, and no accuracy.
+//! the estimates of `run --estimate-error` on cells and steps drawn at random, and no accuracy; `--checks` the checks of
+//! runs on the default cells and steps; `--toml` prints the scenarios. Seeds from 1000000 on are long runs.
 
 #![allow(clippy::print_stdout, reason = "a program whose output is its result")]
 
@@ -16,7 +17,7 @@ mod random;
 #[path = "../tests/suite/random_scenarios.rs"]
 mod random_scenarios;
 
-use judge::{Case, Found, QUANTITIES, UNDERSTATED, judge, judge_estimate, quantile};
+use judge::{Case, Found, QUANTITIES, UNDERSTATED, judge, judge_checks, judge_estimate, quantile};
 use mdr_tui::studies::refinement::Verdict;
 use nix::time::{ClockId, clock_gettime};
 
@@ -43,9 +44,16 @@ fn main() {
         number("--first", "0") as u64,
     );
     let (limit, budget) = (number("--limit", "300"), number("--budget", "20"));
-    let shows_all = arguments.iter().any(|argument| argument == "--all");
-    if arguments.iter().any(|argument| argument == "--estimate") {
-        return estimates(first..first + count, limit, shows_all);
+    let asks = |name: &str| arguments.iter().any(|argument| argument == name);
+    let (shows_all, seeds) = (asks("--all"), first..first + count);
+    if asks("--toml") {
+        return seeds.for_each(|seed| println!("{}", random_scenarios::text(seed)));
+    }
+    if asks("--checks") {
+        return checks(seeds, limit, shows_all);
+    }
+    if asks("--estimate") {
+        return estimates(seeds, limit, shows_all);
     }
     let accuracies: Vec<f64> = option("--accuracy", "1e-2,1e-3")
         .split(',')
@@ -70,6 +78,32 @@ fn main() {
         }
         summarize(&cases, accuracy);
     }
+}
+
+/// How many runs that are right to 1e-2 fail a check, and how many pass them whose volume or work is wrong.
+fn checks(seeds: std::ops::Range<u64>, limit: f64, shows_all: bool) {
+    let begin = cpu_seconds();
+    let (mut right, mut wrong) = ([0; 2], [0; 2]);
+    for seed in seeds.take_while(|_| cpu_seconds() - begin <= limit) {
+        let Ok((truth, passes)) = judge_checks(seed) else {
+            continue;
+        };
+        if shows_all {
+            println!("  {seed:4}  passes {passes}  {truth:?}");
+        }
+        if truth.promised() <= 1e-2 {
+            right[usize::from(passes)] += 1;
+        } else if truth.volume.max(truth.work) > 1e-2 {
+            wrong[usize::from(passes)] += 1;
+        }
+    }
+    println!(
+        "flagged: {} of {} right, {} of {} wrong",
+        right[0],
+        right[0] + right[1],
+        wrong[0],
+        wrong[0] + wrong[1]
+    );
 }
 
 /// How far the estimates of single runs are right, for each number that a run states.
@@ -120,7 +154,7 @@ fn show(case: &Case, accuracy: f64) {
                 Err(why) => why.clone(),
             };
             println!(
-                "  {:4}  {:?}  N={} steps={} tol={:?}  {:.3}s ({:.3}s)  {truth}{}",
+                "  {:4}  {:?}  N={} steps={} tol={:?}  {:.3}s ({:.3}s)  {truth}{}{}",
                 case.seed,
                 found.verdict,
                 found.level.points,
@@ -132,7 +166,8 @@ fn show(case: &Case, accuracy: f64) {
                     "  MISSED"
                 } else {
                     ""
-                }
+                },
+                if found.passes { "" } else { "  FLAGGED" }
             );
         }
     }
@@ -157,6 +192,14 @@ fn summarize(cases: &[Case], accuracy: f64) {
         of(&|one| one.is_missed(accuracy)),
         cases.len() - found.len(),
         of(&|one| one.truth.is_err()),
+    );
+    let is_right = |one: &&&Found| {
+        one.verdict == Verdict::Met && one.truth.is_ok() && !one.is_missed(accuracy)
+    };
+    println!(
+        "          {} of {} kept promises fail a check",
+        of(&|one| is_right(one) && !one.passes),
+        of(&is_right),
     );
     for (name, pick) in QUANTITIES {
         let met = found.iter().filter(|one| one.verdict == Verdict::Met);

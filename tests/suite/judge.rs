@@ -56,6 +56,8 @@ pub struct Found {
     pub last_rung: f64,
     /// What the ladder estimated.
     pub estimate: Difference,
+    /// Whether all checks of the rung hold.
+    pub passes: bool,
     /// How far the rung is from the fine run; a reason if there is none.
     pub truth: Result<Difference, String>,
 }
@@ -103,6 +105,12 @@ pub fn judge(seed: u64, accuracy: f64, budget: f64, clock: &dyn Fn() -> f64) -> 
             seconds: reached.seconds,
             last_rung: reached.rung.seconds,
             estimate: reached.error,
+            passes: reached
+                .session
+                .simulation()
+                .checks()
+                .iter()
+                .all(Check::holds),
             truth,
         }
     });

@@ -12,7 +12,7 @@
 //! | amplitude of the tangential force over μF_z | 0.3 to 0.85 |
 //! | ω₁/ω₂ | 1, 2, 3, 5, 1/2, 1/3, 3/2, √2 |
 //! | rubbed-off depth in depths, 4kμE*Uz/a over the run | 0.05 to 3 |
-//! | cycles z | 3 to 100, up to 3000 where cycles are jumped |
+//! | cycles z | 3 to 100, up to 3000 where cycles are jumped; from the seed [`LONG`] on, 1e4 to 1e6 |
 
 use std::f64::consts::{PI, SQRT_2, TAU};
 
@@ -20,6 +20,9 @@ use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::scenario::Scenario;
 
 use crate::random::Random;
+
+/// From this seed on runs are long, and forces held and lift-off more frequent.
+pub const LONG: u64 = 1_000_000;
 
 /// The scenario of a seed.
 ///
@@ -45,15 +48,18 @@ pub fn text(seed: u64) -> String {
     let stick_ratio = stiffness_ratio / friction;
     let pressed = shape.pressed(modulus);
 
-    let by_force = draw.chance(0.3);
+    let is_long = seed >= LONG;
+    let by_force = draw.chance(if is_long { 0.6 } else { 0.3 });
     let tangential_by_force = by_force && draw.chance(0.4);
-    let lifts = !tangential_by_force && draw.chance(0.1);
+    let lifts = !tangential_by_force && draw.chance(if is_long { 0.25 } else { 0.1 });
     let swing = match (lifts, draw.chance(0.35)) {
         (true, _) => draw.between(1.1, 2.5),
         (false, true) => 0.0,
         (false, false) => draw.log_between(0.01, if tangential_by_force { 0.2 } else { 0.5 }),
     };
     let ratio = match (swing > 0.0, draw.chance(0.55)) {
+        // Cycles that never repeat are all stepped.
+        (true, false) if is_long => draw.pick(&[2.0, 3.0, 0.5, 1.5]),
         (true, false) => draw.pick(&[2.0, 3.0, 5.0, 0.5, 1.0 / 3.0, 1.5, SQRT_2]),
         _ => 1.0,
     };
@@ -79,8 +85,11 @@ pub fn text(seed: u64) -> String {
     // Partial slip rubs by a small part of the shift alone.
     let rubbed = shift * (shift / gross_slip).clamp(0.1, 1.0);
 
-    let jumps = draw.chance(0.25) && ratio != SQRT_2;
-    let cycles = draw.log_between(3.0, if jumps { 3000.0 } else { 100.0 });
+    let jumps = (is_long || draw.chance(0.25)) && ratio != SQRT_2;
+    let cycles = match (is_long, jumps) {
+        (true, _) => draw.log_between(1e4, 1e6),
+        (false, jumps) => draw.log_between(3.0, if jumps { 3000.0 } else { 100.0 }),
+    };
     let cycles = if draw.chance(0.5) {
         cycles.round()
     } else {

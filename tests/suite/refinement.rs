@@ -1,11 +1,13 @@
 //! Errors measured by refinement: what is promised holds against finer runs. The long study of the same is
 //! `cargo bench --bench judge`.
 
+use std::cell::Cell;
+
 use mdr_tui::scenario::Scenario;
 use mdr_tui::simulation::Integrator;
 use mdr_tui::simulation::drive::Control;
 use mdr_tui::studies::refinement::{
-    Ladder, Level, Next, Outcome, Verdict, resolve, resolve_soon, run, run_to_accuracy,
+    Ladder, Level, Next, Outcome, Verdict, climb, resolve, resolve_soon, run, run_to_accuracy,
 };
 
 use crate::common::{load, without_numerics};
@@ -169,6 +171,25 @@ fn a_budget_ends_the_ladder_with_the_best_it_has() {
     assert!(reached.error.promised() > 1e-5, "{:?}", reached.error);
     let refused = run_to_accuracy(&scenario, 10.0, 1e-5, f64::INFINITY, &|| false);
     assert_eq!(refused.expect_err("stopped").to_string(), "interrupted");
+}
+
+/// Whatever accuracy is asked for, and in the middle of a level too. The clock counts steps.
+#[test]
+fn a_budget_is_kept() {
+    let scenario = load("li2019-fig3", &["run.cycles=10"]);
+    let steps = Cell::new(0.0);
+    let count = || {
+        steps.set(steps.get() + 1.0);
+        true
+    };
+    for budget in [3e3, 1e4] {
+        steps.set(0.0);
+        let reached = climb(&scenario, 10.0, 1e-5, budget, &count, &|| steps.get());
+        let reached = reached.expect("a result");
+        assert_eq!(reached.verdict, Verdict::OutOfTime);
+        assert!(steps.get() <= 1.01 * budget, "{} of {budget}", steps.get());
+        assert!(steps.get() > 0.1 * budget, "{} of {budget}", steps.get());
+    }
 }
 
 #[test]

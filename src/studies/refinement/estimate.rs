@@ -47,7 +47,8 @@ pub fn estimate(session: &Session, go_on: &dyn Fn() -> bool) -> Result<Differenc
     match ended(0.25) {
         Ok(quarter) => Ok(half
             .against(&here)
-            .with(&quarter.against(&half), by_observed_order)),
+            .with(&quarter.against(&half), by_observed_order)
+            .as_estimate()),
         Err(SessionError::Interrupted) => Err(SessionError::Interrupted),
         // A quarter that breaks down leaves the order unknown, and no more.
         Err(_) => Ok(by_twin(&half, &here)),

@@ -38,6 +38,12 @@ const MARGIN: f64 = 0.8;
 /// The part of the accuracy that all sources may use up, shared out equally.
 const SHARES: f64 = 0.8;
 
+/// The accuracy that the coarsest first rung is chosen for.
+const COARSE: f64 = 1e-2;
+
+/// The part of the budget after which a first rung that is not done gives way to the coarsest one.
+const FIRST_TRY: f64 = 0.5;
+
 /// The run that places the first nodes: this many times the cells and steps of the first rung's twin. Cells are
 /// what it must see the scar with.
 const PILOT: [f64; 2] = [1.0, 0.5];
@@ -171,7 +177,8 @@ struct Top {
 impl Top {
     fn error(&self) -> Difference {
         let errors = self.sources.iter().map(|source| source.error);
-        errors.fold(Difference::NONE, |sum, one| sum.with(&one, |a, b| a + b))
+        let sum = errors.fold(Difference::NONE, |sum, one| sum.with(&one, |a, b| a + b));
+        sum.as_estimate()
     }
 
     /// The error that a promise is held against: V and k E_d must agree as well, since they are two computations of one
@@ -187,6 +194,10 @@ pub struct Ladder {
     accuracy: f64,
     budget: f64,
     spent: f64,
+    /// The accuracy that the first rung is chosen for.
+    aim: f64,
+    /// The coarsest first rung, where time runs short before another one is done.
+    coarsest: Option<Level>,
     /// The shape that nodes are placed for; `None` if the scenario says where they lie.
     placing: Option<Indenter>,
     base: Level,
@@ -208,12 +219,15 @@ impl Ladder {
     /// rung that would end after `budget` seconds.
     pub fn new(scenario: &Scenario, cycles: f64, accuracy: f64, budget: f64) -> Self {
         let base = first(scenario, cycles, accuracy);
+        let coarsest = first(scenario, cycles, COARSE);
         let places = scenario.setup().method == AbelMethod::Product
             && scenario.value("numerics.grid").is_none();
         let mut ladder = Self {
             accuracy,
             budget,
             spent: 0.0,
+            aim: accuracy,
+            coarsest: (coarsest.points < base.points).then_some(coarsest),
             placing: places.then(|| scenario.setup().indenter.clone()),
             wants_pilot: false,
             twins: Vec::new(),
@@ -345,10 +359,28 @@ impl Ladder {
         }
     }
 
-    /// Takes word that the time was up in the middle of a level: the last rung is the result.
+    /// The time after which the level under way is to be [cut](Self::cut), s.
+    pub fn deadline(&self) -> f64 {
+        match (&self.top, &self.coarsest) {
+            (Some(_), _) => self.budget,
+            (None, Some(_)) => FIRST_TRY * self.budget,
+            // Without this one there is no result.
+            (None, None) => f64::INFINITY,
+        }
+    }
+
+    /// Takes word that the time was up in the middle of a level: the last rung is the result. Without one, the ladder
+    /// begins anew from the coarsest.
     pub fn cut(&mut self, seconds: f64) {
         self.spent += seconds;
-        self.is_cut = true;
+        match self.coarsest.take() {
+            Some(coarsest) if self.top.is_none() => {
+                (self.base, self.aim) = (coarsest, COARSE);
+                self.twins.clear();
+                self.begin();
+            }
+            _ => self.is_cut = true,
+        }
     }
 
     /// The rung reached and its estimated error, once there is one.
@@ -387,7 +419,7 @@ impl Ladder {
         if let Some(tolerance) = &mut self.base.tolerance
             && scar > 0.0
         {
-            *tolerance = (0.3 * self.accuracy * scar).clamp(1e-9, MOST_TOLERANT / 2.0);
+            *tolerance = (0.3 * self.aim * scar).clamp(1e-9, MOST_TOLERANT / 2.0);
         }
     }
 
@@ -488,7 +520,7 @@ fn coarser(source: usize) -> Ratio {
 /// The first rung that is any good for a scene.
 fn first(scenario: &Scenario, cycles: f64, accuracy: f64) -> Level {
     let setup = scenario.setup();
-    let finer = (1e-2 / accuracy).max(1.0);
+    let finer = (COARSE / accuracy).max(1.0);
     let turns = setup.drive.frequency_ratio().max(1.0);
     let period = setup.drive.repeats_after().map(f64::from);
     let is_long = period.is_some_and(|period| cycles >= WORTH_JUMPING * period);

@@ -38,7 +38,7 @@ pub struct Reached {
 
 /// Runs `scenario` over `cycles` on finer and finer levels until the worn depth and the volume have an
 /// estimated error of at most `accuracy`, or the search takes longer than `budget` seconds: then the last level that came
-/// to its end is the result. The first level is always finished, since nothing is known before.
+/// to its end is the result. The coarsest first level is always finished, since nothing is known before.
 /// `go_on` is asked at every step; if it says no, there is no result.
 ///
 /// # Errors
@@ -91,7 +91,7 @@ pub fn climb(
             }
         };
         let start = clock();
-        let is_late = || ladder.reached().is_some() && clock() - begin > budget;
+        let is_late = || clock() - begin > ladder.deadline();
         let ended = run(&level.of_scenario(scenario)?, cycles, &|| {
             go_on() && !is_late()
         });

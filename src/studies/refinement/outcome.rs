@@ -18,6 +18,9 @@ const SCAR: f64 = 1e-3;
 /// or its slope is singular, and what a node shows depends on where it lies.
 const INSIDE: f64 = 0.95;
 
+/// V and E_d err by at least this part of what the worn depth does.
+const OF_SCAR: f64 = 0.3;
+
 /// How a run ended.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
@@ -81,6 +84,17 @@ impl Difference {
             .into_iter()
             .max_by(|a, b| a.abs().total_cmp(&b.abs()))
             .unwrap_or(f64::NAN)
+    }
+
+    /// As an estimate. V and E_d are integrals of one scar: where two runs differ in its depth, that theirs agree is
+    /// chance.
+    pub(super) fn as_estimate(&self) -> Self {
+        let least = OF_SCAR * self.worn_depth;
+        Self {
+            volume: self.volume.max(least),
+            work: self.work.max(least),
+            ..*self
+        }
     }
 
     /// Combines two differences, number by number.

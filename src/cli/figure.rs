@@ -60,7 +60,6 @@ pub fn figure(options: &Figure) -> Result<ExitCode> {
         files.push((Target::claim(path, options.force)?, format));
         let beside = data_file(path, options);
         if data_files.iter().all(|target| target.path() != beside) {
-            refuse_to_write_over_data(options, &beside)?;
             let target = Target::hold(&beside)?;
             if !is_data_of_a_figure(&beside) {
                 target.refuse_existing(options.force)?;
@@ -101,40 +100,23 @@ pub fn figure(options: &Figure) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Where the data of a figure go: to the same name with .csv, or `map-drawn.csv` where that is what is drawn.
+/// Where the data of a figure go: to the same name with .csv, or to `map-drawn.csv` where `map.csv` is what is drawn.
 fn data_file(path: &Path, options: &Figure) -> PathBuf {
-    let beside = path.with_extension("csv");
     let real = |path: &Path| path.canonicalize().ok();
-    let source = options.source.as_deref().map(Path::new);
-    match source.and_then(real) {
-        Some(source) if Some(&source) == real(&beside).as_ref() => {
-            let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-            path.with_file_name(format!("{stem}-drawn.csv"))
-        }
-        _ => beside,
+    let given = options.source.iter().chain(&options.overlay);
+    let given: Vec<PathBuf> = given.filter_map(|name| real(Path::new(name))).collect();
+    let mut beside = path.with_extension("csv");
+    while real(&beside).is_some_and(|beside| given.contains(&beside)) {
+        let stem = beside.file_stem().unwrap_or_default().to_string_lossy();
+        beside = beside.with_file_name(format!("{stem}-drawn.csv"));
     }
+    beside
 }
 
 /// Whether a file holds what [`Sheet::csv`] writes.
 fn is_data_of_a_figure(path: &Path) -> bool {
     let text = limited::regular_text(path, LARGEST).unwrap_or_default();
     text.starts_with("# mdr-tui: ") && text.contains("\npanel,curve,x,y,value,error\n")
-}
-
-/// `--force` is for figures: measured data beside one are not written over.
-fn refuse_to_write_over_data(options: &Figure, data_file: &Path) -> Result<(), Refusal> {
-    let same = |given: &&String| {
-        let both = [Path::new(given), data_file].map(|path| path.canonicalize().ok());
-        both[0].is_some() && both[0] == both[1]
-    };
-    let sources = options.source.iter().chain(&options.overlay);
-    match sources.clone().find(same) {
-        None => Ok(()),
-        Some(given) => Err(Refusal::new(
-            format_args!("-o {}", data_file.display()),
-            format_args!("its data would be written over {given}; choose another name"),
-        )),
-    }
 }
 
 fn sheet(options: &Figure) -> Result<Sheet> {

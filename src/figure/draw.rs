@@ -30,46 +30,58 @@ const INSET: [f64; 2] = [0.58, 0.5];
 const ONE_PREFIX: f64 = 1.1e4;
 
 impl Chart {
-    /// Draws the chart into the rectangle at `at` of `size` (mm).
-    pub(super) fn draw(&self, canvas: &mut Canvas, at: [f64; 2], size: [f64; 2], look: &Look) {
-        self.draw_as(false, canvas, at, size, look);
+    /// What a legend below the frame takes, mm: that of a map stands there, and hides no colour.
+    pub(super) fn below(&self, look: &Look) -> f64 {
+        match self.map {
+            Some(_) => self.named().count() as f64 * LEGEND_LINE * look.font,
+            None => 0.0,
+        }
     }
 
+    /// The ordinate of a chart in `height` mm, with a legend of `below` mm under it.
+    pub(super) fn ordinate(&self, height: f64, below: f64, look: &Look) -> Ordinate {
+        let font = look.font;
+        let bounds = self.bounds_on_paper()[1];
+        let unit = unit_of(&self.y, bounds);
+        let top = if self.title.is_empty() { 0.6 } else { 1.8 } * font;
+        let height = (height - top - 3.4 * font - below).max(1.0);
+        let window = window(bounds, &self.y, height / (1.2 * font));
+        let ticks = ticks(&window, unit.factor, Labels::Column);
+        let widest = ticks.iter().map(|tick| numeral(&tick.label));
+        let widest = widest.map(|label| font::set_width(&label));
+        Ordinate {
+            left: widest.fold(0.0, f64::max) * font + 2.6 * font,
+            top,
+            height,
+            unit,
+            window,
+            ticks,
+        }
+    }
+
+    /// Draws the chart into the rectangle at `at` of `size` (mm), with these margins left of and below its frame.
     /// An inset has the legend of its chart.
-    fn draw_as(
+    pub(super) fn draw(
         &self,
         is_inset: bool,
         canvas: &mut Canvas,
-        at: [f64; 2],
-        size: [f64; 2],
+        [at, size]: [[f64; 2]; 2],
+        [left, below]: [f64; 2],
         look: &Look,
     ) {
         let font = look.font;
-        let bounds = self.bounds_on_paper();
-        let units = [unit_of(&self.x, bounds[0]), unit_of(&self.y, bounds[1])];
-        let top = if self.title.is_empty() { 0.6 } else { 1.8 } * font;
-        // The legend of a map stands below it: no colour is hidden.
-        let below = match self.map {
-            Some(_) => self.named().count() as f64 * LEGEND_LINE * font,
-            None => 0.0,
-        };
-        let bottom = 3.4 * font + below;
-        let height = (size[1] - top - bottom).max(1.0);
-        let window = |k: usize, axis: &Axis, cells: f64| {
-            Window::new(bounds[k], axis.scale, cells.clamp(2.0, 400.0) as u16, 16)
-        };
-        let vertical = window(1, &self.y, height / (1.2 * font));
-        let y_ticks = ticks(&vertical, units[1].factor, Labels::Column);
-        let widest = y_ticks.iter().map(|tick| numeral(&tick.label));
-        let widest = widest.map(|label| font::set_width(&label));
-        let left = widest.fold(0.0, f64::max) * font + 2.6 * font;
+        let bounds = self.bounds_on_paper()[0];
+        let ordinate = self.ordinate(size[1], below, look);
+        let (top, height) = (ordinate.top, ordinate.height);
+        let units = [unit_of(&self.x, bounds), ordinate.unit];
+        let (vertical, y_ticks) = (ordinate.window, ordinate.ticks);
         let key = self.map.as_ref().map(|map| Key::new(map, height, font));
         let right = key
             .as_ref()
             .map_or(1.4 * font, |key| key.width(font) + 1.2 * font);
         let width = (size[0] - left - right).max(1.0);
         // A digit is about 0.57 of the font's size wide.
-        let horizontal = window(0, &self.x, width / (0.57 * font));
+        let horizontal = window(bounds, &self.x, width / (0.57 * font));
         let row = Labels::Row {
             before: 0,
             apart: 0,
@@ -96,7 +108,10 @@ impl Chart {
                 canvas.line(part, WHITE, CURVE + 2.0 * HALO, &[]);
             }
         }
-        for curve in &self.curves {
+        // Dashes lie on top: of two curves in one place both are seen.
+        let [dashed, whole] = [true, false].map(|is| move |curve: &&Curve| curve.dashed == is);
+        let curves = self.curves.iter();
+        for curve in curves.clone().filter(whole).chain(curves.filter(dashed)) {
             let dashes = look.dashes(curve.role, curve.dashed);
             let parts = frame.clipped(curve);
             for part in parts.into_iter().filter(|_| curve.has_line) {
@@ -117,7 +132,8 @@ impl Chart {
                 ..*look
             };
             let corner = [frame.left + TICK, frame.top + TICK];
-            inset.draw_as(true, canvas, corner, size, &small);
+            let left = inset.ordinate(size[1], 0.0, &small).left;
+            inset.draw(true, canvas, [corner, size], [left, 0.0], &small);
             let [wide, high] = size.map(|side| side + 2.0 * TICK);
             let rows = (0..20).map(|k| frame.top + high * f64::from(k) / 20.0);
             drawn.extend(rows.flat_map(|y| {
@@ -265,6 +281,22 @@ impl Chart {
             canvas.text(place, &curve.name, font, Anchor::Start);
         }
     }
+}
+
+/// The ordinate of a chart on paper: its ticks, where its frame begins below the upper edge and how high it is, and
+/// how much its words and numbers take to the left of it, mm.
+pub(super) struct Ordinate {
+    pub left: f64,
+    top: f64,
+    height: f64,
+    unit: AxisUnit,
+    window: Window,
+    ticks: Vec<Tick>,
+}
+
+/// A scale that holds so many labels.
+fn window(bounds: [f64; 2], axis: &Axis, cells: f64) -> Window {
+    Window::new(bounds, axis.scale, cells.clamp(2.0, 400.0) as u16, 16)
 }
 
 /// Height of a line of the legend, in sizes of the font.

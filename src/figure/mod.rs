@@ -106,16 +106,33 @@ impl Sheet {
         let columns = self.columns();
         let rows = self.charts.len().div_ceil(columns).max(1);
         let place = [size[0] / columns as f64, size[1] / rows as f64];
-        for (k, chart) in self.charts.iter().enumerate() {
-            let at = [
-                place[0] * (k % columns) as f64,
-                place[1] * (k / columns) as f64,
-            ];
-            let mut lettered = chart.clone();
-            if self.charts.len() > 1 {
-                lettered.title = format!("({}) {}", letter(k), chart.title);
+        let mut charts = self.charts.clone();
+        if charts.len() > 1 {
+            for (k, chart) in charts.iter_mut().enumerate() {
+                chart.title = format!("({}) {}", letter(k), chart.title);
             }
-            lettered.draw(&mut canvas, at, place, look);
+        }
+        // Frames in a row end at one height, and those in a column begin at one place.
+        let in_row = |row: usize| charts.iter().skip(row * columns).take(columns);
+        let lowest = |row| {
+            in_row(row)
+                .map(|chart| chart.below(look))
+                .fold(0.0, f64::max)
+        };
+        let below: Vec<f64> = (0..rows).map(lowest).collect();
+        let ordinate = |(row, chart): (usize, &Chart)| chart.ordinate(place[1], below[row], look);
+        let in_column = |column| charts.iter().skip(column).step_by(columns).enumerate();
+        let widest = |column| {
+            in_column(column)
+                .map(|each| ordinate(each).left)
+                .fold(0.0, f64::max)
+        };
+        let left: Vec<f64> = (0..columns).map(widest).collect();
+        for (k, chart) in charts.iter().enumerate() {
+            let (column, row) = (k % columns, k / columns);
+            let at = [place[0] * column as f64, place[1] * row as f64];
+            let margins = [left[column], below[row]];
+            chart.draw(false, &mut canvas, [at, place], margins, look);
         }
         canvas
     }

@@ -319,6 +319,55 @@ key = "motion.tangential.amplitude"
 logspace = ["10 nm", "1 um", 9]
 "#;
 
+/// The lines of a picture: their points, and the rest of their element.
+fn lines(svg: &str) -> Vec<(Vec<[f64; 2]>, &str)> {
+    let lines = svg
+        .lines()
+        .filter_map(|line| line.strip_prefix("<polyline points=\""));
+    let number = |text: &str| text.parse::<f64>().expect("a number");
+    let point = |pair: &str| pair.split_once(',').map(|(x, y)| [number(x), number(y)]);
+    let parts = lines.filter_map(|line| line.split_once('"'));
+    parts
+        .map(|(points, rest)| (points.split(' ').filter_map(point).collect(), rest))
+        .collect()
+}
+
+/// Frames of a sheet stand in rows and columns, whatever the words beside and below them are.
+#[test]
+fn frames_of_a_sheet_are_aligned_and_dashes_lie_on_top() {
+    let dir = TestDir::new();
+    dir.write("map.toml", MAP.as_bytes());
+    dir.done("sweep map.toml --out map.csv --quiet");
+    dir.done("figure map.csv -o map.svg --quiet");
+    dir.done("figure li2019-fig3 --at 2 --panel profile --panel loop --panel stresses --panel radii -o sheet.svg --quiet");
+    let frames = |name: &str| {
+        let text = dir.read(name);
+        let all = lines(&text);
+        let boxes = all.into_iter().filter(|(points, rest)| {
+            points.len() == 5 && points[0] == points[4] && rest.contains("\"0.15\"")
+        });
+        let corners = boxes.map(|(points, _)| [points[0], points[2]]);
+        corners.collect::<Vec<_>>()
+    };
+    let map = frames("map.svg");
+    assert_eq!(map.len(), 2);
+    assert_eq!([map[0][0][1], map[0][1][1]], [map[1][0][1], map[1][1][1]]);
+    // The inset of the profile comes behind its frame.
+    let sheet = frames("sheet.svg");
+    assert_eq!(sheet.len(), 5);
+    assert_eq!(sheet[0][0][0], sheet[3][0][0]);
+    assert_eq!(sheet[2][0][0], sheet[4][0][0]);
+    // A curve has more points than a line of the legend.
+    let text = dir.read("sheet.svg");
+    let all = lines(&text);
+    let curves = all
+        .iter()
+        .filter(|(points, rest)| points.len() > 2 && rest.contains("\"0.35\""));
+    let dashed: Vec<bool> = curves.map(|(_, rest)| rest.contains("dasharray")).collect();
+    let first = dashed.iter().position(|is| *is);
+    assert!(first.is_some_and(|first| first > 0), "{dashed:?}");
+}
+
 #[test]
 fn a_sweep_is_a_map_with_its_borders() {
     let dir = TestDir::new();

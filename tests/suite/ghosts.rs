@@ -414,6 +414,7 @@ fn figures_have_measured_points_with_their_errors_beside_the_run() {
         rows.map(|row| row[2..].to_vec()).collect()
     };
     assert!(!of("").is_empty() && of("state.csv") == of("") && of("li2019-fig3") == of(""));
+    let measured = dir.read("scar.csv");
     let said = dir.say(&[
         "figure",
         "x",
@@ -423,7 +424,17 @@ fn figures_have_measured_points_with_their_errors_beside_the_run() {
         "scar.svg",
         "--force",
     ]);
-    assert!(said.code == 2 && said.err.contains("would be written over scar.csv"));
+    // What is drawn stays as it is: the data go beside it.
+    let names = "scar.svg and scar-drawn.csv\n";
+    assert_eq!(
+        (said.code, said.err, said.out),
+        (0, String::new(), names.into())
+    );
+    assert!(
+        dir.read("scar-drawn.csv")
+            .contains("panel,curve,x,y,value,error")
+    );
+    assert_eq!(dir.read("scar.csv"), measured);
     let said = dir.say(&[
         "figure",
         "x",

@@ -297,6 +297,28 @@ fn assert_runs_again(keys: &str, changes: usize) {
     assert!(state == again, "{keys}: the states differ");
 }
 
+/// Whatever is typed in the list of parameters is a value: a run is neither restarted nor left, and goes on. What was
+/// taken back leaves no trace.
+#[test]
+fn letters_in_the_list_lose_no_run() {
+    const LETTERS: &str = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.*;_";
+    let letters: Vec<char> = LETTERS.chars().collect();
+    let mut random = crate::random::Random::new(29);
+    let mut typed = |end: &str| -> String {
+        let row = |row: usize, random: &mut crate::random::Random| {
+            let word: String = (0..8).map(|_| random.pick(&letters)).collect();
+            // Down first: the list has letters for it as well.
+            format!("e{}{word}{end}<Esc><Esc>", "<Down>".repeat(row))
+        };
+        (0..40).map(|at| row(at, &mut random)).collect()
+    };
+    assert_eq!(shot(&format!(",,,{}", typed(""))), shot(",,,"));
+    for _ in 0..4 {
+        let text = shot(&format!(",,,{}", typed("<Enter>")));
+        assert!(text.contains("cycle 3.00/"), "{text}");
+    }
+}
+
 #[test]
 fn edits_are_recorded_and_run_again_bit_for_bit() {
     for (keys, changes) in [

@@ -14,6 +14,7 @@ use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Marker};
 use crate::scenario::Scenario;
 use crate::scenario::columns::Columns;
+use crate::scenario::units::reading;
 use crate::studies::fit::{Fit, Fitted};
 use crate::studies::measured::{Kind, Measured};
 
@@ -100,7 +101,17 @@ fn report(fitted: &Fitted) -> String {
             ),
             None => format!("{} (not determined)", value.unit),
         };
-        let _ = writeln!(text, "{:width$}  {:.6e} {error}", value.key, value.value);
+        // A pin test's k is read in mm³/(N·m), an amplitude in µm.
+        let (number, unit) = reading(value.value, value.unit, true);
+        let read = match unit != value.unit {
+            true => format!(", {number} {unit}"),
+            false => String::new(),
+        };
+        let _ = writeln!(
+            text,
+            "{:width$}  {:.6e} {error}{read}",
+            value.key, value.value
+        );
     }
     for (i, value) in fitted.values.iter().enumerate() {
         for (j, other) in fitted.values.iter().enumerate().take(i) {

@@ -222,6 +222,7 @@ fn the_command_prints_json_and_writes_the_fitted_scenario() {
         "wear.coefficient",
         "±",
         "correlation",
+        " mm^3/J",
         "scar.csv: 17 points",
         "scar.csv: residual",
     ] {

@@ -338,6 +338,14 @@ fn a_lecture_shows_the_contact_and_a_chart() {
     }
 }
 
+/// Where the whole key of the stress has no room beside the bodies', its end has.
+#[test]
+fn the_key_of_a_narrow_contact_is_there() {
+    let text = TestDir::new().screen(&["--present"], ",,.....", (100, 30));
+    let key = line_with(&text, "worn away");
+    assert!(key.contains("1.00 GPa"), "{text}");
+}
+
 /// It begins slowly and speeds up, but not so much that the run would be over in a moment.
 #[test]
 fn a_lecture_speeds_up_by_itself() {
@@ -919,6 +927,7 @@ fn a_comparison_can_begin_at_the_start() {
     let shot = |keys: &str| shot("strong-wear", keys, (120, 40));
     let text = shot(",,,,,,c");
     assert!(text.contains("equal so far"), "{text}");
+    assert!(shot(",c<Enter>").contains("side by side the same numbers"));
     assert!(text.contains("C: from the start"), "{text}");
     let text = shot(",,,,,,C");
     assert!(!text.contains("equal so far"), "{text}");

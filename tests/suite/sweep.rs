@@ -864,7 +864,7 @@ fn the_map_shows_two_axes_and_reads_points() {
     let text = lines.join("\n");
     has(
         &text,
-        "point 0 (motion.normal.mean = 6e-7, motion.tangential.amplitude = 1e-8)",
+        "point 0: mean depth d 600.0 nm, tangential amplitude 10.00 nm",
     );
     // The lowest depth is the lowest row: sticking, partly slipping, sliding.
     let lowest = lines
@@ -889,20 +889,24 @@ fn the_map_shows_two_axes_and_reads_points() {
     // The cursor: two to the right, three up; the point is that of the row.
     let lines = screen(&dir, "map.csv", "ll<Up>kk");
     assert!(
-        lines.iter().any(|line| line.starts_with("point 11 ")),
+        lines.iter().any(|line| line.starts_with("point 11: ")),
         "{lines:?}"
     );
     let volume = &Table::parse(&dir.read("map.csv")).column("wear_volume_m3")[11];
     let read = lines
         .iter()
-        .rfind(|line| line.starts_with("wear_volume_m3 "))
+        .rfind(|line| line.starts_with("worn volume V ") && line.contains("regime"))
         .expect("readings");
     let shown: f64 = read
         .split_whitespace()
-        .nth(1)
+        .nth(3)
         .and_then(|text| text.parse().ok())
         .expect("V");
-    assert!((shown / volume - 1.0).abs() < 1e-3, "{read}");
+    let shown = 1e-18 * shown;
+    assert!(
+        read.contains(" µm³  ") && (shown / volume - 1.0).abs() < 1e-3,
+        "{read}"
+    );
     // The axes change places.
     let text = screen(&dir, "map.csv", "x").join("\n");
     assert!(text.contains("mean depth d [µm] →\n"), "{text}");
@@ -941,7 +945,7 @@ fn one_axis_is_a_curve() {
     dir.done("sweep study.toml");
     let lines = screen(&dir, "study.csv", "<Right><Right>");
     let text = lines.join("\n");
-    has(&text, "point 2 (motion.normal.mean = 3e-7)");
+    has(&text, "point 2: mean depth d 300.0 nm");
     assert!(
         lines[2].contains("[N]") && text.contains("mean depth d [µm]"),
         "{text}"
@@ -1140,7 +1144,7 @@ fn the_explorer_sweeps_a_key_of_the_present_scenario() {
     let text = explore(":sweep friction.coefficient 0.05..0.3<Enter><Right><Right>");
     assert!(text.contains("25 of 25 points"), "{text}");
     assert!(
-        text.contains("point 2 (friction.coefficient = 0.0708"),
+        text.contains("point 2: coefficient of friction µ 0.0708"),
         "{text}"
     );
     // Leaving it shows the panels again; Enter loads the point.

@@ -19,9 +19,10 @@ use ratatui::widgets::Widget;
 
 use super::ramp::{self, Shade};
 use super::view::{Scaled, View};
+use crate::figure::study;
 use crate::plot::axis::titled;
-use crate::plot::units::{axis_unit, format_number};
-use crate::plot::{Chart, Curve, Plot, Point, Scale};
+use crate::plot::units::{axis_unit, format_number, format_value_in};
+use crate::plot::{Axis, Chart, Curve, Plot, Point, Scale};
 use crate::studies::sweep::slice::{Line, REGIMES};
 use crate::tui::footer;
 use crate::tui::theme::{Role, Theme};
@@ -67,11 +68,11 @@ pub fn draw(view: &View, theme: &Theme, area: Rect, buffer: &mut Buffer) {
         (0, 0, view.name.clone(), theme.style(Role::Title)),
         (behind, 0, count, quiet),
         (0, below, names.join("   "), quiet),
-        (0, below + 1, view.slice.study.name(point), Style::new()),
+        (0, below + 1, place(view, point, theme), Style::new()),
         (
             0,
             below + 2,
-            reading(view, point),
+            reading(view, point, theme),
             theme.style(Role::Notice),
         ),
     ] {
@@ -91,22 +92,39 @@ pub fn draw(view: &View, theme: &Theme, area: Rect, buffer: &mut Buffer) {
     footer::draw_line(view.notice.as_deref(), &KEYS, &[QUIT], theme, last, buffer);
 }
 
-/// The values of a point: the columns and the status.
-fn reading(view: &View, point: usize) -> String {
+/// A point in words: its number and its values.
+fn place(view: &View, point: usize, theme: &Theme) -> String {
+    let study = &view.slice.study;
+    let axes = study.axes.iter().zip(study.places(point));
+    let values = axes.map(|(axis, place)| match axis.number(place) {
+        Some(number) => in_words(&view.in_words(axis), number, theme),
+        None => format!("{} {}", axis.key, axis.text(place)),
+    });
+    let values: Vec<String> = values.collect();
+    format!("point {point}: {}", values.join(", "))
+}
+
+/// The values of a point: the column that is shown, the others and the status.
+fn reading(view: &View, point: usize, theme: &Theme) -> String {
     let study = &view.slice.study;
     let Some(fields) = view.slice.row(point) else {
         return "not there yet".to_owned();
     };
     let columns = study.columns();
     let read = columns.iter().zip(fields).skip(study.axes.len());
-    let read = read.map(|(name, field)| format!("{name} {}", short(field)));
+    let (first, others): (Vec<_>, Vec<_>) = read.partition(|(name, _)| **name == view.column());
+    let read = first.into_iter().chain(others);
+    let read = read.map(|(name, field)| match field.parse() {
+        Ok(number) => in_words(&study::quantity(name, &[]), number, theme),
+        Err(_) => format!("{name} {field}"),
+    });
     read.collect::<Vec<_>>().join("  ")
 }
 
-fn short(field: &str) -> String {
-    field
-        .parse()
-        .map_or_else(|_| field.to_owned(), |number| format_number(number, DIGITS))
+/// A number with the name and the unit of what it is.
+fn in_words(of: &Axis, number: f64, theme: &Theme) -> String {
+    let value = format_value_in(number, of.unit, DIGITS, theme.ascii());
+    format!("{} {value}", of.label)
 }
 
 /// The column, and its range or its words in their colours.

@@ -23,10 +23,11 @@ pub enum Shade {
     Word(usize),
 }
 
-/// The characters and roles of [`REGIMES`]: stick and slip have the colours that they have in all panels.
+/// The characters and roles of [`REGIMES`]: stick and slip have the colours that they have in all panels, and any kind
+/// of colour vision tells the one between them from both.
 const SWATCHES: [(char, Role); REGIMES.len()] = [
     ('s', Role::Stick),
-    ('~', Role::Profile),
+    ('~', Role::Limit),
     ('#', Role::Slip),
     (' ', Role::Pressure),
 ];
@@ -66,6 +67,38 @@ pub fn all() -> impl Iterator<Item = Shade> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plot::Marker;
+    use crate::tui::theme::Depth;
+
+    /// G. Machado et al. (2009): what a deuteranope sees of linear red, green and blue.
+    const DEUTERANOPE: [[f64; 3]; 3] = [
+        [0.367322, 0.860646, -0.227968],
+        [0.280085, 0.672501, 0.047413],
+        [-0.011820, 0.042940, 0.968881],
+    ];
+
+    #[test]
+    fn a_deuteranope_tells_the_regimes_apart() {
+        for look in [Look::Dark, Look::Light] {
+            let theme = Theme::new(look, Marker::Braille).with_depth(Depth::Indexed);
+            let seen = |word: usize| {
+                let Some(Color::Indexed(index)) = Shade::Word(word).color(&theme) else {
+                    panic!("{word} has no colour of the cube");
+                };
+                let digits = [36, 6, 1].map(|place| (index - 16) / place % 6);
+                let linear = digits.map(|digit| match f64::from(digit) {
+                    0.0 => 0.0,
+                    digit => ((55.0 + 40.0 * digit) / 255.0).powf(2.2),
+                });
+                DEUTERANOPE.map(|row| (0..3).map(|k| row[k] * linear[k]).sum::<f64>())
+            };
+            for (a, b) in [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)] {
+                let apart = seen(a).into_iter().zip(seen(b));
+                let apart = apart.map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+                assert!(apart > 0.2, "{look:?} {a} {b}: {apart}");
+            }
+        }
+    }
 
     #[test]
     fn both_ends_of_the_range_have_a_shade() {

@@ -62,7 +62,10 @@ pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let mut lines = vec![Line::raw(spelled(words.text)), Line::default()];
     lines.extend(words.symbols.iter().map(|(symbol, meaning)| {
         Line::from(vec![
-            Span::styled(format!("{:<12}", spelled(symbol)), theme.style(Role::Title)),
+            Span::styled(
+                format!("{:<11} ", spelled(symbol)),
+                theme.style(Role::Title),
+            ),
             Span::raw(spelled(meaning)),
         ])
     }));

@@ -266,6 +266,7 @@ fn radii(frame: &Frame, pane: &Pane, area: Rect, scale: &Scale, buffer: &mut Buf
 /// What the colours mean: the bodies' on a roomy picture, and the scale of the stress.
 fn key(pane: &Pane, area: Rect, whole: bool, buffer: &mut Buffer) {
     let (theme, ascii) = (pane.theme, pane.theme.ascii());
+    let cells = |text: &str| Line::raw(text).width();
     let mut parts: Vec<(String, Style)> = Vec::new();
     if whole {
         let swatch = if ascii {
@@ -299,16 +300,18 @@ fn key(pane: &Pane, area: Rect, whole: bool, buffer: &mut Buffer) {
             [low, high] if low == -high => "- ",
             _ => "",
         };
-        let room = usize::from(area.width).saturating_sub(SHADES);
-        let ends = [
-            [format!("{low} "), format!(" {high} ")],
-            [short.into(), format!(" {high} ")],
-            [String::new(), format!(" {high}")],
+        let before = parts.iter().map(|(text, _)| cells(text)).sum::<usize>();
+        let room = usize::from(area.width).saturating_sub(before + SHADES);
+        let words = [
+            [format!("{name}{low} "), format!(" {high} ")],
+            [format!("{name}{short}"), format!(" {high} ")],
+            [name, format!(" {high}")],
+            [" ".into(), format!(" {high}")],
         ];
-        let cells = |text: &str| Line::raw(text).width();
-        let fits = |ends: &&[String; 2]| cells(&name) + cells(&ends[0]) + cells(&ends[1]) <= room;
-        let [from, to] = ends.iter().find(fits).unwrap_or(&ends[2]).clone();
-        parts.push((name + &from, Style::new()));
+        let fits =
+            |words: &&[String; 2]| words.iter().map(|text| cells(text)).sum::<usize>() <= room;
+        let [from, to] = words.iter().find(fits).unwrap_or(&words[3]).clone();
+        parts.push((from, Style::new()));
         for shade in 0..SHADES {
             let color = stress_map::color(theme, pane.stress.quantity.colors(), shade);
             parts.push(match color.filter(|_| !ascii) {
@@ -318,11 +321,8 @@ fn key(pane: &Pane, area: Rect, whole: bool, buffer: &mut Buffer) {
         }
         parts.push((to, Style::new()));
     }
-    let cells: usize = parts
-        .iter()
-        .map(|(text, _)| Line::raw(text.as_str()).width())
-        .sum();
-    let Some(spare) = area.width.checked_sub(cells as u16) else {
+    let taken = parts.iter().map(|(text, _)| cells(text)).sum::<usize>();
+    let Some(spare) = area.width.checked_sub(taken as u16) else {
         return;
     };
     let mut x = if whole { area.x } else { area.x + spare / 2 };

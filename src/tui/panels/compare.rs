@@ -70,8 +70,8 @@ pub fn draw(
         |chart: &Chart, place, buffer: &mut _| plot(chart, Role::Title, look, place, buffer);
     let pair = |there: &[f64], here: &[f64], role| {
         [
-            Curve::new(names.1, &other.radii[..], there, Role::Slip).dashed(),
             Curve::new(&*names.0, &seen.radii[..], here, role),
+            Curve::new(names.1, &other.radii[..], there, Role::Slip).dashed(),
         ]
     };
     let run = frame.run();

@@ -32,6 +32,9 @@ pub static RECIPE: Recipe = Recipe {
 /// How much of the height of the unworn profile the magnified wear may take.
 const SHARE: f64 = 0.9;
 
+/// Wear below this share of the height of the unworn profile has an inset of its own on paper.
+const HIDDEN: f64 = 0.25;
+
 /// The height of the `unworn` profile over the domain, m: what lies beyond the rim of a punch is left out.
 fn height(unworn: &[f64], depth: f64) -> f64 {
     let finite = unworn.iter().copied().filter(|f| f.is_finite());
@@ -69,13 +72,13 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
             vec![worn.filled(Fill::From(unworn.to_vec()))]
         }
         Medium::Paper => {
-            // What a page hides in the profile.
+            // What a page hides in the profile: wear that is seen there would lie under its inset.
             let (r, depth) = (Axis::new("r", "m"), Axis::new("worn depth", "m"));
             let inset = of_states(run, "wear_m", "", Role::Profile);
-            let is_worn = |curve: &Curve| curve.ys.iter().any(|&wear| wear != 0.0);
-            let is_worn = inset.iter().any(is_worn);
+            let deepest = inset.iter().map(Curve::highest).fold(0.0, f64::max);
+            let is_hidden = deepest > 0.0 && deepest < HIDDEN * height(unworn, 0.0);
             let inset = Chart::new("", r, depth).curves(inset);
-            chart.inset = is_worn.then(|| Box::new(inset));
+            chart.inset = is_hidden.then(|| Box::new(inset));
             of_states(run, "f_m", "worn", Role::Profile)
         }
     };

@@ -23,7 +23,8 @@ use canvas::Canvas;
 use look::Look;
 
 use crate::export::header::{field, number};
-use crate::plot::Chart;
+use crate::plot::theme::Role;
+use crate::plot::{Chart, Curve};
 use crate::scenario::printable;
 use crate::scenario::scalars::quoted;
 
@@ -107,6 +108,16 @@ impl Sheet {
         let rows = self.charts.len().div_ceil(columns).max(1);
         let place = [size[0] / columns as f64, size[1] / rows as f64];
         let mut charts = self.charts.clone();
+        // Beside the names of other sources a curve alone has one, too.
+        for chart in &mut charts {
+            let is_ghost = |curve: &Curve| matches!(curve.role, Role::Ghost(_));
+            let has_ghosts = chart.curves.iter().any(is_ghost);
+            let mut alone = chart.curves.iter_mut();
+            let alone = alone.find(|curve| curve.name.is_empty() && !is_ghost(curve));
+            if let Some(curve) = alone.filter(|_| has_ghosts) {
+                curve.name = "computed".into();
+            }
+        }
         if charts.len() > 1 {
             for (k, chart) in charts.iter_mut().enumerate() {
                 chart.title = format!("({}) {}", letter(k), chart.title);

@@ -357,6 +357,9 @@ fn frames_of_a_sheet_are_aligned_and_dashes_lie_on_top() {
     assert_eq!(sheet.len(), 5);
     assert_eq!(sheet[0][0][0], sheet[3][0][0]);
     assert_eq!(sheet[2][0][0], sheet[4][0][0]);
+    // Wear that the profile shows would lie under an inset.
+    dir.done("figure gross-slip --set wear.coefficient=1e-9 --cycles 40 --panel profile -o worn.svg --quiet");
+    assert_eq!(frames("worn.svg").len(), 1);
     // A curve has more points than a line of the legend.
     let text = dir.read("sheet.svg");
     let all = lines(&text);

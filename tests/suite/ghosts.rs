@@ -397,6 +397,8 @@ fn figures_have_measured_points_with_their_errors_beside_the_run() {
     );
     assert_eq!(rows("wear volume", "volume.csv")[3][5], "1e-17");
     assert_eq!(rows("depth over cycles", "depth.csv").len(), 4);
+    // The curve under the points has a name beside theirs.
+    assert!(dir.read("f.svg").contains(">computed<"));
     // A symbol of four corners and a bar for each point of the scar, in two charts.
     let svg = dir.read("f.svg");
     assert!(

@@ -14,7 +14,7 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::style::{Modifier, Style};
+use ratatui::style::{Color, Modifier, Style};
 use ratatui::widgets::Widget;
 
 use super::ramp::{self, Shade};
@@ -261,7 +261,7 @@ fn map(
         cell.set_char(sign);
         let style = theme.style(Role::Title);
         cell.set_style(if theme.colored() {
-            style.fg(ratatui::style::Color::Black)
+            style.fg(ink_on(cell.bg))
         } else {
             style
         });
@@ -320,6 +320,15 @@ fn map(
             put(buffer, start, floor, label, quiet, theme);
             end = start + width(label) + 2;
         }
+    }
+}
+
+/// The colour of signs on a ground: the dark blues of the cube, with which maps begin, hide what is black.
+fn ink_on(ground: Color) -> Color {
+    match ground {
+        Color::Indexed(16..=28) => Color::Indexed(231),
+        Color::Blue => Color::White,
+        _ => Color::Black,
     }
 }
 
@@ -441,6 +450,17 @@ fn put(buffer: &mut Buffer, x: u16, y: u16, text: &str, style: Style, theme: &Th
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plot::Marker;
+    use crate::tui::theme::{Depth, Look};
+
+    #[test]
+    fn signs_are_seen_on_both_ends_of_the_colours() {
+        let theme = Theme::new(Look::Dark, Marker::Braille).with_depth(Depth::Indexed);
+        let ground = |share| Shade::Share(share).color(&theme).expect("a colour");
+        let inks = [0.0, 0.2, 0.6, 1.0].map(|share| ink_on(ground(share)));
+        let [white, black] = [Color::Indexed(231), Color::Black];
+        assert_eq!(inks, [white, white, black, black]);
+    }
 
     #[test]
     fn every_place_has_its_cells_and_every_cell_a_place() {

@@ -52,8 +52,14 @@ fn draw(frame: &Frame, pane: &Pane, area: Rect, buffer: &mut Buffer) {
             width.saturating_sub(1),
             1,
         );
-        // Rather than the value, the name is cut.
+        // Rather than the value, the name is cut: its last words, and the symbol, tell most.
         let room = usize::from(cell.width).saturating_sub(value.chars().count() + 2);
+        let mut name = name.as_str();
+        while name.chars().count() > room
+            && let Some((_, rest)) = name.split_once(' ')
+        {
+            name = rest;
+        }
         let name: String = name.chars().take(room).collect();
         let pad = room - name.chars().count();
         let line = Line::from(vec![

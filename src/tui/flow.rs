@@ -6,6 +6,7 @@
 //! waits behind a queue of frames. Keys are answered at once in any case, as long as little is in
 //! flight.
 
+use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
 /// The status request after each frame.
@@ -28,7 +29,10 @@ const LONGEST_REST: Duration = Duration::from_secs(2);
 const LOST: Duration = Duration::from_secs(3);
 
 /// Maximum number of frames in flight when a key is answered.
-const MOST_UNDER_WAY: u32 = 2;
+const MOST_UNDER_WAY: usize = 2;
+
+/// Answers that come within this time may have waited for each other.
+const TOGETHER: Duration = Duration::from_millis(5);
 
 /// For how long, and for how many frames, the worker's output after a key counts as its answer.
 const ANSWERED: Duration = Duration::from_millis(300);
@@ -53,17 +57,18 @@ pub enum When {
 #[derive(Debug, Default)]
 pub struct Flow {
     /// Chunks that the writer has not handed to the system yet.
-    unwritten: u32,
-    /// Frames that the terminal has not acknowledged yet.
-    unanswered: u32,
+    unwritten: usize,
+    /// When the frames that the terminal has not acknowledged were sent, and their bytes.
+    unanswered: VecDeque<(Instant, usize)>,
+    /// When it last answered.
+    answered: Option<Instant>,
     /// Whether it has ever answered.
     answers: bool,
     /// When the last frame was sent, and when a terminal that does not answer should have read it.
     sent: Option<(Instant, Instant)>,
     /// When the first frame was sent.
     opened: Option<Instant>,
-    /// Bytes of the last frame; the measured rate of the line, bytes per second.
-    last: usize,
+    /// The measured rate of the line, bytes per second.
     rate: Option<f64>,
     /// Until when drawings answer a key, and how many.
     hurry: Option<(Instant, u32)>,
@@ -80,7 +85,10 @@ impl Flow {
             return When::Now;
         };
         let is_free = match self.answers {
-            true => self.unanswered == 0 || (hurries && self.unanswered < MOST_UNDER_WAY),
+            true => match self.unanswered.len() {
+                0 => true,
+                count => hurries && count < MOST_UNDER_WAY,
+            },
             false => match self.hurry.filter(|_| hurries) {
                 Some((until, 1)) if now < until - ANSWERED + SETTLED => {
                     return When::At(until - ANSWERED + SETTLED);
@@ -88,14 +96,19 @@ impl Flow {
                 hurry => hurry.is_some(),
             },
         };
-        let give_up = match self.answers {
-            true => read + LOST,
-            false => read,
-        };
+        let give_up = self.give_up(read);
         if is_free || now >= give_up {
             When::Now
         } else {
             When::At(give_up)
+        }
+    }
+
+    /// When the answer to a frame is lost that should have been read then.
+    fn give_up(&self, read: Instant) -> Instant {
+        match self.answers {
+            true => read + LOST,
+            false => read,
         }
     }
 
@@ -104,28 +117,31 @@ impl Flow {
         self.hurry = Some((now + ANSWERED, DRAWINGS));
     }
 
-    /// Notes that a frame of `bytes` was given to the writer; an empty one changes nothing.
-    pub fn sent(&mut self, now: Instant, bytes: usize) {
+    /// Notes that so many frames, of `bytes` in all, were given to the writer for one drawing; none change nothing.
+    pub fn sent(&mut self, now: Instant, bytes: usize, frames: usize) {
         if let Some((_, drawings)) = &mut self.hurry {
             *drawings = drawings.saturating_sub(1);
         }
         if bytes == 0 {
             return;
         }
-        let takes = Duration::from_secs_f64(bytes as f64 / SLOWEST);
-        let rest = match self.answers {
-            true => takes,
-            false => takes.min(LONGEST_REST),
-        };
-        self.sent = Some((now, now + rest));
-        self.opened.get_or_insert(now);
-        self.last = bytes;
-        self.unwritten += 1;
-        self.unanswered = match self.unanswered {
+        if self.sent.is_some_and(|(_, read)| now >= self.give_up(read)) {
             // The answers to older ones were lost.
-            count if count > MOST_UNDER_WAY => 1,
-            count => count + 1,
+            self.unanswered.clear();
+        }
+        let takes = Duration::from_secs_f64(bytes as f64 / SLOWEST);
+        let read = match (self.answers, self.sent) {
+            // It is read behind what is on the line.
+            (true, Some((_, before))) if !self.unanswered.is_empty() => before.max(now) + takes,
+            (true, _) => now + takes,
+            (false, _) => now + takes.min(LONGEST_REST),
         };
+        self.sent = Some((now, read));
+        self.opened.get_or_insert(now);
+        self.unwritten += frames;
+        for _ in 0..frames {
+            self.unanswered.push_back((now, bytes / frames));
+        }
     }
 
     /// The writer has handed a chunk to the system.
@@ -136,17 +152,26 @@ impl Flow {
     /// The terminal has read a frame.
     pub fn answered(&mut self, now: Instant) {
         self.answers = true;
-        self.unanswered = self.unanswered.saturating_sub(1);
-        if let (0, Some((sent, _))) = (self.unanswered, self.sent) {
-            let took = (now - sent).as_secs_f64().max(1e-6);
-            self.rate = Some(self.last as f64 / took);
+        let before = self.answered.replace(now);
+        let Some((sent, bytes)) = self.unanswered.pop_front() else {
+            return;
+        };
+        // Before that, the line was busy with another frame.
+        let free = before.map_or(sent, |before| before.max(sent));
+        let took = now - free;
+        // Two answers that are read at once tell nothing of the second frame.
+        if free == sent || took > TOGETHER {
+            self.rate = Some(bytes as f64 / took.as_secs_f64().max(1e-6));
         }
     }
 
     /// How many bytes the next frame may have, so that it does not keep a key waiting; `None`: as many
     /// as there are.
-    pub fn room(&self) -> Option<usize> {
-        match self.rate {
+    pub fn room(&self, now: Instant) -> Option<usize> {
+        // A frame that is long on its way tells of the line before its answer does.
+        let oldest = self.unanswered.front();
+        let most = oldest.map(|&(sent, bytes)| bytes as f64 / (now - sent).as_secs_f64());
+        match self.rate.map(|rate| rate.min(most.unwrap_or(rate))) {
             // The next frames show what did not fit into this one.
             Some(rate) if rate >= FAST => None,
             Some(rate) => Some(((rate * FRAME_TIME) as usize).max(SMALLEST)),
@@ -177,12 +202,13 @@ impl Flow {
         let is_new = self
             .opened
             .is_some_and(|opened| now < opened + LONGEST_REST);
-        self.unanswered > 0 && (self.answers || is_new)
+        !self.unanswered.is_empty() && (self.answers || is_new)
     }
 
     /// The terminal was used by another program: outstanding answers will never come.
     pub fn forget(&mut self) {
-        (self.unanswered, self.sent) = (0, None);
+        self.unanswered.clear();
+        self.sent = None;
     }
 }
 
@@ -193,7 +219,7 @@ mod tests {
     const FRAME: usize = 250;
 
     fn sent(flow: &mut Flow, now: Instant) {
-        flow.sent(now, FRAME);
+        flow.sent(now, FRAME, 1);
         flow.written();
     }
 
@@ -204,7 +230,7 @@ mod tests {
         sent(&mut flow, now);
         flow.answered(now);
         assert_eq!(flow.when(now), When::Now);
-        flow.sent(now, FRAME);
+        flow.sent(now, FRAME, 1);
         // Not written, then not read.
         assert_eq!(flow.when(now), When::Told);
         flow.written();
@@ -222,7 +248,7 @@ mod tests {
         assert_eq!(flow.when(now + Duration::from_secs(10)), When::Now);
         // An empty drawing needs no answer.
         flow.answered(now);
-        flow.sent(now, 0);
+        flow.sent(now, 0, 0);
         assert_eq!(flow.when(now), When::Now);
     }
 
@@ -243,5 +269,31 @@ mod tests {
         sent(&mut flow, now);
         flow.hurry(now);
         assert_eq!(flow.when(now), When::Now);
+    }
+    /// However many keys are pressed before the line is ever free.
+    #[test]
+    fn a_line_that_becomes_slow_is_noticed_under_keys() {
+        let (mut flow, start) = (Flow::default(), Instant::now());
+        let at = |seconds| start + Duration::from_secs_f64(seconds);
+        flow.sent(start, 4000, 1);
+        flow.written();
+        flow.answered(at(0.001));
+        assert_eq!(flow.room(at(0.1)), None);
+        // From now on a line of 600 bytes a second, on which 3,000 are under way.
+        flow.sent(at(0.1), 3000, 1);
+        flow.written();
+        let mut seconds = 4.0;
+        for _ in 0..20 {
+            flow.hurry(at(seconds));
+            assert_eq!(flow.when(at(seconds)), When::Now);
+            let room = flow.room(at(seconds)).expect("a slow line");
+            assert!((240..400).contains(&room), "{room}");
+            flow.sent(at(seconds), room, 1);
+            flow.written();
+            // The one before is read only now, and no key is answered before the line is free again.
+            assert!(matches!(flow.when(at(seconds + 1.0)), When::At(_)));
+            seconds = seconds.max(5.1) + room as f64 / 600.0;
+            flow.answered(at(seconds));
+        }
     }
 }

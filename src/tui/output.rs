@@ -15,7 +15,7 @@ use super::flow::QUESTION;
 
 /// How long the last output waits for a slow terminal, and again after everything queued before it
 /// has been dropped.
-const DRAIN_TIMEOUT: Duration = Duration::from_millis(200);
+const DRAIN_TIMEOUT: Duration = Duration::from_millis(500);
 
 /// Bytes for the writer, and whom to tell when they are written.
 struct Chunk {
@@ -29,8 +29,8 @@ pub struct Output {
     events: Sender<Event>,
     /// The frame being built.
     frame: Vec<u8>,
-    /// All that was sent, in bytes.
-    sent: usize,
+    /// All that was sent, in bytes, and in how many frames.
+    sent: (usize, usize),
 }
 
 impl Output {
@@ -55,12 +55,12 @@ impl Output {
             chunks,
             events,
             frame: Vec::new(),
-            sent: 0,
+            sent: (0, 0),
         })
     }
 
-    /// All that was sent so far, in bytes.
-    pub fn sent(&self) -> usize {
+    /// All that was sent so far, in bytes, and in how many frames, each with a question behind it.
+    pub fn sent(&self) -> (usize, usize) {
         self.sent
     }
 
@@ -104,7 +104,8 @@ impl Write for Output {
         }
         let mut bytes = std::mem::take(&mut self.frame);
         bytes.extend_from_slice(QUESTION);
-        self.sent += bytes.len();
+        self.sent.0 += bytes.len();
+        self.sent.1 += 1;
         let events = self.events.clone();
         let then = Box::new(move || {
             let _ = events.send(Event::Written);

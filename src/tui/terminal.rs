@@ -152,27 +152,27 @@ impl Screen {
             self.shown = Buffer::empty(area);
         }
         let now = Instant::now();
+        let before = self.terminal.backend().get_ref().sent();
         let room = match self.flow.hurries(now) && !self.flow.answers() {
-            true if self.flow.acknowledges(now) && self.flow.room().is_some() => Some(0),
+            true if self.flow.acknowledges(now) && self.flow.room(now).is_some() => Some(0),
             // Where nothing tells how slow the line is, a key is answered whole, but the lines that
             // tell of the run before the rest.
             true => {
-                if self.flow.room().is_some() {
+                if self.flow.room(now).is_some() {
                     let next = rows_within(&self.shown, &wanted, 0);
                     self.put(next)?;
                 }
                 None
             }
-            false => self.flow.room(),
+            false => self.flow.room(now),
         };
         let next = match room {
             Some(room) => rows_within(&self.shown, &wanted, room),
             None => wanted.clone(),
         };
-        let before = self.terminal.backend().get_ref().sent();
         self.put(next)?;
-        let bytes = self.terminal.backend().get_ref().sent() - before;
-        self.flow.sent(now, bytes);
+        let (bytes, frames) = self.terminal.backend().get_ref().sent();
+        self.flow.sent(now, bytes - before.0, frames - before.1);
         Ok(self.shown == wanted)
     }
 

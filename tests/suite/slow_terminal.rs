@@ -55,11 +55,11 @@ fn latencies(rate: u32, answers: bool) -> Vec<Duration> {
 fn at_600_bytes_a_second_a_key_shows_within_two_seconds() {
     let lines = [true, false].map(|answers| thread::spawn(move || latencies(600, answers)));
     let [answering, mute] = lines.map(|line| line.join().expect("a line"));
-    // Whoever runs all the tests at once has a busy machine: two of four may be late.
+    // Whoever runs all the tests at once has a busy machine: one of four may be late.
     let late = answering
         .iter()
         .filter(|&&late| late > Duration::from_secs(2));
-    assert!(late.count() <= 2, "{answering:.1?}");
+    assert!(late.count() <= 1, "{answering:.1?}");
     // Where nothing tells how slow the line is, an answer is drawn whole, and the next key waits for it.
     assert!(mute[0] < Duration::from_secs(2), "{mute:.1?}");
     assert!(

@@ -365,10 +365,10 @@ fn no_color_means_no_colour_unless_asked_for() {
         }
         let mut terminal = Terminal::start(command, 80, 24);
         terminal.wait_until("running explorer", is_running);
+        let what = format!("NO_COLOR {no_color:?}, {arguments:?}");
+        terminal.wait_until(&what, |screen| is_coloured(screen) == coloured);
         terminal.press("?");
         terminal.wait_for("keys (");
-        let what = format!("NO_COLOR {no_color:?}, {arguments:?}");
-        assert_eq!(terminal.look(is_coloured), coloured, "{what}");
         terminal.press("q");
         terminal.wait_for_end();
         let styles = styles(&terminal.raw());

@@ -20,6 +20,9 @@ use vt100::{Parser, Screen};
 /// Longer than anything takes on a busy machine.
 pub const TIMEOUT: Duration = Duration::from_secs(20);
 
+/// Longer than a busy machine needs to answer a key.
+const QUIET: Duration = Duration::from_secs(1);
+
 /// What has come out of the program.
 struct Output {
     parser: Parser,
@@ -50,8 +53,9 @@ type Writer = Arc<Mutex<Box<dyn Write + Send>>>;
 struct Handles {
     master: Box<dyn MasterPty + Send>,
     writer: Writer,
-    /// Kept open, so that the terminal's modes can be read when the program is gone.
-    _slave: Box<dyn SlavePty + Send>,
+    /// Kept open, so that the terminal's modes can be read when the program is gone. None from then on: what the program
+    /// has written is all there when nobody has the terminal open any more.
+    slave: Option<Box<dyn SlavePty + Send>>,
 }
 
 /// A terminal with the program in it.
@@ -65,6 +69,8 @@ pub struct Terminal {
     line: Arc<Mutex<Line>>,
     output: Arc<Mutex<Output>>,
     modes_before: String,
+    /// Those when the program had ended.
+    modes_after: Option<String>,
 }
 
 /// Where the program keeps its checkpoints under test.
@@ -160,13 +166,14 @@ impl Terminal {
             handles: Some(Handles {
                 master,
                 writer,
-                _slave: slave,
+                slave: Some(slave),
             }),
             collector,
             reading_is_over,
             line,
             output,
             modes_before,
+            modes_after: None,
         }
     }
 
@@ -239,11 +246,11 @@ impl Terminal {
         self.wait_until(text, |screen| screen.contents().contains(text));
     }
 
-    /// Waits until nothing has come out for a while: longer than a busy machine needs to answer a key.
+    /// Waits until nothing has come out for a while.
     pub fn wait_for_silence(&self) {
         let start = Instant::now();
         let (mut length, mut since) = (0, start);
-        while since.elapsed() < Duration::from_millis(1000) {
+        while since.elapsed() < QUIET {
             let now = self.raw().len();
             if now != length {
                 (length, since) = (now, Instant::now());
@@ -258,7 +265,18 @@ impl Terminal {
         let status = self.patiently("it does not end", |terminal| {
             terminal.child.try_wait().expect("a program")
         });
-        self.wait_for_silence();
+        if let Some(handles) = &mut self.handles {
+            self.modes_after = Some(format!("{:?}", handles.master.get_termios()));
+            handles.slave = None;
+        }
+        // Another program may go on in the terminal.
+        let start = Instant::now();
+        while !self.collector.is_finished() && start.elapsed() < QUIET {
+            thread::sleep(Duration::from_millis(10));
+        }
+        if self.handles.is_none() || !self.collector.is_finished() {
+            self.wait_for_silence();
+        }
         status
     }
 
@@ -305,6 +323,9 @@ impl Terminal {
 
     /// Whether line discipline, echo and all else are as they were before the program started.
     pub fn has_its_modes_back(&self) -> bool {
+        if let Some(after) = &self.modes_after {
+            return *after == self.modes_before;
+        }
         let master = &self.handles.as_ref().expect("a terminal").master;
         format!("{:?}", master.get_termios()) == self.modes_before
     }

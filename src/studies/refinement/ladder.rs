@@ -141,7 +141,7 @@ impl Source {
         });
         Self {
             error: found.with(&self.error, |found, before| {
-                found.max(0.3 * before * ratio.powf(-HIGHEST_ORDER))
+                found.max(before * ratio.powf(-HIGHEST_ORDER))
             }),
             measured: (difference, ratio),
             level: level.clone(),

@@ -175,7 +175,7 @@ fn a_signal_ends_the_map_and_the_explorer_that_it_has_opened() {
         let mut command = program(&["sweep", "--view", &table]);
         command.env("XDG_STATE_HOME", state.path());
         let mut terminal = Terminal::start(command, 100, 30);
-        terminal.wait_for("motion.normal.mean");
+        terminal.wait_for("mean depth d");
         terminal.press("\r");
         terminal.wait_until("the explorer", |screen| {
             crate::pty::cycle(screen).is_some_and(|cycle| cycle > 0.1)

@@ -10,7 +10,7 @@ use std::path::Path;
 use toml::Table;
 
 use crate::reading::fatigue::Limits;
-use crate::simulation::{Domain, Setup, Spacing};
+use crate::simulation::{Domain, Integrator, Setup, Spacing};
 
 mod assign;
 mod blocks;
@@ -127,6 +127,13 @@ impl Scenario {
     ) -> Result<Self, ScenarioError> {
         let mut origin = Origin::new(&self.origin);
         let mut table = self.whole();
+        let is_accuracy = |key: &str| key.trim() == keys::ACCURACY.path();
+        if self.accuracy().is_none() && assignments.iter().any(|(key, _)| is_accuracy(key.as_ref()))
+        {
+            // An accuracy chooses the integrator; the default that was written out for chosen numbers is no choice.
+            let is_default = self.setup.integrator == Integrator::Direct;
+            is_default.then(|| schema::remove(&mut table, keys::INTEGRATOR.path()));
+        }
         for (key, value) in assignments {
             let (key, value) = (key.as_ref(), value.as_ref());
             let written = assign::written(key, value);

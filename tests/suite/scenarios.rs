@@ -120,6 +120,20 @@ fn assignments_replace_what_stands_there() {
     );
 }
 
+/// As in a study on a preset with cells and steps of its own.
+#[test]
+fn an_accuracy_chooses_the_integrator_whatever_numbers_stood_there() {
+    let fig3 = load("li2019-fig3", &[]);
+    let set = |assignments: &[(&str, &str)]| fig3.with_all(assignments).expect("a scenario");
+    let integrator = "numerics.integrator";
+    assert!(fig3.value(integrator).is_some());
+    let accurate = ("numerics.accuracy", "1e-2");
+    assert_eq!(set(&[accurate]).value(integrator), None);
+    let direct = set(&[(integrator, "direct"), accurate]);
+    assert!(direct.value(integrator).is_some());
+    assert!(set(&[("run.cycles", "5")]).value(integrator).is_some());
+}
+
 #[test]
 fn another_shape_drops_the_size_of_the_one_before() {
     let scenario = load(

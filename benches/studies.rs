@@ -17,7 +17,6 @@ fn study(side: usize) -> Study {
     let text = format!(
         "base = \"li2019-fig3\"\ncolumns = [\"wear_volume_m3\", \"regime\"]\n\
          [set]\n\"run.cycles\" = 1000.0\n\"numerics.accuracy\" = 1e-2\n\
-         \"numerics.integrator\" = \"cycle-jump\"\n\
          [[axis]]\nkey = \"motion.normal.mean\"\nlinspace = [5e-7, 2e-6, {side}]\n\
          tied = {{ \"motion.normal.amplitude\" = 0.1 }}\n\
          [[axis]]\nkey = \"motion.tangential.amplitude\"\nlogspace = [1e-8, 1e-6, {side}]\n"

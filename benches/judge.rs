@@ -17,7 +17,7 @@ mod random;
 #[path = "../tests/suite/random_scenarios.rs"]
 mod random_scenarios;
 
-use judge::{Case, Found, QUANTITIES, UNDERSTATED, judge, judge_checks, judge_estimate, quantile};
+use judge::{Case, Found, QUANTITIES, UNDERSTATED, judge, judge_estimate, quantile, tally_checks};
 use mdr_tui::studies::refinement::Verdict;
 use nix::time::{ClockId, clock_gettime};
 
@@ -50,7 +50,7 @@ fn main() {
         return seeds.for_each(|seed| println!("{}", random_scenarios::text(seed)));
     }
     if asks("--checks") {
-        return checks(seeds, limit, shows_all);
+        return checks(seeds, limit);
     }
     if asks("--estimate") {
         return estimates(seeds, limit, shows_all);
@@ -80,30 +80,12 @@ fn main() {
     }
 }
 
-/// How many runs that are right to 1e-2 fail a check, and how many pass them whose volume or work is wrong.
-fn checks(seeds: std::ops::Range<u64>, limit: f64, shows_all: bool) {
+/// How many runs that are right to 1e-2 fail a check, and how many whose volume or work is wrong do.
+fn checks(seeds: std::ops::Range<u64>, limit: f64) {
     let begin = cpu_seconds();
-    let (mut right, mut wrong) = ([0; 2], [0; 2]);
-    for seed in seeds.take_while(|_| cpu_seconds() - begin <= limit) {
-        let Ok((truth, passes)) = judge_checks(seed) else {
-            continue;
-        };
-        if shows_all {
-            println!("  {seed:4}  passes {passes}  {truth:?}");
-        }
-        if truth.promised() <= 1e-2 {
-            right[usize::from(passes)] += 1;
-        } else if truth.volume.max(truth.work) > 1e-2 {
-            wrong[usize::from(passes)] += 1;
-        }
-    }
-    println!(
-        "flagged: {} of {} right, {} of {} wrong",
-        right[0],
-        right[0] + right[1],
-        wrong[0],
-        wrong[0] + wrong[1]
-    );
+    let tally = tally_checks(seeds.take_while(|_| cpu_seconds() - begin <= limit));
+    let [right, wrong] = tally.map(|[fail, pass]| format!("{fail} of {}", fail + pass));
+    println!("flagged: {right} right, {wrong} wrong");
 }
 
 /// How far the estimates of single runs are right, for each number that a run states.

@@ -294,7 +294,7 @@ pub(super) struct Ordinate {
     ticks: Vec<Tick>,
 }
 
-/// A scale that holds so many labels.
+/// The scale of an axis with room for this many labels.
 fn window(bounds: [f64; 2], axis: &Axis, cells: f64) -> Window {
     Window::new(bounds, axis.scale, cells.clamp(2.0, 400.0) as u16, 16)
 }

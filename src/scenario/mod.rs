@@ -128,11 +128,12 @@ impl Scenario {
         let mut origin = Origin::new(&self.origin);
         let mut table = self.whole();
         let is_accuracy = |key: &str| key.trim() == keys::ACCURACY.path();
-        if self.accuracy().is_none() && assignments.iter().any(|(key, _)| is_accuracy(key.as_ref()))
+        if assignments.iter().any(|(key, _)| is_accuracy(key.as_ref()))
+            && self.accuracy().is_none()
+            && self.setup.integrator == Integrator::Direct
         {
             // An accuracy chooses the integrator; the default that was written out for chosen numbers is no choice.
-            let is_default = self.setup.integrator == Integrator::Direct;
-            is_default.then(|| schema::remove(&mut table, keys::INTEGRATOR.path()));
+            schema::remove(&mut table, keys::INTEGRATOR.path());
         }
         for (key, value) in assignments {
             let (key, value) = (key.as_ref(), value.as_ref());

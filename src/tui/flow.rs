@@ -60,12 +60,10 @@ pub struct Flow {
     unwritten: usize,
     /// When the frames that the terminal has not acknowledged were sent, and their bytes.
     unanswered: VecDeque<(Instant, usize)>,
-    /// When it last answered.
+    /// When it last answered; none if it never has.
     answered: Option<Instant>,
-    /// Whether it has ever answered.
-    answers: bool,
-    /// When the last frame was sent, and when a terminal that does not answer should have read it.
-    sent: Option<(Instant, Instant)>,
+    /// When all that was sent should have been read.
+    read: Option<Instant>,
     /// When the first frame was sent.
     opened: Option<Instant>,
     /// The measured rate of the line, bytes per second.
@@ -81,14 +79,14 @@ impl Flow {
             return When::Told;
         }
         let hurries = self.hurries(now);
-        let Some((_, read)) = self.sent else {
+        let Some(give_up) = self.give_up() else {
             return When::Now;
         };
-        let is_free = match self.answers {
-            true => match self.unanswered.len() {
-                0 => true,
-                count => hurries && count < MOST_UNDER_WAY,
-            },
+        let is_free = match self.answers() {
+            true => {
+                let count = self.unanswered.len();
+                count == 0 || (hurries && count < MOST_UNDER_WAY)
+            }
             false => match self.hurry.filter(|_| hurries) {
                 Some((until, 1)) if now < until - ANSWERED + SETTLED => {
                     return When::At(until - ANSWERED + SETTLED);
@@ -96,7 +94,6 @@ impl Flow {
                 hurry => hurry.is_some(),
             },
         };
-        let give_up = self.give_up(read);
         if is_free || now >= give_up {
             When::Now
         } else {
@@ -104,12 +101,10 @@ impl Flow {
         }
     }
 
-    /// When the answer to a frame is lost that should have been read then.
-    fn give_up(&self, read: Instant) -> Instant {
-        match self.answers {
-            true => read + LOST,
-            false => read,
-        }
+    /// From when on an answer that has not come is taken for lost; none if nothing was sent.
+    fn give_up(&self) -> Option<Instant> {
+        let patience = if self.answers() { LOST } else { Duration::ZERO };
+        self.read.map(|read| read + patience)
     }
 
     /// A key was pressed: its answer takes precedence.
@@ -117,7 +112,7 @@ impl Flow {
         self.hurry = Some((now + ANSWERED, DRAWINGS));
     }
 
-    /// Notes that so many frames, of `bytes` in all, were given to the writer for one drawing; none change nothing.
+    /// Notes that the writer was given a drawing of `bytes` in all, in this many frames. An empty one changes nothing.
     pub fn sent(&mut self, now: Instant, bytes: usize, frames: usize) {
         if let Some((_, drawings)) = &mut self.hurry {
             *drawings = drawings.saturating_sub(1);
@@ -125,18 +120,17 @@ impl Flow {
         if bytes == 0 {
             return;
         }
-        if self.sent.is_some_and(|(_, read)| now >= self.give_up(read)) {
+        if self.give_up().is_some_and(|give_up| now >= give_up) {
             // The answers to older ones were lost.
             self.unanswered.clear();
         }
         let takes = Duration::from_secs_f64(bytes as f64 / SLOWEST);
-        let read = match (self.answers, self.sent) {
+        self.read = Some(match (self.answers(), self.read) {
             // It is read behind what is on the line.
-            (true, Some((_, before))) if !self.unanswered.is_empty() => before.max(now) + takes,
+            (true, Some(before)) if !self.unanswered.is_empty() => before.max(now) + takes,
             (true, _) => now + takes,
             (false, _) => now + takes.min(LONGEST_REST),
-        };
-        self.sent = Some((now, read));
+        });
         self.opened.get_or_insert(now);
         self.unwritten += frames;
         for _ in 0..frames {
@@ -151,7 +145,6 @@ impl Flow {
 
     /// The terminal has read a frame.
     pub fn answered(&mut self, now: Instant) {
-        self.answers = true;
         let before = self.answered.replace(now);
         let Some((sent, bytes)) = self.unanswered.pop_front() else {
             return;
@@ -183,7 +176,7 @@ impl Flow {
     /// Whether the next frame acknowledges a key at once, on a terminal that does not answer: the
     /// worker's answer must not wait behind a whole screen.
     pub fn acknowledges(&self, now: Instant) -> bool {
-        !self.answers && self.hurries(now) && self.hurry.is_some_and(|(_, left)| left == DRAWINGS)
+        !self.answers() && self.hurries(now) && self.hurry.is_some_and(|(_, left)| left == DRAWINGS)
     }
 
     /// Whether a key waits for its answer.
@@ -194,7 +187,7 @@ impl Flow {
 
     /// Whether the terminal answers status requests.
     pub fn answers(&self) -> bool {
-        self.answers
+        self.answered.is_some()
     }
 
     /// Whether an answer is outstanding. One that is late for too long is no longer expected.
@@ -202,13 +195,13 @@ impl Flow {
         let is_new = self
             .opened
             .is_some_and(|opened| now < opened + LONGEST_REST);
-        !self.unanswered.is_empty() && (self.answers || is_new)
+        !self.unanswered.is_empty() && (self.answers() || is_new)
     }
 
     /// The terminal was used by another program: outstanding answers will never come.
     pub fn forget(&mut self) {
         self.unanswered.clear();
-        self.sent = None;
+        self.read = None;
     }
 }
 

@@ -105,12 +105,7 @@ pub fn judge(seed: u64, accuracy: f64, budget: f64, clock: &dyn Fn() -> f64) -> 
             seconds: reached.seconds,
             last_rung: reached.rung.seconds,
             estimate: reached.error,
-            passes: reached
-                .session
-                .simulation()
-                .checks()
-                .iter()
-                .all(Check::holds),
+            passes: passes(&reached.session),
             truth,
         }
     });
@@ -144,15 +139,35 @@ pub fn judge_estimate(seed: u64) -> Result<(Difference, Difference), String> {
 ///
 /// # Errors
 /// A reason, if one of the runs does not come to its end.
-pub fn judge_checks(seed: u64) -> Result<(Difference, bool), String> {
+fn judge_checks(seed: u64) -> Result<(Difference, bool), String> {
     let scenario = random_scenarios::scenario(seed);
     let cycles = scenario.run().cycles.unwrap_or(0.0);
     let level = Level::of(&scenario);
     let session = run_on(&scenario, &level, cycles)?;
     let fine = run_on(&scenario, &finer(&level), cycles)?;
     let truth = Outcome::of(&session).against(&Outcome::of(&fine));
-    let checks = session.simulation().checks();
-    Ok((truth, checks.iter().all(Check::holds)))
+    Ok((truth, passes(&session)))
+}
+
+/// Whether all checks of a run hold.
+fn passes(session: &Session) -> bool {
+    session.simulation().checks().iter().all(Check::holds)
+}
+
+/// How many runs fail and pass the checks, of those that are right to 1e-2, and of those whose volume or work is wrong.
+pub fn tally_checks(seeds: impl Iterator<Item = u64>) -> [[usize; 2]; 2] {
+    let (mut right, mut wrong) = ([0; 2], [0; 2]);
+    for (truth, passes) in seeds.filter_map(|seed| judge_checks(seed).ok()) {
+        if truth.promised() == 0.0 {
+            continue;
+        }
+        if truth.promised() <= 1e-2 {
+            right[usize::from(passes)] += 1;
+        } else if truth.volume.max(truth.work) > 1e-2 {
+            wrong[usize::from(passes)] += 1;
+        }
+    }
+    [right, wrong]
 }
 
 /// The level that judges another one.

@@ -297,8 +297,8 @@ fn assert_runs_again(keys: &str, changes: usize) {
     assert!(state == again, "{keys}: the states differ");
 }
 
-/// Whatever is typed in the list of parameters is a value: a run is neither restarted nor left, and goes on. What was
-/// taken back leaves no trace.
+/// Whatever is typed in the list of parameters is a value: a run is neither restarted nor left, and goes on. A value
+/// that is given up leaves no trace.
 #[test]
 fn letters_in_the_list_lose_no_run() {
     const LETTERS: &str = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.*;_";

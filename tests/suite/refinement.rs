@@ -11,7 +11,7 @@ use mdr_tui::studies::refinement::{
 };
 
 use crate::common::{load, without_numerics};
-use crate::judge::{QUANTITIES, UNDERSTATED, judge, judge_checks, judge_estimate, quantile};
+use crate::judge::{QUANTITIES, UNDERSTATED, judge, judge_estimate, quantile, tally_checks};
 use crate::random_scenarios;
 use crate::test_dir::TestDir;
 
@@ -83,20 +83,7 @@ fn an_accuracy_is_kept_on_random_scenarios() {
 /// Over random scenarios: few runs that are right fail a check, and most that wear a wrong volume or do wrong work do.
 #[test]
 fn checks_tell_wrong_runs_from_right_ones() {
-    let (mut right, mut wrong) = ([0; 2], [0; 2]);
-    for seed in 430..460 {
-        let Ok((truth, passes)) = judge_checks(seed) else {
-            continue;
-        };
-        if truth.promised() == 0.0 {
-            continue;
-        }
-        if truth.promised() <= 1e-2 {
-            right[usize::from(passes)] += 1;
-        } else if truth.volume.max(truth.work) > 1e-2 {
-            wrong[usize::from(passes)] += 1;
-        }
-    }
+    let [right, wrong] = tally_checks(430..460);
     let ([right_fail, right_pass], [wrong_fail, wrong_pass]) = (right, wrong);
     assert!(right_pass >= 15, "{right:?} {wrong:?}");
     assert!(wrong_fail >= 1 && wrong_pass <= wrong_fail, "{wrong:?}");

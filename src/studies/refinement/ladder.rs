@@ -359,7 +359,7 @@ impl Ladder {
         }
     }
 
-    /// The time after which the level under way is to be [cut](Self::cut), s.
+    /// How long the search may take before the level that runs now is [cut](Self::cut), s.
     pub fn deadline(&self) -> f64 {
         match (&self.top, &self.coarsest) {
             (Some(_), _) => self.budget,

@@ -59,20 +59,19 @@ impl Chart {
         }
     }
 
-    /// Draws the chart into the rectangle at `at` of `size` (mm), with these margins left of and below its frame.
+    /// Draws the chart into the rectangle at `at` of `size` (mm), with this ordinate of its own.
     /// An inset has the legend of its chart.
     pub(super) fn draw(
         &self,
         is_inset: bool,
         canvas: &mut Canvas,
         [at, size]: [[f64; 2]; 2],
-        [left, below]: [f64; 2],
+        ordinate: Ordinate,
         look: &Look,
     ) {
         let font = look.font;
         let bounds = self.bounds_on_paper()[0];
-        let ordinate = self.ordinate(size[1], below, look);
-        let (top, height) = (ordinate.top, ordinate.height);
+        let (left, top, height) = (ordinate.left, ordinate.top, ordinate.height);
         let units = [unit_of(&self.x, bounds), ordinate.unit];
         let (vertical, y_ticks) = (ordinate.window, ordinate.ticks);
         let key = self.map.as_ref().map(|map| Key::new(map, height, font));
@@ -132,8 +131,8 @@ impl Chart {
                 ..*look
             };
             let corner = [frame.left + TICK, frame.top + TICK];
-            let left = inset.ordinate(size[1], 0.0, &small).left;
-            inset.draw(true, canvas, [corner, size], [left, 0.0], &small);
+            let ordinate = inset.ordinate(size[1], 0.0, &small);
+            inset.draw(true, canvas, [corner, size], ordinate, &small);
             let [wide, high] = size.map(|side| side + 2.0 * TICK);
             let rows = (0..20).map(|k| frame.top + high * f64::from(k) / 20.0);
             drawn.extend(rows.flat_map(|y| {

@@ -20,6 +20,7 @@ pub mod study;
 pub mod svg;
 
 use canvas::Canvas;
+use draw::Ordinate;
 use look::Look;
 
 use crate::export::header::{field, number};
@@ -124,26 +125,24 @@ impl Sheet {
             }
         }
         // Frames in a row end at one height, and those in a column begin at one place.
-        let in_row = |row: usize| charts.iter().skip(row * columns).take(columns);
-        let lowest = |row| {
-            in_row(row)
+        let lowest = |row: &[Chart]| {
+            row.iter()
                 .map(|chart| chart.below(look))
                 .fold(0.0, f64::max)
         };
-        let below: Vec<f64> = (0..rows).map(lowest).collect();
-        let ordinate = |(row, chart): (usize, &Chart)| chart.ordinate(place[1], below[row], look);
-        let in_column = |column| charts.iter().skip(column).step_by(columns).enumerate();
-        let widest = |column| {
-            in_column(column)
-                .map(|each| ordinate(each).left)
-                .fold(0.0, f64::max)
-        };
+        let below: Vec<f64> = charts.chunks(columns).map(lowest).collect();
+        let ordinates = charts.iter().enumerate();
+        let ordinates =
+            ordinates.map(|(k, chart)| chart.ordinate(place[1], below[k / columns], look));
+        let ordinates: Vec<Ordinate> = ordinates.collect();
+        let in_column = |column| ordinates.iter().skip(column).step_by(columns);
+        let widest = |column| in_column(column).map(|each| each.left).fold(0.0, f64::max);
         let left: Vec<f64> = (0..columns).map(widest).collect();
-        for (k, chart) in charts.iter().enumerate() {
+        for (k, (chart, mut ordinate)) in charts.iter().zip(ordinates).enumerate() {
             let (column, row) = (k % columns, k / columns);
             let at = [place[0] * column as f64, place[1] * row as f64];
-            let margins = [left[column], below[row]];
-            chart.draw(false, &mut canvas, [at, place], margins, look);
+            ordinate.left = left[column];
+            chart.draw(false, &mut canvas, [at, place], ordinate, look);
         }
         canvas
     }

@@ -3,6 +3,7 @@
 //! One list serves the status line, the accuracy panel, the header of every file and the end of a
 //! run. The guide's chapter on checks, which the panel shows too, explains each.
 
+use crate::math::abel::worn;
 use crate::simulation::{Simulation, Unworn, cycles_to_settle};
 
 /// The guide's chapter: a section a certificate.
@@ -16,8 +17,8 @@ const FAILS: f64 = 0.015;
 pub enum Subject {
     /// V against k E_d since the start.
     Energy,
-    /// V of the worn profile against that of its 1D image.
-    WearBalance,
+    /// The worn depth at the nodes against lines between their neighbours.
+    Interpolation,
     /// F_x against the closed form, where nothing wears.
     TangentialForce,
     /// E_d of a cycle against the closed form, where nothing wears.
@@ -28,7 +29,7 @@ impl Subject {
     /// All of them.
     pub const ALL: [Self; 4] = [
         Self::Energy,
-        Self::WearBalance,
+        Self::Interpolation,
         Self::TangentialForce,
         Self::Dissipation,
     ];
@@ -37,7 +38,7 @@ impl Subject {
     pub fn name(self) -> &'static str {
         match self {
             Self::Energy => "energy",
-            Self::WearBalance => "wear balance",
+            Self::Interpolation => "interpolation",
             Self::TangentialForce => "tangential force",
             Self::Dissipation => "dissipation",
         }
@@ -47,7 +48,7 @@ impl Subject {
     pub fn meaning(self) -> &'static str {
         match self {
             Self::Energy => "V of the profile against k E_d since the start",
-            Self::WearBalance => "V of the profile against that of its 1D image",
+            Self::Interpolation => "curvature of the worn depth against the widths of the cells",
             Self::TangentialForce => "F_x against the closed form (Mindlin)",
             Self::Dissipation => "E_d of a cycle against the closed form (Mindlin)",
         }
@@ -112,7 +113,9 @@ impl Simulation {
             checks.extend(error.map(|error| Check { subject, error }));
         };
         add(Subject::Energy, moment.energy_residual);
-        add(Subject::WearBalance, self.wear_balance());
+        let grid = &self.setup().grid;
+        let between = worn::interpolation_error(grid, self.worn_depth());
+        add(Subject::Interpolation, between);
         let period = f64::from(cycles_to_settle(&self.setup().drive));
         if moment.cycle >= 2.0 * period {
             let [force, energy] = self.closed_forms().map_or([None; 2], |both| both.map(Some));
@@ -120,40 +123,6 @@ impl Simulation {
             add(Subject::Dissipation, energy);
         }
         checks
-    }
-
-    /// 1 − V of the nodes over that of the 1D image, V = 4 ∫ g √(L² − x²) dx: f is (2/π) ∫ g/√(r² − x²) dx,
-    /// integrated over the area. For laws that follow no energy; none before anything has worn, and where the
-    /// scar is too narrow for the integral.
-    fn wear_balance(&self) -> Option<f64> {
-        self.setup()
-            .wear
-            .as_ref()
-            .filter(|law| !law.follows_energy())?;
-        let nodal = self.wear_volume();
-        let edge = self.setup().grid.radius();
-        // With x = L sin θ the root at the edge is gone.
-        let points = self.setup().grid.nodes().iter().zip(&self.state().image);
-        let points: Vec<[f64; 2]> = points
-            .map(|(x, g)| {
-                let sine = (x / edge).min(1.0);
-                [sine.asin(), g * (1.0 - sine * sine)]
-            })
-            .collect();
-        let volume = |step: usize| {
-            let last = points
-                .last()
-                .filter(|_| !(points.len() - 1).is_multiple_of(step));
-            let points: Vec<_> = points.iter().step_by(step).chain(last).collect();
-            let pairs = points.windows(2);
-            let area: f64 = pairs
-                .map(|pair| 0.5 * (pair[1][0] - pair[0][0]) * (pair[0][1] + pair[1][1]))
-                .sum();
-            4.0 * edge * edge * area
-        };
-        let (fine, coarse) = (volume(1), volume(2));
-        let is_seen = nodal > 0.0 && (fine - coarse).abs() < FAILS * nodal;
-        is_seen.then(|| 1.0 - nodal / fine)
     }
 
     /// F_x and E_d of the last period over the closed forms of a held load, less 1, where nothing wears.

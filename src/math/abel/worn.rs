@@ -40,6 +40,9 @@ use super::kernel::{asin_step, leg, root_step};
 use super::product;
 use crate::math::grid::RadialGrid;
 
+/// Shallower than this part of the largest worn depth, the surface does not count as scar.
+pub const SCAR: f64 = 1e-3;
+
 /// Eq. (1) on the worn depth: weights of its 1D image, δ(0) included.
 pub fn profile(grid: &RadialGrid) -> DMatrix<f64> {
     let nodes = grid.nodes();
@@ -118,6 +121,50 @@ pub fn interpolate(grid: &RadialGrid, wear: &[f64], r: f64) -> f64 {
     wear[border] + here * (factor(upper - 1) * (1.0 - weight) + factor(upper) * weight)
 }
 
+/// What the interpolant of [`profile`] leaves out between the nodes of a worn depth: rms over the scar, relative to its
+/// largest depth; `None` where nothing has worn.
+///
+/// A line over a cell of the width h errs by at most h²/8 |F″|. F″ is the larger of the second differences at its ends.
+pub fn interpolation_error(grid: &RadialGrid, wear: &[f64]) -> Option<f64> {
+    let nodes = grid.nodes();
+    let deepest = wear.iter().copied().fold(0.0, f64::max);
+    let border = grid.border().unwrap_or(grid.cells());
+    let mut errors = cell_errors(&grid.squares()[..=border], &wear[..=border]);
+    // Outside, the error of F counts z times. F at the border is that of the next node: a line is drawn from there on.
+    let z = &distances(nodes, border)[border..];
+    let outside = z.iter().zip(&wear[border..]).skip(1);
+    let factors: Vec<f64> = outside.map(|(z, worn)| (worn - wear[border]) / z).collect();
+    let of_factors = cell_errors(z.get(1..)?, &factors);
+    let first = of_factors.first().copied();
+    let of_factors = first.into_iter().chain(of_factors).zip(z.windows(2));
+    errors.extend(of_factors.map(|(error, z)| error * 0.5 * (z[0] + z[1])));
+    let (mut sum, mut length) = (0.0, 0.0);
+    for ((error, ends), width) in errors.iter().zip(wear.windows(2)).zip(grid.widths()) {
+        if ends[0].max(ends[1]) > SCAR * deepest {
+            // The mean square of a parabola over its largest value.
+            sum += width * 8.0 / 15.0 * error * error;
+            length += width;
+        }
+    }
+    (length > 0.0).then(|| (sum / length).sqrt() / deepest)
+}
+
+/// h²/8 |f″| of each cell between the points `x`.
+fn cell_errors(x: &[f64], f: &[f64]) -> Vec<f64> {
+    let slope = |k: usize| (f[k + 1] - f[k]) / (x[k + 1] - x[k]);
+    let cells = x.len().saturating_sub(1);
+    if cells < 2 {
+        return vec![0.0; cells];
+    }
+    let second = |i: usize| {
+        let i = i.clamp(1, cells - 1);
+        ((slope(i) - slope(i - 1)) / (0.5 * (x[i + 1] - x[i - 1]))).abs()
+    };
+    (0..cells)
+        .map(|k| second(k).max(second(k + 1)) * (x[k + 1] - x[k]).powi(2) / 8.0)
+        .collect()
+}
+
 /// z = √(r² − c²) of every node, 0 inside.
 fn distances(nodes: &[f64], border: usize) -> Vec<f64> {
     let c = nodes[border];
@@ -133,6 +180,28 @@ mod tests {
 
     fn graded(cells: usize, border: f64) -> RadialGrid {
         RadialGrid::graded(cells, border, 1.5).expect("a grid")
+    }
+
+    #[test]
+    fn the_interpolation_error_is_that_of_the_interpolant() {
+        // A root at the border, a kink at the end.
+        let depth = |r: f64| (r * r - 0.25).max(0.0).sqrt() * (1.44 - r * r).max(0.0);
+        let grids = [
+            graded(40, 0.5),
+            graded(160, 0.5),
+            RadialGrid::uniform(80, 1.5).expect("a grid"),
+        ];
+        for grid in grids {
+            let nodal: Vec<f64> = grid.nodes().iter().map(|&r| depth(r)).collect();
+            let radii = (0..4000).map(|i| 0.5 + 0.7 * f64::from(i) / 4000.0);
+            let squares = radii.map(|r| (interpolate(&grid, &nodal, r) - depth(r)).powi(2));
+            let truth = (squares.sum::<f64>() / 4000.0).sqrt()
+                / nodal.iter().fold(0.0, |a, b| f64::max(a, *b));
+            let found = interpolation_error(&grid, &nodal).expect("a scar");
+            assert!((0.7..3.0).contains(&(found / truth)), "{found:e} {truth:e}");
+        }
+        let grid = graded(40, 0.5);
+        assert_eq!(interpolation_error(&grid, &[0.0; 41]), None);
     }
 
     #[test]

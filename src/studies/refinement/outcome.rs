@@ -11,9 +11,6 @@ use crate::simulation::drive::Control;
 /// Radii at which scars are compared.
 const RADII: usize = 401;
 
-/// Shallower than this part of the largest worn depth, the surface does not count as scar.
-const SCAR: f64 = 1e-3;
-
 /// p is compared up to this part of the contact radius, and this far from the stick border: at both, p
 /// or its slope is singular, and what a node shows depends on where it lies.
 const INSIDE: f64 = 0.95;
@@ -149,7 +146,7 @@ impl Outcome {
 
     /// Where the scar begins and ends, m, if there is one.
     fn scar(&self) -> Option<(f64, f64)> {
-        let least = SCAR * self.scar_depth();
+        let least = worn::SCAR * self.scar_depth();
         let is_worn = |&wear: &f64| wear > least;
         let first = self.wear.iter().position(is_worn)?;
         let last = self.wear.iter().rposition(is_worn)?;

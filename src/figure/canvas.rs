@@ -1,9 +1,7 @@
 //! Primitives of a figure: lines, areas and text in millimetres, y downwards, in drawing order.
 
 use super::font;
-
-/// A colour, red, green and blue.
-pub type Rgb = [u8; 3];
+pub use crate::plot::colormap::Rgb;
 
 /// Black, for axes and words.
 pub const BLACK: Rgb = [0, 0, 0];
@@ -11,8 +9,9 @@ pub const BLACK: Rgb = [0, 0, 0];
 /// White, as paper is.
 pub const WHITE: Rgb = [255; 3];
 
-/// Where a text stands about its point.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Where a text stands about its point, with the name that SVG has for it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::IntoStaticStr)]
+#[strum(serialize_all = "lowercase")]
 pub enum Anchor {
     /// It begins there.
     Start,
@@ -33,20 +32,39 @@ impl Anchor {
     }
 }
 
+/// A line through points.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Line {
+    /// The points, mm.
+    pub points: Vec<[f64; 2]>,
+    /// Its colour.
+    pub ink: Rgb,
+    /// Its width, mm.
+    pub width: f64,
+    /// Lengths of dashes and gaps, mm; empty for a solid line.
+    pub dashes: &'static [f64],
+}
+
+/// A line of text.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Text {
+    /// A point of its baseline, mm.
+    pub at: [f64; 2],
+    /// The text.
+    pub words: String,
+    /// The size of the font, mm.
+    pub size: f64,
+    /// Where it stands about the point.
+    pub anchor: Anchor,
+    /// Whether it reads upwards instead of to the right.
+    pub upwards: bool,
+}
+
 /// One thing on the paper.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {
     /// A line through points.
-    Line {
-        /// The points, mm.
-        points: Vec<[f64; 2]>,
-        /// Its colour.
-        ink: Rgb,
-        /// Its width, mm.
-        width: f64,
-        /// Lengths of dashes and gaps, mm; empty for a solid line.
-        dashes: Vec<f64>,
-    },
+    Line(Line),
     /// A filled rectangle.
     Area {
         /// Its upper left corner, mm.
@@ -57,22 +75,11 @@ pub enum Shape {
         ink: Rgb,
     },
     /// A line of text.
-    Text {
-        /// A point of its baseline, mm.
-        at: [f64; 2],
-        /// The text.
-        words: String,
-        /// The size of the font, mm.
-        size: f64,
-        /// Where it stands about the point.
-        anchor: Anchor,
-        /// Whether it reads upwards instead of to the right.
-        upwards: bool,
-    },
+    Text(Text),
 }
 
 /// A sheet of paper with what is on it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Canvas {
     /// Width and height, mm.
     pub size: [f64; 2],
@@ -89,20 +96,19 @@ impl Canvas {
     pub fn new(size: [f64; 2]) -> Self {
         Self {
             size,
-            shapes: Vec::new(),
-            title: String::new(),
-            facts: Vec::new(),
+            ..Self::default()
         }
     }
 
     /// Draws a line.
-    pub fn line(&mut self, points: Vec<[f64; 2]>, ink: Rgb, width: f64, dashes: &[f64]) {
-        self.shapes.push(Shape::Line {
+    pub fn line(&mut self, points: Vec<[f64; 2]>, ink: Rgb, width: f64, dashes: &'static [f64]) {
+        let line = Line {
             points,
             ink,
             width,
-            dashes: dashes.to_vec(),
-        });
+            dashes,
+        };
+        self.shapes.push(Shape::Line(line));
     }
 
     /// Fills a rectangle.
@@ -132,22 +138,20 @@ impl Canvas {
                 (false, false) => [at[0] + along, at[1] - lift],
             };
             along += run.width() * size;
-            self.shapes.push(Shape::Text {
+            self.shapes.push(Shape::Text(Text {
                 at,
                 words: run.words,
                 size: run.size * size,
                 anchor: if alone { anchor } else { Anchor::Start },
                 upwards,
-            });
+            }));
         }
     }
 
     /// The facts as one text, a line each.
     pub fn caption(&self) -> String {
         let lines = self.facts.iter();
-        let lines: Vec<String> = lines
-            .map(|(key, value)| format!("{key}: {value}"))
-            .collect();
-        lines.join("\n")
+        let lines = lines.map(|(key, value)| format!("{key}: {value}"));
+        lines.collect::<Vec<_>>().join("\n")
     }
 }

@@ -5,6 +5,7 @@
 //! `study` (the charts of a sweep), `paper` (the figures of the paper). Charts, their ticks and units are those of the screen (`plot`).
 
 use std::fmt::Write;
+use std::io;
 use std::path::Path;
 
 pub mod canvas;
@@ -29,8 +30,9 @@ use crate::plot::{Chart, Curve};
 use crate::scenario::printable;
 use crate::scenario::scalars::quoted;
 
-/// The kinds of files.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// The kinds of files, by what their names end in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::EnumString)]
+#[strum(ascii_case_insensitive)]
 pub enum Format {
     /// Vectors, words as words.
     Svg,
@@ -43,20 +45,14 @@ pub enum Format {
 impl Format {
     /// The format that a name ends in.
     pub fn of(path: &Path) -> Option<Self> {
-        let end = path.extension()?.to_str()?.to_ascii_lowercase();
-        match end.as_str() {
-            "svg" => Some(Self::Svg),
-            "png" => Some(Self::Png),
-            "pdf" => Some(Self::Pdf),
-            _ => None,
-        }
+        path.extension()?.to_str()?.parse().ok()
     }
 
     /// The whole file of a figure; `dpi` is for pixels.
     ///
     /// # Errors
     /// If a PNG has no pixels, or too many.
-    pub fn write(self, canvas: &Canvas, dpi: f64) -> Result<Vec<u8>, png::PngError> {
+    pub fn write(self, canvas: &Canvas, dpi: f64) -> io::Result<Vec<u8>> {
         match self {
             Self::Svg => Ok(svg::write(canvas).into_bytes()),
             Self::Png => png::write(canvas, dpi),

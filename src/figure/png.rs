@@ -1,10 +1,12 @@
 //! A figure as PNG, at a resolution that the file states; the caption's facts are in its text.
 
-use png::{BitDepth, ColorType, Encoder, EncodingError, PixelDimensions, Unit};
+use std::io;
+
+use png::{BitDepth, ColorType, Encoder, PixelDimensions, Unit};
 use tiny_skia::{
-    Color, FillRule, LineJoin, Paint, Path, PathBuilder, Pixmap, Rect, Stroke, StrokeDash,
-    Transform,
+    Color, FillRule, LineJoin, Paint, PathBuilder, Pixmap, Rect, Stroke, StrokeDash, Transform,
 };
+use ttf_parser::OutlineBuilder;
 
 use super::canvas::{BLACK, Canvas, Rgb, Shape};
 use super::font;
@@ -14,31 +16,17 @@ const INCH: f64 = 25.4;
 /// The most pixels of an image: some 400 MB.
 const MOST_PIXELS: f64 = 1e8;
 
-/// Why there is no image.
-#[derive(Debug, thiserror::Error)]
-pub enum PngError {
-    /// Too large, or nothing.
-    #[error("{width:.0} by {height:.0} pixels: an image has 1 to 1e8 pixels")]
-    Size {
-        /// Pixels across.
-        width: f64,
-        /// Pixels down.
-        height: f64,
-    },
-    /// The encoder refused.
-    #[error(transparent)]
-    Encoding(#[from] EncodingError),
-}
-
 /// The whole file at `dpi` dots per inch.
 ///
 /// # Errors
-/// [`PngError::Size`] if the image has no pixel or more than 1e8; [`PngError::Encoding`] if the
-/// encoder refuses the text.
-pub fn write(canvas: &Canvas, dpi: f64) -> Result<Vec<u8>, PngError> {
+/// If the image has no pixel or more than 1e8, or the encoder refuses the text.
+pub fn write(canvas: &Canvas, dpi: f64) -> io::Result<Vec<u8>> {
     let scale = dpi / INCH;
     let [width, height] = canvas.size.map(|length| (length * scale).round());
-    let refused = || PngError::Size { width, height };
+    let refused = || {
+        let rule = format!("{width:.0} by {height:.0} pixels: an image has 1 to 1e8 pixels");
+        io::Error::other(rule)
+    };
     if !(width >= 1.0 && height >= 1.0 && width * height <= MOST_PIXELS) {
         return Err(refused());
     }
@@ -69,21 +57,24 @@ pub fn write(canvas: &Canvas, dpi: f64) -> Result<Vec<u8>, PngError> {
 
 fn draw(shape: &Shape, pixels: &mut Pixmap, to_pixels: Transform) {
     match shape {
-        Shape::Line {
-            points,
-            ink,
-            width,
-            dashes,
-        } => {
-            let dashes = dashes.iter().map(|&dash| dash as f32).collect();
+        Shape::Line(line) => {
+            let dashes = line.dashes.iter().map(|&dash| dash as f32).collect();
             let stroke = Stroke {
-                width: *width as f32,
+                width: line.width as f32,
                 line_join: LineJoin::Round,
                 dash: StrokeDash::new(dashes, 0.0),
                 ..Stroke::default()
             };
-            if let Some(path) = polyline(points) {
-                pixels.stroke_path(&path, &paint(*ink), &stroke, to_pixels, None);
+            let mut path = PathBuilder::new();
+            for (k, point) in line.points.iter().enumerate() {
+                let [x, y] = point.map(|v| v as f32);
+                match k {
+                    0 => path.move_to(x, y),
+                    _ => path.line_to(x, y),
+                }
+            }
+            if let Some(path) = path.finish() {
+                pixels.stroke_path(&path, &paint(line.ink), &stroke, to_pixels, None);
             }
         }
         Shape::Area { at, size, ink } => {
@@ -95,23 +86,23 @@ fn draw(shape: &Shape, pixels: &mut Pixmap, to_pixels: Transform) {
                 pixels.fill_rect(area, &paint, to_pixels, None);
             }
         }
-        Shape::Text {
-            at,
-            words,
-            size,
-            anchor,
-            upwards,
-        } => {
-            let before = anchor.share_before() * font::width(words);
-            let Some(path) = outline(words, before) else {
-                return;
-            };
-            let turn = if *upwards { -90.0 } else { 0.0 };
+        Shape::Text(text) => {
+            let before = text.anchor.share_before() * font::width(&text.words);
+            let [x, y, size] = [text.at[0], text.at[1], text.size].map(|v| v as f32);
             let place = to_pixels
-                .pre_translate(at[0] as f32, at[1] as f32)
-                .pre_rotate(turn)
-                .pre_scale(*size as f32, -*size as f32);
-            pixels.fill_path(&path, &paint(BLACK), FillRule::Winding, place, None);
+                .pre_translate(x, y)
+                .pre_rotate(if text.upwards { -90.0 } else { 0.0 })
+                .pre_scale(size, -size);
+            let unit = font::unit() as f32;
+            for (_, glyph, at, _) in font::glyphs(&text.words) {
+                let mut pen = Pen(PathBuilder::new());
+                font::FACE.outline_glyph(glyph, &mut pen);
+                if let Some(path) = pen.0.finish() {
+                    let place = place.pre_translate((at - before) as f32, 0.0);
+                    let place = place.pre_scale(unit, unit);
+                    pixels.fill_path(&path, &paint(BLACK), FillRule::Winding, place, None);
+                }
+            }
         }
     }
 }
@@ -122,41 +113,27 @@ fn paint([red, green, blue]: Rgb) -> Paint<'static> {
     paint
 }
 
-fn polyline(points: &[[f64; 2]]) -> Option<Path> {
-    let mut path = PathBuilder::new();
-    for (k, point) in points.iter().enumerate() {
-        let [x, y] = point.map(|v| v as f32);
-        if k == 0 {
-            path.move_to(x, y);
-        } else {
-            path.line_to(x, y);
-        }
-    }
-    path.finish()
-}
+/// Makes a path of a glyph's outline.
+struct Pen(PathBuilder);
 
-/// The outlines of a text of size 1, its beginning at −`before`.
-fn outline(words: &str, before: f64) -> Option<Path> {
-    let mut path = PathBuilder::new();
-    let place = |[x, y]: [f64; 2]| [(x - before) as f32, y as f32];
-    font::outline(words, &mut |stroke| match stroke {
-        font::Stroke::Move(to) => {
-            let [x, y] = place(to);
-            path.move_to(x, y);
-        }
-        font::Stroke::Line(to) => {
-            let [x, y] = place(to);
-            path.line_to(x, y);
-        }
-        font::Stroke::Quad(by, to) => {
-            let ([x1, y1], [x, y]) = (place(by), place(to));
-            path.quad_to(x1, y1, x, y);
-        }
-        font::Stroke::Cubic(first, second, to) => {
-            let ([x1, y1], [x2, y2], [x, y]) = (place(first), place(second), place(to));
-            path.cubic_to(x1, y1, x2, y2, x, y);
-        }
-        font::Stroke::Close => path.close(),
-    });
-    path.finish()
+impl OutlineBuilder for Pen {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.0.move_to(x, y);
+    }
+
+    fn line_to(&mut self, x: f32, y: f32) {
+        self.0.line_to(x, y);
+    }
+
+    fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
+        self.0.quad_to(x1, y1, x, y);
+    }
+
+    fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
+        self.0.cubic_to(x1, y1, x2, y2, x, y);
+    }
+
+    fn close(&mut self) {
+        self.0.close();
+    }
 }

@@ -1,9 +1,8 @@
 //! A figure as SVG: words stay words, so that an editor can change them; the font is named.
 
-use std::fmt::Write;
-
-use super::canvas::{Anchor, Canvas, Rgb, Shape};
+use super::canvas::{Canvas, Shape};
 use super::font::FAMILY;
+use crate::plot::screen_svg::{escaped, hex};
 
 /// The whole file.
 pub fn write(canvas: &Canvas) -> String {
@@ -26,17 +25,10 @@ pub fn write(canvas: &Canvas) -> String {
 
 fn element(shape: &Shape) -> String {
     match shape {
-        Shape::Line {
-            points,
-            ink,
-            width,
-            dashes,
-        } => {
-            let mut path = String::new();
-            for [x, y] in points {
-                let _ = write!(path, "{},{} ", length(*x), length(*y));
-            }
-            let dashes: Vec<String> = dashes.iter().map(|&dash| length(dash)).collect();
+        Shape::Line(line) => {
+            let points = line.points.iter().map(|point| point.map(length).join(","));
+            let points: Vec<String> = points.collect();
+            let dashes: Vec<String> = line.dashes.iter().map(|&dash| length(dash)).collect();
             let dashes = match dashes.is_empty() {
                 true => String::new(),
                 false => format!(" stroke-dasharray=\"{}\"", dashes.join(" ")),
@@ -44,41 +36,30 @@ fn element(shape: &Shape) -> String {
             format!(
                 "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" \
                  stroke-linejoin=\"round\"{dashes}/>",
-                path.trim_end(),
-                color(*ink),
-                length(*width),
+                points.join(" "),
+                hex(line.ink),
+                length(line.width),
             )
         }
-        Shape::Area { at, size, ink } => format!(
-            "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\" \
-             shape-rendering=\"crispEdges\"/>",
-            length(at[0]),
-            length(at[1]),
-            length(size[0]),
-            length(size[1]),
-            color(*ink),
-        ),
-        Shape::Text {
-            at,
-            words,
-            size,
-            anchor,
-            upwards,
-        } => {
-            let [x, y] = at.map(length);
-            let anchor = match anchor {
-                Anchor::Start => "start",
-                Anchor::Middle => "middle",
-                Anchor::End => "end",
-            };
-            let turned = match upwards {
+        Shape::Area { at, size, ink } => {
+            let ([x, y], [width, height]) = (at.map(length), size.map(length));
+            format!(
+                "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" fill=\"{}\" \
+                 shape-rendering=\"crispEdges\"/>",
+                hex(*ink),
+            )
+        }
+        Shape::Text(text) => {
+            let [x, y] = text.at.map(length);
+            let anchor: &str = text.anchor.into();
+            let turned = match text.upwards {
                 true => format!(" transform=\"rotate(-90 {x} {y})\""),
                 false => String::new(),
             };
             format!(
                 "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\" text-anchor=\"{anchor}\"{turned}>{}</text>",
-                length(*size),
-                escaped(words),
+                length(text.size),
+                escaped(&text.words),
             )
         }
     }
@@ -93,24 +74,4 @@ fn length(value: f64) -> String {
     } else {
         text.into()
     }
-}
-
-fn color([red, green, blue]: Rgb) -> String {
-    format!("#{red:02x}{green:02x}{blue:02x}")
-}
-
-fn escaped(text: &str) -> String {
-    let mut safe = String::with_capacity(text.len());
-    for sign in text.chars() {
-        match sign {
-            '&' => safe.push_str("&amp;"),
-            '<' => safe.push_str("&lt;"),
-            '>' => safe.push_str("&gt;"),
-            '"' => safe.push_str("&quot;"),
-            '\n' => safe.push('\n'),
-            sign if sign.is_control() => safe.push(' '),
-            sign => safe.push(sign),
-        }
-    }
-    safe
 }

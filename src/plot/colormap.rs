@@ -1,5 +1,8 @@
 //! Colours of a map: shares of a range as red, green and blue.
 
+/// A colour, red, green and blue.
+pub type Rgb = [u8; 3];
+
 /// Which colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ColorMap {
@@ -10,7 +13,7 @@ pub enum ColorMap {
 }
 
 /// The colours of viridis at nine shares.
-const SEQUENTIAL: [[u8; 3]; 9] = [
+const SEQUENTIAL: [Rgb; 9] = [
     [68, 1, 84],
     [71, 44, 122],
     [59, 81, 139],
@@ -23,7 +26,7 @@ const SEQUENTIAL: [[u8; 3]; 9] = [
 ];
 
 /// Blue through white to red at seven shares.
-const DIVERGING: [[u8; 3]; 7] = [
+const DIVERGING: [Rgb; 7] = [
     [33, 102, 172],
     [103, 169, 207],
     [209, 229, 240],
@@ -35,8 +38,8 @@ const DIVERGING: [[u8; 3]; 7] = [
 
 impl ColorMap {
     /// The colour at a share of the range, 0 to 1.
-    pub fn color(self, share: f64) -> [u8; 3] {
-        let stops: &[[u8; 3]] = match self {
+    pub fn color(self, share: f64) -> Rgb {
+        let stops: &[Rgb] = match self {
             Self::Sequential => &SEQUENTIAL,
             Self::Diverging => &DIVERGING,
         };

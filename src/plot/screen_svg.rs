@@ -9,8 +9,7 @@ use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Modifier};
 use ratatui::text::Line;
 
-/// Red, green, blue.
-pub type Rgb = [u8; 3];
+use super::colormap::Rgb;
 
 /// What the terminal's own colours look like.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,59 +40,44 @@ const LETTERS: f64 = 15.0;
 /// Around the screen, pixels.
 const MARGIN: f64 = 8.0;
 
+/// The opacity of what is dim.
+const DIM: f64 = 0.55;
+
 /// The sixteen colours of a terminal, for what is not given as red, green and blue.
-const SIXTEEN: [Rgb; 16] = [
-    [0, 0, 0],
-    [0xcd, 0x31, 0x31],
-    [0x0d, 0xbc, 0x79],
-    [0xe5, 0xe5, 0x10],
-    [0x24, 0x72, 0xc8],
-    [0xbc, 0x3f, 0xbc],
-    [0x11, 0xa8, 0xcd],
-    [0xe5, 0xe5, 0xe5],
-    [0x66, 0x66, 0x66],
-    [0xf1, 0x4c, 0x4c],
-    [0x23, 0xd1, 0x8b],
-    [0xf5, 0xf5, 0x43],
-    [0x3b, 0x8e, 0xea],
-    [0xd6, 0x70, 0xd6],
-    [0x29, 0xb8, 0xdb],
-    [0xff, 0xff, 0xff],
+const SIXTEEN: [(Color, Rgb); 16] = [
+    (Color::Black, [0, 0, 0]),
+    (Color::Red, [0xcd, 0x31, 0x31]),
+    (Color::Green, [0x0d, 0xbc, 0x79]),
+    (Color::Yellow, [0xe5, 0xe5, 0x10]),
+    (Color::Blue, [0x24, 0x72, 0xc8]),
+    (Color::Magenta, [0xbc, 0x3f, 0xbc]),
+    (Color::Cyan, [0x11, 0xa8, 0xcd]),
+    (Color::Gray, [0xe5, 0xe5, 0xe5]),
+    (Color::DarkGray, [0x66, 0x66, 0x66]),
+    (Color::LightRed, [0xf1, 0x4c, 0x4c]),
+    (Color::LightGreen, [0x23, 0xd1, 0x8b]),
+    (Color::LightYellow, [0xf5, 0xf5, 0x43]),
+    (Color::LightBlue, [0x3b, 0x8e, 0xea]),
+    (Color::LightMagenta, [0xd6, 0x70, 0xd6]),
+    (Color::LightCyan, [0x29, 0xb8, 0xdb]),
+    (Color::White, [0xff, 0xff, 0xff]),
 ];
 
 /// The colour that a terminal shows; `own` where it is the terminal's.
 fn shown(color: Color, own: Rgb) -> Rgb {
-    let index = match color {
-        Color::Reset => return own,
-        Color::Rgb(r, g, b) => return [r, g, b],
-        Color::Indexed(index) => index,
-        Color::Black => 0,
-        Color::Red => 1,
-        Color::Green => 2,
-        Color::Yellow => 3,
-        Color::Blue => 4,
-        Color::Magenta => 5,
-        Color::Cyan => 6,
-        Color::Gray => 7,
-        Color::DarkGray => 8,
-        Color::LightRed => 9,
-        Color::LightGreen => 10,
-        Color::LightYellow => 11,
-        Color::LightBlue => 12,
-        Color::LightMagenta => 13,
-        Color::LightCyan => 14,
-        Color::White => 15,
-    };
-    match index {
-        0..=15 => SIXTEEN[usize::from(index)],
-        16..=231 => {
+    let named = || SIXTEEN.iter().find(|(name, _)| *name == color);
+    match color {
+        Color::Rgb(r, g, b) => [r, g, b],
+        Color::Indexed(index @ 0..=15) => SIXTEEN[usize::from(index)].1,
+        Color::Indexed(index @ 16..=231) => {
             let at = index - 16;
             [at / 36, at / 6 % 6, at % 6].map(|level| match level {
                 0 => 0,
                 level => 55 + 40 * level,
             })
         }
-        grey => [8 + 10 * (grey - 232); 3],
+        Color::Indexed(grey) => [8 + 10 * (grey - 232); 3],
+        _ => named().map_or(own, |(_, rgb)| *rgb),
     }
 }
 
@@ -103,7 +87,7 @@ struct Look {
     fore: Rgb,
     back: Rgb,
     bold: bool,
-    dim: bool,
+    opacity: f64,
 }
 
 impl Look {
@@ -116,7 +100,11 @@ impl Look {
             fore,
             back,
             bold: cell.modifier.contains(Modifier::BOLD),
-            dim: cell.modifier.contains(Modifier::DIM),
+            opacity: if cell.modifier.contains(Modifier::DIM) {
+                DIM
+            } else {
+                1.0
+            },
         }
     }
 }
@@ -139,115 +127,103 @@ fn arms(sign: char) -> Option<[bool; 4]> {
     Some(['l', 'r', 'u', 'd'].map(|arm| arms.contains(arm)))
 }
 
-/// Strokes and areas of one colour.
-#[derive(Debug)]
-struct Ink {
-    color: Rgb,
-    opacity: f64,
-    dots: String,
-    rules: String,
-    areas: String,
-}
-
-/// What is drawn, by colour.
+/// Paths that are drawn alike: how, and their data.
 #[derive(Debug, Default)]
-struct Drawing(Vec<Ink>);
+struct Drawing(Vec<(String, String)>);
 
 impl Drawing {
-    fn ink(&mut self, color: Rgb, opacity: f64) -> &mut Ink {
-        let is = |ink: &Ink| ink.color == color && ink.opacity == opacity;
-        let at = self.0.iter().position(is).unwrap_or_else(|| {
-            self.0.push(Ink {
-                color,
-                opacity,
-                dots: String::new(),
-                rules: String::new(),
-                areas: String::new(),
-            });
+    /// The data of what is drawn in this way.
+    fn of(&mut self, how: String) -> &mut String {
+        let at = self.0.iter().position(|(known, _)| *known == how);
+        let at = at.unwrap_or_else(|| {
+            self.0.push((how, String::new()));
             self.0.len() - 1
         });
-        &mut self.0[at]
+        &mut self.0[at].1
+    }
+
+    fn area(&mut self, color: Rgb, opacity: f64, (x, y): (f64, f64), height: f64) {
+        let data = self.of(format!("fill=\"{}\"{}", hex(color), seen(opacity)));
+        let _ = write!(data, "M{x} {y}h{0}v{height}h-{0}z", CELL.0);
+    }
+
+    fn line(&mut self, look: Look, width: &str) -> &mut String {
+        let (color, seen) = (hex(look.fore), seen(look.opacity));
+        self.of(format!("stroke=\"{color}\" stroke-width={width}{seen}"))
     }
 
     /// Draws the sign of a cell at a place; false if it is a letter.
     fn sign(&mut self, sign: char, look: Look, (x, y): (f64, f64)) -> bool {
-        let (w, h) = CELL;
-        let opacity = if look.dim { 0.55 } else { 1.0 };
-        let share = match sign {
-            '█' => Some((0.0, 1.0, 1.0)),
-            '▀' => Some((0.0, 0.5, 1.0)),
-            '▄' => Some((0.5, 0.5, 1.0)),
-            '░' => Some((0.0, 1.0, 0.25)),
-            '▒' => Some((0.0, 1.0, 0.5)),
-            '▓' => Some((0.0, 1.0, 0.75)),
-            _ => None,
-        };
-        if let Some((top, height, shade)) = share {
-            let areas = &mut self.ink(look.fore, opacity * shade).areas;
-            let _ = write!(areas, "M{x} {}h{w}v{}h-{w}z", y + top * h, height * h);
-        } else if let Some([left, right, up, down]) = arms(sign) {
-            let rules = &mut self.ink(look.fore, opacity).rules;
-            let (mx, my) = (x + w / 2.0, y + h / 2.0);
-            let [from, to] =
-                [(left, x), (right, x + w)].map(|(arm, end)| if arm { end } else { mx });
-            let [top, end] = [(up, y), (down, y + h)].map(|(arm, end)| if arm { end } else { my });
-            if from < to {
-                let _ = write!(rules, "M{from} {my}H{to}");
-            }
-            if top < end {
-                let _ = write!(rules, "M{mx} {top}V{end}");
-            }
-        } else if ('\u{2800}'..='\u{28ff}').contains(&sign) {
-            let bits = sign as u32 - 0x2800;
-            let places = [
-                (0, 0),
-                (0, 1),
-                (0, 2),
-                (1, 0),
-                (1, 1),
-                (1, 2),
-                (0, 3),
-                (1, 3),
-            ];
-            let dots = &mut self.ink(look.fore, opacity).dots;
-            for (bit, (column, row)) in places.into_iter().enumerate() {
-                if bits >> bit & 1 == 1 {
+        let ((w, h), color, opacity) = (CELL, look.fore, look.opacity);
+        match sign {
+            '█' => self.area(color, opacity, (x, y), h),
+            '▀' => self.area(color, opacity, (x, y), 0.5 * h),
+            '▄' => self.area(color, opacity, (x, y + 0.5 * h), 0.5 * h),
+            '░' => self.area(color, 0.25 * opacity, (x, y), h),
+            '▒' => self.area(color, 0.5 * opacity, (x, y), h),
+            '▓' => self.area(color, 0.75 * opacity, (x, y), h),
+            '\u{2800}'..='\u{28ff}' => {
+                let dots = self.line(look, "\"3\" stroke-linecap=\"round\"");
+                for bit in (0..8).filter(|bit| (sign as u32) >> bit & 1 == 1) {
+                    // The lowest row came last to Braille.
+                    let [column, row] = if bit < 6 {
+                        [bit / 3, bit % 3]
+                    } else {
+                        [bit - 6, 3]
+                    };
                     let x = x + w * (f64::from(column) * 0.5 + 0.25);
                     let y = y + h * (f64::from(row) * 0.25 + 0.125);
                     let _ = write!(dots, "M{x} {y}h0");
                 }
             }
-        } else {
-            return false;
+            _ => {
+                let Some([left, right, up, down]) = arms(sign) else {
+                    return false;
+                };
+                let rules = self.line(look, "\"1\"");
+                let (mx, my) = (x + w / 2.0, y + h / 2.0);
+                let end = |arm: bool, end: f64, middle: f64| if arm { end } else { middle };
+                if left || right {
+                    let (from, to) = (end(left, x, mx), end(right, x + w, mx));
+                    let _ = write!(rules, "M{from} {my}H{to}");
+                }
+                if up || down {
+                    let (from, to) = (end(up, y, my), end(down, y + h, my));
+                    let _ = write!(rules, "M{mx} {from}V{to}");
+                }
+            }
         }
         true
     }
 
     fn write(&self, svg: &mut String) {
-        for ink in &self.0 {
-            let (color, opacity) = (hex(ink.color), ink.opacity);
-            let seen = match opacity {
-                1.0 => String::new(),
-                opacity => format!(" opacity=\"{opacity}\""),
-            };
-            for (path, how) in [
-                (&ink.areas, format!("fill=\"{color}\"")),
-                (&ink.rules, format!("stroke=\"{color}\" stroke-width=\"1\"")),
-                (
-                    &ink.dots,
-                    format!("stroke=\"{color}\" stroke-width=\"3\" stroke-linecap=\"round\""),
-                ),
-            ] {
-                if !path.is_empty() {
-                    let _ = writeln!(svg, "<path {how}{seen} d=\"{path}\"/>");
-                }
-            }
+        for (how, data) in &self.0 {
+            let _ = writeln!(svg, "<path {how} d=\"{data}\"/>");
         }
     }
 }
 
-fn hex([r, g, b]: Rgb) -> String {
-    format!("#{r:02x}{g:02x}{b:02x}")
+/// The attribute of what one can see through.
+fn seen(opacity: f64) -> String {
+    match opacity {
+        1.0 => String::new(),
+        opacity => format!(" opacity=\"{opacity}\""),
+    }
+}
+
+/// A colour as SVG has it.
+pub fn hex([red, green, blue]: Rgb) -> String {
+    format!("#{red:02x}{green:02x}{blue:02x}")
+}
+
+/// A text as it stands in an element of SVG.
+pub fn escaped(text: &str) -> String {
+    let printable = |sign: char| sign.is_control() && sign != '\n';
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
+        .replace(printable, " ")
 }
 
 /// A run of letters of one look, from a column on.
@@ -259,30 +235,19 @@ struct Run {
 
 impl Run {
     fn write(&self, y: f64, svg: &mut String) {
-        let trimmed = self.text.trim_end();
-        if trimmed.is_empty() {
-            return;
-        }
+        let text = self.text.trim_end();
         let x = MARGIN + f64::from(self.column) * CELL.0;
-        let width = Line::raw(trimmed).width() as f64 * CELL.0;
-        let bold = if self.look.bold {
-            " font-weight=\"bold\""
-        } else {
-            ""
+        let width = Line::raw(text).width() as f64 * CELL.0;
+        let bold = match self.look.bold {
+            true => " font-weight=\"bold\"",
+            false => "",
         };
-        let dim = if self.look.dim {
-            " opacity=\"0.55\""
-        } else {
-            ""
-        };
-        let escaped = trimmed
-            .replace('&', "&amp;")
-            .replace('<', "&lt;")
-            .replace('>', "&gt;");
         let _ = writeln!(
             svg,
-            "<text x=\"{x}\" y=\"{y}\" textLength=\"{width}\" fill=\"{}\"{bold}{dim}>{escaped}</text>",
-            hex(self.look.fore)
+            "<text x=\"{x}\" y=\"{y}\" textLength=\"{width}\" fill=\"{}\"{bold}{}>{}</text>",
+            hex(self.look.fore),
+            seen(self.look.opacity),
+            escaped(text),
         );
     }
 }
@@ -304,15 +269,14 @@ pub fn picture(buffer: &Buffer, ground: Ground) -> String {
     let mut drawing = Drawing::default();
     for (row, cells) in buffer.area.rows().enumerate() {
         let y = MARGIN + row as f64 * h;
-        let mut run: Option<Run> = None;
-        let mut covered = 0;
+        let mut runs: Vec<Run> = Vec::new();
+        let (mut is_open, mut covered) = (false, 0);
         for (column, at) in cells.positions().enumerate() {
             let (cell, column) = (&buffer[at], column as u16);
             let look = Look::of(cell, ground);
-            let x = MARGIN + f64::from(column) * w;
+            let place = (MARGIN + f64::from(column) * w, y);
             if look.back != ground.back {
-                let areas = &mut backs.ink(look.back, 1.0).areas;
-                let _ = write!(areas, "M{x} {y}h{w}v{h}h-{w}z");
+                backs.area(look.back, 1.0, place, h);
             }
             // A wide character covers the cell behind it.
             if covered > 0 {
@@ -322,30 +286,26 @@ pub fn picture(buffer: &Buffer, ground: Ground) -> String {
             let symbol = cell.symbol();
             covered = Line::raw(symbol).width().saturating_sub(1);
             let sign = symbol.chars().next().unwrap_or(' ');
-            let is_drawn = drawing.sign(sign, look, (x, y));
-            let symbol = if is_drawn { " " } else { symbol };
+            if drawing.sign(sign, look, place) {
+                is_open = false;
+                continue;
+            }
             // One blank goes on with the run before it; two, and signs that are drawn, end it.
-            match &mut run {
-                Some(run)
-                    if !is_drawn
-                        && (run.look == look || symbol == " ")
-                        && !(symbol == " " && run.text.ends_with(' ')) =>
-                {
-                    run.text.push_str(symbol);
-                }
+            let is_blank = symbol == " ";
+            match runs.last_mut().filter(|_| is_open) {
+                Some(run) if is_blank && !run.text.ends_with(' ') => run.text.push(' '),
+                Some(run) if !is_blank && run.look == look => run.text.push_str(symbol),
                 _ => {
-                    if let Some(run) = run.take() {
-                        run.write(y + 0.72 * h, &mut letters);
-                    }
-                    run = (!is_drawn && symbol != " ").then(|| Run {
+                    is_open = !is_blank;
+                    runs.extend(is_open.then(|| Run {
                         look,
                         column,
                         text: symbol.to_owned(),
-                    });
+                    }));
                 }
             }
         }
-        if let Some(run) = run {
+        for run in runs {
             run.write(y + 0.72 * h, &mut letters);
         }
     }

@@ -6,7 +6,7 @@ use super::frame::{BAR, Frame, symbol};
 use super::look::Look;
 use super::map::Key;
 use crate::plot::axis::titled;
-use crate::plot::ticks::{Labels, Tick, ticks};
+use crate::plot::ticks::{Labels, Ruler};
 use crate::plot::units::{AxisUnit, axis_unit};
 use crate::plot::window::Window;
 use crate::plot::{Axis, Chart, Curve, Scale};
@@ -41,21 +41,16 @@ impl Chart {
     /// The ordinate of a chart in `height` mm, with a legend of `below` mm under it.
     pub(super) fn ordinate(&self, height: f64, below: f64, look: &Look) -> Ordinate {
         let font = look.font;
-        let bounds = self.bounds_on_paper()[1];
-        let unit = unit_of(&self.y, bounds);
         let top = if self.title.is_empty() { 0.6 } else { 1.8 } * font;
         let height = (height - top - 3.4 * font - below).max(1.0);
-        let window = window(bounds, &self.y, height / (1.2 * font));
-        let ticks = ticks(&window, unit.factor, Labels::Column);
-        let widest = ticks.iter().map(|tick| numeral(&tick.label));
-        let widest = widest.map(|label| font::set_width(&label));
+        let ruler = column(&self.y, self.bounds_on_paper()[1], height, font);
+        let labels = ruler.ticks.iter().map(|tick| numeral(&tick.label));
+        let widest = labels.map(|label| font::set_width(&label));
         Ordinate {
             left: widest.fold(0.0, f64::max) * font + 2.6 * font,
             top,
             height,
-            unit,
-            window,
-            ticks,
+            ruler,
         }
     }
 
@@ -70,27 +65,20 @@ impl Chart {
         look: &Look,
     ) {
         let font = look.font;
-        let bounds = self.bounds_on_paper()[0];
         let (left, top, height) = (ordinate.left, ordinate.top, ordinate.height);
-        let units = [unit_of(&self.x, bounds), ordinate.unit];
-        let (vertical, y_ticks) = (ordinate.window, ordinate.ticks);
         let key = self.map.as_ref().map(|map| Key::new(map, height, font));
         let right = key
             .as_ref()
             .map_or(1.4 * font, |key| key.width(font) + 1.2 * font);
         let width = (size[0] - left - right).max(1.0);
         // A digit is about 0.57 of the font's size wide.
-        let horizontal = window(bounds, &self.x, width / (0.57 * font));
-        let row = Labels::Row {
-            before: 0,
-            apart: 0,
-        };
-        let x_ticks = ticks(&horizontal, units[0].factor, row);
+        let across = width / (0.57 * font);
+        let across = ruler(&self.x, self.bounds_on_paper()[0], across, Labels::Row(0));
         let frame = Frame {
             left: at[0] + left,
             top: at[1] + top,
             size: [width, height],
-            windows: [horizontal, vertical],
+            rulers: [across, ordinate.ruler],
             downwards: self.y.downwards,
         };
         if let Some(key) = &key {
@@ -98,7 +86,11 @@ impl Chart {
             key.draw(&frame, canvas, look);
         }
         for mark in &self.marks {
-            self.mark(mark.x, mark.label, &frame, canvas, font);
+            if let Some([low, high]) = frame.vertical(mark.x) {
+                canvas.line(vec![low, high], BLACK, FRAME, &[0.3, 0.7]);
+                let above = [low[0], frame.top - 0.3 * font];
+                canvas.text(above, mark.label, 0.9 * font, Anchor::Middle);
+            }
         }
         let mut drawn = Vec::new();
         if self.map.is_some() {
@@ -121,7 +113,7 @@ impl Chart {
                 drawn.extend(frame.points(curve, canvas, look));
             }
         }
-        self.axes(&frame, &units, [&x_ticks, &y_ticks], at, canvas, font);
+        self.axes(&frame, at[0], canvas, font);
         let above = [at[0] + 0.3 * font, at[1] + 1.1 * font];
         canvas.text(above, &self.title, font, Anchor::Start);
         if let Some(inset) = &self.inset {
@@ -148,47 +140,24 @@ impl Chart {
     pub fn bounds_on_paper(&self) -> [[f64; 2]; 2] {
         let (extent, axes) = (self.extent(|_| true), [&self.x, &self.y]);
         [0, 1].map(|k| {
-            let (axis, is_x) = (axes[k], k == 0);
-            let has_margin = is_x && self.margin > 0.0;
-            let is_full = is_x || self.map.is_some();
+            let (axis, is_log) = (axes[k], axes[k].scale == Scale::Log);
+            let has_margin = k == 0 && self.margin > 0.0;
+            let has_headroom = k == 1 && self.map.is_none() && !is_log;
             let apart = |end: f64, by: f64| if end == 0.0 { 0.0 } else { end + by };
-            let data = extent[k].map(|[low, high]| match axis.scale {
-                _ if has_margin && high > low => axis.with_margin([low, high], self.margin),
-                Scale::Linear if !is_full => {
-                    let more = HEADROOM * (high - low);
-                    [apart(low, -more), apart(high, more)]
+            let data = extent[k].map(|[low, high]| {
+                let more = HEADROOM * (high - low);
+                match high > low {
+                    true if has_margin => axis.with_margin([low, high], self.margin),
+                    _ if has_headroom => [apart(low, -more), apart(high, more)],
+                    _ => [low, high],
                 }
-                _ => [low, high],
             });
-            let is_rounded = match axis.scale {
-                Scale::Linear => !is_full,
-                Scale::Log => !has_margin,
-            };
-            axis.resolve(data, is_rounded)
+            axis.resolve(data, has_headroom || is_log && !has_margin)
         })
     }
 
-    fn mark(&self, x: f64, letter: &str, frame: &Frame, canvas: &mut Canvas, font: f64) {
-        let bounds = frame.windows[1].bounds();
-        let ends = [frame.place(x, bounds[0]), frame.place(x, bounds[1])];
-        if let [Some(low), Some(high)] = ends
-            && let Some(line) = frame.inside(low, high)
-        {
-            canvas.line(line.to_vec(), BLACK, FRAME, &[0.3, 0.7]);
-            let above = [low[0], frame.top - 0.3 * font];
-            canvas.text(above, letter, 0.9 * font, Anchor::Middle);
-        }
-    }
-
-    fn axes(
-        &self,
-        frame: &Frame,
-        units: &[AxisUnit; 2],
-        all_ticks: [&[Tick]; 2],
-        at: [f64; 2],
-        canvas: &mut Canvas,
-        font: f64,
-    ) {
+    /// The frame with its ticks and labels, on paper that begins at `edge`.
+    fn axes(&self, frame: &Frame, edge: f64, canvas: &mut Canvas, font: f64) {
         let [left, top, width, height] = [frame.left, frame.top, frame.size[0], frame.size[1]];
         let (right, bottom) = (frame.right(), frame.bottom());
         let corners = [
@@ -199,24 +168,24 @@ impl Chart {
             [left, top],
         ];
         canvas.line(corners.to_vec(), BLACK, FRAME, &[]);
-        let firsts = [0, 1].map(|k| frame.windows[k].bounds()[0]);
-        for (k, ticks) in all_ticks.into_iter().enumerate() {
-            let place = |value: f64| match k {
-                0 => frame.place(value, firsts[1]).map(|[x, _]| [x, bottom]),
-                _ => frame.place(firsts[0], value).map(|[_, y]| [left, y]),
+        for (k, ruler) in frame.rulers.iter().enumerate() {
+            // A tick's outer end, and its inner one.
+            let place = |value: f64| {
+                let share = ruler.window.share(value)?;
+                Some(match k {
+                    0 => [left + share * width, bottom],
+                    _ => [left, frame.height_of(share)],
+                })
             };
             let inwards = |[x, y]: [f64; 2], length: f64| match k {
                 0 => [x, y - length],
                 _ => [x + length, y],
             };
-            for from in minor(&frame.windows[k], ticks)
-                .into_iter()
-                .filter_map(place)
-            {
+            for from in minor(ruler).into_iter().filter_map(place) {
                 let to = inwards(from, 0.55 * TICK);
                 canvas.line(vec![from, to], BLACK, FRAME, &[]);
             }
-            for tick in ticks {
+            for tick in &ruler.ticks {
                 let Some(from) = place(tick.value) else {
                     continue;
                 };
@@ -228,12 +197,11 @@ impl Chart {
                 canvas.text(at, &numeral(&tick.label), font, anchor);
             }
         }
-        let label =
-            |axis: &Axis, unit: &AxisUnit| titled(&axis.label, &numeral(&unit.text), ['(', ')']);
+        let [x, y] = &frame.rulers;
         let below = [left + 0.5 * width, bottom + 2.7 * font];
-        canvas.text(below, &label(&self.x, &units[0]), font, Anchor::Middle);
-        let beside = [at[0] + 1.2 * font, top + 0.5 * height];
-        canvas.text_upwards(beside, &label(&self.y, &units[1]), font);
+        canvas.text(below, &title(&self.x, &x.unit), font, Anchor::Middle);
+        let beside = [edge + 1.2 * font, top + 0.5 * height];
+        canvas.text_upwards(beside, &title(&self.y, &y.unit), font);
     }
 
     /// The curves that the legend names.
@@ -282,20 +250,30 @@ impl Chart {
     }
 }
 
-/// The ordinate of a chart on paper: its ticks, where its frame begins below the upper edge and how high it is, and
-/// how much its words and numbers take to the left of it, mm.
+/// The ordinate of a chart on paper: where its frame begins below the upper edge and how high it is, and how much its
+/// words and numbers take to the left of it, mm.
 pub(super) struct Ordinate {
     pub left: f64,
     top: f64,
     height: f64,
-    unit: AxisUnit,
-    window: Window,
-    ticks: Vec<Tick>,
+    ruler: Ruler,
 }
 
-/// The scale of an axis with room for this many labels.
-fn window(bounds: [f64; 2], axis: &Axis, cells: f64) -> Window {
-    Window::new(bounds, axis.scale, cells.clamp(2.0, 400.0) as u16, 16)
+/// An axis with room for this many labels.
+fn ruler(axis: &Axis, bounds: [f64; 2], cells: f64, labels: Labels) -> Ruler {
+    let cells = cells.clamp(2.0, 400.0) as u16;
+    let window = Window::new(bounds, axis.scale, cells, 16);
+    Ruler::new(window, unit_of(axis, bounds), labels)
+}
+
+/// An axis of this height, mm.
+pub(super) fn column(axis: &Axis, bounds: [f64; 2], height: f64, font: f64) -> Ruler {
+    ruler(axis, bounds, height / (1.2 * font), Labels::Column)
+}
+
+/// What an axis shows, with the unit of its labels.
+pub(super) fn title(axis: &Axis, unit: &AxisUnit) -> String {
+    titled(&axis.label, &numeral(&unit.text), ['(', ')'])
 }
 
 /// Height of a line of the legend, in sizes of the font.
@@ -316,7 +294,7 @@ fn along(part: &[[f64; 2]]) -> Vec<[f64; 2]> {
 }
 
 /// The unit that an axis is labelled in; logarithmic ones over many decades keep that of the data.
-pub(super) fn unit_of(axis: &Axis, bounds: [f64; 2]) -> AxisUnit {
+fn unit_of(axis: &Axis, bounds: [f64; 2]) -> AxisUnit {
     let largest = bounds[0].abs().max(bounds[1].abs());
     let is_narrow = !axis.unit.is_empty() && bounds[1] / bounds[0] < ONE_PREFIX;
     match axis.scale {
@@ -329,22 +307,20 @@ pub(super) fn unit_of(axis: &Axis, bounds: [f64; 2]) -> AxisUnit {
 }
 
 /// Ticks between those with labels: five, four or two to a step; 2 to 9 in a decade.
-fn minor(window: &Window, labelled: &[Tick]) -> Vec<f64> {
-    let [low, high] = window.bounds();
+fn minor(ruler: &Ruler) -> Vec<f64> {
+    let [low, high] = ruler.window.bounds();
     let within = |value: &f64| (low..=high).contains(value);
-    if window.scale() == Scale::Log {
+    if ruler.window.scale() == Scale::Log {
         let decades = low.log10().floor() as i32..=high.log10().floor() as i32;
         let few = decades.clone().count() <= 8;
         let mantissas = if few { 1..10 } else { 1..2 };
-        return decades
-            .flat_map(|decade| {
-                let sizes = mantissas.clone();
-                sizes.map(move |mantissa| f64::from(mantissa) * 10f64.powi(decade))
-            })
-            .filter(within)
-            .collect();
+        let all = decades.flat_map(|decade| {
+            let sizes = mantissas.clone();
+            sizes.map(move |mantissa| f64::from(mantissa) * 10f64.powi(decade))
+        });
+        return all.filter(within).collect();
     }
-    let [first, second, ..] = labelled else {
+    let [first, second, ..] = &ruler.ticks[..] else {
         return Vec::new();
     };
     let step = second.value - first.value;
@@ -358,22 +334,16 @@ fn minor(window: &Window, labelled: &[Tick]) -> Vec<f64> {
 /// A number, alone or before a unit, as print has it: a true minus sign, and 2e-8 as 2·10^−8.
 pub(super) fn numeral(text: &str) -> String {
     let (number, unit) = text.split_once(' ').unwrap_or((text, ""));
-    let is_number = number.parse::<f64>().is_ok();
-    let (mantissa, exponent) = match number.split_once('e') {
-        Some((mantissa, exponent)) if is_number => (mantissa, Some(exponent)),
-        _ => (number, None),
-    };
-    let signed = |text: &str| text.replace('-', "−");
-    let number = match (mantissa, exponent) {
-        (_, None) if !is_number => mantissa.to_owned(),
-        (_, None) => signed(mantissa),
-        ("1", Some(exponent)) => format!("10^{}", signed(exponent)),
-        (mantissa, Some(exponent)) => format!("{}·10^{}", signed(mantissa), signed(exponent)),
-    };
-    match unit {
-        "" => number,
-        unit => format!("{number} {unit}"),
+    if number.parse::<f64>().is_err() {
+        return text.to_owned();
     }
+    let number = number.replace('-', "−");
+    let number = match number.split_once('e') {
+        None => number,
+        Some(("1", exponent)) => format!("10^{exponent}"),
+        Some((mantissa, exponent)) => format!("{mantissa}·10^{exponent}"),
+    };
+    format!("{number} {unit}").trim_end().to_owned()
 }
 
 #[cfg(test)]
@@ -400,11 +370,8 @@ mod tests {
     fn minor_ticks_lie_between_the_labelled_ones() {
         let axis = |bounds, scale| {
             let window = Window::new(bounds, scale, 40, 16);
-            let row = Labels::Row {
-                before: 0,
-                apart: 0,
-            };
-            minor(&window, &ticks(&window, 1.0, row))
+            let unit = axis_unit(1.0, "", false);
+            minor(&Ruler::new(window, unit, Labels::Row(0)))
         };
         let linear = axis([0.0, 1.0], Scale::Linear);
         assert!(linear.len() > 12 && linear.iter().all(|v| (0.0..=1.0).contains(v)));

@@ -5,18 +5,18 @@ use super::look::Look;
 use crate::plot::Curve;
 use crate::plot::segment::clip;
 use crate::plot::theme::Role;
-use crate::plot::window::Window;
+use crate::plot::ticks::Ruler;
 
 /// Width of error bars and of the outline of symbols, and half of the size of a symbol, mm.
 pub(super) const BAR: f64 = 0.2;
 const SYMBOL: f64 = 0.45;
 
-/// The inside of a chart, with its two scales.
+/// The inside of a chart, with its two axes.
 pub(super) struct Frame {
     pub left: f64,
     pub top: f64,
     pub size: [f64; 2],
-    pub windows: [Window; 2],
+    pub rulers: [Ruler; 2],
     pub downwards: bool,
 }
 
@@ -31,16 +31,23 @@ impl Frame {
 
     /// Where a point lies, mm; `None` where it has no place.
     pub fn place(&self, x: f64, y: f64) -> Option<[f64; 2]> {
-        let share = |window: &Window, value: f64| {
-            let last = (window.dots().max(2) - 1) as f64;
-            window.position(value).map(|dots| dots / last)
-        };
-        let (across, up) = (share(&self.windows[0], x)?, share(&self.windows[1], y)?);
-        let down = if self.downwards { up } else { 1.0 - up };
-        Some([
-            self.left + across * self.size[0],
-            self.top + down * self.size[1],
-        ])
+        let (across, up) = (
+            self.rulers[0].window.share(x)?,
+            self.rulers[1].window.share(y)?,
+        );
+        Some([self.left + across * self.size[0], self.height_of(up)])
+    }
+
+    /// Where a share of the ordinate lies, mm.
+    pub fn height_of(&self, share: f64) -> f64 {
+        let down = if self.downwards { share } else { 1.0 - share };
+        self.top + down * self.size[1]
+    }
+
+    /// The vertical line at an abscissa that lies inside.
+    pub fn vertical(&self, x: f64) -> Option<[[f64; 2]; 2]> {
+        let [low, high] = self.rulers[1].window.bounds();
+        self.inside(self.place(x, low)?, self.place(x, high)?)
     }
 
     /// Draws the points of a curve that lie inside, with their error bars, and returns them.
@@ -49,7 +56,7 @@ impl Frame {
         let mut drawn = Vec::new();
         for (k, (&x, &y)) in curve.xs.iter().zip(&curve.ys).enumerate() {
             if let Some(error) = curve.errors.get(k).filter(|error| error.is_finite()) {
-                let lowest = self.windows[1].bounds()[0];
+                let lowest = self.rulers[1].window.bounds()[0];
                 let low = self.place(x, y - error).or(self.place(x, lowest));
                 if let (Some(low), Some(high)) = (low, self.place(x, y + error))
                     && let Some(bar) = self.inside(low, high)

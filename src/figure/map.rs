@@ -1,45 +1,31 @@
 //! A map on paper, and the key to its colours.
 
 use super::canvas::{Anchor, Canvas};
-use super::draw::{numeral, unit_of};
+use super::draw::{column, numeral, title};
 use super::font;
 use super::frame::Frame;
 use super::look::Look;
-use crate::plot::axis::titled;
-use crate::plot::ticks::{Labels, Tick, ticks};
-use crate::plot::units::AxisUnit;
-use crate::plot::window::Window;
+use crate::plot::ticks::Ruler;
 use crate::plot::{Axis, Map};
 
 /// What stands to the right of a map: the ticks of its colours, or its words.
 pub(super) struct Key<'a> {
     map: &'a Map,
-    unit: AxisUnit,
-    window: Window,
-    ticks: Vec<Tick>,
+    ruler: Ruler,
 }
 
 impl<'a> Key<'a> {
     pub fn new(map: &'a Map, height: f64, font: f64) -> Self {
-        let range = map.range();
-        let unit = unit_of(&map.quantity, range);
-        let cells = (height / (1.2 * font)).clamp(2.0, 400.0) as u16;
-        let window = Window::new(range, map.quantity.scale, cells, 16);
-        let ticks = match map.words.is_empty() {
-            true => ticks(&window, unit.factor, Labels::Column),
-            false => Vec::new(),
-        };
-        Self {
-            map,
-            unit,
-            window,
-            ticks,
+        let mut ruler = column(&map.quantity, map.range(), height, font);
+        if !map.words.is_empty() {
+            ruler.ticks.clear();
         }
+        Self { map, ruler }
     }
 
     /// The width of it all, mm.
     pub fn width(&self, font: f64) -> f64 {
-        let labels = self.ticks.iter().map(|tick| numeral(&tick.label));
+        let labels = self.ruler.ticks.iter().map(|tick| numeral(&tick.label));
         let words = self.map.words.iter().map(|word| (*word).to_owned());
         let widest = labels.chain(words).map(|text| font::set_width(&text));
         let title = if self.map.words.is_empty() { 2.0 } else { 0.5 };
@@ -68,18 +54,13 @@ impl<'a> Key<'a> {
             let ink = look.mapped(self.map.colors, share);
             canvas.area([left, top + height - high], [font, high - low], ink);
         }
-        let last = (self.window.dots().max(2) - 1) as f64;
-        for tick in &self.ticks {
-            if let Some(dots) = self.window.position(tick.value) {
-                let y = top + height * (1.0 - dots / last) + 0.36 * font;
+        for tick in &self.ruler.ticks {
+            if let Some(share) = self.ruler.window.share(tick.value) {
+                let y = top + height * (1.0 - share) + 0.36 * font;
                 canvas.text([beside, y], &numeral(&tick.label), font, Anchor::Start);
             }
         }
-        let title = titled(
-            &self.map.quantity.label,
-            &numeral(&self.unit.text),
-            ['(', ')'],
-        );
+        let title = title(&self.map.quantity, &self.ruler.unit);
         let edge = frame.right() + self.width(font);
         canvas.text_upwards([edge, top + 0.5 * height], &title, font);
     }
@@ -97,7 +78,7 @@ impl<'a> Key<'a> {
             })
         };
         let within = |k: usize| {
-            let [low, high] = frame.windows[k].bounds();
+            let [low, high] = frame.rulers[k].window.bounds();
             let edges = axes[k].edges(&map.places[k]).into_iter();
             edges
                 .map(|edge| edge.clamp(low.min(high), low.max(high)))

@@ -52,17 +52,16 @@ const WORDS: [(&str, &str); 12] = [
 pub fn sheet(slice: &Slice, columns: &[String], name: &str) -> Result<Sheet, String> {
     let study = &slice.study;
     let known: Vec<&str> = study.columns.iter().map(|column| column.name).collect();
-    let has_values = |column: &str| {
+    let has_values = |column: &&str| {
         let mut points = slice.points();
         points.any(|point| slice.field(point, column).is_some())
     };
-    let chosen: Vec<&str> = if columns.is_empty() {
-        usual(slice, &known)
+    let chosen: Vec<&str> = match columns {
+        [] => usual(slice, &known)
             .into_iter()
-            .filter(|column| has_values(column))
-            .collect()
-    } else {
-        columns.iter().map(String::as_str).collect()
+            .filter(has_values)
+            .collect(),
+        columns => columns.iter().map(String::as_str).collect(),
     };
     for column in &chosen {
         if !known.contains(column) {
@@ -76,10 +75,9 @@ pub fn sheet(slice: &Slice, columns: &[String], name: &str) -> Result<Sheet, Str
     if chosen.is_empty() {
         return Err(format!("{name}: no point has a value to draw"));
     }
-    let charts = chosen.iter().map(|column| match (slice.y, study.design) {
-        (Some(_), _) => map(slice, column),
-        (None, Design::Grid | Design::Zip) => curve(slice, column),
-        (None, _) => points(slice, column),
+    let charts = chosen.iter().map(|column| match slice.y() {
+        Some(y) => map(slice, y, column),
+        None => points(slice, column),
     });
     Ok(Sheet {
         title: study.title.clone().unwrap_or_else(|| name.to_owned()),
@@ -90,13 +88,12 @@ pub fn sheet(slice: &Slice, columns: &[String], name: &str) -> Result<Sheet, Str
 
 /// The columns of a sheet that nobody chose: of a map the first one and the regimes, of curves all but errors.
 fn usual<'a>(slice: &Slice, known: &[&'a str]) -> Vec<&'a str> {
-    let plain = known.iter().copied();
-    let plain = plain.filter(|name| *name != REGIME && !name.starts_with("estimated_error"));
-    let most = if slice.y.is_some() { 1 } else { MOST_CHARTS };
-    let regime = known.iter().copied().filter(|name| *name == REGIME);
+    let named = known.iter().copied();
+    let regime = named.clone().filter(|name| *name == REGIME);
+    let plain = named.filter(|name| *name != REGIME && !name.starts_with("estimated_error"));
     match slice.y {
-        Some(_) => plain.take(most).chain(regime).collect(),
-        None => plain.take(most).collect(),
+        Some(_) => plain.take(1).chain(regime).collect(),
+        None => plain.take(MOST_CHARTS).collect(),
     }
 }
 
@@ -177,25 +174,20 @@ fn values(slice: &Slice, column: &str, points: impl Iterator<Item = usize>) -> V
 }
 
 /// A column over two axes as colours, with the borders of the running conditions.
-fn map(slice: &Slice, column: &str) -> Chart {
-    let axes = [Some(slice.x()), slice.y()].into_iter().flatten();
-    let grid: Vec<(Axis, Vec<f64>)> = axes
-        .map(|axis| (paper_axis(slice, axis), places(axis)))
-        .collect();
+fn map(slice: &Slice, upwards: &sweep::Axis, column: &str) -> Chart {
+    let [(x, xs, across), (y, ys, up)] = [slice.x(), upwards].map(|axis| {
+        let (shown, places) = (paper_axis(slice, axis), places(axis));
+        let edges = shown.edges(&places);
+        let [first, last] = [edges[0], edges[edges.len() - 1]];
+        let bounds = [first.min(last), first.max(last)];
+        (shown.bounds(bounds), places, edges)
+    });
     let values = values(slice, column, slice.points());
     let is_regime = column == REGIME;
-    let [(mut x, xs), (mut y, ys)] = [grid[0].clone(), grid[1].clone()];
-    for (axis, places) in [(&mut x, &xs), (&mut y, &ys)] {
-        let edges = axis.edges(places);
-        let ends = [edges[0], edges[edges.len() - 1]];
-        axis.bounds = Some([ends[0].min(ends[1]), ends[0].max(ends[1])]);
-    }
-    let quantity = quantity(column, if is_regime { &[] } else { &values });
     let title = if is_regime { "running condition" } else { "" };
     let mut chart = Chart::new(title, x, y);
-    let [across, up] = [chart.x.edges(&xs), chart.y.edges(&ys)];
     chart.map = Some(Map {
-        quantity,
+        quantity: quantity(column, if is_regime { &[] } else { &values }),
         values,
         colors: ColorMap::Sequential,
         words: match is_regime {
@@ -211,7 +203,7 @@ fn map(slice: &Slice, column: &str) -> Chart {
     let borders = slice.borders().into_iter().enumerate();
     let criteria = slice.criteria().into_iter().enumerate();
     for (k, line) in borders.chain(criteria.map(|(k, line)| (3 + k, line))) {
-        let value = |[x, y]: [f64; 2]| Some((slice.x().value_at(x)?, slice.y()?.value_at(y)?));
+        let value = |[x, y]: [f64; 2]| Some((slice.x().value_at(x)?, upwards.value_at(y)?));
         let mut points = Vec::new();
         let mut last = None;
         for [from, to] in line.pieces() {
@@ -223,9 +215,8 @@ fn map(slice: &Slice, column: &str) -> Chart {
             last = Some(to);
         }
         let (xs, ys): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();
-        chart
-            .curves
-            .push(Curve::new(line.name, xs, ys, Role::Border(k)));
+        let curve = Curve::new(line.name, xs, ys, Role::Border(k));
+        chart.curves.push(curve);
     }
     chart
 }
@@ -254,40 +245,16 @@ fn regime_border(slice: &Slice, [across, up]: [&[f64]; 2]) -> Option<[Vec<f64>; 
     (!border[0].is_empty()).then_some(border)
 }
 
-/// A column over one axis, with error bars where the study has recorded them.
-fn curve(slice: &Slice, column: &str) -> Chart {
-    let mut chart = points(slice, column);
-    for curve in &mut chart.curves {
-        curve.has_line = true;
-        let mut order: Vec<usize> = (0..curve.xs.len()).collect();
-        order.sort_by(|&a, &b| curve.xs[a].total_cmp(&curve.xs[b]));
-        let sorted = |values: &[f64]| order.iter().map(|&k| values[k]).collect::<Vec<f64>>();
-        curve.ys = sorted(&curve.ys);
-        if !curve.errors.is_empty() {
-            curve.errors = sorted(&curve.errors);
-        }
-        curve.xs = sorted(&curve.xs);
-    }
-    let edges = chart.x.edges(&places(slice.x()));
-    let regime = |x: usize| slice.regime(slice.point_at(x, 0));
-    for (x, &edge) in edges.iter().enumerate().take(slice.size()[0]).skip(1) {
-        if let (Some(before), Some(after)) = (regime(x - 1), regime(x))
-            && before != after
-        {
-            chart.marks.push(Mark {
-                x: edge,
-                label: REGIMES[after].1,
-                role: Role::Quiet,
-            });
-        }
-    }
-    chart
-}
-
-/// A column over the first axis, a symbol a point.
+/// A column over the first axis, a symbol a point, with error bars where the study has recorded them; joined where
+/// one axis alone tells the points apart.
 fn points(slice: &Slice, column: &str) -> Chart {
-    let xs = places(slice.x());
-    let shown = || (0..xs.len()).map(|x| slice.point_at(x, 0));
+    let places = places(slice.x());
+    let is_joined = matches!(slice.study.design, Design::Grid | Design::Zip);
+    let mut order: Vec<usize> = (0..places.len()).collect();
+    if is_joined {
+        order.sort_by(|&a, &b| places[a].total_cmp(&places[b]));
+    }
+    let shown = || order.iter().map(|&x| slice.point_at(x, 0));
     let ys = values(slice, column, shown());
     let of_column = ERRORS.iter().find(|(of, _)| *of == column);
     let errors = of_column.map(|(_, error)| values(slice, error, shown()));
@@ -298,6 +265,25 @@ fn points(slice: &Slice, column: &str) -> Chart {
     });
     let mut chart = Chart::new("", paper_axis(slice, slice.x()), quantity(column, &ys));
     chart.margin = MARGIN;
+    let xs: Vec<f64> = order.iter().map(|&x| places[x]).collect();
     let curve = Curve::new("", xs, ys, Role::Profile);
-    chart.curve(curve.scattered(bars.unwrap_or_else(Vec::new)))
+    let mut curve = curve.scattered(bars.unwrap_or_else(Vec::new));
+    curve.has_line = is_joined;
+    chart.curves.push(curve);
+    if is_joined {
+        let edges = chart.x.edges(&places);
+        let regime = |x: usize| slice.regime(slice.point_at(x, 0));
+        for (x, &edge) in edges.iter().enumerate().take(places.len()).skip(1) {
+            if let (Some(before), Some(after)) = (regime(x - 1), regime(x))
+                && before != after
+            {
+                chart.marks.push(Mark {
+                    x: edge,
+                    label: REGIMES[after].1,
+                    role: Role::Quiet,
+                });
+            }
+        }
+    }
+    chart
 }

@@ -18,6 +18,29 @@ pub enum Scale {
     Log,
 }
 
+impl Scale {
+    /// Whether a value lies anywhere along an axis.
+    pub fn has(self, value: f64) -> bool {
+        value.is_finite() && (self == Self::Linear || value > 0.0)
+    }
+
+    /// A value as it is spread along an axis.
+    pub fn spread(self, value: f64) -> f64 {
+        match self {
+            Self::Linear => value,
+            Self::Log => value.log10(),
+        }
+    }
+
+    /// The value that is spread to `spread`.
+    pub fn unspread(self, spread: f64) -> f64 {
+        match self {
+            Self::Linear => spread,
+            Self::Log => 10f64.powf(spread),
+        }
+    }
+}
+
 /// What an axis shows.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Axis {
@@ -96,25 +119,12 @@ impl Axis {
         titled(&self.label, self.unit, ['(', ')'])
     }
 
-    /// A value as it is spread along the axis.
-    pub(super) fn spread(&self, value: f64) -> f64 {
-        match self.scale {
-            Scale::Linear => value,
-            Scale::Log => value.log10(),
-        }
-    }
-
-    /// The value that is spread to `spread`.
-    fn unspread(&self, spread: f64) -> f64 {
-        match self.scale {
-            Scale::Linear => spread,
-            Scale::Log => 10f64.powf(spread),
-        }
-    }
-
     /// Values halfway between neighbouring `places`, and as far beyond the first and the last one.
     pub fn edges(&self, places: &[f64]) -> Vec<f64> {
-        let at: Vec<f64> = places.iter().map(|&place| self.spread(place)).collect();
+        let at: Vec<f64> = places
+            .iter()
+            .map(|&place| self.scale.spread(place))
+            .collect();
         let last = at.len().saturating_sub(1);
         let half = |a: usize, b: usize| match at[b] - at[a] {
             0.0 => 0.5 * at[a].abs().max(1e-300),
@@ -123,23 +133,28 @@ impl Axis {
         let mut edges = vec![at[0] - half(0, last.min(1))];
         edges.extend(at.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])));
         edges.push(at[last] + half(last.saturating_sub(1), last));
-        edges.into_iter().map(|edge| self.unspread(edge)).collect()
+        edges
+            .into_iter()
+            .map(|edge| self.scale.unspread(edge))
+            .collect()
     }
 
     /// `bounds` with this share of their distance more on either side.
     pub fn with_margin(&self, [low, high]: [f64; 2], share: f64) -> [f64; 2] {
-        let [low, high] = [low, high].map(|bound| self.spread(bound));
+        let [low, high] = [low, high].map(|bound| self.scale.spread(bound));
         let more = share * (high - low);
-        [low - more, high + more].map(|bound| self.unspread(bound))
+        [low - more, high + more].map(|bound| self.scale.unspread(bound))
     }
 
     /// The bounds to draw with: the given ones where they make sense, else those of the
     /// `data`, rounded outwards to the tick grid if `round` asks for it. Always finite,
     /// increasing, and positive on a log axis.
     pub fn resolve(&self, data: Option<[f64; 2]>, round: bool) -> [f64; 2] {
-        let given = self.bounds.and_then(|[a, b]| self.usable(a, b));
-        match (given, data, self.scale) {
-            (Some([lo, hi]), ..) => widened(lo, hi, 1e-9),
+        let ends = self
+            .bounds
+            .filter(|ends| ends.iter().all(|end| self.scale.has(*end)));
+        match (ends, data, self.scale) {
+            (Some([a, b]), ..) => widened(a, b, 1e-9),
             (None, None | Some([0.0, 0.0]), Scale::Linear) if self.expects > 0.0 => {
                 nice_bounds(0.0, self.expects)
             }
@@ -152,13 +167,6 @@ impl Axis {
             }
             (None, None, Scale::Log) => [0.1, 10.0],
         }
-    }
-
-    fn usable(&self, a: f64, b: f64) -> Option<[f64; 2]> {
-        let [lo, hi] = [a.min(b), a.max(b)];
-        let ordered = lo.is_finite() && hi.is_finite() && !(a.is_nan() || b.is_nan());
-        let positive = self.scale == Scale::Linear || lo > 0.0;
-        (ordered && positive).then_some([lo, hi])
     }
 }
 

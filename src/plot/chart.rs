@@ -1,7 +1,7 @@
 //! One chart: axes, curves and what belongs to them. It owns its data, whatever it was made from; the terminal
 //! ([`super::Plot`]) and the paper (`figure`) both draw it.
 
-use super::axis::{Axis, Scale};
+use super::axis::Axis;
 use super::map::Map;
 use super::stroke::Stroke;
 use super::theme::Role;
@@ -238,9 +238,6 @@ impl Chart {
     /// both axes, and within x bounds that are given; of the places of a map, of bases of fills, and of what
     /// the axes always hold. Curves that are not `counted` are left out.
     pub fn extent(&self, counted: impl Fn(&Curve) -> bool) -> [Option<[f64; 2]>; 2] {
-        let has_place = |axis: &Axis, value: f64| {
-            value.is_finite() && (axis.scale == Scale::Linear || value > 0.0)
-        };
         let limits = self.x.bounds.map(|[a, b]| [a.min(b), a.max(b)]);
         let seen = |x: f64| limits.is_none_or(|[lo, hi]| x >= lo && x <= hi);
         let widen = |range: &mut Option<[f64; 2]>, value: f64| {
@@ -248,16 +245,17 @@ impl Chart {
             *range = Some([lo.min(value), hi.max(value)]);
         };
         let axes = [&self.x, &self.y];
+        let has = |k: usize, value: f64| axes[k].scale.has(value);
         let mut ranges = [None, None];
         for curve in self.curves.iter().filter(|curve| counted(curve)) {
             for (x, y) in curve.points().chain(curve.bars()) {
-                if has_place(axes[0], x) && has_place(axes[1], y) && seen(x) {
+                if has(0, x) && has(1, y) && seen(x) {
                     widen(&mut ranges[0], x);
                     widen(&mut ranges[1], y);
                 }
             }
             if let Fill::To(base) = curve.fill
-                && has_place(axes[1], base)
+                && has(1, base)
             {
                 widen(&mut ranges[1], base);
             }
@@ -265,7 +263,7 @@ impl Chart {
         for (k, range) in ranges.iter_mut().enumerate() {
             let places = self.map.iter().flat_map(|map| &map.places[k]);
             for &value in places.chain(&axes[k].holds) {
-                if has_place(axes[k], value) {
+                if has(k, value) {
                     widen(range, value);
                 }
             }

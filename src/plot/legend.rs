@@ -7,8 +7,8 @@ use ratatui::text::Span;
 
 use super::raster::Raster;
 use super::theme::Role;
-use super::units::{AxisUnit, format_number, format_value_in, to_ascii};
-use super::{Axis, Curve, Plot, Scale};
+use super::units::{AxisUnit, format_number, format_value_in};
+use super::{Axis, Plot, Scale};
 
 /// Significant digits of a reading.
 const DIGITS: usize = 4;
@@ -35,98 +35,66 @@ enum Reading {
     None,
 }
 
-/// A block of lines of one width.
+/// Lines in their place.
 #[derive(Debug, Clone)]
 pub(super) struct Legend {
     lines: Vec<Line>,
-    width: u16,
+    /// The place on the screen.
+    pub(super) area: Rect,
+    /// The dots of curves under it.
+    pub(super) covered: u32,
 }
 
 impl Legend {
-    /// The legend of `plot` and its place in `area` (a plot area in buffer cells): with
-    /// readings in the axes' `units` if there is a cursor and they fit, as bare numbers
-    /// rather than over a curve, else names only; with the dots of curves that it covers. `None` if
-    /// nothing fits or there is nothing to say.
-    pub(super) fn arrange(
-        plot: &Plot<'_>,
-        units: [&AxisUnit; 2],
-        area: Rect,
-        raster: &Raster,
-    ) -> Option<(Legend, Rect, u32)> {
-        let placed = |reading: Reading| {
-            let legend = Legend::new(plot, units, reading);
-            let lines = legend.lines.len();
-            let fits = legend.width <= area.width / 2 && lines <= usize::from(area.height / 2);
-            (fits && legend.width > 0).then(|| {
-                let (place, covered) = legend.place(area, raster);
-                (legend, place, covered)
-            })
-        };
-        let readings = match plot.cursor {
-            Some(x) if x.is_finite() => {
-                let (full, bare) = (placed(Reading::Full), placed(Reading::Bare));
-                match (full, bare) {
-                    (Some(full), Some(bare)) if bare.2 < full.2 => Some(bare),
-                    (full, bare) => full.or(bare),
-                }
-            }
-            _ => None,
-        };
-        readings.or_else(|| placed(Reading::None))
+    /// The legend of a plot whose curves are those of `raster`: with readings in the axes' `units` if there is a
+    /// cursor and they fit, as bare numbers rather than over a curve, else names only. `None` if nothing fits or
+    /// there is nothing to say.
+    pub(super) fn arrange(plot: &Plot<'_>, units: [&AxisUnit; 2], raster: &Raster) -> Option<Self> {
+        let placed = |reading| Self::place(lines(plot, units, reading), raster);
+        let cursor = plot.cursor.filter(|x| x.is_finite());
+        let readings = cursor.map(|_| [Reading::Full, Reading::Bare].map(placed));
+        let readings = readings.into_iter().flatten().flatten();
+        let least = readings.min_by_key(|legend| legend.covered);
+        least.or_else(|| placed(Reading::None))
     }
 
-    fn new(plot: &Plot<'_>, units: [&AxisUnit; 2], reading: Reading) -> Legend {
-        let header = plot.cursor.filter(|_| reading != Reading::None);
-        let named = plot
-            .chart
-            .curves
-            .iter()
-            .filter(|curve| !curve.name.is_empty());
-        let header = header.map(|x| header_line(plot, units[0], x));
-        let curves = named.map(|curve| curve_line(plot, curve, units[1], reading));
-        Legend::block(header.into_iter().chain(curves).collect())
-    }
-
-    fn block(lines: Vec<Line>) -> Legend {
-        let width = |line: &Line| {
-            let gap = if line.right.is_empty() { 0 } else { 2 };
-            cells(&line.left) + gap + cells(&line.right)
-        };
-        let width = lines.iter().map(width).max().unwrap_or(0);
-        Legend { lines, width }
-    }
-
-    /// The place in `area` where the legend covers the fewest dots, and how many: a corner, the top right
-    /// one first, or the place nearest to the top right where no curve is.
-    fn place(&self, area: Rect, raster: &Raster) -> (Rect, u32) {
-        let height = self.lines.len() as u16;
-        let (right, bottom) = (area.width - self.width, area.height - height);
+    /// The lines where they cover the fewest dots: in a corner, the top right one first, or in the place nearest to
+    /// the top right where no curve is. `None` if they take more than half of the width or of the height.
+    fn place(lines: Vec<Line>, raster: &Raster) -> Option<Self> {
+        let (area, height) = (raster.area, lines.len() as u16);
+        let width = lines.iter().map(Line::width).max().unwrap_or(0);
+        if width == 0 || width > area.width / 2 || lines.len() > usize::from(area.height / 2) {
+            return None;
+        }
         // A blank to the left keeps the swatch from looking like a piece of a curve.
-        let covered = |x: u16, y: u16| {
-            let left = x.saturating_sub(1);
-            raster.dots_in(Rect::new(left, y, self.width + x - left, height))
+        let covered = |&(x, y): &(u16, u16)| {
+            raster.dots_in(Rect::new(x.saturating_sub(1), y, width + 1, height))
         };
-        let corners = [(right, 0), (0, 0), (right, bottom), (0, bottom)];
-        let mut best = (u32::MAX, right, 0);
-        for (x, y) in corners {
-            let dots = covered(x, y);
-            if dots < best.0 {
-                best = (dots, x, y);
-            }
-        }
-        if best.0 > 0 {
-            let rows = (0..=bottom).flat_map(|y| (0..=right).rev().step_by(2).map(move |x| (x, y)));
-            if let Some((x, y)) = rows.into_iter().find(|&(x, y)| covered(x, y) == 0) {
-                best = (0, x, y);
-            }
-        }
-        let place = Rect::new(area.x + best.1, area.y + best.2, self.width, height);
-        (place, best.0)
+        let (right, bottom) = (area.right() - width, area.bottom() - height);
+        let corners = [
+            (right, area.y),
+            (area.x, area.y),
+            (right, bottom),
+            (area.x, bottom),
+        ];
+        let corner = corners.into_iter().min_by_key(covered)?;
+        let columns = || (area.x..=right).rev().step_by(2);
+        let mut others = (area.y..=bottom).flat_map(|y| columns().map(move |x| (x, y)));
+        let free = match covered(&corner) {
+            0 => None,
+            _ => others.find(|place| covered(place) == 0),
+        };
+        let place = free.unwrap_or(corner);
+        Some(Self {
+            lines,
+            area: Rect::new(place.0, place.1, width, height),
+            covered: covered(&place),
+        })
     }
 
-    /// Writes the lines into `area`, which [`Legend::arrange`] gave.
-    pub(super) fn render(&self, area: Rect, buf: &mut Buffer) {
-        for (row, line) in area.rows().zip(&self.lines) {
+    /// Writes the lines.
+    pub(super) fn render(&self, buf: &mut Buffer) {
+        for (row, line) in self.area.rows().zip(&self.lines) {
             let width = usize::from(row.width);
             buf.set_stringn(row.x, row.y, &line.left, width, line.style);
             let x = row.right().saturating_sub(cells(&line.right));
@@ -135,35 +103,39 @@ impl Legend {
     }
 }
 
-/// The reading of the cursor itself.
-fn header_line(plot: &Plot<'_>, unit: &AxisUnit, x: f64) -> Line {
-    let (axis, ascii) = (&plot.chart.x, plot.theme.ascii());
-    Line {
-        left: text(&axis.label, ascii),
-        right: with_unit(x, axis, unit, ascii),
-        style: plot.theme.style(Role::Quiet),
+impl Line {
+    fn width(&self) -> u16 {
+        let gap = if self.right.is_empty() { 0 } else { 2 };
+        cells(&self.left) + gap + cells(&self.right)
     }
 }
 
-fn curve_line(plot: &Plot<'_>, curve: &Curve, unit: &AxisUnit, reading: Reading) -> Line {
-    let ascii = plot.theme.ascii();
-    let swatch = curve.stroke().swatch(ascii);
-    let name = plot.theme.printable(&curve.name);
-    let name: String = name.chars().take(LONGEST_NAME).collect();
-    let value = plot.cursor.and_then(|x| curve.value_at(x));
-    Line {
-        left: format!("{swatch} {name}"),
-        right: match (reading, value) {
-            (Reading::None, _) => String::new(),
-            (_, None) => if ascii { "-" } else { "–" }.to_owned(),
-            (Reading::Full, Some(y)) => with_unit(y, &plot.chart.y, unit, ascii),
-            (Reading::Bare, Some(y)) => format_number(y / unit.factor, DIGITS),
-        },
-        style: Style {
-            bg: None,
-            ..plot.theme.style(curve.role)
-        },
-    }
+/// The reading of the cursor itself, and a line for each curve that has a name.
+fn lines(plot: &Plot<'_>, [x_unit, y_unit]: [&AxisUnit; 2], reading: Reading) -> Vec<Line> {
+    let (theme, chart, ascii) = (plot.theme, plot.chart, plot.theme.ascii());
+    let x = plot.cursor.filter(|_| reading != Reading::None);
+    let header = x.map(|x| Line {
+        left: theme.printable(&chart.x.label),
+        right: with_unit(x, &chart.x, x_unit, ascii),
+        style: theme.style(Role::Quiet),
+    });
+    let named = chart.curves.iter().filter(|curve| !curve.name.is_empty());
+    let curves = named.map(|curve| {
+        let swatch = curve.stroke().swatch(ascii);
+        let name = theme.printable(&curve.name);
+        let name: String = name.chars().take(LONGEST_NAME).collect();
+        Line {
+            left: format!("{swatch} {name}"),
+            right: match x.map(|x| curve.value_at(x)) {
+                None => String::new(),
+                Some(None) => if ascii { "-" } else { "–" }.to_owned(),
+                Some(Some(y)) if reading == Reading::Full => with_unit(y, &chart.y, y_unit, ascii),
+                Some(Some(y)) => format_number(y / y_unit.factor, DIGITS),
+            },
+            style: theme.style(curve.role),
+        }
+    });
+    header.into_iter().chain(curves).collect()
 }
 
 /// A reading in the unit its axis is labelled in; in one of its own where the axis has none
@@ -180,29 +152,23 @@ fn with_unit(value: f64, axis: &Axis, unit: &AxisUnit, ascii: bool) -> String {
 }
 
 /// The cursor's readings in one short line, for a plot too small for a legend: its place
-/// and as many values of curves as fit `width`, in multiples `factors` of the axes' units.
-pub(super) fn short_reading(plot: &Plot<'_>, factors: [f64; 2], width: u16) -> Option<String> {
+/// and as many values of curves as fit `width`, in the axes' `units`.
+pub(super) fn short_reading(
+    plot: &Plot<'_>,
+    [x_unit, y_unit]: [&AxisUnit; 2],
+    width: u16,
+) -> Option<String> {
     let x = plot.cursor.filter(|x| x.is_finite())?;
-    let mut line = format!("{}:", format_number(x / factors[0], 3));
-    for y in plot
-        .chart
-        .curves
-        .iter()
-        .filter_map(|curve| curve.value_at(x))
-    {
-        let longer = format!("{line} {}", format_number(y / factors[1], 3));
+    let curves = plot.chart.curves.iter();
+    let mut line = format!("{}:", format_number(x / x_unit.factor, 3));
+    for y in curves.filter_map(|curve| curve.value_at(x)) {
+        let longer = format!("{line} {}", format_number(y / y_unit.factor, 3));
         if cells(&longer) > width {
             break;
         }
         line = longer;
     }
     line.contains(' ').then_some(line)
-}
-
-/// A label as it is shown.
-pub(super) fn text(label: &str, ascii: bool) -> String {
-    let folded = if ascii { to_ascii(label) } else { label.into() };
-    folded.into_owned()
 }
 
 /// The width of a text in cells.

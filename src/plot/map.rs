@@ -27,7 +27,7 @@ impl Map {
     pub fn range(&self) -> [f64; 2] {
         let is_log = self.quantity.scale == Scale::Log;
         let shown = self.values.iter().copied();
-        let shown = shown.filter(|v| v.is_finite() && (!is_log || *v > 0.0));
+        let shown = shown.filter(|value| self.quantity.scale.has(*value));
         let first = if is_log {
             [f64::INFINITY, 0.0]
         } else {
@@ -46,7 +46,8 @@ impl Map {
         if !self.words.is_empty() {
             return (value + 0.5) / WORDS as f64;
         }
-        let [low, high] = range.map(|end| self.quantity.spread(end));
-        (self.quantity.spread(value) - low) / (high - low)
+        let scale = self.quantity.scale;
+        let [low, high] = range.map(|end| scale.spread(end));
+        (scale.spread(value) - low) / (high - low)
     }
 }

@@ -2,15 +2,14 @@
 //!
 //! Curves are drawn as exact straight segments between the positions of their points,
 //! clipped to the raster before a dot is set, so that a far point costs no more than a near
-//! one. Points that share a column of dots are drawn as that column's range, which keeps
-//! every peak however many points there are. Below the curves lies a second, weaker layer
+//! one. All of them are drawn, which keeps every peak however many points there are. Below the curves lies a second, weaker layer
 //! (fills, rules); it gives way in every cell that a curve touches, so that no dot of it
 //! can be mistaken for the curve's.
 //!
 //! Dots are counted from the left and from the bottom, dot `i` being centred on position `i`.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use ratatui::layout::{self, Rect};
 use ratatui::style::{Color, Modifier, Style};
 
 use super::marker::{Marker, Under};
@@ -22,72 +21,57 @@ struct Cell {
     /// Dots of curves and of the layer below, a bit each; bit `x + across * y`, y downwards.
     curve: u8,
     under: u8,
-    /// Indices into the inks: of the curve (upper, lower half) and of the layer below.
-    ink: [u16; 2],
-    under_ink: u16,
+    /// The looks of the curve (upper, lower half) and of the layer below.
+    ink: [Style; 2],
+    under_ink: Style,
     kind: Option<Under>,
 }
 
 /// A point's position in dots; `None` is a gap.
-pub(super) type Position = Option<(f64, f64)>;
+pub(super) type Position = Option<[f64; 2]>;
 
 /// Dots over a rectangle of cells.
 #[derive(Debug)]
 pub(super) struct Raster {
     marker: Marker,
-    columns: usize,
-    rows: usize,
+    /// The cells of the screen that it lies on.
+    pub(super) area: Rect,
     cells: Vec<Cell>,
-    inks: Vec<Style>,
 }
 
 impl Raster {
-    /// An empty raster of `columns` by `rows` cells.
-    pub(super) fn new(columns: u16, rows: u16, marker: Marker) -> Self {
-        let (columns, rows) = (usize::from(columns), usize::from(rows));
+    /// An empty raster over `area`.
+    pub(super) fn new(area: Rect, marker: Marker) -> Self {
         Raster {
             marker,
-            columns,
-            rows,
-            cells: vec![Cell::default(); columns * rows],
-            inks: Vec::new(),
+            area,
+            cells: vec![Cell::default(); usize::from(area.width) * usize::from(area.height)],
         }
     }
 
-    /// Draws the line through `points`, in the foreground colour and modifiers of `style`.
+    /// Draws the line through `points`, in a style without a background.
     pub(super) fn line(
         &mut self,
         points: impl Iterator<Item = Position>,
         style: Style,
         stroke: Stroke,
     ) {
-        let pen = self.pen(style, stroke);
+        let [across, down] = stroke.runs(self.marker);
         let mut previous: Position = None;
-        let mut run: Option<Run> = None;
         for point in points {
-            if let (Some((x, y)), Some(run)) = (point, run.as_mut())
-                && x.round() == run.column
-            {
-                run.low = run.low.min(y);
-                run.high = run.high.max(y);
-                previous = point;
-                continue;
+            if let Some(to) = point {
+                // A point alone is a dot.
+                let from = previous.unwrap_or(to);
+                walk(from, to, self.size(), |column, row, is_steep| {
+                    let (along, runs) = if is_steep {
+                        (row, down)
+                    } else {
+                        (column, across)
+                    };
+                    self.set(column, row, style, draws(runs, along));
+                });
             }
-            if let Some(run) = run.take() {
-                self.segment((run.column, run.low), (run.column, run.high), pen);
-            }
-            if let (Some(from), Some(to)) = (previous, point) {
-                self.segment(from, to, pen);
-            }
-            run = point.map(|(x, y)| Run {
-                column: x.round(),
-                low: y,
-                high: y,
-            });
             previous = point;
-        }
-        if let Some(run) = run {
-            self.segment((run.column, run.low), (run.column, run.high), pen);
         }
     }
 
@@ -97,31 +81,29 @@ impl Raster {
         points: impl Iterator<Item = (Position, Option<f64>)>,
         style: Style,
     ) {
-        let ink = self.ink(style.add_modifier(Modifier::DIM));
-        let (width, height) = self.size();
-        let mut previous: Option<((f64, f64), f64)> = None;
+        let style = style.add_modifier(Modifier::DIM);
+        // The dots at and between two positions.
+        let dots = |from: f64, to: f64, size: f64| {
+            from.max(0.0) as usize..(to.min(size - 1.0) + 1.0).max(0.0) as usize
+        };
+        let [width, height] = self.size();
+        let mut previous: Option<([f64; 2], f64)> = None;
         for (point, base) in points {
             let point = point.zip(base);
-            if let (Some(a), Some(b)) = (previous, point) {
-                let (((xa, ya), base_a), ((xb, yb), base_b)) =
-                    if a.0.0 <= b.0.0 { (a, b) } else { (b, a) };
-                let columns = xa.ceil().max(0.0)..=xb.floor().min(width - 1.0);
-                let mut column = *columns.start();
-                while columns.contains(&column) && xb > xa {
-                    let share = (column - xa) / (xb - xa);
-                    let y = ya + (yb - ya) * share;
+            if let (Some(a), Some(b)) = (previous, point)
+                && a.0[0] != b.0[0]
+            {
+                let [(a, base_a), (b, base_b)] = if a.0[0] < b.0[0] { [a, b] } else { [b, a] };
+                for column in dots(a[0].ceil(), b[0].floor(), width) {
+                    let share = (column as f64 - a[0]) / (b[0] - a[0]);
+                    let y = a[1] + (b[1] - a[1]) * share;
                     let base = base_a + (base_b - base_a) * share;
-                    let low = y.min(base).round().max(0.0) as usize;
-                    let high = y.max(base).round().min(height - 1.0);
-                    let end = if high < 0.0 { 0 } else { high as usize + 1 };
-                    for row in low..end {
-                        if (column as usize + 2 * row).is_multiple_of(4)
-                            || self.marker != Marker::Braille
-                        {
-                            self.set_under(column as usize, row, Under::Fill, ink);
+                    for row in dots(y.min(base).round(), y.max(base).round(), height) {
+                        let is_seen = (column + 2 * row).is_multiple_of(4);
+                        if is_seen || self.marker != Marker::Braille {
+                            self.set_under(column, row, Under::Fill, style);
                         }
                     }
-                    column += 1.0;
                 }
             }
             previous = point;
@@ -130,12 +112,9 @@ impl Raster {
 
     /// A faint line along dot row `row`.
     pub(super) fn zero_line(&mut self, row: usize, style: Style) {
-        let ink = self.ink(style);
-        for column in (0..self.size().0 as usize).step_by(2) {
-            self.set_under(column, row, Under::Zero, ink);
-            if self.marker != Marker::Braille {
-                self.set_under(column + 1, row, Under::Zero, ink);
-            }
+        let every = if self.marker == Marker::Braille { 2 } else { 1 };
+        for column in (0..self.size()[0] as usize).step_by(every) {
+            self.set_under(column, row, Under::Zero, style);
         }
     }
 
@@ -143,43 +122,34 @@ impl Raster {
     /// contact all the time, so two of three cells of it stay empty: the top one has dots, next to the
     /// mark's label.
     pub(super) fn vertical(&mut self, column: usize, kind: Under, style: Style) {
-        let ink = self.ink(style);
-        let sparse = self.marker == Marker::Braille && kind == Under::Mark;
+        let is_sparse = self.marker == Marker::Braille && kind == Under::Mark;
         let down = usize::from(self.marker.dots().1);
-        let rows = 0..self.size().1 as usize;
-        let drawn = |&row: &usize| {
-            let cell = self.rows - 1 - row / down;
-            !sparse || (cell.is_multiple_of(3) && row.is_multiple_of(2))
-        };
-        let rows: Vec<usize> = rows.filter(drawn).collect();
-        for row in rows {
-            self.set_under(column, row, kind, ink);
+        for row in 0..self.size()[1] as usize {
+            let cell = usize::from(self.area.height) - 1 - row / down;
+            if !is_sparse || (cell.is_multiple_of(3) && row.is_multiple_of(2)) {
+                self.set_under(column, row, kind, style);
+            }
         }
     }
 
-    /// How many curve dots lie in the rectangle of cells (columns from the left, rows from
-    /// the top, clipped).
+    /// How many curve dots lie in a rectangle of the screen.
     pub(super) fn dots_in(&self, area: Rect) -> u32 {
-        let [left, top] = [area.x, area.y].map(usize::from);
-        let right = usize::from(area.right()).min(self.columns);
-        let bottom = usize::from(area.bottom()).min(self.rows);
-        let rows = top..bottom;
-        rows.flat_map(|row| {
-            self.cells
-                .get(row * self.columns + left..row * self.columns + right)
-        })
-        .flatten()
-        .map(|cell| cell.curve.count_ones())
-        .sum()
+        let places = self.area.intersection(area).positions();
+        let cells = places.filter_map(|place| self.cells.get(self.index(place)));
+        cells.map(|cell| cell.curve.count_ones()).sum()
     }
 
-    /// Writes the dots into `buf`, the raster's top left cell at (`x`, `y`).
-    pub(super) fn render(&self, x: u16, y: u16, buf: &mut Buffer) {
-        for (index, cell) in self.cells.iter().enumerate() {
-            let place = (
-                x + (index % self.columns) as u16,
-                y + (index / self.columns) as u16,
-            );
+    /// Removes everything in a rectangle of the screen.
+    pub(super) fn blank(&mut self, area: Rect) {
+        for place in self.area.intersection(area).positions() {
+            let index = self.index(place);
+            self.cells[index] = Cell::default();
+        }
+    }
+
+    /// Writes the dots into `buf`.
+    pub(super) fn render(&self, buf: &mut Buffer) {
+        for (place, cell) in self.area.positions().zip(&self.cells) {
             if let Some((glyph, style)) = self.look(cell)
                 && let Some(target) = buf.cell_mut(place)
             {
@@ -188,58 +158,21 @@ impl Raster {
         }
     }
 
-    /// Removes everything in the rectangle of cells (as in [`Raster::dots_in`]).
-    pub(super) fn blank(&mut self, area: Rect) {
-        let right = usize::from(area.right()).min(self.columns);
-        let bottom = usize::from(area.bottom()).min(self.rows);
-        for row in usize::from(area.y)..bottom {
-            let start = row * self.columns;
-            let range = start + usize::from(area.x)..start + right;
-            if let Some(cells) = self.cells.get_mut(range) {
-                cells.fill(Cell::default());
-            }
-        }
+    /// The number of a cell by its place on the screen.
+    fn index(&self, place: layout::Position) -> usize {
+        let [column, row] = [place.x - self.area.x, place.y - self.area.y].map(usize::from);
+        row * usize::from(self.area.width) + column
     }
 
     /// Width and height in dots.
-    fn size(&self) -> (f64, f64) {
+    fn size(&self) -> [f64; 2] {
         let (across, down) = self.marker.dots();
-        let width = self.columns * usize::from(across);
-        let height = self.rows * usize::from(down);
-        (width as f64, height as f64)
-    }
-
-    fn ink(&mut self, style: Style) -> u16 {
-        let style = Style { bg: None, ..style };
-        let known = self.inks.iter().position(|&ink| ink == style);
-        let index = known.unwrap_or_else(|| {
-            self.inks.push(style);
-            self.inks.len() - 1
-        });
-        index.min(usize::from(u16::MAX)) as u16
-    }
-
-    fn pen(&mut self, style: Style, stroke: Stroke) -> Pen {
-        let [across, down] = stroke.runs(self.marker);
-        Pen {
-            ink: self.ink(style),
-            across,
-            down,
-        }
-    }
-
-    fn segment(&mut self, a: (f64, f64), b: (f64, f64), pen: Pen) {
-        walk(a, b, self.size(), |column, row, steep| {
-            let (along, runs) = match steep {
-                false => (column, pen.across),
-                true => (row, pen.down),
-            };
-            self.set(column, row, pen.ink, draws(runs, along));
-        });
+        let width = f64::from(self.area.width) * f64::from(across);
+        [width, f64::from(self.area.height) * f64::from(down)]
     }
 
     /// Sets a dot of a curve; between two dashes only the layer below gives way.
-    fn set(&mut self, column: usize, row: usize, ink: u16, drawn: bool) {
+    fn set(&mut self, column: usize, row: usize, style: Style, drawn: bool) {
         let ((across, _), marker) = (self.marker.dots(), self.marker);
         if let Some((cell, bit)) = self.locate(column, row) {
             cell.kind = None;
@@ -248,21 +181,21 @@ impl Raster {
             }
             cell.curve |= 1 << bit;
             if marker == Marker::HalfBlock {
-                cell.ink[usize::from(bit / across)] = ink;
+                cell.ink[usize::from(bit / across)] = style;
             } else {
-                cell.ink = [ink; 2];
+                cell.ink = [style; 2];
             }
         }
     }
 
-    fn set_under(&mut self, column: usize, row: usize, kind: Under, ink: u16) {
+    fn set_under(&mut self, column: usize, row: usize, kind: Under, style: Style) {
         if let Some((cell, bit)) = self.locate(column, row) {
-            if cell.kind != Some(kind) || cell.under_ink != ink {
+            if cell.kind != Some(kind) || cell.under_ink != style {
                 cell.under = 0;
             }
             cell.under |= 1 << bit;
             cell.kind = Some(kind);
-            cell.under_ink = ink;
+            cell.under_ink = style;
         }
     }
 
@@ -270,26 +203,25 @@ impl Raster {
     fn locate(&mut self, column: usize, row: usize) -> Option<(&mut Cell, u16)> {
         let (across, down) = self.marker.dots();
         let (across, down) = (usize::from(across), usize::from(down));
-        let row = (self.rows * down).checked_sub(row + 1)?;
-        if column >= self.columns * across {
+        let row = (usize::from(self.area.height) * down).checked_sub(row + 1)?;
+        let columns = usize::from(self.area.width);
+        if column >= columns * across {
             return None;
         }
         let bit = column % across + across * (row % down);
-        let index = row / down * self.columns + column / across;
+        let index = row / down * columns + column / across;
         Some((self.cells.get_mut(index)?, bit as u16))
     }
 
     /// The character of a cell and its style; `None` if it is empty.
     fn look(&self, cell: &Cell) -> Option<(char, Style)> {
-        let ink = |index: u16| {
-            let style = self.inks.get(usize::from(index)).copied();
-            style.unwrap_or_default()
-        };
         if cell.curve == 0 {
             let glyph = self.marker.under_glyph(cell.kind?, cell.under);
-            return Some((glyph, ink(cell.under_ink)));
+            return Some((glyph, cell.under_ink));
         }
-        let [upper, lower] = cell.ink.map(ink);
+        let [upper, lower] = cell.ink;
+        // A foreground that can also serve as a background.
+        let colour = |style: Style| style.fg.filter(|&colour| colour != Color::Reset);
         let style = match (self.marker, cell.curve, colour(upper), colour(lower)) {
             // One glyph, two colours: the lower half shows the background.
             (Marker::HalfBlock, 3, Some(a), Some(b)) if a != b => {
@@ -300,27 +232,6 @@ impl Raster {
         };
         Some((self.marker.glyph(cell.curve), style))
     }
-}
-
-/// The points seen so far in one column of dots.
-#[derive(Debug, Clone, Copy)]
-struct Run {
-    column: f64,
-    low: f64,
-    high: f64,
-}
-
-/// An ink and its pattern, across and down.
-#[derive(Debug, Clone, Copy)]
-struct Pen {
-    ink: u16,
-    across: &'static [usize],
-    down: &'static [usize],
-}
-
-/// A foreground that can also serve as a background.
-fn colour(style: Style) -> Option<Color> {
-    style.fg.filter(|&colour| colour != Color::Reset)
 }
 
 #[cfg(test)]

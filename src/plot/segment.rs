@@ -7,37 +7,33 @@
 /// being centred on position `i`: one a column where the line is shallow, one per row where it
 /// is steep. `visit` gets column, row, and whether the line is steep.
 pub(super) fn walk(
-    a: (f64, f64),
-    b: (f64, f64),
-    size: (f64, f64),
+    a: [f64; 2],
+    b: [f64; 2],
+    size: [f64; 2],
     mut visit: impl FnMut(usize, usize, bool),
 ) {
-    let (width, height) = size;
-    let ends = clip(a.into(), b.into(), [-0.5; 2], [width - 0.5, height - 0.5]);
-    let Some([a, b]): Option<[(f64, f64); 2]> = ends.map(|ends| ends.map(Into::into)) else {
+    let Some([a, b]) = clip(a, b, [-0.5; 2], size.map(|length| length - 0.5)) else {
         return;
     };
-    let (dx, dy) = (b.0 - a.0, b.1 - a.1);
-    if dx.abs() >= dy.abs() {
-        let (a, b) = if dx >= 0.0 { (a, b) } else { (b, a) };
-        let slope = if dx == 0.0 { 0.0 } else { dy / dx };
-        for column in nearest(a.0, width)..=nearest(b.0, width) {
-            let y = a.1 + ((column as f64).clamp(a.0, b.0) - a.0) * slope;
-            visit(column, nearest(y, height), false);
-        }
-    } else {
-        let (a, b) = if dy >= 0.0 { (a, b) } else { (b, a) };
-        let slope = dx / dy;
-        for row in nearest(a.1, height)..=nearest(b.1, height) {
-            let x = a.0 + ((row as f64).clamp(a.1, b.1) - a.1) * slope;
-            visit(nearest(x, width), row, true);
+    let nearest = |k: usize, position: f64| {
+        let last = (size[k] - 1.0).max(0.0);
+        position.round().clamp(0.0, last) as usize
+    };
+    let is_steep = (b[1] - a[1]).abs() > (b[0] - a[0]).abs();
+    let [k, other] = if is_steep { [1, 0] } else { [0, 1] };
+    let [a, b] = if a[k] <= b[k] { [a, b] } else { [b, a] };
+    let slope = match b[k] - a[k] {
+        0.0 => 0.0,
+        along => (b[other] - a[other]) / along,
+    };
+    for along in nearest(k, a[k])..=nearest(k, b[k]) {
+        let from_start = (along as f64).clamp(a[k], b[k]) - a[k];
+        let across = nearest(other, a[other] + from_start * slope);
+        match is_steep {
+            true => visit(across, along, true),
+            false => visit(along, across, false),
         }
     }
-}
-
-/// The dot nearest to a position inside the raster.
-fn nearest(position: f64, size: f64) -> usize {
-    position.round().clamp(0.0, (size - 1.0).max(0.0)) as usize
 }
 
 /// The part of the line from `from` to `to` within `low` and `high` (Liang and Barsky). Ends that lie inside

@@ -1,26 +1,28 @@
 //! The 1-2-5 grid, on which ticks and rounded bounds lie.
 
-/// A step of the 1-2-5 grid: 1, 2 or 5 times a power of ten.
+/// A step of the grid, 1, 2 or 5 times a power of ten, by its number: 0 is 1, 1 is 2, 2 is 5, 3 is 10.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Step {
-    /// 1, 2 or 5.
-    pub(super) mantissa: u8,
-    /// The power of ten.
-    pub(super) exponent: i32,
-}
+pub(super) struct Step(pub(super) i32);
 
 impl Step {
     /// The largest step that is not above `size` (positive and finite).
     pub(super) fn at_most(size: f64) -> Step {
-        let exponent = size.log10().floor().clamp(-306.0, 306.0) as i32;
-        let step = |mantissa| Step { mantissa, exponent };
+        let decade = 3 * size.log10().floor().clamp(-306.0, 306.0) as i32;
         let bound = size * (1.0 + 1e-9);
         // The logarithm may be off by one unit in the last place: allow the next decade.
-        let (finer, coarser) = (step(5).finer().finer().finer(), step(5).coarser());
-        [coarser, step(5), step(2), step(1)]
-            .into_iter()
-            .find(|step| step.value() <= bound)
-            .unwrap_or(finer)
+        let mut steps = (decade..=decade + 3).rev().map(Step);
+        let found = steps.find(|step| step.value() <= bound);
+        found.unwrap_or(Step(decade - 1))
+    }
+
+    /// 1, 2 or 5.
+    pub(super) fn mantissa(self) -> u8 {
+        [1, 2, 5][self.0.rem_euclid(3) as usize]
+    }
+
+    /// The power of ten.
+    pub(super) fn exponent(self) -> i32 {
+        self.0.div_euclid(3)
     }
 
     /// The step's size.
@@ -30,34 +32,11 @@ impl Step {
 
     /// `count` times the step, rounded once where a decimal fraction allows it.
     pub(super) fn multiple(self, count: f64) -> f64 {
-        let digits = count * f64::from(self.mantissa);
-        if self.exponent < 0 {
-            digits / 10f64.powi(-self.exponent)
-        } else {
-            digits * 10f64.powi(self.exponent)
+        let digits = count * f64::from(self.mantissa());
+        match self.exponent() {
+            exponent @ ..0 => digits / 10f64.powi(-exponent),
+            exponent => digits * 10f64.powi(exponent),
         }
-    }
-
-    /// The next step up.
-    pub(super) fn coarser(self) -> Step {
-        let (mantissa, carry) = match self.mantissa {
-            1 => (2, 0),
-            2 => (5, 0),
-            _ => (1, 1),
-        };
-        let exponent = self.exponent + carry;
-        Step { mantissa, exponent }
-    }
-
-    /// The next step down.
-    pub(super) fn finer(self) -> Step {
-        let (mantissa, carry) = match self.mantissa {
-            5 => (2, 0),
-            2 => (1, 0),
-            _ => (5, 1),
-        };
-        let exponent = self.exponent - carry;
-        Step { mantissa, exponent }
     }
 
     /// `count` steps as text, with just the decimals the step needs; zero is `0`.
@@ -65,7 +44,7 @@ impl Step {
         if count == 0.0 {
             return "0".to_owned();
         }
-        let decimals = self.exponent.min(0).unsigned_abs() as usize;
+        let decimals = self.exponent().min(0).unsigned_abs() as usize;
         format!("{:.*}", decimals, self.multiple(count))
     }
 }
@@ -76,14 +55,13 @@ mod tests {
 
     #[test]
     fn steps() {
-        for exponent in -30..30 {
-            for mantissa in [1, 2, 5] {
-                let step = Step { mantissa, exponent };
-                assert_eq!(Step::at_most(step.value()), step);
-                assert_eq!(Step::at_most(step.value() * 1.9), step);
-                assert_eq!(step.coarser().finer(), step);
-                assert!(Step::at_most(step.value() * 0.99).value() < step.value());
-            }
+        for step in (-90..90).map(Step) {
+            assert_eq!(Step::at_most(step.value()), step);
+            assert_eq!(Step::at_most(step.value() * 1.9), step);
+            assert!([1, 2, 5].contains(&step.mantissa()));
+            assert!(Step(step.0 + 1).value() >= 1.99 * step.value());
+            assert_eq!(Step(step.0 + 3).exponent(), step.exponent() + 1);
+            assert!(Step::at_most(step.value() * 0.99).value() < step.value());
         }
     }
 }

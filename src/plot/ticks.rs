@@ -2,6 +2,7 @@
 
 use super::axis::Scale;
 use super::step::Step;
+use super::units::AxisUnit;
 use super::window::Window;
 
 /// A tick: where it is and what is written beside it.
@@ -30,15 +31,58 @@ impl Tick {
 /// How the labels of an axis lie.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Labels {
-    /// Side by side in one row.
-    Row {
-        /// Free cells left of the axis' first cell.
-        before: u16,
-        /// The least distance between ticks in cells, beside what the labels need.
-        apart: u16,
-    },
+    /// Side by side in one row that begins so many cells left of the axis' first cell.
+    Row(u16),
     /// One below the other, each in a row of its own.
     Column,
+}
+
+/// An axis laid over cells: where values lie, the unit of its labels, and its ticks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ruler {
+    /// Where values lie.
+    pub window: Window,
+    /// The unit of the labels.
+    pub unit: AxisUnit,
+    /// The ticks, in increasing order.
+    pub ticks: Vec<Tick>,
+}
+
+impl Ruler {
+    /// A window with [`ticks`] in this unit.
+    pub fn new(window: Window, unit: AxisUnit, labels: Labels) -> Self {
+        let ticks = ticks(&window, unit.factor, labels);
+        Self {
+            window,
+            unit,
+            ticks,
+        }
+    }
+
+    /// The same column with an upper end a little higher, so that the ticks of a linear axis are the same number of
+    /// rows apart; as it was where that would leave too much of it empty.
+    #[must_use]
+    pub fn even(self) -> Self {
+        let [lo, hi] = self.window.bounds();
+        let [first, second, ..] = &self.ticks[..] else {
+            return self;
+        };
+        let height = self.window.height();
+        let ends = [1.0, 2.0, 5.0].into_iter().filter_map(|times| {
+            let step = times * (second.value - first.value);
+            let rows = (height / ((hi - lo) / step) + 1e-9).floor();
+            // The lower end must lie on a tick, or its row would not be the one that the others count from.
+            let is_aligned = ((lo / step).round() * step - lo).abs() < 1e-6 * step;
+            let end = lo + step * height / rows;
+            (rows >= 1.0 && is_aligned && end <= lo + 1.3 * (hi - lo)).then_some(end)
+        });
+        match ends.reduce(f64::min) {
+            Some(end) if self.window.scale() == Scale::Linear => {
+                Self::new(self.window.up_to(end), self.unit, Labels::Column)
+            }
+            _ => self,
+        }
+    }
 }
 
 /// The ticks of an axis, in increasing order: as many as fit without their labels coming
@@ -63,10 +107,9 @@ fn linear_ticks(window: &Window, factor: f64, labels: Labels) -> Vec<Tick> {
     }
     // A value up to half a dot outside still lands on the first or last dot.
     let slack = 0.5 * span / window.dots().max(2) as f64;
-    let range = |step: Step| {
+    let ends = |step: Step| {
         let first = ((lo - slack) / step.value()).ceil();
-        let last = ((hi + slack) / step.value()).floor();
-        (first, last)
+        [first, ((hi + slack) / step.value()).floor()]
     };
     let tick = |step: Step, count: f64| {
         let value = step.multiple(count) * factor;
@@ -75,44 +118,42 @@ fn linear_ticks(window: &Window, factor: f64, labels: Labels) -> Vec<Tick> {
         Some(Tick { value, cell, label })
     };
 
-    let airy = airy(window, labels);
-    let most = f64::from(window.cells() / airy + 2);
-    let mut step = Step::at_most(span / most);
-    loop {
-        let (first, last) = range(step);
+    let airy = match labels {
+        Labels::Row(_) => window.cells() / 10,
+        Labels::Column => window.cells() / 7,
+    };
+    let airy = airy.max(2);
+    let Step(finest) = Step::at_most(span / f64::from(window.cells() / airy + 2));
+    for step in (finest..).map(Step) {
+        let [first, last] = ends(step);
         let count = (last - first).max(-1.0) as usize + 1;
         if count < 2 {
             break;
         }
-        if count <= usize::from(window.cells()) {
-            let found = (0..count).filter_map(|i| tick(step, first + i as f64));
-            let found: Vec<Tick> = found.collect();
-            if found.len() > 1 && fit(&found, window, labels, airy, 2) {
-                return found;
-            }
+        let found = (0..count).filter_map(|i| tick(step, first + i as f64));
+        let found: Vec<Tick> = found.collect();
+        if found.len() > 1 && fit(&found, window, labels, airy, 2) {
+            return found;
         }
-        step = step.coarser();
     }
 
     // No step has two multiples far enough apart: two multiples of a finer one may be.
-    let mut single = None;
-    let mut step = Step::at_most(span).coarser();
-    for _ in 0..12 {
-        let (first, last) = range(step);
-        let ends = [first, last].map(|count| tick(step, count).filter(|_| first <= last));
-        if let [Some(a), Some(b)] = ends {
+    let mut single = Vec::new();
+    let Step(coarsest) = Step::at_most(span);
+    for step in (coarsest - 10..=coarsest + 1).rev().map(Step) {
+        let [first, last] = ends(step);
+        let pair = [first, last].map(|count| tick(step, count).filter(|_| first <= last));
+        if let [Some(a), Some(b)] = pair {
             let pair = [a, b];
             if first < last && fit(&pair, window, labels, 1, 1) {
                 return pair.into();
             }
-            let [a, _] = pair;
-            if fit(std::slice::from_ref(&a), window, labels, 1, 1) {
-                single = single.or(Some(a));
+            if single.is_empty() && fit(&pair[..1], window, labels, 1, 1) {
+                single = pair[..1].to_vec();
             }
         }
-        step = step.finer();
     }
-    single.into_iter().collect()
+    single
 }
 
 /// Decades, with 2 and 5 between them if there is room; `None` if no two of them fit.
@@ -125,57 +166,33 @@ fn log_ticks(window: &Window, factor: f64, labels: Labels) -> Option<Vec<Tick>> 
     let tick = |step: Step| {
         let value = step.value();
         let cell = window.cell(value)?;
-        let label = if plain {
-            let exponent = step.exponent - shift;
-            Step { exponent, ..step }.label(1.0)
-        } else {
-            format!("{}e{}", step.mantissa, step.exponent - shift)
+        let label = match plain {
+            true => Step(step.0 - 3 * shift).label(1.0),
+            false => format!("{}e{}", step.mantissa(), step.exponent() - shift),
         };
         Some(Tick { value, cell, label })
     };
-    let apart = match labels {
-        Labels::Row { apart, .. } => apart.max(2),
-        Labels::Column => 2,
+    // Every step of the grid, every decade, every second one and so on.
+    let grid = |every: i32| -> Vec<Tick> {
+        let steps = (3 * first..=3 * last + 2).filter(|step| step.rem_euclid(every) == 0);
+        steps.map(Step).filter_map(tick).collect()
     };
-    let every = [(1, true), (1, false), (2, false), (3, false), (5, false)];
-    let wider = [10, 20, 50, 100, 200].map(|n| (n, false));
-    for (stride, between) in every.into_iter().chain(wider) {
-        let mantissas: &[u8] = if between { &[1, 2, 5] } else { &[1] };
-        // More than the cells can hold need not be tried.
-        if (last - first) / stride * mantissas.len() as i32 > i32::from(window.cells()) {
-            continue;
-        }
-        let decades = (first..=last).filter(|k| k.rem_euclid(stride) == 0);
-        let grid = decades.flat_map(|exponent| {
-            mantissas
-                .iter()
-                .map(move |&mantissa| Step { mantissa, exponent })
-        });
-        let found: Vec<Tick> = grid.filter_map(tick).collect();
-        if found.len() > 1 && fit(&found, window, labels, apart, 2) {
+    let decades = [1, 2, 3, 5, 10, 20, 50, 100, 200].map(|decades| 3 * decades);
+    for every in [1].into_iter().chain(decades) {
+        let found = grid(every);
+        if found.len() > 1 && fit(&found, window, labels, 2, 2) {
             return Some(found);
         }
     }
     // The outermost decades, or the outermost of all where there are no two decades.
-    [&[1][..], &[1, 2, 5]].into_iter().find_map(|mantissas| {
-        let mut steps = (first..=last)
-            .flat_map(|exponent| {
-                mantissas
-                    .iter()
-                    .map(move |&mantissa| Step { mantissa, exponent })
-            })
-            .filter_map(tick);
-        let ends = [steps.next()?, steps.next_back()?];
-        fit(&ends, window, labels, 1, 1).then(|| ends.into())
+    [3, 1].into_iter().find_map(|every| {
+        let found = grid(every);
+        let [first, .., last] = &found[..] else {
+            return None;
+        };
+        let ends = vec![first.clone(), last.clone()];
+        fit(&ends, window, labels, 1, 1).then_some(ends)
     })
-}
-
-/// The distance in cells that keeps an axis airy.
-fn airy(window: &Window, labels: Labels) -> u16 {
-    match labels {
-        Labels::Row { apart, .. } => (window.cells() / 10).max(apart).max(2),
-        Labels::Column => (window.cells() / 7).max(2),
-    }
 }
 
 /// Are neighbours `apart` cells apart, with `blanks` cells between labels in a row, and no
@@ -184,7 +201,7 @@ fn fit(ticks: &[Tick], window: &Window, labels: Labels, apart: u16, blanks: i32)
     let far = ticks
         .windows(2)
         .all(|pair| pair[1].cell >= pair[0].cell + apart);
-    let Labels::Row { before, .. } = labels else {
+    let Labels::Row(before) = labels else {
         return far;
     };
     let cells = window.cells();
@@ -205,7 +222,7 @@ mod tests {
     }
 
     fn row(before: u16) -> Labels {
-        Labels::Row { before, apart: 0 }
+        Labels::Row(before)
     }
 
     fn window(lo: f64, hi: f64, cells: u16) -> Window {
@@ -263,7 +280,7 @@ mod tests {
             assert!(pair[0].value < pair[1].value);
             assert!(pair[0].cell < pair[1].cell);
             assert_ne!(pair[0].label, pair[1].label);
-            if let Labels::Row { before, .. } = labels {
+            if let Labels::Row(before) = labels {
                 let start = |tick: &Tick| tick.label_start(window.cells(), before);
                 let end = start(&pair[0]) + pair[0].label.len() as i32;
                 assert!(end < start(&pair[1]), "{ticks:?}");

@@ -7,25 +7,16 @@
 
 use std::borrow::Cow;
 
-/// An SI prefix: a symbol and the factor it stands for.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Prefix {
-    /// What one prefixed unit is worth in plain units (1e-6 for µ; 1e-18 for µ before m³).
-    pub factor: f64,
-    /// `p`, `n`, `µ`, `m`, nothing, `k`, `M` or `G`.
-    pub symbol: &'static str,
-}
-
-/// The prefixes in use, smallest first.
-const PREFIXES: [Prefix; 8] = [
-    prefix(1e-12, "p"),
-    prefix(1e-9, "n"),
-    prefix(1e-6, "µ"),
-    prefix(1e-3, "m"),
-    Prefix::NONE,
-    prefix(1e3, "k"),
-    prefix(1e6, "M"),
-    prefix(1e9, "G"),
+/// SI prefixes and what they stand for, smallest first.
+const PREFIXES: [(&str, f64); 8] = [
+    ("p", 1e-12),
+    ("n", 1e-9),
+    ("µ", 1e-6),
+    ("m", 1e-3),
+    ("", 1.0),
+    ("k", 1e3),
+    ("M", 1e6),
+    ("G", 1e9),
 ];
 
 /// Units that take a prefix; any other word (cycles, %, deg) stands alone.
@@ -33,47 +24,19 @@ const PREFIXABLE: [&str; 14] = [
     "m", "s", "N", "Pa", "J", "W", "Hz", "rad", "K", "V", "A", "B", "g", "L",
 ];
 
-const fn prefix(factor: f64, symbol: &'static str) -> Prefix {
-    Prefix { factor, symbol }
-}
-
-impl Prefix {
-    /// No prefix: factor 1.
-    pub const NONE: Prefix = prefix(1.0, "");
-
-    /// The prefix for values up to `max` of `unit`, with regard to the unit's power
-    /// (`m³`) and to units that take none (an empty unit, `1/Pa`, `cycles`).
-    pub fn for_unit(max: f64, unit: &str) -> Prefix {
-        match leading_power(unit) {
-            // Nobody reads kiloseconds.
-            Some(_) if matches!(unit, "s" | "rad") && max.abs() >= 1.0 => Prefix::NONE,
-            Some(power) => Prefix::for_power(max, power),
-            None => Prefix::NONE,
-        }
-    }
-
-    fn for_power(max: f64, power: i32) -> Prefix {
-        let size = max.abs() * (1.0 + 1e-9);
-        if size == 0.0 || !size.is_finite() {
-            return Prefix::NONE;
-        }
-        let mut best = PREFIXES[0];
-        for candidate in PREFIXES {
-            if candidate.factor.powi(power) <= size {
-                best = candidate;
-            }
-        }
-        prefix(best.factor.powi(power), best.symbol)
-    }
-
-    /// The symbol, with `u` for `µ` where only ASCII can be shown.
-    pub fn symbol_in(self, ascii: bool) -> &'static str {
-        if ascii && self.symbol == "µ" {
-            "u"
-        } else {
-            self.symbol
-        }
-    }
+/// The prefix for values up to `max` of `unit`, and what the unit with it is worth without: 1e-18 for µ before m³.
+/// Some units (an empty one, `1/Pa`, `cycles`) take none.
+fn prefix(max: f64, unit: &str) -> (&'static str, f64) {
+    let size = max.abs() * (1.0 + 1e-9);
+    let power = match leading_power(unit) {
+        // Nobody reads kiloseconds.
+        Some(_) if matches!(unit, "s" | "rad") && max.abs() >= 1.0 => return ("", 1.0),
+        Some(power) if size > 0.0 && size.is_finite() => power,
+        _ => return ("", 1.0),
+    };
+    let raised = PREFIXES.map(|(symbol, factor)| (symbol, factor.powi(power)));
+    let fitting = raised.into_iter().rfind(|(_, factor)| *factor <= size);
+    fitting.unwrap_or(raised[0])
 }
 
 /// The power of a unit's first symbol (3 for `m³`, 1 for `N/m`); `None` where no prefix applies.
@@ -104,19 +67,15 @@ pub struct AxisUnit {
 
 /// The common unit of an axis whose largest absolute value is `max` (in `unit`).
 pub fn axis_unit(max: f64, unit: &str, ascii: bool) -> AxisUnit {
-    let prefix = Prefix::for_unit(max, unit);
-    let unit = if ascii { to_ascii(unit) } else { unit.into() };
-    let text = format!("{}{unit}", prefix.symbol_in(ascii));
-    let scaled = max.abs() / prefix.factor;
-    if scaled == 0.0 || !scaled.is_finite() || (0.01..1e5).contains(&scaled) {
-        let factor = prefix.factor;
-        return AxisUnit { factor, text };
+    let (symbol, mut factor) = prefix(max, unit);
+    let mut text = shown(&format!("{symbol}{unit}"), ascii);
+    let scaled = max.abs() / factor;
+    if scaled != 0.0 && scaled.is_finite() && !(0.01..1e5).contains(&scaled) {
+        let power = 3 * ((scaled * (1.0 + 1e-9)).log10() / 3.0).floor() as i32;
+        factor *= 10f64.powi(power);
+        text = format!("1e{power} {text}").trim_end().to_owned();
     }
-    let power = 3 * ((scaled * (1.0 + 1e-9)).log10() / 3.0).floor() as i32;
-    AxisUnit {
-        factor: prefix.factor * 10f64.powi(power),
-        text: format!("1e{power} {text}").trim_end().to_owned(),
-    }
+    AxisUnit { factor, text }
 }
 
 /// A reading with its unit, `1.23 µm`: `digits` significant digits (digits before the
@@ -129,16 +88,13 @@ pub fn format_value(value: f64, unit: &str, digits: usize) -> String {
 /// [`format_value`], in ASCII where `ascii` asks for it.
 pub fn format_value_in(value: f64, unit: &str, digits: usize, ascii: bool) -> String {
     let digits = digits.clamp(1, 17);
-    let rounded = round_to(value, digits);
-    let prefix = Prefix::for_unit(rounded, unit);
-    let mut text = format_number(value / prefix.factor, digits);
-    let mut symbol = prefix.symbol_in(ascii);
-    if text.contains('e') {
-        text = format_number(value, digits);
-        symbol = "";
+    let (mut symbol, factor) = prefix(round_to(value, digits), unit);
+    let mut number = format_number(value / factor, digits);
+    if number.contains('e') {
+        (symbol, number) = ("", format_number(value, digits));
     }
-    let unit = if ascii { to_ascii(unit) } else { unit.into() };
-    format!("{text} {symbol}{unit}").trim_end().to_owned()
+    let text = format!("{number} {symbol}{unit}");
+    shown(text.trim_end(), ascii)
 }
 
 /// A bare number with `digits` significant digits; scientific outside 1e-3..1e6.
@@ -171,6 +127,15 @@ fn round_to(value: f64, digits: usize) -> f64 {
     match rounded {
         Ok(number) if f64::is_finite(number) => number,
         _ => value,
+    }
+}
+
+/// `text`, in ASCII where `ascii` asks for it.
+fn shown(text: &str, ascii: bool) -> String {
+    if ascii {
+        to_ascii(text).into_owned()
+    } else {
+        text.to_owned()
     }
 }
 
@@ -241,23 +206,23 @@ mod tests {
             (f64::INFINITY, ""),
         ];
         for (max, symbol) in cases {
-            assert_eq!(Prefix::for_power(max, 1).symbol, symbol, "{max}");
+            assert_eq!(prefix(max, "m").0, symbol, "{max}");
         }
-        assert_eq!(Prefix::for_power(2e-6, 1).symbol_in(true), "u");
+        assert_eq!(axis_unit(2e-6, "m", true).text, "um");
     }
 
     #[test]
     fn a_power_of_a_unit_raises_its_prefix() {
-        let volume = Prefix::for_unit(3e-17, "m³");
-        assert_eq!(volume.symbol, "µ");
-        assert!((volume.factor / 1e-18 - 1.0).abs() < 1e-12);
+        let volume = prefix(3e-17, "m³");
+        assert_eq!(volume.0, "µ");
+        assert!((volume.1 / 1e-18 - 1.0).abs() < 1e-12);
         assert_eq!(format_value(3e-17, "m³", 3), "30.0 µm³");
         assert_eq!(format_value(2e-10, "m^2", 2), "200 µm^2");
-        assert_eq!(Prefix::for_unit(1e-10, "1/Pa"), Prefix::NONE);
-        assert_eq!(Prefix::for_unit(1e6, "cycles"), Prefix::NONE);
-        assert_eq!(Prefix::for_unit(2e4, "N/m").symbol, "k");
-        assert_eq!(Prefix::for_unit(2e4, "s"), Prefix::NONE);
-        assert_eq!(Prefix::for_unit(2e-4, "s").symbol, "µ");
+        assert_eq!(prefix(1e-10, "1/Pa"), ("", 1.0));
+        assert_eq!(prefix(1e6, "cycles"), ("", 1.0));
+        assert_eq!(prefix(2e4, "N/m").0, "k");
+        assert_eq!(prefix(2e4, "s"), ("", 1.0));
+        assert_eq!(prefix(2e-4, "s").0, "µ");
     }
 
     #[test]

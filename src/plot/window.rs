@@ -59,14 +59,20 @@ impl Window {
         usize::from(self.cells) * usize::from(self.dots_per_cell)
     }
 
+    /// The distance from the first dot to the last one, in cells.
+    pub(super) fn height(&self) -> f64 {
+        (self.dots() as f64 - 1.0) / f64::from(self.dots_per_cell)
+    }
+
     /// The position of `value` in dots, also outside the window; `None` for values that
     /// have no place: not finite, or not positive on a log scale.
     pub fn position(&self, value: f64) -> Option<f64> {
-        if !value.is_finite() || (self.scale == Scale::Log && value <= 0.0) {
+        if !self.scale.has(value) {
             return None;
         }
-        let [lo, hi] = self.bounds.map(|v| self.transformed(v) / 2.0);
-        let share = (self.transformed(value) / 2.0 - lo) / (hi - lo);
+        let [at, lo, hi] =
+            [value, self.bounds[0], self.bounds[1]].map(|v| self.scale.spread(v) / 2.0);
+        let share = (at - lo) / (hi - lo);
         let position = match self.dots() {
             0 => return None,
             // A lone dot stands for the whole window, not for everything outside it too.
@@ -74,6 +80,12 @@ impl Window {
             dots => share * (dots - 1) as f64,
         };
         (!position.is_nan()).then(|| position.clamp(-FAR, FAR))
+    }
+
+    /// Where `value` lies between the ends, 0 to 1 inside; `None` for values that have no place.
+    pub fn share(&self, value: f64) -> Option<f64> {
+        let last = (self.dots().max(2) - 1) as f64;
+        self.position(value).map(|dots| dots / last)
     }
 
     /// The dot nearest to `value`; `None` outside the window.
@@ -90,29 +102,18 @@ impl Window {
 
     /// The value at a position in dots: the inverse of [`position`](Self::position).
     pub fn value(&self, position: f64) -> f64 {
-        let [lo, hi] = self.bounds.map(|v| self.transformed(v));
+        let [lo, hi] = self.bounds.map(|v| self.scale.spread(v));
         let share = match self.dots() {
             0 | 1 => 0.5,
             dots => position / (dots - 1) as f64,
         };
-        let value = lo * (1.0 - share) + hi * share;
-        match self.scale {
-            Scale::Linear => value,
-            Scale::Log => 10f64.powf(value),
-        }
+        self.scale.unspread(lo * (1.0 - share) + hi * share)
     }
 
     /// The position in dots of the middle of cell `index`.
     pub fn cell_middle(&self, index: u16) -> f64 {
         let dots = f64::from(self.dots_per_cell);
         (f64::from(index) + 0.5) * dots - 0.5
-    }
-
-    fn transformed(&self, value: f64) -> f64 {
-        match self.scale {
-            Scale::Linear => value,
-            Scale::Log => value.log10(),
-        }
     }
 }
 

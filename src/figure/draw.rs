@@ -308,9 +308,9 @@ fn unit_of(axis: &Axis, bounds: [f64; 2]) -> AxisUnit {
 
 /// Ticks between those with labels: five, four or two to a step; 2 to 9 in a decade.
 fn minor(ruler: &Ruler) -> Vec<f64> {
-    let [low, high] = ruler.window.bounds();
+    let [low, high] = ruler.window.bounds;
     let within = |value: &f64| (low..=high).contains(value);
-    if ruler.window.scale() == Scale::Log {
+    if ruler.window.scale == Scale::Log {
         let decades = low.log10().floor() as i32..=high.log10().floor() as i32;
         let few = decades.clone().count() <= 8;
         let mantissas = if few { 1..10 } else { 1..2 };

@@ -46,7 +46,7 @@ impl Frame {
 
     /// The vertical line at an abscissa that lies inside.
     pub fn vertical(&self, x: f64) -> Option<[[f64; 2]; 2]> {
-        let [low, high] = self.rulers[1].window.bounds();
+        let [low, high] = self.rulers[1].window.bounds;
         self.inside(self.place(x, low)?, self.place(x, high)?)
     }
 
@@ -56,7 +56,7 @@ impl Frame {
         let mut drawn = Vec::new();
         for (k, (&x, &y)) in curve.xs.iter().zip(&curve.ys).enumerate() {
             if let Some(error) = curve.errors.get(k).filter(|error| error.is_finite()) {
-                let lowest = self.rulers[1].window.bounds()[0];
+                let lowest = self.rulers[1].window.bounds[0];
                 let low = self.place(x, y - error).or(self.place(x, lowest));
                 if let (Some(low), Some(high)) = (low, self.place(x, y + error))
                     && let Some(bar) = self.inside(low, high)

@@ -78,7 +78,7 @@ impl<'a> Key<'a> {
             })
         };
         let within = |k: usize| {
-            let [low, high] = frame.rulers[k].window.bounds();
+            let [low, high] = frame.rulers[k].window.bounds;
             let edges = axes[k].edges(&map.places[k]).into_iter();
             edges
                 .map(|edge| edge.clamp(low.min(high), low.max(high)))

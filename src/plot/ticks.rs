@@ -49,7 +49,7 @@ pub struct Ruler {
 }
 
 impl Ruler {
-    /// A window with [`ticks`] in this unit.
+    /// A window with as many ticks as fit in this unit.
     pub fn new(window: Window, unit: AxisUnit, labels: Labels) -> Self {
         let ticks = ticks(&window, unit.factor, labels);
         Self {
@@ -63,7 +63,7 @@ impl Ruler {
     /// rows apart; as it was where that would leave too much of it empty.
     #[must_use]
     pub fn even(self) -> Self {
-        let [lo, hi] = self.window.bounds();
+        let [lo, hi] = self.window.bounds;
         let [first, second, ..] = &self.ticks[..] else {
             return self;
         };
@@ -77,8 +77,12 @@ impl Ruler {
             (rows >= 1.0 && is_aligned && end <= lo + 1.3 * (hi - lo)).then_some(end)
         });
         match ends.reduce(f64::min) {
-            Some(end) if self.window.scale() == Scale::Linear => {
-                Self::new(self.window.up_to(end), self.unit, Labels::Column)
+            Some(end) if self.window.scale == Scale::Linear => {
+                let window = Window {
+                    bounds: [lo, end],
+                    ..self.window
+                };
+                Self::new(window, self.unit, Labels::Column)
             }
             _ => self,
         }
@@ -88,11 +92,11 @@ impl Ruler {
 /// The ticks of an axis, in increasing order: as many as fit without their labels coming
 /// close, at least two where there is room for two. `factor` is the axis' unit in the
 /// data's unit (1e-6 for µm), a power of ten on a log axis.
-pub fn ticks(window: &Window, factor: f64, labels: Labels) -> Vec<Tick> {
-    if window.cells() == 0 {
+fn ticks(window: &Window, factor: f64, labels: Labels) -> Vec<Tick> {
+    if window.cells == 0 {
         return Vec::new();
     }
-    let log = match window.scale() {
+    let log = match window.scale {
         Scale::Linear => None,
         Scale::Log => log_ticks(window, factor, labels),
     };
@@ -100,7 +104,7 @@ pub fn ticks(window: &Window, factor: f64, labels: Labels) -> Vec<Tick> {
 }
 
 fn linear_ticks(window: &Window, factor: f64, labels: Labels) -> Vec<Tick> {
-    let [lo, hi] = window.bounds().map(|v| v / factor);
+    let [lo, hi] = window.bounds.map(|v| v / factor);
     let span = hi - lo;
     if !(span > 0.0 && span.is_finite() && span > 1e-12 * lo.abs().max(hi.abs())) {
         return Vec::new();
@@ -119,11 +123,11 @@ fn linear_ticks(window: &Window, factor: f64, labels: Labels) -> Vec<Tick> {
     };
 
     let airy = match labels {
-        Labels::Row(_) => window.cells() / 10,
-        Labels::Column => window.cells() / 7,
+        Labels::Row(_) => window.cells / 10,
+        Labels::Column => window.cells / 7,
     };
     let airy = airy.max(2);
-    let Step(finest) = Step::at_most(span / f64::from(window.cells() / airy + 2));
+    let Step(finest) = Step::at_most(span / f64::from(window.cells / airy + 2));
     for step in (finest..).map(Step) {
         let [first, last] = ends(step);
         let count = (last - first).max(-1.0) as usize + 1;
@@ -158,7 +162,7 @@ fn linear_ticks(window: &Window, factor: f64, labels: Labels) -> Vec<Tick> {
 
 /// Decades, with 2 and 5 between them if there is room; `None` if no two of them fit.
 fn log_ticks(window: &Window, factor: f64, labels: Labels) -> Option<Vec<Tick>> {
-    let [lo, hi] = window.bounds();
+    let [lo, hi] = window.bounds;
     let first = (lo.log10() - 1e-9).floor() as i32;
     let last = (hi.log10() + 1e-9).floor() as i32;
     let shift = factor.log10().round() as i32;
@@ -204,7 +208,7 @@ fn fit(ticks: &[Tick], window: &Window, labels: Labels, apart: u16, blanks: i32)
     let Labels::Row(before) = labels else {
         return far;
     };
-    let cells = window.cells();
+    let cells = window.cells;
     let room = i32::from(cells) + i32::from(before);
     far && ticks.iter().all(|tick| tick.label.len() as i32 <= room)
         && ticks.windows(2).all(|pair| {
@@ -269,24 +273,24 @@ mod tests {
 
     /// Neighbours apart, everything inside, order kept.
     fn check(ticks: &[Tick], window: &Window, labels: Labels) {
-        let [lo, hi] = window.bounds();
+        let [lo, hi] = window.bounds;
         for tick in ticks {
             let slack = 1e-6 * (hi - lo);
             assert_eq!(Some(tick.cell), window.cell(tick.value));
-            assert!(tick.cell < window.cells());
-            assert!(tick.value.abs() > slack || tick.label == "0" || window.scale() == Scale::Log);
+            assert!(tick.cell < window.cells);
+            assert!(tick.value.abs() > slack || tick.label == "0" || window.scale == Scale::Log);
         }
         for pair in ticks.windows(2) {
             assert!(pair[0].value < pair[1].value);
             assert!(pair[0].cell < pair[1].cell);
             assert_ne!(pair[0].label, pair[1].label);
             if let Labels::Row(before) = labels {
-                let start = |tick: &Tick| tick.label_start(window.cells(), before);
+                let start = |tick: &Tick| tick.label_start(window.cells, before);
                 let end = start(&pair[0]) + pair[0].label.len() as i32;
                 assert!(end < start(&pair[1]), "{ticks:?}");
                 assert!(start(&pair[0]) >= -i32::from(before));
                 let last = start(&pair[1]) + pair[1].label.len() as i32;
-                assert!(last <= i32::from(window.cells()));
+                assert!(last <= i32::from(window.cells));
             }
         }
     }

@@ -171,7 +171,7 @@ impl<'p> Frame<'p> {
             }
         }
         let zero = |window: Window| {
-            let [lo, hi] = window.bounds();
+            let [lo, hi] = window.bounds;
             window.dot(0.0).filter(|_| lo < 0.0 && hi > 0.0)
         };
         if let Some(row) = zero(y) {
@@ -199,7 +199,7 @@ impl<'p> Frame<'p> {
     /// Points with a sign of their own, and arrows where a curve leaves through the top.
     fn signs(&self, buf: &mut Buffer) {
         let (plot, x, y) = (self.plot, self.x.window, self.y.window);
-        let top = y.bounds()[1] * (1.0 + 1e-9);
+        let top = y.bounds[1] * (1.0 + 1e-9);
         for curve in &plot.chart.curves {
             let style = plot.theme.style(curve.role);
             let beyond = curve.points().chain(curve.bars());
@@ -273,7 +273,7 @@ impl<'p> Frame<'p> {
             let [Some(a), Some(b)] = ends else { continue };
             let (from, to) = (a.min(b), a.max(b));
             let inside = |cell: &u16| (from..=to).contains(&window.cell_middle(*cell));
-            let mut painted: Vec<u16> = (0..window.cells()).filter(inside).collect();
+            let mut painted: Vec<u16> = (0..window.cells).filter(inside).collect();
             let last = window.dots() as f64 - 0.5;
             let middle = (from / 2.0 + to / 2.0).round();
             if painted.is_empty() && from < to && middle >= 0.0 && middle <= last {
@@ -293,7 +293,7 @@ impl<'p> Frame<'p> {
             }
             let name = format!(" {} ", theme.printable(zone.name));
             if !zone.name.is_empty() && cells(&name) <= width {
-                let start = name_start(first, width, cells(&name), window.cells());
+                let start = name_start(first, width, cells(&name), window.cells);
                 self.write(buf, self.inner.x + start, y, &name, style);
             }
         }

@@ -9,10 +9,14 @@ use super::axis::Scale;
 /// the dot whose centre is nearest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Window {
-    bounds: [f64; 2],
-    scale: Scale,
-    cells: u16,
-    dots_per_cell: u16,
+    /// The values at the two ends, in the data's unit.
+    pub bounds: [f64; 2],
+    /// Linear or logarithmic.
+    pub scale: Scale,
+    /// The number of cells.
+    pub cells: u16,
+    /// The dots of a cell along the axis.
+    pub dots_per_cell: u16,
 }
 
 /// Positions farther out than this are brought back to it: a line to there is as steep.
@@ -26,32 +30,8 @@ impl Window {
             bounds,
             scale,
             cells,
-            dots_per_cell: dots_per_cell.max(1),
+            dots_per_cell,
         }
-    }
-
-    /// The same window with another upper end.
-    #[must_use]
-    pub fn up_to(self, end: f64) -> Self {
-        Window {
-            bounds: [self.bounds[0], end],
-            ..self
-        }
-    }
-
-    /// The values at the two ends, in the data's unit.
-    pub fn bounds(&self) -> [f64; 2] {
-        self.bounds
-    }
-
-    /// Linear or logarithmic.
-    pub fn scale(&self) -> Scale {
-        self.scale
-    }
-
-    /// The number of cells.
-    pub fn cells(&self) -> u16 {
-        self.cells
     }
 
     /// The number of dots.

@@ -14,7 +14,7 @@ use super::{accuracy, complain, without_waiting};
 use crate::export::autosave;
 use crate::scenario::nearest::nearest;
 use crate::scenario::session::Session;
-use crate::scenario::{Refusal, Scenario, ScenarioError, checkpoint, printable};
+use crate::scenario::{Refusal, Scenario, ScenarioError, checkpoint, preset, printable};
 use crate::tui::ghosts::{MOST, Source};
 use crate::tui::{self, Capture, Options, Script, Stroke, command, snapshot};
 
@@ -97,8 +97,8 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
 fn or_command(given: &str, error: ScenarioError) -> anyhow::Error {
     let names = Arguments::command();
     let names = names.get_subcommands().map(clap::Command::get_name);
-    let near =
-        nearest(given, names).filter(|_| matches!(error, ScenarioError::UnknownPreset { .. }));
+    let is_known = preset::is_path(given) || preset::find(given).is_some();
+    let near = nearest(given, names).filter(|_| !is_known);
     match near {
         // The error itself names a preset that is as near.
         Some(command) if !error.to_string().contains("did you mean") => {

@@ -14,7 +14,6 @@ use clap::{CommandFactory, Parser};
 use clap_complete::CompleteEnv;
 
 use crate::export::file::WriteError;
-use crate::scenario::checkpoint::CheckpointError;
 use crate::scenario::session::SessionError;
 use crate::scenario::{Refusal, ScenarioError, printable};
 use crate::studies::fit::FitError;
@@ -77,11 +76,12 @@ pub fn main() -> ExitCode {
         Ok(code) => code,
         Err(error) if is_closed_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
-            match error.downcast_ref::<ScenarioError>() {
-                Some(ScenarioError::Several(errors)) => {
-                    errors.iter().for_each(|error| complain(&error.to_string()));
-                }
-                _ => complain(&format!("{error:#}")),
+            match error
+                .downcast_ref()
+                .map_or(&[][..], ScenarioError::refusals)
+            {
+                [] | [_] => complain(&format!("{error:#}")),
+                several => several.iter().for_each(|each| complain(&each.to_string())),
             }
             ExitCode::from(exit_code(&error))
         }
@@ -142,7 +142,6 @@ fn exit_code(error: &anyhow::Error) -> u8 {
         wraps_misuse
             || cause.is::<Refusal>()
             || cause.is::<ScenarioError>()
-            || cause.is::<CheckpointError>()
             || cause.is::<NoTerminal>()
             || written.is_some_and(WriteError::is_misuse)
     };

@@ -5,7 +5,7 @@ use toml::{Table, Value};
 use super::check::unknown;
 use super::error::{Origin, Refusal, ScenarioError, echo};
 use super::hints;
-use super::keys::{self, CHOSEN_BY_ACCURACY};
+use super::keys;
 use super::schema::{self, Kind, Parameter};
 
 /// Splits `KEY=VALUE`; `flag` stands before it in messages.
@@ -15,10 +15,13 @@ pub(super) fn split<'a>(text: &'a str, flag: &str) -> Result<(&'a str, &'a str),
         .map(|(key, value)| (key.trim(), value.trim()));
     match halves {
         Some((key, value)) if !key.is_empty() && !value.is_empty() => Ok((key, value)),
-        _ => Err(ScenarioError::NotAnAssignment {
-            given: format!("{flag}{}", echo(text)),
-        }),
+        _ => Err(no_assignment(format_args!("{flag}{}", echo(text)))),
     }
+}
+
+/// Refuses what stands at `place` as no assignment.
+pub(super) fn no_assignment(place: impl std::fmt::Display) -> ScenarioError {
+    Refusal::new(place, "must be KEY=VALUE, as in numerics.points=400").into()
 }
 
 /// Puts `value` at the dotted path `key`; `written` is how the user wrote it.
@@ -47,26 +50,24 @@ pub(super) fn assign(
     if parameter.path == "indenter.shape" {
         drop_keys_of_other_shapes(table, &value, origin);
     }
-    trade_accuracy_for_choices(table, parameter.path);
+    trade_twins(table, parameter.path);
     trade_nodes_for_others(table, parameter.path);
-    trade_twin(table, parameter.path);
     origin.assign(parameter.path, written);
     schema::insert(table, parameter.path, value);
     Ok(())
 }
 
-/// An accuracy takes the place of what is chosen for it, and the other way round.
-fn trade_accuracy_for_choices(table: &mut Table, path: &str) {
-    let removed: &[&str] = if path == keys::ACCURACY.path() {
-        &CHOSEN_BY_ACCURACY
-    } else if CHOSEN_BY_ACCURACY.contains(&path) {
-        &[keys::ACCURACY.path()]
-    } else {
-        &[]
-    };
-    if let Some(Value::Table(numerics)) = table.get_mut("numerics") {
-        for path in removed {
-            numerics.remove(schema::split(path).1);
+/// What is assigned takes the place of other keys for the same thing.
+fn trade_twins(table: &mut Table, path: &str) {
+    for of in keys::exclusive().iter().filter(|of| of.are_twins) {
+        let (one, other) = (of.keys.contains(&path), of.others.contains(&path));
+        let replaced = match (one, other) {
+            (true, _) => &of.others,
+            (_, true) => &of.keys,
+            _ => continue,
+        };
+        for path in replaced {
+            schema::remove(table, path);
         }
     }
 }
@@ -84,29 +85,7 @@ fn trade_nodes_for_others(table: &mut Table, path: &str) {
         _ if OTHERS.contains(&path) => keys::NODES.path(),
         _ => return,
     };
-    if let Some(Value::Table(numerics)) = table.get_mut("numerics") {
-        numerics.remove(schema::split(removed).1);
-    }
-}
-
-/// One of two keys for the same takes the place of the other.
-fn trade_twin(table: &mut Table, path: &str) {
-    const TWINS: [[&str; 2]; 3] = [
-        [keys::NORMAL.frequency.path(), keys::NORMAL.hertz.path()],
-        [
-            keys::TANGENTIAL.frequency.path(),
-            keys::TANGENTIAL.hertz.path(),
-        ],
-        [keys::WEAR_COEFFICIENT.path(), keys::WEAR_PER_LOAD.path()],
-    ];
-    for [one, other] in TWINS {
-        let twin = match path {
-            _ if path == one => other,
-            _ if path == other => one,
-            _ => continue,
-        };
-        schema::remove(table, twin);
-    }
+    schema::remove(table, removed);
 }
 
 /// The value as TOML reads it, or the bare text.
@@ -136,11 +115,8 @@ fn drop_keys_of_other_shapes(table: &mut Table, shape: &Value, origin: &Origin) 
         !misread && schema::find(&path).is_none_or(takes)
     });
     // A punch brings its own edge of the domain.
-    if shape == PUNCH
-        && !origin.assigns("numerics.domain_radius")
-        && let Some(Value::Table(numerics)) = table.get_mut("numerics")
-    {
-        numerics.remove("domain_radius");
+    if shape == PUNCH && !origin.assigns(keys::DOMAIN_RADIUS.path()) {
+        schema::remove(table, keys::DOMAIN_RADIUS.path());
     }
 }
 

@@ -15,7 +15,7 @@ impl Parts<'_> {
         let friction = match self.get(&keys::FRICTION).or(first) {
             None if self.has("motion.tangential") => {
                 let meaning = "coefficient of friction, which the tangential motion needs";
-                return Err(self.missing(keys::FRICTION.path(), meaning));
+                return Err(self.origin.missing(keys::FRICTION.path(), meaning));
             }
             friction => friction.unwrap_or(0.0),
         };
@@ -28,13 +28,6 @@ impl Parts<'_> {
             let modulus = self.require(&keys::EFFECTIVE_MODULUS)?;
             let poisson = self.require(&keys::POISSON)?;
             return Material::new(modulus, poisson, friction).map_err(refused);
-        }
-        for path in [keys::EFFECTIVE_MODULUS.path(), keys::POISSON.path()] {
-            if self.has(path) {
-                let rule = "conflicts with two bodies; give either effective_modulus and poisson, \
-                            or [material.indenter] and [material.half_space]";
-                return Err(self.refuse(path, "", rule));
-            }
         }
         let indenter = self.body(
             "material.indenter",
@@ -52,15 +45,14 @@ impl Parts<'_> {
     }
 
     /// The hardness of the softer body, Pa.
-    pub(super) fn hardness(&self) -> Result<Option<f64>, ScenarioError> {
-        let of_bodies = [&keys::INDENTER_HARDNESS, &keys::HALF_SPACE_HARDNESS];
-        let pair = self.get(&keys::HARDNESS);
-        if pair.is_some() && (self.has("material.indenter") || self.has("material.half_space")) {
-            let rule = "does not go with two bodies; give material.indenter.hardness or material.half_space.hardness";
-            return Err(self.refuse(keys::HARDNESS.path(), "", rule));
-        }
-        let given = of_bodies.into_iter().filter_map(|key| self.get(key));
-        Ok(given.chain(pair).reduce(f64::min))
+    pub(super) fn hardness(&self) -> Option<f64> {
+        let all = [
+            &keys::HARDNESS,
+            &keys::INDENTER_HARDNESS,
+            &keys::HALF_SPACE_HARDNESS,
+        ];
+        let given = all.into_iter().filter_map(|key| self.get(key));
+        given.reduce(f64::min)
     }
 
     fn body(
@@ -72,7 +64,7 @@ impl Parts<'_> {
     ) -> Result<Body, ScenarioError> {
         if !self.has(section) {
             let meaning = "the second body: youngs_modulus and poisson, or rigid = true";
-            return Err(self.missing(section, meaning));
+            return Err(self.origin.missing(section, meaning));
         }
         if self.require(rigid)? {
             let given = [modulus, poisson]

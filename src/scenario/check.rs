@@ -3,21 +3,32 @@
 
 use toml::{Table, Value};
 
-use super::error::{Faults, Origin, ScenarioError, echo};
+use super::error::{Faults, Origin, Refusal, ScenarioError, echo};
 use super::hints;
-use super::keys::PARAMETERS;
-use super::schema::{self, Parameter};
+use super::keys::{PARAMETERS, exclusive};
+use super::schema;
 use super::{words, write};
 
-/// Finds every key that is not in the table of parameters or has a value of the wrong kind.
+/// Finds every key that is not in the table of parameters, has a value of the wrong kind, or excludes another.
 pub(super) fn keys(table: &Table, origin: &Origin, faults: &mut Faults) {
     section(table, "", "", origin, faults);
+    for of in exclusive() {
+        let mut others = of.others.iter();
+        let other = others.find(|other| schema::at(table, other).is_some());
+        for key in of.keys {
+            if let (Some(value), Some(other)) = (schema::at(table, key), other) {
+                let rule = format!("conflicts with {}", of.rule.replace("{}", other));
+                faults.note(key, origin.refuse(key, &show(value), rule));
+            }
+        }
+    }
 }
 
 /// Checks the keys of the table at `path`, which messages call `shown`.
 fn section(table: &Table, path: &str, shown: &str, origin: &Origin, faults: &mut Faults) {
     for (name, value) in table {
-        let (path, shown) = (join(path, name), join(shown, name));
+        let name = echo(name);
+        let (path, shown) = (schema::join(path, &name), schema::join(shown, &name));
         if path == "changes" {
             changes(value, origin, faults);
         } else if let Some(parameter) = schema::find(&path) {
@@ -68,8 +79,8 @@ fn changes(value: &Value, origin: &Origin, faults: &mut Faults) {
             .filter(|known| known.section() == "changes")
         {
             if !table.contains_key(parameter.key()) && !faults.blames(parameter.path) {
-                let shown = join(&shown, parameter.key());
-                faults.note(&shown, missing(origin, &shown, parameter));
+                let shown = schema::join(&shown, parameter.key());
+                faults.note(&shown, origin.missing(&shown, parameter.described()));
             }
         }
     }
@@ -77,20 +88,8 @@ fn changes(value: &Value, origin: &Origin, faults: &mut Faults) {
 
 /// The error for an unknown key, named at `place`.
 pub(super) fn unknown(place: &str, path: &str, shown: &str) -> ScenarioError {
-    ScenarioError::UnknownKey {
-        place: place.to_owned(),
-        key: echo(shown),
-        hint: hints::hint(path),
-    }
-}
-
-/// The error for a key that must be there.
-pub(super) fn missing(origin: &Origin, shown: &str, parameter: &Parameter) -> ScenarioError {
-    ScenarioError::Missing {
-        origin: origin.name().to_owned(),
-        path: shown.to_owned(),
-        meaning: parameter.described(),
-    }
+    let rule = format!("unknown key {}; {}", echo(shown), hints::hint(path));
+    Refusal::new(place, rule).into()
 }
 
 /// A value as an error repeats it.
@@ -99,14 +98,5 @@ pub(super) fn show(value: &Value) -> String {
         Value::Table(_) => "{...}".to_owned(),
         Value::String(text) => format!("\"{}\"", echo(text)),
         other => echo(&write::value(other)),
-    }
-}
-
-fn join(path: &str, key: &str) -> String {
-    let key = echo(key);
-    if path.is_empty() {
-        key
-    } else {
-        format!("{path}.{key}")
     }
 }

@@ -13,17 +13,19 @@
 //! contents reveal a damaged file.
 
 use std::borrow::Cow;
+use std::collections::VecDeque;
 use std::fs::File;
-use std::io::{BufRead, BufReader, Read};
+use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
-use super::session::{Parts, Session};
-use super::{Change, Scenario, printable};
-use crate::simulation::Saved;
+use super::limited::Unread;
+use super::session::{Session, Unchanged, at_one_cycle};
+use super::{Change, Refusal, Scenario, echo, printable};
+use crate::math::grid::RadialGrid;
+use crate::simulation::{Saved, Simulation};
 
 /// The version of the format that is written, and the only one that is read.
 pub const VERSION: u32 = 2;
@@ -36,49 +38,6 @@ const LONGEST_LINE: u64 = 200;
 
 /// The largest contents that are read, in bytes: the history of ten million cycles.
 const LARGEST: u64 = 4 << 30;
-
-/// A checkpoint that cannot be restored. Each error displays as one line.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub enum CheckpointError {
-    /// A file that cannot be read.
-    #[error("{path}: {reason}")]
-    Unreadable {
-        /// The path as given.
-        path: String,
-        /// Why.
-        reason: String,
-    },
-    /// A file of another kind.
-    #[error("{path}: is not a checkpoint of mdr-tui")]
-    Foreign {
-        /// The path as given.
-        path: String,
-    },
-    /// A checkpoint in another format.
-    #[error("{path}: is a checkpoint of version {found}; this mdr-tui reads version {VERSION}")]
-    Version {
-        /// The path as given.
-        path: String,
-        /// Its version.
-        found: String,
-    },
-    /// A file that is not whole.
-    #[error("{path}: is damaged: {reason}; try an older checkpoint")]
-    Torn {
-        /// The path as given.
-        path: String,
-        /// What does not add up.
-        reason: String,
-    },
-    /// Contents that are not a valid run.
-    #[error("{path}: this mdr-tui ({}) cannot read its run: {reason}", env!("CARGO_PKG_VERSION"))]
-    Contents {
-        /// The path as given.
-        path: String,
-        /// What is wrong.
-        reason: String,
-    },
-}
 
 /// A saved session, and the data of the program that drove it.
 #[derive(Debug)]
@@ -95,9 +54,9 @@ struct Body<'a, E> {
     origin: Cow<'a, str>,
     scenario: String,
     changes: Cow<'a, [Change]>,
-    pending: Vec<Change>,
+    pending: VecDeque<Change>,
     #[serde(default)]
-    goals: Vec<f64>,
+    goals: Cow<'a, [f64]>,
     saved: Saved,
     /// The run before the changes of the present cycle.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -107,16 +66,16 @@ struct Body<'a, E> {
 
 /// Encodes a checkpoint of `session`, with the `job` of its driver.
 pub fn encode<E: Serialize>(session: &Session, job: Option<&E>) -> Vec<u8> {
-    let parts = session.parts();
-    let cycle = parts.saved.cycle();
+    let saved = session.simulation.save();
+    let cycle = saved.cycle();
     let body = Body {
-        origin: parts.loaded.origin().into(),
-        scenario: parts.loaded.to_toml(),
-        changes: parts.changes,
-        pending: parts.pending,
-        goals: parts.goals,
-        saved: parts.saved,
-        unchanged: parts.unchanged,
+        origin: session.loaded.origin().into(),
+        scenario: session.loaded.to_toml(),
+        changes: (&session.changes).into(),
+        pending: session.pending.clone(),
+        goals: (&session.goals).into(),
+        saved,
+        unchanged: session.unchanged().map(|before| before.simulation.save()),
         job,
     };
     let version = env!("CARGO_PKG_VERSION");
@@ -128,12 +87,8 @@ pub fn encode<E: Serialize>(session: &Session, job: Option<&E>) -> Vec<u8> {
 /// `contents` behind the lines that tell whether they are whole.
 pub fn sealed(contents: &[u8]) -> Vec<u8> {
     let seal = seal(contents.len() as u64, crc32fast::hash(contents));
-    [
-        MAGIC.as_bytes(),
-        format!("{VERSION}\n{seal}").as_bytes(),
-        contents,
-    ]
-    .concat()
+    let head = format!("{MAGIC}{VERSION}\n{seal}");
+    [head.as_bytes(), contents].concat()
 }
 
 /// The second line.
@@ -142,88 +97,79 @@ fn seal(length: u64, checksum: u32) -> String {
 }
 
 /// Reads the checkpoint in the file at `path`.
-pub fn read<E: DeserializeOwned>(path: &Path) -> Result<Checkpoint<E>, CheckpointError> {
+///
+/// # Errors
+///
+/// One line: a file that cannot be read, is no checkpoint of this version, is damaged, or holds no valid run.
+pub fn read<E: DeserializeOwned>(path: &Path) -> Result<Checkpoint<E>, Refusal> {
     let name = printable(&path.display().to_string());
-    let failed = |error: std::io::Error| CheckpointError::Unreadable {
-        path: name.clone(),
-        reason: match error.kind() {
-            std::io::ErrorKind::NotFound => "no such file".into(),
-            std::io::ErrorKind::IsADirectory => "is a directory; a checkpoint is a file".into(),
-            _ => format!("cannot be read: {error}"),
-        },
+    let refuse = |cause| match Unread::from(cause) {
+        Unread::Directory => Refusal::new(&name, "is a directory; a checkpoint is a file"),
+        why => Refusal::new(&name, why),
     };
-    let file = File::open(path).map_err(failed)?;
-    let contents = contents(BufReader::new(file), &name, failed)?;
-    decode(&contents, &name)
+    let file = File::open(path).map_err(refuse)?;
+    decode(BufReader::new(file), &name, refuse)
 }
 
 /// Reads a checkpoint from bytes that messages call `name`.
-pub fn from_bytes<E: DeserializeOwned>(
-    bytes: &[u8],
-    name: &str,
-) -> Result<Checkpoint<E>, CheckpointError> {
-    let failed = |error: std::io::Error| CheckpointError::Unreadable {
-        path: name.to_owned(),
-        reason: error.to_string(),
-    };
-    decode(&contents(bytes, name, failed)?, name)
+///
+/// # Errors
+///
+/// As [`read`].
+pub fn from_bytes<E: DeserializeOwned>(bytes: &[u8], name: &str) -> Result<Checkpoint<E>, Refusal> {
+    decode(bytes, name, |cause| Refusal::new(name, cause))
 }
 
-/// The contents behind the two lines, checked for being whole.
-fn contents(
+/// Reads the two lines, checks that what follows is whole, and restores it; `unread` is the error of a failed read.
+fn decode<E: DeserializeOwned>(
     mut from: impl BufRead,
     name: &str,
-    failed: impl Fn(std::io::Error) -> CheckpointError,
-) -> Result<Vec<u8>, CheckpointError> {
-    let path = || name.to_owned();
-    let mut line = || -> Result<String, CheckpointError> {
+    unread: impl Fn(io::Error) -> Refusal,
+) -> Result<Checkpoint<E>, Refusal> {
+    let mut line = || -> Result<String, Refusal> {
         let mut line = Vec::new();
         let mut start = from.by_ref().take(LONGEST_LINE);
-        start.read_until(b'\n', &mut line).map_err(&failed)?;
+        start.read_until(b'\n', &mut line).map_err(&unread)?;
         Ok(String::from_utf8_lossy(&line).into_owned())
     };
-    let torn = |reason: String| CheckpointError::Torn {
-        path: path(),
-        reason,
+    let refuse = |rule: String| Err(Refusal::new(name, rule));
+    let torn = |why: &str| refuse(format!("is damaged: {why}; try an older checkpoint"));
+    let unfit = |why: &str| {
+        let (program, why) = (env!("CARGO_PKG_VERSION"), printable(why.trim()));
+        refuse(format!(
+            "this mdr-tui ({program}) cannot read its run: {why}"
+        ))
     };
     let first = line()?;
     let Some(version) = first.strip_prefix(MAGIC) else {
-        return Err(CheckpointError::Foreign { path: path() });
+        return refuse("is not a checkpoint of mdr-tui".into());
     };
-    if version != format!("{VERSION}\n") {
-        return Err(match version.strip_suffix('\n') {
-            Some(version) => CheckpointError::Version {
-                path: path(),
-                found: super::echo(version),
-            },
-            None => torn("it ends within its first line".into()),
-        });
+    let Some(version) = version.strip_suffix('\n') else {
+        return torn("it ends within its first line");
+    };
+    if version != VERSION.to_string() {
+        return refuse(format!(
+            "is a checkpoint of version {}; this mdr-tui reads version {VERSION}",
+            echo(version)
+        ));
     }
-    let second = line()?;
-    let promised = promise(&second).ok_or_else(|| torn("its second line is incomplete".into()))?;
-    let (length, checksum) = promised;
+    let Some((length, checksum)) = promise(&line()?) else {
+        return torn("its second line is incomplete");
+    };
     if length > LARGEST {
-        return Err(CheckpointError::Contents {
-            path: path(),
-            reason: format!("it is larger than {} GiB", LARGEST >> 30),
-        });
+        return unfit(&format!("it is larger than {} GiB", LARGEST >> 30));
     }
     let mut contents = Vec::new();
     // One byte more shows that there is more.
-    from.take(length + 1)
-        .read_to_end(&mut contents)
-        .map_err(&failed)?;
-    if contents.len() as u64 != length {
-        let found = contents.len() as u64;
-        return Err(torn(match found > length {
-            true => format!("it continues after its {length} bytes"),
-            false => format!("it has {found} of {length} bytes"),
-        }));
+    let mut rest = from.take(length + 1);
+    rest.read_to_end(&mut contents).map_err(&unread)?;
+    match contents.len() as u64 {
+        found if found > length => return torn(&format!("it continues after its {length} bytes")),
+        found if found < length => return torn(&format!("it has {found} of {length} bytes")),
+        _ if crc32fast::hash(&contents) != checksum => return torn("its checksum does not match"),
+        _ => {}
     }
-    if crc32fast::hash(&contents) != checksum {
-        return Err(torn("its checksum does not match".into()));
-    }
-    Ok(contents)
+    restore(&contents).or_else(|why| unfit(&why))
 }
 
 /// Length and checksum of the second line.
@@ -236,37 +182,56 @@ fn promise(line: &str) -> Option<(u64, u32)> {
     (line == seal(length, checksum)).then_some((length, checksum))
 }
 
-/// From contents that are whole to a session.
-fn decode<E: DeserializeOwned>(
-    contents: &[u8],
-    name: &str,
-) -> Result<Checkpoint<E>, CheckpointError> {
-    let refuse = |reason: String| CheckpointError::Contents {
-        path: name.to_owned(),
-        reason: printable(reason.trim()),
-    };
+/// From contents that are whole to a session; an error is what is wrong with them.
+fn restore<E: DeserializeOwned>(contents: &[u8]) -> Result<Checkpoint<E>, String> {
     // The line on who wrote it is for people.
     let start = contents.iter().position(|&byte| byte == b'\n');
     let start = start.map_or(contents.len(), |end| end + 1);
-    let body: Body<E> = ciborium::from_reader(&contents[start..]).map_err(|error| {
-        refuse(match error {
-            ciborium::de::Error::Semantic(_, message) => message,
-            other => other.to_string(),
-        })
+    let body: Body<E> = ciborium::from_reader(&contents[start..]).map_err(|error| match error {
+        ciborium::de::Error::Semantic(_, message) => message,
+        other => other.to_string(),
     })?;
     let loaded = Scenario::from_toml(&body.scenario, &body.origin, &[])
-        .map_err(|error| refuse(format!("its scenario {error}")))?;
-    let parts = Parts {
-        loaded: Cow::Owned(loaded),
-        changes: body.changes,
+        .map_err(|error| format!("its scenario {error}"))?;
+    let (mut scenario, mut unchanged) = (loaded.clone(), None);
+    let mut made = 0;
+    for together in at_one_cycle(&body.changes) {
+        let after = scenario
+            .after_all(together)
+            .map_err(|why| why.to_string())?;
+        let before = std::mem::replace(&mut scenario, after);
+        let is_last = made + together.len() == body.changes.len();
+        if let Some(saved) = body.unchanged.as_ref().filter(|_| is_last) {
+            unchanged = Some(Box::new(Unchanged {
+                simulation: simulation(&before, saved.clone())?,
+                scenario: before,
+                changes: made,
+            }));
+        }
+        made += together.len();
+    }
+    let session = Session {
+        simulation: simulation(&scenario, body.saved)?,
+        loaded,
+        scenario,
+        changes: body.changes.into_owned(),
         pending: body.pending,
-        goals: body.goals,
-        saved: body.saved,
-        unchanged: body.unchanged,
+        unchanged,
+        statements: Vec::new(),
+        goals: body.goals.into_owned(),
     };
-    let session = Session::restore(parts).map_err(|error| refuse(error.to_string()))?;
     Ok(Checkpoint {
         session,
         job: body.job,
     })
+}
+
+/// Restores a saved simulation of `scenario`. A domain that has grown may be wider than the scenario's own.
+fn simulation(scenario: &Scenario, saved: Saved) -> Result<Simulation, String> {
+    let mut setup = scenario.setup().clone();
+    if setup.indenter.rim().is_none() && saved.radius() > setup.grid.radius() {
+        let wider = RadialGrid::uniform(setup.grid.cells(), saved.radius());
+        setup.grid = wider.unwrap_or(setup.grid);
+    }
+    Simulation::restore(setup, saved).map_err(|why| why.to_string())
 }

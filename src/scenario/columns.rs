@@ -6,7 +6,7 @@
 
 use std::path::Path;
 
-use super::error::{ScenarioError, echo, printable};
+use super::error::{Refusal, ScenarioError, echo, printable};
 use super::limited::{self, Unread};
 use super::units;
 
@@ -228,10 +228,7 @@ impl Columns {
 }
 
 fn unreadable(path: &str, reason: String) -> ScenarioError {
-    ScenarioError::Unreadable {
-        origin: path.to_owned(),
-        reason,
-    }
+    Refusal::new(path, reason).into()
 }
 
 /// The reader's error in words.

@@ -41,72 +41,53 @@ impl From<String> for Refusal {
     }
 }
 
-/// A scenario that cannot be run. Each displays as one line, and several as one each.
+/// A scenario that cannot be run: all that is wrong with it, a line each.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub enum ScenarioError {
-    /// A name that is neither a preset's nor a path.
-    #[error("{name}: no such preset; {hint}")]
-    UnknownPreset {
-        /// The name as given.
-        name: String,
-        /// The nearest preset, or all of them.
-        hint: String,
-    },
-    /// A file that cannot be read as text.
-    #[error("{origin}: {reason}")]
-    Unreadable {
-        /// The path as given.
-        origin: String,
-        /// Why, and what would be right.
-        reason: String,
-    },
-    /// Text that is not TOML.
-    #[error("{origin}: line {line}, column {column}: {message}")]
-    Syntax {
-        /// Where the text came from.
-        origin: String,
-        /// Counted from 1.
-        line: usize,
-        /// In characters, counted from 1.
-        column: usize,
-        /// The parser's message.
-        message: String,
-    },
-    /// `--set` without a key or without a value.
-    #[error("{given}: must be KEY=VALUE, as in numerics.points=400")]
-    NotAnAssignment {
-        /// The text as given.
-        given: String,
-    },
-    /// An unknown key.
-    #[error("{place}: unknown key {key}; {hint}")]
-    UnknownKey {
-        /// The origin, or the assignment that named the key.
-        place: String,
-        /// The key's dotted path.
-        key: String,
-        /// The nearest key, or the keys that its table takes.
-        hint: String,
-    },
-    /// A required key that is missing.
-    #[error("{origin}: {path} is missing: {meaning}")]
-    Missing {
-        /// Where the scenario came from.
-        origin: String,
-        /// The key's dotted path.
-        path: String,
-        /// What it means, and its unit.
-        meaning: String,
-    },
-    /// More than one of the others, a line each.
-    #[error("{}", lines(.0))]
-    Several(Vec<ScenarioError>),
-    /// What is left out of a long list of them.
-    #[error("and {0} more errors")]
-    More(usize),
-    /// A value that breaks a rule.
-    #[error(transparent)]
-    Refused(#[from] Refusal),
+#[error("{}", .refusals.iter().map(Refusal::to_string).collect::<Vec<_>>().join("\n"))]
+pub struct ScenarioError {
+    refusals: Vec<Refusal>,
+    /// The key that is missing, where that is all that is wrong.
+    pub(super) lacks: Option<String>,
+}
+
+impl From<Refusal> for ScenarioError {
+    fn from(refusal: Refusal) -> Self {
+        Self {
+            refusals: vec![refusal],
+            lacks: None,
+        }
+    }
+}
+
+impl ScenarioError {
+    /// The error that `origin` gives no value at `path`, which means `meaning`.
+    pub fn missing(origin: impl Display, path: &str, meaning: impl Display) -> Self {
+        let rule = format!("{path} is missing: {meaning}");
+        Self {
+            lacks: Some(path.to_owned()),
+            ..Refusal::new(origin, rule).into()
+        }
+    }
+
+    /// Errors as one; `None` where there are none. Of a long list only the first are told.
+    pub(super) fn all(errors: impl IntoIterator<Item = Self>) -> Option<Self> {
+        let mut errors = errors.into_iter();
+        let mut all = errors.next()?;
+        for error in errors {
+            all.refusals.extend(error.refusals);
+            all.lacks = None;
+        }
+        if all.refusals.len() > MOST_ERRORS {
+            let more = all.refusals.split_off(MOST_ERRORS - 1).len();
+            all.refusals.push(format!("and {more} more errors").into());
+        }
+        Some(all)
+    }
+
+    /// What is wrong, one by one.
+    pub fn refusals(&self) -> &[Refusal] {
+        &self.refusals
+    }
 }
 
 /// The errors found in a scenario, and which keys they blame.
@@ -151,30 +132,8 @@ impl Faults {
 
     /// All errors as one; `None` where there are none.
     pub fn into_error(self) -> Option<ScenarioError> {
-        (!self.errors.is_empty()).then(|| ScenarioError::several(self.errors))
+        ScenarioError::all(self.errors)
     }
-}
-
-impl ScenarioError {
-    /// Errors as one.
-    pub(super) fn several(mut errors: Vec<Self>) -> Self {
-        if errors.len() > MOST_ERRORS {
-            let more = errors.split_off(MOST_ERRORS - 1).len();
-            errors.push(Self::More(more));
-        }
-        match errors.pop() {
-            Some(only) if errors.is_empty() => only,
-            last => {
-                errors.extend(last);
-                Self::Several(errors)
-            }
-        }
-    }
-}
-
-fn lines(errors: &[ScenarioError]) -> String {
-    let lines: Vec<String> = errors.iter().map(ScenarioError::to_string).collect();
-    lines.join("\n")
 }
 
 /// `text` on one line, whatever it holds: control and invisible characters become escapes.
@@ -246,8 +205,13 @@ impl Origin {
     }
 
     /// Refuses the value at `path`.
-    pub fn refuse(&self, path: &str, value: &str, rule: impl Into<String>) -> ScenarioError {
-        Refusal::new(self.place(path, value), rule.into()).into()
+    pub fn refuse(&self, path: &str, value: &str, rule: impl Display) -> ScenarioError {
+        Refusal::new(self.place(path, value), rule).into()
+    }
+
+    /// The error that there is no value at `path`, which means `meaning`.
+    pub fn missing(&self, path: &str, meaning: impl Display) -> ScenarioError {
+        ScenarioError::missing(&self.name, path, meaning)
     }
 }
 

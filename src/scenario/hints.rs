@@ -4,78 +4,51 @@ use super::keys::PARAMETERS;
 use super::nearest::nearest;
 use super::schema::{is_section, split};
 
-/// The keys that people mean by the letters of textbooks and by words of other programs, at their own
-/// place or at any other.
-const MEANT: &[(&[&str], &[&str])] = &[
-    (
-        &["k", "wear_coefficient", "wear_rate", "specific_wear_rate"],
-        &["wear.coefficient", "wear.coefficient_per_load"],
-    ),
-    (
-        &[
-            "mu",
-            "cof",
-            "friction_coefficient",
-            "coefficient_of_friction",
+/// The keys that people mean by the letters of textbooks and by words of other programs, each with what is to be said
+/// of it beside its name.
+fn by_word(word: &str) -> &'static [(&'static str, &'static str)] {
+    match word {
+        "k" | "wear_coefficient" | "wear_rate" | "specific_wear_rate" => &[
+            ("wear.coefficient", " (per friction work)"),
+            (
+                "wear.coefficient_per_load",
+                " (per load and distance, of a pin test)",
+            ),
         ],
-        &["friction.coefficient"],
-    ),
-    (
-        &[
-            "e_star",
-            "estar",
-            "e*",
-            "modulus",
-            "reduced_modulus",
-            "equivalent_modulus",
-        ],
-        &["material.effective_modulus"],
-    ),
-    (
-        &["nu", "poissons_ratio", "poisson_ratio"],
-        &["material.poisson"],
-    ),
-    (
-        &["r", "ball_radius", "radius_of_curvature"],
-        &["indenter.radius"],
-    ),
-    (
-        &["load", "normal_load", "normal_force"],
-        &["motion.normal.mean"],
-    ),
-    (&["n"], &["numerics.points"]),
-];
+        "mu" | "cof" | "friction_coefficient" | "coefficient_of_friction" => {
+            &[("friction.coefficient", "")]
+        }
+        "e_star" | "estar" | "e*" | "modulus" | "reduced_modulus" | "equivalent_modulus" => {
+            &[("material.effective_modulus", "")]
+        }
+        "nu" | "poissons_ratio" | "poisson_ratio" => &[("material.poisson", "")],
+        "r" | "ball_radius" | "radius_of_curvature" => &[("indenter.radius", "")],
+        "load" | "normal_load" | "normal_force" => {
+            &[("motion.normal.mean", " with control = \"force\"")]
+        }
+        "n" => &[("numerics.points", "")],
+        _ => &[],
+    }
+}
 
-/// What is said of a key beside its name where it was meant by another.
-const MORE: &[(&str, &str)] = &[
-    ("wear.coefficient", " (per friction work)"),
-    (
-        "wear.coefficient_per_load",
-        " (per load and distance, of a pin test)",
-    ),
-    ("motion.normal.mean", " with control = \"force\""),
-];
-
-/// The keys that the unknown `path` most likely stands for, none if there is nothing near.
-pub(super) fn meant(path: &str) -> Vec<String> {
+/// The keys that the unknown `path` most likely stands for, each with a remark; none if there is nothing near.
+fn meant_with_remarks(path: &str) -> Vec<(String, &'static str)> {
     let (section, key) = split(path);
     let word = key.to_lowercase();
     let in_motion = section.starts_with("motion.") && is_section(section);
     match word.as_str() {
-        "omega" | "w" if in_motion => return vec![format!("{section}.angular_frequency")],
-        "f" | "freq" | "hz" if in_motion => return vec![format!("{section}.frequency")],
-        _ => {}
+        "omega" | "w" if in_motion => vec![(format!("{section}.angular_frequency"), "")],
+        "f" | "freq" | "hz" if in_motion => vec![(format!("{section}.frequency"), "")],
+        word => match by_word(word) {
+            [] => Vec::from_iter(nearest(path, places().into_iter()).map(|key| (key.into(), ""))),
+            known => Vec::from_iter(known.iter().map(|(key, more)| ((*key).to_owned(), *more))),
+        },
     }
-    let known = MEANT
-        .iter()
-        .find(|(words, _)| words.contains(&word.as_str()));
-    match known {
-        Some((_, keys)) => keys.iter().map(|key| (*key).to_owned()).collect(),
-        None => nearest(path, places().into_iter())
-            .into_iter()
-            .map(str::to_owned)
-            .collect(),
-    }
+}
+
+/// The keys that the unknown `path` most likely stands for; none if there is nothing near.
+pub(super) fn meant(path: &str) -> impl Iterator<Item = String> {
+    meant_with_remarks(path).into_iter().map(|(key, _)| key)
 }
 
 /// All keys and tables.
@@ -97,21 +70,9 @@ fn places() -> Vec<&'static str> {
 
 /// A hint for the unknown `path`.
 pub fn hint(path: &str) -> String {
-    let meant = meant(path);
+    let meant = meant_with_remarks(path);
     if !meant.is_empty() {
-        // A slip of the pen needs no remark.
-        let word = split(path).1.to_lowercase();
-        let is_other_word = MEANT
-            .iter()
-            .any(|(words, _)| words.contains(&word.as_str()));
-        let more = |key: &str| {
-            MORE.iter()
-                .find(|(known, _)| *known == key && is_other_word)
-        };
-        let told = meant.iter().map(|key| match more(key) {
-            Some((_, more)) => format!("{key}{more}"),
-            None => key.clone(),
-        });
+        let told = meant.iter().map(|(key, more)| format!("{key}{more}"));
         return format!("did you mean {}?", told.collect::<Vec<_>>().join(" or "));
     }
     let section = split(path).0;

@@ -113,6 +113,13 @@ pub(super) struct RunsIn {
     pub values: Key<Vec<f64>>,
 }
 
+impl RunsIn {
+    /// The keys of an exponential course.
+    fn exponential(&self) -> [&'static str; 3] {
+        [&self.settled, &self.cycles, &self.energy].map(Key::path)
+    }
+}
+
 /// The keys of a coefficient in a unit, with what is said of it alone.
 macro_rules! runs_in {
     (
@@ -206,6 +213,61 @@ pub(super) const CHOSEN_BY_ACCURACY: [&str; 4] = [
     TOLERANCE.path(),
     NODES.path(),
 ];
+
+/// Keys that exclude each other: each of the first, each of the others.
+pub(super) struct Exclusive {
+    pub keys: Vec<&'static str>,
+    pub others: Vec<&'static str>,
+    /// What one of the keys conflicts with, `{}` for the one of the others, and what would be right.
+    pub rule: &'static str,
+    /// Whether they stand for the same thing, so that an assignment to one takes the place of the others.
+    pub are_twins: bool,
+}
+
+/// Every kind of value that a scenario can give in one of several ways.
+pub(super) fn exclusive() -> Vec<Exclusive> {
+    const EITHER: &str = "{}; give one of them";
+    const OF_LOAD: &str = "{}, which is per friction work; give one of them";
+    const BODIES: [&str; 2] = ["material.indenter", "material.half_space"];
+    let of = |keys: &[&'static str], others: &[&'static str], rule| Exclusive {
+        keys: keys.to_vec(),
+        others: others.to_vec(),
+        rule,
+        are_twins: false,
+    };
+    let twins = |keys: &[&'static str], others: &[&'static str], rule| Exclusive {
+        are_twins: true,
+        ..of(keys, others, rule)
+    };
+    let accuracy = "{}, which it chooses; give one of them";
+    let pair = "two bodies; give either effective_modulus and poisson, or [material.indenter] and \
+                [material.half_space]";
+    let hardness = "two bodies; give material.indenter.hardness or material.half_space.hardness";
+    let per_load = [WEAR_PER_LOAD.path()];
+    let mut all = vec![
+        twins(&[ACCURACY.path()], &CHOSEN_BY_ACCURACY, accuracy),
+        twins(&per_load, &[WEAR_COEFFICIENT.path()], OF_LOAD),
+        of(&per_load, &WEAR_COURSE.exponential(), OF_LOAD),
+        of(&per_load, &[WEAR_COURSE.values.path()], OF_LOAD),
+        of(&[EFFECTIVE_MODULUS.path(), POISSON.path()], &BODIES, pair),
+        of(&[HARDNESS.path()], &BODIES, hardness),
+    ];
+    for motion in [NORMAL, TANGENTIAL] {
+        all.push(twins(
+            &[motion.hertz.path()],
+            &[motion.frequency.path()],
+            EITHER,
+        ));
+    }
+    for course in [FRICTION_COURSE, WEAR_COURSE] {
+        let table = [course.at_cycle.path(), course.at_energy.path()];
+        let rule = "a table of values; give one of them";
+        all.push(of(&course.exponential(), &table, rule));
+        all.push(of(&[course.energy.path()], &[course.cycles.path()], EITHER));
+        all.push(of(&table[1..], &table[..1], EITHER));
+    }
+    all
+}
 
 keys! {
     {
@@ -363,32 +425,32 @@ keys! {
              chooses points, steps and jumps")
         .default(Derived("1e-2 with wear, unless points, steps_per_cycle, tolerance or nodes are given"))
         .effect("lowering it: finer and slower; chooses points, steps, jumps");
-    METHOD: String = choice("numerics.method", AbelMethod::NAMES, "transform method")
+    METHOD: AbelMethod = choice("numerics.method", AbelMethod::NAMES, "transform method")
         .default(Written("\"product\""))
         .effect("how the three transforms are computed");
-    POINTS: i64 = count("numerics.points", Within(MIN_CELLS as f64, MAX_CELLS as f64),
+    POINTS: u32 = count("numerics.points", Within(MIN_CELLS as f64, MAX_CELLS as f64),
             "grid cells from r = 0 to the domain's edge")
         .default(Written("100"))
         .effect("raising it: finer and slower");
-    STEPS_PER_CYCLE: i64 = count("numerics.steps_per_cycle", Within(1.0, 1e6), "time steps per period of the faster motion")
+    STEPS_PER_CYCLE: u32 = count("numerics.steps_per_cycle", Within(1.0, 1e6), "time steps per period of the faster motion")
         .default(Written("100"))
         .effect("raising it: finer in time and slower");
     DOMAIN_RADIUS: f64 = quantity("numerics.domain_radius", "m", Positive,
             "outer radius of the computed domain; it grows when the contact reaches it")
         .default(Derived("the largest radius that can touch"))
         .effect("raising it: room to grow, coarser at the same number of points");
-    GRID: String = choice("numerics.grid", Spacing::NAMES,
+    GRID: Spacing = choice("numerics.grid", Spacing::NAMES,
             "spacing of the nodes; the default depends on the method")
         .default(Derived("graded with method = \"product\", else uniform"))
         .effect("graded: narrow cells where the worn profile is steep");
     NODES: Vec<f64> = quantities("numerics.nodes", "m", NotNegative,
             "nodes of the grid, from 0 to the domain's edge, as numerics.accuracy placed them by a coarser run")
         .effect("other cells; numerics.points or numerics.grid takes their place");
-    SCHEME: String = choice("numerics.scheme", Scheme::NAMES,
+    SCHEME: Scheme = choice("numerics.scheme", Scheme::NAMES,
             "time-stepping scheme; the default depends on the method")
         .default(Derived("trapezoid with method = \"product\", else euler"))
         .effect("trapezoid: second order in time; euler: the paper's");
-    STABILITY: String = choice("numerics.stability", Stability::NAMES,
+    STABILITY: Stability = choice("numerics.stability", Stability::NAMES,
             "whether steps too stiff for the method are split or taken as they are")
         .default(Written("\"sub-step\""))
         .effect("sub-step: splits stiff steps; off: the raw method");

@@ -7,7 +7,8 @@
 
 use std::path::Path;
 
-use toml::Table;
+use serde::de::DeserializeOwned;
+use toml::{Table, Value};
 
 use crate::reading::fatigue::Limits;
 use crate::simulation::{Domain, Integrator, Setup, Spacing};
@@ -77,39 +78,30 @@ impl Scenario {
     /// Loads a preset by its name, or a file: what has a `/` or ends in `.toml` is a path. Each of
     /// `sets` is a `KEY=VALUE` that replaces what stands there.
     pub fn load(name_or_path: &str, sets: &[String]) -> Result<Self, ScenarioError> {
-        let is_path = name_or_path.contains(['/', std::path::MAIN_SEPARATOR])
-            || name_or_path.to_lowercase().ends_with(".toml");
-        if is_path {
+        if preset::is_path(name_or_path) {
             return Self::from_toml(&read::file(name_or_path)?, name_or_path, sets);
         }
         match preset::find(name_or_path) {
             Some(preset) => Self::from_toml(preset.text, preset.name, sets),
-            None => Err(ScenarioError::UnknownPreset {
-                name: echo(name_or_path),
-                hint: preset::hint(name_or_path),
-            }),
+            None => {
+                let rule = format!("no such preset; {}", preset::hint(name_or_path));
+                Err(Refusal::new(echo(name_or_path), rule).into())
+            }
         }
     }
 
     /// Reads a scenario from a text that messages call `origin`.
     pub fn from_toml(text: &str, origin: &str, sets: &[String]) -> Result<Self, ScenarioError> {
         let mut from = Origin::new(origin);
-        let (mut table, mut faults) = read::table(text, &from)?;
+        let (mut table, commas) = read::table(text, &from)?;
         for set in sets {
             let (key, value) = assign::split(set, "--set ")?;
             let written = format!("--set {}", echo(set));
             assign::assign(&mut table, &mut from, key, value, &written)?;
         }
-        match (Self::build(table, from, origin), faults.is_empty()) {
-            (built, true) => built,
-            (built, false) => {
-                match built.err() {
-                    Some(ScenarioError::Several(more)) => faults.extend(more),
-                    more => faults.extend(more),
-                }
-                Err(ScenarioError::several(faults))
-            }
-        }
+        let built = Self::build(table, from, origin);
+        let errors = commas.into_iter().chain(built.as_ref().err().cloned());
+        ScenarioError::all(errors).map_or(built, Err)
     }
 
     /// The same scenario with one key changed, by the rules of `--set`: `value` is TOML or a bare
@@ -311,7 +303,7 @@ impl Scenario {
         embed::files(&mut table, origin, &mut from)?;
         let from = &from;
         let mut faults = Faults::default();
-        units::to_si(&mut table, from, &mut faults);
+        units::to_si(&mut table, "", from, &mut faults);
         check::keys(&table, from, &mut faults);
         if faults.paths().next().is_some() {
             // Whatever is wrong, what is missing beside it can be told.
@@ -327,38 +319,30 @@ impl Scenario {
         if let Some(error) = faults.into_error() {
             return Err(error);
         }
-        let changes = Change::all(&table);
+        let changes: Vec<Change> = part(&table, "changes");
         if changes.len() > MOST_CHANGES {
             let rule = format!("must have at most {MOST_CHANGES} entries");
             return Err(from.refuse("changes", &changes.len().to_string(), rule));
         }
-        validate::accuracy(&table, from)?;
         let complete = complete::table(&table);
         let setup = validate::setup(&complete, &table, from).map_err(|error| {
             let mut faults = Faults::default();
-            if let ScenarioError::Missing { .. } = &error {
+            if error.lacks.is_some() {
                 validate::find_missing(&table, from, &mut faults);
             }
             faults.into_error().unwrap_or(error)
         })?;
-        let run = RunPlan::of(&table);
-        let table = complete;
-        let given = keys::TITLE
-            .get(&table)
-            .filter(|title| !title.trim().is_empty());
-        let lines: Vec<String> = keys::DESCRIPTION
-            .get(&table)
-            .iter()
-            .flat_map(|text| text.lines())
-            .map(printable)
-            .collect();
+        let given = keys::TITLE.get(&table);
+        let given = given.filter(|title| !title.trim().is_empty());
+        let description = keys::DESCRIPTION.get(&table).unwrap_or_default();
+        let lines: Vec<String> = description.lines().map(printable).collect();
         let scenario = Self {
             origin: origin.to_owned(),
             title: printable(given.as_deref().unwrap_or(origin)),
             description: lines.join("\n"),
-            table,
+            table: complete,
             setup,
-            run,
+            run: part(&table, "run"),
             changes: Vec::new(),
         };
         validate::run(&scenario.run, from)?;
@@ -401,9 +385,7 @@ impl Scenario {
         let mut table = self.with_changes(Vec::new()).whole();
         for (change, written) in changes.iter().zip(written) {
             let (key, value) =
-                assign::split(&change.set, "").map_err(|_| ScenarioError::NotAnAssignment {
-                    given: written.clone(),
-                })?;
+                assign::split(&change.set, "").map_err(|_| assign::no_assignment(written))?;
             if let Some(because) = schema::find(key).and_then(Parameter::fixed) {
                 let rule = format!("{key} cannot change during a run: {because}");
                 return Err(Refusal::new(written, rule).into());
@@ -428,7 +410,7 @@ impl Scenario {
             };
             let control = |table: &Table| {
                 let value = schema::at(table, change.key());
-                value.and_then(toml::Value::as_str).map(str::to_owned)
+                value.and_then(Value::as_str).map(str::to_owned)
             };
             let now = control(table);
             if now == control(&self.table) {
@@ -440,7 +422,7 @@ impl Scenario {
             };
             for key in ["mean", "amplitude"] {
                 let path = format!("{section}.{key}");
-                let value = schema::at(&self.table, &path).and_then(toml::Value::as_float);
+                let value = schema::at(&self.table, &path).and_then(Value::as_float);
                 let is_given = changes.iter().any(|change| change.key() == path);
                 if !is_given && value.is_some_and(|value| value != 0.0) {
                     let rule = format!("needs {path} in {unit}, changed at the same cycle");
@@ -454,9 +436,16 @@ impl Scenario {
     /// All keys, `[run]` and `[[changes]]` included.
     fn whole(&self) -> Table {
         let mut table = self.table.clone();
-        table.insert("run".into(), self.run.to_table().into());
-        let changes: Vec<Table> = self.changes.iter().map(Change::to_table).collect();
-        table.insert("changes".into(), changes.into());
+        let plan = Value::try_from(&self.run).expect("a plan is a table");
+        let changes = Value::try_from(&self.changes).expect("changes are a list");
+        table.extend([("run".into(), plan), ("changes".into(), changes)]);
         table
     }
+}
+
+/// A part of a checked table as a value of its own.
+fn part<T: DeserializeOwned + Default>(table: &Table, key: &str) -> T {
+    let part = table.get(key).cloned();
+    part.and_then(|part| part.try_into().ok())
+        .unwrap_or_default()
 }

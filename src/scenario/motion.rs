@@ -2,7 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use super::check::missing;
 use super::error::ScenarioError;
 use super::keys::{self, Motion, NORMAL, TANGENTIAL};
 use super::schema::Key;
@@ -61,7 +60,7 @@ impl Parts<'_> {
             }
             _ => return Ok(None),
         }
-        let lacking = || missing(self.origin, motion.file.path(), &motion.file.parameter);
+        let lacking = || self.missing(&motion.file);
         let times = times.ok_or_else(lacking)?;
         let tabled = Waveform::table(&times, &values.ok_or_else(lacking)?);
         tabled
@@ -70,19 +69,9 @@ impl Parts<'_> {
     }
 
     /// The angular frequency, rad/s, where it or the frequency is given.
-    fn frequency(&self, motion: &Motion) -> Result<Option<f64>, ScenarioError> {
-        let angular = self.get(&motion.frequency);
-        match self.get(&motion.hertz) {
-            None => Ok(angular),
-            Some(hertz) if angular.is_none() => Ok(Some(TAU * hertz)),
-            Some(_) => {
-                let rule = format!(
-                    "conflicts with {}; give one of them",
-                    motion.frequency.path()
-                );
-                Err(self.refuse(motion.hertz.path(), "", rule))
-            }
-        }
+    fn frequency(&self, motion: &Motion) -> Option<f64> {
+        let hertz = || Some(TAU * self.get(&motion.hertz)?);
+        self.get(&motion.frequency).or_else(hertz)
     }
 
     /// One direction of the motion. Where it stands still its frequency is that of the other
@@ -104,9 +93,9 @@ impl Parts<'_> {
             None => self.require(&motion.amplitude)?,
         };
         let of_table = || tabled.as_ref().map(|table| table.angular_frequency);
-        let frequency = match self.frequency(motion)?.or_else(of_table) {
+        let frequency = match self.frequency(motion).or_else(of_table) {
             Some(frequency) => frequency,
-            None if amplitude == 0.0 => self.frequency(other)?.unwrap_or(1.0),
+            None if amplitude == 0.0 => self.frequency(other).unwrap_or(1.0),
             None => self.require(&motion.frequency)?,
         };
         let waveform = match self.get(&motion.waveform).as_deref() {

@@ -51,6 +51,11 @@ pub fn find(name: &str) -> Option<&'static Preset> {
     ALL.iter().find(|preset| preset.name == name)
 }
 
+/// Whether a text names a file, and no preset.
+pub fn is_path(text: &str) -> bool {
+    text.contains(['/', std::path::MAIN_SEPARATOR]) || text.to_lowercase().ends_with(".toml")
+}
+
 /// A hint for the unknown `name`.
 pub(super) fn hint(name: &str) -> String {
     let names = ALL.iter().map(|preset| preset.name);

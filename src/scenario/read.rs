@@ -4,7 +4,7 @@ use std::path::Path;
 
 use toml::Table;
 
-use super::error::{Origin, ScenarioError, printable};
+use super::error::{Origin, Refusal, ScenarioError, printable};
 use super::limited::{self, Unread};
 use super::units::with_decimal_point;
 
@@ -13,10 +13,6 @@ const LARGEST_FILE: u64 = 1 << 20;
 
 /// Reads a file that can be a scenario: text, and not too long.
 pub(super) fn file(path: &str) -> Result<String, ScenarioError> {
-    let unreadable = |reason: String| ScenarioError::Unreadable {
-        origin: printable(path),
-        reason,
-    };
     limited::text(Path::new(path), LARGEST_FILE).map_err(|why| {
         let hint = match why {
             Unread::Missing => "; mdr-tui presets lists what ships",
@@ -24,7 +20,7 @@ pub(super) fn file(path: &str) -> Result<String, ScenarioError> {
             Unread::Io(_) => "",
             _ => "; a scenario is a TOML file",
         };
-        unreadable(format!("{why}{hint}"))
+        Refusal::new(printable(path), format_args!("{why}{hint}")).into()
     })
 }
 
@@ -44,28 +40,21 @@ pub(super) fn table(
         let at = error.span().map_or(0, |span| span.start);
         let before = text.get(..at).unwrap_or(&text);
         let start = before.rfind('\n').map_or(0, |end| end + 1);
-        let syntax = |column: usize, message: String| ScenarioError::Syntax {
-            origin: origin.name().to_owned(),
-            line: before.matches('\n').count() + 1,
-            column,
-            message,
+        let syntax = |end: usize, message: String| {
+            let line = before.matches('\n').count() + 1;
+            let column = text[start..end].chars().count() + 1;
+            let rule = format_args!("line {line}, column {column}: {message}");
+            ScenarioError::from(Refusal::new(origin.name(), rule))
         };
         let Some((comma, number)) = decimal_comma(&text[start..]) else {
-            let column = before[start..].chars().count() + 1;
             let message = printable(&error.message().replace('\n', "; "));
-            return Err(ScenarioError::several(
-                commas
-                    .into_iter()
-                    .chain([syntax(column, message)])
-                    .collect(),
-            ));
+            commas.push(syntax(before.len(), message));
+            return Err(ScenarioError::all(commas).expect("one at least"));
         };
-        let column = text[start..start + comma].chars().count() + 1;
-        commas.push(syntax(
-            column,
-            format!("a number has a decimal point: {number}"),
-        ));
-        text.replace_range(start + comma..start + comma + 1, ".");
+        let comma = start + comma;
+        let message = format!("a number has a decimal point: {number}");
+        commas.push(syntax(comma, message));
+        text.replace_range(comma..comma + 1, ".");
     }
 }
 

@@ -1,10 +1,8 @@
 //! The `[run]` table and recorded changes: length, snapshots, and changes made during the run.
 
 use serde::{Deserialize, Serialize};
-use toml::{Table, Value};
 
-use super::keys;
-use crate::math::invalid::{Invalid, non_negative};
+use crate::math::invalid::Invalid;
 
 /// The longest run, in cycles.
 pub const MOST_CYCLES: f64 = 1e9;
@@ -38,25 +36,11 @@ pub struct RunPlan {
 const BETWEEN: &str = " | ";
 
 impl RunPlan {
-    /// What a scenario's table says of its run.
-    pub(super) fn of(table: &Table) -> Self {
-        Self {
-            cycles: keys::CYCLES.get(table),
-            snapshot_at: keys::SNAPSHOT_AT.get(table).unwrap_or_default(),
-            shortened_at: keys::SHORTENED_AT.get(table).unwrap_or_default(),
-            note: keys::NOTE.get(table),
-            stated: keys::STATED.get(table),
-        }
-    }
-
-    /// Refuses cycles that are negative, not finite or absurdly many; the field is that of `[run]`.
-    pub fn check(&self) -> Result<(), Invalid> {
-        if let Some(cycles) = self.cycles {
-            non_negative("cycles", cycles)?;
-            if cycles > MOST_CYCLES {
-                let rule = format!("must be {MOST_CYCLES:e} or less");
-                return Err(Invalid::new("cycles", cycles, rule));
-            }
+    /// Refuses absurdly many cycles, snapshots or steps; the field is that of `[run]`.
+    pub(super) fn check(&self) -> Result<(), Invalid> {
+        if let Some(cycles) = self.cycles.filter(|cycles| *cycles > MOST_CYCLES) {
+            let rule = format!("must be {MOST_CYCLES:e} or less");
+            return Err(Invalid::new("cycles", cycles, rule));
         }
         for (field, cycles) in [
             ("snapshot_at", &self.snapshot_at),
@@ -66,31 +50,8 @@ impl RunPlan {
                 let rule = format!("must have at most {MOST_SNAPSHOTS} entries");
                 return Err(Invalid::new(field, cycles.len(), rule));
             }
-            for &cycle in cycles {
-                non_negative(field, cycle).map_err(|invalid| {
-                    Invalid::new(field, invalid.value, "each must be 0 or greater")
-                })?;
-            }
         }
         Ok(())
-    }
-
-    pub(super) fn to_table(&self) -> Table {
-        let mut table = Table::new();
-        if let Some(cycles) = self.cycles {
-            table.insert("cycles".into(), Value::Float(cycles));
-        }
-        table.insert("snapshot_at".into(), self.snapshot_at.clone().into());
-        if !self.shortened_at.is_empty() {
-            table.insert("shortened_at".into(), self.shortened_at.clone().into());
-        }
-        if let Some(note) = &self.note {
-            table.insert("note".into(), Value::String(note.clone()));
-        }
-        if let Some(stated) = &self.stated {
-            table.insert("stated".into(), Value::String(stated.clone()));
-        }
-        table
     }
 
     /// Sets the statements, keys and values, with the seal of the scenario that they are about.
@@ -132,19 +93,6 @@ impl Change {
         }
     }
 
-    /// The changes in a scenario's table, in the order of the list.
-    pub(super) fn all(table: &Table) -> Vec<Self> {
-        let list = table.get("changes").and_then(Value::as_array);
-        let entries = list.into_iter().flatten().filter_map(Value::as_table);
-        let change = |entry: &Table| {
-            let whole = Table::from_iter([("changes".to_owned(), entry.clone().into())]);
-            let at_cycle = keys::AT_CYCLE.get(&whole)?;
-            let set = keys::SET.get(&whole)?;
-            Some(Self { at_cycle, set })
-        };
-        entries.filter_map(change).collect()
-    }
-
     /// The dotted path of what changes.
     pub fn key(&self) -> &str {
         self.set.split_once('=').map_or("", |(key, _)| key.trim())
@@ -155,12 +103,5 @@ impl Change {
         self.set
             .split_once('=')
             .map_or("", |(_, value)| value.trim())
-    }
-
-    pub(super) fn to_table(&self) -> Table {
-        let mut table = Table::new();
-        table.insert("at_cycle".into(), Value::Float(self.at_cycle));
-        table.insert("set".into(), Value::String(self.set.clone()));
-        table
     }
 }

@@ -4,6 +4,7 @@
 //! `--set`, the form of the explorer, completion, written scenarios and the documentation.
 
 use std::fmt;
+use std::str::FromStr;
 
 use toml::{Table, Value};
 
@@ -219,7 +220,7 @@ impl Parameter {
     }
 }
 
-/// A key together with the type that it is read as: `f64`, `i64`, `bool`, `String` or `Vec<f64>`.
+/// A key together with the type that it is read as.
 #[derive(Debug, Clone, Copy)]
 pub struct Key<T: 'static> {
     /// Its description.
@@ -248,6 +249,12 @@ impl<T> Key<T> {
         self.parameter.path
     }
 
+    const fn within(mut self, unit: &'static str, range: Range) -> Self {
+        self.parameter.unit = unit;
+        self.parameter.range = range;
+        self
+    }
+
     /// What the key does, to be told where it can be changed.
     pub(super) const fn effect(mut self, effect: &'static str) -> Self {
         self.parameter.effect = effect;
@@ -267,8 +274,14 @@ impl<T> Key<T> {
     }
 }
 
-const fn parameter(path: &'static str, kind: Kind, meaning: &'static str) -> Parameter {
-    Parameter {
+/// A key of a type.
+const fn key<T>(
+    path: &'static str,
+    kind: Kind,
+    read: fn(&Value) -> Option<T>,
+    meaning: &'static str,
+) -> Key<T> {
+    let parameter = Parameter {
         path,
         unit: "",
         meaning,
@@ -277,7 +290,8 @@ const fn parameter(path: &'static str, kind: Kind, meaning: &'static str) -> Par
         range: Range::Any,
         default: Default::None,
         shapes: &[],
-    }
+    };
+    Key { parameter, read }
 }
 
 /// A number with a unit and a range.
@@ -287,14 +301,8 @@ pub(super) const fn quantity(
     range: Range,
     meaning: &'static str,
 ) -> Key<f64> {
-    Key {
-        parameter: Parameter {
-            unit,
-            range,
-            ..parameter(path, Kind::Number, meaning)
-        },
-        read: number,
-    }
+    let key = key(path, Kind::Number, number, meaning);
+    key.within(unit, range)
 }
 
 /// A list of numbers.
@@ -304,53 +312,32 @@ pub(super) const fn quantities(
     range: Range,
     meaning: &'static str,
 ) -> Key<Vec<f64>> {
-    Key {
-        parameter: Parameter {
-            unit,
-            range,
-            ..parameter(path, Kind::Numbers, meaning)
-        },
-        read: numbers,
-    }
+    let key = key(path, Kind::Numbers, numbers, meaning);
+    key.within(unit, range)
 }
 
 /// A whole number.
-pub(super) const fn count(path: &'static str, range: Range, meaning: &'static str) -> Key<i64> {
-    Key {
-        parameter: Parameter {
-            range,
-            ..parameter(path, Kind::Whole, meaning)
-        },
-        read: Value::as_integer,
-    }
+pub(super) const fn count(path: &'static str, range: Range, meaning: &'static str) -> Key<u32> {
+    key(path, Kind::Whole, whole, meaning).within("", range)
 }
 
 /// Yes or no.
 pub(super) const fn flag(path: &'static str, meaning: &'static str) -> Key<bool> {
-    Key {
-        parameter: parameter(path, Kind::Flag, meaning),
-        read: Value::as_bool,
-    }
+    key(path, Kind::Flag, Value::as_bool, meaning)
 }
 
 /// A text.
 pub(super) const fn text(path: &'static str, meaning: &'static str) -> Key<String> {
-    Key {
-        parameter: parameter(path, Kind::Text, meaning),
-        read: word,
-    }
+    key(path, Kind::Text, word, meaning)
 }
 
-/// One of some words.
-pub(super) const fn choice(
+/// One of some words, which `T` is read from.
+pub(super) const fn choice<T: FromStr>(
     path: &'static str,
     words: &'static [&'static str],
     meaning: &'static str,
-) -> Key<String> {
-    Key {
-        parameter: parameter(path, Kind::Choice(words), meaning),
-        read: word,
-    }
+) -> Key<T> {
+    key(path, Kind::Choice(words), word, meaning)
 }
 
 fn number(value: &Value) -> Option<f64> {
@@ -365,8 +352,12 @@ fn numbers(value: &Value) -> Option<Vec<f64>> {
     value.as_array()?.iter().map(number).collect()
 }
 
-fn word(value: &Value) -> Option<String> {
-    value.as_str().map(str::to_owned)
+fn whole(value: &Value) -> Option<u32> {
+    value.as_integer()?.try_into().ok()
+}
+
+fn word<T: FromStr>(value: &Value) -> Option<T> {
+    value.as_str()?.parse().ok()
 }
 
 /// The value at a dotted path.
@@ -400,6 +391,14 @@ pub(super) fn remove(table: &mut Table, path: &str) -> Option<Value> {
     match path.split_once('.') {
         None => table.remove(path),
         Some((first, rest)) => remove(table.get_mut(first)?.as_table_mut()?, rest),
+    }
+}
+
+/// The dotted path of a key in the table at `path`.
+pub(super) fn join(path: &str, key: &str) -> String {
+    match path {
+        "" => key.to_owned(),
+        path => format!("{path}.{key}"),
     }
 }
 

@@ -3,14 +3,12 @@
 //! The explorer and the headless commands both drive this, so the same scenario and the same
 //! changes give the same bits.
 
-use std::borrow::Cow;
 use std::collections::VecDeque;
 
 use thiserror::Error;
 
 use super::{Change, MOST_CHANGES, Refusal, RunPlan, Scenario, ScenarioError};
-use crate::math::grid::RadialGrid;
-use crate::simulation::{Breakdown, Domain, Saved, Simulation, Unfit};
+use crate::simulation::{Breakdown, Domain, Simulation};
 
 /// Why a session could not start, change or continue.
 #[derive(Debug, Error)]
@@ -35,54 +33,32 @@ pub enum SessionError {
     Interrupted,
 }
 
-/// A saved run that cannot be restored.
-#[derive(Debug, Error)]
-pub enum RestoreError {
-    /// A change in it that is refused.
-    #[error(transparent)]
-    Scenario(#[from] ScenarioError),
-    /// The state does not match its scenario.
-    #[error(transparent)]
-    Unfit(#[from] Unfit),
-}
-
-/// All that a session is made of.
-pub(super) struct Parts<'a> {
-    pub loaded: Cow<'a, Scenario>,
-    pub changes: Cow<'a, [Change]>,
-    pub pending: Vec<Change>,
-    pub goals: Vec<f64>,
-    pub saved: Saved,
-    /// The run before the changes of the present cycle, if there are any.
-    pub unchanged: Option<Saved>,
-}
-
 /// A scenario being run.
 #[derive(Debug, Clone)]
 pub struct Session {
     /// As it was loaded, without the changes.
-    loaded: Scenario,
+    pub(super) loaded: Scenario,
     /// As it is now, with the changes made so far.
-    scenario: Scenario,
-    simulation: Simulation,
-    changes: Vec<Change>,
-    pending: VecDeque<Change>,
+    pub(super) scenario: Scenario,
+    pub(super) simulation: Simulation,
+    pub(super) changes: Vec<Change>,
+    pub(super) pending: VecDeque<Change>,
     /// What steps were cut short for so far, in cycles.
-    goals: Vec<f64>,
+    pub(super) goals: Vec<f64>,
     /// The run before the changes of the present cycle.
-    unchanged: Option<Box<Unchanged>>,
+    pub(super) unchanged: Option<Box<Unchanged>>,
     /// Statements for the file headers, such as the estimated error.
-    statements: Vec<(String, String)>,
+    pub(super) statements: Vec<(String, String)>,
 }
 
 /// A run before the changes of one cycle, which are made together: each further one is made again with
 /// those before it, from here.
 #[derive(Debug, Clone)]
-struct Unchanged {
-    scenario: Scenario,
-    simulation: Simulation,
+pub(super) struct Unchanged {
+    pub scenario: Scenario,
+    pub simulation: Simulation,
     /// How many changes were made before.
-    changes: usize,
+    pub changes: usize,
 }
 
 impl Session {
@@ -112,48 +88,6 @@ impl Session {
         };
         session.make_due_changes()?;
         Ok(session)
-    }
-
-    /// Returns everything that a checkpoint needs.
-    pub(super) fn parts(&self) -> Parts<'_> {
-        Parts {
-            loaded: Cow::Borrowed(&self.loaded),
-            changes: Cow::Borrowed(&self.changes),
-            pending: self.pending.iter().cloned().collect(),
-            goals: self.goals.clone(),
-            saved: self.simulation.save(),
-            unchanged: self.unchanged().map(|before| before.simulation.save()),
-        }
-    }
-
-    /// Restores a saved session.
-    pub(super) fn restore(parts: Parts) -> Result<Self, RestoreError> {
-        let loaded = parts.loaded.into_owned();
-        let (mut scenario, mut unchanged) = (loaded.clone(), None);
-        let mut made = 0;
-        for together in at_one_cycle(&parts.changes) {
-            let after = scenario.after_all(together)?;
-            let before = std::mem::replace(&mut scenario, after);
-            let is_last = made + together.len() == parts.changes.len();
-            if let Some(saved) = parts.unchanged.as_ref().filter(|_| is_last) {
-                unchanged = Some(Box::new(Unchanged {
-                    simulation: restored(&before, saved.clone())?,
-                    scenario: before,
-                    changes: made,
-                }));
-            }
-            made += together.len();
-        }
-        Ok(Self {
-            simulation: restored(&scenario, parts.saved)?,
-            loaded,
-            scenario,
-            changes: parts.changes.into_owned(),
-            pending: parts.pending.into(),
-            unchanged,
-            statements: Vec::new(),
-            goals: parts.goals,
-        })
     }
 
     /// The scenario as it is now, changes included.
@@ -314,7 +248,7 @@ impl Session {
     }
 
     /// The run before the changes of the present cycle, if there are any.
-    fn unchanged(&self) -> Option<&Unchanged> {
+    pub(super) fn unchanged(&self) -> Option<&Unchanged> {
         let before = self.unchanged.as_deref()?;
         (before.simulation.cycle() == self.simulation.cycle()).then_some(before)
     }
@@ -381,16 +315,6 @@ impl Session {
         }
         Ok(())
     }
-}
-
-/// Restores a saved simulation of `scenario`. A domain that has grown may be wider than the scenario's own.
-fn restored(scenario: &Scenario, saved: Saved) -> Result<Simulation, Unfit> {
-    let mut setup = scenario.setup().clone();
-    if setup.indenter.rim().is_none() && saved.radius() > setup.grid.radius() {
-        let wider = RadialGrid::uniform(setup.grid.cells(), saved.radius());
-        setup.grid = wider.unwrap_or(setup.grid);
-    }
-    Simulation::restore(setup, saved)
 }
 
 /// Changes in their order, those of one cycle together.

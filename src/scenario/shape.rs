@@ -2,7 +2,7 @@
 
 use toml::Value;
 
-use super::check::{missing, show};
+use super::check::show;
 use super::derive;
 use super::error::ScenarioError;
 use super::keys::{self, PARAMETERS};
@@ -42,9 +42,8 @@ impl Parts<'_> {
             "rounded-punch" => Indenter::rounded_punch(radius()?, tip_radius()?),
             "table" => {
                 let list = |key: &Key<Vec<f64>>| {
-                    let lacking = &keys::TABLE_FILE.parameter;
                     let list = self.get(key);
-                    list.ok_or_else(|| missing(self.origin, lacking.path, lacking))
+                    list.ok_or_else(|| self.missing(&keys::TABLE_FILE))
                 };
                 let (radii, heights) = (list(&keys::RADII)?, list(&keys::HEIGHTS)?);
                 Indenter::table(&radii, &heights, self.require(&keys::SMOOTHING)?)

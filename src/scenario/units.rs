@@ -56,7 +56,6 @@ const PREFIXES: &[(&str, i32)] = &[
     ("p", -12),
     ("n", -9),
     ("µ", -6),
-    ("μ", -6),
     ("u", -6),
     ("m", -3),
     ("c", -2),
@@ -112,9 +111,24 @@ impl Unit {
 
     /// Reads a whole unit; `None` if it is not one.
     fn read(text: &str) -> Option<Self> {
-        let mut rest = text.trim();
+        let text: String = text.trim().chars().map(one_spelling).collect();
+        let mut rest = text.as_str();
         let unit = product(&mut rest)?;
         rest.is_empty().then_some(unit)
+    }
+}
+
+/// The one of several characters for the same that the parser knows.
+fn one_spelling(c: char) -> char {
+    const RAISED: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+    match c {
+        '·' | '⋅' => '*',
+        'μ' => 'µ',
+        '⁻' => '-',
+        c => match RAISED.chars().position(|raised| raised == c) {
+            Some(digit) => char::from(b'0' + digit as u8),
+            None => c,
+        },
     }
 }
 
@@ -127,7 +141,7 @@ fn product(rest: &mut &str) -> Option<Unit> {
         let power = match rest.chars().next() {
             None | Some(')') => return Some(unit),
             Some('/') => -1,
-            Some('·' | '*' | '⋅') => 1,
+            Some('*') => 1,
             Some(c) if is_apart && c.is_alphabetic() => {
                 unit = unit.times(factor(rest)?);
                 continue;
@@ -158,54 +172,26 @@ fn factor(rest: &mut &str) -> Option<Unit> {
     Some(unit.power(power(rest)?))
 }
 
-/// The power behind a symbol: `³`, `^3`, `3`, `⁻¹`, `^-1`; 1 where there is none.
+/// The power behind a symbol: `^3`, `3`, `^-1`; 1 where there is none.
 fn power(rest: &mut &str) -> Option<i32> {
-    const RAISED: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹";
     let plain = rest.strip_prefix('^').unwrap_or(rest);
-    let mut digits = String::new();
-    let mut length = 0;
-    for c in plain.chars() {
-        let digit = match c {
-            '-' | '⁻' if digits.is_empty() => '-',
-            '0'..='9' => c,
-            raised => match RAISED.chars().position(|of| of == raised) {
-                Some(digit) => char::from_digit(digit as u32, 10)?,
-                None => break,
-            },
-        };
-        digits.push(digit);
-        length += c.len_utf8();
-    }
+    let end = plain.find(|c: char| !(c.is_ascii_digit() || c == '-'));
+    let (digits, after) = plain.split_at(end.unwrap_or(plain.len()));
     if digits.is_empty() {
         return (plain.len() == rest.len()).then_some(1);
     }
-    *rest = &plain[length..];
+    *rest = after;
     digits.parse().ok().filter(|power: &i32| power.abs() <= 9)
 }
 
 /// The number at the beginning of a text, as mantissa and exponent, and what follows it.
 fn number(text: &str) -> Option<(&str, i32, &str)> {
-    let digits =
-        |text: &str| text.len() - text.trim_start_matches(|c: char| c.is_ascii_digit()).len();
-    let sign = usize::from(text.starts_with(['+', '-']));
-    let whole = sign + digits(&text[sign..]);
-    let fraction = match text[whole..].strip_prefix('.') {
-        Some(after) => 1 + digits(after),
-        None => 0,
-    };
-    let end = whole + fraction;
-    if !text[..end].contains(|c: char| c.is_ascii_digit()) {
-        return None;
-    }
-    let (mantissa, rest) = text.split_at(end);
-    if let Some(after) = rest.strip_prefix(['e', 'E']) {
-        let sign = usize::from(after.starts_with(['+', '-']));
-        let end = sign + digits(&after[sign..]);
-        if end > sign {
-            return Some((mantissa, after[..end].parse().ok()?, &after[end..]));
-        }
-    }
-    Some((mantissa, 0, rest))
+    let is_of_number = |c: char| c.is_ascii_digit() || "+-.eE".contains(c);
+    let end = text.find(|c| !is_of_number(c)).unwrap_or(text.len());
+    let is_number = |end: &usize| text[..*end].parse::<f64>().is_ok();
+    let (number, rest) = text.split_at((1..=end).rev().find(is_number)?);
+    let (mantissa, exponent) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
+    Some((mantissa, exponent.parse().ok()?, rest))
 }
 
 /// The number that `text` stands for in `unit`: none if the text is no number with a unit, an error if
@@ -276,46 +262,36 @@ fn example(unit: &str) -> &'static str {
     }
 }
 
-/// Replaces every text that is a number with a unit by the number in the unit of its key.
-pub(super) fn to_si(table: &mut Table, origin: &Origin, faults: &mut Faults) {
-    section(table, "", origin, faults);
-}
-
-fn section(table: &mut Table, path: &str, origin: &Origin, faults: &mut Faults) {
+/// Replaces every text that is a number with a unit by the number in the unit of its key, in the table at `path`.
+pub(super) fn to_si(table: &mut Table, path: &str, origin: &Origin, faults: &mut Faults) {
     let is_force = table.get("control").and_then(Value::as_str) == Some("force");
     for (key, value) in table.iter_mut() {
-        let path = if path.is_empty() {
-            key.to_owned()
-        } else {
-            format!("{path}.{key}")
-        };
+        let path = schema::join(path, key);
         let known = schema::find(&path).filter(|known| known.kind == Kind::Number);
-        match (&mut *value, known) {
-            (Value::Table(inner), _) => section(inner, &path, origin, faults),
-            (Value::String(text), Some(known)) => {
-                let unit = unit_of(known, is_force);
-                let written = write::value(&Value::String(text.clone()));
-                let told = match in_unit(text, unit) {
-                    Some(Err(_)) if known.unit == PRESCRIBED && is_of(text, "N") => {
-                        let rule = "N is no length: set control = \"force\" for a load";
-                        Some(Err(rule.to_owned()))
-                    }
-                    Some(Err(_)) if known.unit == PRESCRIBED && is_of(text, "m") => {
-                        let rule = "m is no force: set control = \"displacement\" for a depth";
-                        Some(Err(rule.to_owned()))
-                    }
-                    told => told,
-                };
-                match told {
-                    Some(Ok(number)) => *value = Value::Float(number),
-                    Some(Err(rule)) => {
-                        faults.note(&path, origin.refuse(&path, &echo(&written), rule));
-                    }
-                    None => {}
-                }
+        let (text, known) = match (&mut *value, known) {
+            (Value::Table(inner), _) => {
+                to_si(inner, &path, origin, faults);
+                continue;
             }
-            _ => {}
-        }
+            (Value::String(text), Some(known)) => (text, known),
+            _ => continue,
+        };
+        let refused = match in_unit(text, unit_of(known, is_force)) {
+            None => continue,
+            Some(Ok(number)) => {
+                *value = Value::Float(number);
+                continue;
+            }
+            Some(Err(_)) if known.unit == PRESCRIBED && is_of(text, "N") => {
+                "N is no length: set control = \"force\" for a load".to_owned()
+            }
+            Some(Err(_)) if known.unit == PRESCRIBED && is_of(text, "m") => {
+                "m is no force: set control = \"displacement\" for a depth".to_owned()
+            }
+            Some(Err(rule)) => rule,
+        };
+        let written = echo(&write::value(value));
+        faults.note(&path, origin.refuse(&path, &written, refused));
     }
 }
 

@@ -1,11 +1,13 @@
 //! Turns the keys of a scenario into parts that can be run. The schema and the parts' constructors
 //! check the values; this module adds where in the scenario a refused value is.
 
+use std::fmt::Display;
+
 use toml::{Table, Value};
 
-use super::check::{missing, show};
+use super::check::show;
 use super::error::{Faults, Origin, ScenarioError};
-use super::keys::{self, CHOSEN_BY_ACCURACY};
+use super::keys;
 use super::run::RunPlan;
 use super::schema::{self, Key, Parameter};
 use super::{complete, derive};
@@ -45,8 +47,7 @@ pub(super) fn setup(
         running_in.as_ref(),
         scar.as_ref(),
     );
-    let refused = |invalid| parts.refused("numerics", invalid);
-    let method: AbelMethod = parts.require(&keys::METHOD)?.parse().map_err(refused)?;
+    let method = parts.require(&keys::METHOD)?;
     let (spacing, scheme) = derive::choices(method);
     let grid = parts.grid(method, &indenter, domain)?;
     if let Some(scar) = &scar {
@@ -55,7 +56,7 @@ pub(super) fn setup(
     let setup = Setup {
         scar,
         grid,
-        hardness: parts.hardness()?,
+        hardness: parts.hardness(),
         material,
         indenter,
         drive,
@@ -63,17 +64,14 @@ pub(super) fn setup(
         running_in,
         method,
         spacing: parts.spacing(spacing)?,
-        scheme: match parts.get(&keys::SCHEME) {
-            Some(name) => name.parse().map_err(refused)?,
-            None => scheme,
-        },
-        stability: parts.require(&keys::STABILITY)?.parse().map_err(refused)?,
-        steps_per_cycle: parts.steps_per_cycle()?,
+        scheme: parts.get(&keys::SCHEME).unwrap_or(scheme),
+        stability: parts.require(&keys::STABILITY)?,
+        steps_per_cycle: parts.require(&keys::STEPS_PER_CYCLE)?,
         integrator: Integrator::new(
             &parts.require(&keys::INTEGRATOR)?,
             parts.require(&keys::TOLERANCE)?,
         )
-        .map_err(refused)?,
+        .map_err(|invalid| parts.refused("numerics", invalid))?,
     };
     Ok(setup)
 }
@@ -84,13 +82,12 @@ pub(super) fn find_missing(table: &Table, origin: &Origin, faults: &mut Faults) 
     let mut table = table.clone();
     for _ in 0..keys::PARAMETERS.len() {
         let complete = complete::table(&table);
-        let Err(error @ ScenarioError::Missing { .. }) = setup(&complete, &table, origin) else {
+        let Err(error) = setup(&complete, &table, origin) else {
             return;
         };
-        let ScenarioError::Missing { path, .. } = &error else {
+        let Some(path) = error.lacks.clone() else {
             return;
         };
-        let path = path.clone();
         if !faults.covers(&path) {
             faults.note(&path, error);
         }
@@ -99,20 +96,6 @@ pub(super) fn find_missing(table: &Table, origin: &Origin, faults: &mut Faults) 
             None => return,
         }
     }
-}
-
-/// Refuses `numerics.accuracy` together with a key that it determines.
-pub(super) fn accuracy(written: &Table, origin: &Origin) -> Result<(), ScenarioError> {
-    let Some(given) = schema::at(written, keys::ACCURACY.path()) else {
-        return Ok(());
-    };
-    for path in CHOSEN_BY_ACCURACY {
-        if schema::at(written, path).is_some() {
-            let rule = format!("conflicts with {path}, which it chooses; give one of them");
-            return Err(origin.refuse(keys::ACCURACY.path(), &show(given), rule));
-        }
-    }
-    Ok(())
 }
 
 /// Checks `[run]`.
@@ -142,15 +125,13 @@ impl Parts<'_> {
     /// The value of a key, its default, or the error that it is missing.
     pub(super) fn require<T>(&self, key: &Key<T>) -> Result<T, ScenarioError> {
         let value = key.get_or_default(self.table);
-        value.ok_or_else(|| missing(self.origin, key.path(), &key.parameter))
+        value.ok_or_else(|| self.missing(key))
     }
 
-    pub(super) fn missing(&self, path: &str, meaning: &str) -> ScenarioError {
-        ScenarioError::Missing {
-            origin: self.origin.name().to_owned(),
-            path: path.to_owned(),
-            meaning: meaning.to_owned(),
-        }
+    /// The error that a key is not given.
+    pub(super) fn missing<T>(&self, key: &Key<T>) -> ScenarioError {
+        let meaning = key.parameter.described();
+        self.origin.missing(key.path(), meaning)
     }
 
     pub(super) fn has(&self, path: &str) -> bool {
@@ -158,12 +139,7 @@ impl Parts<'_> {
     }
 
     /// Refuses the value that stands at `path`; `otherwise` is shown where none was written.
-    pub(super) fn refuse(
-        &self,
-        path: &str,
-        otherwise: &str,
-        rule: impl Into<String>,
-    ) -> ScenarioError {
+    pub(super) fn refuse(&self, path: &str, otherwise: &str, rule: impl Display) -> ScenarioError {
         let written = schema::at(self.written, path).map(show);
         let value = written.unwrap_or_else(|| otherwise.to_owned());
         self.origin.refuse(path, &value, rule)
@@ -200,10 +176,8 @@ impl Parts<'_> {
         if is_power && given.contains(&None) {
             (stress, slip_rate) =
                 derive::references(indenter, material, drive).ok_or_else(|| {
-                    self.missing(
-                        keys::REFERENCE_STRESS.path(),
-                        "Pa; none could be found from the contact",
-                    )
+                    let meaning = "Pa; none could be found from the contact";
+                    self.origin.missing(keys::REFERENCE_STRESS.path(), meaning)
                 })?;
         }
         let power = WearLaw::power(
@@ -230,7 +204,8 @@ impl Parts<'_> {
             let meaning = keys::WEAR_COEFFICIENT.parameter.described();
             let meaning = format!("{meaning}; or coefficient_per_load, of a pin test");
             let given = self.get(&keys::WEAR_COEFFICIENT);
-            return given.ok_or_else(|| self.missing(keys::WEAR_COEFFICIENT.path(), &meaning));
+            return given
+                .ok_or_else(|| self.origin.missing(keys::WEAR_COEFFICIENT.path(), meaning));
         };
         if material.friction() > 0.0 {
             return Ok(per_load / material.friction());
@@ -261,8 +236,7 @@ impl Parts<'_> {
         indenter: &Indenter,
         domain: Option<f64>,
     ) -> Result<RadialGrid, ScenarioError> {
-        let points = self.require(&keys::POINTS)?;
-        let points = usize::try_from(points).map_err(|_| self.out_of_range(&keys::POINTS))?;
+        let points = self.require(&keys::POINTS)? as usize;
         let most = method.most_cells();
         if points > most {
             let rule = format!(
@@ -312,13 +286,8 @@ impl Parts<'_> {
     /// Where the nodes lie: as the list says, if there is one.
     fn spacing(&self, default: Spacing) -> Result<Spacing, ScenarioError> {
         let has_nodes = self.get(&keys::NODES).is_some();
-        let named = match self.get(&keys::GRID) {
-            Some(name) => name
-                .parse()
-                .map_err(|invalid| self.refused("numerics", invalid))?,
-            None if has_nodes => Spacing::Given,
-            None => default,
-        };
+        let default = if has_nodes { Spacing::Given } else { default };
+        let named = self.get(&keys::GRID).unwrap_or(default);
         match (named, has_nodes) {
             (Spacing::Given, false) => {
                 let rule =
@@ -331,16 +300,5 @@ impl Parts<'_> {
             }
             _ => Ok(named),
         }
-    }
-
-    fn steps_per_cycle(&self) -> Result<u32, ScenarioError> {
-        let steps = self.require(&keys::STEPS_PER_CYCLE)?;
-        u32::try_from(steps).map_err(|_| self.out_of_range(&keys::STEPS_PER_CYCLE))
-    }
-
-    /// Refuses a number outside the range of its key.
-    fn out_of_range<T>(&self, key: &Key<T>) -> ScenarioError {
-        let rule = format!("must be {}", key.parameter.range);
-        self.refuse(key.path(), "", rule)
     }
 }

@@ -98,10 +98,10 @@ impl Ghost {
             }
         }
         match ghost.tables.is_empty() {
-            true => Err(ScenarioError::Unreadable {
-                origin: printable(&path.display().to_string()),
-                reason: "holds no state.csv and no history.csv of a run".into(),
-            }),
+            true => {
+                let path = printable(&path.display().to_string());
+                Err(Refusal::new(path, "holds no state.csv and no history.csv of a run").into())
+            }
             false => Ok(ghost),
         }
     }

@@ -3,7 +3,7 @@
 use ciborium::Value;
 use mdr_tui::export::history::History;
 use mdr_tui::export::state;
-use mdr_tui::scenario::checkpoint::{CheckpointError, encode, from_bytes, sealed};
+use mdr_tui::scenario::checkpoint::{encode, from_bytes, sealed};
 use mdr_tui::scenario::session::Session;
 use mdr_tui::scenario::{Scenario, preset};
 use mdr_tui::simulation::Simulation;
@@ -207,14 +207,18 @@ fn shorten(value: &mut Value, left: &mut usize, inside: bool) -> bool {
     }
 }
 
-fn refusal(bytes: &[u8]) -> CheckpointError {
+/// What is said of a file of another kind, and of one that is not whole.
+const FOREIGN: &str = "is not a checkpoint of mdr-tui";
+const TORN: &str = "is damaged: ";
+
+fn refusal(bytes: &[u8]) -> String {
     let Err(error) = from_bytes::<()>(bytes, "x.checkpoint") else {
         panic!("no refusal");
     };
     let line = error.to_string();
     assert!(line.starts_with("x.checkpoint: "), "{line}");
     assert!(!line.chars().any(char::is_control), "{line:?}");
-    error
+    line
 }
 
 #[test]
@@ -225,13 +229,8 @@ fn a_torn_file_is_told_from_a_whole_one() {
     for length in 0..whole.len() {
         let error = refusal(&whole[..length]);
         let early = length < "mdr-tui checkpoint ".len();
-        assert!(
-            matches!(
-                (early, &error),
-                (true, CheckpointError::Foreign { .. }) | (false, CheckpointError::Torn { .. })
-            ),
-            "{length}: {error}"
-        );
+        assert_eq!(error.contains(FOREIGN), early, "{length}: {error}");
+        assert_eq!(error.contains(TORN), !early, "{length}: {error}");
     }
     for at in 0..whole.len() {
         let mut bent = whole.clone();
@@ -239,7 +238,7 @@ fn a_torn_file_is_told_from_a_whole_one() {
         refusal(&bent);
     }
     let longer = [&whole[..], b"x"].concat();
-    assert!(matches!(refusal(&longer), CheckpointError::Torn { .. }));
+    assert!(refusal(&longer).contains(TORN));
 }
 
 #[test]
@@ -251,16 +250,16 @@ fn what_is_no_checkpoint_of_this_version_is_refused() {
         .expect("a body");
     let later = [b"mdr-tui checkpoint 3\n", body].concat();
     assert_eq!(
-        refusal(&later).to_string(),
+        refusal(&later),
         "x.checkpoint: is a checkpoint of version 3; this mdr-tui reads version 2"
     );
     let rude = [b"mdr-tui checkpoint \x1b[31m1\n", body].concat();
-    assert!(matches!(refusal(&rude), CheckpointError::Version { .. }));
+    assert!(refusal(&rude).contains("is a checkpoint of version"));
     for bytes in [&b""[..], b"title = \"x\"\n", &[0; 4096], b"\xff\xfe"] {
-        assert!(matches!(refusal(bytes), CheckpointError::Foreign { .. }));
+        assert!(refusal(bytes).contains(FOREIGN));
     }
     let huge = b"mdr-tui checkpoint 2\n99999999999999 bytes, CRC-32 00000000\nx";
-    assert!(refusal(huge).to_string().contains("larger than 4 GiB"));
+    assert!(refusal(huge).contains("larger than 4 GiB"));
 }
 
 /// Fig. 3 under a `method` after so many cycles.

@@ -400,5 +400,5 @@ fn hardness_belongs_to_a_body_or_to_the_pair() {
     let refused = limit(&bodies("", ""), &["material.hardness=2e9"])
         .expect_err("refused")
         .to_string();
-    assert!(refused.contains("does not go with two bodies"), "{refused}");
+    assert!(refused.contains("conflicts with two bodies"), "{refused}");
 }

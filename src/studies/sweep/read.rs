@@ -12,7 +12,7 @@ use super::sensitivity::Varied;
 use super::study::{self, Stop, Study};
 use crate::scenario::scalars::{self, Scalar, number};
 use crate::scenario::{Refusal, Scenario, printable, typed};
-use crate::scenario::{hints, schema, units};
+use crate::scenario::{hints, preset, schema, units};
 
 /// The columns of a study that names none.
 const COLUMNS: [&str; 4] = [
@@ -65,9 +65,7 @@ impl Study {
     /// break a rule, and a base that cannot be loaded.
     pub fn read(text: &str, origin: &str, directory: &Path) -> Result<Self> {
         Self::read_on(text, origin, |name| {
-            let is_path =
-                name.contains(['/', std::path::MAIN_SEPARATOR]) || name.ends_with(".toml");
-            let path = match is_path {
+            let path = match preset::is_path(name) {
                 true => directory.join(name).to_string_lossy().into_owned(),
                 false => name.to_owned(),
             };

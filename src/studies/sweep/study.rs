@@ -180,11 +180,14 @@ impl Study {
         let scenario = self.base.with_all(&all)?;
         match scenario.run().cycles {
             Some(_) => Ok(scenario),
-            None => Err(ScenarioError::Missing {
-                origin: self.base_name.clone(),
-                path: "run.cycles".into(),
-                meaning: "number of cycles per point; [set] \"run.cycles\" = 100 gives it".into(),
-            }),
+            None => {
+                let meaning = "number of cycles per point; [set] \"run.cycles\" = 100 gives it";
+                Err(ScenarioError::missing(
+                    &self.base_name,
+                    "run.cycles",
+                    meaning,
+                ))
+            }
         }
     }
 

@@ -10,7 +10,7 @@
 
 use std::sync::Arc;
 
-use crate::math::invalid::{Invalid, finite, non_negative};
+use crate::math::invalid::{Invalid, check_table, non_negative};
 use crate::math::monotone::Monotone;
 
 /// The fewest points of a profile.
@@ -50,23 +50,8 @@ impl MeasuredProfile {
     /// Rows that do not make a profile, or a profile whose contact would not be a disc: its 1D image must not fall.
     pub fn new(radii: &[f64], heights: &[f64], smoothing: f64) -> Result<Self, Invalid> {
         let smoothing = non_negative("smoothing", smoothing)?;
-        let number = radii.len();
-        if number != heights.len() {
-            let rule = format!("must have as many entries as the radii, {number}");
-            return Err(Invalid::new("heights", heights.len(), rule));
-        }
-        if !(FEWEST..=MOST_POINTS).contains(&number) {
-            let rule = format!("must be from {FEWEST} to {MOST_POINTS} points");
-            return Err(Invalid::new("radii", number, rule));
-        }
-        for (&r, &f) in radii.iter().zip(heights) {
-            finite("radii", r)?;
-            finite("heights", f)?;
-        }
-        if let Some(pair) = radii.windows(2).find(|pair| pair[0] >= pair[1]) {
-            let rule = format!("must increase, and follows {:e}", pair[0]);
-            return Err(Invalid::new("radii", pair[1], rule));
-        }
+        let number = FEWEST..=MOST_POINTS;
+        check_table(("radii", radii), ("heights", heights), number)?;
         let mut treatment = Treatment::default();
         let (radii, mut heights) = if radii[0] < 0.0 {
             fold(radii, heights, &mut treatment)?
@@ -89,6 +74,7 @@ impl MeasuredProfile {
         for height in &mut heights {
             *height -= treatment.offset;
         }
+        let number = radii.len();
         let curve = Monotone::new(radii, heights)
             .ok_or_else(|| Invalid::new("radii", number, "must increase"))?;
         check_disc(&curve)?;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::math::grid;
-use crate::math::invalid::{Invalid, non_negative};
+use crate::math::invalid::{Invalid, check_table, non_negative};
 
 /// The fewest and the most points of a scar.
 const FEWEST: usize = 3;
@@ -22,22 +22,11 @@ impl Scar {
     /// # Errors
     /// Rows that do not make a scar; the fields are `initial_radii` and `initial_depths`.
     pub fn new(radii: &[f64], depths: &[f64]) -> Result<Self, Invalid> {
-        let number = radii.len();
-        if number != depths.len() {
-            let rule = format!("must be as many as the {number} radii");
-            return Err(Invalid::new("initial_depths", depths.len(), rule));
-        }
-        if !(FEWEST..=MOST).contains(&number) {
-            let rule = format!("must be from {FEWEST} to {MOST} points");
-            return Err(Invalid::new("initial_radii", number, rule));
-        }
-        for (&r, &depth) in radii.iter().zip(depths) {
-            non_negative("initial_radii", r)?;
-            non_negative("initial_depths", depth)?;
-        }
-        if let Some(pair) = radii.windows(2).find(|pair| pair[0] >= pair[1]) {
-            let rule = format!("must increase, and follows {:e}", pair[0]);
-            return Err(Invalid::new("initial_radii", pair[1], rule));
+        let columns = ["initial_radii", "initial_depths"];
+        check_table((columns[0], radii), (columns[1], depths), FEWEST..=MOST)?;
+        non_negative(columns[0], radii[0])?;
+        for &depth in depths {
+            non_negative(columns[1], depth)?;
         }
         Ok(Self {
             radii: radii.into(),

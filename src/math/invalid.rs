@@ -1,5 +1,7 @@
 //! A value that a constructor refuses: which one it was, and which rule it broke.
 
+use std::ops::RangeInclusive;
+
 use thiserror::Error;
 
 /// A refused value. The floors above add where it stood (a TOML path, an option of the command line).
@@ -56,6 +58,38 @@ pub fn non_negative(field: &'static str, value: f64) -> Result<f64, Invalid> {
         Ok(value)
     } else {
         Err(Invalid::new(field, value, "must be 0 or greater"))
+    }
+}
+
+/// Passes two columns, each with its name, that make a function: a `number` of rows, all finite, the first column
+/// increasing.
+///
+/// # Errors
+/// The column that does not, with its value.
+pub fn check_table(
+    (x, xs): (&'static str, &[f64]),
+    (y, ys): (&'static str, &[f64]),
+    number: RangeInclusive<usize>,
+) -> Result<(), Invalid> {
+    let rows = xs.len();
+    if !number.contains(&rows) {
+        let rule = format!("must be from {} to {} points", number.start(), number.end());
+        return Err(Invalid::new(x, rows, rule));
+    }
+    if ys.len() != rows {
+        let rule = format!("must be {rows} numbers, as many as {x}");
+        return Err(Invalid::new(y, ys.len(), rule));
+    }
+    for row in 0..rows {
+        finite(x, xs[row])?;
+        finite(y, ys[row])?;
+    }
+    match xs.windows(2).find(|pair| pair[0] >= pair[1]) {
+        Some(pair) => {
+            let rule = format!("must increase, and follows {:e}", pair[0]);
+            Err(Invalid::new(x, pair[1], rule))
+        }
+        None => Ok(()),
     }
 }
 

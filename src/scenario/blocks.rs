@@ -8,7 +8,7 @@ use toml::{Table, Value};
 
 use super::check::show;
 use super::error::{Origin, ScenarioError, echo};
-use super::{schema, write};
+use super::{Change, schema, write};
 
 /// The tables whose keys a block may change.
 const CHANGEABLE: [&str; 3] = ["motion", "friction", "wear"];
@@ -19,49 +19,33 @@ pub(super) fn expand(table: &mut Table, origin: &Origin) -> Result<(), ScenarioE
     let Some(blocks) = table.remove("blocks") else {
         return Ok(());
     };
-    let refuse = |at: &str, value: &Value, rule: &str| Err(origin.refuse(at, &show(value), rule));
-    let list = match &blocks {
-        Value::Array(list) if !list.is_empty() => list,
-        other => {
-            let rule = "must be an array of tables, [[blocks]] with cycles and the keys that \
-                change";
-            return refuse("blocks", other, rule);
-        }
+    let rule = "must be an array of tables, [[blocks]] with cycles and the keys that change";
+    let list = blocks.as_array().filter(|list| !list.is_empty());
+    let list = list.map(|list| list.iter().map(Value::as_table).collect::<Option<Vec<_>>>());
+    let Some(list) = list.flatten() else {
+        return Err(origin.refuse("blocks", &show(&blocks), rule));
     };
     if let Some(changes) = table.get("changes") {
-        return refuse(
-            "changes",
-            changes,
-            "conflicts with [[blocks]]; give one of them",
-        );
+        let rule = "conflicts with [[blocks]]; give one of them";
+        return Err(origin.refuse("changes", &show(changes), rule));
     }
     let mut changes = Vec::new();
     let mut cycle = 0.0;
-    for (i, block) in list.iter().enumerate() {
+    for (i, block) in list.into_iter().enumerate() {
         let at = format!("blocks[{i}]");
-        let Some(block) = block.as_table() else {
-            return refuse(
-                &at,
-                block,
-                "must be a table with cycles and the keys that change",
-            );
-        };
         let given = block.get("cycles");
-        let cycles = match given {
-            Some(Value::Float(cycles)) => *cycles,
-            Some(Value::Integer(cycles)) => *cycles as f64,
-            _ => f64::NAN,
-        };
-        if !(cycles.is_finite() && cycles > 0.0) {
+        let cycles = given.and_then(schema::number);
+        let Some(cycles) = cycles.filter(|cycles| *cycles > 0.0) else {
             let value = given.map_or_else(|| "nothing".into(), show);
             let rule = "must be a number of cycles greater than 0";
             return Err(origin.refuse(&format!("{at}.cycles"), &value, rule));
-        }
+        };
         let mut keys = Vec::new();
         for (section, value) in block.iter().filter(|(key, _)| *key != "cycles") {
             if !CHANGEABLE.contains(&section.as_str()) {
                 let rule = format!("a block takes cycles and keys of {}", CHANGEABLE.join(", "));
-                return refuse(&format!("{at}.{}", echo(section)), value, &rule);
+                let at = format!("{at}.{}", echo(section));
+                return Err(origin.refuse(&at, &show(value), rule));
             }
             flatten(section, value, &mut keys);
         }
@@ -70,15 +54,14 @@ pub(super) fn expand(table: &mut Table, origin: &Origin) -> Result<(), ScenarioE
                 schema::insert(table, &path, value);
             } else {
                 let set = format!("{path} = {}", write::value(&value));
-                changes.push(Value::Table(Table::from_iter([
-                    ("at_cycle".to_owned(), Value::Float(cycle)),
-                    ("set".to_owned(), Value::String(set)),
-                ])));
+                let at_cycle = cycle;
+                changes.push(Change { at_cycle, set });
             }
         }
         cycle += cycles;
     }
-    table.insert("changes".into(), Value::Array(changes));
+    let changes = Value::try_from(changes).expect("changes are a list");
+    table.insert("changes".into(), changes);
     if schema::at(table, "run.cycles").is_none() {
         schema::insert(table, "run.cycles", Value::Float(cycle));
     }

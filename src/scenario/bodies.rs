@@ -10,9 +10,7 @@ use crate::math::invalid::Invalid;
 impl Parts<'_> {
     /// The moduli and the coefficient of friction.
     pub(super) fn material(&self) -> Result<Material, ScenarioError> {
-        let first = self.get(&keys::FRICTION_COURSE.values);
-        let first = first.and_then(|values| values.first().copied());
-        let friction = match self.get(&keys::FRICTION).or(first) {
+        let friction = match self.first(&keys::FRICTION, &keys::FRICTION_COURSE) {
             None if self.has("motion.tangential") => {
                 let meaning = "coefficient of friction, which the tangential motion needs";
                 return Err(self.origin.missing(keys::FRICTION.path(), meaning));

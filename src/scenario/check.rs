@@ -33,7 +33,8 @@ fn section(table: &Table, path: &str, shown: &str, origin: &Origin, faults: &mut
             changes(value, origin, faults);
         } else if let Some(parameter) = schema::find(&path) {
             if !parameter.kind.fits(value) {
-                let rule = format!("{}{}", parameter.rule(), words::instead(parameter, value));
+                let wanted = format!("{}{}", parameter.kind.wanted(), parameter.allowed());
+                let rule = format!("must be {wanted}{}", words::instead(parameter, value));
                 faults.note(&shown, origin.refuse(&shown, &show(value), rule));
             } else if !parameter.allows(value) {
                 let each = if value.is_array() { "each " } else { "" };
@@ -90,6 +91,12 @@ fn changes(value: &Value, origin: &Origin, faults: &mut Faults) {
 pub(super) fn unknown(place: &str, path: &str, shown: &str) -> ScenarioError {
     let rule = format!("unknown key {}; {}", echo(shown), hints::hint(path));
     Refusal::new(place, rule).into()
+}
+
+/// A length of a measured profile as an error tells it: in three digits.
+pub(super) fn length(value: f64) -> String {
+    let rounded = format!("{value:.2e}").parse().unwrap_or(value);
+    show(&Value::Float(rounded))
 }
 
 /// A value as an error repeats it.

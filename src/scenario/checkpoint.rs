@@ -196,9 +196,7 @@ fn restore<E: DeserializeOwned>(contents: &[u8]) -> Result<Checkpoint<E>, String
     let (mut scenario, mut unchanged) = (loaded.clone(), None);
     let mut made = 0;
     for together in at_one_cycle(&body.changes) {
-        let after = scenario
-            .after_all(together)
-            .map_err(|why| why.to_string())?;
+        let after = scenario.after(together).map_err(|why| why.to_string())?;
         let before = std::mem::replace(&mut scenario, after);
         let is_last = made + together.len() == body.changes.len();
         if let Some(saved) = body.unchanged.as_ref().filter(|_| is_last) {

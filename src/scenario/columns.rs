@@ -4,6 +4,7 @@
 //! is the unit: `r_m` and `r_mm` are both radii, and come out in m. Other columns may hold
 //! anything, so that a `state.csv` can serve as a scar and a `history.csv` as a history.
 
+use std::fmt::Display;
 use std::path::Path;
 
 use super::error::{Refusal, ScenarioError, echo, printable};
@@ -39,7 +40,7 @@ impl Columns {
                 Unread::Directory | Unread::Irregular => "; must be a CSV file",
                 _ => "",
             };
-            unreadable(&name, format!("{why}{hint}"))
+            Refusal::new(&name, format_args!("{why}{hint}"))
         })?;
         Self::parse(&text, &name)
     }
@@ -49,51 +50,39 @@ impl Columns {
     /// # Errors
     /// As for [`read`](Self::read).
     pub fn parse(text: &str, path: &str) -> Result<Self, ScenarioError> {
-        let head = text.lines().find(|line| {
-            let line = line.trim();
-            !line.is_empty() && !line.starts_with('#')
-        });
-        let head = head.unwrap_or_default();
-        let delimiter = [b',', b';', b'\t']
-            .into_iter()
-            .find(|&mark| head.as_bytes().contains(&mark));
+        let is_row = |line: &&str| !line.trim().is_empty() && !line.trim().starts_with('#');
+        let head = text.lines().find(is_row).unwrap_or_default();
+        let mut delimiters = [b',', b';', b'\t'].into_iter();
+        let delimiter = delimiters.find(|&mark| head.as_bytes().contains(&mark));
         let mut reader = csv::ReaderBuilder::new()
             .comment(Some(b'#'))
             .trim(csv::Trim::All)
             .delimiter(delimiter.unwrap_or(b','))
             .from_reader(text.as_bytes());
-        let has_semicolons = text
-            .lines()
-            .any(|line| !line.starts_with('#') && line.contains(';'));
-        let refuse = |error: csv::Error| {
-            let mut reason = problem(&error);
-            if has_semicolons && delimiter != Some(b';') {
-                reason.push_str(
-                    "; the file has semicolons, but its first line names columns without them",
-                );
+        let hint = match text.lines().filter(is_row).any(|line| line.contains(';')) {
+            true if delimiter != Some(b';') => {
+                "; the file has semicolons, but its first line names columns without them"
             }
-            unreadable(path, reason)
+            _ => "",
         };
-        let names: Vec<String> = reader
-            .headers()
-            .map_err(refuse)?
-            .iter()
+        let refuse = |error| Refusal::new(path, format!("{}{hint}", problem(&error)));
+        let names = reader.headers().map_err(refuse)?.iter();
+        let names: Vec<String> = names
             .map(|name| name.trim_start_matches('\u{feff}').to_owned())
             .collect();
         if names.iter().any(|name| name.parse::<f64>().is_ok()) {
-            let reason = "the first line must name the columns, as in r_m,f_m";
-            return Err(unreadable(path, reason.into()));
+            let rule = "the first line must name the columns, as in r_m,f_m";
+            return Err(Refusal::new(path, rule).into());
         }
-        let mut rows = Vec::new();
-        for row in reader.records() {
+        let rows = reader.records().map(|row| {
             let row = row.map_err(refuse)?;
-            let line = row.position().map_or(0, csv::Position::line);
-            rows.push((line, row));
-        }
-        let said = text
-            .lines()
-            .filter_map(|line| line.strip_prefix('#')?.split_once(':'));
-        let said = said.map(|(key, value)| (key.trim().to_owned(), value.trim().to_owned()));
+            Ok((row.position().map_or(0, csv::Position::line), row))
+        });
+        let rows = rows.collect::<Result<_, Refusal>>()?;
+        let said = text.lines().filter_map(|line| {
+            let (key, value) = line.strip_prefix('#')?.split_once(':')?;
+            Some((key.trim().to_owned(), value.trim().to_owned()))
+        });
         Ok(Self {
             path: path.to_owned(),
             header: said.collect(),
@@ -145,41 +134,22 @@ impl Columns {
                 self.named()
             )));
         };
-        self.rows
-            .iter()
-            .map(|(line, row)| {
-                let field = row.get(at).unwrap_or_default();
-                let refuse = |what: &str| {
-                    let column = &self.names[at];
-                    Err(self.refuse(format!("line {line}: {column} {what}")))
-                };
-                match field.parse::<f64>() {
-                    Ok(value) if value.is_finite() => Ok(size * value),
-                    _ if field.is_empty() => refuse("is empty; fill in or remove the row"),
-                    _ if field.contains(',') => refuse(&format!(
-                        "= {}: must be a finite number, with a decimal point",
-                        echo(field)
-                    )),
-                    _ => refuse(&format!("= {}: must be a finite number", echo(field))),
+        let number = |(line, row): &(u64, csv::StringRecord)| {
+            let field = row.get(at).unwrap_or_default();
+            let rule = match field.parse::<f64>() {
+                Ok(value) if value.is_finite() => return Ok(size * value),
+                _ if field.is_empty() => "is empty; fill in or remove the row".to_owned(),
+                _ => {
+                    let hint = match field.contains(',') {
+                        true => ", with a decimal point",
+                        false => "",
+                    };
+                    format!("= {}: must be a finite number{hint}", echo(field))
                 }
-            })
-            .collect()
-    }
-
-    /// The column `name` as [`column`](Self::column) gives it, but NaN where a field is empty or no finite
-    /// number, as in this program's own files; none if there is no such column.
-    pub fn column_with_gaps(&self, name: &str, unit: &str) -> Option<Vec<f64>> {
-        let (at, size) = self.find(name, unit)?;
-        Some(self.values(at, size))
-    }
-
-    fn values(&self, at: usize, size: f64) -> Vec<f64> {
-        let value = |field: &str| field.parse::<f64>().ok().filter(|value| value.is_finite());
-        let values = self.rows.iter().map(|(_, row)| {
-            let value = row.get(at).and_then(value);
-            value.map_or(f64::NAN, |value| size * value)
-        });
-        values.collect()
+            };
+            Err(self.refuse(format!("line {line}: {} {rule}", self.names[at])))
+        };
+        self.rows.iter().map(number).collect()
     }
 
     /// All columns, in SI units and by the names that this program's own files have; NaN where a field is no finite
@@ -191,7 +161,11 @@ impl Columns {
                 OWN.iter().find_map(of)
             });
             let (name, size) = in_si.unwrap_or((name.clone(), 1.0));
-            (name, self.values(at, size))
+            let value = |row: &csv::StringRecord| row.get(at)?.parse::<f64>().ok();
+            let values = self.rows.iter().map(|(_, row)| value(row));
+            let finite = values.map(|value| value.filter(|value| value.is_finite()));
+            let in_si = finite.map(|value| value.map_or(f64::NAN, |value| size * value));
+            (name, in_si.collect())
         };
         self.names.iter().enumerate().map(column).collect()
     }
@@ -213,8 +187,8 @@ impl Columns {
     }
 
     /// The error that the file has for `reason`.
-    pub fn refuse(&self, reason: impl Into<String>) -> ScenarioError {
-        unreadable(&self.path, reason.into())
+    pub fn refuse(&self, reason: impl Display) -> ScenarioError {
+        Refusal::new(&self.path, reason).into()
     }
 
     fn find(&self, name: &str, unit: &str) -> Option<(usize, f64)> {
@@ -225,10 +199,6 @@ impl Columns {
         let mut columns = self.names.iter().enumerate();
         columns.find_map(|(at, column)| Some((at, size(column)?)))
     }
-}
-
-fn unreadable(path: &str, reason: String) -> ScenarioError {
-    Refusal::new(path, reason).into()
 }
 
 /// The reader's error in words.

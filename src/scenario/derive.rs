@@ -43,11 +43,12 @@ impl Pressed {
     /// Where a motion presses the unworn indenter deepest; `None` where it never touches.
     pub fn of(indenter: &Indenter, material: &Material, drive: &Drive) -> Option<Self> {
         let highest = drive.normal().oscillation().highest();
-        match drive.normal() {
-            _ if highest <= 0.0 => None,
-            Control::Displacement(_) => press_to(indenter, material, highest),
-            Control::Force(_) => press_by(indenter, material, highest),
-        }
+        let contact = Contact {
+            indenter,
+            material,
+            drive,
+        };
+        (highest > 0.0).then(|| contact.pressed(highest))?
     }
 
     /// F_z/(π a²), Pa.
@@ -66,157 +67,164 @@ pub(super) fn choices(method: AbelMethod) -> (Spacing, Scheme) {
     }
 }
 
-/// The largest radius that can ever touch, m: the rim, or where f₀ reaches the largest depth. Under a
-/// force that has no bound in general: [`ROOM_TO_SINK`] is used instead, added to the depth (m) that is `worn` when the
-/// run begins.
-pub(super) fn domain_radius(
-    indenter: &Indenter,
-    material: &Material,
-    drive: &Drive,
-    friction_is_constant: bool,
-    worn: f64,
-) -> Option<f64> {
-    if let Some(rim) = indenter.rim() {
-        return Some(rim);
+/// What makes a contact, before anything is worn.
+#[derive(Clone, Copy)]
+pub(super) struct Contact<'a> {
+    pub indenter: &'a Indenter,
+    pub material: &'a Material,
+    pub drive: &'a Drive,
+}
+
+impl Contact<'_> {
+    /// The contact where the normal motion is at this depth, m, or force, N.
+    fn pressed(&self, at: f64) -> Option<Pressed> {
+        match self.drive.normal() {
+            Control::Displacement(_) => self.press_to(at),
+            Control::Force(_) => self.press_by(at),
+        }
     }
-    let depth = match drive.normal() {
-        Control::Displacement(depth) => depth.highest(),
-        Control::Force(force) => {
-            let start = press_by(indenter, material, force.highest())?.depth;
-            let starts_unworn = worn == 0.0;
-            let end = (friction_is_constant && starts_unworn && force.amplitude() == 0.0)
-                .then(|| settled_depth(indenter, material, drive, start));
-            let end = end.flatten().map(|end| BEYOND_SETTLED * end);
-            end.unwrap_or(f64::INFINITY)
-                .min(ROOM_TO_SINK * start + worn)
+
+    /// The largest radius that can ever touch, m: the rim, or where f₀ reaches the largest depth. Under a
+    /// force that has no bound in general: [`ROOM_TO_SINK`] is used instead, added to the depth (m) that is `worn` when the
+    /// run begins.
+    pub(super) fn domain_radius(&self, friction_is_constant: bool, worn: f64) -> Option<f64> {
+        if let Some(rim) = self.indenter.rim() {
+            return Some(rim);
         }
-    };
-    Some(indenter.radius_at(depth))
-}
+        let depth = match self.drive.normal() {
+            Control::Displacement(depth) => depth.highest(),
+            Control::Force(force) => {
+                let start = self.press_by(force.highest())?.depth;
+                let starts_unworn = worn == 0.0;
+                let end = (friction_is_constant && starts_unworn && force.amplitude() == 0.0)
+                    .then(|| self.settled_depth(start));
+                let end = end.flatten().map(|end| BEYOND_SETTLED * end);
+                end.unwrap_or(f64::INFINITY)
+                    .min(ROOM_TO_SINK * start + worn)
+            }
+        };
+        Some(self.indenter.radius_at(depth))
+    }
 
-/// The depth, m, at which a held normal force and a tangential amplitude U have worn all that slips: within
-/// the stick radius c the depth is d = g(c) + U/λ, λ = μE*/G*, and what lies outside bears nothing,
-/// F_z = 2E* ∫₀ᶜ (d − g) dx. None if it is beyond [`ROOM_TO_SINK`] times the depth at the `start` (m).
-fn settled_depth(
-    indenter: &Indenter,
-    material: &Material,
-    drive: &Drive,
-    start: f64,
-) -> Option<f64> {
-    let Control::Displacement(shift) = drive.tangential()? else {
-        return None;
-    };
-    let yielding = shift.amplitude() * material.stick_ratio();
-    let profile = |x: f64| indenter.profile_1d(x);
-    let borne = |c: f64| {
-        let depth = profile(c) + yielding;
-        let piece = |i: u32| c * f64::from(i) / f64::from(PIECES);
-        let gap = |x: f64| depth - profile(x);
-        let pieces = (0..PIECES).map(|i| gauss(piece(i), piece(i + 1), gap));
-        2.0 * material.normal_modulus() * pieces.sum::<f64>()
-    };
-    let force = drive.normal().oscillation().mean();
-    let widest = indenter.radius_at(ROOM_TO_SINK * start);
-    let radius = root::bracketed(|c| borne(c) / force - 1.0, 0.0, widest, 1e-9 * widest)?;
-    Some(profile(radius) + yielding)
-}
+    /// The depth, m, at which a held normal force and a tangential amplitude U have worn all that slips: within
+    /// the stick radius c the depth is d = g(c) + U/λ, λ = μE*/G*, and what lies outside bears nothing,
+    /// F_z = 2E* ∫₀ᶜ (d − g) dx. None if it is beyond [`ROOM_TO_SINK`] times the depth at the `start` (m).
+    fn settled_depth(&self, start: f64) -> Option<f64> {
+        let Control::Displacement(shift) = self.drive.tangential()? else {
+            return None;
+        };
+        let yielding = shift.amplitude() * self.material.stick_ratio();
+        let profile = |x: f64| self.indenter.profile_1d(x);
+        let borne = |c: f64| {
+            let depth = profile(c) + yielding;
+            let piece = |i: u32| c * f64::from(i) / f64::from(PIECES);
+            let gap = |x: f64| depth - profile(x);
+            let pieces = (0..PIECES).map(|i| gauss(piece(i), piece(i + 1), gap));
+            2.0 * self.material.normal_modulus() * pieces.sum::<f64>()
+        };
+        let force = self.drive.normal().oscillation().mean();
+        let widest = self.indenter.radius_at(ROOM_TO_SINK * start);
+        let radius = root::bracketed(|c| borne(c) / force - 1.0, 0.0, widest, 1e-9 * widest)?;
+        Some(profile(radius) + yielding)
+    }
 
-/// τ_ref, Pa, and v_ref, m/s, of the power law where the scenario gives none: μ times the mean
-/// pressure at the mean normal position, and the greatest tangential velocity of the indenter.
-pub(super) fn references(
-    indenter: &Indenter,
-    material: &Material,
-    drive: &Drive,
-) -> Option<(f64, f64)> {
-    // A motion that only touches at its deepest has its pressure there.
-    let swing = drive.normal().oscillation();
-    let at = if swing.mean() > 0.0 {
-        swing.mean()
-    } else {
-        swing.highest()
-    };
-    let pressed = match drive.normal() {
-        Control::Displacement(_) => press_to(indenter, material, at)?,
-        Control::Force(_) => press_by(indenter, material, at)?,
-    };
-    let mean_pressure = pressed.mean_pressure();
-    // Without friction there is no stress to compare with, and any reference does.
-    let friction = if material.friction() > 0.0 {
-        material.friction()
-    } else {
-        1.0
-    };
-    let velocity = match drive.tangential() {
-        None => 0.0,
-        Some(Control::Displacement(shift)) => shift.greatest_speed(),
-        Some(Control::Force(force)) => {
-            let stiffness = 2.0 * material.tangential_modulus() * pressed.radius;
-            force.greatest_speed() / stiffness
-        }
-    };
-    let slip_rate = if velocity > 0.0 { velocity } else { 1.0 };
-    Some((friction * mean_pressure, slip_rate))
-}
+    /// τ_ref, Pa, and v_ref, m/s, of the power law where the scenario gives none: μ times the mean
+    /// pressure at the mean normal position, and the greatest tangential velocity of the self.indenter.
+    pub(super) fn references(&self) -> Option<(f64, f64)> {
+        // A motion that only touches at its deepest has its pressure there.
+        let swing = self.drive.normal().oscillation();
+        let at = if swing.mean() > 0.0 {
+            swing.mean()
+        } else {
+            swing.highest()
+        };
+        let pressed = self.pressed(at)?;
+        // Without friction there is no stress to compare with, and any reference does.
+        let or_one = |value: f64| if value > 0.0 { value } else { 1.0 };
+        let stress = or_one(self.material.friction()) * pressed.mean_pressure();
+        let velocity = match self.drive.tangential() {
+            None => 0.0,
+            Some(Control::Displacement(shift)) => shift.greatest_speed(),
+            Some(Control::Force(force)) => {
+                let stiffness = 2.0 * self.material.tangential_modulus() * pressed.radius;
+                force.greatest_speed() / stiffness
+            }
+        };
+        Some((stress, or_one(velocity)))
+    }
 
-/// A number rounded to three digits, for messages.
-pub(super) fn three_digits(value: f64) -> f64 {
-    format!("{value:.2e}").parse().unwrap_or(value)
-}
-
-/// Presses to a depth, m.
-fn press_to(indenter: &Indenter, material: &Material, depth: f64) -> Option<Pressed> {
-    let (grid, g) = unworn(indenter, indenter.radius_at(depth))?;
-    let mut load = Field::zeros(grid.len());
-    let foundation = WinklerFoundation::new(&grid);
-    let modulus = material.normal_modulus();
-    let contact = normal::press(&foundation, &g, depth, modulus, &mut load);
-    Some(Pressed {
-        depth,
-        radius: contact.radius,
-        force: foundation.force(&load, contact.edge()),
-    })
-}
-
-/// Presses by a force, N, on a domain just wide enough to carry it.
-fn press_by(indenter: &Indenter, material: &Material, force: f64) -> Option<Pressed> {
-    let modulus = material.normal_modulus();
-    if let Some(radius) = indenter.rim() {
-        let depth = force / (2.0 * modulus * radius);
-        return Some(Pressed {
+    /// Presses to a depth, m.
+    fn press_to(&self, depth: f64) -> Option<Pressed> {
+        let (grid, g) = self.unworn(self.indenter.radius_at(depth))?;
+        let mut load = Field::zeros(grid.len());
+        let foundation = WinklerFoundation::new(&grid);
+        let modulus = self.material.normal_modulus();
+        let contact = normal::press(&foundation, &g, depth, modulus, &mut load);
+        Some(Pressed {
             depth,
-            radius,
-            force,
-        });
+            radius: contact.radius,
+            force: foundation.force(&load, contact.edge()),
+        })
     }
-    // F(a) = 2n/(n+1) E* κₙ f₀(a) a exceeds E* f₀(a) a for every n ≥ 1, and a flat tip adds to it.
-    let radius = std::iter::successors(Some(1e-15), |radius| Some(radius * 1.25))
-        .take_while(|radius| *radius < 1e15)
-        .find(|&radius| modulus * indenter.profile(radius) * radius >= force)?;
-    let (grid, g) = unworn(indenter, radius)?;
-    let mut load = Field::zeros(grid.len());
-    let deepest = g[grid.cells()];
-    let foundation = WinklerFoundation::new(&grid);
-    let depth = normal::depth_for_load(&foundation, &g, force, modulus, deepest, &mut load)?;
-    let contact = normal::press(&foundation, &g, depth, modulus, &mut load);
-    Some(Pressed {
-        depth,
-        radius: contact.radius,
-        force,
-    })
-}
 
-/// A grid out to `radius`, m, and the 1D image of the unworn profile on it.
-fn unworn(indenter: &Indenter, radius: f64) -> Option<(RadialGrid, Vec<f64>)> {
-    let grid = RadialGrid::uniform(CELLS, radius).ok()?;
-    let image = |&x: &f64| indenter.profile_1d(x);
-    let g = grid.nodes().iter().map(image).collect();
-    Some((grid, g))
+    /// Presses by a force, N, on a domain just wide enough to carry it.
+    fn press_by(&self, force: f64) -> Option<Pressed> {
+        let modulus = self.material.normal_modulus();
+        if let Some(radius) = self.indenter.rim() {
+            let depth = force / (2.0 * modulus * radius);
+            return Some(Pressed {
+                depth,
+                radius,
+                force,
+            });
+        }
+        // F(a) = 2n/(n+1) E* κₙ f₀(a) a exceeds E* f₀(a) a for every n ≥ 1, and a flat tip adds to it.
+        let radius = std::iter::successors(Some(1e-15), |radius| Some(radius * 1.25))
+            .take_while(|radius| *radius < 1e15)
+            .find(|&radius| modulus * self.indenter.profile(radius) * radius >= force)?;
+        let (grid, g) = self.unworn(radius)?;
+        let mut load = Field::zeros(grid.len());
+        let deepest = g[grid.cells()];
+        let foundation = WinklerFoundation::new(&grid);
+        let depth = normal::depth_for_load(&foundation, &g, force, modulus, deepest, &mut load)?;
+        let contact = normal::press(&foundation, &g, depth, modulus, &mut load);
+        Some(Pressed {
+            depth,
+            radius: contact.radius,
+            force,
+        })
+    }
+
+    /// A grid out to `radius`, m, and the 1D image of the unworn profile on it.
+    fn unworn(&self, radius: f64) -> Option<(RadialGrid, Vec<f64>)> {
+        let grid = RadialGrid::uniform(CELLS, radius).ok()?;
+        let image = |&x: &f64| self.indenter.profile_1d(x);
+        let g = grid.nodes().iter().map(image).collect();
+        Some((grid, g))
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::simulation::drive::Oscillation;
+
+    fn with<T>(indenter: &Indenter, material: &Material, of: impl Fn(Contact) -> T) -> T {
+        let still = Oscillation::new(1.0, 0.0, 1.0, 0.0).expect("a motion");
+        of(Contact {
+            indenter,
+            material,
+            drive: &Drive::new(Control::Force(still), None),
+        })
+    }
+
+    fn press_by(indenter: &Indenter, material: &Material, force: f64) -> Option<Pressed> {
+        with(indenter, material, |contact| contact.press_by(force))
+    }
+
+    fn press_to(indenter: &Indenter, material: &Material, depth: f64) -> Option<Pressed> {
+        with(indenter, material, |contact| contact.press_to(depth))
+    }
 
     fn hertz() -> (Indenter, Material, f64) {
         let indenter = Indenter::paraboloid(0.01).expect("a shape");
@@ -252,17 +260,22 @@ mod tests {
         let swing = Oscillation::new(0.0, 5e-8, 1.0, 0.0).expect("a motion");
         let held = Oscillation::new(force, 0.0, 1.0, 0.0).expect("a force");
         let drive = Drive::new(Control::Force(held), Some(Control::Displacement(swing)));
-        let depth = settled_depth(&indenter, &material, &drive, 1e-6).expect("a depth");
+        let contact = Contact {
+            indenter: &indenter,
+            material: &material,
+            drive: &drive,
+        };
+        let depth = contact.settled_depth(1e-6).expect("a depth");
         // (2/3) c³/R + (U/λ) c = F_z/(2E*), d = c²/R + U/λ.
         let yielding = 5e-8 * material.stick_ratio();
         let c = ((depth - yielding) * 0.01).sqrt();
         let borne = 2.0 / 3.0 * c * c * c / 0.01 + yielding * c;
         assert!((borne * 2.0 * 2.3077e11 / force - 1.0).abs() < 1e-6);
         assert!(depth > 1e-6 && depth < 3e-6, "{depth:e}");
-        let domain = domain_radius(&indenter, &material, &drive, true, 0.0).expect("a domain");
+        let domain = contact.domain_radius(true, 0.0).expect("a domain");
         assert!((domain / (0.02 * BEYOND_SETTLED * depth).sqrt() - 1.0).abs() < 1e-9);
         // Friction that changes has no such end.
-        let domain = domain_radius(&indenter, &material, &drive, false, 0.0).expect("a domain");
+        let domain = contact.domain_radius(false, 0.0).expect("a domain");
         assert!((domain / (0.02 * ROOM_TO_SINK * 1e-6_f64).sqrt() - 1.0).abs() < 1e-3);
     }
 
@@ -324,13 +337,15 @@ mod tests {
         let normal = Control::Displacement(swing(1e-6, 0.0));
         let tangential = Some(Control::Displacement(swing(0.0, 1e-7)));
         let drive = Drive::new(normal.clone(), tangential);
-        let (stress, rate) = references(&indenter, &material, &drive).expect("references");
+        let references = |drive: &Drive| {
+            with(&indenter, &material, |contact| {
+                Contact { drive, ..contact }.references()
+            })
+        };
+        let (stress, rate) = references(&drive).expect("references");
         assert!((stress / (0.1 * force / (PI * 1e-8)) - 1.0).abs() < 1e-3);
         assert!((rate / 1e-5 - 1.0).abs() < 1e-12);
         let still = Drive::new(normal, None);
-        assert_eq!(
-            references(&indenter, &material, &still).map(|both| both.1),
-            Some(1.0)
-        );
+        assert_eq!(references(&still).map(|both| both.1), Some(1.0));
     }
 }

@@ -125,6 +125,11 @@ impl Faults {
         rest.any(|rest| rest.is_empty() || rest.starts_with('.'))
     }
 
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.errors.is_empty()
+    }
+
     /// The keys that errors deal with.
     pub fn paths(&self) -> impl Iterator<Item = &str> {
         self.paths.iter().map(String::as_str)
@@ -138,18 +143,12 @@ impl Faults {
 
 /// `text` on one line, whatever it holds: control and invisible characters become escapes.
 pub fn printable(text: &str) -> String {
-    const PLAIN: [char; 3] = ['"', '\'', '\\'];
-    let mut line = String::with_capacity(text.len());
     // Quotes and backslashes are harmless, and would only be harder to read as escapes.
-    for piece in text.split_inclusive(PLAIN) {
-        let (body, plain) = match piece.char_indices().next_back() {
-            Some((at, last)) if PLAIN.contains(&last) => (&piece[..at], Some(last)),
-            _ => (piece, None),
-        };
-        line.extend(body.escape_debug());
-        line.extend(plain);
-    }
-    line
+    ["\"", "'", "\\"]
+        .iter()
+        .fold(text.escape_debug().to_string(), |line, plain| {
+            line.replace(&format!("\\{plain}"), plain)
+        })
 }
 
 /// [`printable`], cut where it grows too long for a line.

@@ -135,17 +135,10 @@ impl Scenario {
         Self::build(table, origin, &self.origin)
     }
 
-    /// The scenario that holds from `change` on; it has no changes of its own. Applied to one
-    /// change after the other, it gives the stages of a run.
-    pub fn after(&self, change: &Change) -> Result<Self, ScenarioError> {
-        self.after_all(std::slice::from_ref(change))
-    }
-
-    /// [`after`](Self::after) for the changes of one cycle, which are only right together.
-    pub fn after_all(&self, changes: &[Change]) -> Result<Self, ScenarioError> {
-        let written = |change: &Change| echo(&change.set);
-        let places: Vec<String> = changes.iter().map(written).collect();
-        self.changed(changes, &places)
+    /// The scenario that holds after `changes` of one cycle, which are only right together; it has no changes of its
+    /// own. Applied to those of one cycle after the other, it gives the stages of a run.
+    pub fn after(&self, changes: &[Change]) -> Result<Self, ScenarioError> {
+        self.changed(changes, |at| echo(&changes[at].set))
     }
 
     /// Where the domain radius comes from.
@@ -305,33 +298,12 @@ impl Scenario {
         let mut faults = Faults::default();
         units::to_si(&mut table, "", from, &mut faults);
         check::keys(&table, from, &mut faults);
-        if faults.paths().next().is_some() {
-            // Whatever is wrong, what is missing beside it can be told.
-            for path in faults.paths() {
-                let was_given = schema::remove(&mut table, path).is_some();
-                let known = schema::find(path).filter(|_| was_given);
-                if let Some(value) = known.and_then(Parameter::any_value) {
-                    schema::insert(&mut table, path, value);
-                }
-            }
-            validate::find_missing(&table, from, &mut faults);
-        }
-        if let Some(error) = faults.into_error() {
-            return Err(error);
-        }
+        let (complete, setup) = validate::setup(&mut table, from, faults)?;
         let changes: Vec<Change> = part(&table, "changes");
         if changes.len() > MOST_CHANGES {
             let rule = format!("must have at most {MOST_CHANGES} entries");
             return Err(from.refuse("changes", &changes.len().to_string(), rule));
         }
-        let complete = complete::table(&table);
-        let setup = validate::setup(&complete, &table, from).map_err(|error| {
-            let mut faults = Faults::default();
-            if error.lacks.is_some() {
-                validate::find_missing(&table, from, &mut faults);
-            }
-            faults.into_error().unwrap_or(error)
-        })?;
         let given = keys::TITLE.get(&table);
         let given = given.filter(|title| !title.trim().is_empty());
         let description = keys::DESCRIPTION.get(&table).unwrap_or_default();
@@ -368,31 +340,34 @@ impl Scenario {
         }
         let (mut stage, mut first) = (self.clone(), 0);
         for together in session::at_one_cycle(changes) {
-            let place = |(i, change): (usize, &Change)| {
-                let path = format!("changes[{}].set", first + i);
-                from.place(&path, &format!("\"{}\"", echo(&change.set)))
-            };
-            let places: Vec<String> = together.iter().enumerate().map(place).collect();
-            stage = stage.changed(together, &places)?;
+            stage = stage.changed(together, |at| {
+                let path = format!("changes[{}].set", first + at);
+                from.place(&path, &format!("\"{}\"", echo(&together[at].set)))
+            })?;
             first += together.len();
         }
         Ok(())
     }
 
-    /// The scenario after `changes` of one cycle; messages name each by its entry of `written`.
-    fn changed(&self, changes: &[Change], written: &[String]) -> Result<Self, ScenarioError> {
+    /// The scenario after `changes` of one cycle; `place` is what messages call each.
+    fn changed(
+        &self,
+        changes: &[Change],
+        place: impl Fn(usize) -> String,
+    ) -> Result<Self, ScenarioError> {
         let mut origin = Origin::new(&self.origin);
         let mut table = self.with_changes(Vec::new()).whole();
-        for (change, written) in changes.iter().zip(written) {
+        for (at, change) in changes.iter().enumerate() {
+            let written = place(at);
             let (key, value) =
-                assign::split(&change.set, "").map_err(|_| assign::no_assignment(written))?;
+                assign::split(&change.set, "").map_err(|_| assign::no_assignment(&written))?;
             if let Some(because) = schema::find(key).and_then(Parameter::fixed) {
                 let rule = format!("{key} cannot change during a run: {because}");
                 return Err(Refusal::new(written, rule).into());
             }
-            assign::assign(&mut table, &mut origin, key, value, written)?;
+            assign::assign(&mut table, &mut origin, key, value, &written)?;
         }
-        self.refuse_values_in_other_units(&table, changes, written)?;
+        self.refuse_values_in_other_units(&table, changes, place)?;
         Self::build(table, origin, &self.origin)
     }
 
@@ -402,31 +377,24 @@ impl Scenario {
         &self,
         table: &Table,
         changes: &[Change],
-        written: &[String],
+        place: impl Fn(usize) -> String,
     ) -> Result<(), ScenarioError> {
-        for (change, written) in changes.iter().zip(written) {
-            let Some(section) = change.key().strip_suffix(".control") else {
+        let changes_at = |path: &str| changes.iter().position(|change| change.key() == path);
+        for motion in [keys::NORMAL, keys::TANGENTIAL] {
+            let control = motion.control.get(table);
+            let Some(at) = changes_at(motion.control.path()) else {
                 continue;
             };
-            let control = |table: &Table| {
-                let value = schema::at(table, change.key());
-                value.and_then(Value::as_str).map(str::to_owned)
-            };
-            let now = control(table);
-            if now == control(&self.table) {
+            if control == motion.control.get(&self.table) {
                 continue;
             }
-            let unit = match now.as_deref() {
-                Some("force") => "N",
-                _ => "m",
-            };
-            for key in ["mean", "amplitude"] {
-                let path = format!("{section}.{key}");
-                let value = schema::at(&self.table, &path).and_then(Value::as_float);
-                let is_given = changes.iter().any(|change| change.key() == path);
-                if !is_given && value.is_some_and(|value| value != 0.0) {
+            for key in [motion.mean, motion.amplitude] {
+                let value = key.get(&self.table).unwrap_or(0.0);
+                if value != 0.0 && changes_at(key.path()).is_none() {
+                    let unit = units::unit_of(&key.parameter, control.as_deref() == Some("force"));
+                    let path = key.path();
                     let rule = format!("needs {path} in {unit}, changed at the same cycle");
-                    return Err(Refusal::new(written, rule).into());
+                    return Err(Refusal::new(place(at), rule).into());
                 }
             }
         }

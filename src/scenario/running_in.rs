@@ -49,20 +49,14 @@ impl Parts<'_> {
     }
 
     fn course(&self, first: &Key<f64>, keys: &RunsIn) -> Result<Option<Course>, ScenarioError> {
+        let refused = |invalid| self.refused(keys.section, invalid);
         for (at, over) in [
             (&keys.at_cycle, Over::Cycles),
             (&keys.at_energy, Over::Energy),
         ] {
             let Some(rows) = self.get(at) else { continue };
             let course = Course::table(&rows, &self.require(&keys.values)?, over);
-            let course = course.map_err(|invalid| {
-                let path = match invalid.field {
-                    "at" => at.path(),
-                    _ => keys.values.path(),
-                };
-                self.refuse(path, &invalid.value, invalid.rule)
-            });
-            return course.map(Some);
+            return course.map(Some).map_err(refused);
         }
         for (constant, over) in [(&keys.cycles, Over::Cycles), (&keys.energy, Over::Energy)] {
             let Some(constant) = self.get(constant) else {
@@ -70,9 +64,7 @@ impl Parts<'_> {
             };
             let (first, settled) = (self.require(first)?, self.require(&keys.settled)?);
             let course = Course::exponential(first, settled, constant, over);
-            return course
-                .map(Some)
-                .map_err(|invalid| self.refused(keys.section, invalid));
+            return course.map(Some).map_err(refused);
         }
         if self.has(keys.settled.path()) {
             let rule = format!("needs {} or {}", keys.cycles.path(), keys.energy.path());

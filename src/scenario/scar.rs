@@ -1,9 +1,6 @@
 //! From the keys of a scenario to the scar that a run begins with.
 
-use toml::Value;
-
-use super::check::show;
-use super::derive;
+use super::check::length;
 use super::error::ScenarioError;
 use super::keys::{WEAR_INITIAL_DEPTHS as DEPTHS, WEAR_INITIAL_RADII as RADII};
 use super::validate::Parts;
@@ -34,7 +31,6 @@ impl Parts<'_> {
         indenter: &Indenter,
         domain: f64,
     ) -> Result<(), ScenarioError> {
-        let length = |value: f64| show(&Value::Float(derive::three_digits(value)));
         let refuse = |path: &str, rule: String| Err(self.refuse(path, "{...}", rule));
         let (edge, (last, depth_there)) = (scar.edge(), scar.end());
         if edge > HARDLY_SAME * domain || HARDLY_SAME * last < domain {

@@ -195,11 +195,6 @@ impl Parameter {
         }
     }
 
-    /// The rule that a value of the wrong kind breaks.
-    pub(super) fn rule(&self) -> String {
-        format!("must be {}{}", self.kind.wanted(), self.allowed())
-    }
-
     /// The range, to follow the name of the kind; empty where every number is allowed.
     pub fn allowed(&self) -> String {
         match (self.kind, self.range) {
@@ -340,7 +335,8 @@ pub(super) const fn choice<T: FromStr>(
     key(path, Kind::Choice(words), word, meaning)
 }
 
-fn number(value: &Value) -> Option<f64> {
+/// A finite number, whole or not.
+pub(super) fn number(value: &Value) -> Option<f64> {
     match value {
         Value::Integer(whole) => Some(*whole as f64),
         Value::Float(number) => Some(*number).filter(|number| number.is_finite()),

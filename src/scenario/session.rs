@@ -119,8 +119,11 @@ impl Session {
     /// made; then the changes that are due.
     pub fn step_until(&mut self, cycle: f64) -> Result<(), SessionError> {
         let change = self.pending.front().map(|change| change.at_cycle);
-        let end = change.map_or(cycle, |at| cycle.min(at));
-        let goal = self.recorded_goal().map_or(end, |goal| end.min(goal));
+        // A scenario that records a run says where its steps were cut short.
+        let now = self.simulation.cycle();
+        let recorded = self.loaded.run().shortened_at.iter().copied();
+        let stops = recorded.filter(|&stop| stop > now).chain(change);
+        let goal = stops.fold(cycle, f64::min);
         self.simulation.step_until(goal)?;
         if self.unchanged().is_none() {
             self.unchanged = None;
@@ -131,13 +134,6 @@ impl Session {
             self.goals.push(goal);
         }
         self.make_due_changes()
-    }
-
-    /// The next moment that the scenario says a step was cut short for when the run was recorded.
-    fn recorded_goal(&self) -> Option<f64> {
-        let now = self.simulation.cycle();
-        let goals = self.loaded.run().shortened_at.iter().copied();
-        goals.filter(|&goal| goal > now).reduce(f64::min)
     }
 
     /// Where a run that ends at the cycle `end` is headed. That is further on for a scenario that
@@ -226,12 +222,11 @@ impl Session {
         };
         let mut made = self.changes.clone();
         made.extend(changes);
-        if made.len() > MOST_CHANGES {
-            let last = made.last().map(|change| change.set.clone());
+        if let Some(last) = made.last().filter(|_| made.len() > MOST_CHANGES) {
             let rule = format!("a run takes at most {MOST_CHANGES} changes");
-            return Err(ScenarioError::from(Refusal::new(last.unwrap_or_default(), rule)).into());
+            return Err(ScenarioError::from(Refusal::new(&last.set, rule)).into());
         }
-        let scenario = before.scenario.after_all(&made[before.changes..])?;
+        let scenario = before.scenario.after(&made[before.changes..])?;
         let mut simulation = before.simulation.clone();
         // A domain that nobody changes may have grown.
         let radius = |scenario: &Scenario| scenario.setup().grid.radius();
@@ -280,12 +275,14 @@ impl Session {
 
     /// The run so far as a scenario of its own: what was loaded, each change, and where it stands.
     pub fn as_run(&self, snapshot_at: Vec<f64>) -> Scenario {
-        let loaded = self.loaded.run();
+        let end = self.simulation.cycle();
+        // The end of the run cuts a step short anyway.
+        let goals = self.goals.iter().copied().filter(|&goal| goal != end);
         let plan = RunPlan {
-            cycles: Some(self.simulation.cycle()),
+            cycles: Some(end),
             snapshot_at,
-            shortened_at: self.goals_but(self.simulation.cycle()),
-            note: loaded.note.clone(),
+            shortened_at: goals.collect(),
+            note: self.loaded.run().note.clone(),
             ..RunPlan::default()
         };
         self.loaded
@@ -294,26 +291,18 @@ impl Session {
             .stating(&self.statements)
     }
 
-    /// Cycles at which steps were cut short, except the end of the run, which does so again anyway.
-    fn goals_but(&self, end: f64) -> Vec<f64> {
-        let goals = self.goals.iter().copied();
-        goals.filter(|&goal| goal != end).collect()
-    }
-
     /// Makes the recorded changes whose cycle has come. Those of one cycle are made together: a force and
     /// the control that it belongs to are wrong one after the other.
     fn make_due_changes(&mut self) -> Result<(), SessionError> {
         let now = self.simulation.cycle();
-        let due = self
-            .pending
-            .iter()
-            .take_while(|change| change.at_cycle <= now);
-        let due = due.count();
-        if due > 0 {
-            let changes: Vec<Change> = self.pending.drain(..due).collect();
-            self.make(changes.into_iter())?;
+        let pending = self.pending.iter();
+        match pending.take_while(|change| change.at_cycle <= now).count() {
+            0 => Ok(()),
+            due => {
+                let changes: Vec<Change> = self.pending.drain(..due).collect();
+                self.make(changes.into_iter())
+            }
         }
-        Ok(())
     }
 }
 

@@ -1,9 +1,6 @@
 //! Builds the indenter from the keys of a scenario, and holds a measured one against the domain.
 
-use toml::Value;
-
-use super::check::show;
-use super::derive;
+use super::check::length;
 use super::error::ScenarioError;
 use super::keys::{self, PARAMETERS};
 use super::schema::Key;
@@ -76,7 +73,6 @@ impl Parts<'_> {
         measured: &MeasuredProfile,
         domain: f64,
     ) -> Result<(), ScenarioError> {
-        let length = |value: f64| show(&Value::Float(derive::three_digits(value)));
         let refuse = |rule: String| Err(self.refuse("indenter.radii", "{...}", rule));
         let last = measured.last_radius();
         let points = measured.points_within(domain);

@@ -6,29 +6,71 @@ use std::fmt::Display;
 use toml::{Table, Value};
 
 use super::check::show;
+use super::complete;
+use super::derive::{self, Contact};
 use super::error::{Faults, Origin, ScenarioError};
-use super::keys;
+use super::keys::{self, RunsIn};
 use super::run::RunPlan;
 use super::schema::{self, Key, Parameter};
-use super::{complete, derive};
 use crate::contact::indenter::Indenter;
 use crate::contact::material::Material;
 use crate::contact::scar::Scar;
 use crate::math::abel::AbelMethod;
 use crate::math::grid::RadialGrid;
 use crate::math::invalid::Invalid;
-use crate::simulation::drive::Drive;
-use crate::simulation::running_in::RunningIn;
 use crate::simulation::{Integrator, Setup, Spacing};
 use crate::wear::WearLaw;
 
-/// Makes the parts of a scenario. Where an accuracy leaves points and steps open, they have their defaults. `table` is the
-/// [completed](super::complete::table) one, `written` the one that the user gave.
+/// Makes the parts of a scenario from the keys that the user gave, and returns them behind the
+/// [completed](super::complete::table) keys. Where an accuracy leaves points and steps open, they have their defaults.
+///
+/// # Errors
+///
+/// All `faults`, and every key that is missing beside them; without any, what the first part refuses.
 pub(super) fn setup(
-    table: &Table,
-    written: &Table,
+    table: &mut Table,
     origin: &Origin,
-) -> Result<Setup, ScenarioError> {
+    mut faults: Faults,
+) -> Result<(Table, Setup), ScenarioError> {
+    // Whatever is wrong, what is missing beside it can be told.
+    for path in faults.paths() {
+        if schema::remove(table, path).is_some() {
+            insert_any_value(table, path);
+        }
+    }
+    loop {
+        let complete = complete::table(table);
+        let error = match made(&complete, table, origin) {
+            Ok(setup) if faults.is_empty() => return Ok((complete, setup)),
+            Ok(_) => break,
+            Err(error) => error,
+        };
+        let Some(path) = error.lacks.clone() else {
+            return Err(faults.into_error().unwrap_or(error));
+        };
+        if !faults.covers(&path) {
+            faults.note(&path, error);
+        }
+        if !insert_any_value(table, &path) {
+            break;
+        }
+    }
+    Err(faults.into_error().expect("something is missing"))
+}
+
+/// Puts some value that is allowed at `path`, if nothing is there and it is that of a key with such values.
+fn insert_any_value(table: &mut Table, path: &str) -> bool {
+    let known = schema::find(path).filter(|_| schema::at(table, path).is_none());
+    let value = known.and_then(Parameter::any_value);
+    let is_there = value.is_some();
+    if let Some(value) = value {
+        schema::insert(table, path, value);
+    }
+    is_there
+}
+
+/// Makes the parts of a scenario, whose keys are `table` with the defaults written out.
+fn made(table: &Table, written: &Table, origin: &Origin) -> Result<Setup, ScenarioError> {
     let parts = Parts {
         table,
         written,
@@ -37,16 +79,18 @@ pub(super) fn setup(
     let indenter = parts.indenter()?;
     let drive = parts.drive()?;
     let material = parts.material()?;
-    let wear = parts.wear(&indenter, &material, &drive)?;
+    let contact = Contact {
+        indenter: &indenter,
+        material: &material,
+        drive: &drive,
+    };
+    let wear = parts.wear(&contact)?;
     let running_in = parts.running_in(&material)?;
     let scar = parts.scar()?;
-    let domain = parts.domain_radius(
-        &indenter,
-        &material,
-        &drive,
-        running_in.as_ref(),
-        scar.as_ref(),
-    );
+    let domain = parts.get(&keys::DOMAIN_RADIUS).or_else(|| {
+        let runs_in = running_in.as_ref().is_some_and(|of| of.friction.is_some());
+        contact.domain_radius(!runs_in, scar.as_ref().map_or(0.0, Scar::deepest))
+    });
     let method = parts.require(&keys::METHOD)?;
     let (spacing, scheme) = derive::choices(method);
     let grid = parts.grid(method, &indenter, domain)?;
@@ -76,28 +120,6 @@ pub(super) fn setup(
     Ok(setup)
 }
 
-/// Notes every key that is missing from `table`, one after the other with a value in its place.
-pub(super) fn find_missing(table: &Table, origin: &Origin, faults: &mut Faults) {
-    // Each round puts in a key that was not there.
-    let mut table = table.clone();
-    for _ in 0..keys::PARAMETERS.len() {
-        let complete = complete::table(&table);
-        let Err(error) = setup(&complete, &table, origin) else {
-            return;
-        };
-        let Some(path) = error.lacks.clone() else {
-            return;
-        };
-        if !faults.covers(&path) {
-            faults.note(&path, error);
-        }
-        match schema::find(&path).and_then(Parameter::any_value) {
-            Some(value) => schema::insert(&mut table, &path, value),
-            None => return,
-        }
-    }
-}
-
 /// Checks `[run]`.
 pub(super) fn run(plan: &RunPlan, origin: &Origin) -> Result<(), ScenarioError> {
     plan.check().map_err(|invalid| {
@@ -120,6 +142,12 @@ impl Parts<'_> {
     /// The value of a key, where it is given.
     pub(super) fn get<T>(&self, key: &Key<T>) -> Option<T> {
         key.get(self.table)
+    }
+
+    /// A coefficient as a run begins with it: its value, or the first of its table.
+    pub(super) fn first(&self, key: &Key<f64>, course: &RunsIn) -> Option<f64> {
+        let of_table = || self.get(&course.values)?.first().copied();
+        self.get(key).or_else(of_table)
     }
 
     /// The value of a key, its default, or the error that it is missing.
@@ -153,59 +181,47 @@ impl Parts<'_> {
 
     /// The law of wear. Keys of the power law are judged under either law, so that the law can be
     /// switched during a run.
-    fn wear(
-        &self,
-        indenter: &Indenter,
-        material: &Material,
-        drive: &Drive,
-    ) -> Result<Option<WearLaw>, ScenarioError> {
+    fn wear(&self, contact: &Contact) -> Result<Option<WearLaw>, ScenarioError> {
         if !self.has("wear") {
             return Ok(None);
         }
         let is_power = self.require(&keys::LAW)? == "power";
-        let first = self.get(&keys::WEAR_COURSE.values);
-        let coefficient = match first.and_then(|values| values.first().copied()) {
-            Some(first) => self.get(&keys::WEAR_COEFFICIENT).unwrap_or(first),
-            None => self.wear_coefficient(material)?,
-        };
-        let given = [
-            self.get(&keys::REFERENCE_STRESS),
-            self.get(&keys::REFERENCE_SLIP_RATE),
-        ];
-        let (mut stress, mut slip_rate) = (1.0, 1.0);
-        if is_power && given.contains(&None) {
-            (stress, slip_rate) =
-                derive::references(indenter, material, drive).ok_or_else(|| {
+        let coefficient = self.wear_coefficient(contact.material)?;
+        let stress = self.get(&keys::REFERENCE_STRESS);
+        let slip_rate = self.get(&keys::REFERENCE_SLIP_RATE);
+        let (any_stress, any_slip_rate) =
+            match is_power && (stress.is_none() || slip_rate.is_none()) {
+                true => contact.references().ok_or_else(|| {
                     let meaning = "Pa; none could be found from the contact";
                     self.origin.missing(keys::REFERENCE_STRESS.path(), meaning)
-                })?;
-        }
+                })?,
+                false => (1.0, 1.0),
+            };
         let power = WearLaw::power(
             coefficient,
             self.require(&keys::STRESS_EXPONENT)?,
             self.require(&keys::SLIP_RATE_EXPONENT)?,
-            given[0].unwrap_or(stress),
-            given[1].unwrap_or(slip_rate),
+            stress.unwrap_or(any_stress),
+            slip_rate.unwrap_or(any_slip_rate),
         );
-        let refused = |invalid| self.refused("wear", invalid);
-        let power = power.map_err(refused)?;
-        let law = if is_power {
-            power
-        } else {
-            WearLaw::archard(coefficient).map_err(refused)?
+        let law = match is_power {
+            true => power,
+            false => power.and(WearLaw::archard(coefficient)),
         };
-        Ok(Some(law))
+        law.map(Some)
+            .map_err(|invalid| self.refused("wear", invalid))
     }
 
     /// k per friction work, 1/Pa: as given, or that per load and distance over the friction that the run
     /// begins with.
     pub(super) fn wear_coefficient(&self, material: &Material) -> Result<f64, ScenarioError> {
         let Some(per_load) = self.get(&keys::WEAR_PER_LOAD) else {
-            let meaning = keys::WEAR_COEFFICIENT.parameter.described();
-            let meaning = format!("{meaning}; or coefficient_per_load, of a pin test");
-            let given = self.get(&keys::WEAR_COEFFICIENT);
-            return given
-                .ok_or_else(|| self.origin.missing(keys::WEAR_COEFFICIENT.path(), meaning));
+            let given = self.first(&keys::WEAR_COEFFICIENT, &keys::WEAR_COURSE);
+            return given.ok_or_else(|| {
+                let meaning = keys::WEAR_COEFFICIENT.parameter.described();
+                let meaning = format!("{meaning}; or coefficient_per_load, of a pin test");
+                self.origin.missing(keys::WEAR_COEFFICIENT.path(), meaning)
+            });
         };
         if material.friction() > 0.0 {
             return Ok(per_load / material.friction());
@@ -213,21 +229,6 @@ impl Parts<'_> {
         let rule = "needs friction greater than 0: per friction work it is \
                     k = coefficient_per_load / friction";
         Err(self.refuse(keys::WEAR_PER_LOAD.path(), "", rule))
-    }
-
-    /// The domain's edge, m, as given or as derived.
-    fn domain_radius(
-        &self,
-        indenter: &Indenter,
-        material: &Material,
-        drive: &Drive,
-        running_in: Option<&RunningIn>,
-        scar: Option<&Scar>,
-    ) -> Option<f64> {
-        let given = self.get(&keys::DOMAIN_RADIUS);
-        let changes = running_in.is_some_and(|laws| laws.friction.is_some());
-        let worn = scar.map_or(0.0, Scar::deepest);
-        given.or_else(|| derive::domain_radius(indenter, material, drive, !changes, worn))
     }
 
     fn grid(

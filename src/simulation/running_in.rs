@@ -6,11 +6,14 @@
 use std::sync::Arc;
 
 use crate::contact::material::Material;
-use crate::math::invalid::{Invalid, finite, non_negative, positive};
+use crate::math::invalid::{Invalid, check_table, non_negative, positive};
 use crate::wear::WearLaw;
 
 /// Closer to its end than this share of its way, an exponential counts as settled.
 const SETTLED: f64 = 1e-6;
+
+/// The most rows of a table.
+const MOST_ROWS: usize = 10_000_000;
 
 /// What a value runs in over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -79,19 +82,11 @@ impl Course {
     /// Through `values` (0 or greater) at increasing `at`.
     ///
     /// # Errors
-    /// The field is `at` or `values`.
+    /// The field is `at_cycle`, `at_energy` or `values`.
     pub fn table(at: &[f64], values: &[f64], over: Over) -> Result<Self, Invalid> {
-        if at.is_empty() || at.len() != values.len() {
-            let rule = format!("must have as many entries as the values, {}", values.len());
-            return Err(Invalid::new("at", at.len(), rule));
-        }
-        for (&x, &value) in at.iter().zip(values) {
-            finite("at", x)?;
+        check_table((over.column(), at), ("values", values), 1..=MOST_ROWS)?;
+        for &value in values {
             non_negative("values", value)?;
-        }
-        if let Some(pair) = at.windows(2).find(|pair| pair[0] >= pair[1]) {
-            let rule = format!("must increase, and follows {:e}", pair[0]);
-            return Err(Invalid::new("at", pair[1], rule));
         }
         let rows = at.iter().copied().zip(values.iter().copied());
         Ok(Self::Table {
@@ -157,6 +152,14 @@ impl Course {
 }
 
 impl Over {
+    /// The name of the column of a table over it.
+    fn column(self) -> &'static str {
+        match self {
+            Self::Cycles => "at_cycle",
+            Self::Energy => "at_energy",
+        }
+    }
+
     fn of(self, cycles: f64, energy: f64) -> f64 {
         match self {
             Self::Cycles => cycles,

@@ -7,7 +7,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use crate::math::invalid::{Invalid, finite};
+use crate::math::invalid::{Invalid, check_table};
 
 /// The most corners of a waveform.
 const MOST_CORNERS: usize = 100_000;
@@ -75,22 +75,7 @@ impl Waveform {
     /// Rows that are no closed motion; the field is `times` or `values`.
     pub fn table(times: &[f64], values: &[f64]) -> Result<Tabled, Invalid> {
         let number = times.len();
-        if !(3..=MOST_CORNERS).contains(&number) {
-            let rule = format!("must be from 3 to {MOST_CORNERS} rows");
-            return Err(Invalid::new("times", number, rule));
-        }
-        if values.len() != number {
-            let rule = format!("must have as many entries as the times, {number}");
-            return Err(Invalid::new("values", values.len(), rule));
-        }
-        for (&time, &value) in times.iter().zip(values) {
-            finite("times", time)?;
-            finite("values", value)?;
-        }
-        if let Some(pair) = times.windows(2).find(|pair| pair[0] >= pair[1]) {
-            let rule = format!("must increase, and follows {:e}", pair[0]);
-            return Err(Invalid::new("times", pair[1], rule));
-        }
+        check_table(("times", times), ("values", values), 3..=MOST_CORNERS)?;
         let lowest = values.iter().copied().fold(f64::INFINITY, f64::min);
         let highest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let (mean, amplitude) = (0.5 * (lowest + highest), 0.5 * (highest - lowest));

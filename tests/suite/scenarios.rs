@@ -411,7 +411,7 @@ fn a_run_written_out_keeps_its_plan_and_its_changes() {
     let stages: Vec<_> = changes
         .iter()
         .scan(read, |stage, change| {
-            *stage = stage.after(change).expect("a stage");
+            *stage = stage.after(std::slice::from_ref(change)).expect("a stage");
             Some(stage.clone())
         })
         .collect();

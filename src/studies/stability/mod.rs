@@ -115,7 +115,7 @@ impl Study {
         let scenario = keys
             .iter()
             .try_fold(self.scenario.clone(), |scenario, (key, value)| {
-                scenario.after(&Change::new(0.0, key, value))
+                scenario.after(&[Change::new(0.0, key, value)])
             })?;
         Session::start(scenario)
     }

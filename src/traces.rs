@@ -118,7 +118,7 @@ impl Table {
 
     /// The columns of a file, in SI units; fields that are no numbers become NaN.
     pub fn of_file(columns: &Columns) -> Self {
-        Self::of_columns(columns.header().to_vec(), columns.all())
+        Self::of_columns(columns.header.clone(), columns.all())
     }
 
     /// The number of rows.

@@ -135,7 +135,7 @@ mod tests {
         let (mut table, mut origin) = (Table::new(), Origin::new("t"));
         assign(&mut table, &mut origin, key, value, &written(key, value)).expect("a known key");
         let mut faults = Faults::default();
-        check::keys(&table, &origin, &mut faults);
+        check::keys(&mut table, &origin, &mut faults);
         assert_eq!(faults.into_error(), None);
         table
     }

@@ -6,11 +6,12 @@ use toml::{Table, Value};
 use super::error::{Faults, Origin, Refusal, ScenarioError, echo};
 use super::hints;
 use super::keys::{PARAMETERS, exclusive};
-use super::schema;
-use super::{words, write};
+use super::schema::{self, Parameter};
+use super::{units, words, write};
 
-/// Finds every key that is not in the table of parameters, has a value of the wrong kind, or excludes another.
-pub(super) fn keys(table: &Table, origin: &Origin, faults: &mut Faults) {
+/// Finds every key that is not in the table of parameters, has a value of the wrong kind, or excludes another, and
+/// puts the number in SI units in the place of every text with a unit.
+pub(super) fn keys(table: &mut Table, origin: &Origin, faults: &mut Faults) {
     section(table, "", "", origin, faults);
     for of in exclusive() {
         let mut others = of.others.iter();
@@ -25,20 +26,15 @@ pub(super) fn keys(table: &Table, origin: &Origin, faults: &mut Faults) {
 }
 
 /// Checks the keys of the table at `path`, which messages call `shown`.
-fn section(table: &Table, path: &str, shown: &str, origin: &Origin, faults: &mut Faults) {
-    for (name, value) in table {
+fn section(table: &mut Table, path: &str, shown: &str, origin: &Origin, faults: &mut Faults) {
+    let is_force = table.get("control").and_then(Value::as_str) == Some("force");
+    for (name, value) in table.iter_mut() {
         let name = echo(name);
         let (path, shown) = (schema::join(path, &name), schema::join(shown, &name));
         if path == "changes" {
             changes(value, origin, faults);
         } else if let Some(parameter) = schema::find(&path) {
-            if !parameter.kind.fits(value) {
-                let wanted = format!("{}{}", parameter.kind.wanted(), parameter.allowed());
-                let rule = format!("must be {wanted}{}", words::instead(parameter, value));
-                faults.note(&shown, origin.refuse(&shown, &show(value), rule));
-            } else if !parameter.allows(value) {
-                let each = if value.is_array() { "each " } else { "" };
-                let rule = format!("{each}must be {}", parameter.range);
+            if let Some(rule) = broken(value, parameter, is_force) {
                 faults.note(&shown, origin.refuse(&shown, &show(value), rule));
             }
         } else if schema::is_section(&path) {
@@ -59,18 +55,39 @@ fn section(table: &Table, path: &str, shown: &str, origin: &Origin, faults: &mut
     }
 }
 
+/// The rule that the value of a key breaks. A text with a unit becomes a number.
+fn broken(value: &mut Value, parameter: &Parameter, is_force: bool) -> Option<String> {
+    let text = value.as_str().unwrap_or_default();
+    match units::quantity(text, parameter, is_force) {
+        Some(Ok(number)) => *value = Value::Float(number),
+        Some(Err(rule)) => {
+            let hint = units::of_other_control(text, parameter);
+            return Some(hint.map_or(rule, str::to_owned));
+        }
+        None => {}
+    }
+    if !parameter.kind.fits(value) {
+        let wanted = format!("{}{}", parameter.kind.wanted(), parameter.allowed());
+        let instead = words::instead(parameter, value);
+        return Some(format!("must be {wanted}{instead}"));
+    }
+    let each = if value.is_array() { "each " } else { "" };
+    let rule = || format!("{each}must be {}", parameter.range);
+    (!parameter.allows(value)).then(rule)
+}
+
 /// Checks `[[changes]]`: an array of tables, each with both of its keys.
-fn changes(value: &Value, origin: &Origin, faults: &mut Faults) {
+fn changes(value: &mut Value, origin: &Origin, faults: &mut Faults) {
     let refuse = |shown: &str, value: &Value| {
         let rule = "must be an array of tables, [[changes]] with at_cycle and set";
         origin.refuse(shown, &show(value), rule)
     };
-    let Some(list) = value.as_array() else {
+    let Some(list) = value.as_array_mut() else {
         return faults.note("changes", refuse("changes", value));
     };
-    for (i, entry) in list.iter().enumerate() {
+    for (i, entry) in list.iter_mut().enumerate() {
         let shown = format!("changes[{i}]");
-        let Some(table) = entry.as_table() else {
+        let Some(table) = entry.as_table_mut() else {
             faults.note(&shown, refuse(&shown, entry));
             continue;
         };

@@ -20,10 +20,12 @@ const OWN: [&str; 6] = ["m", "m3", "N", "s", "J", "Pa"];
 /// A file of columns, read whole.
 #[derive(Debug, Clone)]
 pub struct Columns {
-    path: String,
-    /// The lines `# key: value`.
-    header: Vec<(String, String)>,
-    names: Vec<String>,
+    /// The file's name, fit for a line.
+    pub path: String,
+    /// The lines `# key: value`, which this program's own files have.
+    pub header: Vec<(String, String)>,
+    /// The names of the columns, as they are in the file.
+    pub names: Vec<String>,
     /// The line of each row, counted from 1, and its fields.
     rows: Vec<(u64, csv::StringRecord)>,
 }
@@ -89,16 +91,6 @@ impl Columns {
             names,
             rows,
         })
-    }
-
-    /// The file's name, fit for a line.
-    pub fn path(&self) -> &str {
-        &self.path
-    }
-
-    /// The lines `# key: value` above the names, which this program's own files have.
-    pub fn header(&self) -> &[(String, String)] {
-        &self.header
     }
 
     /// The cycle that the header states.
@@ -168,11 +160,6 @@ impl Columns {
             (name, in_si.collect())
         };
         self.names.iter().enumerate().map(column).collect()
-    }
-
-    /// The names of the columns, as they are in the file.
-    pub fn names(&self) -> &[String] {
-        &self.names
     }
 
     /// The fields of a row, as they are in the file.

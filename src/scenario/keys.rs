@@ -224,21 +224,29 @@ pub(super) struct Exclusive {
     pub are_twins: bool,
 }
 
+/// Keys for different ways to say something, of which a scenario takes one.
+fn rivals(keys: &[&'static str], others: &[&'static str], rule: &'static str) -> Exclusive {
+    Exclusive {
+        keys: keys.to_vec(),
+        others: others.to_vec(),
+        rule,
+        are_twins: false,
+    }
+}
+
+/// Keys for the same thing.
+fn twins(keys: &[&'static str], others: &[&'static str], rule: &'static str) -> Exclusive {
+    Exclusive {
+        are_twins: true,
+        ..rivals(keys, others, rule)
+    }
+}
+
 /// Every kind of value that a scenario can give in one of several ways.
 pub(super) fn exclusive() -> Vec<Exclusive> {
     const EITHER: &str = "{}; give one of them";
     const OF_LOAD: &str = "{}, which is per friction work; give one of them";
     const BODIES: [&str; 2] = ["material.indenter", "material.half_space"];
-    let of = |keys: &[&'static str], others: &[&'static str], rule| Exclusive {
-        keys: keys.to_vec(),
-        others: others.to_vec(),
-        rule,
-        are_twins: false,
-    };
-    let twins = |keys: &[&'static str], others: &[&'static str], rule| Exclusive {
-        are_twins: true,
-        ..of(keys, others, rule)
-    };
     let accuracy = "{}, which it chooses; give one of them";
     let pair = "two bodies; give either effective_modulus and poisson, or [material.indenter] and \
                 [material.half_space]";
@@ -247,24 +255,22 @@ pub(super) fn exclusive() -> Vec<Exclusive> {
     let mut all = vec![
         twins(&[ACCURACY.path()], &CHOSEN_BY_ACCURACY, accuracy),
         twins(&per_load, &[WEAR_COEFFICIENT.path()], OF_LOAD),
-        of(&per_load, &WEAR_COURSE.exponential(), OF_LOAD),
-        of(&per_load, &[WEAR_COURSE.values.path()], OF_LOAD),
-        of(&[EFFECTIVE_MODULUS.path(), POISSON.path()], &BODIES, pair),
-        of(&[HARDNESS.path()], &BODIES, hardness),
+        rivals(&per_load, &WEAR_COURSE.exponential(), OF_LOAD),
+        rivals(&per_load, &[WEAR_COURSE.values.path()], OF_LOAD),
+        rivals(&[EFFECTIVE_MODULUS.path(), POISSON.path()], &BODIES, pair),
+        rivals(&[HARDNESS.path()], &BODIES, hardness),
     ];
     for motion in [NORMAL, TANGENTIAL] {
-        all.push(twins(
-            &[motion.hertz.path()],
-            &[motion.frequency.path()],
-            EITHER,
-        ));
+        let (hertz, angular) = (motion.hertz.path(), motion.frequency.path());
+        all.push(twins(&[hertz], &[angular], EITHER));
     }
     for course in [FRICTION_COURSE, WEAR_COURSE] {
-        let table = [course.at_cycle.path(), course.at_energy.path()];
+        let exponential = course.exponential();
+        let table = [course.at_energy.path(), course.at_cycle.path()];
         let rule = "a table of values; give one of them";
-        all.push(of(&course.exponential(), &table, rule));
-        all.push(of(&[course.energy.path()], &[course.cycles.path()], EITHER));
-        all.push(of(&table[1..], &table[..1], EITHER));
+        all.push(rivals(&exponential, &table, rule));
+        all.push(rivals(&exponential[2..], &exponential[1..2], EITHER));
+        all.push(rivals(&table[..1], &table[1..], EITHER));
     }
     all
 }

@@ -296,14 +296,10 @@ impl Scenario {
         embed::files(&mut table, origin, &mut from)?;
         let from = &from;
         let mut faults = Faults::default();
-        units::to_si(&mut table, "", from, &mut faults);
-        check::keys(&table, from, &mut faults);
+        check::keys(&mut table, from, &mut faults);
         let (complete, setup) = validate::setup(&mut table, from, faults)?;
         let changes: Vec<Change> = part(&table, "changes");
-        if changes.len() > MOST_CHANGES {
-            let rule = format!("must have at most {MOST_CHANGES} entries");
-            return Err(from.refuse("changes", &changes.len().to_string(), rule));
-        }
+        run::at_most(MOST_CHANGES, "changes", changes.len(), from)?;
         let given = keys::TITLE.get(&table);
         let given = given.filter(|title| !title.trim().is_empty());
         let description = keys::DESCRIPTION.get(&table).unwrap_or_default();
@@ -317,7 +313,7 @@ impl Scenario {
             run: part(&table, "run"),
             changes: Vec::new(),
         };
-        validate::run(&scenario.run, from)?;
+        scenario.run.check(from)?;
         scenario.check_changes(&changes, from)?;
         let mut scenario = scenario.with_changes(changes);
         if scenario.run.stated.is_some() && scenario.statements().is_empty() {

@@ -80,18 +80,12 @@ impl Parts<'_> {
     fn control(&self, motion: &Motion, other: &Motion) -> Result<Control, ScenarioError> {
         let refused = |invalid| self.refused(motion.section, invalid);
         let tabled = self.tabled_motion(motion)?;
-        let or_of_table = |key: &Key<f64>, value: fn(&Tabled) -> f64| {
-            let given = self.get(key);
-            given.or_else(|| tabled.as_ref().map(value))
+        let or_of_table = |key: &Key<f64>, of: fn(&Tabled) -> f64| {
+            let value = self.get(key).or_else(|| tabled.as_ref().map(of));
+            value.map_or_else(|| self.require(key), Ok)
         };
-        let mean = match or_of_table(&motion.mean, |table| table.mean) {
-            Some(mean) => mean,
-            None => self.require(&motion.mean)?,
-        };
-        let amplitude = match or_of_table(&motion.amplitude, |table| table.amplitude) {
-            Some(amplitude) => amplitude,
-            None => self.require(&motion.amplitude)?,
-        };
+        let mean = or_of_table(&motion.mean, |table| table.mean)?;
+        let amplitude = or_of_table(&motion.amplitude, |table| table.amplitude)?;
         let of_table = || tabled.as_ref().map(|table| table.angular_frequency);
         let frequency = match self.frequency(motion).or_else(of_table) {
             Some(frequency) => frequency,

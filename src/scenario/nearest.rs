@@ -21,6 +21,14 @@ pub fn nearest<'a>(typed: &str, known: impl Iterator<Item = &'a str>) -> Option<
     best
 }
 
+/// What is said to a mistyped name: the known one that it most likely stands for, or all of them.
+pub fn hint<'a>(typed: &str, known: impl Iterator<Item = &'a str> + Clone) -> String {
+    match nearest(typed, known.clone()) {
+        Some(near) => format!("did you mean {near}?"),
+        None => format!("known are {}", known.collect::<Vec<_>>().join(", ")),
+    }
+}
+
 fn score(typed: &str, known: &str) -> f64 {
     let ((table, key), (known_table, known_key)) = (split(typed), split(known));
     if table == known_table {

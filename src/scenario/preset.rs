@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::sync::LazyLock;
 
 use super::error::printable;
-use super::nearest::nearest;
+use super::nearest;
 
 /// A preset.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,17 +58,8 @@ pub fn is_path(text: &str) -> bool {
 
 /// A hint for the unknown `name`.
 pub(super) fn hint(name: &str) -> String {
-    let names = ALL.iter().map(|preset| preset.name);
-    match nearest(name, names.clone()) {
-        Some(near) => format!("did you mean {near}? A path ends in .toml or contains a /"),
-        None => {
-            let names: Vec<&str> = names.collect();
-            format!(
-                "there are {}; a path ends in .toml or contains a /",
-                names.join(", ")
-            )
-        }
-    }
+    let hint = nearest::hint(name, ALL.iter().map(|preset| preset.name));
+    format!("{hint} (a path ends in .toml or contains a /)")
 }
 
 impl Preset {
@@ -178,6 +169,6 @@ mod tests {
                 .starts_with("mindlyn: no such preset; did you mean mindlin?")
         );
         let error = Scenario::load("q", &[]).expect_err("no such preset");
-        assert!(error.to_string().contains("there are li2019-fig3, hertz"));
+        assert!(error.to_string().contains("known are li2019-fig3, hertz"));
     }
 }

@@ -4,8 +4,7 @@
 
 use std::cell::OnceCell;
 
-use super::nearest::nearest;
-use super::printable;
+use super::{nearest, printable};
 use crate::math::scan::largest;
 use crate::reading::Moment;
 use crate::reading::fatigue::{Limits, StressCycle};
@@ -214,11 +213,7 @@ pub fn find(name: &str) -> Option<&'static Scalar> {
 /// In one line, the unknown name with the nearest known one.
 pub fn named(name: &str) -> Result<&'static Scalar, String> {
     find(name).ok_or_else(|| {
-        let known = || SCALARS.iter().map(|scalar| scalar.name);
-        let hint = match nearest(name, known()) {
-            Some(near) => format!("did you mean {near}?"),
-            None => format!("known are {}", known().collect::<Vec<_>>().join(", ")),
-        };
+        let hint = nearest::hint(name, SCALARS.iter().map(|scalar| scalar.name));
         format!("unknown column {}; {hint}", printable(name))
     })
 }

@@ -3,7 +3,7 @@
 use serde::de::DeserializeOwned;
 
 use super::error::printable;
-use super::nearest::nearest;
+use super::nearest;
 
 /// serde's words for the types that it expected, and a user's.
 const WORDS: [(&str, &str); 4] = [
@@ -31,10 +31,8 @@ fn in_words(message: &str) -> String {
     let message = printable(&message.replace('\n', "; "));
     let named: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     if let ([unknown, known @ ..], true) = (&named[..], message.starts_with("unknown field")) {
-        return match nearest(unknown, known.iter().copied()) {
-            Some(near) => format!("unknown key {unknown}; did you mean {near}?"),
-            None => format!("unknown key {unknown}; known are {}", known.join(", ")),
-        };
+        let hint = nearest::hint(unknown, known.iter().copied());
+        return format!("unknown key {unknown}; {hint}");
     }
     match message.rsplit_once(", expected ") {
         Some((seen, wanted)) => {

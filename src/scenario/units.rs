@@ -7,12 +7,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use toml::{Table, Value};
-
-use super::error::{Faults, Origin, echo};
+use super::error::echo;
 use super::keys::PRESCRIBED;
-use super::schema::{self, Kind, Parameter};
-use super::write;
+use super::schema::{Kind, Parameter};
 
 /// Powers of metre, kilogram, second and radian.
 type Dimension = [i32; 4];
@@ -242,11 +239,6 @@ pub(super) fn with_decimal_point(text: &str) -> Option<String> {
     (is_number && goes_on && !fraction.contains(',')).then(|| format!("{whole}.{fraction}"))
 }
 
-/// Whether the text is a number with a unit of this dimension.
-fn is_of(text: &str, unit: &str) -> bool {
-    matches!(in_unit(text, unit), Some(Ok(_)))
-}
-
 /// How a value of a unit may be written.
 fn example(unit: &str) -> &'static str {
     match unit {
@@ -262,36 +254,15 @@ fn example(unit: &str) -> &'static str {
     }
 }
 
-/// Replaces every text that is a number with a unit by the number in the unit of its key, in the table at `path`.
-pub(super) fn to_si(table: &mut Table, path: &str, origin: &Origin, faults: &mut Faults) {
-    let is_force = table.get("control").and_then(Value::as_str) == Some("force");
-    for (key, value) in table.iter_mut() {
-        let path = schema::join(path, key);
-        let known = schema::find(&path).filter(|known| known.kind == Kind::Number);
-        let (text, known) = match (&mut *value, known) {
-            (Value::Table(inner), _) => {
-                to_si(inner, &path, origin, faults);
-                continue;
-            }
-            (Value::String(text), Some(known)) => (text, known),
-            _ => continue,
-        };
-        let refused = match in_unit(text, unit_of(known, is_force)) {
-            None => continue,
-            Some(Ok(number)) => {
-                *value = Value::Float(number);
-                continue;
-            }
-            Some(Err(_)) if known.unit == PRESCRIBED && is_of(text, "N") => {
-                "N is no length: set control = \"force\" for a load".to_owned()
-            }
-            Some(Err(_)) if known.unit == PRESCRIBED && is_of(text, "m") => {
-                "m is no force: set control = \"displacement\" for a depth".to_owned()
-            }
-            Some(Err(rule)) => rule,
-        };
-        let written = echo(&write::value(value));
-        faults.note(&path, origin.refuse(&path, &written, refused));
+/// The rule for a force where a motion prescribes a displacement, and the other way round; `None` for other texts.
+pub(super) fn of_other_control(text: &str, known: &Parameter) -> Option<&'static str> {
+    let is_of = |unit| matches!(in_unit(text, unit), Some(Ok(_)));
+    match known.unit {
+        PRESCRIBED if is_of("N") => Some("N is no length: set control = \"force\" for a load"),
+        PRESCRIBED if is_of("m") => {
+            Some("m is no force: set control = \"displacement\" for a depth")
+        }
+        _ => None,
     }
 }
 

@@ -10,7 +10,6 @@ use super::complete;
 use super::derive::{self, Contact};
 use super::error::{Faults, Origin, ScenarioError};
 use super::keys::{self, RunsIn};
-use super::run::RunPlan;
 use super::schema::{self, Key, Parameter};
 use crate::contact::indenter::Indenter;
 use crate::contact::material::Material;
@@ -118,14 +117,6 @@ fn made(table: &Table, written: &Table, origin: &Origin) -> Result<Setup, Scenar
         .map_err(|invalid| parts.refused("numerics", invalid))?,
     };
     Ok(setup)
-}
-
-/// Checks `[run]`.
-pub(super) fn run(plan: &RunPlan, origin: &Origin) -> Result<(), ScenarioError> {
-    plan.check().map_err(|invalid| {
-        let path = format!("run.{}", invalid.field);
-        origin.refuse(&path, &invalid.value, invalid.rule)
-    })
 }
 
 /// The tables of a scenario, and where they come from: its parts are made from them here and in the modules beside

@@ -161,7 +161,7 @@ fn read(
     kind: Kind,
 ) -> Result<Measured, ScenarioError> {
     let measured = Measured {
-        name: columns.path().to_owned(),
+        name: columns.path.clone(),
         kind,
         at: columns.column(at.0, at.1)?,
         values: columns.column(values.0, values.1)?,

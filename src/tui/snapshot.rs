@@ -171,7 +171,7 @@ fn past(directory: &Path, cycle: f64, initial: f64) -> Option<Trend> {
     let file = read("history.csv")?;
     let history = Table::of_file(&file);
     let cycles = history.column("cycle")?;
-    let has_all = file.names() == history::COLUMNS;
+    let has_all = file.names == history::COLUMNS;
     let entries = (0..cycles.len()).filter(|&row| cycles[row] <= cycle);
     let entries = entries.map(|row| {
         let value = |name| history.column(name).map_or(f64::NAN, |column| column[row]);

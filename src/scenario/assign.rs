@@ -99,24 +99,27 @@ fn parse(parameter: &Parameter, text: &str) -> Value {
 }
 
 /// Drops the keys of the previous shape, which would be refused or misread: the radius of a punch
-/// is not a radius of curvature. Keys assigned together with the shape stay.
+/// is not a radius of curvature, and a punch brings its own edge of the domain. Keys of both shapes that are assigned
+/// together with the shape stay.
 fn drop_keys_of_other_shapes(table: &mut Table, shape: &Value, origin: &Origin) {
-    const PUNCH: &str = "flat-punch";
-    let known = shape.as_str().filter(|shape| keys::SHAPES.contains(shape));
-    let (Some(shape), Some(Value::Table(indenter))) = (known, table.get_mut("indenter")) else {
+    let Some(shape) = shape.as_str().filter(|shape| keys::SHAPES.contains(shape)) else {
         return;
     };
-    let before = indenter.get("shape").and_then(Value::as_str);
-    let other_radius = (before == Some(PUNCH)) != (shape == PUNCH);
-    indenter.retain(|key, _| {
-        let path = format!("indenter.{key}");
-        let misread = key == "radius" && other_radius && !origin.assigns(&path);
-        let takes = |known: &Parameter| known.shapes.is_empty() || known.shapes.contains(&shape);
-        !misread && schema::find(&path).is_none_or(takes)
-    });
-    // A punch brings its own edge of the domain.
-    if shape == PUNCH && !origin.assigns(keys::DOMAIN_RADIUS.path()) {
-        schema::remove(table, keys::DOMAIN_RADIUS.path());
+    let is_punch = |shape: &str| shape == "flat-punch";
+    let was_punch = keys::SHAPE
+        .get(table)
+        .is_some_and(|before| is_punch(&before));
+    let others = keys::PARAMETERS.iter().filter(|key| !key.is_of(shape));
+    for key in others {
+        schema::remove(table, key.path);
+    }
+    for (key, is_stale) in [
+        (&keys::RADIUS, was_punch != is_punch(shape)),
+        (&keys::DOMAIN_RADIUS, is_punch(shape)),
+    ] {
+        if is_stale && !origin.assigns(key.path()) {
+            schema::remove(table, key.path());
+        }
     }
 }
 

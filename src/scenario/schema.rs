@@ -163,6 +163,11 @@ impl Parameter {
         }
     }
 
+    /// Whether an indenter of this shape takes the key.
+    pub(super) fn is_of(&self, shape: &str) -> bool {
+        self.shapes.is_empty() || self.shapes.contains(&shape)
+    }
+
     /// Why it cannot change during a run; `None` where it can.
     pub fn fixed(&self) -> Option<&'static str> {
         let because = match self.path {

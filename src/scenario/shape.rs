@@ -51,13 +51,13 @@ impl Parts<'_> {
     }
 
     fn refuse_keys_of_other_shapes(&self, shape: &str) -> Result<(), ScenarioError> {
-        let of_shapes = || PARAMETERS.iter().filter(|known| !known.shapes.is_empty());
-        let foreign =
-            of_shapes().find(|known| self.has(known.path) && !known.shapes.contains(&shape));
+        let foreign = PARAMETERS
+            .iter()
+            .find(|key| self.has(key.path) && !key.is_of(shape));
         let Some(foreign) = foreign else {
             return Ok(());
         };
-        let takes = of_shapes().filter(|known| known.shapes.contains(&shape));
+        let takes = PARAMETERS.iter().filter(|key| key.shapes.contains(&shape));
         let takes: Vec<&str> = takes.map(|known| known.key()).collect();
         let rule = format!(
             "shape = \"{shape}\" has no such key; it takes {}",

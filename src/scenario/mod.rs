@@ -1,9 +1,9 @@
 //! Scenarios: from a TOML text, and what the command line adds to it, to parts that can be run.
 //!
-//! The pipeline: text (`read`) → TOML table → assignments (`assign`) → columns of other files (`embed`, `columns`)
-//! and numbers with units (`units`), in SI → every key checked against the [`schema`] (`check`) → defaults
-//! (`complete`, `derive`) → the parts' own constructors (`validate`) → [`Scenario`]. Each step refuses with one line
-//! that names the origin, the dotted path, the value and the rule.
+//! The pipeline: text (`read`) → TOML table → assignments (`assign`) → columns of other files (`embed`, `columns`) →
+//! every key checked against the [`schema`], with its number in SI units (`check`, `units`) → defaults (`complete`,
+//! `derive`) → the parts' own constructors (`validate`) → [`Scenario`]. Each step refuses with one line that names the
+//! origin, the dotted path, the value and the rule.
 
 use std::path::Path;
 
@@ -143,7 +143,7 @@ impl Scenario {
 
     /// Where the domain radius comes from.
     pub fn domain(&self) -> Domain {
-        let is_given = self.value("numerics.domain_radius").is_some();
+        let is_given = keys::DOMAIN_RADIUS.get(&self.table).is_some();
         if is_given || self.setup.indenter.rim().is_some() {
             Domain::Given
         } else {

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::sync::LazyLock;
 
 use super::error::printable;
-use super::nearest;
+use super::{keys, nearest};
 
 /// A preset.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -81,22 +81,16 @@ impl Preset {
 /// Title and summary by name, read once: a list of presets is drawn with every frame.
 static ABOUT: LazyLock<HashMap<&'static str, [String; 2]>> = LazyLock::new(|| {
     let about = |preset: &Preset| {
-        let table = preset.text.parse::<toml::Table>().unwrap_or_default();
-        let texts = ["title", "description"].map(|key| text_of(&table, key));
+        let table = preset.text.parse().unwrap_or_default();
+        let texts = [keys::TITLE, keys::DESCRIPTION].map(|key| {
+            let text = key.get(&table).unwrap_or_default();
+            let words: Vec<&str> = text.split_whitespace().collect();
+            printable(&words.join(" "))
+        });
         (preset.name, texts)
     };
     ALL.iter().map(about).collect()
 });
-
-/// A text of a scenario on one line.
-fn text_of(table: &toml::Table, key: &str) -> String {
-    let text = table
-        .get(key)
-        .and_then(toml::Value::as_str)
-        .unwrap_or_default();
-    let words: Vec<&str> = text.split_whitespace().collect();
-    printable(&words.join(" "))
-}
 
 #[cfg(test)]
 mod tests {

@@ -2,7 +2,8 @@
 //!
 //! Curves are drawn as exact straight segments between the positions of their points,
 //! clipped to the raster before a dot is set, so that a far point costs no more than a near
-//! one. All of them are drawn, which keeps every peak however many points there are. Below the curves lies a second, weaker layer
+//! one. Points that share a column of dots are drawn as that column's range, which keeps
+//! every peak however many points there are. Below the curves lies a second, weaker layer
 //! (fills, rules); it gives way in every cell that a curve touches, so that no dot of it
 //! can be mistaken for the curve's.
 //!
@@ -56,20 +57,34 @@ impl Raster {
         style: Style,
         stroke: Stroke,
     ) {
-        let [across, down] = stroke.runs(self.marker);
+        let (size, [across, down]) = (self.size(), stroke.runs(self.marker));
+        let mut draw = |from: [f64; 2], to: [f64; 2]| {
+            walk(from, to, size, |column, row, is_steep| {
+                let (along, runs) = if is_steep {
+                    (row, down)
+                } else {
+                    (column, across)
+                };
+                self.set(column, row, style, draws(runs, along));
+            });
+        };
         let mut previous: Position = None;
-        for point in points {
-            if let Some(to) = point {
-                // A point alone is a dot.
-                let from = previous.unwrap_or(to);
-                walk(from, to, self.size(), |column, row, is_steep| {
-                    let (along, runs) = if is_steep {
-                        (row, down)
-                    } else {
-                        (column, across)
-                    };
-                    self.set(column, row, style, draws(runs, along));
-                });
+        // The lowest and the highest of the last points, which share a column of dots.
+        let mut range: Option<[[f64; 2]; 2]> = None;
+        for point in points.chain([None]) {
+            if let (Some([x, y]), Some([low, high])) = (point, &mut range)
+                && x.round() == low[0]
+            {
+                low[1] = low[1].min(y);
+                high[1] = high[1].max(y);
+            } else {
+                if let Some([low, high]) = range {
+                    draw(low, high);
+                }
+                if let (Some(from), Some(to)) = (previous, point) {
+                    draw(from, to);
+                }
+                range = point.map(|[x, y]| [[x.round(), y]; 2]);
             }
             previous = point;
         }

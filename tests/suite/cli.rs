@@ -10,7 +10,7 @@ use mdr_tui::reading::Curves;
 use mdr_tui::scenario::preset;
 
 use crate::common::{load, ran};
-use crate::test_dir::{Said, Table, TestDir, bits, end, has, names};
+use crate::test_dir::{Said, Table, TestDir, bits, cases, end, has, names};
 
 #[test]
 fn a_bad_scenario_is_a_line_an_error_and_nothing_written() {
@@ -45,36 +45,27 @@ fn a_bad_scenario_is_a_line_an_error_and_nothing_written() {
 #[test]
 fn a_bad_value_is_one_line_and_nothing_written() {
     let dir = TestDir::new();
-    for (set, rule) in [
-        ("indenter.radius=-0.01", "must be greater than 0"),
-        ("indenter.radius=nan", "must be a finite number"),
-        ("indenter.radius=inf", "must be a finite number"),
-        ("indenter.radius=wide", "must be a finite number"),
-        ("material.poisson=0.7", "must be from 0 to 0.5"),
-        ("numerics.points=0", "must be from 4 to"),
-        ("numerics.points=1e12", "must be a whole number"),
-        ("numerics.points=1000000000000", "must be from 4 to"),
-        (
-            "numerics.points=99999999999999999999",
-            "must be a whole number",
-        ),
-        ("numerics.points=", "must be KEY=VALUE"),
-        ("numerics.steps_per_cycle=0", "must be from 1 to"),
-        (
-            "numerics.scheme=best",
-            "must be one of \"trapezoid\", \"euler\"",
-        ),
-        (
-            "numerics.method=best",
-            "must be one of \"product\", \"a\", \"a+b\"",
-        ),
-        ("numerics.mehtod=a", "did you mean numerics.method?"),
-        ("friction.coefficient=-0.1", "must be"),
-        ("wear.coefficient=nan", "must be a finite number"),
-        ("numerics=1", "numerics is a table"),
-        ("radius", "must be KEY=VALUE"),
-        ("ra\u{1b}[2J\u{7}dius=1", "ra\\u{1b}[2J\\u{7}dius"),
-    ] {
+    for (set, rule) in cases([
+        "indenter.radius=-0.01 => must be greater than 0",
+        "indenter.radius=nan => must be a finite number",
+        "indenter.radius=inf => must be a finite number",
+        "indenter.radius=wide => must be a finite number",
+        "material.poisson=0.7 => must be from 0 to 0.5",
+        "numerics.points=0 => must be from 4 to",
+        "numerics.points=1e12 => must be a whole number",
+        "numerics.points=1000000000000 => must be from 4 to",
+        "numerics.points=99999999999999999999 => must be a whole number",
+        "numerics.points= => must be KEY=VALUE",
+        "numerics.steps_per_cycle=0 => must be from 1 to",
+        "numerics.scheme=best => must be one of \"trapezoid\", \"euler\"",
+        "numerics.method=best => must be one of \"product\", \"a\", \"a+b\"",
+        "numerics.mehtod=a => did you mean numerics.method?",
+        "friction.coefficient=-0.1 => must be",
+        "wear.coefficient=nan => must be a finite number",
+        "numerics=1 => numerics is a table",
+        "radius => must be KEY=VALUE",
+        "ra\u{1b}[2J\u{7}dius=1 => ra\\u{1b}[2J\\u{7}dius",
+    ]) {
         let arguments = ["run", "li2019-fig3", "--out", "new", "--set", set];
         let said = dir.refuse(&arguments, rule);
         has(&said, &format!("--set {}", &set[..2]));
@@ -141,16 +132,13 @@ fn an_unwritable_out_is_one_line_and_nothing_written() {
     dir.write("file", b"in the way");
     fs::create_dir(dir.path("full")).expect("a directory");
     dir.write("full/notes.txt", b"mine");
-    for (out, expected) in [
-        ("file", "file: is not a directory"),
-        ("file/below", "file/below: cannot write: Not a directory"),
-        ("full", "full: not empty; choose another"),
-        (
-            "file/\u{1b}[31m\n",
-            "file/\\u{1b}[31m\\n: cannot write: Not a directory",
-        ),
-        ("", "--out <DIR>"),
-    ] {
+    for (out, expected) in cases([
+        "file => file: is not a directory",
+        "file/below => file/below: cannot write: Not a directory",
+        "full => full: not empty; choose another",
+        "file/\u{1b}[31m\n => file/\\u{1b}[31m\\n: cannot write: Not a directory",
+        " => --out <DIR>",
+    ]) {
         dir.refuse(&["run", "hertz", "--cycles", "0.1", "--out", out], expected);
     }
     if cfg!(target_os = "linux") {
@@ -523,9 +511,9 @@ fn stability_draws_a_map_and_writes_its_runs() {
         "a, guard off\n    25 ....|. ######\n",
         "a, guard on\n    25 ....|. ......\n",
     ] {
-        assert!(said.out.contains(map), "{}", said.out);
+        has(&said.out, map);
     }
-    assert!(said.out.contains("critical K"), "{}", said.out);
+    has(&said.out, "critical K");
     let rows = dir.read("map.csv");
     let rows: Vec<&str> = rows.lines().filter(|line| !line.starts_with('#')).collect();
     assert_eq!(rows.len(), 5, "{rows:?}");
@@ -591,7 +579,7 @@ fn shells_complete_presets_files_keys_and_words() {
 fn every_command_has_a_man_page_with_its_options_and_their_values() {
     let dir = TestDir::new();
     let page = dir.done("man");
-    assert!(page.contains(".TH mdr-tui 1"), "{page}");
+    has(&page, ".TH mdr-tui 1");
     for command in ["run", "presets", "verify", "trade", "completions", "man"] {
         let title = format!(".TH mdr-tui-{command} 1");
         assert_eq!(page.matches(&title).count(), 1, "{command}");
@@ -617,10 +605,10 @@ fn every_command_has_a_man_page_with_its_options_and_their_values() {
         "every-step",
         "--json\n",
     ] {
-        assert!(options.contains(option), "{option}: {options}");
+        has(&options, option);
     }
     assert!(section("mdr-tui-run", "SYNOPSIS").starts_with("mdr-tui run [OPTIONS] <SCENARIO>"));
-    assert!(section("mdr-tui-figure", "SYNOPSIS").contains("-o|--out"));
+    has(&section("mdr-tui-figure", "SYNOPSIS"), "-o|--out");
     assert_eq!(dir.read("pages/mdr-tui-fit.1"), dir.done("man fit"));
 }
 
@@ -640,11 +628,11 @@ fn every_help_has_an_example() {
         let (_, examples) = help
             .split_once("Example")
             .unwrap_or_else(|| panic!("{command} --help without an example"));
-        assert!(examples.contains("\n  mdr-tui"), "{examples}");
+        has(examples, "\n  mdr-tui");
     }
     let help = dir.done("--help");
     for command in ["run", "presets", "verify", "trade", "completions", "man"] {
-        assert!(help.contains(&format!("\n  {command} ")), "{command}");
+        has(&help, &format!("\n  {command} "));
     }
     let version = dir.done("--version");
     assert_eq!(version, format!("mdr-tui {}\n", env!("CARGO_PKG_VERSION")));

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::common::{Scene, holds, ours, run_setup, swing};
-use crate::test_dir::{Table, TestDir};
+use crate::test_dir::{Table, TestDir, cases};
 use mdr_tui::oracle::half_space::by_point_forces;
 use mdr_tui::reading::Curves;
 use mdr_tui::reading::fatigue::{Fatigue, Limits, StressCycle};
@@ -309,16 +309,10 @@ fn runs_and_studies_tell_the_parameters_where_they_are_asked() {
         swt.len() == 3 && swt.iter().all(|&each| (each / swt[0] - 1.0).abs() < 1e-3),
         "{swt:?}"
     );
-    for (column, why) in [
-        (
-            "swt_pa",
-            "mdr-tui: --column: unknown column swt_pa; did you mean swt_Pa?\n",
-        ),
-        (
-            "cycle",
-            "mdr-tui: --column: cycle is a column of the history already\n",
-        ),
-    ] {
+    for (column, why) in cases([
+        "swt_pa => mdr-tui: --column: unknown column swt_pa; did you mean swt_Pa?\n",
+        "cycle => mdr-tui: --column: cycle is a column of the history already\n",
+    ]) {
         let said = run(column);
         assert_eq!((said.code, said.err.as_str()), (2, why));
     }

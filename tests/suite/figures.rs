@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::test_dir::{Table, TestDir};
+use crate::test_dir::{Table, TestDir, cases, has, lacks};
 use mdr_tui::figure::Sheet;
 use mdr_tui::figure::canvas::Shape;
 use mdr_tui::figure::look::{Look, Style};
@@ -110,7 +110,7 @@ fn the_guide_lays_the_figures_beside_the_papers() {
     dir.done("figure --figure fig3 -o fig3.svg --quiet");
     let guide = dir.done("guide figures");
     let page: String = include_str!("../../src/guide/figures.md").into();
-    assert!(guide.contains("point by point"));
+    has(&guide, "point by point");
     let row = |start: &str| -> String {
         let mut rows = page
             .lines()
@@ -122,7 +122,7 @@ fn the_guide_lays_the_figures_beside_the_papers() {
     let says = |start: &str, texts: &[String]| {
         let row = row(start);
         for text in texts {
-            assert!(row.contains(text.as_str()), "{text} is not in {row}");
+            has(&row, text.as_str());
         }
     };
 
@@ -274,17 +274,14 @@ fn a_rig_that_yields_has_two_loops() {
                 "{name}"
             );
         }
-        assert!(
-            dir.read(&format!("{name}.svg")).contains("rig's sensor"),
-            "{name}"
-        );
+        has(&dir.read(&format!("{name}.svg")), "rig's sensor");
     }
     let two = data(&dir, "two.csv");
     for end in [2, 3] {
         let named = |suffix: &str| curve(&two, "a", &format!("{end} cycles{suffix}"));
         assert_eq!(named("").1, named(" (rig's sensor)").1, "{end}");
     }
-    assert!(!dir.read("stiff.svg").contains("sensor"));
+    lacks(&dir.read("stiff.svg"), "sensor");
     // The screen's figure has what its panel has.
     let said = dir.say(&[
         "gross-slip",
@@ -421,9 +418,9 @@ fn a_sweep_is_a_map_with_its_borders() {
         ">partial slip<",
         ">running condition changes<",
     ] {
-        assert!(svg.contains(words), "{words}");
+        has(&svg, words);
     }
-    assert!(!svg.contains("lift-off"), "no point opens");
+    lacks(&svg, "lift-off");
     // Over one axis: a curve whose bars are the estimated errors.
     dir.done("figure map.csv --set motion.normal.mean=1e-6 -o line.svg --quiet");
     let line = data(&dir, "line.csv");
@@ -437,24 +434,12 @@ fn a_sweep_is_a_map_with_its_borders() {
         assert_eq!((&row[2], &row[3]), (&of_table[1], &of_table[2]));
     }
     assert_eq!(line.header("motion.normal.mean"), "1e-6");
-    for (arguments, why) in [
-        (
-            "--column depth",
-            "--column depth: map.csv has wear_volume_m3, regime",
-        ),
-        (
-            "--panel loop",
-            "--panel: is for a run; map.csv is the table of a sweep",
-        ),
-        (
-            "--set motion.normal.mean=3",
-            "must be one of 5e-7, 1e-6, 1.5e-6, 2e-6",
-        ),
-        (
-            "--set friction.coefficient=3",
-            "the axes are motion.normal.mean",
-        ),
-    ] {
+    for (arguments, why) in cases([
+        "--column depth => --column depth: map.csv has wear_volume_m3, regime",
+        "--panel loop => --panel: is for a run; map.csv is the table of a sweep",
+        "--set motion.normal.mean=3 => must be one of 5e-7, 1e-6, 1.5e-6, 2e-6",
+        "--set friction.coefficient=3 => the axes are motion.normal.mean",
+    ]) {
         dir.refuse_line(&format!("figure map.csv {arguments} -o no.svg"), why);
     }
 }
@@ -666,39 +651,24 @@ fn what_cannot_be_drawn_is_one_line_and_nothing_written() {
     dir.write("torn.csv", b"r_m,f_m\n1\n");
     fs::create_dir(dir.path("empty")).expect("a directory");
     dir.write("there.svg", b"");
-    for (line, expected) in [
-        ("figure x -o f.jpg", "must end in .svg, .png or .pdf"),
-        ("figure x -o there.svg", "already exists"),
-        ("figure x -o no/such/f.svg", "its directory does not exist"),
-        ("figure x --panel loop -o f.svg", "one row per cycle"),
-        (
-            "figure x --panel von-mises -o f.svg",
-            "run --field writes it",
-        ),
-        ("figure x --at 7 -o f.svg", "has no such state"),
-        (
-            "figure x --set friction.coefficient=1 -o f.svg",
-            "is not run again",
-        ),
-        ("figure x --size 0x0 -o f.svg", "each from 20 to 2000"),
-        ("figure x --panel circle -o f.svg", "invalid value 'circle'"),
-        ("figure empty -o f.svg", "has no state.csv"),
-        (
-            "figure other.csv -o f.svg",
-            "does not have the columns of a state",
-        ),
-        (
-            "figure torn.csv -o f.svg",
-            "line 2: has 1 fields; must have 2, one per column",
-        ),
-        (
-            "figure x --size 2000x2000 --dpi 2400 -o f.png",
-            "an image has 1 to 1e8",
-        ),
-        ("figure -o f.svg", "needs a run's directory"),
-        ("figure x --figure fig2 -o f.svg", "takes no source"),
-        ("figure nowhere -o f.svg", "nowhere"),
-    ] {
+    for (line, expected) in cases([
+        "figure x -o f.jpg => must end in .svg, .png or .pdf",
+        "figure x -o there.svg => already exists",
+        "figure x -o no/such/f.svg => its directory does not exist",
+        "figure x --panel loop -o f.svg => one row per cycle",
+        "figure x --panel von-mises -o f.svg => run --field writes it",
+        "figure x --at 7 -o f.svg => has no such state",
+        "figure x --set friction.coefficient=1 -o f.svg => is not run again",
+        "figure x --size 0x0 -o f.svg => each from 20 to 2000",
+        "figure x --panel circle -o f.svg => invalid value 'circle'",
+        "figure empty -o f.svg => has no state.csv",
+        "figure other.csv -o f.svg => does not have the columns of a state",
+        "figure torn.csv -o f.svg => line 2: has 1 fields; must have 2, one per column",
+        "figure x --size 2000x2000 --dpi 2400 -o f.png => an image has 1 to 1e8",
+        "figure -o f.svg => needs a run's directory",
+        "figure x --figure fig2 -o f.svg => takes no source",
+        "figure nowhere -o f.svg => nowhere",
+    ]) {
         dir.refuse_line(line, expected);
     }
 }

@@ -10,7 +10,7 @@ use mdr_tui::studies::fit::{Fit, FitError, Fitted};
 use mdr_tui::studies::measured::Measured;
 
 use crate::random::Random;
-use crate::test_dir::{TestDir, has};
+use crate::test_dir::{TestDir, cases, has};
 
 const TRUE: [(&str, f64); 2] = [("wear.coefficient", 2e-9), ("friction.coefficient", 0.12)];
 
@@ -182,7 +182,7 @@ fn what_data_do_not_determine_is_said() {
         let free: Vec<String> = free.into_iter().map(str::to_owned).collect();
         let refused: FitError =
             Fit::new(scenario(3e-9, 0.1), scar(), &free, None, false).expect_err("refused");
-        assert!(refused.to_string().contains(expected), "{refused}");
+        has(&refused.to_string(), expected);
     }
 }
 
@@ -226,28 +226,19 @@ fn the_command_prints_json_and_writes_the_fitted_scenario() {
         "scar.csv: 17 points",
         "scar.csv: residual",
     ] {
-        assert!(text.contains(word), "{word} is not in\n{text}");
+        has(&text, word);
     }
     dir.write(
         "open.csv",
         b"u_m,F_N\n0,0\n1e-8,1\n2e-8,2\n3e-8,3\n4e-8,4\n5e-8,5\n6e-8,6\n7e-8,7\n8e-8,8\n",
     );
     dir.write("mm.csv", b"r_m,f_m\n0,0\n0.05,1e-4\n0.1,5e-4\n");
-    for (line, expected) in [
-        ("fit start.toml --free wear.coefficient", "--scar"),
-        (
-            "fit start.toml --scar none.csv --free wear.coefficient",
-            "none.csv: no such file",
-        ),
-        (
-            "fit start.toml --loop open.csv --free wear.coefficient",
-            "the loop does not close",
-        ),
-        (
-            "fit start.toml --scar mm.csv --free wear.coefficient",
-            "are they in m?",
-        ),
-    ] {
+    for (line, expected) in cases([
+        "fit start.toml --free wear.coefficient => --scar",
+        "fit start.toml --scar none.csv --free wear.coefficient => none.csv: no such file",
+        "fit start.toml --loop open.csv --free wear.coefficient => the loop does not close",
+        "fit start.toml --scar mm.csv --free wear.coefficient => are they in m?",
+    ]) {
         let said = dir.line(line);
         assert_eq!(
             (said.code, said.err.lines().count()),
@@ -255,11 +246,7 @@ fn the_command_prints_json_and_writes_the_fitted_scenario() {
             "{line}: {}",
             said.err
         );
-        assert!(
-            said.err.contains(expected),
-            "{} without {expected}",
-            said.err
-        );
+        has(&said.err, expected);
     }
 }
 
@@ -286,14 +273,11 @@ fn a_loop_is_compared_with_its_own_cycle() {
     for file in ["loop.csv@3", "x/loop.csv"] {
         let (found, said) = fit(file);
         assert!((found / 0.1 - 1.0).abs() < 1e-2, "{file}: {said}");
-        assert!(said.contains("in cycle 3,"), "{said}");
+        has(&said, "in cycle 3,");
     }
     let (found, said) = fit("loop.csv");
     assert!((found / 0.1 - 1.0).abs() > 0.05, "{said}");
-    assert!(
-        said.contains("in the last cycle, 12 (--loop loop.csv@CYCLE"),
-        "{said}"
-    );
+    has(&said, "in the last cycle, 12 (--loop loop.csv@CYCLE");
     let line = format!("fit {early} --cycles 2 --loop loop.csv@3 --free friction.coefficient");
     let said = dir.line(&line);
     assert_eq!(
@@ -312,9 +296,9 @@ fn an_accuracy_is_resolved_before_a_fit_and_a_figure() {
     let scene = "li2019-fig3 --set numerics.accuracy=1e-1 --cycles 3";
     dir.done(&format!("run {scene} --out x --quiet"));
     dir.done(&format!("figure {scene} --panel volume -o v.svg --quiet"));
-    assert!(dir.read("v.csv").contains("# estimated_error: "));
+    has(&dir.read("v.csv"), "# estimated_error: ");
     dir.done(&format!(
         "fit {scene} --scar x/state.csv --free wear.coefficient --out fitted.toml --quiet"
     ));
-    assert!(dir.read("fitted.toml").contains("points"));
+    has(&dir.read("fitted.toml"), "points");
 }

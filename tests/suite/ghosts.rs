@@ -3,7 +3,7 @@
 
 use insta::assert_snapshot;
 
-use crate::test_dir::{Table, TestDir, names};
+use crate::test_dir::{Table, TestDir, cases, has, lacks, names};
 
 /// A scar in µm and nm with errors, a loop, and two histories.
 fn measured() -> TestDir {
@@ -69,10 +69,8 @@ fn data_are_in_the_panels_that_they_belong_to() {
         )
     );
     let depth = shot(&dir, "80x24", ",,,,vvvz<Tab><Tab><Tab>", &all);
-    assert!(
-        depth.contains("depth over cycles") && depth.contains("depth.csv"),
-        "{depth}"
-    );
+    has(&depth, "depth over cycles");
+    has(&depth, "depth.csv");
     // The same by a command; a scar has nothing to show in the loop.
     let text = shot(&dir, "80x24", ",:overlay scar.csv<Enter>", &[SCENE]);
     assert!(
@@ -97,7 +95,7 @@ fn a_run_over_itself_differs_by_nothing_in_any_panel() {
         let keys = format!(",,,x{}", "<Tab>".repeat(tabs));
         let text = shot(&dir, "200x50", &keys, &[SCENE, "--overlay", "x"]);
         let line = foot(&text);
-        assert!(line.contains(&format!("{quantity} ")), "{quantity}: {line}");
+        has(line, &format!("{quantity} "));
         assert!(line.contains(&format!("(+0 {unit})")), "{quantity}: {line}");
     }
 }
@@ -116,10 +114,10 @@ fn the_cursor_reads_the_signed_difference_of_measured_data() {
     let worn = state.column("wear_m")[0];
     assert!(worn.abs() < 1e-12, "{worn}");
     let line = foot(&text);
-    assert!(line.contains("flat.csv 5.000 nm (+4."), "{line}");
+    has(line, "flat.csv 5.000 nm (+4.");
     dir.write("flat.csv", flat(-5.0).as_bytes());
     let text = shot(&dir, "200x50", ",x", &[SCENE, "--overlay", "flat.csv"]);
-    assert!(foot(&text).contains("flat.csv -5.000 nm (-5."), "{text}");
+    has(foot(&text), "flat.csv -5.000 nm (-5.");
 }
 
 #[test]
@@ -159,7 +157,7 @@ fn states_are_frozen_and_removed() {
     let frozen = foot(&text).split("cycle 2.00 ").nth(1).expect("a ghost");
     assert!(frozen.starts_with(&worn(foot(&fresh))), "{text}\n{fresh}");
     let text = shot(&dir, "120x40", ",,g,,,G", &[SCENE]);
-    assert!(!text.contains("cycle 2.00"), "{text}");
+    lacks(&text, "cycle 2.00");
     let text = shot(&dir, "80x24", ",ggggg", &[SCENE]);
     assert_eq!(foot(&text), "4 ghosts are there already; G removes them");
     let text = shot(&dir, "80x24", ",G", &[SCENE]);
@@ -177,10 +175,10 @@ fn a_comparison_keeps_the_ghosts() {
     let with = shot(&dir, "120x40", ",,g,,c,", &[SCENE]);
     assert_eq!(with.matches("cycle 2.00").count(), 3, "{with}");
     let lone = shot(&dir, "120x40", ",,g,,c", &[SCENE]);
-    assert!(!lone.contains("equal so far"), "{lone}");
+    lacks(&lone, "equal so far");
     assert_eq!(lone.matches("cycle 2.00").count(), 3, "{lone}");
     let without = shot(&dir, "120x40", ",,,,c", &[SCENE]);
-    assert!(without.contains("equal so far"), "{without}");
+    has(&without, "equal so far");
 }
 
 #[test]
@@ -238,30 +236,22 @@ fn what_cannot_be_laid_over_is_one_line() {
             );
         }
         let text = shot(&dir, "200x24", ",:overlay bad.csv<Enter>", &[SCENE]);
-        assert!(foot(&text).contains(&told[..20]), "{text}");
+        has(foot(&text), &told[..20]);
     }
     assert_eq!(names(&dir.path(".")), ["bad.csv", "empty"]);
-    for (given, told) in [
-        ("nowhere.csv", "nowhere.csv: no such file"),
-        (
-            "empty",
-            "empty: holds no state.csv and no history.csv of a run",
-        ),
-        ("conee", "did you mean cone?"),
-        ("missing.toml", "missing.toml"),
-    ] {
+    for (given, told) in cases([
+        "nowhere.csv => nowhere.csv: no such file",
+        "empty => empty: holds no state.csv and no history.csv of a run",
+        "conee => did you mean cone?",
+        "missing.toml => missing.toml",
+    ]) {
         let said = dir.say(&[SCENE, "--overlay", given, "--print", "80x24"]);
         assert!(said.code == 2 && said.err.contains(told), "{}", said.err);
         assert_eq!(said.err.lines().count(), 1, "{}", said.err);
     }
     let five = ["cone"; 5].map(|name| ["--overlay", name]).concat();
     let said = dir.say(&[&[SCENE, "--print", "80x24"], &five[..]].concat());
-    assert!(
-        said.err
-            .contains("--overlay: takes 4 or fewer; there are 5"),
-        "{}",
-        said.err
-    );
+    has(&said.err, "--overlay: takes 4 or fewer; there are 5");
 }
 
 #[test]
@@ -282,7 +272,7 @@ fn a_snapshot_goes_on_as_if_it_had_never_stopped() {
                 "state.csv"
             ]
         );
-        assert!(dir.read(at).contains("\n# note: first look\n"));
+        has(&dir.read(at), "\n# note: first look\n");
         let goes_on = |dir: &TestDir, keys: &str, scenario: &str| {
             let text = shot(dir, "80x24", &format!("{keys}{after}s"), &[scenario]);
             foot(&text)
@@ -305,7 +295,7 @@ fn a_snapshot_goes_on_as_if_it_had_never_stopped() {
         // Without a screen it goes on as well.
         let file = format!("{snapshot}/state.checkpoint");
         dir.done(&format!("run --resume {file} --cycles 6 --out on --quiet"));
-        assert!(dir.read("on/state.csv").contains("\n# cycle: 6\n"));
+        has(&dir.read("on/state.csv"), "\n# cycle: 6\n");
     }
 }
 
@@ -316,7 +306,7 @@ fn the_list_shows_a_snapshot_with_its_note_and_opens_it() {
     let text = shot(&dir, "80x24", "p<End>k", &["hertz"]);
     assert_snapshot!("snapshot-listed-80x24", text);
     let text = shot(&dir, "120x40", "p<End>k<Enter>,", &["hertz"]);
-    assert!(text.contains("cycle 4.00/199.24"), "{text}");
+    has(&text, "cycle 4.00/199.24");
     // It is the same state as that of the directory's name, its past included.
     assert_eq!(text, shot(&dir, "120x40", ",", &["li2019-fig3-cycle-3"]));
     let text = shot(
@@ -325,7 +315,7 @@ fn the_list_shows_a_snapshot_with_its_note_and_opens_it() {
         ":load li2019-fig3-cycle-3<Enter>",
         &["hertz"],
     );
-    assert!(text.contains("cycle 3.00/199.24"), "{text}");
+    has(&text, "cycle 3.00/199.24");
 }
 
 #[test]
@@ -398,7 +388,7 @@ fn figures_have_measured_points_with_their_errors_beside_the_run() {
     assert_eq!(rows("wear volume", "volume.csv")[3][5], "1e-17");
     assert_eq!(rows("depth over cycles", "depth.csv").len(), 4);
     // The curve under the points has a name beside theirs.
-    assert!(dir.read("f.svg").contains(">computed<"));
+    has(&dir.read("f.svg"), ">computed<");
     // A symbol of four corners and a bar for each point of the scar, in two charts.
     let svg = dir.read("f.svg");
     assert!(
@@ -432,10 +422,7 @@ fn figures_have_measured_points_with_their_errors_beside_the_run() {
         (said.code, said.err, said.out),
         (0, String::new(), names.into())
     );
-    assert!(
-        dir.read("scar-drawn.csv")
-            .contains("panel,curve,x,y,value,error")
-    );
+    has(&dir.read("scar-drawn.csv"), "panel,curve,x,y,value,error");
     assert_eq!(dir.read("scar.csv"), measured);
     let said = dir.say(&[
         "figure",
@@ -477,12 +464,12 @@ fn a_snapshot_makes_figures_and_is_an_overlay() {
         ",,,x<Tab><Tab>",
         &[SCENE, "--overlay", snapshot],
     );
-    assert!(foot(&text).contains("(+0 N)"), "{text}");
+    has(foot(&text), "(+0 N)");
     // Its loop is data for a fit.
     let fit = format!(
         "fit {SCENE} --cycles 3 --loop {snapshot}/loop.csv --free friction.coefficient --json --quiet"
     );
     let said = dir.say(&fit.split(' ').collect::<Vec<_>>());
     assert_eq!(said.code, 0, "{}", said.err);
-    assert!(said.out.contains("friction.coefficient"), "{}", said.out);
+    has(&said.out, "friction.coefficient");
 }

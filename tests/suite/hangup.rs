@@ -12,6 +12,7 @@ use tempfile::TempDir;
 use vt100::Screen;
 
 use crate::pty::{Terminal, at_home, cycle, home, kept, program, read};
+use crate::test_dir::has;
 
 fn is_under_way(screen: &Screen) -> bool {
     cycle(screen).is_some_and(|cycle| cycle > 0.5)
@@ -113,11 +114,7 @@ fn resuming_shows_the_session_paused_where_it_was_and_goes_on() {
     let mut terminal = Terminal::start(at_home(&home, &["--resume", &again]), 80, 24);
     terminal.wait_for("paused");
     assert_eq!(terminal.look(cycle), Some(was));
-    assert!(
-        terminal.text().contains(" │ method: a  "),
-        "{}",
-        terminal.text()
-    );
+    has(&terminal.text(), " │ method: a  ");
     // Nothing has happened, so nothing more is kept.
     terminal.resize(100, 30);
     terminal.wait_for("q quit");
@@ -168,7 +165,7 @@ fn where_nothing_can_be_kept_the_run_goes_on_and_says_so() {
         terminal.press("q");
         assert_eq!(terminal.wait_for_end().exit_code(), 0);
         let text = terminal.text();
-        assert!(text.contains("mdr-tui: nothing was saved: "), "{text}");
+        has(&text, "mdr-tui: nothing was saved: ");
         assert_eq!(kept(&base), None);
     }
 }
@@ -186,8 +183,8 @@ fn a_defect_keeps_the_session_of_a_moment_ago() {
     let status = terminal.wait_for_end();
     assert_eq!(status.exit_code(), 1);
     let text = terminal.text();
-    assert!(text.contains("a fault in the sixth cycle"), "{text}");
-    assert!(text.contains("; saved at cycle "), "{text}");
+    has(&text, "a fault in the sixth cycle");
+    has(&text, "; saved at cycle ");
     assert_exact(&read(&kept(&home).expect("a checkpoint")));
 }
 
@@ -312,11 +309,7 @@ fn a_connection_that_is_cut_keeps_the_session() {
     terminal.wait_for("paused");
     let shown = terminal.look(cycle).expect("a cycle");
     assert!((shown - session.simulation().cycle()).abs() < 0.0051);
-    assert!(
-        terminal.text().contains(" │ method: a  "),
-        "{}",
-        terminal.text()
-    );
+    has(&terminal.text(), " │ method: a  ");
     terminal.press(" ");
     terminal.wait_until("later cycle", |screen| cycle(screen) > Some(shown));
     terminal.press("q");

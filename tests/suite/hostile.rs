@@ -10,7 +10,7 @@ use mdr_tui::scenario::preset;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-use crate::test_dir::{Table, TestDir, bits, end, names};
+use crate::test_dir::{Table, TestDir, bits, end, has, names};
 
 /// A preset with some of its characters replaced, doubled or left out.
 fn bent_preset() -> impl Strategy<Value = String> {
@@ -186,7 +186,7 @@ fn a_rude_title_reaches_no_terminal() {
         assert_harmless(&dir.read(&format!("x/{name}")), &name);
     }
     let state = Table::parse(&dir.read("x/state.csv"));
-    assert!(state.header("scenario").contains("red"));
+    has(state.header("scenario"), "red");
     assert_eq!((state.columns.len(), state.rows[0].len()), (13, 13));
     assert_eq!(bits(&state.column("r_m"))[0], 0);
     let json = dir.done("run rude.toml --cycles 1 --json --out y");

@@ -3,7 +3,7 @@
 
 use insta::assert_snapshot;
 
-use crate::test_dir::TestDir;
+use crate::test_dir::{TestDir, cases, has};
 
 /// The screen in 80 by 24 after `keys` on a scenario.
 fn shot_of(dir: &TestDir, scenario: &str, keys: &str) -> String {
@@ -35,7 +35,7 @@ fn the_cursor_reads_all_curves_at_its_radius() {
     let line = foot(&text).to_owned();
     let (r, unit) = value(&line, "r");
     assert_eq!(unit, "µm");
-    assert!(line.contains(" stick "), "{line}");
+    has(&line, " stick ");
     // The same values stand in the file of the same moment, between the nodes around r.
     shot_of(&dir, "li2019-fig3", ",,s");
     let table = crate::test_dir::Table::parse(&dir.read("li2019-fig3-cycle-2/state.csv"));
@@ -76,8 +76,8 @@ fn the_cursor_moves_and_goes() {
     assert_eq!(shot(",<Left>z"), shot(",<S-Tab>z"));
     // Beyond the contact there is no stress.
     let outside = shot(&format!(",x{}", "l".repeat(60)));
-    assert!(foot(&outside).contains(" open "), "{outside}");
-    assert!(foot(&outside).contains(" p 0 "), "{outside}");
+    has(foot(&outside), " open ");
+    has(foot(&outside), " p 0 ");
 }
 
 #[test]
@@ -120,14 +120,14 @@ fn the_palette_does_what_the_key_does() {
         assert_eq!(shot(&format!(",{closed}")), plain, "{closed}");
     }
     // What is typed is text: q and Space are characters there; Ctrl-C is not.
-    assert!(shot(",:q <lt>").contains(" :q <"));
-    assert!(shot(":q<C-c>,,,").contains("cycle 0.00/"));
+    has(&shot(",:q <lt>"), " :q <");
+    has(&shot(":q<C-c>,,,"), "cycle 0.00/");
 }
 
 #[test]
 fn the_palette_completes_keys_and_their_values() {
     let text = shot(",:fric");
-    assert!(text.contains(" set friction.coefficient= "), "{text}");
+    has(&text, " set friction.coefficient= ");
     let text = shot(",:fric<Tab>0.25<Enter>");
     assert_eq!(foot(&text), "friction.coefficient = 0.25 at cycle 1.00");
     let text = shot(",:set numerics.method=be<Enter>");
@@ -139,28 +139,22 @@ fn the_palette_completes_keys_and_their_values() {
             .is_some_and(|line| line.contains(" a+b ")),
         "{text}"
     );
-    for (typed, refusal) in [
-        (
-            "set friction.coefficient=-1",
-            "friction.coefficient = -1: must be 0 or greater",
-        ),
-        (
-            "set frictoin.coefficient=1",
-            "unknown key frictoin.coefficient; did you mean",
-        ),
-        ("set run.cycles=3", "run.cycles cannot change during a run"),
-        ("no such thing", "no such command: no such thing"),
-    ] {
+    for (typed, refusal) in cases([
+        "set friction.coefficient=-1 => friction.coefficient = -1: must be 0 or greater",
+        "set frictoin.coefficient=1 => unknown key frictoin.coefficient; did you mean",
+        "set run.cycles=3 => run.cycles cannot change during a run",
+        "no such thing => no such command: no such thing",
+    ]) {
         let text = shot(&format!(",:{typed}<Enter>"));
         assert!(foot(&text).contains(refusal), "{typed}: {}", foot(&text));
     }
     // A key is found for a sweep as well, and a range may be written as it comes.
     let text = shot(",:friction");
-    assert!(text.contains("sweep friction.coefficient"), "{text}");
+    has(&text, "sweep friction.coefficient");
     let text = shot(",:sweep friction 0.1 to 0.5");
-    assert!(text.contains("runs 25 values on all cores"), "{text}");
+    has(&text, "runs 25 values on all cores");
     let text = shot(",:load her<Enter>");
-    assert!(text.contains("cycle 0.00/2.5"), "{text}");
+    has(&text, "cycle 0.00/2.5");
     assert_snapshot!("palette-80x24", shot(",:we"));
 }
 
@@ -170,7 +164,7 @@ fn help_is_searched_by_words() {
     for (word, is_there) in [("next wear law", true), ("run or pause", false)] {
         assert_eq!(text.contains(word), is_there, "{word}\n{text}");
     }
-    assert!(shot("?/zzz").contains("no command matches"));
+    has(&shot("?/zzz"), "no command matches");
     assert_eq!(shot(",?/wear<Esc>"), shot(",?"));
     assert_eq!(shot(",/wear<Enter>"), shot(","));
     assert_snapshot!("help-search-80x24", shot("/cycle"));
@@ -200,30 +194,24 @@ fn the_form_edits_parameters_while_it_runs() {
         assert!(text.contains(told), "{keys}: {told}\n{text}");
     }
     // The run goes on below it, and it closes without a trace.
-    assert!(shot("e,,").contains("cycle 2.00/"));
+    has(&shot("e,,"), "cycle 2.00/");
     assert_eq!(shot(",e<Esc>"), shot(","));
     assert_eq!(shot(",ejj5<Esc><Esc>"), shot(","));
     // The default edge of the domain is no number yet: nothing to step from, but a place to type one.
     let text = shot(",e<Up><Up><Up><Up><Up><Up>+");
-    assert!(text.contains("Enter applies"), "{text}");
+    has(&text, "Enter applies");
     // Every shape brings its own keys.
     let text = shot(",e<Enter><Down><Enter>");
-    assert!(text.contains("indenter.angle is missing"), "{text}");
+    has(&text, "indenter.angle is missing");
 }
 
 #[test]
 fn the_form_shows_refusals_and_changes_nothing() {
-    for (keys, refusal) in [
-        (
-            "ejjj<Enter><C-u>0.7<Enter>",
-            "material.poisson = 0.7: must be from 0 to 0.5",
-        ),
-        (
-            "ejjj<Enter><C-u>soft<Enter>",
-            "material.poisson = soft: must be a finite number",
-        ),
-        ("ejjj<Enter><C-u>nan<Enter>", "must be a finite number"),
-    ] {
+    for (keys, refusal) in cases([
+        "ejjj<Enter><C-u>0.7<Enter> => material.poisson = 0.7: must be from 0 to 0.5",
+        "ejjj<Enter><C-u>soft<Enter> => material.poisson = soft: must be a finite number",
+        "ejjj<Enter><C-u>nan<Enter> => must be a finite number",
+    ]) {
         let text = shot(&format!(",{keys}"));
         assert!(text.contains(refusal), "{keys}: {refusal}\n{text}");
         // What was refused stays, to be mended; Esc leaves the value as it was.
@@ -233,42 +221,33 @@ fn the_form_shows_refusals_and_changes_nothing() {
             .and_then(|rest| rest.split('<').next());
         let typed = typed.expect("what was typed");
         let line = format!("material.poisson                     {typed}");
-        assert!(text.contains(&line), "{text}");
+        has(&text, &line);
         let left = shot(&format!(",{keys}<Esc>"));
-        assert!(
-            left.contains("material.poisson                     0.3"),
-            "{left}"
-        );
+        has(&left, "material.poisson                     0.3");
     }
     // Mended in place and taken.
     let text = shot(",ejjj<Enter><C-u>0.7<Enter><Backspace>2<Enter>");
-    assert!(
-        text.contains("material.poisson                     0.2"),
-        "{text}"
-    );
+    has(&text, "material.poisson                     0.2");
 }
 
 #[test]
 fn parameters_have_units_on_the_screen_and_as_input() {
     let form = shot(",e");
     for shown in ["10 mm", "230.77 GPa", "1 µm", "15.91549 Hz"] {
-        assert!(form.contains(&format!(" {shown} ")), "{shown}\n{form}");
+        has(&form, &format!(" {shown} "));
     }
-    for (typed, taken) in [
-        (":set indenter.radius=12 mm<Enter>e", "12 mm"),
-        (
-            ":set motion.normal.angular_frequency=50 Hz<Enter>e",
-            "50 Hz",
-        ),
-        (":set material.effective_modulus=210 GPa<Enter>e", "210 GPa"),
-        ("e<Down>12 mm<Enter>", "12 mm"),
-        ("e<Down><Down>+", "240 GPa"),
-    ] {
+    for (typed, taken) in cases([
+        ":set indenter.radius=12 mm<Enter>e => 12 mm",
+        ":set motion.normal.angular_frequency=50 Hz<Enter>e => 50 Hz",
+        ":set material.effective_modulus=210 GPa<Enter>e => 210 GPa",
+        "e<Down>12 mm<Enter> => 12 mm",
+        "e<Down><Down>+ => 240 GPa",
+    ]) {
         let text = shot(&format!(",{typed}"));
         assert!(text.contains(&format!(" {taken} ")), "{typed}\n{text}");
     }
     let text = shot(",:set indenter.radius=12 mn<Enter>");
-    assert!(foot(&text).contains("mn is not a unit"), "{text}");
+    has(foot(&text), "mn is not a unit");
     // A change with a unit is recorded, and runs again to the last bit.
     assert_runs_again(",:set motion.tangential.phase=50 deg<Enter>,s", 1);
 }
@@ -315,7 +294,7 @@ fn letters_in_the_list_lose_no_run() {
     assert_eq!(shot(&format!(",,,{}", typed(""))), shot(",,,"));
     for _ in 0..4 {
         let text = shot(&format!(",,,{}", typed("<Enter>")));
-        assert!(text.contains("cycle 3.00/"), "{text}");
+        has(&text, "cycle 3.00/");
     }
 }
 
@@ -339,10 +318,7 @@ fn edits_are_recorded_and_run_again_bit_for_bit() {
 #[test]
 fn a_note_goes_into_both_files() {
     let (state, again) = replayed(",Sworn \"through\", ask k.<Backspace>?<Enter>");
-    assert!(
-        state.contains("\n# note: worn \"through\", ask k?\n"),
-        "{state}"
-    );
+    has(&state, "\n# note: worn \"through\", ask k?\n");
     assert!(state == again);
     assert_eq!(shot(",Sabc<Esc>"), shot(","));
 }
@@ -361,7 +337,7 @@ fn panels(text: &str) -> Vec<&str> {
 #[test]
 fn time_goes_back_and_forth() {
     let status = |keys: &str| shot(keys).lines().next().unwrap_or_default().to_owned();
-    assert!(status(",,,,[[").contains("cycle 2.00/199.24   │ present 4.00 "));
+    has(&status(",,,,[["), "cycle 2.00/199.24   │ present 4.00 ");
     assert!(status(",,,,[[").starts_with(" ◂ past    │"));
     // There and back again is where it was, down to the last dot of the fretting loop.
     for (there, plain) in [(",,,,[[]]", ",,,,"), (",...[[[]]]", ",...")] {
@@ -409,8 +385,11 @@ fn the_way_back_leads_to_what_a_branch_a_restart_and_an_edit_left() {
     );
     assert_eq!(panels(&shot(",,,r[")), panels(&shot(",,,")));
     assert_eq!(body(&shot(",,,r[,")), body(&shot(",,,,")));
-    assert!(shot(",,,r[]").contains("⏸ paused  │ cycle 0.00/"));
-    assert!(shot(",,,:load cone<Enter>[").contains("◂ past    │ cycle 3.00/199.24"));
+    has(&shot(",,,r[]"), "⏸ paused  │ cycle 0.00/");
+    has(
+        &shot(",,,:load cone<Enter>["),
+        "◂ past    │ cycle 3.00/199.24",
+    );
     // So are a method, a law and a value.
     for edit in ["m", "w", "ejjjj+[<Esc>]"] {
         assert_eq!(
@@ -448,9 +427,12 @@ fn choices_are_listed_with_what_each_is() {
         foot(&text).is_empty() || !text.contains("product, N"),
         "{text}"
     );
-    assert!(shot(",I").contains("by friction work"));
-    assert!(shot(",ip<Down><Enter>").contains("numerics.method = a at cycle 1.00"));
-    assert!(foot(&shot_of(&TestDir::new(), "hertz", "I")).contains("no wear.law"));
+    has(&shot(",I"), "by friction work");
+    has(
+        &shot(",ip<Down><Enter>"),
+        "numerics.method = a at cycle 1.00",
+    );
+    has(foot(&shot_of(&TestDir::new(), "hertz", "I")), "no wear.law");
 }
 
 #[test]
@@ -483,33 +465,19 @@ fn the_library_shows_presets_and_the_users_own_files() {
     ] {
         assert_eq!(text.contains(name), is_there, "{name}\n{text}");
     }
-    assert!(ends("kk").contains("Mine: "), "{}", ends("kk"));
+    has(&ends("kk"), "Mine: ");
     let broken = ends("kkk");
-    assert!(
-        broken.contains("indenter.shape = \"ball\": must be one of"),
-        "{broken}"
-    );
+    has(&broken, "indenter.shape = \"ball\": must be one of");
     // A file that is refused changes nothing; a good one starts.
     let text = ends("kkk<Enter>");
-    assert!(
-        text.contains("cycle 1.00/199.24") && foot(&text).contains("must be one of"),
-        "{text}"
-    );
-    assert!(
-        ends("kk<Enter>").contains("cycle 0.00/"),
-        "{}",
-        ends("kk<Enter>")
-    );
+    has(&text, "cycle 1.00/199.24");
+    has(foot(&text), "must be one of");
+    has(&ends("kk<Enter>"), "cycle 0.00/");
     let text = ends("k<Enter>");
-    assert!(
-        text.contains(" other.toml ") && text.contains(" down/ "),
-        "{text}"
-    );
+    has(&text, " other.toml ");
+    has(&text, " down/ ");
     let text = ends("k<Enter><Enter>,s");
-    assert!(
-        foot(&text).contains("snapshot in other-cycle-1/state.csv"),
-        "{text}"
-    );
+    has(foot(&text), "snapshot in other-cycle-1/state.csv");
 }
 
 #[test]
@@ -570,14 +538,14 @@ fn finer_and_coarser_change_cells_and_steps_together() {
         "N = 150, 150 steps per cycle; a estimates the error"
     );
     let text = shot_of(&dir, "li2019-fig3", ",<lt><lt>,s");
-    assert!(text.contains("li2019-fig3-cycle-2"), "{text}");
+    has(&text, "li2019-fig3-cycle-2");
     let scenario = dir.read("li2019-fig3-cycle-2/scenario.toml");
     for set in [
         "numerics.points = 67",
         "numerics.steps_per_cycle = 67",
         "numerics.points = 45",
     ] {
-        assert!(scenario.contains(set), "{scenario}");
+        has(&scenario, set);
     }
     let state = dir.read("li2019-fig3-cycle-2/state.csv");
     let rows = state.lines().filter(|line| !line.starts_with('#')).count();

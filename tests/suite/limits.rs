@@ -9,7 +9,7 @@ use portable_pty::{CommandBuilder, PtySize, native_pty_system};
 
 use crate::pty::{Terminal, program};
 use crate::signals::SOON;
-use crate::test_dir::{Said, TestDir, end, names};
+use crate::test_dir::{Said, TestDir, end, has, names};
 
 fn fifo(dir: &TestDir, name: &str) {
     let made = Command::new("mkfifo").arg(dir.path(name)).status();
@@ -152,10 +152,8 @@ fn a_huge_terminal_is_drawn_in_part_and_without_memory_it_is_given_back() {
             std::thread::sleep(Duration::from_millis(200));
             seen.extend(told.try_iter().flatten());
             let text = String::from_utf8_lossy(&seen).into_owned();
-            assert!(
-                text.contains("mdr-tui: ") && text.contains("memory"),
-                "{text}"
-            );
+            has(&text, "mdr-tui: ");
+            has(&text, "memory");
         }
     }
 }

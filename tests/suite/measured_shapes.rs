@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::common::{fig3, load, ran};
-use crate::test_dir::TestDir;
+use crate::test_dir::{TestDir, has};
 
 fn scenario(shape: &str) -> String {
     let rest = concat!(fig3!(pair motion), "[numerics]\npoints = 100\n");
@@ -80,11 +80,11 @@ fn a_run_of_a_table_can_be_run_again_without_the_table() {
         "smoothing changed it by",
         "1.000e-7 m at the axis",
     ] {
-        assert!(said.err.contains(word), "{word} is not in {}", said.err);
+        has(&said.err, word);
     }
     std::fs::remove_file(dir.path("shape.csv")).expect("removed");
     dir.done("run first/scenario.toml --cycles 1 --out second --quiet");
-    assert!(dir.read("first/state.csv").contains("# table: 251 points"));
+    has(&dir.read("first/state.csv"), "# table: 251 points");
     assert_eq!(dir.read("first/state.csv"), dir.read("second/state.csv"));
     assert_eq!(
         dir.read("first/scenario.toml"),
@@ -146,11 +146,7 @@ fn bad_tables_are_one_line() {
         let said = dir.line("run mine.toml --cycles 1 --out new");
         assert_eq!(said.code, 2, "{expected}: {}", said.err);
         assert_eq!(said.err.lines().count(), 1, "{}", said.err);
-        assert!(
-            said.err.contains(expected),
-            "{} without {expected}",
-            said.err
-        );
+        has(&said.err, expected);
     }
     // Millimetres that say so are no mistake.
     dir.write("shape.csv", format!("r_mm,f_mm\n{in_mm}").as_bytes());

@@ -3,7 +3,7 @@
 use mdr_tui::scenario::Scenario;
 
 use crate::pty::{Terminal, program};
-use crate::test_dir::{TestDir, has};
+use crate::test_dir::{TestDir, has, lacks};
 
 #[test]
 fn options_are_the_answers_where_nobody_is_asked() {
@@ -29,7 +29,7 @@ fn options_are_the_answers_where_nobody_is_asked() {
         "partial slip: a ring outside 84 %",
         "864000 cycles at 10 Hz",
     ] {
-        assert!(said.out.contains(part), "{part}\n{}", said.out);
+        has(&said.out, part);
     }
     let text = dir.read("pin.toml");
     has(&text, "# of a pin test: per load and sliding distance");
@@ -122,9 +122,7 @@ fn questions_are_asked_in_a_terminal_and_answered_at_once() {
     }
     assert!(terminal.wait_for_end().success());
     let text = dir.read("mine.toml");
-    assert!(
-        text.contains("mean = \"20 N\"") && text.contains("cycles = 50.0"),
-        "{text}"
-    );
-    assert!(!text.contains("[wear]"), "{text}");
+    has(&text, "mean = \"20 N\"");
+    has(&text, "cycles = 50.0");
+    lacks(&text, "[wear]");
 }

@@ -248,7 +248,7 @@ fn a_run_tells_how_it_was_made_and_its_tables_do_not_hang_on_it() {
         "mdr-tui run hertz --cycles 1 --quiet --out x --set 'title=a b'"
     );
     assert!(of("version").starts_with(env!("CARGO_PKG_VERSION")));
-    assert!(of("arithmetic").contains(std::env::consts::ARCH));
+    has(&of("arithmetic"), std::env::consts::ARCH);
     // Later, elsewhere.
     assert_ne!(made("1", "y"), text);
     for name in names(&dir.path("x")) {
@@ -284,10 +284,7 @@ fn a_supplement_gives_the_same_files() {
         assert!(first == again, "{name}");
     }
     assert!(names.contains(&"state-2.5.csv".to_owned()), "{names:?}");
-    assert!(
-        dir.read("x/state-2.5.csv")
-            .contains("# estimated_error_volume: ")
-    );
+    has(&dir.read("x/state-2.5.csv"), "# estimated_error_volume: ");
     let [first, again] = ["x.pdf", "y.pdf"].map(|name| fs::read(dir.path(name)).expect("a file"));
     assert!(first == again);
 }

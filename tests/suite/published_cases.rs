@@ -4,6 +4,7 @@ use mdr_tui::reading::Curves;
 use mdr_tui::scenario::session::Session;
 
 use crate::common::{begin, load};
+use crate::test_dir::cases;
 
 fn within(what: &str, found: f64, published: f64, share: f64) {
     let error = found / published - 1.0;
@@ -84,13 +85,10 @@ fn partial_slip_stops_wearing() {
 fn the_figures_of_the_guide_are_those_of_the_presets() {
     let page = include_str!("../../src/guide/published.md");
     let mut found = Vec::new();
-    for (preset, section) in [
-        ("julia2022-gross-slip", "## Gross slip of steel on steel"),
-        (
-            "julia2022-partial-slip",
-            "## Partial slip of steel on steel",
-        ),
-    ] {
+    for (preset, section) in cases([
+        "julia2022-gross-slip => ## Gross slip of steel on steel",
+        "julia2022-partial-slip => ## Partial slip of steel on steel",
+    ]) {
         let section = page.split(section).nth(1).expect("the section");
         let mut session = begin(load(preset, &[]));
         for (row, cycles) in [

@@ -29,7 +29,7 @@ fn the_manual_page_has_every_key() {
     assert_eq!(page.matches(".SH KEYS").count(), 1);
     for row in with_keys() {
         let help = row.help.replace('-', "\\-");
-        assert!(page.contains(&help), "{help}");
+        has(&page, &help);
     }
 }
 
@@ -39,6 +39,6 @@ fn the_footer_names_commands_of_the_table() {
     let footer = screen.lines().last().expect("a footer");
     for row in footer::USUAL.iter().map(|command| command.row()) {
         let shown = format!(" {} {}", row.keys[0], row.name);
-        assert!(footer.contains(&shown), "{shown} is not in {footer}");
+        has(footer, &shown);
     }
 }

@@ -5,7 +5,7 @@ use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
 
 use crate::common::{begin, try_load};
-use crate::test_dir::{TestDir, has};
+use crate::test_dir::{TestDir, cases, has, lacks};
 
 const SMALL: [&str; 3] = [
     "numerics.points=60",
@@ -84,7 +84,7 @@ fn a_run_goes_on_from_its_exported_scar() {
         .find_map(|line| line.strip_prefix("# initial_wear_volume_m3: "));
     let told: f64 = told.expect("a header").parse().expect("a number");
     assert!(error(told, first[9]) < 1e-3, "{told} {}", first[9]);
-    assert!(state.contains("# checks: ok"), "{state}");
+    has(&state, "# checks: ok");
     // The run's scenario needs no other file.
     std::fs::remove_file(dir.path("first/state.csv")).expect("a file");
     dir.done("run second/scenario.toml --out again --quiet");
@@ -159,7 +159,7 @@ fn energy_and_volume_are_compared_from_the_scar_on() {
     assert!(moment.energy_residual.expect("a residual").abs() < 0.02);
     let refused = session.change("wear.initial_depths", "[0, 0, 0, 0]");
     let refused = refused.expect_err("refused").to_string();
-    assert!(refused.contains("cannot change during a run"), "{refused}");
+    has(&refused, "cannot change during a run");
 }
 
 /// A held force presses the indenter on from the scar that it has left: V and d are those of a run at once.
@@ -203,24 +203,15 @@ fn scars_that_do_not_fit_are_told_with_the_reason() {
         with_wear("li2019-fig3", "initial = \"scar.csv\"").as_bytes(),
     );
     let path = dir.path("scar.toml").display().to_string();
-    for (text, expected) in [
-        ("r_m,x_m\n0,0\n1e-5,0\n1e-4,0\n", "has no column depth_m"),
-        ("r_m,depth_m\n0,0\n0.05,1e-7\n0.1,0\n", "is r in m?"),
-        (
-            "r_m,depth_m\n0,1e-4\n5e-5,1e-4\n1e-4,0\n",
-            "is the depth in m?",
-        ),
-        (
-            "r_m,depth_m\n0,0\n1e-4,1e-7\n9e-4,0\n",
-            "numerics.domain_radius",
-        ),
-        ("r_m,depth_m\n0,0\n5e-5,1e-7\n1e-4,1e-7\n", "a longer trace"),
-        (
-            "r_m,depth_m\n0,0\n5e-5,-1e-7\n1e-4,0\n",
-            "must be 0 or greater",
-        ),
-        ("r_m,depth_m\n0,0\n5e-5,1e-7\n5e-5,0\n", "must increase"),
-    ] {
+    for (text, expected) in cases([
+        "r_m,x_m\n0,0\n1e-5,0\n1e-4,0\n => has no column depth_m",
+        "r_m,depth_m\n0,0\n0.05,1e-7\n0.1,0\n => is r in m?",
+        "r_m,depth_m\n0,1e-4\n5e-5,1e-4\n1e-4,0\n => is the depth in m?",
+        "r_m,depth_m\n0,0\n1e-4,1e-7\n9e-4,0\n => numerics.domain_radius",
+        "r_m,depth_m\n0,0\n5e-5,1e-7\n1e-4,1e-7\n => a longer trace",
+        "r_m,depth_m\n0,0\n5e-5,-1e-7\n1e-4,0\n => must be 0 or greater",
+        "r_m,depth_m\n0,0\n5e-5,1e-7\n5e-5,0\n => must increase",
+    ]) {
         dir.write("scar.csv", text.as_bytes());
         let refused = small(&path, &[]).expect_err(text);
         has(&refused, expected);
@@ -287,9 +278,9 @@ fn shared_wear_adds_up_to_the_same_bits() {
         worn = worn.max(wear);
     }
     assert!(worn > 0.0);
-    assert!(
-        dir.read("two/state.csv")
-            .contains("# wear_share_of_indenter: 0.3\n")
+    has(
+        &dir.read("two/state.csv"),
+        "# wear_share_of_indenter: 0.3\n",
     );
     let refused = small("li2019-fig3", &["wear.share=1.5"]).expect_err("refused");
     has(&refused, "from 0 to 1");
@@ -307,16 +298,15 @@ fn pressure_that_passes_the_hardness_is_said() {
     };
     // Known before the run from the deepest point, which the first moment has not reached.
     let mut soft = started("li2019-fig3", &[&sets(0.99 * highest)]);
-    assert!(
-        warned(&soft)
-            .expect("a warning")
-            .contains("where the contact is deepest")
+    has(
+        &warned(&soft).expect("a warning"),
+        "where the contact is deepest",
     );
     assert_eq!(soft.simulation().passed_hardness(), None);
     soft.advance_to(1.0).expect("a cycle");
     let passed = soft.simulation().passed_hardness().expect("passed");
     assert!((0.15..0.25).contains(&passed.cycle), "{passed:?}");
-    assert!(warned(&soft).expect("a warning").contains("at cycle 0."));
+    has(&warned(&soft).expect("a warning"), "at cycle 0.");
     // The stick zone takes over the load of the ring that wears.
     let mut hard = started("li2019-fig3", &[&sets(1.02 * highest)]);
     assert_eq!(warned(&hard), None);
@@ -337,9 +327,9 @@ fn pressure_that_passes_the_hardness_is_said() {
         "{}",
         said.err
     );
-    assert!(
-        dir.read("out/state.csv")
-            .contains("# warning: outside the theory: the pressure exceeds")
+    has(
+        &dir.read("out/state.csv"),
+        "# warning: outside the theory: the pressure exceeds",
     );
 }
 
@@ -363,12 +353,12 @@ fn the_explorer_marks_the_limit_and_draws_both_bodies() {
         "material.hardness=1.6e9",
     ];
     let mark = "outside the theory";
-    assert!(!screen(&sets, "", "140x30").contains(mark));
+    lacks(&screen(&sets, "", "140x30"), mark);
     let later = screen(&sets, ",,,,,,", "140x30");
-    assert!(later.contains(mark), "{later}");
+    has(&later, mark);
     let shared = screen(&["--set", "wear.share=0.25"], ",,vz", "81x24");
-    assert!(shared.contains("deep (indenter "), "{shared}");
-    assert!(!screen(&[], ",,vz", "81x24").contains("deep (indenter "));
+    has(&shared, "deep (indenter ");
+    lacks(&screen(&[], ",,vz", "81x24"), "deep (indenter ");
 }
 
 #[test]
@@ -400,5 +390,5 @@ fn hardness_belongs_to_a_body_or_to_the_pair() {
     let refused = limit(&bodies("", ""), &["material.hardness=2e9"])
         .expect_err("refused")
         .to_string();
-    assert!(refused.contains("conflicts with two bodies"), "{refused}");
+    has(&refused, "conflicts with two bodies");
 }

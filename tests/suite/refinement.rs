@@ -13,7 +13,7 @@ use mdr_tui::studies::refinement::{
 use crate::common::{load, without_numerics};
 use crate::judge::{QUANTITIES, UNDERSTATED, judge, judge_estimate, quantile, tally_checks};
 use crate::random_scenarios;
-use crate::test_dir::TestDir;
+use crate::test_dir::{TestDir, has, lacks};
 
 fn clock() -> impl Fn() -> f64 {
     let begin = std::time::Instant::now();
@@ -246,8 +246,8 @@ fn an_accuracy_is_stated_and_its_scenario_gives_the_same_bits() {
         assert!(header(&table, "estimated_error_force").is_some(), "{table}");
     }
     let scenario = dir.read("one/scenario.toml");
-    assert!(scenario.contains("\npoints = "), "{scenario}");
-    assert!(!scenario.contains("\naccuracy"), "{scenario}");
+    has(&scenario, "\npoints = ");
+    lacks(&scenario, "\naccuracy");
     let said = dir.line("run one/scenario.toml --quiet --out two");
     assert_eq!((said.code, said.err.as_str()), (0, ""));
     let rows = |file: &str| -> Vec<String> {

@@ -10,7 +10,7 @@ use mdr_tui::scenario::checkpoint;
 use mdr_tui::scenario::preset;
 
 use crate::common::{begin, load, ran};
-use crate::test_dir::{TestDir, has};
+use crate::test_dir::{TestDir, has, lacks};
 
 #[test]
 fn a_comparison_may_begin_on_a_panel_that_shows_no_profile() {
@@ -117,9 +117,9 @@ fn past_an_end_between_two_steps_a_replay_takes_the_same_steps() {
     dir.write("mine.toml", cut_short("").as_bytes());
     dir.done("mine.toml --print 80x24 --keys ,,s");
     let state = dir.read("mine-cycle-2/state.csv");
-    assert!(
-        dir.read("mine-cycle-2/scenario.toml")
-            .contains("shortened_at = [1.00613]")
+    has(
+        &dir.read("mine-cycle-2/scenario.toml"),
+        "shortened_at = [1.00613]",
     );
     dir.done("run mine-cycle-2/scenario.toml --out replayed --quiet");
     assert!(dir.read("replayed/state.csv") == state, "another run");
@@ -141,7 +141,7 @@ fn past_an_end_between_two_steps_a_replay_takes_the_same_steps() {
     assert!(dir.read("again/state.csv") == state, "another run");
     // A run to its end is written down as ever.
     dir.done("run mine.toml --out whole --quiet");
-    assert!(!dir.read("whole/scenario.toml").contains("shortened_at"));
+    lacks(&dir.read("whole/scenario.toml"), "shortened_at");
 }
 
 #[test]

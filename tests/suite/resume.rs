@@ -9,7 +9,7 @@ use mdr_tui::scenario::checkpoint;
 use serde::de::IgnoredAny;
 
 use crate::common::fig3;
-use crate::test_dir::{Said, Table, TestDir, bits, end, kill, names, signal};
+use crate::test_dir::{Said, Table, TestDir, bits, end, has, kill, names, signal};
 
 /// A run with snapshots between steps, a row a step, and changes on the way.
 const SCENARIO: &str = concat!(
@@ -250,7 +250,7 @@ fn a_defect_keeps_what_is_done_and_says_so_in_one_line() {
         "{}",
         said.err
     );
-    assert!(said.err.contains("a fault in the run"), "{}", said.err);
+    has(&said.err, "a fault in the run");
     assert_eq!(
         names(&dir.path("x")),
         [
@@ -296,7 +296,7 @@ fn a_disk_that_is_full_at_the_end_leaves_a_checkpoint() {
             None => assert!(last.ends_with("there is no checkpoint"), "{last}"),
             Some(out) => {
                 let hint = format!("resume with: mdr-tui run --resume {out}/run.checkpoint");
-                assert!(last.contains(&hint), "{last}");
+                has(last, &hint);
                 let line = format!("run --resume {out}/run.checkpoint --quiet");
                 dir.line(&line);
                 dir.done(

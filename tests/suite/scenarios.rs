@@ -14,7 +14,7 @@ use mdr_tui::wear::WearLaw;
 use proptest::prelude::*;
 
 use crate::common::{load, ran, try_load};
-use crate::test_dir::has;
+use crate::test_dir::{cases, has, lacks};
 
 fn fixtures(kind: &str) -> Vec<(String, String)> {
     let directory = Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -159,7 +159,7 @@ fn the_radius_of_a_punch_is_none_of_curvature() {
         "{error}"
     );
     let error = try_load("flat-punch", &["indenter.shape=paraboloid"]).expect_err("no radius");
-    assert!(error.contains("indenter.radius is missing"), "{error}");
+    has(&error, "indenter.radius is missing");
     // In either order, and a domain given for another shape does not stand in the way.
     let wide = load("li2019-fig3", &["numerics.domain_radius=3e-4"]);
     for both in [
@@ -237,16 +237,8 @@ fn grid_and_scheme_follow_the_method_unless_they_are_given() {
                 let changed = changed.expect("a method");
                 let setup = changed.setup();
                 assert_eq!((setup.spacing, setup.scheme), (spacing, scheme), "{method}");
-                assert!(
-                    changed
-                        .to_toml()
-                        .contains(&format!("\ngrid = \"{spacing}\"\n"))
-                );
-                assert!(
-                    changed
-                        .to_toml()
-                        .contains(&format!("\nscheme = \"{scheme}\"\n"))
-                );
+                has(&changed.to_toml(), &format!("\ngrid = \"{spacing}\"\n"));
+                has(&changed.to_toml(), &format!("\nscheme = \"{scheme}\"\n"));
             }
         }
     }
@@ -282,57 +274,21 @@ fn a_run_that_changed_its_method_replays_to_the_same_bits() {
 
 #[test]
 fn bad_assignments_name_themselves() {
-    for (set, expected) in [
-        (
-            "numerics.pointz=3",
-            "--set numerics.pointz=3: unknown key numerics.pointz; did you mean numerics.points?",
-        ),
-        (
-            "material.poisson=0.7",
-            "--set material.poisson=0.7: must be from 0 to 0.5",
-        ),
-        (
-            "numerics.points=many",
-            "--set numerics.points=many: must be a whole number from 4 to 100000",
-        ),
-        (
-            "numerics.points=1e12",
-            "--set numerics.points=1e12: must be a whole number from 4 to 100000",
-        ),
-        (
-            "numerics.points=0",
-            "--set numerics.points=0: must be from 4 to 100000",
-        ),
-        (
-            "indenter.radius=-1",
-            "--set indenter.radius=-1: must be greater than 0",
-        ),
-        (
-            "indenter.radius=nan",
-            "--set indenter.radius=nan: must be a finite number greater than 0",
-        ),
-        (
-            "indenter.shape=sphere",
-            "--set indenter.shape=sphere: must be one of \"paraboloid\", \"cone\", \"power\", \"flat-punch\"",
-        ),
-        (
-            "wear.coefficient",
-            "--set wear.coefficient: must be KEY=VALUE, as in numerics.points=400",
-        ),
-        (
-            "=3",
-            "--set =3: must be KEY=VALUE, as in numerics.points=400",
-        ),
-        (
-            "motion=3",
-            "--set motion=3: motion is a table; known are motion.normal, motion.tangential",
-        ),
-        (
-            "changes.set=3",
-            "--set changes.set=3: changes are recorded during a run, not set",
-        ),
-        ("a\u{1b}[2J=1\n2", "--set a\\u{1b}[2J=1\\n2: unknown key"),
-    ] {
+    for (set, expected) in cases([
+        "numerics.pointz=3 => --set numerics.pointz=3: unknown key numerics.pointz; did you mean numerics.points?",
+        "material.poisson=0.7 => --set material.poisson=0.7: must be from 0 to 0.5",
+        "numerics.points=many => --set numerics.points=many: must be a whole number from 4 to 100000",
+        "numerics.points=1e12 => --set numerics.points=1e12: must be a whole number from 4 to 100000",
+        "numerics.points=0 => --set numerics.points=0: must be from 4 to 100000",
+        "indenter.radius=-1 => --set indenter.radius=-1: must be greater than 0",
+        "indenter.radius=nan => --set indenter.radius=nan: must be a finite number greater than 0",
+        "indenter.shape=sphere => --set indenter.shape=sphere: must be one of \"paraboloid\", \"cone\", \"power\", \"flat-punch\"",
+        "wear.coefficient => --set wear.coefficient: must be KEY=VALUE, as in numerics.points=400",
+        "=3 => --set =3: must be KEY=VALUE, as in numerics.points=400",
+        "motion=3 => --set motion=3: motion is a table; known are motion.normal, motion.tangential",
+        "changes.set=3 => --set changes.set=3: changes are recorded during a run, not set",
+        "a\u{1b}[2J=1\n2 => --set a\\u{1b}[2J=1\\n2: unknown key",
+    ]) {
         let error = try_load("li2019-fig3", &[set]).expect_err(set);
         assert!(error.starts_with(expected), "{error}");
         assert!(!error.contains(char::is_control), "{error}");
@@ -502,10 +458,10 @@ fn defaults_that_may_change_are_written_out_and_derived_ones_are_not() {
     ] {
         assert_line(&text, line);
     }
-    assert!(text.contains("\nmethod = \""), "{text}");
-    assert!(!text.contains("domain_radius"));
+    has(&text, "\nmethod = \"");
+    lacks(&text, "domain_radius");
     let text = load("hertz", &["numerics.domain_radius=2e-4"]).to_toml();
-    assert!(text.contains("domain_radius = 2e-4  # m"), "{text}");
+    has(&text, "domain_radius = 2e-4  # m");
 }
 
 #[test]
@@ -713,7 +669,7 @@ fn all_errors_of_a_file_are_told_in_one_go() {
          wear.coefficient_per_load (per load and distance, of a pin test)?",
         "numerics.points = \"many\": must be a whole number",
     ] {
-        assert!(told.contains(part), "{part}\n{told}");
+        has(&told, part);
     }
     // Nothing is told twice, and what was meant is not missing as well.
     assert_eq!(told.lines().count(), 10, "{told}");
@@ -748,7 +704,7 @@ fn a_decimal_comma_is_told_with_the_number_that_was_meant() {
         &comma.replace("poisson = 0.3", "poisson = 3,3"),
         &["friction.x=1".into()],
     );
-    assert!(both.contains("friction.x"), "{both}");
+    has(&both, "friction.x");
     let line = told(text, &["indenter.radius=0,3 mm".into()]);
     assert!(
         line.ends_with("must be written with a point, 0.3 mm"),
@@ -778,10 +734,8 @@ fn a_frequency_is_given_in_either_unit_but_once() {
     assert_eq!(of(&hertz), Some(std::f64::consts::TAU * 50.0));
     // It is written as it was given, and read back to the same bits.
     let text = hertz.to_toml();
-    assert!(
-        text.contains("frequency = 50.0  # Hz") && !text.contains("angular"),
-        "{text}"
-    );
+    has(&text, "frequency = 50.0  # Hz");
+    lacks(&text, "angular");
     let again = Scenario::from_toml(&text, "again", &[]).expect("its own text");
     assert_eq!(of(&again), of(&hertz));
     let both = preset::find("li2019-fig3").expect("a preset").text;
@@ -839,6 +793,6 @@ fn a_wear_coefficient_per_load_is_over_the_friction_of_the_moment() {
         ),
     ] {
         let told = run(&sets).expect_err(rule);
-        assert!(told.contains(rule), "{told}");
+        has(&told, rule);
     }
 }

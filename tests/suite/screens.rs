@@ -10,7 +10,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crate::common::{LiveWorker, load, ran};
-use crate::test_dir::{TestDir, names};
+use crate::test_dir::{TestDir, cases, has, lacks, names};
 use mdr_tui::plot::{Marker, Scale};
 use mdr_tui::scenario::preset;
 use mdr_tui::tui::app::App;
@@ -145,7 +145,7 @@ fn a_newcomers_questions_are_answered_by_one_key() {
             "A faint line ends",
         ] {
             let text = running(&text);
-            assert!(text.contains(answer), "{answer}\n{text}");
+            has(&text, answer);
         }
     }
 }
@@ -165,7 +165,7 @@ fn another_stress_in_the_half_space() {
         let scale = panels(&text).last().copied().unwrap_or_default().to_owned();
         assert!(scale.contains(name) && scale.contains("Pa"), "{text}");
     }
-    assert!(!shot(",vzooooo,").contains("GPa"));
+    lacks(&shot(",vzooooo,"), "GPa");
     // In a narrow panel, too, and the largest of a cycle as well.
     for (k, name) in said.into_iter().enumerate() {
         for more in ["", "O"] {
@@ -179,7 +179,7 @@ fn another_stress_in_the_half_space() {
         }
     }
     // Half a cycle of loads or more: the largest of a cycle is at least that of the moment.
-    assert!(shot(",vzO").contains("von Mises, cycle"));
+    has(&shot(",vzO"), "von Mises, cycle");
 }
 
 #[test]
@@ -269,16 +269,10 @@ fn a_timeline_tells_what_was_done() {
         );
     }
     // At 80 columns the key is whole, or its end is.
-    for (set, told) in [
-        (
-            "friction.coefficient=0.2",
-            "99.24   at cycle 2: friction.coefficient = 0.2",
-        ),
-        (
-            "motion.tangential.angular_frequency=90",
-            "99.24   motion.tangential.angular_frequency = 90",
-        ),
-    ] {
+    for (set, told) in cases([
+        "friction.coefficient=0.2 => 99.24   at cycle 2: friction.coefficient = 0.2",
+        "motion.tangential.angular_frequency=90 => 99.24   motion.tangential.angular_frequency = 90",
+    ]) {
         let text = shot("li2019-fig3", &format!(",,:set {set}<Enter>"), (80, 24));
         let line = text.lines().nth(1).unwrap_or_default();
         assert!(line.ends_with(told), "{line}");
@@ -293,14 +287,13 @@ fn a_timeline_tells_what_was_done() {
     let edited = ",,:set friction.coefficient=0.2<Enter>,s,";
     let after = line(edited);
     for sign in ["▼", "◆", "●", "8   at cycle 2: friction.coefficient = 0.2"] {
-        assert!(after.contains(sign), "{sign}: {after}");
+        has(&after, sign);
     }
     // Before the change nothing is said of it, but its tick stays.
     let before = line(&format!("{edited}[[[["));
-    assert!(
-        before.contains("▼") && before.contains("◆") && !before.contains("friction"),
-        "{before}"
-    );
+    has(&before, "▼");
+    has(&before, "◆");
+    lacks(&before, "friction");
     assert!(before.find("●") < before.find("▼"), "{before}");
 }
 
@@ -330,10 +323,8 @@ fn a_lecture_shows_the_contact_and_a_chart() {
     let steps = ".".repeat(30);
     for (columns, rows) in [(80, 24), (120, 40)] {
         let text = dir.screen(&["--present"], &format!(",,{steps}"), (columns, rows));
-        assert!(
-            text.contains("cross-section") && text.contains("fretting loop"),
-            "{text}"
-        );
+        has(&text, "cross-section");
+        has(&text, "fretting loop");
         insta::assert_snapshot!(format!("present-{columns}x{rows}"), text);
     }
 }
@@ -414,19 +405,21 @@ fn nine_panels_on_a_middling_screen() {
 fn panels_come_in_pages() {
     let shot = |keys: &str, size| shot("li2019-fig3", keys, size);
     let first = shot(",", (80, 24));
-    assert!(first.contains("fretting loop") && !first.contains("cross-section"));
+    has(&first, "fretting loop");
+    lacks(&first, "cross-section");
     let second = shot(",v", (80, 24));
-    assert!(second.contains("cross-section") && !second.contains("fretting loop"));
-    assert!(shot(",vv", (80, 24)).contains("wear rate"));
-    assert!(shot(",vvv", (80, 24)).contains("fretting log"));
-    assert!(shot(",vvvv", (80, 24)).contains("scar over friction work"));
+    has(&second, "cross-section");
+    lacks(&second, "fretting loop");
+    has(&shot(",vv", (80, 24)), "wear rate");
+    has(&shot(",vvv", (80, 24)), "fretting log");
+    has(&shot(",vvvv", (80, 24)), "scar over friction work");
     assert_eq!(shot(",vvvvv", (80, 24)), first);
     // Tab walks over the page's end; the page follows the focus.
     assert_eq!(shot(",<Tab><Tab><Tab><Tab>", (80, 24)), second);
     // A large screen has them all on two pages.
     let all = shot(",", (200, 50)) + &shot(",v", (200, 50));
     for panel in Panel::ALL {
-        assert!(all.contains(panel.title()), "{panel:?}");
+        has(&all, panel.title());
     }
 }
 
@@ -470,7 +463,7 @@ fn every_marker_draws() {
     let dir = TestDir::new();
     for marker in ["braille", "halfblock", "dot", "ascii"] {
         let text = dir.screen(&["--marker", marker], ",,", (80, 24));
-        assert!(text.contains("fretting loop"), "{text}");
+        has(&text, "fretting loop");
     }
 }
 
@@ -563,11 +556,8 @@ fn a_snapshot_tells_of_the_switches_and_runs_again_bit_for_bit() {
         assert_eq!(changes, switches, "{keys}");
         assert_eq!(scenario.matches("[[changes]]").count(), switches, "{keys}");
         if i == 0 {
-            assert!(state.contains("\n# method: a\n"), "{state}");
-            assert!(
-                state.contains("\n# at cycle 1: numerics.method = \"a\"\n"),
-                "{state}"
-            );
+            has(&state, "\n# method: a\n");
+            has(&state, "\n# at cycle 1: numerics.method = \"a\"\n");
             assert_eq!(directory, "li2019-fig3-cycle-2");
         }
         dir.done(&format!(
@@ -582,7 +572,7 @@ fn a_snapshot_tells_of_the_switches_and_runs_again_bit_for_bit() {
 fn a_snapshot_never_writes_over_another() {
     let dir = TestDir::new();
     let text = dir.screen(&["hertz"], ",sss", (80, 24));
-    assert!(text.contains("snapshot in hertz-cycle-1-3"), "{text}");
+    has(&text, "snapshot in hertz-cycle-1-3");
     assert_eq!(names(&dir.path("")).len(), 3);
 }
 
@@ -675,7 +665,7 @@ fn the_help_has_one_key_a_row_by_groups() {
             );
             for row in rows {
                 let row = format!(" {}  {}", row.key_names().join(" "), row.help);
-                assert!(text.contains(&row), "{row} is not in\n{text}");
+                has(&text, &row);
             }
         }
     }
@@ -694,13 +684,13 @@ fn a_panel_is_explained_where_it_stands() {
         "contact radius: the bodies touch inside it",
         "stick, slip and open zones",
     ] {
-        assert!(profile.contains(answer), "{profile}");
+        has(&profile, answer);
     }
     // The explanation follows the focus, and closes without a trace.
     for (tabs, panel) in Panel::ALL.into_iter().enumerate() {
         let text = shot(&format!(",<Enter>{}", "<Tab>".repeat(tabs)), (80, 24));
         let title = format!("┌ {} (", panel.title());
-        assert!(text.contains(&title), "{text}");
+        has(&text, &title);
         // The panel itself is not covered.
         let plain = shot(&format!(",{}", "<Tab>".repeat(tabs)), (80, 24));
         let is_seen = |line: &&str| text.lines().any(|seen| seen == *line);
@@ -708,13 +698,13 @@ fn a_panel_is_explained_where_it_stands() {
         assert!(same >= 12, "{same} lines\n{text}");
         let text = running(&text);
         let last = panel.words().symbols.last().expect("a symbol").1;
-        assert!(text.contains(last), "{last}\n{text}");
+        has(&text, last);
     }
     assert_eq!(shot(",<Enter><Enter>", (80, 24)), shot(",", (80, 24)));
     // The zones have their names in the strip.
     let strip = shot(",", (80, 24));
     for zone in [" stick ", " slip ", " open "] {
-        assert!(strip.contains(zone), "{strip}");
+        has(&strip, zone);
     }
 }
 
@@ -745,7 +735,7 @@ fn every_tour_can_be_walked_to_its_end() {
     let own = preset::find("hertz").expect("a preset").text;
     dir.write("own.toml", own.as_bytes());
     let text = dir.screen(&["own.toml"], ",n", (80, 24));
-    assert!(text.contains("only presets have tours"), "{text}");
+    has(&text, "only presets have tours");
 }
 
 #[test]
@@ -811,11 +801,11 @@ fn no_phase_is_told_when_the_run_is_done() {
 #[test]
 fn the_axis_of_the_friction_work_holds() {
     let zoomed = |cycles: &str| shot("li2019-fig3", &format!("{cycles}<S-Tab>z"), (80, 24));
-    assert!(zoomed("").contains("no cycle is complete yet"));
+    has(&zoomed(""), "no cycle is complete yet");
     let axis = |cycles: usize| {
         let text = zoomed(&",".repeat(cycles));
         let labels = panels(&text).last().copied().unwrap_or_default().to_owned();
-        assert!(text.contains("E_d [µJ] →"), "{text}");
+        has(&text, "E_d [µJ] →");
         labels
     };
     assert_eq!([axis(2), axis(12)], [(); 2].map(|()| axis(1)));
@@ -827,10 +817,10 @@ fn the_status_line_names_the_method_in_80_columns() {
     for keys in [",", ",m"] {
         let text = shot("li2019-fig3", keys, (80, 24));
         let status = line_with(&text, "paused");
-        assert!(status.contains("│ method: "), "{status}");
+        has(status, "│ method: ");
     }
     let text = shot("li2019-fig3", ",", (80, 24));
-    assert!(line_with(&text, "paused").contains("wear ±"), "{text}");
+    has(line_with(&text, "paused"), "wear ±");
 }
 
 /// A preset may ask for a logarithmic scale; the user has the last word, and another scenario its own.
@@ -883,11 +873,9 @@ fn a_small_panel_hides_no_curve_behind_its_names() {
     let panel: String = rows
         .map(|row| row.chars().skip(31).collect::<String>() + "\n")
         .collect();
-    assert!(
-        panel.contains("stick c") && panel.contains("contact a"),
-        "{panel}"
-    );
-    assert!(!panel.contains("╌ stick c"), "{panel}");
+    has(&panel, "stick c");
+    has(&panel, "contact a");
+    lacks(&panel, "╌ stick c");
     // The last dashes of c are there, at the right end.
     let dashes = panel.lines().filter(|row| row.contains("⠤⠤")).count();
     assert!(dashes > 0, "{panel}");
@@ -915,10 +903,8 @@ fn a_logarithmic_axis_keeps_its_unit() {
     for (keys, unit) in [(",z", "f [µm]"), (",<Tab>z", "stress [GPa]")] {
         let linear = shot("li2019-fig3", keys, (80, 24));
         let log = shot("li2019-fig3", &format!("{keys}L"), (80, 24));
-        assert!(
-            linear.contains(unit) && log.contains(unit),
-            "{linear}\n{log}"
-        );
+        has(&linear, unit);
+        has(&log, unit);
     }
 }
 
@@ -926,23 +912,17 @@ fn a_logarithmic_axis_keeps_its_unit() {
 fn a_comparison_can_begin_at_the_start() {
     let shot = |keys: &str| shot("strong-wear", keys, (120, 40));
     let text = shot(",,,,,,c");
-    assert!(text.contains("equal so far"), "{text}");
-    assert!(shot(",c<Enter>").contains("side by side the same numbers"));
-    assert!(text.contains("C: from the start"), "{text}");
+    has(&text, "equal so far");
+    has(&shot(",c<Enter>"), "side by side the same numbers");
+    has(&text, "C: from the start");
     let text = shot(",,,,,,C");
-    assert!(!text.contains("equal so far"), "{text}");
-    assert!(
-        text.contains("comparing with B, N = 100 from the start"),
-        "{text}"
-    );
+    lacks(&text, "equal so far");
+    has(&text, "comparing with B, N = 100 from the start");
     // It is the run of that method: the same numbers as in a run of its own.
     let alone = ran(load("strong-wear", &["numerics.method=b"]), 6.0);
     let volume = alone.simulation().moment().wear_volume;
     let shown = mdr_tui::plot::units::format_value(volume, "m³", 4);
-    assert!(
-        line_with(&text, "wear volume ").contains(&shown),
-        "{shown}\n{text}"
-    );
+    has(line_with(&text, "wear volume "), &shown);
 }
 
 /// A worker that runs for so many cycles.
@@ -1007,7 +987,7 @@ fn space_at_the_end_asks_first() {
             _ => {}
         }
     };
-    assert!(notice.contains("planned end"), "{notice}");
+    has(&notice, "planned end");
     orders.send(Worker::run_or_pause);
     until(Activity::Running);
 }
@@ -1022,7 +1002,7 @@ fn a_jump_beyond_the_planned_end_covers_as_much_again() {
         "--set=numerics.steps_per_cycle=1",
     ];
     let screen = TestDir::new().screen(&arguments, "M.M.Mcm.", (100, 30));
-    assert!(screen.contains("cycle 200000.00/100000"), "{screen}");
+    has(&screen, "cycle 200000.00/100000");
 }
 
 /// Compares a picture with its file; `UPDATE_PICTURES=1 cargo test screens::` writes it anew.
@@ -1074,11 +1054,11 @@ fn theory_comes_and_goes() {
     assert_eq!(plain, without);
     // Zoomed, each curve is named.
     let zoomed = shot(",,tz");
-    assert!(zoomed.contains("limit"), "{zoomed}");
-    assert!(!shot(",,z").contains("limit"));
+    has(&zoomed, "limit");
+    lacks(&shot(",,z"), "limit");
     let stresses = shot(",,t<Tab>z");
-    assert!(stresses.contains("unworn p"), "{stresses}");
-    assert!(!shot(",,<Tab>z").contains("unworn p"));
+    has(&stresses, "unworn p");
+    lacks(&shot(",,<Tab>z"), "unworn p");
 }
 
 #[test]
@@ -1142,11 +1122,8 @@ fn a_comparison_sets_a_rival_beside_the_run() {
 fn the_accuracy_panel_waits_for_the_companion_and_shows_what_it_found() {
     let shot = |keys: &str| shot("li2019-fig3", keys, (80, 24));
     let text = shot(",,,a");
-    assert!(
-        text.contains(" accuracy (Esc closes, Tab explains) "),
-        "{text}"
-    );
-    assert!(!text.contains("running ..."), "{text}");
+    has(&text, " accuracy (Esc closes, Tab explains) ");
+    lacks(&text, "running ...");
     line_with(
         &text,
         "   100 cells, 100 steps per cycle, to cycle 3.00, in ",
@@ -1168,11 +1145,11 @@ fn the_accuracy_panel_waits_for_the_companion_and_shows_what_it_found() {
         "energy: holds to",
         "Wear by Archard's law",
     ] {
-        assert!(text.contains(words), "{words}:\n{text}");
+        has(&text, words);
     }
     assert_eq!(shot(",,,a<Tab><Esc>"), shot(",,,"));
     // The run goes on below it, and it closes without a trace.
-    assert!(shot(",a,,").contains(" accuracy "));
+    has(&shot(",a,,"), " accuracy ");
     assert_eq!(shot(",,,a<Esc>"), shot(",,,"));
     assert_eq!(shot(",,,aa"), shot(",,,"));
 }
@@ -1214,10 +1191,10 @@ fn the_status_line_begins_sensibly_however_narrow() {
         );
         // That nothing is wrong is told less than how right it is.
         if columns >= 80 {
-            assert!(status.contains("wear ±0."), "{status}");
+            has(status, "wear ±0.");
         }
         if columns >= 100 {
-            assert!(status.contains("checks ok"), "{status}");
+            has(status, "checks ok");
         }
     }
 }
@@ -1248,7 +1225,7 @@ fn a_file_with_a_wide_name_is_told_in_ascii_where_it_must_be() {
     dir.write("接触.toml", text.as_bytes());
     let text = dir.screen_in("C", &["接触.toml"], ",s", (80, 24));
     assert!(text.is_ascii(), "{text}");
-    assert!(text.contains(" snapshot in ??-cycle-1"), "{text}");
+    has(&text, " snapshot in ??-cycle-1");
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::process::{Child, Command};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::test_dir::{Table, TestDir, end, names, signal};
+use crate::test_dir::{Table, TestDir, end, has, names, signal};
 
 /// A second is what is promised; a machine that is busy with all the other tests takes longer.
 pub const SOON: Duration = Duration::from_millis(2500);
@@ -97,5 +97,5 @@ fn a_file_that_has_grown_to_its_limit_is_an_error_in_one_line() {
         "{}",
         said.err
     );
-    assert!(said.err.contains("cannot write"), "{}", said.err);
+    has(&said.err, "cannot write");
 }

@@ -78,14 +78,10 @@ fn on_a_full_disk_the_newest_state_is_kept_where_there_is_room() {
     let [first, .., last] = lines[..] else {
         panic!("{}", said.err);
     };
-    assert!(
-        first.contains("cannot write") && first.contains("; checkpoints go to "),
-        "{first}"
-    );
-    assert!(
-        last.contains("cannot write") && last.contains("; resume with: "),
-        "{last}"
-    );
+    has(first, "cannot write");
+    has(first, "; checkpoints go to ");
+    has(last, "cannot write");
+    has(last, "; resume with: ");
     let (_, path) = last
         .split_once("; resume with: mdr-tui run --resume ")
         .expect("a way on");

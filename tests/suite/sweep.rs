@@ -4,7 +4,7 @@ use std::fs;
 use std::thread;
 use std::time::Duration;
 
-use crate::test_dir::{Table, TestDir, end, has, signal};
+use crate::test_dir::{Table, TestDir, cases, end, has, lacks, signal};
 use mdr_tui::studies::sweep::record::Record;
 use mdr_tui::studies::sweep::slice::Slice;
 
@@ -68,16 +68,9 @@ fn a_row_a_point_in_the_order_of_the_axes() {
         ("gross", "partial", "partial")
     );
     // The header holds the study and its base.
-    assert!(
-        table
-            .header
-            .contains(&("study".into(), "base = \"li2019-fig3\"".into()))
-    );
-    assert!(
-        table
-            .header
-            .contains(&("base".into(), "shape = \"paraboloid\"".into()))
-    );
+    let text = dir.read("map.csv");
+    has(&text, "\n# study: base = \"li2019-fig3\"\n");
+    has(&text, "\n# base: shape = \"paraboloid\"\n");
 }
 
 #[test]
@@ -184,10 +177,8 @@ axis = [
     // F = 4/3 E* √R d^1.5.
     assert!((force[0] / force[1] / 2.0 - 1.0).abs() < 1e-9, "{force:?}");
     let point = dir.done("sweep study.toml --point 1");
-    assert!(
-        point.contains("mean = 5e-7 ") && point.contains("amplitude = 1.25e-7 "),
-        "{point}"
-    );
+    has(&point, "mean = 5e-7 ");
+    has(&point, "amplitude = 1.25e-7 ");
 
     for design in ["latin-hypercube", "sobol"] {
         let sampled = format!(
@@ -229,8 +220,8 @@ fn a_study_that_was_interrupted_goes_on_to_the_same_bytes() {
     let marked = torn.replace(rows[2], &rows[2].replace(",ok\n", ",a reason\n"));
     dir.write("map.csv", marked.as_bytes());
     let said = dir.line("sweep study.toml --out map.csv --resume");
-    assert!(said.err.contains("1 of 12 points failed"), "{}", said.err);
-    assert!(dir.read("map.csv").contains(",a reason\n"));
+    has(&said.err, "1 of 12 points failed");
+    has(&dir.read("map.csv"), ",a reason\n");
     // Those that failed are, on demand.
     dir.done("sweep study.toml --out map.csv --resume --failed");
     assert_eq!(dir.read("map.csv"), whole);
@@ -319,7 +310,7 @@ fn a_table_that_a_spreadsheet_has_saved_is_read_by_the_names_of_its_columns() {
     );
     assert_eq!(dir.done("sweep --merge parts"), whole);
     let shown = dir.done("sweep --view parts/a.csv --print 80x24");
-    assert!(shown.contains("12 of 12 points"), "{shown}");
+    has(&shown, "12 of 12 points");
     for (from, to, why) in [
         (
             "cycle,",
@@ -416,11 +407,11 @@ fn a_table_names_the_arithmetic_of_all_machines_that_have_run_its_points() {
     dir.write(path, text.replace(here, "# arithmetic: abacus").as_bytes());
     let both = format!("# arithmetic: abacus; {}\n", &here[line.len()..]);
     let merged = dir.done("sweep --merge study.shards");
-    assert!(merged.contains(&both), "{merged}");
+    has(&merged, &both);
     dir.done(&format!(
         "sweep study.toml --shard 1/2 --out {path} --resume --quiet"
     ));
-    assert!(dir.read(path).contains(&both));
+    has(&dir.read(path), &both);
     dir.write("m.csv", merged.as_bytes());
     dir.done("sweep --view m.csv --print 80x24");
 }
@@ -516,11 +507,8 @@ fn a_point_that_is_found_invalid_while_others_run_stops_them() {
     let dir = dir_with(&study);
     let said = dir.line("sweep study.toml --quiet");
     assert_eq!(said.code, 2, "{}", said.err);
-    assert!(
-        said.err.contains("point 7499") && said.err.contains("--skip-invalid"),
-        "{}",
-        said.err
-    );
+    has(&said.err, "point 7499");
+    has(&said.err, "--skip-invalid");
 }
 
 #[test]
@@ -542,14 +530,14 @@ values = [1e-6, 3e-6]
     // A queueing system must not take it for done.
     let said = dir.line("sweep study.toml");
     assert_eq!((said.code, said.out.as_str()), (1, ""));
-    assert!(said.err.contains("1 of 2 points failed"), "{}", said.err);
+    has(&said.err, "1 of 2 points failed");
     let text = dir.read("study.csv");
     let last = text.lines().last().expect("a row");
     assert!(
         last.starts_with("3e-6,,\"") || last.starts_with("3e-6,,"),
         "{last}"
     );
-    assert!(last.contains("domain"), "{last}");
+    has(last, "domain");
 }
 
 /// The slip ring of a tiny amplitude is narrower than cells can be; without wear there is no accuracy to reach.
@@ -633,7 +621,7 @@ fn a_disk_that_fills_up_leaves_whole_rows() {
         .expect("a shell");
     assert_eq!(output.status.code(), Some(1));
     let said = String::from_utf8_lossy(&output.stderr);
-    assert!(said.contains("of 12 points are in map.csv"), "{said}");
+    has(&said, "of 12 points are in map.csv");
     let kept = dir.read("map.csv");
     assert!(kept.ends_with(",ok\n") && kept.len() < whole.len());
     dir.done("sweep study.toml --out map.csv --resume");
@@ -701,7 +689,7 @@ fn points_end_where_they_are_told_to() {
 #[test]
 fn bad_studies_are_refused_in_one_line() {
     let axis = "[[axis]]\nkey = \"friction.coefficient\"\nvalues = [0.1]\n";
-    let cases = [
+    let studies = [
         (String::new(), "base is missing"),
         ("base = \"hertz\"\n".into(), "there is no axis: add [[axis]]"),
         (format!("bass = \"hertz\"\n{axis}"), "unknown key bass; did you mean base?"),
@@ -723,24 +711,21 @@ fn bad_studies_are_refused_in_one_line() {
         ("base = \n".into(), "line 1"),
     ];
     let dir = TestDir::new();
-    for (study, word) in cases {
+    for (study, word) in studies {
         dir.write("study.toml", study.as_bytes());
         dir.refuse_line("sweep study.toml", word);
     }
     dir.refuse_line("sweep no.toml", "no.toml: no such file");
     dir.write("study.toml", STUDY.as_bytes());
-    for (options, word) in [
-        (
-            "--shard 4/4",
-            "shards count from 0, so the last of 4 is 3/4",
-        ),
-        ("--shard x", "a shard is INDEX/COUNT"),
-        ("--set friction", "must be KEY=VALUE"),
-        ("--set motion.normal.mean=1", "is varied by an axis"),
-        ("--threads 0", "--threads"),
-        ("--failed", "--resume"),
-        ("--slurm", "--shards"),
-    ] {
+    for (options, word) in cases([
+        "--shard 4/4 => shards count from 0, so the last of 4 is 3/4",
+        "--shard x => a shard is INDEX/COUNT",
+        "--set friction => must be KEY=VALUE",
+        "--set motion.normal.mean=1 => is varied by an axis",
+        "--threads 0 => --threads",
+        "--failed => --resume",
+        "--slurm => --shards",
+    ]) {
         dir.refuse_line(&format!("sweep study.toml {options}"), word);
     }
 }
@@ -749,9 +734,9 @@ fn bad_studies_are_refused_in_one_line() {
 fn the_job_script_has_what_a_centre_asks_for() {
     let dir = dir_with(STUDY);
     let line = "sweep study.toml --shards 4 --slurm";
-    assert!(
-        dir.done(line)
-            .contains("\n#SBATCH --time=01:00:00\n#SBATCH --signal")
+    has(
+        &dir.done(line),
+        "\n#SBATCH --time=01:00:00\n#SBATCH --signal",
     );
     let script = dir.done(&format!(
         "{line} --account a1 --partition long,short --time 2-12:00 --mem 2G --module gcc/13 --module x"
@@ -760,7 +745,7 @@ fn the_job_script_has_what_a_centre_asks_for() {
         "#SBATCH --time=2-12:00\n#SBATCH --account=a1\n#SBATCH --partition=long,short\n#SBATCH --mem=2G\n",
         "\nmodule load gcc/13\nmodule load x\nprogram= signals=0\n",
     ] {
-        assert!(script.contains(word), "{word}\n{script}");
+        has(&script, word);
     }
     for word in ["a b", "a\nb", "$(x)", ""] {
         let line = ["sweep", "study.toml", "--shards", "4", "--slurm"];
@@ -785,7 +770,7 @@ fn the_job_script_is_a_script() {
         " --set 'friction.coefficient=0.2'",
         "[ \"$status\" = 75 ] && [ \"${SLURM_RESTART_COUNT:-0}\" -lt 100 ]",
     ] {
-        assert!(script.contains(word), "{word}\n{script}");
+        has(&script, word);
     }
     dir.write("job.sh", script.as_bytes());
     // The task of an array, with stand-ins for what Slurm provides: interrupted, it asks for its
@@ -830,10 +815,7 @@ fn the_job_script_is_a_script() {
     assert_eq!(dir.read("requeued"), "requeue 77\n");
     task(0);
     assert_eq!(dir.read("requeued"), "requeue 77\n");
-    assert!(
-        dir.read("study.shards/shard-2.csv")
-            .contains("# shard: 2/16\n")
-    );
+    has(&dir.read("study.shards/shard-2.csv"), "# shard: 2/16\n");
 }
 
 /// The screen that `--view` prints, line by line.
@@ -879,13 +861,9 @@ fn the_map_shows_two_axes_and_reads_points() {
     kinds.dedup();
     assert_eq!(kinds.last(), Some(&'#'), "{text}");
     // The closed form of the border lies over it, the criterion A = 0.2 as well.
-    assert!(text.contains("G gross slip, closed form, unworn"), "{text}");
+    has(&text, "G gross slip, closed form, unworn");
     has(&text, "A A = 0.2 (unworn sphere, stiff rig only)");
-    assert!(
-        !screen(&dir, "map.csv", "t")
-            .join("\n")
-            .contains("closed form")
-    );
+    lacks(&screen(&dir, "map.csv", "t").join("\n"), "closed form");
     // The cursor: two to the right, three up; the point is that of the row.
     let lines = screen(&dir, "map.csv", "ll<Up>kk");
     assert!(
@@ -909,12 +887,12 @@ fn the_map_shows_two_axes_and_reads_points() {
     );
     // The axes change places.
     let text = screen(&dir, "map.csv", "x").join("\n");
-    assert!(text.contains("mean depth d [µm] →\n"), "{text}");
+    has(&text, "mean depth d [µm] →\n");
     // The last tick is there, too.
-    assert!(text.contains(" 2.00\n"), "{text}");
+    has(&text, " 2.00\n");
     // Enter opens the point in the explorer.
     let text = screen(&dir, "map.csv", "l<Enter>").join("\n");
-    assert!(text.contains("cycle 0.00/"), "{text}");
+    has(&text, "cycle 0.00/");
 }
 
 #[test]
@@ -946,10 +924,8 @@ fn one_axis_is_a_curve() {
     let lines = screen(&dir, "study.csv", "<Right><Right>");
     let text = lines.join("\n");
     has(&text, "point 2: mean depth d 300.0 nm");
-    assert!(
-        lines[2].contains("[N]") && text.contains("mean depth d [µm]"),
-        "{text}"
-    );
+    has(&lines[2], "[N]");
+    has(&text, "mean depth d [µm]");
 }
 
 /// The border between partial and gross slip on a line of amplitudes: halfway between the last point
@@ -1060,8 +1036,8 @@ fn sensitivities_are_those_of_the_closed_forms() {
         .expect("a spread");
     assert!((spread - 0.05f64.hypot(0.1)).abs() < 1e-3, "{spread}");
     let text = dir.done("sweep study.toml --sensitivity --out s.csv");
-    assert!(text.contains("elasticity"), "{text}");
-    assert!(dir.read("s.csv").contains("\nindenter.radius,"));
+    has(&text, "elasticity");
+    has(&dir.read("s.csv"), "\nindenter.radius,");
     dir.refuse_line("sweep study.toml", "the study has no axis");
     dir.write(
         "none.toml",
@@ -1142,21 +1118,16 @@ fn the_explorer_sweeps_a_key_of_the_present_scenario() {
         said.out
     };
     let text = explore(":sweep friction.coefficient 0.05..0.3<Enter><Right><Right>");
-    assert!(text.contains("25 of 25 points"), "{text}");
-    assert!(
-        text.contains("point 2: coefficient of friction µ 0.0708"),
-        "{text}"
-    );
+    has(&text, "25 of 25 points");
+    has(&text, "point 2: coefficient of friction µ 0.0708");
     // Leaving it shows the panels again; Enter loads the point.
     let text = explore(":sweep friction.coefficient 0.05..0.3<Enter>q");
-    assert!(
-        !text.contains("25 of 25 points") && text.contains("cycle"),
-        "{text}"
-    );
+    lacks(&text, "25 of 25 points");
+    has(&text, "cycle");
     let text = explore(":sweep friction.coefficient 0.05..0.3<Enter><End><Enter>:set friction.c");
-    assert!(text.contains("0.3"), "{text}");
+    has(&text, "0.3");
     // What makes no study is told.
     let text = explore(":sweep friction.coefficient -1..0.3<Enter>");
-    assert!(text.contains("friction.coefficient"), "{text}");
-    assert!(!text.contains("points"), "{text}");
+    has(&text, "friction.coefficient");
+    lacks(&text, "points");
 }

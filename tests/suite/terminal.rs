@@ -9,6 +9,7 @@ use portable_pty::CommandBuilder;
 use vt100::{Color, MouseProtocolMode, Screen};
 
 use crate::pty::{Terminal, cycle, program};
+use crate::test_dir::has;
 
 fn is_running(screen: &Screen) -> bool {
     screen.contents().contains("running") && cycle(screen).is_some_and(|cycle| cycle > 0.0)
@@ -159,7 +160,7 @@ fn leaving_with_the_screen_kept_leaves_it_on_the_main_screen() {
     let status = |text: &str| text.lines().next().map(|line| line.trim_end().to_owned());
     assert_eq!(status(&after), status(&before), "{after}");
     for part in ["3D profile", "fretting loop", "stresses", "q quit"] {
-        assert!(after.contains(part), "{part} is not in\n{after}");
+        has(&after, part);
     }
 }
 
@@ -244,7 +245,7 @@ fn what_is_no_terminal_is_refused_with_a_way_out() {
     let line = String::from_utf8(output.stderr).expect("text");
     assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
     assert_eq!(line.lines().count(), 1, "{line}");
-    assert!(line.contains("mdr-tui run"), "{line}");
+    has(&line, "mdr-tui run");
 
     // One of them is not.
     for redirection in ["</dev/null", "| cat", ">/dev/null"] {
@@ -267,7 +268,8 @@ fn what_is_no_terminal_is_refused_with_a_way_out() {
     let mut terminal = Terminal::start(command, 120, 24);
     assert_eq!(terminal.wait_for_end().exit_code(), 2);
     let text = terminal.text();
-    assert!(text.contains("TERM=dumb") && text.contains("mdr-tui run"));
+    has(&text, "TERM=dumb");
+    has(&text, "mdr-tui run");
     assert!(!terminal.raw().contains(&0x1b), "{text}");
 }
 

@@ -40,7 +40,7 @@ fn the_front_is_printed_and_drawn_and_everything_is_written() {
     let Said { code, out, err } = small(&["--plot", "--marker", "ascii", "--csv", path]);
     assert_eq!((code, err.as_str()), (0, ""));
     has(&out, "reference: product, N = 96, 200 steps per cycle");
-    assert!(out.contains("half as fine differs by"), "{out}");
+    has(&out, "half as fine differs by");
     // What an accuracy costs that finds its level by itself, beside the best fixed setting.
     for accuracy in ["1e-2: ", "1e-3: "] {
         let line = out
@@ -54,13 +54,13 @@ fn the_front_is_printed_and_drawn_and_everything_is_written() {
         let asked: f64 = accuracy.trim_end_matches(": ").parse().expect("a number");
         // The reference of so small a ladder is no truth to 1e-3.
         assert!(error.is_some_and(|error| error < asked.max(1e-2)), "{line}");
-        assert!(line.contains("fixed setting"), "{line}");
+        has(line, "fixed setting");
     }
-    assert!(out.contains("time_s"), "{out}");
+    has(&out, "time_s");
     // The last line can be typed: it passes its checks, and its worst error is small enough.
     let last = out.lines().last().expect("a line");
     assert!(last.starts_with("use this: --set numerics."), "{last}");
-    assert!(last.contains("numerics.accuracy=1e-2 takes"), "{last}");
+    has(last, "numerics.accuracy=1e-2 takes");
     let stars = out.lines().filter(|line| line.ends_with('*')).count();
     assert!(stars >= 2, "{out}");
 
@@ -74,7 +74,7 @@ fn the_front_is_printed_and_drawn_and_everything_is_written() {
 
     let Said { code, err, .. } = small(&["--csv", path]);
     assert_eq!(code, 2);
-    assert!(err.contains("already exists"), "{err}");
+    has(&err, "already exists");
 }
 
 #[test]

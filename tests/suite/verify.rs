@@ -9,7 +9,7 @@ use mdr_tui::studies::verify::errors::Errors;
 use mdr_tui::studies::verify::{Outcome, Problem, Study, Task};
 use serde_json::Value;
 
-use crate::test_dir::{Said, TestDir};
+use crate::test_dir::{Said, TestDir, has, lacks};
 
 fn say(arguments: &[&str]) -> Said {
     TestDir::new().say(&[&["verify"], arguments].concat())
@@ -66,7 +66,8 @@ fn the_tables_have_every_method_and_n_and_fit_eighty_columns() {
         assert_eq!(found, expected, "{problem}");
     }
     assert!(text.lines().all(|line| line.chars().count() <= 80));
-    assert!(!text.contains("NaN") && !text.contains("inf "), "{text}");
+    lacks(&text, "NaN");
+    lacks(&text, "inf ");
     // The last line sums up: the default method's worst error on the finest grids.
     let last = text.lines().last().expect("a line");
     let worst = last
@@ -204,10 +205,8 @@ fn the_csv_has_every_node_and_is_never_written_over() {
 
     let Said { code, out, err } = say(&ask);
     assert_eq!((code, out.as_str()), (2, ""));
-    assert!(
-        err.contains("already exists") && err.contains("--force"),
-        "{err}"
-    );
+    has(&err, "already exists");
+    has(&err, "--force");
     said(&[&ask[..], &["--force"]].concat());
     assert_eq!(fs::read_to_string(&path).expect("the file"), text);
     assert_eq!(fs::read_dir(base.path()).expect("the directory").count(), 1);
@@ -227,7 +226,7 @@ fn the_curves_are_drawn_for_every_method_within_eighty_columns() {
     for method in AbelMethod::ALL {
         for quantity in ["g", "p", "w"] {
             let title = format!("{method}: {quantity}, N = 50");
-            assert!(text.contains(&title), "no {title} in\n{text}");
+            has(&text, &title);
         }
     }
     assert!(
@@ -260,9 +259,9 @@ fn nonsense_is_refused_in_one_line() {
 #[test]
 fn help_has_examples_and_the_default_ladder() {
     let help = said(&["--help"]);
-    assert!(help.contains("Example"));
+    has(&help, "Example");
     let ladder = mdr_tui::studies::verify::LADDER.map(|n| n.to_string());
-    assert!(help.contains(&ladder.join(",")), "{help}");
+    has(&help, &ladder.join(","));
 }
 
 #[test]

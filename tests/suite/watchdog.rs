@@ -1,6 +1,6 @@
 //! A run that cannot go on stops at its last good step, keeps it, and says what would help.
 
-use crate::test_dir::{Table, TestDir, bits, end, names};
+use crate::test_dir::{Table, TestDir, bits, end, has, lacks, names};
 
 /// `--set`s that end in each cause, the cause, and what would help. Those that end before the first
 /// step have nothing to keep.
@@ -108,7 +108,7 @@ fn every_cause_keeps_the_last_good_step_and_says_what_would_help() {
         let cycle: f64 = state.header("cycle").parse().expect("a number");
         let last = bits(&history.column("cycle")).last().copied();
         assert_eq!(last, Some(cycle.to_bits()));
-        assert!(said.err.contains(&format!("stopped after {cycle} cycles")));
+        has(&said.err, &format!("stopped after {cycle} cycles"));
         for (name, column) in state.columns.iter().zip(0..state.columns.len() - 1) {
             let finite = state
                 .rows
@@ -131,7 +131,7 @@ fn the_explorer_shows_the_cause_and_can_go_on_with_another_method() {
         let said = dir.say(&arguments);
         if !starts {
             assert_eq!(said.code, 1, "{sets:?}");
-            assert!(said.err.contains(cause), "{}", said.err);
+            has(&said.err, cause);
             continue;
         }
         assert_eq!(said.code, 0, "{sets:?}: {}", said.err);
@@ -153,10 +153,6 @@ fn the_explorer_shows_the_cause_and_can_go_on_with_another_method() {
         arguments.extend(["--set", set]);
     }
     let said = dir.say(&arguments);
-    assert!(
-        said.out.contains("│ method: product │ archard │"),
-        "{}",
-        said.out
-    );
-    assert!(!said.out.contains("stopped"), "{}", said.out);
+    has(&said.out, "│ method: product │ archard │");
+    lacks(&said.out, "stopped");
 }

@@ -3,7 +3,7 @@
 use mdr_tui::scenario::Scenario;
 
 use crate::common::{fig3, load, ran, try_load};
-use crate::test_dir::{TestDir, has};
+use crate::test_dir::{TestDir, cases, has};
 
 /// V and E_d after `cycles` of a paraboloid held at a depth and shaken sideways.
 fn worn(sets: &[&str], cycles: f64) -> [f64; 2] {
@@ -107,21 +107,12 @@ points = 100
         (tabled / triangle - 1.0).abs() < 1e-9,
         "{tabled} {triangle}"
     );
-    for (csv, expected) in [
-        (
-            "time_s,u_m\n0,0\n1,1e-7\n2,5e-8\n",
-            "must end where it begins, at 0e0",
-        ),
-        (
-            "time_s,u_m\n0,0\n1,1e-7\n1,0\n",
-            "must increase, and follows 1e0",
-        ),
-        (
-            "time_s,u_m\n0,0\n1,\n2,0\n",
-            "motion.csv: line 3: u_m is empty",
-        ),
-        ("t,u\n0,0\n", "motion.csv: has no column time_s"),
-    ] {
+    for (csv, expected) in cases([
+        "time_s,u_m\n0,0\n1,1e-7\n2,5e-8\n => must end where it begins, at 0e0",
+        "time_s,u_m\n0,0\n1,1e-7\n1,0\n => must increase, and follows 1e0",
+        "time_s,u_m\n0,0\n1,\n2,0\n => motion.csv: line 3: u_m is empty",
+        "t,u\n0,0\n => motion.csv: has no column time_s",
+    ]) {
         dir.write("motion.csv", csv.as_bytes());
         has(&try_load(&path, &[]).expect_err("a refusal"), expected);
     }

@@ -46,6 +46,17 @@ pub fn has(text: &str, part: &str) {
     assert!(text.contains(part), "no {part:?} in {text}");
 }
 
+/// Fails if `text` has `part`.
+#[track_caller]
+pub fn lacks(text: &str, part: &str) {
+    assert!(!text.contains(part), "{part:?} in {text}");
+}
+
+/// A table of cases, `input => expected` each.
+pub fn cases<const N: usize>(table: [&str; N]) -> [(&str, &str); N] {
+    table.map(|row| row.split_once(" => ").expect(row))
+}
+
 impl TestDir {
     /// A new one.
     pub fn new() -> Self {

@@ -1,14 +1,13 @@
 //! Results are right, or the program says that they are not: scenes that were once wrong without a warning.
 
-use std::f64::consts::{FRAC_PI_4, PI};
+use std::f64::consts::PI;
 
 use mdr_tui::oracle::dual_oscillation::{DualOscillation, Frequencies};
-use mdr_tui::oracle::partial_slip::stiffness_ratio;
 use mdr_tui::reading::{Check, Subject, verdict};
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
 
-use crate::common::{fig3, holds, load, ran};
+use crate::common::{fig3, fig3_motion, holds, load, ran};
 use crate::test_dir::{TestDir, has, lacks};
 
 /// A preset or a text with `sets`, at `cycles`.
@@ -186,19 +185,13 @@ fn common_periods_of_many_cycles_are_found() {
     let session = run("li2019-fig3", &slow, 100.0);
     assert_eq!(session.simulation().setup().drive.repeats_after(), Some(50));
     assert_eq!(session.simulation().why_never_jumped(), None);
+    let frequencies = Frequencies::Rational {
+        tangential: 50,
+        normal: 1,
+    };
     let motion = DualOscillation {
-        e_star: 1.0,
-        g_star: stiffness_ratio(0.3),
-        mu: 0.1,
-        depth: 1.0,
-        normal_amplitude: 0.1,
-        normal_phase: 0.0,
-        tangential_amplitude: 0.1,
-        tangential_phase: FRAC_PI_4,
-        frequencies: Frequencies::Rational {
-            tangential: 50,
-            normal: 1,
-        },
+        frequencies,
+        ..fig3_motion()
     };
     let simulation = session.simulation();
     let c = simulation.state().permanent_stick_radius();

@@ -18,11 +18,7 @@ fn jumping(setup: &Setup, tolerance: f64) -> Setup {
 
 /// Constant depth, μ = 0.1, swings of 0.1 d₀: a scar of 0.36 d₀ in the end.
 fn held(wear_number: f64) -> Setup {
-    ours(Scene {
-        tangential: Some(swing(0.0, 0.1, 1.0, 0.0)),
-        law: archard(wear_number),
-        ..Scene::default()
-    })
+    ours(Scene::default().shaken(0.1).wear(wear_number))
 }
 
 /// Fig. 3 of the paper.

@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use crate::common::{Scene, holds, ours, run_setup, swing};
-use crate::test_dir::{Table, TestDir, cases};
+use crate::common::{Scene, holds, ours, run_setup};
+use crate::test_dir::{TestDir, cases};
 use mdr_tui::oracle::half_space::by_point_forces;
 use mdr_tui::reading::Curves;
 use mdr_tui::reading::fatigue::{Fatigue, Limits, StressCycle};
@@ -195,11 +195,7 @@ fn agree(seen: Fatigue, exact: [f64; 3]) {
 /// A Hertz contact that rolls and slides over a point of the half-space.
 #[test]
 fn a_hertz_load_that_moves_over_a_point_is_that_of_the_point_forces() {
-    let scene = Scene {
-        friction: 0.6,
-        tangential: Some(swing(0.0, 10.0, 1.0, 0.0)),
-        ..Scene::default()
-    };
+    let scene = Scene::default().friction(0.6).shaken(10.0);
     let simulation = run_setup(ours(scene), 0.25);
     let load = simulation.observe(Curves::SPRINGS).spring_load(POISSON);
     let hertz = |r: f64| P0 * (1.0 - r * r).sqrt();
@@ -218,11 +214,7 @@ fn a_hertz_load_that_moves_over_a_point_is_that_of_the_point_forces() {
 #[test]
 fn a_cycle_of_partial_slip_is_that_of_its_closed_tractions() {
     let amplitude = 0.4;
-    let scene = Scene {
-        friction: 0.6,
-        tangential: Some(swing(0.0, amplitude, 1.0, 0.0)),
-        ..Scene::default()
-    };
+    let scene = Scene::default().friction(0.6).shaken(amplitude);
     let cycle = StressCycle::of(&run_setup(ours(scene), 0.25)).expect("a cycle");
     let hertz = |b: f64, r: f64| P0 * (b * b - r * r).max(0.0).sqrt();
     let ratio = 2.0 * (1.0 - POISSON) / (2.0 - POISSON) / 0.6;
@@ -263,7 +255,7 @@ fn runs_and_studies_tell_the_parameters_where_they_are_asked() {
     dir.write("study.toml", study.as_bytes());
     let said = dir.line("sweep study.toml --out map.csv --quiet");
     assert_eq!(said.code, 0, "{}", said.err);
-    let map = Table::parse(&dir.read("map.csv"));
+    let map = dir.table("map.csv");
     for row in 0..2 {
         let at = |name: &str| map.column(name)[row];
         holds(
@@ -288,7 +280,7 @@ fn runs_and_studies_tell_the_parameters_where_they_are_asked() {
     };
     let said = dir.line("run mindlin --cycles 1 --field --out cracks --quiet");
     assert_eq!(said.code, 0, "{}", said.err);
-    let field = Table::parse(&dir.read("cracks/field.csv"));
+    let field = dir.table("cracks/field.csv");
     let swt = field.column("swt_Pa");
     let deepest = swt
         .iter()
@@ -299,7 +291,7 @@ fn runs_and_studies_tell_the_parameters_where_they_are_asked() {
     assert_eq!(said.code, 0, "{}", said.err);
     let said = run("swt_Pa,swt_ratio");
     assert_eq!(said.code, 0, "{}", said.err);
-    let history = Table::parse(&dir.read("run/history.csv"));
+    let history = dir.table("run/history.csv");
     let swt = history.column("swt_Pa");
     assert_eq!(
         history.columns.last().map(String::as_str),

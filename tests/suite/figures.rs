@@ -2,12 +2,12 @@
 
 use std::fs;
 
+use crate::common::fig3_motion;
 use crate::test_dir::{Table, TestDir, cases, has, lacks};
 use mdr_tui::figure::Sheet;
 use mdr_tui::figure::canvas::Shape;
 use mdr_tui::figure::look::{Look, Style};
 use mdr_tui::figure::svg;
-use mdr_tui::oracle::dual_oscillation::{DualOscillation, Frequencies};
 use mdr_tui::plot::colormap::ColorMap;
 use mdr_tui::plot::theme::Role;
 use mdr_tui::plot::{Axis, Chart, Curve, Map, Mark, Scale};
@@ -22,7 +22,7 @@ fn curve(data: &Table, panel: &str, name: &str) -> (Vec<f64>, Vec<f64>) {
 
 /// A file of data, its panel lines apart.
 fn data(dir: &TestDir, name: &str) -> Table {
-    Table::parse(&dir.read(name))
+    dir.table(name)
 }
 
 #[test]
@@ -160,18 +160,7 @@ fn the_guide_lays_the_figures_beside_the_papers() {
         assert_eq!(figure.header("cycles"), "50.72, 100, 199.24");
     }
     // c = 41.64 µm, and the first node that wears without end.
-    let motion = DualOscillation {
-        e_star: 1.0,
-        g_star: 2.0 * (1.0 - 0.3) / (2.0 - 0.3),
-        mu: 0.1,
-        depth: 1e-6,
-        normal_amplitude: 1e-7,
-        normal_phase: 0.0,
-        tangential_amplitude: 1e-7,
-        tangential_phase: std::f64::consts::FRAC_PI_4,
-        frequencies: Frequencies::Equal,
-    };
-    let stick = motion.stick_radius(0.01);
+    let stick = 1e-4 * fig3_motion().stick_radius(1.0);
     let (radii, limit) = curve(&product, "a", "limit");
     let unworn = curve(&product, "a", "unworn").1;
     let worn = (0..radii.len())
@@ -640,35 +629,5 @@ fn pixels_have_the_size_that_was_asked_for_and_pages_their_font() {
         b"/Title",
     ] {
         assert!(holds(word), "{}", String::from_utf8_lossy(word));
-    }
-}
-
-#[test]
-fn what_cannot_be_drawn_is_one_line_and_nothing_written() {
-    let dir = TestDir::new();
-    dir.done("run hertz --cycles 1 --out x --quiet");
-    dir.write("other.csv", b"a,b\n1,2\n");
-    dir.write("torn.csv", b"r_m,f_m\n1\n");
-    fs::create_dir(dir.path("empty")).expect("a directory");
-    dir.write("there.svg", b"");
-    for (line, expected) in cases([
-        "figure x -o f.jpg => must end in .svg, .png or .pdf",
-        "figure x -o there.svg => already exists",
-        "figure x -o no/such/f.svg => its directory does not exist",
-        "figure x --panel loop -o f.svg => one row per cycle",
-        "figure x --panel von-mises -o f.svg => run --field writes it",
-        "figure x --at 7 -o f.svg => has no such state",
-        "figure x --set friction.coefficient=1 -o f.svg => is not run again",
-        "figure x --size 0x0 -o f.svg => each from 20 to 2000",
-        "figure x --panel circle -o f.svg => invalid value 'circle'",
-        "figure empty -o f.svg => has no state.csv",
-        "figure other.csv -o f.svg => does not have the columns of a state",
-        "figure torn.csv -o f.svg => line 2: has 1 fields; must have 2, one per column",
-        "figure x --size 2000x2000 --dpi 2400 -o f.png => an image has 1 to 1e8",
-        "figure -o f.svg => needs a run's directory",
-        "figure x --figure fig2 -o f.svg => takes no source",
-        "figure nowhere -o f.svg => nowhere",
-    ]) {
-        dir.refuse_line(line, expected);
     }
 }

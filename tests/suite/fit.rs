@@ -10,7 +10,7 @@ use mdr_tui::studies::fit::{Fit, FitError, Fitted};
 use mdr_tui::studies::measured::Measured;
 
 use crate::random::Random;
-use crate::test_dir::{TestDir, cases, has};
+use crate::test_dir::{TestDir, has};
 
 const TRUE: [(&str, f64); 2] = [("wear.coefficient", 2e-9), ("friction.coefficient", 0.12)];
 
@@ -228,26 +228,6 @@ fn the_command_prints_json_and_writes_the_fitted_scenario() {
     ] {
         has(&text, word);
     }
-    dir.write(
-        "open.csv",
-        b"u_m,F_N\n0,0\n1e-8,1\n2e-8,2\n3e-8,3\n4e-8,4\n5e-8,5\n6e-8,6\n7e-8,7\n8e-8,8\n",
-    );
-    dir.write("mm.csv", b"r_m,f_m\n0,0\n0.05,1e-4\n0.1,5e-4\n");
-    for (line, expected) in cases([
-        "fit start.toml --free wear.coefficient => --scar",
-        "fit start.toml --scar none.csv --free wear.coefficient => none.csv: no such file",
-        "fit start.toml --loop open.csv --free wear.coefficient => the loop does not close",
-        "fit start.toml --scar mm.csv --free wear.coefficient => are they in m?",
-    ]) {
-        let said = dir.line(line);
-        assert_eq!(
-            (said.code, said.err.lines().count()),
-            (2, 1),
-            "{line}: {}",
-            said.err
-        );
-        has(&said.err, expected);
-    }
 }
 
 /// A loop is compared with the cycle that it was measured in, as the command line or its header says; friction runs in.
@@ -280,13 +260,7 @@ fn a_loop_is_compared_with_its_own_cycle() {
     has(&said, "in the last cycle, 12 (--loop loop.csv@CYCLE");
     let line = format!("fit {early} --cycles 2 --loop loop.csv@3 --free friction.coefficient");
     let said = dir.line(&line);
-    assert_eq!(
-        (said.code, said.err.lines().count()),
-        (2, 1),
-        "{}",
-        said.err
-    );
-    has(&said.err, "its loop ends at cycle 3");
+    said.fails(2, "its loop ends at cycle 3");
 }
 
 /// `fit` and `figure` find the points and steps of an accuracy by themselves.

@@ -1,13 +1,11 @@
 //! Other curves over those of a run: measured data, runs, scenarios and frozen states, on screens and in
 //! figures; and snapshots, which hold what is needed to go on.
 
-use insta::assert_snapshot;
-
-use crate::test_dir::{Table, TestDir, cases, has, lacks, names};
+use crate::screen_table::{hold, part_of};
+use crate::test_dir::{TestDir, has, names};
 
 /// A scar in µm and nm with errors, a loop, and two histories.
-fn measured() -> TestDir {
-    let dir = TestDir::new();
+fn measure(dir: &TestDir) {
     let scar = (-13..=13).map(|i| {
         let r = 10.0 * f64::from(i);
         let depth = 6.0 * (-((r.abs() - 80.0) / 20.0).powi(2)).exp();
@@ -25,7 +23,6 @@ fn measured() -> TestDir {
     let volumes = "cycle,wear_volume_um3,error_um3\n0,0,5\n2,30,5\n4,80,8\n6,100,10\n";
     dir.write("volume.csv", volumes.as_bytes());
     dir.write("depth.csv", b"cycle,depth_nm\n0,0\n2,2\n4,5\n6,6\n");
-    dir
 }
 
 fn shot(dir: &TestDir, size: &str, keys: &str, arguments: &[&str]) -> String {
@@ -34,70 +31,15 @@ fn shot(dir: &TestDir, size: &str, keys: &str, arguments: &[&str]) -> String {
     dir.screen(arguments, keys, (number(columns), number(rows)))
 }
 
-fn foot(screen: &str) -> &str {
-    screen.lines().last().unwrap_or_default().trim()
+fn foot(screen: &str) -> String {
+    part_of(screen, "foot")
 }
 
 const SCENE: &str = "li2019-fig3";
 
 #[test]
-fn data_are_in_the_panels_that_they_belong_to() {
-    let dir = measured();
-    let all = [
-        SCENE,
-        "--overlay",
-        "scar.csv",
-        "--overlay",
-        "loop.csv",
-        "--overlay",
-        "volume.csv",
-        "--overlay",
-        "depth.csv",
-    ];
-    assert_snapshot!("ghosts-120x40", shot(&dir, "120x40", ",,,,", &all));
-    assert_snapshot!(
-        "ghosts-scar-80x24",
-        shot(&dir, "80x24", ",,,,v<Tab><Tab><Tab>z", &all[..3])
-    );
-    assert_snapshot!(
-        "ghosts-ascii-80x24",
-        shot(
-            &dir,
-            "80x24",
-            ",,,,",
-            &[&all[..5], &["--marker", "ascii"]].concat()
-        )
-    );
-    let depth = shot(&dir, "80x24", ",,,,vvvz<Tab><Tab><Tab>", &all);
-    has(&depth, "depth over cycles");
-    has(&depth, "depth.csv");
-    // The same by a command; a scar has nothing to show in the loop.
-    let text = shot(&dir, "80x24", ",:overlay scar.csv<Enter>", &[SCENE]);
-    assert!(
-        foot(&text).starts_with("scar.csv is over the plots now"),
-        "{text}"
-    );
-    assert_eq!(text.matches("scar.csv").count(), 2, "{text}");
-}
-
-#[test]
-fn a_run_over_itself_differs_by_nothing_in_any_panel() {
-    let dir = TestDir::new();
-    dir.done("run li2019-fig3 --cycles 3 --out x --quiet --history every-step");
-    for (tabs, quantity, unit) in [
-        (0, "worn", "m"),
-        (1, "p", "Pa"),
-        (2, "F_x", "N"),
-        (3, "a", "m"),
-        (6, "g", "m"),
-        (8, "V", "m³"),
-    ] {
-        let keys = format!(",,,x{}", "<Tab>".repeat(tabs));
-        let text = shot(&dir, "200x50", &keys, &[SCENE, "--overlay", "x"]);
-        let line = foot(&text);
-        has(line, &format!("{quantity} "));
-        assert!(line.contains(&format!("(+0 {unit})")), "{quantity}: {line}");
-    }
+fn curves_are_over_the_plots_as_the_table_says() {
+    hold("ghosts", include_str!("ghosts.txt"), measure);
 }
 
 #[test]
@@ -108,16 +50,16 @@ fn the_cursor_reads_the_signed_difference_of_measured_data() {
     let text = shot(&dir, "200x50", ",x", &[SCENE, "--overlay", "flat.csv"]);
     let state = {
         shot(&dir, "80x24", ",s", &[SCENE]);
-        Table::parse(&dir.read("li2019-fig3-cycle-1/state.csv"))
+        dir.table("li2019-fig3-cycle-1/state.csv")
     };
     // Where the cursor begins, nothing to speak of has worn in the first cycle.
     let worn = state.column("wear_m")[0];
     assert!(worn.abs() < 1e-12, "{worn}");
     let line = foot(&text);
-    has(line, "flat.csv 5.000 nm (+4.");
+    has(&line, "flat.csv 5.000 nm (+4.");
     dir.write("flat.csv", flat(-5.0).as_bytes());
     let text = shot(&dir, "200x50", ",x", &[SCENE, "--overlay", "flat.csv"]);
-    has(foot(&text), "flat.csv -5.000 nm (-5.");
+    has(&foot(&text), "flat.csv -5.000 nm (-5.");
 }
 
 #[test]
@@ -139,53 +81,20 @@ fn a_scenario_runs_beside_to_the_cycle_on_the_screen() {
 #[test]
 fn states_are_frozen_and_removed() {
     let dir = TestDir::new();
-    let text = shot(&dir, "120x40", ",,g,,,", &[SCENE]);
-    assert!(text.matches("cycle 2.00").count() >= 5, "{text}");
+    let shot = |keys: &str| shot(&dir, "120x40", keys, &[SCENE]);
+    assert!(shot(",,g,,,").matches("cycle 2.00").count() >= 5);
     // The frozen state stays what it was.
-    let text = shot(&dir, "120x40", ",,g,,,x", &[SCENE]);
-    let fresh = shot(&dir, "120x40", ",,x", &[SCENE]);
-    let worn = |line: &str| {
-        line.split("worn ")
-            .nth(1)
-            .expect("worn")
-            .split("  ")
-            .next()
-            .expect("a value")
-            .trim()
-            .to_owned()
-    };
-    let frozen = foot(&text).split("cycle 2.00 ").nth(1).expect("a ghost");
-    assert!(frozen.starts_with(&worn(foot(&fresh))), "{text}\n{fresh}");
-    let text = shot(&dir, "120x40", ",,g,,,G", &[SCENE]);
-    lacks(&text, "cycle 2.00");
-    let text = shot(&dir, "80x24", ",ggggg", &[SCENE]);
-    assert_eq!(foot(&text), "4 ghosts are there already; G removes them");
-    let text = shot(&dir, "80x24", ",G", &[SCENE]);
-    assert!(
-        foot(&text).starts_with("there is no ghost; g freezes"),
-        "{text}"
-    );
-}
-
-/// A legend names the ghost in both profiles and pressures, and its difference from this run is drawn where the two
-/// runs are still equal.
-#[test]
-fn a_comparison_keeps_the_ghosts() {
-    let dir = TestDir::new();
-    let with = shot(&dir, "120x40", ",,g,,c,", &[SCENE]);
-    assert_eq!(with.matches("cycle 2.00").count(), 3, "{with}");
-    let lone = shot(&dir, "120x40", ",,g,,c", &[SCENE]);
-    lacks(&lone, "equal so far");
-    assert_eq!(lone.matches("cycle 2.00").count(), 3, "{lone}");
-    let without = shot(&dir, "120x40", ",,,,c", &[SCENE]);
-    has(&without, "equal so far");
+    let (kept, fresh) = (foot(&shot(",,g,,,x")), foot(&shot(",,x")));
+    let (_, frozen) = kept.split_once("cycle 2.00 ").expect("a ghost");
+    let (_, worn) = fresh.split_once("worn ").expect("worn");
+    let worn = worn.split("  ").next().unwrap_or_default().trim();
+    assert!(frozen.starts_with(worn), "{kept}\n{fresh}");
 }
 
 #[test]
 fn what_cannot_be_laid_over_is_one_line() {
     let dir = TestDir::new();
     let open: String = (0..20).map(|i| format!("{i},{}\n", 2 * i)).collect();
-    std::fs::create_dir(dir.path("empty")).expect("a directory");
     for (text, told) in [
         (
             "a,b\n1,2\n",
@@ -214,145 +123,82 @@ fn what_cannot_be_laid_over_is_one_line() {
         ("", "bad.csv: has nothing to draw"),
     ] {
         dir.write("bad.csv", text.as_bytes());
-        for arguments in [
-            vec![SCENE, "--overlay", "bad.csv", "--print", "80x24"],
-            vec![
-                "figure",
-                SCENE,
-                "--cycles",
-                "1",
-                "--overlay",
-                "bad.csv",
-                "-o",
-                "figure.svg",
-            ],
-        ] {
-            let said = dir.say(&arguments);
-            assert_eq!((said.code, said.out.as_str()), (2, ""), "{}", said.err);
-            assert!(
-                said.err.contains(told) && said.err.lines().count() == 1,
-                "{}",
-                said.err
-            );
+        for line in ["--print 80x24", "-o figure.svg"] {
+            let command = if line.starts_with("-o") { "figure" } else { "" };
+            dir.refuse_line(&format!("{command} {SCENE} --overlay bad.csv {line}"), told);
         }
         let text = shot(&dir, "200x24", ",:overlay bad.csv<Enter>", &[SCENE]);
-        has(foot(&text), &told[..20]);
+        has(&foot(&text), &told[..20]);
     }
-    assert_eq!(names(&dir.path(".")), ["bad.csv", "empty"]);
-    for (given, told) in cases([
-        "nowhere.csv => nowhere.csv: no such file",
-        "empty => empty: holds no state.csv and no history.csv of a run",
-        "conee => did you mean cone?",
-        "missing.toml => missing.toml",
-    ]) {
-        let said = dir.say(&[SCENE, "--overlay", given, "--print", "80x24"]);
-        assert!(said.code == 2 && said.err.contains(told), "{}", said.err);
-        assert_eq!(said.err.lines().count(), 1, "{}", said.err);
-    }
-    let five = ["cone"; 5].map(|name| ["--overlay", name]).concat();
-    let said = dir.say(&[&[SCENE, "--print", "80x24"], &five[..]].concat());
-    has(&said.err, "--overlay: takes 4 or fewer; there are 5");
+    assert_eq!(names(&dir.path(".")), ["bad.csv"]);
 }
 
 #[test]
 fn a_snapshot_goes_on_as_if_it_had_never_stopped() {
+    let files = [
+        "history.csv",
+        "loop.csv",
+        "scenario.toml",
+        "state.checkpoint",
+        "state.csv",
+    ];
     for (before, after) in [(",,,", ",,"), ("..........", ",.."), (",,m,", "w,")] {
         let dir = TestDir::new();
-        let first = format!("{before}S first look<Enter>");
-        let text = shot(&dir, "80x24", &first, &[SCENE]);
-        let at = foot(&text).trim_start_matches("snapshot in ");
-        let snapshot = at.trim_end_matches("/state.csv").to_owned();
-        assert_eq!(
-            names(&dir.path(&snapshot)),
-            [
-                "history.csv",
-                "loop.csv",
-                "scenario.toml",
-                "state.checkpoint",
-                "state.csv"
-            ]
-        );
-        has(&dir.read(at), "\n# note: first look\n");
-        let goes_on = |dir: &TestDir, keys: &str, scenario: &str| {
-            let text = shot(dir, "80x24", &format!("{keys}{after}s"), &[scenario]);
-            foot(&text)
-                .trim_start_matches("snapshot in ")
-                .trim_end_matches("/state.csv")
-                .to_owned()
+        let snapshot = |keys: &str, scenario: &str| {
+            let told = foot(&shot(&dir, "80x24", keys, &[scenario]));
+            let at = told.trim_start_matches("snapshot in ");
+            at.trim_end_matches("/state.csv").to_owned()
         };
-        let whole = goes_on(&dir, before, SCENE);
-        let by_name = goes_on(&dir, "", &snapshot);
-        for name in [
-            "state.csv",
-            "history.csv",
-            "loop.csv",
-            "scenario.toml",
-            "state.checkpoint",
-        ] {
+        let first = snapshot(&format!("{before}S first look<Enter>"), SCENE);
+        assert_eq!(names(&dir.path(&first)), files);
+        has(
+            &dir.read(&format!("{first}/state.csv")),
+            "\n# note: first look\n",
+        );
+        let whole = snapshot(&format!("{before}{after}s"), SCENE);
+        let by_name = snapshot(&format!("{after}s"), &first);
+        for name in files {
             let read = |directory: &str| std::fs::read(dir.path(directory).join(name)).expect(name);
             assert!(read(&whole) == read(&by_name), "{before} {name}");
         }
         // Without a screen it goes on as well.
-        let file = format!("{snapshot}/state.checkpoint");
-        dir.done(&format!("run --resume {file} --cycles 6 --out on --quiet"));
+        dir.done(&format!(
+            "run --resume {first}/state.checkpoint --cycles 6 --out on --quiet"
+        ));
         has(&dir.read("on/state.csv"), "\n# cycle: 6\n");
     }
-}
-
-#[test]
-fn the_list_shows_a_snapshot_with_its_note_and_opens_it() {
-    let dir = TestDir::new();
-    shot(&dir, "80x24", ",,,S worn in<Enter>", &[SCENE]);
-    let text = shot(&dir, "80x24", "p<End>k", &["hertz"]);
-    assert_snapshot!("snapshot-listed-80x24", text);
-    let text = shot(&dir, "120x40", "p<End>k<Enter>,", &["hertz"]);
-    has(&text, "cycle 4.00/199.24");
-    // It is the same state as that of the directory's name, its past included.
-    assert_eq!(text, shot(&dir, "120x40", ",", &["li2019-fig3-cycle-3"]));
-    let text = shot(
-        &dir,
-        "80x24",
-        ":load li2019-fig3-cycle-3<Enter>",
-        &["hertz"],
-    );
-    has(&text, "cycle 3.00/199.24");
 }
 
 #[test]
 fn a_directory_without_a_state_is_refused_and_torn_ones_too() {
     let dir = TestDir::new();
     dir.done("run li2019-fig3 --cycles 1 --out x --quiet");
-    let refused = |arguments: &[&str], told: &str| {
-        let said = dir.say(&[arguments, &["--print", "80x24"]].concat());
-        assert!(
-            said.code == 2 && said.err.contains(told),
-            "{} {}",
-            said.code,
-            said.err
-        );
-        assert_eq!(said.err.lines().count(), 1, "{}", said.err);
+    let refused = |arguments: &str, told: &str| {
+        dir.refuse_line(&format!("{arguments} --print 80x24"), told);
     };
     refused(
-        &["x"],
+        "x",
         "x: is a directory without a state.checkpoint to go on from; its scenario.toml",
     );
     shot(&dir, "80x24", ",s", &[SCENE]);
-    let file = dir.path("li2019-fig3-cycle-1/state.checkpoint");
+    let snapshot = "li2019-fig3-cycle-1";
     refused(
-        &["li2019-fig3-cycle-1", "--set", "wear.coefficient=1e-12"],
+        &format!("{snapshot} --set wear.coefficient=1e-12"),
         "--set changes nothing",
     );
-    let whole = std::fs::read(&file).expect("a checkpoint");
-    std::fs::write(&file, &whole[..whole.len() / 2]).expect("half of it");
-    refused(&["li2019-fig3-cycle-1"], "is damaged");
+    let file = format!("{snapshot}/state.checkpoint");
+    let whole = std::fs::read(dir.path(&file)).expect("a checkpoint");
+    dir.write(&file, &whole[..whole.len() / 2]);
+    refused(snapshot, "is damaged");
 }
 
 #[test]
 fn figures_have_measured_points_with_their_errors_beside_the_run() {
-    let dir = measured();
+    let dir = TestDir::new();
+    measure(&dir);
     dir.done("run li2019-fig3 --cycles 3 --out x --quiet --history every-step");
     dir.done("figure x --overlay scar.csv --overlay loop.csv --overlay volume.csv --overlay depth.csv -o f.svg --quiet");
-    let figure = Table::parse(&dir.read("f.csv"));
+    let figure = dir.table("f.csv");
     let rows = |title: &str, curve: &str| -> Vec<Vec<String>> {
         let panels = figure
             .header
@@ -400,46 +246,22 @@ fn figures_have_measured_points_with_their_errors_beside_the_run() {
     dir.done(
         "figure x --overlay x/state.csv --overlay li2019-fig3 --panel worn-depth -o g.svg --quiet",
     );
-    let figure = Table::parse(&dir.read("g.csv"));
+    let figure = dir.table("g.csv");
     let of = |name: &str| -> Vec<Vec<String>> {
         let rows = figure.rows.iter().filter(|row| row[1] == name);
         rows.map(|row| row[2..].to_vec()).collect()
     };
     assert!(!of("").is_empty() && of("state.csv") == of("") && of("li2019-fig3") == of(""));
-    let measured = dir.read("scar.csv");
-    let said = dir.say(&[
-        "figure",
-        "x",
-        "--overlay",
-        "scar.csv",
-        "-o",
-        "scar.svg",
-        "--force",
-    ]);
     // What is drawn stays as it is: the data go beside it.
-    let names = "scar.svg and scar-drawn.csv\n";
-    assert_eq!(
-        (said.code, said.err, said.out),
-        (0, String::new(), names.into())
-    );
+    let measured = dir.read("scar.csv");
+    let names = dir.done("figure x --overlay scar.csv -o scar.svg --force");
+    assert_eq!(names, "scar.svg and scar-drawn.csv\n");
     has(&dir.read("scar-drawn.csv"), "panel,curve,x,y,value,error");
     assert_eq!(dir.read("scar.csv"), measured);
-    let said = dir.say(&[
-        "figure",
-        "x",
-        "--overlay",
-        "loop.csv",
-        "--panel",
-        "profile",
-        "-o",
-        "h.svg",
-    ]);
-    assert_eq!(said.code, 2);
-    assert_eq!(
-        said.err,
-        "mdr-tui: --overlay loop.csv: is on none of these charts; it belongs to --panel loop\n"
+    dir.refuse_line(
+        "figure x --overlay loop.csv --panel profile -o h.svg",
+        "--overlay loop.csv: is on none of these charts; it belongs to --panel loop",
     );
-    assert!(!dir.path("h.svg").exists() && !dir.path("h.csv").exists());
 }
 
 #[test]
@@ -448,10 +270,8 @@ fn a_snapshot_makes_figures_and_is_an_overlay() {
     shot(&dir, "80x24", ",,,s", &[SCENE]);
     let snapshot = "li2019-fig3-cycle-3";
     dir.done(&format!("figure {snapshot} --panel loop --panel volume --panel radii --panel scar-depth -o f.svg --quiet"));
-    let figure = Table::parse(&dir.read("f.csv"));
-    let steps = Table::parse(&dir.read("li2019-fig3-cycle-3/loop.csv"))
-        .rows
-        .len();
+    let figure = dir.table("f.csv");
+    let steps = dir.table("li2019-fig3-cycle-3/loop.csv").rows.len();
     assert!(steps > 100, "{steps}");
     let count = |panel: &str| figure.rows.iter().filter(|row| row[0] == panel).count();
     assert_eq!(
@@ -464,7 +284,7 @@ fn a_snapshot_makes_figures_and_is_an_overlay() {
         ",,,x<Tab><Tab>",
         &[SCENE, "--overlay", snapshot],
     );
-    has(foot(&text), "(+0 N)");
+    has(&foot(&text), "(+0 N)");
     // Its loop is data for a fit.
     let fit = format!(
         "fit {SCENE} --cycles 3 --loop {snapshot}/loop.csv --free friction.coefficient --json --quiet"

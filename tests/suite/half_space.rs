@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use crate::common::{Scene, holds, ours, run_setup, swing};
-use crate::test_dir::{Table, TestDir};
+use crate::common::{Scene, holds, ours, run_setup};
+use crate::test_dir::TestDir;
 use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::oracle::half_space::{
     DEPTH_OF_LARGEST, LARGEST_VON_MISES, by_point_forces, hertz_on_axis, hertz_outside,
@@ -34,11 +34,7 @@ fn hertz(poisson: f64) -> SpringLoad {
 
 /// The same contact, slipping as a whole towards +x: u_x is at its largest.
 fn sliding(poisson: f64) -> SpringLoad {
-    let scene = Scene {
-        poisson,
-        tangential: Some(swing(0.0, 10.0, 1.0, 0.0)),
-        ..Scene::default()
-    };
+    let scene = Scene::default().poisson(poisson).shaken(10.0);
     load_of(&run_setup(ours(scene), 0.25))
 }
 
@@ -211,7 +207,7 @@ fn a_run_writes_the_field_on_the_plane_of_motion() {
     let dir = TestDir::new();
     let said = dir.line("run mindlin --cycles 0.25 --field --out x --quiet");
     assert_eq!(said.code, 0, "{}", said.err);
-    let read = |name: &str| Table::parse(&dir.read(name));
+    let read = |name: &str| dir.table(name);
     let (field, state) = (read("x/field.csv"), read("x/state.csv"));
     assert_eq!(field.columns, mdr_tui::export::field::COLUMNS);
     let (x, z) = (field.column("x_m"), field.column("z_m"));

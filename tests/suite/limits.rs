@@ -9,25 +9,11 @@ use portable_pty::{CommandBuilder, PtySize, native_pty_system};
 
 use crate::pty::{Terminal, program};
 use crate::signals::SOON;
-use crate::test_dir::{Said, TestDir, end, has, names};
+use crate::test_dir::{TestDir, end, has, names};
 
 fn fifo(dir: &TestDir, name: &str) {
     let made = Command::new("mkfifo").arg(dir.path(name)).status();
     assert!(made.expect("mkfifo").success());
-}
-
-#[test]
-fn what_never_ends_is_read_to_a_limit() {
-    let dir = TestDir::new();
-    for line in [
-        "sweep /dev/zero",
-        "sweep --view /dev/zero --print 80x24",
-        "run /dev/zero",
-        "fit hertz --cycles 1 --scar /dev/zero --free wear.coefficient",
-        "figure /dev/zero -o x.svg",
-    ] {
-        dir.refuse_line(line, "");
-    }
 }
 
 #[test]
@@ -43,12 +29,10 @@ fn in_a_folder_nothing_but_files_is_read() {
     fifo(&dir, "mdr-tui/config.toml");
     let said = dir.line("--print 80x24");
     said.ends(0, "config.toml: is not a file");
-    let mut command = dir.command(&["--print", "80x24", "--keys", "-,"]);
-    let said: Said = command
-        .env("XDG_CONFIG_HOME", "/dev/null")
-        .output()
-        .expect("it")
-        .into();
+    let said = dir.line_with(
+        "--print 80x24 --keys -,",
+        &[("XDG_CONFIG_HOME", "/dev/null")],
+    );
     said.ends(0, "goes on without it");
 }
 
@@ -68,42 +52,25 @@ fn a_table_with_semicolons_and_decimal_commas_is_read_or_named() {
     let dir = TestDir::new();
     let table = "cycle;wear_volume_m3\n0;0\n1;1e-18\n2;2e-18\n3;3e-18\n";
     dir.write("h.csv", table.as_bytes());
-    let line = [
-        "fit",
-        "li2019-fig3",
-        "--history",
-        "h.csv",
-        "--free",
-        "wear.coefficient",
-    ];
-    let line = [&line[..], &["--set", "numerics.points=10"]].concat();
-    let said = dir.say(&line);
-    assert_eq!(said.code, 0, "{}", said.err);
+    let line = "fit li2019-fig3 --history h.csv --free wear.coefficient --set numerics.points=10";
+    dir.line(line).ends(0, "");
     dir.write("h.csv", table.replace("2;2e-18", "2,5;2e-18").as_bytes());
-    let said = dir.say(&line);
-    said.ends(2, "2,5");
+    dir.line(line).ends(2, "2,5");
 }
 
 #[test]
 fn a_state_or_a_figure_that_does_not_fit_leaves_nothing_and_a_script_fails() {
     let dir = TestDir::new();
-    let bin = env!("CARGO_BIN_EXE_mdr-tui");
+    let explorer = "hertz --set numerics.points=40 --print 80x24 --keys";
     // Blocks of 512 bytes: what comes first still fits.
-    for (keys, blocks) in [("....s", 5), ("....:figure x.svg<Enter>", 30)] {
-        let before = names(&dir.path(""));
-        let line = format!(
-            "ulimit -f {blocks}; exec '{bin}' hertz --set numerics.points=40 --print 80x24 --keys '{keys}'"
-        );
-        let output = Command::new("sh")
-            .args(["-c", &line])
-            .current_dir(dir.path(""))
-            .env("XDG_CONFIG_HOME", dir.path(""))
-            .output();
-        let said: Said = output.expect("a shell").into();
+    for (keys, blocks) in [("....s", 3), ("....:figure x.svg<Enter>", 15)] {
+        let said = dir.shell(&format!(
+            "ulimit -f {blocks}; exec $BIN {explorer} '{keys}'"
+        ));
         said.ends(1, "cannot write");
-        assert_eq!(names(&dir.path("")), before, "{keys}");
+        assert!(names(&dir.path("")).is_empty(), "{keys}");
     }
-    dir.done("hertz --set numerics.points=40 --print 80x24 --keys ....s");
+    dir.done(&format!("{explorer} ....s"));
     assert_eq!(names(&dir.path("")).len(), 1);
 }
 

@@ -9,6 +9,7 @@ mod judge;
 mod pty;
 mod random;
 mod random_scenarios;
+mod screen_table;
 mod test_dir;
 
 mod accuracy_claims;

@@ -2,10 +2,9 @@
 //!
 //! The constants are about 1.5 times what was measured at N = 50 … 800.
 
-use crate::common::{Scene, archard, holds, run, swing};
+use crate::common::{Scene, archard, cattaneo, fig3_motion, holds, largest, limit, run, swing};
 use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::math::abel::AbelMethod::{self, A, APlusB, B, Benad, Product};
-use mdr_tui::oracle::cattaneo_mindlin::CattaneoMindlin;
 use mdr_tui::oracle::dual_oscillation::{DualOscillation, Frequencies};
 use mdr_tui::oracle::fretting_loop::Branch;
 use mdr_tui::oracle::limiting_profile::LimitingProfile;
@@ -14,30 +13,12 @@ use mdr_tui::oracle::power_law::PowerLaw;
 use mdr_tui::reading::Curves;
 use mdr_tui::simulation::Simulation;
 use mdr_tui::simulation::drive::{Control, Oscillation};
-use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4};
+use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 use std::ops::Range;
-
-/// The default scene's partial slip at amplitude U.
-fn cattaneo(amplitude: f64) -> CattaneoMindlin {
-    CattaneoMindlin {
-        e_star: 1.0,
-        g_star: stiffness_ratio(0.3),
-        mu: 0.1,
-        radius: 1.0,
-        depth: 1.0,
-        amplitude,
-    }
-}
 
 /// A displacement in shares of the one at which everything slips.
 fn amplitude(share: f64) -> f64 {
     share * cattaneo(0.0).gross_slip_displacement()
-}
-
-/// The worst of some errors; NaN stays.
-fn largest(errors: impl IntoIterator<Item = f64>) -> f64 {
-    let worse = |worst, e: f64| if e > worst || e.is_nan() { e } else { worst };
-    errors.into_iter().fold(0.0, worse)
 }
 
 /// The largest |value − exact| over the nodes in a range of radii.
@@ -266,13 +247,7 @@ fn the_wear_of_a_settled_cycle() {
     let peak = largest((0..1000).map(|i| exact.wear_per_cycle(1.0, f64::from(i) / 1000.0)));
     for method in AbelMethod::PUBLISHED {
         for cells in [50, 200] {
-            let scene = Scene {
-                method,
-                cells,
-                steps: 200,
-                law: archard(k),
-                ..Scene::default()
-            };
+            let scene = Scene::by(method).cells(cells).steps(200).wear(k);
             let mut simulation = run(scene, 1.25);
             let before = simulation.state().wear.clone();
             simulation.advance_to(2.25).expect("a cycle");
@@ -304,12 +279,7 @@ fn the_wear_of_a_settled_cycle() {
 fn volume_is_k_times_energy() {
     for (method, constant) in [(A, 1.2), (APlusB, 2.6), (B, 2.2), (Benad, 8.5)] {
         let residual = [100, 400].map(|cells| {
-            let scene = Scene {
-                method,
-                cells,
-                law: archard(0.3),
-                ..Scene::default()
-            };
+            let scene = Scene::by(method).cells(cells).wear(0.3);
             let simulation = run(scene, 10.0);
             let moment = simulation.moment();
             let residual = moment.energy_residual.expect("wear").abs();
@@ -334,21 +304,11 @@ fn volume_is_k_times_energy() {
 /// What endless fretting leaves: N decides all but the ring, which time has brought to g = d.
 #[test]
 fn the_limiting_profile() {
-    let exact = LimitingProfile {
-        e_star: 1.0,
-        radius: 1.0,
-        depth: 1.0,
-        stick_radius: cattaneo(0.05).stick_radius(),
-    };
+    let exact = limit(cattaneo(0.05).stick_radius());
     let (b, c) = (exact.outer_radius(), exact.stick_radius);
     for method in [A, APlusB] {
         for cells in [50, 100, 200] {
-            let scene = Scene {
-                method,
-                cells,
-                law: archard(3.0),
-                ..Scene::default()
-            };
+            let scene = Scene::by(method).cells(cells).wear(3.0);
             let simulation = run(scene, 400.0);
             let h = width(&simulation);
             let seen = simulation.observe(Curves::all());
@@ -431,13 +391,12 @@ fn gross_slip_unloads_the_contact() {
         }
         holds(&format!("load left by {method}"), before / unworn, 0.01);
         let seen = simulation.observe(Curves::PROFILE);
-        let touched = largest(
-            seen.profile
-                .iter()
-                .zip(&*seen.wear)
-                .filter(|(_, w)| **w > 0.0)
-                .map(|(f, _)| *f),
-        );
+        let worn = seen
+            .profile
+            .iter()
+            .zip(&*seen.wear)
+            .filter(|(_, w)| **w > 0.0);
+        let touched = largest(worn.map(|(f, _)| *f));
         holds(&format!("highest worn point by {method}"), touched, 1.0);
         holds(&format!("tip left by {method}"), 1.0 - seen.wear[0], 0.01);
     }
@@ -498,50 +457,21 @@ fn separation_leaves_no_traction_and_no_memory() {
     }
 }
 
-/// Normal over tangential frequency, and what the oracle calls it; cycles until it has repeated twice.
-const RATIOS: [(f64, Frequencies, f64); 4] = [
-    (
-        2.0,
-        Frequencies::Rational {
-            tangential: 1,
-            normal: 2,
-        },
-        3.0,
-    ),
-    (
-        1.5,
-        Frequencies::Rational {
-            tangential: 2,
-            normal: 3,
-        },
-        5.0,
-    ),
-    (
-        1.0 / 3.0,
-        Frequencies::Rational {
-            tangential: 3,
-            normal: 1,
-        },
-        7.0,
-    ),
-    (std::f64::consts::SQRT_2, Frequencies::Incommensurate, 41.0),
-];
+/// Tangential and normal frequency, and cycles until it has repeated twice.
+const RATIOS: [(u32, u32, f64); 3] = [(1, 2, 3.0), (2, 3, 5.0), (3, 1, 7.0)];
 
 /// Melan's permanent stick radius within a cell.
 #[test]
 fn melan() {
     let motion = |swing: f64, phases: [f64; 2], amplitude: f64, frequencies| DualOscillation {
-        e_star: 1.0,
-        g_star: stiffness_ratio(0.3),
-        mu: 0.1,
-        depth: 1.0,
         normal_amplitude: swing,
         normal_phase: phases[0],
         tangential_amplitude: amplitude,
         tangential_phase: phases[1],
         frequencies,
+        ..fig3_motion()
     };
-    let fig3 = motion(0.1, [0.0, FRAC_PI_4], 0.1, Frequencies::Equal);
+    let fig3 = fig3_motion();
     holds(
         "Fig. 3, the oracle's own",
         (fig3.stick_radius(1.0) - 0.4164).abs(),
@@ -558,7 +488,11 @@ fn melan() {
         (1.0, motion(0.2, [0.3, 2.0], 0.03, Frequencies::Equal), 3.0),
         (1.0, motion(1.2, [0.0, 1.0], 0.05, Frequencies::Equal), 3.0),
     ];
-    for (ratio, frequencies, cycles) in RATIOS {
+    let never = motion(0.1, [0.0, 0.3], 0.05, Frequencies::Incommensurate);
+    cases.push((std::f64::consts::SQRT_2, never, 41.0));
+    for (tangential, normal, cycles) in RATIOS {
+        let ratio = f64::from(normal) / f64::from(tangential);
+        let frequencies = Frequencies::Rational { tangential, normal };
         cases.push((ratio, motion(0.1, [0.0, 0.3], 0.05, frequencies), cycles));
     }
     for (ratio, exact, cycles) in cases {

@@ -366,13 +366,6 @@ fn what_is_not_met_is_told_in_one_line() {
             0,
             "nothing has worn, so there is no worn depth to estimate the error of",
         ),
-        (&["--budget", "60s"], 2, "but that key is not set"),
-        (
-            &["--budget", "soon"],
-            2,
-            "a budget is a time of 0 or more, e.g. 60s, 5min or 1h",
-        ),
-        (&["--set", "numerics.accuracy=1"], 2, "numerics.accuracy"),
     ] {
         let dir = TestDir::new();
         let said = dir.say(&[&SHORT[..], &["--quiet"], more].concat());

@@ -28,18 +28,15 @@ fn a_comparison_may_begin_on_a_panel_that_shows_no_profile() {
 #[test]
 fn a_panic_in_a_script_or_a_study_says_what_failed() {
     let dir = TestDir::new();
-    for (place, arguments) in [
-        ("script", vec!["--print", "80x24", "--keys", "."]),
-        ("worker", vec!["--print", "80x24", "--keys", "."]),
-        ("command", vec!["presets"]),
+    let script = "--print 80x24 --keys .";
+    for (place, line) in [
+        ("script", script),
+        ("worker", script),
+        ("command", "presets"),
     ] {
-        let mut command = dir.command(&arguments);
-        let output = command.env("MDR_TUI_FAULT", place).output();
-        let said = crate::test_dir::Said::from(output.expect("the program starts"));
-        assert_eq!((said.code, said.err.lines().count()), (1, 1), "{place}");
-        let word = format!("a fault in the {place}");
+        let said = dir.line_with(line, &[("MDR_TUI_FAULT", place)]);
+        said.fails(1, &format!("a fault in the {place}"));
         assert!(said.err.starts_with("mdr-tui: bug in mdr-tui: "));
-        assert!(said.err.contains(&word), "{place}: {}", said.err);
     }
 }
 
@@ -94,13 +91,7 @@ fn a_million_of_changes_is_refused_before_the_work() {
     dir.write("many.toml", text.as_bytes());
     let start = Instant::now();
     let said = dir.line("run many.toml --cycles 1 --out x");
-    assert_eq!(
-        (said.code, said.err.lines().count()),
-        (2, 1),
-        "{}",
-        said.err
-    );
-    has(&said.err, "must have at most 1000 entries");
+    said.fails(2, "must have at most 1000 entries");
     assert!(start.elapsed() < Duration::from_secs(40));
 }
 

@@ -5,38 +5,30 @@ use std::process::{Command, Stdio};
 use std::thread;
 use std::time::Duration;
 
-use mdr_tui::scenario::checkpoint;
+use mdr_tui::scenario::{Change, checkpoint};
 use serde::de::IgnoredAny;
 
-use crate::common::fig3;
-use crate::test_dir::{Said, Table, TestDir, bits, end, has, kill, names, signal};
+use crate::common::load;
+use crate::random::Random;
+use crate::test_dir::{TestDir, bits, end, has, kill, names, signal};
 
 /// A run with snapshots between steps, a row a step, and changes on the way.
-const SCENARIO: &str = concat!(
-    fig3!(indenter pair motion),
-    r#"
-[numerics]
-points = 60
-
-[[changes]]
-at_cycle = 3.0
-set = "numerics.method = b"
-
-[[changes]]
-at_cycle = 7.25
-set = "numerics.method = product"
-
-[[changes]]
-at_cycle = 11.5
-set = "numerics.points = 71"
-"#
-);
+fn scenario() -> String {
+    let changes = [
+        (3.0, "numerics.method", "b"),
+        (7.25, "numerics.method", "product"),
+        (11.5, "numerics.points", "71"),
+    ];
+    let changes = changes.map(|(at, key, value)| Change::new(at, key, value));
+    let scenario = load("li2019-fig3", &["numerics.points=60", "run.snapshot_at=[]"]);
+    scenario.with_changes(changes.to_vec()).to_toml()
+}
 
 const ORDER: &str = "run mine.toml --cycles 120.125 --snapshot-at 10.123,2,30 --history every-step";
 
 fn dir() -> TestDir {
     let dir = TestDir::new();
-    dir.write("mine.toml", SCENARIO.as_bytes());
+    dir.write("mine.toml", scenario().as_bytes());
     dir.done(&format!("{ORDER} --out whole --quiet"));
     dir
 }
@@ -55,8 +47,8 @@ fn a_run_that_was_interrupted_writes_what_one_that_was_not_writes() {
         assert_eq!(said.code, 1, "{}", said.err);
         let checkpoint = format!("{out}/run.checkpoint");
         // The files of an interrupted run are those of the moment.
-        let history = Table::parse(&dir.read(&format!("{out}/history.csv")));
-        let state = Table::parse(&dir.read(&format!("{out}/state.csv")));
+        let history = dir.table(&format!("{out}/history.csv"));
+        let state = dir.table(&format!("{out}/state.csv"));
         let cycle: f64 = state.header("cycle").parse().expect("a number");
         let last = bits(&history.column("cycle")).last().copied();
         assert_eq!(last, Some(cycle.to_bits()));
@@ -84,24 +76,13 @@ fn a_resumed_run_may_go_further() {
     let mut child = dir.start(&line, &[]);
     dir.wait_for(&mut child, "broken/run.checkpoint");
     // The first one may be of the start.
-    while crate::pty::read(&dir.path("broken/run.checkpoint"))
-        .simulation()
-        .cycle()
-        == 0.0
-    {}
+    let kept = || crate::pty::read(&dir.path("broken/run.checkpoint"));
+    while kept().simulation().cycle() == 0.0 {}
     kill(child);
     let shorter = "run --resume broken/run.checkpoint --cycles 0";
     dir.line(shorter).ends(2, "is already at cycle");
     dir.done("run --resume broken/run.checkpoint --cycles 300 --quiet");
     dir.alike("whole", "broken");
-}
-
-/// A number that looks random enough to choose a moment by.
-fn random(seed: &mut u64) -> u64 {
-    *seed ^= *seed << 13;
-    *seed ^= *seed >> 7;
-    *seed ^= *seed << 17;
-    *seed
 }
 
 /// Kills runs at random moments and resumes them, `MDR_TUI_KILLS` times.
@@ -111,7 +92,7 @@ fn killed_at_any_moment_nothing_is_torn_and_the_result_is_exact() {
     let kills: usize = kills.map_or(8, |kills| kills.parse().expect("a number"));
     let dir = dir();
     let (mut killed, mut resumed, mut rounds) = (0, 0, 0);
-    let mut seed = 0x9e37_79b9_7f4a_7c15 ^ u64::from(std::process::id());
+    let mut random = Random::new(std::process::id().into());
     while killed < kills {
         rounds += 1;
         let out = format!("round-{rounds}");
@@ -125,7 +106,7 @@ fn killed_at_any_moment_nothing_is_torn_and_the_result_is_exact() {
             };
             let mut child = dir.start(&line, &[]);
             if killed < kills {
-                thread::sleep(Duration::from_micros(random(&mut seed) % 150_000));
+                thread::sleep(Duration::from_micros(random.next() % 150_000));
                 let _ = child.kill();
             }
             let status = child.wait().expect("an end");
@@ -197,38 +178,19 @@ fn a_checkpoint_that_cannot_be_taken_up_is_one_line() {
             dir.refuse_line(&line, expected);
         }
     }
-    dir.refuse_line("run --resume missing", "missing: no such file");
-    dir.refuse_line("run --resume .", "is a directory");
-    for line in [
-        "run hertz --resume x/run.checkpoint",
-        "run --resume x/run.checkpoint --set numerics.points=8",
-        "run --resume x/run.checkpoint --snapshot-at 1",
-        "run --resume x/run.checkpoint --history every-step",
-        "hertz --resume x/run.checkpoint --print 80x24",
-    ] {
-        dir.refuse_line(line, "cannot be used with");
-    }
-    for every in ["-1", "nan", "often", "1e-9", "1e99"] {
-        let line = format!("run hertz --out new --checkpoint-every={every}");
-        dir.refuse_line(&line, "an interval is 0, or");
-    }
 }
 
 #[cfg(target_os = "linux")]
 #[test]
 fn under_nohup_a_run_outlives_its_terminal() {
     let dir = dir();
-    let line = format!(
-        "trap '' HUP; exec '{}' {ORDER} --out nohup --checkpoint-every 0.001 --quiet",
-        env!("CARGO_BIN_EXE_mdr-tui")
-    );
-    let child = dir.command(&[]).get_current_dir().map(|directory| {
-        let mut command = Command::new("sh");
-        command.args(["-c", &line]).current_dir(directory);
-        command.stdout(Stdio::piped()).stderr(Stdio::piped());
-        command.spawn().expect("a shell")
-    });
-    let mut child = child.expect("a directory");
+    let bin = env!("CARGO_BIN_EXE_mdr-tui");
+    let line =
+        format!("trap '' HUP; exec '{bin}' {ORDER} --out nohup --checkpoint-every 0.001 --quiet");
+    let mut command = Command::new("sh");
+    command.args(["-c", &line]).current_dir(dir.path(""));
+    command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().expect("a shell");
     dir.wait_for(&mut child, "nohup/run.checkpoint");
     signal(&child, "HUP");
     let said = end(child);
@@ -241,25 +203,15 @@ fn under_nohup_a_run_outlives_its_terminal() {
 #[test]
 fn a_defect_keeps_what_is_done_and_says_so_in_one_line() {
     let dir = TestDir::new();
-    let arguments = ["run", "hertz", "--cycles", "1", "--out", "x"];
-    let output = dir.command(&arguments).env("MDR_TUI_FAULT", "run").output();
-    let said = Said::from(output.expect("the program starts"));
-    assert_eq!(
-        (said.code, said.err.lines().count()),
-        (1, 1),
-        "{}",
-        said.err
-    );
-    has(&said.err, "a fault in the run");
-    assert_eq!(
-        names(&dir.path("x")),
-        [
-            "history.csv",
-            "run.checkpoint",
-            "scenario.toml",
-            "state.csv"
-        ]
-    );
+    let said = dir.line_with("run hertz --cycles 1 --out x", &[("MDR_TUI_FAULT", "run")]);
+    said.fails(1, "a fault in the run");
+    let kept = [
+        "history.csv",
+        "run.checkpoint",
+        "scenario.toml",
+        "state.csv",
+    ];
+    assert_eq!(names(&dir.path("x")), kept);
     dir.done("run --resume x/run.checkpoint --quiet");
     dir.done("run hertz --cycles 1 --out whole --quiet");
     dir.alike("whole", "x");
@@ -269,45 +221,31 @@ fn a_defect_keeps_what_is_done_and_says_so_in_one_line() {
 #[test]
 fn a_disk_that_is_full_at_the_end_leaves_a_checkpoint() {
     let dir = TestDir::new();
-    let bin = env!("CARGO_BIN_EXE_mdr-tui");
-    let run = |blocks: u32, out: &str| {
-        let line = format!(
-            "trap '' XFSZ; ulimit -f {blocks}; exec '{bin}' run li2019-fig3 --cycles 3 --out {out} \
-             --snapshot-at 1,2 --set numerics.points=400"
-        );
-        let mut command = Command::new("bash");
-        command.args(["-c", &line]).current_dir(dir.path(""));
-        command.env("XDG_STATE_HOME", dir.path("state"));
-        Said::from(command.output().expect("a shell"))
-    };
+    let plan = "run li2019-fig3 --cycles 3 --snapshot-at 1,2 --set numerics.points=400 --out";
     // Kilobytes: the tables of 401 nodes take more than 60, and the checkpoint takes less than that.
-    for (blocks, kept) in [(0, None), (60, Some("tight"))] {
-        let out = kept.unwrap_or("full");
-        let said = run(blocks, out);
-        assert_eq!(said.code, 1, "{}", said.err);
-        let last = said.err.lines().last().unwrap_or_default();
-        assert!(last.contains("cannot write"), "{}", said.err);
+    for (blocks, out, told) in [
+        (0, "full", "there is no checkpoint"),
+        (
+            60,
+            "tight",
+            "resume with: mdr-tui run --resume tight/run.checkpoint",
+        ),
+    ] {
+        let said = dir.shell(&format!(
+            "trap '' XFSZ; ulimit -f {blocks}; exec $BIN {plan} {out}"
+        ));
+        said.ends(1, "cannot write");
         let owed = said
             .err
-            .matches("the run continues and tries again at its end")
-            .count();
-        assert_eq!(owed, 2, "{}", said.err);
-        match kept {
-            None => assert!(last.ends_with("there is no checkpoint"), "{last}"),
-            Some(out) => {
-                let hint = format!("resume with: mdr-tui run --resume {out}/run.checkpoint");
-                has(last, &hint);
-                let line = format!("run --resume {out}/run.checkpoint --quiet");
-                dir.line(&line);
-                dir.done(
-                    "run li2019-fig3 --cycles 3 --out whole --snapshot-at 1,2 \
-                     --set numerics.points=400 --quiet",
-                );
-                for name in ["state.csv", "history.csv", "scenario.toml"] {
-                    let read = |directory: &str| dir.read(&format!("{directory}/{name}"));
-                    assert!(read("whole") == read(out), "{name} differs");
-                }
-            }
-        }
+            .matches("the run continues and tries again at its end");
+        assert_eq!(owed.count(), 2, "{}", said.err);
+        has(said.err.lines().last().unwrap_or_default(), "cannot write");
+        has(said.err.lines().last().unwrap_or_default(), told);
+    }
+    dir.line("run --resume tight/run.checkpoint --quiet");
+    dir.done(&format!("{plan} whole --quiet"));
+    for name in ["state.csv", "history.csv", "scenario.toml"] {
+        let [whole, tight] = ["whole", "tight"].map(|out| dir.read(&format!("{out}/{name}")));
+        assert!(whole == tight, "{name} differs");
     }
 }

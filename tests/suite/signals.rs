@@ -1,10 +1,10 @@
 //! Every signal that asks a program to end is answered soon, whatever the program waits for.
 
-use std::process::{Child, Command};
+use std::process::Child;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::test_dir::{Table, TestDir, end, has, names, signal};
+use crate::test_dir::{TestDir, end, names, signal};
 
 /// A second is what is promised; a machine that is busy with all the other tests takes longer.
 pub const SOON: Duration = Duration::from_millis(2500);
@@ -31,12 +31,7 @@ fn ends(dir: &TestDir, child: Child, sign: &str, out: &str) -> String {
     let waited = start.elapsed();
     eprintln!("{out}, {sign}: ended after {waited:.0?}");
     assert!(waited < SOON, "{sign}: {waited:.1?}");
-    assert_eq!(
-        (said.code, said.err.lines().count()),
-        (1, 1),
-        "{sign}: {}",
-        said.err
-    );
+    said.fails(1, "interrupted");
     let path = format!("{out}/run.checkpoint");
     let cycle = said.err.strip_prefix("mdr-tui: interrupted at cycle ");
     let (cycle, rest) = cycle
@@ -57,18 +52,16 @@ fn a_run_keeps_itself_at_every_signal_that_asks_it_to_end() {
         let child = start(&dir, sign, "");
         let cycle = ends(&dir, child, sign, sign);
         // What is done is there.
-        let state = Table::parse(&dir.read(&format!("{sign}/state.csv")));
+        let state = dir.table(&format!("{sign}/state.csv"));
         assert_eq!(state.header("cycle"), cycle);
-        assert_eq!(
-            names(&dir.path(sign)),
-            [
-                "history.csv",
-                "run.checkpoint",
-                "scenario.toml",
-                "state-0.5.csv",
-                "state.csv"
-            ]
-        );
+        let kept = [
+            "history.csv",
+            "run.checkpoint",
+            "scenario.toml",
+            "state-0.5.csv",
+            "state.csv",
+        ];
+        assert_eq!(names(&dir.path(sign)), kept);
     }
 }
 
@@ -85,17 +78,6 @@ fn a_step_that_takes_an_hour_keeps_no_signal_waiting() {
 #[test]
 fn a_file_that_has_grown_to_its_limit_is_an_error_in_one_line() {
     let dir = TestDir::new();
-    let bin = env!("CARGO_BIN_EXE_mdr-tui");
-    let line = format!("ulimit -f 8; exec '{bin}' run hertz --cycles 1 --out x --quiet");
-    let mut command = Command::new("bash");
-    command.args(["-c", &line]).current_dir(dir.path(""));
-    command.env("XDG_STATE_HOME", dir.path("state"));
-    let said = crate::test_dir::Said::from(command.output().expect("a shell"));
-    assert_eq!(
-        (said.code, said.err.lines().count()),
-        (1, 1),
-        "{}",
-        said.err
-    );
-    has(&said.err, "cannot write");
+    let said = dir.shell("ulimit -f 8; exec $BIN run hertz --cycles 1 --out x --quiet");
+    said.fails(1, "cannot write");
 }

@@ -1,6 +1,6 @@
 //! Harsh wear: the guard takes every K to its limit, the raw methods fail where it was predicted.
 
-use crate::common::{Scene, holds, load, ours, run_setup, without_numerics};
+use crate::common::{Scene, holds, limit, load, ours, run_setup, without_numerics};
 use crate::test_dir::has;
 use mdr_tui::math::abel::AbelMethod::{A, APlusB, B, Benad, Product};
 use mdr_tui::math::abel::worn;
@@ -33,10 +33,8 @@ fn first_stick_radius() -> f64 {
 /// rms of f at 401 radii against the limit at the largest depth, in d.
 fn limit_error(simulation: &Simulation) -> f64 {
     let limit = LimitingProfile {
-        e_star: 1.0,
-        radius: 1.0,
         depth: 1.1,
-        stick_radius: first_stick_radius(),
+        ..limit(first_stick_radius())
     };
     let (grid, wear) = (&simulation.setup().grid, &simulation.state().wear);
     let radii = (0..=400).map(|i| grid.radius() * f64::from(i) / 400.0);

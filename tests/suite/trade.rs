@@ -192,17 +192,3 @@ fn an_interrupt_keeps_what_is_done() {
     let early = err.contains("interrupted before the reference was computed");
     assert!(early || out.contains("settings were tried"), "{err} {out}");
 }
-
-#[test]
-fn what_cannot_be_traded_is_refused_in_one_line() {
-    let dir = TestDir::new();
-    for (arguments, line) in [
-        ("hertz", "hertz: nothing wears"),
-        ("li2019-fig3 --points 3", "points are whole numbers"),
-        ("li2019-fig3 --accuracy 0", "an accuracy is greater than 0"),
-        ("li2019-fig3 --methods c", "invalid value 'c'"),
-        ("nothing.toml", "no such file"),
-    ] {
-        dir.refuse_line(&format!("trade {arguments}"), line);
-    }
-}

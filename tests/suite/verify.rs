@@ -236,27 +236,6 @@ fn the_curves_are_drawn_for_every_method_within_eighty_columns() {
 }
 
 #[test]
-fn nonsense_is_refused_in_one_line() {
-    let dir = TestDir::new();
-    for (options, expected) in [
-        ("--points 0", "from 4 to 8192"),
-        ("--points -5", "from 4 to 8192"),
-        ("--points 100,ten", "'ten'"),
-        ("--points 1e3", "'1e3'"),
-        ("--points=", "from 4 to 8192"),
-        ("--points 8193", "from 4 to 8192"),
-        ("--problem nope", "truncated-paraboloid"),
-        ("--problem limit --points 400", "--long"),
-        ("--csv /no/such/place.csv", "directory does not exist"),
-        ("--csv /", "not a file name"),
-        ("--json --plot", "--plot"),
-        ("--force", "--csv"),
-    ] {
-        dir.refuse_line(&format!("verify {options}"), expected);
-    }
-}
-
-#[test]
 fn help_has_examples_and_the_default_ladder() {
     let help = said(&["--help"]);
     has(&help, "Example");

@@ -1,6 +1,6 @@
 //! A run that cannot go on stops at its last good step, keeps it, and says what would help.
 
-use crate::test_dir::{Table, TestDir, bits, end, has, lacks, names};
+use crate::test_dir::{TestDir, bits, end, has, lacks, names};
 
 /// `--set`s that end in each cause, the cause, and what would help. Those that end before the first
 /// step have nothing to keep.
@@ -103,8 +103,8 @@ fn every_cause_keeps_the_last_good_step_and_says_what_would_help() {
             names(&dir.path(&out)),
             ["history.csv", "scenario.toml", "state.csv"]
         );
-        let state = Table::parse(&dir.read(&format!("{out}/state.csv")));
-        let history = Table::parse(&dir.read(&format!("{out}/history.csv")));
+        let state = dir.table(&format!("{out}/state.csv"));
+        let history = dir.table(&format!("{out}/history.csv"));
         let cycle: f64 = state.header("cycle").parse().expect("a number");
         let last = bits(&history.column("cycle")).last().copied();
         assert_eq!(last, Some(cycle.to_bits()));

@@ -2,8 +2,8 @@
 
 use mdr_tui::scenario::Scenario;
 
-use crate::common::{fig3, load, ran, try_load};
-use crate::test_dir::{TestDir, cases, has};
+use crate::common::{fig3, load, ran};
+use crate::test_dir::TestDir;
 
 /// V and E_d after `cycles` of a paraboloid held at a depth and shaken sideways.
 fn worn(sets: &[&str], cycles: f64) -> [f64; 2] {
@@ -107,40 +107,4 @@ points = 100
         (tabled / triangle - 1.0).abs() < 1e-9,
         "{tabled} {triangle}"
     );
-    for (csv, expected) in cases([
-        "time_s,u_m\n0,0\n1,1e-7\n2,5e-8\n => must end where it begins, at 0e0",
-        "time_s,u_m\n0,0\n1,1e-7\n1,0\n => must increase, and follows 1e0",
-        "time_s,u_m\n0,0\n1,\n2,0\n => motion.csv: line 3: u_m is empty",
-        "t,u\n0,0\n => motion.csv: has no column time_s",
-    ]) {
-        dir.write("motion.csv", csv.as_bytes());
-        has(&try_load(&path, &[]).expect_err("a refusal"), expected);
-    }
-}
-
-#[test]
-fn waveforms_that_lack_something_are_refused() {
-    for (sets, expected) in [
-        (
-            &["motion.tangential.waveform=trapezoid"][..],
-            "motion.tangential.hold is missing",
-        ),
-        (
-            &[
-                "motion.tangential.waveform=trapezoid",
-                "motion.tangential.hold=1",
-            ][..],
-            "must be greater than 0, at most 0.99",
-        ),
-        (
-            &["motion.tangential.waveform=table"][..],
-            "motion.tangential.file is missing",
-        ),
-        (&["motion.tangential.waveform=square"][..], "must be one of"),
-    ] {
-        has(
-            &try_load("li2019-fig3", sets).expect_err("a refusal"),
-            expected,
-        );
-    }
 }

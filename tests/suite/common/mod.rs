@@ -12,6 +12,10 @@ use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::contact::material::Material;
 use mdr_tui::math::abel::AbelMethod;
 use mdr_tui::math::grid::RadialGrid;
+use mdr_tui::oracle::cattaneo_mindlin::CattaneoMindlin;
+use mdr_tui::oracle::dual_oscillation::{DualOscillation, Frequencies};
+use mdr_tui::oracle::limiting_profile::LimitingProfile;
+use mdr_tui::oracle::partial_slip::stiffness_ratio;
 use mdr_tui::scenario::session::Session;
 use mdr_tui::scenario::{Scenario, preset};
 use mdr_tui::simulation::drive::{Control, Drive, Oscillation};
@@ -76,7 +80,42 @@ impl Default for Scene {
     }
 }
 
+/// A way to set each part that most scenes differ in.
+macro_rules! parts {
+    ($($part:ident: $type:ty),* $(,)?) => {
+        $(pub fn $part(self, $part: $type) -> Self {
+            Self { $part, ..self }
+        })*
+    };
+}
+
 impl Scene {
+    parts!(cells: usize, steps: u32, friction: f64, poisson: f64, domain: f64);
+
+    /// The default scene by a method.
+    pub fn by(method: AbelMethod) -> Self {
+        Self {
+            method,
+            ..Self::default()
+        }
+    }
+
+    /// With Archard's wear.
+    pub fn wear(self, coefficient: f64) -> Self {
+        Self {
+            law: archard(coefficient),
+            ..self
+        }
+    }
+
+    /// Moved to and fro by an amplitude.
+    pub fn shaken(self, amplitude: f64) -> Self {
+        Self {
+            tangential: Some(swing(0.0, amplitude, 1.0, 0.0)),
+            ..self
+        }
+    }
+
     /// Fig. 3 of the paper at a wear number K, on the default domain.
     pub fn fig3(wear_number: f64) -> Self {
         Self {
@@ -119,6 +158,72 @@ pub fn ours(scene: Scene) -> Setup {
         stability: Stability::SubStep,
         ..Setup::from(scene)
     }
+}
+
+/// Partial slip of the default scene at an amplitude.
+pub fn cattaneo(amplitude: f64) -> CattaneoMindlin {
+    CattaneoMindlin {
+        e_star: 1.0,
+        g_star: stiffness_ratio(0.3),
+        mu: 0.1,
+        radius: 1.0,
+        depth: 1.0,
+        amplitude,
+    }
+}
+
+/// What endless fretting of the default scene leaves outside of a stick radius.
+pub fn limit(stick_radius: f64) -> LimitingProfile {
+    LimitingProfile {
+        e_star: 1.0,
+        radius: 1.0,
+        depth: 1.0,
+        stick_radius,
+    }
+}
+
+/// The motion of Fig. 3 in the default scene.
+pub fn fig3_motion() -> DualOscillation {
+    DualOscillation {
+        e_star: 1.0,
+        g_star: stiffness_ratio(0.3),
+        mu: 0.1,
+        depth: 1.0,
+        normal_amplitude: 0.1,
+        normal_phase: 0.0,
+        tangential_amplitude: 0.1,
+        tangential_phase: FRAC_PI_4,
+        frequencies: Frequencies::Equal,
+    }
+}
+
+/// The root of the mean square.
+pub fn rms(differences: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = differences.fold((0.0, 0.0), |(sum, count), e| (sum + e * e, count + 1.0));
+    f64::sqrt(sum / count)
+}
+
+/// The largest size of some errors; NaN stays.
+pub fn largest(errors: impl IntoIterator<Item = f64>) -> f64 {
+    let worse = |worst: f64, e: f64| {
+        if e.abs() > worst || e.is_nan() {
+            e.abs()
+        } else {
+            worst
+        }
+    };
+    errors.into_iter().fold(0.0, worse)
+}
+
+/// The largest difference of two lists.
+pub fn apart(one: &[f64], other: &[f64]) -> f64 {
+    largest(one.iter().zip(other).map(|(a, b)| a - b))
+}
+
+/// Fails unless a number is the expected one but for a share of it.
+#[track_caller]
+pub fn near(what: &str, found: f64, expected: f64, share: f64) {
+    holds(what, (found / expected - 1.0).abs(), share);
 }
 
 /// A prescribed displacement mean + amplitude · sin(ωt + φ).
@@ -170,6 +275,7 @@ pub fn ran(scenario: Scenario, cycles: f64) -> Session {
 }
 
 /// Fails unless `error` is at most `bound` (so NaN fails); the numbers are printed.
+#[track_caller]
 pub fn holds(what: &str, error: f64, bound: f64) {
     eprintln!("{what}: {error:.3e} of {bound:.3e}");
     assert!(error <= bound, "{what}: {error:e} exceeds {bound:e}");

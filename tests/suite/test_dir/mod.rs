@@ -38,6 +38,13 @@ impl Said {
         let is_so = self.code == code && self.err.contains(word);
         assert!(is_so, "{}, {:?} for {code}, {word:?}", self.code, self.err);
     }
+
+    /// [`ends`](Self::ends) with one line on stderr.
+    #[track_caller]
+    pub fn fails(&self, code: i32, word: &str) {
+        self.ends(code, word);
+        assert_eq!(self.err.lines().count(), 1, "{}", self.err);
+    }
 }
 
 /// Fails unless `text` has `part`.
@@ -85,6 +92,23 @@ impl TestDir {
     /// [`say`](Self::say) with the words of a line, without quoting.
     pub fn line(&self, line: &str) -> Said {
         self.say(&line.split_whitespace().collect::<Vec<_>>())
+    }
+
+    /// [`line`](Self::line) in an environment.
+    pub fn line_with(&self, line: &str, environment: &[(&str, &str)]) -> Said {
+        let mut command = self.command(&line.split_whitespace().collect::<Vec<_>>());
+        let output = command.envs(environment.iter().copied()).output();
+        output.expect("the program starts").into()
+    }
+
+    /// Runs a line of bash in which `$BIN` is the program.
+    pub fn shell(&self, line: &str) -> Said {
+        let mut command = Command::new("bash");
+        command.args(["-c", line]).current_dir(self.0.path());
+        command.env("BIN", env!("CARGO_BIN_EXE_mdr-tui"));
+        command.env("XDG_CONFIG_HOME", self.0.path());
+        command.env("XDG_STATE_HOME", self.path("state"));
+        command.output().expect("a shell").into()
     }
 
     /// Runs a line without quoting, which must succeed and tell nothing on stderr; returns stdout.
@@ -186,6 +210,11 @@ impl TestDir {
     /// Makes a file.
     pub fn write(&self, name: &str, text: &[u8]) {
         fs::write(self.path(name), text).expect("a file");
+    }
+
+    /// Reads a table.
+    pub fn table(&self, name: &str) -> Table {
+        Table::parse(&self.read(name))
     }
 
     /// Reads a file.

@@ -1,0 +1,192 @@
+//! Screens after keys, held by tables such as `screens.txt`: a check a line, `KEYS | WHAT`.
+//!
+//! - `== heading` begins a section, in a new directory, on `li2019-fig3` in 80 by 24.
+//! - `@ WORDS 80x24 ..` sets the arguments of the program and the sizes of the screen for what follows.
+//! - `$ LINE` runs the program on a line, which must succeed.
+//! - Without keys a line is about the screen of the line above; `.{30}` is a key pressed 30 times.
+//! - `pin NAME` pins the screen in `snapshots/`; `replays N` takes the one snapshot that the keys have written, which
+//!   must tell of N changes and run again without a screen to the last bit. The others are `PART VERB TEXT`, where a text with blanks at
+//!   its ends stands in quotes: `has`, `lacks`, `counts N`, `is`, `starts` and `ends` look at the part, `says` at its words
+//!   whatever lines they are broken into, `same` and `differs` compare it with the same part after other keys.
+//! - Parts are the `status` line, the `timeline` below it, the `foot`, the `body` above that, the `panels`, which
+//!   are the body without those two lines, and the `screen`, which need not be named.
+
+use std::collections::HashMap;
+
+use crate::test_dir::{TestDir, names};
+
+/// Fails unless every check of a table holds; `prepare` puts files into the directory of a section.
+pub fn hold(module: &str, table: &str, prepare: impl Fn(&TestDir)) {
+    for (at, section) in table.split("\n== ").enumerate().skip(1) {
+        let mut lines = section.lines();
+        let heading = lines.next().unwrap_or_default();
+        let mut section = Section::new();
+        prepare(&section.dir);
+        for line in lines.filter(|line| !line.is_empty()) {
+            let place = format!("section {at}, {heading}: {line}");
+            if let Some(words) = line.strip_prefix("@ ") {
+                section.set(words);
+            } else if let Some(line) = line.strip_prefix("$ ") {
+                section.dir.done(line);
+            } else {
+                section.check(module, line, &place);
+            }
+        }
+    }
+}
+
+struct Section {
+    dir: TestDir,
+    arguments: Vec<String>,
+    sizes: Vec<String>,
+    keys: String,
+    seen: HashMap<[String; 2], String>,
+}
+
+impl Section {
+    fn new() -> Self {
+        let mut section = Self {
+            dir: TestDir::new(),
+            arguments: Vec::new(),
+            sizes: Vec::new(),
+            keys: String::new(),
+            seen: HashMap::new(),
+        };
+        section.set("li2019-fig3 80x24");
+        section
+    }
+
+    fn set(&mut self, words: &str) {
+        let words = words.split(' ').map(str::to_owned);
+        let is_size = |word: &String| word.starts_with(|sign: char| sign.is_ascii_digit());
+        (self.sizes, self.arguments) = words.partition(is_size);
+        self.seen.clear();
+    }
+
+    /// The screen after keys, which are played once in a section.
+    fn screen(&mut self, keys: &str, size: &str) -> String {
+        let place = [keys, size].map(str::to_owned);
+        if let Some(seen) = self.seen.get(&place) {
+            return seen.clone();
+        }
+        let arguments: Vec<&str> = self.arguments.iter().map(String::as_str).collect();
+        let (columns, rows) = size.split_once('x').expect("a size");
+        let size = [columns, rows].map(|side| side.parse().expect("a number"));
+        let screen = self.dir.screen(&arguments, keys, size.into());
+        self.seen.insert(place, screen.clone());
+        screen
+    }
+
+    fn check(&mut self, module: &str, line: &str, place: &str) {
+        let (keys, what) = line.split_once("| ").expect(place);
+        if !keys.is_empty() || self.keys.is_empty() {
+            self.keys = unfold(keys.trim_end());
+        }
+        let keys = self.keys.clone();
+        if let Some(changes) = what.strip_prefix("replays ") {
+            return replays(&self.arguments, &keys, changes, place);
+        }
+        for size in self.sizes.clone() {
+            let screen = self.screen(&keys, &size);
+            let (first, rest) = what.split_once(' ').expect(place);
+            if first == "pin" {
+                pin(&format!("suite__{module}__{rest}-{size}"), &screen);
+                continue;
+            }
+            let (part, verb, text) = match rest.split_once(' ') {
+                Some((verb, text)) if PARTS.contains(&first) => (first, verb, text),
+                _ => ("screen", first, rest),
+            };
+            let quoted = text
+                .strip_prefix('"')
+                .and_then(|text| text.strip_suffix('"'));
+            let text = quoted.unwrap_or(text);
+            let seen = part_of(&screen, part);
+            let holds = match verb {
+                "has" => seen.contains(text),
+                "counts" => {
+                    let (count, text) = text.split_once(' ').expect(place);
+                    seen.matches(text).count().to_string() == count
+                }
+                "lacks" => !seen.contains(text),
+                "is" => seen == text,
+                "starts" => seen.starts_with(text),
+                "ends" => seen.ends_with(text),
+                "says" => words_of(&seen).contains(text),
+                "same" => seen == part_of(&self.screen(&unfold(text), &size), part),
+                "differs" => seen != part_of(&self.screen(&unfold(text), &size), part),
+                _ => panic!("{place}: no such verb"),
+            };
+            assert!(holds, "{place}\n{screen}");
+        }
+    }
+}
+
+const PARTS: [&str; 6] = ["status", "timeline", "foot", "body", "panels", "screen"];
+
+/// A part of a screen, by its name.
+pub fn part_of(screen: &str, part: &str) -> String {
+    let lines: Vec<&str> = screen.lines().collect();
+    match part {
+        "status" => lines[0].to_owned(),
+        "timeline" => lines[1].to_owned(),
+        "foot" => lines[lines.len() - 1].trim().to_owned(),
+        "body" => lines[..lines.len() - 1].join("\n"),
+        "panels" => lines[2..lines.len() - 1].join("\n"),
+        _ => screen.to_owned(),
+    }
+}
+
+/// A screen as running text: a box that breaks its lines does not break a sentence.
+pub fn words_of(text: &str) -> String {
+    let words = text.split(|sign: char| sign.is_whitespace() || sign == '│');
+    words
+        .filter(|word| !word.is_empty())
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+/// Keys with those that are pressed many times written out.
+fn unfold(keys: &str) -> String {
+    let mut pieces = keys.split('{');
+    let mut unfolded = pieces.next().unwrap_or_default().to_owned();
+    for piece in pieces {
+        let (count, rest) = piece.split_once('}').expect("a number of times");
+        let last = match unfolded.ends_with('>') {
+            true => unfolded.rfind('<'),
+            false => unfolded.char_indices().next_back().map(|(at, _)| at),
+        };
+        let key = unfolded.split_off(last.expect("a key"));
+        unfolded += &key.repeat(count.parse().expect("a number"));
+        unfolded += rest;
+    }
+    unfolded
+}
+
+fn replays(arguments: &[String], keys: &str, changes: &str, place: &str) {
+    let dir = TestDir::new();
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    dir.screen(&arguments, keys, (80, 24));
+    let [name] = &names(&dir.path(""))[..] else {
+        panic!("{place}: not one snapshot");
+    };
+    let [state, scenario] =
+        ["state.csv", "scenario.toml"].map(|file| dir.read(&format!("{name}/{file}")));
+    let told = [
+        state.matches("# at cycle ").count(),
+        scenario.matches("[[changes]]").count(),
+    ];
+    assert_eq!(told.map(|count| count.to_string()), [changes; 2], "{place}");
+    dir.done(&format!("run {name}/scenario.toml --out again --quiet"));
+    assert!(
+        dir.read("again/state.csv") == state,
+        "{place}: the states differ"
+    );
+}
+
+/// Pins a screen under a name of its own.
+pub fn pin(name: &str, screen: &str) {
+    let mut settings = insta::Settings::clone_current();
+    settings.set_prepend_module_to_snapshot(false);
+    settings.bind(|| insta::assert_snapshot!(name, screen));
+}

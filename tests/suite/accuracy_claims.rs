@@ -4,22 +4,14 @@ use std::f64::consts::PI;
 
 use mdr_tui::oracle::dual_oscillation::{DualOscillation, Frequencies};
 use mdr_tui::reading::{Check, Subject, verdict};
-use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
 
-use crate::common::{fig3, fig3_motion, holds, load, ran};
+use crate::common::{fig3_motion, holds, load, ran};
 use crate::test_dir::{TestDir, has, lacks};
 
-/// A preset or a text with `sets`, at `cycles`.
+/// A preset with `sets`, at `cycles`.
 fn run(name: &str, sets: &[&str], cycles: f64) -> Session {
-    let owned: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
-    ran(
-        match name.contains('\n') {
-            true => Scenario::from_toml(name, "a text", &owned).expect("a scenario"),
-            false => load(name, sets),
-        },
-        cycles,
-    )
+    ran(load(name, sets), cycles)
 }
 
 fn checks(session: &Session) -> Vec<Check> {
@@ -51,47 +43,15 @@ fn volume(session: &Session) -> f64 {
 const FORCE: [&str; 1] = ["motion.normal.control=force"];
 
 /// A force of 10 ± 20 N: contact is lost for a third of the cycle.
-const LIFT_OFF: &str = concat!(
-    fig3!(indenter pair),
-    r#"
-[motion.normal]
-control = "force"
-mean = 10.0
-amplitude = 20.0
-angular_frequency = 100.0
-[motion.tangential]
-amplitude = 1e-7
-angular_frequency = 100.0
-phase = 0.7853981633974483
-[wear]
-coefficient = 1.3e-11
-"#
-);
+const LIFT_OFF: [&str; 4] = [
+    "motion.normal.control=force",
+    "motion.normal.mean=10",
+    "motion.normal.amplitude=20",
+    "wear.coefficient=1.3e-11",
+];
 
 /// Two steel bodies, the normal force and the amplitude of displacement held: the stick zone grows.
-const HELD: &str = r#"
-[indenter]
-shape = "paraboloid"
-radius = 0.05
-[material.indenter]
-youngs_modulus = 2.1e11
-poisson = 0.3
-[material.half_space]
-youngs_modulus = 2.1e11
-poisson = 0.3
-[friction]
-coefficient = 0.65
-[motion.normal]
-control = "force"
-mean = 778.4
-[motion.tangential]
-amplitude = 4e-6
-angular_frequency = 62.83
-[wear]
-coefficient = 8.65e-13
-[numerics]
-integrator = "cycle-jump"
-"#;
+const HELD: &str = "julia2022-partial-slip";
 
 /// Every preset that wears, the same by a force, another law, and lost contact: from 25 to 100 steps a
 /// cycle the friction work comes closer to that of 800 by the second power.
@@ -115,7 +75,7 @@ fn steps_are_of_second_order_whatever_the_control_and_the_law() {
         ("truncated-cone", &[]),
         ("strong-wear", &[]),
         ("li2019-fig3", &forced),
-        (LIFT_OFF, &[]),
+        ("li2019-fig3", &LIFT_OFF),
     ];
     for (name, sets) in scenes {
         let at = |steps: u32| {
@@ -141,11 +101,7 @@ fn few_steps_do_for_a_power_of_the_slip_rate() {
     let law = ["wear.law=power", "wear.slip_rate_exponent=0.7"];
     let at = |steps: u32| {
         let steps = format!("numerics.steps_per_cycle={steps}");
-        volume(&run(
-            "gross-slip",
-            &[&law[..], &[steps.as_str()]].concat(),
-            3.0,
-        ))
+        volume(&run("gross-slip", &[&law[..], &[&steps]].concat(), 3.0))
     };
     let fine = at(800);
     for (steps, bound) in [(9, 5e-2), (25, 1e-2), (100, 3e-3)] {
@@ -203,7 +159,7 @@ fn common_periods_of_many_cycles_are_found() {
 fn lost_contact_is_met_when_it_is_lost() {
     let at = |steps: u32| {
         let steps = format!("numerics.steps_per_cycle={steps}");
-        run(LIFT_OFF, &[steps.as_str()], 5.0)
+        run("li2019-fig3", &[&LIFT_OFF[..], &[&steps]].concat(), 5.0)
     };
     let fine = at(800);
     for (steps, bound) in [(50, 1e-2), (100, 5e-3), (200, 2.5e-3)] {
@@ -401,50 +357,26 @@ fn what_is_off_is_named_with_its_size() {
 fn what_lies_outside_of_the_theory_is_told_at_the_start() {
     let dir = TestDir::new();
     let file = |name: &str| std::fs::read_to_string(dir.path(name)).expect("a file");
-    for (sets, words) in [
-        (
-            ["indenter.radius=1e-6", "motion.normal.mean=5e-7"],
-            "slope at the contact's edge",
-        ),
-        (
-            ["indenter.radius=1e-6", "motion.normal.mean=5e-7"],
-            "the pressure reaches",
-        ),
-    ] {
-        let mut arguments = vec!["run", "hertz", "--cycles", "1", "--force", "--out", "steep"];
-        for set in sets {
-            arguments.extend(["--set", set]);
-        }
-        let said = dir.say(&arguments);
-        assert_eq!(said.code, 0, "{}", said.err);
-        let lines: Vec<&str> = said
-            .err
-            .lines()
-            .filter(|line| line.contains(words))
-            .collect();
-        assert_eq!(lines.len(), 1, "{}", said.err);
-        assert!(lines[0].contains("outside the theory"), "{}", said.err);
+    let steep = "--set indenter.radius=1e-6 --set motion.normal.mean=5e-7";
+    let said = dir.line(&format!("run hertz --cycles 1 --out steep {steep}"));
+    assert_eq!(said.code, 0, "{}", said.err);
+    for words in ["slope at the contact's edge", "the pressure reaches"] {
+        let line = |text: &str| {
+            let lines: Vec<&str> = text.lines().filter(|line| line.contains(words)).collect();
+            assert_eq!(lines.len(), 1, "{words}: {text:.600}");
+            lines[0].to_owned()
+        };
+        has(&line(&said.err), "outside the theory");
         for table in ["steep/state.csv", "steep/history.csv"] {
-            let table = file(table);
-            let told = table.lines().find(|line| line.contains(words));
-            assert!(
-                told.is_some_and(|line| line.starts_with("# warning: ")),
-                "{table:.600}"
-            );
+            assert!(line(&file(table)).starts_with("# warning: "), "{table}");
         }
     }
     let said = dir.line("run hertz --cycles 1 --out hertz");
     assert_eq!(said.err, "");
     has(&file("hertz/state.csv"), "\n# checks: ok\n");
     lacks(&file("hertz/state.csv"), "# warning");
-    let benad = ["--set", "numerics.method=benad", "--cycles", "10"];
-    dir.say(&[&["run", "li2019-fig3", "--out", "harsh"], &benad[..]].concat());
-    let header = file("harsh/state.csv");
-    let checks = header.lines().find(|line| line.starts_with("# checks: "));
-    assert!(
-        checks.is_some_and(|line| line != "# checks: ok"),
-        "{checks:?}"
-    );
+    dir.line("run li2019-fig3 --set numerics.method=benad --cycles 10 --out harsh");
+    assert_ne!(dir.table("harsh/state.csv").header("checks"), "ok");
 }
 
 #[test]

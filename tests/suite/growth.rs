@@ -7,40 +7,20 @@ use std::f64::consts::PI;
 
 /// A steel ball of 12.7 mm on steel under a force (N) that is held, moved by an amplitude (m), over jumps.
 fn ball(force: f64, amplitude: f64, more: &[&str]) -> Scenario {
-    let text = format!(
-        r#"
-title = "A steel ball"
-[indenter]
-shape = "paraboloid"
-radius = 0.0127
-[material.indenter]
-youngs_modulus = 2.1e11
-poisson = 0.3
-[material.half_space]
-youngs_modulus = 2.1e11
-poisson = 0.3
-[friction]
-coefficient = 0.6
-[motion.normal]
-control = "force"
-mean = {force:e}
-amplitude = 0.0
-angular_frequency = 125.6
-[motion.tangential]
-control = "displacement"
-mean = 0.0
-amplitude = {amplitude:e}
-angular_frequency = 125.6
-[wear]
-coefficient = 3e-14
-[numerics]
-points = 100
-steps_per_cycle = 12
-integrator = "cycle-jump"
-"#
-    );
-    let more: Vec<String> = more.iter().map(|&text| text.into()).collect();
-    Scenario::from_toml(&text, "ball.toml", &more).expect("a scenario")
+    let [force, amplitude] = [
+        format!("motion.normal.mean={force:e}"),
+        format!("motion.tangential.amplitude={amplitude:e}"),
+    ];
+    let ball = [
+        "indenter.radius=0.0127",
+        "friction.coefficient=0.6",
+        &force,
+        &amplitude,
+        "motion.tangential.angular_frequency=125.6",
+        "wear.coefficient=3e-14",
+        "numerics.steps_per_cycle=12",
+    ];
+    load("julia2022-partial-slip", &[&ball, more].concat())
 }
 
 /// Gross slip under a held force: the volume is k times the work, the same on other cells and at other tolerances,

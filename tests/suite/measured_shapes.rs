@@ -2,13 +2,11 @@
 
 use std::fmt::Write;
 
-use crate::common::{fig3, load, ran};
+use crate::common::{holds, largest, load, ran};
 use crate::test_dir::{TestDir, has};
 
-fn scenario(shape: &str) -> String {
-    let rest = concat!(fig3!(pair motion), "[numerics]\npoints = 100\n");
-    format!("title = \"A measured shape\"\n[indenter]\n{shape}\n{rest}")
-}
+/// What follows `run` for an indenter from the table `shape.csv`.
+const TABLE: &str = "li2019-fig3 --set indenter.shape=table --set indenter.file=shape.csv";
 
 /// A table with `points` intervals from `from` to 2.5e-4 m.
 fn table(points: u32, from: f64, f: impl Fn(f64) -> f64) -> String {
@@ -21,8 +19,8 @@ fn table(points: u32, from: f64, f: impl Fn(f64) -> f64) -> String {
 }
 
 /// F_z, F_x, a and V after two cycles.
-fn results(path: &str) -> [f64; 4] {
-    let session = ran(load(path, &[]), 2.0);
+fn results(sets: &[&str]) -> [f64; 4] {
+    let session = ran(load("li2019-fig3", sets), 2.0);
     let moment = session.simulation().moment();
     [
         moment.normal_force,
@@ -36,28 +34,30 @@ fn results(path: &str) -> [f64; 4] {
 #[test]
 fn a_table_of_a_closed_shape_gives_the_results_of_the_shape() {
     let dir = TestDir::new();
-    dir.write(
-        "table.toml",
-        scenario("shape = \"table\"\nfile = \"shape.csv\"").as_bytes(),
-    );
-    let table_path = dir.path("table.toml").display().to_string();
-    let of_shape = |shape: &str| {
-        dir.write("closed.toml", scenario(shape).as_bytes());
-        results(&dir.path("closed.toml").display().to_string())
-    };
+    let file = format!("indenter.file={}", dir.path("shape.csv").display());
     let error = |text: String, exact: [f64; 4]| {
         dir.write("shape.csv", text.as_bytes());
-        let found = results(&table_path);
-        let errors = found.iter().zip(exact).map(|(a, b)| (a / b - 1.0).abs());
-        errors.fold(0.0, f64::max)
+        let found = results(&["indenter.shape=table", &file]);
+        largest(found.iter().zip(exact).map(|(a, b)| a / b - 1.0))
     };
-    let sphere = of_shape("shape = \"paraboloid\"\nradius = 0.01");
-    let found = error(table(30, 0.0, |r| r * r / 0.02), sphere);
-    assert!(found < 1e-6, "paraboloid: {found:e}");
-    let cone = of_shape("shape = \"cone\"\nangle = 0.01");
-    let found = error(table(30, 0.0, |r| r * f64::tan(0.01)), cone);
-    assert!(found < 1e-6, "cone: {found:e}");
-    let quartic = of_shape("shape = \"power\"\ncoefficient = 1e10\nexponent = 4.0");
+    let sphere = results(&[]);
+    holds(
+        "paraboloid",
+        error(table(30, 0.0, |r| r * r / 0.02), sphere),
+        1e-6,
+    );
+    let cone = results(&["indenter.shape=cone", "indenter.angle=0.01"]);
+    holds(
+        "cone",
+        error(table(30, 0.0, |r| r * f64::tan(0.01)), cone),
+        1e-6,
+    );
+    let quartic = [
+        "indenter.shape=power",
+        "indenter.coefficient=1e10",
+        "indenter.exponent=4.0",
+    ];
+    let quartic = results(&quartic);
     let errors = [20, 40, 80].map(|n| error(table(n, 0.0, |r| 1e10 * r.powi(4)), quartic));
     eprintln!("quartic: {errors:?}");
     assert!(errors[2] < 1e-4, "{errors:?}");
@@ -69,11 +69,11 @@ fn a_table_of_a_closed_shape_gives_the_results_of_the_shape() {
 #[test]
 fn a_run_of_a_table_can_be_run_again_without_the_table() {
     let dir = TestDir::new();
-    let text = scenario("shape = \"table\"\nfile = \"shape.csv\"\nsmoothing = 1e-5");
-    dir.write("mine.toml", text.as_bytes());
     let tilted = |r: f64| r * r / 0.02 + 2e-3 * r + 1e-7;
     dir.write("shape.csv", table(500, -2.5e-4, tilted).as_bytes());
-    let said = dir.line("run mine.toml --cycles 1 --out first");
+    let said = dir.line(&format!(
+        "run {TABLE} --set indenter.smoothing=1e-5 --cycles 1 --out first"
+    ));
     assert_eq!(said.code, 0, "{}", said.err);
     for word in [
         "tilt 2.000e-3 rad",
@@ -95,8 +95,6 @@ fn a_run_of_a_table_can_be_run_again_without_the_table() {
 #[test]
 fn bad_tables_are_one_line() {
     let dir = TestDir::new();
-    let text = scenario("shape = \"table\"\nfile = \"shape.csv\"");
-    dir.write("mine.toml", text.as_bytes());
     let sphere = |r: f64| r * r / 0.02;
     let in_mm = table(100, 0.0, sphere)
         .lines()
@@ -143,15 +141,12 @@ fn bad_tables_are_one_line() {
         ("r_m,f_m\n0,0\n".into(), "must be from 4 to 20000 points"),
     ] {
         dir.write("shape.csv", csv.as_bytes());
-        let said = dir.line("run mine.toml --cycles 1 --out new");
-        assert_eq!(said.code, 2, "{expected}: {}", said.err);
-        assert_eq!(said.err.lines().count(), 1, "{}", said.err);
-        has(&said.err, expected);
+        dir.refuse_line(&format!("run {TABLE} --cycles 1 --out new"), expected);
     }
     // Millimetres that say so are no mistake.
     dir.write("shape.csv", format!("r_mm,f_mm\n{in_mm}").as_bytes());
-    dir.done("run mine.toml --cycles 0.1 --out new --quiet");
+    dir.done(&format!("run {TABLE} --cycles 0.1 --out new --quiet"));
     std::fs::remove_file(dir.path("shape.csv")).expect("removed");
-    let said = dir.line("run mine.toml --cycles 1 --out other");
-    said.ends(2, "shape.csv: no such file");
+    let gone = format!("run {TABLE} --cycles 1 --out other");
+    dir.refuse_line(&gone, "shape.csv: no such file");
 }

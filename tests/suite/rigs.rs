@@ -8,7 +8,7 @@ use mdr_tui::scenario::session::Session;
 use mdr_tui::simulation::drive::Drive;
 use mdr_tui::simulation::{Setup, Simulation};
 
-use crate::common::{Scene, fig3, load, ours, ran, swing, try_load};
+use crate::common::{Scene, load, ours, ran, swing, try_load};
 use crate::test_dir::{TestDir, has, lacks};
 
 /// E* = d = a₀ = 1, μ = 0.1, ν = 0.3: a contact moved by ±`amplitude` through a rig of this compliance.
@@ -232,24 +232,17 @@ fn a_scenario_names_its_rig() {
 #[test]
 fn blocks_add_up() {
     let dir = TestDir::new();
-    let head = concat!(
-        "title = \"Blocks\"\n",
-        fig3!(indenter pair),
-        r#"
-[motion.normal]
-mean = 1e-6
-[motion.tangential]
-amplitude = 1e-7
-angular_frequency = 100.0
-[wear]
-coefficient = 1.3e-9
-[numerics]
-points = 50
-steps_per_cycle = 40
-grid = "uniform"
-domain_radius = 1.7e-4
-"#
-    );
+    let sets = [
+        "motion.normal.amplitude=0",
+        "motion.tangential.phase=0",
+        "wear.coefficient=1.3e-9",
+        "numerics.points=50",
+        "numerics.steps_per_cycle=40",
+        "numerics.grid=uniform",
+        "numerics.domain_radius=1.7e-4",
+    ];
+    let text = load("li2019-fig3", &sets).to_toml();
+    let (head, _) = text.split_once("[run]").expect("a table");
     let with = |name: &str, blocks: &str| dir.write(name, format!("{head}{blocks}").as_bytes());
     with(
         "blocks.toml",
@@ -267,16 +260,15 @@ domain_radius = 1.7e-4
         dir.done(&format!("run {name}.toml --out {name} --quiet"));
     }
     let rows = |name: &str| -> Vec<(f64, f64, f64)> {
-        let text = dir.read(&format!("{name}/history.csv"));
-        let rows = text.lines().filter(|line| !line.starts_with('#')).skip(1);
-        rows.map(|row| {
-            let fields: Vec<f64> = row
-                .split(',')
-                .map(|f| f.parse().unwrap_or(f64::NAN))
-                .collect();
-            (fields[0], fields[9], fields[10])
-        })
-        .collect()
+        let history = dir.table(&format!("{name}/history.csv"));
+        let [volume, work] =
+            ["wear_volume_m3", "dissipated_energy_J"].map(|name| history.column(name));
+        let rows = history
+            .column("cycle")
+            .into_iter()
+            .zip(volume.into_iter().zip(work));
+        rows.map(|(cycle, (volume, work))| (cycle, volume, work))
+            .collect()
     };
     let blocks = rows("blocks");
     let at = |cycle: f64| {
@@ -295,11 +287,7 @@ domain_radius = 1.7e-4
         volume += worn;
     }
     assert!((volume / blocks.last().expect("a row").1 - 1.0).abs() < 1e-12);
-    let (same, whole) = (rows("same"), rows("whole"));
-    let (same, whole) = (
-        same.last().expect("a row").1,
-        whole.last().expect("a row").1,
-    );
+    let [same, whole] = ["same", "whole"].map(|name| rows(name).pop().expect("a row").1);
     assert!((same / whole - 1.0).abs() < 1e-3, "{same} {whole}");
     // What was run can be run again, block by block.
     dir.done("run blocks/scenario.toml --out again --quiet");

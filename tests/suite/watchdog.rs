@@ -1,99 +1,54 @@
 //! A run that cannot go on stops at its last good step, keeps it, and says what would help.
 
-use crate::test_dir::{TestDir, bits, end, has, lacks, names};
+use crate::test_dir::{TestDir, bits, has, lacks, names};
 
-/// `--set`s that end in each cause, the cause, and what would help. Those that end before the first
-/// step have nothing to keep.
-const CASES: [(&[&str], &str, &str, bool); 8] = [
-    (
-        &["numerics.method=benad", "wear.coefficient=1e-7"],
-        "the profile has diverged",
-        "numerics.method = \"product\" is stable",
-        true,
-    ),
-    (
-        &["numerics.method=b", "wear.coefficient=1e-6"],
-        "the profile has diverged",
-        "more numerics.steps_per_cycle",
-        true,
-    ),
-    (
-        &[
-            "numerics.method=a",
-            "wear.coefficient=1e-5",
-            "numerics.stability=off",
-        ],
-        "wear diverges",
-        "numerics.stability = \"sub-step\", more numerics.steps_per_cycle, fewer numerics.points",
-        true,
-    ),
-    (
-        &["numerics.method=a", "wear.coefficient=1e308"],
-        "is not finite",
-        "a smaller wear.coefficient",
-        true,
-    ),
-    (
-        &[
-            "motion.tangential.control=force",
-            "motion.tangential.amplitude=3.2",
-        ],
-        "exceeds the friction limit",
-        "reduce motion.tangential",
-        true,
-    ),
-    (
-        &[
-            "motion.normal.control=force",
-            "motion.normal.mean=1e9",
-            "motion.normal.amplitude=0",
-            "numerics.domain_radius=1e-4",
-        ],
-        "the normal force",
-        "increase numerics.domain_radius",
-        false,
-    ),
-    (&["indenter.radius=1e300"], "overflows", "are SI", false),
-    (
-        &[
-            "motion.tangential.control=force",
-            "motion.tangential.amplitude=100",
-        ],
-        "exceeds the friction limit",
-        "reduce motion.tangential",
-        false,
-    ),
+/// `--set`s that end in each cause, the cause, and what would help.
+const CASES: [&str; 5] = [
+    "numerics.method=benad wear.coefficient=1e-7 | the profile has diverged | numerics.method = \"product\" is stable",
+    "numerics.method=b wear.coefficient=1e-6 | the profile has diverged | more numerics.steps_per_cycle",
+    "numerics.method=a wear.coefficient=1e-5 numerics.stability=off | wear diverges | numerics.stability = \"sub-step\", more numerics.steps_per_cycle, fewer numerics.points",
+    "numerics.method=a wear.coefficient=1e308 | is not finite | a smaller wear.coefficient",
+    "motion.tangential.control=force motion.tangential.amplitude=3.2 | exceeds the friction limit | reduce motion.tangential",
 ];
+
+/// Those that end before the first step, which have nothing to keep.
+const AT_ONCE: [&str; 3] = [
+    "motion.normal.control=force motion.normal.mean=1e9 motion.normal.amplitude=0 numerics.domain_radius=1e-4 | the normal force | increase numerics.domain_radius",
+    "indenter.radius=1e300 | overflows | are SI",
+    "motion.tangential.control=force motion.tangential.amplitude=100 | exceeds the friction limit | reduce motion.tangential",
+];
+
+/// Every case, what follows a scenario on the command line, and whether it starts.
+fn cases() -> impl Iterator<Item = (String, &'static str, &'static str, bool)> {
+    let starts = CASES.iter().map(|case| (case, true));
+    let all = starts.chain(AT_ONCE.iter().map(|case| (case, false)));
+    all.map(|(case, starts)| {
+        let parts: Vec<&str> = case.split(" | ").collect();
+        let sets = parts[0].split(' ').map(|set| format!(" --set {set}"));
+        (sets.collect(), parts[1], parts[2], starts)
+    })
+}
 
 #[test]
 fn every_cause_keeps_the_last_good_step_and_says_what_would_help() {
     let dir = TestDir::new();
     let preset = mdr_tui::scenario::preset::find("li2019-fig3").expect("a preset");
     dir.write("mine.toml", preset.text.as_bytes());
-    for (i, (sets, cause, help, starts)) in CASES.into_iter().enumerate() {
+    for (i, (sets, cause, help, starts)) in cases().enumerate() {
         let out = format!("out-{i}");
-        let mut arguments = vec!["run", "mine.toml", "--cycles", "20", "--out", &out];
-        arguments.extend(sets.iter().flat_map(|set| ["--set", *set]));
         let before = dir.inventory();
-        let mut command = dir.command(&arguments);
-        command.stdout(std::process::Stdio::piped());
-        command.stderr(std::process::Stdio::piped());
-        let said = end(command.spawn().expect("the program starts"));
+        let said = dir.line(&format!("run mine.toml --cycles 20 --out {out}{sets}"));
         assert_eq!(
             (said.code, said.out.as_str()),
             (1, ""),
-            "{sets:?} {}",
+            "{sets} {}",
             said.err
         );
         let lines = said.err.lines();
         let lines = lines.filter(|line| !line.contains("outside the theory"));
         assert_eq!(lines.count(), 1, "{}", said.err);
         for part in ["mdr-tui: mine.toml", "stopped after ", cause, help] {
-            assert!(
-                said.err.contains(part),
-                "{sets:?}: {part} is not in {}",
-                said.err
-            );
+            has(&said.err, part);
         }
         if !starts {
             assert!(dir.inventory() == before, "{sets:?} wrote something");
@@ -125,10 +80,8 @@ fn every_cause_keeps_the_last_good_step_and_says_what_would_help() {
 #[test]
 fn the_explorer_shows_the_cause_and_can_go_on_with_another_method() {
     let dir = TestDir::new();
-    for (sets, cause, _, starts) in CASES {
-        let mut arguments = vec!["li2019-fig3", "--print", "200x24", "--keys", ",,,"];
-        arguments.extend(sets.iter().flat_map(|set| ["--set", *set]));
-        let said = dir.say(&arguments);
+    for (sets, cause, _, starts) in cases() {
+        let said = dir.line(&format!("li2019-fig3 --print 200x24 --keys ,,,{sets}"));
         if !starts {
             assert_eq!(said.code, 1, "{sets:?}");
             has(&said.err, cause);
@@ -144,15 +97,8 @@ fn the_explorer_shows_the_cause_and_can_go_on_with_another_method() {
         }
     }
     // With another method the run goes on from the last good step.
-    let mut arguments = vec!["li2019-fig3", "--print", "200x24", "--keys", ",M."];
-    for set in [
-        "numerics.method=a",
-        "wear.coefficient=1e-5",
-        "numerics.stability=off",
-    ] {
-        arguments.extend(["--set", set]);
-    }
-    let said = dir.say(&arguments);
+    let (sets, ..) = cases().nth(2).expect("a case");
+    let said = dir.line(&format!("li2019-fig3 --print 200x24 --keys ,M.{sets}"));
     has(&said.out, "│ method: product │ archard │");
     lacks(&said.out, "stopped");
 }

@@ -2,7 +2,7 @@
 
 use mdr_tui::scenario::Scenario;
 
-use crate::common::{fig3, load, ran};
+use crate::common::{load, ran};
 use crate::test_dir::TestDir;
 
 /// V and E_d after `cycles` of a paraboloid held at a depth and shaken sideways.
@@ -72,25 +72,16 @@ fn with_a_depth_that_swings_a_triangle_is_another_motion() {
 fn a_table_of_a_triangle_is_the_triangle() {
     let dir = TestDir::new();
     dir.write("motion.csv", b"time_s,u_um\n0,0\n0.5,0.2\n1.5,-0.2\n2,0\n");
-    dir.write(
-        "mine.toml",
-        concat!(
-            fig3!(indenter pair),
-            r#"
-[motion.normal]
-mean = 1e-6
-[motion.tangential]
-file = "motion.csv"
-[wear]
-coefficient = 1.3e-10
-[numerics]
-points = 100
-"#
-        )
-        .as_bytes(),
+    let file = format!(
+        "motion.tangential.file={}",
+        dir.path("motion.csv").display()
     );
-    let path = dir.path("mine.toml").display().to_string();
-    let scenario = load(&path, &[]);
+    let tabled = [
+        "motion.normal.amplitude=0",
+        "motion.tangential.waveform=table",
+        &file,
+    ];
+    let scenario = load("li2019-fig3", &tabled);
     let motion = scenario.setup().drive.tangential().expect("a motion");
     let motion = motion.oscillation();
     assert!((motion.amplitude() / 2e-7 - 1.0).abs() < 1e-12 && motion.mean().abs() < 1e-20);

@@ -25,25 +25,6 @@ use mdr_tui::tui::frame::Slot;
 use mdr_tui::tui::worker::{Orders, Worker};
 use mdr_tui::wear::WearLaw;
 
-/// Tables of Fig. 3 of the paper: its indenter, its pair of materials, its motions and wear.
-macro_rules! fig3 {
-    (indenter) => {
-        "[indenter]\nshape = \"paraboloid\"\nradius = 0.01\n"
-    };
-    (pair) => {
-        "[material]\neffective_modulus = 2.3077e11\npoisson = 0.3\n[friction]\ncoefficient = 0.1\n"
-    };
-    (motion) => {
-        "[motion.normal]\nmean = 1e-6\namplitude = 1e-7\nangular_frequency = 100.0\n\
-         [motion.tangential]\namplitude = 1e-7\nangular_frequency = 100.0\nphase = 0.7853981633974483\n\
-         [wear]\ncoefficient = 1.3e-10\n"
-    };
-    ($($part:ident)*) => {
-        concat!($(fig3!($part)),*)
-    };
-}
-pub(crate) use fig3;
-
 /// The parts of a run as plain values; a test names only what differs from the default.
 #[derive(Debug, Clone)]
 pub struct Scene {

@@ -105,8 +105,7 @@ fn resuming_shows_the_session_paused_where_it_was_and_goes_on() {
     terminal.wait_for("numerics.method = a at cycle");
     terminal.press(",");
     terminal.wait_for("q quit");
-    terminal.press("q");
-    terminal.wait_for_end();
+    terminal.quit();
     let path = kept(&home).expect("a checkpoint");
     let was = read(&path).simulation().cycle();
     let again = path.to_str().expect("a path").to_owned();
@@ -118,8 +117,7 @@ fn resuming_shows_the_session_paused_where_it_was_and_goes_on() {
     // Nothing has happened, so nothing more is kept.
     terminal.resize(100, 30);
     terminal.wait_for("q quit");
-    terminal.press("q");
-    terminal.wait_for_end();
+    terminal.quit();
     assert_eq!(terminal.text().trim(), "");
     assert!(terminal.has_its_modes_back(), "still in raw mode");
     assert_eq!(kept(&home), Some(path.clone()));
@@ -130,8 +128,7 @@ fn resuming_shows_the_session_paused_where_it_was_and_goes_on() {
     terminal.wait_for("paused");
     terminal.press(" ");
     terminal.wait_until("later cycle", |screen| cycle(screen) > Some(was + 0.2));
-    terminal.press("q");
-    terminal.wait_for_end();
+    terminal.quit();
     assert!(before == fs::read(&path).expect("the checkpoint"));
     let files = fs::read_dir(home.path().join("mdr-tui")).expect("a directory");
     let is_checkpoint = |name: &std::ffi::OsStr| name.to_string_lossy().ends_with(".checkpoint");
@@ -162,8 +159,7 @@ fn where_nothing_can_be_kept_the_run_goes_on_and_says_so() {
         terminal.wait_for("the run continues without a checkpoint");
         let seen = terminal.look(cycle);
         terminal.wait_until("later cycle", |screen| cycle(screen) > seen);
-        terminal.press("q");
-        assert_eq!(terminal.wait_for_end().exit_code(), 0);
+        terminal.quit();
         let text = terminal.text();
         has(&text, "mdr-tui: nothing was saved: ");
         assert_eq!(kept(&base), None);
@@ -247,27 +243,11 @@ impl Server {
         let key = self.directory.path().join("client").display().to_string();
         let port = self.port.to_string();
         let mut command = program(&[]);
-        let arguments = [
-            "ssh",
-            "-tt",
-            "-F",
-            "none",
-            "-i",
-            &key,
-            "-p",
-            &port,
-            "-o",
-            "StrictHostKeyChecking=no",
-            "-o",
-            "UserKnownHostsFile=/dev/null",
-            "-o",
-            "LogLevel=ERROR",
-            "-o",
-            "ConnectionAttempts=20",
-            "127.0.0.1",
-            line,
-        ];
-        *command.get_argv_mut() = arguments.map(Into::into).to_vec();
+        let options = "-o StrictHostKeyChecking=no -o UserKnownHostsFile=/dev/null -o LogLevel=ERROR \
+                       -o ConnectionAttempts=20 127.0.0.1";
+        let mut arguments = vec!["ssh", "-tt", "-F", "none", "-i", &key, "-p", &port];
+        arguments.extend(options.split_whitespace().chain([line]));
+        *command.get_argv_mut() = arguments.into_iter().map(Into::into).collect();
         Terminal::start(command, 80, 24)
     }
 }
@@ -312,8 +292,7 @@ fn a_connection_that_is_cut_keeps_the_session() {
     has(&terminal.text(), " │ method: a  ");
     terminal.press(" ");
     terminal.wait_until("later cycle", |screen| cycle(screen) > Some(shown));
-    terminal.press("q");
-    assert_eq!(terminal.wait_for_end().exit_code(), 0);
+    terminal.quit();
 }
 
 #[test]
@@ -365,8 +344,7 @@ fn without_a_shell_ctrl_z_says_so_and_nothing_stops() {
             !screen.contents().contains("no shell")
         });
     }
-    terminal.press("q");
-    assert_eq!(terminal.wait_for_end().exit_code(), 0);
+    terminal.quit();
 }
 
 #[test]
@@ -381,8 +359,7 @@ fn leaving_from_the_past_keeps_the_present() {
     let present = terminal.look(cycle);
     terminal.press("[[");
     terminal.wait_until("the past", |screen| cycle(screen) < present);
-    terminal.press("q");
-    terminal.wait_for_end();
+    terminal.quit();
     let session = read(&kept(&home).expect("a checkpoint"));
     assert_eq!(Some(session.simulation().cycle()), present);
     assert_exact(&session);

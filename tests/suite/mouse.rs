@@ -108,8 +108,7 @@ fn without_the_option_the_terminal_keeps_its_mouse() {
     terminal.press(&click(60, 3));
     terminal.press("z");
     await_panels(&terminal, &["3D profile"]);
-    terminal.press("q");
-    terminal.wait_for_end();
+    terminal.quit();
     let text = String::from_utf8_lossy(&terminal.raw()).into_owned();
     for mode in ["?9", "?1000", "?1002", "?1003", "?1005", "?1006", "?1015"] {
         for end in ["h", "l"] {
@@ -161,8 +160,7 @@ fn a_click_focuses_and_another_zooms() {
         terminal.press("z");
         await_panels(&terminal, &all);
     }
-    terminal.press("q");
-    terminal.wait_for_end();
+    terminal.quit();
 }
 
 #[test]
@@ -196,8 +194,7 @@ fn a_click_in_a_plot_moves_the_cursor_there() {
     thread::sleep(APART);
     terminal.press(&click(60, 18));
     await_panels(&terminal, &["radii over cycles"]);
-    terminal.press("q");
-    terminal.wait_for_end();
+    terminal.quit();
 }
 
 /// The signs on the screen and how they look; blanks have no ink.
@@ -275,6 +272,5 @@ fn the_wheel_moves_in_lists_and_help() {
     }
     terminal.press("z");
     await_panels(&terminal, &["3D profile"]);
-    terminal.press("q");
-    terminal.wait_for_end();
+    terminal.quit();
 }

@@ -4,10 +4,8 @@ use std::process::Child;
 use std::thread;
 use std::time::{Duration, Instant};
 
+use crate::pty::SOON;
 use crate::test_dir::{TestDir, end, names, signal};
-
-/// A second is what is promised; a machine that is busy with all the other tests takes longer.
-pub const SOON: Duration = Duration::from_millis(2500);
 
 /// What asks a program to end and can be kept from ending it at once.
 pub const ENDING: [&str; 9] = [

@@ -11,7 +11,6 @@ use tempfile::TempDir;
 use vt100::Screen;
 
 use crate::pty::{Line, Terminal, at_home, cycle, home, kept, read};
-use crate::signals::SOON;
 
 fn is_under_way(screen: &Screen) -> bool {
     cycle(screen).is_some_and(|cycle| cycle > 0.0)
@@ -41,12 +40,8 @@ fn latencies(rate: u32, answers: bool) -> Vec<Duration> {
         latencies.push(pressed.elapsed());
         thread::sleep(Duration::from_millis(700));
     }
-    let pressed = Instant::now();
-    terminal.press("q");
-    let (waited, status) = terminal.end_since(pressed);
-    eprintln!("{rate} B/s, answers {answers}: {latencies:.1?}, the end after {waited:.1?}");
-    assert_eq!(status.exit_code(), 0);
-    assert!(waited < SOON, "{waited:.1?}");
+    eprintln!("{rate} B/s, answers {answers}: {latencies:.1?}");
+    assert_eq!(terminal.ends_soon("q"), 0);
     assert!(session(&home).simulation().cycle() > 0.0);
     latencies
 }
@@ -94,15 +89,7 @@ fn a_terminal_that_stops_reading_keeps_nobody_from_ending() {
             thread::spawn(move || {
                 let home = home();
                 let mut terminal = stalled(&home, &[], "");
-                let start = Instant::now();
-                match way {
-                    "q" | "Q" | "\x03" => terminal.press(way),
-                    signal => terminal.signal(signal),
-                }
-                let (waited, status) = terminal.end_since(start);
-                eprintln!("{way:?}: ended after {waited:.0?}");
-                assert!(waited < SOON, "{way:?}: {waited:.1?}");
-                assert_eq!((status.exit_code(), status.signal()), (0, None), "{way:?}");
+                assert_eq!(terminal.ends_soon(way), 0);
                 assert!(terminal.has_its_modes_back(), "{way:?}: still in raw mode");
                 let kept = session(&home);
                 assert!(kept.simulation().cycle() > 0.0);
@@ -124,11 +111,7 @@ fn a_step_that_takes_an_hour_keeps_no_end_waiting() {
     let mut terminal = Terminal::start(command, 200, 24);
     terminal.wait_until("sixth cycle", |screen| cycle(screen) > Some(4.5));
     thread::sleep(Duration::from_millis(300));
-    let start = Instant::now();
-    terminal.press("q");
-    let (waited, status) = terminal.end_since(start);
-    assert!(waited < SOON, "{waited:.1?}");
-    assert_eq!(status.exit_code(), 0);
+    assert_eq!(terminal.ends_soon("q"), 0);
     terminal.wait_for("mdr-tui: saved at cycle ");
     assert!(session(&home).simulation().cycle() > 4.0);
 }
@@ -155,12 +138,7 @@ fn whatever_was_typed_or_pasted_ctrl_c_comes_first() {
         terminal.press(keys);
         // By hand, it comes a moment later.
         thread::sleep(Duration::from_millis(50));
-        let start = Instant::now();
-        terminal.press("\x03");
-        let (waited, status) = terminal.end_since(start);
-        eprintln!("{what}: ended after {waited:.0?}");
-        assert!(waited < SOON, "{what}: {waited:.1?}");
-        assert_eq!(status.exit_code(), 0, "{what}");
+        assert_eq!(terminal.ends_soon("\x03"), 0, "{what}");
     }
 }
 
@@ -177,8 +155,7 @@ fn what_is_pasted_is_typed_into_a_line_and_nowhere_else() {
     terminal.wait_for(":set numerics.points=80");
     terminal.press("\r");
     terminal.wait_for("numerics.points = 80");
-    terminal.press("q");
-    assert_eq!(terminal.wait_for_end().exit_code(), 0);
+    terminal.quit();
 }
 
 #[test]
@@ -204,9 +181,5 @@ fn a_run_on_a_terminal_that_stops_reading_answers_signals() {
         thread::sleep(Duration::from_millis(10));
     }
     thread::sleep(Duration::from_millis(300));
-    let start = Instant::now();
-    terminal.signal("TERM");
-    let (waited, status) = terminal.end_since(start);
-    assert!(waited < SOON, "{waited:.1?}");
-    assert_eq!(status.exit_code(), 1);
+    assert_eq!(terminal.ends_soon("TERM"), 1);
 }

@@ -1,15 +1,14 @@
 //! The explorer in a real pseudo-terminal: started, driven, resized, quit, killed and broken.
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use portable_pty::CommandBuilder;
 use vt100::{Color, MouseProtocolMode, Screen};
 
 use crate::pty::{Terminal, cycle, program};
-use crate::test_dir::has;
+use crate::test_dir::{TestDir, end, has};
 
 fn is_running(screen: &Screen) -> bool {
     screen.contents().contains("running") && cycle(screen).is_some_and(|cycle| cycle > 0.0)
@@ -227,25 +226,9 @@ fn a_panic_gives_the_terminal_back_and_says_so_in_one_line() {
 #[test]
 fn what_is_no_terminal_is_refused_with_a_way_out() {
     // Neither standard stream is a terminal.
-    let mut child = Command::new(env!("CARGO_BIN_EXE_mdr-tui"))
-        .stdin(Stdio::null())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the program starts");
-    let start = Instant::now();
-    while let Ok(None) = child.try_wait() {
-        if start.elapsed() > crate::pty::TIMEOUT {
-            let _ = child.kill();
-            panic!("without a terminal it does not end");
-        }
-        thread::sleep(Duration::from_millis(10));
-    }
-    let output = child.wait_with_output().expect("an end");
-    let line = String::from_utf8(output.stderr).expect("text");
-    assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
-    assert_eq!(line.lines().count(), 1, "{line}");
-    has(&line, "mdr-tui run");
+    let said = end(TestDir::new().start("", &[]));
+    said.fails(2, "mdr-tui run");
+    assert_eq!(said.out, "");
 
     // One of them is not.
     for redirection in ["</dev/null", "| cat", ">/dev/null"] {
@@ -347,8 +330,7 @@ fn the_colours_follow_the_background_that_the_terminal_tells() {
                 && found.map_or(Color::Default, |cell| cell.fgcolor()) == expected
         });
         assert_eq!(count(&terminal), usize::from(asks), "{what}");
-        terminal.press("q");
-        terminal.wait_for_end();
+        terminal.quit();
     }
 }
 
@@ -371,8 +353,7 @@ fn no_color_means_no_colour_unless_asked_for() {
         terminal.wait_until(&what, |screen| is_coloured(screen) == coloured);
         terminal.press("?");
         terminal.wait_for("keys (");
-        terminal.press("q");
-        terminal.wait_for_end();
+        terminal.quit();
         let styles = styles(&terminal.raw());
         assert_eq!(styles.iter().any(|&s| sets_colour(s)), coloured, "{what}");
     }

@@ -1,7 +1,6 @@
 //! `mdr-tui trade`: what it prints, writes and refuses, and that its numbers are those of the runs.
 
 use std::fs;
-use std::process::{Command, Stdio};
 
 use mdr_tui::math::abel::AbelMethod;
 use mdr_tui::simulation::Scheme;
@@ -10,26 +9,11 @@ use mdr_tui::studies::trade::{self, POINTS, STEPS, Setting};
 use serde_json::Value;
 
 use crate::common::load;
-use crate::test_dir::{Said, TestDir, has};
+use crate::test_dir::{Said, TestDir, end, has, signal};
 
-fn say(arguments: &[&str]) -> Said {
-    TestDir::new().say(&[&["trade"], arguments].concat())
-}
-
-const SMALL: [&str; 9] = [
-    "li2019-fig3",
-    "--cycles",
-    "3",
-    "--points",
-    "12,24,48",
-    "--steps",
-    "50,100",
-    "--methods",
-    "product,a",
-];
-
-fn small(more: &[&str]) -> Said {
-    say(&[&SMALL[..], more].concat())
+fn small(more: &str) -> Said {
+    let line = "trade li2019-fig3 --cycles 3 --points 12,24,48 --steps 50,100 --methods product,a";
+    TestDir::new().line(&format!("{line} {more}"))
 }
 
 #[test]
@@ -37,7 +21,7 @@ fn the_front_is_printed_and_drawn_and_everything_is_written() {
     let directory = tempfile::tempdir().expect("a directory");
     let file = directory.path().join("trade.csv");
     let path = file.to_str().expect("a path");
-    let Said { code, out, err } = small(&["--plot", "--marker", "ascii", "--csv", path]);
+    let Said { code, out, err } = small(&format!("--plot --marker ascii --csv {path}"));
     assert_eq!((code, err.as_str()), (0, ""));
     has(&out, "reference: product, N = 96, 200 steps per cycle");
     has(&out, "half as fine differs by");
@@ -72,14 +56,14 @@ fn the_front_is_printed_and_drawn_and_everything_is_written() {
         rows[0].starts_with("method,scheme,integrator,points,steps_per_cycle,tolerance,time_s")
     );
 
-    let Said { code, err, .. } = small(&["--csv", path]);
+    let Said { code, err, .. } = small(&format!("--csv {path}"));
     assert_eq!(code, 2);
     has(&err, "already exists");
 }
 
 #[test]
 fn rows_as_json_are_all_rows() {
-    let Said { code, out, err } = small(&["--json"]);
+    let Said { code, out, err } = small("--json");
     assert_eq!((code, err.as_str()), (0, ""));
     let rows: Vec<Value> = serde_json::from_str(&out).expect("JSON");
     assert_eq!(rows.len(), 54);
@@ -97,7 +81,7 @@ fn rows_as_json_are_all_rows() {
 
 #[test]
 fn the_cheapest_setting_for_an_accuracy_reaches_it() {
-    let Said { code, out, err } = small(&["--accuracy", "8e-3"]);
+    let Said { code, out, err } = small("--accuracy 8e-3");
     assert_eq!((code, err.as_str()), (0, ""));
     let sets: Vec<&str> = out
         .lines()
@@ -135,7 +119,7 @@ fn the_cheapest_setting_for_an_accuracy_reaches_it() {
     // The references differ by some of it.
     assert!(errors.worst() <= 1e-2, "{errors:?}");
 
-    let Said { code, err, .. } = small(&["--accuracy", "1e-12"]);
+    let Said { code, err, .. } = small("--accuracy 1e-12");
     assert_eq!(code, 1);
     has(&err, "no setting reached an error of 1e-12");
 }
@@ -165,30 +149,14 @@ fn every_setting_is_a_scenario() {
 
 #[test]
 fn an_interrupt_keeps_what_is_done() {
-    let child = Command::new(env!("CARGO_BIN_EXE_mdr-tui"))
-        .args([
-            "trade",
-            "li2019-fig3",
-            "--points",
-            "8,2000",
-            "--steps",
-            "10,20",
-        ])
-        .args(["--methods", "a", "--cycles", "3", "--all"])
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the program runs");
+    let dir = TestDir::new();
+    let line = "trade li2019-fig3 --points 8,2000 --steps 10,20 --methods a --cycles 3 --all";
+    let child = dir.start(line, &[]);
     std::thread::sleep(std::time::Duration::from_millis(300));
-    Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status()
-        .expect("kill");
-    let output = child.wait_with_output().expect("an end");
+    signal(&child, "INT");
+    let Said { code, out, err } = end(child);
     // Whenever it came: one of the two plain ends, and no panic.
-    assert_eq!(output.status.code(), Some(1));
-    let err = String::from_utf8(output.stderr).expect("UTF-8");
-    let out = String::from_utf8(output.stdout).expect("UTF-8");
+    assert_eq!(code, 1);
     let early = err.contains("interrupted before the reference was computed");
     assert!(early || out.contains("settings were tried"), "{err} {out}");
 }

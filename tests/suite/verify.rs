@@ -164,16 +164,8 @@ fn the_csv_has_every_node_and_is_never_written_over() {
     let base = tempfile::tempdir().expect("a directory");
     let path = base.path().join("fig2.csv");
     let name = path.to_str().expect("a name");
-    let ask = [
-        "--points",
-        "50",
-        "--problem",
-        "hertz",
-        "--problem",
-        "cattaneo",
-        "--csv",
-        name,
-    ];
+    let ask = format!("--points 50 --problem hertz --problem cattaneo --csv {name}");
+    let ask: Vec<&str> = ask.split(' ').collect();
     said(&ask);
     let text = fs::read_to_string(&path).expect("the file");
     let mut lines = text.lines().skip_while(|line| line.starts_with("# "));
@@ -214,15 +206,7 @@ fn the_csv_has_every_node_and_is_never_written_over() {
 
 #[test]
 fn the_curves_are_drawn_for_every_method_within_eighty_columns() {
-    let text = said(&[
-        "--points",
-        "50",
-        "--problem",
-        "hertz",
-        "--plot",
-        "--marker",
-        "ascii",
-    ]);
+    let text = TestDir::new().done("verify --points 50 --problem hertz --plot --marker ascii");
     for method in AbelMethod::ALL {
         for quantity in ["g", "p", "w"] {
             let title = format!("{method}: {quantity}, N = 50");

@@ -20,6 +20,9 @@ use vt100::{Parser, Screen};
 /// Longer than anything takes on a busy machine.
 pub const TIMEOUT: Duration = Duration::from_secs(20);
 
+/// A second is what is promised; a machine that is busy with all the other tests takes longer.
+pub const SOON: Duration = Duration::from_millis(2500);
+
 /// Longer than a busy machine needs to answer a key.
 const QUIET: Duration = Duration::from_secs(1);
 
@@ -183,6 +186,33 @@ impl Terminal {
         let mut writer = writer.lock().unwrap_or_else(PoisonError::into_inner);
         writer.write_all(keys.as_bytes()).expect("a terminal");
         writer.flush().expect("a terminal");
+    }
+
+    /// Types `q`, after which the program must end well.
+    #[track_caller]
+    pub fn quit(&mut self) {
+        self.press("q");
+        assert_eq!(self.wait_for_end().exit_code(), 0);
+    }
+
+    /// Presses a key or sends a signal by its name, such as TERM, after which the program must end soon, in its own
+    /// time whether the terminal reads or not. Returns the exit code.
+    #[track_caller]
+    pub fn ends_soon(&mut self, way: &str) -> u32 {
+        let start = Instant::now();
+        match way.len() > 1
+            && way
+                .chars()
+                .all(|sign| sign.is_ascii_uppercase() || sign == '1')
+        {
+            true => self.signal(way),
+            false => self.press(way),
+        }
+        let (waited, status) = self.end_since(start);
+        eprintln!("{way:?}: ended after {waited:.0?}");
+        assert!(waited < SOON, "{way:?}: {waited:.1?}");
+        assert_eq!(status.signal(), None, "{way:?}");
+        status.exit_code()
     }
 
     /// From now on it reads so many bytes a second, or none at all.

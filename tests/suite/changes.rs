@@ -4,7 +4,7 @@ use mdr_tui::scenario::checkpoint;
 use mdr_tui::scenario::session::Session;
 use mdr_tui::scenario::{Change, Scenario};
 
-use crate::common::{begin, load, ran};
+use crate::common::{begin, load, near, ran};
 use crate::test_dir::has;
 
 /// Fig. 3 of the paper with `changes`, KEY = VALUE at a cycle.
@@ -88,7 +88,7 @@ fn a_grid_too_coarse_for_the_scar_is_refused() {
     session
         .change("numerics.points", "60")
         .expect("enough cells");
-    assert!((volume(&session) / before - 1.0).abs() < 5e-3);
+    near("volume", volume(&session), before, 5e-3);
     let told = session
         .change("numerics.points", "4")
         .expect_err("too few cells");

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::common::fig3_motion;
+use crate::common::{fig3_motion, near};
 use crate::test_dir::{Table, TestDir, cases, has, lacks};
 use mdr_tui::figure::Sheet;
 use mdr_tui::figure::canvas::Shape;
@@ -383,10 +383,7 @@ fn a_sweep_is_a_map_with_its_borders() {
     assert!(depths.len() > 4);
     for (amplitude, depth) in amplitudes.iter().zip(&depths) {
         let gross = depth * 0.1 * (2.0 - 0.3) / (2.0 * (1.0 - 0.3));
-        assert!(
-            (amplitude / gross - 1.0).abs() < 1e-6,
-            "{amplitude} {gross}"
-        );
+        near("amplitude", *amplitude, gross, 1e-6);
     }
     // Each edge of the computed border lies within a point of it.
     let (across, up) = curve(&drawn, "a", "running condition changes");
@@ -419,7 +416,7 @@ fn a_sweep_is_a_map_with_its_borders() {
     for (row, of_table) in rows.iter().zip(of_table) {
         let [volume, error] = [2, 4].map(|k| of_table[k].parse::<f64>().expect("a number"));
         let bar: f64 = row[5].parse().expect("an error");
-        assert!((bar / (volume * error) - 1.0).abs() < 1e-12);
+        near("bar", bar, volume * error, 1e-12);
         assert_eq!((&row[2], &row[3]), (&of_table[1], &of_table[2]));
     }
     assert_eq!(line.header("motion.normal.mean"), "1e-6");
@@ -488,7 +485,7 @@ fn a_run_leaves_the_loop_of_its_last_cycle() {
         .sum();
     let energies = data(&dir, "jumped/history.csv").column("energy_per_cycle_J");
     let energy = energies.last().expect("a row");
-    assert!((area / energy - 1.0).abs() < 0.05, "{area:e} {energy:e}");
+    crate::common::near("area", area, *energy, 0.05);
     // Without tangential motion there is no loop.
     dir.done("run hertz --cycles 1 --out still --quiet");
     assert!(!dir.path("still/loop.csv").exists());

@@ -1,6 +1,7 @@
 //! Other curves over those of a run: measured data, runs, scenarios and frozen states, on screens and in
 //! figures; and snapshots, which hold what is needed to go on.
 
+use crate::common::near;
 use crate::screen_table::{hold, part_of};
 use crate::test_dir::{TestDir, has, names};
 
@@ -219,7 +220,7 @@ fn figures_have_measured_points_with_their_errors_beside_the_run() {
     assert_eq!(scar.len(), 27);
     let number = |field: &str| field.parse::<f64>().expect("a number");
     for row in &scar {
-        assert!((number(&row[5]) / 1.5e-9 - 1.0).abs() < 1e-12, "{row:?}");
+        near("error", number(&row[5]), 1.5e-9, 1e-12);
         let r = number(&row[2]);
         let depth = 6e-9 * (-((r - 80e-6) / 20e-6).powi(2)).exp();
         assert!((number(&row[3]) - depth).abs() < 1e-12, "{row:?}");

@@ -3,7 +3,7 @@
 use mdr_tui::reading::Curves;
 use mdr_tui::scenario::session::Session;
 
-use crate::common::{begin, load};
+use crate::common::{begin, load, near};
 use crate::test_dir::cases;
 
 fn within(what: &str, found: f64, published: f64, share: f64) {
@@ -75,7 +75,7 @@ fn partial_slip_stops_wearing() {
     session.advance_to(1e5).expect("a hundred thousand cycles");
     let end = deepest(&session);
     within("after 1e5 cycles", end, 2e-6, 0.2);
-    assert!((end / middle - 1.0).abs() < 0.05, "{middle} {end}");
+    near("depth", end, middle, 0.05);
     let stick = session.simulation().moment().permanent_stick_radius;
     assert!(stick.expect("springs") > 0.0);
 }

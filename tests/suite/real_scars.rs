@@ -4,7 +4,7 @@ use mdr_tui::reading::Moment;
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
 
-use crate::common::{begin, try_load};
+use crate::common::{begin, near, try_load};
 use crate::test_dir::{TestDir, cases, has, lacks};
 
 const SMALL: [&str; 3] = [
@@ -36,55 +36,33 @@ fn with_wear(name: &str, line: &str) -> String {
 #[test]
 fn a_run_goes_on_from_its_exported_scar() {
     let dir = TestDir::new();
-    let sets = [
-        "--set numerics.points=60",
-        "--set numerics.steps_per_cycle=40",
-        "--set run.snapshot_at=[]",
-    ]
-    .join(" ");
-    dir.write("first.toml", preset("li2019-fig3").as_bytes());
-    dir.done(&format!(
-        "run first.toml {sets} --cycles 20 --out first --quiet"
-    ));
-    dir.done(&format!(
-        "run first.toml {sets} --cycles 40 --out whole --quiet"
-    ));
-    dir.write(
-        "second.toml",
-        with_wear("li2019-fig3", "initial = \"first/state.csv\"").as_bytes(),
-    );
-    dir.done(&format!(
-        "run second.toml {sets} --cycles 20 --out second --quiet"
-    ));
-    let last = |name: &str| -> Vec<f64> {
-        let history = dir.read(&format!("{name}/history.csv"));
-        let row = history.lines().last().expect("a row");
-        row.split(',')
-            .map(|field| field.parse().unwrap_or(f64::NAN))
-            .collect()
+    let sets = SMALL.map(|set| format!("--set {set}")).join(" ");
+    let run = |name: &str, cycles: u32, text: &str| {
+        dir.write(&format!("{name}.toml"), text.as_bytes());
+        dir.done(&format!(
+            "run {name}.toml {sets} --cycles {cycles} --out {name} --quiet"
+        ));
+        let history = dir.table(&format!("{name}/history.csv"));
+        let last = |column: &str| history.column(column).pop().expect("a row");
+        [last("wear_volume_m3"), last("dissipated_energy_J")]
     };
-    let (first, whole, second) = (last("first"), last("whole"), last("second"));
+    let first = run("first", 20, preset("li2019-fig3"));
+    let whole = run("whole", 40, preset("li2019-fig3"));
+    let scar = with_wear("li2019-fig3", "initial = \"first/state.csv\"");
+    let second = run("second", 20, &scar);
     // V is that of the profile, E_d that of the run. The second run meets the first cycle with springs at rest.
-    let error = |found: f64, due: f64| (found / due - 1.0).abs();
-    let (grown, due) = (second[9] - first[9], whole[9] - first[9]);
-    let [of_volume, of_growth, of_work] = [
-        error(second[9], whole[9]),
-        error(grown, due),
-        error(second[10], whole[10] - first[10]),
-    ];
-    eprintln!("V {of_volume:.1e}, dV {of_growth:.1e}, E_d {of_work:.1e}");
-    assert!(
-        grown > 0.1 * first[9] && of_volume < 2e-3,
-        "{grown} {of_volume}"
-    );
-    assert!(of_growth < 5e-3 && of_work < 5e-3, "{of_growth} {of_work}");
-    let state = dir.read("second/state.csv");
-    let told = state
-        .lines()
-        .find_map(|line| line.strip_prefix("# initial_wear_volume_m3: "));
-    let told: f64 = told.expect("a header").parse().expect("a number");
-    assert!(error(told, first[9]) < 1e-3, "{told} {}", first[9]);
-    has(&state, "# checks: ok");
+    let grown = second[0] - first[0];
+    assert!(grown > 0.1 * first[0], "{grown}");
+    near("V", second[0], whole[0], 2e-3);
+    near("dV", grown, whole[0] - first[0], 5e-3);
+    near("E_d", second[1], whole[1] - first[1], 5e-3);
+    let state = dir.table("second/state.csv");
+    let told: f64 = state
+        .header("initial_wear_volume_m3")
+        .parse()
+        .expect("a number");
+    near("the scar's volume", told, first[0], 1e-3);
+    assert_eq!(state.header("checks"), "ok");
     // The run's scenario needs no other file.
     std::fs::remove_file(dir.path("first/state.csv")).expect("a file");
     dir.done("run second/scenario.toml --out again --quiet");
@@ -153,9 +131,9 @@ fn energy_and_volume_are_compared_from_the_scar_on() {
         .expect("a law")
         .coefficient();
     let expected = k * moment.dissipated_energy;
-    assert!((grown / expected - 1.0).abs() < 0.02, "{grown} {expected}");
+    near("grown", grown, expected, 0.02);
     let per_energy = moment.wear_per_energy().expect("work");
-    assert!((per_energy / k - 1.0).abs() < 0.02, "{per_energy}");
+    near("per_energy", per_energy, k, 0.02);
     assert!(moment.energy_residual.expect("a residual").abs() < 0.02);
     let refused = session.change("wear.initial_depths", "[0, 0, 0, 0]");
     let refused = refused.expect_err("refused").to_string();
@@ -185,13 +163,8 @@ fn a_held_force_sinks_in_from_its_scar() {
     );
     let whole = force(20.0, "").simulation().moment();
     let second = force(10.0, "initial = \"state.csv\"").simulation().moment();
-    let error = |found: f64, due: f64| (found / due - 1.0).abs();
-    let (volume, depth) = (
-        error(second.wear_volume, whole.wear_volume),
-        error(second.depth, whole.depth),
-    );
-    eprintln!("V {volume:.1e}, d {depth:.1e}");
-    assert!(volume < 0.01 && depth < 5e-3, "{volume} {depth}");
+    near("V", second.wear_volume, whole.wear_volume, 0.01);
+    near("d", second.depth, whole.depth, 5e-3);
     assert!(whole.depth > 1.02 * first.simulation().moment().depth);
 }
 
@@ -249,32 +222,23 @@ fn shared_wear_adds_up_to_the_same_bits() {
             "run {name}.toml --set numerics.points=60 --set run.snapshot_at=[] --cycles 3 --out {name} --quiet"
         ));
     }
-    let rows = |name: &str, file: &str| -> Vec<String> {
-        let text = dir.read(&format!("{name}/{file}"));
-        let rows = text.lines().filter(|line| !line.starts_with('#'));
-        rows.map(str::to_owned).collect()
-    };
-    assert_eq!(rows("one", "history.csv"), rows("two", "history.csv"));
-    let (one, two) = (rows("one", "state.csv"), rows("two", "state.csv"));
+    let table = |name: &str, file: &str| dir.table(&format!("{name}/{file}"));
     assert_eq!(
-        two[0],
-        format!("{},wear_indenter_m,wear_half_space_m", one[0])
+        table("one", "history.csv").rows,
+        table("two", "history.csv").rows
     );
+    let (one, two) = (table("one", "state.csv"), table("two", "state.csv"));
+    let shares = ["wear_indenter_m", "wear_half_space_m"];
+    assert_eq!(two.columns[..13], one.columns);
+    assert_eq!(two.columns[13..], shares);
+    for (one, two) in one.rows.iter().zip(&two.rows) {
+        assert_eq!(*one, two[..13]);
+    }
+    let [indenter, half_space] = shares.map(|name| two.column(name));
     let mut worn = 0.0_f64;
-    for (one, two) in one.iter().zip(&two).skip(1) {
-        let rest = two.strip_prefix(one.as_str()).expect("the same row");
-        let fields: Vec<f64> = rest[1..]
-            .split(',')
-            .map(|f| f.parse().expect("a number"))
-            .collect();
-        let wear: f64 = one
-            .split(',')
-            .nth(11)
-            .expect("wear_m")
-            .parse()
-            .expect("a number");
-        assert_eq!(fields[0], 0.3 * wear);
-        assert!((fields[0] + fields[1] - wear).abs() <= f64::EPSILON * wear);
+    for (j, wear) in one.column("wear_m").into_iter().enumerate() {
+        assert_eq!(indenter[j], 0.3 * wear);
+        assert!((indenter[j] + half_space[j] - wear).abs() <= f64::EPSILON * wear);
         worn = worn.max(wear);
     }
     assert!(worn > 0.0);
@@ -335,28 +299,18 @@ fn pressure_that_passes_the_hardness_is_said() {
 #[test]
 fn the_explorer_marks_the_limit_and_draws_both_bodies() {
     let dir = TestDir::new();
-    let screen = |sets: &[&str], keys: &str, size: &str| {
-        let printed = ["--keys", keys, "--print", size];
-        let said = dir.say(&[&["li2019-fig3"], sets, &printed].concat());
-        assert_eq!((said.code, said.err.as_str()), (0, ""));
-        said.out
+    let screen = |sets: &str, keys: &str, size: &str| {
+        dir.done(&format!("li2019-fig3 {sets} --keys={keys} --print {size}"))
     };
     // Above the pressure of the unworn contact, below that of the worn one.
-    let sets = [
-        "--set",
-        "numerics.points=60",
-        "--set",
-        "wear.coefficient=2e-9",
-        "--set",
-        "material.hardness=1.6e9",
-    ];
-    let mark = "outside the theory";
-    lacks(&screen(&sets, "", "140x30"), mark);
-    let later = screen(&sets, ",,,,,,", "140x30");
-    has(&later, mark);
-    let shared = screen(&["--set", "wear.share=0.25"], ",,vz", "81x24");
-    has(&shared, "deep (indenter ");
-    lacks(&screen(&[], ",,vz", "81x24"), "deep (indenter ");
+    let sets = "--set numerics.points=60 --set wear.coefficient=2e-9 --set material.hardness=1.6e9";
+    lacks(&screen(sets, "", "140x30"), "outside the theory");
+    has(&screen(sets, ",,,,,,", "140x30"), "outside the theory");
+    has(
+        &screen("--set wear.share=0.25", ",,vz", "81x24"),
+        "deep (indenter ",
+    );
+    lacks(&screen("", ",,vz", "81x24"), "deep (indenter ");
 }
 
 #[test]

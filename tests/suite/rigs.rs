@@ -8,7 +8,7 @@ use mdr_tui::scenario::session::Session;
 use mdr_tui::simulation::drive::Drive;
 use mdr_tui::simulation::{Setup, Simulation};
 
-use crate::common::{Scene, load, ours, ran, swing, try_load};
+use crate::common::{Scene, load, near, ours, ran, swing, try_load};
 use crate::test_dir::{TestDir, has, lacks};
 
 /// E* = d = a₀ = 1, μ = 0.1, ν = 0.3: a contact moved by ±`amplitude` through a rig of this compliance.
@@ -223,7 +223,7 @@ fn a_scenario_names_its_rig() {
     let (stiff, none) = energy("");
     assert_eq!(none, None);
     let (stiffer, _) = energy("1e15");
-    assert!((stiffer / stiff - 1.0).abs() < 1e-6, "{stiff} {stiffer}");
+    near("stiffer", stiffer, stiff, 1e-6);
     let (soft, sensed) = energy("1e7");
     assert!(soft < 0.1 * stiff && sensed.is_some(), "{soft} {stiff}");
 }
@@ -286,9 +286,9 @@ fn blocks_add_up() {
         );
         volume += worn;
     }
-    assert!((volume / blocks.last().expect("a row").1 - 1.0).abs() < 1e-12);
+    near("volume", volume, blocks.last().expect("a row").1, 1e-12);
     let [same, whole] = ["same", "whole"].map(|name| rows(name).pop().expect("a row").1);
-    assert!((same / whole - 1.0).abs() < 1e-3, "{same} {whole}");
+    near("same", same, whole, 1e-3);
     // What was run can be run again, block by block.
     dir.done("run blocks/scenario.toml --out again --quiet");
     assert_eq!(
@@ -323,16 +323,10 @@ fn friction_and_wear_run_in() {
     let late = after(&[&format!("wear.threshold_energy={threshold:e}")]);
     let (volume, energy) = worn(&late);
     let expected = 1.3e-10 * (energy - threshold);
-    assert!(
-        (volume / expected - 1.0).abs() < 0.03,
-        "{volume} {expected}"
-    );
+    near("volume", volume, expected, 0.03);
     let halved = after(&["wear.settled=6.5e-11", "wear.running_in_energy=1e-9"]);
     let (volume, energy) = worn(&halved);
-    assert!(
-        (volume / (6.5e-11 * energy) - 1.0).abs() < 0.05,
-        "{volume} {energy}"
-    );
+    near("volume", volume, 6.5e-11 * energy, 0.05);
 }
 
 #[test]

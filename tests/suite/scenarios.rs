@@ -13,7 +13,7 @@ use mdr_tui::simulation::{Scheme, Simulation, Spacing};
 use mdr_tui::wear::WearLaw;
 use proptest::prelude::*;
 
-use crate::common::{load, ran, try_load};
+use crate::common::{load, near, ran, try_load};
 use crate::test_dir::{has, lacks};
 
 fn fixtures(kind: &str) -> Vec<(String, String)> {
@@ -728,8 +728,8 @@ fn a_wear_coefficient_per_load_is_over_the_friction_of_the_moment() {
     let volume = |session: &Session| session.simulation().moment().wear_volume;
     let work = run(&["wear.coefficient=1.3e-10"]).expect("a run");
     let load = run(&["wear.coefficient_per_load=0.013 mm3/Nm"]).expect("a run");
-    assert!((k(&load) / 1.3e-10 - 1.0).abs() < 1e-12);
-    assert!((volume(&load) / volume(&work) - 1.0).abs() < 1e-9);
+    near("k", k(&load), 1.3e-10, 1e-12);
+    near("volume", volume(&load), volume(&work), 1e-9);
     // Where friction runs in, so does k per friction work, the other way.
     let changes = ["friction.settled=0.2", "friction.running_in_cycles=1"];
     let load =
@@ -744,5 +744,5 @@ fn a_wear_coefficient_per_load_is_over_the_friction_of_the_moment() {
     changed
         .change("friction.coefficient", "0.2")
         .expect("a change");
-    assert!((k(&changed) / 6.5e-11 - 1.0).abs() < 1e-12);
+    near("k", k(&changed), 6.5e-11, 1e-12);
 }

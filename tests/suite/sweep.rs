@@ -4,6 +4,8 @@ use std::fs;
 use std::thread;
 use std::time::Duration;
 
+use crate::common::near;
+use crate::screen_table::hold;
 use crate::test_dir::{Table, TestDir, end, has, lacks, signal};
 use mdr_tui::studies::sweep::record::Record;
 use mdr_tui::studies::sweep::slice::Slice;
@@ -162,7 +164,7 @@ axis = [
     assert_eq!(table.column("indenter.radius"), [0.01, 0.02]);
     let force = table.column("F_z_N");
     // F = 4/3 E* √R d^1.5.
-    assert!((force[0] / force[1] / 2.0 - 1.0).abs() < 1e-9, "{force:?}");
+    near("ratio of forces", force[0] / force[1], 2.0, 1e-9);
     let point = dir.done("sweep study.toml --point 1");
     has(&point, "mean = 5e-7 ");
     has(&point, "amplitude = 1.25e-7 ");
@@ -743,70 +745,40 @@ fn screen(dir: &TestDir, file: &str, keys: &str) -> Vec<String> {
 
 #[test]
 fn the_map_shows_two_axes_and_reads_points() {
+    let study = |dir: &TestDir| dir.write("study.toml", STUDY.as_bytes());
+    hold("sweep", include_str!("sweep.txt"), study);
     let dir = dir_with(STUDY);
     dir.done("sweep study.toml --out map.csv");
-    // Tab Tab: from the volume to the regime.
+    // The lowest depth is the lowest row, which ends by sliding.
     let lines = screen(&dir, "map.csv", "<Tab><Tab>");
-    assert!(
-        lines[0].starts_with("map.csv") && lines[0].ends_with("12 of 12 points"),
-        "{}",
-        lines[0]
-    );
-    assert!(
-        lines[1].starts_with("regime  s full stick  ~ partial slip  # gross slip"),
-        "{}",
-        lines[1]
-    );
-    let text = lines.join("\n");
-    has(
-        &text,
-        "point 0: mean depth d 600.0 nm, tangential amplitude 10.00 nm",
-    );
-    // The lowest depth is the lowest row: sticking, partly slipping, sliding.
     let lowest = lines
         .iter()
         .rfind(|line| line.contains('~'))
         .expect("a row of the map");
-    let row: Vec<char> = lowest
-        .chars()
-        .filter(|sign| "s~#".contains(*sign))
-        .collect();
-    let mut kinds = row.clone();
-    kinds.dedup();
-    assert_eq!(kinds.last(), Some(&'#'), "{text}");
-    // The closed form of the border lies over it, the criterion A = 0.2 as well.
-    has(&text, "G gross slip, closed form, unworn");
-    has(&text, "A A = 0.2 (unworn sphere, stiff rig only)");
-    lacks(&screen(&dir, "map.csv", "t").join("\n"), "closed form");
-    // The cursor: two to the right, three up; the point is that of the row.
-    let lines = screen(&dir, "map.csv", "ll<Up>kk");
-    assert!(
-        lines.iter().any(|line| line.starts_with("point 11: ")),
+    assert_eq!(
+        lowest.chars().rfind(|sign| "s~#".contains(*sign)),
+        Some('#'),
         "{lines:?}"
     );
-    let volume = &dir.table("map.csv").column("wear_volume_m3")[11];
-    let read = lines
-        .iter()
-        .rfind(|line| line.starts_with("worn volume V ") && line.contains("regime"))
-        .expect("readings");
+    // The cursor: two to the right, three up; the point is that of the row.
+    let lines = screen(&dir, "map.csv", "ll<Up>kk");
+    let is_read = |line: &&String| line.starts_with("worn volume V ") && line.contains("regime");
+    let read = lines.iter().rfind(is_read).expect("readings");
+    has(read, " µm³  ");
     let shown: f64 = read
         .split_whitespace()
         .nth(3)
-        .and_then(|text| text.parse().ok())
+        .expect("V")
+        .parse()
         .expect("V");
-    let shown = 1e-18 * shown;
+    let volume = dir.table("map.csv").column("wear_volume_m3")[11];
+    near("V", 1e-18 * shown, volume, 1e-3);
+    // The axes change places, and the last tick is there, too.
     assert!(
-        read.contains(" µm³  ") && (shown / volume - 1.0).abs() < 1e-3,
-        "{read}"
+        screen(&dir, "map.csv", "x")
+            .iter()
+            .any(|line| line.ends_with(" 2.00"))
     );
-    // The axes change places.
-    let text = screen(&dir, "map.csv", "x").join("\n");
-    has(&text, "mean depth d [µm] →\n");
-    // The last tick is there, too.
-    has(&text, " 2.00\n");
-    // Enter opens the point in the explorer.
-    let text = screen(&dir, "map.csv", "l<Enter>").join("\n");
-    has(&text, "cycle 0.00/");
 }
 
 #[test]
@@ -865,22 +837,17 @@ fn border_of(indenter: &str, (rig, load): (f64, f64)) -> f64 {
     dir.done("sweep study.toml");
     let table = dir.table("study.csv");
     let amplitudes = table.column("motion.tangential.amplitude");
-    let gross = table
-        .rows
+    let regimes: Vec<&str> = table.rows.iter().map(|row| row[1].as_str()).collect();
+    let gross = regimes
         .iter()
-        .position(|row| row[1] == "gross")
+        .position(|regime| *regime == "gross")
         .expect("gross slip");
-    assert!(gross > 0, "all is gross slip");
+    let (before, after) = regimes.split_at(gross);
     assert!(
-        table.rows[..gross].iter().all(|row| row[1] == "partial"),
-        "{:?}",
-        table.rows
+        gross > 0 && before.iter().all(|regime| *regime == "partial"),
+        "{regimes:?}"
     );
-    assert!(
-        table.rows[gross..].iter().all(|row| row[1] == "gross"),
-        "{:?}",
-        table.rows
-    );
+    assert!(after.iter().all(|regime| *regime == "gross"), "{regimes:?}");
     0.5 * (amplitudes[gross - 1] + amplitudes[gross]) / closed
 }
 
@@ -921,9 +888,10 @@ fn sensitivities_are_those_of_the_closed_forms() {
     let json = dir.done("sweep study.toml --sensitivity --json");
     let rows: Vec<serde_json::Value> = serde_json::from_str(&json).expect("JSON");
     let find = |key: &str, column: &str| {
-        rows.iter()
-            .find(|row| row["key"] == key && row["column"] == column)
-            .unwrap_or_else(|| panic!("{key} {column}: {json}"))
+        let found = rows
+            .iter()
+            .find(|row| row["key"] == key && row["column"] == column);
+        found.unwrap_or_else(|| panic!("{key} {column}: {json}"))
     };
     for (key, force, radius) in [
         ("indenter.radius", 0.5, 0.5),
@@ -964,23 +932,18 @@ fn the_studies_of_the_guide_are_studies() {
     let text = mdr_tui::guide::Topic::find("studies")
         .expect("the topic")
         .text;
-    let blocks: Vec<&str> = text
-        .split("```toml study\n")
-        .skip(1)
-        .filter_map(|rest| rest.split("```").next())
-        .collect();
+    let blocks = text.split("```toml study\n").skip(1);
+    let blocks: Vec<&str> = blocks.filter_map(|rest| rest.split("```").next()).collect();
     assert_eq!(blocks.len(), 2);
     let dir = TestDir::new();
+    let few = "--set numerics.points=12 --set numerics.steps_per_cycle=12 --set run.cycles=1";
     for block in blocks {
         dir.write("study.toml", block.as_bytes());
-        if block.contains("[[axis]]") {
-            dir.done("sweep study.toml --point 0");
-        } else {
-            let few = "--set numerics.points=12 --set numerics.steps_per_cycle=12";
-            let line = "sweep study.toml --sensitivity --quiet --set run.cycles=1";
-            let said = dir.line(&format!("{line} {few}"));
-            assert_eq!(said.code, 0, "{}", said.err);
-        }
+        let line = match block.contains("[[axis]]") {
+            true => "sweep study.toml --point 0".to_owned(),
+            false => format!("sweep study.toml --sensitivity --quiet {few}"),
+        };
+        dir.line(&line).ends(0, "");
     }
 }
 
@@ -1014,30 +977,4 @@ fn a_slurm_array_gives_the_rows_of_a_local_run() {
     let err = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{said}{err}");
     has(&said, "1000 points, the same bytes as the local run");
-}
-
-#[test]
-fn the_explorer_sweeps_a_key_of_the_present_scenario() {
-    let dir = TestDir::new();
-    let explore = |keys: &str| {
-        let line = "li2019-fig3 --set numerics.points=30 --set numerics.steps_per_cycle=20 \
-                    --set run.cycles=2 --print 80x24 --color never --keys";
-        let words: Vec<&str> = line.split(' ').filter(|word| !word.is_empty()).collect();
-        let said = dir.say(&[&words[..], &[keys]].concat());
-        assert_eq!((said.code, said.err.as_str()), (0, ""), "{keys}");
-        said.out
-    };
-    let text = explore(":sweep friction.coefficient 0.05..0.3<Enter><Right><Right>");
-    has(&text, "25 of 25 points");
-    has(&text, "point 2: coefficient of friction µ 0.0708");
-    // Leaving it shows the panels again; Enter loads the point.
-    let text = explore(":sweep friction.coefficient 0.05..0.3<Enter>q");
-    lacks(&text, "25 of 25 points");
-    has(&text, "cycle");
-    let text = explore(":sweep friction.coefficient 0.05..0.3<Enter><End><Enter>:set friction.c");
-    has(&text, "0.3");
-    // What makes no study is told.
-    let text = explore(":sweep friction.coefficient -1..0.3<Enter>");
-    has(&text, "friction.coefficient");
-    lacks(&text, "points");
 }

@@ -2,7 +2,7 @@
 
 use mdr_tui::scenario::Scenario;
 
-use crate::common::{load, ran};
+use crate::common::{load, near, ran};
 use crate::test_dir::TestDir;
 
 /// V and E_d after `cycles` of a paraboloid held at a depth and shaken sideways.
@@ -94,8 +94,5 @@ fn a_table_of_a_triangle_is_the_triangle() {
         "motion.tangential.waveform=triangle",
     ];
     let [triangle, _] = worn(&sets, 5.0);
-    assert!(
-        (tabled / triangle - 1.0).abs() < 1e-9,
-        "{tabled} {triangle}"
-    );
+    near("tabled", tabled, triangle, 1e-9);
 }

@@ -105,11 +105,8 @@ fn few_steps_do_for_a_power_of_the_slip_rate() {
     };
     let fine = at(800);
     for (steps, bound) in [(9, 5e-2), (25, 1e-2), (100, 3e-3)] {
-        holds(
-            &format!("V at {steps} steps"),
-            (at(steps) / fine - 1.0).abs(),
-            bound,
-        );
+        let case = format!("V at {steps} steps");
+        holds(&case, (at(steps) / fine - 1.0).abs(), bound);
     }
 }
 
@@ -126,11 +123,8 @@ fn a_normal_motion_faster_than_the_cycle_is_resolved() {
             )
         };
         let (seen, fine) = (at(few), at(many));
-        holds(
-            &format!("V of a motion {ratio} times faster"),
-            (volume(&seen) / volume(&fine) - 1.0).abs(),
-            2e-2,
-        );
+        let case = format!("V of a motion {ratio} times faster");
+        holds(&case, (volume(&seen) / volume(&fine) - 1.0).abs(), 2e-2);
         assert!(seen.simulation().state().steps >= u64::from(few) * ratio);
     }
 }
@@ -192,20 +186,14 @@ fn thin_rings_of_slip_are_seen() {
             let sets = [still[0], still[1], swing.as_str(), wear];
             let [first, last] = [1.0, 4.0].map(|cycles| run("li2019-fig3", &sets, cycles));
             let cycle = (energy(&last) - energy(&first)) / 3.0;
-            holds(
-                &format!("E_d of a ring of {ring}, {wear}"),
-                (cycle / due - 1.0).abs(),
-                1e-2,
-            );
+            let case = format!("E_d of a ring of {ring}, {wear}");
+            holds(&case, (cycle / due - 1.0).abs(), 1e-2);
             if wear.ends_with("=0.0") {
                 assert_eq!(says(&last), "checks ok", "ring {ring}");
             } else {
                 let volume = volume(&last) / (1e-13 * energy(&last));
-                holds(
-                    &format!("V of a ring of {ring}"),
-                    (volume - 1.0).abs(),
-                    4e-2,
-                );
+                let case = format!("V of a ring of {ring}");
+                holds(&case, (volume - 1.0).abs(), 4e-2);
             }
             let nodes = last.simulation().setup().grid.nodes();
             let within = nodes
@@ -280,11 +268,8 @@ fn a_held_force_keeps_its_balance_and_its_bounds() {
         let session = run(HELD, &["numerics.points=200"], cycles);
         let moment = session.simulation().moment();
         let balance = moment.energy_residual.expect("wear");
-        holds(
-            &format!("V = k E_d after {cycles} cycles"),
-            balance.abs(),
-            1.4e-2,
-        );
+        let case = format!("V = k E_d after {cycles} cycles");
+        holds(&case, balance.abs(), 1.4e-2);
         let stick = moment.permanent_stick_radius.expect("a stick zone");
         assert!(
             stick > first * 0.995 && stick < high * 1.005,
@@ -322,11 +307,8 @@ fn gross_slip_under_a_held_load_wears_a_flat() {
         );
         // That of a single period goes up and down as the edge passes a cell.
         let balance = moment.energy_residual.expect("wear");
-        holds(
-            &format!("V = k E_d after {cycles} cycles"),
-            balance.abs(),
-            1e-2,
-        );
+        let case = format!("V = k E_d after {cycles} cycles");
+        holds(&case, balance.abs(), 1e-2);
     }
 }
 

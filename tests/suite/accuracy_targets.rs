@@ -5,7 +5,8 @@
 //! says so.
 
 use crate::common::{
-    Scene, archard, cattaneo, fig3_motion, holds, limit, ours, rms, run, run_setup, swing,
+    Scene, archard, cattaneo, fig3_motion, holds, largest, limit, load, ours, rms, run, run_setup,
+    swing,
 };
 use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::math::abel::AbelMethod::{A, B};
@@ -13,7 +14,6 @@ use mdr_tui::math::abel::worn;
 use mdr_tui::oracle::dual_oscillation::{DualOscillation, Frequencies};
 use mdr_tui::oracle::partial_slip::stiffness_ratio;
 use mdr_tui::reading::Curves;
-use mdr_tui::scenario::Scenario;
 use mdr_tui::simulation::drive::{Control, Oscillation};
 use mdr_tui::simulation::{Domain, Integrator, Scheme, Setup, Simulation, Spacing, State};
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_3, FRAC_PI_4};
@@ -122,11 +122,8 @@ fn the_worn_profile_of_fig_3_converges_smoothly() {
         ..fig3(1.0, 100, 100)
     };
     let published = fig3_error(&run(scene, 199.24));
-    holds(
-        &format!("a at N = 100: {published:.3e}; ours"),
-        errors[2],
-        published / 5.0,
-    );
+    let case = format!("a at N = 100: {published:.3e}; ours");
+    holds(&case, errors[2], published / 5.0);
 }
 
 /// First loading without wear, to the top of the swing in `steps` steps: the errors of τ in parts of
@@ -253,11 +250,8 @@ fn a_cycle_costs_its_work_and_wears_its_depth() {
             let after = simulation.state();
             let work = after.dissipated_energy - before.dissipated_energy;
             let error = (work / exact.energy_per_cycle() - 1.0).abs();
-            holds(
-                &format!("work, N={cells}, {steps} steps"),
-                error,
-                work_bound,
-            );
+            let case = format!("work, N={cells}, {steps} steps");
+            holds(&case, error, work_bound);
             let wear = |r| exact.wear_per_cycle(1.0, r);
             let peak = (0..1000)
                 .map(|i| wear(f64::from(i) / 1000.0))
@@ -267,11 +261,8 @@ fn a_cycle_costs_its_work_and_wears_its_depth() {
             let error = worn
                 .map(|(&r, (after, before))| ((after - before) / k - wear(r)).abs() / peak)
                 .fold(0.0, f64::max);
-            holds(
-                &format!("wear, N={cells}, {steps} steps"),
-                error,
-                wear_bound,
-            );
+            let case = format!("wear, N={cells}, {steps} steps");
+            holds(&case, error, wear_bound);
         }
     }
 }
@@ -305,11 +296,8 @@ fn stepping_is_of_second_order_in_time() {
         };
         let ours = LADDER.map(|steps| error(Scheme::Trapezoid, steps));
         let second = order(&ours[first..]);
-        holds(
-            &format!("lack of order at K = {wear_number}"),
-            2.0 - second,
-            0.2,
-        );
+        let case = format!("lack of order at K = {wear_number}");
+        holds(&case, 2.0 - second, 0.2);
         let rungs: Vec<f64> = ours.iter().step_by(2).map(|&(_, error)| error).collect();
         assert!(
             rungs[..4].windows(2).all(|pair| pair[1] < pair[0]),
@@ -399,13 +387,11 @@ fn an_edge_that_passes_many_cells_in_a_step_wears_what_it_has_worked() {
         ("separation", "2000", "12", 1e-2),
     ] {
         let keys = [
-            ("numerics.points", cells),
-            ("numerics.steps_per_cycle", steps),
+            format!("numerics.points={cells}"),
+            format!("numerics.steps_per_cycle={steps}"),
         ];
-        let scenario = Scenario::load(name, &[]).and_then(|preset| preset.with_all(&keys));
-        let scenario = scenario.expect("a scenario");
-        let mut simulation = Simulation::new(scenario.setup().clone()).expect("a contact");
-        simulation.advance_to(2.0).expect("two cycles");
+        let scenario = load(name, &keys.each_ref().map(String::as_str));
+        let simulation = run_setup(scenario.setup().clone(), 2.0);
         let residual = simulation.moment().period_residual.expect("wear");
         holds(&format!("residual of {name}"), residual.abs(), bound);
     }
@@ -430,7 +416,7 @@ fn every_period_of_the_presets_wears_what_it_has_worked() {
         ("truncated-cone", 3e-3),
         ("strong-wear", 1.1e-2),
     ] {
-        let scenario = Scenario::load(name, &[]).expect("a preset");
+        let scenario = load(name, &[]);
         let mut simulation = Simulation::new(scenario.setup().clone()).expect("a contact");
         let end = scenario.run().cycles.expect("a length");
         let end = match scenario.setup().integrator {
@@ -483,13 +469,9 @@ fn the_limiting_profile_has_cost_its_work() {
 #[test]
 fn gross_slip_is_of_second_order_in_the_cells() {
     let figures = |cells: usize| {
-        let keys = [
-            ("numerics.points", cells.to_string()),
-            ("numerics.steps_per_cycle", "48".to_owned()),
-        ];
-        let keys = keys.each_ref().map(|(key, value)| (*key, value.as_str()));
-        let preset = Scenario::load("gross-slip", &[]).and_then(|preset| preset.with_all(&keys));
-        let run = run_setup(preset.expect("a scenario").setup().clone(), 40.0).moment();
+        let cells = format!("numerics.points={cells}");
+        let scenario = load("gross-slip", &[&cells, "numerics.steps_per_cycle=48"]);
+        let run = run_setup(scenario.setup().clone(), 40.0).moment();
         [run.wear_volume, run.dissipated_energy]
     };
     let fine = figures(800);
@@ -641,10 +623,7 @@ fn only_dimensionless_numbers_matter() {
         );
         let scaled = scaled.observe(Curves::PROFILE | Curves::PRESSURE);
         let apart = |values: &[f64], units: &[f64], scale: f64| {
-            let pairs = values.iter().zip(units);
-            pairs
-                .map(|(v, u)| (v / scale - u).abs())
-                .fold(0.0, f64::max)
+            largest(values.iter().zip(units).map(|(v, u)| v / scale - u))
         };
         let worn = apart(&scaled.wear, &unit.wear, depth);
         holds(&format!("wear at d = {depth}"), worn, 1e-9);
@@ -674,11 +653,8 @@ fn a_switch_of_method_carries_the_wear_over() {
         assert_eq!(simulation.cycle(), cycle);
         assert_eq!(simulation.setup().method, method);
         let jump = (simulation.wear_volume() / before - 1.0).abs();
-        holds(
-            &format!("jump of the volume on the way to {method}"),
-            jump,
-            0.01,
-        );
+        let case = format!("jump of the volume on the way to {method}");
+        holds(&case, jump, 0.01);
         simulation.advance_to(end).expect("a run to the end");
         is_finite_and_worn_down(&simulation);
         assert!(simulation.wear_volume() > before);

@@ -4,11 +4,11 @@ use ciborium::Value;
 use mdr_tui::export::history::History;
 use mdr_tui::export::state;
 use mdr_tui::scenario::checkpoint::{encode, from_bytes, sealed};
+use mdr_tui::scenario::preset;
 use mdr_tui::scenario::session::Session;
-use mdr_tui::scenario::{Scenario, preset};
 use mdr_tui::simulation::Simulation;
 
-use crate::common::{begin, load};
+use crate::common::{apart, begin, holds, largest, load, run_setup};
 use crate::test_dir::has;
 
 fn session(preset: &str, sets: &[&str]) -> Session {
@@ -265,12 +265,8 @@ fn what_is_no_checkpoint_of_this_version_is_refused() {
 
 /// Fig. 3 under a `method` after so many cycles.
 fn fig3(method: &str, cycles: f64) -> Simulation {
-    let scenario = Scenario::load("li2019-fig3", &[])
-        .and_then(|scenario| scenario.with("numerics.method", method))
-        .expect("a preset");
-    let mut simulation = Simulation::new(scenario.setup().clone()).expect("a contact");
-    simulation.advance_to(cycles).expect("steps");
-    simulation
+    let scenario = load("li2019-fig3", &[&format!("numerics.method={method}")]);
+    run_setup(scenario.setup().clone(), cycles)
 }
 
 /// The entry of a CBOR map.
@@ -318,11 +314,10 @@ fn a_run_saved_without_the_image_of_its_wear_goes_on() {
         let mut restored = restored.expect("a run");
         simulation.advance_to(2.0).expect("steps");
         restored.advance_to(2.0).expect("steps");
-        let largest = simulation.state().wear.iter().copied().fold(0.0, f64::max);
-        assert!(largest > 0.0);
-        for (was, is) in simulation.state().wear.iter().zip(&restored.state().wear) {
-            assert!((was - is).abs() < 1e-12 * largest, "{method}: {was} {is}");
-        }
+        let (was, is) = (&simulation.state().wear, &restored.state().wear);
+        let deepest = largest(was.iter().copied());
+        assert!(deepest > 0.0);
+        holds(method, apart(was, is), 1e-12 * deepest);
     }
 }
 
@@ -336,10 +331,12 @@ fn the_image_that_steps_add_up_is_that_of_the_wear() {
         *entry(entry(&mut saved, "state"), "image") = Value::Array(Vec::new());
         let saved = saved.deserialized().expect("a saved run");
         let restored = Simulation::restore(simulation.setup().clone(), saved).expect("a run");
-        let largest = added_up.iter().map(|g| g.abs()).fold(0.0, f64::max);
-        assert!(largest > 0.0);
-        for (added_up, whole) in added_up.iter().zip(&restored.state().image) {
-            assert!((added_up - whole).abs() < 1e-12 * largest, "{method}");
-        }
+        let deepest = largest(added_up.iter().copied());
+        assert!(deepest > 0.0);
+        holds(
+            method,
+            apart(&added_up, &restored.state().image),
+            1e-12 * deepest,
+        );
     }
 }

@@ -2,7 +2,9 @@
 //!
 //! Lengths are in a₀ or d₀ throughout.
 
-use crate::common::{Scene, archard, begin, holds, load, ours, ran, run_setup, swing};
+use crate::common::{
+    Scene, apart, archard, begin, holds, largest, load, ours, ran, rms, run_setup, swing,
+};
 use crate::test_dir::has;
 use mdr_tui::math::abel::AbelMethod::A;
 use mdr_tui::simulation::{Integrator, Scheme, Setup, Simulation, Spacing};
@@ -29,12 +31,9 @@ fn fig3(wear_number: f64) -> Setup {
 /// The rms and the largest difference of the worn depth, both runs on the same nodes.
 fn difference(one: &Simulation, other: &Simulation) -> [f64; 2] {
     assert_eq!(one.setup().grid, other.setup().grid);
-    let (mut sum, mut largest) = (0.0, 0.0_f64);
-    for (a, b) in one.state().wear.iter().zip(&other.state().wear) {
-        sum += (a - b) * (a - b);
-        largest = largest.max((a - b).abs());
-    }
-    [f64::sqrt(sum / one.setup().grid.len() as f64), largest]
+    let (one, other) = (&one.state().wear, &other.state().wear);
+    let pairs = one.iter().zip(other);
+    [rms(pairs.map(|(a, b)| a - b)), apart(one, other)]
 }
 
 #[test]
@@ -72,24 +71,17 @@ fn a_jumped_scar_is_the_stepped_one() {
             let stats = jumped.state().stats;
             assert!(stats.jumps >= 2, "{name}: {stats:?}");
             let [rms, largest] = difference(&direct, &jumped);
-            holds(&format!("{name} at {tolerance}, rms"), rms, 1.5 * tolerance);
-            holds(
-                &format!("{name} at {tolerance}, largest"),
-                largest,
-                10.0 * tolerance,
-            );
-            let volumes = jumped.wear_volume() / direct.wear_volume() - 1.0;
-            holds(
-                &format!("{name} at {tolerance}, volume"),
-                volumes.abs(),
-                20.0 * tolerance,
-            );
+            let volume = jumped.wear_volume() / direct.wear_volume() - 1.0;
             let work = jumped.state().dissipated_energy / direct.state().dissipated_energy - 1.0;
-            holds(
-                &format!("{name} at {tolerance}, work"),
-                work.abs(),
-                20.0 * tolerance,
-            );
+            for (what, off, tolerances) in [
+                ("rms", rms, 1.5),
+                ("largest", largest, 10.0),
+                ("volume", volume, 20.0),
+                ("work", work, 20.0),
+            ] {
+                let what = format!("{name} at {tolerance}, {what}");
+                holds(&what, off.abs(), tolerances * tolerance);
+            }
         }
     }
 }
@@ -116,16 +108,8 @@ fn a_plain_swing_needs_no_steps() {
     holds("largest difference", worst.fold(0.0, f64::max), 1e-5);
     let sticks = [&plain, &stepped].map(|run| run.state().permanent_stick_radius());
     holds("stick radius", (sticks[0] - sticks[1]).abs(), 3e-5);
-    for (plain, stepped) in plain
-        .state()
-        .contact
-        .spring
-        .nodal
-        .iter()
-        .zip(&stepped.state().contact.spring.nodal)
-    {
-        assert!((plain - stepped).abs() < 3e-3, "{plain} {stepped}");
-    }
+    let springs = [&plain, &stepped].map(|run| &run.state().contact.spring.nodal[..]);
+    holds("springs", apart(springs[0], springs[1]), 3e-3);
 }
 
 /// Work counts: a million mild cycles cost what some hundred looks cost.
@@ -154,16 +138,9 @@ fn a_million_cycles_cost_a_few_hundred() {
     ];
     let direct = run_setup(load("mild-million", &harsh).setup().clone(), 1000.0);
     let radii = direct.setup().grid.nodes().iter().zip(&direct.state().wear);
-    let worst = radii
-        .map(|(&r, wear)| {
-            (wear
-                - simulation
-                    .setup()
-                    .grid
-                    .interpolate(&simulation.state().wear, r))
-            .abs()
-        })
-        .fold(0.0, f64::max);
+    let grid = &simulation.setup().grid;
+    let jumped = |r| grid.interpolate(&simulation.state().wear, r);
+    let worst = largest(radii.map(|(&r, wear)| wear - jumped(r)));
     holds("largest difference from direct steps", worst / depth, 1e-3);
 }
 

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::common::{fig3_motion, near};
+use crate::common::{apart, fig3_motion, holds, largest, near};
 use crate::test_dir::{Table, TestDir, cases, has, lacks};
 use mdr_tui::figure::Sheet;
 use mdr_tui::figure::canvas::Shape;
@@ -18,11 +18,6 @@ fn curve(data: &Table, panel: &str, name: &str) -> (Vec<f64>, Vec<f64>) {
     let rows = rows.filter(|row| row[0] == panel && row[1] == name);
     let number = |field: &str| field.parse::<f64>().expect("a number");
     rows.map(|row| (number(&row[2]), number(&row[3]))).unzip()
-}
-
-/// A file of data, its panel lines apart.
-fn data(dir: &TestDir, name: &str) -> Table {
-    dir.table(name)
 }
 
 #[test]
@@ -83,7 +78,7 @@ fn figure_three_is_one_command_and_its_data_are_those_of_the_run() {
     dir.done("figure x --figure fig3 -o fig3.svg --quiet");
     dir.done("figure li2019-fig3 --figure fig3 --at 1.72,2,3.24 -o again.svg --quiet");
     assert_eq!(dir.read("fig3.svg"), dir.read("again.svg"));
-    let (figure, state) = (data(&dir, "fig3.csv"), data(&dir, "x/state.csv"));
+    let (figure, state) = (dir.table("fig3.csv"), dir.table("x/state.csv"));
     for (panel, name, column) in [
         ("a", "3.24 cycles", "f_m"),
         ("a", "unworn", "f0_m"),
@@ -95,7 +90,7 @@ fn figure_three_is_one_command_and_its_data_are_those_of_the_run() {
         assert_eq!(radii, state.column("r_m"), "{panel} {name}");
         assert_eq!(values, state.column(column), "{panel} {name}");
     }
-    let first = data(&dir, "x/state-1.72.csv");
+    let first = dir.table("x/state-1.72.csv");
     assert_eq!(curve(&figure, "c", "p").1, first.column("p_Pa"));
     assert!(!curve(&figure, "a", "limit").0.is_empty());
     assert_eq!(figure.header("method"), state.header("method"));
@@ -126,19 +121,18 @@ fn the_guide_lays_the_figures_beside_the_papers() {
         }
     };
 
-    let errors = data(&dir, "fig2.csv");
+    let errors = dir.table("fig2.csv");
     assert_eq!(errors.header("points"), "100");
     let of = |panel, method: &str| curve(&errors, panel, &format!("method {method}")).1;
     let (a, b) = (of("a", "A"), of("a", "B"));
-    let apart = a.iter().zip(&b).map(|(a, b)| (a - b).abs());
-    let apart = apart.take(a.len() - 1).fold(0.0, f64::max);
-    assert!(apart < 1e-14, "{apart}");
+    let inner = a.len() - 1;
+    holds("a against b", apart(&a[..inner], &b[..inner]), 1e-14);
     let last = |errors: &[f64]| format!("{:.1e}", errors[errors.len() - 1]);
     says(
         "(a) 1D profile",
         &[format!("{} (A) and {} (B)", last(&a), last(&b))],
     );
-    let worst = |errors: &[f64]| errors.iter().copied().fold(0.0, f64::max);
+    let worst = |errors: &[f64]| largest(errors.iter().copied());
     assert_eq!((worst(&a), worst(&b)), (a[0], b[0]));
     says("(a) largest error", &[format!("{:.1e} with both", a[0])]);
     for (panel, start) in [("b", "(b) normal stress"), ("c", "(c) normal deformation")] {
@@ -154,7 +148,7 @@ fn the_guide_lays_the_figures_beside_the_papers() {
         ));
     }
     let [product, a, b] =
-        ["fig3", "fig3-a", "fig3-b"].map(|name| data(&dir, &format!("{name}.csv")));
+        ["fig3", "fig3-a", "fig3-b"].map(|name| dir.table(&format!("{name}.csv")));
     for figure in [&product, &a, &b] {
         assert_eq!(figure.header("points"), "100");
         assert_eq!(figure.header("cycles"), "50.72, 100, 199.24");
@@ -179,20 +173,11 @@ fn the_guide_lays_the_figures_beside_the_papers() {
         ],
     );
     assert!(outside - 1e6 * stick < 0.13 + 5e-3);
+    let unworn_a = curve(&a, "a", "unworn").1;
     let profiles = ["50.72 cycles", "100 cycles", "199.24 cycles"].map(|name| {
         let (a, b) = (curve(&a, "a", name).1, curve(&b, "a", name).1);
-        let unworn = curve(&data(&dir, "fig3-a.csv"), "a", "unworn").1;
-        let deepest = a
-            .iter()
-            .zip(&unworn)
-            .map(|(f, f0)| f - f0)
-            .fold(0.0, f64::max);
-        let apart = a
-            .iter()
-            .zip(&b)
-            .map(|(a, b)| (a - b).abs())
-            .fold(0.0, f64::max);
-        format!("{:.1} %", 100.0 * apart / deepest)
+        let deepest = apart(&a, &unworn_a);
+        format!("{:.1} %", 100.0 * apart(&a, &b) / deepest)
     });
     let [first, second, third] = &profiles;
     says(
@@ -222,7 +207,7 @@ fn the_guide_lays_the_figures_beside_the_papers() {
 fn figure_two_has_the_errors_of_both_methods() {
     let dir = TestDir::new();
     dir.done("figure --figure fig2 -o fig2.svg --quiet");
-    let figure = data(&dir, "fig2.csv");
+    let figure = dir.table("fig2.csv");
     // Both methods have the same 1D profile; for the deformation A is better, as the paper says.
     let worst = |panel, name| {
         let (radii, errors) = curve(&figure, panel, name);
@@ -250,7 +235,7 @@ fn a_rig_that_yields_has_two_loops() {
         dir.done(&source);
     }
     for name in ["run", "scenario"] {
-        let figure = data(&dir, &format!("{name}.csv"));
+        let figure = dir.table(&format!("{name}.csv"));
         let (contact, sensor) = (
             curve(&figure, "a", "contact"),
             curve(&figure, "a", "rig's sensor"),
@@ -265,7 +250,7 @@ fn a_rig_that_yields_has_two_loops() {
         }
         has(&dir.read(&format!("{name}.svg")), "rig's sensor");
     }
-    let two = data(&dir, "two.csv");
+    let two = dir.table("two.csv");
     for end in [2, 3] {
         let named = |suffix: &str| curve(&two, "a", &format!("{end} cycles{suffix}"));
         assert_eq!(named("").1, named(" (rig's sensor)").1, "{end}");
@@ -282,7 +267,7 @@ fn a_rig_that_yields_has_two_loops() {
         "80x24",
     ]);
     assert_eq!((said.code, said.err.as_str()), (0, ""));
-    let screen = data(&dir, "screen.csv");
+    let screen = dir.table("screen.csv");
     assert_eq!(
         curve(&screen, "d", "contact").1,
         curve(&screen, "d", "rig's sensor").1
@@ -363,7 +348,7 @@ fn a_sweep_is_a_map_with_its_borders() {
     dir.write("map.toml", MAP.as_bytes());
     dir.done("sweep map.toml --out map.csv --quiet");
     dir.done("figure map.csv -o map.svg -o map.pdf --quiet");
-    let (table, drawn) = (data(&dir, "map.csv"), data(&dir, "map-drawn.csv"));
+    let (table, drawn) = (dir.table("map.csv"), dir.table("map-drawn.csv"));
     let colors = drawn
         .rows
         .iter()
@@ -409,7 +394,7 @@ fn a_sweep_is_a_map_with_its_borders() {
     lacks(&svg, "lift-off");
     // Over one axis: a curve whose bars are the estimated errors.
     dir.done("figure map.csv --set motion.normal.mean=1e-6 -o line.svg --quiet");
-    let line = data(&dir, "line.csv");
+    let line = dir.table("line.csv");
     let rows: Vec<&Vec<String>> = line.rows.iter().collect();
     let of_table: Vec<&Vec<String>> = table.rows.iter().filter(|row| row[0] == "1e-6").collect();
     assert_eq!((rows.len(), of_table.len()), (9, 9));
@@ -453,7 +438,7 @@ fn a_figure_in_two_formats_has_one_file_of_data() {
 fn a_run_leaves_the_loop_of_its_last_cycle() {
     let dir = TestDir::new();
     dir.done("run gross-slip --cycles 3.24 --history every-step --out x --quiet");
-    let (last, history) = (data(&dir, "x/loop.csv"), data(&dir, "x/history.csv"));
+    let (last, history) = (dir.table("x/loop.csv"), dir.table("x/history.csv"));
     let cycles = history.column("cycle");
     let first = cycles
         .iter()
@@ -468,9 +453,9 @@ fn a_run_leaves_the_loop_of_its_last_cycle() {
     dir.done(&format!(
         "figure {wear} --at 1,3000 --panel loop -o both.svg --quiet"
     ));
-    let drawn = curve(&data(&dir, "loop.csv"), "a", "3000 cycles");
+    let drawn = curve(&dir.table("loop.csv"), "a", "3000 cycles");
     assert!(drawn.0.len() >= 100);
-    let both = data(&dir, "both.csv");
+    let both = dir.table("both.csv");
     // Jumps that other states have cut short differ in late digits.
     let same = curve(&both, "a", "3000 cycles");
     let near = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-3;
@@ -483,7 +468,7 @@ fn a_run_leaves_the_loop_of_its_last_cycle() {
         .zip(drawn.1.windows(2))
         .map(|(u, f)| 0.5 * (f[0] + f[1]) * (u[1] - u[0]))
         .sum();
-    let energies = data(&dir, "jumped/history.csv").column("energy_per_cycle_J");
+    let energies = dir.table("jumped/history.csv").column("energy_per_cycle_J");
     let energy = energies.last().expect("a row");
     crate::common::near("area", area, *energy, 0.05);
     // Without tangential motion there is no loop.
@@ -521,7 +506,7 @@ fn curves_over_cycles_have_one_phase() {
         dir.done(&format!(
             "figure {source} --panel radii -o radii.svg --force --quiet"
         ));
-        let (cycles, _) = curve(&data(&dir, "radii.csv"), "a", "contact radius a");
+        let (cycles, _) = curve(&dir.table("radii.csv"), "a", "contact radius a");
         assert_eq!(cycles, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0], "{source}");
     }
 }
@@ -611,7 +596,7 @@ fn pixels_have_the_size_that_was_asked_for_and_pages_their_font() {
         .count();
     assert!(colored > 20_000, "{colored}");
     // The loop closes, and every step is in it.
-    let (shifts, _) = curve(&data(&dir, "f.csv"), "b", "");
+    let (shifts, _) = curve(&dir.table("f.csv"), "b", "");
     assert!(shifts.len() > 100);
     assert!((shifts[0] - shifts[shifts.len() - 1]).abs() < 1e-12);
 

@@ -9,6 +9,7 @@ use mdr_tui::scenario::session::Session;
 use mdr_tui::studies::fit::{Fit, FitError, Fitted};
 use mdr_tui::studies::measured::Measured;
 
+use crate::common::load;
 use crate::random::Random;
 use crate::test_dir::{TestDir, has};
 
@@ -17,15 +18,15 @@ const TRUE: [(&str, f64); 2] = [("wear.coefficient", 2e-9), ("friction.coefficie
 /// A scene that runs in a millisecond, with these values of k and μ.
 fn scenario(k: f64, mu: f64) -> Scenario {
     let sets = [
-        format!("wear.coefficient={k:e}"),
-        format!("friction.coefficient={mu:e}"),
-        "numerics.points=16".into(),
-        "numerics.steps_per_cycle=20".into(),
-        "numerics.grid=uniform".into(),
-        "run.cycles=2".into(),
-        "run.snapshot_at=[]".into(),
+        &format!("wear.coefficient={k:e}"),
+        &format!("friction.coefficient={mu:e}"),
+        "numerics.points=16",
+        "numerics.steps_per_cycle=20",
+        "numerics.grid=uniform",
+        "run.cycles=2",
+        "run.snapshot_at=[]",
     ];
-    Scenario::load("li2019-fig3", &sets).expect("a scenario")
+    load("li2019-fig3", &sets)
 }
 
 /// Normal noise, the same in every run.
@@ -213,8 +214,7 @@ fn the_command_prints_json_and_writes_the_fitted_scenario() {
             .expect("a number");
         assert_eq!(written, value);
     }
-    let again = dir.line(&line);
-    again.ends(2, "already exists");
+    dir.line(&line).ends(2, "already exists");
     let text = dir.done(&format!(
         "fit start.toml --scar scar.csv {keys} --plot --marker ascii"
     ));

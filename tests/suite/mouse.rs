@@ -242,31 +242,17 @@ fn the_wheel_moves_in_lists_and_help() {
         terminal.press(down);
         let second = shown_when(&terminal, |now| *now != first);
         assert!(first != second, "{open}: {}", terminal.text());
-        terminal.press(up);
-        assert!(
-            shown_when(&terminal, |now| *now == first) == first,
-            "{open}: {}",
-            terminal.text()
-        );
-        terminal.press(wheel_down);
-        assert!(
-            shown_when(&terminal, |now| *now == second) == second,
-            "{open}: {}",
-            terminal.text()
-        );
         // A click in what is open does nothing to the panels below.
-        terminal.press(&click(60, 3));
-        assert!(
-            shown_when(&terminal, |now| *now == second) == second,
-            "{open}: {}",
-            terminal.text()
-        );
-        terminal.press(wheel_up);
-        assert!(
-            shown_when(&terminal, |now| *now == first) == first,
-            "{open}: {}",
-            terminal.text()
-        );
+        for (keys, wanted) in [
+            (up, &first),
+            (wheel_down, &second),
+            (&click(60, 3), &second),
+            (wheel_up, &first),
+        ] {
+            terminal.press(keys);
+            let seen = shown_when(&terminal, |now| now == wanted);
+            assert!(seen == *wanted, "{open}: {}", terminal.text());
+        }
         terminal.press("\x1b");
         shown_when(&terminal, |now| *now == before);
     }

@@ -224,11 +224,8 @@ fn the_loop_and_its_energy() {
                 simulation.state().dissipated_energy - before
             });
             let what = format!("U={share}U_s by {method}, N={cells}, energy");
-            holds(
-                &format!("{what} of 8 against 40 steps"),
-                (energy[0] / energy[1] - 1.0).abs(),
-                1e-12,
-            );
+            let case = format!("{what} of 8 against 40 steps");
+            holds(&case, (energy[0] / energy[1] - 1.0).abs(), 1e-12);
             // The slipping ring is what has to be resolved.
             let ring = 1.0 - exact.stick_radius();
             let h = 1.5 / cells as f64;
@@ -293,11 +290,8 @@ fn volume_is_k_times_energy() {
             residual
         });
         // Better than first order.
-        holds(
-            &format!("fall by {method}"),
-            residual[1] / residual[0],
-            0.25,
-        );
+        let case = format!("fall by {method}");
+        holds(&case, residual[1] / residual[0], 0.25);
     }
 }
 
@@ -444,11 +438,8 @@ fn separation_leaves_no_traction_and_no_memory() {
                 } else if before.normal_load[j] == 0.0 {
                     touching += 1;
                     let fresh = moved.clamp(-reach * load, reach * load);
-                    holds(
-                        &format!("node {j} by {method}"),
-                        (now.spring[j] - fresh).abs(),
-                        1e-15,
-                    );
+                    let case = format!("node {j} by {method}");
+                    holds(&case, (now.spring[j] - fresh).abs(), 1e-15);
                 }
             }
             before = now;

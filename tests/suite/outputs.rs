@@ -28,6 +28,12 @@ fn dir() -> TestDir {
     dir
 }
 
+/// Fails if a lock or a file under way is left behind.
+fn leaves_nothing(dir: &TestDir) {
+    let left = names(&dir.path(""));
+    assert!(left.iter().all(|name| !name.starts_with('.')), "{left:?}");
+}
+
 /// Starts the lines, each a while after the one before, and waits for all.
 fn together(dir: &TestDir, lines: &[&str], pause: Duration, fault: &str) -> Vec<Said> {
     let started: Vec<_> = lines
@@ -72,11 +78,7 @@ fn of_two_studies_into_one_file_no_row_is_lost_and_the_second_hears_of_it() {
             };
             assert!(table == whole[kept], "{flag} {fault}: {codes:?}");
             fs::remove_file(dir.path(&out)).expect("the table");
-            let left = names(&dir.path(""));
-            assert!(
-                left.iter().all(|name| !name.starts_with(".mdr")),
-                "{left:?}"
-            );
+            leaves_nothing(&dir);
         }
     }
 }
@@ -111,11 +113,7 @@ fn a_study_under_way_is_refused_to_others_before_they_compute_even_by_force() {
         assert_eq!(said.code, 0, "{}", said.err);
         fs::remove_file(dir.path("x.csv")).expect("the table");
     }
-    let left = names(&dir.path(""));
-    assert!(
-        left.iter().all(|name| !name.starts_with(".mdr")),
-        "{left:?}"
-    );
+    leaves_nothing(&dir);
 }
 
 #[test]
@@ -290,19 +288,8 @@ fn a_supplement_gives_the_same_files() {
 }
 
 /// Calls of the system by which files come to be as they are.
-const CALLS: [&str; 11] = [
-    "openat",
-    "write",
-    "pwrite64",
-    "fsync",
-    "rename",
-    "renameat",
-    "renameat2",
-    "unlink",
-    "flock",
-    "ftruncate",
-    "lseek",
-];
+const CALLS: &str =
+    "openat write pwrite64 fsync rename renameat renameat2 unlink flock ftruncate lseek";
 
 #[cfg(target_os = "linux")]
 #[test]
@@ -318,20 +305,14 @@ fn a_kill_at_every_system_call_of_a_study_resumes_to_the_same_bytes() {
     dir.done("sweep s.toml --quiet --out whole.csv");
     let whole = dir.read("whole.csv");
     let mut kills = 0;
-    for call in CALLS {
+    for call in CALLS.split(' ') {
         for count in 1.. {
             let _ = fs::remove_file(dir.path("s.csv"));
             let program = dir.command(&arguments);
             let mut tracer = std::process::Command::new("strace");
             tracer
-                .args([
-                    "-f",
-                    "-o",
-                    "/dev/null",
-                    "-e",
-                    &format!("trace={call}"),
-                    "-e",
-                ])
+                .args(["-f", "-o", "/dev/null"])
+                .args(["-e", &format!("trace={call}"), "-e"])
                 .arg(format!("inject={call}:signal=SIGKILL:when={count}"))
                 .arg(program.get_program())
                 .args(program.get_args())
@@ -345,11 +326,7 @@ fn a_kill_at_every_system_call_of_a_study_resumes_to_the_same_bytes() {
             kills += 1;
             dir.done(&arguments.join(" "));
             assert!(dir.read("s.csv") == whole, "{call} {count}");
-            let left = names(&dir.path(""));
-            assert!(
-                left.iter().all(|name| !name.starts_with('.')),
-                "{call} {count}: {left:?}"
-            );
+            leaves_nothing(&dir);
         }
     }
     assert!(kills > 30, "{kills}");

@@ -6,6 +6,12 @@ use mdr_tui::scenario::session::Session;
 use crate::common::{begin, load, near};
 use crate::test_dir::cases;
 
+const SMALL: [&str; 3] = [
+    "numerics.points=60",
+    "numerics.steps_per_cycle=40",
+    "numerics.tolerance=1e-3",
+];
+
 fn within(what: &str, found: f64, published: f64, share: f64) {
     let error = found / published - 1.0;
     eprintln!(
@@ -37,12 +43,7 @@ fn cattaneo_as_kalkers_program_has_it() {
 /// grown by then to almost three times the contact's first radius.
 #[test]
 fn gross_slip_grows_by_argatovs_law() {
-    let sets = [
-        "numerics.points=60",
-        "numerics.steps_per_cycle=40",
-        "numerics.tolerance=1e-3",
-    ];
-    let mut session = begin(load("julia2022-gross-slip", &sets));
+    let mut session = begin(load("julia2022-gross-slip", &SMALL));
     let first = session.simulation().moment().contact_radius;
     session.advance_to(1e5).expect("a hundred thousand cycles");
     let simulation = session.simulation();
@@ -59,12 +60,7 @@ fn gross_slip_grows_by_argatovs_law() {
 /// growing by 1e4 cycles.
 #[test]
 fn partial_slip_stops_wearing() {
-    let sets = [
-        "numerics.points=60",
-        "numerics.steps_per_cycle=40",
-        "numerics.tolerance=1e-3",
-    ];
-    let mut session = begin(load("julia2022-partial-slip", &sets));
+    let mut session = begin(load("julia2022-partial-slip", &SMALL));
     let deepest = |session: &Session| {
         let wear = session.simulation().observe(Curves::PROFILE).wear;
         wear.into_iter().fold(0.0, f64::max)

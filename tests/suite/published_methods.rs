@@ -49,18 +49,12 @@ fn causal_methods_keep_the_stick_zone_and_b_and_benad_do_not() {
         let seen = worn(method, 400.0).observe(Curves::PROFILE);
         let first = seen.wear.iter().position(|&worn| worn != 0.0);
         let border = seen.radii[first.expect("a worn ring") - 1];
-        holds(
-            &format!("{method} keeps {border}"),
-            (border - last_unworn).abs(),
-            1e-9,
-        );
+        let case = format!("{method} keeps {border}");
+        holds(&case, (border - last_unworn).abs(), 1e-9);
         let nodes = seen.radii.iter().zip(&seen.profile);
         let found = rms(nodes.map(|(&r, f)| f - limit.profile(r)));
-        holds(
-            &format!("{method}, rms error {found:.3e} of f"),
-            (found / error - 1.0).abs(),
-            0.1,
-        );
+        let case = format!("{method}, rms error {found:.3e} of f");
+        holds(&case, (found / error - 1.0).abs(), 0.1);
     }
 }
 
@@ -98,11 +92,8 @@ fn the_error_of_b_overtakes_first_as_the_wear_coefficient_grows() {
     for (wear_number, constant) in [(0.3, 0.06), (1.0, 0.22), (3.0, 1.4)] {
         let [a, mixed, b, benad] = errors(wear_number);
         for (name, error) in [("a", a), ("a+b", mixed), ("b", b)] {
-            holds(
-                &format!("K={wear_number}, {name}"),
-                error,
-                constant * h.powf(1.5),
-            );
+            let case = format!("K={wear_number}, {name}");
+            holds(&case, error, constant * h.powf(1.5));
         }
         assert!(
             benad > 3.0 * a.max(mixed).max(b),
@@ -204,19 +195,13 @@ fn the_worn_contact_of_fig_3_carries_its_peak_at_the_stick_border() {
         let c = seen.moment.permanent_stick_radius.expect("springs");
         holds(&format!("c by {method}"), (c - 0.4164).abs(), h);
         let (at, pressure) = peak(&seen.radii, &seen.pressure);
-        holds(
-            &format!("peak of p by {method} at {at}"),
-            (at - 0.4164).abs(),
-            h,
-        );
+        let case = format!("peak of p by {method} at {at}");
+        holds(&case, (at - 0.4164).abs(), h);
         // Measured 1.66 times (a) and 1.69 times (a+b) the pressure next to the axis.
         assert!(pressure > 1.5 * seen.pressure[1], "{method}: {pressure}");
         let (at, shear) = peak(&seen.radii, &seen.shear);
-        holds(
-            &format!("peak of tau by {method} at {at}"),
-            (at - 0.4164).abs(),
-            h,
-        );
+        let case = format!("peak of tau by {method} at {at}");
+        holds(&case, (at - 0.4164).abs(), h);
         assert!(shear > 2.5 * seen.shear[1], "{method}: {shear}");
         // The unworn contact has its largest pressure in the middle.
         let fresh = run(fig3(method, 0.0, 100, 40), 0.24).observe(Curves::PRESSURE);
@@ -240,17 +225,11 @@ fn a_strongly_worn_ring_is_flat_at_the_largest_depth() {
         holds(&format!("1.1 - g in the ring by {method}"), lag, 0.04);
         let stuck = nodes().filter(|(r, _)| (0.0..0.4164 - 2.0 * h).contains(*r));
         let moved = stuck.map(|(r, g)| (g - r * r).abs()).fold(0.0, f64::max);
-        holds(
-            &format!("g in the permanent stick zone by {method}"),
-            moved,
-            0.3 * h,
-        );
+        let case = format!("g in the permanent stick zone by {method}");
+        holds(&case, moved, 0.3 * h);
         let (at, pressure) = peak(&seen.radii, &seen.pressure);
-        holds(
-            &format!("peak of p by {method} at {at}"),
-            (at - 0.4164).abs(),
-            h,
-        );
+        let case = format!("peak of p by {method} at {at}");
+        holds(&case, (at - 0.4164).abs(), h);
         assert!(pressure > 5.0 * seen.pressure[1], "{method}: {pressure}");
     }
 }

@@ -13,7 +13,7 @@ use mdr_tui::studies::refinement::{
 use crate::common::{load, without_numerics};
 use crate::judge::{QUANTITIES, UNDERSTATED, judge, judge_estimate, quantile, tally_checks};
 use crate::random_scenarios;
-use crate::test_dir::{TestDir, has, lacks};
+use crate::test_dir::{Table, TestDir, cases, has, lacks};
 
 fn clock() -> impl Fn() -> f64 {
     let begin = std::time::Instant::now();
@@ -205,173 +205,103 @@ fn failures_climb_too_and_end() {
     assert_eq!(ladder.next(), Next::Done(Verdict::Failed("broke".into())));
 }
 
-/// The value of a header line.
-fn header(table: &str, key: &str) -> Option<f64> {
-    let start = format!("# {key}: ");
-    let line = table.lines().find_map(|line| line.strip_prefix(&start))?;
-    line.parse().ok()
+/// The number in a header line, if there is one.
+fn header(table: &Table, key: &str) -> Option<f64> {
+    let line = table.header.iter().find(|(name, _)| name == key)?;
+    line.1.parse().ok()
 }
 
-const SHORT: [&str; 4] = ["run", "li2019-fig3", "--cycles", "5"];
+const SHORT: &str = "run li2019-fig3 --cycles 5 --quiet";
+
+/// What the header says of an error that nobody has asked for.
+const UNMEASURED: &str = "\n# estimated_error: not measured (--estimate-error)\n";
 
 #[test]
 fn an_accuracy_is_stated_and_its_scenario_gives_the_same_bits() {
     let dir = TestDir::new();
-    let asked = [
-        &SHORT[..],
-        &["--set", "numerics.accuracy=1e-2", "--out", "one"],
-    ]
-    .concat();
-    let said = dir.say(&asked);
-    assert_eq!((said.code, said.err.as_str()), (0, ""));
+    let said = dir.done("run li2019-fig3 --cycles 5 --set numerics.accuracy=1e-2 --out one");
+    let lines = || said.lines().filter(|line| line.contains("estimated error"));
     for of in ["of the worn depth", "of the dissipated energy", "of F_x"] {
-        let lines = said
-            .out
-            .lines()
-            .filter(|line| line.contains("estimated error"));
         assert_eq!(
-            lines.filter(|line| line.contains(of)).count(),
+            lines().filter(|line| line.contains(of)).count(),
             1,
-            "{}",
-            said.out
+            "{said}"
         );
     }
     for file in ["one/state.csv", "one/history.csv"] {
-        let table = dir.read(file);
+        let table = dir.table(file);
         assert_eq!(header(&table, "accuracy"), Some(1e-2));
         for key in ["estimated_error", "estimated_error_volume"] {
             let error = header(&table, key).expect("a statement");
             assert!(error > 0.0 && error <= 1e-2, "{key}: {error}");
         }
-        assert!(header(&table, "estimated_error_force").is_some(), "{table}");
+        assert!(header(&table, "estimated_error_force").is_some());
     }
     let scenario = dir.read("one/scenario.toml");
     has(&scenario, "\npoints = ");
     lacks(&scenario, "\naccuracy");
-    let said = dir.line("run one/scenario.toml --quiet --out two");
-    assert_eq!((said.code, said.err.as_str()), (0, ""));
-    let rows = |file: &str| -> Vec<String> {
-        let table = dir.read(file);
-        let rows = table.lines().filter(|line| !line.starts_with('#'));
-        rows.map(str::to_owned).collect()
-    };
-    assert_eq!(rows("one/state.csv"), rows("two/state.csv"));
+    dir.done("run one/scenario.toml --quiet --out two");
+    let [one, two] = ["one", "two"].map(|out| dir.table(&format!("{out}/state.csv")));
+    assert_eq!((one.columns, one.rows), (two.columns, two.rows));
 }
 
 #[test]
 fn a_run_estimates_its_error_without_another_number_changing() {
     let dir = TestDir::new();
-    let plain = [&SHORT[..], &["--quiet", "--out", "plain"]].concat();
-    let checked = [
-        &SHORT[..],
-        &["--quiet", "--estimate-error", "--out", "checked"],
-    ]
-    .concat();
-    for arguments in [plain, checked] {
-        let said = dir.say(&arguments);
-        assert_eq!((said.code, said.err.as_str()), (0, ""));
-    }
-    let (plain, checked) = (dir.read("plain/state.csv"), dir.read("checked/state.csv"));
-    assert_eq!(header(&plain, "estimated_error"), None);
-    for key in [
-        "estimated_error",
-        "estimated_error_volume",
-        "estimated_error_force",
-        "estimated_error_pressure",
-    ] {
-        let error = header(&checked, key).expect("a statement");
+    dir.done(&format!("{SHORT} --out plain"));
+    dir.done(&format!("{SHORT} --estimate-error --out checked"));
+    let table = dir.table("checked/state.csv");
+    for key in ["", "_volume", "_force", "_pressure"] {
+        let error = header(&table, &format!("estimated_error{key}")).expect("a statement");
         assert!(error > 0.0 && error < 1e-2, "{key}: {error}");
     }
-    let unmeasured = "# estimated_error: not measured (--estimate-error)";
-    assert!(plain.lines().any(|line| line == unmeasured), "{plain}");
-    let rest = |table: &str| -> Vec<String> {
-        let lines = table
-            .lines()
-            .filter(|line| !line.starts_with("# estimated"));
+    let [plain, checked] = ["plain", "checked"].map(|out| dir.read(&format!("{out}/state.csv")));
+    has(&plain, UNMEASURED);
+    let rest = |text: &str| -> Vec<String> {
+        let lines = text.lines().filter(|line| !line.starts_with("# estimated"));
         lines.map(str::to_owned).collect()
     };
     assert_eq!(rest(&checked), rest(&plain));
-    let history = dir.read("checked/history.csv");
-    assert!(header(&history, "estimated_error").is_some(), "{history}");
+    assert!(header(&dir.table("checked/history.csv"), "estimated_error").is_some());
 }
 
 #[test]
 fn a_replay_states_the_errors_of_the_run_and_an_edit_does_not() {
     let dir = TestDir::new();
-    let run = "run li2019-fig3 --cycles 1 --snapshot-at 0.5 --set numerics.accuracy=1e-2 --out once --quiet";
-    dir.done(run);
+    dir.done("run li2019-fig3 --cycles 1 --snapshot-at 0.5 --set numerics.accuracy=1e-2 --out once --quiet");
     dir.done("run once/scenario.toml --out twice --quiet");
-    for name in [
-        "state.csv",
-        "state-0.5.csv",
-        "history.csv",
-        "loop.csv",
-        "scenario.toml",
-    ] {
-        assert_eq!(
-            dir.read(&format!("twice/{name}")),
-            dir.read(&format!("once/{name}")),
-            "{name}"
-        );
-    }
-    let once = dir.read("once/state.csv");
-    assert!(header(&once, "accuracy") == Some(1e-2), "{once}");
-    assert!(
-        header(&once, "estimated_error").is_some_and(|error| error < 1e-2),
-        "{once}"
-    );
+    dir.alike("once", "twice");
+    let once = dir.table("once/state.csv");
+    assert_eq!(header(&once, "accuracy"), Some(1e-2));
+    assert!(header(&once, "estimated_error").is_some_and(|error| error < 1e-2));
     // Of another run nothing is known.
+    let again = "run once/scenario.toml --out other --force --quiet";
     for edit in [
         "--cycles 2",
         "--set wear.coefficient=2e-10",
         "--set numerics.points=60",
     ] {
-        dir.done(&format!(
-            "run once/scenario.toml {edit} --out other --force --quiet"
-        ));
-        let other = dir.read("other/state.csv");
-        let unmeasured = "# estimated_error: not measured (--estimate-error)";
-        assert!(
-            other.lines().any(|line| line == unmeasured),
-            "{edit}: {other}"
-        );
-        assert!(header(&other, "accuracy").is_none(), "{edit}: {other}");
-        assert!(
-            !dir.read("other/scenario.toml").contains("stated"),
+        dir.done(&format!("{again} {edit}"));
+        has(&dir.read("other/state.csv"), UNMEASURED);
+        assert_eq!(
+            header(&dir.table("other/state.csv"), "accuracy"),
+            None,
             "{edit}"
         );
+        lacks(&dir.read("other/scenario.toml"), "stated");
     }
 }
 
 #[test]
 fn what_is_not_met_is_told_in_one_line() {
-    for (more, code, line) in [
-        (
-            &["--set", "numerics.accuracy=1e-5", "--budget", "0s"][..],
-            0,
-            "numerics.accuracy = 1e-5 was not reached in 0 s; the estimated error is ",
-        ),
-        (
-            &[
-                "--set",
-                "numerics.accuracy=1e-3",
-                "--set",
-                "wear.coefficient=0",
-            ],
-            0,
-            "nothing has worn, so the accuracy of a scar means nothing",
-        ),
-        (
-            &["--set", "wear.coefficient=0", "--estimate-error"],
-            0,
-            "nothing has worn, so there is no worn depth to estimate the error of",
-        ),
-    ] {
-        let dir = TestDir::new();
-        let said = dir.say(&[&SHORT[..], &["--quiet"], more].concat());
-        assert_eq!(said.code, code, "{more:?}: {}", said.err);
-        assert!(said.err.contains(line), "{more:?}: {}", said.err);
-        assert_eq!(said.err.lines().count(), 1, "{}", said.err);
+    for (more, line) in cases([
+        "numerics.accuracy=1e-5 --budget 0s => numerics.accuracy = 1e-5 was not reached in 0 s; the estimated error is ",
+        "numerics.accuracy=1e-3 --set wear.coefficient=0 => nothing has worn, so the accuracy of a scar means nothing",
+        "wear.coefficient=0 --estimate-error => nothing has worn, so there is no worn depth to estimate the error of",
+    ]) {
+        TestDir::new()
+            .line(&format!("{SHORT} --set {more}"))
+            .fails(0, line);
     }
 }
 

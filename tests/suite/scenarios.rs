@@ -26,22 +26,15 @@ fn fixtures(kind: &str) -> Vec<(String, String)> {
         .collect();
     paths.sort();
     let read = |path: &PathBuf| {
-        let name = path
-            .file_name()
-            .expect("a name")
-            .to_string_lossy()
-            .into_owned();
-        (name, fs::read_to_string(path).expect("a text"))
+        let name = path.file_name().expect("a name").to_string_lossy();
+        (name.into_owned(), fs::read_to_string(path).expect("a text"))
     };
     paths.iter().map(read).collect()
 }
 
 /// The file has this line.
 fn assert_line(text: &str, line: &str) {
-    assert!(
-        text.lines().any(|written| written == line),
-        "{line}\n{text}"
-    );
+    has(text, &format!("\n{line}\n"));
 }
 
 /// Reads `scenario` back from its own text.

@@ -1,6 +1,6 @@
 //! Harsh wear: the guard takes every K to its limit, the raw methods fail where it was predicted.
 
-use crate::common::{Scene, holds, limit, load, ours, run_setup, without_numerics};
+use crate::common::{Scene, holds, limit, load, ours, rms, run_setup, without_numerics};
 use crate::test_dir::has;
 use mdr_tui::math::abel::AbelMethod::{A, APlusB, B, Benad, Product};
 use mdr_tui::math::abel::worn;
@@ -38,9 +38,7 @@ fn limit_error(simulation: &Simulation) -> f64 {
     };
     let (grid, wear) = (&simulation.setup().grid, &simulation.state().wear);
     let radii = (0..=400).map(|i| grid.radius() * f64::from(i) / 400.0);
-    let squares =
-        radii.map(|r| (0.5 * r * r + worn::interpolate(grid, wear, r) - limit.profile(r)).powi(2));
-    (squares.sum::<f64>() / 401.0).sqrt()
+    rms(radii.map(|r| 0.5 * r * r + worn::interpolate(grid, wear, r) - limit.profile(r)))
 }
 
 #[test]
@@ -60,11 +58,8 @@ fn harsh_wear_costs_its_work() {
         for cells in [200, 400] {
             let simulation = run_setup(fig3(wear_number, cells), 1.0);
             let residual = simulation.moment().energy_residual.expect("worn").abs();
-            holds(
-                &format!("K = {wear_number}, N = {cells}"),
-                residual,
-                allowed,
-            );
+            let case = format!("K = {wear_number}, N = {cells}");
+            holds(&case, residual, allowed);
         }
     }
 }
@@ -87,13 +82,9 @@ fn parts_of_harsh_steps_end_where_fine_steps_do() {
         assert!(parts.state().stats.parts > 100);
         let radii = (0..=400).map(|i| fine.setup().grid.radius() * f64::from(i) / 400.0);
         let worn = |run: &Simulation, r| worn::interpolate(&run.setup().grid, &run.state().wear, r);
-        let squares = radii.map(|r| (worn(&parts, r) - worn(&fine, r)).powi(2));
-        let rms = (squares.sum::<f64>() / 401.0).sqrt();
-        holds(
-            &format!("rms of f, K = {wear_number}, N = {cells}"),
-            rms,
-            2e-3,
-        );
+        let rms = rms(radii.map(|r| worn(&parts, r) - worn(&fine, r)));
+        let case = format!("rms of f, K = {wear_number}, N = {cells}");
+        holds(&case, rms, 2e-3);
         holds("sawtooth", highest, VISIBLE);
     }
 }
@@ -164,15 +155,10 @@ fn the_stick_zone_of_the_first_pass_is_independent_of_the_step() {
             });
             let stuck = |run: &Simulation| run.state().permanent_stick_radius();
             let off = (stuck(&found) / stuck(&finest) - 1.0).abs();
-            holds(
-                &format!("permanent stick zone of {method}, K = {k}"),
-                off,
-                1e-6,
-            );
-            let (found, finest) = (&found.state().wear, &finest.state().wear);
-            let pairs = found.iter().zip(finest);
-            let sum: f64 = pairs.map(|(wear, finest)| (wear - finest).powi(2)).sum();
-            (sum / finest.len() as f64).sqrt()
+            let case = format!("permanent stick zone of {method}, K = {k}");
+            holds(&case, off, 1e-6);
+            let pairs = found.state().wear.iter().zip(&finest.state().wear);
+            rms(pairs.map(|(wear, finest)| wear - finest))
         });
         let median = apart.into_iter().sum::<f64>()
             - apart.into_iter().fold(f64::MIN, f64::max)

@@ -1,9 +1,9 @@
 //! What the explorer costs: a frame drawn and sent, a key answered, the first frame of a start, and
 //! the simulation under it against the same simulation alone.
 //!
-//! `cargo bench --bench frame`. The bytes of a frame are counted by a test, `tests/suite/ansi_backend.rs`.
+//! `cargo bench --bench frame`. The bytes of a frame are counted by a test, `tests/suite/ansi_writer.rs`.
 
-use std::io::{self, Read, Write};
+use std::io::{Read, Write};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 use std::thread;
@@ -14,7 +14,7 @@ use mdr_tui::plot::Marker;
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
 use mdr_tui::tui::Event;
-use mdr_tui::tui::ansi_backend::AnsiBackend;
+use mdr_tui::tui::ansi_writer::AnsiWriter;
 use mdr_tui::tui::app::App;
 use mdr_tui::tui::frame::{Activity, Slot};
 use mdr_tui::tui::keys::parse_script;
@@ -22,7 +22,7 @@ use mdr_tui::tui::screen;
 use mdr_tui::tui::theme::{Look, Theme};
 use mdr_tui::tui::worker::{Orders, Worker};
 use portable_pty::{CommandBuilder, PtySize, native_pty_system};
-use ratatui::Terminal;
+use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
 
 fn main() {
@@ -32,11 +32,8 @@ fn main() {
 /// Cycles of the runs that are compared.
 const CYCLES: f64 = 600.0;
 
-/// How a terminal tells its size.
-type Tell = fn() -> io::Result<Size>;
-
-const SMALL: Tell = || Ok(Size::new(80, 24));
-const LARGE: Tell = || Ok(Size::new(200, 50));
+const SMALL: Size = Size::new(80, 24);
+const LARGE: Size = Size::new(200, 50);
 
 /// The explorer without a terminal.
 struct Stage {
@@ -44,11 +41,11 @@ struct Stage {
     slot: Arc<Slot>,
     orders: Orders,
     events: Receiver<Event>,
-    line: Terminal<AnsiBackend<io::Sink>>,
+    line: AnsiWriter,
 }
 
 impl Stage {
-    fn new(tell: Tell) -> Self {
+    fn new(size: Size) -> Self {
         let set = format!("run.cycles={CYCLES}");
         let scenario = Scenario::load("li2019-fig3", &[set]).expect("a preset");
         let session = Session::start(scenario).expect("a contact");
@@ -59,14 +56,13 @@ impl Stage {
         let worker = Worker::new(session, Arc::clone(&slot), sender, interval, false);
         thread::spawn(move || worker.serve(&to_worker));
         let mut app = App::new(Theme::new(Look::Dark, Marker::Braille), orders.clone());
-        let size = tell().expect("a size");
         app.resize(size.width, size.height);
         Self {
             app,
             slot,
             orders,
             events,
-            line: Terminal::new(AnsiBackend::new(io::sink(), tell)).expect("a terminal"),
+            line: AnsiWriter::default(),
         }
     }
 
@@ -78,10 +74,10 @@ impl Stage {
     }
 
     fn draw(&mut self) {
-        let app = &self.app;
-        self.line
-            .draw(|frame| screen::draw(app, frame.area(), frame.buffer_mut()))
-            .expect("a drawing");
+        let area = self.app.stage.area;
+        let mut wanted = Buffer::empty(area);
+        screen::draw(&self.app, area, &mut wanted);
+        self.line.frame(wanted);
     }
 }
 

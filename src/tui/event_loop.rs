@@ -135,10 +135,13 @@ fn handle_events(
                 Event::Background(color) => scene.theme().follow(color),
                 Event::Suspend => suspends = true,
                 Event::Resize if is_away => {}
-                Event::Resize => refit(scene, screen)?,
+                Event::Resize => {
+                    screen.start_afresh();
+                    scene.resize(terminal::size()?);
+                }
                 Event::Continue => {
                     screen.take_back()?;
-                    refit(scene, screen)?;
+                    scene.resize(terminal::size()?);
                     is_away = false;
                 }
                 Event::HangUp | Event::WorkerGone => return Ok(()),
@@ -175,13 +178,6 @@ fn handle_events(
             is_due = !screen.draw(|area, buffer| scene.draw(area, buffer))?;
         }
     }
-}
-
-/// Fits screen and scene to the terminal's present size.
-fn refit(scene: &mut dyn Scene, screen: &mut Screen) -> Result<()> {
-    screen.start_afresh()?;
-    scene.resize(terminal::size()?);
-    Ok(())
 }
 
 /// Waits for outstanding answers of the terminal, so that they do not reach the shell. Returns what else has come in.

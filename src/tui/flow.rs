@@ -10,7 +10,7 @@ use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
 /// The status request after each frame.
-pub const QUESTION: &[u8] = b"\x1b[5n";
+pub const QUESTION: &str = "\x1b[5n";
 
 /// The rate assumed for any line, bytes per second.
 const SLOWEST: f64 = 300.0;

@@ -21,7 +21,7 @@ use std::time::Duration;
 use crate::scenario::session::Session;
 use anyhow::{Result, bail};
 
-pub mod ansi_backend;
+pub mod ansi_writer;
 pub mod app;
 mod appearance;
 pub mod autosave;

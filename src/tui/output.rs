@@ -27,10 +27,6 @@ struct Chunk {
 pub struct Output {
     chunks: Sender<Chunk>,
     events: Sender<Event>,
-    /// The frame being built.
-    frame: Vec<u8>,
-    /// All that was sent, in bytes, and in how many frames.
-    sent: (usize, usize),
 }
 
 impl Output {
@@ -51,67 +47,43 @@ impl Output {
                     (chunk.then)();
                 }
             })?;
-        Ok(Self {
-            chunks,
-            events,
-            frame: Vec::new(),
-            sent: (0, 0),
-        })
+        Ok(Self { chunks, events })
     }
 
-    /// All that was sent so far, in bytes, and in how many frames, each with a question behind it.
-    pub fn sent(&self) -> (usize, usize) {
-        self.sent
-    }
-
-    /// Sends bytes without waiting.
-    pub fn send(&self, bytes: &[u8]) {
-        let then = Box::new(|| ());
+    /// Hands a text to the writer, which calls `then` when it is written. A writer that has ended has reported it.
+    fn queue(&self, text: &str, then: impl FnOnce() + Send + 'static) {
         let _ = self.chunks.send(Chunk {
-            bytes: bytes.to_vec(),
-            then,
+            bytes: text.as_bytes().to_vec(),
+            then: Box::new(then),
         });
     }
 
-    /// Sends bytes and waits until they are written. If the terminal has stopped reading, drops
-    /// what it has not read, and if that does not help, these bytes too. Returns true if they were
-    /// written.
-    pub fn finish(&self, bytes: &[u8]) -> bool {
+    /// Sends a text without waiting.
+    pub fn send(&self, text: &str) {
+        self.queue(text, || ());
+    }
+
+    /// Sends a frame, and behind it the question whether the terminal has read it. Returns the bytes of both.
+    pub fn frame(&self, mut frame: String) -> usize {
+        frame.push_str(QUESTION);
+        let events = self.events.clone();
+        self.queue(&frame, move || {
+            let _ = events.send(Event::Written);
+        });
+        frame.len()
+    }
+
+    /// Sends a text and waits until it is written. If the terminal has stopped reading, drops
+    /// what it has not read, and if that does not help, this text too. Returns true if it was written.
+    pub fn finish(&self, text: &str) -> bool {
         let (tell, told) = channel();
-        let then = Box::new(move || {
+        self.queue(text, move || {
             let _ = tell.send(());
         });
-        let bytes = bytes.to_vec();
-        let _ = self.chunks.send(Chunk { bytes, then });
         if told.recv_timeout(DRAIN_TIMEOUT).is_ok() {
             return true;
         }
         let _ = tcflush(io::stdout().as_fd(), FlushArg::TCOFLUSH);
         told.recv_timeout(DRAIN_TIMEOUT).is_ok()
-    }
-}
-
-impl Write for Output {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.frame.extend_from_slice(bytes);
-        Ok(bytes.len())
-    }
-
-    /// Sends the frame, and behind it the question whether the terminal has read it.
-    fn flush(&mut self) -> io::Result<()> {
-        if self.frame.is_empty() {
-            return Ok(());
-        }
-        let mut bytes = std::mem::take(&mut self.frame);
-        bytes.extend_from_slice(QUESTION);
-        self.sent.0 += bytes.len();
-        self.sent.1 += 1;
-        let events = self.events.clone();
-        let then = Box::new(move || {
-            let _ = events.send(Event::Written);
-        });
-        // A writer that has ended has reported it.
-        let _ = self.chunks.send(Chunk { bytes, then });
-        Ok(())
     }
 }

@@ -15,7 +15,7 @@ mod test_dir;
 mod accuracy_claims;
 mod accuracy_targets;
 mod allocations;
-mod ansi_backend;
+mod ansi_writer;
 mod changes;
 mod checkpoint;
 mod cli;

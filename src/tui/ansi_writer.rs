@@ -5,11 +5,8 @@
 //! two styles is written. A frame is wrapped in a synchronized update (DEC private mode 2026), so that
 //! the order of its cells is not seen; a frame without changes writes nothing.
 
-use std::io::{self, Write};
-
-use ratatui::backend::{Backend, ClearType, WindowSize};
-use ratatui::buffer::Cell;
-use ratatui::layout::{Position, Size};
+use ratatui::buffer::{Buffer, Cell};
+use ratatui::layout::Position;
 use ratatui::style::{Color, Modifier};
 
 /// The modifiers that the screen uses, and the codes that set them.
@@ -41,6 +38,9 @@ const BASIC: [Color; 16] = [
     Color::White,
 ];
 
+/// The modifiers that are seen on a blank.
+const ON_BLANKS: Modifier = Modifier::REVERSED.union(Modifier::UNDERLINED);
+
 /// Colours and modifiers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 struct Pen {
@@ -50,28 +50,16 @@ struct Pen {
 }
 
 impl Pen {
-    /// The sign of a cell, and the pen to write it with where the terminal has `now`. A blank needs only
-    /// the ground, and a full block in a colour is a blank on that ground: one byte instead of three.
-    fn of(cell: &Cell, now: Option<Self>) -> (&str, Self) {
-        let inks_blanks = Modifier::REVERSED | Modifier::UNDERLINED;
+    /// The sign of a cell, and the pen to write it with. A full block in a colour is a blank on that ground: one
+    /// byte instead of three.
+    fn of(cell: &Cell) -> (&str, Self) {
         let is_block = cell.symbol() == "█" && cell.modifier.is_empty() && cell.fg != Color::Reset;
-        let (symbol, bg) = match is_block {
-            true => (" ", cell.fg),
-            false => (cell.symbol(), cell.bg),
+        let (symbol, fg, bg) = match is_block {
+            true => (" ", Color::Reset, cell.fg),
+            false => (cell.symbol(), cell.fg, cell.bg),
         };
-        let pen = match now {
-            Some(now)
-                if symbol == " " && !(now.modifier | cell.modifier).intersects(inks_blanks) =>
-            {
-                Self { bg, ..now }
-            }
-            _ => Self {
-                fg: if is_block { Color::Reset } else { cell.fg },
-                bg,
-                modifier: cell.modifier,
-            },
-        };
-        (symbol, pen)
+        let modifier = cell.modifier;
+        (symbol, Self { fg, bg, modifier })
     }
 
     /// The codes that lead from the pen `now` to this one, if that needs no reset.
@@ -89,18 +77,24 @@ impl Pen {
         Some(codes)
     }
 
-    /// The shortest sequence that changes the pen `now`, if that is known, to this one.
-    fn sequence(self, now: Option<Self>) -> String {
-        if now == Some(self) {
+    /// The sequence that makes this the pen, whatever it is.
+    fn anew(self) -> String {
+        let codes = self.codes(Self::default()).unwrap_or_default();
+        // No code, or an empty one, is a reset.
+        let codes = codes.into_iter().map(|code| format!(";{code}"));
+        format!("\x1b[{}m", codes.collect::<String>())
+    }
+
+    /// The shortest sequence that changes the pen `now` to this one.
+    fn sequence(self, now: Self) -> String {
+        if now == self {
             return String::new();
         }
-        let difference = now.and_then(|now| self.codes(now));
-        // No code, or an empty one, is a reset.
-        let mut anew = self.codes(Self::default()).unwrap_or_default();
-        anew.insert(0, String::new());
-        let ways = difference.into_iter().chain([anew]);
-        let ways = ways.map(|codes| format!("\x1b[{}m", codes.join(";")));
-        ways.min_by_key(String::len).unwrap_or_default()
+        let anew = self.anew();
+        match self.codes(now).map(|codes| codes.join(";")) {
+            Some(codes) if codes.len() + 3 <= anew.len() => format!("\x1b[{codes}m"),
+            _ => anew,
+        }
     }
 }
 
@@ -149,122 +143,63 @@ fn is_certain(cell: &Cell) -> bool {
     signs.next().is_some_and(certain) && signs.next().is_none()
 }
 
-/// A terminal at the other end of `out`.
-#[derive(Debug)]
-pub struct AnsiBackend<W: Write, S = fn() -> io::Result<Size>> {
-    out: W,
-    /// The bytes of the frame that is being written.
-    frame: String,
-    size: S,
-    /// How the terminal writes now; unknown at first.
-    pen: Option<Pen>,
+/// Keeps track of what a terminal shows, and writes what makes it show something else.
+#[derive(Debug, Default)]
+pub struct AnsiWriter {
+    /// What the terminal shows; of no size while nothing is known of it.
+    shown: Buffer,
+    /// How the terminal writes now.
+    pen: Pen,
     /// Where the terminal's cursor is, while that is certain.
     at: Option<Position>,
-    is_hidden: bool,
 }
 
-impl<W: Write, S: Fn() -> io::Result<Size>> AnsiBackend<W, S> {
-    /// Writes to `out`, a terminal whose size `size` tells.
-    pub fn new(out: W, size: S) -> Self {
-        Self {
-            out,
-            frame: String::new(),
-            size,
-            pen: None,
-            at: None,
-            is_hidden: false,
+impl AnsiWriter {
+    /// What the terminal shows.
+    pub fn shown(&self) -> &Buffer {
+        &self.shown
+    }
+
+    /// The bytes that have the terminal show `next`; none if it does. One that shows a screen of another size is
+    /// cleared first.
+    pub fn frame(&mut self, next: Buffer) -> String {
+        let mut text = String::new();
+        if self.shown.area != next.area {
+            text += "\x1b[m\x1b[2J\x1b[?25l";
+            *self = Self {
+                shown: Buffer::empty(next.area),
+                ..Self::default()
+            };
         }
-    }
-
-    /// Where the bytes go.
-    pub fn get_ref(&self) -> &W {
-        &self.out
-    }
-}
-
-impl<W: Write, S: Fn() -> io::Result<Size>> Backend for AnsiBackend<W, S> {
-    type Error = io::Error;
-
-    fn draw<'a, I>(&mut self, content: I) -> io::Result<()>
-    where
-        I: Iterator<Item = (u16, u16, &'a Cell)>,
-    {
-        let columns = self.size()?.width;
         // A style takes more bytes than a move, so the cells of one style go out together. The status
         // line goes first: a slow line shows it at once, and it tells of a key.
-        let mut content: Vec<_> = content.collect();
-        content.sort_by_cached_key(|(_, y, cell)| (*y > 0, Pen::of(cell, None).1.sequence(None)));
-        for (x, y, cell) in content {
-            self.set_cursor_position((x, y))?;
-            let (symbol, pen) = Pen::of(cell, self.pen);
-            self.frame += &pen.sequence(self.pen);
-            self.pen = Some(pen);
-            self.frame += symbol;
+        let mut changes = self.shown.diff(&next);
+        changes.sort_by_cached_key(|(_, y, cell)| (*y > 0, Pen::of(cell).1.anew()));
+        for (x, y, cell) in changes {
+            let goal = Position::new(x, y);
+            if self.at != Some(goal) {
+                text += &way(self.at, goal);
+            }
+            let (symbol, mut pen) = Pen::of(cell);
+            // A blank needs only the ground.
+            if symbol == " " && !(self.pen.modifier | pen.modifier).intersects(ON_BLANKS) {
+                pen = Pen {
+                    bg: pen.bg,
+                    ..self.pen
+                };
+            }
+            text += &pen.sequence(self.pen);
+            text += symbol;
+            self.pen = pen;
             // At the edge of the screen the cursor is nowhere certain.
-            let is_certain = is_certain(cell) && x + 1 < columns;
-            self.at = is_certain.then(|| Position::new(x + 1, y));
+            let is_certain = is_certain(cell) && x + 1 < next.area.width;
+            self.at = is_certain.then_some(Position::new(x + 1, y));
         }
-        Ok(())
-    }
-
-    fn hide_cursor(&mut self) -> io::Result<()> {
-        if !self.is_hidden {
-            self.frame += "\x1b[?25l";
-            self.is_hidden = true;
+        self.shown = next;
+        if text.is_empty() {
+            return text;
         }
-        Ok(())
-    }
-
-    fn show_cursor(&mut self) -> io::Result<()> {
-        self.frame += "\x1b[?25h";
-        self.is_hidden = false;
-        Ok(())
-    }
-
-    /// Where the cursor was put: the terminal is not asked, for not every one answers.
-    fn get_cursor_position(&mut self) -> io::Result<Position> {
-        Ok(self.at.unwrap_or_default())
-    }
-
-    fn set_cursor_position<P: Into<Position>>(&mut self, position: P) -> io::Result<()> {
-        let goal = position.into();
-        if self.at != Some(goal) {
-            self.frame += &way(self.at, goal);
-            self.at = Some(goal);
-        }
-        Ok(())
-    }
-
-    fn clear(&mut self) -> io::Result<()> {
-        self.clear_region(ClearType::All)
-    }
-
-    /// The whole screen, whatever is asked for: nothing else is ever cleared. All that was known of
-    /// the terminal is forgotten.
-    fn clear_region(&mut self, _: ClearType) -> io::Result<()> {
-        (self.pen, self.at, self.is_hidden) = (Some(Pen::default()), None, false);
-        self.frame += "\x1b[m\x1b[2J";
-        Ok(())
-    }
-
-    fn size(&self) -> io::Result<Size> {
-        (self.size)()
-    }
-
-    fn window_size(&mut self) -> io::Result<WindowSize> {
-        Ok(WindowSize {
-            columns_rows: self.size()?,
-            pixels: Size::default(),
-        })
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        if self.frame.is_empty() {
-            return Ok(());
-        }
-        write!(self.out, "\x1b[?2026h{}\x1b[?2026l", self.frame)?;
-        self.frame.clear();
-        self.out.flush()
+        format!("\x1b[?2026h{text}\x1b[?2026l")
     }
 }
 
@@ -301,18 +236,16 @@ mod tests {
         let (none, bold) = (Modifier::empty(), Modifier::BOLD);
         let red = pen(Color::Red, none);
         for (now, next, expected) in [
-            (None, Pen::default(), "\x1b[m"),
-            (None, pen(Color::Red, bold), "\x1b[;1;31m"),
-            (Some(red), red, ""),
-            (Some(red), pen(Color::LightGreen, none), "\x1b[92m"),
-            (Some(red), Pen::default(), "\x1b[m"),
+            (red, red, ""),
+            (red, pen(Color::LightGreen, none), "\x1b[92m"),
+            (red, Pen::default(), "\x1b[m"),
             (
-                Some(pen(Color::Red, bold)),
+                pen(Color::Red, bold),
                 pen(Color::Indexed(178), bold),
                 "\x1b[38;5;178m",
             ),
             (
-                Some(pen(Color::Red, bold | Modifier::DIM)),
+                pen(Color::Red, bold | Modifier::DIM),
                 pen(Color::Red, bold),
                 "\x1b[;1;31m",
             ),

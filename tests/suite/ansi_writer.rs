@@ -1,12 +1,11 @@
 //! What goes over the wire: few bytes, and exactly the screen that was meant.
 
-use std::io;
 use std::num::NonZeroU16;
 use std::sync::Arc;
 use std::time::Duration;
 
 use mdr_tui::plot::Marker;
-use mdr_tui::tui::ansi_backend::AnsiBackend;
+use mdr_tui::tui::ansi_writer::AnsiWriter;
 use mdr_tui::tui::app::App;
 use mdr_tui::tui::frame::{Activity, Frame};
 use mdr_tui::tui::keys::{Key, parse_script};
@@ -15,7 +14,6 @@ use mdr_tui::tui::screen;
 use mdr_tui::tui::theme::{Depth, Look, Theme};
 use mdr_tui::tui::worker::Worker;
 use proptest::prelude::*;
-use ratatui::Terminal;
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::{Rect, Size};
 use ratatui::style::{Color, Modifier, Style};
@@ -23,37 +21,22 @@ use vt100::Parser;
 
 use crate::common::{LiveWorker, load};
 
-/// How a terminal tells its size.
-type Tell = fn() -> io::Result<Size>;
-
-/// A terminal that remembers what it was sent.
-type Line = Terminal<AnsiBackend<Vec<u8>>>;
-
-fn line(size: Tell) -> Line {
-    Terminal::new(AnsiBackend::new(Vec::new(), size)).expect("a terminal")
-}
-
-fn sent(line: &Line) -> usize {
-    line.backend().get_ref().len()
-}
-
 /// The explorer on a terminal that counts.
 struct Counted {
-    line: Line,
+    line: AnsiWriter,
     app: App,
     worker: LiveWorker,
 }
 
 impl Counted {
-    fn new(size: Tell) -> Self {
+    fn new(size: Size) -> Self {
         let worker = LiveWorker::on(load("li2019-fig3", &[]), Duration::from_secs(1), false);
         // The longest names of colours.
         let theme = Theme::new(Look::Dark, Marker::Braille).with_depth(Depth::Indexed);
         let mut app = App::new(theme, worker.orders.clone());
-        let Size { width, height } = size().expect("a size");
-        app.resize(width, height);
+        app.resize(size.width, size.height);
         Self {
-            line: line(size),
+            line: AnsiWriter::default(),
             app,
             worker,
         }
@@ -87,25 +70,17 @@ impl Counted {
     }
 
     /// What the screen shows.
-    fn text(&self) -> String {
-        let Size { width, height } = self.app_size();
-        let area = Rect::new(0, 0, width, height);
+    fn screen(&self) -> Buffer {
+        let area = self.app.stage.area;
         let mut buffer = Buffer::empty(area);
         screen::draw(&self.app, area, &mut buffer);
-        buffer.content.iter().map(Cell::symbol).collect()
+        buffer
     }
 
-    fn app_size(&self) -> Size {
-        ratatui::backend::Backend::size(self.line.backend()).expect("a size")
-    }
-
+    /// Draws, and returns the bytes that this takes.
     fn draw(&mut self) -> usize {
-        let before = sent(&self.line);
-        let app = &self.app;
-        self.line
-            .draw(|frame| screen::draw(app, frame.area(), frame.buffer_mut()))
-            .expect("a drawing");
-        sent(&self.line) - before
+        let screen = self.screen();
+        self.line.frame(screen).len()
     }
 }
 
@@ -114,7 +89,7 @@ const REQUEST: usize = 4;
 
 /// Average bytes per frame over `frames` of about a cycle each: what ten cycles per second send at ten
 /// frames per second, whose moments wander through the cycle.
-fn average(size: Tell, frames: usize) -> usize {
+fn average(size: Size, frames: usize) -> usize {
     let mut counted = Counted::new(size);
     counted.frame("");
     let total: usize = (0..frames).map(|_| counted.frame(",..") + REQUEST).sum();
@@ -134,24 +109,24 @@ fn at_the_initial_pace(counted: &mut Counted) -> usize {
 
 #[test]
 fn a_frame_of_the_figure_takes_few_bytes() {
-    let small = average(|| Ok(Size::new(80, 24)), 60);
+    let small = average(Size::new(80, 24), 60);
     assert!(small <= 165, "{small} bytes per frame in 80 by 24");
-    let large = average(|| Ok(Size::new(200, 50)), 60);
+    let large = average(Size::new(200, 50), 60);
     assert!(large <= 840, "{large} bytes per frame in 200 by 50");
 }
 
 /// Where motion is seen, every curve and every mark moves between two frames.
 #[test]
 fn a_frame_in_motion_takes_few_bytes() {
-    let sizes: [(Tell, usize); 3] = [
-        (|| Ok(Size::new(80, 24)), 395),
-        (|| Ok(Size::new(120, 40)), 1150),
-        (|| Ok(Size::new(200, 50)), 1585),
+    let sizes: [(Size, usize); 3] = [
+        (Size::new(80, 24), 395),
+        (Size::new(120, 40), 1150),
+        (Size::new(200, 50), 1585),
     ];
     for (size, budget) in sizes {
         let mut counted = Counted::new(size);
         let bytes = at_the_initial_pace(&mut counted);
-        assert!(bytes <= budget, "{bytes} bytes per frame in {:?}", size());
+        assert!(bytes <= budget, "{bytes} bytes per frame in {size:?}");
         assert_eq!(counted.draw(), 0, "a paused screen sends something");
     }
 }
@@ -159,23 +134,23 @@ fn a_frame_in_motion_takes_few_bytes() {
 /// The indenter moves with every frame, the stress below it with every third.
 #[test]
 fn the_contact_in_motion_takes_few_bytes() {
-    let sizes: [(Tell, usize); 3] = [
-        (|| Ok(Size::new(80, 24)), 560),
-        (|| Ok(Size::new(120, 40)), 1655),
-        (|| Ok(Size::new(200, 50)), 2055),
+    let sizes: [(Size, usize); 3] = [
+        (Size::new(80, 24), 560),
+        (Size::new(120, 40), 1655),
+        (Size::new(200, 50), 2055),
     ];
     for (size, budget) in sizes {
         let mut counted = Counted::new(size);
         counted.frame("V");
         let bytes = at_the_initial_pace(&mut counted);
-        assert!(bytes <= budget, "{bytes} bytes per frame in {:?}", size());
+        assert!(bytes <= budget, "{bytes} bytes per frame in {size:?}");
         assert_eq!(counted.draw(), 0, "a paused screen sends something");
     }
 }
 
 #[test]
 fn stresses_in_the_half_space_take_few_bytes() {
-    let size = || Ok(Size::new(120, 40));
+    let size = Size::new(120, 40);
     let mut counted = Counted::new(size);
     counted.frame("");
     // The cross-section is among the nine panels of this screen, and shows stresses.
@@ -191,10 +166,10 @@ fn stresses_in_the_half_space_take_few_bytes() {
 /// pressed.
 #[test]
 fn calm_panels_are_never_three_frames_behind() {
-    let mut counted = Counted::new(|| Ok(Size::new(120, 40)));
+    let mut counted = Counted::new(Size::new(120, 40));
     counted.frame(",");
     let force = |counted: &Counted| {
-        let text = counted.text();
+        let text: String = counted.screen().content.iter().map(Cell::symbol).collect();
         let at = text.find("F_z   ").expect("the numbers");
         text[at..at + 40].to_owned()
     };
@@ -214,7 +189,7 @@ fn calm_panels_are_never_three_frames_behind() {
 
 #[test]
 fn what_stays_the_same_is_not_sent() {
-    let mut counted = Counted::new(|| Ok(Size::new(80, 24)));
+    let mut counted = Counted::new(Size::new(80, 24));
     assert!(counted.frame(",") > 1000);
     assert_eq!(counted.frame(""), 0);
     assert_eq!(counted.draw(), 0);
@@ -265,11 +240,10 @@ fn seen(parser: &Parser, row: u16, column: u16) -> String {
 
 /// The same cell as a terminal would show it if it were written by itself.
 fn meant(cell: &Cell) -> String {
-    let mut line = AnsiBackend::new(Vec::new(), || Ok(Size::new(COLUMNS as u16, ROWS as u16)));
-    ratatui::backend::Backend::draw(&mut line, [(0, 0, cell)].into_iter()).expect("a cell");
-    ratatui::backend::Backend::flush(&mut line).expect("a frame");
+    let mut screen = Buffer::empty(Rect::new(0, 0, COLUMNS as u16, ROWS as u16));
+    screen[(0, 0)] = cell.clone();
     let mut parser = terminal();
-    parser.process(line.get_ref());
+    parser.process(AnsiWriter::default().frame(screen).as_bytes());
     seen(&parser, 0, 0)
 }
 
@@ -284,18 +258,15 @@ proptest! {
     /// Whatever changes from frame to frame, the terminal ends up with the cells that were meant.
     #[test]
     fn a_terminal_shows_what_was_drawn(frames in prop::collection::vec(cells(), 1..6)) {
-        let mut line = line(|| Ok(Size::new(COLUMNS as u16, ROWS as u16)));
+        let mut line = AnsiWriter::default();
         let mut meant_cells = Buffer::empty(Rect::new(0, 0, COLUMNS as u16, ROWS as u16));
         let mut parser = terminal();
-        let mut read = 0;
         for changes in frames {
             for (at, sign, style) in changes {
                 meant_cells.content[at].reset();
                 meant_cells.content[at].set_char(sign).set_style(style);
             }
-            line.draw(|frame| frame.buffer_mut().clone_from(&meant_cells)).expect("a drawing");
-            parser.process(&line.backend().get_ref()[read..]);
-            read = sent(&line);
+            parser.process(line.frame(meant_cells.clone()).as_bytes());
             for (at, cell) in meant_cells.content.iter().enumerate() {
                 let (row, column) = (at / COLUMNS, at % COLUMNS);
                 prop_assert_eq!(seen(&parser, row as u16, column as u16), meant(cell), "{} {}", row, column);

@@ -28,18 +28,15 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
     let color = options.color.or(config.color);
     command::bind(config.keys);
     let directory = Path::new(&options.scenario);
-    let mut past = None;
-    let session = match &options.resume {
-        Some(file) => checkpoint::read::<IgnoredAny>(file)?.session,
+    let run = match &options.resume {
+        Some(file) => checkpoint::read::<IgnoredAny>(file)?.session.into(),
         None if directory.is_dir() => {
             if !options.changes.set.is_empty() {
                 let rule = "continues as it was saved, so --set changes nothing; give its \
                     scenario.toml to start anew";
                 bail!(Refusal::new(&options.scenario, rule));
             }
-            let opened = snapshot::open(directory).map_err(Refusal::from)?;
-            past = Some(opened.trend);
-            opened.session
+            snapshot::open(directory).map_err(Refusal::from)?
         }
         None => {
             let scenario = Scenario::load(&options.scenario, &options.changes.set)
@@ -48,10 +45,10 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
             if let Some(word) = found.warning {
                 complain(&word);
             }
-            Session::start(found.scenario)?
+            Session::start(found.scenario)?.into()
         }
     };
-    let reach = session.simulation().setup().grid.radius();
+    let reach = run.simulation().setup().grid.radius();
     let load = |given: &String| Source::load(given, reach).map_err(Refusal::from);
     let ghosts: Vec<Source> = options.overlay.iter().map(load).collect::<Result<_, _>>()?;
     if ghosts.len() > MOST {
@@ -60,9 +57,8 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
     }
     let keep_in = autosave::state_directory();
     let farewell = tui::run(Options {
-        running: options.resume.is_none() && past.is_none(),
-        session,
-        past,
+        running: options.resume.is_none() && !directory.is_dir(),
+        run,
         ghosts,
         keep_in,
         keep_every: options.checkpoint_every.0,

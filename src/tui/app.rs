@@ -301,7 +301,7 @@ impl App {
             match snapshot::open(path) {
                 Ok(opened) => {
                     self.forget_scales();
-                    self.order(|run| run.open(opened));
+                    self.order(|run| run.replace_run(opened));
                 }
                 Err(error) => self.notice = Some(error),
             }

@@ -2,36 +2,27 @@
 
 use std::time::{Duration, Instant};
 
-use crate::scenario::session::{Session, SessionError};
+use super::trend::Recorded;
 
 /// The second run, and what its steps have cost.
 #[derive(Debug, Clone)]
 pub(super) struct Beside {
-    session: Session,
+    pub run: Recorded,
     busy: Duration,
     steps: u64,
-    stopped: Option<String>,
+    /// Why it stopped, if it did.
+    pub stopped: Option<String>,
 }
 
 impl Beside {
-    /// A run that begins where `session` stands.
-    pub fn new(session: Session) -> Self {
+    /// A run that begins where `run` stands.
+    pub fn new(run: Recorded) -> Self {
         Self {
-            session,
+            run,
             busy: Duration::ZERO,
             steps: 0,
             stopped: None,
         }
-    }
-
-    /// The run.
-    pub fn session(&self) -> &Session {
-        &self.session
-    }
-
-    /// Why it stopped, if it did.
-    pub fn stopped(&self) -> Option<&str> {
-        self.stopped.as_deref()
     }
 
     /// What a step of it costs, s; none before the first.
@@ -41,40 +32,22 @@ impl Beside {
 
     /// Whether it is not yet at `cycle`.
     pub fn lags(&self, cycle: f64) -> bool {
-        self.stopped.is_none() && self.session.simulation().cycle() < cycle
+        self.stopped.is_none() && self.run.cycle() < cycle
     }
 
-    /// Steps to `cycle`, where the first run is, for about as long as `budget`: the first run may
-    /// have jumped over many cycles that this one has to step through. `on_step` sees every step.
-    pub fn follow_for(&mut self, cycle: f64, budget: Duration, on_step: impl FnMut(&Session)) {
-        self.step(cycle, cycle, budget, on_step);
-    }
-
-    /// The same, with steps that may lead past `cycle`, but not past `goal`.
-    pub fn follow_towards(&mut self, goal: f64, cycle: f64, budget: Duration) {
-        self.step(goal, cycle, budget, |_| {});
-    }
-
-    fn step(&mut self, goal: f64, cycle: f64, budget: Duration, mut on_step: impl FnMut(&Session)) {
-        if self.stopped.is_some() {
-            return;
-        }
-        let (start, before) = (Instant::now(), self.session.simulation().steps());
-        let mut stands = true;
-        let ended = self.session.advance_towards(goal, cycle, |session| {
-            // Whatever the budget, it takes a step.
-            if std::mem::take(&mut stands) {
-                return true;
+    /// Steps to `cycle`, where the first run is, for about as long as `budget`, but at least once: the first run may
+    /// have jumped over many cycles that this one has to step through. Steps may lead past `cycle`, but not past
+    /// `goal`.
+    pub fn follow(&mut self, goal: f64, cycle: f64, budget: Duration) {
+        let (start, before) = (Instant::now(), self.run.simulation().steps());
+        while self.lags(cycle) {
+            let stepped = self.run.step_until(goal);
+            self.stopped = stepped.err().map(|error| error.to_string());
+            if start.elapsed() >= budget {
+                break;
             }
-            on_step(session);
-            start.elapsed() < budget
-        });
-        if let Err(error) = ended
-            && !matches!(error, SessionError::Interrupted)
-        {
-            self.stopped = Some(error.to_string());
         }
         self.busy += start.elapsed();
-        self.steps += self.session.simulation().steps() - before;
+        self.steps += self.run.simulation().steps() - before;
     }
 }

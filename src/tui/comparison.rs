@@ -1,7 +1,5 @@
 //! A second run in lockstep with the first: another method, or the same on half the cells.
 
-use std::time::Duration;
-
 use super::beside::Beside;
 use super::frame::Comparison;
 use crate::math::abel::AbelMethod;
@@ -21,11 +19,11 @@ pub(super) enum From {
 /// The worker's side of a comparison.
 #[derive(Debug)]
 pub(super) struct ComparisonRun {
-    beside: Beside,
+    pub beside: Beside,
     /// Which of [`choices`] it is.
     choice: usize,
     /// Where it has begun.
-    from: From,
+    pub from: From,
 }
 
 impl ComparisonRun {
@@ -57,42 +55,26 @@ impl ComparisonRun {
             }
         };
         Ok(Self {
-            beside: Beside::new(session),
+            beside: Beside::new(session.into()),
             choice,
             from,
         })
     }
 
-    /// Where it has begun.
-    pub fn from(&self) -> From {
-        self.from
-    }
-
     /// Method and cells.
     pub fn name(&self) -> String {
-        let setup = self.beside.session().simulation().setup();
+        let setup = self.beside.run.simulation().setup();
         format!("{}, N = {}", setup.method.spoken(), setup.grid.cells())
-    }
-
-    /// Whether it is not yet at `cycle`.
-    pub fn lags(&self, cycle: f64) -> bool {
-        self.beside.lags(cycle)
-    }
-
-    /// Steps towards `cycle`, the cycle of the first run, for about `budget`: the first run may
-    /// have jumped over many cycles that this one has to step through.
-    pub fn follow_for(&mut self, cycle: f64, budget: Duration) {
-        self.beside.follow_for(cycle, budget, |_| {});
     }
 
     /// The part that the screen shows.
     pub fn seen(&self) -> Comparison {
-        let simulation = self.beside.session().simulation();
+        let simulation = self.beside.run.simulation();
         Comparison {
             name: self.name(),
             observation: simulation.observe(Curves::PROFILE | Curves::PRESSURE),
             step_cost: self.beside.step_cost(),
-            stopped: self.beside.stopped().map(str::to_owned),
+            stopped: self.beside.stopped.clone(),
         }
     }
 }

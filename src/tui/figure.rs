@@ -2,12 +2,11 @@
 
 use std::path::Path;
 
-use super::trend::Trend;
-use crate::charts::{Run, fretting_loop, profile, springs, stresses};
+use super::trend::Recorded;
+use crate::charts::{self, fretting_loop, profile, springs, stresses};
 use crate::export::target::{Target, write_all};
 use crate::figure::look::{Look, Style};
 use crate::figure::{Format, Sheet};
-use crate::scenario::session::Session;
 
 /// The font, mm: 8 points.
 const FONT: f64 = 8.0 * 25.4 / 72.0;
@@ -15,21 +14,21 @@ const FONT: f64 = 8.0 * 25.4 / 72.0;
 /// Resolution of a PNG in dots per inch.
 const DPI: f64 = 300.0;
 
-/// Draws the present state of `session` into the file, and writes what is drawn to the same name with
+/// Draws the present state of `of` into the file, and writes what is drawn to the same name with
 /// `.csv`.
 ///
 /// # Errors
 /// One line: a name of no known format, a file that exists already or cannot be written.
-pub(super) fn write(session: &Session, trend: &Trend, path: &Path) -> Result<(), String> {
+pub(super) fn write(of: &Recorded, path: &Path) -> Result<(), String> {
     let shown = path.display();
     let format = Format::of(path).ok_or(format!("{shown}: must end in .svg, .png or .pdf"))?;
     let beside = path.with_extension("csv");
     let claim = |path: &Path| Target::claim(path, false).map_err(|error| error.to_string());
     let (target, data_target) = (claim(path)?, claim(&beside)?);
-    let mut run = Run::default().of(session.scenario());
-    run.take_state(session);
-    run.loops
-        .push(trend.loops.last(session.simulation().cycle()));
+    let scenario = of.session.scenario();
+    let mut run = charts::Run::default().of(scenario);
+    run.take_state(&of.session);
+    run.loops.push(of.trend.loops.last(of.cycle()));
     let recipes = [
         &profile::RECIPE,
         &springs::RECIPE,
@@ -40,7 +39,7 @@ pub(super) fn write(session: &Session, trend: &Trend, path: &Path) -> Result<(),
         .iter()
         .filter_map(|recipe| recipe.on_paper(&run).ok());
     let sheet = Sheet {
-        title: session.scenario().title().to_owned(),
+        title: scenario.title().to_owned(),
         facts: run.facts(),
         charts: charts.collect(),
     };

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::beside::Beside;
-use super::trend::Trend;
+use super::trend::Recorded;
 use crate::export::state;
 use crate::reading::Curves;
 use crate::scenario::Scenario;
@@ -48,10 +48,9 @@ impl Source {
     }
 
     /// The present state of a run.
-    pub(super) fn frozen(session: &Session, trend: &Trend) -> Self {
-        let cycle = session.simulation().cycle();
-        let name = format!("cycle {cycle:.2}");
-        Self::Still(Arc::new(ghost(&name, session, trend, Curves::all())))
+    pub(super) fn frozen(run: &Recorded) -> Self {
+        let name = format!("cycle {:.2}", run.cycle());
+        Self::Still(Arc::new(ghost(&name, run, Curves::all())))
     }
 
     /// What legends call it.
@@ -81,12 +80,7 @@ impl Source {
     pub(super) fn seen(&self, curves: Curves) -> Arc<Ghost> {
         match self {
             Self::Still(ghost) => Arc::clone(ghost),
-            Self::Run(run) => Arc::new(ghost(
-                &run.shown_name(),
-                run.beside.session(),
-                &run.trend,
-                curves,
-            )),
+            Self::Run(run) => Arc::new(ghost(&run.shown_name(), &run.beside.run, curves)),
         }
     }
 }
@@ -98,7 +92,6 @@ pub struct GhostRun {
     /// As it was before its first step: where it begins again when the screen goes back in time.
     start: Session,
     beside: Beside,
-    trend: Trend,
 }
 
 impl GhostRun {
@@ -108,32 +101,27 @@ impl GhostRun {
         let start = Session::start(resolved.scenario).map_err(|error| error.to_string())?;
         Ok(Self {
             name: scenario.stem(),
-            beside: Beside::new(start.clone()),
-            trend: Trend::from(&start),
+            beside: Beside::new(start.clone().into()),
             start,
         })
     }
 
     /// Whether the screen has gone back in time.
     fn is_ahead(&self, cycle: f64) -> bool {
-        self.beside.session().simulation().cycle() > cycle + 1e-9
+        self.beside.run.cycle() > cycle + 1e-9
     }
 
     fn follow_for(&mut self, cycle: f64, budget: Duration) {
         if self.is_ahead(cycle) {
-            self.beside = Beside::new(self.start.clone());
-            self.trend = Trend::from(&self.start);
+            self.beside = Beside::new(self.start.clone().into());
         }
-        let Self { beside, trend, .. } = self;
-        beside.follow_for(cycle, budget, |session| {
-            trend.record(session);
-        });
+        self.beside.follow(cycle, cycle, budget);
     }
 
     fn shown_name(&self) -> String {
-        match self.beside.stopped() {
+        match self.beside.stopped {
             Some(_) => {
-                let cycle = self.beside.session().simulation().cycle();
+                let cycle = self.beside.run.cycle();
                 format!("{} (ends at {cycle:.2})", self.name)
             }
             None => self.name.clone(),
@@ -141,14 +129,14 @@ impl GhostRun {
     }
 }
 
-fn ghost(name: &str, session: &Session, trend: &Trend, curves: Curves) -> Ghost {
-    let seen = session.simulation().observe(curves);
+fn ghost(name: &str, run: &Recorded, curves: Curves) -> Ghost {
+    let seen = run.simulation().observe(curves);
     let mut ghost = Ghost::new(name);
     let columns = state::columns(&seen);
     ghost.tables.push(Table::of_columns(Vec::new(), columns));
-    ghost.tables.push(trend.history());
+    ghost.tables.push(run.trend.history());
     if seen.moment.stick_radius.is_some() {
-        let last = trend.loops.last(seen.moment.cycle);
+        let last = run.trend.loops.last(seen.moment.cycle);
         ghost.take_loop(last.shifts, last.forces);
     }
     ghost

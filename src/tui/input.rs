@@ -98,10 +98,11 @@ pub fn listen(events: &Sender<Event>, waiting: &Arc<Waiting>, capture: Capture) 
                 Input::Paste(text) => Some(Event::Paste(text)).filter(|_| waiting.enter()),
                 Input::Ready => Some(Event::Ready),
                 Input::Background(color) => Some(Event::Background(color)),
-                Input::Mouse(event) if capture == Capture::Clicks => {
-                    mouse.gesture(&event, Instant::now()).map(Event::Point)
+                Input::Point(gesture) if capture == Capture::Clicks => {
+                    let gesture = mouse.together(gesture, Instant::now());
+                    gesture.map(Event::Point)
                 }
-                Input::Mouse(_) => None,
+                Input::Point(_) => None,
             };
             if event.is_some_and(|event| events.send(event).is_err()) {
                 return;

@@ -5,6 +5,8 @@
 
 use std::fmt;
 
+use strum::{EnumString, IntoStaticStr};
+
 /// One key press.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Key {
@@ -17,11 +19,12 @@ pub enum Key {
 }
 
 /// Keys without a character of their own.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, EnumString, IntoStaticStr)]
 pub enum Named {
     /// The tabulator.
     Tab,
     /// Shift and the tabulator.
+    #[strum(serialize = "S-Tab")]
     BackTab,
     /// Escape.
     Esc,
@@ -49,23 +52,6 @@ pub enum Named {
     Delete,
 }
 
-const NAMED: [(Named, &str); 14] = [
-    (Named::Tab, "Tab"),
-    (Named::BackTab, "S-Tab"),
-    (Named::Esc, "Esc"),
-    (Named::Enter, "Enter"),
-    (Named::Backspace, "Backspace"),
-    (Named::Up, "Up"),
-    (Named::Down, "Down"),
-    (Named::Left, "Left"),
-    (Named::Right, "Right"),
-    (Named::Home, "Home"),
-    (Named::End, "End"),
-    (Named::PageUp, "PageUp"),
-    (Named::PageDown, "PageDown"),
-    (Named::Delete, "Delete"),
-];
-
 impl Key {
     /// The key with a name as it stands between angle brackets.
     fn of_name(name: &str) -> Option<Self> {
@@ -81,10 +67,7 @@ impl Key {
                 _ => None,
             };
         }
-        NAMED
-            .iter()
-            .find(|(_, text)| *text == name)
-            .map(|(named, _)| Self::Named(*named))
+        name.parse().ok().map(Self::Named)
     }
 }
 
@@ -96,13 +79,7 @@ impl fmt::Display for Key {
             Self::Char(character) => write!(formatter, "{character}"),
             Self::Ctrl(character) => write!(formatter, "Ctrl-{}", character.to_ascii_uppercase()),
             Self::Named(Named::BackTab) => formatter.write_str("Shift-Tab"),
-            Self::Named(named) => {
-                let name = NAMED
-                    .iter()
-                    .find(|(key, _)| key == named)
-                    .map_or("", |(_, name)| name);
-                formatter.write_str(name)
-            }
+            Self::Named(named) => formatter.write_str(named.into()),
         }
     }
 }

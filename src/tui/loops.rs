@@ -39,17 +39,6 @@ impl Loops {
         }
     }
 
-    /// The loops as they were at `cycle`, when `steps` were the last ones.
-    pub fn until(&self, cycle: f64, steps: &Steps) -> Self {
-        let mut kept = self.kept.clone();
-        kept.retain(|one| one.end <= cycle + 1e-9);
-        Self {
-            steps: steps.clone(),
-            kept,
-            apart: self.apart,
-        }
-    }
-
     /// Takes in the moment after a step.
     pub fn record(&mut self, moment: &Moment) {
         let sensed = moment.rig_displacement.unwrap_or(f64::NAN);
@@ -120,8 +109,6 @@ mod tests {
         assert!(1000.0 - cycles[cycles.len() - 1] < steps[0]);
         let mut points = loops.kept().iter().map(|kept| kept.shifts.len());
         assert!(points.all(|points| (50..=66).contains(&points)));
-        let before = loops.until(500.0, &Steps::new());
-        assert!(before.kept().iter().all(|kept| kept.end <= 500.0) && before.kept().len() > 3);
     }
 
     /// The sensor's loop begins where a rig is mounted.

@@ -18,7 +18,6 @@ use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
-use crate::scenario::session::Session;
 use anyhow::{Result, bail};
 
 pub mod ansi_writer;
@@ -83,6 +82,7 @@ use refinement_check::RefinementCheck;
 pub use script::{Format, Script, Size, Stroke, rehearse};
 pub use terminal::Capture;
 use theme::{Depth, Look, Theme};
+use trend::Recorded;
 use worker::{Orders, Worker, WorkerThread};
 
 /// The default preset, whose tour begins by itself.
@@ -129,10 +129,8 @@ pub enum Event {
 
 /// What the explorer is opened with.
 pub struct Options {
-    /// The session to show.
-    pub session: Session,
-    /// What is known of its past.
-    pub past: Option<trend::Trend>,
+    /// The run to show.
+    pub run: Recorded,
     /// What lies over the plots.
     pub ghosts: Vec<ghosts::Source>,
     /// Whether it runs at once.
@@ -173,7 +171,7 @@ pub fn run(options: Options) -> Result<Farewell> {
     }
     let theme = theme(&options);
     let is_first = is_first_time(&options);
-    let origin = options.session.loaded().origin().to_owned();
+    let origin = options.run.session.loaded().origin().to_owned();
     let (orders, to_worker) = Orders::channel();
     let (events, from_threads) = channel();
     let slot = Arc::new(Slot::default());
@@ -181,16 +179,15 @@ pub fn run(options: Options) -> Result<Farewell> {
     let keeping = options
         .keep_in
         .filter(|_| options.script.is_none())
-        .map(|directory| ScreenAutosave::new(directory, options.keep_every, &options.session))
+        .map(|directory| ScreenAutosave::new(directory, options.keep_every, &options.run.session))
         .map(|keeping| Arc::new(Mutex::new(keeping)));
     let worker = Worker::new(
-        options.session,
+        options.run,
         Arc::clone(&slot),
         events.clone(),
         interval,
         options.running && options.script.is_none(),
     )
-    .with_past(options.past)
     .with_ghosts(options.ghosts);
     let mut app = App::new(theme, orders.clone());
     if options.present {

@@ -3,7 +3,6 @@
 
 use std::time::{Duration, Instant};
 
-use crossterm::event::{MouseButton, MouseEvent, MouseEventKind};
 use ratatui::layout::Position;
 
 use super::app::App;
@@ -27,7 +26,7 @@ pub enum Gesture {
     WheelDown,
 }
 
-/// Turns mouse events into gestures.
+/// Tells single clicks from double ones.
 #[derive(Debug, Default)]
 pub struct Mouse {
     /// When and where the last click was, and how many belong together with it.
@@ -35,19 +34,11 @@ pub struct Mouse {
 }
 
 impl Mouse {
-    /// What an event at `now` means; `None` for releases, other buttons, and a third click.
-    pub fn gesture(&mut self, event: &MouseEvent, now: Instant) -> Option<Gesture> {
-        match event.kind {
-            MouseEventKind::Down(MouseButton::Left) => {
-                self.click(Position::new(event.column, event.row), now)
-            }
-            MouseEventKind::ScrollUp => Some(Gesture::WheelUp),
-            MouseEventKind::ScrollDown => Some(Gesture::WheelDown),
-            _ => None,
-        }
-    }
-
-    fn click(&mut self, at: Position, now: Instant) -> Option<Gesture> {
+    /// What a gesture at `now` is together with those before; `None` for a third click.
+    pub fn together(&mut self, gesture: Gesture, now: Instant) -> Option<Gesture> {
+        let Gesture::Click(at) = gesture else {
+            return Some(gesture);
+        };
         let before = match self.last {
             Some((then, place, count)) if place == at && now - then < TOGETHER => count,
             _ => 0,
@@ -129,7 +120,11 @@ mod tests {
             (1250, here, Some(Gesture::Click(here))),
         ] {
             let now = start + Duration::from_millis(after);
-            assert_eq!(mouse.click(place, now), expected, "after {after} ms");
+            assert_eq!(
+                mouse.together(Gesture::Click(place), now),
+                expected,
+                "after {after} ms"
+            );
         }
     }
 }

@@ -96,14 +96,13 @@ impl Clock {
     }
 }
 
-/// Compares the clock with the requested pace.
+/// Compares the clock with the requested pace, from a moment of the run on.
 #[derive(Debug)]
 pub(super) struct Meter {
-    start: Instant,
-    start_cycle: f64,
-    window: Instant,
-    window_cycle: f64,
-    window_steps: u64,
+    since: Instant,
+    cycle: f64,
+    steps: u64,
+    /// How long the run has stepped since.
     busy: Duration,
     /// Cycles per second; `None` until measured.
     pub speed: Option<f64>,
@@ -113,13 +112,10 @@ pub(super) struct Meter {
 
 impl Default for Meter {
     fn default() -> Self {
-        let now = Instant::now();
         Self {
-            start: now,
-            start_cycle: 0.0,
-            window: now,
-            window_cycle: 0.0,
-            window_steps: 0,
+            since: Instant::now(),
+            cycle: 0.0,
+            steps: 0,
             busy: Duration::ZERO,
             speed: None,
             step_cost: None,
@@ -128,46 +124,36 @@ impl Default for Meter {
 }
 
 impl Meter {
-    /// Forgets how far ahead or behind the run is.
-    pub fn restart(&mut self, cycle: f64) {
-        self.start = Instant::now();
-        self.start_cycle = cycle;
-        self.window = self.start;
-        self.window_cycle = cycle;
-        self.busy = Duration::ZERO;
-        self.window_steps = u64::MAX;
+    /// Begins anew where the run stands: how far it was ahead or behind is forgotten.
+    pub fn restart(&mut self, simulation: &Simulation) {
+        *self = Self {
+            since: Instant::now(),
+            cycle: simulation.cycle(),
+            steps: simulation.steps(),
+            busy: Duration::ZERO,
+            ..*self
+        };
     }
 
     /// Seconds until `cycle` is due at `pace` cycles per second.
     pub fn ahead(&self, cycle: f64, pace: f64) -> f64 {
-        (cycle - self.start_cycle) / pace - self.start.elapsed().as_secs_f64()
+        (cycle - self.cycle) / pace - self.since.elapsed().as_secs_f64()
     }
 
-    /// Takes in a stint that ended at `cycle` after `steps` in all.
-    pub fn measure(&mut self, cycle: f64, steps: u64, busy: Duration) {
-        if self.window_steps > steps {
-            self.window_steps = steps;
-            self.window_cycle = cycle;
-            self.busy = Duration::ZERO;
-            return;
-        }
+    /// Takes in a stint of a run that has led to where it stands.
+    pub fn measure(&mut self, simulation: &Simulation, busy: Duration) {
         self.busy += busy;
-        let elapsed = self.window.elapsed().as_secs_f64();
+        let elapsed = self.since.elapsed().as_secs_f64();
         if elapsed < 0.5 {
             return;
         }
-        let taken = steps - self.window_steps;
-        self.speed = Some((cycle - self.window_cycle) / elapsed);
+        let taken = simulation.steps() - self.steps;
+        self.speed = Some((simulation.cycle() - self.cycle) / elapsed);
         if taken > 0 {
             self.step_cost = Some(self.busy.as_secs_f64() / taken as f64);
         }
         // A machine that cannot keep the pace does not have to catch up.
-        self.start = Instant::now();
-        self.start_cycle = cycle;
-        self.window = self.start;
-        self.window_cycle = cycle;
-        self.window_steps = steps;
-        self.busy = Duration::ZERO;
+        self.restart(simulation);
     }
 }
 

@@ -3,11 +3,12 @@
 //! `vte` parses the bytes; this module adds what a keyboard needs. A lone Escape is told from the
 //! start of a sequence by the pause after it. Ctrl-C is recognised in any state of the parser.
 
-use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
+use ratatui::layout::Position;
 use vte::{Params, Parser, Perform};
 
 use super::keys::{Key, Named};
 use super::line;
+use super::mouse::Gesture;
 
 /// The pause after which an Escape is a key, milliseconds.
 const LONE_ESCAPE: u16 = 25;
@@ -25,8 +26,8 @@ pub enum Input {
     Key(Key),
     /// Text that was pasted, cut to the longest line.
     Paste(String),
-    /// The mouse.
-    Mouse(MouseEvent),
+    /// A click, or a turn of the wheel.
+    Point(Gesture),
     /// The status report: the terminal has read everything sent before the request.
     Ready,
     /// The background, as red, green and blue.
@@ -165,18 +166,15 @@ impl Found {
 
     /// Presses and the wheel, as mode 1006 tells them; columns and rows count from 1 there.
     fn mouse(&mut self, [button, column, row]: [u16; 3], is_press: bool) {
-        let kind = match (button, is_press) {
-            (0, true) => MouseEventKind::Down(MouseButton::Left),
-            (64, true) => MouseEventKind::ScrollUp,
-            (65, true) => MouseEventKind::ScrollDown,
+        let at = Position::new(column.saturating_sub(1), row.saturating_sub(1));
+        let gesture = match button {
+            0 => Gesture::Click(at),
+            64 => Gesture::WheelUp,
+            65 => Gesture::WheelDown,
             _ => return,
         };
-        self.inputs.push(Input::Mouse(MouseEvent {
-            kind,
-            column: column.saturating_sub(1),
-            row: row.saturating_sub(1),
-            modifiers: KeyModifiers::NONE,
-        }));
+        self.inputs
+            .extend(is_press.then_some(Input::Point(gesture)));
     }
 }
 
@@ -361,18 +359,8 @@ mod tests {
     #[test]
     fn clicks_and_the_wheel_are_read() {
         let inputs = read(&[b"\x1b[<0;3;4M\x1b[<0;3;4m\x1b[<65;300;1M"]);
-        let kinds: Vec<_> = inputs
-            .iter()
-            .map(|input| match input {
-                Input::Mouse(event) => (event.kind, event.column, event.row),
-                other => panic!("{other:?}"),
-            })
-            .collect();
-        let expected = [
-            (MouseEventKind::Down(MouseButton::Left), 2, 3),
-            (MouseEventKind::ScrollDown, 299, 0),
-        ];
-        assert_eq!(kinds, expected);
+        let click = Gesture::Click(Position::new(2, 3));
+        assert_eq!(inputs, [click, Gesture::WheelDown].map(Input::Point));
     }
 
     #[test]

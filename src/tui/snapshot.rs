@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use serde::de::IgnoredAny;
 
-use super::trend::{self, Cycle, Trend};
+use super::trend::{self, Cycle, Recorded, Trend};
 use crate::export::file::{RUN_CHECKPOINT, RunDirectory, WriteError};
 use crate::export::header::{field as written, lines, number};
 use crate::export::{history, own, state};
@@ -26,29 +26,16 @@ const HEADER: usize = 50;
 /// And the most bytes.
 const LONGEST_HEADER: u64 = 1 << 20;
 
-/// A state to go on from, with its past as far as it is known.
-#[derive(Debug)]
-pub struct Opened {
-    /// The run.
-    pub session: Session,
-    /// The cycles and the loop before.
-    pub trend: Trend,
-}
-
-/// Writes `session` to a new directory, with the user's note, and returns the path of the state.
-pub(super) fn write(
-    session: &Session,
-    trend: &Trend,
-    note: Option<&str>,
-) -> Result<PathBuf, WriteError> {
+/// Writes the state of `run` to a new directory, with the user's note, and returns the path of the state.
+pub(super) fn write(run: &Recorded, note: Option<&str>) -> Result<PathBuf, WriteError> {
     // The note is about this state: what goes on from it does not carry it.
-    let kept = checkpoint::encode(session, None::<&()>);
-    let noted = note.map(|note| session.noted(note));
-    let session = noted.as_ref().unwrap_or(session);
+    let kept = checkpoint::encode(&run.session, None::<&()>);
+    let noted = note.map(|note| run.session.noted(note));
+    let session = noted.as_ref().unwrap_or(&run.session);
     let cycle = number(session.simulation().cycle());
     let stem = session.loaded().stem();
     let directory = RunDirectory::claim_new(&format!("{stem}-cycle-{cycle}"))?;
-    let written = fill(&directory, session, trend, &kept);
+    let written = fill(&directory, session, &run.trend, &kept);
     if written.is_err() {
         // Nothing half: the directory goes with its last file.
         for name in FILES {
@@ -146,11 +133,11 @@ pub(super) fn about(path: &Path) -> Option<String> {
     ))
 }
 
-/// Opens the state in a directory.
+/// Opens the state in a directory, with its past as far as it is known.
 ///
 /// # Errors
 /// One line: a directory without such a state, a checkpoint that is torn or of another version.
-pub fn open(directory: &Path) -> Result<Opened, String> {
+pub fn open(directory: &Path) -> Result<Recorded, String> {
     let Some(path) = checkpoint_in(directory) else {
         let shown = printable(&directory.display().to_string());
         return Err(format!(
@@ -160,9 +147,10 @@ pub fn open(directory: &Path) -> Result<Opened, String> {
     let kept = checkpoint::read::<IgnoredAny>(&path).map_err(|error| error.to_string())?;
     let session = kept.session;
     let moment = session.simulation().moment();
-    let trend = past(directory, moment.cycle, moment.initial_volume)
-        .unwrap_or_else(|| Trend::from(&session));
-    Ok(Opened { session, trend })
+    Ok(match past(directory, moment.cycle, moment.initial_volume) {
+        Some(trend) => Recorded { session, trend },
+        None => session.into(),
+    })
 }
 
 /// The past up to `cycle` as the tables beside a checkpoint tell of it.

@@ -1,14 +1,55 @@
-//! The explorer's record of the past, cycle by cycle: older ones ever more coarsely.
+//! The explorer's record of a run, cycle by cycle: older ones ever more coarsely.
 
 use std::sync::Arc;
 
-use super::loops::{Loops, Steps};
+use super::loops::Loops;
 use crate::export::history;
 use crate::math::scan::largest;
 use crate::reading::Moment;
 use crate::scenario::scalars::{self, Reading, Value, scar_radius};
-use crate::scenario::session::Session;
+use crate::scenario::session::{Session, SessionError};
+use crate::simulation::Simulation;
 use crate::traces::Table;
+
+/// A run, and what is known of its past.
+#[derive(Debug, Clone)]
+pub struct Recorded {
+    /// The run.
+    pub session: Session,
+    /// Its past.
+    pub trend: Trend,
+}
+
+impl From<Session> for Recorded {
+    /// The record begins with the present moment.
+    fn from(session: Session) -> Self {
+        let mut trend = Trend::default();
+        trend.record(&session);
+        Self { session, trend }
+    }
+}
+
+impl Recorded {
+    /// The simulation.
+    pub fn simulation(&self) -> &Simulation {
+        self.session.simulation()
+    }
+
+    /// Where it stands.
+    pub fn cycle(&self) -> f64 {
+        self.simulation().cycle()
+    }
+
+    /// One step or jump that ends at `goal` at the latest, and is recorded.
+    ///
+    /// # Errors
+    /// Whatever stops the run.
+    pub fn step_until(&mut self, goal: f64) -> Result<(), SessionError> {
+        self.session.step_until(goal)?;
+        self.trend.record(&self.session);
+        Ok(())
+    }
+}
 
 /// Maximum number of cycles stored one by one; then neighbours are merged in pairs.
 const CAPACITY: usize = 2048;
@@ -19,7 +60,7 @@ type Merge = fn(f64, f64) -> f64;
 const LAST: Merge = |_, later| later;
 
 /// The columns of a history, by their names in `history.csv` where they are there.
-pub const COLUMNS: [(&str, Merge); 12] = [
+pub const COLUMNS: [(&str, Merge); 11] = [
     ("cycle", LAST),
     ("contact_radius_m", f64::max),
     ("permanent_stick_radius_m", f64::min),
@@ -32,14 +73,11 @@ pub const COLUMNS: [(&str, Merge); 12] = [
     // Of the last whole cycle.
     ("u_x_amplitude_m", LAST),
     ("mean_F_z_N", LAST),
-    // On average over the entry.
-    ("wear_rate_m3", LAST),
 ];
 
 const VOLUME: usize = 3;
 const AMPLITUDE: usize = 9;
 const LOAD: usize = 10;
-const RATE: usize = 11;
 
 /// One cycle, or several that were merged; NaN where a value is not known.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,49 +94,22 @@ impl Cycle {
         self.values[0]
     }
 
-    fn merged(mut self, later: Self) -> Self {
+    fn merged(&self, later: &Self) -> Self {
+        let mut values = later.values;
         for (k, (_, merge)) in COLUMNS.into_iter().enumerate() {
-            self.values[k] = merge(self.values[k], later.values[k]);
+            values[k] = merge(self.values[k], values[k]);
         }
-        self.fields = later.fields;
-        self
-    }
-
-    /// The same with the volume worn in a cycle since `before`: a cycle and the volume then.
-    fn since(mut self, [start, volume]: [f64; 2]) -> Self {
-        let lasts = self.end() - start;
-        self.values[RATE] = match lasts > 0.0 {
-            true => (self.values[VOLUME] - volume) / lasts,
-            false => f64::NAN,
-        };
-        self
+        let fields = later.fields.clone();
+        Self { values, fields }
     }
 }
 
-/// The part of a [`Trend`] that is lost when it is cut back to an earlier cycle.
-#[derive(Debug, Clone, Default)]
-pub struct Tip {
-    open: Option<Cycle>,
-    steps: Steps,
-}
-
-impl Tip {
-    /// Its memory, bytes.
-    pub fn bytes(&self) -> usize {
-        bytes(&self.steps)
-    }
-}
-
-fn bytes(steps: &Steps) -> usize {
-    size_of::<[f64; 4]>() * steps.len()
-}
-
-/// The past of a run.
+/// The past of a run. Copies share the cycles.
 #[derive(Debug, Clone, Default)]
 pub struct Trend {
-    cycles: Vec<Cycle>,
+    cycles: Vec<Arc<Cycle>>,
     /// The unfinished one.
-    open: Option<Cycle>,
+    open: Option<Arc<Cycle>>,
     /// How many cycles an entry stands for.
     stride: f64,
     step_cost: Option<f64>,
@@ -111,13 +122,6 @@ pub struct Trend {
 }
 
 impl Trend {
-    /// The past of a run that begins with the present moment of `session`.
-    pub fn from(session: &Session) -> Self {
-        let mut trend = Self::default();
-        trend.record(session);
-        trend
-    }
-
     /// A past of `cycles`, oldest first, and of the steps of the last one: cycle, u_x⁽⁰⁾ (m), F_x (N).
     /// The run began with a worn volume `initial` (m³).
     pub fn of_past(
@@ -125,28 +129,17 @@ impl Trend {
         steps: Vec<[f64; 3]>,
         initial: f64,
     ) -> Self {
-        let start = [0.0, initial];
-        let mut trend = Self {
-            start: Some(start),
+        let mut cycles: Vec<_> = cycles.take(CAPACITY - 1).map(Arc::new).collect();
+        // What is not whole yet stays open.
+        let whole = cycles.iter().rev().nth(1).map_or(0.0, |entry| entry.end());
+        let is_open = |last: &mut Arc<Cycle>| last.end() < whole + 1.0 - 1e-9;
+        Self {
+            open: cycles.pop_if(is_open),
+            cycles,
+            start: Some([0.0, initial]),
             loops: Loops::of_steps(steps),
             ..Self::default()
-        };
-        for entry in cycles.take(CAPACITY - 1) {
-            let entry = entry.since(trend.before().unwrap_or(start));
-            trend.cycles.push(entry);
         }
-        // What is not whole yet stays open.
-        let whole = trend.cycles.iter().rev().nth(1).map_or(0.0, Cycle::end);
-        if (trend.cycles.last()).is_some_and(|last| last.end() < whole + 1.0 - 1e-9) {
-            trend.open = trend.cycles.pop();
-        }
-        trend
-    }
-
-    /// The end of the last entry, and the worn volume there.
-    fn before(&self) -> Option<[f64; 2]> {
-        let last = self.cycles.last();
-        last.map(|entry| [entry.end(), entry.values[VOLUME]])
     }
 
     /// Sets the time per step from now on, s.
@@ -154,51 +147,31 @@ impl Trend {
         self.step_cost = step_cost;
     }
 
-    /// The part that is lost when the trend is cut back to an earlier cycle.
-    pub fn tip(&self) -> Tip {
-        Tip {
-            open: self.open.clone(),
-            steps: self.loops.steps.clone(),
-        }
+    /// Its memory beside that of an earlier one, with which it shares its first cycles or none; bytes.
+    pub fn bytes_beside(&self, earlier: Option<&Self>) -> usize {
+        let first = |trend: &Self| trend.cycles.first().map(Arc::as_ptr);
+        let earlier = earlier.filter(|earlier| first(earlier) == first(self));
+        let shared = earlier.map_or(0, |earlier| earlier.cycles.len());
+        let fields = 32 * history::COLUMNS.len();
+        let own = self.cycles.len().saturating_sub(shared) * (size_of::<Cycle>() + fields);
+        let places = size_of::<Arc<Cycle>>() * self.cycles.len();
+        own + places + size_of::<[f64; 4]>() * self.loops.steps.len()
     }
 
-    /// Its memory, bytes.
-    pub fn bytes(&self) -> usize {
-        let fields = self.cycles.iter().flat_map(|entry| entry.fields.iter());
-        let fields: usize = fields.map(|fields| 32 * fields.len()).sum();
-        size_of_val(self.cycles.as_slice()) + fields + bytes(&self.loops.steps)
-    }
-
-    /// The trend as it was at `cycle`, where it had this tip.
-    pub fn until(&self, cycle: f64, tip: &Tip) -> Self {
-        let before = self.cycles.iter();
-        Self {
-            cycles: before
-                .take_while(|entry| entry.end() <= cycle + 1e-9)
-                .cloned()
-                .collect(),
-            open: tip.open.clone(),
-            loops: self.loops.until(cycle, &tip.steps),
-            condition: None,
-            ..*self
-        }
-    }
-
-    /// Takes in the moment after a step; returns true where it ends an entry, of which [`end`](Self::end) tells
-    /// more.
-    pub fn record(&mut self, session: &Session) -> bool {
+    /// Takes in the moment after a step.
+    pub fn record(&mut self, session: &Session) {
         let simulation = session.simulation();
         let radius = scar_radius(simulation).unwrap_or(f64::NAN);
-        self.take(
-            &simulation.moment(),
-            [largest(simulation.worn_depth()), radius],
-        )
+        let scar = [largest(simulation.worn_depth()), radius];
+        if self.take(&simulation.moment(), scar) {
+            self.end(&Reading::new(session));
+        }
     }
 
-    /// The same of a moment, and of the largest worn depth and the outer radius of the scar then, m.
+    /// Takes in a moment, and the largest worn depth and the outer radius of the scar then, m; returns true where it
+    /// ends an entry.
     fn take(&mut self, moment: &Moment, [depth, radius]: [f64; 2]) -> bool {
-        let first = [moment.cycle, moment.wear_volume];
-        let first = *self.start.get_or_insert(first);
+        let [start, _] = *self.start.get_or_insert([moment.cycle, moment.wear_volume]);
         self.loops.record(moment);
         let [amplitude, load] = self.condition.unwrap_or([f64::NAN; 2]);
         let now = Cycle {
@@ -214,33 +187,33 @@ impl Trend {
                 self.step_cost.unwrap_or(f64::NAN),
                 amplitude,
                 load,
-                f64::NAN,
             ],
             fields: None,
         };
-        let before = self.before().unwrap_or(first);
         let merged = match self.open.take() {
-            Some(open) => open.merged(now),
+            Some(open) => open.merged(&now),
             None => now,
         };
-        let merged = merged.since(before);
-        if merged.end() < before[0] + self.stride.max(1.0) - 1e-9 {
+        let merged = Arc::new(merged);
+        let before = self.cycles.last().map_or(start, |last| last.end());
+        if merged.end() < before + self.stride.max(1.0) - 1e-9 {
             self.open = Some(merged);
             return false;
         }
         self.cycles.push(merged);
         if self.cycles.len() >= CAPACITY {
-            let pairs = self.cycles.chunks(2);
-            self.cycles = pairs
-                .filter_map(|pair| pair.iter().cloned().reduce(Cycle::merged))
-                .collect();
+            let pairs = self.cycles.chunks(2).map(|pair| match pair {
+                [one, other] => Arc::new(one.merged(other)),
+                alone => Arc::clone(&alone[0]),
+            });
+            self.cycles = pairs.collect();
             self.stride = 2.0 * self.stride.max(1.0);
         }
         true
     }
 
     /// Notes the end of the last entry, which is the moment that is read.
-    pub fn end(&mut self, reading: &Reading) {
+    fn end(&mut self, reading: &Reading) {
         let condition = [AMPLITUDE, LOAD].map(|k| {
             let scalar = scalars::find(COLUMNS[k].0);
             match scalar.map(|scalar| scalar.read(reading)) {
@@ -249,7 +222,7 @@ impl Trend {
             }
         });
         self.condition = Some(condition);
-        if let Some(entry) = self.cycles.last_mut() {
+        if let Some(entry) = self.cycles.last_mut().map(Arc::make_mut) {
             [entry.values[AMPLITUDE], entry.values[LOAD]] = condition;
             entry.fields = Some(Arc::new(history::fields(reading)));
         }
@@ -257,7 +230,7 @@ impl Trend {
 
     /// The cycles so far, the unfinished one included, oldest first.
     pub fn cycles(&self) -> impl Iterator<Item = &Cycle> {
-        self.cycles.iter().chain(&self.open)
+        self.cycles.iter().chain(&self.open).map(Arc::as_ref)
     }
 
     /// Whether the last of them is unfinished.
@@ -265,14 +238,20 @@ impl Trend {
         self.open.is_some()
     }
 
-    /// The cycles so far as columns.
+    /// The cycles so far as columns, and the volume that is worn in a cycle, on average over each entry.
     pub fn history(&self) -> Table {
         let columns = COLUMNS.into_iter().enumerate();
         let columns = columns.map(|(k, (name, _))| {
             let values = self.cycles().map(|entry| entry.values[k]);
             (name, values.collect())
         });
-        Table::of_columns(Vec::new(), columns)
+        let start = self.start.unwrap_or_default();
+        let rates = self.cycles().scan(start, |before, entry| {
+            let [cycle, volume] = std::mem::replace(before, [entry.end(), entry.values[VOLUME]]);
+            Some((before[1] - volume) / (before[0] - cycle))
+        });
+        let rates = ("wear_rate_m3", rates.collect());
+        Table::of_columns(Vec::new(), columns.chain([rates]))
     }
 }
 

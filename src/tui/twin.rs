@@ -30,7 +30,7 @@ impl Twin {
     pub fn of(session: &Session) -> Option<Self> {
         session.simulation().setup().wear?;
         let mut twin = Self {
-            beside: Beside::new(refinement::twin(session)?.ok()?),
+            beside: Beside::new(refinement::twin(session)?.ok()?.into()),
             due: 1.0,
             run: None,
             error: None,
@@ -48,7 +48,7 @@ impl Twin {
     pub fn look_at(&mut self, session: &Session, must: bool) {
         let cycle = session.simulation().cycle();
         let is_due = self.run.is_none() && cycle >= self.due;
-        let is_ahead = self.beside.session().simulation().cycle() > cycle;
+        let is_ahead = self.beside.run.cycle() > cycle;
         if cycle > 0.0 && (is_due || must) && !is_ahead {
             self.due = cycle;
             self.run = Some(Outcome::of(session));
@@ -62,11 +62,10 @@ impl Twin {
 
     /// Steps towards the next comparison for about `budget`, but not past the run, which is at `cycle`.
     pub fn follow_for(&mut self, cycle: f64, budget: Duration) {
-        self.beside
-            .follow_towards(self.due, cycle.min(self.due), budget);
-        let is_there = self.beside.session().simulation().cycle() >= self.due;
+        self.beside.follow(self.due, cycle.min(self.due), budget);
+        let is_there = self.beside.run.cycle() >= self.due;
         if let Some(run) = self.run.take_if(|_| is_there) {
-            let twin = Outcome::of(self.beside.session());
+            let twin = Outcome::of(&self.beside.run.session);
             self.error = Some(refinement::by_twin(&twin, &run).promised());
             self.due = (NEXT * self.due).ceil().max(self.due.floor() + 1.0);
         }

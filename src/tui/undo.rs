@@ -7,12 +7,10 @@
 //! stays dense and the early past never vanishes. A state holds the whole session: a run continued
 //! from it is the same to the last bit, without later changes.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::trend::{Tip, Trend};
+use super::trend::Recorded;
 use crate::math::abel::Form;
-use crate::scenario::session::Session;
 
 /// The memory for the past, bytes.
 const BUDGET: usize = 64 << 20;
@@ -33,33 +31,33 @@ const CHANGE: usize = 256;
 #[derive(Debug, Clone)]
 pub(super) struct Kept {
     /// The run as it was.
-    pub session: Session,
-    /// What the trend cannot find out from later entries.
-    pub tip: Tip,
+    pub run: Recorded,
     /// The stretch it belongs to: between two branches, nothing goes backwards.
     stretch: u32,
-    /// The run it belongs to: a restart or another scenario begins another.
-    run: u32,
+    /// The scenario it belongs to: a restart begins another, too.
+    scenario: u32,
 }
 
 impl Kept {
     fn cycle(&self) -> f64 {
-        self.session.simulation().cycle()
+        self.run.cycle()
     }
 
     fn nodes(&self) -> usize {
-        self.session.simulation().setup().grid.len()
+        self.run.simulation().setup().grid.len()
     }
 
-    /// An upper bound of what it holds without its operators, in bytes.
-    fn bytes(&self) -> usize {
-        let changes = self.session.changes().len() * CHANGE;
-        8 * ARRAYS * self.nodes() + self.tip.bytes() + TEXTS + changes
+    /// An upper bound of what it holds without its operators, and without what it shares with the state before, in
+    /// bytes.
+    fn bytes(&self, before: Option<&Self>) -> usize {
+        let changes = self.run.session.changes().len() * CHANGE;
+        let before = before.map(|before| &before.run.trend);
+        8 * ARRAYS * self.nodes() + self.run.trend.bytes_beside(before) + TEXTS + changes
     }
 
     /// An upper bound of the operators that it keeps alive, alone or with others, in bytes.
     fn operator_bytes(&self) -> usize {
-        let (method, nodes) = (self.session.simulation().setup().method, self.nodes());
+        let (method, nodes) = (self.run.simulation().setup().method, self.nodes());
         match Form::quicker(method, nodes) {
             Form::Dense => 8 * 4 * nodes.pow(2),
             Form::Fast => 8 * FAST_ARRAYS * nodes,
@@ -68,8 +66,8 @@ impl Kept {
 
     /// Whether two states use the same operators: a run plans its own.
     fn shares_operators(&self, other: &Self) -> bool {
-        let is_one_run = self.run == other.run;
-        let [one, other] = [self, other].map(|kept| kept.session.simulation().setup());
+        let is_one_run = self.scenario == other.scenario;
+        let [one, other] = [self, other].map(|kept| kept.run.simulation().setup());
         is_one_run
             && one.method == other.method
             && one.indenter == other.indenter
@@ -91,11 +89,8 @@ pub(super) struct Past {
     kept: Vec<Arc<Kept>>,
     /// The state on the screen; `None` at the present.
     at: Option<usize>,
-    /// The trend at the end of each stretch that a state belongs to, but for the present one's while
-    /// that goes on.
-    trends: BTreeMap<u32, Trend>,
     stretch: u32,
-    run: u32,
+    scenario: u32,
     budget: usize,
 }
 
@@ -104,9 +99,8 @@ impl Default for Past {
         Self {
             kept: Vec::new(),
             at: None,
-            trends: BTreeMap::new(),
             stretch: 0,
-            run: 0,
+            scenario: 0,
             budget: BUDGET,
         }
     }
@@ -114,15 +108,14 @@ impl Default for Past {
 
 impl Past {
     /// Keeps the present state, once.
-    pub fn keep(&mut self, session: &Session, trend: &Trend) {
-        if self.at.is_some() || self.is_kept(session) {
+    pub fn keep(&mut self, run: &Recorded) {
+        if self.at.is_some() || self.is_kept(run) {
             return;
         }
         self.kept.push(Arc::new(Kept {
-            session: session.clone(),
-            tip: trend.tip(),
+            run: run.clone(),
             stretch: self.stretch,
-            run: self.run,
+            scenario: self.scenario,
         }));
         self.make_room();
     }
@@ -133,36 +126,31 @@ impl Past {
         while self.kept.len() > 2 && self.bytes() > self.budget {
             let least = self.least_missed().unwrap_or(0);
             self.kept.remove(least);
-            let (kept, now) = (&self.kept, self.stretch);
-            self.trends.retain(|stretch, _| {
-                *stretch == now || kept.iter().any(|kept| kept.stretch == *stretch)
-            });
         }
     }
 
     /// Whether the newest state is the present one: no step and no change since.
-    fn is_kept(&self, session: &Session) -> bool {
+    fn is_kept(&self, run: &Recorded) -> bool {
         self.kept.last().is_some_and(|last| {
             last.stretch == self.stretch
-                && last.session.simulation().cycle() == session.simulation().cycle()
-                && last.session.changes().len() == session.changes().len()
+                && last.cycle() == run.cycle()
+                && last.run.session.changes().len() == run.session.changes().len()
         })
     }
 
     /// Memory in use, bytes.
     fn bytes(&self) -> usize {
-        let states: usize = self.kept.iter().map(|kept| kept.bytes()).sum();
-        let trends: usize = self.trends.values().map(Trend::bytes).sum();
         // The operators of the present are there in any case.
         let mut known: Vec<&Kept> = self.kept.last().map(|kept| &**kept).into_iter().collect();
-        let mut operators = 0;
+        let (mut bytes, mut before) = (0, None);
         for kept in &self.kept {
+            bytes += kept.bytes(before.replace(kept));
             if !known.iter().any(|other| other.shares_operators(kept)) {
-                operators += kept.operator_bytes();
+                bytes += kept.operator_bytes();
                 known.push(kept);
             }
         }
-        states + trends + operators
+        bytes
     }
 
     /// The state that is missed least: the one in the smallest gap for its age within its stretch.
@@ -203,31 +191,20 @@ impl Past {
     /// been stored.
     pub fn visit(&mut self, cycle: f64) -> Option<Arc<Kept>> {
         let last = self.kept.len().checked_sub(1)?;
-        let run = self.kept.get(self.at.unwrap_or(last))?.run;
+        let scenario = self.kept.get(self.at.unwrap_or(last))?.scenario;
         let near = |at: &usize| (self.kept[*at].cycle() - cycle).abs();
-        let of_run = (0..=last).rev().filter(|&at| self.kept[at].run == run);
+        let of_run = (0..=last)
+            .rev()
+            .filter(|&at| self.kept[at].scenario == scenario);
         let nearest = of_run.min_by(|a, b| near(a).total_cmp(&near(b)))?;
         self.at = (nearest < last).then_some(nearest);
         self.kept.get(nearest).cloned()
     }
 
-    /// Notes the trend of the present, before the screen shows the past.
-    pub fn note_trend(&mut self, trend: &Trend) {
-        if self.at.is_none() {
-            self.trends.insert(self.stretch, trend.clone());
-        }
-    }
-
-    /// The trend as it was at a stored state.
-    pub fn trend(&self, kept: &Kept) -> Trend {
-        let whole = self.trends.get(&kept.stretch);
-        whole.map_or_else(Trend::default, |whole| whole.until(kept.cycle(), &kept.tip))
-    }
-
-    /// The session at the present, whatever is on the screen: the state worth saving.
-    pub fn line<'a>(&'a self, shown: &'a Session) -> &'a Session {
+    /// The run at the present, whatever is on the screen: the state worth saving.
+    pub fn line<'a>(&'a self, shown: &'a Recorded) -> &'a Recorded {
         let last = self.kept.last().filter(|_| self.at.is_some());
-        last.map_or(shown, |kept| &kept.session)
+        last.map_or(shown, |kept| &kept.run)
     }
 
     /// The cycle of the present, while the screen is in the past.
@@ -241,25 +218,23 @@ impl Past {
     pub fn branch(&mut self) -> Option<Left> {
         let from = Arc::clone(self.kept.get(self.at.take()?)?);
         let end = Arc::clone(self.kept.last()?);
-        let is_other_run = end.run != from.run;
+        let is_other_run = end.scenario != from.scenario;
         self.stretch += 1;
-        self.run += u32::from(is_other_run);
+        self.scenario += u32::from(is_other_run);
         self.kept.push(Arc::new(Kept {
             stretch: self.stretch,
-            run: self.run,
+            scenario: self.scenario,
             ..Kept::clone(&from)
         }));
         self.make_room();
         Some(Left { end, is_other_run })
     }
 
-    /// Another run follows the present one, which must have been stored; its trend is `trend`, unless
-    /// the screen is in the past.
-    pub fn leave(&mut self, trend: &Trend) {
-        self.note_trend(trend);
+    /// Another run follows the present one, which must have been stored.
+    pub fn leave(&mut self) {
         self.at = None;
         self.stretch += 1;
-        self.run += 1;
+        self.scenario += 1;
     }
 }
 
@@ -267,6 +242,16 @@ impl Past {
 mod tests {
     use super::*;
     use crate::scenario::Scenario;
+    use crate::scenario::session::Session;
+    use crate::tui::trend::Trend;
+
+    /// A state whose past is not known.
+    fn keep(past: &mut Past, session: &Session) {
+        past.keep(&Recorded {
+            session: session.clone(),
+            trend: Trend::default(),
+        });
+    }
 
     fn session() -> Session {
         let sets = [
@@ -282,7 +267,7 @@ mod tests {
         let (mut session, mut past) = (session(), Past::default());
         for cycle in 0..=end {
             session.advance_to(f64::from(cycle)).expect("a step");
-            past.keep(&session, &Trend::default());
+            keep(&mut past, &session);
         }
         (session, past)
     }
@@ -293,14 +278,14 @@ mod tests {
 
     #[test]
     fn memory_is_bounded_and_the_recent_past_is_dense() {
-        let (mut session, trend) = (session(), Trend::default());
+        let mut session = session();
         let mut past = Past::default();
-        past.keep(&session, &trend);
-        past.budget = 24 * past.kept[0].bytes();
+        keep(&mut past, &session);
+        past.budget = 24 * past.kept[0].bytes(None);
         for cycle in 1..=300 {
             session.advance_to(f64::from(cycle)).expect("a step");
-            past.keep(&session, &trend);
-            past.keep(&session, &trend);
+            keep(&mut past, &session);
+            keep(&mut past, &session);
             assert!(past.bytes() <= past.budget);
         }
         let cycles = cycles(&past);
@@ -319,22 +304,21 @@ mod tests {
 
     #[test]
     fn restarts_stay_within_the_memory_and_the_latest_can_be_undone() {
-        let (start, trend) = (session(), Trend::default());
+        let start = session();
         let mut past = Past::default();
-        past.keep(&start, &trend);
-        past.budget = 12 * past.kept[0].bytes();
+        keep(&mut past, &start);
+        past.budget = 12 * past.kept[0].bytes(None);
         for _ in 0..40 {
             let mut session = start.clone();
-            past.keep(&session, &trend);
+            keep(&mut past, &session);
             for cycle in 1..=5 {
                 session.advance_to(f64::from(cycle)).expect("a step");
-                past.keep(&session, &trend);
+                keep(&mut past, &session);
                 assert!(past.bytes() <= past.budget);
             }
-            past.leave(&trend);
-            assert!(past.trends.len() <= past.kept.len());
+            past.leave();
         }
-        past.keep(&start, &trend);
+        keep(&mut past, &start);
         assert_eq!(past.back().map(|kept| kept.cycle()), Some(5.0));
     }
 
@@ -365,7 +349,6 @@ mod tests {
     #[test]
     fn the_way_back_leads_through_what_a_branch_and_a_restart_left() {
         let (mut session, mut past) = run_to(3);
-        let trend = Trend::default();
         let at = |kept: Option<Arc<Kept>>| kept.map(|kept| kept.cycle());
         assert_eq!(at(past.back()), Some(2.0));
         assert_eq!(at(past.back()), Some(1.0));
@@ -373,9 +356,9 @@ mod tests {
         assert_eq!((left.end.cycle(), left.is_other_run), (3.0, false));
         assert_eq!(cycles(&past), [0.0, 1.0, 2.0, 3.0, 1.0]);
         session.advance_to(4.0).expect("a step");
-        past.keep(&session, &trend);
-        past.leave(&trend);
-        past.keep(&run_to(0).0, &trend);
+        keep(&mut past, &session);
+        past.leave();
+        keep(&mut past, &run_to(0).0);
         assert_eq!(cycles(&past), [0.0, 1.0, 2.0, 3.0, 1.0, 4.0, 0.0]);
         assert_eq!(at(past.back()), Some(4.0));
         let left = past.branch().expect("a branch");

@@ -8,7 +8,7 @@ use crate::scenario::session::Session;
 use crate::studies::refinement::{self, Level};
 use crate::tui::facts::Facts;
 use crate::tui::frame::Activity;
-use crate::tui::trend::Trend;
+use crate::tui::trend::Recorded;
 use crate::tui::twin::Twin;
 
 /// Factor by which each key press refines cells and steps.
@@ -24,16 +24,16 @@ impl Worker {
     /// Changes the transform method by this many places, that of the comparison if there is one.
     pub fn change_method(&mut self, places: isize) {
         if let Some(comparison) = &self.companions.comparison {
-            return self.compare(places, comparison.from());
+            return self.compare(places, comparison.from);
         }
-        let now = self.session.simulation().setup().method;
+        let now = self.run.simulation().setup().method;
         let method = shifted(&AbelMethod::ALL, |method| *method == now, places);
         self.change("numerics.method", method.name());
     }
 
     /// Changes the wear law by this many places.
     pub fn change_law(&mut self, places: isize) {
-        match self.session.simulation().setup().wear {
+        match self.run.simulation().setup().wear {
             None => self
                 .screen
                 .notice("this scenario has no wear, so it has no wear law to change"),
@@ -46,7 +46,7 @@ impl Worker {
 
     /// Refines or coarsens cells and steps together, by [`STRIDE`] for each place.
     pub fn refine(&mut self, places: isize) {
-        let scenario = self.session.scenario();
+        let scenario = self.run.session.scenario();
         let now = Level::of(scenario);
         let factor = STRIDE.powf(places as f64);
         let next = now.scaled(factor, factor);
@@ -58,45 +58,49 @@ impl Worker {
                 .screen
                 .notice(&format!("N = {cells}: this is the {end} level"));
         }
-        let keys = next.keys();
-        let mut changes = keys.iter().filter(|(key, _)| *key != "numerics.integrator");
-        let Some((key, value)) = changes.next() else {
-            return;
-        };
-        let all = changes.fold(value.clone(), |all, (key, value)| {
-            format!("{all}, {key}={value}")
-        });
-        self.change(key, &all);
-        if Level::of(self.session.scenario()) == next {
-            self.screen.notice(&format!(
+        let mut changes = next.keys();
+        changes.retain(|(key, _)| *key != "numerics.integrator");
+        self.change_all(
+            &changes,
+            &format!(
                 "N = {}, {} steps per cycle; a estimates the error",
                 next.points, next.steps
-            ));
-        }
+            ),
+        );
     }
 
     /// Changes a key from here on; further `, KEY=VALUE` change at the same time.
     pub fn change(&mut self, key: &str, value: &str) {
+        let done = format!("{key} = {value} at cycle {:.2}", self.run.cycle());
+        self.change_all(&assignments(key, value), &done);
+    }
+
+    /// Changes keys from here on, and tells the user what was `done`.
+    fn change_all(&mut self, changes: &[(impl AsRef<str>, impl AsRef<str>)], done: &str) {
         self.keep();
-        let changed = self.session.change_all(&assignments(key, value));
+        let changed = self.run.session.change_all(changes);
         if self.screen.or_notice(changed).is_none() {
             return;
         }
         let branched = self.branch();
-        self.facts = Facts::of(&self.session);
-        self.companions.twin = Twin::of(&self.session);
+        self.renew();
         if matches!(self.activity, Activity::Stopped(_)) {
             self.activity = Activity::Paused;
         }
-        let said = format!("{key} = {value} at cycle {:.2}", self.cycle());
-        let branched = branched.map(|word| format!("; {word}"));
-        self.screen.notice(&(said + &branched.unwrap_or_default()));
+        let branched = branched.map_or_else(String::new, |word| format!("; {word}"));
+        self.screen.notice(&format!("{done}{branched}"));
+    }
+
+    /// The scenario is another one than before: so are what is known of it and what tells its error.
+    pub(super) fn renew(&mut self) {
+        self.facts = Facts::of(&self.run.session);
+        self.companions.twin = Twin::of(&self.run.session);
     }
 
     /// The scenario as it was loaded, from its beginning; the run up to here can be gone back to.
     pub fn restart(&mut self) {
-        let cycle = self.past.line(&self.session).simulation().cycle();
-        self.load(self.session.loaded().clone());
+        let cycle = self.past.line(&self.run).cycle();
+        self.load(self.run.session.loaded().clone());
         if cycle > 0.0 {
             self.screen.notice(&format!(
                 "restarted; [ leads back to the run up to cycle {cycle:.2}"
@@ -115,24 +119,21 @@ impl Worker {
         }
         let session = Session::start(resolved.scenario);
         if let Some(session) = self.screen.or_notice(session) {
-            let trend = Trend::from(&session);
-            self.replace_run(session, trend);
+            self.replace_run(session.into());
         }
     }
 
-    /// Another run takes the place of this one.
-    pub(super) fn replace_run(&mut self, session: Session, trend: Trend) {
+    /// Another run takes the place of this one: one that begins, or goes on from a state that was read.
+    pub fn replace_run(&mut self, run: Recorded) {
         self.keep();
         if let Some(keeping) = &self.keeping {
-            super::locked(keeping).turn_over(self.past.line(&self.session), &session);
+            super::locked(keeping).turn_over(&self.past.line(&self.run).session, &run.session);
         }
-        self.past.leave(&self.trend);
+        self.past.leave();
         self.snapshots.clear();
-        self.session = session;
+        self.run = run;
         self.companions.comparison = None;
-        self.facts = Facts::of(&self.session);
-        self.companions.twin = Twin::of(&self.session);
-        self.trend = trend;
+        self.renew();
         if self.activity != Activity::Running {
             self.activity = Activity::Paused;
         }

@@ -31,15 +31,15 @@ impl Companions {
 
     /// Whether what is seen is not yet at `cycle`.
     fn lags(&self, cycle: f64) -> bool {
-        let comparison = self.comparison.as_ref();
-        comparison.is_some_and(|comparison| comparison.lags(cycle))
+        let mut comparison = self.comparison.iter();
+        comparison.any(|comparison| comparison.beside.lags(cycle))
             || self.ghosts.iter().any(|ghost| ghost.lags(cycle))
     }
 
     /// Lets what is seen come nearer to `cycle`.
     pub fn follow(&mut self, cycle: f64) {
         if let Some(comparison) = &mut self.comparison {
-            comparison.follow_for(cycle, CATCH_UP);
+            comparison.beside.follow(cycle, cycle, CATCH_UP);
         }
         for ghost in &mut self.ghosts {
             ghost.follow_for(cycle, CATCH_UP);
@@ -57,7 +57,7 @@ impl Companions {
 impl Worker {
     /// Whether anything is not yet where the run is; a run does not wait for its twin.
     pub(super) fn is_awaited(&self) -> bool {
-        let cycle = self.cycle();
+        let cycle = self.run.cycle();
         let twin = self.companions.twin.as_ref();
         let twin = twin.filter(|_| self.activity != Activity::Running);
         self.companions.lags(cycle) || twin.is_some_and(|twin| twin.lags(cycle))
@@ -65,7 +65,7 @@ impl Worker {
 
     /// Lets what runs beside come nearer to the run for a moment.
     pub(super) fn catch_up(&mut self) {
-        let cycle = self.cycle();
+        let cycle = self.run.cycle();
         self.companions.follow(cycle);
         self.companions.follow_with_twin(cycle, CATCH_UP);
         if self.screen.is_due() || !self.is_awaited() {
@@ -88,7 +88,7 @@ impl Worker {
     /// Starts a comparison, this many places after the previous one, from now or from the start.
     pub(super) fn compare(&mut self, places: isize, from: From) {
         let before = self.companions.comparison.as_ref();
-        let begun = ComparisonRun::beside(&self.session, before, places, from);
+        let begun = ComparisonRun::beside(&self.run.session, before, places, from);
         if let Some(comparison) = self.screen.or_notice(begun) {
             let name = comparison.name();
             self.screen.notice(&match from {
@@ -101,12 +101,12 @@ impl Worker {
 
     /// Lays the present state over the panels.
     pub fn freeze(&mut self) {
-        self.add_ghost(Source::frozen(&self.session, &self.trend));
+        self.add_ghost(Source::frozen(&self.run));
     }
 
     /// Lays the curves of a file, a directory or a scenario over the panels.
     pub fn overlay(&mut self, given: &str) {
-        let reach = self.session.simulation().setup().grid.radius();
+        let reach = self.run.simulation().setup().grid.radius();
         if let Some(ghost) = self.screen.or_notice(Source::load(given, reach)) {
             self.add_ghost(ghost);
         }

@@ -10,7 +10,7 @@ use crate::tui::{Event, figure, refinement_check, snapshot};
 impl Worker {
     /// Runs the refinement check in its own thread; its result comes as an event.
     pub fn check_refinement(&self) {
-        let (session, events) = (self.session.clone(), self.screen.events.clone());
+        let (session, events) = (self.run.session.clone(), self.screen.events.clone());
         thread::spawn(move || {
             // The receiver waits for an answer, whatever happens.
             let answer = std::panic::catch_unwind(|| refinement_check::run(&session))
@@ -22,8 +22,8 @@ impl Worker {
 
     /// Starts a study around the present scenario, up to the present cycle.
     pub fn sweep(&self, range: &Range) {
-        let cycle = self.cycle();
-        let planned = self.session.loaded().run().cycles;
+        let cycle = self.run.cycle();
+        let planned = self.run.session.loaded().run().cycles;
         let cycles = if cycle > 0.0 {
             cycle
         } else {
@@ -33,7 +33,7 @@ impl Worker {
         let tell = move || {
             let _ = events.send(Event::News);
         };
-        let live = Live::start(range, self.session.scenario(), cycles, tell);
+        let live = Live::start(range, self.run.session.scenario(), cycles, tell);
         if let Some(live) = self.screen.or_notice(live) {
             self.screen.send(Event::Sweep(live));
         }
@@ -41,9 +41,9 @@ impl Worker {
 
     /// Writes the state to a new directory, with a note if there is one.
     pub fn write_snapshot(&mut self, note: Option<&str>) {
-        match snapshot::write(&self.session, &self.trend, note) {
+        match snapshot::write(&self.run, note) {
             Ok(path) => {
-                self.snapshots.push(self.cycle());
+                self.snapshots.push(self.run.cycle());
                 self.screen
                     .notice(&format!("snapshot in {}", path.display()));
             }
@@ -53,7 +53,7 @@ impl Worker {
 
     /// Draws a figure of the state into a file, its data beside it.
     pub fn write_figure(&self, path: &Path) {
-        match figure::write(&self.session, &self.trend, path) {
+        match figure::write(&self.run, path) {
             Ok(()) => self.screen.notice(&format!("figure in {}", path.display())),
             Err(error) => self.screen.unwritten(&error),
         }

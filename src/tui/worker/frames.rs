@@ -28,10 +28,10 @@ impl Worker {
 
     fn frame(&mut self) -> Frame {
         // The pressure may pass the hardness in any step, and has not yet in an earlier state.
-        if self.facts.passed_hardness != self.session.simulation().passed_hardness() {
-            self.facts = Facts::of(&self.session);
+        if self.facts.passed_hardness != self.run.simulation().passed_hardness() {
+            self.facts = Facts::of(&self.run.session);
         }
-        let simulation = self.session.simulation();
+        let simulation = self.run.simulation();
         // A comparison subtracts profiles; the screen that asked for it may not have shown one.
         let compared = match self.companions.comparison {
             Some(_) => Curves::PROFILE | Curves::PRESSURE,
@@ -69,7 +69,7 @@ impl Worker {
             observation,
             figures: simulation.cycle_figures(),
             phase: self.clock.held_phase(simulation),
-            trend: self.trend.clone(),
+            trend: self.run.trend.clone(),
             activity: self.activity.clone(),
             pace: self.clock.pace(),
             speed: self
@@ -81,7 +81,8 @@ impl Worker {
             present: self.past.present(),
             changes: self
                 .past
-                .line(&self.session)
+                .line(&self.run)
+                .session
                 .changes()
                 .iter()
                 .map(|change| (change.at_cycle, change.set.clone()))

@@ -17,11 +17,9 @@ use super::facts::Facts;
 use super::frame::{Activity, Frame, Slot};
 use super::ghosts::Source;
 use super::pace::Clock;
-use super::snapshot::Opened;
-use super::trend::Trend;
+use super::trend::Recorded;
 use super::undo::Past;
 use crate::reading::Curves;
-use crate::scenario::session::Session;
 
 mod changes;
 mod companions;
@@ -68,10 +66,9 @@ impl Orders {
 
 /// The worker's side.
 pub struct Worker {
-    session: Session,
+    run: Recorded,
     /// What is known of its scenario.
     facts: Arc<Facts>,
-    trend: Trend,
     past: Past,
     kept_at: Instant,
     /// The cycles of the snapshots of this run.
@@ -93,19 +90,19 @@ pub struct Worker {
 }
 
 impl Worker {
-    /// A worker on `session` that publishes at most every `interval`.
+    /// A worker on a run that publishes at most every `interval`.
     pub fn new(
-        session: Session,
+        run: impl Into<Recorded>,
         slot: Arc<Slot>,
         events: Sender<Event>,
         interval: Duration,
         running: bool,
     ) -> Self {
+        let run = run.into();
         Self {
-            facts: Facts::of(&session),
-            companions: Companions::of(&session),
-            trend: Trend::from(&session),
-            session,
+            facts: Facts::of(&run.session),
+            companions: Companions::of(&run.session),
+            run,
             past: Past::default(),
             kept_at: Instant::now(),
             snapshots: Vec::new(),
@@ -120,15 +117,6 @@ impl Worker {
             screen: Outlet::new(slot, events, interval),
             keeping: None,
             halt: Arc::default(),
-        }
-    }
-
-    /// The same with a past of the run, where it is known.
-    #[must_use]
-    pub fn with_past(self, trend: Option<Trend>) -> Self {
-        Self {
-            trend: trend.unwrap_or(self.trend),
-            ..self
         }
     }
 
@@ -154,7 +142,7 @@ impl Worker {
         self.keeping = keeping;
         let served = catch_unwind(AssertUnwindSafe(|| self.handle_orders(orders)));
         // The interrupted step has left half a state.
-        let session = served.is_ok().then(|| self.past.line(&self.session));
+        let session = served.is_ok().then(|| &self.past.line(&self.run).session);
         let keeping = self.keeping.take()?;
         locked(&keeping).finish(session)
     }
@@ -190,7 +178,7 @@ impl Worker {
                         }
                         self.checkpoint_if_due();
                     }
-                    self.clock.meter.restart(self.session.simulation().cycle());
+                    self.clock.meter.restart(self.run.simulation());
                     self.publish();
                 }
                 Err(RecvTimeoutError::Timeout) if self.is_awaited() => self.catch_up(),
@@ -203,16 +191,11 @@ impl Worker {
     /// Saves the session when due.
     fn checkpoint_if_due(&mut self) {
         let keeping = self.keeping.as_ref();
-        let word =
-            keeping.and_then(|keeping| locked(keeping).save_if_due(self.past.line(&self.session)));
+        let session = &self.past.line(&self.run).session;
+        let word = keeping.and_then(|keeping| locked(keeping).save_if_due(session));
         if let Some(word) = word {
             self.screen.notice(&word);
         }
-    }
-
-    /// The cycle that the run is at.
-    fn cycle(&self) -> f64 {
-        self.session.simulation().cycle()
     }
 
     /// Takes one step, paused.
@@ -233,11 +216,6 @@ impl Worker {
     /// Computes these curves from now on.
     pub fn compute(&mut self, curves: Curves) {
         self.curves = curves;
-    }
-
-    /// Goes on from a state that was read.
-    pub fn open(&mut self, opened: Opened) {
-        self.replace_run(opened.session, opened.trend);
     }
 
     /// Ends the worker.

@@ -5,9 +5,7 @@ use std::time::{Duration, Instant};
 use super::Worker;
 use super::travel::ends_cycle;
 use crate::reading::Curves;
-use crate::scenario::scalars::Reading;
 use crate::tui::frame::Activity;
-use crate::tui::twin::Twin;
 
 /// How long the worker steps before it looks for orders again.
 const STINT: Duration = Duration::from_millis(4);
@@ -53,10 +51,10 @@ impl Worker {
     /// due.
     pub(super) fn until_next_step(&self) -> Option<Duration> {
         if self.activity != Activity::Running {
-            let line = self.past.line(&self.session);
+            let line = &self.past.line(&self.run).session;
             return super::locked(self.keeping.as_ref()?).wait(line);
         }
-        let ahead = self.clock.ahead(self.session.simulation());
+        let ahead = self.clock.ahead(self.run.simulation());
         Some(Duration::from_secs_f64(ahead.clamp(0.0, 0.1)))
     }
 
@@ -64,7 +62,7 @@ impl Worker {
     pub(super) fn step_for_a_stint(&mut self) {
         let start = Instant::now();
         while self.activity == Activity::Running && start.elapsed() < STINT {
-            let simulation = self.session.simulation();
+            let simulation = self.run.simulation();
             if self.clock.ahead(simulation) > 0.0 {
                 break;
             }
@@ -77,14 +75,14 @@ impl Worker {
             self.step();
             self.keep_cycle(before);
             self.end_where_planned(before);
-            if ends_cycle(before, self.cycle()) && self.holds_phase() && self.screen.is_due() {
+            if ends_cycle(before, self.run.cycle()) && self.holds_phase() && self.screen.is_due() {
                 self.publish();
             }
         }
-        let simulation = self.session.simulation();
-        let (cycle, steps) = (simulation.cycle(), simulation.steps());
-        self.clock.meter.measure(cycle, steps, start.elapsed());
-        self.trend.note_cost(self.clock.meter.step_cost);
+        let simulation = self.run.simulation();
+        self.clock.meter.measure(simulation, start.elapsed());
+        let cycle = simulation.cycle();
+        self.run.trend.note_cost(self.clock.meter.step_cost);
         self.companions.follow_with_twin(cycle, TWIN_STINT);
         let wait = match self.holds_phase() {
             true => self.screen.interval.max(AT_LEAST),
@@ -97,36 +95,33 @@ impl Worker {
 
     /// Whether frames are taken at the ends of cycles.
     fn holds_phase(&self) -> bool {
-        self.clock.held_phase(self.session.simulation()).is_some()
+        self.clock.held_phase(self.run.simulation()).is_some()
     }
 
     fn step(&mut self) {
         if let Some(word) = self.branch() {
-            self.companions.twin = Twin::of(&self.session);
+            self.renew();
             self.screen.notice(&word);
         }
-        if self.session.simulation().steps() == 0 {
+        if self.run.simulation().steps() == 0 {
             self.keep();
         }
         self.clock.stepped = Instant::now();
-        let before = self.cycle();
-        if let Err(error) = self.session.step_until(self.goal()) {
+        let before = self.run.cycle();
+        if let Err(error) = self.run.step_until(self.goal()) {
             self.activity = Activity::Stopped(error.to_string());
             return;
         }
-        let cycle = self.cycle();
+        let cycle = self.run.cycle();
         if self.curves.contains(Curves::SPRINGS) {
-            self.cycle_loads.note(self.session.simulation());
+            self.cycle_loads.note(self.run.simulation());
         }
         let is_end = self.has_reached_end(before);
         let twin = self.companions.twin.as_mut();
         if let Some(twin) = twin.filter(|_| ends_cycle(before, cycle) || is_end) {
             // Steps by hand are few, and each is looked at.
             let must = is_end || self.activity != Activity::Running;
-            twin.look_at(&self.session, must);
-        }
-        if self.trend.record(&self.session) {
-            self.trend.end(&Reading::new(&self.session));
+            twin.look_at(&self.run.session, must);
         }
         self.companions.follow(cycle);
     }
@@ -135,10 +130,10 @@ impl Worker {
     /// again. Where nothing wears any more, a jump would otherwise go so far that no comparison run by direct
     /// steps could follow.
     fn goal(&self) -> f64 {
-        let simulation = self.session.simulation();
+        let simulation = self.run.simulation();
         let now = simulation.cycle();
-        match self.session.loaded().run().cycles {
-            Some(end) if now < end => self.session.heading(end),
+        match self.run.session.loaded().run().cycles {
+            Some(end) if now < end => self.run.session.heading(end),
             Some(end) if simulation.may_jump() => now + end.max(SHORTEST_PLAN).ceil(),
             _ => f64::INFINITY,
         }
@@ -154,8 +149,8 @@ impl Worker {
 
     /// Whether the planned end lies between the cycle `before` and now.
     fn has_reached_end(&self, before: f64) -> bool {
-        let simulation = self.session.simulation();
-        let end = self.session.loaded().run().cycles;
+        let simulation = self.run.simulation();
+        let end = self.run.session.loaded().run().cycles;
         let end = end.map(|end| end - simulation.rounding());
         end.is_some_and(|end| before < end && simulation.cycle() >= end)
     }
@@ -166,13 +161,14 @@ impl Worker {
             return self.screen.notice(BROKEN_DOWN);
         }
         self.activity = Activity::Paused;
-        let before = self.cycle();
+        let before = self.run.cycle();
         loop {
             self.step();
-            if ends_cycle(before, self.cycle()) {
+            if ends_cycle(before, self.run.cycle()) {
                 self.keep();
             }
-            if self.activity != Activity::Paused || done(before, self.cycle()) || self.is_over() {
+            if self.activity != Activity::Paused || done(before, self.run.cycle()) || self.is_over()
+            {
                 break;
             }
         }

@@ -14,13 +14,13 @@ const APART: Duration = Duration::from_millis(50);
 impl Worker {
     /// Stores the present state.
     pub(super) fn keep(&mut self) {
-        self.past.keep(&self.session, &self.trend);
+        self.past.keep(&self.run);
         self.kept_at = Instant::now();
     }
 
     /// Stores the end of a cycle, but not so often that it takes noticeable time.
     pub(super) fn keep_cycle(&mut self, before: f64) {
-        if ends_cycle(before, self.cycle()) && self.kept_at.elapsed() > APART {
+        if ends_cycle(before, self.run.cycle()) && self.kept_at.elapsed() > APART {
             self.keep();
         }
     }
@@ -29,9 +29,9 @@ impl Worker {
     /// it leaves; returns the notice about that.
     pub(super) fn branch(&mut self) -> Option<String> {
         let left = self.past.branch()?;
-        let (cycle, end) = (self.cycle(), left.end.session.simulation().cycle());
+        let (cycle, end) = (self.run.cycle(), left.end.run.cycle());
         if let Some(keeping) = self.keeping.as_ref().filter(|_| left.is_other_run) {
-            super::locked(keeping).turn_over(&left.end.session, &self.session);
+            super::locked(keeping).turn_over(&left.end.run.session, &self.run.session);
         }
         Some(format!(
             "branch at cycle {cycle:.2}; [ leads back to the run up to {end:.2}"
@@ -56,7 +56,6 @@ impl Worker {
     /// Shows another stored state, or says why there is none.
     fn travel(&mut self, way: impl FnOnce(&mut Past) -> Option<Arc<Kept>>, end: &str) {
         self.keep();
-        self.past.note_trend(&self.trend);
         match way(&mut self.past) {
             Some(kept) => self.show(&kept),
             None => self.screen.notice(end),
@@ -65,11 +64,10 @@ impl Worker {
 
     /// Shows a stored state, paused.
     fn show(&mut self, kept: &Kept) {
-        self.session = kept.session.clone();
-        self.trend = self.past.trend(kept);
+        self.run = kept.run.clone();
         self.companions.comparison = None;
         self.activity = Activity::Paused;
-        self.facts = Facts::of(&self.session);
+        self.facts = Facts::of(&self.run.session);
     }
 }
 

@@ -21,23 +21,14 @@ pub struct ScreenAutosave {
     is_finished: bool,
 }
 
-/// Identifies a state of a session.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Mark {
-    steps: u64,
-    cycle: u64,
-    changes: usize,
-}
+/// Tells the states of a run apart: steps, cycle, and changes.
+type Mark = (u64, f64, usize);
 
-impl Mark {
-    fn of(session: &Session) -> Self {
-        let simulation = session.simulation();
-        Self {
-            steps: simulation.steps(),
-            cycle: simulation.cycle().to_bits(),
-            changes: session.changes().len(),
-        }
-    }
+/// The mark of the present state of `session`.
+pub(super) fn mark(session: &Session) -> Mark {
+    let simulation = session.simulation();
+    let changes = session.changes().len();
+    (simulation.steps(), simulation.cycle(), changes)
 }
 
 impl ScreenAutosave {
@@ -46,7 +37,7 @@ impl ScreenAutosave {
     pub fn new(directory: PathBuf, every: Option<Duration>, session: &Session) -> Self {
         Self {
             autosave: Autosave::new(Some(directory), every),
-            kept: Mark::of(session),
+            kept: mark(session),
             copy: Recent::new(session.clone()),
             is_finished: false,
         }
@@ -55,7 +46,7 @@ impl ScreenAutosave {
     /// Time until a checkpoint is due; `None` while there is nothing new to save.
     pub fn wait(&self, session: &Session) -> Option<Duration> {
         let wait = self.autosave.wait()?;
-        (self.kept != Mark::of(session)).then_some(wait)
+        (self.kept != mark(session)).then_some(wait)
     }
 
     /// Saves what is due; returns a message when that begins to fail.
@@ -75,11 +66,11 @@ impl ScreenAutosave {
         if self.is_finished {
             return;
         }
-        if self.kept != Mark::of(from) {
+        if self.kept != mark(from) {
             self.save(from);
         }
         self.autosave.turn_over();
-        self.kept = Mark::of(to);
+        self.kept = mark(to);
         self.copy = Recent::new(to.clone());
     }
 
@@ -91,7 +82,7 @@ impl ScreenAutosave {
         }
         let copy = self.copy.get().clone();
         let session = session.unwrap_or(&copy);
-        if self.kept != Mark::of(session) {
+        if self.kept != mark(session) {
             self.save(session);
         }
         let place = self.autosave.kept().map(|(path, cycle)| {
@@ -111,7 +102,7 @@ impl ScreenAutosave {
             .autosave
             .save(session, &checkpoint::encode(session, None::<&()>));
         if self.autosave.failure().is_none() {
-            self.kept = Mark::of(session);
+            self.kept = mark(session);
         }
         word
     }

@@ -3,11 +3,14 @@
 use std::time::{Duration, Instant};
 
 use super::trend::Recorded;
+use crate::scenario::session::Session;
 
 /// The second run, and what its steps have cost.
 #[derive(Debug, Clone)]
 pub(super) struct Beside {
     pub run: Recorded,
+    /// The run before its first step: where it begins again when the first one goes back in time.
+    start: Option<Session>,
     busy: Duration,
     steps: u64,
     /// Why it stopped, if it did.
@@ -19,9 +22,18 @@ impl Beside {
     pub fn new(run: Recorded) -> Self {
         Self {
             run,
+            start: None,
             busy: Duration::ZERO,
             steps: 0,
             stopped: None,
+        }
+    }
+
+    /// A run that begins with `session`, and again wherever the first run goes back in time.
+    pub fn from_start(session: Session) -> Self {
+        Self {
+            start: Some(session.clone()),
+            ..Self::new(session.into())
         }
     }
 
@@ -32,13 +44,23 @@ impl Beside {
 
     /// Whether it is not yet at `cycle`.
     pub fn lags(&self, cycle: f64) -> bool {
-        self.stopped.is_none() && self.run.cycle() < cycle
+        self.stopped.is_none() && self.run.cycle() < cycle || self.must_restart(cycle)
+    }
+
+    /// Whether the first run has gone back in time, to `cycle`.
+    fn must_restart(&self, cycle: f64) -> bool {
+        self.start.is_some() && self.run.cycle() > cycle + 1e-9
     }
 
     /// Steps to `cycle`, where the first run is, for about as long as `budget`, but at least once: the first run may
     /// have jumped over many cycles that this one has to step through. Steps may lead past `cycle`, but not past
     /// `goal`.
     pub fn follow(&mut self, goal: f64, cycle: f64, budget: Duration) {
+        if self.must_restart(cycle)
+            && let Some(start) = self.start.take()
+        {
+            *self = Self::from_start(start);
+        }
         let (start, before) = (Instant::now(), self.run.simulation().steps());
         while self.lags(cycle) {
             let stepped = self.run.step_until(goal);

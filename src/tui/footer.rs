@@ -16,47 +16,43 @@ use super::theme::{Role, Theme};
 const HINT: &str =
     " Space pauses, + runs faster, Enter explains, V: the contact, n: a tour.   ? help   q quit";
 
-/// The commands of a mode, and the names that some of them have in it.
-type Mode = (&'static [Command], &'static [(Command, &'static str)]);
+/// Commands, and their names where those are others than in the table.
+type Mode = &'static [(Command, &'static str)];
 
 /// The commands that are shown where nothing else is asked for.
 #[rustfmt::skip]
-pub const USUAL: &[Command] = &[
-    C::RunPause, C::Accept, C::Step, C::Cycle, C::NextMethod, C::NextLaw, C::NextPage, C::NextPanel, C::Zoom,
-    C::Snapshot, C::Edit, C::Presets, C::Compare, C::Palette,
+pub const USUAL: Mode = &[
+    (C::RunPause, ""), (C::Accept, ""), (C::Step, ""), (C::Cycle, ""), (C::NextMethod, ""), (C::NextLaw, ""),
+    (C::NextPage, ""), (C::NextPanel, ""), (C::Zoom, ""), (C::Snapshot, ""), (C::Edit, ""), (C::Presets, ""),
+    (C::Compare, ""), (C::Palette, ""),
 ];
 
 /// The commands that are always shown.
-const ALWAYS: [Command; 2] = [C::Help, C::Quit];
+const ALWAYS: Mode = &[(C::Help, ""), (C::Quit, "")];
 
-const IN_THE_PAST: Mode = (
-    &[C::TimeBack, C::TimeForth, C::RunPause, C::Edit],
-    &[
-        (C::TimeBack, "back"),
-        (C::TimeForth, "forward"),
-        (C::RunPause, "run on from here"),
-        (C::Edit, "change from here"),
-    ],
-);
+const IN_THE_PAST: Mode = &[
+    (C::TimeBack, "back"),
+    (C::TimeForth, "forward"),
+    (C::RunPause, "run on from here"),
+    (C::Edit, "change from here"),
+];
 
 #[rustfmt::skip]
-const COMPARING: Mode = (
-    &[C::NextMethod, C::CompareFromStart, C::Compare, C::RunPause, C::Step, C::Cycle],
-    &[(C::NextMethod, "other method"), (C::CompareFromStart, "from the start"), (C::Compare, "end comparison")],
-);
+const COMPARING: Mode = &[
+    (C::NextMethod, "other method"), (C::CompareFromStart, "from the start"), (C::Compare, "end comparison"),
+    (C::RunPause, ""), (C::Step, ""), (C::Cycle, ""),
+];
 
 #[rustfmt::skip]
-const AT_THE_CONTACT: Mode = (
-    &[
-        C::Contact, C::RunPause, C::Faster, C::Step, C::Cycle, C::Accept, C::Stress, C::Edit, C::Presets, C::Palette,
-    ],
-    &[(C::Contact, "all panels"), (C::Stress, "other stress")],
-);
+const AT_THE_CONTACT: Mode = &[
+    (C::Contact, "all panels"), (C::RunPause, ""), (C::Faster, ""), (C::Step, ""), (C::Cycle, ""), (C::Accept, ""),
+    (C::Stress, "other stress"), (C::Edit, ""), (C::Presets, ""), (C::Palette, ""),
+];
 
-const ON_TOUR: Mode = (
-    &[C::Tour, C::Back, C::RunPause, C::Faster, C::Accept],
-    &[(C::Tour, "next caption"), (C::Back, "close the tour")],
-);
+#[rustfmt::skip]
+const ON_TOUR: Mode = &[
+    (C::Tour, "next caption"), (C::Back, "close the tour"), (C::RunPause, ""), (C::Faster, ""), (C::Accept, ""),
+];
 
 fn mode(app: &App) -> Mode {
     match app.frame.as_deref() {
@@ -64,7 +60,7 @@ fn mode(app: &App) -> Mode {
         Some(frame) if frame.present.is_some() => IN_THE_PAST,
         _ if app.stage.tour.is_some() => ON_TOUR,
         _ if app.stage.shows_contact() => AT_THE_CONTACT,
-        _ => (USUAL, &[]),
+        _ => USUAL,
     }
 }
 
@@ -113,10 +109,10 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
 }
 
 /// A notice, or else keys and what they do: as many of `keys` as fit, and those of `always`.
-pub fn draw_line(
+pub fn draw_line<S: AsRef<str>>(
     notice: Option<&str>,
-    keys: &[[&str; 2]],
-    always: &[[&str; 2]],
+    keys: &[[S; 2]],
+    always: &[[S; 2]],
     theme: &Theme,
     area: Rect,
     buffer: &mut Buffer,
@@ -125,43 +121,40 @@ pub fn draw_line(
         let text = format!(" {}", theme.printable(text));
         return Line::styled(text, theme.style(Role::Notice)).render(area, buffer);
     }
-    let width = |texts: &[&str; 2]| {
-        texts
-            .iter()
-            .map(|text| text.chars().count() + 1)
-            .sum::<usize>()
+    let width = |texts: &[S; 2]| -> usize {
+        let widths = texts.iter().map(|text| text.as_ref().chars().count() + 1);
+        widths.sum()
     };
     let mut left = usize::from(area.width).saturating_sub(always.iter().map(width).sum());
-    let mut shown = keys.to_vec();
-    shown.retain(|texts| {
+    let shown = keys.iter().filter(|texts| {
         let fits = width(texts) <= left;
         left -= if fits { width(texts) } else { 0 };
         fits
     });
     let styles = [Role::Title, Role::Quiet].map(|role| theme.style(role));
-    let spans = shown.iter().chain(always).flat_map(|texts| {
+    let spans = shown.chain(always).flat_map(|texts| {
         let parts = texts.iter().zip(styles);
-        parts.map(|(text, style)| Span::styled(format!(" {text}"), style))
+        parts.map(|(text, style)| Span::styled(format!(" {}", text.as_ref()), style))
     });
     Line::from_iter(spans).render(area, buffer);
 }
 
 /// The keys of the present mode; help and quit always.
 fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
-    let (commands, names) = mode(app);
-    let texts = |command: &Command| {
-        let row = command.row();
-        let name = names.iter().find(|(renamed, _)| renamed == command);
-        (
-            row.keys[0].to_string(),
-            name.map_or(row.name, |(_, name)| name),
-        )
+    let texts = |mode: Mode| -> Vec<[String; 2]> {
+        let texts = mode.iter().map(|(command, name)| {
+            let row = command.row();
+            let name = if name.is_empty() { row.name } else { name };
+            [row.keys[0].to_string(), name.to_owned()]
+        });
+        texts.collect()
     };
-    let texts = |commands: &[Command]| commands.iter().map(texts).collect::<Vec<_>>();
-    let (shown, always) = (texts(commands), texts(&ALWAYS));
-    let [shown, always] = [&shown, &always].map(|list| {
-        let pairs = list.iter().map(|(key, name)| [key.as_str(), *name]);
-        pairs.collect::<Vec<_>>()
-    });
-    draw_line(None, &shown, &always, &app.theme, area, buffer);
+    draw_line(
+        None,
+        &texts(mode(app)),
+        &texts(ALWAYS),
+        &app.theme,
+        area,
+        buffer,
+    );
 }

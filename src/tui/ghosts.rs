@@ -2,7 +2,6 @@
 
 use std::path::Path;
 use std::sync::Arc;
-use std::time::Duration;
 
 use super::beside::Beside;
 use super::trend::Recorded;
@@ -23,7 +22,14 @@ pub enum Source {
     /// They do not change.
     Still(Arc<Ghost>),
     /// They are those of another run at the same cycle.
-    Run(Box<GhostRun>),
+    Run(GhostRun),
+}
+
+/// A scenario that runs beside, from its start to the present cycle.
+#[derive(Debug, Clone)]
+pub struct GhostRun {
+    name: String,
+    beside: Box<Beside>,
 }
 
 impl Source {
@@ -39,7 +45,13 @@ impl Source {
             .is_none_or(|end| end.eq_ignore_ascii_case("toml"));
         if is_scenario && !path.is_dir() {
             let scenario = Scenario::load(given, &[]).map_err(|error| error.to_string())?;
-            return Ok(Self::Run(Box::new(GhostRun::start(&scenario)?)));
+            let resolved = refinement::resolve_soon(&scenario);
+            let resolved = resolved.map_err(|error| error.to_string())?;
+            let start = Session::start(resolved.scenario).map_err(|error| error.to_string())?;
+            return Ok(Self::Run(GhostRun {
+                name: scenario.stem(),
+                beside: Box::new(Beside::from_start(start)),
+            }));
         }
         let ghost = Ghost::read(path).map_err(|error| error.to_string())?;
         let checked = ghost.check_radii(reach);
@@ -61,71 +73,33 @@ impl Source {
         }
     }
 
-    /// Whether it is not yet where the run is.
-    pub(super) fn lags(&self, cycle: f64) -> bool {
+    /// The run that follows, if it is one.
+    pub(super) fn beside(&self) -> Option<&Beside> {
         match self {
-            Self::Still(_) => false,
-            Self::Run(run) => run.beside.lags(cycle) || run.is_ahead(cycle),
+            Self::Still(_) => None,
+            Self::Run(run) => Some(&run.beside),
         }
     }
 
-    /// Comes nearer to the run for about as long as `budget`.
-    pub(super) fn follow_for(&mut self, cycle: f64, budget: Duration) {
-        if let Self::Run(run) = self {
-            run.follow_for(cycle, budget);
+    /// The same, to be stepped.
+    pub(super) fn beside_mut(&mut self) -> Option<&mut Beside> {
+        match self {
+            Self::Still(_) => None,
+            Self::Run(run) => Some(&mut run.beside),
         }
     }
 
     /// Its curves, `curves` of them if they are computed for each frame.
     pub(super) fn seen(&self, curves: Curves) -> Arc<Ghost> {
-        match self {
-            Self::Still(ghost) => Arc::clone(ghost),
-            Self::Run(run) => Arc::new(ghost(&run.shown_name(), &run.beside.run, curves)),
-        }
-    }
-}
-
-/// A scenario that runs beside, from its start to the present cycle.
-#[derive(Debug, Clone)]
-pub struct GhostRun {
-    name: String,
-    /// As it was before its first step: where it begins again when the screen goes back in time.
-    start: Session,
-    beside: Beside,
-}
-
-impl GhostRun {
-    fn start(scenario: &Scenario) -> Result<Self, String> {
-        let resolved = refinement::resolve_soon(scenario);
-        let resolved = resolved.map_err(|error| error.to_string())?;
-        let start = Session::start(resolved.scenario).map_err(|error| error.to_string())?;
-        Ok(Self {
-            name: scenario.stem(),
-            beside: Beside::new(start.clone().into()),
-            start,
-        })
-    }
-
-    /// Whether the screen has gone back in time.
-    fn is_ahead(&self, cycle: f64) -> bool {
-        self.beside.run.cycle() > cycle + 1e-9
-    }
-
-    fn follow_for(&mut self, cycle: f64, budget: Duration) {
-        if self.is_ahead(cycle) {
-            self.beside = Beside::new(self.start.clone().into());
-        }
-        self.beside.follow(cycle, cycle, budget);
-    }
-
-    fn shown_name(&self) -> String {
-        match self.beside.stopped {
-            Some(_) => {
-                let cycle = self.beside.run.cycle();
-                format!("{} (ends at {cycle:.2})", self.name)
-            }
-            None => self.name.clone(),
-        }
+        let GhostRun { name, beside } = match self {
+            Self::Still(ghost) => return Arc::clone(ghost),
+            Self::Run(run) => run,
+        };
+        let end = match beside.stopped {
+            Some(_) => format!(" (ends at {:.2})", beside.run.cycle()),
+            None => String::new(),
+        };
+        Arc::new(ghost(&format!("{name}{end}"), &beside.run, curves))
     }
 }
 

@@ -29,12 +29,10 @@ pub struct Loops {
 
 impl Loops {
     /// From the steps of the last cycle: cycle, u_x⁽⁰⁾ (m), F_x (N).
-    pub fn of_steps(steps: Vec<[f64; 3]>) -> Self {
-        let steps = steps.into_iter().take(CAPACITY);
+    pub fn of_steps(steps: impl Iterator<Item = [f64; 3]>) -> Self {
+        let steps = steps.map(|[cycle, u, force]| [cycle, u, force, f64::NAN]);
         Self {
-            steps: steps
-                .map(|[cycle, u, force]| [cycle, u, force, f64::NAN])
-                .collect(),
+            steps: steps.take(CAPACITY).collect(),
             ..Self::default()
         }
     }

@@ -79,7 +79,7 @@ use frame::Slot;
 use keys::Key;
 use mouse::Gesture;
 use refinement_check::RefinementCheck;
-pub use script::{Format, Script, Size, Stroke, rehearse};
+pub use script::{Format, Script, Stroke, parse_size, rehearse};
 pub use terminal::Capture;
 use theme::{Depth, Look, Theme};
 use trend::Recorded;
@@ -238,9 +238,9 @@ fn left_behind(app: &App, is_restored: bool) -> Result<Option<String>> {
     if app.leave != Some(Leave::KeepScreen) || !is_restored {
         return Ok(None);
     }
-    let size = terminal::size()?;
-    let (columns, rows) = (size.width, size.height.saturating_sub(1));
-    Ok(Some(script::text(app, Size { columns, rows })))
+    let mut size = terminal::size()?;
+    size.height = size.height.saturating_sub(1);
+    Ok(Some(script::text(app, size)))
 }
 
 /// Carries out `action`; a panic in it is reported by the caller, when the terminal is itself again.

@@ -43,7 +43,8 @@ impl Pace {
 /// The time between two jumps over cycles, unless the pace is without limit.
 const JUMP_EVERY: Duration = Duration::from_millis(100);
 
-/// When the next step of a run is due, and at which phase of the motion its frames are taken.
+/// The speed of a run, measured from a moment of it on: when its next step is due, and at which phase of the motion
+/// its frames are taken.
 #[derive(Debug)]
 pub(super) struct Clock {
     rung: i32,
@@ -51,7 +52,16 @@ pub(super) struct Clock {
     pub holds_phase: bool,
     /// When the last step began.
     pub stepped: Instant,
-    pub meter: Meter,
+    /// When the measurement began, and where the run was then.
+    since: Instant,
+    cycle: f64,
+    steps: u64,
+    /// How long the run has stepped since.
+    busy: Duration,
+    /// Cycles per second; `None` until measured.
+    pub speed: Option<f64>,
+    /// Time per step, s; `None` until measured.
+    pub step_cost: Option<f64>,
 }
 
 impl Default for Clock {
@@ -60,7 +70,12 @@ impl Default for Clock {
             rung: Pace::START,
             holds_phase: true,
             stepped: Instant::now(),
-            meter: Meter::default(),
+            since: Instant::now(),
+            cycle: 0.0,
+            steps: 0,
+            busy: Duration::ZERO,
+            speed: None,
+            step_cost: None,
         }
     }
 }
@@ -91,53 +106,18 @@ impl Clock {
             Pace::Cycles(_) if simulation.may_jump() => {
                 JUMP_EVERY.as_secs_f64() - self.stepped.elapsed().as_secs_f64()
             }
-            Pace::Cycles(pace) => self.meter.ahead(simulation.next_moment(), pace),
+            Pace::Cycles(pace) => {
+                let cycles = simulation.next_moment() - self.cycle;
+                cycles / pace - self.since.elapsed().as_secs_f64()
+            }
         }
     }
-}
 
-/// Compares the clock with the requested pace, from a moment of the run on.
-#[derive(Debug)]
-pub(super) struct Meter {
-    since: Instant,
-    cycle: f64,
-    steps: u64,
-    /// How long the run has stepped since.
-    busy: Duration,
-    /// Cycles per second; `None` until measured.
-    pub speed: Option<f64>,
-    /// Time per step, s; `None` until measured.
-    pub step_cost: Option<f64>,
-}
-
-impl Default for Meter {
-    fn default() -> Self {
-        Self {
-            since: Instant::now(),
-            cycle: 0.0,
-            steps: 0,
-            busy: Duration::ZERO,
-            speed: None,
-            step_cost: None,
-        }
-    }
-}
-
-impl Meter {
     /// Begins anew where the run stands: how far it was ahead or behind is forgotten.
     pub fn restart(&mut self, simulation: &Simulation) {
-        *self = Self {
-            since: Instant::now(),
-            cycle: simulation.cycle(),
-            steps: simulation.steps(),
-            busy: Duration::ZERO,
-            ..*self
-        };
-    }
-
-    /// Seconds until `cycle` is due at `pace` cycles per second.
-    pub fn ahead(&self, cycle: f64, pace: f64) -> f64 {
-        (cycle - self.cycle) / pace - self.since.elapsed().as_secs_f64()
+        self.since = Instant::now();
+        (self.cycle, self.steps) = (simulation.cycle(), simulation.steps());
+        self.busy = Duration::ZERO;
     }
 
     /// Takes in a stint of a run that has led to where it stands.

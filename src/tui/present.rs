@@ -50,24 +50,16 @@ impl SpeedUp {
         let since = self
             .0
             .filter(|(pace, began)| is_running && *pace == frame.pace && cycle >= *began);
-        let is_due = since.is_some_and(|(_, began)| is_due(frame, began));
+        let planned = frame.facts.planned_cycles.unwrap_or(f64::INFINITY);
+        let is_due = since.is_some_and(|(pace, began)| match pace {
+            Pace::Cycles(pace) => planned / pace > LEAST && cycle - began >= SECONDS * pace,
+            Pace::Unlimited => false,
+        });
         if is_due || since.is_none() {
             self.0 = Some((frame.pace, cycle));
         }
         is_due
     }
-}
-
-/// Whether a run that has been at this pace since the cycle `began` shall go faster.
-fn is_due(frame: &Frame, began: f64) -> bool {
-    let Pace::Cycles(pace) = frame.pace else {
-        return false;
-    };
-    let lasts = frame
-        .facts
-        .planned_cycles
-        .map_or(f64::INFINITY, |planned| planned / pace);
-    lasts > LEAST && frame.observation.moment.cycle - began >= SECONDS * pace
 }
 
 /// Draws what the contact does and the cycle in large letters.

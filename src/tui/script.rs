@@ -1,14 +1,13 @@
 //! `--keys SCRIPT --print SIZE`: the explorer without a terminal, for scripts, tests and pictures.
 
 use std::io::{self, Write};
-use std::str::FromStr;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
 use anyhow::{Context, Result, anyhow};
 use ratatui::buffer::{Buffer, Cell};
-use ratatui::layout::Rect;
+use ratatui::layout::{Rect, Size};
 use ratatui::style::Color;
 use ratatui::text::Line;
 
@@ -23,32 +22,17 @@ use super::worker::{Orders, Worker};
 use crate::plot::screen_svg::{self, Ground};
 use crate::scenario::session::Session;
 
-/// A size of the screen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Size {
-    /// Columns.
-    pub columns: u16,
-    /// Rows.
-    pub rows: u16,
-}
-
-impl FromStr for Size {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let size = text.split_once(['x', 'X']).and_then(|(columns, rows)| {
-            Some(Self {
-                columns: columns.parse().ok()?,
-                rows: rows.parse().ok()?,
-            })
-        });
-        match size {
-            Some(size) if (1..=1000).contains(&size.columns) && (1..=1000).contains(&size.rows) => {
-                Ok(size)
-            }
-            _ => Err("a size is COLUMNSxROWS from 1x1 to 1000x1000, e.g. 80x24".into()),
-        }
-    }
+/// Reads a size of the screen, `COLUMNSxROWS`.
+///
+/// # Errors
+/// What a size is.
+pub fn parse_size(text: &str) -> Result<Size, String> {
+    let size = text.split_once(['x', 'X']).and_then(|(columns, rows)| {
+        let within = |count: &u16| (1..=1000).contains(count);
+        let columns = columns.parse().ok().filter(within)?;
+        Some(Size::new(columns, rows.parse().ok().filter(within)?))
+    });
+    size.ok_or_else(|| "a size is COLUMNSxROWS from 1x1 to 1000x1000, e.g. 80x24".into())
 }
 
 /// The output format.
@@ -100,7 +84,7 @@ impl Stroke {
                 .ok_or_else(|| format!("--keys: {mark} is not closed; it ends with >"))?;
             strokes.push(match mark {
                 "<paste:" => Self::Paste(given.to_owned()),
-                _ => Self::Resize(given.parse().map_err(|error| format!("--keys: {error}"))?),
+                _ => Self::Resize(parse_size(given).map_err(|error| format!("--keys: {error}"))?),
             });
             rest = after;
         }
@@ -160,7 +144,7 @@ fn press(
     orders: &Orders,
     events: &Receiver<Event>,
 ) -> Result<Size> {
-    app.resize(size.columns, size.rows);
+    app.resize(size.width, size.height);
     catch_up(app, orders, events)?;
     for stroke in strokes {
         match stroke {
@@ -168,7 +152,7 @@ fn press(
             Stroke::Paste(text) => app.paste(text),
             Stroke::Resize(other) => {
                 size = *other;
-                app.resize(size.columns, size.rows);
+                app.resize(size.width, size.height);
             }
         }
         catch_up(app, orders, events)?;
@@ -202,7 +186,7 @@ fn catch_up(app: &mut App, orders: &Orders, events: &Receiver<Event>) -> Result<
 
 /// The screen as it is drawn.
 fn drawn(app: &App, size: Size) -> Buffer {
-    let area = Rect::new(0, 0, size.columns, size.rows);
+    let area = Rect::from(size);
     let mut buffer = Buffer::empty(area);
     screen::draw(app, area, &mut buffer);
     buffer
@@ -264,10 +248,7 @@ mod tests {
             Stroke::Key(Key::Char(':')),
             Stroke::Paste("set a=<1".into()),
             Stroke::Key(Key::Named(keys::Named::Enter)),
-            Stroke::Resize(Size {
-                columns: 40,
-                rows: 10,
-            }),
+            Stroke::Resize(Size::new(40, 10)),
             Stroke::Key(Key::Char('q')),
         ];
         assert_eq!(strokes, expected);

@@ -2,7 +2,6 @@
 //! last loop as tables, and a checkpoint.
 
 use std::fmt::Write;
-use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use serde::de::IgnoredAny;
@@ -10,7 +9,7 @@ use serde::de::IgnoredAny;
 use super::trend::{self, Cycle, Recorded, Trend};
 use crate::export::file::{RUN_CHECKPOINT, RunDirectory, WriteError};
 use crate::export::header::{field as written, lines, number};
-use crate::export::{history, own, state};
+use crate::export::{history, state};
 use crate::scenario::columns::Columns;
 use crate::scenario::scalars::Reading;
 use crate::scenario::session::Session;
@@ -19,12 +18,6 @@ use crate::traces::Table;
 
 /// The checkpoint of a snapshot.
 const CHECKPOINT: &str = "state.checkpoint";
-
-/// Lines of a table that are searched for its header.
-const HEADER: usize = 50;
-
-/// And the most bytes.
-const LONGEST_HEADER: u64 = 1 << 20;
 
 /// Writes the state of `run` to a new directory, with the user's note, and returns the path of the state.
 pub(super) fn write(run: &Recorded, note: Option<&str>) -> Result<PathBuf, WriteError> {
@@ -35,40 +28,28 @@ pub(super) fn write(run: &Recorded, note: Option<&str>) -> Result<PathBuf, Write
     let cycle = number(session.simulation().cycle());
     let stem = session.loaded().stem();
     let directory = RunDirectory::claim_new(&format!("{stem}-cycle-{cycle}"))?;
-    let written = fill(&directory, session, &run.trend, &kept);
-    if written.is_err() {
-        // Nothing half: the directory goes with its last file.
-        for name in FILES {
-            let _ = std::fs::remove_file(directory.path().join(name));
+    let mut files = vec![
+        (
+            "scenario.toml",
+            session.as_run(Vec::new()).to_toml().into_bytes(),
+        ),
+        ("history.csv", history(session, &run.trend).into_bytes()),
+        (CHECKPOINT, kept),
+    ];
+    if session.simulation().moment().stick_radius.is_some() {
+        files.push(("loop.csv", last_loop(session, &run.trend).into_bytes()));
+    }
+    files.push(("state.csv", state::table(session).into_bytes()));
+    for (name, bytes) in &files {
+        if let Err(error) = directory.write(name, bytes) {
+            // Nothing half: the directory goes with its last file.
+            for (name, _) in &files {
+                let _ = std::fs::remove_file(directory.path().join(name));
+            }
+            return Err(error);
         }
     }
-    written.map(|()| directory.path().join("state.csv").components().collect())
-}
-
-/// The files of a state.
-const FILES: [&str; 5] = [
-    "scenario.toml",
-    "history.csv",
-    "loop.csv",
-    CHECKPOINT,
-    "state.csv",
-];
-
-fn fill(
-    directory: &RunDirectory,
-    session: &Session,
-    trend: &Trend,
-    kept: &[u8],
-) -> Result<(), WriteError> {
-    let scenario = session.as_run(Vec::new()).to_toml();
-    directory.write("scenario.toml", scenario.as_bytes())?;
-    directory.write("history.csv", history(session, trend).as_bytes())?;
-    if session.simulation().moment().stick_radius.is_some() {
-        directory.write("loop.csv", last_loop(session, trend).as_bytes())?;
-    }
-    directory.write(CHECKPOINT, kept)?;
-    let state = state::table(session);
-    directory.write("state.csv", state.as_bytes()).map(|_| ())
+    Ok(directory.path().join("state.csv").components().collect())
 }
 
 /// The history in the columns of a run's. Contact radii and stick radii are those that the screen shows: the
@@ -116,16 +97,8 @@ fn checkpoint_in(directory: &Path) -> Option<PathBuf> {
 /// What `path` is if a state can be opened from there: its cycle, title and note, in a line.
 pub(super) fn about(path: &Path) -> Option<String> {
     checkpoint_in(path)?;
-    let file = own::read(&path.join("state.csv")).ok()?;
-    let head = BufReader::new(file.take(LONGEST_HEADER))
-        .lines()
-        .take(HEADER);
-    let head: Vec<String> = head.map_while(Result::ok).collect();
-    let fact = |key: &str| {
-        let start = format!("# {key}: ");
-        let found = head.iter().find_map(|line| line.strip_prefix(&start));
-        found.map(printable)
-    };
+    let state = Table::of_file(&Columns::read(&path.join("state.csv")).ok()?);
+    let fact = |key: &str| state.fact(key).map(printable);
     let (cycle, title) = (fact("cycle")?, fact("scenario")?);
     let note = fact("note").map_or_else(String::new, |note| format!(" Note: {note}."));
     Some(format!(
@@ -168,17 +141,11 @@ fn past(directory: &Path, cycle: f64, initial: f64) -> Option<Trend> {
             fields: has_all.then(|| file.fields(row).into()),
         }
     });
-    let rows = read("loop.csv").and_then(|file| {
-        let table = Table::of_file(&file);
-        let columns = ["cycle", "u_m", "F_N"].map(|name| table.column(name));
-        let [Some(cycles), Some(shifts), Some(forces)] = columns else {
-            return None;
-        };
-        let rows = 0..cycles.len();
-        Some(
-            rows.map(|row| [cycles[row], shifts[row], forces[row]])
-                .collect(),
-        )
-    });
-    Some(Trend::of_past(entries, rows.unwrap_or_default(), initial))
+    let steps = read("loop.csv").map(|file| Table::of_file(&file));
+    let steps = steps.unwrap_or_default();
+    let [cycles, shifts, forces] =
+        ["cycle", "u_m", "F_N"].map(|name| steps.column(name).unwrap_or_default());
+    let steps = cycles.iter().zip(shifts).zip(forces);
+    let steps = steps.map(|((cycle, shift), force)| [*cycle, *shift, *force]);
+    Some(Trend::of_past(entries, steps, initial))
 }

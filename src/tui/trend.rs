@@ -126,7 +126,7 @@ impl Trend {
     /// The run began with a worn volume `initial` (m³).
     pub fn of_past(
         cycles: impl Iterator<Item = Cycle>,
-        steps: Vec<[f64; 3]>,
+        steps: impl Iterator<Item = [f64; 3]>,
         initial: f64,
     ) -> Self {
         let mut cycles: Vec<_> = cycles.take(CAPACITY - 1).map(Arc::new).collect();

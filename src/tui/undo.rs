@@ -9,6 +9,7 @@
 
 use std::sync::Arc;
 
+use super::autosave::mark;
 use super::trend::Recorded;
 use crate::math::abel::Form;
 
@@ -132,9 +133,7 @@ impl Past {
     /// Whether the newest state is the present one: no step and no change since.
     fn is_kept(&self, run: &Recorded) -> bool {
         self.kept.last().is_some_and(|last| {
-            last.stretch == self.stretch
-                && last.cycle() == run.cycle()
-                && last.run.session.changes().len() == run.session.changes().len()
+            last.stretch == self.stretch && mark(&last.run.session) == mark(&run.session)
         })
     }
 

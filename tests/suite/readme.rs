@@ -37,7 +37,7 @@ fn the_manual_page_has_every_key() {
 fn the_footer_names_commands_of_the_table() {
     let screen = TestDir::new().done("--keys , --print 200x24");
     let footer = screen.lines().last().expect("a footer");
-    for row in footer::USUAL.iter().map(|command| command.row()) {
+    for row in footer::USUAL.iter().map(|(command, _)| command.row()) {
         let shown = format!(" {} {}", row.keys[0], row.name);
         has(footer, &shown);
     }

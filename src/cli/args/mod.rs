@@ -4,12 +4,13 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 use clap_complete::engine::{ArgValueCandidates, ArgValueCompleter};
+use ratatui::layout::Size;
 
 use super::complete;
 
 use crate::plot::Marker;
 use crate::plot::theme::Look;
-use crate::tui::{Format, Size};
+use crate::tui::{Format, parse_size};
 
 mod figure;
 mod studies;
@@ -146,7 +147,7 @@ pub struct Explore {
     #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = interval)]
     pub checkpoint_every: Interval,
     /// Print the screen at this size after the last key, and exit; the simulation starts paused.
-    #[arg(long, value_name = "COLUMNSxROWS")]
+    #[arg(long, value_name = "COLUMNSxROWS", value_parser = parse_size)]
     pub print: Option<Size>,
     /// Print the screen as text, or as a picture with its colours.
     #[arg(long, value_enum, default_value_t = Format::Text, requires = "print")]

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::builder::{StringValueParser, TypedValueParser};
 use clap::{ArgGroup, Args};
+use ratatui::layout::Size;
 
 use super::Changes;
 use super::values::ColorChoice;
@@ -11,7 +12,7 @@ use crate::plot::Marker;
 use crate::plot::theme::Look;
 use crate::scenario::printable;
 use crate::studies::sweep::Shard;
-use crate::tui::Size;
+use crate::tui::parse_size;
 
 /// Options of `sweep`.
 #[derive(Debug, Args)]
@@ -96,7 +97,7 @@ pub struct Sweep {
     )]
     pub keys: Option<String>,
     /// With --view, print the screen at this size.
-    #[arg(long, value_name = "COLUMNSxROWS", requires = "view")]
+    #[arg(long, value_name = "COLUMNSxROWS", requires = "view", value_parser = parse_size)]
     pub print: Option<Size>,
     /// With --view, how curves are drawn.
     #[arg(long, value_enum, requires = "view")]

@@ -65,7 +65,7 @@ fn open(view: &View, point: usize, options: &Sweep, is_ending: &AtomicBool) -> R
     let mut explorer = Command::new(program);
     explorer.arg(&file);
     if let Some(size) = options.print {
-        explorer.args(["--print", &format!("{}x{}", size.columns, size.rows)]);
+        explorer.args(["--print", &format!("{}x{}", size.width, size.height)]);
     }
     let word = |choice: Option<clap::builder::PossibleValue>| {
         choice.map(|value| value.get_name().to_owned())

@@ -11,14 +11,14 @@ use std::time::Duration;
 
 use anyhow::Result;
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use ratatui::layout::{Rect, Size};
 
 use super::command::{self, Command};
 use super::event_loop::{self, Scene};
 use super::keys::Key;
 use super::terminal::Capture;
 use super::theme::Theme;
-use super::{Event, Size, script};
+use super::{Event, script};
 
 mod draw;
 pub mod live;
@@ -44,7 +44,7 @@ impl<F: FnMut(&mut View)> Scene for Shown<'_, F> {
         &mut self.theme
     }
 
-    fn resize(&mut self, _: ratatui::layout::Size) {}
+    fn resize(&mut self, _: Size) {}
 
     fn draw(&self, area: Rect, buffer: &mut Buffer) {
         draw::draw(self.view, &self.theme, area, buffer);
@@ -113,7 +113,7 @@ pub fn play(view: &mut View, theme: &Theme, keys: &[Key], size: Size) -> Result<
             break;
         }
     }
-    let area = Rect::new(0, 0, size.columns, size.rows);
+    let area = Rect::from(size);
     let mut buffer = Buffer::empty(area);
     draw::draw(view, theme, area, &mut buffer);
     if leave == Leave::Quit {

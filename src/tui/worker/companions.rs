@@ -31,18 +31,18 @@ impl Companions {
 
     /// Whether what is seen is not yet at `cycle`.
     fn lags(&self, cycle: f64) -> bool {
-        let mut comparison = self.comparison.iter();
-        comparison.any(|comparison| comparison.beside.lags(cycle))
-            || self.ghosts.iter().any(|ghost| ghost.lags(cycle))
+        let comparison = self.comparison.iter().map(|comparison| &comparison.beside);
+        let mut seen = comparison.chain(self.ghosts.iter().filter_map(Source::beside));
+        seen.any(|beside| beside.lags(cycle))
     }
 
     /// Lets what is seen come nearer to `cycle`.
     pub fn follow(&mut self, cycle: f64) {
-        if let Some(comparison) = &mut self.comparison {
-            comparison.beside.follow(cycle, cycle, CATCH_UP);
-        }
-        for ghost in &mut self.ghosts {
-            ghost.follow_for(cycle, CATCH_UP);
+        let comparison = self.comparison.iter_mut();
+        let comparison = comparison.map(|comparison| &mut comparison.beside);
+        let ghosts = self.ghosts.iter_mut().filter_map(Source::beside_mut);
+        for beside in comparison.chain(ghosts) {
+            beside.follow(cycle, cycle, CATCH_UP);
         }
     }
 

@@ -74,10 +74,9 @@ impl Worker {
             pace: self.clock.pace(),
             speed: self
                 .clock
-                .meter
                 .speed
                 .filter(|_| self.activity == Activity::Running),
-            step_cost: self.clock.meter.step_cost,
+            step_cost: self.clock.step_cost,
             present: self.past.present(),
             changes: self
                 .past

@@ -134,12 +134,7 @@ impl Worker {
 
     /// [`serve`](Self::serve), and saves the session regularly and at the end, even after a panic;
     /// returns the message for the user.
-    fn run_with_checkpoints(
-        mut self,
-        orders: &Receiver<Order>,
-        keeping: Option<Arc<Mutex<ScreenAutosave>>>,
-    ) -> Option<String> {
-        self.keeping = keeping;
+    fn run_with_checkpoints(mut self, orders: &Receiver<Order>) -> Option<String> {
         let served = catch_unwind(AssertUnwindSafe(|| self.handle_orders(orders)));
         // The interrupted step has left half a state.
         let session = served.is_ok().then(|| &self.past.line(&self.run).session);
@@ -178,7 +173,7 @@ impl Worker {
                         }
                         self.checkpoint_if_due();
                     }
-                    self.clock.meter.restart(self.run.simulation());
+                    self.clock.restart(self.run.simulation());
                     self.publish();
                 }
                 Err(RecvTimeoutError::Timeout) if self.is_awaited() => self.catch_up(),

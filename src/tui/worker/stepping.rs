@@ -80,9 +80,9 @@ impl Worker {
             }
         }
         let simulation = self.run.simulation();
-        self.clock.meter.measure(simulation, start.elapsed());
+        self.clock.measure(simulation, start.elapsed());
         let cycle = simulation.cycle();
-        self.run.trend.note_cost(self.clock.meter.step_cost);
+        self.run.trend.note_cost(self.clock.step_cost);
         self.companions.follow_with_twin(cycle, TWIN_STINT);
         let wait = match self.holds_phase() {
             true => self.screen.interval.max(AT_LEAST),

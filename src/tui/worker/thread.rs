@@ -39,18 +39,19 @@ impl Drop for EndReport {
 impl WorkerThread {
     /// Starts `worker`, whose `orders` come at `inbox`.
     pub fn start(
-        worker: Worker,
+        mut worker: Worker,
         orders: Orders,
         inbox: Receiver<Order>,
         keeping: Option<Arc<Mutex<ScreenAutosave>>>,
     ) -> Result<Self> {
         let (tell, saved) = channel();
-        let (halt, shared) = (Arc::clone(&worker.halt), keeping.clone());
+        let halt = Arc::clone(&worker.halt);
+        worker.keeping.clone_from(&keeping);
         thread::Builder::new()
             .name("simulation".into())
             .spawn(move || {
                 let _report = EndReport(worker.screen.events.clone());
-                let _ = tell.send(worker.run_with_checkpoints(&inbox, shared));
+                let _ = tell.send(worker.run_with_checkpoints(&inbox));
             })
             .context("cannot start the simulation's thread")?;
         Ok(Self {

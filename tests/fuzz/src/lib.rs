@@ -13,7 +13,7 @@ use mdr_tui::tui::theme::{Look, Theme};
 use mdr_tui::tui::worker::Orders;
 use mdr_tui::tui::{Stroke, rehearse};
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use ratatui::layout::{Rect, Size};
 
 pub mod strokes;
 
@@ -131,8 +131,7 @@ pub fn session(bytes: &[u8]) {
         .collect();
     let strokes = Stroke::script(&script).expect("a script");
     let theme = Theme::new(Look::Dark, Marker::Braille);
-    let size = "80x24".parse().expect("a size");
-    rehearse(session, theme, &strokes, size).expect("a screen");
+    rehearse(session, theme, &strokes, Size::new(80, 24)).expect("a screen");
 }
 
 thread_local! {

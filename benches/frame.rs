@@ -16,7 +16,7 @@ use mdr_tui::scenario::session::Session;
 use mdr_tui::tui::Event;
 use mdr_tui::tui::ansi_writer::AnsiWriter;
 use mdr_tui::tui::app::App;
-use mdr_tui::tui::frame::{Activity, Slot};
+use mdr_tui::tui::frame::Activity;
 use mdr_tui::tui::keys::parse_script;
 use mdr_tui::tui::screen;
 use mdr_tui::tui::theme::{Look, Theme};
@@ -38,7 +38,6 @@ const LARGE: Size = Size::new(200, 50);
 /// The explorer without a terminal.
 struct Stage {
     app: App,
-    slot: Arc<Slot>,
     orders: Orders,
     events: Receiver<Event>,
     line: AnsiWriter,
@@ -51,15 +50,13 @@ impl Stage {
         let session = Session::start(scenario).expect("a contact");
         let (orders, to_worker) = Orders::channel();
         let (sender, events) = channel();
-        let slot = Arc::new(Slot::default());
         let interval = Duration::from_millis(100);
-        let worker = Worker::new(session, Arc::clone(&slot), sender, interval, false);
+        let worker = Worker::new(session, sender, interval, false);
         thread::spawn(move || worker.serve(&to_worker));
         let mut app = App::new(Theme::new(Look::Dark, Marker::Braille), orders.clone());
         app.resize(size.width, size.height);
         Self {
             app,
-            slot,
             orders,
             events,
             line: AnsiWriter::default(),
@@ -128,8 +125,8 @@ fn run_in_the_explorer() {
     stage.press(&"+".repeat(20));
     stage.press("<Space>");
     while let Ok(event) = stage.events.recv() {
-        if let Event::Frame(_) = event
-            && let Some(frame) = stage.slot.take()
+        if let Event::Frame(slot) = event
+            && let Some(frame) = slot.take()
         {
             let is_done = frame.activity == Activity::Done;
             stage.app.take_frame(frame);

@@ -25,7 +25,7 @@ use super::snapshot;
 use super::stage::Stage;
 use super::theme::Theme;
 use super::worker::{Orders, Worker};
-use super::{Event, screen};
+use super::{Event, Input, screen};
 use crate::reading::Curves;
 use crate::scenario::Scenario;
 
@@ -90,9 +90,9 @@ impl Scene for App {
 
     fn handle(&mut self, event: Event) {
         match event {
-            Event::Key(key) => self.press(key),
-            Event::Paste(text) => self.paste(&text),
-            Event::Point(gesture) => self.point(gesture),
+            Event::Input(Input::Key(key)) => self.press(key),
+            Event::Input(Input::Paste(text)) => self.paste(&text),
+            Event::Input(Input::Point(gesture)) => self.point(gesture),
             Event::Frame(slot) => {
                 if let Some(frame) = slot.take() {
                     self.take_frame(frame);

@@ -19,7 +19,7 @@ use super::flow::When;
 use super::input::{self, Waiting};
 use super::terminal::{self, Capture, Screen};
 use super::theme::Theme;
-use super::{Event, catch, suspend};
+use super::{Event, Input, catch, suspend};
 
 /// How long outstanding answers of the terminal are waited for on exit.
 const LAST_ANSWERS: Duration = Duration::from_millis(500);
@@ -128,11 +128,11 @@ fn handle_events(
             if waiting.is_over() {
                 return Ok(());
             }
-            is_due |= !matches!(event, Event::Ready | Event::Written);
+            is_due |= !matches!(event, Event::Input(Input::Ready) | Event::Written);
             match event {
-                Event::Ready => screen.flow().answered(Instant::now()),
+                Event::Input(Input::Ready) => screen.flow().answered(Instant::now()),
                 Event::Written => screen.flow().written(),
-                Event::Background(color) => scene.theme().follow(color),
+                Event::Input(Input::Background(color)) => scene.theme().follow(color),
                 Event::Suspend => suspends = true,
                 Event::Resize if is_away => {}
                 Event::Resize => {
@@ -146,10 +146,10 @@ fn handle_events(
                 }
                 Event::HangUp | Event::WorkerGone => return Ok(()),
                 event => {
-                    if matches!(event, Event::Key(_) | Event::Paste(_)) {
-                        waiting.leave();
-                    }
-                    if matches!(event, Event::Key(_) | Event::Paste(_) | Event::Point(_)) {
+                    if let Event::Input(input) = &event {
+                        if matches!(input, Input::Key(_) | Input::Paste(_)) {
+                            waiting.leave();
+                        }
                         screen.flow().hurry(Instant::now());
                     }
                     scene.handle(event);
@@ -186,7 +186,7 @@ fn drain_replies(screen: &mut Screen, inbox: &Receiver<Event>) -> Vec<Event> {
     let mut held = Vec::new();
     while screen.flow().is_awaited(Instant::now()) {
         match inbox.recv_timeout(end.saturating_duration_since(Instant::now())) {
-            Ok(Event::Ready) => screen.flow().answered(Instant::now()),
+            Ok(Event::Input(Input::Ready)) => screen.flow().answered(Instant::now()),
             Ok(event) => held.push(event),
             Err(_) => break,
         }

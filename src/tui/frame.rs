@@ -5,13 +5,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::facts::Facts;
 use super::pace::Pace;
 use super::trend::Trend;
-use crate::charts::{Live, Run};
-use crate::export::state;
+use crate::charts::Run;
 use crate::reading::subsurface::{Peak, SpringLoad};
 use crate::reading::{Check, Observation};
 use crate::simulation::CycleFigures;
-use crate::studies::ghost::Ghost;
-use crate::traces::Table;
 
 /// What the worker is doing.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,6 +39,8 @@ pub struct Comparison {
 /// Everything that the screen shows of the simulation.
 #[derive(Debug, Clone)]
 pub struct Frame {
+    /// What charts are made of: the curves that were computed, the past, and those of other sources.
+    pub run: Run,
     /// What is known of the scenario.
     pub facts: Arc<Facts>,
     /// The curves and scalars.
@@ -72,46 +71,12 @@ pub struct Frame {
     pub cycle_loads: Vec<Arc<SpringLoad>>,
     /// The largest von Mises and the largest principal stress in the half-space, where they are shown.
     pub peaks: Option<[Peak; 2]>,
-    /// The amplitude of u_x from which the present profile slips as a whole, m, where it is shown.
-    pub slip_border: Option<f64>,
     /// The estimated error of the worn depth or of the volume, whichever is larger, relative, where it is known.
     pub error: Option<f64>,
     /// The checks of the moment; `None` if p is not computed.
     pub checks: Vec<Check>,
-    /// Curves of other sources, to be drawn over those of the run.
-    pub ghosts: Vec<Arc<Ghost>>,
     /// The comparison run.
     pub comparison: Option<Comparison>,
-}
-
-impl Frame {
-    /// What charts are made of: the curves that were computed, and the past.
-    pub fn run(&self) -> Run {
-        let seen = &self.observation;
-        Run {
-            states: vec![Table::of_columns(
-                vec![("cycle".to_owned(), seen.moment.cycle.to_string())],
-                state::columns(seen),
-            )],
-            history: Some(self.trend.history()),
-            loops: vec![self.trend.loops.last(seen.moment.cycle)],
-            ghosts: self.ghosts.clone(),
-            field: None,
-            theory: Some(Arc::clone(&self.facts.theory)),
-            indenter: Some(self.facts.indenter.clone()),
-            live: Some(Live {
-                moment: seen.moment,
-                wears: seen.law.is_some(),
-                friction: self.facts.friction,
-                planned_cycles: self.facts.planned_cycles,
-                expected_wear: self.facts.expected_wear,
-                is_within_a_cycle: self.trend.is_within_a_cycle(),
-                regime: self.figures.as_ref().map(|figures| figures.regime.title()),
-                slip_border: self.slip_border,
-                log: self.trend.loops.kept().to_vec(),
-            }),
-        }
-    }
 }
 
 /// The slot that holds the latest frame.

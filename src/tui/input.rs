@@ -94,15 +94,13 @@ pub fn listen(events: &Sender<Event>, waiting: &Arc<Waiting>, capture: Capture) 
                     waiting.end();
                     Some(Event::HangUp)
                 }
-                Input::Key(key) => Some(Event::Key(key)).filter(|_| waiting.enter()),
-                Input::Paste(text) => Some(Event::Paste(text)).filter(|_| waiting.enter()),
-                Input::Ready => Some(Event::Ready),
-                Input::Background(color) => Some(Event::Background(color)),
-                Input::Point(gesture) if capture == Capture::Clicks => {
+                Input::Key(_) | Input::Paste(_) if !waiting.enter() => None,
+                Input::Point(_) if capture == Capture::None => None,
+                Input::Point(gesture) => {
                     let gesture = mouse.together(gesture, Instant::now());
-                    gesture.map(Event::Point)
+                    gesture.map(|gesture| Event::Input(Input::Point(gesture)))
                 }
-                Input::Point(_) => None,
+                input => Some(Event::Input(input)),
             };
             if event.is_some_and(|event| events.send(event).is_err()) {
                 return;

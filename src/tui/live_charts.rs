@@ -1,7 +1,6 @@
 //! The charts on the screen: made once for each frame and key, on scales that follow their data calmly.
 
 use std::borrow::Cow;
-use std::cell::OnceCell;
 use std::collections::HashMap;
 
 use super::frame::Frame;
@@ -71,7 +70,7 @@ impl LiveCharts {
     pub(super) fn get(&self, panel: Panel, frame: &Frame) -> Cow<'_, Made> {
         match self.charts.get(&panel) {
             Some(chart) => Cow::Borrowed(chart),
-            None => Cow::Owned(panel.recipe().chart(&frame.run(), &self.view(panel))),
+            None => Cow::Owned(panel.recipe().chart(&frame.run, &self.view(panel))),
         }
     }
 
@@ -94,15 +93,10 @@ impl LiveCharts {
         if newest.comparison.is_some() {
             return;
         }
-        let (run, cycle) = (newest.run(), newest.observation.moment.cycle);
-        let calm = OnceCell::new();
+        let cycle = newest.observation.moment.cycle;
         for &panel in visible {
             let (recipe, view, frame) = (panel.recipe(), self.view(panel), shown(panel));
-            let run = match std::ptr::eq(frame, newest) {
-                true => &run,
-                false => calm.get_or_init(|| frame.run()),
-            };
-            let mut chart = recipe.chart(run, &view);
+            let mut chart = recipe.chart(&frame.run, &view);
             let made = chart.as_ref().ok();
             let extent = panel.extent(frame, made);
             if let Some(extent) = extent.filter(|_| !self.is_outdated) {

@@ -76,8 +76,7 @@ pub use appearance::theme_of;
 use autosave::ScreenAutosave;
 pub use event_loop::NoTerminal;
 use frame::Slot;
-use keys::Key;
-use mouse::Gesture;
+pub use reader::Input;
 use refinement_check::RefinementCheck;
 pub use script::{Format, Script, Stroke, parse_size, rehearse};
 pub use terminal::Capture;
@@ -91,16 +90,8 @@ pub(crate) const FIRST: &str = "li2019-fig3";
 /// An event for the main thread.
 #[derive(Debug)]
 pub enum Event {
-    /// A key was pressed.
-    Key(Key),
-    /// Text was pasted.
-    Paste(String),
-    /// The mouse was used.
-    Point(Gesture),
-    /// The terminal has read a frame.
-    Ready,
-    /// The background of the terminal is of this red, green and blue.
-    Background([u8; 3]),
+    /// The terminal has sent what its user did, or an answer.
+    Input(Input),
     /// A frame was written.
     Written,
     /// The terminal has another size.
@@ -174,7 +165,6 @@ pub fn run(options: Options) -> Result<Farewell> {
     let origin = options.run.session.loaded().origin().to_owned();
     let (orders, to_worker) = Orders::channel();
     let (events, from_threads) = channel();
-    let slot = Arc::new(Slot::default());
     let interval = Duration::from_secs_f64(1.0 / f64::from(options.fps));
     let keeping = options
         .keep_in
@@ -183,7 +173,6 @@ pub fn run(options: Options) -> Result<Farewell> {
         .map(|keeping| Arc::new(Mutex::new(keeping)));
     let worker = Worker::new(
         options.run,
-        Arc::clone(&slot),
         events.clone(),
         interval,
         options.running && options.script.is_none(),

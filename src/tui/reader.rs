@@ -19,7 +19,7 @@ const GIVE_UP: u16 = 250;
 /// The byte of Ctrl-C.
 const INTERRUPT: u8 = 3;
 
-/// What a terminal has sent.
+/// Something that a terminal has sent.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Input {
     /// A key.

@@ -23,8 +23,8 @@ pub(super) fn line(frame: &Frame, focus: Panel, r: f64, width: usize, ascii: boo
         let name = if ascii { to_ascii(name) } else { name.into() };
         format!(" {name} {} ", format_value_in(value, unit, DIGITS, ascii))
     };
-    let run = frame.run();
-    let mut parts = compared(&run, focus, r, ascii);
+    let run = &frame.run;
+    let mut parts = compared(run, focus, r, ascii);
     let at_radius = parts.is_empty() || compared_axes(focus).over_r();
     if at_radius {
         let place = [value("r", r, "m"), format!(" {} ", zone(frame, r).name())];
@@ -34,7 +34,7 @@ pub(super) fn line(frame: &Frame, focus: Panel, r: f64, width: usize, ascii: boo
             .into_iter()
             .filter(|axes| moves || *axes != Axes::SHEAR);
         for axes in curves {
-            let at = over_r(&run, axes, r).map(|seen| value(axes.symbol, seen, axes.unit()));
+            let at = over_r(run, axes, r).map(|seen| value(axes.symbol, seen, axes.unit()));
             parts.extend(at.filter(|part| !parts.contains(part)));
         }
     }

@@ -1,7 +1,6 @@
 //! `--keys SCRIPT --print SIZE`: the explorer without a terminal, for scripts, tests and pictures.
 
 use std::io::{self, Write};
-use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
@@ -14,7 +13,6 @@ use ratatui::text::Line;
 use super::Event;
 use super::app::App;
 use super::event_loop::Scene;
-use super::frame::Slot;
 use super::keys::{self, Key};
 use super::screen;
 use super::theme::{Look, Theme};
@@ -101,8 +99,7 @@ impl Stroke {
 pub fn rehearse(session: Session, theme: Theme, strokes: &[Stroke], size: Size) -> Result<String> {
     let (orders, to_worker) = Orders::channel();
     let (events, inbox) = channel();
-    let slot = Arc::new(Slot::default());
-    let worker = Worker::new(session, slot, events, Duration::MAX, false);
+    let worker = Worker::new(session, events, Duration::MAX, false);
     let thread = std::thread::spawn(move || worker.serve(&to_worker));
     let mut app = App::new(theme, orders.clone());
     let outcome = press(&mut app, strokes, size, &orders, &inbox);

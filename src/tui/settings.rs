@@ -1,6 +1,6 @@
 //! The keys of a scenario that can be changed while it runs, with their present values.
 
-use crate::scenario::keys::{PARAMETERS, PRESCRIBED};
+use crate::scenario::keys::PARAMETERS;
 use crate::scenario::schema::{Kind, Parameter};
 use crate::scenario::{Scenario, units};
 
@@ -34,16 +34,10 @@ impl Setting {
             let value = scenario.value(path)?;
             Some(value.trim_matches('"').to_owned())
         };
-        let is_force =
-            || word(&format!("{}.control", parameter.section())).as_deref() == Some("force");
-        let unit = match parameter.unit {
-            PRESCRIBED if is_force() => "N",
-            PRESCRIBED => "m",
-            unit => unit,
-        };
+        let control = word(&format!("{}.control", parameter.section()));
         Self {
             parameter,
-            unit,
+            unit: units::unit_of(parameter, control.as_deref() == Some("force")),
             value: word(parameter.path),
         }
     }

@@ -526,14 +526,14 @@ fn live(scenario: &str, cycles: f64) -> LiveWorker {
 #[test]
 fn fast_runs_are_shown_at_one_phase() {
     let worker = live("li2019-fig3", 1e6);
-    let (orders, events, slot) = (&worker.orders, &worker.events, &worker.slot);
+    let (orders, events) = (&worker.orders, &worker.events);
     let frames = |wanted: usize| {
         let mut seen = Vec::new();
         while seen.len() < wanted {
             let event = events
                 .recv_timeout(Duration::from_secs(30))
                 .expect("a frame");
-            if matches!(event, Event::Frame(_)) {
+            if let Event::Frame(slot) = event {
                 seen.extend(slot.take());
             }
         }
@@ -562,19 +562,21 @@ fn fast_runs_are_shown_at_one_phase() {
 #[test]
 fn space_at_the_end_asks_first() {
     let worker = live("hertz", 0.2);
-    let (orders, events, slot) = (&worker.orders, &worker.events, &worker.slot);
+    let (orders, events) = (&worker.orders, &worker.events);
     let next = || events.recv_timeout(Duration::from_secs(30));
-    let until = |activity: Activity| {
-        while !matches!(next().expect("a frame"), Event::Frame(_))
-            || slot.take().is_none_or(|frame| frame.activity != activity)
-        {}
+    let until = |activity: Activity| loop {
+        if let Event::Frame(slot) = next().expect("a frame")
+            && slot.take().is_some_and(|frame| frame.activity == activity)
+        {
+            break;
+        }
     };
     until(Activity::Done);
     orders.send(Worker::run_or_pause);
     let notice = loop {
         match next().expect("a notice") {
             Event::Notice(text) => break text,
-            Event::Frame(_) => assert!(slot.take().is_none_or(|f| f.activity == Activity::Done)),
+            Event::Frame(slot) => assert!(slot.take().is_none_or(|f| f.activity == Activity::Done)),
             _ => {}
         }
     };

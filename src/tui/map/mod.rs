@@ -18,7 +18,7 @@ use super::event_loop::{self, Scene};
 use super::keys::Key;
 use super::terminal::Capture;
 use super::theme::Theme;
-use super::{Event, script};
+use super::{Event, Input, script};
 
 mod draw;
 pub mod live;
@@ -52,10 +52,10 @@ impl<F: FnMut(&mut View)> Scene for Shown<'_, F> {
 
     fn handle(&mut self, event: Event) {
         match event {
-            Event::Key(key) if command::of_key(key) == Some(Command::Suspend) => {
+            Event::Input(Input::Key(key)) if command::of_key(key) == Some(Command::Suspend) => {
                 self.suspends = true;
             }
-            Event::Key(key) => self.leave = self.view.press(key),
+            Event::Input(Input::Key(key)) => self.leave = self.view.press(key),
             Event::News => (self.renew)(self.view),
             _ => {}
         }

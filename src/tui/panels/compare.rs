@@ -74,9 +74,9 @@ pub fn draw(
             Curve::new(names.1, &other.radii[..], there, Role::Slip).dashed(),
         ]
     };
-    let run = frame.run();
+    let run = &frame.run;
     let mut profiles = Chart::new("3D profile", Axis::new("r", "m"), Axis::new("f", "m"))
-        .curves(ghosts::worn(&run, Some(1.0)))
+        .curves(ghosts::worn(run, Some(1.0)))
         .curves(pair(&other.profile, &seen.profile, Role::Profile));
     profiles.marks = run.live.as_ref().map(Live::edge_marks).unwrap_or_default();
     render(&profiles, left, buffer);
@@ -87,10 +87,10 @@ pub fn draw(
     let mut ordinate = Axis::new("p", "Pa");
     ordinate.bounds = (highest > 0.0).then(|| nice_bounds(0.0, highest));
     let pressures = Chart::new("pressure", Axis::new("r", "m"), ordinate)
-        .curves(ghosts::on(&run, Axes::PRESSURE))
+        .curves(ghosts::on(run, Axes::PRESSURE))
         .curves(pair(&other.pressure, &seen.pressure, Role::Pressure));
     render(&pressures, right, buffer);
-    let mut of_ghosts = ghosts::worn(&run, None);
+    let mut of_ghosts = ghosts::worn(run, None);
     for ghost in &mut of_ghosts {
         let points = ghost.xs.iter().zip(&mut ghost.ys);
         points.for_each(|(&r, worn)| *worn = (*worn - seen.worn_depth_at(r)).abs());

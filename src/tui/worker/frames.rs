@@ -3,9 +3,13 @@
 use std::sync::Arc;
 
 use super::Worker;
+use crate::charts::{Live, Run};
+use crate::export::state;
 use crate::math::scan::largest;
-use crate::reading::Curves;
 use crate::reading::subsurface::Stress;
+use crate::reading::{Curves, Observation};
+use crate::simulation::CycleFigures;
+use crate::traces::Table;
 use crate::tui::comparison::ComparisonRun;
 use crate::tui::facts::Facts;
 use crate::tui::frame::{Activity, Frame};
@@ -51,23 +55,20 @@ impl Worker {
                 load.largest(Stress::max_principal),
             ]
         });
-        let material = &simulation.setup().material;
-        let slip_border = (!observation.normal_load.is_empty()).then(|| {
-            largest(&observation.normal_load) / (material.normal_modulus() * material.stick_ratio())
-        });
         let checks = if observation.pressure.is_empty() {
             Vec::new()
         } else {
             simulation.checks()
         };
+        let figures = simulation.cycle_figures();
         Frame {
+            run: self.charted(&observation, figures.as_ref()),
             facts: Arc::clone(&self.facts),
-            slip_border,
             load,
             cycle_loads: self.cycle_loads.all(),
             peaks,
             observation,
-            figures: simulation.cycle_figures(),
+            figures,
             phase: self.clock.held_phase(simulation),
             trend: self.run.trend.clone(),
             activity: self.activity.clone(),
@@ -92,13 +93,39 @@ impl Worker {
                 .filter(|_| self.past.present().is_none())
                 .and_then(Twin::error),
             checks,
-            ghosts: self
-                .companions
-                .ghosts
-                .iter()
-                .map(|ghost| ghost.seen(self.curves))
-                .collect(),
             comparison: self.companions.comparison.as_ref().map(ComparisonRun::seen),
+        }
+    }
+
+    /// What charts are made of: what is `seen` of the present moment, the past, and other sources.
+    fn charted(&self, seen: &Observation, figures: Option<&CycleFigures>) -> Run {
+        let (facts, trend) = (&self.facts, &self.run.trend);
+        let (moment, load) = (seen.moment, &seen.normal_load);
+        let material = &self.run.simulation().setup().material;
+        let ghosts = self.companions.ghosts.iter();
+        Run {
+            states: vec![Table::of_columns(
+                vec![("cycle".to_owned(), moment.cycle.to_string())],
+                state::columns(seen),
+            )],
+            history: Some(trend.history()),
+            loops: vec![trend.loops.last(moment.cycle)],
+            ghosts: ghosts.map(|ghost| ghost.seen(self.curves)).collect(),
+            field: None,
+            theory: Some(Arc::clone(&facts.theory)),
+            indenter: Some(facts.indenter.clone()),
+            live: Some(Live {
+                moment,
+                wears: seen.law.is_some(),
+                friction: facts.friction,
+                planned_cycles: facts.planned_cycles,
+                expected_wear: facts.expected_wear,
+                is_within_a_cycle: trend.is_within_a_cycle(),
+                regime: figures.map(|figures| figures.regime.title()),
+                slip_border: (!load.is_empty())
+                    .then(|| largest(load) / (material.normal_modulus() * material.stick_ratio())),
+                log: trend.loops.kept().to_vec(),
+            }),
         }
     }
 }

@@ -14,7 +14,7 @@ use super::Event;
 use super::autosave::ScreenAutosave;
 use super::cycle_loads::CycleLoads;
 use super::facts::Facts;
-use super::frame::{Activity, Frame, Slot};
+use super::frame::{Activity, Frame};
 use super::ghosts::Source;
 use super::pace::Clock;
 use super::trend::Recorded;
@@ -93,7 +93,6 @@ impl Worker {
     /// A worker on a run that publishes at most every `interval`.
     pub fn new(
         run: impl Into<Recorded>,
-        slot: Arc<Slot>,
         events: Sender<Event>,
         interval: Duration,
         running: bool,
@@ -114,7 +113,7 @@ impl Worker {
             told_of_end: false,
             clock: Clock::default(),
             curves: Curves::all(),
-            screen: Outlet::new(slot, events, interval),
+            screen: Outlet::new(events, interval),
             keeping: None,
             halt: Arc::default(),
         }

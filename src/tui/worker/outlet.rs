@@ -18,9 +18,9 @@ pub(super) struct Outlet {
 }
 
 impl Outlet {
-    pub fn new(slot: Arc<Slot>, events: Sender<Event>, interval: Duration) -> Self {
+    pub fn new(events: Sender<Event>, interval: Duration) -> Self {
         Self {
-            slot,
+            slot: Arc::default(),
             events,
             interval,
             shown: Instant::now(),

@@ -3,7 +3,6 @@
 #![allow(dead_code, reason = "not every file of tests needs all of it")]
 
 use std::f64::consts::FRAC_PI_4;
-use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
@@ -21,7 +20,6 @@ use mdr_tui::scenario::{Scenario, preset};
 use mdr_tui::simulation::drive::{Control, Drive, Oscillation};
 use mdr_tui::simulation::{Integrator, Scheme, Setup, Simulation, Spacing, Stability};
 use mdr_tui::tui::Event;
-use mdr_tui::tui::frame::Slot;
 use mdr_tui::tui::worker::{Orders, Worker};
 use mdr_tui::wear::WearLaw;
 
@@ -276,8 +274,6 @@ pub struct LiveWorker {
     pub orders: Orders,
     /// What it tells.
     pub events: Receiver<Event>,
-    /// Where its frames wait.
-    pub slot: Arc<Slot>,
     thread: Option<JoinHandle<()>>,
 }
 
@@ -286,18 +282,10 @@ impl LiveWorker {
     pub fn on(scenario: Scenario, interval: Duration, running: bool) -> Self {
         let (orders, to_worker) = Orders::channel();
         let (sender, events) = channel();
-        let slot = Arc::new(Slot::default());
-        let worker = Worker::new(
-            begin(scenario),
-            Arc::clone(&slot),
-            sender,
-            interval,
-            running,
-        );
+        let worker = Worker::new(begin(scenario), sender, interval, running);
         Self {
             orders,
             events,
-            slot,
             thread: Some(thread::spawn(move || worker.serve(&to_worker))),
         }
     }

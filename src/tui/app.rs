@@ -258,12 +258,9 @@ impl App {
 
     /// Opens the words of a key.
     pub(super) fn list_words(&mut self, path: &'static str) {
-        let known = self.frame.iter();
-        let mut known = known.flat_map(|frame| &frame.facts.settings);
-        if known.any(|setting| setting.parameter.path == path) {
-            self.overlay = Overlay::Form(Form::choosing(path));
-        } else {
-            self.notice = Some(format!("this scenario has no {path}"));
+        match Form::choosing(path, self.frame.as_deref()) {
+            Some(form) => self.overlay = Overlay::Form(form),
+            None => self.notice = Some(format!("this scenario has no {path}")),
         }
     }
 

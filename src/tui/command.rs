@@ -61,7 +61,7 @@ macro_rules! commands {
 
 commands! {
     "palette" {
-        Set [] "set", "change keys of the scenario: set KEY=VALUE, KEY=VALUE", Palette(palette::settings);
+        Set [] "set", "change keys of the scenario: set KEY=VALUE, KEY=VALUE", Palette(palette::changes);
         Load [] "load", "another preset, or a file: load NAME", Palette(palette::presets);
         Sweep [] "sweep", "run many values of a key up to this cycle: sweep KEY FROM..TO", Palette(palette::sweeps);
         Figure [] "figure", "draw this state for a paper: figure FILE.svg", Palette(palette::figures);

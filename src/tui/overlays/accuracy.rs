@@ -5,19 +5,15 @@ use ratatui::layout::Rect;
 use ratatui::text::Line;
 use ratatui::widgets::{Paragraph, Widget};
 
-use super::{Answer, App, Command, leave_for, popup, stay_for};
+use super::{App, Command, popup};
 use crate::tui::theme::Role;
 
-/// Handles a command while the panel is open: the run can be watched from here.
-pub(super) fn press(command: Command, app: &mut App) -> Answer {
-    match command {
-        Command::Back | Command::Accuracy | Command::Accept => Answer::Close,
-        Command::RunPause | Command::Step | Command::Cycle | Command::Faster | Command::Slower => {
-            stay_for(command, app)
-        }
-        other => leave_for(Some(other), app),
-    }
-}
+/// What closes the panel, and what is done while it is open: the run can be watched from here.
+pub(super) const CLOSING: &[Command] = &[Command::Back, Command::Accuracy, Command::Accept];
+#[rustfmt::skip]
+pub(super) const WATCHED: &[Command] = &[
+    Command::RunPause, Command::Step, Command::Cycle, Command::Faster, Command::Slower,
+];
 
 /// The checks of the run and the refinement check.
 pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {

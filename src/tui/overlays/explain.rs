@@ -5,27 +5,17 @@ use ratatui::layout::{Margin, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Paragraph, Widget, Wrap};
 
-use super::{Answer, App, Command, leave_for, popup, stay_for};
+use super::{App, Command, popup};
 use crate::tui::theme::Role;
 use crate::tui::{layout, panels, tour};
 
-/// Handles a command while the explanation is open: it follows the focus, and the run can continue.
-pub(super) fn press(command: Command, app: &mut App) -> Answer {
-    match command {
-        Command::Accept | Command::Back => Answer::Close,
-        Command::NextPanel
-        | Command::PreviousPanel
-        | Command::NextPage
-        | Command::Left
-        | Command::Right
-        | Command::Up
-        | Command::Down
-        | Command::RunPause
-        | Command::Step
-        | Command::Cycle => stay_for(command, app),
-        other => leave_for(Some(other), app),
-    }
-}
+/// What closes the explanation, and what is done while it is open: it follows the focus, and the run can continue.
+pub(super) const CLOSING: &[Command] = &[Command::Accept, Command::Back];
+#[rustfmt::skip]
+pub(super) const WATCHED: &[Command] = &[
+    Command::NextPanel, Command::PreviousPanel, Command::NextPage, Command::Left, Command::Right, Command::Up,
+    Command::Down, Command::RunPause, Command::Step, Command::Cycle,
+];
 
 /// What the focused panel leaves free above or below it; all where it is zoomed.
 fn beside(app: &App, area: Rect) -> Rect {

@@ -5,10 +5,11 @@ use ratatui::layout::Constraint::{Fill, Length};
 use ratatui::layout::{Layout, Rect};
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::Widget;
+use ratatui::widgets::{Paragraph, Widget};
 
 use super::{
-    Answer, App, Command, Key, LineEdit, docked, first_shown, leave_for, say, stay_for, typing,
+    Answer, App, Command, Frame, Key, LineEdit, docked, leave_for, list, say, select, settings,
+    typing,
 };
 use crate::scenario::words::meaning;
 use crate::tui::command;
@@ -21,8 +22,6 @@ use crate::tui::theme::Role;
 pub struct Form {
     at: usize,
     giving: Giving,
-    /// The key to select when the list is first seen.
-    goal: Option<&'static str>,
     /// The value before the change that was asked for, until the answer is seen: a refused text stays.
     sent: Option<Option<String>>,
 }
@@ -43,12 +42,16 @@ enum Giving {
 const VALUES: usize = 38;
 
 impl Form {
-    /// A form with the words of this key.
-    pub fn choosing(path: &'static str) -> Self {
-        Self {
-            goal: Some(path),
-            ..Self::default()
-        }
+    /// A form with the words of this key; `None` where the scenario does not have it.
+    pub fn choosing(path: &str, frame: Option<&Frame>) -> Option<Self> {
+        let settings = settings(frame);
+        let is_sought = |setting: &Setting| setting.parameter.path == path;
+        let at = settings.iter().position(is_sought)?;
+        Some(Self {
+            at,
+            giving: begin(&settings[at], None),
+            sent: None,
+        })
     }
 
     /// The value being typed, if there is one.
@@ -61,66 +64,82 @@ impl Form {
 
     /// The form as it is seen with these settings: which one is selected, and how its value is given.
     fn seen<'a>(&self, settings: &'a [Setting]) -> Option<(usize, &'a Setting, Giving)> {
-        let sought = |path| {
-            let mut paths = settings.iter().map(|setting| setting.parameter.path);
-            paths.position(|known| known == path)
-        };
-        let goal = self.goal.and_then(sought);
         // Another shape has other keys: the list can have become shorter.
-        let at = goal.unwrap_or(self.at.min(settings.len().saturating_sub(1)));
+        let at = self.at.min(settings.len().saturating_sub(1));
         let setting = settings.get(at)?;
-        let giving = match goal {
-            Some(_) => begin(setting, None),
-            None if self.is_taken(setting) => Giving::Nothing,
-            None => self.giving.clone(),
+        // The change that was asked for has been made.
+        let sent = self.sent.as_ref();
+        let is_taken = sent.is_some_and(|before| *before != setting.value);
+        let giving = match is_taken {
+            true => Giving::Nothing,
+            false => self.giving.clone(),
         };
         Some((at, setting, giving))
     }
 
     pub(super) fn press(&mut self, key: Key, app: &mut App) -> Answer {
         let frame = app.frame.clone();
-        let settings = frame.as_ref();
-        let settings = settings.map_or(&[][..], |frame| frame.facts.settings.as_slice());
+        let settings = settings(frame.as_deref());
         let Some((at, setting, giving)) = self.seen(settings) else {
             return Answer::Close;
         };
-        (self.at, self.giving, self.goal) = (at, giving, None);
-        match self.giving {
-            Giving::Typed(_) => return self.type_on(key, setting, app),
-            Giving::Chosen(at) => return self.choose(key, at, setting, app),
-            Giving::Nothing => self.sent = None,
-        }
-        let last = settings.len() - 1;
-        match (key, command::of_key(key)) {
-            (Key::Named(Named::PageUp), _) => self.at = self.at.saturating_sub(5),
-            (Key::Named(Named::PageDown), _) => self.at = (self.at + 5).min(last),
-            (Key::Named(Named::Home), _) => self.at = 0,
-            (Key::Named(Named::End), _) => self.at = last,
-            (_, Some(Command::Up | Command::PreviousPanel)) => {
-                self.at = self.at.checked_sub(1).unwrap_or(last);
+        (self.at, self.giving) = (at, giving);
+        let words = setting.words().unwrap_or_default();
+        match (&mut self.giving, key) {
+            (Giving::Nothing, key) => return self.choose(key, setting, settings.len(), app),
+            (_, Key::Named(Named::Esc)) => (self.giving, self.sent) = (Giving::Nothing, None),
+            (Giving::Typed(line), Key::Named(Named::Enter)) => {
+                let value = setting.in_shown_unit(line.text().trim());
+                return self.give(setting, value, app);
             }
-            (_, Some(Command::Down | Command::NextPanel)) => self.at = (self.at + 1) % (last + 1),
+            (Giving::Chosen(word), Key::Named(Named::Enter)) => {
+                let value = words.get(*word).copied().unwrap_or_default();
+                return self.give(setting, value.to_owned(), app);
+            }
+            (Giving::Typed(line), key) => {
+                line.press(key);
+            }
+            (Giving::Chosen(word), key) => {
+                if !select(word, words.len(), key)
+                    && let Key::Char(character) = key
+                {
+                    *word = beginning_with(words, character, *word);
+                }
+            }
+        }
+        Answer::Stay
+    }
+
+    /// Selects another parameter of `count`, or begins to give the value of the one that is selected.
+    fn choose(&mut self, key: Key, setting: &Setting, count: usize, app: &mut App) -> Answer {
+        self.sent = None;
+        if select(&mut self.at, count, key) {
+            return Answer::Stay;
+        }
+        match (key, command::of_key(key)) {
             (Key::Char('+' | '-' | '=') | Key::Named(Named::Left | Named::Right), Some(step)) => {
                 let up = matches!(step, Command::Faster | Command::Right);
-                return self.step(key, up, setting, app);
+                self.step(key, up, setting, app)
             }
-            (_, Some(Command::Back)) => return Answer::Close,
+            (_, Some(Command::Back)) => Answer::Close,
             // The run can be watched from here, and an edit undone.
             (
                 Key::Char(' ' | ',' | '[' | ']'),
                 Some(
-                    watch @ (Command::RunPause
+                    watched @ (Command::RunPause
                     | Command::Cycle
                     | Command::TimeBack
                     | Command::TimeForth),
                 ),
-            ) => return stay_for(watch, app),
-            (Key::Char('?' | ':'), other) => return leave_for(other, app),
-            (Key::Char(character), _) => return self.edit(setting, Some(character), app),
-            (_, Some(Command::Accept)) => return self.edit(setting, None, app),
-            (_, other) => return leave_for(other, app),
+            ) => {
+                app.run(watched);
+                Answer::Stay
+            }
+            (Key::Char('?' | ':'), other) => leave_for(other, app),
+            (Key::Char(character), _) => self.edit(setting, Some(character), app),
+            (_, Some(Command::Accept)) => self.edit(setting, None, app),
+            (_, other) => leave_for(other, app),
         }
-        Answer::Stay
     }
 
     /// Begins to give the value, with the character typed.
@@ -144,60 +163,6 @@ impl Form {
         }
     }
 
-    /// Whether the change that was asked for has been made.
-    fn is_taken(&self, setting: &Setting) -> bool {
-        let sent = self.sent.as_ref();
-        sent.is_some_and(|before| *before != setting.value)
-    }
-
-    fn type_on(&mut self, key: Key, setting: &Setting, app: &mut App) -> Answer {
-        let Giving::Typed(line) = &mut self.giving else {
-            return Answer::Stay;
-        };
-        match key {
-            Key::Named(Named::Esc) => {
-                self.giving = Giving::Nothing;
-                self.sent = None;
-            }
-            Key::Named(Named::Enter) => {
-                let value = setting.in_shown_unit(line.text().trim());
-                return self.give(setting, value, app);
-            }
-            key => {
-                line.press(key);
-            }
-        }
-        Answer::Stay
-    }
-
-    fn choose(&mut self, key: Key, at: usize, setting: &Setting, app: &mut App) -> Answer {
-        let words = setting.words().unwrap_or_default();
-        let last = words.len().saturating_sub(1);
-        match (key, command::of_key(key)) {
-            (Key::Named(Named::Enter), _) => {
-                let word = words.get(at).copied().unwrap_or_default();
-                return self.give(setting, word.to_owned(), app);
-            }
-            (Key::Named(Named::Esc), _) => {
-                self.giving = Giving::Nothing;
-                self.sent = None;
-            }
-            (Key::Named(Named::Home), _) => self.giving = Giving::Chosen(0),
-            (Key::Named(Named::End), _) => self.giving = Giving::Chosen(last),
-            (_, Some(Command::Up | Command::PreviousPanel)) => {
-                self.giving = Giving::Chosen(at.checked_sub(1).unwrap_or(last));
-            }
-            (_, Some(Command::Down | Command::NextPanel)) => {
-                self.giving = Giving::Chosen((at + 1) % (last + 1));
-            }
-            (Key::Char(character), _) => {
-                self.giving = Giving::Chosen(beginning_with(words, character, at));
-            }
-            _ => {}
-        }
-        Answer::Stay
-    }
-
     /// Asks for a change to `value`, unless it is there already.
     fn give(&mut self, setting: &Setting, value: String, app: &mut App) -> Answer {
         let is_same = setting.value.as_ref() == Some(&value) || setting.shown(true) == value;
@@ -210,8 +175,7 @@ impl Form {
     }
 
     pub(super) fn draw(&self, app: &App, area: Rect, buffer: &mut Buffer) {
-        let frame = app.frame.as_deref();
-        let settings = frame.map_or(&[][..], |frame| frame.facts.settings.as_slice());
+        let settings = settings(app.frame.as_deref());
         let seen = self.seen(settings);
         let rows = (area.height / 2).clamp(8, 20);
         let title = match &seen {
@@ -226,24 +190,21 @@ impl Form {
             return;
         };
         let about = 3.min(inside.height);
-        let [list, below] = Layout::vertical([Fill(1), Length(about)]).areas(inside);
+        let [above, below] = Layout::vertical([Fill(1), Length(about)]).areas(inside);
+        let focus = app.theme.style(Role::Focus);
         match giving {
-            Giving::Chosen(word) => words(setting, word, app, list, buffer),
+            Giving::Chosen(word) => list(words(setting, app), word, focus, above, buffer),
             giving => {
-                let shown = settings.iter().enumerate();
-                let first = first_shown(at, settings.len(), list.height);
-                for ((i, setting), row) in shown.skip(first).zip(list.rows()) {
-                    let typed = match &giving {
-                        Giving::Typed(line) if i == at => Some(line),
-                        _ => None,
-                    };
-                    value(setting, typed, i == at, app, row, buffer);
+                let mut lines: Vec<Line> = settings.iter().map(|of| value(of, app)).collect();
+                let mut style = focus;
+                if let Giving::Typed(line) = &giving {
+                    lines[at] = typed(setting, line, above.width, app);
+                    style = Style::new();
                 }
+                list(lines, at, style, above, buffer);
             }
         }
-        for (line, row) in about_it(setting, app).into_iter().zip(below.rows()) {
-            line.render(row, buffer);
-        }
+        Paragraph::new(about_it(setting, app)).render(below, buffer);
     }
 }
 
@@ -273,56 +234,47 @@ fn beginning_with(words: &[&str], character: char, at: usize) -> usize {
     found.unwrap_or(at)
 }
 
+/// The key of a setting as far as its value.
+fn key(setting: &Setting) -> String {
+    format!(" {:1$}", setting.parameter.path, VALUES - 1)
+}
+
 /// A row of the list.
-fn value(
-    setting: &Setting,
-    typed: Option<&LineEdit>,
-    is_selected: bool,
-    app: &App,
-    row: Rect,
-    buffer: &mut Buffer,
-) {
-    let path = format!(" {:1$}", setting.parameter.path, VALUES - 1);
-    if let Some(line) = typed {
-        typing(&path, line, app.theme.style(Role::Title)).render(row, buffer);
-        let unit = match setting.typed_unit() {
-            unit if unit.is_empty() => unit,
-            unit => format!("{unit}, or with a unit "),
-        };
-        let unit = Line::raw(app.theme.printable(&unit));
-        return unit.right_aligned().render(row, buffer);
-    }
+fn value(setting: &Setting, app: &App) -> Line<'static> {
     let style = match setting.fixed() {
         Some(_) => app.theme.style(Role::Faint),
         None => Style::new(),
     };
     let shown = setting.shown(app.theme.ascii());
-    Line::styled(format!("{path}{shown}"), style).render(row, buffer);
-    if is_selected {
-        buffer.set_style(row, app.theme.style(Role::Focus));
-    }
+    Line::styled(key(setting) + &shown, style)
+}
+
+/// The row of a value that is typed, with the unit that it is in.
+fn typed(setting: &Setting, line: &LineEdit, width: u16, app: &App) -> Line<'static> {
+    let mut row = typing(&key(setting), line, app.theme.style(Role::Title));
+    let unit = match setting.typed_unit() {
+        unit if unit.is_empty() => unit,
+        unit => app.theme.printable(&format!("{unit}, or with a unit ")),
+    };
+    let room = usize::from(width).saturating_sub(row.width());
+    row.push_span(format!("{unit:>room$}"));
+    row
 }
 
 /// The words of a choice, and what each is.
-fn words(setting: &Setting, at: usize, app: &App, list: Rect, buffer: &mut Buffer) {
+fn words<'a>(setting: &'a Setting, app: &'a App) -> impl Iterator<Item = Line<'a>> {
     let words = setting.words().unwrap_or_default();
     let quiet = app.theme.style(Role::Quiet);
     let width = words.iter().map(|word| word.len()).max().unwrap_or(0);
-    let shown = words.iter().enumerate();
-    let first = first_shown(at, words.len(), list.height);
-    for ((i, word), row) in shown.skip(first).zip(list.rows()) {
+    words.iter().map(move |word| {
         let is_now = setting.value.as_deref() == Some(*word);
         let mark = if is_now { '*' } else { ' ' };
         let meaning = meaning(setting.parameter.path, word).unwrap_or_default();
-        let spans = vec![
+        Line::from(vec![
             Span::raw(format!(" {mark} {word:width$}  ")),
             Span::styled(app.theme.printable(meaning), quiet),
-        ];
-        Line::from(spans).render(row, buffer);
-        if i == at {
-            buffer.set_style(row, app.theme.style(Role::Focus));
-        }
-    }
+        ])
+    })
 }
 
 /// Meaning and range, effect, and what was answered to the last change.

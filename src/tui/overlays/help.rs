@@ -15,7 +15,7 @@ use crate::tui::theme::Role;
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Help {
     first: u16,
-    search: Option<LineEdit>,
+    pub(super) search: Option<LineEdit>,
 }
 
 /// The commands that have all of the words in key, name or help.
@@ -35,11 +35,6 @@ impl Help {
             search: Some(LineEdit::default()),
             ..Self::default()
         }
-    }
-
-    /// The search text, if any.
-    pub(super) fn line(&mut self) -> Option<&mut LineEdit> {
-        self.search.as_mut()
     }
 
     pub(super) fn press(&mut self, key: Key, app: &mut App) -> Answer {

@@ -3,15 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use ratatui::layout::Constraint::{Fill, Length};
+use ratatui::layout::{Layout, Margin, Rect};
 use ratatui::text::Line;
 use ratatui::widgets::{Paragraph, Widget, Wrap};
 
-use super::{Answer, App, Command, Frame, Key, first_shown, leave_for, popup};
+use super::{Answer, App, Command, Frame, Key, leave_for, list, popup, select};
 use crate::scenario::preset::{self, Preset};
 use crate::scenario::{Scenario, printable};
 use crate::tui::command;
-use crate::tui::keys::Named;
 use crate::tui::line::one_line;
 use crate::tui::snapshot;
 use crate::tui::theme::Role;
@@ -145,21 +145,16 @@ impl Library {
     }
 
     pub(super) fn press(&mut self, key: Key, app: &mut App) -> Answer {
-        let count = self.entries.len();
-        match (key, command::of_key(key)) {
-            (Key::Named(Named::Home), _) => self.select(0),
-            (Key::Named(Named::End), _) => self.select(count - 1),
-            (Key::Named(Named::PageUp), _) => self.select(self.at.saturating_sub(10)),
-            (Key::Named(Named::PageDown), _) => self.select(self.at + 10),
-            (_, Some(Command::Up | Command::PreviousPanel)) => {
-                self.select((self.at + count - 1) % count);
-            }
-            (_, Some(Command::Down | Command::NextPanel)) => self.select((self.at + 1) % count),
-            (_, Some(Command::Back | Command::Presets)) => return Answer::Close,
-            (_, Some(Command::Accept | Command::RunPause)) => return self.take(app),
-            (_, other) => return leave_for(other, app),
+        let mut at = self.at;
+        if select(&mut at, self.entries.len(), key) {
+            self.select(at);
+            return Answer::Stay;
         }
-        Answer::Stay
+        match command::of_key(key) {
+            Some(Command::Back | Command::Presets) => Answer::Close,
+            Some(Command::Accept | Command::RunPause) => self.take(app),
+            other => leave_for(other, app),
+        }
     }
 
     /// Loads the selected scenario, or opens the selected directory.
@@ -183,31 +178,18 @@ impl Library {
         let height = self.entries.len() as u16 + WORDS + 2;
         let title = "presets and your own files (Enter starts, Esc closes)";
         let inside = popup(&app.theme, title, (80, height), area, buffer);
-        let list = Rect {
-            height: inside.height.saturating_sub(WORDS),
-            ..inside
+        let shown = inside.height.saturating_sub(WORDS);
+        let [above, _, below] = Layout::vertical([Length(shown), Length(1), Fill(1)]).areas(inside);
+        let line = |entry: &Entry| {
+            let [name, title] =
+                [&entry.name(), entry.title()].map(|text| app.theme.printable(text));
+            Line::raw(format!(" {name:width$}  {title} "))
         };
-        let shown = self.entries.iter().enumerate();
-        let first = first_shown(self.at, self.entries.len(), list.height);
-        for ((i, entry), row) in shown.skip(first).zip(list.rows()) {
-            let name = app.theme.printable(&entry.name());
-            let title = app.theme.printable(entry.title());
-            let text = format!(" {name:width$}  {title} ");
-            let line = Line::raw(text);
-            line.render(row, buffer);
-            if i == self.at {
-                buffer.set_style(row, app.theme.style(Role::Focus));
-            }
-        }
-        let words = Rect {
-            x: inside.x + 1,
-            y: list.bottom() + 1,
-            width: inside.width.saturating_sub(2),
-            height: inside.height.saturating_sub(list.height + 1),
-        };
+        let (lines, focus) = (self.entries.iter().map(line), app.theme.style(Role::Focus));
+        list(lines, self.at, focus, above, buffer);
         Paragraph::new(app.theme.printable(&self.about))
             .style(app.theme.style(Role::Quiet))
             .wrap(Wrap { trim: true })
-            .render(words, buffer);
+            .render(below.inner(Margin::new(1, 0)), buffer);
     }
 }

@@ -4,7 +4,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Block, Clear, Widget};
+use ratatui::widgets::{Borders, Clear, List, ListState, StatefulWidget, Widget};
 
 use super::app::App;
 use super::command::{self, Command};
@@ -12,6 +12,8 @@ use super::frame::Frame;
 use super::keys::{Key, Named};
 use super::line::LineEdit;
 use super::map::live::Live;
+use super::panels::framed;
+use super::settings::Setting;
 use super::theme::{Role, Theme};
 
 mod accuracy;
@@ -69,9 +71,8 @@ impl Overlay {
             Self::None => leave_for(command, app),
             Self::Help(help) => help.press(key, app),
             Self::Library(library) => library.press(key, app),
-            Self::Explain => command.map_or(Answer::Stay, |command| explain::press(command, app)),
+            Self::Explain => watch(command, explain::CLOSING, explain::WATCHED, app),
             Self::Accuracy | Self::Checks => match command {
-                None => Answer::Stay,
                 Some(Command::NextPanel | Command::PreviousPanel) => {
                     *self = match self {
                         Self::Checks => Self::Accuracy,
@@ -79,7 +80,7 @@ impl Overlay {
                     };
                     Answer::Stay
                 }
-                Some(command) => accuracy::press(command, app),
+                _ => watch(command, accuracy::CLOSING, accuracy::WATCHED, app),
             },
             Self::Palette(palette) => palette.press(key, app),
             Self::Form(form) => form.press(key, app),
@@ -99,16 +100,11 @@ impl Overlay {
     /// The line being typed, if there is one.
     pub fn line(&mut self) -> Option<&mut LineEdit> {
         match self {
-            Self::None
-            | Self::Library(_)
-            | Self::Accuracy
-            | Self::Checks
-            | Self::Explain
-            | Self::Sweep(_) => None,
-            Self::Help(help) => help.line(),
-            Self::Palette(palette) => Some(palette.line()),
+            Self::Help(help) => help.search.as_mut(),
+            Self::Palette(palette) => Some(&mut palette.line),
             Self::Form(form) => form.line(),
             Self::Note(line) => Some(line),
+            _ => None,
         }
     }
 
@@ -135,17 +131,33 @@ impl Overlay {
 
 /// Closes for a command; stays if there is none.
 fn leave_for(command: Option<Command>, app: &mut App) -> Answer {
-    let Some(command) = command else {
-        return Answer::Stay;
-    };
-    app.run(command);
-    Answer::Close
+    watch(command, &[], &[], app)
 }
 
-/// Stays while a command is carried out.
-fn stay_for(command: Command, app: &mut App) -> Answer {
-    app.run(command);
-    Answer::Stay
+/// Answers a command beside which the run can be watched: those that close do nothing else, and those that are
+/// `watched` leave open what is open.
+fn watch(
+    command: Option<Command>,
+    closing: &[Command],
+    watched: &[Command],
+    app: &mut App,
+) -> Answer {
+    match command {
+        Some(command) if closing.contains(&command) => Answer::Close,
+        Some(command) => {
+            app.run(command);
+            match watched.contains(&command) {
+                true => Answer::Stay,
+                false => Answer::Close,
+            }
+        }
+        None => Answer::Stay,
+    }
+}
+
+/// The settings on the screen.
+fn settings(frame: Option<&Frame>) -> &[Setting] {
+    frame.map_or(&[], |frame| &frame.facts.settings)
 }
 
 /// Stays and tells the user.
@@ -171,12 +183,11 @@ fn note(line: &mut LineEdit, key: Key, app: &mut App) -> Answer {
 
 /// A cleared box in the middle of `area`, with a title; returns its inside.
 fn popup(theme: &Theme, title: &str, size: (u16, u16), area: Rect, buffer: &mut Buffer) -> Rect {
-    let height = size.1.min(area.height);
-    let place = Rect {
-        y: area.y + (area.height - height) / 2,
-        ..area
-    };
-    boxed(theme, title, (size.0, height), place, buffer)
+    let (width, height) = (size.0.min(area.width), size.1.min(area.height));
+    let (left, top) = ((area.width - width) / 2, (area.height - height) / 2);
+    let place = Rect::new(area.x + left, area.y + top, width, height);
+    Clear.render(place, buffer);
+    framed(title, Role::Title, Borders::ALL, theme, place, buffer)
 }
 
 /// The same at the lower end of `area`: what lies above can be watched.
@@ -184,52 +195,47 @@ fn docked(theme: &Theme, title: &str, size: (u16, u16), area: Rect, buffer: &mut
     let height = size.1.min(area.height);
     let place = Rect {
         y: area.bottom() - height,
+        height,
         ..area
     };
-    boxed(theme, title, (size.0, height), place, buffer)
+    popup(theme, title, size, place, buffer)
 }
 
-fn boxed(theme: &Theme, title: &str, size: (u16, u16), area: Rect, buffer: &mut Buffer) -> Rect {
-    let width = size.0.min(area.width);
-    let place = Rect::new(
-        area.x + (area.width - width) / 2,
-        area.y,
-        width,
-        size.1.min(area.height),
-    );
-    Clear.render(place, buffer);
-    let mut block = Block::bordered()
-        .border_style(theme.style(Role::Faint))
-        .title(Span::styled(
-            format!(" {title} "),
-            theme.style(Role::Title).remove_modifier(Modifier::DIM),
-        ));
-    if theme.ascii() {
-        block = block.border_set(ASCII_BORDER);
-    }
-    let inside = block.inner(place);
-    block.render(place, buffer);
-    inside
+/// The keys that a page up and a page down pass in a list.
+const PAGE: usize = 10;
+
+/// Selects another one of `count` entries by a key that moves in lists; false for other keys.
+fn select(at: &mut usize, count: usize, key: Key) -> bool {
+    let last = count.saturating_sub(1);
+    *at = match (key, command::of_key(key)) {
+        (Key::Named(Named::Home), _) => 0,
+        (Key::Named(Named::End), _) => last,
+        (Key::Named(Named::PageUp), _) => at.saturating_sub(PAGE),
+        (Key::Named(Named::PageDown), _) => (*at + PAGE).min(last),
+        (Key::Named(Named::Up), _) | (_, Some(Command::Up | Command::PreviousPanel)) => {
+            at.checked_sub(1).unwrap_or(last)
+        }
+        (Key::Named(Named::Down), _) | (_, Some(Command::Down | Command::NextPanel)) => {
+            (*at + 1) % (last + 1)
+        }
+        _ => return false,
+    };
+    true
 }
 
-const ASCII_BORDER: ratatui::symbols::border::Set = ratatui::symbols::border::Set {
-    top_left: "+",
-    top_right: "+",
-    bottom_left: "+",
-    bottom_right: "+",
-    vertical_left: "|",
-    vertical_right: "|",
-    horizontal_top: "-",
-    horizontal_bottom: "-",
-};
-
-/// The first of `count` entries to show so that entry `at` is among the `rows` shown, and a few that
-/// follow it.
-fn first_shown(at: usize, count: usize, rows: u16) -> usize {
-    let following = usize::from(rows / 3);
-    (at + 1 + following)
-        .min(count)
-        .saturating_sub(usize::from(rows))
+/// Draws the entries around the one `at`, which has a style of its own, and a few that follow it.
+fn list<'a>(
+    entries: impl IntoIterator<Item = Line<'a>>,
+    at: usize,
+    style: Style,
+    area: Rect,
+    buffer: &mut Buffer,
+) {
+    let list = List::new(entries).highlight_style(style);
+    let rows = usize::from(area.height);
+    let first = (at + 1 + rows / 3).min(list.len()).saturating_sub(rows);
+    let selected = ListState::default().with_selected(Some(at));
+    StatefulWidget::render(list, area, buffer, &mut selected.with_offset(first));
 }
 
 /// A line being typed behind a prompt, its cursor shown.

@@ -1,6 +1,6 @@
 //! The palette: every command by name, and every scenario key by `set KEY=VALUE`, with completion.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Constraint::{Fill, Length};
@@ -8,8 +8,8 @@ use ratatui::layout::{Layout, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
-use super::{Answer, App, Command, Frame, Key, LineEdit, docked, first_shown, typing};
-use crate::scenario::preset;
+use super::{Answer, App, Command, Frame, Key, LineEdit, docked, list, select, settings, typing};
+use crate::scenario::preset::{self, Preset};
 use crate::scenario::schema::Kind;
 use crate::scenario::words::meaning;
 use crate::tui::command::{Act, COMMANDS};
@@ -21,7 +21,7 @@ use crate::tui::theme::Role;
 /// The line being typed, and which of its completions is selected.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Palette {
-    line: LineEdit,
+    pub(super) line: LineEdit,
     at: usize,
 }
 
@@ -88,8 +88,8 @@ fn completions(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
     }
     // A key of the scenario is found without `set` as well.
     if typed.len() >= 2 {
-        let settings = settings(typed, frame).into_iter();
-        list.extend(settings.map(|setting| (3, setting)));
+        let changes = changes(typed, frame).into_iter();
+        list.extend(changes.map(|change| (3, change)));
         let sweeps = sweeps(typed, frame).into_iter();
         let is_key = !typed.trim_end().contains(' ');
         let sweeps = sweeps.filter(|sweep| is_key && sweep.act.is_none());
@@ -111,8 +111,8 @@ fn rank(typed: &str, name: &str, help: &str) -> Option<usize> {
 }
 
 /// `KEY`, or `KEY=` with the values that the key takes.
-pub fn settings(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
-    let known = frame.map_or(&[][..], |frame| frame.facts.settings.as_slice());
+pub fn changes(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
+    let known = settings(frame);
     let Some((key, value)) = typed.split_once('=') else {
         let typed = typed.trim_end();
         let mut fitting: Vec<_> = known
@@ -153,8 +153,7 @@ pub fn settings(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
 
 /// `KEY`, or `KEY FROM..TO`.
 pub fn sweeps(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
-    let known = frame.map_or(&[][..], |frame| frame.facts.settings.as_slice());
-    let numbers = known
+    let numbers = settings(frame)
         .iter()
         .filter(|setting| matches!(setting.parameter.kind, Kind::Number | Kind::Whole));
     let keys = numbers.clone();
@@ -180,26 +179,16 @@ pub fn sweeps(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
 /// A file to draw into.
 pub fn figures(typed: &str, _: Option<&Frame>) -> Vec<Completion> {
     let help = "a figure of this state: a file that ends in .svg, .png or .pdf";
-    let path = PathBuf::from(typed);
-    let mut figure = Completion::new(format!("figure {typed}"), help)
-        .doing(move |app| app.order(move |run| run.write_figure(&path)));
-    figure.act = figure.act.filter(|_| !typed.is_empty());
-    vec![figure]
+    vec![argument("figure", typed, help, |app, file| {
+        app.order(move |run| run.write_figure(Path::new(&file)));
+    })]
 }
 
 /// Presets by name; anything else is taken for a file.
 pub fn presets(typed: &str, _: Option<&Frame>) -> Vec<Completion> {
-    let load = |name: &str, help: &str| {
-        let line = format!("load {name}");
-        let name = name.to_owned();
-        Completion::new(line, help).doing(move |app| app.load(&name))
-    };
-    let fitting = preset::ALL
-        .iter()
-        .filter(|preset| preset.name.contains(typed));
-    let mut list: Vec<_> = fitting
-        .map(|preset| load(preset.name, preset.title()))
-        .collect();
+    let load = |name: &str, help| argument("load", name, help, |app, name| app.load(&name));
+    let fitting = named(typed).map(|preset| load(preset.name, preset.title()));
+    let mut list: Vec<_> = fitting.collect();
     if list.is_empty() {
         list.push(load(typed, "a preset's name, or a path to a .toml file"));
     }
@@ -208,24 +197,40 @@ pub fn presets(typed: &str, _: Option<&Frame>) -> Vec<Completion> {
 
 /// Any file or directory; a preset by its name.
 pub fn overlays(typed: &str, _: Option<&Frame>) -> Vec<Completion> {
-    let overlay = |given: &str, help: &str| {
-        let line = format!("overlay {given}");
-        let given = given.to_owned();
-        Completion::new(line, help).doing(move |app| app.order(move |run| run.overlay(&given)))
+    let overlay = |given: &str, help| {
+        argument("overlay", given, help, |app, given| {
+            app.order(move |run| run.overlay(&given));
+        })
     };
     let is_path = typed.contains(['/', '.']);
-    let fitting = preset::ALL
-        .iter()
-        .filter(|preset| !is_path && preset.name.contains(typed));
-    let presets = fitting.map(|preset| overlay(preset.name, preset.title()));
-    let mut any = overlay(typed, "a CSV file, a run's directory, or a scenario");
-    any.act = any.act.filter(|_| !typed.is_empty());
-    let mut list = vec![any];
+    let presets = named(typed).filter(|_| !is_path);
+    let presets = presets.map(|preset| overlay(preset.name, preset.title()));
+    let mut list = vec![overlay(
+        typed,
+        "a CSV file, a run's directory, or a scenario",
+    )];
     list.extend(presets);
     // What is typed comes first, unless it can only be the beginning of a preset's name.
     let is_begun = list.len() > 1 && !Path::new(typed).exists();
     list.rotate_left(usize::from(is_begun && !typed.is_empty()));
     list
+}
+
+/// A command with an argument, which does nothing without one.
+fn argument(command: &str, given: &str, help: &str, act: fn(&mut App, String)) -> Completion {
+    let completion = Completion::new(format!("{command} {given}"), help);
+    let given = given.to_owned();
+    match given.is_empty() {
+        true => completion,
+        false => completion.doing(move |app| act(app, given)),
+    }
+}
+
+/// The presets whose names have this text.
+fn named(text: &str) -> impl Iterator<Item = &'static Preset> {
+    preset::ALL
+        .iter()
+        .filter(move |preset| preset.name.contains(text))
 }
 
 impl Palette {
@@ -237,11 +242,6 @@ impl Palette {
         }
     }
 
-    /// The typed text.
-    pub(super) fn line(&mut self) -> &mut LineEdit {
-        &mut self.line
-    }
-
     pub(super) fn press(&mut self, key: Key, app: &mut App) -> Answer {
         let mut list = completions(&self.line.text(), app.frame.as_deref());
         let last = list.len().saturating_sub(1);
@@ -250,9 +250,11 @@ impl Palette {
             (Key::Named(Named::Esc), _) => return Answer::Close,
             (Key::Named(Named::Backspace), _) if self.line.is_empty() => return Answer::Close,
             (Key::Named(Named::Up | Named::BackTab) | Key::Ctrl('p'), _) => {
-                self.at = self.at.checked_sub(1).unwrap_or(last);
+                select(&mut self.at, list.len(), Key::Named(Named::Up));
             }
-            (Key::Named(Named::Down) | Key::Ctrl('n'), _) => self.at = (self.at + 1) % (last + 1),
+            (Key::Named(Named::Down) | Key::Ctrl('n'), _) => {
+                select(&mut self.at, list.len(), Key::Named(Named::Down));
+            }
             (Key::Named(Named::Tab), Some(selected)) => self.take(&selected.line),
             (Key::Named(Named::Enter), Some(selected)) => match selected.act.take() {
                 Some(act) => {
@@ -277,34 +279,25 @@ impl Palette {
     }
 
     pub(super) fn draw(&self, app: &App, area: Rect, buffer: &mut Buffer) {
-        let list = completions(&self.line.text(), app.frame.as_deref());
+        let found = completions(&self.line.text(), app.frame.as_deref());
         let rows = (area.height / 2).clamp(6, 12);
         let title = "commands (Tab completes, Enter runs, Esc closes)";
         let inside = docked(&app.theme, title, (100, rows + 3), area, buffer);
-        let [quiet, focus] = [Role::Quiet, Role::Focus].map(|role| app.theme.style(role));
-        typing(" :", &self.line, app.theme.style(Role::Title)).render(inside, buffer);
-        let at = self.at.min(list.len().saturating_sub(1));
-        let shown = list.iter().enumerate();
+        let roles = [Role::Quiet, Role::Focus, Role::Title];
+        let [quiet, focus, title] = roles.map(|role| app.theme.style(role));
+        typing(" :", &self.line, title).render(inside, buffer);
         let [_, below] = Layout::vertical([Length(1), Fill(1)]).areas(inside);
-        for ((i, completion), row) in shown
-            .skip(first_shown(at, list.len(), below.height))
-            .zip(below.rows())
-        {
+        if found.is_empty() {
+            return Line::styled(" no such command", quiet).render(below, buffer);
+        }
+        let line = |completion: &Completion| {
             let name = Span::raw(format!(" {:22} ", completion.line));
-            let right = format!(" {} ", completion.right);
-            let room = usize::from(row.width)
-                .saturating_sub(name.width() + Span::raw(right.as_str()).width());
-            let help: String = completion.help.chars().take(room).collect();
-            Line::from(vec![name, Span::styled(help, quiet)]).render(row, buffer);
-            Line::styled(right, app.theme.style(Role::Title))
-                .right_aligned()
-                .render(row, buffer);
-            if i == at {
-                buffer.set_style(row, focus);
-            }
-        }
-        if list.is_empty() {
-            Line::styled(" no such command", quiet).render(below, buffer);
-        }
+            let right = Span::styled(format!(" {} ", completion.right), title);
+            let room = usize::from(below.width).saturating_sub(name.width() + right.width());
+            let help = Span::styled(format!("{:room$.room$}", completion.help), quiet);
+            Line::from(vec![name, help, right])
+        };
+        let at = self.at.min(found.len() - 1);
+        list(found.iter().map(line), at, focus, below, buffer);
     }
 }

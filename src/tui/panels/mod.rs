@@ -3,6 +3,7 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::Modifier;
+use ratatui::symbols::border;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Widget};
 
@@ -219,24 +220,43 @@ pub(super) fn titled(
     area: Rect,
     buffer: &mut Buffer,
 ) -> Rect {
-    // The rule is dim; its title is not.
+    framed(title, role, Borders::TOP, theme, area, buffer)
+}
+
+/// Draws some borders, the upper one with a title; returns what is inside them.
+pub(super) fn framed(
+    title: &str,
+    role: Role,
+    borders: Borders,
+    theme: &Theme,
+    area: Rect,
+    buffer: &mut Buffer,
+) -> Rect {
+    // Rules are dim; their titles are not.
     let style = theme.style(role).remove_modifier(Modifier::DIM);
     let title = format!(" {} ", theme.printable(title));
-    let title = Line::from(vec![Span::styled(title, style)]);
     let mut block = Block::new()
-        .borders(Borders::TOP)
+        .borders(borders)
         .border_style(theme.style(Role::Faint))
-        .title(title);
+        .title(Span::styled(title, style));
     if theme.ascii() {
-        block = block.border_set(ratatui::symbols::border::Set {
-            horizontal_top: "-",
-            ..ratatui::symbols::border::PLAIN
-        });
+        block = block.border_set(ASCII_BORDER);
     }
     let inner = block.inner(area);
     block.render(area, buffer);
     inner
 }
+
+const ASCII_BORDER: border::Set = border::Set {
+    top_left: "+",
+    top_right: "+",
+    bottom_left: "+",
+    bottom_right: "+",
+    vertical_left: "|",
+    vertical_right: "|",
+    horizontal_top: "-",
+    horizontal_bottom: "-",
+};
 
 /// A chart below a rule with its title.
 fn plot(

@@ -247,7 +247,7 @@ fn regime_border(slice: &Slice, [across, up]: [&[f64]; 2]) -> Option<[Vec<f64>; 
 
 /// A column over the first axis, a symbol a point, with error bars where the study has recorded them; joined where
 /// one axis alone tells the points apart.
-fn points(slice: &Slice, column: &str) -> Chart {
+pub fn points(slice: &Slice, column: &str) -> Chart {
     let places = places(slice.x());
     let is_joined = matches!(slice.study.design, Design::Grid | Design::Zip);
     let mut order: Vec<usize> = (0..places.len()).collect();

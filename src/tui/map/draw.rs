@@ -15,16 +15,19 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier, Style};
+use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
 use super::ramp::{self, Shade};
 use super::view::{Scaled, View};
 use crate::figure::study;
 use crate::plot::axis::titled;
+use crate::plot::colormap::ColorMap;
 use crate::plot::units::{axis_unit, format_number, format_value_in};
-use crate::plot::{Axis, Chart, Curve, Plot, Point, Scale};
-use crate::studies::sweep::slice::{Line, REGIMES};
+use crate::plot::{Axis, Plot, Point, Scale};
+use crate::studies::sweep::slice::{self, REGIMES};
 use crate::tui::footer;
+use crate::tui::shades::{self, has_blocks, paint_halves};
 use crate::tui::theme::{Role, Theme};
 
 /// The keys of the footer, as many as fit, and the one that is always there.
@@ -64,32 +67,24 @@ pub fn draw(view: &View, theme: &Theme, area: Rect, buffer: &mut Buffer) {
     let names: Vec<String> = names.chain(here).collect();
     let (point, quiet) = (view.point(), theme.style(Role::Quiet));
     let below = area.height - 4;
-    for (column, row, text, style) in [
-        (0, 0, view.name.clone(), theme.style(Role::Title)),
-        (behind, 0, count, quiet),
-        (0, below, names.join("   "), quiet),
-        (0, below + 1, place(view, point, theme), Style::new()),
-        (
-            0,
-            below + 2,
-            reading(view, point, theme),
-            theme.style(Role::Notice),
-        ),
-    ] {
-        put(buffer, area.x + column, area.y + row, &text, style, theme);
-    }
-    legend(view, theme, &scaled, area, buffer);
+    let mut write = |row: u16, column: u16, text: &str, style: Style| {
+        put(buffer, area.x + column, area.y + row, text, style, theme);
+    };
+    write(0, 0, &view.name, theme.style(Role::Title));
+    write(0, behind, &count, quiet);
+    write(below, 0, &names.join("   "), quiet);
+    write(below + 1, 0, &place(view, point, theme), Style::new());
+    let read = reading(view, point, theme);
+    write(below + 2, 0, &read, theme.style(Role::Notice));
+    let row = |row: u16| Rect::new(area.x, area.y + row, area.width, 1);
+    legend(view, theme, &scaled).render(row(1), buffer);
     let body = Rect::new(area.x, area.y + 2, area.width, area.height - 6);
     match view.slice.y() {
         Some(_) => map(view, theme, &scaled, &overlays, body, buffer),
         None => curve(view, theme, &scaled, body, buffer),
     }
-    let last = Rect {
-        y: area.bottom() - 1,
-        height: 1,
-        ..area
-    };
-    footer::draw_line(view.notice.as_deref(), &KEYS, &[QUIT], theme, last, buffer);
+    let (notice, last) = (view.notice.as_deref(), row(area.height - 1));
+    footer::draw_line(notice, &KEYS, &[QUIT], theme, last, buffer);
 }
 
 /// A point in words: its number and its values.
@@ -128,64 +123,44 @@ fn in_words(of: &Axis, number: f64, theme: &Theme) -> String {
 }
 
 /// The column, and its range or its words in their colours.
-fn legend(view: &View, theme: &Theme, scaled: &Scaled, area: Rect, buffer: &mut Buffer) {
-    let (mut x, y) = (area.x, area.y + 1);
-    let mut write = |text: &str, style: Style| {
-        let room = (area.x + area.width).saturating_sub(x);
-        let text: String = theme.printable(text).chars().take(room.into()).collect();
-        buffer.set_string(x, y, &text, style);
-        x += text.chars().count() as u16;
-    };
-    let quantity = &scaled.quantity;
+fn legend(view: &View, theme: &Theme, scaled: &Scaled) -> Line<'static> {
+    let (quantity, quiet) = (&scaled.quantity, theme.style(Role::Quiet));
     let name = match view.is_regime() {
         true => view.column(),
         false => &quantity.label,
     };
-    write(name, theme.style(Role::Focus));
+    let mut line = Line::from(Span::styled(
+        theme.printable(name),
+        theme.style(Role::Focus),
+    ));
     if view.is_regime() {
         for (at, (_, title)) in REGIMES.iter().enumerate() {
-            let (sign, style) = swatch(Shade::Word(at), theme);
-            write("  ", Style::new());
-            write(&sign.to_string(), style);
-            if sign == '█' {
-                write(&Shade::Word(at).sign().to_string(), Style::new());
+            let shade = Shade::Word(at);
+            line.push_span("  ");
+            if let Some(color) = shade.color(theme).filter(|_| has_blocks(theme)) {
+                line.push_span(Span::styled("█", color));
             }
-            write(&format!(" {title}"), Style::new());
+            line.push_span(format!("{} {title}", shade.sign()));
         }
-        return;
+        return line;
     }
     let Some([low, high]) = scaled.range else {
-        return;
+        return line;
     };
     let unit = axis_unit(high.abs().max(low.abs()), quantity.unit, theme.ascii());
     let value = |value: f64| format_number(value / unit.factor, 3);
-    write(&format!("  {} ", value(low)), Style::new());
-    for shade in ramp::all() {
-        let (sign, style) = swatch(shade, theme);
-        write(&sign.to_string(), style);
-    }
-    write(&format!(" {} {}", value(high), unit.text), Style::new());
+    line.push_span(format!("  {} ", value(low)));
+    line.extend(shades::key(theme, ColorMap::Sequential, ramp::sign));
+    line.push_span(theme.printable(&format!(" {} {}", value(high), unit.text)));
     if quantity.scale == Scale::Log {
-        write("  log", theme.style(Role::Quiet));
+        line.push_span(Span::styled("  log", quiet));
     }
     for axis in view.slice.hidden() {
         let (place, axis) = (view.slice.at[axis], &view.slice.study.axes[axis]);
-        let text = format!("  {} = {}", axis.key, axis.text(place));
-        write(&text, theme.style(Role::Quiet));
+        let text = theme.printable(&format!("  {} = {}", axis.key, axis.text(place)));
+        line.push_span(Span::styled(text, quiet));
     }
-}
-
-/// One cell of a shade.
-fn swatch(shade: Shade, theme: &Theme) -> (char, Style) {
-    match shade.color(theme).filter(|_| has_blocks(theme)) {
-        Some(color) => ('█', Style::new().fg(color)),
-        None => (shade.sign(), Style::new()),
-    }
-}
-
-/// Whether half blocks and colours can be drawn.
-fn has_blocks(theme: &Theme) -> bool {
-    theme.colored() && !theme.ascii()
+    line
 }
 
 /// Two axes: each point a block of cells, upwards in half cells where there are colours.
@@ -193,7 +168,7 @@ fn map(
     view: &View,
     theme: &Theme,
     scaled: &Scaled,
-    overlays: &[Line],
+    overlays: &[slice::Line],
     area: Rect,
     buffer: &mut Buffer,
 ) {
@@ -215,7 +190,7 @@ fn map(
         return;
     }
     let quiet = theme.style(Role::Quiet);
-    let parts = if has_blocks(theme) { 2 } else { 1 };
+    let parts = 1 + usize::from(has_blocks(theme));
     let wide = Cells::new(plot.width.into(), last_x + 1);
     let high = Cells::new(usize::from(plot.height) * parts, last_y + 1);
     let rows = high.used.div_ceil(parts);
@@ -225,37 +200,22 @@ fn map(
         let (x, y) = (wide.place(column), high.place(half));
         view.shade(view.slice.point_at(x, y), scaled)
     };
+    let at = |column: usize, row: usize| (plot.x + column as u16, floor - 1 - row as u16);
     for row in 0..rows {
         for column in 0..wide.used {
-            let cell = &mut buffer[(plot.x + column as u16, floor - 1 - row as u16)];
-            let lower = shade(column, (row * parts).min(high.used - 1));
+            let cell = &mut buffer[at(column, row)];
             if parts == 1 {
-                cell.set_char(lower.sign());
+                cell.set_char(shade(column, row).sign());
                 continue;
             }
-            let upper = row * parts + 1;
-            let upper = (upper < high.used).then(|| shade(column, upper));
-            let mut style = Style::new();
-            if let Some(color) = lower.color(theme) {
-                style = style.bg(color);
-            }
-            if let Some(color) = upper.and_then(|shade| shade.color(theme)) {
-                cell.set_char('▀');
-                style = style.fg(color);
-            } else if upper.is_none() || lower.color(theme).is_some() {
-                cell.set_char(' ');
-            }
             // Half a cell without a row stays as dark as the terminal.
-            if upper.is_none() || upper == Some(Shade::Waiting) {
-                style = lower
-                    .color(theme)
-                    .map_or(Style::new(), |color| Style::new().fg(color));
-                cell.set_char(if lower == Shade::Waiting { ' ' } else { '▄' });
-            }
-            cell.set_style(style);
+            let halves = [2 * row + 1, 2 * row].map(|half| {
+                let is_there = half < high.used;
+                is_there.then(|| shade(column, half).color(theme))?
+            });
+            paint_halves(cell, halves);
         }
     }
-    let at = |column: usize, row: usize| (plot.x + column as u16, floor - 1 - row as u16);
     let mut sign = |place: (u16, u16), sign: char| {
         let cell = &mut buffer[place];
         cell.set_char(sign);
@@ -267,8 +227,8 @@ fn map(
         });
     };
     if view.is_regime() && parts == 2 {
-        letters(&shade, [&wide, &high], parts, |column, row, letter| {
-            sign(at(column, row), letter)
+        letters(&shade, [&wide, &high], |column, half, letter| {
+            sign(at(column, half / parts), letter);
         });
     }
     let dot = if theme.ascii() { '*' } else { '•' };
@@ -358,26 +318,17 @@ fn labels(view: &View, axis: &crate::studies::sweep::Axis, theme: &Theme) -> (St
 fn letters(
     shade: &impl Fn(usize, usize) -> Shade,
     [wide, high]: [&Cells; 2],
-    parts: usize,
     mut put: impl FnMut(usize, usize, char),
 ) {
-    for word in 0..REGIMES.len() {
-        let cells =
-            (0..wide.used).flat_map(|column| (0..high.used).map(move |half| (column, half)));
-        let of: Vec<(usize, usize)> = cells
-            .filter(|&(column, half)| shade(column, half) == Shade::Word(word))
-            .collect();
-        let count = of.len().max(1);
-        let [column, half] = [
-            of.iter().map(|at| at.0).sum::<usize>() / count,
-            of.iter().map(|at| at.1).sum::<usize>() / count,
-        ];
+    for word in (0..REGIMES.len()).map(Shade::Word) {
+        let columns = 0..wide.used;
+        let cells = columns.flat_map(|column| (0..high.used).map(move |half| [column, half]));
+        let of: Vec<[usize; 2]> = cells.filter(|at| shade(at[0], at[1]) == word).collect();
+        let middle = [0, 1].map(|k| of.iter().map(|at| at[k]).sum::<usize>() / of.len().max(1));
         // The middle of a bent region can lie outside of it.
-        let nearest = of
-            .iter()
-            .min_by_key(|at| at.0.abs_diff(column) + at.1.abs_diff(half));
-        if let Some(&(column, half)) = nearest {
-            put(column, half / parts, Shade::Word(word).sign());
+        let distance = |at: &&[usize; 2]| at[0].abs_diff(middle[0]) + at[1].abs_diff(middle[1]);
+        if let Some(&[column, half]) = of.iter().min_by_key(distance) {
+            put(column, half, word.sign());
         }
     }
 }
@@ -412,28 +363,18 @@ impl Cells {
 
 /// One axis, or no grid: the column over the axis.
 fn curve(view: &View, theme: &Theme, scaled: &Scaled, area: Rect, buffer: &mut Buffer) {
-    let axis = view.slice.x();
-    let mut points: Vec<(f64, f64)> = (0..axis.count())
-        .filter_map(|x| {
-            let number = view
-                .slice
-                .number(view.slice.point_at(x, 0), view.column())?;
-            Some((axis.number(x).unwrap_or(x as f64), number))
-        })
-        .collect();
-    points.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let (xs, ys): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();
-    let here = view.cursor().0;
-    let here = axis.number(here).unwrap_or(here as f64);
-    let curve = Curve::new("", xs, ys, Role::Profile);
-    let base = view.here().and_then(|(place, _)| axis.value_at(place));
-    let base = base.and_then(|x| Some([x, curve.value_at(x)?]));
-    let mut chart = Chart::new("", view.in_words(axis), scaled.quantity.clone()).curve(curve);
+    let mut chart = study::points(&view.slice, view.column());
+    chart.y = scaled.quantity.clone();
+    let base = view.here();
+    let base = base.and_then(|(place, _)| view.slice.x().value_at(place));
+    let base = base.and_then(|x| Some([x, chart.curves.first()?.value_at(x)?]));
     chart.points.extend(base.map(|at| Point {
         at,
         sign: here_sign(theme),
         role: Role::Alarm,
     }));
+    let place = view.cursor().0;
+    let here = view.slice.x().number(place).unwrap_or(place as f64);
     Plot::new(&chart, theme)
         .cursor(Some(here))
         .render(area, buffer);

@@ -4,14 +4,15 @@
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Color, Modifier, Style};
-use ratatui::text::Line;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::Widget;
 
-use super::section::{self, Scale};
-use super::stress_map::{self, SHADES};
+use super::section::Section;
 use super::{Frame, Pane};
 use crate::math::scan::largest;
 use crate::plot::units::{format_number, format_value_in};
 use crate::reading::Moment;
+use crate::tui::shades::{self, SHADES, has_blocks};
 use crate::tui::theme::{Depth, Look, Role, Theme};
 
 /// The size from which the picture has captions below it, and their rows.
@@ -150,7 +151,7 @@ pub fn take_ground(cell: &mut Cell) {
 
 /// Writes on what is drawn already: the ground stays.
 fn on(buffer: &mut Buffer, x: u16, y: u16, text: &str, theme: &Theme) {
-    let style = match theme.colored() && !theme.ascii() {
+    let style = match has_blocks(theme) {
         true => ink(theme).remove_modifier(Modifier::REVERSED),
         false => Style::reset(),
     };
@@ -161,23 +162,9 @@ fn on(buffer: &mut Buffer, x: u16, y: u16, text: &str, theme: &Theme) {
     buffer.set_stringn(x, y, text, usize::from(room), style);
 }
 
-/// Writes in the middle of a row, where it fits.
-fn centred(buffer: &mut Buffer, area: Rect, row: u16, text: &str, theme: &Theme) -> Option<u16> {
-    let text = format!(" {text} ");
-    let cells = Line::raw(text.as_str()).width() as u16;
-    let x = area.x + area.width.checked_sub(cells)? / 2;
-    on(buffer, x, row, &text, theme);
-    Some(x + 1)
-}
-
 /// Draws the words on the picture and below it.
-pub fn draw(
-    frame: &Frame,
-    pane: &Pane,
-    [area, below]: [Rect; 2],
-    scale: &Scale,
-    buffer: &mut Buffer,
-) {
+pub fn draw(section: &Section, below: Rect, buffer: &mut Buffer) {
+    let (frame, pane, area) = (section.frame, section.pane, section.area);
     // Nobody reads numbers ten times a second.
     let (calm, theme) = (&pane.calm.observation.moment, pane.theme);
     let value = |value, unit| format_value_in(value, unit, 3, theme.ascii());
@@ -196,18 +183,19 @@ pub fn draw(
         forces.push_str(&format!(", {} {}", names[1], value(shift, "m")));
     }
     if below.is_empty() {
-        centred(buffer, area, area.y, &forces, theme);
-        key(
-            pane,
-            Rect {
-                y: area.bottom() - 1,
-                height: 1,
-                ..area
-            },
-            false,
-            buffer,
-        );
-        return;
+        let forces = format!(" {forces} ");
+        if let Some(spare) = area.width.checked_sub(Line::raw(&forces).width() as u16) {
+            on(buffer, area.x + spare / 2, area.y, &forces, theme);
+        }
+        let scale = Line::from(stress_key(pane, area.width)).style(Style::reset());
+        let width = scale.width() as u16;
+        let place = Rect {
+            x: area.x + area.width.saturating_sub(width) / 2,
+            y: area.bottom() - 1,
+            width,
+            height: 1,
+        };
+        return scale.render(place, buffer);
     }
     let speed = speed(frame);
     let said = phase(&frame.observation.moment, speed);
@@ -226,9 +214,8 @@ pub fn draw(
         _ => {}
     }
     on(buffer, start, area.y + 1, &forces, theme);
-    radii(frame, pane, area, scale, buffer);
-    let lines = Layout::vertical([Constraint::Length(1); ROWS as usize]);
-    let [first, second] = lines.areas(below);
+    radii(section, buffer);
+    let [first, second] = Layout::vertical([Constraint::Length(1); ROWS as usize]).areas(below);
     let worn = worn(pane.calm, |depth| value(depth, "m"));
     // What is obvious from the rest is said where there is room for it.
     let room = usize::from(first.width.saturating_sub(1));
@@ -237,101 +224,77 @@ pub fn draw(
         _ => worn.as_str(),
     };
     buffer.set_stringn(first.x + 1, first.y, worn, room, Style::new());
-    key(pane, second, true, buffer);
+    let mut key = Line::from(body_key(theme));
+    let room = second.width.saturating_sub(key.width() as u16);
+    key.extend(stress_key(pane, room));
+    key.render(second, buffer);
 }
 
 /// c and a: a short line over the border of each, and its name.
-fn radii(frame: &Frame, pane: &Pane, area: Rect, scale: &Scale, buffer: &mut Buffer) {
-    let (moment, theme) = (&pane.calm.observation.moment, pane.theme);
+fn radii(section: &Section, buffer: &mut Buffer) {
+    let (moment, theme) = (&section.pane.calm.observation.moment, section.pane.theme);
     let bar = if theme.ascii() { ":" } else { "┊" };
     let a = Some(moment.contact_radius).filter(|a| *a > 0.0);
     let marks = [("c", sticking(moment)), ("a", a)];
     for (name, r) in marks.into_iter().filter_map(|(name, r)| Some((name, r?))) {
         for x in [-r, r] {
-            let rows = section::rows_above(frame, area, scale, x);
-            if let (Some(column), Some([row, _])) = (section::column(area, scale, x), rows) {
-                on(
-                    buffer,
-                    column,
-                    row.saturating_sub(1).max(area.y),
-                    name,
-                    theme,
-                );
+            if let (Some(column), Some([row, _])) = (section.column(x), section.rows_above(x)) {
+                let above = row.saturating_sub(1).max(section.area.y);
+                on(buffer, column, above, name, theme);
                 on(buffer, column, row, bar, theme);
             }
         }
     }
 }
 
-/// What the colours mean: the bodies' on a roomy picture, and the scale of the stress.
-fn key(pane: &Pane, area: Rect, whole: bool, buffer: &mut Buffer) {
-    let (theme, ascii) = (pane.theme, pane.theme.ascii());
-    let cells = |text: &str| Line::raw(text).width();
-    let mut parts: Vec<(String, Style)> = Vec::new();
-    if whole {
-        let swatch = if ascii {
-            ["s", "~", "/"]
-        } else {
-            ["▀▀", "▀▀", "╱╱"]
-        };
-        let roles = [Role::Stick, Role::Slip, Role::Profile];
-        for ((sign, role), name) in
-            swatch
-                .into_iter()
-                .zip(roles)
-                .zip(["sticks", "slips", "worn away"])
-        {
-            parts.push((format!(" {sign}"), theme.style(role)));
-            parts.push((format!(" {name} "), Style::new()));
-        }
-    }
-    // Nothing is loaded yet where the scale is that of no stress.
-    if let Some(bounds) = pane.stress.bounds.filter(|bounds| bounds[1] > 1.0) {
-        let over = if pane.stress.is_largest_of_cycle() {
-            ", cycle"
-        } else {
-            ""
-        };
-        let name = format!(" {}{over} ", pane.stress.quantity.short());
-        let [low, high] = bounds.map(|end| format_value_in(end, "Pa", 3, ascii));
-        // With little room the number of the other end stands for both.
-        let short = match bounds {
-            [0.0, _] => "0 ",
-            [low, high] if low == -high => "- ",
-            _ => "",
-        };
-        let before = parts.iter().map(|(text, _)| cells(text)).sum::<usize>();
-        let room = usize::from(area.width).saturating_sub(before + SHADES);
-        let words = [
-            [format!("{name}{low} "), format!(" {high} ")],
-            [format!("{name}{short}"), format!(" {high} ")],
-            [name, format!(" {high}")],
-            [" ".into(), format!(" {high}")],
-        ];
-        let fits =
-            |words: &&[String; 2]| words.iter().map(|text| cells(text)).sum::<usize>() <= room;
-        let [from, to] = words.iter().find(fits).unwrap_or(&words[3]).clone();
-        parts.push((from, Style::new()));
-        for shade in 0..SHADES {
-            let color = stress_map::color(theme, pane.stress.quantity.colors(), shade);
-            parts.push(match color.filter(|_| !ascii) {
-                Some(color) => (" ".into(), Style::new().bg(color)),
-                None => (stress_map::sign(shade).into(), Style::new()),
-            });
-        }
-        parts.push((to, Style::new()));
-    }
-    let taken = parts.iter().map(|(text, _)| cells(text)).sum::<usize>();
-    let Some(spare) = area.width.checked_sub(taken as u16) else {
-        return;
+/// What the colours of the bodies mean.
+fn body_key(theme: &Theme) -> Vec<Span<'static>> {
+    let [surface, other, gone] = if theme.ascii() {
+        ["s", "~", "/"]
+    } else {
+        ["▀▀", "▀▀", "╱╱"]
     };
-    let mut x = if whole { area.x } else { area.x + spare / 2 };
-    for (text, style) in parts {
-        let style = if whole {
-            style
-        } else {
-            Style::reset().patch(style)
-        };
-        (x, _) = buffer.set_stringn(x, area.y, &text, usize::from(area.width), style);
-    }
+    let parts = [
+        (surface, Role::Stick, "sticks"),
+        (other, Role::Slip, "slips"),
+        (gone, Role::Profile, "worn away"),
+    ];
+    let spans = parts.map(|(sign, role, name)| {
+        let sign = Span::styled(format!(" {sign}"), theme.style(role));
+        [sign, format!(" {name} ").into()]
+    });
+    spans.into_iter().flatten().collect()
+}
+
+/// The scale of the stress in as many words as `width` cells have room for; nothing without a stress.
+fn stress_key(pane: &Pane, width: u16) -> Vec<Span<'static>> {
+    let theme = pane.theme;
+    // Nothing is loaded yet where the scale is that of no stress.
+    let Some(bounds) = pane.stress.bounds.filter(|bounds| bounds[1] > 1.0) else {
+        return Vec::new();
+    };
+    let name = format!(" {} ", pane.stress.short_name());
+    let [low, high] = bounds.map(|end| format_value_in(end, "Pa", 3, theme.ascii()));
+    // With little room the number of the other end stands for both.
+    let short = match bounds {
+        [0.0, _] => "0 ",
+        [low, high] if low == -high => "- ",
+        _ => "",
+    };
+    let words = [
+        [format!("{name}{low} "), format!(" {high} ")],
+        [format!("{name}{short}"), format!(" {high} ")],
+        [name, format!(" {high}")],
+        [" ".into(), format!(" {high}")],
+    ];
+    let shades = shades::key(theme, pane.stress.colors(), shades::sign);
+    let fits = |words: &[String; 2]| {
+        let words = words.iter().map(|text| Line::raw(text).width());
+        words.sum::<usize>() + SHADES <= usize::from(width)
+    };
+    let Some([from, to]) = words.into_iter().find(fits) else {
+        return Vec::new();
+    };
+    let ends = [vec![from.into()], shades.to_vec(), vec![to.into()]];
+    ends.concat()
 }

@@ -21,7 +21,7 @@ mod section;
 mod stress_map;
 
 pub use caption::contact_state;
-pub use stress_map::{SHADES, StressMap, color as map_color};
+pub use stress_map::StressMap;
 
 /// How a panel is drawn.
 #[derive(Debug)]

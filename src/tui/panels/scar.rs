@@ -11,16 +11,17 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::style::{Color, Style};
+use ratatui::style::Color;
 use ratatui::text::Line;
+use ratatui::widgets::Widget;
 
-use super::stress_map::{self, SHADES};
-use super::{Frame, Pane, Picture, Recipe, Words, nothing};
+use super::{Frame, Pane, Picture, Recipe, Words, edge, nothing};
 use crate::math::grid::interpolate;
 use crate::math::scan::largest;
 use crate::plot::colormap::ColorMap;
 use crate::plot::units::format_value_in;
 use crate::reading::{Curves, Zone};
+use crate::tui::shades::{self, has_blocks, paint_halves};
 use crate::tui::theme::Role;
 
 /// The panel.
@@ -60,9 +61,8 @@ impl Place {
     fn at(frame: &Frame, x: f64, y: f64) -> Self {
         let (seen, moment) = (&frame.observation, &frame.observation.moment);
         let r = x.hypot(y);
-        let edge = seen.radii.last().copied().unwrap_or(0.0);
         match moment.stick_radius {
-            _ if r > edge => Self::Blank,
+            _ if r > edge(frame) => Self::Blank,
             _ if x >= 0.0 => Self::Worn(interpolate(&seen.radii, &seen.wear, r)),
             _ if r >= moment.contact_radius => Self::Zone(Zone::Open),
             Some(stick) if r >= stick => Self::Zone(Zone::Slip),
@@ -86,11 +86,7 @@ fn draw(frame: &Frame, pane: &Pane, area: Rect, buffer: &mut Buffer) {
     if area.height < 4 || area.width < 12 {
         return nothing("too small for the scar", pane.theme, area, buffer);
     }
-    let lines = if area.width < ONE_LINE && area.height >= TWO_LINES {
-        2
-    } else {
-        1
-    };
+    let lines = legend_lines(area);
     let disc = Rect {
         height: area.height - lines,
         ..area
@@ -107,28 +103,13 @@ fn draw(frame: &Frame, pane: &Pane, area: Rect, buffer: &mut Buffer) {
     let y = |half: u16| (f64::from(half) + 0.5 - f64::from(disc.height)) * size;
     for row in 0..disc.height {
         for column in 0..disc.width {
-            let [upper, lower] = [2 * row, 2 * row + 1].map(|half| {
-                let place = Place::at(frame, x(column), y(half));
-                (place, color(place, deepest, pane))
-            });
+            let halves = [2 * row, 2 * row + 1].map(|half| Place::at(frame, x(column), y(half)));
             let Some(cell) = buffer.cell_mut((disc.x + column, disc.y + row)) else {
                 continue;
             };
-            if pane.theme.ascii() || !pane.theme.colored() {
-                cell.set_char(sign(upper.0, deepest));
-                continue;
-            }
-            match (upper.1, lower.1) {
-                (None, None) => {}
-                (Some(above), None) => {
-                    cell.set_char('▀').set_fg(above);
-                }
-                (None, Some(below)) => {
-                    cell.set_char('▄').set_fg(below);
-                }
-                (Some(above), Some(below)) => {
-                    cell.set_char('▀').set_fg(above).set_bg(below);
-                }
+            match has_blocks(pane.theme) {
+                true => paint_halves(cell, halves.map(|place| color(place, deepest, pane))),
+                false => _ = cell.set_char(sign(halves[0], deepest)),
             }
         }
     }
@@ -143,15 +124,9 @@ fn color(place: Place, deepest: f64, pane: &Pane) -> Option<Color> {
         Place::Zone(Zone::Slip) => style(Role::Slip),
         Place::Zone(Zone::Open) => style(Role::Open),
         Place::Worn(depth) => {
-            stress_map::color(pane.theme, ColorMap::Sequential, shade(depth, deepest))
+            let shade = shades::shade(depth, [0.0, deepest]);
+            shades::color(pane.theme, ColorMap::Sequential, shade)
         }
-    }
-}
-
-fn shade(depth: f64, deepest: f64) -> usize {
-    match deepest > 0.0 {
-        true => stress_map::shade(depth, [0.0, deepest]),
-        false => 0,
     }
 }
 
@@ -162,7 +137,7 @@ fn sign(place: Place, deepest: f64) -> char {
         Place::Zone(Zone::Stick) => 's',
         Place::Zone(Zone::Slip) => '~',
         Place::Zone(Zone::Open) => '.',
-        Place::Worn(depth) => stress_map::sign(shade(depth, deepest)),
+        Place::Worn(depth) => shades::sign(shades::shade(depth, [0.0, deepest])),
     }
 }
 
@@ -177,61 +152,49 @@ fn slip_direction(frame: &Frame) -> Option<f64> {
     loaded.next().filter(|_| slips).map(|j| load[j].signum())
 }
 
+/// The lines of the legend.
+fn legend_lines(area: Rect) -> u16 {
+    1 + u16::from(area.width < ONE_LINE && area.height >= TWO_LINES)
+}
+
 /// The scale bar, the direction of slip, and the scale of the depth, as far as there is room.
 fn legend(frame: &Frame, pane: &Pane, area: Rect, size: f64, deepest: f64, buffer: &mut Buffer) {
     let ascii = pane.theme.ascii();
-    let value = |value, unit| format_value_in(value, unit, 3, ascii);
+    let value = |value| format_value_in(value, "m", 3, ascii);
     // A round length near a fifth of the disc.
     let decade = 10f64.powf((10.0 * size).log10().floor());
     let rounds = [1.0, 2.0, 5.0, 10.0].map(|digit| digit * decade);
     let reach = rounds.into_iter().find(|&reach| reach >= 8.0 * size);
     let reach = reach.unwrap_or(10.0 * decade);
-    let bar = (reach / size).round().max(2.0) as usize;
-    let ends = if ascii {
-        ['|', '-', '|']
-    } else {
-        ['├', '─', '┤']
+    let middle = (reach / size).round().max(2.0) as usize - 2;
+    let bar = match ascii {
+        true => format!("|{:-<middle$}|", ""),
+        false => format!("├{:─<middle$}┤", ""),
     };
-    let middle: String = std::iter::repeat_n(ends[1], bar - 2).collect();
-    let mut parts = vec![format!(
-        "{}{middle}{} {}",
-        ends[0],
-        ends[2],
-        value(reach, "m")
-    )];
-    parts.push(match slip_direction(frame) {
-        Some(sign) if ascii => format!("slip {}", if sign > 0.0 { "->" } else { "<-" }),
-        Some(sign) => format!("slip {}", if sign > 0.0 { "→" } else { "←" }),
-        None => "no slip".into(),
-    });
-    let mut y = area.bottom() - 1;
-    let mut x = area.x + 1;
-    for part in parts {
-        let width = Line::raw(part.as_str()).width() as u16;
-        if x + width > area.right() {
+    let slip = match (slip_direction(frame), ascii) {
+        (None, _) => "no slip",
+        (Some(sign), true) if sign > 0.0 => "slip ->",
+        (Some(_), true) => "slip <-",
+        (Some(sign), false) if sign > 0.0 => "slip →",
+        (Some(_), false) => "slip ←",
+    };
+    let mut depths = Line::raw(" worn 0 ");
+    depths.extend(shades::key(pane.theme, ColorMap::Sequential, shades::sign));
+    depths.push_span(format!(" {}", value(deepest)));
+    let mut row = Rect::new(area.x, area.bottom() - 1, area.width, 1);
+    for part in [format!(" {bar} {} ", value(reach)), format!(" {slip} ")] {
+        let part = Line::raw(part);
+        let width = part.width() as u16;
+        if width > row.width {
             return;
         }
-        buffer.set_stringn(x, y, &part, usize::from(width), Style::new());
-        x += width + 2;
+        part.render(row, buffer);
+        (row.x, row.width) = (row.x + width, row.width - width);
     }
-    let [before, after] = ["worn 0 ".to_owned(), format!(" {}", value(deepest, "m"))];
-    let width = (before.len() + SHADES + after.chars().count()) as u16;
-    if area.width < ONE_LINE && area.height >= TWO_LINES {
-        (x, y) = (area.x + 1, y - 1);
+    if legend_lines(area) == 2 {
+        row = Rect::new(area.x, area.bottom() - 2, area.width, 1);
     }
-    if x + width > area.right() {
-        return;
+    if depths.width() <= usize::from(row.width) {
+        depths.render(row, buffer);
     }
-    buffer.set_stringn(x, y, &before, before.len(), Style::new());
-    x += before.len() as u16;
-    for shade in 0..SHADES {
-        if let Some(cell) = buffer.cell_mut((x, y)) {
-            match stress_map::color(pane.theme, ColorMap::Sequential, shade).filter(|_| !ascii) {
-                Some(color) => cell.set_char('█').set_fg(color),
-                None => cell.set_char(stress_map::sign(shade)),
-            };
-        }
-        x += 1;
-    }
-    buffer.set_stringn(x, y, &after, usize::from(area.right() - x), Style::new());
 }

@@ -19,12 +19,13 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier, Style};
 
-use super::stress_map::{self, Samples};
+use super::stress_map::Samples;
 use super::{Frame, Pane, Panel, Picture, Recipe, Words, caption, edge};
 use crate::charts::magnification;
 use crate::math::grid::interpolate;
 use crate::math::scan::largest;
 use crate::reading::Curves;
+use crate::tui::shades::{self, has_blocks};
 use crate::tui::theme::{Depth, Look, Role, Theme};
 
 /// The panel.
@@ -129,45 +130,6 @@ struct Cut {
 }
 
 impl Cut {
-    /// The cut at `x`, where the wear is drawn magnified and the indenter shifted. Beyond the domain the
-    /// indenter goes on unworn, and the surface comes back as under a point load, in proportion to 1/r.
-    fn at(frame: &Frame, scale: &Scale, x: f64) -> Self {
-        let (seen, moment) = (&frame.observation, &frame.observation.moment);
-        let edge = seen.radii.last().copied().unwrap_or(0.0);
-        let r = x.abs();
-        let sunk = |r: f64| interpolate(&seen.radii, &seen.depression, r.min(edge));
-        let back = if r > edge { edge / r } else { 1.0 };
-        // Far from the contact nothing is lifted.
-        let lifted = match r - moment.contact_radius {
-            beyond if beyond > 0.0 => sunk(r) * back / sunk(moment.contact_radius).max(sunk(r)),
-            _ => 1.0,
-        };
-        let surface = scale.lift * lifted - sunk(r) * back;
-        // Nothing of the half-space is worn unless the scenario says so.
-        let share = frame.facts.wear_share.unwrap_or(1.0);
-        let wear = |r: f64| match r <= edge {
-            true => interpolate(&seen.radii, &seen.wear, r),
-            false => 0.0,
-        };
-        let ground = surface - scale.wear * (1.0 - share) * wear(r);
-        let rim = frame.facts.indenter.rim().unwrap_or(f64::INFINITY);
-        // Where it touches, the indenter stays on the surface; its flanks are shifted as a whole.
-        let along = (x - scale.given_way(moment.contact_radius, x)).abs();
-        let unworn = match (x - scale.shift).abs() > rim {
-            true => f64::INFINITY,
-            false => frame.facts.indenter.profile(along.min(rim)) - moment.depth + scale.lift,
-        };
-        let sticks = moment.stick_radius.is_none_or(|stick| r < stick);
-        let contact = if sticks { Matter::Stick } else { Matter::Slip };
-        Self {
-            indenter: (unworn + scale.wear * share * wear(along)).max(ground),
-            unworn,
-            surface: ground,
-            unworn_surface: surface,
-            contact: (r < moment.contact_radius).then_some(contact),
-        }
-    }
-
     /// What is at height `z`, where the surface of contact is drawn `thick` (m).
     fn matter(&self, z: f64, thick: f64) -> Matter {
         match self.contact {
@@ -195,10 +157,13 @@ fn heights(frame: &Frame) -> Option<[f64; 2]> {
     Some([-depth.max(0.0) - 1.2 * flank, flank - depth])
 }
 
-/// The lengths of a picture, m, and how much is magnified.
-pub(super) struct Scale {
+/// A frame as a cut in an area: its lengths, m, and how much is magnified.
+pub(super) struct Section<'a> {
+    pub frame: &'a Frame,
+    pub pane: &'a Pane<'a>,
+    pub area: Rect,
     /// The width of a column, and the height of half a cell on the scale of the surfaces.
-    pub width: f64,
+    width: f64,
     half: f64,
     /// The height of the upper edge.
     high: f64,
@@ -211,9 +176,9 @@ pub(super) struct Scale {
     lift: f64,
 }
 
-impl Scale {
-    /// The scale of the picture in `area`; `None` where there is nothing to draw.
-    fn of(frame: &Frame, pane: &Pane, area: Rect) -> Option<Self> {
+impl<'a> Section<'a> {
+    /// The cut; `None` where there is nothing to draw.
+    fn of(frame: &'a Frame, pane: &'a Pane, area: Rect) -> Option<Self> {
         let seen = &frame.observation;
         let ([low, high], &edge) = (pane.bounds?, seen.radii.last()?);
         if seen.depression.is_empty() || area.is_empty() {
@@ -226,28 +191,64 @@ impl Scale {
             _ => 0.0,
         };
         let half = (high - low) / (2.0 * f64::from(area.height));
-        let row = 2.0 * half;
+        let deepest = largest(&seen.wear).max(frame.facts.expected_wear);
+        let wear = magnification(deepest, WEAR * (high - low)).max(LEAST_WEAR);
         Some(Self {
+            frame,
+            pane,
+            area,
             width,
             half,
-            lift: seen.moment.depth - whole(seen.moment.depth, row),
             high,
-            wear: match seen.law {
-                Some(_) => {
-                    let deepest = largest(&seen.wear).max(frame.facts.expected_wear);
-                    magnification(deepest, WEAR * (high - low)).max(LEAST_WEAR)
-                }
-                None => 1.0,
-            },
+            wear: if seen.law.is_some() { wear } else { 1.0 },
             motion,
             shift: whole(motion * seen.moment.shift, width),
+            lift: seen.moment.depth - whole(seen.moment.depth, 2.0 * half),
         })
     }
 
-    /// How far the indenter is shifted at `x`: not where it touches, and as a whole some way from there.
-    fn given_way(&self, contact: f64, x: f64) -> f64 {
+    /// The cut at `x`, where the wear is drawn magnified and the indenter shifted. Beyond the domain the
+    /// indenter goes on unworn, and the surface comes back as under a point load, in proportion to 1/r.
+    fn cut(&self, x: f64) -> Cut {
+        let (seen, facts) = (&self.frame.observation, &self.frame.facts);
+        let (moment, edge, r) = (&seen.moment, edge(self.frame), x.abs());
+        let sunk = |r: f64| interpolate(&seen.radii, &seen.depression, r.min(edge));
+        let back = if r > edge { edge / r } else { 1.0 };
+        // Far from the contact nothing is lifted.
+        let lifted = match r - moment.contact_radius {
+            beyond if beyond > 0.0 => sunk(r) * back / sunk(moment.contact_radius).max(sunk(r)),
+            _ => 1.0,
+        };
+        let surface = self.lift * lifted - sunk(r) * back;
+        // Nothing of the half-space is worn unless the scenario says so.
+        let share = facts.wear_share.unwrap_or(1.0);
+        let wear = |r: f64| match r <= edge {
+            true => self.wear * interpolate(&seen.radii, &seen.wear, r),
+            false => 0.0,
+        };
+        let ground = surface - (1.0 - share) * wear(r);
+        let rim = facts.indenter.rim().unwrap_or(f64::INFINITY);
+        // Where it touches, the indenter stays on the surface; its flanks are shifted as a whole.
+        let along = (x - self.given_way(moment.contact_radius, r)).abs();
+        let unworn = match (x - self.shift).abs() > rim {
+            true => f64::INFINITY,
+            false => facts.indenter.profile(along.min(rim)) - moment.depth + self.lift,
+        };
+        let sticks = moment.stick_radius.is_none_or(|stick| r < stick);
+        let contact = if sticks { Matter::Stick } else { Matter::Slip };
+        Cut {
+            indenter: (unworn + share * wear(along)).max(ground),
+            unworn,
+            surface: ground,
+            unworn_surface: surface,
+            contact: (r < moment.contact_radius).then_some(contact),
+        }
+    }
+
+    /// How far the indenter is shifted at `r`: not where it touches, and as a whole some way from there.
+    fn given_way(&self, contact: f64, r: f64) -> f64 {
         let way = 4.0 * self.shift.abs();
-        match x.abs() - contact {
+        match r - contact {
             _ if contact == 0.0 => self.shift,
             beyond if beyond > 0.0 && way > 0.0 => self.shift * (beyond / way).min(1.0),
             _ => 0.0,
@@ -255,8 +256,8 @@ impl Scale {
     }
 
     /// The title with what is magnified, the wear first, as far as `room` cells suffice.
-    fn title(&self, ascii: bool, room: usize) -> String {
-        let times = if ascii { "x" } else { "×" };
+    fn title(&self, room: usize) -> String {
+        let times = if self.pane.theme.ascii() { "x" } else { "×" };
         let heights = self.width / self.half;
         let factors = [
             ("wear", heights * self.wear, self.wear > 1.0),
@@ -271,6 +272,77 @@ impl Scale {
             }
         }
         title
+    }
+
+    /// The column at `x`, m, where the picture has one.
+    pub fn column(&self, x: f64) -> Option<u16> {
+        let at = (x / self.width + f64::from(self.area.width) / 2.0).floor();
+        (at >= 0.0 && at < f64::from(self.area.width)).then(|| self.area.x + at as u16)
+    }
+
+    /// The rows of the lower end of the indenter and of the surface of the half-space at `x`, m: the last whole
+    /// ones of what is above.
+    pub fn rows_above(&self, x: f64) -> Option<[u16; 2]> {
+        let cut = self.cut(x);
+        let row = |z: f64| {
+            let row = ((self.high - z) / (2.0 * self.half)).floor() - 1.0;
+            (row >= 1.0 && row < f64::from(self.area.height)).then(|| self.area.y + row as u16)
+        };
+        Some([row(cut.indenter)?, row(cut.surface)?])
+    }
+
+    /// Draws the bodies.
+    fn bodies(&self, buffer: &mut Buffer) {
+        let (area, stress) = (self.area, self.pane.stress);
+        let (columns, rows) = (usize::from(area.width), 2 * usize::from(area.height));
+        let canvas = Canvas {
+            section: self,
+            thick: self.half * if area.height >= LARGE { 2.0 } else { 1.0 },
+            tall: self.high - self.cut(0.0).surface,
+            // The bodies move with every frame, the stress below changes more calmly.
+            stress: stress.samples(self.pane.calm, columns, rows, self.width),
+        };
+        for column in 0..area.width {
+            let middle = f64::from(column) + 0.5 - f64::from(area.width) / 2.0;
+            let cut = self.cut(middle * self.width);
+            for row in 0..area.height {
+                let top = self.high - 2.0 * f64::from(row) * self.half;
+                let (glyph, style) = canvas.cell(&cut, usize::from(column), top);
+                if let Some(cell) = buffer.cell_mut((area.x + column, area.y + row)) {
+                    cell.set_char(glyph).set_style(style);
+                }
+            }
+        }
+    }
+
+    /// Lines on both bodies: those of the indenter move with it, those of the half-space with its surface.
+    fn lines(&self, buffer: &mut Buffer) {
+        let (seen, area) = (&self.frame.observation, self.area);
+        if self.motion == 0.0 || seen.surface.is_empty() || !has_blocks(self.pane.theme) {
+            return;
+        }
+        let apart = (f64::from(area.width) / 14.0).max(5.0).floor() * self.width;
+        let places = (-7..=7).map(|k| f64::from(k) * apart);
+        for x in places.filter(|x| x.abs() < seen.moment.contact_radius) {
+            let surface = interpolate(&seen.radii, &seen.surface, x.abs());
+            let moved = whole(self.motion * surface, self.width);
+            let Some([above, below]) = self.rows_above(x) else {
+                continue;
+            };
+            // Upwards on the indenter, downwards on the half-space.
+            let long = u16::from(area.height >= LONG_LINES);
+            let of_indenter = (x + self.shift, above - long..=above);
+            for (x, rows) in [of_indenter, (x + moved, below + 1..=below + 1 + long)] {
+                let Some(column) = self.column(x) else {
+                    continue;
+                };
+                for row in rows.filter(|&row| row < area.bottom()) {
+                    let cell = &mut buffer[(column, row)];
+                    caption::take_ground(cell);
+                    cell.set_char('┃').set_style(caption::ink(self.pane.theme));
+                }
+            }
+        }
     }
 }
 
@@ -298,252 +370,149 @@ pub fn title(frame: &Frame, pane: &Pane, area: Rect) -> String {
         ..area
     };
     let room = usize::from(area.width.saturating_sub(2));
-    Scale::of(frame, pane, caption::beside(below)[0]).map_or_else(
+    Section::of(frame, pane, caption::beside(below)[0]).map_or_else(
         || Panel::Section.title().to_owned(),
-        |scale| scale.title(pane.theme.ascii(), room),
+        |section| section.title(room),
     )
 }
 
 fn draw(frame: &Frame, pane: &Pane, area: Rect, buffer: &mut Buffer) {
     let [area, below] = caption::beside(area);
-    let Some(scale) = Scale::of(frame, pane, area) else {
+    let Some(section) = Section::of(frame, pane, area) else {
         return;
     };
-    // The bodies move with every frame, the stress below changes more calmly.
-    let calm = pane.calm;
-    let (columns, rows) = (usize::from(area.width), 2 * usize::from(area.height));
-    let samples = Samples::new(pane.stress, calm, columns, rows, scale.width);
-    let picture = Canvas {
-        theme: pane.theme,
-        half: scale.half,
-        thick: scale.half * if area.height >= LARGE { 2.0 } else { 1.0 },
-        high: scale.high,
-        tall: scale.high - Cut::at(frame, &scale, 0.0).surface,
-        slip: glow(pane.theme),
-        map: samples.zip(pane.stress.bounds),
-        colors: pane.stress.quantity.colors(),
-    };
-    for column in 0..area.width {
-        let cut = Cut::at(frame, &scale, place(area, &scale, column));
-        for row in 0..area.height {
-            let top = scale.high - 2.0 * f64::from(row) * scale.half;
-            let (glyph, style) = picture.cell(&cut, usize::from(column), top);
-            if let Some(cell) = buffer.cell_mut((area.x + column, area.y + row)) {
-                cell.set_char(glyph).set_style(style);
-            }
-        }
-    }
+    section.bodies(buffer);
     if area.height >= LARGE {
-        lines(frame, pane, area, &scale, buffer);
+        section.lines(buffer);
     }
-    caption::draw(frame, pane, [area, below], &scale, buffer);
-}
-
-/// The middle of a column along the motion, m.
-fn place(area: Rect, scale: &Scale, column: u16) -> f64 {
-    (f64::from(column) + 0.5 - f64::from(area.width) / 2.0) * scale.width
-}
-
-/// The column at `x`, m, where the picture has one.
-pub(super) fn column(area: Rect, scale: &Scale, x: f64) -> Option<u16> {
-    let at = (x / scale.width + f64::from(area.width) / 2.0).floor();
-    (at >= 0.0 && at < f64::from(area.width)).then(|| area.x + at as u16)
-}
-
-/// The rows of the lower end of the indenter and of the surface of the half-space at `x`, m: the last whole
-/// ones of what is above.
-pub(super) fn rows_above(frame: &Frame, area: Rect, scale: &Scale, x: f64) -> Option<[u16; 2]> {
-    let cut = Cut::at(frame, scale, x);
-    let row = |z: f64| {
-        let row = ((scale.high - z) / (2.0 * scale.half)).floor() - 1.0;
-        (row >= 1.0 && row < f64::from(area.height)).then(|| area.y + row as u16)
-    };
-    Some([row(cut.indenter)?, row(cut.surface)?])
-}
-
-/// Lines on both bodies: those of the indenter move with it, those of the half-space with its surface.
-fn lines(frame: &Frame, pane: &Pane, area: Rect, scale: &Scale, buffer: &mut Buffer) {
-    let seen = &frame.observation;
-    if scale.motion == 0.0 || seen.surface.is_empty() || !pane.theme.colored() || pane.theme.ascii()
-    {
-        return;
-    }
-    let a = seen.moment.contact_radius;
-    let apart = (f64::from(area.width) / 14.0).max(5.0).floor() * scale.width;
-    let ink = caption::ink(pane.theme);
-    for k in -7..=7 {
-        let x = f64::from(k) * apart;
-        if x.abs() >= a {
-            continue;
-        }
-        let surface = interpolate(&seen.radii, &seen.surface, x.abs());
-        let moved = whole(scale.motion * surface, scale.width);
-        let Some([above, below]) = rows_above(frame, area, scale, x) else {
-            continue;
-        };
-        // Upwards on the indenter, downwards on the half-space.
-        let long = u16::from(area.height >= LONG_LINES);
-        let of_indenter = (x + scale.shift, [above - long, above]);
-        for (x, rows) in [of_indenter, (x + moved, [below + 1, below + 1 + long])] {
-            let Some(column) = column(area, scale, x) else {
-                continue;
-            };
-            for row in rows.into_iter().filter(|&row| row < area.bottom()) {
-                let cell = &mut buffer[(column, row)];
-                caption::take_ground(cell);
-                cell.set_char('┃').set_style(ink);
-            }
-        }
-    }
-}
-
-/// The colour of what slips: it glows.
-fn glow(theme: &Theme) -> Option<Color> {
-    match (theme.depth, theme.look) {
-        (Depth::Indexed, Look::Dark) => Some(Color::Indexed(208)),
-        (Depth::Indexed, Look::Light) => Some(Color::Indexed(202)),
-        _ => theme.style(Role::Slip).fg,
-    }
+    caption::draw(&section, below, buffer);
 }
 
 /// How the cut becomes cells.
 struct Canvas<'a> {
-    theme: &'a Theme,
-    /// The height of half a cell, and of the drawn surface of contact, m, on the scale of the surfaces.
-    half: f64,
+    section: &'a Section<'a>,
+    /// The height of the drawn surface of contact, and that from the lowest place of the indenter to the upper edge,
+    /// m, on the scale of the surfaces.
     thick: f64,
-    /// The upper edge, and the height down to the lowest place of the indenter.
-    high: f64,
     tall: f64,
-    slip: Option<Color>,
-    /// The stress and the range of its colours.
-    map: Option<(Samples, [f64; 2])>,
-    colors: crate::plot::colormap::ColorMap,
+    stress: Option<Samples>,
 }
 
 impl Canvas<'_> {
+    fn theme(&self) -> &Theme {
+        self.section.pane.theme
+    }
+
     /// The cell whose upper edge is at height `top`.
     fn cell(&self, cut: &Cut, column: usize, top: f64) -> (char, Style) {
-        if !self.theme.colored() || self.theme.ascii() {
+        if !has_blocks(self.theme()) {
             return self.plain(cut, column, top);
         }
-        let part = |k: usize| top - (k as f64 + 0.5) * 2.0 * self.half / PARTS as f64;
+        let half = self.section.half;
+        let part = |k: usize| top - (k as f64 + 0.5) * 2.0 * half / PARTS as f64;
         let matter: [Matter; PARTS] = std::array::from_fn(|k| cut.matter(part(k), self.thick));
-        if matter.iter().all(|&m| m == Matter::HalfSpace) {
-            let halves =
-                [0.5, 1.5].map(|at| self.ink(cut, column, top - at * self.half, matter[0]));
-            return halves_of(halves);
-        }
         // The two that have most of the cell, in their order.
-        let share = |m: Matter| matter.iter().filter(|&&other| other == m).count();
-        let mut found: Vec<Matter> = matter.to_vec();
-        found.dedup();
-        while found.len() > 2 {
-            let least = (0..found.len())
-                .min_by_key(|&k| share(found[k]))
-                .unwrap_or(0);
-            found.remove(least);
+        let mut runs: Vec<&[Matter]> = matter.chunk_by(PartialEq::eq).collect();
+        while runs.len() > 2 {
+            let least = (0..runs.len()).min_by_key(|&k| runs[k].len());
+            runs.remove(least.unwrap_or(0));
         }
-        let [upper, lower] = match found[..] {
-            [upper, lower] => [upper, lower],
-            _ => [matter[0]; 2],
-        };
-        if upper == lower {
-            let color = self.ink(cut, column, part(0), upper);
-            let style = ground(ink(color), color);
-            return match upper {
-                Matter::Worn => (
-                    upper.glyph(false),
-                    style.patch(self.theme.style(Role::Profile)),
-                ),
-                Matter::Indenter => (upper.glyph(false), ink(color)),
-                Matter::Air => (' ', Style::new()),
-                _ => (' ', ground(Style::new(), color)),
+        let (upper, lower) = (runs[0], runs[runs.len() - 1]);
+        if upper[0] != lower[0] {
+            let count = lower.len() * PARTS / (lower.len() + upper.len());
+            let block = LOWER[count.clamp(1, PARTS - 1)];
+            let above = self.ink(cut, column, part(0), upper[0]);
+            return match self.ink(cut, column, part(PARTS - 1), lower[0]) {
+                // Air has the colour of the screen, which nobody knows: the block is cut out of the other.
+                None => (block, ink(above).add_modifier(Modifier::REVERSED)),
+                below => (block, ground(ink(below), above)),
             };
         }
-        let count = share(lower) * PARTS / (share(lower) + share(upper)).max(1);
-        let count = count.clamp(1, PARTS - 1);
-        let colors = [
-            self.ink(cut, column, part(0), upper),
-            self.ink(cut, column, part(PARTS - 1), lower),
-        ];
-        match colors {
-            // Air has the colour of the screen, which nobody knows: the block is cut out of the other.
-            [above, None] => (LOWER[count], ink(above).add_modifier(Modifier::REVERSED)),
-            [above, below] => (LOWER[count], ground(ink(below), above)),
+        let color = self.ink(cut, column, part(0), upper[0]);
+        match upper[0] {
+            Matter::HalfSpace => {
+                let at =
+                    |halves: f64| self.ink(cut, column, top - halves * half, Matter::HalfSpace);
+                match [at(0.5), at(1.5)] {
+                    // A blank: a byte instead of three, and one colour to change.
+                    [upper, lower] if upper == lower && upper.is_some() => {
+                        (' ', ground(Style::new(), upper))
+                    }
+                    [upper, lower] => ('▀', ground(ink(upper), lower)),
+                }
+            }
+            Matter::Worn => {
+                let style = ground(ink(color), color);
+                (
+                    Matter::Worn.glyph(false),
+                    style.patch(self.theme().style(Role::Profile)),
+                )
+            }
+            Matter::Indenter => (Matter::Indenter.glyph(false), ink(color)),
+            _ => (' ', ground(Style::new(), color)),
         }
     }
 
     /// The colour of what is at height `z`; `None` for air.
     fn ink(&self, cut: &Cut, column: usize, z: f64, matter: Matter) -> Option<Color> {
+        let theme = self.theme();
         match matter {
             Matter::Air => None,
-            Matter::Indenter => Some(self.body(z)),
-            Matter::Worn => Some(hollow(self.theme)),
+            // Greys, which no colour of the map is, brighter towards the contact.
+            Matter::Indenter => {
+                let depth = (self.section.high - z) / self.tall * SHADES_OF_BODY;
+                let depth = depth.clamp(0.0, SHADES_OF_BODY - 1.0) as u8;
+                Some(color(theme, Color::Gray, [236 + depth, 254 - depth]))
+            }
+            // Where the indenter was, under the hatching.
+            Matter::Worn => Some(color(theme, Color::Black, [58, 229])),
             Matter::HalfSpace => match self.shade(cut, column, z) {
-                Some(shade) => stress_map::color(self.theme, self.colors, shade),
-                None => self.theme.style(Role::Open).fg,
+                Some(shade) => shades::color(theme, self.section.pane.stress.colors(), shade),
+                None => theme.style(Role::Open).fg,
             },
-            Matter::Slip => self.slip,
-            Matter::Stick => self.theme.style(Role::Stick).fg,
-        }
-    }
-
-    /// The indenter at height `z`: greys, which no colour of the map is, brighter towards the contact.
-    fn body(&self, z: f64) -> Color {
-        let depth = ((self.high - z) / self.tall * SHADES_OF_BODY).clamp(0.0, SHADES_OF_BODY - 1.0);
-        match (self.theme.depth, self.theme.look) {
-            (Depth::Sixteen, _) => Color::Gray,
-            (_, Look::Light) => Color::Indexed(254 - depth as u8),
-            _ => Color::Indexed(236 + depth as u8),
+            // What slips glows.
+            Matter::Slip => {
+                let plain = theme.style(Role::Slip).fg?;
+                Some(color(theme, plain, [208, 202]))
+            }
+            Matter::Stick => theme.style(Role::Stick).fg,
         }
     }
 
     /// The shade of the stress at height `z`.
     fn shade(&self, cut: &Cut, column: usize, z: f64) -> Option<usize> {
-        let (samples, range) = self.map.as_ref()?;
-        let below = ((cut.surface - z) / self.half).max(0.0) as usize;
-        Some(stress_map::shade(samples.value(column, below), *range))
+        let below = ((cut.surface - z) / self.section.half).max(0.0) as usize;
+        Some(self.stress.as_ref()?.shade(column, below))
     }
 
     /// A cell without colour: the bodies as signs, one a cell in ASCII.
     fn plain(&self, cut: &Cut, column: usize, top: f64) -> (char, Style) {
-        let ascii = self.theme.ascii();
-        let [upper, lower] = [0.5, 1.5].map(|at| cut.matter(top - at * self.half, self.thick));
-        let is_contact = |matter| matches!(matter, Matter::Stick | Matter::Slip);
-        let shown = match (is_contact(lower) && ascii, upper) {
-            (true, _) => lower,
-            (false, upper) => upper,
+        let (theme, half) = (self.theme(), self.section.half);
+        let [upper, lower] = [0.5, 1.5].map(|at| cut.matter(top - at * half, self.thick));
+        let is_contact = matches!(lower, Matter::Stick | Matter::Slip);
+        let shown = match is_contact && theme.ascii() {
+            true => lower,
+            false => upper,
         };
-        if let (Matter::HalfSpace, Some(shade)) = (shown, self.shade(cut, column, top - self.half))
-        {
-            return (stress_map::sign(shade), Style::new());
+        if let (Matter::HalfSpace, Some(shade)) = (shown, self.shade(cut, column, top - half)) {
+            return (shades::sign(shade), Style::new());
         }
-        if ascii || upper == lower {
-            return (shown.glyph(ascii), self.theme.style(shown.role()));
+        if theme.ascii() || upper == lower {
+            return (shown.glyph(theme.ascii()), theme.style(shown.role()));
         }
         match (upper, lower) {
-            (Matter::Air, below) => ('▄', self.theme.style(below.role())),
-            (above, _) => ('▀', self.theme.style(above.role())),
+            (Matter::Air, below) => ('▄', theme.style(below.role())),
+            (above, _) => ('▀', theme.style(above.role())),
         }
     }
 }
 
-/// Where the indenter was, under the hatching.
-fn hollow(theme: &Theme) -> Color {
+/// A colour of the cube of 256 for a dark and for a light background, or the one of sixteen.
+fn color(theme: &Theme, sixteen: Color, [dark, light]: [u8; 2]) -> Color {
     match (theme.depth, theme.look) {
-        (Depth::Sixteen, _) => Color::Black,
-        (_, Look::Light) => Color::Indexed(229),
-        _ => Color::Indexed(58),
-    }
-}
-
-/// A cell of two halves. One of a single colour is a blank: a byte instead of three, and one colour to change.
-fn halves_of([upper, lower]: [Option<Color>; 2]) -> (char, Style) {
-    if upper == lower && upper.is_some() {
-        (' ', ground(Style::new(), upper))
-    } else {
-        ('▀', ground(ink(upper), lower))
+        (Depth::Sixteen, _) => sixteen,
+        (_, Look::Light) => Color::Indexed(light),
+        _ => Color::Indexed(dark),
     }
 }
 

@@ -1,0 +1,129 @@
+//! Values as shades: colours of the terminal, or signs where it has none.
+
+use ratatui::buffer::Cell;
+use ratatui::style::{Color, Style};
+use ratatui::text::Span;
+
+use super::theme::{Depth, Look, Theme};
+use crate::plot::colormap::ColorMap;
+
+/// How many there are: few, so that only the lines between them change from frame to frame.
+pub const SHADES: usize = 12;
+
+/// Signs from low to high: of values that begin with nothing.
+const SIGNS: [char; SHADES] = [' ', ' ', '.', '.', ':', '-', '=', '+', '*', '#', '%', '@'];
+
+/// The shades of values that begin at zero, among the colours of a terminal, from the darkest to the brightest:
+/// blues, so that the colours of stick, slip and wear stand out, and any kind of colour vision tells them apart.
+/// On a light background they begin at the other end.
+const SEQUENTIAL: [u8; SHADES] = [17, 18, 24, 25, 31, 32, 38, 74, 80, 116, 152, 195];
+
+/// The shades of values of both signs on a dark background: brighter with the size, and grey at zero, where white
+/// would be the brightest of all.
+const DIVERGING: [u8; SHADES] = [117, 75, 33, 26, 24, 237, 237, 88, 124, 160, 203, 217];
+
+/// The same on a light background: those nearest to the colours of [`ColorMap::Diverging`].
+const DIVERGING_ON_LIGHT: [u8; SHADES] = [67, 68, 110, 152, 254, 255, 255, 224, 223, 216, 167, 131];
+
+/// Shades of terminals that have sixteen colours: neighbours share one.
+const SIXTEEN: [Color; SHADES] = [
+    Color::Blue,
+    Color::Blue,
+    Color::LightBlue,
+    Color::LightBlue,
+    Color::Cyan,
+    Color::Cyan,
+    Color::LightCyan,
+    Color::Green,
+    Color::LightGreen,
+    Color::LightGreen,
+    Color::Yellow,
+    Color::LightYellow,
+];
+const SIXTEEN_DIVERGING: [Color; SHADES] = [
+    Color::Blue,
+    Color::Blue,
+    Color::LightBlue,
+    Color::LightBlue,
+    Color::LightCyan,
+    Color::Gray,
+    Color::Gray,
+    Color::LightYellow,
+    Color::LightRed,
+    Color::LightRed,
+    Color::Red,
+    Color::Red,
+];
+
+/// Whether blocks and colours can be drawn.
+pub fn has_blocks(theme: &Theme) -> bool {
+    theme.colored() && !theme.ascii()
+}
+
+/// The shade of a value between `low` and `high`, from 0.
+pub fn shade(value: f64, [low, high]: [f64; 2]) -> usize {
+    let share = ((value - low) / (high - low)).clamp(0.0, 1.0);
+    ((share * SHADES as f64) as usize).min(SHADES - 1)
+}
+
+/// The colour of a shade; `None` where the terminal has none.
+pub fn color(theme: &Theme, map: ColorMap, shade: usize) -> Option<Color> {
+    let shade = shade.min(SHADES - 1);
+    let is_light = theme.look == Look::Light;
+    let color = match (theme.depth, map) {
+        (Depth::Sixteen, ColorMap::Sequential) => SIXTEEN[shade],
+        (Depth::Sixteen, ColorMap::Diverging) => SIXTEEN_DIVERGING[shade],
+        (_, ColorMap::Sequential) if is_light => Color::Indexed(SEQUENTIAL[SHADES - 1 - shade]),
+        (_, ColorMap::Sequential) => Color::Indexed(SEQUENTIAL[shade]),
+        (_, ColorMap::Diverging) if is_light => Color::Indexed(DIVERGING_ON_LIGHT[shade]),
+        (_, ColorMap::Diverging) => Color::Indexed(DIVERGING[shade]),
+    };
+    has_blocks(theme).then_some(color)
+}
+
+/// The sign of a shade.
+pub fn sign(shade: usize) -> char {
+    SIGNS[shade.min(SHADES - 1)]
+}
+
+/// All shades for a key, or what `sign` gives for them where there are no colours.
+pub fn key(theme: &Theme, map: ColorMap, sign: fn(usize) -> char) -> [Span<'static>; SHADES] {
+    std::array::from_fn(|shade| match color(theme, map, shade) {
+        Some(color) => Span::styled("█", Style::new().fg(color)),
+        None => Span::raw(sign(shade).to_string()),
+    })
+}
+
+/// Colours the upper and the lower half of a cell; what has no colour stays as it is.
+pub fn paint_halves(cell: &mut Cell, halves: [Option<Color>; 2]) {
+    match halves {
+        [None, None] => return,
+        [Some(above), None] => cell.set_char('▀').set_fg(above),
+        [None, Some(below)] => cell.set_char('▄').set_fg(below),
+        [Some(above), Some(below)] => cell.set_char('▀').set_fg(above).set_bg(below),
+    };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plot::Marker;
+
+    #[test]
+    fn shades_fill_the_range() {
+        assert_eq!(shade(-1.0, [0.0, 1.0]), 0);
+        assert_eq!(shade(0.5, [0.0, 1.0]), SHADES / 2);
+        assert_eq!(shade(1.0, [0.0, 1.0]), SHADES - 1);
+        assert_eq!(shade(0.0, [0.0, 0.0]), 0);
+        for map in [ColorMap::Sequential, ColorMap::Diverging] {
+            for look in [Look::Dark, Look::Light] {
+                let theme = Theme::new(look, Marker::Braille).with_depth(Depth::Indexed);
+                let mut told: Vec<_> = (0..SHADES).map(|k| color(&theme, map, k)).collect();
+                told.dedup();
+                // The two beside zero of a diverging map share their grey.
+                let shared = usize::from(map == ColorMap::Diverging);
+                assert_eq!(told.len(), SHADES - shared, "{told:?}");
+            }
+        }
+    }
+}

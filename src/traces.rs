@@ -93,6 +93,17 @@ impl Table {
         }
     }
 
+    /// A table from memory: its header, and rows of named columns.
+    pub fn of_rows<const N: usize>(
+        header: Vec<(String, String)>,
+        names: [&str; N],
+        rows: &[[f64; N]],
+    ) -> Self {
+        let columns = names.into_iter().enumerate();
+        let columns = columns.map(|(k, name)| (name, rows.iter().map(|row| row[k]).collect()));
+        Self::of_columns(header, columns)
+    }
+
     /// A column, if there is one of that name.
     pub fn column(&self, name: &str) -> Option<&[f64]> {
         let at = self.names.iter().position(|column| column == name)?;

@@ -4,6 +4,8 @@ use super::{Recipe, Run, View};
 use crate::plot::colormap::ColorMap;
 use crate::plot::{Axis, Chart, Map};
 
+const NO_FIELD: &str = "there is no field.csv; run --field writes it";
+
 /// The von Mises stress.
 pub static VON_MISES: Recipe = Recipe {
     name: "von-mises",
@@ -33,17 +35,15 @@ fn map(
     (label, column): (&'static str, &str),
     colors: ColorMap,
 ) -> Result<Chart, &'static str> {
-    made(run, (label, column), colors).ok_or("there is no field.csv; run --field writes it")
-}
-
-fn made(run: &Run, (label, column): (&'static str, &str), colors: ColorMap) -> Option<Chart> {
-    let table = run.field.as_ref()?;
-    let (all_x, all_z) = (table.column("x_m")?, table.column("z_m")?);
+    let table = run.field.as_ref();
+    let columns = |name| table?.column(name);
+    let made = columns("x_m").zip(columns("z_m")).zip(columns(column));
+    let ((all_x, all_z), values) = made.ok_or(NO_FIELD)?;
     let count = all_z.iter().take_while(|&&z| z == all_z[0]).count();
     let xs = all_x[..count].to_vec();
-    let zs: Vec<f64> = all_z.iter().step_by(count).copied().collect();
+    let zs: Vec<f64> = all_z.iter().step_by(count.max(1)).copied().collect();
     if xs.len() < 2 || zs.len() < 2 || xs.len() * zs.len() != all_x.len() {
-        return None;
+        return Err(NO_FIELD);
     }
     let mut depth = Axis::new("z", "m");
     depth.downwards = true;
@@ -51,9 +51,9 @@ fn made(run: &Run, (label, column): (&'static str, &str), colors: ColorMap) -> O
     chart.map = Some(Map {
         quantity: Axis::new(label, "Pa"),
         places: [xs, zs],
-        values: table.column(column)?.to_vec(),
+        values: values.to_vec(),
         colors,
         words: Vec::new(),
     });
-    Some(chart)
+    Ok(chart)
 }

@@ -36,21 +36,19 @@ pub fn on(run: &Run, axes: Axes) -> Vec<Curve> {
     })
 }
 
-/// The curves of the traces on both axes, each with its axes. One entry of the legend is for both.
-pub(super) fn both(run: &Run, axes: [Axes; 2]) -> Vec<(Axes, Curve)> {
-    let [first, second] = axes.map(|axes| on(run, axes));
-    let is_named = |curve: &Curve| first.iter().any(|other| other.role == curve.role);
-    let nameless = |curve: Curve| match is_named(&curve) {
-        true => Curve {
-            name: String::new(),
-            ..curve
-        },
-        false => curve,
-    };
-    let second: Vec<Curve> = second.into_iter().map(nameless).collect();
-    let all = [first, second].into_iter().zip(axes);
-    all.flat_map(|(curves, axes)| curves.into_iter().map(move |curve| (axes, curve)))
-        .collect()
+/// The curves of the traces on both axes, what the second ones show changed by `scale`, errors included. One entry of
+/// the legend is for both.
+pub(super) fn both(run: &Run, axes: [Axes; 2], scale: impl Fn(f64) -> f64) -> Vec<Curve> {
+    let [mut curves, mut second] = axes.map(|axes| on(run, axes));
+    for curve in &mut second {
+        if curves.iter().any(|other| other.role == curve.role) {
+            curve.name.clear();
+        }
+        let values = curve.ys.iter_mut().chain(&mut curve.errors);
+        values.for_each(|value| *value = scale(*value));
+    }
+    curves.append(&mut second);
+    curves
 }
 
 /// The curves of the wear, magnified by `times` on top of the unworn profile; `None` draws the wear alone.

@@ -41,9 +41,9 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
         let largest = contact.highest();
         ordinate.bounds = (largest > 0.0).then_some([0.0, 1.1 * largest]);
     }
-    let others = ghosts::both(run, [Axes::CONTACT, Axes::STICK]).into_iter();
+    let others = ghosts::both(run, [Axes::CONTACT, Axes::STICK], |radius| radius);
     Ok(over_cycles(run, ordinate)
-        .curves(others.map(|(_, ghost)| ghost))
+        .curves(others)
         .curve(contact)
         .curves(stick)
         .curves(theory))

@@ -54,20 +54,17 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
         1.0 => "depth".to_owned(),
         times => format!("depth ×{times}"),
     };
-    let mut others = ghosts::both(run, [DEPTH, RADIUS]);
-    for (_, ghost) in others.iter_mut().filter(|(axes, _)| *axes == DEPTH) {
-        ghost.ys.iter_mut().for_each(|depth| *depth *= times);
-    }
+    let others = ghosts::both(run, [RADIUS, DEPTH], |depth| times * depth);
     let (mut work_axis, axis) = (Axis::new("E_d", "J").from_zero(), Axis::new("scar", "m"));
     let mut reach = 0.0;
     if let Some(live) = &run.live {
         reach = live.moment.contact_radius;
-        let of_others = others.iter().flat_map(|(_, ghost)| &ghost.xs).copied();
+        let of_others = others.iter().flat_map(|ghost| &ghost.xs).copied();
         let end = of_others.fold(planned_work(run).ok_or(NO_CYCLE)?, f64::max);
         work_axis = work_axis.bounds([0.0, end]);
     }
     Ok(Chart::new("", work_axis, axis.from_zero().expecting(reach))
-        .curves(others.into_iter().map(|(_, ghost)| ghost))
+        .curves(others)
         .curve(radius.dashed())
         .curve(Curve::new(name, work, depths, Role::Profile)))
 }

@@ -42,13 +42,11 @@ impl Run {
         let mut seen: Vec<[f64; OVER_CYCLES.len()]> = Vec::new();
         let mut record = |session: &Session| {
             let reading = Reading::new(session);
-            let row =
-                OVER_CYCLES.map(
-                    |name| match scalars::find(name).map(|of| of.read(&reading)) {
-                        Some(Value::Number(number)) => number,
-                        _ => f64::NAN,
-                    },
-                );
+            let value = |name| scalars::find(name).map(|scalar| scalar.read(&reading));
+            let row = OVER_CYCLES.map(|name| match value(name) {
+                Some(Value::Number(number)) => number,
+                _ => f64::NAN,
+            });
             if seen.last().is_none_or(|last| last[0] < row[0]) {
                 seen.push(row);
             }
@@ -77,15 +75,10 @@ impl Run {
         if session.simulation().cycle() < 1.0 {
             record(session);
         }
-        let columns = OVER_CYCLES.into_iter().enumerate();
-        let columns = columns.map(|(k, name)| (name, seen.iter().map(|row| row[k]).collect()));
-        data.history = Some(Table::of_columns(header::entries(session), columns));
-        data.field = with_field.then(|| {
-            let rows = field::rows(session);
-            let columns = field::COLUMNS.into_iter().enumerate();
-            let columns = columns.map(|(k, name)| (name, rows.iter().map(|row| row[k]).collect()));
-            Table::of_columns(header::entries(session), columns)
-        });
+        let header = || header::entries(session);
+        data.history = Some(Table::of_rows(header(), OVER_CYCLES, &seen));
+        data.field =
+            with_field.then(|| Table::of_rows(header(), field::COLUMNS, &field::rows(session)));
         Ok(data)
     }
 }

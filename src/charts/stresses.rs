@@ -42,24 +42,27 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
         Medium::Screen => ("τ/μ", run.friction()),
     };
     // A logarithmic ordinate shows the size of τ.
-    let scaled = |shear: &f64| {
+    let scaled = |shear: f64| {
         let shear = shear / divisor.unwrap_or(1.0);
         if is_log { shear.abs() } else { shear }
     };
     let curve = |name, ys: Vec<f64>, role| Curve::new(name, radii, ys, role);
-    let mut others = ghosts::both(run, [Axes::PRESSURE, Axes::SHEAR]);
-    others.retain(|(axes, _)| *axes == Axes::PRESSURE || divisor.is_some());
-    for (_, ghost) in others.iter_mut().filter(|(axes, _)| *axes == Axes::SHEAR) {
-        ghost.ys = ghost.ys.iter().map(scaled).collect();
-    }
+    let others = match divisor {
+        Some(_) => ghosts::both(run, [Axes::PRESSURE, Axes::SHEAR], scaled),
+        None => ghosts::on(run, Axes::PRESSURE),
+    };
     let mut chart = over_r(run, "r", ("stress", "Pa"))
-        .curves(others.into_iter().map(|(_, ghost)| ghost))
+        .curves(others)
         .curve(curve("p", pressure.to_vec(), Role::Pressure));
     let shear = state.column("tau_Pa").filter(|_| divisor.is_some());
     let is_seen =
         |shear: &&[f64]| view.medium == Medium::Screen || shear.iter().any(|&tau| tau != 0.0);
     if let Some(shear) = shear.filter(is_seen) {
-        let shear = curve(name, shear.iter().map(scaled).collect(), Role::Shear);
+        let shear = curve(
+            name,
+            shear.iter().copied().map(scaled).collect(),
+            Role::Shear,
+        );
         // Dashes: where the contact slips the pressure lies under it, and is still seen.
         chart = chart.curve(shear.dashed_if(view.medium == Medium::Screen));
     }
@@ -70,7 +73,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let hertz = theory.unworn_pressure(moment.depth, radii);
     let hertz = hertz.map(|p| curve("unworn p", p, Role::Limit));
     let cattaneo = theory.unworn_shear(moment.cycle, moment.shift, radii);
-    let cattaneo = cattaneo.map(|shear| shear.iter().map(scaled).collect());
+    let cattaneo = cattaneo.map(|shear| shear.iter().copied().map(scaled).collect());
     let cattaneo = cattaneo.map(|shear| curve("Cattaneo", shear, Role::Unworn));
     let closed_forms = [hertz, cattaneo].into_iter().flatten();
     Ok(chart.curves(closed_forms.map(|curve| curve.dashed().theory())))

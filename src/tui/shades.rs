@@ -89,7 +89,7 @@ pub fn sign(shade: usize) -> char {
 /// All shades for a key, or what `sign` gives for them where there are no colours.
 pub fn key(theme: &Theme, map: ColorMap, sign: fn(usize) -> char) -> [Span<'static>; SHADES] {
     std::array::from_fn(|shade| match color(theme, map, shade) {
-        Some(color) => Span::styled("█", Style::new().fg(color)),
+        Some(color) => Span::styled(" ", Style::new().bg(color)),
         None => Span::raw(sign(shade).to_string()),
     })
 }

@@ -11,7 +11,7 @@ use crate::charts::{A, C, Live, Words, ghosts};
 use crate::math::scan::largest;
 use crate::plot::units::{format_number, format_value_in};
 use crate::plot::{Axis, Chart, Curve, Scale, nice_bounds};
-use crate::reading::Observation;
+use crate::reading::{Moment, Observation};
 use crate::traces::Axes;
 use crate::tui::frame::Comparison;
 use crate::tui::theme::{Role, Theme};
@@ -138,44 +138,32 @@ fn this_name(frame: &Frame) -> String {
     )
 }
 
+/// The numbers of both runs: a name and the two values.
 fn rows(
     frame: &Frame,
     comparison: &Comparison,
     difference: &[f64],
     ascii: bool,
 ) -> Vec<(&'static str, String, String)> {
-    let (here, there) = (&frame.observation.moment, &comparison.observation.moment);
+    let moments = [&frame.observation.moment, &comparison.observation.moment];
     let value = |value: f64, unit: &str| format_value_in(value, unit, 4, ascii);
-    let maybe =
-        |number: Option<f64>, unit: &str| number.map_or_else(|| "-".into(), |v| value(v, unit));
-    let residual = |number: Option<f64>| number.map_or_else(|| "-".into(), |v| format_number(v, 2));
+    let maybe = |number: Option<f64>, unit: &str| number.map(|number| value(number, unit));
+    let row = |name, values: [Option<String>; 2]| {
+        let [here, there] = values.map(|value| value.unwrap_or_else(|| "-".into()));
+        (name, here, there)
+    };
+    let both = |name, unit: &str, of: fn(&Moment) -> Option<f64>| {
+        row(name, moments.map(|moment| maybe(of(moment), unit)))
+    };
+    let residual = |moment: &Moment| Some(format_number(moment.energy_residual?, 2));
+    let costs = [frame.step_cost, comparison.step_cost];
     vec![
         ("", this_name(frame), comparison.name.clone()),
-        (
-            "stick c",
-            maybe(here.permanent_stick_radius, "m"),
-            maybe(there.permanent_stick_radius, "m"),
-        ),
-        (
-            "contact a",
-            value(here.contact_radius, "m"),
-            value(there.contact_radius, "m"),
-        ),
-        (
-            "wear volume",
-            value(here.wear_volume, "m³"),
-            value(there.wear_volume, "m³"),
-        ),
-        (
-            "1 - V/(k E_d)",
-            residual(here.energy_residual),
-            residual(there.energy_residual),
-        ),
-        (
-            "time per step",
-            maybe(frame.step_cost, "s"),
-            maybe(comparison.step_cost, "s"),
-        ),
+        both("stick c", "m", |moment| moment.permanent_stick_radius),
+        both("contact a", "m", |moment| Some(moment.contact_radius)),
+        both("wear volume", "m³", |moment| Some(moment.wear_volume)),
+        row("1 - V/(k E_d)", moments.map(residual)),
+        row("time per step", costs.map(|cost| maybe(cost, "s"))),
         ("rms difference", value(rms(difference), "m"), String::new()),
     ]
 }

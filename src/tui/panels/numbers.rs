@@ -7,6 +7,7 @@ use ratatui::widgets::Widget;
 
 use super::{Frame, Pane, Picture, Recipe, Words};
 use crate::plot::units::{format_number, format_value};
+use crate::simulation::CycleFigures;
 use crate::tui::theme::Role;
 
 /// The panel.
@@ -37,21 +38,13 @@ pub static PICTURE: Picture = Picture {
 };
 
 fn draw(frame: &Frame, pane: &Pane, area: Rect, buffer: &mut Buffer) {
-    let rows = rows(frame).into_iter();
-    let rows = rows.map(|row| [row.0, &row.1].map(|text| pane.theme.printable(text)));
     let columns = (area.width / 30).clamp(1, 2);
     let width = area.width / columns;
-    for (i, [name, value]) in rows.enumerate() {
-        let (column, row) = (i as u16 / area.height.max(1), i as u16 % area.height.max(1));
-        if column >= columns {
-            return;
-        }
-        let cell = Rect::new(
-            area.x + column * width,
-            area.y + row,
-            width.saturating_sub(1),
-            1,
-        );
+    for ((name, value), i) in rows(frame).into_iter().zip(0..columns * area.height) {
+        let (column, row) = (i / area.height, i % area.height);
+        let (x, y) = (area.x + column * width, area.y + row);
+        let cell = Rect::new(x, y, width.saturating_sub(1), 1);
+        let [name, value] = [name, &value].map(|text| pane.theme.printable(text));
         // Rather than the value, the name is cut: its last words, and the symbol, tell most.
         let room = usize::from(cell.width).saturating_sub(value.chars().count() + 2);
         let mut name = name.as_str();
@@ -60,85 +53,66 @@ fn draw(frame: &Frame, pane: &Pane, area: Rect, buffer: &mut Buffer) {
         {
             name = rest;
         }
-        let name: String = name.chars().take(room).collect();
-        let pad = room - name.chars().count();
-        let line = Line::from(vec![
-            Span::styled(
-                format!(" {name} {}", " ".repeat(pad)),
-                pane.theme.style(Role::Quiet),
-            ),
-            Span::raw(value),
-        ]);
-        line.render(cell, buffer);
+        let name = format!(" {name:room$.room$} ");
+        let name = Span::styled(name, pane.theme.style(Role::Quiet));
+        Line::from(vec![name, value.into()]).render(cell, buffer);
     }
 }
 
 fn rows(frame: &Frame) -> Vec<(&'static str, String)> {
-    let moment = &frame.observation.moment;
-    let value = |value: f64, unit: &str| format_value(value, unit, 4);
-    let ratio = |value: Option<f64>| value.map(|value| format!("{value:.3}"));
-    let mut rows = Vec::new();
-    if let Some(figures) = &frame.figures {
-        rows.push(("regime", figures.regime.title().to_owned()));
-    }
-    rows.push(("contact radius a", value(moment.contact_radius, "m")));
-    if let (Some(stick), Some(permanent)) = (moment.stick_radius, moment.permanent_stick_radius) {
-        rows.push(("stick radius now", value(stick, "m")));
-        rows.push(("permanent stick radius c", value(permanent, "m")));
-    }
-    rows.push(("depth d", value(moment.depth, "m")));
-    rows.push(("F_z", value(moment.normal_force, "N")));
-    if moment.stick_radius.is_some() {
-        rows.push(("u_x", value(moment.shift, "m")));
-        rows.push(("F_x", value(moment.tangential_force, "N")));
-    }
-    if let Some(figures) = &frame.figures {
-        rows.push(("E_d per cycle", value(figures.energy, "J")));
-        let ratios = [
-            ("Q*/(μP)", figures.force_ratio),
-            ("slip ratio", figures.slip_ratio),
-            ("sliding ratio D", figures.sliding_ratio),
-            ("energy ratio A", figures.energy_ratio),
-            ("energy ratio B", figures.energy_ratio_b),
-        ];
-        rows.extend(
-            ratios
-                .into_iter()
-                .filter_map(|(name, of)| Some((name, ratio(of)?))),
-        );
-    }
-    rows.push(("wear volume V", value(moment.wear_volume, "m³")));
-    rows.push(("friction work E_d", value(moment.dissipated_energy, "J")));
-    if let Some(per_energy) = moment.wear_per_energy() {
-        rows.push(("V/E_d", cubic_micrometres(per_energy)));
-    }
-    if let Some(k) = frame.facts.wear_coefficient {
-        let per_load = format_number(k * frame.facts.friction * 1e9, 3);
-        rows.push(("k per friction work", cubic_micrometres(k)));
-        rows.push(("k per load", format!("{per_load} mm³/(N·m)")));
-    }
-    if let Some(residual) = moment.energy_residual {
-        rows.push(("1 - V/(k E_d)", format_number(residual, 2)));
-    }
-    if let Some(margin) = moment.stability_margin {
-        rows.push(("stability margin", format_number(margin, 2)));
-    }
-    if let Some(cost) = frame.step_cost {
-        rows.push(("time per step", value(cost, "s")));
-    }
-    if let Some([equivalent, tension]) = frame.peaks {
-        let place = |x: f64| format!("{} a", format_number(x / moment.contact_radius, 3));
-        rows.push(("largest von Mises", value(equivalent.value, "Pa")));
-        rows.push(("  at depth", place(equivalent.z)));
-        rows.push(("largest tension", value(tension.value, "Pa")));
-        rows.push(("  at x", place(tension.x)));
-    }
-    rows.push(("cells", (frame.observation.radii.len() - 1).to_string()));
-    rows.push(("steps per cycle", frame.facts.steps_per_cycle.to_string()));
-    rows
-}
+    let (facts, moment, figures) = (&frame.facts, &frame.observation.moment, &frame.figures);
+    let figures = figures.as_ref();
+    let k = facts.wear_coefficient;
+    let per_load = |k: f64| format_number(k * facts.friction * 1e9, 3);
+    let [equivalent, tension] = frame.peaks.map_or([None; 2], |peaks| peaks.map(Some));
+    let cells = frame.observation.radii.len() - 1;
 
-/// A volume per energy (1/Pa) in µm³/J.
-fn cubic_micrometres(per_energy: f64) -> String {
-    format!("{} µm³/J", format_number(per_energy * 1e18, 3))
+    let value = |name, value: Option<f64>, unit| Some((name, format_value(value?, unit, 4)));
+    let always = |name, number, unit| value(name, Some(number), unit);
+    let moving = |name, number, unit| value(name, moment.stick_radius.map(|_| number), unit);
+    let ratio =
+        |name, of: fn(&CycleFigures) -> Option<f64>| Some((name, format!("{:.3}", of(figures?)?)));
+    let plain = |name, value: Option<f64>| Some((name, format_number(value?, 2)));
+    let per_energy = |name, volume: Option<f64>| {
+        Some((name, format!("{} µm³/J", format_number(volume? * 1e18, 3))))
+    };
+    let place = |name, x: Option<f64>| {
+        let share = format_number(x? / moment.contact_radius, 3);
+        Some((name, format!("{share} a")))
+    };
+    let rows = [
+        figures.map(|figures| ("regime", figures.regime.title().to_owned())),
+        always("contact radius a", moment.contact_radius, "m"),
+        value("stick radius now", moment.stick_radius, "m"),
+        value(
+            "permanent stick radius c",
+            moment.permanent_stick_radius,
+            "m",
+        ),
+        always("depth d", moment.depth, "m"),
+        always("F_z", moment.normal_force, "N"),
+        moving("u_x", moment.shift, "m"),
+        moving("F_x", moment.tangential_force, "N"),
+        value("E_d per cycle", figures.map(|figures| figures.energy), "J"),
+        ratio("Q*/(μP)", |figures| figures.force_ratio),
+        ratio("slip ratio", |figures| figures.slip_ratio),
+        ratio("sliding ratio D", |figures| figures.sliding_ratio),
+        ratio("energy ratio A", |figures| figures.energy_ratio),
+        ratio("energy ratio B", |figures| figures.energy_ratio_b),
+        always("wear volume V", moment.wear_volume, "m³"),
+        always("friction work E_d", moment.dissipated_energy, "J"),
+        per_energy("V/E_d", moment.wear_per_energy()),
+        per_energy("k per friction work", k),
+        k.map(|k| ("k per load", format!("{} mm³/(N·m)", per_load(k)))),
+        plain("1 - V/(k E_d)", moment.energy_residual),
+        plain("stability margin", moment.stability_margin),
+        value("time per step", frame.step_cost, "s"),
+        value("largest von Mises", equivalent.map(|peak| peak.value), "Pa"),
+        place("  at depth", equivalent.map(|peak| peak.z)),
+        value("largest tension", tension.map(|peak| peak.value), "Pa"),
+        place("  at x", tension.map(|peak| peak.x)),
+        Some(("cells", cells.to_string())),
+        Some(("steps per cycle", facts.steps_per_cycle.to_string())),
+    ];
+    rows.into_iter().flatten().collect()
 }

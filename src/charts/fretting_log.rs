@@ -28,21 +28,10 @@ const SHIFT: [f64; 2] = [0.6, 1.2];
 
 fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
     let live = run.live.as_ref().filter(|live| live.moves());
-    let mut loops: Vec<&Loop> = live
-        .ok_or(NO_MOTION)?
-        .log
-        .iter()
-        .map(AsRef::as_ref)
-        .collect();
-    if loops.len() > MOST {
-        let every = loops.len().div_ceil(MOST);
-        let last = loops.len() - 1;
-        let mut k = 0;
-        loops.retain(|_| {
-            k += 1;
-            (last + 1 - k).is_multiple_of(every)
-        });
-    }
+    let log = &live.ok_or(NO_MOTION)?.log;
+    let every = log.len().div_ceil(MOST).max(1);
+    let mut loops: Vec<&Loop> = log.iter().rev().step_by(every).map(AsRef::as_ref).collect();
+    loops.reverse();
     let ends = loops.first().zip(loops.last());
     let (first, last) = ends
         .map(|(first, last)| (first.end, last.end))

@@ -238,7 +238,7 @@ impl App {
 
     /// Whether the accuracy panel waits for the refinement check.
     pub fn awaits_refinement(&self) -> bool {
-        self.overlay == Overlay::Accuracy && self.refinement_check.is_none()
+        matches!(self.overlay, Overlay::Accuracy) && self.refinement_check.is_none()
     }
 
     pub(super) fn change_theme(&mut self) {

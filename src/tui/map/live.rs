@@ -16,7 +16,9 @@ use super::view::{Leave, View};
 use crate::scenario::{Refusal, Scenario, schema, units};
 use crate::studies::sweep::engine::{self, Check};
 use crate::studies::sweep::{Shard, Study, record};
+use crate::tui::app::App;
 use crate::tui::keys::Key;
+use crate::tui::overlays::Answer;
 use crate::tui::theme::Theme;
 
 /// The points of the study.
@@ -114,13 +116,6 @@ impl fmt::Debug for Live {
     }
 }
 
-/// Two are equal if they are one.
-impl PartialEq for Live {
-    fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.view, &other.view)
-    }
-}
-
 impl Live {
     /// Starts the study in threads of its own; `tell` is called when there is something new to see.
     ///
@@ -166,16 +161,21 @@ impl Live {
     }
 
     /// Answers a key; leaving ends the study.
-    pub fn press(&self, key: Key) -> Option<Result<Option<Scenario>, String>> {
-        let leave = self.with(|view| view.press(key))?;
+    pub fn press(&self, key: Key, app: &mut App) -> Answer {
+        let Some(leave) = self.with(|view| view.press(key)) else {
+            return Answer::Stay;
+        };
         self.halt.store(true, Ordering::Relaxed);
-        Some(match leave {
-            Leave::Quit => Ok(None),
-            Leave::Open(point) => self
-                .with(|view| view.slice.study.scenario(point))
-                .map(Some)
-                .map_err(|error| error.to_string()),
-        })
+        if let Leave::Open(point) = leave {
+            match self.with(|view| view.slice.study.scenario(point)) {
+                Ok(scenario) => app.order(|run| run.load(scenario)),
+                Err(error) => {
+                    app.notice = Some(error.to_string());
+                    return Answer::Stay;
+                }
+            }
+        }
+        Answer::Close
     }
 
     /// Draws it over the whole of `area`.

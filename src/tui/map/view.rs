@@ -258,10 +258,7 @@ impl View {
         else {
             return Shade::Failed;
         };
-        let of = |value: f64| match scaled.quantity.scale {
-            Scale::Linear => value,
-            Scale::Log => value.ln(),
-        };
+        let of = |value: f64| scaled.quantity.scale.spread(value);
         match (of(number) - of(low)) / (of(high) - of(low)) {
             share if share.is_finite() => Shade::Share(share.clamp(0.0, 1.0)),
             _ if number == low => Shade::Share(0.5),

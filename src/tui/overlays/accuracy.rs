@@ -15,103 +15,102 @@ pub(super) const WATCHED: &[Command] = &[
     Command::RunPause, Command::Step, Command::Cycle, Command::Faster, Command::Slower,
 ];
 
+/// What both pages say before anything can be checked.
+const NOTHING: &str = "nothing to compare yet: let it run for a cycle";
+
 /// The checks of the run and the refinement check.
 pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let Some(frame) = &app.frame else { return };
-    let mut lines = vec![Line::styled(
-        " two ways to the same number:",
-        app.theme.style(Role::Title),
-    )];
+    let [title, alarm] = [Role::Title, Role::Alarm].map(|role| app.theme.style(role));
+    let text = |text: &str| Line::raw(format!("   {text}"));
+    let error = |value: f64, meaning: &str| text(&format!("{value:9.1e}  {meaning}"));
+    let mut lines = vec![Line::styled(" two ways to the same number:", title)];
     if frame.checks.is_empty() {
-        lines.push(Line::raw(
-            "   nothing to compare yet: let it run for a cycle",
-        ));
+        lines.push(text(NOTHING));
     }
-    for check in &frame.checks {
-        let meaning = check.subject.meaning();
-        let line = Line::raw(format!("   {:9.1e}  {meaning}", check.error));
-        lines.push(if check.holds() {
-            line
-        } else {
-            line.style(app.theme.style(Role::Alarm))
-        });
-    }
-    lines.push(Line::raw(""));
-    lines.push(Line::styled(
-        " estimated from the same run on fewer cells and steps:",
-        app.theme.style(Role::Title),
-    ));
+    lines.extend(frame.checks.iter().map(|check| {
+        let line = error(check.error, check.subject.meaning());
+        match check.holds() {
+            true => line,
+            false => line.style(alarm),
+        }
+    }));
+    let estimated = " estimated from the same run on fewer cells and steps:";
+    lines.extend([Line::default(), Line::styled(estimated, title)]);
     match &app.refinement_check {
-        None => lines.push(Line::raw("   running ...")),
-        Some(Err(error)) => lines.push(Line::raw(format!("   {error}"))),
+        None => lines.push(text("running ...")),
+        Some(Err(error)) => lines.push(text(error)),
         Some(Ok(check)) => {
-            lines.push(Line::raw(format!(
-                "   {} cells, {} steps per cycle, to cycle {:.2}, in {:.2} s",
+            lines.push(text(&format!(
+                "{} cells, {} steps per cycle, to cycle {:.2}, in {:.2} s",
                 check.level.points, check.level.steps, check.cycle, check.seconds
             )));
             match &check.error {
-                None => lines.push(Line::raw("   nothing has worn")),
-                Some(error) => lines.extend(
-                    [
-                        (
-                            error.worn_depth,
-                            "error of the worn depth, rms, of its largest",
-                        ),
-                        (error.volume, "error of the worn volume"),
-                        (error.force, "error of F_x"),
-                        (error.pressure, "error of p away from borders, rms"),
-                    ]
-                    .map(|(value, meaning)| Line::raw(format!("   {value:9.1e}  {meaning}"))),
-                ),
+                None => lines.push(text("nothing has worn")),
+                Some(of) => lines.extend([
+                    error(
+                        of.worn_depth,
+                        "error of the worn depth, rms, of its largest",
+                    ),
+                    error(of.volume, "error of the worn volume"),
+                    error(of.force, "error of F_x"),
+                    error(of.pressure, "error of p away from borders, rms"),
+                ]),
             }
         }
     }
-    let size = (76, lines.len() as u16 + 2);
-    let title = "accuracy (Esc closes, Tab explains)";
-    let inside = popup(&app.theme, title, size, area, buffer);
-    Paragraph::new(lines).render(inside, buffer);
+    page(
+        "accuracy (Esc closes, Tab explains)",
+        76,
+        lines,
+        app,
+        area,
+        buffer,
+    );
 }
 
 /// What each check of the moment compares, and what a difference means; what lies outside the
 /// theory.
 pub(super) fn draw_explanations(app: &App, area: Rect, buffer: &mut Buffer) {
     let Some(frame) = &app.frame else { return };
-    let width = WIDTH - 4;
-    let mut lines = Vec::new();
-    let mut paragraph = |text: &str| {
-        lines.extend(wrapped(text, width).into_iter().map(Line::raw));
-    };
-    for warning in frame.facts.warnings.iter() {
-        paragraph(&format!("! {warning}"));
-    }
-    for check in &frame.checks {
-        let verdict = if check.holds() {
-            format!(
+    let warnings = frame.facts.warnings.iter();
+    let warnings = warnings.map(|warning| format!("! {warning}"));
+    let checks = frame.checks.iter().map(|check| {
+        let verdict = match check.holds() {
+            true => format!(
                 "{}: holds to {:.1e}",
                 check.subject.name(),
                 check.error.abs()
-            )
-        } else {
-            check.complaint()
+            ),
+            false => check.complaint(),
         };
-        paragraph(&format!("{verdict}. {}", check.subject.explanation()));
-    }
+        format!("{verdict}. {}", check.subject.explanation())
+    });
+    let paragraphs = warnings.chain(checks);
+    let lines = paragraphs.flat_map(|text| wrapped(&text, usize::from(WIDTH - 4)));
+    let mut lines: Vec<Line> = lines.map(Line::raw).collect();
     if lines.is_empty() {
-        lines.push(Line::raw("nothing to compare yet: let it run for a cycle"));
+        lines.push(Line::raw(NOTHING));
     }
-    let size = (WIDTH as u16, lines.len() as u16 + 2);
-    let inside = popup(
-        &app.theme,
+    page(
         "checks (Esc closes, Tab goes back)",
-        size,
+        WIDTH,
+        lines,
+        app,
         area,
         buffer,
     );
+}
+
+/// A page of text.
+fn page(title: &str, width: u16, lines: Vec<Line>, app: &App, area: Rect, buffer: &mut Buffer) {
+    let size = (width, lines.len() as u16 + 2);
+    let inside = popup(&app.theme, title, size, area, buffer);
     Paragraph::new(lines).render(inside, buffer);
 }
 
 /// The width of the page that explains, cells.
-const WIDTH: usize = 78;
+const WIDTH: u16 = 78;
 
 /// A text in lines of at most `width` characters, those behind the first one indented.
 fn wrapped(text: &str, width: usize) -> Vec<String> {

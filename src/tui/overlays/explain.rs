@@ -24,29 +24,31 @@ fn beside(app: &App, area: Rect) -> Rect {
     let Some((_, place)) = focused.filter(|_| !app.stage.zoomed) else {
         return area;
     };
-    let above = place.y.saturating_sub(area.y);
-    let below = area.bottom().saturating_sub(place.bottom());
-    match (above, below) {
-        (0, 0) => area,
-        (above, below) if below >= above => Rect {
-            y: place.bottom(),
-            height: below,
-            ..area
-        },
-        (above, _) => Rect {
-            height: above,
-            ..area
-        },
-    }
+    let above = Rect {
+        height: place.y.saturating_sub(area.y),
+        ..area
+    };
+    let below = Rect {
+        y: place.bottom(),
+        height: area.bottom().saturating_sub(place.bottom()),
+        ..area
+    };
+    let larger = if below.height >= above.height {
+        below
+    } else {
+        above
+    };
+    if larger.is_empty() { area } else { larger }
 }
 
 pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = &app.theme;
     let is_compared = app.compares();
     // In a comparison there are other panels than the focused one.
-    let (title, words) = match is_compared {
-        true => ("comparison", panels::compare::WORDS),
-        false => (app.stage.focus.title(), app.stage.focus.words()),
+    let focus = app.stage.focus;
+    let (title, keys, words) = match is_compared {
+        true => ("comparison", "Esc closes", panels::compare::WORDS),
+        false => (focus.title(), "Tab: next panel, Esc closes", focus.words()),
     };
     let spelled = |text: &str| theme.printable(text);
     let mut lines = vec![Line::raw(spelled(words.text)), Line::default()];
@@ -59,19 +61,14 @@ pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
             Span::raw(spelled(meaning)),
         ])
     }));
-    let origin = app
-        .frame
-        .as_ref()
-        .map_or("", |frame| frame.facts.origin.as_str());
+    let frame = app.frame.as_ref();
+    let origin = frame.map_or("", |frame| frame.facts.origin.as_str());
     let captions = tour::captions(origin).iter();
-    let here: Vec<&str> = captions
-        .filter(|caption| !is_compared && caption.panel() == Some(app.stage.focus))
-        .map(|caption| caption.text.as_str())
-        .collect();
-    if !here.is_empty() {
-        lines.push(Line::default());
-        lines.push(Line::styled("In this scenario", theme.style(Role::Title)));
-        lines.extend(here.iter().map(|text| Line::raw(spelled(text))));
+    let mut here = captions.filter(|caption| !is_compared && caption.panel() == Some(focus));
+    if let Some(first) = here.next() {
+        let heading = Line::styled("In this scenario", theme.style(Role::Title));
+        lines.extend([Line::default(), heading, Line::raw(spelled(&first.text))]);
+        lines.extend(here.map(|caption| Line::raw(spelled(&caption.text))));
     }
     let width = area.width.min(80);
     let inner = usize::from(width.saturating_sub(10).max(1));
@@ -92,10 +89,7 @@ pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
             place = area;
         }
     }
-    let title = match is_compared {
-        true => format!("{title} (Esc closes)"),
-        false => format!("{title} (Tab: next panel, Esc closes)"),
-    };
+    let title = format!("{title} ({keys})");
     let inside = popup(&app.theme, &title, (width, height), place, buffer);
     let inside = inside.inner(Margin::new(1, 0));
     Paragraph::new(lines)

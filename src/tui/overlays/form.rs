@@ -18,7 +18,7 @@ use crate::tui::settings::Setting;
 use crate::tui::theme::Role;
 
 /// The selected parameter, and its value while that is given.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Default)]
 pub struct Form {
     at: usize,
     giving: Giving,
@@ -27,7 +27,7 @@ pub struct Form {
 }
 
 /// How a value is being given.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, Default)]
 enum Giving {
     /// Not at all: a parameter is chosen.
     #[default]

@@ -12,7 +12,7 @@ use crate::tui::manual::groups;
 use crate::tui::theme::Role;
 
 /// The help: scrolled down by some lines, or searched.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Default)]
 pub struct Help {
     first: u16,
     pub(super) search: Option<LineEdit>,

@@ -23,7 +23,7 @@ const LONGEST: usize = 1000;
 const WORDS: u16 = 4;
 
 /// The list: presets first, then what is in a directory.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Default)]
 pub struct Library {
     at: usize,
     directory: PathBuf,
@@ -32,88 +32,89 @@ pub struct Library {
     about: String,
 }
 
-/// An entry of the list.
-#[derive(Debug, Clone, PartialEq)]
-enum Entry {
-    Preset(&'static Preset),
-    Directory(PathBuf),
-    /// A directory that holds a state to go on from, and what is said of it.
-    Snapshot(PathBuf, String),
-    File(PathBuf),
+/// An entry of the list: a preset, a scenario's file, a snapshot, or a directory of such.
+#[derive(Debug)]
+struct Entry {
+    name: String,
+    title: &'static str,
+    /// A path, or the name of a preset.
+    path: PathBuf,
+    /// Its description; `None` for a file, which is read only to be described.
+    about: Option<String>,
+    /// Whether it is a directory to look into.
+    is_opened: bool,
 }
 
 impl Entry {
-    fn name(&self) -> String {
-        let last = |path: &Path| {
-            let name = path.file_name().unwrap_or(path.as_os_str());
-            printable(&name.to_string_lossy())
-        };
-        match self {
-            Self::Preset(preset) => preset.name.to_owned(),
-            Self::Directory(path) if path.ends_with("..") => "../".to_owned(),
-            Self::Directory(path) | Self::Snapshot(path, _) => format!("{}/", last(path)),
-            Self::File(path) => last(path),
+    fn preset(preset: &Preset) -> Self {
+        Self {
+            name: preset.name.to_owned(),
+            title: preset.title(),
+            path: preset.name.into(),
+            about: Some(preset.summary().to_owned()),
+            is_opened: false,
         }
     }
 
-    fn title(&self) -> &'static str {
-        match self {
-            Self::Preset(preset) => preset.title(),
-            Self::Snapshot(..) => "snapshot",
-            Self::Directory(_) | Self::File(_) => "",
+    /// A directory that holds a state to go on from, where something is said of that, or any other one.
+    fn directory(path: PathBuf, name: &str, snapshot: Option<String>) -> Self {
+        let is_opened = snapshot.is_none();
+        let scenarios = || format!("the scenarios in {}", path.display());
+        Self {
+            name: format!("{name}/"),
+            title: if is_opened { "" } else { "snapshot" },
+            about: Some(snapshot.unwrap_or_else(scenarios)),
+            is_opened,
+            path,
         }
+    }
+
+    /// What is listed at a path, if anything.
+    fn at(path: PathBuf) -> Option<Self> {
+        let name = path.file_name()?.to_str()?;
+        let name = printable(Some(name).filter(|name| !name.starts_with('.'))?);
+        if path.is_dir() {
+            let snapshot = snapshot::about(&path);
+            return Some(Self::directory(path, &name, snapshot));
+        }
+        let is_scenario = path.extension()?.eq_ignore_ascii_case("toml");
+        is_scenario.then_some(Self {
+            name,
+            title: "",
+            path,
+            about: None,
+            is_opened: false,
+        })
     }
 
     /// Its description, or why it cannot be run.
     fn about(&self) -> String {
-        match self {
-            Self::Preset(preset) => preset.summary().to_owned(),
-            Self::Directory(path) => format!("the scenarios in {}", path.display()),
-            Self::Snapshot(_, about) => about.clone(),
-            Self::File(path) => match Scenario::load(&path.to_string_lossy(), &[]) {
-                Ok(scenario) => {
-                    let mut about = scenario.title().to_owned();
-                    if !scenario.description().is_empty() {
-                        about = format!("{about}: {}", scenario.description());
-                    }
-                    match &scenario.run().note {
-                        Some(note) => format!("{about} Note: {}", printable(note)),
-                        None => about,
-                    }
+        if let Some(about) = &self.about {
+            return about.clone();
+        }
+        match Scenario::load(&self.path.to_string_lossy(), &[]) {
+            Ok(scenario) => {
+                let mut about = scenario.title().to_owned();
+                if !scenario.description().is_empty() {
+                    about = format!("{about}: {}", scenario.description());
                 }
-                Err(error) => one_line(&error.to_string()),
-            },
+                match &scenario.run().note {
+                    Some(note) => format!("{about} Note: {}", printable(note)),
+                    None => about,
+                }
+            }
+            Err(error) => one_line(&error.to_string()),
         }
     }
 }
 
-/// The directories and the scenarios in a directory, by name.
+/// The scenarios and the directories in a directory, by name.
 fn files(directory: &Path) -> Vec<Entry> {
-    let mut found: Vec<Entry> = std::fs::read_dir(directory)
-        .into_iter()
-        .flatten()
-        .flatten()
-        .map(|entry| entry.path())
-        .filter(|path| {
-            let name = path.file_name().and_then(|name| name.to_str());
-            name.is_some_and(|name| !name.starts_with('.'))
-        })
-        .filter_map(|path| {
-            if path.is_dir() {
-                return Some(match snapshot::about(&path) {
-                    Some(about) => Entry::Snapshot(path, about),
-                    None => Entry::Directory(path),
-                });
-            }
-            let is_scenario = path
-                .extension()
-                .is_some_and(|end| end.eq_ignore_ascii_case("toml"));
-            is_scenario.then_some(Entry::File(path))
-        })
-        .take(LONGEST)
-        .collect();
-    found.sort_by_key(|entry| (!matches!(entry, Entry::File(_)), entry.name()));
-    found.push(Entry::Directory(directory.join("..")));
+    let found = std::fs::read_dir(directory).into_iter().flatten().flatten();
+    let found = found.filter_map(|entry| Entry::at(entry.path()));
+    let mut found: Vec<Entry> = found.take(LONGEST).collect();
+    found.sort_by_cached_key(|entry| (entry.about.is_some(), entry.name.clone()));
+    found.push(Entry::directory(directory.join(".."), "..", None));
     found
 }
 
@@ -123,18 +124,15 @@ impl Library {
         let mut library = Self::default();
         library.enter(PathBuf::from("."));
         let origin = frame.map_or("", |frame| frame.facts.origin.as_str());
-        let is_shown = |entry: &Entry| match entry {
-            Entry::Preset(preset) => preset.name == origin,
-            Entry::File(path) => path.as_path() == Path::new(".").join(origin),
-            Entry::Directory(_) | Entry::Snapshot(..) => false,
-        };
+        let here = Path::new(".").join(origin);
+        let is_shown = |entry: &Entry| entry.path == Path::new(origin) || entry.path == here;
         let at = library.entries.iter().position(is_shown);
         library.select(at.unwrap_or(0));
         library
     }
 
     fn enter(&mut self, directory: PathBuf) {
-        self.entries = preset::ALL.iter().map(Entry::Preset).collect();
+        self.entries = preset::ALL.iter().map(Entry::preset).collect();
         self.entries.extend(files(&directory));
         self.directory = directory;
     }
@@ -159,17 +157,14 @@ impl Library {
 
     /// Loads the selected scenario, or opens the selected directory.
     fn take(&mut self, app: &mut App) -> Answer {
-        match &self.entries[self.at] {
-            Entry::Preset(preset) => app.load(preset.name),
-            Entry::File(path) | Entry::Snapshot(path, _) => app.load(&path.to_string_lossy()),
-            Entry::Directory(path) => {
-                let path = path.clone();
-                self.enter(path);
-                self.select(preset::ALL.len());
-                return Answer::Stay;
-            }
+        let entry = &self.entries[self.at];
+        if !entry.is_opened {
+            app.load(&entry.path.to_string_lossy());
+            return Answer::Close;
         }
-        Answer::Close
+        self.enter(entry.path.clone());
+        self.select(preset::ALL.len());
+        Answer::Stay
     }
 
     pub(super) fn draw(&self, app: &App, area: Rect, buffer: &mut Buffer) {
@@ -181,8 +176,7 @@ impl Library {
         let shown = inside.height.saturating_sub(WORDS);
         let [above, _, below] = Layout::vertical([Length(shown), Length(1), Fill(1)]).areas(inside);
         let line = |entry: &Entry| {
-            let [name, title] =
-                [&entry.name(), entry.title()].map(|text| app.theme.printable(text));
+            let [name, title] = [&entry.name, entry.title].map(|text| app.theme.printable(text));
             Line::raw(format!(" {name:width$}  {title} "))
         };
         let (lines, focus) = (self.entries.iter().map(line), app.theme.style(Role::Focus));

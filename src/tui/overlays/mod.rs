@@ -29,7 +29,7 @@ pub use library::Library;
 pub use palette::{Completion, Palette};
 
 /// The overlay on the panels.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Default)]
 pub enum Overlay {
     /// Nothing.
     #[default]
@@ -85,15 +85,7 @@ impl Overlay {
             Self::Palette(palette) => palette.press(key, app),
             Self::Form(form) => form.press(key, app),
             Self::Note(line) => note(line, key, app),
-            Self::Sweep(live) => match live.press(key) {
-                None => Answer::Stay,
-                Some(Ok(None)) => Answer::Close,
-                Some(Ok(Some(scenario))) => {
-                    app.order(|run| run.load(scenario));
-                    Answer::Close
-                }
-                Some(Err(error)) => say(error, app),
-            },
+            Self::Sweep(live) => live.press(key, app),
         }
     }
 

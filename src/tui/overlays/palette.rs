@@ -19,7 +19,7 @@ use crate::tui::settings::Setting;
 use crate::tui::theme::Role;
 
 /// The line being typed, and which of its completions is selected.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Default)]
 pub struct Palette {
     pub(super) line: LineEdit,
     at: usize,
@@ -114,21 +114,10 @@ fn rank(typed: &str, name: &str, help: &str) -> Option<usize> {
 pub fn changes(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
     let known = settings(frame);
     let Some((key, value)) = typed.split_once('=') else {
-        let typed = typed.trim_end();
-        let mut fitting: Vec<_> = known
-            .iter()
-            .filter(|setting| setting.parameter.path.contains(typed))
-            .collect();
-        // Where a key begins, or a part of it after a dot, is likelier than its middle.
-        fitting.sort_by_key(|setting| {
-            let path = setting.parameter.path;
-            !(path.starts_with(typed) || path.contains(&format!(".{typed}")))
-        });
-        let completion = |setting: &Setting| {
+        return keys(known.iter(), typed.trim_end(), |setting| {
             let line = format!("set {}=", setting.parameter.path);
-            Completion::new(line, setting.parameter.meaning).with_right(setting.shown(true))
-        };
-        return fitting.into_iter().map(completion).collect();
+            Completion::new(line, setting.parameter.meaning)
+        });
     };
     let (key, value) = (key.trim(), value.trim());
     let found = known.iter().find(|setting| setting.parameter.path == key);
@@ -156,24 +145,40 @@ pub fn sweeps(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
     let numbers = settings(frame)
         .iter()
         .filter(|setting| matches!(setting.parameter.kind, Kind::Number | Kind::Whole));
-    let keys = numbers.clone();
-    let keys: Vec<_> = keys
+    let units = numbers.clone();
+    let units: Vec<_> = units
         .map(|setting| (setting.parameter.path, setting.unit))
         .collect();
-    if let Some(range) = Range::parse(typed, &keys) {
+    if let Some(range) = Range::parse(typed, &units) {
         let help = format!("runs {POINTS} values on all cores and shows the curve");
         let sweep = Completion::new(format!("sweep {typed}"), help)
             .doing(move |app| app.order(move |run| run.sweep(&range)));
         return vec![sweep];
     }
     let key = typed.split([' ', '=']).next().unwrap_or_default();
-    let numbers = numbers.filter(|setting| setting.parameter.path.contains(key));
-    let completion = |setting: &Setting| {
+    keys(numbers, key, |setting| {
         let line = format!("sweep {} ", setting.parameter.path);
         Completion::new(line, format!("FROM..TO: {}", setting.parameter.meaning))
-            .with_right(setting.shown(true))
-    };
-    numbers.map(completion).collect()
+    })
+}
+
+/// The keys that have a text, with their values. Where a key begins with it, or a part of the key after a dot, the key
+/// is likelier than where its middle has it.
+fn keys<'a>(
+    known: impl Iterator<Item = &'a Setting>,
+    text: &str,
+    completion: fn(&Setting) -> Completion,
+) -> Vec<Completion> {
+    let after_dot = format!(".{text}");
+    let mut fitting: Vec<_> = known
+        .filter(|setting| setting.parameter.path.contains(text))
+        .collect();
+    fitting.sort_by_key(|setting| {
+        let path = setting.parameter.path;
+        !(path.starts_with(text) || path.contains(&after_dot))
+    });
+    let shown = |setting: &Setting| completion(setting).with_right(setting.shown(true));
+    fitting.into_iter().map(shown).collect()
 }
 
 /// A file to draw into.

@@ -2,8 +2,8 @@
 //! is made. The terminal, the paper, the line of the cursor and the help all read that.
 
 use crate::plot::theme::Role;
-use crate::plot::{Axis, Chart, Curve, Mark, Scale, Zone};
-use crate::reading::Curves;
+use crate::plot::{self, Axis, Chart, Curve, Mark, Scale};
+use crate::reading::{Curves, Zone};
 use crate::studies::ghost::Ghost;
 use crate::studies::theory::Theory;
 use crate::traces::Axes;
@@ -335,24 +335,36 @@ impl Live {
     }
 
     /// Stick, slip and open along the radius.
-    fn zones(&self, edge: f64) -> Vec<Zone> {
+    fn zones(&self, edge: f64) -> Vec<plot::Zone> {
         let contact = self.moment.contact_radius;
         let stick = self.moment.stick_radius.unwrap_or(contact).min(contact);
-        [
-            (0.0, stick, Role::Stick, 's', "stick"),
-            (stick, contact, Role::Slip, '~', "slip"),
-            (contact, edge, Role::Open, '.', "open"),
-        ]
-        .into_iter()
-        .filter(|(from, to, ..)| to > from)
-        .map(|(from, to, role, glyph, name)| Zone {
-            from,
-            to,
-            role,
-            glyph,
-            name,
-        })
-        .collect()
+        let zones = [
+            (0.0, stick, Zone::Stick),
+            (stick, contact, Zone::Slip),
+            (contact, edge, Zone::Open),
+        ];
+        let zones = zones.into_iter().filter(|(from, to, _)| to > from);
+        let seen = zones.map(|(from, to, zone)| {
+            let (role, glyph) = look_of(zone);
+            let name = zone.name();
+            plot::Zone {
+                from,
+                to,
+                role,
+                glyph,
+                name,
+            }
+        });
+        seen.collect()
+    }
+}
+
+/// The colour of a zone, and the letter that stands for it where there are no colours.
+pub fn look_of(zone: Zone) -> (Role, char) {
+    match zone {
+        Zone::Stick => (Role::Stick, 's'),
+        Zone::Slip => (Role::Slip, '~'),
+        Zone::Open => (Role::Open, '.'),
     }
 }
 

@@ -97,6 +97,15 @@ pub struct Moment {
 }
 
 impl Moment {
+    /// What the surface does at a radius (m).
+    pub fn zone_at(&self, r: f64) -> Zone {
+        match self.stick_radius {
+            _ if r >= self.contact_radius => Zone::Open,
+            Some(stick) if r >= stick => Zone::Slip,
+            _ => Zone::Stick,
+        }
+    }
+
     /// V/E_d of the run, m³/J = 1/Pa: what the wear coefficient of the whole test amounts to. None before
     /// any work of friction.
     pub fn wear_per_energy(&self) -> Option<f64> {

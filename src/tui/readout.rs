@@ -6,7 +6,6 @@ use super::panels::Panel;
 use crate::charts::{Loop, Run};
 use crate::math::scan::value_at;
 use crate::plot::units::{format_value_in, to_ascii};
-use crate::reading::Zone;
 use crate::studies::ghost::Ghost;
 use crate::traces::Axes;
 
@@ -27,7 +26,8 @@ pub(super) fn line(frame: &Frame, focus: Panel, r: f64, width: usize, ascii: boo
     let mut parts = compared(run, focus, r, ascii);
     let at_radius = parts.is_empty() || compared_axes(focus).over_r();
     if at_radius {
-        let place = [value("r", r, "m"), format!(" {} ", zone(frame, r).name())];
+        let zone = frame.observation.moment.zone_at(r);
+        let place = [value("r", r, "m"), format!(" {} ", zone.name())];
         parts.splice(0..0, place);
         let moves = frame.observation.moment.stick_radius.is_some();
         let curves = CURVES
@@ -132,17 +132,4 @@ fn compared(run: &Run, focus: Panel, r: f64, ascii: bool) -> Vec<String> {
         parts.clear();
     }
     parts
-}
-
-/// What the surface does at a radius.
-fn zone(frame: &Frame, r: f64) -> Zone {
-    let moment = &frame.observation.moment;
-    let contact = moment.contact_radius;
-    if r >= contact {
-        Zone::Open
-    } else if r < moment.stick_radius.unwrap_or(contact) {
-        Zone::Stick
-    } else {
-        Zone::Slip
-    }
 }

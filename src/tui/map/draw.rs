@@ -232,29 +232,27 @@ fn map(
         });
     }
     let dot = if theme.ascii() { '*' } else { '•' };
+    let spot = |[x, y]: [f64; 2]| at(wide.middle(x), high.middle(y) / parts);
     for overlay in overlays {
         // A line from crossing to crossing, and its letter at the end.
-        let cell = |[x, y]: [f64; 2]| [wide.middle(x), high.middle(y) / parts];
         for [from, to] in overlay.pieces() {
-            let (a, b) = (cell(from), cell(to));
-            let steps = a[0].abs_diff(b[0]).max(a[1].abs_diff(b[1])).max(1);
+            let (a, b) = (spot(from), spot(to));
+            let steps = a.0.abs_diff(b.0).max(a.1.abs_diff(b.1)).max(1);
             for k in 0..=steps {
-                let share = k as f64 / steps as f64;
-                let between = |i: usize| from[i] + (to[i] - from[i]) * share;
-                let [column, row] = cell([between(0), between(1)]);
-                sign(at(column, row), dot);
+                let share = f64::from(k) / f64::from(steps);
+                let between = [0, 1].map(|i| from[i] + (to[i] - from[i]) * share);
+                sign(spot(between), dot);
             }
         }
         if let Some(&end) = overlay.at.last() {
-            let [column, row] = cell(end);
-            sign(at(column, row), overlay.letter);
+            sign(spot(end), overlay.letter);
         }
     }
     if let Some((x, y)) = view.here() {
-        sign(at(wide.middle(x), high.middle(y) / parts), here_sign(theme));
+        sign(spot([x, y]), here_sign(theme));
     }
     let (x, y) = view.cursor();
-    let cell = &mut buffer[at(wide.middle(x as f64), high.middle(y as f64) / parts)];
+    let cell = &mut buffer[spot([x as f64, y as f64])];
     cell.set_char(if theme.ascii() { 'X' } else { '╳' });
     cell.set_style(Style::reset().add_modifier(Modifier::REVERSED | Modifier::BOLD));
     // The ticks' row is theirs to the last one.

@@ -16,13 +16,13 @@ use ratatui::text::Line;
 use ratatui::widgets::Widget;
 
 use super::{Frame, Pane, Picture, Recipe, Words, edge, nothing};
+use crate::charts::look_of;
 use crate::math::grid::interpolate;
 use crate::math::scan::largest;
 use crate::plot::colormap::ColorMap;
 use crate::plot::units::format_value_in;
-use crate::reading::{Curves, Zone};
+use crate::reading::Curves;
 use crate::tui::shades::{self, has_blocks, paint_halves};
-use crate::tui::theme::Role;
 
 /// The panel.
 pub static PICTURE: Picture = Picture {
@@ -46,29 +46,21 @@ pub static PICTURE: Picture = Picture {
 const ONE_LINE: u16 = 64;
 const TWO_LINES: u16 = 10;
 
-/// What a point of the disc shows.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Place {
-    /// Outside of all that is drawn.
-    Blank,
-    Zone(Zone),
-    /// A worn depth, m.
-    Worn(f64),
-}
-
-impl Place {
-    /// At x and y from the disc's middle, m.
-    fn at(frame: &Frame, x: f64, y: f64) -> Self {
-        let (seen, moment) = (&frame.observation, &frame.observation.moment);
-        let r = x.hypot(y);
-        match moment.stick_radius {
-            _ if r > edge(frame) => Self::Blank,
-            _ if x >= 0.0 => Self::Worn(interpolate(&seen.radii, &seen.wear, r)),
-            _ if r >= moment.contact_radius => Self::Zone(Zone::Open),
-            Some(stick) if r >= stick => Self::Zone(Zone::Slip),
-            _ => Self::Zone(Zone::Stick),
-        }
+/// The colour of the disc at `x` and `y` from its middle (m), and the sign that stands for it without colours; depths
+/// have those between 0 and `deepest`.
+fn shown(frame: &Frame, pane: &Pane, deepest: f64, [x, y]: [f64; 2]) -> (Option<Color>, char) {
+    let (seen, r) = (&frame.observation, x.hypot(y));
+    if r > edge(frame) {
+        return (None, ' ');
     }
+    if x < 0.0 {
+        let (role, sign) = look_of(seen.moment.zone_at(r));
+        return (pane.theme.style(role).fg, sign);
+    }
+    let depth = interpolate(&seen.radii, &seen.wear, r);
+    let shade = shades::shade(depth, [0.0, deepest]);
+    let color = shades::color(pane.theme, ColorMap::Sequential, shade);
+    (color, shades::sign(shade))
 }
 
 /// The depths that the colours span, m.
@@ -103,42 +95,18 @@ fn draw(frame: &Frame, pane: &Pane, area: Rect, buffer: &mut Buffer) {
     let y = |half: u16| (f64::from(half) + 0.5 - f64::from(disc.height)) * size;
     for row in 0..disc.height {
         for column in 0..disc.width {
-            let halves = [2 * row, 2 * row + 1].map(|half| Place::at(frame, x(column), y(half)));
+            let halves = [2 * row, 2 * row + 1]
+                .map(|half| shown(frame, pane, deepest, [x(column), y(half)]));
             let Some(cell) = buffer.cell_mut((disc.x + column, disc.y + row)) else {
                 continue;
             };
             match has_blocks(pane.theme) {
-                true => paint_halves(cell, halves.map(|place| color(place, deepest, pane))),
-                false => _ = cell.set_char(sign(halves[0], deepest)),
+                true => paint_halves(cell, halves.map(|(color, _)| color)),
+                false => _ = cell.set_char(halves[0].1),
             }
         }
     }
     legend(frame, pane, area, size, deepest, buffer);
-}
-
-fn color(place: Place, deepest: f64, pane: &Pane) -> Option<Color> {
-    let style = |role| pane.theme.style(role).fg;
-    match place {
-        Place::Blank => None,
-        Place::Zone(Zone::Stick) => style(Role::Stick),
-        Place::Zone(Zone::Slip) => style(Role::Slip),
-        Place::Zone(Zone::Open) => style(Role::Open),
-        Place::Worn(depth) => {
-            let shade = shades::shade(depth, [0.0, deepest]);
-            shades::color(pane.theme, ColorMap::Sequential, shade)
-        }
-    }
-}
-
-/// A cell where there are no colours.
-fn sign(place: Place, deepest: f64) -> char {
-    match place {
-        Place::Blank => ' ',
-        Place::Zone(Zone::Stick) => 's',
-        Place::Zone(Zone::Slip) => '~',
-        Place::Zone(Zone::Open) => '.',
-        Place::Worn(depth) => shades::sign(shades::shade(depth, [0.0, deepest])),
-    }
 }
 
 /// Where the sliding parts of the indenter move: with the traction that they exert.

@@ -24,7 +24,7 @@ use super::{Frame, Pane, Panel, Picture, Recipe, Words, caption, edge};
 use crate::charts::magnification;
 use crate::math::grid::interpolate;
 use crate::math::scan::largest;
-use crate::reading::Curves;
+use crate::reading::{Curves, Zone};
 use crate::tui::shades::{self, has_blocks};
 use crate::tui::theme::{Depth, Look, Role, Theme};
 
@@ -234,14 +234,17 @@ impl<'a> Section<'a> {
             true => f64::INFINITY,
             false => facts.indenter.profile(along.min(rim)) - moment.depth + self.lift,
         };
-        let sticks = moment.stick_radius.is_none_or(|stick| r < stick);
-        let contact = if sticks { Matter::Stick } else { Matter::Slip };
+        let contact = match moment.zone_at(r) {
+            Zone::Open => None,
+            Zone::Stick => Some(Matter::Stick),
+            Zone::Slip => Some(Matter::Slip),
+        };
         Cut {
             indenter: (unworn + share * wear(along)).max(ground),
             unworn,
             surface: ground,
             unworn_surface: surface,
-            contact: (r < moment.contact_radius).then_some(contact),
+            contact,
         }
     }
 

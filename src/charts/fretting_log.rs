@@ -1,7 +1,7 @@
 //! The fretting log: the loops F_x over u_x of earlier cycles behind that of the last one, each a step
 //! further to the right and up. The axes are those of the last loop.
 
-use super::{Loop, NO_CYCLE, NO_MOTION, Recipe, Run, View, Words};
+use super::{F_X, Loop, NO_CYCLE, NO_MOTION, Recipe, Run, U_X, View, Words};
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve};
 
@@ -12,10 +12,7 @@ pub static RECIPE: Recipe = Recipe {
     words: Words {
         text: "The fretting loops of earlier cycles behind the last one. The axes belong to the \
                  last loop; older loops are shifted to the right and up.",
-        symbols: &[
-            ("u_x", "tangential displacement of the indenter"),
-            ("F_x", "tangential force"),
-        ],
+        symbols: &[U_X, F_X],
     },
     ..Recipe::new(make)
 };

@@ -2,7 +2,7 @@
 //! that the cycle dissipates. An arrow stands at the present moment and points the way it goes. On a rig that
 //! yields the loop of its sensor is drawn beside that of the contact: both have the same forces and the same area.
 
-use super::{Live, Loop, Medium, NO_MOTION, Recipe, Run, View, Words, ghosts};
+use super::{F_X, Live, Loop, Medium, NO_MOTION, Recipe, Run, U_X, View, Words, ghosts};
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Point};
 use crate::traces::Axes;
@@ -18,10 +18,7 @@ pub static RECIPE: Recipe = Recipe {
                  inside is the energy lost to friction. A line means full stick, a thin loop \
                  partial slip, a parallelogram with flat ends gross slip. The arrow marks the \
                  present moment.",
-        symbols: &[
-            ("u_x", "tangential displacement of the indenter"),
-            ("F_x", "tangential force (Q in fretting tests)"),
-        ],
+        symbols: &[U_X, F_X],
     },
     ..Recipe::new(make)
 };

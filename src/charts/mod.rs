@@ -42,6 +42,11 @@ pub struct Words {
 pub const A: (&str, &str) = ("a", "contact radius: the bodies touch inside it");
 /// The stick radius, explained.
 pub const C: (&str, &str) = ("c", "stick radius: nothing slips inside it in a cycle");
+/// The displacement of the indenter, explained.
+pub const U_X: (&str, &str) = ("u_x", "tangential displacement of the indenter");
+const F_X: (&str, &str) = ("F_x", "tangential force (Q in fretting tests)");
+const V: (&str, &str) = ("V", "wear volume");
+const E_D: (&str, &str) = ("E_d", "energy lost to friction since the start");
 const BAND: (&str, &str) = ("band", "stick, slip and open zones along the radius");
 
 /// What charts say that have nothing to show.

@@ -1,7 +1,7 @@
 //! The difference between wear volume and friction work: V/(k E_d) − 1 since the start, in
 //! thousandths. The wear law says zero.
 
-use super::{Recipe, Run, View, Words, cycles_shown, over_cycles, series};
+use super::{E_D, Recipe, Run, V, View, Words, cycles_shown, over_cycles, series};
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve};
 
@@ -13,11 +13,7 @@ pub static RECIPE: Recipe = Recipe {
     words: Words {
         text: "V = k E_d holds exactly in theory: V comes from the 3D profile, E_d from the 1D springs. The \
                  difference shows how consistent the numerics are.",
-        symbols: &[
-            ("V", "wear volume"),
-            ("k", "wear coefficient"),
-            ("E_d", "friction work"),
-        ],
+        symbols: &[V, ("k", "wear coefficient"), E_D],
     },
     ..Recipe::new(make)
 };

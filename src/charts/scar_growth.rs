@@ -1,6 +1,6 @@
 //! The scar's radius and depth over the work of friction: what a profilometer and a loop give of a test.
 
-use super::{NO_CYCLE, NO_HISTORY, Recipe, Run, View, Words, ghosts, magnification};
+use super::{E_D, NO_CYCLE, NO_HISTORY, Recipe, Run, View, Words, ghosts, magnification};
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Scale};
 use crate::traces::Axes;
@@ -18,7 +18,7 @@ pub static RECIPE: Recipe = Recipe {
                first the ring deepens where it is; then it grows outwards, and the depth per energy falls. The \
                depth is drawn magnified by the factor in the legend, which a logarithmic scale does not need.",
         symbols: &[
-            ("E_d", "energy lost to friction since the start"),
+            E_D,
             ("radius", "outermost radius that has worn"),
             ("depth", "largest f - f0 over the radius"),
         ],

@@ -1,7 +1,7 @@
 //! Wear volume V over cycles. What the work of friction says of it, V = k E_d, differs by less than a line
 //! is wide: the panel beside shows the difference.
 
-use super::{Recipe, Run, View, Words, ghosts, over_cycles, series};
+use super::{E_D, Recipe, Run, V, View, Words, ghosts, over_cycles, series};
 use crate::plot::theme::Role;
 use crate::plot::units::format_value;
 use crate::plot::{Axis, Chart};
@@ -16,10 +16,7 @@ pub static RECIPE: Recipe = Recipe {
     overlays: &[Axes::VOLUME],
     words: Words {
         text: "The wear volume since the start. It grows by k times the energy that friction dissipates.",
-        symbols: &[
-            ("V", "wear volume"),
-            ("E_d", "energy lost to friction since the start"),
-        ],
+        symbols: &[V, E_D],
     },
     ..Recipe::new(make)
 };

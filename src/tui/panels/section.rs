@@ -21,7 +21,7 @@ use ratatui::style::{Color, Modifier, Style};
 
 use super::stress_map::Samples;
 use super::{Frame, Pane, Panel, Picture, Recipe, Words, caption, edge};
-use crate::charts::magnification;
+use crate::charts::{U_X, magnification};
 use crate::math::grid::interpolate;
 use crate::math::scan::largest;
 use crate::reading::{Curves, Zone};
@@ -41,10 +41,7 @@ pub static PICTURE: Picture = Picture {
             text: "A cut through both bodies: the indenter above, the half-space it deforms below. \
                  The title tells what is magnified. The contact surface is coloured by stick and slip; \
                  the short lines across it (V) stay in one where it sticks, and part where it slips.",
-            symbols: &[
-                ("F_z", "normal force"),
-                ("u_x", "tangential displacement of the indenter"),
-            ],
+            symbols: &[("F_z", "normal force"), U_X],
         },
         ..Recipe::new(|_, _| Err(""))
     },

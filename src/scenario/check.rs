@@ -9,20 +9,26 @@ use super::keys::{PARAMETERS, exclusive};
 use super::schema::{self, Parameter};
 use super::{units, words, write};
 
-/// Finds every key that is not in the table of parameters, has a value of the wrong kind, or excludes another, and
-/// puts the number in SI units in the place of every text with a unit.
+/// Finds every key that is not in the table of parameters or has a value of the wrong kind, and puts the number in SI
+/// units in the place of every text with a unit.
 pub(super) fn keys(table: &mut Table, origin: &Origin, faults: &mut Faults) {
     section(table, "", "", origin, faults);
+}
+
+/// Refuses keys that exclude each other.
+pub(super) fn conflicts(table: &Table, origin: &Origin) -> Result<(), ScenarioError> {
+    // The first of each kind stands for the others.
+    let given = |keys: &[&'static str]| {
+        let given = |&key: &&'static str| Some((key, schema::at(table, key)?));
+        keys.iter().find_map(given)
+    };
     for of in exclusive() {
-        let mut others = of.others.iter();
-        let other = others.find(|other| schema::at(table, other).is_some());
-        for key in of.keys {
-            if let (Some(value), Some(other)) = (schema::at(table, key), other) {
-                let rule = format!("conflicts with {}", of.rule.replace("{}", other));
-                faults.note(key, origin.refuse(key, &show(value), rule));
-            }
+        if let (Some((key, value)), Some((other, _))) = (given(&of.keys), given(&of.others)) {
+            let rule = format!("conflicts with {}", of.rule.replace("{}", other));
+            return Err(origin.refuse(key, &show(value), rule));
         }
     }
+    Ok(())
 }
 
 /// Checks the keys of the table at `path`, which messages call `shown`.

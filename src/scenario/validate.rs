@@ -5,7 +5,7 @@ use std::fmt::Display;
 
 use toml::{Table, Value};
 
-use super::check::show;
+use super::check::{self, show};
 use super::complete;
 use super::derive::{self, Contact};
 use super::error::{Faults, Origin, ScenarioError};
@@ -75,6 +75,7 @@ fn made(table: &Table, written: &Table, origin: &Origin) -> Result<Setup, Scenar
         written,
         origin,
     };
+    check::conflicts(written, origin)?;
     let indenter = parts.indenter()?;
     let drive = parts.drive()?;
     let material = parts.material()?;

@@ -97,10 +97,11 @@ impl Table {
     pub fn of_rows<const N: usize>(
         header: Vec<(String, String)>,
         names: [&str; N],
-        rows: &[[f64; N]],
+        rows: &[impl AsRef<[f64]>],
     ) -> Self {
         let columns = names.into_iter().enumerate();
-        let columns = columns.map(|(k, name)| (name, rows.iter().map(|row| row[k]).collect()));
+        let columns =
+            columns.map(|(k, name)| (name, rows.iter().map(|row| row.as_ref()[k]).collect()));
         Self::of_columns(header, columns)
     }
 

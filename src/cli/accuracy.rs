@@ -7,7 +7,8 @@ use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
 use crate::studies::refinement::{self, Resolved};
 
-/// Finds the points and steps that meet the accuracy of `scenario`, with a spinner on stderr.
+/// Finds the points and steps that meet the accuracy of `scenario`, with a spinner on stderr, and says there if they do
+/// not meet it.
 ///
 /// # Errors
 /// If no level runs to its end, or on an interrupt.
@@ -33,14 +34,20 @@ pub(super) fn resolve_soon(scenario: &Scenario) -> std::result::Result<Resolved,
     })
 }
 
-/// Shows a spinner on stderr while `search` runs.
-fn searching<T>(is_hidden: bool, search: impl FnOnce() -> T) -> T {
+/// Shows a spinner on stderr while `search` runs, and the warning that it ends with.
+fn searching(
+    is_hidden: bool,
+    search: impl FnOnce() -> std::result::Result<Resolved, SessionError>,
+) -> std::result::Result<Resolved, SessionError> {
     let message = "looking for points and steps that meet numerics.accuracy";
     let spinner = progress::spinner(message, is_hidden);
     let found = search();
     // What ticks would draw it once more.
     spinner.disable_steady_tick();
     spinner.finish_and_clear();
+    if let Ok(Resolved { warning, .. }) = &found {
+        warning.iter().for_each(|word| complain(word));
+    }
     found
 }
 
@@ -51,9 +58,6 @@ fn searching<T>(is_hidden: bool, search: impl FnOnce() -> T) -> T {
 /// If no level runs to its end, and a contact that cannot be made.
 pub(super) fn session(scenario: Scenario, cycles: Option<f64>, quiet: bool) -> Result<Session> {
     let found = resolve(&scenario, cycles, f64::INFINITY, quiet, &|| true)?;
-    if let Some(word) = found.warning {
-        complain(&word);
-    }
     let mut session = Session::start(found.scenario)?;
     for (key, value) in &found.statements {
         session.state(key, value);

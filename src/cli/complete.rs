@@ -3,10 +3,10 @@
 //! The script that `mdr-tui completions` prints asks the program itself, so it knows what this
 //! version knows.
 
-use std::ffi::OsStr;
-use std::fs;
+use std::ffi::{OsStr, OsString};
+use std::path::Path;
 
-use clap_complete::engine::CompletionCandidate;
+use clap_complete::engine::{CompletionCandidate, PathCompleter, ValueCompleter};
 
 use crate::guide::TOPICS;
 use crate::scenario::keys::PARAMETERS;
@@ -26,31 +26,37 @@ pub fn overlays(typed: &OsStr) -> Vec<CompletionCandidate> {
     presets_and_files(typed, &["toml", "csv"])
 }
 
-fn presets_and_files(typed: &OsStr, endings: &[&str]) -> Vec<CompletionCandidate> {
-    let Some(typed) = typed.to_str() else {
-        return Vec::new();
+fn presets_and_files(typed: &OsStr, endings: &'static [&'static str]) -> Vec<CompletionCandidate> {
+    let is_wanted = move |path: &Path| {
+        let ending = path.extension().and_then(OsStr::to_str);
+        ending.is_some_and(|ending| endings.contains(&ending)) && path.is_file()
     };
-    let presets = preset::ALL
-        .iter()
-        .filter(|preset| preset.name.starts_with(typed))
-        .map(|preset| CompletionCandidate::new(preset.name).help(Some(preset.title().into())));
-    presets.chain(files(typed, endings)).collect()
+    let start = typed.to_string_lossy();
+    let mut found = presets();
+    found.retain(|preset| preset.get_value().to_string_lossy().starts_with(&*start));
+    // Directories are always offered.
+    found.extend(PathCompleter::any().filter(is_wanted).complete(typed));
+    found
 }
 
 /// The names of the presets.
 pub fn presets() -> Vec<CompletionCandidate> {
-    let candidate = |preset: &preset::Preset| {
-        CompletionCandidate::new(preset.name).help(Some(preset.title().into()))
-    };
-    preset::ALL.iter().map(candidate).collect()
+    let named = preset::ALL
+        .iter()
+        .map(|preset| (preset.name, preset.title()));
+    named.map(|(name, title)| candidate(name, title)).collect()
 }
 
 /// The topics of the guide.
 pub fn topics() -> Vec<CompletionCandidate> {
-    let candidate = |topic: &crate::guide::Topic| {
-        CompletionCandidate::new(topic.name).help(Some(topic.about.into()))
-    };
-    TOPICS.iter().map(candidate).collect()
+    let topics = TOPICS.iter();
+    topics
+        .map(|topic| candidate(topic.name, topic.about))
+        .collect()
+}
+
+fn candidate(word: impl Into<OsString>, help: &str) -> CompletionCandidate {
+    CompletionCandidate::new(word).help(Some(help.to_owned().into()))
 }
 
 /// `KEY=`, and behind it the words that the key takes.
@@ -62,10 +68,7 @@ pub fn assignments(typed: &OsStr) -> Vec<CompletionCandidate> {
         return PARAMETERS
             .iter()
             .filter(|known| known.path.starts_with(typed) && known.section() != "changes")
-            .map(|known| {
-                CompletionCandidate::new(format!("{}=", known.path))
-                    .help(Some(known.described().into()))
-            })
+            .map(|known| candidate(format!("{}=", known.path), &known.described()))
             .collect();
     };
     find(key)
@@ -82,30 +85,4 @@ fn words(parameter: &'static Parameter) -> &'static [&'static str] {
         Kind::Flag => &["true", "false"],
         _ => &[],
     }
-}
-
-/// Directories, and files with one of `endings`, whose path begins with `typed`.
-fn files(typed: &str, endings: &[&str]) -> Vec<CompletionCandidate> {
-    let (folder, start) = match typed.rsplit_once('/') {
-        Some((folder, start)) => (format!("{folder}/"), start),
-        None => (String::new(), typed),
-    };
-    let place = if folder.is_empty() { "." } else { &folder };
-    let has_ending = |name: &str| {
-        let ending = name.rsplit_once('.').map(|(_, ending)| ending);
-        ending.is_some_and(|ending| endings.contains(&ending))
-    };
-    let entries = fs::read_dir(place).into_iter().flatten().flatten();
-    let mut found: Vec<String> = entries
-        .filter_map(|entry| {
-            let name = entry.file_name().into_string().ok()?;
-            let is_folder = entry.path().is_dir();
-            let wanted = name.starts_with(start) && (is_folder || has_ending(&name));
-            let hidden = name.starts_with('.') && start.is_empty();
-            let end = if is_folder { "/" } else { "" };
-            (wanted && !hidden).then(|| format!("{folder}{name}{end}"))
-        })
-        .collect();
-    found.sort();
-    found.into_iter().map(CompletionCandidate::new).collect()
 }

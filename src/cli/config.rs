@@ -6,7 +6,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use clap::ValueEnum;
-use serde::Deserialize;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer};
 
 use super::args::ColorChoice;
 use super::complain;
@@ -21,32 +22,26 @@ use crate::tui::command::{COMMANDS, Command};
 use crate::tui::keys::{Key, parse_script};
 
 /// The preferences, each of which may be left out.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
 pub struct Config {
     /// Which colours.
+    #[serde(deserialize_with = "choice")]
     pub theme: Option<Look>,
     /// When to use colour.
+    #[serde(deserialize_with = "choice")]
     pub color: Option<ColorChoice>,
     /// How curves are drawn.
+    #[serde(deserialize_with = "choice")]
     pub marker: Option<Marker>,
     /// The largest number of frames per second.
+    #[serde(deserialize_with = "rate")]
     pub fps: Option<u16>,
     /// Whether the mouse belongs to the explorer.
     pub mouse: Option<bool>,
     /// Further keys of commands.
+    #[serde(deserialize_with = "keys")]
     pub keys: Vec<(Key, Command)>,
-}
-
-/// The file as it is written.
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-struct Written {
-    theme: Option<String>,
-    color: Option<String>,
-    marker: Option<String>,
-    fps: Option<u16>,
-    mouse: Option<bool>,
-    keys: BTreeMap<String, String>,
 }
 
 /// The largest file that is read, in bytes.
@@ -79,60 +74,44 @@ impl Config {
     }
 
     fn read(text: &str, path: &Path) -> Result<Self, Refusal> {
-        let refuse = |rule: String| Refusal::new(path.display(), rule);
-        let written: Written = typed::read(text).map_err(refuse)?;
-        let mut keys = Vec::new();
-        for (name, key) in &written.keys {
-            keys.push((
-                one_key(name, key).map_err(refuse)?,
-                command(name).map_err(refuse)?,
-            ));
-        }
-        Ok(Self {
-            theme: choice("theme", written.theme).map_err(refuse)?,
-            color: choice("color", written.color).map_err(refuse)?,
-            marker: choice("marker", written.marker).map_err(refuse)?,
-            fps: match written.fps {
-                Some(fps) if !(1..=120).contains(&fps) => {
-                    return Err(refuse(format!("fps = {fps}: must be from 1 to 120")));
-                }
-                fps => fps,
-            },
-            mouse: written.mouse,
-            keys,
-        })
+        typed::read(text).map_err(|rule| Refusal::new(path.display(), rule))
     }
 }
 
-fn choice<T: ValueEnum>(key: &str, word: Option<String>) -> Result<Option<T>, String> {
-    let Some(word) = word else {
-        return Ok(None);
-    };
+fn choice<'de, D: Deserializer<'de>, T: ValueEnum>(from: D) -> Result<Option<T>, D::Error> {
+    let word = String::deserialize(from)?;
     T::from_str(&word, false).map(Some).map_err(|_| {
         let known = T::value_variants().iter().filter_map(T::to_possible_value);
         let known: Vec<String> = known.map(|known| known.get_name().to_owned()).collect();
-        format!("{key} = {word:?}: must be one of {}", known.join(", "))
+        D::Error::custom(format!("{word:?}: must be one of {}", known.join(", ")))
     })
 }
 
-fn one_key(name: &str, key: &str) -> Result<Key, String> {
-    match parse_script(key).as_deref() {
-        Ok([key]) => Ok(*key),
-        _ => Err(format!(
-            "keys.{name:?} = {key:?}: must be one key, such as \"n\" or \"<Enter>\""
-        )),
+fn rate<'de, D: Deserializer<'de>>(from: D) -> Result<Option<u16>, D::Error> {
+    match u16::deserialize(from)? {
+        fps @ 1..=120 => Ok(Some(fps)),
+        fps => Err(D::Error::custom(format!("{fps}: must be from 1 to 120"))),
     }
 }
 
-fn command(name: &str) -> Result<Command, String> {
-    let found = COMMANDS.iter().find(|row| row.name == name);
-    found.map(|row| row.command).ok_or_else(|| {
-        let hint = match nearest(name, COMMANDS.iter().map(|row| row.name)) {
-            Some(near) => format!("did you mean {near:?}?"),
-            None => "the command palette (:) shows the names".to_owned(),
+fn keys<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<(Key, Command)>, D::Error> {
+    let written = BTreeMap::<String, String>::deserialize(from)?;
+    let bound = written.iter().map(|(name, key)| {
+        let keys = parse_script(key);
+        let Ok([stroke]) = keys.as_deref() else {
+            let rule = "must be one key, such as \"n\" or \"<Enter>\"";
+            return Err(format!("keys.{name:?} = {key:?}: {rule}"));
         };
-        format!("keys: {name:?} is not a command; {hint}")
-    })
+        let Some(row) = COMMANDS.iter().find(|row| row.name == name) else {
+            let hint = match nearest(name, COMMANDS.iter().map(|row| row.name)) {
+                Some(near) => format!("did you mean {near:?}?"),
+                None => "the command palette (:) shows the names".to_owned(),
+            };
+            return Err(format!("keys: {name:?} is not a command; {hint}"));
+        };
+        Ok((*stroke, row.command))
+    });
+    bound.collect::<Result<_, _>>().map_err(D::Error::custom)
 }
 
 #[cfg(test)]
@@ -168,20 +147,20 @@ mod tests {
         for (text, said) in [
             (
                 "theme = \"green\"",
-                "config.toml: theme = \"green\": must be one of dark, light, mono",
+                "config.toml: line 1: \"green\": must be one of dark, light, mono",
             ),
-            ("fps = 0", "config.toml: fps = 0: must be from 1 to 120"),
+            ("fps = 0", "config.toml: line 1: 0: must be from 1 to 120"),
             (
                 "\nthem = 1",
                 "config.toml: line 2: unknown key them; did you mean theme?",
             ),
             (
                 "[keys]\nstep = \"ab\"",
-                "config.toml: keys.\"step\" = \"ab\": must be one key",
+                "config.toml: line 1: keys.\"step\" = \"ab\": must be one key",
             ),
             (
                 "[keys]\nstop = \"a\"",
-                "config.toml: keys: \"stop\" is not a command; did you mean \"step\"?",
+                "config.toml: line 1: keys: \"stop\" is not a command; did you mean \"step\"?",
             ),
         ] {
             let error = read(text).expect_err(text);

@@ -13,6 +13,7 @@ use super::args::{Arguments, Manual};
 use super::complete::VARIABLE;
 use crate::export::file::write_whole;
 use crate::scenario::Refusal;
+use crate::scenario::nearest::hint;
 use crate::tui::manual;
 
 /// Prints a script with which the shell asks this program for completions.
@@ -40,12 +41,10 @@ pub fn man(options: &Manual) -> Result<ExitCode> {
         })
         .collect();
     if commands.is_empty() {
-        let names: Vec<&str> = program.get_subcommands().map(Command::get_name).collect();
         let given = options.command.as_deref().unwrap_or_default();
-        bail!(Refusal::new(
-            format_args!("man {given}"),
-            format_args!("no such command; commands are {}", names.join(", "))
-        ));
+        let names: Vec<&str> = program.get_subcommands().map(Command::get_name).collect();
+        let hint = hint(given, names.into_iter());
+        bail!(Refusal::new(format_args!("man {given}"), "no such command").or(hint));
     }
     for command in commands {
         let page = page(command)?;

@@ -41,11 +41,7 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
         None => {
             let scenario = Scenario::load(&options.scenario, &options.changes.set)
                 .map_err(|error| or_command(&options.scenario, error))?;
-            let found = accuracy::resolve_soon(&scenario)?;
-            if let Some(word) = found.warning {
-                complain(&word);
-            }
-            Session::start(found.scenario)?.into()
+            Session::start(accuracy::resolve_soon(&scenario)?.scenario)?.into()
         }
     };
     let reach = run.simulation().setup().grid.radius();

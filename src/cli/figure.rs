@@ -82,19 +82,21 @@ pub fn figure(options: &Figure) -> Result<ExitCode> {
     let size = options.size.unwrap_or_else(|| sheet.usual_size());
     let canvas = sheet.draw(size, &look);
     let dpi = f64::from(options.dpi);
-    let pictures = files.iter().map(|(target, format)| {
+    let mut written: Vec<(&Target, Vec<u8>)> = Vec::new();
+    for (target, format) in &files {
         let picture = format.write(&canvas, dpi);
-        picture.map_err(|error| Refusal::new(target.path().display(), error))
-    });
-    let pictures = pictures.collect::<Result<Vec<_>, _>>()?;
-    let targets = files.iter().map(|(target, _)| target);
-    let pictures = targets.clone().zip(pictures.iter().map(Vec::as_slice));
-    let tables = data_files.iter().map(|target| (target, data.as_bytes()));
-    write_all(&tables.chain(pictures).collect::<Vec<_>>())?;
+        let refused = |error| Refusal::new(target.path().display(), error);
+        written.push((target, picture.map_err(refused)?));
+    }
+    written.extend(
+        data_files
+            .iter()
+            .map(|target| (target, data.clone().into_bytes())),
+    );
+    write_all(&written)?;
     if !options.quiet {
-        let names = targets.chain(&data_files);
-        let names = names.map(|target| printable(&target.path().display().to_string()));
-        let names: Vec<String> = names.collect();
+        let names = written.iter().map(|(target, _)| target.path().display());
+        let names: Vec<String> = names.map(|name| printable(&name.to_string())).collect();
         writeln!(io::stdout().lock(), "{}", names.join(" and "))?;
     }
     Ok(ExitCode::SUCCESS)
@@ -151,19 +153,14 @@ fn sheet(options: &Figure) -> Result<Sheet> {
     if options.figure.is_some() {
         return Ok(paper::fretting(&run).map_err(refused)?);
     }
-    let charts = if options.panel.is_empty() {
-        let found = |panels: Vec<&Recipe>| -> Vec<_> {
-            let charts = panels.into_iter().map(|panel| panel.on_paper(&run));
-            charts.filter_map(Result::ok).collect()
-        };
-        match found(usual(&run.ghosts)) {
-            none if none.is_empty() => found(on_paper().collect()),
-            usual => usual,
+    let wanted = options.panel.iter().map(|panel| panel.on_paper(&run));
+    let mut charts: Vec<Chart> = wanted.collect::<Result<_, _>>().map_err(refused)?;
+    for panels in [usual(&run.ghosts), on_paper().collect()] {
+        if charts.is_empty() {
+            let found = panels.iter().map(|panel| panel.on_paper(&run));
+            charts = found.filter_map(Result::ok).collect();
         }
-    } else {
-        let charts = options.panel.iter().map(|panel| panel.on_paper(&run));
-        charts.collect::<Result<_, _>>().map_err(refused)?
-    };
+    }
     refuse_what_no_chart_shows(options, &run.ghosts, &charts)?;
     let facts = run.facts();
     let title = facts.iter().find(|(key, _)| key == "scenario");
@@ -177,20 +174,17 @@ fn sheet(options: &Figure) -> Result<Sheet> {
 /// The table of a sweep, if `source` is one.
 fn record(source: &str) -> Result<Option<Record>> {
     let path = Path::new(source);
-    let is_table = path.is_file() && path.extension().is_some_and(|end| end == "csv");
-    if !is_table {
+    if !path.is_file() || path.extension().is_none_or(|end| end != "csv") {
         return Ok(None);
     }
-    let open = || fs::File::open(path).map_err(|error| unread(path, error));
-    let mut head = io::BufReader::new(open()?).take(LARGEST_HEADER).lines();
-    let is_of_a_study = head
-        .by_ref()
+    let file = fs::File::open(path).map_err(|error| unread(path, error))?;
+    let head = io::BufReader::new(file).take(LARGEST_HEADER).lines();
+    let mut head = head
         .map_while(Result::ok)
-        .take_while(|line| line.trim_start_matches('\u{feff}').starts_with('#'))
-        .any(|line| line.starts_with("# study: base"));
-    is_of_a_study
-        .then(|| Ok(Record::open(open()?, source)?))
-        .transpose()
+        .take_while(|line| line.trim_start_matches('\u{feff}').starts_with('#'));
+    let is_of_a_study = head.any(|line| line.starts_with("# study: base"));
+    let record = is_of_a_study.then(|| Record::of_file(path));
+    Ok(record.transpose()?)
 }
 
 /// The charts of a sweep's table.
@@ -210,9 +204,8 @@ fn study(source: &str, record: Record, options: &Figure) -> Result<Sheet> {
     slice.renew(record, source)?;
     for set in &options.changes.set {
         let (key, value) = set.split_once('=').unwrap_or((set, ""));
-        slice
-            .hold(key.trim(), value.trim())
-            .map_err(|why| Refusal::new(format_args!("--set {}", printable(set)), why))?;
+        let held = slice.hold(key.trim(), value.trim());
+        held.map_err(|why| Refusal::new(format_args!("--set {}", printable(set)), why))?;
     }
     Ok(figure_of_study::sheet(&slice, &options.column, source).map_err(Refusal::from)?)
 }
@@ -221,9 +214,8 @@ fn study(source: &str, record: Record, options: &Figure) -> Result<Sheet> {
 fn usual(ghosts: &[Arc<Ghost>]) -> Vec<&'static Recipe> {
     let of_ghosts = [&depth::RECIPE, &volume::RECIPE, &scar_depth::RECIPE];
     let is_wanted = |panel: &&Recipe| {
-        let measured = ghosts.iter().filter(|ghost| ghost.is_measured);
-        let mut shown = measured.filter(|ghost| panel.shows(ghost));
-        shown.next().is_some()
+        let mut ghosts = ghosts.iter();
+        ghosts.any(|ghost| ghost.is_measured && panel.shows(ghost))
     };
     let mut panels = USUAL.to_vec();
     panels.extend(of_ghosts.into_iter().filter(is_wanted));
@@ -255,10 +247,8 @@ fn refuse_what_no_chart_shows(
 /// The curves of a file or of a directory, or of a scenario that is run as far as the figure goes.
 fn ghost(given: &str, run: &Run) -> Result<Ghost> {
     let path = Path::new(given);
-    let is_scenario = path
-        .extension()
-        .is_none_or(|end| end.eq_ignore_ascii_case("toml"));
-    if !is_scenario || path.is_dir() {
+    let ending = path.extension();
+    if path.is_dir() || ending.is_some_and(|end| !end.eq_ignore_ascii_case("toml")) {
         let ghost = Ghost::read(path)?;
         if let Some(reach) = run.reach() {
             ghost.check_radii(reach)?;
@@ -277,12 +267,10 @@ fn ghost(given: &str, run: &Run) -> Result<Ghost> {
 /// The tables of a run on disk, or of one run now.
 fn run(source: &str, options: &Figure) -> Result<Run> {
     let path = Path::new(source);
-    let is_table = path
-        .extension()
-        .is_some_and(|end| end.eq_ignore_ascii_case("csv"));
+    let ending = path.extension();
     let mut run = if path.is_dir() {
         from_directory(path)?
-    } else if is_table {
+    } else if ending.is_some_and(|end| end.eq_ignore_ascii_case("csv")) {
         let mut run = Run::default();
         take(&mut run, path)?;
         run
@@ -295,19 +283,16 @@ fn run(source: &str, options: &Figure) -> Result<Run> {
     }
     if let Some(wanted) = &options.at {
         let is_at = |state: &Table, cycle: f64| (state.cycle() - cycle).abs() < 1e-9;
-        let here: Vec<String> = run.states.iter().map(|s| s.cycle().to_string()).collect();
-        let absent = wanted
-            .iter()
-            .find(|at| !run.states.iter().any(|s| is_at(s, at.cycle)));
-        if let Some(absent) = absent {
-            let here = here.join(", ");
-            bail!(Refusal::new(
-                format_args!("--at {}", absent.spelling),
-                format_args!("{source} has no such state; it has those at {here}")
-            ));
+        for at in wanted {
+            if !run.states.iter().any(|state| is_at(state, at.cycle)) {
+                let cycles = run.states.iter().map(|state| state.cycle().to_string());
+                let cycles = cycles.collect::<Vec<_>>().join(", ");
+                let rule = format!("{source} has no such state; it has those at {cycles}");
+                bail!(Refusal::new(format_args!("--at {}", at.spelling), rule));
+            }
         }
-        run.states
-            .retain(|state| wanted.iter().any(|at| is_at(state, at.cycle)));
+        let is_wanted = |state: &Table| wanted.iter().any(|at| is_at(state, at.cycle));
+        run.states.retain(is_wanted);
     }
     Ok(run)
 }
@@ -318,12 +303,9 @@ fn from_directory(directory: &Path) -> Result<Run> {
     let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
     paths.sort();
     for path in paths {
-        let name = path
-            .file_name()
-            .map(|name| name.to_string_lossy().into_owned());
-        let name = name.unwrap_or_default();
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
         let is_state = name.starts_with("state") && name.ends_with(".csv");
-        if is_state || ["history.csv", "loop.csv", "field.csv"].contains(&name.as_str()) {
+        if is_state || ["history.csv", "loop.csv", "field.csv"].contains(&&*name) {
             take(&mut run, &path)?;
         }
     }

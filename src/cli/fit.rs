@@ -21,15 +21,11 @@ use crate::studies::measured::{Kind, Measured};
 /// Fits, and prints, draws and writes what was asked for.
 pub fn fit(options: &args::Fit) -> Result<ExitCode> {
     let scenario = Scenario::load(&options.scenario, &options.changes.set)?;
-    let scenario = match scenario.accuracy() {
-        // The fit runs on the points and steps that its start values need.
-        Some(_) => accuracy::session(scenario, options.cycles, options.printing.quiet)?
-            .loaded()
-            .clone(),
-        None => scenario,
-    };
+    // The fit runs on the points and steps that its start values need.
+    let (cycles, quiet) = (options.cycles, options.printing.quiet);
+    let found = accuracy::resolve(&scenario, cycles, f64::INFINITY, quiet, &|| true)?;
     let fit = Fit::new(
-        scenario,
+        found.scenario,
         data(options)?,
         &options.free,
         options.cycles,

@@ -8,7 +8,7 @@ use anyhow::Result;
 use super::args::Guide;
 use crate::guide::{TOPICS, Topic};
 use crate::scenario::Refusal;
-use crate::scenario::nearest::nearest;
+use crate::scenario::nearest::hint;
 
 /// Shows a topic; without one, the list of topics.
 pub fn guide(options: &Guide) -> Result<ExitCode> {
@@ -34,11 +34,7 @@ fn list() -> String {
 }
 
 fn unknown(name: &str) -> Refusal {
-    let names = || TOPICS.iter().map(|topic| topic.name);
-    let hint = match nearest(name, names()) {
-        Some(near) => format!("did you mean {near}?"),
-        None => format!("topics are {}", names().collect::<Vec<_>>().join(", ")),
-    };
+    let hint = hint(name, TOPICS.iter().map(|topic| topic.name));
     Refusal::new(format_args!("guide {name}"), "no such topic").or(hint)
 }
 
@@ -99,7 +95,7 @@ mod tests {
         assert!(
             unknown("zzzzzz")
                 .to_string()
-                .contains("topics are physics, ")
+                .contains("known are physics, ")
         );
     }
 }

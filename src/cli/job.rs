@@ -1,7 +1,7 @@
 //! What a run still has to do and what it has recorded. A checkpoint holds it next to the session,
 //! so that an interrupted run writes the same files as an uninterrupted one.
 
-use std::io::{self, Write};
+use std::io;
 use std::path::Path;
 
 use anyhow::{Result, bail};
@@ -11,7 +11,6 @@ use super::args::{CycleAsGiven, HistoryChoice, Run};
 use crate::export::file::rows_in;
 use crate::export::history::History;
 use crate::export::last_loop::LastLoop;
-use crate::scenario::scalars::Value;
 use crate::scenario::session::Session;
 use crate::scenario::{MOST_SNAPSHOTS, Refusal, Scenario};
 
@@ -19,7 +18,7 @@ use crate::scenario::{MOST_SNAPSHOTS, Refusal, Scenario};
 const MOST_ROWS: f64 = 1e7;
 
 /// The job of a run and its progress.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RunJob {
     /// Where the run ends, cycles.
@@ -27,17 +26,17 @@ pub struct RunJob {
     /// Whether the history has a row per step or per cycle.
     every_step: bool,
     /// Cycles at which the state is written, in the order given, those beyond the end included.
-    snapshots: Vec<CycleAsGiven>,
+    pub snapshots: Vec<CycleAsGiven>,
     /// Those up to the end, sorted by cycle.
     #[serde(skip)]
     due: Vec<CycleAsGiven>,
     /// How many of these are done.
     taken: usize,
     /// The rows so far.
-    history: History,
+    pub history: History,
     /// The steps of the last cycle.
     #[serde(default)]
-    last_loop: LastLoop,
+    pub last_loop: LastLoop,
     /// Statements for the file headers, such as the estimated error.
     #[serde(default)]
     pub statements: Vec<(String, String)>,
@@ -67,12 +66,8 @@ impl RunJob {
             cycles,
             every_step: options.history == HistoryChoice::EveryStep,
             snapshots,
-            due: Vec::new(),
-            taken: 0,
             history: history.map_err(|why| Refusal::new("--column", why))?,
-            last_loop: LastLoop::default(),
-            statements: Vec::new(),
-            home: None,
+            ..Self::default()
         }
         .ready(scenario)
     }
@@ -93,14 +88,9 @@ impl RunJob {
                 let planned_end = session.loaded().run().cycles.filter(|end| *end > now);
                 Self {
                     cycles: end(cycles.or(planned_end), name)?,
-                    every_step: false,
                     taken: snapshots.iter().filter(|at| at.cycle < now).count(),
-                    due: Vec::new(),
                     snapshots,
-                    history: History::default(),
-                    last_loop: LastLoop::default(),
-                    statements: Vec::new(),
-                    home: None,
+                    ..Self::default()
                 }
             }
         };
@@ -147,18 +137,13 @@ impl RunJob {
     }
 
     /// The snapshots done so far.
-    pub fn taken(&self) -> Vec<CycleAsGiven> {
-        self.due.iter().take(self.taken).cloned().collect()
+    pub fn taken(&self) -> impl Iterator<Item = &CycleAsGiven> {
+        self.due.iter().take(self.taken)
     }
 
     /// The snapshots as `scenario.toml` is to name them.
     pub fn snapshot_at(&self) -> Vec<f64> {
-        self.snapshots().map(|snapshot| snapshot.cycle).collect()
-    }
-
-    /// The snapshots, as given.
-    pub fn snapshots(&self) -> impl Iterator<Item = &CycleAsGiven> {
-        self.snapshots.iter()
+        self.snapshots.iter().map(|at| at.cycle).collect()
     }
 
     /// Records the present moment in the history, if it is due.
@@ -176,11 +161,6 @@ impl RunJob {
         }
     }
 
-    /// The columns of the history at the present moment.
-    pub fn values(&self, session: &Session) -> Vec<(&str, Value)> {
-        self.history.values(session)
-    }
-
     /// Appends the rows to the file at `path` once there are enough of them.
     pub fn spill(&mut self, path: &Path) -> io::Result<()> {
         if self.history.is_due() {
@@ -189,29 +169,14 @@ impl RunJob {
         Ok(())
     }
 
-    /// Writes `history.csv`, up to the present moment.
-    pub fn write_history(
-        &self,
-        session: &Session,
-        rows: &Path,
-        out: &mut impl Write,
-    ) -> io::Result<()> {
-        self.history.write(session, rows, out)
-    }
-
-    /// `loop.csv`, if there is a tangential motion.
-    pub fn last_loop(&self, session: &Session) -> Option<String> {
-        self.last_loop.table(session)
-    }
-
     /// Continues in the directory `to` and copies the rows of the history there.
     ///
     /// # Errors
     ///
     /// If rows are missing; the history then begins at the present moment.
-    pub fn move_to(&mut self, from: Option<&Path>, to: &Path) -> io::Result<()> {
+    pub fn move_to(&mut self, from: &Path, to: &Path) -> io::Result<()> {
         let real = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_owned());
-        let (from, to) = (real(from.unwrap_or(Path::new("."))), real(to));
+        let (from, to) = (real(from), real(to));
         self.set_home(&to);
         self.history.move_rows(&rows_in(&from), &rows_in(&to))
     }
@@ -230,7 +195,7 @@ impl RunJob {
     /// Goes back to how far the job had come when `earlier` was copied from it.
     pub fn rewind(&mut self, earlier: &Self) {
         self.taken = earlier.taken;
-        self.history.rewind(earlier.history.mark());
+        self.history.rewind(&earlier.history);
         self.last_loop = earlier.last_loop.clone();
     }
 }
@@ -243,10 +208,9 @@ pub(super) fn end(cycles: Option<f64>, name: &str) -> Result<f64, Refusal> {
 /// The snapshots that the scenario itself asks for.
 fn planned(scenario: &Scenario) -> Vec<CycleAsGiven> {
     let planned = scenario.run().snapshot_at.iter();
-    planned
-        .map(|&cycle| CycleAsGiven {
-            cycle,
-            spelling: cycle.to_string(),
-        })
-        .collect()
+    let planned = planned.map(|&cycle| CycleAsGiven {
+        cycle,
+        spelling: cycle.to_string(),
+    });
+    planned.collect()
 }

@@ -6,6 +6,8 @@ use std::process::ExitCode;
 use anyhow::{Result, bail};
 
 use super::args::Presets;
+use super::results;
+use crate::scenario::nearest::hint;
 use crate::scenario::{Refusal, preset};
 
 /// Lists the presets or prints one.
@@ -13,28 +15,22 @@ pub fn presets(options: &Presets) -> Result<ExitCode> {
     let mut out = io::stdout().lock();
     if let Some(name) = &options.name {
         let Some(found) = preset::find(name) else {
-            let names: Vec<&str> = preset::ALL.iter().map(|preset| preset.name).collect();
-            bail!(Refusal::new(
-                format_args!("presets {}", name.escape_debug()),
-                format_args!("no such preset; the presets are {}", names.join(", "))
-            ));
+            let hint = hint(name, preset::ALL.iter().map(|preset| preset.name));
+            let place = format!("presets {}", name.escape_debug());
+            bail!(Refusal::new(place, "no such preset").or(hint));
         };
         write!(out, "{}", found.text)?;
         return Ok(ExitCode::SUCCESS);
     }
     if options.json {
-        let list: Vec<_> = preset::ALL
+        let list = preset::ALL
             .iter()
-            .map(|preset| serde_json::json!({ "name": preset.name, "title": preset.title() }))
-            .collect();
-        writeln!(out, "{}", serde_json::to_string_pretty(&list)?)?;
+            .map(|preset| serde_json::json!({ "name": preset.name, "title": preset.title() }));
+        results::print_json(&list.collect::<Vec<_>>(), &mut out)?;
         return Ok(ExitCode::SUCCESS);
     }
-    let width = preset::ALL
-        .iter()
-        .map(|preset| preset.name.len())
-        .max()
-        .unwrap_or(0);
+    let widths = preset::ALL.iter().map(|preset| preset.name.len());
+    let width = widths.max().unwrap_or(0);
     for preset in preset::ALL {
         writeln!(out, "{:width$}  {}", preset.name, preset.title())?;
     }

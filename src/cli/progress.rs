@@ -1,13 +1,12 @@
 //! Progress bars on stderr, if that is a terminal.
 
+use std::fmt;
 use std::io::{self, IsTerminal};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
-use std::thread;
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+
+use super::without_waiting;
 
 /// Units of the bar per cycle.
 const PARTS: f64 = 1000.0;
@@ -47,52 +46,32 @@ pub fn spinner(message: &'static str, quiet: bool) -> ProgressBar {
 }
 
 /// The progress of a run in cycles, drawn by a thread of its own: a terminal that stops reading does
-/// not stop the run.
-pub struct Progress {
-    /// The bits of the cycle that is reached.
-    cycle: Arc<AtomicU64>,
-    /// Told when the run has ended; `None` where nothing is drawn.
-    end: Option<Sender<()>>,
-    /// Tells when the bar is gone.
-    gone: Receiver<()>,
-}
+/// not stop the run. The bar goes when this is dropped.
+pub struct Progress(ProgressBar);
 
 impl Progress {
     /// For `cycles` in all.
     pub fn new(cycles: f64, quiet: bool) -> Self {
         let bar = bar((cycles * PARTS) as u64, TIMES, quiet);
-        let reached = Arc::new(AtomicU64::new(0));
-        let (end, ended) = channel::<()>();
-        let (tell, gone) = channel();
-        let is_drawn = !bar.is_hidden();
-        let cycle = Arc::clone(&reached);
-        if is_drawn {
-            thread::spawn(move || {
-                while ended.recv_timeout(INTERVAL) == Err(RecvTimeoutError::Timeout) {
-                    let cycle = f64::from_bits(reached.load(Ordering::Relaxed));
-                    bar.set_message(format!("cycle {cycle:.1}"));
-                    bar.set_position((cycle * PARTS) as u64);
-                }
-                bar.finish_and_clear();
-                let _ = tell.send(());
-            });
+        let reached = |state: &ProgressState, out: &mut dyn fmt::Write| {
+            let _ = write!(out, "cycle {:.1}", state.pos() as f64 / PARTS);
+        };
+        bar.set_style(bar.style().with_key("msg", reached));
+        if !bar.is_hidden() {
+            bar.enable_steady_tick(INTERVAL);
         }
-        Self {
-            cycle,
-            end: is_drawn.then_some(end),
-            gone,
-        }
+        Self(bar)
     }
 
     /// Says that `cycle` is reached.
     pub fn at(&self, cycle: f64) {
-        self.cycle.store(cycle.to_bits(), Ordering::Relaxed);
+        self.0.set_position((cycle * PARTS) as u64);
     }
+}
 
-    /// Takes the bar away.
-    pub fn finish(&mut self) {
-        if self.end.take().is_some() {
-            let _ = self.gone.recv_timeout(super::TERMINAL_TIMEOUT);
-        }
+impl Drop for Progress {
+    fn drop(&mut self) {
+        let bar = std::mem::replace(&mut self.0, ProgressBar::hidden());
+        without_waiting(!bar.is_hidden(), move || bar.finish_and_clear());
     }
 }

@@ -17,7 +17,9 @@ use super::job::RunJob;
 use super::progress::Progress;
 use super::{FAILED, accuracy, complain, provenance, stop};
 use crate::export::autosave::{Autosave, Recent, state_directory};
-use crate::export::file::{RUN_CHECKPOINT, RunDirectory, WriteError, shell_word, write_whole};
+use crate::export::file::{
+    RUN_CHECKPOINT, RunDirectory, WriteError, directory_of, shell_word, write_whole,
+};
 use crate::export::header::{self, number};
 use crate::export::{field, state};
 use crate::reading::verdict;
@@ -41,23 +43,24 @@ pub fn run(options: &Run) -> Result<ExitCode> {
     let go_on = || !stop.load(Ordering::Relaxed);
     let mut job = match (&options.resume, &options.scenario) {
         (Some(path), _) => Job::resume(options, path)?,
-        (None, scenario) => {
-            let name = scenario.as_deref().unwrap_or_default();
-            Job::start(options, name, &go_on)?
-        }
+        (None, scenario) => Job::start(options, scenario.as_deref().unwrap_or_default(), &go_on)?,
     };
-    let remark = |line: String| match options.quiet {
-        true => {}
-        false => complain(&line),
+    let remark = |line: &String| {
+        if !options.quiet {
+            complain(line);
+        }
     };
     let simulation = job.session.simulation();
     let never = simulation.why_never_jumped();
     let never = never.map(|why| format!("no cycle jumps: {why}"));
     let indenter = job.session.scenario().setup().indenter.remark();
     let indenter = indenter.map(|told| format!("indenter: {told}"));
-    never.into_iter().chain(indenter).for_each(remark);
     let warned = simulation.warnings();
-    warned.iter().cloned().for_each(remark);
+    never
+        .iter()
+        .chain(&indenter)
+        .chain(&warned)
+        .for_each(remark);
     let is_over = job.watch(Arc::clone(&stop));
     // A bug must not destroy hours of computing.
     let outcome = catch_unwind(AssertUnwindSafe(|| job.advance(&go_on)));
@@ -67,26 +70,30 @@ pub fn run(options: &Run) -> Result<ExitCode> {
     }
     let outcome = outcome.unwrap_or_else(|_| Ok(Ended::Broken(job.go_back())));
     if matches!(outcome, Ok(Ended::Interrupted | Ended::Broken(_))) {
-        save(&mut locked(&job.checkpoints), &job.session, &job.job);
+        locked(&job.safe).save(&job.session, &job.job);
     }
     // What has come up during the run; the same warning may have got another cycle.
     let warnings = job.session.simulation().warnings();
-    let has_more = warnings.len() > warned.len();
-    let new = |line: &String| has_more && !warned.contains(line);
-    warnings.into_iter().filter(new).for_each(remark);
+    if warnings.len() > warned.len() {
+        let new = warnings.iter().filter(|line| !warned.contains(line));
+        new.for_each(remark);
+    }
     if options.estimate_error && matches!(outcome, Ok(Ended::Done)) {
         job.estimate(&go_on);
     }
     // Saves what was computed, whatever happened.
     if let Err(error) = job.write_end() {
-        // The directory was writable when the run began, so this is a failure, not misuse.
-        return Err(anyhow!("{error}; {}", job.rescue()));
+        // The directory was writable when the run began, so this is a failure, not misuse. A checkpoint may go
+        // elsewhere.
+        locked(&job.safe).save_silently(&job.session, &job.job);
+        return Err(anyhow!("{error}; {}", job.how_to_resume()));
     }
     if matches!(outcome, Ok(Ended::Done) | Err(_)) {
         job.directory.close()?;
     }
     // Everything is done: blocking on the reader of the summary must not need a second signal.
     stop.store(true, Ordering::SeqCst);
+    let directory = job.directory.path().display();
     match outcome {
         Ok(Ended::Done) => {
             if options.json {
@@ -98,19 +105,14 @@ pub fn run(options: &Run) -> Result<ExitCode> {
         }
         Ok(Ended::Interrupted) => {
             let cycle = number(job.session.simulation().cycle());
+            let hint = job.how_to_resume();
             complain(&format!(
-                "interrupted at cycle {cycle}; saved in {}; {}",
-                job.directory.path().display(),
-                job.how_to_resume()
+                "interrupted at cycle {cycle}; saved in {directory}; {hint}"
             ));
             Ok(ExitCode::from(FAILED))
         }
         Ok(Ended::Broken(word)) => Err(anyhow!("{word}; {}", job.how_to_resume())),
-        Err(error) => Err(error.context(format!(
-            "{} (saved in {})",
-            job.name,
-            job.directory.path().display()
-        ))),
+        Err(error) => Err(error.context(format!("{} (saved in {directory})", job.name))),
     }
 }
 
@@ -121,26 +123,58 @@ enum Ended {
     Broken(String),
 }
 
-struct Job {
+/// What survives the run: a copy in memory, and a checkpoint on disk.
+struct Safe {
+    checkpoints: Autosave,
+    /// The run a moment ago.
+    copy: Recent<(Session, RunJob)>,
+}
+
+impl Safe {
+    /// Writes a checkpoint. If that fails, the user is told once and the run continues.
+    fn save(&mut self, session: &Session, job: &RunJob) {
+        if let Some(word) = self.save_silently(session, job) {
+            complain(&word);
+        }
+    }
+
+    fn save_silently(&mut self, session: &Session, job: &RunJob) -> Option<String> {
+        let checkpoint = checkpoint::encode(session, Some(job));
+        self.checkpoints.save(session, &checkpoint)
+    }
+
+    /// Says how to resume a run that stopped at the cycle `now`, and which cycles are lost.
+    fn how_to_resume(&self, now: f64) -> String {
+        let Some((path, cycle)) = self.checkpoints.kept() else {
+            return "there is no checkpoint".into();
+        };
+        let path = shell_word(path);
+        if cycle == now {
+            return format!("resume with: mdr-tui run --resume {path}");
+        }
+        let (cycle, now) = (number(cycle), number(now));
+        format!(
+            "resume from cycle {cycle} with: mdr-tui run --resume {path} (cycles up to {now} could not be saved)"
+        )
+    }
+}
+
+struct Job<'a> {
+    options: &'a Run,
     /// What messages call the run.
     name: String,
     session: Session,
     job: RunJob,
     directory: RunDirectory,
-    checkpoints: Arc<Mutex<Autosave>>,
-    /// The run a moment ago.
-    copy: Arc<Mutex<Recent<(Session, RunJob)>>>,
+    safe: Arc<Mutex<Safe>>,
     /// When writing the rows of the history last failed.
     unwritten: Option<Instant>,
     /// Snapshots that could not be written when their cycle came, to be tried again at the end.
     owed: Vec<(String, String)>,
-    quiet: bool,
-    /// Whether the stresses inside the half-space are wanted.
-    field: bool,
 }
 
-impl Job {
-    fn start(options: &Run, name: &str, go_on: &dyn Fn() -> bool) -> Result<Self> {
+impl<'a> Job<'a> {
+    fn start(options: &'a Run, name: &str, go_on: &dyn Fn() -> bool) -> Result<Self> {
         let mut scenario = Scenario::load(name, &options.changes.set)?;
         let mut job = RunJob::new(options, &scenario, name)?;
         if options.budget.is_some() && scenario.accuracy().is_none() {
@@ -155,118 +189,96 @@ impl Job {
             job.statements = scenario.statements();
         }
         if scenario.accuracy().is_some() {
-            let budget = options.budget.unwrap_or(f64::INFINITY);
-            let found =
-                accuracy::resolve(&scenario, Some(job.cycles), budget, options.quiet, go_on);
+            let (end, budget) = (Some(job.cycles), options.budget.unwrap_or(f64::INFINITY));
+            let found = accuracy::resolve(&scenario, end, budget, options.quiet, go_on);
             let found = found.with_context(|| printable(name))?;
             scenario = found.scenario;
             job.statements = found.statements;
-            if let Some(word) = found.warning {
-                complain(&word);
-            }
         }
         let session = Session::start(scenario).with_context(|| printable(name))?;
         // Only now, when there is something to put in their place.
         if options.force {
             directory.clear()?;
         }
-        Ok(Self::new(name, session, job, None, directory, options))
+        job.set_home(directory.path());
+        Ok(Self::new(options, name.to_owned(), session, job, directory))
     }
 
     /// Resumes a run in its own directory, or in another one, to which the files written so far are
     /// copied.
-    fn resume(options: &Run, file: &Path) -> Result<Self> {
+    fn resume(options: &'a Run, file: &Path) -> Result<Self> {
         let name = printable(&file.display().to_string());
         let real = |path: &Path| path.canonicalize().ok();
-        let elsewhere = |home: &Path| {
-            let out = options.out.as_deref();
-            out.filter(|out| real(out).is_none() || real(out) != real(home))
+        let out = options.out.as_deref();
+        let is_out = |home: &Path| {
+            out.is_none_or(|out| real(out).is_some_and(|out| real(home) == Some(out)))
         };
-        let beside = file.parent().map(|home| match home.as_os_str().is_empty() {
-            true => Path::new("."),
-            false => home,
-        });
-        let is_at_home =
-            file.is_file() && file.file_name().is_some_and(|name| name == RUN_CHECKPOINT);
-        let beside = beside.filter(|_| is_at_home);
+        let is_of_a_run = file.is_file() && file.ends_with(RUN_CHECKPOINT);
+        let beside = is_of_a_run.then(|| directory_of(file));
         // Only the first process may resume it.
-        let claimed = beside.filter(|home| elsewhere(home).is_none());
+        let claimed = beside.filter(|home| is_out(home));
         let claimed = claimed.map(RunDirectory::reopen).transpose()?;
         let kept = checkpoint::read::<RunJob>(file)?;
         let session = kept.session;
         let mut job = RunJob::resumed(kept.job, &session, options.cycles, &name)?;
         let home = beside.or(job.home()).map(Path::to_owned);
-        let directory = match (claimed, &home) {
+        let inside = home.as_deref();
+        let inside = inside.filter(|home| is_out(home) && home.is_dir());
+        let directory = match (claimed, inside.or(out)) {
             (Some(directory), _) => directory,
-            (None, Some(home)) if elsewhere(home).is_none() && home.is_dir() => {
-                if home.join(RUN_CHECKPOINT).exists() {
-                    RunDirectory::reopen(home)?
-                } else {
-                    RunDirectory::claim(home, options.force)?
-                }
+            (None, Some(home)) if inside.is_some() && home.join(RUN_CHECKPOINT).exists() => {
+                RunDirectory::reopen(home)?
             }
-            (None, _) => match &options.out {
-                Some(out) => RunDirectory::claim(out, options.force)?,
-                None => new_directory(session.loaded())?,
-            },
+            (None, Some(directory)) => RunDirectory::claim(directory, options.force)?,
+            (None, None) => new_directory(session.loaded())?,
         };
-        let home = home.as_deref();
+        let from = home.as_deref().unwrap_or(Path::new("."));
         for snapshot in job.taken() {
-            let (name, home) = (file_of(&snapshot), home.unwrap_or(Path::new(".")));
-            let (from, to) = (home.join(&name), directory.path().join(&name));
+            let name = file_of(snapshot);
+            let (from, to) = (from.join(&name), directory.path().join(&name));
             if to.exists() {
                 continue;
             }
-            match std::fs::read(&from) {
+            match fs::read(&from) {
                 Ok(table) => write_whole(&to, &table)?,
                 Err(_) => complain(&format!("{}: no longer exists", from.display())),
             }
         }
-        if let Err(error) = job.move_to(home, directory.path()) {
+        if let Err(error) = job.move_to(from, directory.path()) {
             let cycle = number(session.simulation().cycle());
-            complain(&format!(
-                "{name}: the history before cycle {cycle} no longer exists: {error}"
-            ));
+            let lost = format!("the history before cycle {cycle} no longer exists");
+            complain(&format!("{name}: {lost}: {error}"));
         }
-        Ok(Self::new(
-            &name,
-            session,
-            job,
-            Some(file),
-            directory,
-            options,
-        ))
+        let resumed = Self::new(options, name, session, job, directory);
+        let cycle = resumed.session.simulation().cycle();
+        locked(&resumed.safe).checkpoints.remember(file, cycle);
+        Ok(resumed)
     }
 
     fn new(
-        name: &str,
-        session: Session,
-        mut job: RunJob,
-        from: Option<&Path>,
+        options: &'a Run,
+        name: String,
+        mut session: Session,
+        job: RunJob,
         directory: RunDirectory,
-        options: &Run,
     ) -> Self {
-        let mut session = session;
         for (key, value) in &job.statements {
             session.state(key, value);
         }
         let checkpoints = Autosave::new(state_directory(), options.checkpoint_every.0);
-        let mut checkpoints = checkpoints.at_home(directory.checkpoint());
-        match from {
-            Some(file) => checkpoints.remember(file, session.simulation().cycle()),
-            None => job.set_home(directory.path()),
-        }
+        let safe = Safe {
+            checkpoints: checkpoints.at_home(directory.checkpoint()),
+            copy: Recent::new((session.clone(), job.clone())),
+        };
         Self {
-            name: name.to_owned(),
-            checkpoints: Arc::new(Mutex::new(checkpoints)),
+            options,
+            name,
+            safe: Arc::new(Mutex::new(safe)),
             directory,
-            copy: Arc::new(Mutex::new(Recent::new((session.clone(), job.clone())))),
             session,
             job,
             unwritten: None,
             owed: Vec::new(),
-            quiet: options.quiet,
-            field: options.field,
         }
     }
 
@@ -288,21 +300,19 @@ impl Job {
 
     /// The snapshots state what the run states at its end, as they do where its `scenario.toml` is run again.
     fn restate(&mut self) {
-        let unmeasured = header::unmeasured();
         let stated = self.session.statements().iter();
         let stated: String = stated
             .map(|(key, value)| header::line(key, value))
             .collect();
-        let due = self.job.snapshots().map(file_of);
-        let unwritten = |name: &String| self.owed.iter().all(|(owed, _)| owed != name);
-        let written = due.filter(unwritten).filter_map(|name| {
-            let table = fs::read_to_string(self.directory.path().join(&name)).ok()?;
-            Some((name, table))
-        });
-        let written: Vec<_> = written.collect();
-        self.owed.extend(written);
+        for name in self.job.snapshots.iter().map(file_of) {
+            let is_owed = self.owed.iter().any(|(owed, _)| *owed == name);
+            let written = fs::read_to_string(self.directory.path().join(&name));
+            if let (false, Ok(table)) = (is_owed, written) {
+                self.owed.push((name, table));
+            }
+        }
         for (_, table) in &mut self.owed {
-            *table = table.replacen(&unmeasured, &stated, 1);
+            *table = table.replacen(&header::unmeasured(), &stated, 1);
         }
     }
 
@@ -310,11 +320,7 @@ impl Job {
     /// Whoever sets the returned flag first ends the run.
     fn watch(&self, stop: Arc<AtomicBool>) -> Arc<AtomicBool> {
         let is_over = Arc::new(AtomicBool::new(false));
-        let (copy, checkpoints, over) = (
-            Arc::clone(&self.copy),
-            Arc::clone(&self.checkpoints),
-            Arc::clone(&is_over),
-        );
+        let (safe, over) = (Arc::clone(&self.safe), Arc::clone(&is_over));
         thread::spawn(move || {
             while !stop.load(Ordering::Relaxed) {
                 thread::sleep(GLANCE);
@@ -323,15 +329,14 @@ impl Job {
             if over.swap(true, Ordering::SeqCst) {
                 return;
             }
-            let copy = locked(&copy);
-            let (session, job) = copy.get();
-            let mut checkpoints = locked(&checkpoints);
-            save(&mut checkpoints, session, job);
+            let mut safe = locked(&safe);
+            let (session, job) = safe.copy.get().clone();
+            safe.save(&session, &job);
             let cycle = session.simulation().cycle();
             complain(&format!(
                 "interrupted at cycle {}, in the middle of a long step; {}",
                 number(cycle),
-                how_to_resume(&checkpoints, cycle)
+                safe.how_to_resume(cycle)
             ));
             std::process::exit(FAILED.into());
         });
@@ -341,7 +346,7 @@ impl Job {
     /// Steps to the end, taking snapshots on the way.
     fn advance(&mut self, go_on: &dyn Fn() -> bool) -> Result<Ended> {
         let end = self.job.cycles;
-        let mut progress = Progress::new(end, self.quiet);
+        let progress = Progress::new(end, self.options.quiet);
         // A bug leaves this one behind, and the copy takes its place.
         let mut session = self.session.clone();
         let (mut before, mut outcome) = (None, Ok(()));
@@ -353,13 +358,11 @@ impl Job {
         });
         self.session = session;
         outcome?;
-        let ended = match ended {
-            Ok(()) => Ended::Done,
-            Err(SessionError::Interrupted) => Ended::Interrupted,
-            Err(error) => return Err(error.into()),
-        };
-        progress.finish();
-        Ok(ended)
+        match ended {
+            Ok(()) => Ok(Ended::Done),
+            Err(SessionError::Interrupted) => Ok(Ended::Interrupted),
+            Err(error) => Err(error.into()),
+        }
     }
 
     /// Takes the snapshots that are due, records the moment and saves what is due. `before` is the session before
@@ -368,17 +371,11 @@ impl Job {
         let simulation = session.simulation();
         let (cycle, close) = (simulation.cycle(), simulation.rounding());
         if let Some(before) = before.take() {
-            while let Some(snapshot) = self.job.next_snapshot(cycle - close) {
-                let table = table_at(&snapshot, &before)?;
-                self.keep_snapshot(&snapshot, table);
-            }
+            self.take_snapshots(&before, cycle - close)?;
         }
         self.job.record(session);
         self.checkpoint_if_due(session);
-        while let Some(snapshot) = self.job.next_snapshot(cycle + close) {
-            let table = table_at(&snapshot, session)?;
-            self.keep_snapshot(&snapshot, table);
-        }
+        self.take_snapshots(session, cycle + close)?;
         #[cfg(debug_assertions)]
         if cycle < self.job.cycles {
             crate::failpoint::hit("run");
@@ -398,24 +395,23 @@ impl Job {
 
     /// Keeps a copy in memory and a checkpoint on disk up to date.
     fn checkpoint_if_due(&mut self, session: &Session) {
-        locked(&self.copy).refresh(|| (session.clone(), self.job.clone()));
+        let mut safe = locked(&self.safe);
+        safe.copy.refresh(|| (session.clone(), self.job.clone()));
         if self.unwritten.is_none_or(|at| at.elapsed() >= ANOTHER_TRY) {
             // Rows that cannot be written stay in memory.
             let written = self.job.spill(&self.directory.rows());
             self.unwritten = written.is_err().then(Instant::now);
         }
-        if locked(&self.checkpoints).is_due() {
-            save(&mut locked(&self.checkpoints), session, &self.job);
+        if safe.checkpoints.is_due() {
+            safe.save(session, &self.job);
         }
     }
 
     /// After a bug, goes back to the copy: the interrupted step has left half a state.
     fn go_back(&mut self) -> String {
-        let copy = locked(&self.copy);
-        let (session, job) = copy.get();
-        self.session = session.clone();
-        self.job.rewind(job);
-        drop(copy);
+        let (session, job) = locked(&self.safe).copy.get().clone();
+        self.session = session;
+        self.job.rewind(&job);
         let cycle = number(self.session.simulation().cycle());
         let word = crate::panics::take_message().unwrap_or_default();
         format!("bug in mdr-tui: {word}; saved at cycle {cycle}")
@@ -423,83 +419,68 @@ impl Job {
 
     /// Says how to resume a run that has stopped.
     fn how_to_resume(&self) -> String {
-        how_to_resume(
-            &locked(&self.checkpoints),
-            self.session.simulation().cycle(),
-        )
+        locked(&self.safe).how_to_resume(self.session.simulation().cycle())
     }
 
-    /// Writes a snapshot, or remembers to try again at the end.
-    fn keep_snapshot(&mut self, snapshot: &CycleAsGiven, table: String) {
-        let name = file_of(snapshot);
-        if let Err(error) = self.directory.write(&name, table.as_bytes()) {
-            complain(&format!(
-                "{error}; the run continues and tries again at its end"
-            ));
-            self.owed.push((name, table));
+    /// Takes the snapshots that are due before the cycle `end` and not before `session`. Those that cannot be
+    /// written are tried again at the end.
+    fn take_snapshots(&mut self, session: &Session, end: f64) -> Result<()> {
+        while let Some(snapshot) = self.job.next_snapshot(end) {
+            let (name, table) = (file_of(&snapshot), table_at(&snapshot, session)?);
+            if let Err(error) = self.directory.write(&name, &table) {
+                let hint = "the run continues and tries again at its end";
+                complain(&format!("{error}; {hint}"));
+                self.owed.push((name, table));
+            }
         }
+        Ok(())
     }
 
     /// Writes the final files, as many as possible.
     fn write_end(&mut self) -> Result<(), WriteError> {
-        let owed = self.owed.iter().cloned();
-        let files = [
-            (
-                "scenario.toml".to_owned(),
-                self.session.as_run(self.job.snapshot_at()).to_toml(),
-            ),
-            ("state.csv".to_owned(), state::table(&self.session)),
-            (provenance::FILE.to_owned(), provenance::text()),
-        ];
-        let field = self
-            .field
-            .then(|| ("field.csv".to_owned(), field::table(&self.session)));
-        let simulation = self.session.simulation();
-        let is_done = simulation.cycle() + simulation.rounding() >= self.job.cycles;
-        let last_loop = is_done.then(|| self.job.last_loop(&self.session)).flatten();
-        let last_loop = last_loop.map(|table| ("loop.csv".to_owned(), table));
+        let (session, job) = (&self.session, &self.job);
         let rows = self.directory.rows();
         let mut outcome = self.directory.write_with("history.csv", |file| {
             let mut out = io::BufWriter::new(file);
-            self.job.write_history(&self.session, &rows, &mut out)?;
+            job.history.write(session, &rows, &mut out)?;
             out.flush()
         });
-        for (name, text) in owed.chain(files).chain(last_loop).chain(field) {
-            let written = self.directory.write(&name, text.as_bytes());
-            outcome = outcome.and(written.map(|_| ()));
+        let simulation = session.simulation();
+        let is_done = simulation.cycle() + simulation.rounding() >= job.cycles;
+        let last_loop = is_done.then(|| job.last_loop.table(session)).flatten();
+        let field = self.options.field.then(|| field::table(session));
+        let scenario = session.as_run(job.snapshot_at()).to_toml();
+        let files = [
+            ("scenario.toml", Some(scenario)),
+            ("state.csv", Some(state::table(session))),
+            (provenance::FILE, Some(provenance::text())),
+            ("loop.csv", last_loop),
+            ("field.csv", field),
+        ];
+        let owed = self.owed.iter().map(|(name, table)| (name.as_str(), table));
+        let files = files
+            .iter()
+            .filter_map(|(name, text)| Some((*name, text.as_ref()?)));
+        for (name, text) in owed.chain(files) {
+            outcome = outcome.and(self.directory.write(name, text));
         }
         outcome
     }
 
-    /// If the files cannot be written, tries a checkpoint in their place or in the directory of the
-    /// explorer's checkpoints, and says where it is.
-    fn rescue(&mut self) -> String {
-        let bytes = checkpoint::encode(&self.session, Some(&self.job));
-        locked(&self.checkpoints).save(&self.session, &bytes);
-        self.how_to_resume()
-    }
-
     /// The last row of the history and the header of the files, by the names that they have there.
     fn print_json(&self) -> Result<()> {
-        let mut summary = serde_json::Map::new();
-        for (key, text) in header::entries(&self.session) {
-            let value = match text.parse::<f64>() {
-                Ok(number) => number.into(),
-                Err(_) => text.into(),
-            };
-            summary.insert(key, value);
-        }
-        for (name, value) in self.job.values(&self.session) {
-            summary.insert(name.into(), value.into());
-        }
+        let header = header::entries(&self.session).into_iter();
+        let header = header.map(|(key, text)| match text.parse::<f64>() {
+            Ok(number) => (key, number.into()),
+            Err(_) => (key, text.into()),
+        });
+        let values = self.job.history.values(&self.session).into_iter();
+        let values = values.map(|(name, value)| (name.to_owned(), value.into()));
         let directory = self.directory.path().display().to_string();
-        summary.insert("directory".into(), directory.into());
-        writeln!(
-            io::stdout().lock(),
-            "{}",
-            serde_json::Value::Object(summary)
-        )?;
-        Ok(())
+        let directory = [("directory".to_owned(), directory.into())];
+        let summary: serde_json::Map<_, _> = header.chain(values).chain(directory).collect();
+        let summary = serde_json::Value::Object(summary);
+        Ok(writeln!(io::stdout().lock(), "{summary}")?)
     }
 
     fn summarize(&self) -> Result<()> {
@@ -561,29 +542,6 @@ fn table_at(snapshot: &CycleAsGiven, session: &Session) -> Result<String> {
     let mut glimpse = session.clone();
     glimpse.advance_to(snapshot.cycle)?;
     Ok(state::table(&glimpse))
-}
-
-/// Writes a checkpoint. If that fails, the user is told once and the run continues.
-fn save(checkpoints: &mut Autosave, session: &Session, job: &RunJob) {
-    if let Some(word) = checkpoints.save(session, &checkpoint::encode(session, Some(job))) {
-        complain(&word);
-    }
-}
-
-/// Says how to resume a run that stopped at the cycle `now`, and which cycles are lost.
-fn how_to_resume(checkpoints: &Autosave, now: f64) -> String {
-    let Some((path, cycle)) = checkpoints.kept() else {
-        return "there is no checkpoint".into();
-    };
-    let path = shell_word(path);
-    if cycle == now {
-        return format!("resume with: mdr-tui run --resume {path}");
-    }
-    let (cycle, now) = (number(cycle), number(now));
-    format!(
-        "resume from cycle {cycle} with: mdr-tui run --resume {path} \
-         (cycles up to {now} could not be saved)"
-    )
 }
 
 /// A new directory named after the scenario.

@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 
 use crate::plot::theme::{Look, Theme};
-use crate::plot::{Chart, Curve, Marker, Plot, Scale};
+use crate::plot::{Axis, Chart, Marker, Plot, Scale};
 
 /// Size of one plot, cells.
 const SIZE: (u16, u16) = (39, 11);
@@ -40,17 +40,12 @@ pub fn draw(charts: &[Chart], marker: Marker) -> String {
 /// [`draw`] with the axes that hold the curves of all of them, so that they can be compared; nothing where a
 /// logarithmic axis has nothing to show.
 pub fn draw_alike(mut charts: Vec<Chart>, marker: Marker) -> String {
-    let all = |values: fn(&Curve) -> &Vec<f64>, scale: Scale| {
-        let curves = charts.iter().flat_map(|chart| &chart.curves);
-        let values = curves.flat_map(values).copied();
-        match scale {
-            Scale::Log => decades(values),
-            Scale::Linear => Some([0.0, values.fold(0.0, f64::max)]),
-        }
-    };
-    let scales = charts.first().map(|chart| (chart.x.scale, chart.y.scale));
-    let ends = scales.map(|(x, y)| (all(|curve| &curve.xs, x), all(|curve| &curve.ys, y)));
-    let Some((Some(x), Some(y))) = ends else {
+    let ends = charts.first().and_then(|first| {
+        let curves = || charts.iter().flat_map(|chart| &chart.curves);
+        let x = ends(&first.x, curves().flat_map(|curve| &curve.xs))?;
+        Some((x, ends(&first.y, curves().flat_map(|curve| &curve.ys))?))
+    });
+    let Some((x, y)) = ends else {
         return String::new();
     };
     for chart in &mut charts {
@@ -62,20 +57,15 @@ pub fn draw_alike(mut charts: Vec<Chart>, marker: Marker) -> String {
 /// The smallest value on a logarithmic axis; anything below is rounding.
 const FLOOR: f64 = 1e-17;
 
-/// The ends of an axis in full decades that holds all positive values; `None` without any.
-fn decades(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
-    let seen = values.filter(|value| value.is_finite() && *value > FLOOR);
-    let (least, most) = seen.fold((f64::INFINITY, 0.0), |(a, b): (f64, f64), value| {
-        (a.min(value), b.max(value))
-    });
-    if most == 0.0 {
-        return None;
-    }
-    let ends = [least.log10().floor(), most.log10().ceil()];
-    let top = if ends[1] <= ends[0] {
-        ends[0] + 1.0
-    } else {
-        ends[1]
+/// The ends of an axis that holds all values, as far as it can; `None` without any.
+fn ends<'a>(axis: &Axis, values: impl Iterator<Item = &'a f64>) -> Option<[f64; 2]> {
+    let floor = match axis.scale {
+        Scale::Log => FLOOR,
+        Scale::Linear => f64::NEG_INFINITY,
     };
-    Some([10f64.powf(ends[0]), 10f64.powf(top)])
+    let seen = values.filter(|value| value.is_finite() && **value > floor);
+    let range = seen.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
+        [low.min(*value), high.max(*value)]
+    });
+    (range[0] <= range[1]).then(|| axis.resolve(Some(range), true))
 }

@@ -1,13 +1,13 @@
 //! Checkpoints on a timer: one file, replaced each time, whole or not at all; and a copy in memory.
 
-use std::fs::{self, File, TryLockError};
-use std::io::{self, Write};
+use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime};
 
-use super::claim::{is_at, try_lock};
-use super::file::{WriteError, sweep, write_with};
+use super::file::{INTERNAL, WriteError, sweep, write_whole};
 use super::own;
+use super::target::Target;
 use crate::scenario::session::Session;
 
 /// Maximum age of the copy in memory that survives a bug.
@@ -19,6 +19,9 @@ const ENDING: &str = "checkpoint";
 /// Maximum number of the explorer's checkpoints; the oldest are removed.
 const KEPT: usize = 20;
 
+/// The most numbers that are tried for a new checkpoint.
+const MOST_AT_ONCE: u64 = 1000;
+
 /// A temporary file of this age is abandoned.
 const STALE: Duration = Duration::from_secs(3600);
 
@@ -26,11 +29,11 @@ const STALE: Duration = Duration::from_secs(3600);
 #[derive(Debug)]
 pub struct Autosave {
     /// The run's own file.
-    home: Option<Place>,
+    home: Option<PathBuf>,
     /// Where free places are.
     directory: Option<PathBuf>,
     /// In use since the last attempt at home failed, or where there is none.
-    elsewhere: Option<Place>,
+    elsewhere: Option<Target>,
     every: Option<Duration>,
     last: Instant,
     /// The newest checkpoint, and its cycle.
@@ -55,7 +58,7 @@ impl Autosave {
     /// Saves at `path`, and elsewhere only while that fails.
     #[must_use]
     pub fn at_home(mut self, path: PathBuf) -> Self {
-        self.home = Some(Place { path, file: None });
+        self.home = Some(path);
         self
     }
 
@@ -84,55 +87,52 @@ impl Autosave {
     }
 
     fn try_to_save(&mut self, session: &Session, checkpoint: &[u8]) -> Option<String> {
-        let cycle = session.simulation().cycle();
-        let at_home = self.home.as_mut().map(|home| home.write(checkpoint));
-        if let Some(Ok(path)) = at_home {
-            (self.kept, self.failure) = (Some((path, cycle)), None);
-            if let Some(elsewhere) = self.elsewhere.take() {
-                elsewhere.discard();
+        let home = self.home.as_deref();
+        let at_home = home.map(|path| write_whole(path, checkpoint).map(|()| path.to_owned()));
+        let elsewhere = match &at_home {
+            Some(Ok(_)) => {
+                if let Some(elsewhere) = self.elsewhere.take() {
+                    let _ = fs::remove_file(elsewhere.path());
+                }
+                None
             }
-            return None;
-        }
-        let at_home = at_home.and_then(Result::err);
-        let (error, outcome) = match (at_home, self.save_elsewhere(session, checkpoint)) {
-            (error, Some(Ok(path))) => {
-                let outcome = format!("checkpoints go to {}", path.display());
-                self.kept = Some((path, cycle));
-                (error, outcome)
-            }
-            (error, elsewhere) => {
-                let elsewhere = elsewhere.and_then(Result::err);
-                let outcome = "the run continues without a checkpoint".to_owned();
-                (error.or(elsewhere), outcome)
-            }
+            _ => self.save_elsewhere(&session.loaded().stem(), checkpoint),
         };
-        let had_failed = self.failure.is_some();
-        self.failure = error.map(|error| error.to_string());
+        let (mut saved, mut failure) = (None, None);
+        for outcome in at_home.into_iter().chain(elsewhere) {
+            match outcome {
+                Ok(path) => saved = Some(path),
+                Err(error) => failure = failure.or(Some(error.to_string())),
+            }
+        }
+        let outcome = match &saved {
+            Some(path) => format!("checkpoints go to {}", path.display()),
+            None => "the run continues without a checkpoint".to_owned(),
+        };
+        if let Some(path) = saved {
+            self.kept = Some((path, session.simulation().cycle()));
+        }
+        let had_failed = std::mem::replace(&mut self.failure, failure).is_some();
         let failure = self.failure.as_ref().filter(|_| !had_failed)?;
         Some(format!("{failure}; {outcome}"))
     }
 
-    /// `None` without a directory.
+    /// Writes the checkpoint in a free place of the directory; `None` without a directory.
     fn save_elsewhere(
         &mut self,
-        session: &Session,
+        stem: &str,
         checkpoint: &[u8],
     ) -> Option<Result<PathBuf, WriteError>> {
-        let place = match self.elsewhere.take() {
-            Some(place) => Ok(place),
-            None => Place::free(self.directory.as_deref()?, &session.loaded().stem()),
-        };
-        let mut place = match place {
-            Ok(place) => place,
-            Err(error) => return Some(Err(error)),
-        };
-        let kept = place.write(checkpoint);
-        // An older checkpoint there is better than nothing.
-        self.elsewhere = match kept {
-            Ok(_) => Some(place),
-            Err(_) => place.if_ever(),
-        };
-        Some(kept)
+        let place = self.elsewhere.take().map(Ok);
+        let place = place.or_else(|| Some(free(self.directory.as_deref()?, stem)))?;
+        Some(place.and_then(|place| {
+            let path = place.path().to_owned();
+            // An older checkpoint there is better than nothing.
+            self.elsewhere
+                .insert(place)
+                .write(checkpoint)
+                .map(|()| path)
+        }))
     }
 
     /// Continues with another session; the checkpoint of this one stays.
@@ -181,65 +181,25 @@ impl<T> Recent<T> {
     }
 }
 
-/// A file that each checkpoint replaces.
-#[derive(Debug)]
-struct Place {
-    path: PathBuf,
-    /// Locked as long as it is open, so that others see a running process owns the file.
-    file: Option<File>,
-}
-
-impl Place {
-    /// A new file for a session on a scenario called `stem`: creates the directory, in which only the newest
-    /// checkpoints stay beside it and those of running sessions. A number that was given out is not given out
-    /// again.
-    fn free(directory: &Path, stem: &str) -> Result<Self, WriteError> {
-        let failed = |cause| WriteError::Io {
-            path: directory.to_owned(),
-            cause,
-        };
-        fs::create_dir_all(directory).map_err(failed)?;
-        sweep(directory, STALE);
-        let others = checkpoints(directory).map_err(failed)?;
-        let highest = others.iter().map(|other| other.number).max();
-        prune(others, highest);
-        for number in highest.unwrap_or(0) + 1.. {
-            let path = directory.join(format!("{stem}-{number}.{ENDING}"));
-            // An empty file claims the name, so that two explorers never share one.
-            match File::create_new(&path) {
-                Ok(file) => {
-                    let _ = try_lock(&file);
-                    let file = Some(file);
-                    return Ok(Self { path, file });
-                }
-                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
-                Err(error) => return Err(failed(error)),
-            }
+/// Claims a new file for a session on a scenario called `stem`: creates the directory, in which only the newest
+/// checkpoints stay beside it and those of running sessions. Its number is above those of all checkpoints there.
+fn free(directory: &Path, stem: &str) -> Result<Target, WriteError> {
+    let failed = WriteError::io(directory);
+    fs::create_dir_all(directory).map_err(failed)?;
+    sweep(directory, INTERNAL, STALE);
+    let others = checkpoints(directory).map_err(failed)?;
+    let highest = others.iter().map(|other| other.number).max();
+    prune(others, highest);
+    let first = highest.unwrap_or(0).saturating_add(1);
+    for number in first..first.saturating_add(MOST_AT_ONCE) {
+        let path = directory.join(format!("{stem}-{number}.{ENDING}"));
+        match Target::claim(&path, false) {
+            // Another explorer has it, or has had it meanwhile.
+            Err(WriteError::Refused(_)) => {}
+            claimed => return claimed,
         }
-        unreachable!("the number of names is unlimited")
     }
-
-    /// Replaces the checkpoint, and says where it is.
-    fn write(&mut self, checkpoint: &[u8]) -> Result<PathBuf, WriteError> {
-        let written = write_with(&self.path, |file| file.write_all(checkpoint));
-        // The new file is locked before the lock on the old one is given up.
-        self.file = Some(written?);
-        Ok(self.path.clone())
-    }
-
-    /// Returns itself, unless nothing was ever saved: then removes its empty file.
-    fn if_ever(self) -> Option<Self> {
-        if fs::metadata(&self.path).is_ok_and(|about| about.len() > 0) {
-            return Some(self);
-        }
-        self.discard();
-        None
-    }
-
-    /// Removes the checkpoint, which another one has replaced.
-    fn discard(self) {
-        let _ = fs::remove_file(self.path);
-    }
+    Err(failed(io::ErrorKind::AlreadyExists.into()))
 }
 
 /// Removes the oldest checkpoints, except those of running sessions and the one with the highest
@@ -248,19 +208,13 @@ fn prune(mut others: Vec<Found>, highest: Option<u64>) {
     others.sort_by_key(|other| other.written);
     let mut excess = (others.len() + 1).saturating_sub(KEPT);
     for other in others {
-        if excess == 0 {
-            return;
-        }
-        if Some(other.number) == highest {
-            continue;
-        }
-        let Ok(file) = own::open(&other.path, false) else {
-            continue;
-        };
-        let is_live = matches!(try_lock(&file), Err(TryLockError::WouldBlock));
-        if !is_live && is_at(&file, &other.path) {
+        // What is claimed here belongs to no running session.
+        if excess > 0
+            && Some(other.number) != highest
+            && let Ok(claimed) = Target::hold(&other.path)
+        {
             // One that cannot be removed does no harm.
-            let _ = fs::remove_file(&other.path);
+            let _ = fs::remove_file(claimed.path());
             excess -= 1;
         }
     }
@@ -307,9 +261,9 @@ mod tests {
 
     /// A session that comes, is kept, and goes.
     fn come_and_go(directory: &Path, stem: &str) -> PathBuf {
-        let mut place = Place::free(directory, stem).expect("a place");
+        let place = free(directory, stem).expect("a place");
         place.write(stem.as_bytes()).expect("a file");
-        place.path.clone()
+        place.path().to_owned()
     }
 
     #[test]
@@ -331,24 +285,24 @@ mod tests {
     #[test]
     fn a_living_session_keeps_its_file_and_no_name_is_given_out_twice() {
         let base = tempfile::tempdir().expect("a directory");
-        let mut paused = Place::free(base.path(), "hertz").expect("a place");
+        let paused = free(base.path(), "hertz").expect("a place");
         paused.write(b"paused").expect("a file");
-        let unkept = Place::free(base.path(), "hertz").expect("a place");
-        let mut names = vec![paused.path.clone(), unkept.path.clone()];
+        let unkept = free(base.path(), "hertz").expect("a place");
+        let mut names = vec![paused.path().to_owned(), unkept.path().to_owned()];
         for round in 0..60 {
             names.push(come_and_go(base.path(), ["hertz", "cone"][round % 2]));
         }
-        assert_eq!(fs::read(&paused.path).expect("its file"), b"paused");
-        assert!(unkept.path.exists());
+        assert_eq!(fs::read(paused.path()).expect("its file"), b"paused");
+        unkept.write(b"at last").expect("a file");
         paused.write(b"later").expect("a file");
         come_and_go(base.path(), "hertz");
-        assert_eq!(fs::read(&paused.path).expect("its file"), b"later");
+        assert_eq!(fs::read(paused.path()).expect("its file"), b"later");
         let count = names.len();
         names.sort();
         names.dedup();
         assert_eq!(names.len(), count, "a name was given out twice");
         // Once it is gone, its file is like any other.
-        let path = paused.path.clone();
+        let path = paused.path().to_owned();
         drop(paused);
         for _ in 0..KEPT + 2 {
             come_and_go(base.path(), "hertz");

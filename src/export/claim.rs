@@ -12,7 +12,9 @@ use nix::errno::Errno;
 use nix::sys::signal::kill;
 use nix::unistd::Pid;
 
+use super::file::{WriteError, directory_of};
 use super::own;
+use crate::scenario::printable;
 
 /// The name of the lock file in a directory.
 pub const LOCK: &str = ".mdr-tui-lock";
@@ -33,27 +35,11 @@ pub struct Claim {
     file: File,
 }
 
-/// Why something cannot be claimed.
-#[derive(Debug)]
-pub enum Refusal {
-    /// Another process writes there; its identity, if known.
-    Taken(Option<Owner>),
-    /// The system refused.
-    Io {
-        /// The lock file.
-        path: PathBuf,
-        /// Why.
-        cause: io::Error,
-    },
-}
-
 /// A process and the machine that it runs on.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Owner {
-    /// The process.
-    pub process: u32,
-    /// Its machine.
-    pub host: String,
+#[derive(Debug)]
+struct Owner {
+    process: u32,
+    host: String,
 }
 
 impl Owner {
@@ -77,15 +63,27 @@ impl Owner {
         })
     }
 
-    /// Whether the process runs on this machine.
-    pub fn is_here(&self) -> bool {
+    fn is_here(&self) -> bool {
         self.host == Self::this().host
     }
 
-    /// Whether the process may still be there. Always true for another machine.
+    /// Whether the process may still be there. One on another machine cannot be asked.
     fn may_live(&self) -> bool {
         let process = i32::try_from(self.process).map(Pid::from_raw);
         !self.is_here() || process.is_ok_and(|process| kill(process, None) != Err(Errno::ESRCH))
+    }
+
+    /// The process, in brackets.
+    fn named(&self) -> String {
+        let hint = match self.is_here() {
+            true => "",
+            false => "; if it is gone, remove the lock file",
+        };
+        format!(
+            " (process {} on {}{hint})",
+            self.process,
+            printable(&self.host)
+        )
     }
 }
 
@@ -94,38 +92,53 @@ impl Claim {
     ///
     /// # Errors
     ///
-    /// [`Refusal::Taken`] if a living process has claimed it, [`Refusal::Io`] if no file can be made.
-    pub fn take(directory: &Path) -> Result<Self, Refusal> {
-        Self::at(directory.join(LOCK))
+    /// If a living process has claimed it, and if no file can be made in it.
+    pub fn of_directory(directory: &Path) -> Result<Self, WriteError> {
+        let words = ["another run is writing there", "choose another directory"];
+        Self::by(directory.join(LOCK), directory, words)
     }
 
-    /// Claims the file called `name` in `directory`, whether it is there or not, for this process.
+    /// Claims the file at `path`, whether it is there or not, for this process.
     ///
     /// # Errors
     ///
-    /// As [`take`](Self::take).
-    pub fn take_file(directory: &Path, name: &str) -> Result<Self, Refusal> {
+    /// As [`of_directory`](Self::of_directory).
+    pub fn of_file(path: &Path) -> Result<Self, WriteError> {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
         let name = match name.len() {
             0..=LONGEST => format!(".mdr-tui-{name}.lock"),
             _ => format!(".mdr-tui-{:08x}.lock", crc32fast::hash(name.as_bytes())),
         };
-        Self::at(directory.join(name))
+        let words = [
+            "another mdr-tui is writing this file",
+            "choose another name",
+        ];
+        Self::by(directory_of(path).join(name), path, words)
     }
 
-    fn at(path: PathBuf) -> Result<Self, Refusal> {
-        match Self::try_at(&path) {
+    /// Claims what is at `path` by the file `lock`. If another process has it, `words` say so, and what else to do.
+    fn by(lock: PathBuf, path: &Path, words: [&str; 2]) -> Result<Self, WriteError> {
+        match Self::locked(&lock) {
             Ok(Ok(file)) => Ok(Self {
-                path,
+                path: lock,
                 is_new: false,
                 file,
             }),
-            Ok(Err(owner)) => Err(Refusal::Taken(owner)),
-            Err(cause) => Err(Refusal::Io { path, cause }),
+            Ok(Err(owner)) => {
+                let owner = owner.as_ref().map_or_else(String::new, Owner::named);
+                let rule = format!("{}{owner}; wait for it to end or {}", words[0], words[1]);
+                Err(WriteError::refused(path, rule))
+            }
+            // Where no lock can be made, no file can.
+            Err(cause) => match lock.symlink_metadata() {
+                Ok(_) => Err(WriteError::io(&lock)(cause)),
+                Err(_) => Err(WriteError::io(path)(cause)),
+            },
         }
     }
 
     /// The file, locked and with this process in it, or who has it.
-    fn try_at(path: &Path) -> io::Result<Result<File, Option<Owner>>> {
+    fn locked(path: &Path) -> io::Result<Result<File, Option<Owner>>> {
         loop {
             let (mut file, is_made_here) = match own::open(path, true) {
                 Ok(file) => (file, true),
@@ -191,7 +204,7 @@ impl Drop for Claim {
 }
 
 /// Locks a file until it is closed, where the file system has locks.
-pub(super) fn try_lock(file: &File) -> Result<(), TryLockError> {
+fn try_lock(file: &File) -> Result<(), TryLockError> {
     #[cfg(debug_assertions)]
     if crate::failpoint::is_asked_for("no locks") {
         return Err(TryLockError::Error(io::ErrorKind::Unsupported.into()));
@@ -220,7 +233,7 @@ fn take_away(file: &File, path: &Path) -> io::Result<()> {
 }
 
 /// Whether the open file is the one that the path names now.
-pub(super) fn is_at(file: &File, path: &Path) -> bool {
+fn is_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
     let (Ok(one), Ok(other)) = (file.metadata(), path.symlink_metadata()) else {
         return false;
@@ -235,17 +248,16 @@ mod tests {
     #[test]
     fn a_directory_belongs_to_one_and_a_stale_lock_to_nobody() {
         let base = tempfile::tempdir().expect("a directory");
-        let first = Claim::take(base.path()).expect("a free directory");
-        match Claim::take(base.path()) {
-            Err(Refusal::Taken(Some(owner))) => assert_eq!(owner, Owner::this()),
-            other => panic!("{other:?}"),
-        }
+        let first = Claim::of_directory(base.path()).expect("a free directory");
+        let refused = Claim::of_directory(base.path()).expect_err("it is taken");
+        let owner = format!("(process {} on ", std::process::id());
+        assert!(refused.to_string().contains(&owner), "{refused}");
         drop(first);
         assert!(!base.path().join(LOCK).exists());
         // What a process leaves behind that was killed.
         for stale in ["1 elsewhere\n", "999999999 here\n", "", "no number"] {
             std::fs::write(base.path().join(LOCK), stale).expect("a file");
-            drop(Claim::take(base.path()).expect("a stale lock"));
+            drop(Claim::of_directory(base.path()).expect("a stale lock"));
         }
     }
 
@@ -259,7 +271,7 @@ mod tests {
             for _ in 0..8 {
                 scope.spawn(|| {
                     for _ in 0..200 {
-                        if let Ok(claim) = Claim::take(base.path()) {
+                        if let Ok(claim) = Claim::of_directory(base.path()) {
                             assert_eq!(inside.fetch_add(1, SeqCst), 0, "two have it");
                             taken.fetch_add(1, SeqCst);
                             inside.fetch_sub(1, SeqCst);
@@ -278,8 +290,8 @@ mod tests {
         let (lock, mine) = (base.path().join(LOCK), base.path().join("mine"));
         fs::write(&mine, "mine").expect("a file");
         std::os::unix::fs::symlink(&mine, &lock).expect("a link");
-        let refused = || match Claim::take(base.path()) {
-            Err(Refusal::Io { path, cause }) => {
+        let refused = || match Claim::of_directory(base.path()) {
+            Err(WriteError::Io { path, cause }) => {
                 assert_eq!(path, lock);
                 assert!(cause.to_string().contains("not a regular file"), "{cause}");
             }
@@ -295,11 +307,11 @@ mod tests {
     #[test]
     fn a_file_of_any_name_is_claimed_by_itself() {
         let base = tempfile::tempdir().expect("a directory");
-        let names = ["a.csv", "b.csv", &"x".repeat(255)];
-        let claims = names.map(|name| Claim::take_file(base.path(), name).expect("a claim"));
-        for name in names {
-            let again = Claim::take_file(base.path(), name);
-            assert!(matches!(again, Err(Refusal::Taken(Some(_)))), "{again:?}");
+        let paths = ["a.csv", "b.csv", &"x".repeat(255)].map(|name| base.path().join(name));
+        let claims = [0, 1, 2].map(|k| Claim::of_file(&paths[k]).expect("a claim"));
+        for path in &paths {
+            let again = Claim::of_file(path).expect_err("it is taken");
+            assert!(again.to_string().contains("(process "), "{again}");
         }
         drop(claims);
         assert_eq!(fs::read_dir(base.path()).expect("it").count(), 0);

@@ -1,10 +1,9 @@
 //! `field.csv`: the stresses inside the half-space in the plane of motion y = 0, and the fatigue parameters
 //! of a steady cycle, one row per point.
 
-use super::header::lines;
+use super::header;
 use crate::reading::Curves;
 use crate::reading::fatigue::{Fatigue, StressCycle};
-use crate::reading::subsurface::Stress;
 use crate::scenario::scalars::field;
 use crate::scenario::session::Session;
 
@@ -33,18 +32,13 @@ const REACH: f64 = 1.5;
 /// The whole file for the present state of `session`: depth by depth from the surface down, x from
 /// −1.5 a to 1.5 a. Without contact the domain takes the place of a, and all stresses are zero.
 pub fn table(session: &Session) -> String {
-    let mut text = lines(session);
-    text.push_str(&COLUMNS.join(","));
-    text.push('\n');
-    for row in rows(session) {
-        text.push_str(&row.map(field).join(","));
-        text.push('\n');
-    }
-    text
+    let rows = rows(session).into_iter();
+    let fields = rows.map(|row| row.into_iter().map(field).collect::<Vec<_>>());
+    header::table(session, &COLUMNS, fields)
 }
 
 /// The rows of the file; the fatigue parameters are NaN where the motion has no steady cycle.
-pub fn rows(session: &Session) -> Vec<[f64; COLUMNS.len()]> {
+pub fn rows(session: &Session) -> Vec<Vec<f64>> {
     let simulation = session.simulation();
     let seen = simulation.observe(Curves::SPRINGS);
     let load = seen.spring_load(simulation.setup().material.poisson());
@@ -68,25 +62,17 @@ pub fn rows(session: &Session) -> Vec<[f64; COLUMNS.len()]> {
         let left = (1..=HALF_WIDTH).rev().map(|i| (-step * i as f64, i, 1));
         let right = (0..=HALF_WIDTH).map(|i| (step * i as f64, i, 0));
         rows.extend(left.chain(right).map(|(x, i, side)| {
-            let (stress, fatigue) = (row[i].0[side], row[i].1.map(|both| both[side]));
-            let Stress { xx, yy, zz, xz } = stress;
-            let (mises, principal) = (stress.von_mises(), stress.max_principal());
-            let [swt, shear, hydrostatic] = fatigue.map_or([f64::NAN; 3], |fatigue: Fatigue| {
+            let (at, fatigue) = (row[i].0[side], row[i].1.map(|both| both[side]));
+            let invariants = [at.von_mises(), at.max_principal()];
+            let fatigue = fatigue.map_or([f64::NAN; 3], |fatigue: Fatigue| {
                 [fatigue.swt, fatigue.shear_amplitude, fatigue.hydrostatic]
             });
             [
-                x,
-                z,
-                xx,
-                yy,
-                zz,
-                xz,
-                mises,
-                principal,
-                swt,
-                shear,
-                hydrostatic,
+                &[x, z, at.xx, at.yy, at.zz, at.xz][..],
+                &invariants,
+                &fatigue,
             ]
+            .concat()
         }));
     }
     rows

@@ -1,5 +1,6 @@
 //! Writes whole files or none: into a temporary file, renamed into place.
 
+use std::fmt::Display;
 use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
@@ -7,52 +8,16 @@ use std::time::Duration;
 
 use thiserror::Error;
 
-use super::claim::{Claim, Owner, Refusal};
+use super::claim::Claim;
 use super::own;
-use crate::scenario::printable;
+use crate::scenario::{Refusal, printable};
 
 /// A file or directory that could not be written; nothing half-written is left behind.
 #[derive(Debug, Error)]
 pub enum WriteError {
-    /// The directory of another run.
-    #[error("{}: not empty; choose another directory or add --force", .0.display())]
-    Occupied(PathBuf),
-    /// The directory of a run that was interrupted.
-    #[error(
-        "{}: holds an interrupted run; resume with: mdr-tui run --resume {} (--force starts over)",
-        .0.parent().unwrap_or(.0).display(),
-        shell_word(.0)
-    )]
-    Interrupted(PathBuf),
-    /// The directory that another process writes into.
-    #[error(
-        "{}: another run is writing there{}; wait for it to end or choose another directory",
-        .0.display(),
-        named(.1.as_ref())
-    )]
-    Busy(PathBuf, Option<Owner>),
-    /// The path is not a directory.
-    #[error("{}: is not a directory", .0.display())]
-    NotADirectory(PathBuf),
-    /// The path does not name a file.
-    #[error("{}: is not a file name", .0.display())]
-    NotAFile(PathBuf),
-    /// The file's directory does not exist.
-    #[error("{}: its directory does not exist", .0.display())]
-    NoDirectory(PathBuf),
-    /// The file is there.
-    #[error("{}: already exists; choose another name or add --force", .0.display())]
-    Exists(PathBuf),
-    /// A link, a device or a pipe, which would be replaced by a file.
-    #[error("{}: is not a regular file (but a link, a device or a pipe); choose another name", .0.display())]
-    NotRegular(PathBuf),
-    /// The file that another process writes.
-    #[error(
-        "{}: another mdr-tui is writing this file{}; wait for it to end or choose another name",
-        .0.display(),
-        named(.1.as_ref())
-    )]
-    BusyFile(PathBuf, Option<Owner>),
+    /// Something is there already, or another process writes it.
+    #[error(transparent)]
+    Refused(#[from] Refusal),
     /// The system refused.
     #[error("{}: cannot write: {cause}", path.display())]
     Io {
@@ -64,24 +29,28 @@ pub enum WriteError {
 }
 
 impl WriteError {
+    /// Refuses what is at `path`.
+    pub(super) fn refused(path: &Path, rule: impl Display) -> Self {
+        Refusal::new(path.display(), rule).into()
+    }
+
+    /// What becomes of an error of the system at `path`.
+    pub fn io(path: &Path) -> impl Fn(io::Error) -> Self + Copy {
+        move |cause| Self::Io {
+            path: path.to_owned(),
+            cause,
+        }
+    }
+
     /// Whether another choice of directory by the user would have avoided it.
     pub fn is_misuse(&self) -> bool {
         !matches!(self, Self::Io { cause, .. } if cause.kind() == io::ErrorKind::StorageFull)
     }
 }
 
-/// The process that has a claim, in brackets. One on another machine cannot be asked whether it lives.
-fn named(owner: Option<&Owner>) -> String {
-    let Some(owner) = owner else {
-        return String::new();
-    };
-    let hint = match owner.is_here() {
-        true => "",
-        false => "; if it is gone, remove the lock file",
-    };
-    let host = printable(&owner.host);
-    format!(" (process {} on {host}{hint})", owner.process)
-}
+/// What is said of a link, a device or a pipe, which would be replaced by a file.
+pub(super) const IRREGULAR: &str =
+    "is not a regular file (but a link, a device or a pipe); choose another name";
 
 /// A path as a shell reads it back.
 pub fn shell_word(path: &Path) -> String {
@@ -105,19 +74,15 @@ pub fn shell_word(path: &Path) -> String {
 /// Writes `contents` to `path`: to a temporary file in the same directory, flushed to the disk and
 /// renamed over `path`, so that a reader sees the old file or the new one and never a torn one.
 pub fn write_whole(path: &Path, contents: &[u8]) -> Result<(), WriteError> {
-    write_with(path, |file| file.write_all(contents)).map(|_| ())
+    write_with(path, |file| file.write_all(contents))
 }
 
-/// [`write_whole`] with what `fill` writes, which need not be in memory at once. The new file is
-/// locked, as the sign of a living process, as long as what is returned is not dropped.
+/// [`write_whole`] with what `fill` writes, which need not be in memory at once.
 pub fn write_with(
     path: &Path,
     fill: impl FnOnce(&mut fs::File) -> io::Result<()>,
-) -> Result<fs::File, WriteError> {
-    let failed = |cause| WriteError::Io {
-        path: path.to_owned(),
-        cause,
-    };
+) -> Result<(), WriteError> {
+    let failed = WriteError::io(path);
     let prefix = temporary_of(path);
     let mut builder = tempfile::Builder::new();
     builder.prefix(&prefix).suffix(TEMPORARY);
@@ -130,13 +95,12 @@ pub fn write_with(
     let mut file = builder.tempfile_in(directory_of(path)).map_err(failed)?;
     fill(file.as_file_mut()).map_err(failed)?;
     file.as_file().sync_all().map_err(failed)?;
-    // Not every file system has locks; the file is fine without.
-    let _ = file.as_file().try_lock();
-    file.persist(path).map_err(|error| failed(error.error))
+    let persisted = file.persist(path);
+    persisted.map_err(|error| failed(error.error)).map(drop)
 }
 
 /// The directory of a file.
-pub(super) fn directory_of(path: &Path) -> &Path {
+pub fn directory_of(path: &Path) -> &Path {
     let parent = path.parent();
     let parent = parent.filter(|parent| !parent.as_os_str().is_empty());
     parent.unwrap_or(Path::new("."))
@@ -150,42 +114,20 @@ pub(super) fn temporary_of(path: &Path) -> String {
 }
 
 /// Prefix of files that are not results: unfinished files and locks.
-const INTERNAL: &str = ".mdr-tui-";
+pub(super) const INTERNAL: &str = ".mdr-tui-";
 
 /// Suffix of unfinished files.
 const TEMPORARY: &str = ".tmp";
 
-fn is_internal(path: &Path) -> bool {
-    let name = path.file_name().map(|name| name.to_string_lossy());
-    name.is_some_and(|name| name.starts_with(INTERNAL))
-}
-
-/// Removes what a killed process has left unfinished of the file `path`, which this process has
-/// claimed.
-pub(super) fn sweep_of(path: &Path) {
-    let prefix = temporary_of(path);
-    remove_temporary(directory_of(path), |path| {
-        let name = path.file_name().map(|name| name.to_string_lossy());
-        name.is_some_and(|name| name.starts_with(&prefix))
-    });
-}
-
-/// Removes temporary files of at least this age, which processes that were killed have left behind.
-pub fn sweep(directory: &Path, age: Duration) {
-    remove_temporary(directory, |path| {
-        let written = fs::metadata(path).and_then(|about| about.modified()).ok();
-        let is_old = written.is_some_and(|at| at.elapsed().is_ok_and(|past| past >= age));
-        is_old || age.is_zero()
-    });
-}
-
-/// Removes the temporary files of a directory for which `is_left` holds. One that cannot be removed does no harm.
-fn remove_temporary(directory: &Path, is_left: impl Fn(&Path) -> bool) {
+/// Removes the temporary files of a directory that begin with `prefix` and are at least of this age: processes that
+/// were killed have left them behind. One that cannot be removed does no harm.
+pub(super) fn sweep(directory: &Path, prefix: &str, age: Duration) {
     for entry in fs::read_dir(directory).into_iter().flatten().flatten() {
-        let path = entry.path();
-        let is_temporary = is_internal(&path) && path.to_string_lossy().ends_with(TEMPORARY);
-        if is_temporary && is_left(&path) {
-            let _ = fs::remove_file(path);
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let written = entry.metadata().and_then(|about| about.modified()).ok();
+        let past = written.and_then(|at| at.elapsed().ok()).unwrap_or_default();
+        if name.starts_with(prefix) && name.ends_with(TEMPORARY) && past >= age {
+            let _ = fs::remove_file(entry.path());
         }
     }
 }
@@ -208,29 +150,30 @@ impl RunDirectory {
     /// anything already unless `force` is set. A directory that a living process writes into is
     /// refused in any case.
     pub fn claim(path: &Path, force: bool) -> Result<Self, WriteError> {
-        let failed = |cause| WriteError::Io {
-            path: path.to_owned(),
-            cause,
-        };
+        let failed = WriteError::io(path);
         if path.is_file() {
-            return Err(WriteError::NotADirectory(path.to_owned()));
+            return Err(WriteError::refused(path, "is not a directory"));
         }
         let is_new = !path.exists();
         fs::create_dir_all(path).map_err(failed)?;
         let mut run = Self::reopen(path)?;
         run.claim.is_new = is_new;
         let entries = fs::read_dir(path).map_err(failed)?;
-        let mut others = entries
-            .flatten()
-            .filter(|entry| !is_internal(&entry.path()));
+        let name = |entry: fs::DirEntry| entry.file_name().to_string_lossy().into_owned();
+        let names = entries.flatten().map(name);
+        let mut others = names.filter(|name| !name.starts_with(INTERNAL));
         if force {
             return Ok(run);
         }
         if run.checkpoint().exists() {
-            return Err(WriteError::Interrupted(run.checkpoint()));
+            let checkpoint = shell_word(&run.checkpoint());
+            let rule = "holds an interrupted run; resume with: mdr-tui run --resume";
+            let rule = format!("{rule} {checkpoint} (--force starts over)");
+            return Err(WriteError::refused(path, rule));
         }
         if others.next().is_some() {
-            return Err(WriteError::Occupied(path.to_owned()));
+            let rule = "not empty; choose another directory or add --force";
+            return Err(WriteError::refused(path, rule));
         }
         Ok(run)
     }
@@ -250,7 +193,7 @@ impl RunDirectory {
                     return Ok(run);
                 }
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
-                Err(cause) => return Err(WriteError::Io { path, cause }),
+                Err(cause) => return Err(WriteError::io(&path)(cause)),
             }
         }
         unreachable!("the number of names is unlimited")
@@ -260,28 +203,19 @@ impl RunDirectory {
     /// now, not after an hour of computing, that files can be created there.
     pub fn reopen(path: &Path) -> Result<Self, WriteError> {
         let path = path.to_owned();
-        let claim = Claim::take(&path).map_err(|refusal| match refusal {
-            Refusal::Taken(owner) => WriteError::Busy(path.clone(), owner),
-            Refusal::Io { path, cause } => WriteError::Io { path, cause },
-        })?;
+        let claim = Claim::of_directory(&path)?;
         let rows = rows_in(&path);
-        if rows
-            .symlink_metadata()
-            .is_ok_and(|about| !about.file_type().is_file())
-        {
-            return Err(WriteError::NotRegular(rows));
+        if rows.symlink_metadata().is_ok_and(|about| !about.is_file()) {
+            return Err(WriteError::refused(&rows, IRREGULAR));
         }
-        sweep(&path, Duration::ZERO);
+        sweep(&path, INTERNAL, Duration::ZERO);
         Ok(Self { path, claim })
     }
 
     /// Removes the files of an earlier run, which would be taken for files of this one; what this
     /// program has not written stays.
     pub fn clear(&self) -> Result<(), WriteError> {
-        let failed = |cause| WriteError::Io {
-            path: self.path.clone(),
-            cause,
-        };
+        let failed = WriteError::io(&self.path);
         for entry in fs::read_dir(&self.path).map_err(failed)? {
             let path = entry.map_err(failed)?.path();
             if is_of_a_run(&path) {
@@ -308,10 +242,8 @@ impl RunDirectory {
     }
 
     /// Writes one of the run's files, whole.
-    pub fn write(&self, name: &str, contents: &[u8]) -> Result<PathBuf, WriteError> {
-        let path = self.path.join(name);
-        write_whole(&path, contents)?;
-        Ok(path)
+    pub fn write(&self, name: &str, contents: impl AsRef<[u8]>) -> Result<(), WriteError> {
+        write_whole(&self.path.join(name), contents.as_ref())
     }
 
     /// Writes one of the run's files, whole, with what `fill` writes.
@@ -320,7 +252,7 @@ impl RunDirectory {
         name: &str,
         fill: impl FnOnce(&mut fs::File) -> io::Result<()>,
     ) -> Result<(), WriteError> {
-        write_with(&self.path.join(name), fill).map(|_| ())
+        write_with(&self.path.join(name), fill)
     }
 
     /// Where the files stand.
@@ -363,10 +295,7 @@ pub fn rows_in(directory: &Path) -> PathBuf {
 /// Removes a file, if it is there.
 fn remove(path: &Path) -> Result<(), WriteError> {
     match fs::remove_file(path) {
-        Err(cause) if cause.kind() != io::ErrorKind::NotFound => Err(WriteError::Io {
-            path: path.to_owned(),
-            cause,
-        }),
+        Err(cause) if cause.kind() != io::ErrorKind::NotFound => Err(WriteError::io(path)(cause)),
         _ => Ok(()),
     }
 }
@@ -383,8 +312,11 @@ mod tests {
         // Not even by force, while the run is alive.
         for force in [false, true] {
             let refusal = RunDirectory::claim(&path, force).expect_err("a claimed directory");
-            assert!(matches!(refusal, WriteError::Busy(..)), "{refusal}");
-            assert!(refusal.is_misuse() && refusal.to_string().contains("(process "));
+            let word = "another run is writing there (process ";
+            assert!(
+                refusal.is_misuse() && refusal.to_string().contains(word),
+                "{refusal}"
+            );
         }
         drop(run);
         // Removes the directory if nothing was written into it, unless it existed before.
@@ -398,11 +330,11 @@ mod tests {
         let refusal = RunDirectory::claim(&path, false).expect_err("an occupied directory");
         assert!(refusal.to_string().ends_with("add --force"), "{refusal}");
         RunDirectory::claim(&path, true).expect("a forced directory");
-        let file = path.join("state.csv");
-        assert!(matches!(
-            RunDirectory::claim(&file, true),
-            Err(WriteError::NotADirectory(_))
-        ));
+        let refusal = RunDirectory::claim(&path.join("state.csv"), true).expect_err("a file");
+        assert!(
+            refusal.to_string().ends_with("is not a directory"),
+            "{refusal}"
+        );
     }
 
     #[test]
@@ -427,8 +359,5 @@ mod tests {
         ] {
             assert_eq!(shell_word(Path::new(path)), word);
         }
-        let interrupted = WriteError::Interrupted("a b/run.checkpoint".into());
-        let hint = "resume with: mdr-tui run --resume 'a b/run.checkpoint'";
-        assert!(interrupted.to_string().contains(hint));
     }
 }

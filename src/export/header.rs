@@ -6,11 +6,23 @@ pub use crate::scenario::scalars::{field, number};
 use crate::scenario::session::Session;
 use crate::simulation::{Setup, Spacing};
 
-/// The header lines for the present state of `session`.
-pub fn lines(session: &Session) -> String {
-    let mut text = String::new();
-    for (key, value) in entries(session) {
-        text += &line(&key, &value);
+/// How a file begins that tells of the present state of `session`: the header and the names of the columns.
+pub fn head(session: &Session, names: &[&str]) -> String {
+    let entries = entries(session);
+    let lines = entries.iter().map(|(key, value)| line(key, value));
+    lines.collect::<String>() + &names.join(",") + "\n"
+}
+
+/// A whole file, of the fields row by row.
+pub fn table<R: AsRef<[String]>>(
+    session: &Session,
+    names: &[&str],
+    rows: impl IntoIterator<Item = R>,
+) -> String {
+    let mut text = head(session, names);
+    for row in rows {
+        text += &row.as_ref().join(",");
+        text.push('\n');
     }
     text
 }
@@ -49,11 +61,8 @@ pub fn entries(session: &Session) -> Vec<(String, String)> {
         line("wear_coefficient_mm3_per_Nm", &number(k * 1e9));
         line("wear_coefficient_um3_per_J", &number(k * 1e18));
         // Archard's, with respect to load and sliding distance, at the friction of the moment.
-        let per_load = k * setup.material.friction();
-        line(
-            "wear_coefficient_per_load_mm3_per_Nm",
-            &number(per_load * 1e9),
-        );
+        let per_load = number(k * setup.material.friction() * 1e9);
+        line("wear_coefficient_per_load_mm3_per_Nm", &per_load);
     }
     line("points", &setup.grid.cells().to_string());
     line("steps_per_cycle", &setup.steps_per_cycle.to_string());
@@ -84,10 +93,8 @@ pub fn entries(session: &Session) -> Vec<(String, String)> {
         line(UNMEASURED.0, UNMEASURED.1);
     }
     for change in session.changes() {
-        line(
-            &format!("at cycle {}", number(change.at_cycle)),
-            &change.set,
-        );
+        let place = format!("at cycle {}", number(change.at_cycle));
+        line(&place, &change.set);
     }
     entries
 }
@@ -118,17 +125,14 @@ fn grid(setup: &Setup) -> &'static str {
 
 /// `ok`, or each check that fails with its size.
 fn checks(session: &Session) -> String {
-    let simulation = session.simulation();
-    let checks = simulation.checks();
-    let failing: Vec<String> = checks
-        .iter()
-        .filter(|check| !check.holds())
-        .map(|check| format!("{} {:.1e}", check.subject.name(), check.error.abs()))
-        .collect();
-    if failing.is_empty() {
-        return "ok".into();
+    let checks = session.simulation().checks();
+    let failing = checks.iter().filter(|check| !check.holds());
+    let failing =
+        failing.map(|check| format!("{} {:.1e}", check.subject.name(), check.error.abs()));
+    match failing.collect::<Vec<String>>() {
+        none if none.is_empty() => "ok".into(),
+        failing => failing.join(", "),
     }
-    failing.join(", ")
 }
 
 #[cfg(test)]

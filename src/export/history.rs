@@ -10,7 +10,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::header::lines;
+use super::header::head;
 use super::own;
 use crate::scenario::scalars::{self, Reading, Value};
 use crate::scenario::session::Session;
@@ -32,13 +32,6 @@ pub struct History {
     /// Columns after the ones that every history has.
     #[serde(default)]
     further: Vec<String>,
-}
-
-/// A place in a history to go back to.
-#[derive(Debug, Clone, Copy)]
-pub struct Mark {
-    length: u64,
-    last_cycle: Option<f64>,
 }
 
 impl History {
@@ -67,16 +60,12 @@ impl History {
             .chain(self.further.iter().map(String::as_str))
     }
 
-    /// The line of their names.
-    fn head(&self) -> String {
-        self.names().collect::<Vec<_>>().join(",")
-    }
-
     /// The columns of the present moment of `session` with their values.
     pub fn values(&self, session: &Session) -> Vec<(&str, Value)> {
         let reading = Reading::new(session);
-        let values = self.names().map(|name| (name, read(name, &reading)));
-        values.collect()
+        self.names()
+            .map(|name| (name, read(name, &reading)))
+            .collect()
     }
 
     fn row(&self, session: &Session) -> String {
@@ -95,20 +84,13 @@ impl History {
         self.written + self.rows.len() as u64
     }
 
-    /// How much is recorded.
-    pub fn mark(&self) -> Mark {
-        Mark {
-            length: self.length(),
-            last_cycle: self.last_cycle,
-        }
-    }
-
-    /// Forgets what was recorded after `mark`.
-    pub fn rewind(&mut self, mark: Mark) {
-        self.rows
-            .truncate(mark.length.saturating_sub(self.written) as usize);
-        self.written = self.written.min(mark.length);
-        self.last_cycle = mark.last_cycle;
+    /// Forgets what was recorded after `earlier` was copied from it.
+    pub fn rewind(&mut self, earlier: &Self) {
+        let length = earlier.length();
+        let kept = length.saturating_sub(self.written);
+        self.rows.truncate(kept as usize);
+        self.written = self.written.min(length);
+        self.last_cycle = earlier.last_cycle;
     }
 
     /// Adds the present moment of `session`, once.
@@ -118,9 +100,7 @@ impl History {
             return;
         }
         self.last_cycle = Some(simulation.cycle());
-        let row = self.row(session);
-        self.rows.push_str(&row);
-        self.rows.push('\n');
+        self.rows += &(self.row(session) + "\n");
     }
 
     /// Whether the rows in memory should be written to the file.
@@ -174,25 +154,11 @@ impl History {
         Ok(())
     }
 
-    /// The whole table up to the present state of `session`, of rows that are all in memory, as they are
-    /// until the first [`spill`](Self::spill).
-    pub fn table(&self, session: &Session) -> String {
-        let header = format!("{}{}\n", lines(session), self.head());
-        [header.as_str(), &self.rows, &self.last_row(session)].concat()
-    }
-
-    /// The row of the present moment with its end of line, if it is not recorded yet.
-    fn last_row(&self, session: &Session) -> String {
-        if self.last_cycle == Some(session.simulation().cycle()) {
-            return String::new();
-        }
-        self.row(session) + "\n"
-    }
-
     /// Writes the whole table up to the present state of `session`, of which its header tells; the
     /// rows that are not in memory are read from the file at `rows`.
     pub fn write(&self, session: &Session, rows: &Path, out: &mut impl Write) -> io::Result<()> {
-        writeln!(out, "{}{}", lines(session), self.head())?;
+        let names: Vec<&str> = self.names().collect();
+        out.write_all(head(session, &names).as_bytes())?;
         if self.written > 0 {
             let file = own::read(rows)?;
             let copied = io::copy(&mut file.take(self.written), out)?;
@@ -201,7 +167,10 @@ impl History {
             }
         }
         out.write_all(self.rows.as_bytes())?;
-        out.write_all(self.last_row(session).as_bytes())
+        if self.last_cycle == Some(session.simulation().cycle()) {
+            return Ok(());
+        }
+        writeln!(out, "{}", self.row(session))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::header::{field, lines};
+use super::header::{field, table};
 use crate::scenario::session::Session;
 use crate::simulation::Simulation;
 
@@ -33,11 +33,8 @@ impl LastLoop {
         let end = simulation.cycle();
         let step = 1.5 / simulation.setup().steps_in_a_cycle();
         let begin = (end - 1.0).max(0.0);
-        let cycles = [begin].into_iter();
-        let cycles = cycles
-            .chain(self.rows.iter().map(|row| row[0]))
-            .chain([end]);
-        let cycles: Vec<f64> = cycles.collect();
+        let cycles: Vec<f64> = self.rows.iter().map(|row| row[0]).collect();
+        let cycles = [&[begin], &cycles[..], &[end]].concat();
         if cycles.windows(2).all(|pair| pair[1] - pair[0] < step) {
             return self.rows.clone();
         }
@@ -47,15 +44,8 @@ impl LastLoop {
     /// The whole file for the present state of `session`; `None` without tangential motion.
     pub fn table(&self, session: &Session) -> Option<String> {
         let rows = self.rows(session.simulation());
-        if rows.is_empty() {
-            return None;
-        }
-        let mut text = format!("{}{}\n", lines(session), COLUMNS.join(","));
-        for row in rows {
-            text.push_str(&row.map(field).join(","));
-            text.push('\n');
-        }
-        Some(text)
+        let fields = rows.iter().map(|row| row.map(field));
+        (!rows.is_empty()).then(|| table(session, &COLUMNS, fields))
     }
 }
 

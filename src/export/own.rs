@@ -13,31 +13,8 @@ use nix::libc::{O_NOFOLLOW, O_NONBLOCK};
 ///
 /// As the system says, and for what is not a regular file.
 pub fn open(path: &Path, is_new: bool) -> io::Result<File> {
-    let mut options = OpenOptions::new();
-    options.read(true).write(true).create_new(is_new);
-    regular(path, options)
-}
-
-/// Opens `path`, which is there, for reading.
-///
-/// # Errors
-///
-/// As [`open`].
-pub fn read(path: &Path) -> io::Result<File> {
-    let mut options = OpenOptions::new();
-    options.read(true);
-    regular(path, options)
-}
-
-fn regular(path: &Path, mut options: OpenOptions) -> io::Result<File> {
-    // Opening a pipe must not wait for its other end.
-    let file = options.custom_flags(O_NOFOLLOW | O_NONBLOCK).open(path);
-    let is_other = || path.symlink_metadata().is_ok_and(|about| !about.is_file());
-    match file {
-        Ok(file) if file.metadata()?.is_file() => Ok(file),
-        Err(error) if error.kind() == io::ErrorKind::AlreadyExists || !is_other() => Err(error),
-        _ => Err(io::Error::other("it is not a regular file")),
-    }
+    let mut options = File::options();
+    regular(path, options.read(true).write(true).create_new(is_new))
 }
 
 /// Opens `path` for reading and writing, and makes it where it is not there.
@@ -46,15 +23,28 @@ fn regular(path: &Path, mut options: OpenOptions) -> io::Result<File> {
 ///
 /// As [`open`].
 pub fn open_or_make(path: &Path) -> io::Result<File> {
-    loop {
-        match open(path, false) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => {}
-            other => return other,
-        }
-        match open(path, true) {
-            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
-            other => return other,
-        }
+    let mut options = File::options();
+    options.read(true).write(true).create(true).truncate(false);
+    regular(path, &mut options)
+}
+
+/// Opens `path`, which is there, for reading.
+///
+/// # Errors
+///
+/// As [`open`].
+pub fn read(path: &Path) -> io::Result<File> {
+    regular(path, File::options().read(true))
+}
+
+fn regular(path: &Path, options: &mut OpenOptions) -> io::Result<File> {
+    // Opening a pipe must not wait for its other end.
+    let file = options.custom_flags(O_NOFOLLOW | O_NONBLOCK).open(path);
+    let is_other = || path.symlink_metadata().is_ok_and(|about| !about.is_file());
+    match file {
+        Ok(file) if file.metadata()?.is_file() => Ok(file),
+        Err(error) if error.kind() == io::ErrorKind::AlreadyExists || !is_other() => Err(error),
+        _ => Err(io::Error::other("it is not a regular file")),
     }
 }
 

@@ -1,6 +1,6 @@
 //! `state.csv`: one row per node, at one moment.
 
-use super::header::{lines, number};
+use super::header::{self, number};
 use crate::reading::{Curves, Observation};
 use crate::scenario::session::Session;
 
@@ -26,21 +26,19 @@ pub const COLUMNS_OF_BODIES: [&str; 2] = ["wear_indenter_m", "wear_half_space_m"
 
 /// The whole file for the present state of `session`.
 pub fn table(session: &Session) -> String {
-    let observation = session.simulation().observe(Curves::all());
-    let (numbers, of_bodies) = (columns(&observation), of_bodies(session, &observation));
-    let mut text = lines(session);
-    let names = of_bodies.iter().map(|(name, _)| *name);
-    let names: Vec<&str> = COLUMNS.into_iter().chain(names).collect();
-    text.push_str(&names.join(","));
-    text.push('\n');
-    for (j, zone) in observation.zones.iter().enumerate() {
-        let field = |(_, values): &(&str, Vec<f64>)| number(values[j]);
-        let fields = numbers.iter().map(field).chain([zone.name().to_owned()]);
-        let fields: Vec<String> = fields.chain(of_bodies.iter().map(field)).collect();
-        text.push_str(&fields.join(","));
-        text.push('\n');
-    }
-    text
+    let seen = session.simulation().observe(Curves::all());
+    let (numbers, share) = (columns(&seen), session.scenario().wear_share());
+    let of_bodies = share.iter().flat_map(|_| COLUMNS_OF_BODIES);
+    let names: Vec<&str> = COLUMNS.into_iter().chain(of_bodies).collect();
+    let rows = seen.zones.iter().enumerate().map(|(j, zone)| {
+        let fields = numbers.iter().map(|(_, values)| number(values[j]));
+        let of_bodies = share
+            .iter()
+            .flat_map(|&share| seen.wear_of_bodies(share, j));
+        let fields = fields.chain([zone.name().to_owned()]);
+        fields.chain(of_bodies.map(number)).collect::<Vec<_>>()
+    });
+    header::table(session, &names, rows)
 }
 
 /// The columns of numbers with their names, in the order of the file, as far as they were asked for.
@@ -63,17 +61,4 @@ pub fn columns(seen: &Observation) -> Vec<(&'static str, Vec<f64>)> {
     ];
     let named = COLUMNS.into_iter().zip(values);
     named.filter(|(_, values)| !values.is_empty()).collect()
-}
-
-/// What has worn of each body, where the scenario shares the wear between both.
-fn of_bodies(session: &Session, seen: &Observation) -> Vec<(&'static str, Vec<f64>)> {
-    let Some(share) = session.scenario().wear_share() else {
-        return Vec::new();
-    };
-    let column = |k: usize| -> Vec<f64> {
-        let nodes = 0..seen.radii.len();
-        nodes.map(|j| seen.wear_of_bodies(share, j)[k]).collect()
-    };
-    let named = COLUMNS_OF_BODIES.into_iter().enumerate();
-    named.map(|(k, name)| (name, column(k))).collect()
 }

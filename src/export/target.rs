@@ -6,9 +6,10 @@
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
-use super::claim::{Claim, Refusal};
-use super::file::{WriteError, directory_of, sweep_of, write_with};
+use super::claim::Claim;
+use super::file::{IRREGULAR, WriteError, directory_of, sweep, temporary_of, write_with};
 
 /// The name under which a result goes to the standard output.
 const STDOUT: &str = "/dev/stdout";
@@ -54,29 +55,17 @@ impl Target {
                 claim: None,
             });
         }
-        let Some(name) = path.file_name().filter(|_| !path.is_dir()) else {
-            return Err(WriteError::NotAFile(path.to_owned()));
-        };
+        if path.file_name().is_none() || path.is_dir() {
+            return Err(WriteError::refused(path, "is not a file name"));
+        }
         if path.symlink_metadata().is_ok_and(|about| !about.is_file()) {
-            return Err(WriteError::NotRegular(path.to_owned()));
+            return Err(WriteError::refused(path, IRREGULAR));
         }
-        let directory = directory_of(path);
-        if !directory.is_dir() {
-            return Err(WriteError::NoDirectory(path.to_owned()));
+        if !directory_of(path).is_dir() {
+            return Err(WriteError::refused(path, "its directory does not exist"));
         }
-        let claim = Claim::take_file(directory, &name.to_string_lossy());
-        let claim = claim.map_err(|refusal| match refusal {
-            Refusal::Taken(owner) => WriteError::BusyFile(path.to_owned(), owner),
-            Refusal::Io { path: lock, cause } => WriteError::Io {
-                // Where no lock can be made, no file can.
-                path: match lock.symlink_metadata() {
-                    Ok(_) => lock,
-                    Err(_) => path.to_owned(),
-                },
-                cause,
-            },
-        })?;
-        sweep_of(path);
+        let claim = Claim::of_file(path)?;
+        sweep(directory_of(path), &temporary_of(path), Duration::ZERO);
         Ok(Self {
             path: path.to_owned(),
             claim: Some(claim),
@@ -92,10 +81,7 @@ impl Target {
     pub fn hold_in_new_directory(path: &Path) -> Result<Self, WriteError> {
         let directory = directory_of(path);
         let is_new = !directory.exists();
-        fs::create_dir_all(directory).map_err(|cause| WriteError::Io {
-            path: directory.to_owned(),
-            cause,
-        })?;
+        fs::create_dir_all(directory).map_err(WriteError::io(directory))?;
         let mut target = Self::hold(path)?;
         if let Some(claim) = &mut target.claim {
             claim.is_new = is_new;
@@ -107,10 +93,11 @@ impl Target {
     ///
     /// # Errors
     ///
-    /// [`WriteError::Exists`].
+    /// If it is there.
     pub fn refuse_existing(&self, force: bool) -> Result<(), WriteError> {
+        let rule = "already exists; choose another name or add --force";
         match self.exists() && !force {
-            true => Err(WriteError::Exists(self.path.clone())),
+            true => Err(WriteError::refused(&self.path, rule)),
             false => Ok(()),
         }
     }
@@ -159,14 +146,11 @@ impl Target {
                 fill(&mut out)?;
                 out.flush()
             };
-            return write_with(&self.path, filled).map(|_| ());
+            return write_with(&self.path, filled);
         }
         let mut out = io::stdout().lock();
         let written = fill(&mut out).and_then(|()| out.flush());
-        written.map_err(|cause| WriteError::Io {
-            path: self.path.clone(),
-            cause,
-        })
+        written.map_err(WriteError::io(&self.path))
     }
 }
 
@@ -176,7 +160,7 @@ impl Target {
 /// # Errors
 ///
 /// Of the first file that cannot be written.
-pub fn write_all(files: &[(&Target, &[u8])]) -> Result<(), WriteError> {
+pub fn write_all(files: &[(&Target, Vec<u8>)]) -> Result<(), WriteError> {
     let mut made: Vec<&Path> = Vec::new();
     for (target, contents) in files {
         let is_new = !target.is_stdout() && !target.exists();
@@ -204,15 +188,13 @@ mod tests {
         let first = Target::claim(&path, false).expect("a claim");
         for force in [false, true] {
             let refused = Target::claim(&path, force).expect_err("it is taken");
-            assert!(
-                matches!(refused, WriteError::BusyFile(_, Some(_))),
-                "{refused}"
-            );
+            let word = "another mdr-tui is writing this file (process ";
+            assert!(refused.to_string().contains(word), "{refused}");
         }
         first.write(b"one").expect("a file");
         drop(first);
         let refused = Target::claim(&path, false).expect_err("it is there");
-        assert!(matches!(refused, WriteError::Exists(_)), "{refused}");
+        assert!(refused.to_string().contains("already exists"), "{refused}");
         let second = Target::claim(&path, true).expect("a claim");
         second.write(b"two").expect("a file");
         drop(second);
@@ -229,12 +211,13 @@ mod tests {
         std::os::unix::fs::symlink("nowhere", &dangling).expect("a link");
         for path in [&link, &dangling, Path::new("/dev/null")] {
             let refused = Target::claim(path, true).expect_err("no regular file");
-            assert!(matches!(refused, WriteError::NotRegular(_)), "{refused}");
+            assert!(refused.to_string().ends_with(IRREGULAR), "{refused}");
         }
-        assert!(matches!(
-            Target::claim(base.path(), true),
-            Err(WriteError::NotAFile(_))
-        ));
+        let refused = Target::claim(base.path(), true).expect_err("a directory");
+        assert!(
+            refused.to_string().ends_with("is not a file name"),
+            "{refused}"
+        );
         assert_eq!(fs::read_dir(base.path()).expect("it").count(), 3);
     }
 

@@ -51,6 +51,6 @@ pub(super) fn write(of: &Recorded, path: &Path) -> Result<(), String> {
     let picture = format
         .write(&canvas, DPI)
         .map_err(|error| error.to_string())?;
-    write_all(&[(&data_target, sheet.csv().as_bytes()), (&target, &picture)])
+    write_all(&[(&data_target, sheet.csv().into_bytes()), (&target, picture)])
         .map_err(|error| error.to_string())
 }

@@ -1,14 +1,13 @@
 //! What `s` writes and how it is opened again: the state, the scenario that reproduces it, history and
 //! last loop as tables, and a checkpoint.
 
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use serde::de::IgnoredAny;
 
 use super::trend::{self, Cycle, Recorded, Trend};
 use crate::export::file::{RUN_CHECKPOINT, RunDirectory, WriteError};
-use crate::export::header::{field as written, lines, number};
+use crate::export::header::{field as written, number, table};
 use crate::export::{history, state};
 use crate::scenario::columns::Columns;
 use crate::scenario::scalars::Reading;
@@ -55,8 +54,7 @@ pub(super) fn write(run: &Recorded, note: Option<&str>) -> Result<PathBuf, Write
 /// The history in the columns of a run's. Contact radii and stick radii are those that the screen shows: the
 /// largest and the smallest of each cycle.
 fn history(session: &Session, trend: &Trend) -> String {
-    let mut text = format!("{}{}\n", lines(session), history::COLUMNS.join(","));
-    for entry in trend.cycles() {
+    let rows = trend.cycles().map(|entry| {
         let (mut fields, is_open) = match &entry.fields {
             Some(fields) => (fields.to_vec(), false),
             None => (vec![String::new(); history::COLUMNS.len()], true),
@@ -73,19 +71,16 @@ fn history(session: &Session, trend: &Trend) -> String {
                 *field = written(value);
             }
         }
-        let _ = writeln!(text, "{}", fields.join(","));
-    }
-    text
+        fields
+    });
+    table(session, &history::COLUMNS, rows)
 }
 
 /// The last cycle, in the columns of a measured loop.
 fn last_loop(session: &Session, trend: &Trend) -> String {
-    let mut text = format!("{}cycle,u_m,F_N\n", lines(session));
-    for [cycle, shift, force, _] in &trend.loops.steps {
-        let fields = [cycle, shift, force].map(|value| written(*value));
-        let _ = writeln!(text, "{}", fields.join(","));
-    }
-    text
+    let steps = trend.loops.steps.iter();
+    let rows = steps.map(|&[cycle, shift, force, _]| [cycle, shift, force].map(written));
+    table(session, &["cycle", "u_m", "F_N"], rows)
 }
 
 /// Where in a directory a state to go on from is: that of a snapshot, or of a run that was interrupted.

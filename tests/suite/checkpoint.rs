@@ -1,5 +1,7 @@
 //! A run put away and taken up again is the run that was never put away, to the last bit.
 
+use std::path::Path;
+
 use ciborium::Value;
 use mdr_tui::export::history::History;
 use mdr_tui::export::state;
@@ -26,13 +28,14 @@ fn through_a_file(session: &Session) -> Session {
 
 /// Everything that a user can see of a session.
 fn seen(session: &Session) -> String {
-    let mut history = History::default();
-    history.record(session);
+    let mut history = Vec::new();
+    let written = History::default().write(session, Path::new(""), &mut history);
+    written.expect("memory");
     let run = session.as_run(Vec::new());
     format!(
         "{}{}{}{:?}",
         state::table(session),
-        history.table(session),
+        String::from_utf8_lossy(&history),
         run.to_toml(),
         session.simulation().next_moment().to_bits()
     )

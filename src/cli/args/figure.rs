@@ -7,14 +7,18 @@ use clap::{Args, ValueEnum};
 use clap_complete::engine::ArgValueCompleter;
 
 use super::Changes;
-use super::values::{CycleAsGiven, cycles};
+use super::values::{CycleAsGiven, cycles, listed, within};
 use crate::charts::{Recipe, field};
 use crate::cli::complete;
 use crate::figure::look::Style;
 use crate::tui::panels::Panel;
 
+/// What is said of another size of the font.
+const FONT: &str = "a font has from 3 to 72 points, e.g. 8";
+
 /// Options of `figure`.
 #[derive(Debug, Args)]
+#[command(mut_args = listed)]
 #[command(after_help = "Examples:\n  \
     mdr-tui figure --figure fig2 -o fig2.pdf                 Fig. 2 of the paper\n  \
     mdr-tui figure --figure fig3 -o fig3.svg                 Fig. 3 of the paper\n  \
@@ -53,16 +57,11 @@ pub struct Figure {
     #[command(flatten)]
     pub changes: Changes,
     /// Number of cycles to run; default: run.cycles of the scenario.
-    #[arg(long, value_name = "X", value_parser = cycles, allow_hyphen_values = true)]
+    #[arg(long, value_name = "X", value_parser = cycles)]
     pub cycles: Option<f64>,
     /// Show the states at these cycles; default: all in a directory, or those planned by the
     /// scenario.
-    #[arg(
-        long,
-        value_name = "C1,C2,...",
-        value_delimiter = ',',
-        allow_hyphen_values = true
-    )]
+    #[arg(long, value_name = "C1,C2,...")]
     pub at: Option<Vec<CycleAsGiven>>,
     /// Width and height in mm; default: one or two columns of a journal.
     #[arg(long, value_name = "WxH", value_parser = size)]
@@ -71,7 +70,7 @@ pub struct Figure {
     #[arg(long, value_enum, default_value_t = Style::Color)]
     pub style: Style,
     /// Font size in points.
-    #[arg(long, value_name = "PT", default_value = "8", value_parser = font_size)]
+    #[arg(long, value_name = "PT", default_value = "8", value_parser = within(3.0..=72.0, FONT))]
     pub font_size: f64,
     /// Resolution of a PNG in dots per inch.
     #[arg(long, value_name = "DPI", default_value_t = 300, value_parser = clap::value_parser!(u16).range(20..=2400))]
@@ -109,18 +108,8 @@ fn panel_parser() -> impl TypedValueParser<Value = &'static Recipe> {
 }
 
 fn size(text: &str) -> Result<[f64; 2], String> {
-    let sides = text.split_once('x').and_then(|(width, height)| {
-        let side = |text: &str| text.trim().parse::<f64>().ok();
-        Some([side(width)?, side(height)?])
-    });
-    sides
-        .filter(|sides| sides.iter().all(|side| (20.0..=2000.0).contains(side)))
-        .ok_or_else(|| "a size is WIDTHxHEIGHT in mm, each from 20 to 2000, e.g. 170x120".into())
-}
-
-fn font_size(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(size) if (3.0..=72.0).contains(&size) => Ok(size),
-        _ => Err("a font has from 3 to 72 points, e.g. 8".into()),
-    }
+    let rule = "a size is WIDTHxHEIGHT in mm, each from 20 to 2000, e.g. 170x120";
+    let (width, height) = text.split_once('x').ok_or(rule)?;
+    let side = within(20.0..=2000.0, rule);
+    Ok([side(width)?, side(height)?])
 }

@@ -21,7 +21,7 @@ pub use figure::{Figure, PaperFigure, on_paper};
 pub use studies::{Fit, Guard, Rows, Stability, Trade, Verify};
 pub use sweep::Sweep;
 pub use values::{ColorChoice, CycleAsGiven, HistoryChoice, Interval};
-use values::{budget, cycles, interval};
+use values::{budget, cycles, interval, listed};
 
 /// Watch a fretting contact wear away, live in the terminal.
 #[derive(Debug, Parser)]
@@ -156,6 +156,7 @@ pub struct Explore {
 
 /// Options of `run`.
 #[derive(Debug, Args)]
+#[command(mut_args = listed)]
 #[command(
     override_usage = "mdr-tui run [OPTIONS] <SCENARIO>\n       mdr-tui run [OPTIONS] --resume <FILE>"
 )]
@@ -181,15 +182,10 @@ pub struct Run {
     )]
     pub resume: Option<PathBuf>,
     /// Number of cycles to run; default: run.cycles of the scenario.
-    #[arg(long, value_name = "X", value_parser = cycles, allow_hyphen_values = true)]
+    #[arg(long, value_name = "X", value_parser = cycles)]
     pub cycles: Option<f64>,
     /// Also write the state at these cycles; default: run.snapshot_at of the scenario.
-    #[arg(
-        long,
-        value_name = "C1,C2,...",
-        value_delimiter = ',',
-        allow_hyphen_values = true
-    )]
+    #[arg(long, value_name = "C1,C2,...")]
     pub snapshot_at: Option<Vec<CycleAsGiven>>,
     /// Estimate the error of the result from coarser runs and write it into the file headers.
     #[arg(long)]
@@ -213,7 +209,7 @@ pub struct Run {
     #[arg(long, value_enum, default_value_t = HistoryChoice::Cycle)]
     pub history: HistoryChoice,
     /// Also record these quantities in the history, by the names that a study gives its columns.
-    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    #[arg(long, value_name = "NAME,...")]
     pub column: Vec<String>,
     /// Checkpoint interval in seconds; 0: only when the run stops.
     #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = interval)]

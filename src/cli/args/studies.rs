@@ -2,17 +2,23 @@
 
 use std::path::PathBuf;
 
+use clap::builder::{RangedI64ValueParser, TypedValueParser};
 use clap::{Arg, Args, ValueEnum};
 
 use super::Changes;
-use super::values::{accuracy, cycles, method_parser, points, problem_parser, wear_number};
+use super::values::{cycles, listed, named, points, within};
 use crate::math::abel::AbelMethod;
 use crate::plot::Marker;
 use crate::studies::verify::{LADDER, Problem};
 use crate::studies::{stability, trade};
 
+/// What is said of another accuracy.
+const ACCURACY: &str =
+    "an accuracy is greater than 0 and at most 1, relative to the largest depth, e.g. 1e-3";
+
 /// Options of `verify`.
 #[derive(Debug, Args)]
+#[command(mut_args = listed)]
 #[command(after_help = "Examples:\n  \
     mdr-tui verify                                  how far the default method is from theory\n  \
     mdr-tui verify --all                            the error tables of all methods and problems\n  \
@@ -25,21 +31,14 @@ use crate::studies::{stability, trade};
 ]))]
 pub struct Verify {
     /// Run only this problem and print its table; can be repeated.
-    #[arg(long, value_name = "NAME", value_parser = problem_parser())]
+    #[arg(long, value_name = "NAME", value_parser = named::<Problem>(Problem::ALL.map(Problem::name)))]
     pub problem: Vec<Problem>,
     /// Print the tables of all problems, not only the verdict.
     #[arg(long)]
     pub all: bool,
     /// Numbers of grid cells N to try; default: 50,100,200,400,800.
-    #[arg(
-        long,
-        value_name = "N1,N2,...",
-        value_delimiter = ',',
-        value_parser = points,
-        allow_hyphen_values = true,
-        default_values_t = LADDER,
-        hide_default_value = true
-    )]
+    #[arg(long, value_name = "N1,N2,...", value_parser = points(), default_values_t = LADDER)]
+    #[arg(hide_default_value = true)]
     pub points: Vec<usize>,
     /// Also run what takes minutes: the limiting profile on more than 200 cells.
     #[arg(long)]
@@ -57,6 +56,7 @@ pub struct Verify {
 
 /// Options of `trade`.
 #[derive(Debug, Args)]
+#[command(mut_args = listed)]
 #[command(after_help = "Examples:\n  \
     mdr-tui trade li2019-fig3 --plot            the Pareto front, as a table and drawn\n  \
     mdr-tui trade mine.toml --accuracy 1e-3     the cheapest setting for an error of 1e-3\n  \
@@ -73,33 +73,20 @@ pub struct Trade {
     #[command(flatten)]
     pub changes: Changes,
     /// Number of cycles to run; default: run.cycles of the scenario.
-    #[arg(long, value_name = "X", value_parser = cycles, allow_hyphen_values = true)]
+    #[arg(long, value_name = "X", value_parser = cycles)]
     pub cycles: Option<f64>,
     /// Methods to try; default: all.
-    #[arg(long, value_name = "M1,M2,...", value_delimiter = ',', value_parser = method_parser())]
+    #[arg(long, value_name = "M1,M2,...", value_parser = methods())]
     pub methods: Vec<AbelMethod>,
     /// Numbers of grid cells N to try.
-    #[arg(
-        long,
-        value_name = "N1,N2,...",
-        value_delimiter = ',',
-        value_parser = points,
-        allow_hyphen_values = true,
-        default_values_t = trade::POINTS
-    )]
+    #[arg(long, value_name = "N1,N2,...", value_parser = points(), default_values_t = trade::POINTS)]
     pub points: Vec<usize>,
     /// Numbers of steps per cycle to try.
-    #[arg(
-        long,
-        value_name = "S1,S2,...",
-        value_delimiter = ',',
-        value_parser = clap::value_parser!(u32).range(1..=100_000),
-        default_values_t = trade::STEPS
-    )]
+    #[arg(long, value_name = "S1,S2,...", value_parser = steps(), default_values_t = trade::STEPS)]
     pub steps: Vec<u32>,
     /// Print only the cheapest setting that passes its own checks and whose errors of depth, V, E_d and F_x are at
     /// most E.
-    #[arg(long, value_name = "E", value_parser = accuracy)]
+    #[arg(long, value_name = "E", value_parser = within(f64::MIN_POSITIVE..=1.0, ACCURACY))]
     pub accuracy: Option<f64>,
     /// Print all settings, not only the Pareto front.
     #[arg(long)]
@@ -117,6 +104,7 @@ pub struct Trade {
 
 /// Options of `stability`.
 #[derive(Debug, Args)]
+#[command(mut_args = listed)]
 #[command(after_help = "Examples:\n  \
     mdr-tui stability li2019-fig3                         every method as it was published\n  \
     mdr-tui stability li2019-fig3 --guard both --methods product,b\n  \
@@ -132,33 +120,19 @@ pub struct Stability {
     #[command(flatten)]
     pub changes: Changes,
     /// Number of cycles to run.
-    #[arg(long, value_name = "X", value_parser = cycles, allow_hyphen_values = true, default_value_t = 20.0)]
+    #[arg(long, value_name = "X", value_parser = cycles, default_value_t = 20.0)]
     pub cycles: f64,
     /// Methods to try; default: all.
-    #[arg(long, value_name = "M1,M2,...", value_delimiter = ',', value_parser = method_parser())]
+    #[arg(long, value_name = "M1,M2,...", value_parser = methods())]
     pub methods: Vec<AbelMethod>,
     /// Numbers of grid cells N to try.
-    #[arg(
-        long,
-        value_name = "N1,N2,...",
-        value_delimiter = ',',
-        value_parser = points,
-        allow_hyphen_values = true,
-        default_values_t = stability::POINTS
-    )]
+    #[arg(long, value_name = "N1,N2,...", value_parser = points(), default_values_t = stability::POINTS)]
     pub points: Vec<usize>,
     /// Values of K = k E* d/a to try, with d and a at the start.
-    #[arg(
-        long,
-        value_name = "K1,K2,...",
-        value_delimiter = ',',
-        value_parser = wear_number,
-        allow_hyphen_values = true,
-        default_values_t = stability::WEAR_NUMBERS
-    )]
+    #[arg(long, value_name = "K1,K2,...", value_parser = wear_numbers(), default_values_t = stability::WEAR_NUMBERS)]
     pub wear_numbers: Vec<f64>,
     /// Steps per cycle.
-    #[arg(long, value_name = "S", value_parser = clap::value_parser!(u32).range(1..=100_000), default_value_t = 100)]
+    #[arg(long, value_name = "S", value_parser = steps(), default_value_t = 100)]
     pub steps: u32,
     /// Whether steps that are too stiff are split.
     #[arg(long, value_enum, default_value_t = Guard::Off)]
@@ -173,6 +147,7 @@ pub struct Stability {
 
 /// Options of `fit`.
 #[derive(Debug, Args)]
+#[command(mut_args = listed)]
 #[command(after_help = "Examples:\n  \
     mdr-tui fit mine.toml --scar scar.csv --loop loop.csv --free wear.coefficient,friction.coefficient\n  \
     mdr-tui fit mine.toml --history volume.csv --free wear.coefficient --out fitted.toml --plot\n\n\
@@ -201,16 +176,11 @@ pub struct Fit {
     #[arg(long, value_name = "FILE")]
     pub history: Vec<PathBuf>,
     /// The keys to fit, by their dotted paths.
-    #[arg(
-        long,
-        value_name = "KEY1,KEY2,...",
-        value_delimiter = ',',
-        required = true
-    )]
+    #[arg(long, value_name = "KEY1,KEY2,...", required = true)]
     pub free: Vec<String>,
     /// Number of cycles to run; default: run.cycles of the scenario, or up to the end of the
     /// histories.
-    #[arg(long, value_name = "X", value_parser = cycles, allow_hyphen_values = true)]
+    #[arg(long, value_name = "X", value_parser = cycles)]
     pub cycles: Option<f64>,
     /// Give outliers less weight.
     #[arg(long)]
@@ -227,6 +197,20 @@ pub struct Fit {
     /// What is said.
     #[command(flatten)]
     pub printing: Printing,
+}
+
+fn methods() -> impl TypedValueParser<Value = AbelMethod> {
+    named(AbelMethod::ALL.map(AbelMethod::name))
+}
+
+/// Numbers of steps per cycle.
+fn steps() -> RangedI64ValueParser<u32> {
+    clap::value_parser!(u32).range(1..=100_000)
+}
+
+fn wear_numbers() -> impl Fn(&str) -> Result<f64, String> + Clone {
+    let rule = "wear numbers are greater than 0 and at most 1e6, e.g. 0.3,3,30";
+    within(f64::MIN_POSITIVE..=1e6, rule)
 }
 
 /// What `stability` does with stiff steps.

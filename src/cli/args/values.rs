@@ -1,16 +1,16 @@
 //! Types of command-line values: choices, and numbers within limits.
 
+use std::ops::RangeInclusive;
 use std::str::FromStr;
 use std::time::Duration;
 
-use clap::ValueEnum;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Arg, ValueEnum};
 use serde::{Deserialize, Serialize};
 
-use crate::math::abel::{AbelMethod, MOST_DENSE_CELLS};
+use crate::math::abel::MOST_DENSE_CELLS;
 use crate::math::grid::MIN_CELLS;
 use crate::scenario::MOST_CYCLES;
-use crate::studies::verify::Problem;
 
 /// Which moments `history.csv` records.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -119,39 +119,47 @@ pub(super) fn cycles(text: &str) -> Result<f64, String> {
     }
 }
 
-pub(super) fn points(text: &str) -> Result<usize, String> {
-    match text.trim().parse::<usize>() {
-        Ok(points) if (MIN_CELLS..=MOST_DENSE_CELLS).contains(&points) => Ok(points),
-        _ => Err(format!(
-            "points are whole numbers from {MIN_CELLS} to {MOST_DENSE_CELLS}, e.g. 100,1000"
-        )),
+/// An option whose value is named `X,...` takes a list. Its parser, and that of a number `X`, complains of what begins
+/// with a dash.
+pub(super) fn listed(arg: Arg) -> Arg {
+    let names = arg.get_value_names().unwrap_or_default();
+    let is_list = names.iter().any(|name| name.ends_with(",..."));
+    match names {
+        _ if is_list => arg.value_delimiter(',').allow_hyphen_values(true),
+        [name] if name == "X" => arg.allow_hyphen_values(true),
+        _ => arg,
     }
 }
 
-pub(super) fn wear_number(text: &str) -> Result<f64, String> {
-    match text.trim().parse::<f64>() {
-        Ok(value) if value > 0.0 && value <= 1e6 => Ok(value),
-        _ => Err("wear numbers are greater than 0 and at most 1e6, e.g. 0.3,3,30".into()),
+/// A number of a range, or the rule that it breaks.
+pub(super) fn within<T: FromStr + PartialOrd>(
+    range: RangeInclusive<T>,
+    rule: impl Into<String>,
+) -> impl Fn(&str) -> Result<T, String> + Clone
+where
+    RangeInclusive<T>: Clone,
+{
+    let rule = rule.into();
+    move |text| {
+        let value = text.trim().parse().ok();
+        value
+            .filter(|value| range.contains(value))
+            .ok_or_else(|| rule.clone())
     }
 }
 
-pub(super) fn accuracy(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if value > 0.0 && value <= 1.0 => Ok(value),
-        _ => Err(
-            "an accuracy is greater than 0 and at most 1, relative to the largest depth, e.g. \
-                1e-3"
-                .into(),
-        ),
-    }
+pub(super) fn points() -> impl Fn(&str) -> Result<usize, String> + Clone {
+    let (least, most) = (MIN_CELLS, MOST_DENSE_CELLS);
+    let rule = format!("points are whole numbers from {least} to {most}, e.g. 100,1000");
+    within(least..=most, rule)
 }
 
-pub(super) fn method_parser() -> impl TypedValueParser<Value = AbelMethod> {
-    PossibleValuesParser::new(AbelMethod::ALL.map(AbelMethod::name))
-        .try_map(|name| name.parse::<AbelMethod>())
-}
-
-pub(super) fn problem_parser() -> impl TypedValueParser<Value = Problem> {
-    PossibleValuesParser::new(Problem::ALL.map(Problem::name))
-        .try_map(|name| name.parse::<Problem>())
+/// One of these names.
+pub(super) fn named<T>(
+    names: impl IntoIterator<Item = &'static str>,
+) -> impl TypedValueParser<Value = T>
+where
+    T: FromStr<Err: std::error::Error + Send + Sync> + Clone + Send + Sync + 'static,
+{
+    PossibleValuesParser::new(names).try_map(|name| name.parse())
 }

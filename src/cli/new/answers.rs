@@ -1,7 +1,5 @@
 //! The answers to `mdr-tui new`, and the commented scenario made from them.
 
-use std::fmt::Write;
-
 use toml::Value;
 
 use crate::scenario::schema::{self, Kind};
@@ -11,7 +9,7 @@ use crate::scenario::{Scenario, ScenarioError, units};
 const JUMP_FROM: f64 = 1000.0;
 
 /// A material of the short list: name, Young's modulus, Poisson's ratio.
-pub const MATERIALS: &[(&str, &str, f64)] = &[
+pub const MATERIALS: [(&str, &str, f64); 12] = [
     ("steel", "210 GPa", 0.3),
     ("stainless steel", "193 GPa", 0.29),
     ("titanium alloy", "114 GPa", 0.34),
@@ -44,20 +42,18 @@ impl Body {
     /// What would be right.
     pub fn read(text: &str) -> Result<Self, String> {
         let text = text.trim();
-        let known = MATERIALS
-            .iter()
-            .find(|(name, ..)| name.eq_ignore_ascii_case(text));
-        if let Some((name, modulus, poisson)) = known {
+        let mut materials = MATERIALS.iter();
+        let known = materials.find(|(name, ..)| name.eq_ignore_ascii_case(text));
+        if let Some(&(name, modulus, poisson)) = known {
             return Ok(Self {
-                name: (*name).to_owned(),
-                elastic: (*name != RIGID).then(|| ((*modulus).to_owned(), *poisson)),
+                name: name.to_owned(),
+                elastic: (name != RIGID).then(|| (modulus.to_owned(), poisson)),
             });
         }
-        let names: Vec<&str> = MATERIALS.iter().map(|(name, ..)| *name).collect();
         let Some((modulus, poisson)) = text.split_once(',') else {
+            let names = MATERIALS.map(|(name, ..)| name).join(", ");
             return Err(format!(
-                "must be one of {}, or E,NU such as \"200 GPa,0.3\"",
-                names.join(", ")
+                "must be one of {names}, or E,NU such as \"200 GPa,0.3\""
             ));
         };
         let modulus = quantity(modulus, "material.indenter.youngs_modulus", "GPa", false)?;
@@ -107,37 +103,21 @@ pub fn quantity(text: &str, key: &str, unit: &str, is_force: bool) -> Result<Qua
     }
 }
 
-/// The shape of the indenter.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Shape {
-    /// A ball, near its pole.
-    Ball,
-    /// A flat disc.
-    Punch,
-}
-
-/// What presses the bodies together.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Press {
-    /// A load that is held.
-    Load(Quantity),
-    /// A depth that is held.
-    Depth(Quantity),
-}
-
 /// All answers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Answers {
-    /// Ball or punch.
-    pub shape: Shape,
+    /// Whether the indenter is a flat disc, and else a ball near its pole.
+    pub is_punch: bool,
     /// Its radius.
     pub radius: Quantity,
     /// The indenter's material.
     pub indenter: Body,
     /// The half-space's.
     pub half_space: Body,
+    /// Whether a depth is held, and else a load.
+    pub holds_depth: bool,
     /// Load or depth.
-    pub press: Press,
+    pub press: Quantity,
     /// From turning point to turning point.
     pub stroke: Quantity,
     /// Cycles per second.
@@ -161,101 +141,74 @@ impl Answers {
 
     /// The scenario as a commented file.
     pub fn to_toml(&self) -> String {
-        let mut text = String::new();
-        let quoted = |text: &str| Value::String(text.to_owned()).to_string();
-        let mut line = |key: &str, value: String, comment: &str| {
-            // A table starts on a new line.
-            let (table, key) = key
-                .rsplit_once('\n')
-                .map_or(("", key), |(table, key)| (table, key));
-            if !table.is_empty() {
-                let _ = writeln!(text, "{table}");
-            }
-            let entry = format!("{key} = {value}");
-            let _ = match comment {
-                "" => writeln!(text, "{entry}"),
-                comment => writeln!(text, "{entry:38} # {comment}"),
-            };
+        let quoted = |text: &str| Value::from(text).to_string();
+        let (name, shape, of_what) = match self.is_punch {
+            false => ("Ball", quoted("paraboloid"), "of the ball"),
+            true => ("Flat punch", quoted("flat-punch"), "of the flat face"),
         };
-        let (shape, name) = match self.shape {
-            Shape::Ball => ("paraboloid", "Ball"),
-            Shape::Punch => ("flat-punch", "Flat punch"),
+        let (control, meaning) = match self.holds_depth {
+            false => (
+                "force",
+                "the load is held: the contact sinks in as it wears",
+            ),
+            true => (
+                "displacement",
+                "the depth is held: wear unloads the contact",
+            ),
         };
-        let pressed = match &self.press {
-            Press::Load(load) => &load.text,
-            Press::Depth(depth) => &depth.text,
-        };
-        let title = format!(
-            "{name} of {} on {}, {pressed}, stroke {}",
-            self.indenter.name, self.half_space.name, self.stroke.text
+        let (on, stroke) = (&self.half_space.name, &self.stroke.text);
+        let (of, press) = (&self.indenter.name, &self.press.text);
+        let title = format!("{name} of {of} on {on}, {press}, stroke {stroke}");
+        let mut text = format!(
+            "title = {}\n\n\
+             [indenter]\n\
+             shape = {shape:30} # mdr-tui guide scenarios lists all shapes and keys\n\
+             radius = {:29} # {of_what}\n",
+            quoted(&title),
+            quoted(&self.radius.text)
         );
-        line("title", quoted(&title), "");
-        line(
-            "\n[indenter]\nshape",
-            quoted(shape),
-            "mdr-tui guide scenarios lists all shapes and keys",
-        );
-        let meaning = match self.shape {
-            Shape::Ball => "of the ball",
-            Shape::Punch => "of the flat face",
-        };
-        line("radius", quoted(&self.radius.text), meaning);
         for (section, body) in [
             ("indenter", &self.indenter),
             ("half_space", &self.half_space),
         ] {
-            match &body.elastic {
-                None => line(&format!("\n[material.{section}]\nrigid"), "true".into(), ""),
-                Some((modulus, poisson)) => {
-                    let first = format!("\n[material.{section}]\nyoungs_modulus");
-                    line(&first, quoted(modulus), &body.name);
-                    line("poisson", poisson.to_string(), "");
-                }
-            }
+            text += &format!("\n[material.{section}]\n");
+            text += &match &body.elastic {
+                None => "rigid = true\n".to_owned(),
+                Some((modulus, poisson)) => format!(
+                    "youngs_modulus = {:21} # {}\npoisson = {poisson}\n",
+                    quoted(modulus),
+                    body.name
+                ),
+            };
         }
-        line("\n[friction]\ncoefficient", self.friction.text.clone(), "");
-        match &self.press {
-            Press::Load(load) => {
-                let meaning = "the load is held: the contact sinks in as it wears";
-                line("\n[motion.normal]\ncontrol", quoted("force"), meaning);
-                line("mean", quoted(&load.text), "");
-            }
-            Press::Depth(depth) => {
-                let meaning = "the depth is held: wear unloads the contact";
-                line(
-                    "\n[motion.normal]\ncontrol",
-                    quoted("displacement"),
-                    meaning,
-                );
-                line("mean", quoted(&depth.text), "");
-            }
-        }
-        let amplitude = self.stroke.value / 2.0;
-        let meaning = format!("m: half the stroke of {}", self.stroke.text);
-        line(
-            "\n[motion.tangential]\namplitude",
-            format!("{amplitude:e}"),
-            &meaning,
-        );
-        line(
-            "frequency",
-            quoted(&self.frequency.text),
-            "one period is a cycle",
+        text += &format!(
+            "\n[friction]\n\
+             coefficient = {}\n\n\
+             [motion.normal]\n\
+             control = {:28} # {meaning}\n\
+             mean = {}\n\n\
+             [motion.tangential]\n\
+             amplitude = {:<26} # m: half the stroke of {stroke}\n\
+             frequency = {:26} # one period is a cycle\n",
+            self.friction.text,
+            quoted(control),
+            quoted(press),
+            format!("{:e}", self.stroke.value / 2.0),
+            quoted(&self.frequency.text)
         );
         if let Some(wear) = &self.wear {
-            let meaning = "of a pin test: per load and sliding distance";
-            line(
-                "\n[wear]\ncoefficient_per_load",
-                quoted(&wear.text),
-                meaning,
+            text += &format!(
+                "\n[wear]\n\
+                 coefficient_per_load = {:15} # of a pin test: per load and sliding distance\n",
+                quoted(&wear.text)
             );
         }
         if self.cycles.value > JUMP_FROM && self.wear.is_some() {
+            let integrator = "integrator = \"cycle-jump\"";
             let meaning = "jumps over cycles that are alike; \"direct\": every step";
-            line("\n[numerics]\nintegrator", quoted("cycle-jump"), meaning);
+            text += &format!("\n[numerics]\n{integrator:38} # {meaning}\n");
         }
-        line("\n[run]\ncycles", format!("{:?}", self.cycles.value), "");
-        text
+        text + &format!("\n[run]\ncycles = {:?}\n", self.cycles.value)
     }
 }
 

@@ -20,7 +20,7 @@ use crate::scenario::{Refusal, printable};
 mod answers;
 mod forecast;
 
-use answers::{Answers, Body, MATERIALS, Press, Quantity, Shape, quantity};
+use answers::{Answers, Body, MATERIALS, Quantity, quantity};
 use forecast::Forecast;
 
 /// Writes a new scenario.
@@ -105,6 +105,10 @@ macro_rules! questions {
 }
 
 questions! {
+    MATERIAL --material in "": "What is the indenter made of?"
+        ("Young's modulus and Poisson's ratio, a comma between them"), "steel", "";
+    AGAINST --against in "": "And the flat body?"
+        ("Young's modulus and Poisson's ratio, a comma between them"), "steel", "";
     BALL --ball in "mm": "Radius of the ball"
         ("in mm unless said otherwise; for two curved bodies 1/R = 1/R1 + 1/R2"), "5 mm", "indenter.radius";
     PUNCH --punch in "mm": "Radius of the punch"
@@ -135,42 +139,28 @@ impl Question {
 
 impl Interview<'_> {
     fn answers(&self) -> Result<Answers> {
-        let (shape, radius) = match self.is_second(
-            [&BALL, &PUNCH],
-            "Which shape presses on the flat body?",
-            [
-                "ball: pressure is highest in the middle, slip begins at the edge",
-                "flat punch: a disc whose edge carries most; the contact keeps its size",
-            ],
-        )? {
-            false => (Shape::Ball, self.number(&BALL)?),
-            true => (Shape::Punch, self.number(&PUNCH)?),
-        };
-        let made_of = "What is the indenter made of?";
-        let indenter = self.body("--material", |options| &options.material, made_of)?;
-        let half_space = self.body(
-            "--against",
-            |options| &options.against,
-            "And the flat body?",
-        )?;
-        let press = match self.is_second(
-            [&LOAD, &DEPTH],
-            "What presses the bodies together?",
-            [
-                "a load: it is held while the contact wears, as by a dead weight",
-                "a depth: it is held, and wear unloads the contact",
-            ],
-        )? {
-            false => Press::Load(self.number(&LOAD)?),
-            true => Press::Depth(self.number(&DEPTH)?),
-        };
+        let shapes = [
+            "ball: pressure is highest in the middle, slip begins at the edge",
+            "flat punch: a disc whose edge carries most; the contact keeps its size",
+        ];
+        let presses = [
+            "a load: it is held while the contact wears, as by a dead weight",
+            "a depth: it is held, and wear unloads the contact",
+        ];
+        let what = "Which shape presses on the flat body?";
+        let (is_punch, radius) = self.one_of([&BALL, &PUNCH], what, shapes)?;
+        let indenter = self.body(&MATERIAL)?;
+        let half_space = self.body(&AGAINST)?;
+        let what = "What presses the bodies together?";
+        let (holds_depth, press) = self.one_of([&LOAD, &DEPTH], what, presses)?;
         // Questions not asked yet have their defaults, so that the contact can be described already.
         let default = |question: &Question| question.read(question.default).map_err(Refusal::from);
         let mut answers = Answers {
-            shape,
+            is_punch,
             radius,
             indenter,
             half_space,
+            holds_depth,
             press,
             stroke: default(&STROKE)?,
             frequency: default(&FREQUENCY)?,
@@ -192,45 +182,44 @@ impl Interview<'_> {
         Ok(answers)
     }
 
-    /// Whether the second of two questions applies: by the option that is given, or by the user's choice.
-    fn is_second(&self, both: [&Question; 2], prompt: &str, items: [&str; 2]) -> Result<bool> {
-        match both.map(|question| (question.given)(self.options)) {
-            [None, None] => Ok(self.choose(prompt, &items)? == 1),
-            [first, _] => Ok(first.is_none()),
-        }
+    /// The answer to one of two questions, and whether it is the second: by the option that is given, or by the
+    /// user's choice of an item.
+    fn one_of(
+        &self,
+        both: [&Question; 2],
+        prompt: &str,
+        items: [&str; 2],
+    ) -> Result<(bool, Quantity)> {
+        let is_second = match both.map(|question| (question.given)(self.options)) {
+            [None, None] => self.choose(prompt, &items)? == 1,
+            [first, _] => first.is_none(),
+        };
+        Ok((is_second, self.number(both[usize::from(is_second)])?))
     }
 
-    fn body(
-        &self,
-        flag: &'static str,
-        given: fn(&New) -> &Option<String>,
-        prompt: &str,
-    ) -> Result<Body> {
-        let is_asked = self.theme.is_some();
-        if given(self.options).is_none() && is_asked {
-            let named = MATERIALS
-                .iter()
-                .map(|(name, modulus, poisson)| match *modulus {
-                    "" => format!("{name}: does not yield"),
-                    modulus => format!("{name}: E = {modulus}, Poisson's ratio {poisson}"),
-                });
-            let another = "another: type E and Poisson's ratio".to_owned();
-            let items: Vec<String> = named.chain([another]).collect();
-            let at = self.choose(prompt, &items)?;
-            if let Some((name, ..)) = MATERIALS.get(at) {
-                return Body::read(name).map_err(|rule| Refusal::from(rule).into());
+    /// A material: by its option, from the list, or by two numbers.
+    fn body(&self, question: &Question) -> Result<Body> {
+        let is_asked = self.theme.is_some() && (question.given)(self.options).is_none();
+        if !is_asked {
+            return self.ask(question, Body::read);
+        }
+        let items = MATERIALS.map(|(name, modulus, poisson)| match modulus {
+            "" => format!("{name}: does not yield"),
+            modulus => format!("{name}: E = {modulus}, Poisson's ratio {poisson}"),
+        });
+        let another = "another: type E and Poisson's ratio".to_owned();
+        let items: Vec<String> = items.into_iter().chain([another]).collect();
+        match MATERIALS.get(self.choose(question.prompt, &items)?) {
+            Some((name, ..)) => Body::read(name).map_err(|rule| Refusal::from(rule).into()),
+            None => {
+                let by_numbers = Question {
+                    prompt: "E,NU",
+                    default: "210 GPa,0.3",
+                    ..*question
+                };
+                self.ask(&by_numbers, Body::read)
             }
         }
-        let question = Question {
-            flag,
-            given,
-            prompt: "E,NU",
-            meaning: "Young's modulus and Poisson's ratio, a comma between them",
-            default: if is_asked { "210 GPa,0.3" } else { "steel" },
-            key: "",
-            unit: "",
-        };
-        self.ask(&question, Body::read)
     }
 
     fn number(&self, question: &Question) -> Result<Quantity> {

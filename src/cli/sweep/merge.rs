@@ -7,12 +7,11 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Context, Result, bail};
 
 use super::super::args::Sweep;
 use super::super::complain;
 use crate::export::target::Target;
-use crate::scenario::limited::Unread;
 use crate::scenario::{Refusal, printable};
 use crate::studies::sweep::ledger::Ledger;
 use crate::studies::sweep::record::{self, Arithmetic, Record, Refused};
@@ -33,9 +32,7 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
         if options.out.as_ref().is_some_and(|out| same(out, &file)) {
             continue;
         }
-        let source = fs::File::open(&file)
-            .map_err(|error| Refusal::new(file.display(), Unread::Io(error)))?;
-        let record = Record::open(source, &file.display().to_string())?;
+        let record = Record::of_file(&file)?;
         count = count.max(record.shard.count);
         arithmetic.extend(record.arithmetic.iter().cloned());
         let (study, ledger) = match &mut merged {
@@ -53,22 +50,14 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
         };
         for row in record.rows(study)? {
             let row = row?;
-            let values = row
-                .iter()
-                .take(study.axes.len())
-                .cloned()
-                .collect::<Vec<_>>()
-                .join(", ");
-            let named = format!("{values} ({})", file.display());
+            let (file, axes) = (file.display(), study.axes.len().min(row.len()));
+            let values = row[..axes].join(", ");
             match ledger.take(study, row).context("cannot keep the rows")? {
                 Ok(()) => {}
-                Err(Refused::Double) => doubles.push(named),
-                Err(Refused::Contradiction) => contradictions.push(named),
+                Err(Refused::Double) => doubles.push(format!("{values} ({file})")),
+                Err(Refused::Contradiction) => contradictions.push(format!("{values} ({file})")),
                 Err(Refused::Foreign | Refused::Length) => {
-                    return Err(anyhow!(
-                        "{}: row {values} does not belong to the study",
-                        file.display()
-                    ));
+                    bail!("{file}: row {values} does not belong to the study");
                 }
             }
         }
@@ -77,18 +66,14 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
         bail!(Refusal::new(shown, "has no table written by mdr-tui sweep"));
     };
     if !doubles.is_empty() {
+        let (count, named) = (doubles.len(), some(&doubles));
         complain(&format!(
-            "{} identical duplicate rows were dropped: {}",
-            doubles.len(),
-            some(&doubles)
+            "{count} identical duplicate rows were dropped: {named}"
         ));
     }
     if !contradictions.is_empty() {
-        return Err(anyhow!(
-            "{shown}: {} points have two rows that differ: {}",
-            contradictions.len(),
-            some(&contradictions)
-        ));
+        let (count, named) = (contradictions.len(), some(&contradictions));
+        bail!("{shown}: {count} points have two rows that differ: {named}");
     }
     refuse_missing(&shown, &study, &rows, count)?;
     let text = |out: &mut dyn Write| {
@@ -105,8 +90,7 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
         }
         None => text(&mut io::stdout().lock())?,
     }
-    let counts = rows.counts();
-    let (all, failed) = (counts.rows, counts.failed);
+    let (all, failed) = (rows.counts().rows, rows.counts().failed);
     if failed > 0 {
         complain(&format!(
             "{failed} of {all} points failed; their status says why"
@@ -127,12 +111,10 @@ fn spool(study: &Study, target: Option<&Target>) -> Result<Ledger> {
 fn tables(directory: &Path) -> io::Result<Vec<PathBuf>> {
     let mut files = Vec::new();
     for entry in fs::read_dir(directory)? {
-        let path = entry?.path();
-        let hidden = path
-            .file_name()
-            .is_some_and(|name| name.to_string_lossy().starts_with('.'));
-        let is_table = path.extension().is_some_and(|ending| ending == "csv") && path.is_file();
-        if is_table && !hidden {
+        let entry = entry?;
+        let (path, name) = (entry.path(), entry.file_name());
+        let name = name.to_string_lossy();
+        if name.ends_with(".csv") && !name.starts_with('.') && path.is_file() {
             files.push(path);
         }
     }
@@ -147,23 +129,18 @@ fn same(a: &Path, b: &Path) -> bool {
 /// Names points without a row, and the shards that should have them.
 fn refuse_missing(shown: &str, study: &Study, rows: &Ledger, count: usize) -> Result<()> {
     let missing = || rows.done().clone().missing(study, Shard::WHOLE);
-    let (all, there) = (study.points(), rows.counts().rows);
-    if there == all {
+    let (all, left) = (study.points(), study.points() - rows.counts().rows);
+    if left == 0 {
         return Ok(());
     }
-    let names: Vec<String> = missing()
-        .take(NAMED + 1)
-        .map(|point| study.name(point))
-        .collect();
+    let names = missing().take(NAMED + 1).map(|point| study.name(point));
+    let names = some(&names.collect::<Vec<_>>());
     let shards: BTreeSet<usize> = missing().map(|point| point % count).collect();
     let shards: Vec<String> = shards.iter().map(usize::to_string).collect();
-    Err(anyhow!(
-        "{shown}: {} of {} points are missing: {}; of {count} shards, these are incomplete: {}",
-        all - there,
-        all,
-        some(&names),
-        shards.join(",")
-    ))
+    let shards = shards.join(",");
+    bail!(
+        "{shown}: {left} of {all} points are missing: {names}; of {count} shards, these are incomplete: {shards}"
+    )
 }
 
 /// The first few names.

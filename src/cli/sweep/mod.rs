@@ -15,6 +15,7 @@ use super::{FAILED, UNFINISHED, complain, progress, stop};
 use crate::export::file::shell_word;
 use crate::scenario::{Refusal, limited, printable};
 use crate::studies::sweep::engine::{self, Check};
+use crate::studies::sweep::ledger::Ledger;
 use crate::studies::sweep::{Shard, Study, record};
 
 mod merge;
@@ -23,7 +24,7 @@ mod sensitivity;
 mod slurm;
 mod view;
 
-use output::Output;
+use output::Claimed;
 
 /// The largest file that is read as a study, in bytes.
 const LARGEST_STUDY: u64 = 1 << 26;
@@ -141,33 +142,48 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
         .unwrap_or_else(|| default_out(path, shard));
     let pool = pool(options)?;
     let mine = shard.points(study.points()).count();
-    let mut output = Output::open(&out, study, shard, options)?;
+    let claimed = Claimed::new(&out, study, shard, options)?;
     let check = refuse_invalid(options, study, shard, &pool, CHECKED_FIRST)?;
-    output.begin()?;
+    let mut output = claimed.begin()?;
     let stop = stop::patient_signal()?;
     let go_on = || !stop.load(Ordering::Relaxed);
     crate::panics::capture();
     let bar = progress::bar(mine as u64, progress::TIMES, options.quiet);
     bar.set_message(printable(&out.display().to_string()));
-    bar.set_position(output.counts().rows as u64);
+    bar.set_position(output.ledger.counts().rows as u64);
     bar.reset_eta();
-    let mut lines = options.json.then(|| JsonLines::new(study, shard));
-    let mut outcome = lines.as_mut().map_or(Ok(()), |lines| lines.print(&output));
+    let mut points = shard.points(study.points()).peekable();
+    // With --json, each row as soon as all before it are there.
+    let mut print = |ledger: &Ledger| -> Result<()> {
+        let mut out = io::stdout().lock();
+        while options.json
+            && let Some(point) = points.next_if(|&point| ledger.done().has(point))
+        {
+            writeln!(
+                out,
+                "{}",
+                record::json(&study.columns(), &ledger.row(point)?)
+            )?;
+        }
+        Ok(())
+    };
+    let mut outcome = print(&output.ledger);
     let mut checked = Ok(());
-    if let (Ok(()), Some(done)) = (&outcome, output.done()) {
-        let todo = done.missing(study, shard);
+    if outcome.is_ok() {
+        let todo = output.ledger.done().clone().missing(study, shard);
         checked = engine::run(study, todo, check, &pool, &go_on, |point, row| {
-            outcome = output
-                .add(point, &record::fields(study, point, row))
-                .map_err(|error| anyhow!("{error}"))
-                .and_then(|()| lines.as_mut().map_or(Ok(()), |lines| lines.print(&output)));
+            let added = output.add(point, &record::fields(study, point, row));
+            outcome = added.map_err(|error| anyhow!("{error}"));
+            if outcome.is_ok() {
+                outcome = print(&output.ledger);
+            }
             bar.inc(1);
             outcome.is_ok()
         });
     }
     bar.finish_and_clear();
     let kept = output.close();
-    let counts = output.counts();
+    let counts = output.ledger.counts();
     let (there, failed) = (counts.rows, counts.failed);
     let hint = format!(
         "{there} of {mine} points are in {}; continue with the same command and --resume",
@@ -198,7 +214,7 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
             false => ExitCode::SUCCESS,
         });
     }
-    if !options.quiet && !options.json && !output.is_stdout() {
+    if !options.quiet && !options.json && !output.target.is_stdout() {
         writeln!(io::stdout(), "{there} points in {}", shell_word(&out))?;
     }
     Ok(ExitCode::SUCCESS)
@@ -232,35 +248,4 @@ fn default_out(study: &Path, shard: Shard) -> PathBuf {
 fn shards_directory(study: &Path) -> PathBuf {
     let stem = study.file_stem().unwrap_or_default().to_string_lossy();
     PathBuf::from(format!("{stem}.shards"))
-}
-
-/// Rows as JSON lines on stdout, each as soon as all before it are there.
-struct JsonLines<'a> {
-    columns: Vec<&'a str>,
-    shard: Shard,
-    /// The next point.
-    next: usize,
-    points: usize,
-}
-
-impl<'a> JsonLines<'a> {
-    fn new(study: &'a Study, shard: Shard) -> Self {
-        Self {
-            columns: study.columns(),
-            shard,
-            next: shard.index,
-            points: study.points(),
-        }
-    }
-
-    fn print(&mut self, output: &Output) -> Result<()> {
-        let mut out = io::stdout().lock();
-        while self.next < self.points
-            && let Some(row) = output.row(self.next)?
-        {
-            writeln!(out, "{}", record::json(&self.columns, &row))?;
-            self.next += self.shard.count;
-        }
-        Ok(())
-    }
 }

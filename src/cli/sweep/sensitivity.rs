@@ -25,14 +25,11 @@ pub fn sensitivity(options: &Sweep, study: &Study) -> Result<ExitCode> {
         return Ok(ExitCode::from(FAILED));
     };
     let table = table(&found);
-    if let Some(target) = target {
-        let mut text = format!("# mdr-tui: {}\n", env!("CARGO_PKG_VERSION"));
-        for line in study.to_toml().lines().filter(|line| !line.is_empty()) {
-            text.push_str(&format!("# study: {line}\n"));
-        }
-        text.push_str(&table.csv());
-        target.write(text.as_bytes())?;
-    }
+    let lines = study.to_toml();
+    let mut lines = lines.lines().filter(|line| !line.is_empty());
+    let first = lines.next().unwrap_or_default();
+    let others: Vec<String> = lines.map(|line| format!("study: {line}")).collect();
+    results::write(target.as_ref(), first, &others, || table.csv())?;
     let mut stdout = io::stdout().lock();
     if options.json {
         results::print_json(&table, &mut stdout)?;

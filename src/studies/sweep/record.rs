@@ -19,7 +19,9 @@
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
+use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
+use std::path::Path;
 
 use super::finder::Finder;
 use super::point::Success;
@@ -141,6 +143,17 @@ pub struct Record {
 }
 
 impl Record {
+    /// Begins to read the table in a file.
+    ///
+    /// # Errors
+    ///
+    /// As [`open`](Self::open), and if the file cannot be opened.
+    pub fn of_file(path: &Path) -> Result<Self, Refusal> {
+        let name = path.display();
+        let file = File::open(path).map_err(|error| Refusal::new(&name, Unread::Io(error)))?;
+        Self::open(file, &name.to_string())
+    }
+
     /// Begins to read a table that messages call `name`.
     ///
     /// # Errors

@@ -16,7 +16,8 @@ use crate::scenario::Scenario;
 use crate::scenario::columns::Columns;
 use crate::scenario::units::reading;
 use crate::studies::fit::{Fit, Fitted};
-use crate::studies::measured::{Kind, Measured};
+use crate::studies::measured::Measured;
+use crate::traces::Axes;
 
 /// Fits, and prints, draws and writes what was asked for.
 pub fn fit(options: &args::Fit) -> Result<ExitCode> {
@@ -121,10 +122,10 @@ fn report(fitted: &Fitted) -> String {
     }
     for set in &fitted.compared {
         let (rms, points) = (set.rms(), set.simulated.len());
-        let (name, unit) = (&set.measured.name, set.measured.kind.unit());
-        let at = match (set.measured.kind, set.measured.cycle) {
-            (Kind::Loop, Some(cycle)) => format!(" in cycle {cycle}"),
-            (Kind::Loop, None) => format!(
+        let (name, unit) = (&set.measured.name, set.measured.axes.unit());
+        let at = match (set.measured.axes, set.measured.cycle) {
+            (Axes::LOOP, Some(cycle)) => format!(" in cycle {cycle}"),
+            (Axes::LOOP, None) => format!(
                 " in the last cycle, {} (--loop {name}@CYCLE for another)",
                 fitted.cycles
             ),
@@ -145,8 +146,10 @@ fn report(fitted: &Fitted) -> String {
 /// Measured minus simulated values, one plot per data set.
 fn residual_plots(fitted: &Fitted, marker: Marker) -> String {
     let charts = fitted.compared.iter().map(|set| {
-        let (measured, (name, unit)) = (&set.measured, set.measured.kind.abscissa());
-        let ordinate = Axis::new(format!("{}: residual", measured.name), measured.kind.unit());
+        let measured = &set.measured;
+        let abscissa = measured.axes.x;
+        let (name, unit) = abscissa.rsplit_once('_').unwrap_or((abscissa, ""));
+        let ordinate = Axis::new(format!("{}: residual", measured.name), measured.axes.unit());
         let curve = Curve::new("", measured.at.clone(), set.residuals(), Role::Profile);
         Chart::new("", Axis::new(name, unit), ordinate).curve(curve)
     });

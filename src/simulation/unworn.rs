@@ -76,7 +76,7 @@ impl Unworn<'_> {
 
     /// By Melan's theorem, where both displacements are prescribed: g at the border of the permanent stick zone, m, and
     /// the radius c at which the unworn indenter has it, m. `None` without such a zone.
-    pub(super) fn melan(&self) -> Option<(f64, f64)> {
+    pub(crate) fn melan(&self) -> Option<(f64, f64)> {
         let ratio = self.0.material.stick_ratio();
         let depth = self.0.drive.shakedown_depth(ratio);
         let depth = depth.filter(|&depth| depth > 0.0)?;

@@ -34,14 +34,11 @@ impl Trace<'_> {
     /// The force of a loop at a displacement on one of its strokes; none beyond its ends.
     pub fn force_at(&self, displacement: f64, rising: bool) -> Option<f64> {
         let points = self.xs.iter().copied().zip(self.ys.iter().copied());
-        let points: Vec<(f64, f64)> = points.filter(|(_, force)| force.is_finite()).collect();
-        let ends = points
-            .iter()
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], (x, _)| {
-                [low.min(*x), high.max(*x)]
-            });
-        let is_within = (ends[0]..=ends[1]).contains(&displacement);
-        is_within.then(|| Strokes::new(&points).force(displacement, rising))
+        let points = points.filter(|(shift, force)| shift.is_finite() && force.is_finite());
+        let strokes = Strokes::new(&points.collect::<Vec<_>>())?;
+        let [least, most] = strokes.ends();
+        let is_within = (least..=most).contains(&displacement);
+        is_within.then(|| strokes.force(displacement, rising))
     }
 }
 
@@ -220,15 +217,7 @@ impl Ghost {
     }
 
     fn take_measured(&mut self, measured: Measured) {
-        use super::measured::Kind;
-        let axes = match measured.kind {
-            Kind::Profile => Axes::PROFILE,
-            Kind::Wear => Axes::WEAR,
-            Kind::Loop => Axes::LOOP,
-            Kind::Volume => Axes::VOLUME,
-            Kind::Depth => Axes::DEPTH,
-        };
-        self.add(axes, measured.at, measured.values, measured.errors);
+        self.add(measured.axes, measured.at, measured.values, measured.errors);
     }
 
     fn add(&mut self, axes: Axes, xs: Vec<f64>, ys: Vec<f64>, errors: Option<Vec<f64>>) {

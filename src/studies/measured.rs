@@ -1,7 +1,9 @@
 //! Measured results to compare with simulated ones: scars, fretting loops, histories.
 
+use crate::math::scan::value_at;
 use crate::scenario::columns::Columns;
 use crate::scenario::{Refusal, ScenarioError};
+use crate::traces::Axes;
 
 /// The fewest rows of a data set.
 const FEWEST: usize = 3;
@@ -12,51 +14,16 @@ const FEWEST_OF_LOOP: usize = 8;
 /// By how many times the distance between its rows a loop may miss its beginning.
 const OPEN: f64 = 3.0;
 
-/// What a data set holds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
-    /// The worn profile f over r, m.
-    Profile,
-    /// The worn depth over r, m.
-    Wear,
-    /// The tangential force, N, over the displacement, m, through one closed cycle.
-    Loop,
-    /// The worn volume, m³, over cycles.
-    Volume,
-    /// The largest worn depth, m, over cycles.
-    Depth,
-}
-
-impl Kind {
-    /// The unit of the values.
-    pub fn unit(self) -> &'static str {
-        match self {
-            Self::Profile | Self::Wear | Self::Depth => "m",
-            Self::Loop => "N",
-            Self::Volume => "m³",
-        }
-    }
-
-    /// The abscissa and its unit.
-    pub fn abscissa(self) -> (&'static str, &'static str) {
-        match self {
-            Self::Profile | Self::Wear => ("r", "m"),
-            Self::Loop => ("u_x", "m"),
-            Self::Volume | Self::Depth => ("cycle", ""),
-        }
-    }
-}
-
 /// A data set.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
     /// The file.
     pub name: String,
-    /// What it holds.
-    pub kind: Kind,
+    /// What it holds: a profile, what has worn of it, a loop, or the volume or the largest depth over cycles.
+    pub axes: Axes,
     /// r in m (0 or greater), u_x in m, or cycles.
     pub at: Vec<f64>,
-    /// What was measured there, in the unit of the kind.
+    /// What was measured there, in the unit of the axes.
     pub values: Vec<f64>,
     /// Standard errors of the values, where the file gives them.
     pub errors: Option<Vec<f64>>,
@@ -70,11 +37,11 @@ impl Measured {
     /// # Errors
     /// A file that is not such a table; fewer than 3 rows.
     pub fn scar(columns: &Columns) -> Result<Self, ScenarioError> {
-        let (name, kind) = match columns.has("wear", "m") {
-            true => ("wear", Kind::Wear),
-            false => ("f", Kind::Profile),
+        let (name, axes) = match columns.has("wear", "m") {
+            true => ("wear", Axes::WEAR),
+            false => ("f", Axes::PROFILE),
         };
-        let mut scar = read(columns, ("r", "m"), (name, "m"), kind)?;
+        let mut scar = read(columns, axes, ("r", "m"), (name, "m"))?;
         for r in &mut scar.at {
             *r = r.abs();
         }
@@ -87,9 +54,9 @@ impl Measured {
     /// # Errors
     /// A line that names both.
     pub fn check_radii(&self, reach: f64) -> Result<(), Refusal> {
-        match self.kind {
-            Kind::Profile | Kind::Wear => check_radii(&self.name, &self.at, reach),
-            Kind::Loop | Kind::Volume | Kind::Depth => Ok(()),
+        match self.axes.over_r() {
+            true => check_radii(&self.name, &self.at, reach),
+            false => Ok(()),
         }
     }
 
@@ -106,7 +73,7 @@ impl Measured {
             (true, false) => ("u_x", "F_x"),
             (false, _) => ("u", "F"),
         };
-        let measured = read(columns, (shift, "m"), (force, "N"), Kind::Loop)?;
+        let measured = read(columns, Axes::LOOP, (shift, "m"), (force, "N"))?;
         if measured.at.len() < FEWEST_OF_LOOP {
             let reason = format!("a loop needs {FEWEST_OF_LOOP} rows or more");
             return Err(columns.refuse(reason));
@@ -143,8 +110,8 @@ impl Measured {
     pub fn history(columns: &Columns) -> Result<Self, ScenarioError> {
         let cycle = ("cycle", "");
         let measured = match columns.has("depth", "m") {
-            true => read(columns, cycle, ("depth", "m"), Kind::Depth)?,
-            false => read(columns, cycle, ("wear_volume", "m3"), Kind::Volume)?,
+            true => read(columns, Axes::DEPTH, cycle, ("depth", "m"))?,
+            false => read(columns, Axes::VOLUME, cycle, ("wear_volume", "m3"))?,
         };
         if let Some(row) = measured.at.iter().position(|cycle| *cycle < 0.0) {
             let line = columns.line(row);
@@ -156,13 +123,13 @@ impl Measured {
 
 fn read(
     columns: &Columns,
+    axes: Axes,
     at: (&str, &str),
     values: (&str, &str),
-    kind: Kind,
 ) -> Result<Measured, ScenarioError> {
     let measured = Measured {
         name: columns.path.clone(),
-        kind,
+        axes,
         at: columns.column(at.0, at.1)?,
         values: columns.column(values.0, values.1)?,
         errors: match columns.has("error", values.1) {
@@ -202,24 +169,17 @@ fn span(values: &[f64]) -> f64 {
     values.iter().copied().fold(f64::NEG_INFINITY, f64::max) - least
 }
 
-/// A loop as two functions of the displacement: the stroke there, and the one back.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Strokes {
-    /// (u, F) of the rising displacement, by u.
-    rising: Vec<(f64, f64)>,
-    /// (u, F) of the falling one, by u.
-    falling: Vec<(f64, f64)>,
+/// The points of a closed loop at which its motion turns: those of the least and of the largest displacement.
+fn turns(displacements: &[f64]) -> Option<[usize; 2]> {
+    let by_value = |a: &usize, b: &usize| displacements[*a].total_cmp(&displacements[*b]);
+    let points = 0..displacements.len();
+    Some([points.clone().min_by(by_value)?, points.max_by(by_value)?])
 }
 
 /// Which points of a closed loop belong to the rising stroke: those from its least displacement on to
 /// its largest.
 pub fn rises(displacements: &[f64]) -> Vec<bool> {
-    let by_value = |a: &usize, b: &usize| displacements[*a].total_cmp(&displacements[*b]);
-    let indices = 0..displacements.len();
-    let (Some(least), Some(most)) = (indices.clone().min_by(by_value), indices.max_by(by_value))
-    else {
-        return Vec::new();
-    };
+    let [least, most] = turns(displacements).unwrap_or_default();
     let rises = |i: usize| match least <= most {
         true => (least..=most).contains(&i),
         false => i >= least || i <= most,
@@ -227,50 +187,44 @@ pub fn rises(displacements: &[f64]) -> Vec<bool> {
     (0..displacements.len()).map(rises).collect()
 }
 
+/// A loop as two functions of the displacement: the stroke there, and the one back.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Strokes {
+    /// u and F of the rising displacement, in the order of time.
+    rising: (Vec<f64>, Vec<f64>),
+    /// u and F of the falling one.
+    falling: (Vec<f64>, Vec<f64>),
+    ends: [f64; 2],
+}
+
 impl Strokes {
-    /// The strokes of a closed loop of displacements and forces.
-    pub fn new(points: &[(f64, f64)]) -> Self {
+    /// The strokes of a closed loop of displacements and forces; `None` without a point.
+    pub fn new(points: &[(f64, f64)]) -> Option<Self> {
         let displacements: Vec<f64> = points.iter().map(|point| point.0).collect();
-        let rises = rises(&displacements);
-        let turning = |all: Vec<(f64, f64)>| {
-            let mut all = all;
-            all.sort_by(|a, b| a.0.total_cmp(&b.0));
-            all
-        };
-        let of = |rising: bool| {
-            let points = points.iter().zip(&rises);
-            turning(
-                points
-                    .filter(|(_, r)| **r == rising)
-                    .map(|(p, _)| *p)
-                    .collect(),
-            )
-        };
-        let (rising, mut falling) = (of(true), of(false));
+        let [least, most] = turns(&displacements)?;
         // Both strokes share the points at which the motion turns.
-        if let (Some(first), Some(last)) = (rising.first(), rising.last()) {
-            falling.insert(0, *first);
-            falling.push(*last);
-        }
-        Self { rising, falling }
+        let stroke = |from: usize, to: usize| {
+            let count = (to + points.len() - from) % points.len();
+            let round = (from..=from + count).map(|i| points[i % points.len()]);
+            round.unzip()
+        };
+        Some(Self {
+            rising: stroke(least, most),
+            falling: stroke(most, least),
+            ends: [displacements[least], displacements[most]],
+        })
+    }
+
+    /// The least and the largest displacement.
+    pub fn ends(&self) -> [f64; 2] {
+        self.ends
     }
 
     /// The force at a displacement on one of the strokes; beyond their ends the one there.
     pub fn force(&self, displacement: f64, rising: bool) -> f64 {
-        let stroke = if rising { &self.rising } else { &self.falling };
-        let k = stroke.partition_point(|point| point.0 <= displacement);
-        let (Some(last), Some(first)) = (stroke.last(), stroke.first()) else {
-            return 0.0;
-        };
-        if k == 0 {
-            return first.1;
-        }
-        let Some(next) = stroke.get(k) else {
-            return last.1;
-        };
-        let before = stroke[k - 1];
-        let share = (displacement - before.0) / (next.0 - before.0);
-        before.1 + share * (next.1 - before.1)
+        let (shifts, forces) = if rising { &self.rising } else { &self.falling };
+        let [least, most] = self.ends;
+        value_at(shifts, forces, displacement.clamp(least, most)).unwrap_or(f64::NAN)
     }
 }
 
@@ -286,12 +240,12 @@ mod tests {
     fn scars_loops_and_histories_are_read_with_their_errors() {
         let scar = Measured::scar(&columns("r_um,wear_nm,error_nm\n-1,5,1\n0,7,1\n1,5,2\n"));
         let scar = scar.expect("a scar");
-        assert_eq!((scar.kind, scar.at[0]), (Kind::Wear, 1e-6));
+        assert_eq!((scar.axes, scar.at[0]), (Axes::WEAR, 1e-6));
         assert!((scar.errors.expect("errors")[2] / 2e-9 - 1.0).abs() < 1e-12);
         let profile = Measured::scar(&columns("r_m,f_m\n0,0\n1,1\n2,4\n")).expect("a scar");
-        assert_eq!((profile.kind, profile.errors), (Kind::Profile, None));
+        assert_eq!((profile.axes, profile.errors), (Axes::PROFILE, None));
         let history = Measured::history(&columns("cycle,wear_volume_m3\n0,0\n1,1\n2,4\n"));
-        assert_eq!(history.expect("a history").kind, Kind::Volume);
+        assert_eq!(history.expect("a history").axes, Axes::VOLUME);
         let history = Measured::history(&columns("cycle,depth_um\n0,0\n1,1\n2,4\n"));
         assert_eq!(history.expect("a history").values[2], 4e-6);
     }
@@ -330,7 +284,7 @@ mod tests {
             .map(|i| std::f64::consts::TAU * f64::from(i) / 400.0)
             .map(|t| (t.sin(), (t + 0.5).sin()))
             .collect();
-        let strokes = Strokes::new(&points);
+        let strokes = Strokes::new(&points).expect("strokes");
         for u in [-0.9f64, -0.2, 0.0, 0.6] {
             let t = u.asin();
             let back = std::f64::consts::PI - t;

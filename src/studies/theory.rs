@@ -3,15 +3,13 @@
 
 use crate::contact::indenter::Indenter;
 use crate::oracle::cattaneo_mindlin::CattaneoMindlin;
-use crate::oracle::dual_oscillation::{DualOscillation, Frequencies};
 use crate::oracle::fretting_loop::Branch;
 use crate::oracle::limiting_profile::LimitingProfile;
 use crate::oracle::power_law::PowerLaw;
-use crate::oracle::truncated::{TruncatedCone, TruncatedParaboloid};
 use crate::scenario::Pressed;
-use crate::simulation::Setup;
 use crate::simulation::drive::{Control, Oscillation};
 use crate::simulation::waveform::Waveform;
+use crate::simulation::{Setup, Unworn};
 
 /// The closed forms that apply.
 #[derive(Debug, Clone, Default)]
@@ -39,47 +37,37 @@ impl Theory {
         else {
             return theory;
         };
-        // The closed forms begin with the unworn indenter.
-        if setup.scar.is_some() {
+        // The closed forms begin with the unworn indenter on a stiff rig. For other waveforms than sines they hold at
+        // the turning points alone.
+        let is_sine =
+            |swing: &Oscillation| *swing.waveform() == Waveform::Sine || swing.amplitude() == 0.0;
+        let is_stiff = setup.drive.rig_compliance() == 0.0;
+        if setup.scar.is_some() || !is_stiff || !is_sine(normal) || !is_sine(tangential) {
             return theory;
         }
-        if setup.drive.rig_compliance() > 0.0 {
+        theory.stick_radius = Unworn(setup).melan().map(|(_, radius)| radius);
+        let Indenter::Paraboloid { radius } = setup.indenter else {
             return theory;
-        }
-        // The closed forms hold for sines; for other waveforms only at the turning points.
-        if [normal, tangential]
-            .iter()
-            .any(|swing| *swing.waveform() != Waveform::Sine && swing.amplitude() > 0.0)
-        {
-            return theory;
-        }
-        let motion = motion(setup, normal, tangential);
-        theory.stick_radius = radius_at(setup, motion.stick_depth());
-        if let Indenter::Paraboloid { radius } = setup.indenter {
-            let wears = setup.wear.is_some_and(|law| law.coefficient() > 0.0);
-            theory.limit =
-                theory
-                    .stick_radius
-                    .filter(|_| wears)
-                    .map(|stick_radius| LimitingProfile {
-                        e_star,
-                        radius,
-                        depth: motion.largest_depth(),
-                        stick_radius,
-                    });
-            let from_rest =
-                normal.amplitude() == 0.0 && tangential.mean() == 0.0 && tangential.phase() == 0.0;
-            theory.cattaneo = from_rest
-                .then_some(CattaneoMindlin {
-                    e_star,
-                    g_star: motion.g_star,
-                    mu: motion.mu,
-                    radius,
-                    depth: normal.mean(),
-                    amplitude: tangential.amplitude(),
-                })
-                .filter(|cattaneo| !cattaneo.is_gross_slip());
-        }
+        };
+        let wears = setup.wear.is_some_and(|law| law.coefficient() > 0.0);
+        let limit = |stick_radius| LimitingProfile {
+            e_star,
+            radius,
+            depth: normal.highest(),
+            stick_radius,
+        };
+        theory.limit = theory.stick_radius.filter(|_| wears).map(limit);
+        let from_rest =
+            normal.amplitude() == 0.0 && tangential.mean() == 0.0 && tangential.phase() == 0.0;
+        let cattaneo = CattaneoMindlin {
+            e_star,
+            g_star: setup.material.tangential_modulus(),
+            mu: setup.material.friction(),
+            radius,
+            depth: normal.mean(),
+            amplitude: tangential.amplitude(),
+        };
+        theory.cattaneo = (from_rest && !cattaneo.is_gross_slip()).then_some(cattaneo);
         theory
     }
 
@@ -157,38 +145,6 @@ impl Theory {
     }
 }
 
-fn motion(setup: &Setup, normal: &Oscillation, tangential: &Oscillation) -> DualOscillation {
-    let frequencies = match setup.drive.repeats_after() {
-        None => Frequencies::Incommensurate,
-        Some(cycles) => {
-            let normal = (f64::from(cycles) * setup.drive.frequency_ratio()).round() as u32;
-            if normal == cycles {
-                Frequencies::Equal
-            } else {
-                Frequencies::Rational {
-                    tangential: cycles,
-                    normal,
-                }
-            }
-        }
-    };
-    DualOscillation {
-        e_star: setup.material.normal_modulus(),
-        g_star: setup.material.tangential_modulus(),
-        mu: setup.material.friction(),
-        depth: normal.mean(),
-        normal_amplitude: normal.amplitude(),
-        normal_phase: normal.phase(),
-        tangential_amplitude: tangential.amplitude(),
-        tangential_phase: tangential.phase(),
-        frequencies: if normal.amplitude() == 0.0 {
-            Frequencies::Equal
-        } else {
-            frequencies
-        },
-    }
-}
-
 /// The profile as a power of r, where it is one.
 fn power_law(indenter: &Indenter) -> Option<PowerLaw> {
     match *indenter {
@@ -201,39 +157,8 @@ fn power_law(indenter: &Indenter) -> Option<PowerLaw> {
             coefficient,
             exponent,
         }),
-        Indenter::FlatPunch { .. }
-        | Indenter::TruncatedParaboloid { .. }
-        | Indenter::TruncatedCone { .. }
-        | Indenter::RoundedPunch { .. }
-        | Indenter::Table(_) => None,
+        _ => None,
     }
-}
-
-/// The radius at which the unworn g₀ reaches `depth`, m.
-fn radius_at(setup: &Setup, depth: f64) -> Option<f64> {
-    if depth.is_nan() || depth <= 0.0 {
-        return None;
-    }
-    if let Some(shape) = power_law(&setup.indenter) {
-        return Some(shape.contact_radius(depth));
-    }
-    let e_star = setup.material.normal_modulus();
-    let radius = match setup.indenter {
-        Indenter::TruncatedParaboloid { radius, tip_radius } => TruncatedParaboloid {
-            e_star,
-            radius,
-            tip_radius,
-        }
-        .contact_radius(depth),
-        Indenter::TruncatedCone { angle, tip_radius } => TruncatedCone {
-            e_star,
-            slope: angle.tan(),
-            tip_radius,
-        }
-        .contact_radius(depth),
-        _ => return None,
-    };
-    Some(radius)
 }
 
 #[cfg(test)]

@@ -25,7 +25,8 @@ use thiserror::Error;
 use crate::scenario::schema::{self, Kind as KeyKind, Range};
 use crate::scenario::session::SessionError;
 use crate::scenario::{MOST_CYCLES, Refusal, Scenario, ScenarioError};
-use crate::studies::measured::{Kind, Measured};
+use crate::studies::measured::Measured;
+use crate::traces::Axes;
 use errors::{Errors, freedom};
 use solver::{Free, Solved};
 
@@ -159,7 +160,7 @@ impl Fit {
         }
         let histories = data
             .iter()
-            .filter(|set| matches!(set.kind, Kind::Volume | Kind::Depth))
+            .filter(|set| set.axes.x == "cycle")
             .flat_map(|set| set.at.iter().copied());
         let last = histories.fold(0.0, f64::max);
         let planned = cycles.or(scenario.run().cycles).unwrap_or(0.0);
@@ -169,7 +170,7 @@ impl Fit {
                 "the data end at cycle {cycles:e}; a run has at most {MOST_CYCLES:e} cycles"
             ));
         }
-        let loops = || data.iter().filter(|set| set.kind == Kind::Loop);
+        let loops = || data.iter().filter(|set| set.axes == Axes::LOOP);
         if cycles <= 0.0 || loops().next().is_some() && cycles < 1.0 {
             let rule = "the length of the run is unknown, or less than a cycle; give --cycles";
             return refuse(rule.into());

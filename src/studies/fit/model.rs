@@ -2,10 +2,10 @@
 
 use crate::math::grid::RadialGrid;
 use crate::math::scan::largest;
-use crate::reading::Curves;
 use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
-use crate::studies::measured::{Kind, Measured, Strokes, rises};
+use crate::studies::measured::{Measured, Strokes, rises};
+use crate::traces::Axes;
 
 /// The simulated value of every point, data set by data set, of a run of `cycles`.
 ///
@@ -21,46 +21,44 @@ pub(super) fn simulate(
     // What is read off the run on its way: where it must stop, and what for.
     let mut moments: Vec<(f64, usize, usize)> = Vec::new();
     for (i, set) in data.iter().enumerate() {
-        match set.kind {
-            Kind::Volume | Kind::Depth => {
+        match set.axes {
+            Axes::VOLUME | Axes::DEPTH => {
                 moments.extend(set.at.iter().enumerate().map(|(j, cycle)| (*cycle, i, j)));
             }
-            Kind::Loop => moments.push((set.cycle.unwrap_or(cycles) - 1.0, i, 0)),
-            Kind::Wear | Kind::Profile => {}
+            Axes::LOOP => moments.push((set.cycle.unwrap_or(cycles) - 1.0, i, 0)),
+            _ => {}
         }
     }
     moments.sort_by(|a, b| a.0.total_cmp(&b.0));
     for (cycle, i, j) in moments {
         session.advance_to(cycle)?;
-        let set = &data[i];
-        match set.kind {
-            Kind::Loop => {
-                let strokes = Strokes::new(&next_cycle(&session)?);
-                let points = simulated[i].iter_mut().zip(&set.at).zip(rises(&set.at));
-                for ((value, &displacement), rising) in points {
-                    *value = strokes.force(displacement, rising);
-                }
+        match data[i].axes {
+            Axes::LOOP => {
+                let Some(strokes) = Strokes::new(&next_cycle(&session)?) else {
+                    continue;
+                };
+                let points = data[i].at.iter().zip(rises(&data[i].at));
+                let forces = points.map(|(&shift, rising)| strokes.force(shift, rising));
+                simulated[i] = forces.collect();
             }
-            Kind::Depth => {
-                simulated[i][j] = largest(&session.simulation().observe(Curves::PROFILE).wear);
+            Axes::DEPTH => {
+                simulated[i][j] = largest(session.simulation().worn_depth());
             }
             _ => simulated[i][j] = session.simulation().moment().wear_volume,
         }
     }
     session.advance_to(cycles)?;
-    let seen = session.simulation().observe(Curves::PROFILE);
+    let worn = session.simulation().worn_depth();
     let setup = session.simulation().setup();
     for (set, simulated) in data.iter().zip(&mut simulated) {
-        match set.kind {
-            Kind::Wear | Kind::Profile => {
-                for (value, &r) in simulated.iter_mut().zip(&set.at) {
-                    *value = worn_at(&setup.grid, &seen.wear, r);
-                    if set.kind == Kind::Profile {
-                        *value += setup.indenter.profile(r);
-                    }
-                }
+        if !set.axes.over_r() {
+            continue;
+        }
+        for (value, &r) in simulated.iter_mut().zip(&set.at) {
+            *value = worn_at(&setup.grid, worn, r);
+            if set.axes == Axes::PROFILE {
+                *value += setup.indenter.profile(r);
             }
-            Kind::Loop | Kind::Volume | Kind::Depth => {}
         }
     }
     Ok(simulated)

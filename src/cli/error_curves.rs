@@ -17,7 +17,7 @@ use crate::studies::verify::{Outcome, Problem};
 /// The plots of one problem, all its quantities below each other: of each method on its finest grid.
 pub fn draw(problem: Problem, outcomes: &[Outcome], marker: Marker) -> String {
     let mut text = String::new();
-    for (at, quantity) in problem.quantities().iter().enumerate() {
+    for (at, quantity) in problem.facts().quantities.iter().enumerate() {
         let chart = |method| {
             let tried = |o: &&Outcome| o.task.problem == problem && o.task.method == method;
             let (points, errors) = outcomes

@@ -80,13 +80,13 @@ fn text(study: &Study, outcomes: &[Outcome], options: &Verify) -> String {
             text.push('\n');
         }
         text.push_str(&format!("{problem}\n"));
-        for line in problem.description() {
+        for line in problem.facts().description {
             text.push_str(&format!("  {line}\n"));
         }
         text.push_str(&problem_table(problem, outcomes).text());
-        let left = study.left_for_long();
-        let left = left.iter().filter(|(left, _)| *left == problem);
-        let left: Vec<String> = left.map(|(_, points)| points.to_string()).collect();
+        let left = study.points.iter();
+        let left = left.filter(|&&points| !study.long && problem.is_long(points));
+        let left: Vec<String> = left.map(usize::to_string).collect();
         if !left.is_empty() {
             text.push_str(&format!("N = {} only with --long\n", left.join(", ")));
         }
@@ -127,6 +127,6 @@ fn notes(outcomes: &[Outcome]) -> Vec<String> {
     Problem::ALL
         .into_iter()
         .filter(shown)
-        .map(|problem| format!("{problem}: {}", problem.description().join(" ")))
+        .map(|problem| format!("{problem}: {}", problem.facts().description.join(" ")))
         .collect()
 }

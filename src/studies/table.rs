@@ -22,29 +22,12 @@ pub enum Format {
 
 /// A column.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Column {
+struct Column {
     /// A heading that neighbouring columns share; empty for none. Text only.
-    pub group: String,
+    group: String,
     /// The heading, and the key in files.
-    pub name: String,
-    /// How it is written.
-    pub format: Format,
-}
-
-impl Column {
-    /// A column that belongs to no group.
-    pub fn new(name: &str, format: Format) -> Self {
-        Self::grouped("", name, format)
-    }
-
-    /// A column of a group.
-    pub fn grouped(group: &str, name: &str, format: Format) -> Self {
-        Self {
-            group: group.into(),
-            name: name.into(),
-            format,
-        }
-    }
+    name: String,
+    format: Format,
 }
 
 /// One cell of a table.
@@ -111,22 +94,20 @@ pub struct Table {
 }
 
 impl Table {
-    /// A table without rows.
-    pub fn new(columns: Vec<Column>) -> Self {
-        Self {
-            columns,
-            rows: Vec::new(),
-        }
-    }
-
     /// A table without rows, of columns by the headings that they share, their names with blanks between them, and how
     /// they are written.
     pub fn of(columns: &[(&str, &str, Format)]) -> Self {
         let columns = columns.iter().flat_map(|(group, names, format)| {
-            let names = names.split(' ');
-            names.map(|name| Column::grouped(group, name, *format))
+            names.split(' ').map(|name| Column {
+                group: (*group).into(),
+                name: name.into(),
+                format: *format,
+            })
         });
-        Self::new(columns.collect())
+        Self {
+            columns: columns.collect(),
+            rows: Vec::new(),
+        }
     }
 
     /// Adds a row: cells that are not given are missing, cells beyond the columns are dropped.

@@ -19,30 +19,8 @@ pub struct Errors {
 pub type Sample = (f64, f64, f64);
 
 impl Errors {
-    /// |result − theory|/|theory|: the measure of the paper's Fig. 2.
-    pub fn relative(samples: impl Iterator<Item = Sample>) -> Self {
-        Self::collect(samples, |theory| theory.abs())
-    }
-
-    /// |result − theory|/`unit`.
-    pub fn in_units_of(unit: f64, samples: impl Iterator<Item = Sample>) -> Self {
-        Self::collect(samples, |_| unit)
-    }
-
-    /// The relative error of a single number, shown at the radius `r`/a.
-    pub fn single(r: f64, result: f64, theory: f64) -> Self {
-        Self::relative(std::iter::once((r, result, theory)))
-    }
-
-    /// The same errors, the root mean square taken over the radius: fair between grids whose nodes
-    /// lie differently.
-    #[must_use]
-    pub fn over_radius(mut self) -> Self {
-        self.over_radius = true;
-        self
-    }
-
-    fn collect(samples: impl Iterator<Item = Sample>, unit: impl Fn(f64) -> f64) -> Self {
+    /// |result − theory|/`unit`, or relative to theory without a unit, as in the paper's Fig. 2.
+    pub fn new(unit: Option<f64>, samples: impl Iterator<Item = Sample>) -> Self {
         let mut all = Self {
             radii: Vec::new(),
             errors: Vec::new(),
@@ -50,7 +28,7 @@ impl Errors {
             over_radius: false,
         };
         for (r, result, theory) in samples {
-            let unit = unit(theory);
+            let unit = unit.unwrap_or(theory.abs());
             if theory.is_finite() && unit > 0.0 {
                 all.radii.push(r);
                 all.errors.push((result - theory).abs() / unit);
@@ -59,6 +37,14 @@ impl Errors {
             }
         }
         all
+    }
+
+    /// The same errors, the root mean square taken over the radius: fair between grids whose nodes
+    /// lie differently.
+    #[must_use]
+    pub fn over_radius(mut self) -> Self {
+        self.over_radius = true;
+        self
     }
 
     /// The largest error; NaN if any is.
@@ -91,12 +77,12 @@ mod tests {
             (0.8, 1.0, 1.0),
             (1.0, 3.0, f64::INFINITY),
         ];
-        let errors = Errors::relative(samples.into_iter());
+        let errors = Errors::new(None, samples.into_iter());
         assert_eq!(errors.left_out, [0.0, 1.0]);
         assert_eq!((errors.max(), errors.rms()), (0.5, 0.125f64.sqrt()));
-        let errors = Errors::in_units_of(2.0, samples.into_iter());
+        let errors = Errors::new(Some(2.0), samples.into_iter());
         assert_eq!(errors.errors, [0.05, 0.25, 0.0]);
         let broken = [(0.1, f64::NAN, 1.0), (0.2, 1.0, 1.0)];
-        assert!(Errors::relative(broken.into_iter()).max().is_nan());
+        assert!(Errors::new(None, broken.into_iter()).max().is_nan());
     }
 }

@@ -85,10 +85,9 @@ impl Study {
             if !self.problems.contains(&problem) {
                 continue;
             }
-            let most = problem.most_points().filter(|_| !self.long);
             for method in AbelMethod::ALL {
                 let points = points.iter().copied();
-                let points = points.filter(|&n| most.is_none_or(|most| n <= most));
+                let points = points.filter(|&points| self.long || !problem.is_long(points));
                 tasks.extend(points.map(|points| Task {
                     problem,
                     method,
@@ -98,38 +97,14 @@ impl Study {
         }
         tasks
     }
-
-    /// The problems and N that only a long study tries.
-    pub fn left_for_long(&self) -> Vec<(Problem, usize)> {
-        let mut left = Vec::new();
-        for &problem in &self.problems {
-            let most = problem.most_points().filter(|_| !self.long);
-            let points = self.points.iter().copied();
-            left.extend(
-                points
-                    .filter(|&n| most.is_some_and(|most| n > most))
-                    .map(|n| (problem, n)),
-            );
-        }
-        left
-    }
 }
 
 impl Task {
     /// Computes and compares; from milliseconds to a minute.
     pub fn run(self) -> Outcome {
-        let solve = match self.problem {
-            Problem::Hertz => normal::hertz,
-            Problem::Cone => normal::cone,
-            Problem::Quartic => normal::quartic,
-            Problem::TruncatedParaboloid => normal::truncated_paraboloid,
-            Problem::FlatPunch => normal::flat_punch,
-            Problem::Cattaneo => sliding::cattaneo,
-            Problem::Limit => sliding::limit,
-        };
         Outcome {
             task: self,
-            errors: solve(self.method, self.points),
+            errors: (self.problem.facts().solve)(self.method, self.points),
         }
     }
 }

@@ -3,14 +3,14 @@
 use std::f64::consts::PI;
 
 use super::Stop;
-use super::errors::Errors;
-use super::scene::Scene;
+use super::errors::{Errors, Sample};
+use super::scene::pressed;
 use crate::contact::indenter::Indenter;
 use crate::math::abel::{AbelMethod, AbelPlan};
 use crate::math::grid::RadialGrid;
 use crate::oracle::flat_punch::FlatPunch;
 use crate::oracle::power_law::PowerLaw;
-use crate::oracle::truncated;
+use crate::oracle::truncated::TruncatedParaboloid;
 use crate::reading::Curves;
 use crate::simulation::Simulation;
 
@@ -36,167 +36,136 @@ impl Between {
     }
 }
 
-type Function = Box<dyn Fn(f64) -> f64>;
-
-/// f, g and p in closed form, for a = E* = 1.
+/// d, the mean pressure, and f, g and p at nodes, in closed form for a = E* = 1.
 struct Exact {
     depth: f64,
     mean_pressure: f64,
-    f: Function,
-    g: Function,
-    p: Function,
+    f: Vec<f64>,
+    g: Vec<f64>,
+    p: Vec<f64>,
 }
 
 impl Exact {
-    fn power_law(shape: PowerLaw) -> Self {
+    fn power_law(shape: PowerLaw, grid: &RadialGrid) -> Self {
         let depth = shape.depth(1.0);
         Self {
             depth,
             mean_pressure: shape.force(1.0, depth) / PI,
-            f: Box::new(move |r| shape.profile(r)),
-            g: Box::new(move |x| shape.mdr_profile(x)),
-            p: Box::new(move |r| shape.pressure(1.0, 1.0, r)),
+            f: nodal(grid, |r| shape.profile(r)),
+            g: nodal(grid, |x| shape.mdr_profile(x)),
+            p: nodal(grid, |r| shape.pressure(1.0, 1.0, r)),
         }
     }
 
-    fn truncated(shape: truncated::TruncatedParaboloid) -> Self {
+    fn truncated(shape: TruncatedParaboloid, grid: &RadialGrid) -> Self {
         Self {
             depth: shape.depth(1.0),
             mean_pressure: shape.force(1.0) / PI,
-            f: Box::new(move |r| shape.profile(r)),
-            g: Box::new(move |x| shape.mdr_profile(x)),
-            p: Box::new(move |r| shape.pressure(1.0, r)),
+            f: nodal(grid, |r| shape.profile(r)),
+            g: nodal(grid, |x| shape.mdr_profile(x)),
+            p: nodal(grid, |r| shape.pressure(1.0, r)),
         }
     }
-}
 
-/// The transforms of exact data, each at the nodes of the contact.
-struct Transforms {
-    exact: Exact,
-    grid: RadialGrid,
-    plan: AbelPlan,
-}
-
-impl Transforms {
-    fn new(exact: Exact, method: AbelMethod, points: usize, domain: f64) -> Result<Self, Stop> {
-        let grid = RadialGrid::uniform(points, domain)?;
-        let plan = AbelPlan::new(method, &grid);
-        Ok(Self { exact, grid, plan })
-    }
-
-    fn nodal(&self, source: impl Fn(f64) -> f64) -> Vec<f64> {
-        self.grid.nodes().iter().map(|&x| source(x)).collect()
-    }
-
-    fn buffer(&self) -> Vec<f64> {
-        vec![f64::NAN; self.grid.len()]
-    }
-
-    fn profile(&self) -> Vec<f64> {
-        let mut out = self.buffer();
-        self.plan.profile(&self.nodal(&self.exact.f), &mut out);
-        out
-    }
-
-    /// d − g where that is positive: q with E* = 1, and u.
-    fn compression(&self) -> Vec<f64> {
-        self.nodal(|x| (self.exact.depth - (self.exact.g)(x)).max(0.0))
-    }
-
-    fn stress(&self) -> Vec<f64> {
-        let mut out = self.buffer();
-        self.plan.stress(&self.compression(), &mut out);
-        out
-    }
-
-    fn displacement(&self) -> Vec<f64> {
-        let mut out = self.buffer();
-        self.plan.displacement(&self.compression(), &mut out);
-        out
-    }
-
-    fn w(&self, r: f64) -> f64 {
-        self.exact.depth - (self.exact.f)(r)
-    }
-
-    /// Errors of g, p and w in d and in the mean pressure.
-    fn errors(&self, pressure: &[f64]) -> Vec<Errors> {
-        let (exact, nodes) = (&self.exact, self.grid.nodes());
-        vec![
-            Errors::in_units_of(exact.depth, inside(nodes, &self.profile(), &exact.g)),
-            Errors::in_units_of(exact.mean_pressure, inside(nodes, pressure, &exact.p)),
-            Errors::in_units_of(
-                exact.depth,
-                inside(nodes, &self.displacement(), |r| self.w(r)),
-            ),
+    /// Errors of g of the exact f, of p of the exact q = d − g with E* = 1 or else of `pressure`, and of w of the exact
+    /// u: relative to theory, or in d and in the mean pressure.
+    fn errors(
+        &self,
+        method: AbelMethod,
+        grid: &RadialGrid,
+        pressure: Option<Vec<f64>>,
+        is_relative: bool,
+    ) -> Vec<Errors> {
+        let plan = AbelPlan::new(method, grid);
+        let transform = |source: &[f64], apply: fn(&AbelPlan, &[f64], &mut [f64])| {
+            let mut out = vec![f64::NAN; source.len()];
+            apply(&plan, source, &mut out);
+            out
+        };
+        let pressed = |profile: &Vec<f64>| -> Vec<f64> {
+            profile.iter().map(|depth| self.depth - depth).collect()
+        };
+        let compression: Vec<f64> = pressed(&self.g).iter().map(|u| u.max(0.0)).collect();
+        let profile = transform(&self.f, AbelPlan::profile);
+        let pressure = pressure.unwrap_or_else(|| transform(&compression, AbelPlan::stress));
+        let displacement = transform(&compression, AbelPlan::displacement);
+        [
+            (self.depth, profile, &self.g),
+            (self.mean_pressure, pressure, &self.p),
+            (self.depth, displacement, &pressed(&self.f)),
         ]
+        .map(|(unit, values, theory)| {
+            Errors::new(
+                (!is_relative).then_some(unit),
+                inside(grid, &values, theory),
+            )
+        })
+        .into()
     }
+}
+
+fn nodal(grid: &RadialGrid, of: impl Fn(f64) -> f64) -> Vec<f64> {
+    grid.nodes().iter().map(|&r| of(r)).collect()
 }
 
 /// Node, result and theory at the nodes up to a = 1.
-fn inside(
-    nodes: &[f64],
-    values: &[f64],
-    theory: impl Fn(f64) -> f64,
-) -> impl Iterator<Item = (f64, f64, f64)> {
-    let pairs = nodes.iter().zip(values);
-    pairs
-        .take_while(|(r, _)| **r <= 1.0)
-        .map(move |(&r, &value)| (r, value, theory(r)))
+fn inside(grid: &RadialGrid, values: &[f64], theory: &[f64]) -> impl Iterator<Item = Sample> {
+    let nodes = grid.nodes().iter().zip(values).zip(theory);
+    let samples = nodes.map(|((&r, &value), &theory)| (r, value, theory));
+    samples.take_while(|(r, ..)| *r <= 1.0)
+}
+
+/// p by the simulation, which has to find the edges.
+fn simulated(
+    method: AbelMethod,
+    grid: &RadialGrid,
+    indenter: Indenter,
+    depth: f64,
+) -> Result<Vec<f64>, Stop> {
+    let setup = pressed(method, grid.clone(), indenter, depth)?;
+    Ok(Simulation::new(setup)?.observe(Curves::PRESSURE).pressure)
 }
 
 /// The paraboloid of the paper's Fig. 2.
 pub fn hertz(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop> {
-    let exact = Exact::power_law(PowerLaw::paraboloid(1.0));
-    let case = Transforms::new(exact, method, points, 1.0)?;
-    let nodes = case.grid.nodes();
-    Ok(vec![
-        Errors::relative(inside(nodes, &case.profile(), &case.exact.g)),
-        Errors::relative(inside(nodes, &case.stress(), &case.exact.p)),
-        Errors::relative(inside(nodes, &case.displacement(), |r| case.w(r))),
-    ])
+    let grid = RadialGrid::uniform(points, 1.0)?;
+    let exact = Exact::power_law(PowerLaw::paraboloid(1.0), &grid);
+    Ok(exact.errors(method, &grid, None, true))
 }
 
 /// A cone of slope 1.
 pub fn cone(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop> {
-    let exact = Exact::power_law(PowerLaw::cone(1.0));
-    let case = Transforms::new(exact, method, points, 1.0)?;
-    Ok(case.errors(&case.stress()))
+    let grid = RadialGrid::uniform(points, 1.0)?;
+    let exact = Exact::power_law(PowerLaw::cone(1.0), &grid);
+    Ok(exact.errors(method, &grid, None, false))
 }
 
-/// f = r⁴.
+/// f = r⁴, the edge between nodes.
 pub fn quartic(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop> {
-    let exact = Exact::power_law(PowerLaw::quartic(1.0));
-    between(exact, Indenter::power(1.0, 4.0)?, method, points)
+    let grid = RadialGrid::uniform(points, Between::nodes(points).domain)?;
+    let exact = Exact::power_law(PowerLaw::quartic(1.0), &grid);
+    let pressure = simulated(method, &grid, Indenter::power(1.0, 4.0)?, exact.depth)?;
+    Ok(exact.errors(method, &grid, Some(pressure), false))
 }
 
-/// R = 1, b about a/2.
+/// R = 1, b about a/2, both edges between nodes.
 pub fn truncated_paraboloid(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop> {
-    let tip_radius = Between::nodes(points).inner;
-    let exact = Exact::truncated(truncated::TruncatedParaboloid {
+    let Between { domain, inner } = Between::nodes(points);
+    let grid = RadialGrid::uniform(points, domain)?;
+    let shape = TruncatedParaboloid {
         e_star: 1.0,
         radius: 1.0,
-        tip_radius,
-    });
-    let indenter = Indenter::truncated_paraboloid(1.0, tip_radius)?;
-    between(exact, indenter, method, points)
-}
-
-/// With the edges between nodes: p by the simulation, which has to find them.
-fn between(
-    exact: Exact,
-    indenter: Indenter,
-    method: AbelMethod,
-    points: usize,
-) -> Result<Vec<Errors>, Stop> {
-    let domain = Between::nodes(points).domain;
-    let scene = Scene::pressed(method, points, domain, indenter, exact.depth);
-    let seen = Simulation::new(scene.setup()?)?.observe(Curves::PRESSURE);
-    Ok(Transforms::new(exact, method, points, domain)?.errors(&seen.pressure))
+        tip_radius: inner,
+    };
+    let exact = Exact::truncated(shape, &grid);
+    let indenter = Indenter::truncated_paraboloid(1.0, inner)?;
+    let pressure = simulated(method, &grid, indenter, exact.depth)?;
+    Ok(exact.errors(method, &grid, Some(pressure), false))
 }
 
 /// a = d = 1.
 pub fn flat_punch(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop> {
+    let grid = RadialGrid::uniform(points, 1.0)?;
     let punch = FlatPunch {
         e_star: 1.0,
         g_star: 1.0,
@@ -204,8 +173,8 @@ pub fn flat_punch(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop
         radius: 1.0,
         depth: 1.0,
     };
-    let scene = Scene::pressed(method, points, 1.0, Indenter::flat_punch(1.0)?, punch.depth);
-    let seen = Simulation::new(scene.setup()?)?.observe(Curves::PRESSURE);
-    let samples = inside(&seen.radii, &seen.pressure, |r| punch.pressure(r));
-    Ok(vec![Errors::in_units_of(punch.force() / PI, samples)])
+    let pressure = simulated(method, &grid, Indenter::flat_punch(1.0)?, punch.depth)?;
+    let theory = nodal(&grid, |r| punch.pressure(r));
+    let samples = inside(&grid, &pressure, &theory);
+    Ok(vec![Errors::new(Some(punch.force() / PI), samples)])
 }

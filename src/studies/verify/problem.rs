@@ -2,6 +2,8 @@
 
 use strum::{Display, EnumString, IntoStaticStr, VariantNames};
 
+use super::errors::Errors;
+use super::{Stop, normal, sliding};
 use crate::math::abel::AbelMethod;
 use crate::math::invalid::Invalid;
 
@@ -41,8 +43,25 @@ const fn curve(name: &'static str) -> Quantity {
     }
 }
 
+/// The border of the permanent stick zone.
+const STICK_RADIUS: Quantity = Quantity {
+    name: "c",
+    single: true,
+};
+
 /// g, p and w.
 const TRANSFORMS: [Quantity; 3] = [curve("g"), curve("p"), curve("w")];
+
+/// What there is to know of a problem.
+pub struct Facts {
+    /// Solves it by a method on N cells; gives the errors of the quantities.
+    pub(super) solve: fn(AbelMethod, usize) -> Result<Vec<Errors>, Stop>,
+    /// What is compared.
+    pub quantities: &'static [Quantity],
+    /// What is solved, how, where the edges lie, in what the error is measured and what is left
+    /// out: lines of at most 78 columns.
+    pub description: &'static [&'static str],
+}
 
 impl Problem {
     /// Every problem, in the order of the report.
@@ -65,74 +84,82 @@ impl Problem {
         Invalid::choice("problem", name, Self::VARIANTS)
     }
 
-    /// What is solved, how, where the edges lie, in what the error is measured and what is left
-    /// out: lines of at most 78 columns.
-    pub fn description(self) -> &'static [&'static str] {
+    /// What there is to know of it.
+    pub fn facts(self) -> Facts {
         match self {
-            Self::Hertz => &[
-                "Paraboloid, as in Fig. 2 of the paper: N cells over the contact, the edge a on",
-                "the last node; g of the exact f, p of the exact q, w of the exact u = d - g.",
-                "Error relative to theory at each node. Left out: g at r = 0 and p at r = a,",
-                "where theory is 0.",
-            ],
-            Self::Cone => &[
-                "Cone: N cells over the contact, the edge a on the last node; transforms of",
-                "exact data. Errors of g and w relative to d, of p to the mean pressure.",
-                "Left out: p at r = 0, where theory is infinite.",
-            ],
-            Self::Quartic => &[
-                "f = r^4: N cells over 1.5 a, the edge a a third of a cell past a node; p as",
-                "the simulation has it, g and w of exact data. Error of g and w in the depth d,",
-                "of p in the mean pressure. Nodes inside a.",
-            ],
-            Self::TruncatedParaboloid => &[
-                "Paraboloid with a flat tip of radius b = a/2: N cells over 1.5 a, a and b a",
-                "third of a cell past a node; p, infinite at b, as the simulation has it, g and",
-                "w of exact data. Errors of g and w relative to d, of p to the mean pressure.",
-                "Nodes inside a.",
-            ],
-            Self::FlatPunch => &[
-                "Flat punch: N cells over the punch, its rim on the last node, where q jumps;",
-                "p as the simulation has it. Error relative to the mean pressure.",
-                "Left out: r = a, where theory is infinite.",
-            ],
-            Self::Cattaneo => &[
-                "Partial slip of a paraboloid on first loading, c = a/2, a quarter of a cycle",
-                "of the simulation without wear: N cells over 1.5 a, a and c a third of a cell",
-                "past a node. Error of tau in its peak at all nodes, of the slip of the surface",
-                "in its peak at the nodes inside a.",
-            ],
-            Self::Limit => &[
-                "Limiting profile: paraboloid at constant depth d, mu = 0.1, nu = 0.3,",
-                "amplitude 0.05 d, k E* d/a = 3, 400 cycles of 40 steps, N cells over 1.5 a;",
-                "each method on its own grid and scheme. Error of f in d, the rms over the",
-                "radius; relative error of the permanent stick radius c.",
-            ],
+            Self::Hertz => Facts {
+                solve: normal::hertz,
+                quantities: &TRANSFORMS,
+                description: &[
+                    "Paraboloid, as in Fig. 2 of the paper: N cells over the contact, the edge a on",
+                    "the last node; g of the exact f, p of the exact q, w of the exact u = d - g.",
+                    "Error relative to theory at each node. Left out: g at r = 0 and p at r = a,",
+                    "where theory is 0.",
+                ],
+            },
+            Self::Cone => Facts {
+                solve: normal::cone,
+                quantities: &TRANSFORMS,
+                description: &[
+                    "Cone: N cells over the contact, the edge a on the last node; transforms of",
+                    "exact data. Errors of g and w relative to d, of p to the mean pressure.",
+                    "Left out: p at r = 0, where theory is infinite.",
+                ],
+            },
+            Self::Quartic => Facts {
+                solve: normal::quartic,
+                quantities: &TRANSFORMS,
+                description: &[
+                    "f = r^4: N cells over 1.5 a, the edge a a third of a cell past a node; p as",
+                    "the simulation has it, g and w of exact data. Error of g and w in the depth d,",
+                    "of p in the mean pressure. Nodes inside a.",
+                ],
+            },
+            Self::TruncatedParaboloid => Facts {
+                solve: normal::truncated_paraboloid,
+                quantities: &TRANSFORMS,
+                description: &[
+                    "Paraboloid with a flat tip of radius b = a/2: N cells over 1.5 a, a and b a",
+                    "third of a cell past a node; p, infinite at b, as the simulation has it, g and",
+                    "w of exact data. Errors of g and w relative to d, of p to the mean pressure.",
+                    "Nodes inside a.",
+                ],
+            },
+            Self::FlatPunch => Facts {
+                solve: normal::flat_punch,
+                quantities: const { &[curve("p")] },
+                description: &[
+                    "Flat punch: N cells over the punch, its rim on the last node, where q jumps;",
+                    "p as the simulation has it. Error relative to the mean pressure.",
+                    "Left out: r = a, where theory is infinite.",
+                ],
+            },
+            Self::Cattaneo => Facts {
+                solve: sliding::cattaneo,
+                quantities: const { &[curve("tau"), curve("slip")] },
+                description: &[
+                    "Partial slip of a paraboloid on first loading, c = a/2, a quarter of a cycle",
+                    "of the simulation without wear: N cells over 1.5 a, a and c a third of a cell",
+                    "past a node. Error of tau in its peak at all nodes, of the slip of the surface",
+                    "in its peak at the nodes inside a.",
+                ],
+            },
+            Self::Limit => Facts {
+                solve: sliding::limit,
+                quantities: const { &[curve("f"), STICK_RADIUS] },
+                description: &[
+                    "Limiting profile: paraboloid at constant depth d, mu = 0.1, nu = 0.3,",
+                    "amplitude 0.05 d, k E* d/a = 3, 400 cycles of 40 steps, N cells over 1.5 a;",
+                    "each method on its own grid and scheme. Error of f in d, the rms over the",
+                    "radius; relative error of the permanent stick radius c.",
+                ],
+            },
         }
     }
 
-    /// What is compared.
-    pub fn quantities(self) -> &'static [Quantity] {
-        const SLIP: [Quantity; 2] = [curve("tau"), curve("slip")];
-        const STICK: Quantity = Quantity {
-            name: "c",
-            single: true,
-        };
-        const WORN: [Quantity; 2] = [curve("f"), STICK];
-        match self {
-            Self::Hertz | Self::Cone | Self::Quartic | Self::TruncatedParaboloid => &TRANSFORMS,
-            Self::FlatPunch => &TRANSFORMS[1..2],
-            Self::Cattaneo => &SLIP,
-            Self::Limit => &WORN,
-        }
-    }
-
-    /// The most cells that are tried unless everything is asked for: the limit takes seconds a run.
-    pub fn most_points(self) -> Option<usize> {
-        match self {
-            Self::Limit => Some(200),
-            _ => None,
-        }
+    /// Whether so many cells are tried only if everything is asked for: the limit takes seconds a run.
+    pub fn is_long(self, points: usize) -> bool {
+        self == Self::Limit && points > 200
     }
 
     /// How long one task takes, roughly, in any unit: for a progress bar.
@@ -143,9 +170,4 @@ impl Problem {
             _ => square,
         }
     }
-}
-
-/// Whether a method is one of the paper's, which stay on the paper's grid and scheme.
-pub fn is_published(method: AbelMethod) -> bool {
-    AbelMethod::PUBLISHED.contains(&method)
 }

@@ -2,7 +2,7 @@
 
 use super::errors::Errors;
 use super::{Outcome, Problem, Quantity};
-use crate::studies::table::{Cell, Column, Format, Table};
+use crate::studies::table::{Cell, Format, Table};
 
 /// Below this an error is rounding, and its order means nothing.
 pub const ROUNDING: f64 = 1e-12;
@@ -12,18 +12,14 @@ const ROOMY: usize = 2;
 
 /// The table of one problem, a row for each method and N.
 pub fn problem_table(problem: Problem, outcomes: &[Outcome]) -> Table {
-    let quantities = problem.quantities();
+    let quantities = problem.facts().quantities;
     let roomy = quantities.len() <= ROOMY;
-    let mut columns = vec![
-        Column::new("method", Format::Words),
-        Column::new("N", Format::Count),
-    ];
+    let mut columns = vec![("", "method", Format::Words), ("", "N", Format::Count)];
     for quantity in quantities {
-        for &(name, format) in shown(*quantity, roomy) {
-            columns.push(Column::grouped(quantity.name, name, format));
-        }
+        let shown = shown(*quantity, roomy).iter();
+        columns.extend(shown.map(|&(name, format)| (quantity.name, name, format)));
     }
-    let mut table = Table::new(columns);
+    let mut table = Table::of(&columns);
     for outcome in outcomes.iter().filter(|o| o.task.problem == problem) {
         let mut row = vec![
             Cell::Words(outcome.task.method.name().into()),
@@ -113,7 +109,7 @@ pub fn all_rows(outcomes: &[Outcome]) -> Table {
         ("", "stopped_because", Format::Words),
     ]);
     for outcome in outcomes {
-        for (at, quantity) in outcome.task.problem.quantities().iter().enumerate() {
+        for (at, quantity) in outcome.task.problem.facts().quantities.iter().enumerate() {
             let mut row = key(outcome, quantity.name);
             match &outcome.errors {
                 Ok(errors) => {
@@ -143,7 +139,7 @@ pub fn all_nodes(outcomes: &[Outcome]) -> Table {
     ]);
     for outcome in outcomes {
         let Ok(all) = &outcome.errors else { continue };
-        for (quantity, errors) in outcome.task.problem.quantities().iter().zip(all) {
+        for (quantity, errors) in outcome.task.problem.facts().quantities.iter().zip(all) {
             for (&r, &error) in errors.radii.iter().zip(&errors.errors) {
                 let mut row = key(outcome, quantity.name);
                 row.extend([Cell::Number(r), Cell::Number(error)]);

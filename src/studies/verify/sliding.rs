@@ -3,15 +3,18 @@
 use super::Stop;
 use super::errors::Errors;
 use super::normal::Between;
-use super::problem::is_published;
-use super::scene::{FRICTION, POISSON, Scene};
+use super::scene::{FRICTION, POISSON, pressed, swing};
 use crate::contact::indenter::Indenter;
 use crate::math::abel::AbelMethod;
+use crate::math::grid::RadialGrid;
+use crate::math::invalid::Invalid;
 use crate::oracle::cattaneo_mindlin::CattaneoMindlin;
 use crate::oracle::limiting_profile::LimitingProfile;
 use crate::oracle::partial_slip::stiffness_ratio;
 use crate::reading::Curves;
-use crate::simulation::{Scheme, Simulation, Spacing};
+use crate::simulation::drive::Drive;
+use crate::simulation::{Scheme, Setup, Simulation, Spacing};
+use crate::wear::WearLaw;
 
 /// The closed form, moved by `amplitude`.
 fn theory(amplitude: f64) -> CattaneoMindlin {
@@ -25,13 +28,20 @@ fn theory(amplitude: f64) -> CattaneoMindlin {
     }
 }
 
+/// The paraboloid, moved by `amplitude`, on N = `points` over `domain`.
+fn moved(method: AbelMethod, points: usize, domain: f64, amplitude: f64) -> Result<Setup, Invalid> {
+    let grid = RadialGrid::uniform(points, domain)?;
+    let mut setup = pressed(method, grid, Indenter::paraboloid(1.0)?, 1.0)?;
+    setup.drive = Drive::new(swing(1.0, 0.0)?, Some(swing(0.0, amplitude)?));
+    Ok(setup)
+}
+
 /// τ and slip after a quarter of a cycle without wear, c about a/2: c² = 1 − κU.
 pub fn cattaneo(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop> {
     let Between { domain, inner } = Between::nodes(points);
     let exact = theory((1.0 - inner * inner) * theory(0.0).gross_slip_displacement());
-    let mut scene = Scene::pressed(method, points, domain, Indenter::paraboloid(1.0)?, 1.0);
-    scene.amplitude = Some(exact.amplitude);
-    let mut simulation = Simulation::new(scene.setup()?)?;
+    let setup = moved(method, points, domain, exact.amplitude)?;
+    let mut simulation = Simulation::new(setup)?;
     simulation.advance_to(0.25)?;
     let seen = simulation.observe(Curves::SHEAR | Curves::SURFACE);
     let nodes = seen.radii.iter().copied();
@@ -42,8 +52,8 @@ pub fn cattaneo(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop> 
     // τ rises up to c and falls from there; the slip rises up to a.
     let peak = exact.shear_stress(exact.stick_radius());
     Ok(vec![
-        Errors::in_units_of(peak, shear),
-        Errors::in_units_of(exact.slip(1.0), slip),
+        Errors::new(Some(peak), shear),
+        Errors::new(Some(exact.slip(1.0)), slip),
     ])
 }
 
@@ -68,20 +78,19 @@ pub fn limit(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop> {
         depth: 1.0,
         stick_radius,
     };
-    let mut scene = Scene::pressed(method, points, DOMAIN, Indenter::paraboloid(1.0)?, 1.0);
-    scene.amplitude = Some(AMPLITUDE);
-    scene.wear = Some(WEAR);
-    if !is_published(method) {
-        (scene.spacing, scene.scheme) = (Spacing::Graded, Scheme::Trapezoid);
+    let mut setup = moved(method, points, DOMAIN, AMPLITUDE)?;
+    setup.wear = Some(WearLaw::archard(WEAR)?);
+    if !AbelMethod::PUBLISHED.contains(&method) {
+        (setup.spacing, setup.scheme) = (Spacing::Graded, Scheme::Trapezoid);
     }
-    let mut simulation = Simulation::new(scene.setup()?)?;
+    let mut simulation = Simulation::new(setup)?;
     simulation.advance_to(CYCLES)?;
     let seen = simulation.observe(Curves::PROFILE);
     let worn = seen.radii.iter().zip(&seen.profile);
     let worn = worn.map(|(&r, &f)| (r, f, exact.profile(r)));
     let found = seen.moment.permanent_stick_radius.unwrap_or(f64::NAN);
     Ok(vec![
-        Errors::in_units_of(1.0, worn).over_radius(),
-        Errors::single(stick_radius, found, stick_radius),
+        Errors::new(Some(1.0), worn).over_radius(),
+        Errors::new(None, [(stick_radius, found, stick_radius)].into_iter()),
     ])
 }

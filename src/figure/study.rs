@@ -111,7 +111,7 @@ fn facts(slice: &Slice, name: &str) -> Vec<(String, String)> {
     }));
     let set = study.set.iter();
     facts.extend(set.map(|(key, value)| (key.clone(), value.to_string())));
-    let (there, failed) = slice.rows.count();
+    let (there, failed) = slice.count();
     let all = study.points();
     facts.push((
         "points".into(),

@@ -9,7 +9,7 @@ use super::keys;
 use super::schema::{self, Kind, Parameter};
 
 /// Splits `KEY=VALUE`; `flag` stands before it in messages.
-pub(super) fn split<'a>(text: &'a str, flag: &str) -> Result<(&'a str, &'a str), ScenarioError> {
+pub(crate) fn split<'a>(text: &'a str, flag: &str) -> Result<(&'a str, &'a str), ScenarioError> {
     let halves = text
         .split_once('=')
         .map(|(key, value)| (key.trim(), value.trim()));

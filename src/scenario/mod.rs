@@ -13,7 +13,7 @@ use toml::{Table, Value};
 use crate::reading::fatigue::Limits;
 use crate::simulation::{Domain, Integrator, Setup, Spacing};
 
-mod assign;
+pub(crate) mod assign;
 mod blocks;
 mod bodies;
 mod check;

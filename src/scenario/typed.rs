@@ -6,10 +6,12 @@ use super::error::printable;
 use super::nearest;
 
 /// serde's words for the types that it expected, and a user's.
-const WORDS: [(&str, &str); 4] = [
+const WORDS: [(&str, &str); 6] = [
     ("a sequence", "a list"),
     ("a map", "a table"),
     ("i64", "a whole number"),
+    ("u32", "a whole number from 0 to 4294967295"),
+    ("usize", "a whole number, 0 or greater"),
     ("f64", "a number"),
 ];
 
@@ -30,9 +32,17 @@ pub fn read<T: DeserializeOwned>(text: &str) -> Result<T, String> {
 fn in_words(message: &str) -> String {
     let message = printable(&message.replace('\n', "; "));
     let named: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
-    if let ([unknown, known @ ..], true) = (&named[..], message.starts_with("unknown field")) {
+    let what = match &message {
+        message if message.starts_with("unknown field") => Some("key"),
+        message if message.starts_with("unknown variant") => Some("value"),
+        _ => None,
+    };
+    if let ([unknown, known @ ..], Some(what)) = (&named[..], what) {
         let hint = nearest::hint(unknown, known.iter().copied());
-        return format!("unknown key {unknown}; {hint}");
+        return format!("unknown {what} {unknown}; {hint}");
+    }
+    if let ([missing], true) = (&named[..], message.starts_with("missing field")) {
+        return format!("{missing} is missing");
     }
     match message.rsplit_once(", expected ") {
         Some((seen, wanted)) => {

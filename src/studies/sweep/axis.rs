@@ -1,5 +1,6 @@
 //! An axis: a key of the scenario and the values it takes, and the keys that follow it.
 
+use serde::Deserialize;
 use toml::Value;
 
 use super::design::Strata;
@@ -7,11 +8,13 @@ use crate::scenario::scalars::number;
 use crate::scenario::schema::{self, Kind};
 
 /// How the values of an axis are spread, for plots.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 pub enum Spread {
     /// Evenly, or as listed.
+    #[serde(rename = "linear")]
     Linear,
     /// Evenly in their logarithms.
+    #[serde(rename = "log")]
     Logarithmic,
 }
 
@@ -62,49 +65,44 @@ impl Axis {
         }
     }
 
-    /// Places at which an axis given by its two ends may have the value `wanted`: a few, or more if
-    /// the key takes whole numbers.
-    pub(super) fn places_near(&self, wanted: f64) -> Vec<usize> {
-        let (ends, parts) = match &self.values {
+    /// The places at which an axis given by its two ends has the value `wanted`, in order. In the order of the strata
+    /// its values only rise, or only fall.
+    pub(super) fn places_of(&self, wanted: f64) -> Vec<usize> {
+        let ([from, to], strata) = match &self.values {
             Values::Listed(_) => return Vec::new(),
-            Values::Spaced(ends, count) => (ends, count - 1),
-            Values::Drawn(ends, strata) => (ends, strata.len()),
+            Values::Spaced(ends, _) => (*ends, None),
+            Values::Drawn(ends, strata) => (*ends, Some(strata)),
         };
-        let of = |value: f64| match self.spread {
-            Spread::Linear => value,
-            Spread::Logarithmic => value.ln(),
+        let place = |at: usize| strata.map_or(at, |strata| strata.sample_in(at));
+        let ahead = |at: usize| {
+            let number = self.number(place(at)).unwrap_or(f64::NAN);
+            if from <= to {
+                number - wanted
+            } else {
+                wanted - number
+            }
         };
-        let share = |value: f64| (of(value) - of(ends[0])) / (of(ends[1]) - of(ends[0]));
-        let half = if value_of(&self.key, 0.0).is_integer() {
-            0.5
-        } else {
-            0.0
+        let first = |is_there: fn(f64) -> bool| {
+            let (mut low, mut high) = (0, self.count());
+            while low < high {
+                let middle = low.midpoint(high);
+                match is_there(ahead(middle)) {
+                    true => high = middle,
+                    false => low = middle + 1,
+                }
+            }
+            low
         };
-        let last = self.count() - 1;
-        let places = [wanted - half, wanted + half].map(|value| {
-            let share = share(value);
-            share.is_finite().then_some((share * parts as f64) as usize)
-        });
-        let (low, high) = match places {
-            [Some(one), Some(other)] => (one.min(other), one.max(other)),
-            // As where both ends are one: every place is near.
-            _ => (0, last),
-        };
-        let (low, high) = (low.saturating_sub(1), high.saturating_add(2).min(last));
-        match &self.values {
-            Values::Drawn(_, strata) => (low..=high).map(|at| strata.sample_in(at)).collect(),
-            _ => (low..=high).collect(),
-        }
+        let alike = first(|ahead| ahead >= 0.0)..first(|ahead| ahead > 0.0);
+        let mut places: Vec<usize> = alike.map(place).collect();
+        places.sort_unstable();
+        places
     }
 
     /// The value at `index` as `--set` takes it and as its column shows it: numbers in the shortest
     /// form that reads back to the same bits, words bare.
     pub fn text(&self, index: usize) -> String {
-        match self.value(index) {
-            Value::Float(value) => number(value),
-            Value::String(word) => word,
-            other => other.to_string(),
-        }
+        text(&self.value(index))
     }
 
     /// The value at `index` as a number, if it is one.
@@ -139,23 +137,23 @@ impl Axis {
         Some(between(self.spread, low, high, place - index as f64))
     }
 
-    /// What another number assigns, as [`assignments`](Self::assignments) does.
-    pub fn assignments_of(&self, value: f64) -> Vec<(&str, String)> {
-        let own = (self.key.as_str(), number(whole(&self.key, value)));
-        let tied = self.tied.iter();
-        let tied = tied.map(|(key, factor)| (key.as_str(), number(whole(key, value * factor))));
-        std::iter::once(own).chain(tied).collect()
-    }
-
-    /// What the value at `index` assigns: the key's own value, then those of the tied keys.
-    pub fn assignments(&self, index: usize) -> Vec<(&str, String)> {
-        let own = (self.key.as_str(), self.text(index));
-        let value = self.number(index);
+    /// What `value` assigns: the key's own value, then those of the tied keys.
+    pub fn assignments(&self, value: &Value) -> Vec<(&str, String)> {
+        let own = (self.key.as_str(), text(value));
+        let number = numeric(value);
         let tied = self.tied.iter().filter_map(|(key, factor)| {
-            let value = value? * factor;
-            Some((key.as_str(), number(whole(key, value))))
+            Some((key.as_str(), text(&value_of(key, number? * factor))))
         });
         std::iter::once(own).chain(tied).collect()
+    }
+}
+
+/// A value as `--set` takes it.
+fn text(value: &Value) -> String {
+    match value {
+        Value::Float(value) => number(*value),
+        Value::String(word) => word.clone(),
+        other => other.to_string(),
     }
 }
 
@@ -165,14 +163,6 @@ pub(super) fn numeric(value: &Value) -> Option<f64> {
         Value::Integer(value) => Some(*value as f64),
         Value::Float(value) => Some(*value),
         _ => None,
-    }
-}
-
-/// `value`, rounded if `key` takes whole numbers.
-fn whole(key: &str, value: f64) -> f64 {
-    match schema::find(key).map(|parameter| parameter.kind) {
-        Some(Kind::Whole) => value.round(),
-        _ => value,
     }
 }
 
@@ -245,7 +235,7 @@ mod tests {
                 ("numerics.points".into(), 50.2e6),
             ],
         };
-        let set = axis.assignments(0);
+        let set = axis.assignments(&axis.value(0));
         assert_eq!(set[0], ("motion.normal.mean", "2e-6".to_owned()));
         assert_eq!(set[1], ("motion.normal.amplitude", "5e-7".to_owned()));
         assert_eq!(set[2], ("numerics.points", "100".to_owned()));

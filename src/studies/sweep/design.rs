@@ -1,15 +1,18 @@
 //! Combines the values of several axes into points: every combination, pairwise, or samples that
 //! fill the space evenly.
 
-use strum::{EnumString, IntoStaticStr, VariantNames};
+use serde::Deserialize;
+use strum::IntoStaticStr;
 
 use super::shuffle::{Shuffle, mix};
 
 /// The way from axes to points.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, EnumString, IntoStaticStr, VariantNames)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, IntoStaticStr)]
+#[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub enum Design {
     /// Every combination; the last axis changes fastest.
+    #[default]
     Grid,
     /// The first values of all axes, then the second ones, and so on.
     Zip,
@@ -21,9 +24,6 @@ pub enum Design {
 }
 
 impl Design {
-    /// The names in study files.
-    pub const NAMES: &[&str] = Self::VARIANTS;
-
     /// The name in study files.
     pub fn name(self) -> &'static str {
         self.into()

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::axis::{Axis, Values};
+use super::record::Refused;
 use super::{Design, Study};
 use crate::scenario::printable;
 use crate::scenario::scalars::number;
@@ -12,6 +13,7 @@ use crate::scenario::scalars::number;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Finder {
     axes: Vec<Axis>,
+    columns: usize,
     is_grid: bool,
     /// The places of the values of each axis that lists them.
     listed: Vec<HashMap<String, Vec<usize>>>,
@@ -33,13 +35,30 @@ impl Finder {
         });
         Self {
             listed: listed.collect(),
+            columns: study.columns().len(),
             is_grid: study.design == Design::Grid,
             axes: study.axes.clone(),
         }
     }
 
+    /// The points that a row may belong to, by the values that it begins with.
+    ///
+    /// # Errors
+    ///
+    /// Refuses a row of another length, and one that no point has the values of.
+    pub fn points_of(&self, row: &[String]) -> Result<Vec<usize>, Refused> {
+        if row.len() != self.columns {
+            return Err(Refused::Length);
+        }
+        let points = self.points(&row[..self.axes.len()]);
+        match points.is_empty() {
+            true => Err(Refused::Foreign),
+            false => Ok(points),
+        }
+    }
+
     /// The points with these values, in order; numbers count, however they are written.
-    pub fn points(&self, values: &[String]) -> Vec<usize> {
+    fn points(&self, values: &[String]) -> Vec<usize> {
         let places = (0..self.axes.len()).map(|at| self.places(at, &values[at]));
         if self.is_grid {
             let axes = places.zip(&self.axes);
@@ -68,13 +87,8 @@ impl Finder {
             let places = self.listed[axis].get(&normal(value));
             return places.cloned().unwrap_or_default();
         }
-        let Ok(wanted) = value.parse() else {
-            return Vec::new();
-        };
-        let mut places = self.axes[axis].places_near(wanted);
-        places.retain(|&place| self.axes[axis].number(place) == Some(wanted));
-        places.sort_unstable();
-        places
+        let places = |wanted| self.axes[axis].places_of(wanted);
+        value.parse().map_or_else(|_| Vec::new(), places)
     }
 
     fn is_at(&self, axis: usize, place: usize, value: &str) -> bool {

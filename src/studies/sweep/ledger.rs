@@ -36,8 +36,6 @@ impl Done {
 #[derive(Debug)]
 pub struct Ledger {
     finder: Finder,
-    axes: usize,
-    columns: usize,
     rows: File,
     /// The length of `rows` up to the last whole row.
     length: u64,
@@ -70,8 +68,6 @@ impl Ledger {
     pub fn new(study: &Study, mut rows: File, directory: &Path) -> io::Result<Self> {
         Ok(Self {
             finder: Finder::new(study),
-            axes: study.axes.len(),
-            columns: study.columns().len(),
             length: rows.seek(SeekFrom::End(0))?,
             rows,
             index: tempfile::tempfile_in(directory)?,
@@ -127,17 +123,14 @@ impl Ledger {
         study: &Study,
         mut fields: Vec<String>,
     ) -> io::Result<Result<(), Refused>> {
-        if fields.len() != self.columns {
-            return Ok(Err(Refused::Length));
-        }
-        let points = self.finder.points(&fields[..self.axes]);
-        let Some(&first) = points.first() else {
-            return Ok(Err(Refused::Foreign));
+        let points = match self.finder.points_of(&fields) {
+            Ok(points) => points,
+            Err(why) => return Ok(Err(why)),
         };
-        for (field, value) in fields.iter_mut().zip(study.values(first)) {
+        for (field, value) in fields.iter_mut().zip(study.values(points[0])) {
             *field = value;
         }
-        for field in &mut fields[self.axes..] {
+        for field in &mut fields[study.axes.len()..] {
             if let Ok(value) = field.parse::<f64>()
                 && value.is_finite()
             {

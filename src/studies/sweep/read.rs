@@ -9,7 +9,7 @@ use toml::{Table, Value};
 use super::axis::{self, Axis, Spread, Values};
 use super::design::{self, Design, MOST_SOBOL_AXES, Strata};
 use super::sensitivity::Varied;
-use super::study::{self, Stop, Study};
+use super::study::{Stop, Study};
 use crate::scenario::scalars::{self, Scalar, number};
 use crate::scenario::{Refusal, Scenario, printable, typed};
 use crate::scenario::{hints, preset, schema, units};
@@ -28,30 +28,35 @@ const MOST_POINTS: usize = 10_000_000;
 type Result<T> = std::result::Result<T, Refusal>;
 
 /// A study as it is written.
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
 struct Written {
     title: Option<String>,
     base: Option<String>,
     columns: Option<Vec<String>>,
-    design: Option<String>,
-    samples: Option<i64>,
-    seed: Option<i64>,
+    #[serde(default)]
+    design: Design,
+    samples: Option<usize>,
+    seed: Option<u32>,
+    #[serde(default)]
     set: Table,
+    #[serde(default)]
     stop: Stop,
     sensitivity: Option<Table>,
+    #[serde(default)]
     axis: Vec<WrittenAxis>,
 }
 
 /// An axis as it is written.
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
 struct WrittenAxis {
-    key: Option<String>,
+    key: String,
     values: Option<Vec<Value>>,
     linspace: Option<Vec<Value>>,
     logspace: Option<Vec<Value>>,
-    scale: Option<String>,
+    scale: Option<Spread>,
+    #[serde(default)]
     tied: Table,
 }
 
@@ -91,24 +96,22 @@ impl Study {
     ) -> Result<Self> {
         let from = Origin(printable(origin));
         let written: Written = typed::read(text).map_err(|why| from.error(why))?;
-        let Some(base_name) = &written.base else {
+        let Some(base_name) = written.base.clone() else {
             return Err(from.error("base is missing: a preset's name or a path to a scenario"));
         };
-        let base = load(base_name)?;
-        let (design, samples) = from.design(&written)?;
-        let set = from.flat("set", &written.set)?;
-        let study = Self {
+        let mut study = Self {
             title: written.title.as_deref().map(printable),
-            base_name: base_name.clone(),
-            axes: from.axes(&written, (design, samples), &set, &base)?,
-            base,
-            set,
-            design,
-            samples,
+            base: load(&base_name)?,
+            base_name,
+            set: from.flat("set", &written.set)?,
+            axes: Vec::new(),
+            design: written.design,
+            samples: from.samples(&written)?,
             columns: from.columns(written.columns.as_deref())?,
             stop: from.stop(written.stop)?,
-            sensitivity: from.sensitivity(&written.sensitivity.unwrap_or_default())?,
+            sensitivity: from.sensitivity(written.sensitivity.as_ref())?,
         };
+        from.axes(&mut study, written)?;
         from.count(&study)?;
         Ok(study)
     }
@@ -127,44 +130,26 @@ impl Origin {
         Err(Refusal::of_value(place, value, rule))
     }
 
-    /// The design, and the number of samples and the seed of a sampled one.
-    fn design(&self, written: &Written) -> Result<(Design, Option<(usize, u32)>)> {
-        let name = written.design.as_deref().unwrap_or(Design::Grid.name());
-        let Ok(design) = name.parse::<Design>() else {
-            let names: Vec<_> = Design::NAMES
-                .iter()
-                .map(|name| format!("{name:?}"))
-                .collect();
-            let rule = format!("must be one of {}", names.join(", "));
-            return self.refuse("design", Value::from(name), rule);
-        };
-        let (samples, seed) = match (design.is_sampled(), written.samples, written.seed) {
-            (true, Some(samples), seed) => (samples, seed.unwrap_or(0)),
-            (true, None, _) => {
-                return Err(self.error(format!(
-                    "samples is missing: the number of points that design = \"{name}\" draws"
-                )));
-            }
-            (false, None, None) => return Ok((design, None)),
-            (false, ..) => {
-                let rule = "samples and seed go with design = \"latin-hypercube\" or \"sobol\"";
-                return Err(self.error(rule));
-            }
-        };
+    /// The number of samples and the seed of a sampled design.
+    fn samples(&self, written: &Written) -> Result<Option<(usize, u32)>> {
+        let design = written.design;
         let most = design.most_samples();
-        let count = usize::try_from(samples).ok();
-        match (
-            count.filter(|n| (1..=most).contains(n)),
-            u32::try_from(seed),
-        ) {
-            (Some(count), Ok(seed)) => Ok((design, Some((count, seed)))),
-            (None, _) => {
+        match (design.is_sampled(), written.samples, written.seed) {
+            (false, None, None) => Ok(None),
+            (false, ..) => {
+                Err(self
+                    .error("samples and seed go with design = \"latin-hypercube\" or \"sobol\""))
+            }
+            (true, None, _) => Err(self.error(format!(
+                "samples is missing: the number of points that design = \"{}\" draws",
+                design.name()
+            ))),
+            (true, Some(samples), seed) if (1..=most).contains(&samples) => {
+                Ok(Some((samples, seed.unwrap_or(0))))
+            }
+            (true, Some(samples), _) => {
                 let rule = format!("must be a whole number from 1 to {most}");
                 self.refuse("samples", samples, rule)
-            }
-            (_, Err(_)) => {
-                let rule = format!("must be a whole number from 0 to {}", u32::MAX);
-                self.refuse("seed", seed, rule)
             }
         }
     }
@@ -200,16 +185,14 @@ impl Origin {
     }
 
     fn columns(&self, names: Option<&[String]>) -> Result<Vec<&'static Scalar>> {
-        let Some(names) = names else {
-            let usual = COLUMNS.iter();
-            return Ok(usual.filter_map(|name| scalars::find(name)).collect());
-        };
+        let usual = || COLUMNS.map(str::to_owned).to_vec();
+        let names = names.map_or_else(usual, <[String]>::to_vec);
         let mut columns: Vec<&Scalar> = Vec::new();
         for name in names {
-            let column = scalars::named(name);
+            let column = scalars::named(&name);
             let column = column.map_err(|why| self.error(format!("columns: {why}")))?;
             if columns.contains(&column) {
-                return self.refuse("columns", Value::from(name.as_str()), "stands twice");
+                return self.refuse("columns", Value::from(name), "stands twice");
             }
             columns.push(column);
         }
@@ -226,9 +209,9 @@ impl Origin {
         Ok(stop)
     }
 
-    fn sensitivity(&self, table: &Table) -> Result<Vec<Varied>> {
+    fn sensitivity(&self, table: Option<&Table>) -> Result<Vec<Varied>> {
         let mut varied = Vec::new();
-        for (key, value) in self.flat("sensitivity", table)? {
+        for (key, value) in self.flat("sensitivity", table.unwrap_or(&Table::new()))? {
             let known = axis::numeric(&value).filter(|number| *number >= 0.0);
             let Some(deviation) = known.filter(|number| number.is_finite()) else {
                 let place = format!("sensitivity.{key}");
@@ -241,32 +224,21 @@ impl Origin {
         Ok(varied)
     }
 
-    fn axes(
-        &self,
-        written: &Written,
-        (design, samples): (Design, Option<(usize, u32)>),
-        set: &[(String, Value)],
-        base: &Scenario,
-    ) -> Result<Vec<Axis>> {
-        let given = &written.axis;
+    /// Adds the axes to a study that has all else.
+    fn axes(&self, study: &mut Study, written: Written) -> Result<()> {
+        let given = written.axis;
         if given.is_empty() && written.sensitivity.is_none() {
             let rule = "there is no axis: add [[axis]] with key and values, linspace or logspace";
             return Err(self.error(rule));
         }
-        if design == Design::Sobol && given.len() > MOST_SOBOL_AXES {
+        if study.design == Design::Sobol && given.len() > MOST_SOBOL_AXES {
             let rule = format!("design = \"sobol\" takes {MOST_SOBOL_AXES} axes or fewer");
             return Err(self.error(rule));
         }
-        let mut axes: Vec<Axis> = Vec::new();
-        let mut taken: Vec<String> = set.iter().map(|(key, _)| key.clone()).collect();
-        for (at, axis) in given.iter().enumerate() {
+        let mut taken: Vec<String> = study.set.iter().map(|(key, _)| key.clone()).collect();
+        for (at, axis) in given.into_iter().enumerate() {
             let place = format!("axis[{at}]");
-            let is_force = |key: &str| study::is_force(key, set, base);
-            let sampling = samples.map(|(samples, seed)| match design {
-                Design::Sobol => Sampling::Sobol(at, samples, seed),
-                _ => Sampling::Latin(Strata::new(at, samples, seed)),
-            });
-            let axis = self.axis(axis, &place, sampling, is_force)?;
+            let axis = self.axis(axis, &place, study)?;
             let keys = std::iter::once(&axis.key).chain(axis.tied.iter().map(|(key, _)| key));
             for key in keys {
                 if taken.contains(key) {
@@ -277,96 +249,59 @@ impl Origin {
                 }
                 taken.push(key.clone());
             }
-            axes.push(axis);
+            study.axes.push(axis);
         }
-        Ok(axes)
+        Ok(())
     }
 
-    fn axis(
-        &self,
-        axis: &WrittenAxis,
-        place: &str,
-        sampling: Option<Sampling>,
-        is_force: impl Fn(&str) -> bool,
-    ) -> Result<Axis> {
-        let Some(key) = &axis.key else {
-            let rule = "is missing: the dotted path of a scenario's key";
-            return Err(self.error(format!("{place}.key {rule}")));
-        };
-        self.key(key, place)?;
-        let given = [
-            ("values", &axis.values, Spread::Linear),
-            ("linspace", &axis.linspace, Spread::Linear),
-            ("logspace", &axis.logspace, Spread::Logarithmic),
-        ];
-        let given = given.into_iter();
-        let given = given.filter_map(|(name, list, spread)| Some((name, list.clone()?, spread)));
-        let Ok([(name, mut list, mut spread)]) = <[_; 1]>::try_from(given.collect::<Vec<_>>())
-        else {
-            let rule = "must have one of values, linspace and logspace";
-            return Err(self.error(format!("{place} ({key}): {rule}")));
-        };
-        let named = format!("{place}.{name}");
-        if let Some(scale) = &axis.scale {
-            spread = match (name, scale.as_str()) {
-                ("values", "log") => Spread::Logarithmic,
-                ("values", "linear") => Spread::Linear,
-                (name, _) => {
-                    let rule = match name {
-                        "values" => "must be \"linear\" or \"log\"",
-                        _ => "goes with values",
-                    };
-                    let shown = Value::from(scale.as_str());
-                    return self.refuse(&format!("{place}.scale"), shown, rule);
-                }
-            };
-        }
-        self.to_si(&mut list, key, &named, is_force)?;
-        let values = match (name, sampling) {
-            ("values", _) => Values::Listed(self.listed(key, &named, list)?),
-            (_, None) => self.spaced(&named, &list, spread)?,
-            (_, Some(sampling)) => {
-                let [from, to] = self.ends(&named, &list, spread, 2)?;
-                match sampling {
-                    Sampling::Sobol(at, samples, seed) => {
-                        let value = |share| axis::between(spread, from, to, share);
-                        let shares = design::sobol(at, samples, seed);
-                        let values = shares.map(|share| axis::value_of(key, value(share)));
-                        Values::Listed(values.collect())
-                    }
-                    Sampling::Latin(strata) => Values::Drawn([from, to], strata),
-                }
+    /// The next axis of a study.
+    fn axis(&self, axis: WrittenAxis, place: &str, study: &Study) -> Result<Axis> {
+        let key = axis.key;
+        self.key(&key, place)?;
+        let (name, mut list, spread) = match (axis.values, axis.linspace, axis.logspace) {
+            (Some(list), None, None) => ("values", list, axis.scale.unwrap_or(Spread::Linear)),
+            (None, Some(list), None) => ("linspace", list, Spread::Linear),
+            (None, None, Some(list)) => ("logspace", list, Spread::Logarithmic),
+            _ => {
+                let rule = "must have one of values, linspace and logspace";
+                return Err(self.error(format!("{place} ({key}): {rule}")));
             }
         };
-        let tied = self.tied(&axis.tied, &format!("{place}.tied"), &values)?;
-        Ok(Axis {
-            key: key.clone(),
-            values,
-            spread,
-            tied,
-        })
-    }
-
-    /// Replaces texts that are numbers with a unit of `key` by numbers.
-    fn to_si(
-        &self,
-        list: &mut [Value],
-        key: &str,
-        place: &str,
-        is_force: impl Fn(&str) -> bool,
-    ) -> Result<()> {
-        let Some(known) = schema::find(key) else {
-            return Ok(());
-        };
-        for value in list {
+        if axis.scale.is_some() && name != "values" {
+            return Err(self.error(format!("{place}.scale: goes with values, not with {name}")));
+        }
+        let named = format!("{place}.{name}");
+        // Texts may be numbers with a unit.
+        for value in &mut list {
             let text = value.as_str().unwrap_or_default();
-            match units::quantity(text, known, is_force(key)) {
+            let quantity = |known| units::quantity(text, known, study.is_force(&key));
+            match schema::find(&key).and_then(quantity) {
                 Some(Ok(number)) => *value = Value::Float(number),
-                Some(Err(rule)) => return self.refuse(place, value, rule),
+                Some(Err(rule)) => return self.refuse(&named, value, rule),
                 None => {}
             }
         }
-        Ok(())
+        let values = match (name, study.samples) {
+            ("values", _) => Values::Listed(self.listed(&key, &named, list)?),
+            (_, None) => self.spaced(&named, &list, spread)?,
+            (_, Some((samples, seed))) => {
+                let [from, to] = self.ends(&named, &list, spread, 2)?;
+                let at = study.axes.len();
+                if study.design == Design::Sobol {
+                    let value =
+                        |share| axis::value_of(&key, axis::between(spread, from, to, share));
+                    Values::Listed(design::sobol(at, samples, seed).map(value).collect())
+                } else {
+                    Values::Drawn([from, to], Strata::new(at, samples, seed))
+                }
+            }
+        };
+        Ok(Axis {
+            tied: self.tied(&axis.tied, &format!("{place}.tied"), &values)?,
+            key,
+            values,
+            spread,
+        })
     }
 
     fn listed(&self, key: &str, place: &str, list: Vec<Value>) -> Result<Vec<Value>> {
@@ -400,17 +335,16 @@ impl Origin {
     fn ends(&self, place: &str, list: &[Value], spread: Spread, length: usize) -> Result<[f64; 2]> {
         let end = |value: &Value| axis::numeric(value).filter(|number| number.is_finite());
         let rule = match list {
-            _ if list.len() != length => match length {
-                2 => "must be [from, to]; samples gives the number",
-                _ => "must be [from, to, number]",
-            },
-            [from, to, ..] => match (end(from), end(to)) {
-                (Some(from), Some(to)) if spread == Spread::Linear || from.min(to) > 0.0 => {
+            _ if list.len() != length && length == 2 => {
+                "must be [from, to]; samples gives the number"
+            }
+            _ if list.len() != length => "must be [from, to, number]",
+            [from, to, ..] if let (Some(from), Some(to)) = (end(from), end(to)) => {
+                if spread == Spread::Linear || from.min(to) > 0.0 {
                     return Ok([from, to]);
                 }
-                (Some(_), Some(_)) => "must begin with two numbers greater than 0",
-                _ => "must begin with two finite numbers",
-            },
+                "must begin with two numbers greater than 0"
+            }
             _ => "must begin with two finite numbers",
         };
         self.refuse(place, Value::from(list.to_vec()), rule)
@@ -456,12 +390,4 @@ impl Origin {
             ))),
         }
     }
-}
-
-/// How the values of an axis are drawn.
-enum Sampling {
-    /// By the number of the axis, of the samples, and the seed.
-    Sobol(usize, usize, u32),
-    /// One in each stratum.
-    Latin(Strata),
 }

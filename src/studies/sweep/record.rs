@@ -23,8 +23,6 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
-use super::finder::Finder;
-use super::point::Success;
 use super::{Row, Shard, Study};
 use crate::scenario::limited::Unread;
 use crate::scenario::{Refusal, printable};
@@ -333,16 +331,6 @@ impl Lines {
     }
 }
 
-/// Rows of a study in memory, each at its point.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Rows {
-    finder: Finder,
-    axes: usize,
-    columns: usize,
-    /// The fields of each point, none while it has no row.
-    rows: Vec<Option<Vec<String>>>,
-}
-
 /// Why a row cannot be taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Refused {
@@ -354,58 +342,4 @@ pub enum Refused {
     Double,
     /// All points of these values have their rows, and they differ from this one.
     Contradiction,
-}
-
-impl Rows {
-    /// No rows yet.
-    pub fn new(study: &Study) -> Self {
-        Self {
-            finder: Finder::new(study),
-            axes: study.axes.len(),
-            columns: study.columns().len(),
-            rows: vec![None; study.points()],
-        }
-    }
-
-    /// Assigns a row to its point.
-    ///
-    /// # Errors
-    ///
-    /// Leaves a row that no point waits for.
-    pub fn take(&mut self, fields: Vec<String>) -> Result<(), Refused> {
-        if fields.len() != self.columns {
-            return Err(Refused::Length);
-        }
-        let points = self.finder.points(&fields[..self.axes]);
-        let mut free = points.iter().filter(|&&point| self.rows[point].is_none());
-        match (free.next(), points.is_empty()) {
-            (Some(&point), _) => {
-                self.put(point, fields);
-                Ok(())
-            }
-            (None, true) => Err(Refused::Foreign),
-            (None, false) => Err(Refused::Contradiction),
-        }
-    }
-
-    /// Puts the row of a point that was just run.
-    pub fn put(&mut self, point: usize, fields: Vec<String>) {
-        self.rows[point] = Some(fields);
-    }
-
-    /// The row of a point, if it has one.
-    pub fn row(&self, point: usize) -> Option<&Vec<String>> {
-        self.rows[point].as_ref()
-    }
-
-    /// The number of rows, and how many of them failed.
-    pub fn count(&self) -> (usize, usize) {
-        let rows = self.rows.iter().flatten();
-        rows.fold((0, 0), |(all, failed), row| {
-            (
-                all + 1,
-                failed + usize::from(!Success::of_row(row).has_result()),
-            )
-        })
-    }
 }

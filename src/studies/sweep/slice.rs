@@ -1,7 +1,8 @@
 //! A table of a study along one or two of its axes: what a map shows, on the screen and on paper.
 
 use super::border::Border;
-use super::record::{Record, Rows};
+use super::finder::Finder;
+use super::record::{Record, Refused};
 use super::{Axis, Design, Study, Success};
 use crate::scenario::Refusal;
 
@@ -70,8 +71,8 @@ impl Line {
 pub struct Slice {
     /// The study.
     pub study: Study,
-    /// Its rows.
-    pub rows: Rows,
+    /// The fields of each point, `None` while it has no row.
+    pub rows: Vec<Option<Vec<String>>>,
     /// The axis that runs to the right.
     pub x: usize,
     /// The axis that runs upwards; `None` where there is one axis, or no grid.
@@ -97,7 +98,7 @@ impl Slice {
             x: if is_grid { study.axes.len() - 1 } else { 0 },
             y: (is_grid && study.axes.len() > 1).then_some(0),
             at: vec![0; study.axes.len()],
-            rows: Rows::new(&study),
+            rows: vec![None; study.points()],
             held: Vec::new(),
             study,
         })
@@ -109,17 +110,33 @@ impl Slice {
     ///
     /// If rows do not belong to the study.
     pub fn renew(&mut self, record: Record, name: &str) -> Result<(), Refusal> {
-        let mut rows = Rows::new(&self.study);
+        let finder = Finder::new(&self.study);
+        let mut rows = vec![None; self.study.points()];
         for row in record.rows(&self.study)? {
             let row = row?;
-            let named = row.join(",");
-            if let Err(why) = rows.take(row) {
-                let rule = format!("row {named} does not belong to the study ({why:?})");
-                return Err(Refusal::new(name, rule));
+            let points = finder.points_of(&row);
+            let free = points.and_then(|points| {
+                let mut free = points.into_iter().filter(|&point| rows[point].is_none());
+                free.next().ok_or(Refused::Contradiction)
+            });
+            match free {
+                Ok(point) => rows[point] = Some(row),
+                Err(why) => {
+                    let row = row.join(",");
+                    let rule = format!("row {row} does not belong to the study ({why:?})");
+                    return Err(Refusal::new(name, rule));
+                }
             }
         }
         self.rows = rows;
         Ok(())
+    }
+
+    /// The number of rows, and how many of them failed.
+    pub fn count(&self) -> (usize, usize) {
+        let rows = || self.rows.iter().flatten();
+        let failed = rows().filter(|row| !Success::of_row(row).has_result());
+        (rows().count(), failed.count())
     }
 
     /// Holds the axis `key` at one of its values, and shows others: the last one and the first one that are not
@@ -206,7 +223,7 @@ impl Slice {
 
     /// The row of a point.
     pub fn row(&self, point: usize) -> Option<&Vec<String>> {
-        self.rows.row(point)
+        self.rows[point].as_ref()
     }
 
     /// The field of `column` of a point; `None` without a row, or where the point failed.

@@ -9,7 +9,7 @@ use super::sensitivity::Varied;
 use crate::scenario::scalars::Scalar;
 use crate::scenario::write::value as toml_value;
 use crate::scenario::{Refusal, Scenario, ScenarioError, printable};
-use crate::scenario::{hints, schema, units};
+use crate::scenario::{assign, hints, schema, units};
 
 /// When a point ends before its `run.cycles`: at the end of the first cycle in which one of these is
 /// reached.
@@ -122,7 +122,7 @@ impl Study {
     pub fn scenario(&self, point: usize) -> Result<Scenario, ScenarioError> {
         let places = self.places(point);
         let axes = self.axes.iter().zip(places);
-        self.build(axes.flat_map(|(axis, place)| axis.assignments(place)))
+        self.build(axes.flat_map(|(axis, place)| axis.assignments(&axis.value(place))))
     }
 
     /// The scenario with the axes at `places`, but for axis `along`, which has `value`.
@@ -138,8 +138,8 @@ impl Study {
     ) -> Result<Scenario, ScenarioError> {
         let axes = self.axes.iter().zip(places).enumerate();
         self.build(axes.flat_map(|(at, (axis, &place))| match at == along {
-            true => axis.assignments_of(value),
-            false => axis.assignments(place),
+            true => axis.assignments(&axis::value_of(&axis.key, value)),
+            false => axis.assignments(&axis.value(place)),
         }))
     }
 
@@ -166,8 +166,22 @@ impl Study {
 
     /// The unit of an axis.
     pub fn unit(&self, axis: &Axis) -> &'static str {
-        let is_force = is_force(&axis.key, &self.set, &self.base);
+        let is_force = self.is_force(&axis.key);
         schema::find(&axis.key).map_or("", |known| units::unit_of(known, is_force))
+    }
+
+    /// Whether the motion that `key` belongs to prescribes a force, by what is set for all points or by the base.
+    pub(super) fn is_force(&self, key: &str) -> bool {
+        let Some((motion, _)) = key.rsplit_once('.') else {
+            return false;
+        };
+        let control = format!("{motion}.control");
+        let set = self.set.iter().find(|(known, _)| *known == control);
+        let control = match set {
+            Some((_, value)) => value.as_str().map(str::to_owned),
+            None => self.base.value(&control),
+        };
+        control.is_some_and(|control| control.trim_matches('"') == "force")
     }
 
     fn build<'a>(
@@ -197,23 +211,16 @@ impl Study {
     /// # Errors
     ///
     /// Refuses a text that is not an assignment, an unknown key, and the key of an axis.
-    pub fn assign(&mut self, set: &str) -> Result<(), Refusal> {
-        let refuse = |why: String| Refusal::new(format_args!("--set {}", printable(set)), why);
-        let halves = set
-            .split_once('=')
-            .map(|(key, value)| (key.trim(), value.trim()));
-        let Some((key, value)) = halves.filter(|(key, value)| !key.is_empty() && !value.is_empty())
-        else {
-            return Err(refuse(
-                "must be KEY=VALUE, as in numerics.points=400".into(),
-            ));
-        };
+    pub fn assign(&mut self, set: &str) -> Result<(), ScenarioError> {
+        let (key, value) = assign::split(set, "--set ")?;
+        let refuse = |why| Refusal::new(format_args!("--set {}", printable(set)), why);
         if schema::find(key).is_none() {
-            return Err(refuse(format!("unknown key {key}; {}", hints::hint(key))));
+            let why = format!("unknown key {key}; {}", hints::hint(key));
+            return Err(refuse(why).into());
         }
         let varied = |axis: &Axis| axis.key == key || axis.tied.iter().any(|(tied, _)| tied == key);
         if self.axes.iter().any(varied) {
-            return Err(refuse(format!("{key} is varied by an axis of the study")));
+            return Err(refuse(format!("{key} is varied by an axis of the study")).into());
         }
         let value: Value = value.parse().unwrap_or_else(|_| value.into());
         match self.set.iter_mut().find(|(known, _)| known == key) {
@@ -264,20 +271,6 @@ impl Study {
     }
 }
 
-/// Whether the motion that `key` belongs to prescribes a force, by what is set for all points or by the base.
-pub(super) fn is_force(key: &str, set: &[(String, Value)], base: &Scenario) -> bool {
-    let control = match key.rsplit_once('.') {
-        Some((motion, _)) => format!("{motion}.control"),
-        None => return false,
-    };
-    let mut set = set.iter().filter(|(known, _)| *known == control);
-    let control = match set.next() {
-        Some((_, value)) => value.as_str().map(str::to_owned),
-        None => base.value(&control),
-    };
-    control.is_some_and(|control| control.trim_matches('"') == "force")
-}
-
 /// The most values that an axis of two ends and a number lists in a table's header.
 const MOST_LISTED: usize = 1000;
 
@@ -286,27 +279,31 @@ fn written(axis: &Axis) -> String {
     let list = |values: Vec<Value>| toml_value(&Value::Array(values));
     let mut text = format!("key = {}\n", toml_value(&axis.key.clone().into()));
     let is_logarithmic = axis.spread == axis::Spread::Logarithmic;
-    let mut ends = match axis.values {
-        Values::Spaced(ends, count) if count > MOST_LISTED => {
-            let mut ends = ends.map(Value::Float).to_vec();
-            ends.push((count as i64).into());
-            ends
+    let ends = match axis.values {
+        Values::Spaced([from, to], count) if count > MOST_LISTED => {
+            Some(vec![from.into(), to.into(), (count as i64).into()])
         }
-        Values::Drawn(ends, strata) if strata.len() > MOST_LISTED => {
-            ends.map(Value::Float).to_vec()
+        Values::Drawn([from, to], strata) if strata.len() > MOST_LISTED => {
+            Some(vec![from.into(), to.into()])
         }
-        _ => Vec::new(),
+        _ => None,
     };
-    match (ends.is_empty(), is_logarithmic) {
-        (true, _) => {
-            ends.extend((0..axis.count()).map(|place| axis.value(place)));
-            text.push_str(&format!("values = {}\n", list(ends)));
+    match ends {
+        Some(ends) => {
+            let name = if is_logarithmic {
+                "logspace"
+            } else {
+                "linspace"
+            };
+            text.push_str(&format!("{name} = {}\n", list(ends)));
+        }
+        None => {
+            let values = (0..axis.count()).map(|place| axis.value(place));
+            text.push_str(&format!("values = {}\n", list(values.collect())));
             if is_logarithmic {
                 text.push_str("scale = \"log\"\n");
             }
         }
-        (false, true) => text.push_str(&format!("logspace = {}\n", list(ends))),
-        (false, false) => text.push_str(&format!("linspace = {}\n", list(ends))),
     }
     if !axis.tied.is_empty() {
         let tied = axis.tied.iter();

@@ -80,7 +80,7 @@ impl View {
 
     /// Takes the row of a point.
     pub fn put(&mut self, point: usize, fields: Vec<String>) {
-        self.slice.rows.put(point, fields);
+        self.slice.rows[point] = Some(fields);
     }
 
     /// Takes the rows of a newer table of the same study.
@@ -196,7 +196,7 @@ impl View {
 
     /// The number of rows, of those that failed, and of points.
     pub fn count(&self) -> (usize, usize, usize) {
-        let (there, failed) = self.slice.rows.count();
+        let (there, failed) = self.slice.count();
         (there, failed, self.slice.study.points())
     }
 

@@ -16,7 +16,6 @@ use clap_complete::CompleteEnv;
 use crate::export::file::WriteError;
 use crate::scenario::session::SessionError;
 use crate::scenario::{Refusal, ScenarioError, printable};
-use crate::studies::fit::FitError;
 use crate::tui::NoTerminal;
 
 mod accuracy;
@@ -136,8 +135,7 @@ pub(crate) fn without_waiting(is_terminal: bool, write: impl FnOnce() + Send + '
 /// Wrong use and wrong input are 2, a run that failed is 1.
 fn exit_code(error: &anyhow::Error) -> u8 {
     let is_misuse = |cause: &(dyn std::error::Error + 'static)| {
-        let wraps_misuse = matches!(cause.downcast_ref(), Some(FitError::Scenario(_)))
-            || matches!(cause.downcast_ref(), Some(SessionError::Scenario(_)));
+        let wraps_misuse = matches!(cause.downcast_ref(), Some(SessionError::Scenario(_)));
         let written = cause.downcast_ref::<WriteError>();
         wraps_misuse
             || cause.is::<Refusal>()

@@ -6,7 +6,7 @@ use mdr_tui::reading::Curves;
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::columns::Columns;
 use mdr_tui::scenario::session::Session;
-use mdr_tui::studies::fit::{Fit, FitError, Fitted};
+use mdr_tui::studies::fit::{Fit, Fitted};
 use mdr_tui::studies::measured::Measured;
 
 use crate::common::load;
@@ -181,7 +181,7 @@ fn what_data_do_not_determine_is_said() {
         (vec![], "needs a key to fit"),
     ] {
         let free: Vec<String> = free.into_iter().map(str::to_owned).collect();
-        let refused: FitError =
+        let refused =
             Fit::new(scenario(3e-9, 0.1), scar(), &free, None, false).expect_err("refused");
         has(&refused.to_string(), expected);
     }

@@ -18,11 +18,13 @@
 //! differences; it depends on nothing else. (`levenberg-marquardt` brings a second nalgebra and wants
 //! derivatives; `basin` minimises in general and gives no covariance.)
 
+use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
+use std::ops::Range;
 
-use thiserror::Error;
+use anyhow::{Context, Result, anyhow};
 
-use crate::scenario::schema::{self, Kind as KeyKind, Range};
+use crate::scenario::schema::{self, Kind, Range as Allowed};
 use crate::scenario::session::SessionError;
 use crate::scenario::{MOST_CYCLES, Refusal, Scenario, ScenarioError};
 use crate::studies::measured::Measured;
@@ -46,20 +48,6 @@ const ALIKE: f64 = 0.95;
 
 /// The standard deviation of normal noise in medians of its size.
 const OF_MEDIAN: f64 = 1.4826;
-
-/// Why nothing could be fitted.
-#[derive(Debug, Error)]
-pub enum FitError {
-    /// A key or its value that is refused, keys or data that make no fit.
-    #[error(transparent)]
-    Scenario(#[from] ScenarioError),
-    /// The scenario as given cannot run.
-    #[error("at the start values: {0}")]
-    Start(SessionError),
-    /// The minimum was not found.
-    #[error("no minimum was found: {0}")]
-    Failed(String),
-}
 
 /// What is to be fitted to what.
 #[derive(Debug)]
@@ -96,10 +84,7 @@ pub struct Compared {
 impl Compared {
     /// Measured less simulated.
     pub fn residuals(&self) -> Vec<f64> {
-        let pairs = self.measured.values.iter().zip(&self.simulated);
-        pairs
-            .map(|(measured, simulated)| measured - simulated)
-            .collect()
+        residuals(&self.measured, &self.simulated)
     }
 
     /// The root of their mean square.
@@ -140,7 +125,7 @@ impl Fit {
         free: &[String],
         cycles: Option<f64>,
         robust: bool,
-    ) -> Result<Self, FitError> {
+    ) -> Result<Self, ScenarioError> {
         let free: Vec<Free> = free
             .iter()
             .map(|key| start(&scenario, key))
@@ -187,7 +172,7 @@ impl Fit {
         }
         let domain = scenario.setup().grid.radius();
         for set in &data {
-            set.check_radii(domain).map_err(ScenarioError::from)?;
+            set.check_radii(domain)?;
         }
         Ok(Self {
             scenario,
@@ -202,22 +187,21 @@ impl Fit {
     ///
     /// # Errors
     /// A scenario that cannot run with its start values, and a search that fails.
-    pub fn run(&self, on_run: &mut dyn FnMut()) -> Result<Fitted, FitError> {
-        let mut runs = 0;
-        let simulate = |theta: &[f64], runs: &mut usize, on_run: &mut dyn FnMut()| {
-            *runs += 1;
-            on_run();
+    pub fn run(&self, on_run: &mut dyn FnMut()) -> Result<Fitted> {
+        let (runs, on_run) = (Cell::new(0), RefCell::new(on_run));
+        let simulate = |theta: &[f64]| {
+            runs.update(|runs| runs + 1);
+            on_run.borrow_mut()();
             model::simulate(&self.at(theta)?, &self.data, self.cycles)
         };
         let mut theta: Vec<f64> = self.free.iter().map(Free::start).collect();
-        let mut simulated = simulate(&theta, &mut runs, on_run).map_err(FitError::Start)?;
+        simulate(&theta).map_err(|error| anyhow!("at the start values: {error}"))?;
         let mut errors: Vec<Vec<f64>> = self.data.iter().map(first_errors).collect();
-        let mut solved = None;
-        for round in 0..ROUNDS {
-            let mut deviations = |theta: &[f64]| {
-                let simulated = simulate(theta, &mut runs, on_run).ok()?;
-                Some(self.deviations(&simulated, &errors))
-            };
+        let is_given = self.data.iter().all(|set| set.errors.is_some());
+        let rounds = if is_given && !self.robust { 1 } else { ROUNDS };
+        let mut round = 1;
+        loop {
+            let deviations = |theta: &[f64]| Some(self.deviations(&simulate(theta).ok()?, &errors));
             let mut residuals = |theta: &[f64]| {
                 let mut all = deviations(theta)?;
                 if self.robust {
@@ -228,27 +212,21 @@ impl Fit {
                 Some(all)
             };
             let points = self.data.iter().map(|set| set.values.len()).sum();
-            let found: Solved = solver::solve(&self.free, &theta, points, &mut residuals)
-                .map_err(|reason| FitError::Failed(reason.into()))?;
-            theta.clone_from(&found.theta);
-            let derivatives = self.derivatives(&found, &mut deviations);
-            simulated = simulate(&theta, &mut runs, on_run)
-                .map_err(|error| FitError::Failed(error.to_string()))?;
+            let solved = solver::solve(&self.free, &theta, points, &mut residuals)
+                .map_err(|why| anyhow!("no minimum was found: {why}"))?;
+            let derivatives = self.derivatives(&solved, &deviations);
+            let simulated = simulate(&solved.theta);
+            let simulated = simulated.map_err(|error| anyhow!("no minimum was found: {error}"))?;
             let z = self.deviations(&simulated, &errors);
             let uncertainty = Errors::new(&z, &derivatives, &self.estimated(), self.robust);
-            let leverages = uncertainty.leverages.clone();
-            solved = Some((found, uncertainty));
-            let given = self.data.iter().all(|set| set.errors.is_some());
-            if round + 1 == ROUNDS || given && !self.robust {
-                break;
+            if round == rounds {
+                let scenario = self.at(&solved.theta).context("no minimum was found")?;
+                return Ok(self.fitted(&solved, &uncertainty, simulated, scenario, runs.get()));
             }
-            self.update_errors(&simulated, &leverages, &mut errors);
+            self.update_errors(&simulated, &uncertainty.leverages, &mut errors);
+            theta = solved.theta;
+            round += 1;
         }
-        let (solved, uncertainty) = solved.ok_or_else(|| FitError::Failed("no round".into()))?;
-        let scenario = self
-            .at(&theta)
-            .map_err(|error| FitError::Failed(error.to_string()))?;
-        Ok(self.fitted(&theta, (&solved, &uncertainty), simulated, scenario, runs))
     }
 
     /// The scenario with these values of the keys.
@@ -268,15 +246,20 @@ impl Fit {
         all
     }
 
+    /// The points of each data set among all points.
+    fn places(&self) -> impl Iterator<Item = Range<usize>> {
+        self.data.iter().scan(0, |end, set| {
+            let first = *end;
+            *end += set.values.len();
+            Some(first..*end)
+        })
+    }
+
     /// The points of the data sets whose error is estimated, among all points.
-    fn estimated(&self) -> Vec<std::ops::Range<usize>> {
-        let mut first = 0;
-        let ranges = self.data.iter().map(|set| {
-            let points = first..first + set.values.len();
-            first = points.end;
-            set.errors.is_none().then_some(points)
-        });
-        ranges.flatten().collect()
+    fn estimated(&self) -> Vec<Range<usize>> {
+        let sets = self.data.iter().zip(self.places());
+        let estimated = sets.filter(|(set, _)| set.errors.is_none());
+        estimated.map(|(_, points)| points).collect()
     }
 
     /// ∂z/∂θ of each key at the minimum by central differences, by one-sided ones at the end of what can be
@@ -284,45 +267,38 @@ impl Fit {
     fn derivatives(
         &self,
         solved: &Solved,
-        deviations: &mut dyn FnMut(&[f64]) -> Option<Vec<f64>>,
+        deviations: &dyn Fn(&[f64]) -> Option<Vec<f64>>,
     ) -> Vec<Option<Vec<f64>>> {
-        let mut derivative = |i: usize| {
+        let derivative = |i: usize| {
             let step = self.free[i].step(solved.theta[i]);
-            let mut at = |offset: f64| {
+            let at = |offset: f64| {
                 let mut theta = solved.theta.clone();
                 theta[i] += offset;
                 deviations(&theta).map(|z| (theta[i], z))
             };
+            if solved.at_bound[i] {
+                return None;
+            }
             let low = at(-step).or_else(|| at(0.0))?;
             let high = at(step).or_else(|| at(0.0))?;
             let width = high.0 - low.0;
             let differences = high.1.iter().zip(&low.1);
             (width > 0.0).then(|| differences.map(|(b, a)| (b - a) / width).collect())
         };
-        (0..self.free.len())
-            .map(|i| {
-                if solved.at_bound[i] {
-                    None
-                } else {
-                    derivative(i)
-                }
-            })
-            .collect()
+        (0..self.free.len()).map(derivative).collect()
     }
 
     /// The error that all values of a data set share, from what the fit leaves and from what each of its points
     /// has spent on the keys.
     fn update_errors(&self, simulated: &[Vec<f64>], leverages: &[f64], errors: &mut [Vec<f64>]) {
-        let mut first = 0;
-        for ((set, simulated), errors) in self.data.iter().zip(simulated).zip(errors) {
-            let points = set.values.len();
-            let spent: f64 = leverages[first..first + points].iter().sum();
-            first += points;
+        let sets = self.data.iter().zip(simulated).zip(self.places());
+        for (((set, simulated), place), errors) in sets.zip(errors) {
             if set.errors.is_some() {
                 continue;
             }
-            let pairs = set.values.iter().zip(simulated);
-            let left: Vec<f64> = pairs.map(|(value, simulated)| value - simulated).collect();
+            let points = set.values.len();
+            let spent: f64 = leverages[place].iter().sum();
+            let left = residuals(set, simulated);
             let size = if self.robust {
                 let mut sizes: Vec<f64> = left.iter().map(|left| left.abs()).collect();
                 sizes.sort_by(f64::total_cmp);
@@ -340,14 +316,14 @@ impl Fit {
 
     fn fitted(
         &self,
-        theta: &[f64],
-        (solved, uncertainty): (&Solved, &Errors),
+        solved: &Solved,
+        uncertainty: &Errors,
         simulated: Vec<Vec<f64>>,
         scenario: Scenario,
         runs: usize,
     ) -> Fitted {
         let mut remarks = Vec::new();
-        let keys = self.free.len();
+        let (theta, keys) = (&solved.theta, self.free.len());
         let mut values = Vec::new();
         for (i, free) in self.free.iter().enumerate() {
             let error = uncertainty.covariance[(i, i)].sqrt();
@@ -431,18 +407,18 @@ impl Fitted {
     }
 }
 
-fn refuse<T>(line: String) -> Result<T, FitError> {
-    Err(ScenarioError::from(Refusal::from(line)).into())
+fn refuse<T>(line: String) -> Result<T, ScenarioError> {
+    Err(Refusal::from(line).into())
 }
 
 /// A key and where its search starts.
-fn start(scenario: &Scenario, key: &str) -> Result<Free, FitError> {
+fn start(scenario: &Scenario, key: &str) -> Result<Free, ScenarioError> {
     let Some(parameter) = schema::find(key) else {
         // The scenario's own words for a key that is unknown.
         scenario.with(key, "1.0")?;
         return refuse(format!("{key}: no such key"));
     };
-    if parameter.kind != KeyKind::Number {
+    if parameter.kind != Kind::Number {
         return refuse(format!("{key} is not a number that can be fitted"));
     }
     if ["run", "changes", "numerics"].contains(&parameter.section()) {
@@ -450,28 +426,28 @@ fn start(scenario: &Scenario, key: &str) -> Result<Free, FitError> {
             "{key} is not a physical property, so data cannot determine it"
         ));
     }
-    let value = scenario
-        .value(key)
-        .and_then(|value| value.parse::<f64>().ok());
-    let Some(value) = value else {
+    let value = scenario.value(key);
+    let Some(value) = value.and_then(|value| value.parse::<f64>().ok()) else {
         return refuse(format!(
             "{key} has no value to start from; give one with --set {key}=..."
         ));
     };
     let positive = match parameter.range {
-        Range::Positive | Range::UpTo(_) | Range::Acute => true,
-        Range::NotNegative | Range::Any => value > 0.0 && parameter.range == Range::NotNegative,
-        Range::Within(least, _) => least > 0.0,
+        Allowed::Positive | Allowed::UpTo(_) | Allowed::Acute => true,
+        Allowed::NotNegative | Allowed::Any => {
+            value > 0.0 && parameter.range == Allowed::NotNegative
+        }
+        Allowed::Within(least, _) => least > 0.0,
     };
-    if parameter.range == Range::NotNegative && value == 0.0 {
+    if parameter.range == Allowed::NotNegative && value == 0.0 {
         return refuse(format!(
             "{key} starts at 0; give a value greater than 0 with --set"
         ));
     }
     let limits = match parameter.range {
-        Range::Within(least, most) => (least, most),
-        Range::UpTo(most) => (0.0, most),
-        Range::Acute => (0.0, std::f64::consts::FRAC_PI_2),
+        Allowed::Within(least, most) => (least, most),
+        Allowed::UpTo(most) => (0.0, most),
+        Allowed::Acute => (0.0, std::f64::consts::FRAC_PI_2),
         _ => (f64::NEG_INFINITY, f64::INFINITY),
     };
     Ok(Free::new(key, parameter.unit, value, positive, limits))
@@ -483,6 +459,12 @@ fn first_errors(set: &Measured) -> Vec<f64> {
     set.errors
         .clone()
         .unwrap_or_else(|| vec![size; set.values.len()])
+}
+
+/// Measured less simulated.
+fn residuals(measured: &Measured, simulated: &[f64]) -> Vec<f64> {
+    let pairs = measured.values.iter().zip(simulated);
+    pairs.map(|(value, simulated)| value - simulated).collect()
 }
 
 fn rms(values: &[f64]) -> f64 {

@@ -1,7 +1,7 @@
 //! Many points on several threads. Each thread takes the next free point, so all threads end at
 //! about the same time, and rows arrive nearly in order.
 
-use std::ops::Range;
+use std::iter::Peekable;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError, mpsc};
 
@@ -18,24 +18,27 @@ const CHUNK: usize = 256;
 /// A check of the points of a shard: that each of them makes a valid scenario.
 pub struct Check<'a> {
     study: &'a Study,
-    shard: Shard,
-    /// The points of the shard that are not checked yet, counted within the shard.
-    left: Range<usize>,
+    /// The points that are not checked yet.
+    left: Peekable<Box<dyn Iterator<Item = usize> + Send + 'a>>,
 }
 
 impl<'a> Check<'a> {
-    /// None of them is checked yet.
+    /// None of them is checked yet. An invalid point is most often where an axis ends, so of many points those at both
+    /// ends of all axes come first.
     pub fn new(study: &'a Study, shard: Shard) -> Self {
-        let all = study.points().saturating_sub(shard.index);
+        let all = shard.points(study.points());
+        let left: Box<dyn Iterator<Item = usize> + Send> = match all.len() > CHUNK {
+            true => Box::new(edges(study, shard).into_iter().chain(all)),
+            false => Box::new(all),
+        };
         Self {
             study,
-            shard,
-            left: 0..all.div_ceil(shard.count),
+            left: left.peekable(),
         }
     }
 
     /// Checks points on the threads of `pool` as long as `go_on`, which is given the number checked so far,
-    /// says so. An invalid point is most often where an axis ends, so both ends of all come first.
+    /// says so.
     ///
     /// # Errors
     ///
@@ -45,19 +48,13 @@ impl<'a> Check<'a> {
         pool: &ThreadPool,
         mut go_on: impl FnMut(usize) -> bool,
     ) -> Result<(), Refusal> {
-        if self.left.start == 0 && self.left.end > CHUNK {
-            let edges = self.edges().into_par_iter();
-            let refused =
-                pool.install(|| edges.find_map_first(|point| validated(self.study, point).err()));
+        let mut checked = 0;
+        while !self.is_over() && go_on(checked) {
+            let chunk: Vec<usize> = self.left.by_ref().take(CHUNK).collect();
+            checked += chunk.len();
+            let invalid = |point| validated(self.study, point).err();
+            let refused = pool.install(|| chunk.into_par_iter().find_map_first(invalid));
             refused.map_or(Ok(()), Err)?;
-        }
-        while !self.left.is_empty() && go_on(self.left.start) {
-            let end = (self.left.start + CHUNK).min(self.left.end);
-            let chunk = self.left.start..end;
-            let refused =
-                pool.install(|| chunk.into_par_iter().find_map_first(|at| self.of(at).err()));
-            refused.map_or(Ok(()), Err)?;
-            self.left.start = end;
         }
         Ok(())
     }
@@ -68,32 +65,28 @@ impl<'a> Check<'a> {
     ///
     /// The first point that is invalid, and why.
     fn finish(self, go_on: &dyn Fn() -> bool) -> Result<(), Refusal> {
-        let mut left = self.left.clone().take_while(|_| go_on());
-        left.try_for_each(|at| self.of(at))
+        let mut left = self.left.take_while(|_| go_on());
+        left.try_for_each(|point| validated(self.study, point))
     }
 
     /// Whether every point is checked.
-    pub fn is_over(&self) -> bool {
-        self.left.is_empty()
+    pub fn is_over(&mut self) -> bool {
+        self.left.peek().is_none()
     }
+}
 
-    fn of(&self, at: usize) -> Result<(), Refusal> {
-        validated(self.study, self.shard.index + at * self.shard.count)
+/// The points of a shard at the ends of each axis, the others at one of their ends.
+fn edges(study: &Study, shard: Shard) -> Vec<usize> {
+    let last = study.points() - 1;
+    let mut step = 1_usize;
+    let mut edges = vec![0, last];
+    for axis in study.axes.iter().rev() {
+        let along = step.saturating_mul(axis.count() - 1);
+        edges.extend([along.min(last), last.saturating_sub(along)]);
+        step = step.saturating_mul(axis.count());
     }
-
-    /// The points of the shard at the ends of each axis, the others at one of their ends.
-    fn edges(&self) -> Vec<usize> {
-        let last = self.study.points() - 1;
-        let mut step = 1_usize;
-        let mut edges = vec![0, last];
-        for axis in self.study.axes.iter().rev() {
-            let along = step.saturating_mul(axis.count() - 1);
-            edges.extend([along.min(last), last.saturating_sub(along)]);
-            step = step.saturating_mul(axis.count());
-        }
-        edges.retain(|&point| self.shard.holds(point));
-        edges
-    }
+    edges.retain(|&point| shard.holds(point));
+    edges
 }
 
 /// Refuses a point that makes no valid scenario.

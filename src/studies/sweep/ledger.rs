@@ -11,8 +11,8 @@ use super::record::{self, Refused};
 use super::{Shard, Study, Success};
 use crate::scenario::scalars::number;
 
-/// What is read of a row at first.
-const PIECE: usize = 512;
+/// The bytes of an entry of the index.
+const ENTRY: usize = 16;
 
 /// The points that have rows.
 #[derive(Debug, Clone)]
@@ -39,7 +39,7 @@ pub struct Ledger {
     rows: File,
     /// The length of `rows` up to the last whole row.
     length: u64,
-    /// For each point, where its row begins in `rows`; without a name, so that it goes with the
+    /// For each point, where its row begins in `rows` and its length; without a name, so that it goes with the
     /// process.
     index: File,
     done: Done,
@@ -93,9 +93,10 @@ impl Ledger {
     /// As the system says.
     pub fn add(&mut self, point: usize, fields: &[String]) -> io::Result<()> {
         let line = record::line(fields);
+        let entry = [self.length, line.len() as u64].map(u64::to_le_bytes);
         let written = self.rows.write_all(line.as_bytes()).and_then(|()| {
             self.index
-                .write_all_at(&self.length.to_le_bytes(), 8 * point as u64)
+                .write_all_at(entry.as_flattened(), (ENTRY * point) as u64)
         });
         if let Err(error) = written {
             let _ = self.rows.set_len(self.length);
@@ -174,29 +175,18 @@ impl Ledger {
     ///
     /// If the file cannot be read.
     pub fn row(&self, point: usize) -> io::Result<Vec<String>> {
-        let mut at = [0; 8];
-        self.index.read_exact_at(&mut at, 8 * point as u64)?;
-        let line = self.line_at(u64::from_le_bytes(at))?;
+        let mut entry = [0; ENTRY];
+        self.index
+            .read_exact_at(&mut entry, (ENTRY * point) as u64)?;
+        let line = self.line_at(entry)?;
         Ok(record::split(&String::from_utf8_lossy(&line)))
     }
 
-    fn line_at(&self, mut at: u64) -> io::Result<Vec<u8>> {
-        let mut line = Vec::new();
-        let mut piece = [0; PIECE];
-        loop {
-            let read = match self.rows.read_at(&mut piece, at) {
-                Ok(0) => return Err(io::ErrorKind::UnexpectedEof.into()),
-                Ok(read) => &piece[..read],
-                Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
-                Err(error) => return Err(error),
-            };
-            if let Some(end) = read.iter().position(|&byte| byte == b'\n') {
-                line.extend(&read[..=end]);
-                return Ok(line);
-            }
-            line.extend(read);
-            at += read.len() as u64;
-        }
+    fn line_at(&self, entry: [u8; ENTRY]) -> io::Result<Vec<u8>> {
+        let entry = u128::from_le_bytes(entry);
+        let mut line = vec![0; (entry >> 64) as usize];
+        self.rows.read_exact_at(&mut line, entry as u64)?;
+        Ok(line)
     }
 
     /// Gives the rows, as lines, to `take` in the order of the points.
@@ -212,10 +202,10 @@ impl Ledger {
             if left == 0 {
                 break;
             }
-            let mut at = [0; 8];
-            index.read_exact(&mut at)?;
+            let mut entry = [0; ENTRY];
+            index.read_exact(&mut entry)?;
             if self.done.has(point) {
-                take(&self.line_at(u64::from_le_bytes(at))?)?;
+                take(&self.line_at(entry)?)?;
                 left -= 1;
             }
         }

@@ -22,7 +22,7 @@ impl Shard {
     }
 
     /// The points of this shard among the first `points`, in order.
-    pub fn points(self, points: usize) -> impl Iterator<Item = usize> {
+    pub fn points(self, points: usize) -> impl ExactSizeIterator<Item = usize> + Send + use<> {
         (self.index..points).step_by(self.count)
     }
 }

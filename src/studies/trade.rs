@@ -9,9 +9,9 @@ use std::fmt::{self, Display, Formatter};
 use std::time::Instant;
 
 use crate::math::abel::AbelMethod;
-use crate::reading::Check;
+use crate::reading::{Check, Subject};
+use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
-use crate::scenario::{Scenario, ScenarioError};
 use crate::simulation::{Integrator, Scheme};
 use crate::studies::refinement::{self, Difference, Level, Outcome};
 use crate::studies::table::{Cell, Format, Table};
@@ -63,14 +63,6 @@ impl Setting {
         keys
     }
 
-    /// The scenario computed so.
-    ///
-    /// # Errors
-    /// If it cannot be.
-    pub fn of(&self, scenario: &Scenario) -> Result<Scenario, ScenarioError> {
-        scenario.with_all(&self.keys())
-    }
-
     /// An estimate of the work of a run of `cycles`, in kernel values.
     pub fn effort(&self, cycles: f64) -> f64 {
         let cycles = match self.level.tolerance {
@@ -93,7 +85,7 @@ impl Setting {
         cycles: f64,
         go_on: &dyn Fn() -> bool,
     ) -> Result<(Session, f64), SessionError> {
-        let scenario = self.of(scenario)?;
+        let scenario = scenario.with_all(&self.keys())?;
         let start = Instant::now();
         let session = refinement::run(&scenario, cycles, go_on)?;
         Ok((session, start.elapsed().as_secs_f64()))
@@ -170,12 +162,21 @@ fn wants_jumps(scenario: &Scenario) -> bool {
 pub struct Trial {
     /// The setting.
     pub setting: Setting,
-    /// Time of one run with its set-up, s.
+    /// What came of the run, or why nothing did.
+    ended: Result<Ended, String>,
+}
+
+/// A run that reached its end.
+#[derive(Debug, Clone)]
+struct Ended {
+    /// Time with its set-up, s.
     seconds: f64,
-    /// How far the run is from the reference, and its results as cells of the table; or why there is none.
-    ended: Result<(Difference, Vec<Cell>), String>,
+    /// How far it is from the reference.
+    errors: Difference,
     /// Whether it passes its own checks.
     is_sound: bool,
+    /// Its results as cells of the table.
+    cells: Vec<Cell>,
 }
 
 impl Trial {
@@ -186,38 +187,41 @@ impl Trial {
         ended: Result<(Session, f64), SessionError>,
         reference: &Session,
     ) -> Self {
-        let failing = |session: &Session| -> Vec<Check> {
-            let mut checks = session.simulation().checks();
-            checks.retain(|check| !check.holds());
-            checks
+        let failing = |session: &Session| {
+            let checks = session.simulation().checks().into_iter();
+            checks.filter(|check| !check.holds())
         };
-        let common = failing(reference);
-        let mut trial = Self {
-            setting,
-            seconds: f64::INFINITY,
-            ended: Err(String::new()),
-            is_sound: false,
-        };
-        trial.ended = ended.map_err(|error| error.to_string()).map(|ended| {
-            let (session, seconds) = ended;
-            let mut failing = failing(&session);
-            failing.retain(|check| common.iter().all(|other| other.subject != check.subject));
-            (trial.seconds, trial.is_sound) = (seconds, failing.is_empty());
+        let common: Vec<Subject> = failing(reference).map(|check| check.subject).collect();
+        let ended = ended.map(|(session, seconds)| {
+            let failing = failing(&session).filter(|check| !common.contains(&check.subject));
+            let failing: Vec<Check> = failing.collect();
             let errors = Outcome::of(&session).against(&Outcome::of(reference));
-            (errors, results(&session, reference, &errors, &failing))
+            Ended {
+                seconds,
+                errors,
+                is_sound: failing.is_empty(),
+                cells: results(&session, reference, &errors, &failing),
+            }
         });
-        trial
+        Self {
+            setting,
+            ended: ended.map_err(|error| error.to_string()),
+        }
     }
 
     /// Time and worst error of a run that reached its end and passes its own checks.
     pub fn point(&self) -> Option<[f64; 2]> {
-        let worst = self.ended.as_ref().ok()?.0.worst();
-        (self.is_sound && worst.is_finite()).then_some([self.seconds, worst])
+        let ended = self.ended.as_ref().ok()?;
+        let worst = ended.errors.worst();
+        (ended.is_sound && worst.is_finite()).then_some([ended.seconds, worst])
     }
 
     /// Repeats the run of `cycles` as often as a clock needs, and takes the median time.
     pub fn time_well(&mut self, scenario: &Scenario, cycles: f64, go_on: &dyn Fn() -> bool) {
-        let mut times = vec![self.seconds];
+        let Ok(ended) = &mut self.ended else {
+            return;
+        };
+        let mut times = vec![ended.seconds];
         while times.iter().sum::<f64>() < LONG_ENOUGH && times.len() < REPETITIONS {
             match self.setting.run(scenario, cycles, go_on) {
                 Ok((_, seconds)) => times.push(seconds),
@@ -225,7 +229,7 @@ impl Trial {
             }
         }
         times.sort_by(f64::total_cmp);
-        self.seconds = times[times.len() / 2];
+        ended.seconds = times[times.len() / 2];
     }
 }
 
@@ -277,19 +281,19 @@ pub fn table<'a>(shown: impl IntoIterator<Item = &'a Trial>, all: &[Trial]) -> T
         let level = &trial.setting.level;
         let jumps = usize::from(level.tolerance.is_some());
         let mut row = vec![
-            words(trial.setting.method.name()),
-            words(trial.setting.scheme.name()),
-            words(Integrator::NAMES[jumps]),
-            Cell::Count(level.points),
-            Cell::Count(level.steps as usize),
+            trial.setting.method.name().into(),
+            trial.setting.scheme.name().into(),
+            Integrator::NAMES[jumps].into(),
+            level.points.into(),
+            (level.steps as usize).into(),
             level.tolerance.into(),
         ];
         match &trial.ended {
-            Ok((_, results)) => {
+            Ok(ended) => {
                 let is_on_it = front.iter().any(|(other, _)| std::ptr::eq(*other, trial));
-                row.push(Cell::Number(trial.seconds));
-                row.extend(results.iter().cloned());
-                row.push(words(if is_on_it { "*" } else { "" }));
+                row.push(ended.seconds.into());
+                row.extend(ended.cells.iter().cloned());
+                row.push(if is_on_it { "*" } else { "" }.into());
             }
             Err(reason) => {
                 row.extend([Cell::Missing, Cell::Missing, Cell::Missing]);
@@ -329,20 +333,15 @@ fn results(
     ];
     row.extend(errors.map(|error| error.filter(|error| error.is_finite()).into()));
     row.push(match complaints.is_empty() {
-        true => words("ok"),
+        true => "ok".into(),
         false => Cell::Words(complaints.join(", ")),
     });
     row
 }
 
-fn words(text: &str) -> Cell {
-    Cell::Words(text.to_owned())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::reading::Subject;
 
     fn trial(points: usize, seconds: f64, worst: f64) -> Trial {
         let session = Session::start(Scenario::load("hertz", &[]).expect("a preset"));
@@ -352,16 +351,19 @@ mod tests {
             volume: worst,
             ..Difference::NONE
         };
-        let results = results(&session, &session, &errors, &[]);
+        let cells = results(&session, &session, &errors, &[]);
         Trial {
             setting: Setting {
                 method: AbelMethod::A,
                 scheme: Scheme::Euler,
                 level: level(points, 100, None),
             },
-            seconds,
-            ended: Ok((errors, results)),
-            is_sound: true,
+            ended: Ok(Ended {
+                seconds,
+                errors,
+                is_sound: true,
+                cells,
+            }),
         }
     }
 
@@ -380,10 +382,11 @@ mod tests {
             ..trial(7, 0.0, 0.0)
         });
         // The fastest and best of all fails its own checks.
-        trials.push(Trial {
-            is_sound: false,
-            ..trial(8, 0.01, 1e-6)
-        });
+        let mut unsound = trial(8, 0.01, 1e-6);
+        if let Ok(ended) = &mut unsound.ended {
+            ended.is_sound = false;
+        }
+        trials.push(unsound);
         let points = |(trial, _): Timed| trial.setting.level.points;
         let found: Vec<usize> = front(&trials).into_iter().map(points).collect();
         assert_eq!(found, [2, 1, 4]);
@@ -392,7 +395,7 @@ mod tests {
         assert!(cheapest(&trials, 1e-4).is_none());
         let table = table(&trials, &trials);
         let rows = table.rows();
-        let stars = rows.iter().filter(|row| row[15] == words("*"));
+        let stars = rows.iter().filter(|row| row[15] == Cell::from("*"));
         assert_eq!(stars.count(), 3);
         assert!(table.text().contains("broke"));
         // No tangential motion, no stick radius.
@@ -409,16 +412,14 @@ mod tests {
         let judged =
             |reference: &Session| Trial::new(setting.clone(), Ok(coarse.clone()), reference);
         let alone = judged(&unworn);
-        let Ok((_, row)) = &alone.ended else {
-            panic!("{alone:?}")
-        };
-        assert!(!alone.is_sound, "{row:?}");
+        assert!(alone.ended.is_ok_and(|ended| !ended.is_sound));
         let energy = Check {
             subject: Subject::Energy,
             error: 0.04,
         };
         let results = results(&unworn, &unworn, &Difference::NONE, &[energy]);
-        assert_eq!(results.last(), Some(&words("energy off by 4.0 %")));
-        assert!(judged(&coarse.0).is_sound);
+        assert_eq!(results.last(), Some(&Cell::from("energy off by 4.0 %")));
+        let judged = judged(&coarse.0);
+        assert!(judged.ended.is_ok_and(|ended| ended.is_sound));
     }
 }

@@ -132,7 +132,7 @@ fn every_setting_is_a_scenario() {
         let reference = trade::reference(&scenario, &POINTS, &STEPS);
         assert!(settings.len() > 50, "{}", settings.len());
         for setting in settings.iter().chain([&reference]) {
-            let made = setting.of(&scenario).expect("a scenario");
+            let made = scenario.with_all(&setting.keys()).expect("a scenario");
             let setup = made.setup();
             assert_eq!(
                 (setup.method, setup.scheme, &Level::of(&made)),

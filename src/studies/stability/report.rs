@@ -4,24 +4,15 @@ use std::fmt::Write;
 
 use super::{Line, Outcome};
 use crate::simulation::stability;
-use crate::studies::table::{Cell, Format, Table};
+use crate::studies::table::{Format, Table};
 
 impl Outcome {
-    /// The word for it in tables.
-    pub fn name(&self) -> &'static str {
+    /// The word for it in tables, and the mark in maps.
+    fn words(&self) -> (&'static str, char) {
         match self {
-            Self::Stable => "stable",
-            Self::Sawtooth(_) => "sawtooth",
-            Self::Exploded { .. } => "exploded",
-        }
-    }
-
-    /// The mark for it in maps.
-    fn mark(&self) -> char {
-        match self {
-            Self::Stable => '.',
-            Self::Sawtooth(_) => '~',
-            Self::Exploded { .. } => '#',
+            Self::Stable => ("stable", '.'),
+            Self::Sawtooth(_) => ("sawtooth", '~'),
+            Self::Exploded { .. } => ("exploded", '#'),
         }
     }
 }
@@ -50,26 +41,22 @@ pub fn runs(lines: &[Line]) -> Table {
     ]);
     for line in lines {
         for (wear_number, outcome) in &line.outcomes {
-            let (mut cycle, mut sawtooth, mut why) = (Cell::Missing, Cell::Missing, Cell::Missing);
-            match outcome {
-                Outcome::Stable => {}
-                Outcome::Sawtooth(height) => sawtooth = Cell::Number(*height),
-                Outcome::Exploded { cycle: at, reason } => {
-                    cycle = Cell::Number(*at);
-                    why = Cell::Words(reason.clone());
-                }
-            }
+            let (cycle, sawtooth, reason) = match outcome {
+                Outcome::Stable => (None, None, None),
+                Outcome::Sawtooth(height) => (None, Some(*height), None),
+                Outcome::Exploded { cycle, reason } => (Some(*cycle), None, Some(reason.as_str())),
+            };
             table.push(vec![
-                Cell::Words(line.setting.method.name().to_owned()),
-                Cell::Words(guard(line).to_owned()),
-                Cell::Count(line.setting.points),
-                Cell::Count(line.setting.steps as usize),
-                Cell::Number(*wear_number),
-                Cell::Words(outcome.name().to_owned()),
-                cycle,
-                sawtooth,
+                line.setting.method.name().into(),
+                guard(line).into(),
+                line.setting.points.into(),
+                (line.setting.steps as usize).into(),
+                (*wear_number).into(),
+                outcome.words().0.into(),
+                cycle.into(),
+                sawtooth.into(),
                 line.predicted.into(),
-                why,
+                reason.into(),
             ]);
         }
     }
@@ -86,9 +73,9 @@ pub fn boundaries(lines: &[Line]) -> Table {
     ]);
     for line in lines {
         table.push(vec![
-            Cell::Words(line.setting.method.name().to_owned()),
-            Cell::Words(guard(line).to_owned()),
-            Cell::Count(line.setting.points),
+            line.setting.method.name().into(),
+            guard(line).into(),
+            line.setting.points.into(),
             line.predicted.into(),
             line.seen.into(),
             line.ratio().into(),
@@ -134,7 +121,7 @@ pub fn maps(lines: &[Line]) -> String {
 
 /// One row of a map.
 fn strip(line: &Line) -> String {
-    let marks = line.outcomes.iter().map(|(_, outcome)| outcome.mark());
+    let marks = line.outcomes.iter().map(|(_, outcome)| outcome.words().1);
     let mut strip: Vec<char> = marks
         .flat_map(|mark| std::iter::repeat_n(mark, RUNG - 1).chain([' ']))
         .collect();

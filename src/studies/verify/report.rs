@@ -22,8 +22,8 @@ pub fn problem_table(problem: Problem, outcomes: &[Outcome]) -> Table {
     let mut table = Table::of(&columns);
     for outcome in outcomes.iter().filter(|o| o.task.problem == problem) {
         let mut row = vec![
-            Cell::Words(outcome.task.method.name().into()),
-            Cell::Count(outcome.task.points),
+            outcome.task.method.name().into(),
+            outcome.task.points.into(),
         ];
         for (at, quantity) in quantities.iter().enumerate() {
             let mut cells = group(outcome, at, outcomes);
@@ -55,9 +55,9 @@ fn shown(quantity: Quantity, roomy: bool) -> &'static [(&'static str, Format)] {
 fn group(outcome: &Outcome, at: usize, outcomes: &[Outcome]) -> Vec<Cell> {
     match &outcome.errors {
         Ok(errors) => vec![
-            Cell::Number(errors[at].max()),
+            errors[at].max().into(),
             order(outcome, at, outcomes, Errors::max).into(),
-            Cell::Number(errors[at].rms()),
+            errors[at].rms().into(),
             order(outcome, at, outcomes, Errors::rms).into(),
         ],
         Err(stop) => {
@@ -114,12 +114,12 @@ pub fn all_rows(outcomes: &[Outcome]) -> Table {
             match &outcome.errors {
                 Ok(errors) => {
                     row.extend(group(outcome, at, outcomes));
-                    row.push(Cell::Count(errors[at].radii.len()));
-                    row.push(Cell::Count(errors[at].left_out.len()));
+                    row.push(errors[at].radii.len().into());
+                    row.push(errors[at].left_out.len().into());
                 }
                 Err(stop) => {
                     row.resize(row.len() + 6, Cell::Missing);
-                    row.push(Cell::Number(stop.cycle()));
+                    row.push(stop.cycle().into());
                     row.push(Cell::Words(stop.to_string()));
                 }
             }
@@ -142,7 +142,7 @@ pub fn all_nodes(outcomes: &[Outcome]) -> Table {
         for (quantity, errors) in outcome.task.problem.facts().quantities.iter().zip(all) {
             for (&r, &error) in errors.radii.iter().zip(&errors.errors) {
                 let mut row = key(outcome, quantity.name);
-                row.extend([Cell::Number(r), Cell::Number(error)]);
+                row.extend([r.into(), error.into()]);
                 table.push(row);
             }
         }
@@ -152,10 +152,10 @@ pub fn all_nodes(outcomes: &[Outcome]) -> Table {
 
 fn key(outcome: &Outcome, quantity: &str) -> Vec<Cell> {
     vec![
-        Cell::Words(outcome.task.problem.name().into()),
-        Cell::Words(quantity.into()),
-        Cell::Words(outcome.task.method.name().into()),
-        Cell::Count(outcome.task.points),
+        outcome.task.problem.name().into(),
+        quantity.into(),
+        outcome.task.method.name().into(),
+        outcome.task.points.into(),
     ]
 }
 

@@ -112,53 +112,43 @@ pub fn run(
     let middle = study
         .middle()
         .map_err(|error| Refusal::from(error.to_string()))?;
-    let mut values = Vec::new();
-    for varied in keys {
-        let value = middle
-            .value(&varied.key)
-            .and_then(|value| value.parse::<f64>().ok());
-        let Some(value) = value.filter(|value| *value > 0.0 && value.is_finite()) else {
-            let rule = "must be a number greater than 0 in the base or in [set]";
-            return Err(Refusal::new(
+    let valued = keys.iter().map(|varied| {
+        let value = middle.value(&varied.key);
+        let value = value.and_then(|value| value.parse::<f64>().ok());
+        match value.filter(|value| *value > 0.0 && value.is_finite()) {
+            Some(value) => Ok((varied, value)),
+            None => Err(Refusal::new(
                 format_args!("sensitivity: {}", varied.key),
-                rule,
-            ));
-        };
-        values.push(value);
-    }
-    let mut found = None;
-    for level in 0..=LEVELS {
-        let Some(next) = on_level(study, &middle, keys, &values, level, pool, go_on)? else {
-            return Ok(None);
-        };
-        let is_resolved = next.is_resolved;
-        found = Some(next);
-        if is_resolved {
-            break;
+                "must be a number greater than 0 in the base or in [set]",
+            )),
         }
+    });
+    let keys = valued.collect::<Result<Vec<_>, _>>()?;
+    let mut level = 0;
+    loop {
+        let fixed = refined(&middle, level).map_err(|error| Refusal::new("sensitivity", error))?;
+        let found = around(study, &fixed, &keys, pool, go_on)?;
+        if level == LEVELS || found.as_ref().is_none_or(|found| found.is_resolved) {
+            return Ok(found);
+        }
+        level += 1;
     }
-    Ok(found)
 }
 
-fn on_level(
+/// Finds the elasticities around a scenario with its numerics written down.
+fn around(
     study: &Study,
-    middle: &Scenario,
-    keys: &[Varied],
-    values: &[f64],
-    level: u32,
+    fixed: &Scenario,
+    keys: &[(&Varied, f64)],
     pool: &ThreadPool,
     go_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Option<Sensitivity>, Refusal> {
-    let broken = |error: &dyn std::fmt::Display| Refusal::new("sensitivity", error);
-    let fixed = refined(middle, level).map_err(|error| broken(&error))?;
     let mut scenarios = vec![fixed.clone()];
-    for (varied, value) in keys.iter().zip(values) {
+    for (varied, value) in keys {
         for place in PLACES {
             let value = number(value * (STEP * place).exp());
-            let scenario = fixed
-                .with(&varied.key, &value)
-                .map_err(|error| broken(&error))?;
-            scenarios.push(scenario);
+            let scenario = fixed.with(&varied.key, &value);
+            scenarios.push(scenario.map_err(|error| Refusal::new("sensitivity", error))?);
         }
     }
     let runs: Vec<_> = pool.install(|| {
@@ -172,16 +162,14 @@ fn on_level(
     let mut results: Vec<Vec<Option<f64>>> = Vec::new();
     for row in runs.into_iter().flatten() {
         if !Success::of(&row.status).has_result() {
-            return Err(broken(&row.status));
+            return Err(Refusal::new("sensitivity", row.status));
         }
         let numbers = row.fields.iter().map(|field| field.parse::<f64>().ok());
         results.push(numbers.collect());
     }
     let mut elasticities = Vec::new();
-    for (at, (varied, value)) in keys.iter().zip(values).enumerate() {
+    for ((varied, value), around) in keys.iter().zip(results[1..].chunks(PLACES.len())) {
         for (column, scalar) in study.columns.iter().enumerate() {
-            let first = 1 + at * PLACES.len();
-            let around = &results[first..first + PLACES.len()];
             let around: Option<Vec<f64>> = around.iter().map(|run| run[column]).collect();
             elasticities.push(Elasticity {
                 key: varied.key.clone(),

@@ -194,7 +194,7 @@ impl Fit {
             on_run.borrow_mut()();
             model::simulate(&self.at(theta)?, &self.data, self.cycles)
         };
-        let mut theta: Vec<f64> = self.free.iter().map(Free::start).collect();
+        let mut theta: Vec<f64> = self.free.iter().map(|free| free.start).collect();
         simulate(&theta).map_err(|error| anyhow!("at the start values: {error}"))?;
         let mut errors: Vec<Vec<f64>> = self.data.iter().map(first_errors).collect();
         let is_given = self.data.iter().all(|set| set.errors.is_some());
@@ -445,10 +445,10 @@ fn start(scenario: &Scenario, key: &str) -> Result<Free, ScenarioError> {
         ));
     }
     let limits = match parameter.range {
-        Allowed::Within(least, most) => (least, most),
-        Allowed::UpTo(most) => (0.0, most),
-        Allowed::Acute => (0.0, std::f64::consts::FRAC_PI_2),
-        _ => (f64::NEG_INFINITY, f64::INFINITY),
+        Allowed::Within(least, most) => [least, most],
+        Allowed::UpTo(most) => [0.0, most],
+        Allowed::Acute => [0.0, std::f64::consts::FRAC_PI_2],
+        _ => [f64::NEG_INFINITY, f64::INFINITY],
     };
     Ok(Free::new(key, parameter.unit, value, positive, limits))
 }

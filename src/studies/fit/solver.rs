@@ -19,10 +19,12 @@ pub(super) struct Free {
     pub key: String,
     /// Its unit.
     pub unit: &'static str,
-    start: f64,
     /// Fitted by its logarithm.
     positive: bool,
-    limits: (f64, f64),
+    /// Where the search starts.
+    pub start: f64,
+    /// Where it ends at the latest.
+    bounds: [f64; 2],
 }
 
 /// The minimum.
@@ -35,28 +37,31 @@ pub(super) struct Solved {
 }
 
 impl Free {
+    /// A key within `limits`, a `positive` one fitted by its logarithm.
     pub fn new(
         key: &str,
         unit: &'static str,
         start: f64,
         positive: bool,
-        limits: (f64, f64),
+        limits: [f64; 2],
     ) -> Self {
+        let (start, bounds) = match positive {
+            false => (start, limits),
+            true => {
+                // A limit that has no logarithm is none.
+                let (start, [least, most]) = (start.ln(), limits.map(f64::ln));
+                (
+                    start,
+                    [least.max(start - FARTHEST), most.min(start + FARTHEST)],
+                )
+            }
+        };
         Self {
             key: key.to_owned(),
             unit,
-            start,
             positive,
-            limits,
-        }
-    }
-
-    /// Where the search starts.
-    pub fn start(&self) -> f64 {
-        if self.positive {
-            self.start.ln()
-        } else {
-            self.start
+            start,
+            bounds,
         }
     }
 
@@ -90,20 +95,6 @@ impl Free {
         } else {
             STEP * theta.abs().max(1e-12)
         }
-    }
-
-    fn bounds(&self) -> (f64, f64) {
-        let (least, most) = self.limits;
-        if !self.positive {
-            return self.limits;
-        }
-        let start = self.start.ln();
-        let low = if least > 0.0 {
-            least.ln()
-        } else {
-            f64::NEG_INFINITY
-        };
-        (low.max(start - FARTHEST), most.ln().min(start + FARTHEST))
     }
 }
 
@@ -147,7 +138,7 @@ pub(super) fn solve(
     residuals: &mut dyn FnMut(&[f64]) -> Option<Vec<f64>>,
 ) -> Result<Solved, &'static str> {
     let parameters = free.iter().zip(theta).map(|(free, theta)| {
-        let (low, up) = free.bounds();
+        let [low, up] = free.bounds;
         let mut parameter = MPPar::new();
         (parameter.limited_low, parameter.limited_up) = (low.is_finite(), up.is_finite());
         parameter.limit_low = if low.is_finite() { low } else { 0.0 };
@@ -174,7 +165,7 @@ pub(super) fn solve(
         return Err("no convergence after 60 iterations; try better start values");
     }
     let at_bound = free.iter().zip(&theta).map(|(free, theta)| {
-        let (low, up) = free.bounds();
+        let [low, up] = free.bounds;
         *theta <= low || *theta >= up
     });
     Ok(Solved {
@@ -189,7 +180,7 @@ mod tests {
 
     #[test]
     fn a_range_is_kept_and_its_end_is_told() {
-        let free = [Free::new("a", "", 0.3, false, (0.0, 0.5))];
+        let free = [Free::new("a", "", 0.3, false, [0.0, 0.5])];
         let mut residuals =
             |theta: &[f64]| Some((1..9).map(|i| f64::from(i) * (theta[0] - 2.0)).collect());
         let solved = solve(&free, &[0.3], 8, &mut residuals).expect("a minimum");

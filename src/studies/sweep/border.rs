@@ -30,14 +30,6 @@ impl Border {
     /// All borders.
     pub const ALL: [Self; 2] = [Self::GrossSlip, Self::LiftOff];
 
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::GrossSlip => "gross slip",
-            Self::LiftOff => "lift-off",
-        }
-    }
-
     /// How far (m, or N for the lift-off of a prescribed force) a scenario is from the border:
     /// negative beyond it, `None` without a closed form.
     pub fn distance(self, scenario: &Scenario) -> Option<f64> {

@@ -289,11 +289,10 @@ impl Slice {
             };
             let columns = (0..wide).filter_map(|at| Some([at as f64, crossed(y, self.x, at)?]));
             let rows = (0..high).filter_map(|at| Some([crossed(self.x, y, at)?, at as f64]));
-            let letter = match border {
-                Border::GrossSlip => 'G',
-                Border::LiftOff => 'L',
+            let (letter, name) = match border {
+                Border::GrossSlip => ('G', "gross slip, closed form, unworn"),
+                Border::LiftOff => ('L', "lift-off, closed form, unworn"),
             };
-            let name = format!("{}, closed form, unworn", border.name());
             Line::new(letter, name, columns.chain(rows).collect())
         };
         Border::ALL.into_iter().filter_map(line).collect()

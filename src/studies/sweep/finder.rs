@@ -67,18 +67,13 @@ impl Finder {
                 points.into_iter().flat_map(with).collect()
             });
         }
-        // Those with the value on the axis where it is rarest, and with the others on the others.
-        let Some((rarest, mut points)) = places.enumerate().min_by_key(|(_, them)| them.len())
-        else {
-            return vec![0];
+        let common = |some: Vec<usize>, others: Vec<usize>| {
+            let common = some.into_iter();
+            common
+                .filter(|place| others.binary_search(place).is_ok())
+                .collect()
         };
-        points.retain(|&point| {
-            let others = (0..self.axes.len()).filter(|at| *at != rarest);
-            others
-                .into_iter()
-                .all(|at| self.is_at(at, point, &values[at]))
-        });
-        points
+        places.reduce(common).unwrap_or_else(|| vec![0])
     }
 
     /// The places of a value on an axis, in order.
@@ -89,14 +84,6 @@ impl Finder {
         }
         let places = |wanted| self.axes[axis].places_of(wanted);
         value.parse().map_or_else(|_| Vec::new(), places)
-    }
-
-    fn is_at(&self, axis: usize, place: usize, value: &str) -> bool {
-        let axis = &self.axes[axis];
-        match value.parse::<f64>() {
-            Ok(wanted) => axis.number(place) == Some(wanted),
-            Err(_) => printable(&axis.text(place)) == value,
-        }
     }
 }
 

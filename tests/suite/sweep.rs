@@ -655,7 +655,7 @@ fn bad_studies_are_refused_in_one_line() {
         (format!("base = \"hertz\"\n{axis}{axis}"), "friction.coefficient is given twice"),
         (format!("base = \"hertz\"\ndesign = \"gird\"\n{axis}"), "unknown value gird; did you mean grid?"),
         (format!("base = \"hertz\"\n{}", axis.replace("key", "kye")), "unknown key kye; did you mean key?"),
-        ("base = \"hertz\"\n[[axis]]\nvalues = [1]\n".into(), "line 2: key is missing"),
+        ("base = \"hertz\"\n[[axis]]\nvalues = [1]\n".into(), "key is missing"),
         (format!("base = \"hertz\"\n{axis}scale = \"lgo\"\n"), "unknown value lgo; did you mean log?"),
         (format!("base = \"hertz\"\nseed = -1\n{axis}"), "a whole number from 0 to 4294967295"),
         (format!("base = \"hertz\"\ndesign = \"sobol\"\n{axis}"), "samples is missing"),

@@ -130,7 +130,7 @@ fn bad_tables_are_one_line() {
         ),
         (
             back,
-            "indenter.file = \"shape.csv\": must increase, and follows 2.5e-4",
+            "indenter.file=shape.csv: must increase, and follows 2.5e-4",
         ),
         (
             short,

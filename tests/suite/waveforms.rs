@@ -72,16 +72,15 @@ fn with_a_depth_that_swings_a_triangle_is_another_motion() {
 fn a_table_of_a_triangle_is_the_triangle() {
     let dir = TestDir::new();
     dir.write("motion.csv", b"time_s,u_um\n0,0\n0.5,0.2\n1.5,-0.2\n2,0\n");
-    let file = format!(
-        "motion.tangential.file={}",
-        dir.path("motion.csv").display()
+    // No amplitude: the table has one.
+    dir.write(
+        "mine.toml",
+        b"[indenter]\nshape = \"paraboloid\"\nradius = 0.01\n\
+          [material]\neffective_modulus = 2.3077e11\npoisson = 0.3\n[friction]\ncoefficient = 0.1\n\
+          [motion.normal]\nmean = 1e-6\n[motion.tangential]\nfile = \"motion.csv\"\n\
+          [wear]\ncoefficient = 1.3e-10\n[numerics]\npoints = 100\n",
     );
-    let tabled = [
-        "motion.normal.amplitude=0",
-        "motion.tangential.waveform=table",
-        &file,
-    ];
-    let scenario = load("li2019-fig3", &tabled);
+    let scenario = load(&dir.path("mine.toml").display().to_string(), &[]);
     let motion = scenario.setup().drive.tangential().expect("a motion");
     let motion = motion.oscillation();
     assert!((motion.amplitude() / 2e-7 - 1.0).abs() < 1e-12 && motion.mean().abs() < 1e-20);

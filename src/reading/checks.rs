@@ -117,13 +117,15 @@ impl Simulation {
             checks.extend(error.map(|error| Check { subject, error }));
         };
         add(Subject::Energy, moment.energy_residual);
-        let grid = &self.setup().grid;
-        let between = worn::interpolation_error(grid, self.worn_depth());
-        add(
-            Subject::Interpolation,
-            between.map(|error| OVER_RUN * error),
-        );
         let period = f64::from(cycles_to_settle(&self.setup().drive));
+        // A scar of a part of a period has edges that the rest of it wears away.
+        if moment.cycle >= period {
+            let left_out = worn::interpolation_error(&self.setup().grid, self.worn_depth());
+            add(
+                Subject::Interpolation,
+                left_out.map(|error| OVER_RUN * error),
+            );
+        }
         if moment.cycle >= 2.0 * period {
             let [force, energy] = self.closed_forms().map_or([None; 2], |both| both.map(Some));
             add(Subject::TangentialForce, force);

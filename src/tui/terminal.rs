@@ -54,9 +54,9 @@ pub struct Screen {
 /// rest empty.
 const LARGEST: u16 = 1000;
 
-/// How many screens there must be memory for: what is shown, what is wanted, what of it comes next, and as much again
-/// for its text on the way out.
-const SCREENS: usize = 6;
+/// How many screens there must be memory for: what is shown, what is wanted, what of it comes next, its text on the way
+/// out, and room for what other threads take meanwhile.
+const SCREENS: usize = 8;
 
 /// The size of the terminal, as far as it is drawn on.
 ///

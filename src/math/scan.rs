@@ -56,6 +56,19 @@ pub fn changes<T, K: PartialEq>(
     })
 }
 
+/// |f″| at the points `x` by second differences; at the first and the last point that of their neighbours. 0 for fewer
+/// than three points.
+pub fn second_differences(x: &[f64], f: &[f64]) -> Vec<f64> {
+    if x.len() < 3 {
+        return vec![0.0; x.len()];
+    }
+    let slope = |k: usize| (f[k + 1] - f[k]) / (x[k + 1] - x[k]);
+    let inner = (0..x.len()).map(|i| i.clamp(1, x.len() - 2));
+    inner
+        .map(|i| ((slope(i) - slope(i - 1)) / (0.5 * (x[i + 1] - x[i - 1]))).abs())
+        .collect()
+}
+
 /// The smallest range outside which `values` are zero.
 #[inline(always)]
 pub fn support(values: &[f64]) -> Range<usize> {

@@ -216,7 +216,7 @@ pub fn hex([red, green, blue]: Rgb) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
-/// A text as it stands in an element of SVG.
+/// Escapes a text for an SVG element.
 pub fn escaped(text: &str) -> String {
     let printable = |sign: char| sign.is_control() && sign != '\n';
     text.replace('&', "&amp;")

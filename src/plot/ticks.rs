@@ -31,7 +31,7 @@ impl Tick {
 /// How the labels of an axis lie.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Labels {
-    /// Side by side in one row that begins so many cells left of the axis' first cell.
+    /// Side by side in one row, which begins this many cells left of the axis.
     Row(u16),
     /// One below the other, each in a row of its own.
     Column,

@@ -4,8 +4,7 @@ use super::keys::PARAMETERS;
 use super::nearest::nearest;
 use super::schema::{is_section, split};
 
-/// The keys that people mean by the letters of textbooks and by words of other programs, each with what is to be said
-/// of it beside its name.
+/// Returns the keys meant by a textbook's letter or another program's word, each with a remark to show beside its name.
 fn by_word(word: &str) -> &'static [(&'static str, &'static str)] {
     match word {
         "k" | "wear_coefficient" | "wear_rate" | "specific_wear_rate" => &[

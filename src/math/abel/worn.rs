@@ -39,6 +39,7 @@ use nalgebra::DMatrix;
 use super::kernel::{asin_step, leg, root_step};
 use super::product;
 use crate::math::grid::RadialGrid;
+use crate::math::scan::{largest, second_differences};
 
 /// Shallower than this part of the largest worn depth, the surface does not count as scar.
 pub const SCAR: f64 = 1e-3;
@@ -128,7 +129,7 @@ pub fn interpolate(grid: &RadialGrid, wear: &[f64], r: f64) -> f64 {
 /// kink at a node costs the lines on both sides nothing.
 pub fn interpolation_error(grid: &RadialGrid, wear: &[f64]) -> Option<f64> {
     let nodes = grid.nodes();
-    let deepest = wear.iter().copied().fold(0.0, f64::max);
+    let deepest = largest(wear);
     let border = grid.border().unwrap_or(grid.cells());
     let mut errors = cell_errors(&grid.squares()[..=border], &wear[..=border]);
     // Outside, the error of F counts z times. F at the border is that of the next node: a line is drawn from there on.
@@ -152,17 +153,10 @@ pub fn interpolation_error(grid: &RadialGrid, wear: &[f64]) -> Option<f64> {
 
 /// h²/8 |f″| of each cell between the points `x`.
 fn cell_errors(x: &[f64], f: &[f64]) -> Vec<f64> {
-    let slope = |k: usize| (f[k + 1] - f[k]) / (x[k + 1] - x[k]);
-    let cells = x.len().saturating_sub(1);
-    if cells < 2 {
-        return vec![0.0; cells];
-    }
-    let second = |i: usize| {
-        let i = i.clamp(1, cells - 1);
-        ((slope(i) - slope(i - 1)) / (0.5 * (x[i + 1] - x[i - 1]))).abs()
-    };
-    (0..cells)
-        .map(|k| second(k).min(second(k + 1)) * (x[k + 1] - x[k]).powi(2) / 8.0)
+    let second = second_differences(x, f);
+    let cells = second.windows(2).zip(x.windows(2));
+    cells
+        .map(|(second, x)| second[0].min(second[1]) * (x[1] - x[0]).powi(2) / 8.0)
         .collect()
 }
 

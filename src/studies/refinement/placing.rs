@@ -19,6 +19,7 @@
 
 use crate::contact::indenter::Indenter;
 use crate::math::grid::RadialGrid;
+use crate::math::scan::second_differences;
 
 /// The share of the cells that follow the monitor.
 const FOLLOWING: f64 = 0.65;
@@ -65,13 +66,8 @@ pub(super) fn place(
 /// The share of ∫M dt of each cell.
 fn shares(grid: &RadialGrid, wear: &[f64]) -> Option<Vec<f64>> {
     let (t, cells) = (grid.squares(), grid.cells());
-    let slope = |k: usize| (wear[k + 1] - wear[k]) / (t[k + 1] - t[k]);
-    let mut monitor: Vec<f64> = (1..cells)
-        .map(|i| ((slope(i) - slope(i - 1)) / (0.5 * (t[i + 1] - t[i - 1]))).abs())
-        .map(|second| second.powf(0.4))
-        .collect();
-    monitor.insert(0, monitor[0]);
-    monitor.push(monitor[cells - 1]);
+    let second = second_differences(t, wear).into_iter();
+    let monitor: Vec<f64> = second.map(|second| second.powf(0.4)).collect();
     let of_cell = |k: usize| 0.5 * (monitor[k] + monitor[k + 1]) * (t[k + 1] - t[k]);
     let smoothed = (0..cells).map(|k| {
         let (left, right) = (k.saturating_sub(1), (k + 1).min(cells - 1));

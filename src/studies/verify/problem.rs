@@ -157,7 +157,7 @@ impl Problem {
         }
     }
 
-    /// Whether so many cells are tried only if everything is asked for: the limit takes seconds a run.
+    /// Whether runs with `points` cells need `--all`: each run to the limiting profile takes seconds.
     pub fn is_long(self, points: usize) -> bool {
         self == Self::Limit && points > 200
     }

@@ -199,7 +199,7 @@ impl StressMap {
     }
 
     /// Returns the shades on samples: `columns` over x symmetrical about the axis, `rows` downwards from the surface,
-    /// both `size` apart (m). `None` without contact, or if nothing is to be shown.
+    /// both `size` apart (m). `None` without contact, and where no stress is shown.
     pub fn samples(self, frame: &Frame, columns: usize, rows: usize, size: f64) -> Option<Samples> {
         let of = self.values(frame).filter(|_| columns > 0)?;
         let range = self.bounds?;

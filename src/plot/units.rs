@@ -7,17 +7,7 @@
 
 use std::borrow::Cow;
 
-/// SI prefixes and what they stand for, smallest first.
-const PREFIXES: [(&str, f64); 8] = [
-    ("p", 1e-12),
-    ("n", 1e-9),
-    ("µ", 1e-6),
-    ("m", 1e-3),
-    ("", 1.0),
-    ("k", 1e3),
-    ("M", 1e6),
-    ("G", 1e9),
-];
+use crate::scenario::units::SHOWN_PREFIXES;
 
 /// Units that take a prefix; any other word (cycles, %, deg) stands alone.
 const PREFIXABLE: [&str; 14] = [
@@ -34,7 +24,7 @@ fn prefix(max: f64, unit: &str) -> (&'static str, f64) {
         Some(power) if size > 0.0 && size.is_finite() => power,
         _ => return ("", 1.0),
     };
-    let raised = PREFIXES.map(|(symbol, factor)| (symbol, factor.powi(power)));
+    let raised = SHOWN_PREFIXES.map(|(symbol, factor)| (symbol, factor.powi(power)));
     let fitting = raised.into_iter().rfind(|(_, factor)| *factor <= size);
     fitting.unwrap_or(raised[0])
 }

@@ -48,7 +48,7 @@ const UNITS: &[(&str, Unit, bool)] = &[
     ("W", unit([2, 1, -3, 0], 0, 1.0), true),
 ];
 
-/// Prefixes and their powers of ten.
+/// The prefixes that are read, and their powers of ten.
 const PREFIXES: &[(&str, i32)] = &[
     ("p", -12),
     ("n", -9),
@@ -59,6 +59,18 @@ const PREFIXES: &[(&str, i32)] = &[
     ("k", 3),
     ("M", 6),
     ("G", 9),
+];
+
+/// The prefixes that numbers are shown with, and what they are worth, smallest first.
+pub const SHOWN_PREFIXES: [(&str, f64); 8] = [
+    ("p", 1e-12),
+    ("n", 1e-9),
+    ("µ", 1e-6),
+    ("m", 1e-3),
+    ("", 1.0),
+    ("k", 1e3),
+    ("M", 1e6),
+    ("G", 1e9),
 ];
 
 impl Unit {
@@ -315,18 +327,8 @@ pub fn reading(value: f64, unit: &str, ascii: bool) -> (String, String) {
 
 fn prefixed(value: f64, unit: &str) -> Option<(f64, String)> {
     let size = value.abs() * (1.0 + 1e-12);
-    let all = [
-        ("p", 1e-12),
-        ("n", 1e-9),
-        ("µ", 1e-6),
-        ("m", 1e-3),
-        ("", 1.0),
-        ("k", 1e3),
-        ("M", 1e6),
-        ("G", 1e9),
-    ];
     let fits = |&(_, worth): &(&str, f64)| size >= worth && size < 1e3 * worth;
-    let (prefix, worth) = all.into_iter().find(fits)?;
+    let (prefix, worth) = SHOWN_PREFIXES.into_iter().find(fits)?;
     Some((value / worth, format!("{prefix}{unit}")))
 }
 

@@ -109,6 +109,28 @@ mod tests {
     use super::*;
     use crate::plot::Marker;
 
+    /// What a terminal of 256 colours shows: a cube of 6×6×6 colours, then 24 greys.
+    fn rgb(index: u8) -> [u8; 3] {
+        match index {
+            232.. => [8 + 10 * (index - 232); 3],
+            _ => [36, 6, 1]
+                .map(|place| [0, 95, 135, 175, 215, 255][usize::from((index - 16) / place % 6)]),
+        }
+    }
+
+    #[test]
+    fn shades_on_light_are_the_nearest_to_the_colours_of_the_map() {
+        for (shade, &index) in DIVERGING_ON_LIGHT.iter().enumerate() {
+            let wanted = ColorMap::Diverging.color((shade as f64 + 0.5) / SHADES as f64);
+            let distance = |index: u8| -> u32 {
+                let parts = rgb(index).into_iter().zip(wanted);
+                parts.map(|(a, b)| u32::from(a.abs_diff(b)).pow(2)).sum()
+            };
+            let nearest = (16..=255).map(distance).min();
+            assert_eq!(Some(distance(index)), nearest, "shade {shade}");
+        }
+    }
+
     #[test]
     fn shades_fill_the_range() {
         assert_eq!(shade(-1.0, [0.0, 1.0]), 0);

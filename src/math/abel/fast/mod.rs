@@ -5,20 +5,20 @@
 //!
 //! A profile that is linear in t = x² between nodes is a sum of kinks J_k (t − t_k)₊, J_k the jump of its
 //! slope, and the image of a kink is a closed form (see [`kink`](super::kink)): a factor of the row times a function
-//! of the ratio v of the two t alone. Away from v = 1 that function is κ − Σ a_m v^(μ_m) to the
+//! of the ratio v of the two t alone. Away from v = 1 that function is a sum Σ a_m v^(μ_m) to the
 //! tolerance; and a power is carried from row to row by one multiplication:
 //!
 //! ```text
-//! g_j = f_0 + t_j { 2σ_{j−1} − Σ_m S_m },   S_m = Σ_{k<j} a_m J_k (t_k/t_j)^(μ_m)
-//! w_j = u_0 + t_j { ½σ_{j−1} − Σ_m S_m }    with factors a_m of its own
-//! p_j = (1/π) { 2 Σ_{k>j} J_k x_k − Σ_m S_m },   S_m = Σ_{k>j} a_m J_k x_k (t_j/t_k)^(μ_m)
+//! g_j = f_0 + t_j Σ_m a_m S_m,   S_m = Σ_{k<j} J_k (t_k/t_j)^(μ_m)
+//! w_j = u_0 + t_j Σ_m a_m S_m    with powers of its own
+//! p_j = (1/π) Σ_m a_m S_m,       S_m = Σ_{k>j} J_k x_k (t_j/t_k)^(μ_m)
 //! ```
 //!
 //! each with the nearest nodes (at most 8) put right by weights of their own, exact less what the
 //! powers give. The worn depth outside its border is the same in z = √(r² − c²), whose kinks are z (z − z_k)₊:
 //!
 //! ```text
-//! g_j = g(δ within c) + x_j { (π/2) F_1 + Z_j [2b_{j−1} − Σ_m S_m] },   b = ΔF/Δz
+//! g_j = g(δ within c) + x_j { (π/2) F_1 + Z_j Σ_m a_m S_m }
 //! ```
 //!
 //! The kernels depend on ratios only, so the form is independent of scale, grading and position on
@@ -28,7 +28,7 @@
 //!   largest value), so that of a result in units of the same sum with all signs made alike. Rounding
 //!   adds about 1e-15 N^½ of that. The tests hold every operator to it.
 //! - **Cost**: K multiply-adds twice and 8 more a node, K = 12 … 28 from N = 100 to 100 000; O(N) to set up.
-//! - **Memory**: O(N): 2 K + 31 numbers a node for the three operators. A sweep reads K + 13 of them a node.
+//! - **Memory**: O(N): K + 8 numbers a node for each operator.
 //! - **Causality**: strict, as that of the dense form: what is zero up to a node stays zero up to it, and row j looks at
 //!   its own kink by rounding alone.
 //! - **At r = 0**: g = f(0), w = u(0), p = (2/π) Σ J_k x_k.
@@ -39,150 +39,157 @@ use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 use super::kernel::leg;
 use crate::math::grid::RadialGrid;
 
-mod near;
+mod causal;
 mod powers;
-mod propagator;
-mod recurrence;
-mod sweep;
 #[cfg(test)]
 mod tests;
 
-use near::REACH;
+use causal::{Causal, REACH};
 use powers::{Kernel, fit};
-use propagator::Propagator;
-use sweep::{Data, Inward, Outward};
 
-/// The tolerance of a run. Errors of a result are about a thirtieth of it.
+/// The error of a kernel that a run asks for.
 pub const TOLERANCE: f64 = 1e-8;
 
-/// Tolerances to try in turn, should neighbouring nodes be so close that the first takes too many powers.
+/// What it takes where cells are too narrow for that, the best first.
 pub(super) const TOLERANCES: [f64; 4] = [TOLERANCE, 1e-7, 1e-6, 1e-5];
 
-/// The three operators of the product method in O(N).
+/// The three transforms of the product method.
 #[derive(Debug, PartialEq)]
 pub struct FastProduct {
     nodes: Vec<f64>,
-    /// 1/Δt of every cell.
+    squares: Vec<f64>,
+    /// 1/Δt of the cells.
     inverse: Vec<f64>,
-    /// Of the powers of profile and stress, and of the displacement.
-    root: Propagator,
-    arc: Propagator,
-    profile: Outward,
-    displacement: Outward,
-    stress: Inward,
+    profile: Causal,
+    displacement: Causal,
+    stress: Causal,
 }
 
-/// The image of the worn depth in O(N), on a grid with a border.
+/// Eq. (1) on the worn depth, on a grid with a border.
 #[derive(Debug, PartialEq)]
 pub struct FastWorn {
-    /// t up to the border, for the part within.
-    inner: FastInner,
     border: usize,
-    /// From the border on: z, x, 1/z (0 at the border) and 1/Δz.
+    squares: Vec<f64>,
+    /// 1/Δt of the cells within the border.
+    inverse: Vec<f64>,
+    inner: Causal,
+    /// x and z of the nodes from the border on, and 1/Δz of their cells.
     x: Vec<f64>,
+    z: Vec<f64>,
     inverse_z: Vec<f64>,
-    inverse: Vec<f64>,
-    propagator: Propagator,
-    outer: Outward,
+    outer: Causal,
 }
 
-/// Eq. (1) alone, on all nodes.
-#[derive(Debug, PartialEq)]
-struct FastInner {
-    inverse: Vec<f64>,
-    propagator: Propagator,
-    profile: Outward,
-}
-
-/// ln (t_j/t_k) beyond which the powers serve: less than that of any two nodes [`REACH`] apart.
-fn nearest(radii: &[f64]) -> f64 {
-    let apart = |inner: f64, outer: f64| 2.0 * ((outer - inner) / inner).ln_1p();
+/// The operator of a kernel for rows at `radii`.
+fn causal(radii: &[f64], kernel: Kernel, tolerance: f64) -> Option<Causal> {
+    let apart = |a: f64, b: f64| 2.0 * ((b - a).abs() / a.min(b)).ln_1p();
     let pairs = radii.iter().zip(&radii[REACH.min(radii.len() - 1)..]);
-    let least = pairs
-        .filter(|(inner, _)| **inner > 0.0)
-        .map(|(&inner, &outer)| apart(inner, outer))
-        .fold(1.0, f64::min);
-    least * (1.0 - 1e-9)
+    let pairs = pairs.filter(|(a, b)| a.min(**b) > 0.0);
+    let least = pairs.map(|(&a, &b)| apart(a, b)).fold(1.0, f64::min);
+    // The neighbours at that distance are far.
+    let nearest = least * (1.0 - 1e-9);
+    Some(Causal::new(
+        radii,
+        &fit(kernel, nearest, tolerance)?,
+        nearest,
+    ))
 }
 
-/// 1/Δt of every cell.
-fn inverse_widths(nodes: &[f64]) -> Vec<f64> {
-    let cells = nodes.windows(2);
-    cells
-        .map(|cell| 1.0 / ((cell[1] - cell[0]) * (cell[1] + cell[0])))
+/// 1/Δ of consecutive values.
+fn inverse_widths(values: &[f64]) -> Vec<f64> {
+    values
+        .windows(2)
+        .map(|pair| 1.0 / (pair[1] - pair[0]))
         .collect()
 }
 
-/// Nodal values with the slopes of their cells, and the constant that a sweep adds to.
-struct Nodal<'a> {
-    values: &'a [f64],
-    /// 1/Δt of every cell.
-    inverse: &'a [f64],
-    constant: f64,
-}
-
-impl Data for Nodal<'_> {
-    #[inline(always)]
-    fn slopes(&self, first: usize, slopes: &mut [f64]) {
-        write_slopes(&self.values[first..], &self.inverse[first..], slopes);
-    }
-
-    #[inline(always)]
-    fn begin(&self, _: usize, rows: &mut [f64]) {
-        rows.fill(self.constant);
-    }
-}
-
-/// Writes (values_{k+1} − values_k) × inverse_k.
+/// Writes the jumps of slope at the nodes from `first` on, of values that are flat before and behind them all.
 #[inline(always)]
-fn write_slopes(values: &[f64], inverse: &[f64], slopes: &mut [f64]) {
-    let pairs = values.windows(2).zip(inverse);
-    for (slope, (pair, inverse)) in slopes.iter_mut().zip(pairs) {
-        *slope = (pair[1] - pair[0]) * inverse;
+fn write_jumps(values: &[f64], inverse: &[f64], first: usize, jumps: &mut [f64]) {
+    let cells = inverse.len();
+    let mut before = match first {
+        0 => 0.0,
+        _ if first > cells => 0.0,
+        _ => (values[first] - values[first - 1]) * inverse[first - 1],
+    };
+    let own = cells.saturating_sub(first).min(jumps.len());
+    let (within, behind) = jumps.split_at_mut(own);
+    if own > 0 {
+        let pairs = values[first..].windows(2).zip(&inverse[first..]);
+        for (jump, (pair, inverse)) in within.iter_mut().zip(pairs) {
+            let slope = (pair[1] - pair[0]) * inverse;
+            *jump = slope - before;
+            before = slope;
+        }
+    }
+    behind.fill(0.0);
+    if let Some(last) = behind.first_mut() {
+        *last = -before;
     }
 }
 
 impl FastProduct {
-    /// Plans the operators; none if the tolerance asks for more powers than there is room for.
+    /// Plans the transforms on `grid`, with kernels to a relative `tolerance`; none if that is out of reach, below about
+    /// 1e-12 on ordinary grids, and more on grids with very narrow cells.
     pub fn new(grid: &RadialGrid, tolerance: f64) -> Option<Self> {
-        let nodes = grid.nodes().to_vec();
-        let nearest = nearest(&nodes);
-        let [root, arc] = [Kernel::Root, Kernel::Arc].map(|kernel| {
-            let powers = fit(kernel, nearest, tolerance)?;
-            Some((Propagator::new(&nodes, &powers.exponents), powers))
-        });
-        let ((root, roots), (arc, arcs)) = (root?, arc?);
-        let squares = grid.squares().to_vec();
+        let nodes = grid.nodes();
+        let inwards: Vec<f64> = nodes.iter().rev().copied().collect();
         Some(Self {
-            inverse: inverse_widths(&nodes),
-            profile: Outward::new(&nodes, squares.clone(), &roots, &root, nearest),
-            displacement: Outward::new(&nodes, squares, &arcs, &arc, nearest),
-            stress: Inward::new(&nodes, &roots, &root, nearest),
-            nodes,
-            root,
-            arc,
+            nodes: nodes.to_vec(),
+            squares: grid.squares().to_vec(),
+            inverse: inverse_widths(grid.squares()),
+            profile: causal(nodes, Kernel::Root, tolerance)?,
+            displacement: causal(nodes, Kernel::Arc, tolerance)?,
+            stress: causal(&inwards, Kernel::Root, tolerance)?,
         })
     }
 
-    /// Eq. (1), as [`product::profile`](super::product::profile).
+    /// Eq. (1): the 1D profile `g` of the 3D profile `f`, both nodal, in the same unit.
     pub fn profile(&self, f: &[f64], g: &mut [f64]) {
-        let data = self.data(f, f[0]);
-        self.profile.apply(&self.root, &data, g);
+        self.outwards(&self.profile, f, g);
     }
 
-    /// Eq. (2), as [`product::displacement`](super::product::displacement).
-    ///
+    /// Eq. (2): the surface displacement `w` of the spring displacement `u`, both nodal.
     pub fn displacement(&self, u: &[f64], w: &mut [f64]) {
-        let data = self.data(u, u[0]);
-        self.displacement.apply(&self.arc, &data, w);
+        self.outwards(&self.displacement, u, w);
     }
 
-    /// Eq. (3), as [`product::stress`](super::product::stress).
-    ///
+    fn outwards(&self, operator: &Causal, values: &[f64], out: &mut [f64]) {
+        operator.apply(
+            #[inline(always)]
+            |first, jumps| write_jumps(values, &self.inverse, first, jumps),
+            #[inline(always)]
+            |first, sums| {
+                let rows = out[first..].iter_mut().zip(&self.squares[first..]);
+                for ((out, square), sum) in rows.zip(sums) {
+                    *out = values[0] + square * *sum;
+                }
+            },
+        );
+    }
+
+    /// Eq. (3): the stress `p` (N/m²) of the line load `q` (N/m), both nodal. `q` ends at the grid's edge.
     pub fn stress(&self, q: &[f64], p: &mut [f64]) {
-        let data = self.data(q, 0.0);
-        self.stress.apply(&self.nodes, &self.root, &data, p);
-        let last = self.nodes.len() - 1;
+        let rows = self.nodes.len();
+        self.stress.apply(
+            #[inline(always)]
+            |first, jumps| {
+                let nodes = rows - first - jumps.len();
+                write_jumps(q, &self.inverse, nodes, jumps);
+                for (jump, x) in jumps.iter_mut().zip(&self.nodes[nodes..]) {
+                    *jump *= x;
+                }
+                jumps.reverse();
+            },
+            #[inline(always)]
+            |first, sums| {
+                sums.reverse();
+                for (p, sum) in p[rows - first - sums.len()..].iter_mut().zip(sums) {
+                    *p = FRAC_1_PI * *sum;
+                }
+            },
+        );
+        let last = rows - 1;
         let jump = FRAC_1_PI * q[last];
         if jump != 0.0 {
             let rim = self.nodes[last];
@@ -192,129 +199,66 @@ impl FastProduct {
             p[last] += 2.0 * jump / leg(self.nodes[last - 1], rim);
         }
     }
-
-    /// What a sweep needs of nodal values.
-    fn data<'a>(&'a self, values: &'a [f64], constant: f64) -> Nodal<'a> {
-        Nodal {
-            values,
-            inverse: &self.inverse,
-            constant,
-        }
-    }
 }
 
 impl FastWorn {
-    /// Plans the operator; none without a border, or if the tolerance asks for more powers than there
-    /// is room for.
+    /// Plans the operator on `grid`, with kernels to a relative `tolerance`; none without a border, or if the tolerance
+    /// is out of reach.
     pub fn new(grid: &RadialGrid, tolerance: f64) -> Option<Self> {
-        let border = grid.border()?;
-        let nodes = grid.nodes();
-        let inner = {
-            let nearest = nearest(nodes);
-            let powers = fit(Kernel::Root, nearest, tolerance)?;
-            let propagator = Propagator::new(nodes, &powers.exponents);
-            let scale = grid.squares().to_vec();
-            FastInner {
-                inverse: inverse_widths(&nodes[..=border]),
-                profile: Outward::new(nodes, scale, &powers, &propagator, nearest),
-                propagator,
-            }
-        };
-        let x = nodes[border..].to_vec();
+        let (border, nodes, squares) = (grid.border()?, grid.nodes(), grid.squares());
+        let x = &nodes[border..];
         let z: Vec<f64> = x.iter().map(|&r| leg(x[0], r)).collect();
-        let nearest = nearest(&z);
-        let powers = fit(Kernel::Worn, nearest, tolerance)?;
-        let propagator = Propagator::new(&z, &powers.exponents);
-        let scale = x.iter().zip(&z).map(|(x, z)| x * z).collect();
         Some(Self {
-            inner,
             border,
-            inverse_z: z
-                .iter()
-                .map(|&z| if z > 0.0 { 1.0 / z } else { 0.0 })
-                .collect(),
-            inverse: z.windows(2).map(|cell| 1.0 / (cell[1] - cell[0])).collect(),
-            outer: Outward::new(&z, scale, &powers, &propagator, nearest),
-            propagator,
-            x,
+            squares: squares.to_vec(),
+            inverse: inverse_widths(&squares[..=border]),
+            inner: causal(nodes, Kernel::Root, tolerance)?,
+            x: x.to_vec(),
+            inverse_z: inverse_widths(&z),
+            outer: causal(&z, Kernel::Worn, tolerance)?,
+            z,
         })
     }
 
-    /// Eq. (1) on the worn depth, as [`worn::profile`](super::worn::profile).
+    /// The 1D image `g` of the worn `depth`, both nodal, m.
     pub fn profile(&self, depth: &[f64], g: &mut [f64]) {
-        let (border, inner) = (self.border, &self.inner);
-        let within = Within {
-            depth: &depth[..=border],
-            inverse: &inner.inverse,
+        let (within, beyond) = (&depth[..=self.border], &depth[self.border..]);
+        self.inner.apply(
+            #[inline(always)]
+            |first, jumps| write_jumps(within, &self.inverse, first, jumps),
+            #[inline(always)]
+            |first, sums| {
+                let rows = g[first..].iter_mut().zip(&self.squares[first..]);
+                for ((g, square), sum) in rows.zip(sums) {
+                    *g = depth[0] + square * *sum;
+                }
+            },
+        );
+        // F = (δ − δ_c)/z; at the border it is that of the next node: flat in the first cell.
+        let share = |i: usize| (beyond[i] - beyond[0]) / self.z[i];
+        let slope = |i: usize| match self.inverse_z.get(i) {
+            Some(inverse) if i > 0 => (share(i + 1) - share(i)) * inverse,
+            _ => 0.0,
         };
-        inner.profile.apply(&inner.propagator, &within, g);
-        let outside = Outside {
-            depth: &depth[border..],
-            first: (depth[border + 1] - depth[border]) * self.inverse_z[1],
-            worn: self,
-        };
-        self.outer
-            .apply(&self.propagator, &outside, &mut g[border..]);
-    }
-}
-
-/// The worn depth up to the border, and none beyond.
-struct Within<'a> {
-    depth: &'a [f64],
-    inverse: &'a [f64],
-}
-
-impl Data for Within<'_> {
-    #[inline(always)]
-    fn slopes(&self, first: usize, slopes: &mut [f64]) {
-        let cells = self.inverse.len().saturating_sub(first).min(slopes.len());
-        let (inside, outside) = slopes.split_at_mut(cells);
-        if !inside.is_empty() {
-            write_slopes(&self.depth[first..], &self.inverse[first..], inside);
-        }
-        outside.fill(0.0);
-    }
-
-    #[inline(always)]
-    fn begin(&self, _: usize, rows: &mut [f64]) {
-        rows.fill(self.depth[0]);
-    }
-}
-
-/// F = (depth − that at the border)/z from the border on, and there that of the next node.
-struct Outside<'a> {
-    depth: &'a [f64],
-    first: f64,
-    worn: &'a FastWorn,
-}
-
-impl Data for Outside<'_> {
-    #[inline(always)]
-    fn slopes(&self, from: usize, slopes: &mut [f64]) {
-        let shares = self.depth[from..].windows(2);
-        let shares = shares.zip(self.worn.inverse_z[from..].windows(2));
-        for ((slope, inverse), (depth, share)) in slopes
-            .iter_mut()
-            .zip(&self.worn.inverse[from..])
-            .zip(shares)
-        {
-            let left = (depth[0] - self.depth[0]) * share[0];
-            let right = (depth[1] - self.depth[0]) * share[1];
-            *slope = (right - left) * inverse;
-        }
-        // F at the border is that of the next node: flat.
-        if from == 0 {
-            slopes[0] = 0.0;
-        }
-    }
-
-    #[inline(always)]
-    fn begin(&self, from: usize, rows: &mut [f64]) {
-        // Nothing at the border itself.
-        let border = usize::from(from == 0);
-        let radii = &self.worn.x[from + border..];
-        for (row, x) in rows[border..].iter_mut().zip(radii) {
-            *row += FRAC_PI_2 * self.first * x;
-        }
+        let start = FRAC_PI_2 * share(1);
+        let g = &mut g[self.border..];
+        self.outer.apply(
+            |first, jumps| {
+                let mut before = first.checked_sub(1).map_or(0.0, slope);
+                for (jump, i) in jumps.iter_mut().zip(first..) {
+                    let slope = slope(i);
+                    *jump = slope - before;
+                    before = slope;
+                }
+            },
+            |first, sums| {
+                for (i, sum) in (first..).zip(sums) {
+                    // Nothing at the border itself.
+                    if i > 0 {
+                        g[i] += self.x[i] * (start + self.z[i] * *sum);
+                    }
+                }
+            },
+        );
     }
 }

@@ -89,7 +89,7 @@ pub(super) enum Kernel {
 
 impl Kernel {
     /// κ: the integral of the whole kernel.
-    pub fn whole(self) -> f64 {
+    fn whole(self) -> f64 {
         match self {
             Self::Root | Self::Worn => 2.0,
             Self::Arc => 0.5,
@@ -148,12 +148,12 @@ impl Kernel {
     }
 }
 
-/// κ − Σ a_m v^(μ_m).
+/// Σ a_m v^(μ_m), κ among the a.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Powers {
     /// The kernel that they stand for.
     pub kernel: Kernel,
-    /// μ, a multiple of [`LANES`] of them, in rising order.
+    /// μ, a multiple of [`LANES`] of them.
     pub exponents: Vec<f64>,
     /// a of each.
     pub factors: Vec<f64>,
@@ -175,12 +175,14 @@ pub(super) fn fit(kernel: Kernel, nearest: f64, tolerance: f64) -> Option<Powers
     let checks = points(1.37 * SAMPLES as f64 * decades);
     let balanced = balanced(kernel, nearest);
     (2..=MOST_GROUPS).find_map(|groups| {
-        let exponents = truncated(&balanced, groups * LANES - 1)?;
+        let exponents = truncated(&balanced, groups * LANES - 2)?;
         let factors = least_squares(kernel, &exponents, &samples)?;
         let worst = residual(kernel, &exponents, &factors, &checks);
-        (worst <= tolerance).then(|| {
+        // The nearest kinks are exact, those behind them are not: what that breaks off the integral is as much again.
+        (2.0 * worst <= tolerance).then(|| {
             let pairs = exponents.iter().zip(&factors);
-            let (factors, exponents) = pairs.map(|(&nu, &a)| kernel.integrated(nu, a)).unzip();
+            let powers = pairs.map(|(&nu, &a)| kernel.integrated(nu, -a));
+            let (factors, exponents) = powers.chain([(kernel.whole(), 0.0)]).unzip();
             Powers {
                 kernel,
                 exponents,
@@ -232,42 +234,28 @@ fn truncated(balanced: &DMatrix<f64>, number: usize) -> Option<Vec<f64>> {
     Some(exponents)
 }
 
+/// A_m of least squares at the points y of `samples`, in units of the kernel's scale.
 fn least_squares(kernel: Kernel, exponents: &[f64], samples: &[f64]) -> Option<Vec<f64>> {
-    let mut matrix = DMatrix::from_fn(samples.len(), exponents.len(), |i, m| {
+    let terms = DMatrix::from_fn(samples.len(), exponents.len(), |i, m| {
         (-exponents[m] * samples[i]).exp() / kernel.scale(samples[i])
     });
-    let norms: Vec<f64> = matrix.column_iter().map(|column| column.norm()).collect();
-    for (mut column, norm) in matrix.column_iter_mut().zip(&norms) {
-        column /= *norm;
-    }
-    let target = DVector::from_iterator(
-        samples.len(),
-        samples.iter().map(|&y| kernel.density(y) / kernel.scale(y)),
-    );
-    let qr = matrix.qr();
-    let mut rotated = target;
-    qr.q_tr_mul(&mut rotated);
-    let head = rotated.rows(0, exponents.len()).into_owned();
-    let solution = qr.r().solve_upper_triangular(&head)?;
-    Some(
-        solution
-            .iter()
-            .zip(&norms)
-            .map(|(x, norm)| x / norm)
-            .collect(),
-    )
+    let target = samples.iter().map(|&y| kernel.density(y) / kernel.scale(y));
+    let qr = terms.qr();
+    let rotated = qr
+        .q()
+        .tr_mul(&DVector::from_iterator(samples.len(), target));
+    let solution = qr.r().solve_upper_triangular(&rotated)?;
+    Some(solution.iter().copied().collect())
 }
 
 /// The largest error at the points, in units of the kernel's scale.
 fn residual(kernel: Kernel, exponents: &[f64], factors: &[f64], points: &[f64]) -> f64 {
-    points
-        .iter()
-        .map(|&y| {
-            let pairs = exponents.iter().zip(factors);
-            let sum: f64 = pairs.map(|(nu, a)| a * (-nu * y).exp()).sum();
-            ((sum - kernel.density(y)) / kernel.scale(y)).abs()
-        })
-        .fold(0.0, f64::max)
+    let errors = points.iter().map(|&y| {
+        let pairs = exponents.iter().zip(factors);
+        let sum: f64 = pairs.map(|(nu, a)| a * (-nu * y).exp()).sum();
+        ((sum - kernel.density(y)) / kernel.scale(y)).abs()
+    });
+    errors.fold(0.0, f64::max)
 }
 
 #[cfg(test)]
@@ -296,7 +284,7 @@ mod tests {
                         let (s, c) = ((-0.5 * y).exp(), (-(-y).exp_m1()).sqrt());
                         let pairs = powers.exponents.iter().zip(&powers.factors);
                         let sum: f64 = pairs.map(|(mu, a)| a * (-mu * y).exp()).sum();
-                        let error = kernel.whole() - sum - kernel.kink(s, c);
+                        let error = sum - kernel.kink(s, c);
                         // ∫₀¹ of the kernel's scale is at most 2.
                         assert!(
                             error.abs() <= 2.0 * tolerance + 1e-14,

@@ -10,11 +10,8 @@ const MIN_STEPS: u32 = 4;
 /// The largest tolerance that a scenario may have.
 pub(super) const MOST_TOLERANT: f64 = 0.1;
 
-/// How much finer one level is than another, in cells, in [`STEPS`] per cycle and in jumps over the same cycles.
+/// How much finer one level is than another, in cells, in steps per cycle and in jumps over the same cycles.
 pub(super) type Ratio = [f64; 3];
-
-/// The place of the steps.
-pub(super) const STEPS: usize = 1;
 
 /// The error of a jump is of third order in its length, so this many times the jumps go with a tolerance smaller by
 /// their third power.

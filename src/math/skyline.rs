@@ -1,7 +1,7 @@
 //! A linear operator on nodal values, stored in panels of rows with the zeros around their entries left out.
 //!
 //! The Abel transforms are triangular, or nearly so: g(x) and w(r) look inwards, p(r) looks
-//! outwards. A panel is eight rows over the columns that any of them has. The sums of a panel stay in the registers of
+//! outwards. A panel is sixteen rows over the columns that any of them has. The sums of a panel stay in the registers of
 //! the processor's vector unit while one pass goes through its entries, and the pass covers only the
 //! columns where the input is not zero (within the contact, outside the stick zone). Cost: at most N²/2 multiply-adds.
 //!
@@ -16,11 +16,8 @@ use nalgebra::DMatrix;
 use super::scan::support;
 
 /// Rows of a panel, and of one vector.
-const ROWS: usize = 8;
+const ROWS: usize = 16;
 const LANES: usize = 4;
-
-/// Parts of a run that are summed side by side.
-const QUARTERS: usize = 4;
 
 /// A square matrix whose rows each hold their entries in one run.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,37 +57,28 @@ type Sums<S> = [f64x4<S>; ROWS / LANES];
 /// The sums of a panel's rows over `columns`, each times its value.
 #[inline(always)]
 fn sum_columns<S: Simd>(simd: S, columns: &[Column], values: &[f64]) -> Sums<S> {
-    let halves = |Column(column): &Column| {
-        let (low, high) = column.split_at(LANES);
-        [f64x4::from_slice(simd, low), f64x4::from_slice(simd, high)]
+    let add = |sums: &mut Sums<S>, Column(column): &Column, value: f64| {
+        let value = f64x4::splat(simd, value);
+        let (vectors, _) = column.as_chunks::<LANES>();
+        for (sum, entries) in sums.iter_mut().zip(vectors) {
+            *sum = f64x4::from_slice(simd, entries).mul_add(value, *sum);
+        }
     };
-    // Each quarter of the run has sums of its own: the processor need not wait for the last addition,
-    // and fetches four streams from its outer caches where the run does not fit the inner one.
-    let quarter = columns.len() / QUARTERS;
-    let streams: [_; QUARTERS] = std::array::from_fn(|i| {
-        let part = i * quarter..(i + 1) * quarter;
-        (&columns[part.clone()], &values[part])
-    });
-    let mut sums = [[f64x4::splat(simd, 0.0); 2]; QUARTERS];
-    for k in 0..quarter {
-        for (sums, (columns, values)) in sums.iter_mut().zip(&streams) {
-            let value = f64x4::splat(simd, values[k]);
-            for (sum, entries) in sums.iter_mut().zip(halves(&columns[k])) {
-                *sum = entries.mul_add(value, *sum);
-            }
+    // Two sums a row: the processor need not wait for the last addition.
+    let mut sums = [[f64x4::splat(simd, 0.0); ROWS / LANES]; 2];
+    let (fours, rest) = columns.as_chunks::<4>();
+    let (four_values, rest_values) = values.as_chunks::<4>();
+    for (columns, values) in fours.iter().zip(four_values) {
+        for k in 0..4 {
+            add(&mut sums[k % 2], &columns[k], values[k]);
         }
     }
-    let rest = QUARTERS * quarter;
-    for (column, value) in columns[rest..].iter().zip(&values[rest..]) {
-        let value = f64x4::splat(simd, *value);
-        for (sum, entries) in sums[0].iter_mut().zip(halves(column)) {
-            *sum = entries.mul_add(value, *sum);
-        }
+    for (column, value) in rest.iter().zip(rest_values) {
+        add(&mut sums[0], column, *value);
     }
-    let [a, b, c, d] = sums;
-    let mut all = a;
-    for (half, all) in all.iter_mut().enumerate() {
-        *all = (a[half] + b[half]) + (c[half] + d[half]);
+    let [mut all, others] = sums;
+    for (all, other) in all.iter_mut().zip(others) {
+        *all += other;
     }
     all
 }

@@ -29,8 +29,8 @@
 //!   adds about 1e-15 N^½ of that. The tests hold every operator to it.
 //! - **Cost**: K multiply-adds twice and 8 more a node, K = 12 … 28 from N = 100 to 100 000; O(N) to set up.
 //! - **Memory**: O(N): K + 8 numbers a node for each operator.
-//! - **Causality**: strict, as that of the dense form: what is zero up to a node stays zero up to it, and row j looks at
-//!   its own kink by rounding alone.
+//! - **Causality**: strict, as that of the dense form: what is zero up to a node stays zero up to it, and no row looks
+//!   at its own kink.
 //! - **At r = 0**: g = f(0), w = u(0), p = (2/π) Σ J_k x_k.
 //! - **Known failure**: none; below some hundred nodes the dense form is faster.
 

@@ -9,7 +9,6 @@
 //! The differences (a − c, sin y − y cos y, 1 − (1−ε)^{3/2}) are formed without cancellation, so
 //! that amplitudes of 1e-9 d and less keep their digits.
 
-use super::power_law::PowerLaw;
 use super::special::{angle_beyond, leg, positive_part};
 use std::f64::consts::PI;
 
@@ -124,18 +123,6 @@ impl CattaneoMindlin {
         let y = 2.0 * angle_beyond(c, r);
         lambda * r * r / (2.0 * PI * self.radius) * sine_less_arc(y)
     }
-
-    /// u_x(r), m: tangential displacement of the surface at U, by (2): U inside c, and
-    /// (1/κ)[w(r; a) − w(r; c)] everywhere, with w of the frictionless paraboloid.
-    pub fn tangential_displacement(&self, r: f64) -> f64 {
-        let (a, c) = (self.contact_radius(), self.stick_radius());
-        if r <= c {
-            return self.amplitude;
-        }
-        let shape = PowerLaw::paraboloid(self.radius);
-        let lambda = self.mu * self.e_star / self.g_star;
-        lambda * (shape.displacement(a, r) - shape.displacement(c, r))
-    }
 }
 
 /// sin y − y cos y for 0 ≤ y ≤ π; by its series Σ (−1)^{k+1} 2k y^{2k+1}/(2k+1)! for small y.
@@ -209,12 +196,6 @@ mod tests {
             close(m.energy_per_cycle(), s.energy_per_cycle(), 1e-7, "E_d");
             for r in [0.1, 0.4, 0.8, 1.0].map(|t| c + t * (a - c)) {
                 close(m.slip(r), s.slip(r), 1e-8, "s");
-                close(
-                    m.slip(r),
-                    m.amplitude - m.tangential_displacement(r),
-                    1e-7,
-                    "s = U − u_x",
-                );
             }
         }
     }

@@ -30,11 +30,6 @@ impl FlatPunch {
         2.0 * self.e_star * self.radius * positive_part(self.depth)
     }
 
-    /// d = F/(2E*a), m, for a normal force in N.
-    pub fn depth_of_force(&self, force: f64) -> f64 {
-        force / (2.0 * self.e_star * self.radius)
-    }
-
     /// p(r) = E*d/(π√(a²−r²)), Pa; +∞ at r = a, 0 outside and without contact.
     pub fn pressure(&self, r: f64) -> f64 {
         if r > self.radius || self.depth <= 0.0 {
@@ -119,7 +114,6 @@ mod tests {
             PUNCH.tangential_force(u),
             2e-9,
         );
-        close(PUNCH.depth_of_force(PUNCH.force()), PUNCH.depth, 1e-15);
         close(
             PUNCH.pressure(0.0),
             PUNCH.force() / (2.0 * PI * a * a),

@@ -12,7 +12,7 @@
 //! d is the largest depth of the motion. c → 0: f∞ = d for 0 < r < √2 a. c = a: nothing wears, b = a.
 
 use super::quadrature::integrate;
-use super::special::{angle_beyond, leg, positive_part};
+use super::special::{angle_beyond, bisect, leg, positive_part};
 use std::f64::consts::PI;
 
 /// The limiting state of a paraboloid r²/(2R) under a fixed depth and permanent stick radius.
@@ -66,19 +66,9 @@ impl LimitingProfile {
             let mean = if angle > 0.0 { leg(r, c) / angle } else { c };
             r * r + c * mean - 2.0 * square
         };
-        let mut low = square.sqrt().max(c);
-        let mut high = (2.0 * square - c * c).sqrt().max(low);
-        loop {
-            let middle = 0.5 * (low + high);
-            if !(low < middle && middle < high) {
-                return high;
-            }
-            if excess(middle) < 0.0 {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
+        let low = square.sqrt().max(c);
+        let high = (2.0 * square - c * c).sqrt().max(low);
+        bisect(low, high, |r| excess(r) < 0.0)
     }
 
     /// f₀(r) = r²/(2R), m.

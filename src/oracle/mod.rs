@@ -9,7 +9,7 @@
 //! |---|---|
 //! | [`power_law`] | f = A rⁿ: paraboloid (Hertz), cone, quartic |
 //! | [`flat_punch`] | flat-ended cylinder |
-//! | [`truncated`] | paraboloid and cone with a flat tip |
+//! | [`truncated`] | paraboloid with a flat tip |
 //! | [`cattaneo_mindlin`] | partial slip of the paraboloid on first loading |
 //! | [`fretting_loop`] | its loop, energy and wear per cycle; Masing's rule |
 //! | [`partial_slip`] | the same for any one-dimensional profile, by quadrature |
@@ -17,7 +17,7 @@
 //! | [`dual_oscillation`] | permanent stick under normal and tangential oscillation |
 //! | [`half_space`] | stresses inside: Hertz in closed form, any traction by its point forces |
 //! | [`abel_pairs`], [`pair_catalogue`] | analytic pairs of the transforms (1), (2), (3) |
-//! | [`special`], [`quadrature`] | gamma, erf, Dawson, Bessel; the adaptive integral |
+//! | [`special`], [`quadrature`] | gamma, erf, Dawson, Bessel, bisection; the adaptive integral |
 //!
 //! Arguments outside a function's domain give NaN, never a panic; each item says so where it
 //! can happen.

@@ -12,7 +12,7 @@
 //! All by adaptive quadrature; g must rise from g(0) ≥ 0 to g(a) = d without falling.
 
 use super::quadrature::integrate;
-use super::special::positive_part;
+use super::special::{bisect, positive_part};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// G*/E* = 2(1−ν)/(2−ν), dimensionless: rigid on elastic, or two similar bodies (Mindlin 1949).
@@ -61,18 +61,8 @@ impl<G: Fn(f64) -> f64> PartialSlip<G> {
         if self.amplitude >= self.gross_slip_displacement() {
             return 0.0;
         }
-        let (mut low, mut high) = (0.0, self.contact_radius);
-        loop {
-            let middle = 0.5 * (low + high);
-            if !(low < middle && middle < high) {
-                return middle;
-            }
-            if self.yield_displacement(middle) >= self.amplitude {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
+        let sticks = |x: f64| self.yield_displacement(x) >= self.amplitude;
+        bisect(0.0, self.contact_radius, sticks)
     }
 
     /// q_x(x) = G* min(U, y(x)), N/m, at the end of the first loading.

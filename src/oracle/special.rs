@@ -161,6 +161,18 @@ pub fn angle_beyond(c: f64, r: f64) -> f64 {
     leg(r, c).atan2(c)
 }
 
+/// Where `is_below` turns from true to false between `low` and `high`, by bisection to the last digit.
+pub fn bisect(mut low: f64, mut high: f64, is_below: impl Fn(f64) -> bool) -> f64 {
+    loop {
+        let middle = 0.5 * (low + high);
+        match low < middle && middle < high {
+            false => return high,
+            true if is_below(middle) => low = middle,
+            true => high = middle,
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::quadrature::integrate;

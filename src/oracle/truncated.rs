@@ -1,9 +1,7 @@
-//! A paraboloid and a cone with a flat tip of radius b, frictionless.
+//! A paraboloid with a flat tip of radius b, f = (r²−b²)/2R, frictionless.
 //!
-//! Sources: Ejike (1969) for the truncated cone, Maugis & Barquins (1983), Popov & Heß (2015),
-//! ch. 3. From (1), for x > b (g = 0 up to b):
-//! - paraboloid f = (r²−b²)/2R: g = (x/R)√(x²−b²), F = (2E*/3R)(2a²+b²)√(a²−b²);
-//! - cone f = (r−b) tan θ: g = x tan θ acos(b/x), F = E* tan θ [a² acos(b/a) + b√(a²−b²)].
+//! Sources: Maugis & Barquins (1983), Popov & Heß (2015), ch. 3. From (1), for x > b (g = 0 up to b):
+//! g = (x/R)√(x²−b²), F = (2E*/3R)(2a²+b²)√(a²−b²).
 //!
 //! The pressure is an incomplete elliptic integral. With m = max(r, b), l = min(r, b) and
 //! x² = m² + (m²−l²) sinh² v, (3) becomes p = (E*/π) ∫ g′(x)√(x²−b²)/x dv, whose integrand is smooth;
@@ -12,28 +10,8 @@
 
 use super::power_law::PowerLaw;
 use super::quadrature::integrate;
-use super::special::{angle_beyond, leg, positive_part};
+use super::special::{leg, positive_part};
 use std::f64::consts::PI;
-
-/// (E*/π) ∫ h(x)/x dv, h = g′(x)√(x²−b²), for 0 ≤ r < a, 0 < b < a.
-fn pressure(e_star: f64, a: f64, b: f64, r: f64, h: impl Fn(f64) -> f64) -> f64 {
-    let (m, l) = (r.max(b), r.min(b));
-    let (reach, gap) = (leg(a, m), leg(m, l));
-    if gap == 0.0 {
-        return f64::INFINITY;
-    }
-    // asinh(reach/gap), without overflow when the gap is tiny.
-    let end = if reach > gap {
-        (reach + reach.hypot(gap)).ln() - gap.ln()
-    } else {
-        (reach / gap).asinh()
-    };
-    let integrand = |v: f64| {
-        let x = m.hypot(gap * v.sinh());
-        h(x) / x
-    };
-    e_star / PI * integrate(integrand, 0.0, end)
-}
 
 /// f = (r² − b²)/(2R) for r > b, 0 for r ≤ b.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,84 +71,22 @@ impl TruncatedParaboloid {
         if b == 0.0 {
             return PowerLaw::paraboloid(self.radius).pressure(self.e_star, a, r);
         }
-        pressure(self.e_star, a, b, r, |x| {
-            (2.0 * x * x - b * b) / self.radius
-        })
-    }
-}
-
-/// f = (r − b) tan θ for r > b, 0 for r ≤ b.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TruncatedCone {
-    /// E*, Pa.
-    pub e_star: f64,
-    /// tan θ > 0, dimensionless.
-    pub slope: f64,
-    /// Radius of the flat tip b ≥ 0, m.
-    pub tip_radius: f64,
-}
-
-impl TruncatedCone {
-    /// f(r), m.
-    pub fn profile(&self, r: f64) -> f64 {
-        positive_part(r - self.tip_radius) * self.slope
-    }
-
-    /// g(x) = x tan θ acos(b/x), m; 0 for |x| ≤ b.
-    pub fn mdr_profile(&self, x: f64) -> f64 {
-        x.abs() * self.slope * angle_beyond(self.tip_radius, x.abs())
-    }
-
-    /// d = a tan θ acos(b/a), m, for a ≥ b; NaN for a < b, which no load gives.
-    pub fn depth(&self, contact_radius: f64) -> f64 {
-        if contact_radius < self.tip_radius {
-            return f64::NAN;
+        let (m, l) = (r.max(b), r.min(b));
+        let (reach, gap) = (leg(a, m), leg(m, l));
+        if gap == 0.0 {
+            return f64::INFINITY;
         }
-        self.mdr_profile(contact_radius)
-    }
-
-    /// a, m: the root of g(a) = d between b and b + 2d/(π tan θ), by bisection to the last digit;
-    /// b at d = 0, and 0 (no contact) for d < 0.
-    pub fn contact_radius(&self, depth: f64) -> f64 {
-        if depth < 0.0 {
-            return 0.0;
-        }
-        let mut low = self.tip_radius;
-        let mut high = low + 2.0 * depth / (PI * self.slope);
-        loop {
-            let middle = 0.5 * (low + high);
-            if !(low < middle && middle < high) {
-                return middle;
-            }
-            if self.mdr_profile(middle) < depth {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-    }
-
-    /// F = E* tan θ [a² acos(b/a) + b√(a²−b²)], N, for a ≥ b; NaN for a < b.
-    pub fn force(&self, contact_radius: f64) -> f64 {
-        let (a, b) = (contact_radius, self.tip_radius);
-        if a < b {
-            return f64::NAN;
-        }
-        self.e_star * self.slope * (a * a * angle_beyond(b, a) + b * leg(a, b))
-    }
-
-    /// p(r), Pa, by quadrature of (3); +∞ at r = b, 0 for r ≥ a (and everywhere if a ≤ b).
-    pub fn pressure(&self, contact_radius: f64, r: f64) -> f64 {
-        let (a, b) = (contact_radius, self.tip_radius);
-        if r >= a || a <= b {
-            return 0.0;
-        }
-        if b == 0.0 {
-            return PowerLaw::cone(self.slope).pressure(self.e_star, a, r);
-        }
-        pressure(self.e_star, a, b, r, |x| {
-            self.slope * (leg(x, b) * angle_beyond(b, x) + b)
-        })
+        // asinh(reach/gap), without overflow when the gap is tiny.
+        let end = if reach > gap {
+            (reach + reach.hypot(gap)).ln() - gap.ln()
+        } else {
+            (reach / gap).asinh()
+        };
+        let integrand = |v: f64| {
+            let x = m.hypot(gap * v.sinh());
+            (2.0 * x * x - b * b) / self.radius / x
+        };
+        self.e_star / PI * integrate(integrand, 0.0, end)
     }
 }
 
@@ -184,11 +100,6 @@ mod tests {
     const BALL: TruncatedParaboloid = TruncatedParaboloid {
         e_star: E,
         radius: 0.01,
-        tip_radius: 5e-5,
-    };
-    const CONE: TruncatedCone = TruncatedCone {
-        e_star: E,
-        slope: 0.02,
         tip_radius: 5e-5,
     };
 
@@ -213,11 +124,9 @@ mod tests {
             // r = x sin t, from the rim at sin t = b/x.
             let start = (5e-5f64 / x).asin();
             let ball = x * integrate(|t| x * t.sin() / 0.01, start, FRAC_PI_2);
-            let cone = x * integrate(|_| 0.02, start, FRAC_PI_2);
             close(BALL.mdr_profile(-x), ball, 1e-12, "ball");
-            close(CONE.mdr_profile(-x), cone, 1e-12, "cone");
         }
-        assert_eq!((BALL.mdr_profile(4e-5), CONE.mdr_profile(4e-5)), (0.0, 0.0));
+        assert_eq!(BALL.mdr_profile(4e-5), 0.0);
     }
 
     #[test]
@@ -234,24 +143,15 @@ mod tests {
             1e-12,
             "ball springs",
         );
-        close(
-            CONE.force(A),
-            area(&|x| CONE.mdr_profile(x)),
-            1e-12,
-            "cone springs",
-        );
         let ring = |p: f64, r: f64| 2.0 * PI * r * p;
         let ball = across_rim(|r| ring(BALL.pressure(A, r), r), A, 5e-5);
-        let cone = across_rim(|r| ring(CONE.pressure(A, r), r), A, 5e-5);
         close(BALL.force(A), ball, 1e-9, "ball pressure");
-        close(CONE.force(A), cone, 1e-9, "cone pressure");
     }
 
     #[test]
     fn pressure_is_equation_3_by_secants() {
         let b = 5e-5f64;
         let ball = |x: f64| (2.0 * x * x - b * b) / (0.01 * (x * x - b * b).sqrt());
-        let cone = |x: f64| 0.02 * ((b / x).acos() + b / (x * x - b * b).sqrt());
         // x = m/cos t: dx/√(x²−m²) = dt/cos t, with the other root left as it is.
         let by_secant = |slope: &dyn Fn(f64) -> f64, r: f64| {
             let m = r.max(b);
@@ -268,21 +168,16 @@ mod tests {
         };
         for r in [0.0, 1e-5, 4e-5, 4.9e-5, 5.1e-5, 6e-5, 1e-4, 1.39e-4] {
             close(BALL.pressure(A, r), by_secant(&ball, r), 1e-11, "ball");
-            close(CONE.pressure(A, r), by_secant(&cone, r), 1e-11, "cone");
         }
     }
 
     #[test]
     fn no_tip_is_the_plain_shape_and_a_small_one_nearly_so() {
-        let (r, hertz, love) = (0.4 * A, PowerLaw::paraboloid(0.01), PowerLaw::cone(0.02));
+        let (r, hertz) = (0.4 * A, PowerLaw::paraboloid(0.01));
         for (b, tolerance) in [(0.0, 1e-14), (1e-9, 1e-7)] {
             let ball = TruncatedParaboloid {
                 tip_radius: b,
                 ..BALL
-            };
-            let cone = TruncatedCone {
-                tip_radius: b,
-                ..CONE
             };
             close(
                 ball.pressure(A, r),
@@ -291,22 +186,10 @@ mod tests {
                 "p ball",
             );
             close(
-                cone.pressure(A, r),
-                love.pressure(E, A, r),
-                1e3 * tolerance,
-                "p cone",
-            );
-            close(
                 ball.force(A),
                 hertz.force(E, hertz.depth(A)),
                 tolerance,
                 "F ball",
-            );
-            close(
-                cone.force(A),
-                love.force(E, love.depth(A)),
-                1e3 * tolerance,
-                "F cone",
             );
         }
     }
@@ -317,9 +200,6 @@ mod tests {
         let (b, s) = (5e-5f64, leg(A, 5e-5));
         let ball = E / (PI * 0.01) * (2.0 * s - b * (b / A).acos());
         close(BALL.pressure(A, 0.0), ball, 1e-13, "ball axis");
-        // Cone: (E*tanθ/π) ∫ [acos(b/x)/x + b/(x√(x²−b²))] dx; with x = b/cos t: ∫ (t tan t + 1) dt.
-        let cone = E * 0.02 / PI * integrate(|t: f64| t * t.tan() + 1.0, 0.0, (b / A).acos());
-        close(CONE.pressure(A, 0.0), cone, 1e-12, "cone axis");
     }
 
     #[test]
@@ -332,24 +212,12 @@ mod tests {
                 tolerance,
                 "ball d(a(d))",
             );
-            close(
-                CONE.depth(CONE.contact_radius(d)),
-                d,
-                tolerance,
-                "cone d(a(d))",
-            );
         }
-        assert_eq!(CONE.contact_radius(0.0), 5e-5);
-        assert_eq!(
-            (CONE.contact_radius(-1.0), BALL.contact_radius(-1.0)),
-            (0.0, 0.0)
-        );
-        assert!(CONE.depth(4e-5).is_nan() && BALL.force(4e-5).is_nan());
-        assert_eq!(
-            (BALL.pressure(A, 5e-5), CONE.pressure(A, 5e-5)),
-            (f64::INFINITY, f64::INFINITY)
-        );
-        assert_eq!((BALL.pressure(A, A), CONE.pressure(5e-5, 0.0)), (0.0, 0.0));
-        assert_eq!((CONE.profile(4e-5), BALL.profile(4e-5)), (0.0, 0.0));
+        close(BALL.contact_radius(0.0), 5e-5, 1e-15, "a = b");
+        assert_eq!(BALL.contact_radius(-1.0), 0.0);
+        assert!(BALL.depth(4e-5).is_nan() && BALL.force(4e-5).is_nan());
+        assert_eq!(BALL.pressure(A, 5e-5), f64::INFINITY);
+        assert_eq!((BALL.pressure(A, A), BALL.pressure(5e-5, 0.0)), (0.0, 0.0));
+        assert_eq!(BALL.profile(4e-5), 0.0);
     }
 }

@@ -47,7 +47,7 @@ const AROUND_SINGULAR: f64 = 0.05;
 /// value.
 fn error(method: AbelMethod, pair: &Pair, grid: &RadialGrid) -> f64 {
     let plan = AbelPlan::new(method, grid);
-    let source: Vec<f64> = grid.nodes().iter().map(|&x| (pair.source)(x)).collect();
+    let source: Vec<f64> = grid.nodes().iter().map(|&x| pair.source(x)).collect();
     let mut image = vec![f64::NAN; grid.len()];
     match pair.transform {
         ProfileToMdr => plan.profile(&source, &mut image),
@@ -63,7 +63,7 @@ fn error(method: AbelMethod, pair: &Pair, grid: &RadialGrid) -> f64 {
         {
             continue;
         }
-        let exact = (pair.image)(cell[1]);
+        let exact = pair.image(cell[1]);
         sum += (value - exact).powi(2) * (cell[1] - cell[0]);
         largest = largest.max(exact.abs());
     }

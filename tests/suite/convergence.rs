@@ -31,7 +31,7 @@ fn domain(pair: &Pair) -> f64 {
 fn error(method: AbelMethod, pair: &Pair, cells: usize, start: f64) -> f64 {
     let grid = RadialGrid::uniform(cells, domain(pair)).expect("a grid");
     let plan = AbelPlan::new(method, &grid);
-    let source: Vec<f64> = grid.nodes().iter().map(|&x| (pair.source)(x)).collect();
+    let source: Vec<f64> = grid.nodes().iter().map(|&x| pair.source(x)).collect();
     let mut image = vec![f64::NAN; grid.len()];
     match pair.transform {
         ProfileToMdr => plan.profile(&source, &mut image),
@@ -40,7 +40,7 @@ fn error(method: AbelMethod, pair: &Pair, cells: usize, start: f64) -> f64 {
     }
     let errors = grid.nodes().iter().zip(image);
     let errors = errors.filter(|(x, _)| **x >= start * grid.radius());
-    largest(errors.map(|(&x, value)| value - (pair.image)(x)))
+    largest(errors.map(|(&x, value)| value - pair.image(x)))
 }
 
 /// Every order observed between N and 4N, which meet the kink at the same place in its cell, lies

@@ -24,7 +24,7 @@ fn prefix(max: f64, unit: &str) -> (&'static str, f64) {
         Some(power) if size > 0.0 && size.is_finite() => power,
         _ => return ("", 1.0),
     };
-    let raised = SHOWN_PREFIXES.map(|(symbol, factor)| (symbol, factor.powi(power)));
+    let raised = SHOWN_PREFIXES.map(|(symbol, _, factor)| (symbol, factor.powi(power)));
     let fitting = raised.into_iter().rfind(|(_, factor)| *factor <= size);
     fitting.unwrap_or(raised[0])
 }

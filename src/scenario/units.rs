@@ -48,30 +48,20 @@ const UNITS: &[(&str, Unit, bool)] = &[
     ("W", unit([2, 1, -3, 0], 0, 1.0), true),
 ];
 
-/// The prefixes that are read, and their powers of ten.
-const PREFIXES: &[(&str, i32)] = &[
-    ("p", -12),
-    ("n", -9),
-    ("µ", -6),
-    ("u", -6),
-    ("m", -3),
-    ("c", -2),
-    ("k", 3),
-    ("M", 6),
-    ("G", 9),
+/// The prefixes that numbers are shown with, smallest first: symbol, power of ten, and what it is worth.
+pub const SHOWN_PREFIXES: [(&str, i32, f64); 8] = [
+    ("p", -12, 1e-12),
+    ("n", -9, 1e-9),
+    ("µ", -6, 1e-6),
+    ("m", -3, 1e-3),
+    ("", 0, 1.0),
+    ("k", 3, 1e3),
+    ("M", 6, 1e6),
+    ("G", 9, 1e9),
 ];
 
-/// The prefixes that numbers are shown with, and what they are worth, smallest first.
-pub const SHOWN_PREFIXES: [(&str, f64); 8] = [
-    ("p", 1e-12),
-    ("n", 1e-9),
-    ("µ", 1e-6),
-    ("m", 1e-3),
-    ("", 1.0),
-    ("k", 1e3),
-    ("M", 1e6),
-    ("G", 1e9),
-];
+/// Prefixes that are read as well.
+const OTHER_PREFIXES: [(&str, i32); 2] = [("u", -6), ("c", -2)];
 
 impl Unit {
     fn named(symbol: &str) -> Option<Self> {
@@ -79,7 +69,9 @@ impl Unit {
         if let Some((_, unit, _)) = known(symbol) {
             return Some(*unit);
         }
-        PREFIXES.iter().find_map(|(prefix, power)| {
+        let shown = SHOWN_PREFIXES.map(|(prefix, power, _)| (prefix, power));
+        let mut read = shown.into_iter().chain(OTHER_PREFIXES);
+        read.find_map(|(prefix, power)| {
             let (_, unit, _) = known(symbol.strip_prefix(prefix)?).filter(|known| known.2)?;
             Some(Self {
                 exponent: unit.exponent + power,
@@ -327,8 +319,8 @@ pub fn reading(value: f64, unit: &str, ascii: bool) -> (String, String) {
 
 fn prefixed(value: f64, unit: &str) -> Option<(f64, String)> {
     let size = value.abs() * (1.0 + 1e-12);
-    let fits = |&(_, worth): &(&str, f64)| size >= worth && size < 1e3 * worth;
-    let (prefix, worth) = SHOWN_PREFIXES.into_iter().find(fits)?;
+    let fits = |(.., worth): &(_, _, f64)| (*worth..1e3 * worth).contains(&size);
+    let (prefix, _, worth) = SHOWN_PREFIXES.into_iter().find(fits)?;
     Some((value / worth, format!("{prefix}{unit}")))
 }
 

@@ -9,9 +9,8 @@ use std::path::Path;
 use clap_complete::engine::{CompletionCandidate, PathCompleter, ValueCompleter};
 
 use crate::guide::TOPICS;
-use crate::scenario::keys::PARAMETERS;
 use crate::scenario::preset;
-use crate::scenario::schema::{Kind, Parameter, find};
+use crate::scenario::schema::{find, parameters};
 
 /// The variable by which a shell asks for completions.
 pub const VARIABLE: &str = "MDR_TUI_COMPLETE";
@@ -65,7 +64,7 @@ pub fn assignments(typed: &OsStr) -> Vec<CompletionCandidate> {
         return Vec::new();
     };
     let Some((key, value)) = typed.split_once('=') else {
-        return PARAMETERS
+        return parameters()
             .iter()
             .filter(|known| known.path.starts_with(typed) && known.section() != "changes")
             .map(|known| candidate(format!("{}=", known.path), &known.described()))
@@ -73,16 +72,9 @@ pub fn assignments(typed: &OsStr) -> Vec<CompletionCandidate> {
     };
     find(key)
         .into_iter()
-        .flat_map(words)
+        .filter_map(|known| known.kind.words())
+        .flatten()
         .filter(|word| word.starts_with(value))
         .map(|word| CompletionCandidate::new(format!("{key}={word}")))
         .collect()
-}
-
-fn words(parameter: &'static Parameter) -> &'static [&'static str] {
-    match parameter.kind {
-        Kind::Choice(words) => words,
-        Kind::Flag => &["true", "false"],
-        _ => &[],
-    }
 }

@@ -4,7 +4,7 @@ use super::Sheet;
 use crate::plot::colormap::ColorMap;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Map, Mark, Scale};
-use crate::scenario::scalars;
+use crate::scenario::{scalars, schema};
 use crate::studies::sweep::slice::{REGIMES, Slice};
 use crate::studies::sweep::{self, Design, Spread};
 use crate::traces::unit_of;
@@ -27,22 +27,6 @@ const ERRORS: [(&str, &str); 4] = [
     ("wear_volume_m3", "estimated_error_volume"),
     ("dissipated_energy_J", "estimated_error_energy"),
     ("F_x_amplitude_N", "estimated_error_force"),
-];
-
-/// Words for keys whose meaning is too long for an axis.
-const WORDS: [(&str, &str); 12] = [
-    ("motion.normal.mean", "mean"),
-    ("motion.normal.amplitude", "normal amplitude"),
-    ("motion.normal.phase", "phase of the normal motion"),
-    ("motion.tangential.mean", "tangential mean"),
-    ("motion.tangential.amplitude", "tangential amplitude"),
-    ("motion.tangential.phase", "phase of the tangential motion"),
-    ("motion.tangential.rig_stiffness", "stiffness of the rig"),
-    ("friction.coefficient", "coefficient of friction µ"),
-    ("wear.coefficient", "wear coefficient k"),
-    ("indenter.radius", "radius R"),
-    ("material.effective_modulus", "effective modulus E*"),
-    ("run.cycles", "cycles"),
 ];
 
 /// The sheet of a study that is called `name`: a chart for each of `columns`, or for the first ones.
@@ -130,12 +114,11 @@ fn places(axis: &sweep::Axis) -> Vec<f64> {
 /// An axis of a study in words, with its unit.
 pub fn paper_axis(slice: &Slice, axis: &sweep::Axis) -> Axis {
     let unit = slice.study.unit(axis);
-    let words = WORDS.iter().find(|(key, _)| *key == axis.key);
-    let mut label = match (words, unit) {
-        (Some(("motion.normal.mean", _)), "N") => "mean normal force F_z".to_owned(),
-        (Some(("motion.normal.mean", _)), _) => "mean depth d".to_owned(),
-        (Some((_, words)), _) => (*words).to_owned(),
-        (None, _) => axis.key.clone(),
+    let label = schema::find(&axis.key).and_then(|known| known.label);
+    let mut label = match (axis.key.as_str(), unit) {
+        ("motion.normal.mean", "N") => "mean normal force F_z".to_owned(),
+        ("motion.normal.mean", _) => "mean depth d".to_owned(),
+        (key, _) => label.unwrap_or(key).to_owned(),
     };
     if (0..axis.count()).any(|place| axis.number(place).is_none()) {
         let words = (0..axis.count()).map(|place| format!("{place}: {}", axis.text(place)));

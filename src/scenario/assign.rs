@@ -59,7 +59,7 @@ pub(super) fn assign(
 
 /// What is assigned takes the place of other keys for the same thing.
 fn trade_twins(table: &mut Table, path: &str) {
-    for of in keys::exclusive().iter().filter(|of| of.are_twins) {
+    for of in schema::exclusive().iter().filter(|of| of.are_twins) {
         let (one, other) = (of.keys.contains(&path), of.others.contains(&path));
         let replaced = match (one, other) {
             (true, _) => &of.others,
@@ -102,14 +102,15 @@ fn parse(parameter: &Parameter, text: &str) -> Value {
 /// is not a radius of curvature, and a punch brings its own edge of the domain. Keys of both shapes that are assigned
 /// together with the shape stay.
 fn drop_keys_of_other_shapes(table: &mut Table, shape: &Value, origin: &Origin) {
-    let Some(shape) = shape.as_str().filter(|shape| keys::SHAPES.contains(shape)) else {
+    let known = keys::SHAPE.parameter().kind;
+    let Some(shape) = shape.as_str().filter(|_| known.fits(shape)) else {
         return;
     };
     let is_punch = |shape: &str| shape == "flat-punch";
     let was_punch = keys::SHAPE
         .get(table)
         .is_some_and(|before| is_punch(&before));
-    let others = keys::PARAMETERS.iter().filter(|key| !key.is_of(shape));
+    let others = schema::parameters().iter().filter(|key| !key.is_of(shape));
     for key in others {
         schema::remove(table, key.path);
     }

@@ -1,8 +1,7 @@
 //! Builds the material from the keys of a scenario: of the pair, or of two bodies.
 
 use super::error::ScenarioError;
-use super::keys;
-use super::schema::Key;
+use super::keys::{self, BodyKeys, HALF_SPACE, INDENTER};
 use super::validate::Parts;
 use crate::contact::material::{Body, Material};
 use crate::math::invalid::Invalid;
@@ -19,53 +18,33 @@ impl Parts<'_> {
         };
         let refused = |invalid: Invalid| match invalid.field {
             "coefficient" => self.refused("friction", invalid),
-            "rigid" => self.refused("material.half_space", invalid),
+            "rigid" => self.refused(HALF_SPACE.section, invalid),
             _ => self.refused("material", invalid),
         };
-        if !self.has("material.indenter") && !self.has("material.half_space") {
+        if !self.has(INDENTER.section) && !self.has(HALF_SPACE.section) {
             let modulus = self.require(&keys::EFFECTIVE_MODULUS)?;
             let poisson = self.require(&keys::POISSON)?;
             return Material::new(modulus, poisson, friction).map_err(refused);
         }
-        let indenter = self.body(
-            "material.indenter",
-            &keys::INDENTER_MODULUS,
-            &keys::INDENTER_POISSON,
-            &keys::INDENTER_RIGID,
-        )?;
-        let half_space = self.body(
-            "material.half_space",
-            &keys::HALF_SPACE_MODULUS,
-            &keys::HALF_SPACE_POISSON,
-            &keys::HALF_SPACE_RIGID,
-        )?;
+        let (indenter, half_space) = (self.body(&INDENTER)?, self.body(&HALF_SPACE)?);
         Material::of_bodies(indenter, half_space, friction).map_err(refused)
     }
 
     /// The hardness of the softer body, Pa.
     pub(super) fn hardness(&self) -> Option<f64> {
-        let all = [
-            &keys::HARDNESS,
-            &keys::INDENTER_HARDNESS,
-            &keys::HALF_SPACE_HARDNESS,
-        ];
-        let given = all.into_iter().filter_map(|key| self.get(key));
+        let all = [keys::HARDNESS, INDENTER.hardness, HALF_SPACE.hardness];
+        let given = all.into_iter().filter_map(|key| self.get(&key));
         given.reduce(f64::min)
     }
 
-    fn body(
-        &self,
-        section: &str,
-        modulus: &Key<f64>,
-        poisson: &Key<f64>,
-        rigid: &Key<bool>,
-    ) -> Result<Body, ScenarioError> {
+    fn body(&self, keys: &BodyKeys) -> Result<Body, ScenarioError> {
+        let section = keys.section;
         if !self.has(section) {
             let meaning = "the second body: youngs_modulus and poisson, or rigid = true";
             return Err(self.origin.missing(section, meaning));
         }
-        if self.require(rigid)? {
-            let given = [modulus, poisson]
+        if self.require(&keys.rigid)? {
+            let given = [keys.modulus, keys.poisson]
                 .into_iter()
                 .find(|key| self.has(key.path()));
             return match given {
@@ -73,7 +52,7 @@ impl Parts<'_> {
                 None => Ok(Body::Rigid),
             };
         }
-        Body::elastic(self.require(modulus)?, self.require(poisson)?)
+        Body::elastic(self.require(&keys.modulus)?, self.require(&keys.poisson)?)
             .map_err(|invalid| self.refused(section, invalid))
     }
 }

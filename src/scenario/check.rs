@@ -5,9 +5,8 @@ use toml::{Table, Value};
 
 use super::error::{Faults, Origin, Refusal, ScenarioError, echo};
 use super::hints;
-use super::keys::{PARAMETERS, exclusive};
 use super::schema::{self, Parameter};
-use super::{units, words, write};
+use super::{units, write};
 
 /// Finds every key that is not in the table of parameters or has a value of the wrong kind, and puts the number in SI
 /// units in the place of every text with a unit.
@@ -22,7 +21,7 @@ pub(super) fn conflicts(table: &Table, origin: &Origin) -> Result<(), ScenarioEr
         let given = |&key: &&'static str| Some((key, schema::at(table, key)?));
         keys.iter().find_map(given)
     };
-    for of in exclusive() {
+    for of in schema::exclusive() {
         if let (Some((key, value)), Some((other, _))) = (given(&of.keys), given(&of.others)) {
             let rule = format!("conflicts with {}", of.rule.replace("{}", other));
             return Err(origin.refuse(key, &show(value), rule));
@@ -55,7 +54,7 @@ fn section(table: &mut Table, path: &str, shown: &str, origin: &Origin, faults: 
             faults.note(&shown, unknown(origin.name(), &path, &shown));
             // What was meant is not missing as well.
             for meant in hints::meant(&path) {
-                faults.blame(&meant);
+                faults.blame(meant);
             }
         }
     }
@@ -74,7 +73,7 @@ fn broken(value: &mut Value, parameter: &Parameter, is_force: bool) -> Option<St
     }
     if !parameter.kind.fits(value) {
         let wanted = format!("{}{}", parameter.kind.wanted(), parameter.allowed());
-        let instead = words::instead(parameter, value);
+        let instead = hints::instead(parameter, value);
         return Some(format!("must be {wanted}{instead}"));
     }
     let each = if value.is_array() { "each " } else { "" };
@@ -98,7 +97,7 @@ fn changes(value: &mut Value, origin: &Origin, faults: &mut Faults) {
             continue;
         };
         section(table, "changes", &shown, origin, faults);
-        for parameter in PARAMETERS
+        for parameter in schema::parameters()
             .iter()
             .filter(|known| known.section() == "changes")
         {

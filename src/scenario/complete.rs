@@ -3,9 +3,7 @@
 
 use toml::{Table, Value};
 
-use super::keys::{
-    ACCURACY, CHOSEN_BY_ACCURACY, INTEGRATOR, PARAMETERS, WEAR_COEFFICIENT, WEAR_PER_LOAD,
-};
+use super::keys::{ACCURACY, CHOSEN_BY_ACCURACY, INTEGRATOR, WEAR_COEFFICIENT, WEAR_PER_LOAD};
 use super::schema::{self, Default, Kind, Parameter};
 
 /// Tables that every scenario has, written or not.
@@ -20,7 +18,7 @@ pub(super) fn table(written: &Table) -> Table {
     let usual = has_usual_accuracy(written).then_some(Value::Float(USUAL_ACCURACY));
     let has_accuracy = ACCURACY.get(written).is_some() || usual.is_some();
     let mut complete = Table::new();
-    for parameter in PARAMETERS
+    for parameter in schema::parameters()
         .iter()
         .filter(|known| !["run", "changes"].contains(&known.section()))
     {
@@ -53,8 +51,8 @@ fn has_usual_accuracy(written: &Table) -> bool {
 fn default(written: &Table, parameter: &Parameter) -> Option<Value> {
     let section = parameter.section();
     let used = ALWAYS.contains(&section) || schema::at(written, section).is_some();
-    match parameter.default {
-        Default::Written(text) if used => text.parse().ok(),
+    match &parameter.default {
+        Default::Written(value) if used => Some(value.clone()),
         _ => None,
     }
 }

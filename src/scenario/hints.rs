@@ -1,59 +1,45 @@
-//! What is said to a key that no scenario has: the one that was meant, or those that there are.
+//! What is said to a key or a word that no scenario has: the one that was meant, or those that there are.
 
-use super::keys::PARAMETERS;
+use toml::Value;
+
 use super::nearest::nearest;
-use super::schema::{is_section, split};
+use super::schema::{Kind, Parameter, is_section, parameters, split};
 
-/// Returns the keys meant by a textbook's letter or another program's word, each with a remark to show beside its name.
-fn by_word(word: &str) -> &'static [(&'static str, &'static str)] {
-    match word {
-        "k" | "wear_coefficient" | "wear_rate" | "specific_wear_rate" => &[
-            ("wear.coefficient", " (per friction work)"),
-            (
-                "wear.coefficient_per_load",
-                " (per load and distance, of a pin test)",
-            ),
-        ],
-        "mu" | "cof" | "friction_coefficient" | "coefficient_of_friction" => {
-            &[("friction.coefficient", "")]
-        }
-        "e_star" | "estar" | "e*" | "modulus" | "reduced_modulus" | "equivalent_modulus" => {
-            &[("material.effective_modulus", "")]
-        }
-        "nu" | "poissons_ratio" | "poisson_ratio" => &[("material.poisson", "")],
-        "r" | "ball_radius" | "radius_of_curvature" => &[("indenter.radius", "")],
-        "load" | "normal_load" | "normal_force" => {
-            &[("motion.normal.mean", " with control = \"force\"")]
-        }
-        "n" => &[("numerics.points", "")],
-        _ => &[],
-    }
-}
-
-/// The keys that the unknown `path` most likely stands for, each with a remark; none if there is nothing near.
-fn meant_with_remarks(path: &str) -> Vec<(String, &'static str)> {
+/// The keys that the unknown `path` most likely stands for, each with a remark to show beside its name; none if there
+/// is nothing near.
+fn meant_with_remarks(path: &str) -> Vec<(&'static str, &'static str)> {
     let (section, key) = split(path);
     let word = key.to_lowercase();
-    let in_motion = section.starts_with("motion.") && is_section(section);
-    match word.as_str() {
-        "omega" | "w" if in_motion => vec![(format!("{section}.angular_frequency"), "")],
-        "f" | "freq" | "hz" if in_motion => vec![(format!("{section}.frequency"), "")],
-        word => match by_word(word) {
-            [] => Vec::from_iter(nearest(path, places().into_iter()).map(|key| (key.into(), ""))),
-            known => Vec::from_iter(known.iter().map(|(key, more)| ((*key).to_owned(), *more))),
-        },
+    let known = parameters().iter();
+    let mut known: Vec<&Parameter> = known
+        .filter(|known| known.also.contains(&word.as_str()))
+        .collect();
+    // A word for keys of several tables is known within each of them alone.
+    if known
+        .windows(2)
+        .any(|pair| pair[0].section() != pair[1].section())
+    {
+        known.retain(|known| known.section() == section);
     }
+    if known.is_empty() {
+        let near = nearest(path, places().into_iter());
+        return near.map(|key| (key, "")).into_iter().collect();
+    }
+    known
+        .iter()
+        .map(|known| (known.path, known.remark))
+        .collect()
 }
 
 /// The keys that the unknown `path` most likely stands for; none if there is nothing near.
-pub(super) fn meant(path: &str) -> impl Iterator<Item = String> {
+pub(super) fn meant(path: &str) -> impl Iterator<Item = &'static str> {
     meant_with_remarks(path).into_iter().map(|(key, _)| key)
 }
 
 /// All keys and tables.
 fn places() -> Vec<&'static str> {
     let mut known: Vec<&str> = Vec::new();
-    for parameter in PARAMETERS {
+    for parameter in parameters() {
         let dots = parameter
             .path
             .match_indices('.')
@@ -81,6 +67,23 @@ pub fn hint(path: &str) -> String {
         .filter(|key| split(key).0 == section)
         .collect();
     format!("known are {}", keys.join(", "))
+}
+
+/// A remark behind the rule that `value` breaks as one of a key's words: the word that was meant, if that
+/// can be told.
+pub(super) fn instead(parameter: &Parameter, value: &Value) -> String {
+    let (Kind::Choice(words), Some(given)) = (parameter.kind, value.as_str()) else {
+        return String::new();
+    };
+    let typed = given.to_lowercase();
+    let known = words
+        .iter()
+        .find(|known| known.also.contains(&typed.as_str()));
+    let near = || nearest(&typed, words.iter().map(|known| known.word));
+    match known.map(|known| known.word).or_else(near) {
+        Some(meant) if words.len() > 1 => format!("; did you mean \"{meant}\"?"),
+        _ => String::new(),
+    }
 }
 
 #[cfg(test)]

@@ -24,7 +24,7 @@ mod derive;
 mod embed;
 mod error;
 pub mod hints;
-pub mod keys;
+mod keys;
 pub(crate) mod limited;
 mod motion;
 pub mod nearest;
@@ -40,7 +40,6 @@ mod shape;
 pub mod typed;
 pub mod units;
 mod validate;
-pub mod words;
 pub(crate) mod write;
 
 pub use complete::USUAL_ACCURACY;
@@ -48,7 +47,6 @@ pub use derive::Pressed;
 use error::{Faults, Origin, echo};
 pub use error::{Refusal, ScenarioError, printable};
 pub use run::{Change, MOST_CHANGES, MOST_CYCLES, MOST_SNAPSHOTS, RunPlan};
-use schema::Parameter;
 
 /// A validated scenario: parts that are ready to run, and the text that reproduces them.
 #[derive(Debug, Clone)]
@@ -357,7 +355,7 @@ impl Scenario {
             let written = place(at);
             let (key, value) =
                 assign::split(&change.set, "").map_err(|_| assign::no_assignment(&written))?;
-            if let Some(because) = schema::find(key).and_then(Parameter::fixed) {
+            if let Some(because) = schema::find(key).and_then(|known| known.fixed) {
                 let rule = format!("{key} cannot change during a run: {because}");
                 return Err(Refusal::new(written, rule).into());
             }
@@ -387,7 +385,7 @@ impl Scenario {
             for key in [motion.mean, motion.amplitude] {
                 let value = key.get(&self.table).unwrap_or(0.0);
                 if value != 0.0 && changes_at(key.path()).is_none() {
-                    let unit = units::unit_of(&key.parameter, control.as_deref() == Some("force"));
+                    let unit = units::unit_of(key.parameter(), control.as_deref() == Some("force"));
                     let path = key.path();
                     let rule = format!("needs {path} in {unit}, changed at the same cycle");
                     return Err(Refusal::new(place(at), rule).into());

@@ -1,19 +1,24 @@
 //! The description of a scenario key, and the look-up of keys and of their values.
 //!
-//! [`keys`](super::keys) lists the keys themselves. That table feeds the reader, the errors,
-//! `--set`, the form of the explorer, completion, written scenarios and the documentation.
+//! `keys.toml` describes each key once. That table feeds the reader, the errors and their hints, `--set`, the form of
+//! the explorer, completion, written scenarios, the axes of figures and the documentation.
 
 use std::fmt;
 use std::str::FromStr;
+use std::sync::LazyLock;
 
+use serde::{Deserialize, Deserializer};
 use toml::{Table, Value};
 
-use super::keys::PARAMETERS;
+use super::write;
+use crate::math::abel::AbelMethod;
 
 /// The type of a value.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "kebab-case", bound(deserialize = "'de: 'static"))]
 pub enum Kind {
     /// A finite number.
+    #[default]
     Number,
     /// A whole number.
     Whole,
@@ -22,9 +27,28 @@ pub enum Kind {
     /// Any text.
     Text,
     /// One of these words.
-    Choice(&'static [&'static str]),
+    Choice(#[serde(deserialize_with = "leaked")] &'static [Word]),
     /// A list of finite numbers.
     Numbers,
+}
+
+/// A word that a value is chosen from.
+#[derive(Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Word {
+    /// The word.
+    pub word: &'static str,
+    /// What it means, in a line.
+    #[serde(default)]
+    meaning: &'static str,
+    /// What people write in its place.
+    #[serde(default)]
+    pub(super) also: Vec<&'static str>,
+}
+
+/// A list that lives as long as the table of keys.
+fn leaked<'de: 'static, D: Deserializer<'de>>(list: D) -> Result<&'static [Word], D::Error> {
+    Ok(Vec::deserialize(list)?.leak())
 }
 
 impl Kind {
@@ -35,10 +59,10 @@ impl Kind {
             Self::Whole => "a whole number".into(),
             Self::Flag => "true or false".into(),
             Self::Text => "a text".into(),
-            Self::Choice([only]) => format!("\"{only}\""),
+            Self::Choice([only]) => format!("\"{}\"", only.word),
             Self::Choice(words) => {
-                let words: Vec<String> = words.iter().map(|word| format!("\"{word}\"")).collect();
-                format!("one of {}", words.join(", "))
+                let words = words.iter().map(|known| format!("\"{}\"", known.word));
+                format!("one of {}", words.collect::<Vec<_>>().join(", "))
             }
             Self::Numbers => "a list of finite numbers".into(),
         }
@@ -51,16 +75,27 @@ impl Kind {
             Self::Whole => value.is_integer(),
             Self::Flag => value.is_bool(),
             Self::Text => value.is_str(),
-            Self::Choice(words) => value.as_str().is_some_and(|word| words.contains(&word)),
+            Self::Choice(words) => words.iter().any(|known| value.as_str() == Some(known.word)),
             Self::Numbers => numbers(value).is_some(),
+        }
+    }
+
+    /// The words that a value is chosen from, if it is.
+    pub fn words(self) -> Option<Vec<&'static str>> {
+        match self {
+            Self::Choice(words) => Some(words.iter().map(|known| known.word).collect()),
+            Self::Flag => Some(vec!["true", "false"]),
+            _ => None,
         }
     }
 }
 
 /// The numbers that are allowed; for a list, each of them.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Range {
     /// Every finite number, and whatever is no number.
+    #[default]
     Any,
     /// Greater than 0.
     Positive,
@@ -106,20 +141,44 @@ impl fmt::Display for Range {
 }
 
 /// The default of a key.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, PartialEq, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Default {
     /// Nothing: the key must be given where it is needed.
+    #[default]
     None,
     /// This TOML value, written into a scenario that is saved, since it may change between versions.
-    Written(&'static str),
+    Written(Value),
     /// This TOML value.
-    Implied(&'static str),
+    Implied(Value),
     /// Depends on the rest of the scenario, as described.
     Derived(&'static str),
 }
 
+impl Default {
+    /// The value that can be written down, if there is one.
+    pub fn value(&self) -> Option<&Value> {
+        match self {
+            Self::Written(value) | Self::Implied(value) => Some(value),
+            Self::None | Self::Derived(_) => None,
+        }
+    }
+}
+
+/// As a scenario has it, or as described.
+impl fmt::Display for Default {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::None => Ok(()),
+            Self::Written(value) | Self::Implied(value) => f.write_str(&write::value(value)),
+            Self::Derived(words) => f.write_str(words),
+        }
+    }
+}
+
 /// One key of a scenario.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, PartialEq, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Parameter {
     /// The dotted path, as `--set` takes it.
     pub path: &'static str,
@@ -127,9 +186,13 @@ pub struct Parameter {
     pub unit: &'static str,
     /// What it means, in one line.
     pub meaning: &'static str,
+    /// Its name on an axis of a figure, where its meaning is too long for one.
+    pub label: Option<&'static str>,
     /// What a greater value, or another word, does to the contact; empty where it cannot change
     /// during a run.
     pub effect: &'static str,
+    /// Why it cannot change during a run; `None` where it can.
+    pub fixed: Option<&'static str>,
     /// What its value looks like.
     pub kind: Kind,
     /// The numbers that are allowed.
@@ -137,7 +200,11 @@ pub struct Parameter {
     /// What holds where it is not given.
     pub default: Default,
     /// The indenter shapes that take the key; empty where the shape does not matter.
-    pub shapes: &'static [&'static str],
+    pub shapes: Vec<&'static str>,
+    /// A textbook's letter or another program's words for it.
+    pub(super) also: Vec<&'static str>,
+    /// What stands behind its name where it is meant by one of these.
+    pub(super) remark: &'static str,
 }
 
 impl Parameter {
@@ -168,20 +235,16 @@ impl Parameter {
         self.shapes.is_empty() || self.shapes.contains(&shape)
     }
 
-    /// Why it cannot change during a run; `None` where it can.
-    pub fn fixed(&self) -> Option<&'static str> {
-        let because = match self.path {
-            "title" | "description" => "it names the whole run",
-            "numerics.accuracy" => {
-                "it has chosen points and steps before the run: change those, or use < and >"
-            }
-            "wear.share" => "what has worn so far was shared by it",
-            path if path.starts_with("run.") => "it plans the whole run",
-            path if path.starts_with("wear.initial") => "the run began with it",
-            path if path.ends_with(".file") => "it was read before the run",
-            _ => return None,
+    /// What `word` means as its value; `None` for words that it does not take.
+    pub fn meaning_of(&self, word: &str) -> Option<&'static str> {
+        let Kind::Choice(words) = self.kind else {
+            return None;
         };
-        Some(because)
+        if let ("method", Ok(method)) = (self.key(), word.parse()) {
+            return Some(AbelMethod::description(method));
+        }
+        let known = words.iter().find(|known| known.word == word)?;
+        Some(known.meaning)
     }
 
     /// Some value that is allowed, to see what else a scenario lacks; `None` for texts and lists.
@@ -195,7 +258,9 @@ impl Parameter {
             Kind::Number => Some(Value::Float(number)),
             Kind::Whole => Some(Value::Integer(number as i64)),
             Kind::Flag => Some(Value::Boolean(true)),
-            Kind::Choice(words) => words.first().map(|word| Value::String((*word).to_owned())),
+            Kind::Choice(words) => words
+                .first()
+                .map(|known| Value::String(known.word.to_owned())),
             Kind::Text | Kind::Numbers => None,
         }
     }
@@ -223,121 +288,36 @@ impl Parameter {
 /// A key together with the type that it is read as.
 #[derive(Debug, Clone, Copy)]
 pub struct Key<T: 'static> {
-    /// Its description.
-    pub parameter: Parameter,
+    path: &'static str,
     read: fn(&Value) -> Option<T>,
 }
 
 impl<T> Key<T> {
-    /// The value in `table`, where one of the right kind is given.
-    pub fn get(&self, table: &Table) -> Option<T> {
-        at(table, self.parameter.path).and_then(self.read)
-    }
-
-    /// The value in `table`, or the default, if the key has one that can be written down.
-    pub fn get_or_default(&self, table: &Table) -> Option<T> {
-        let default = || match self.parameter.default {
-            Default::Written(text) | Default::Implied(text) => text.parse().ok(),
-            Default::None | Default::Derived(_) => None,
-        };
-        self.get(table)
-            .or_else(|| default().as_ref().and_then(self.read))
+    /// The key with this dotted path, which the table describes.
+    pub(super) const fn new(path: &'static str, read: fn(&Value) -> Option<T>) -> Self {
+        Self { path, read }
     }
 
     /// The dotted path.
     pub const fn path(&self) -> &'static str {
-        self.parameter.path
+        self.path
     }
 
-    const fn within(mut self, unit: &'static str, range: Range) -> Self {
-        self.parameter.unit = unit;
-        self.parameter.range = range;
-        self
+    /// Its description.
+    pub fn parameter(&self) -> &'static Parameter {
+        find(self.path).expect("a key of the table")
     }
 
-    /// What the key does, to be told where it can be changed.
-    pub(super) const fn effect(mut self, effect: &'static str) -> Self {
-        self.parameter.effect = effect;
-        self
+    /// The value in `table`, where one of the right kind is given.
+    pub fn get(&self, table: &Table) -> Option<T> {
+        at(table, self.path).and_then(self.read)
     }
 
-    /// The default.
-    pub(super) const fn default(mut self, default: Default) -> Self {
-        self.parameter.default = default;
-        self
+    /// The value in `table`, or the default, if the key has one that can be written down.
+    pub fn get_or_default(&self, table: &Table) -> Option<T> {
+        let default = || self.parameter().default.value().and_then(self.read);
+        self.get(table).or_else(default)
     }
-
-    /// The shapes of the indenter that take the key.
-    pub(super) const fn of_shapes(mut self, shapes: &'static [&'static str]) -> Self {
-        self.parameter.shapes = shapes;
-        self
-    }
-}
-
-/// A key of a type.
-const fn key<T>(
-    path: &'static str,
-    kind: Kind,
-    read: fn(&Value) -> Option<T>,
-    meaning: &'static str,
-) -> Key<T> {
-    let parameter = Parameter {
-        path,
-        unit: "",
-        meaning,
-        effect: "",
-        kind,
-        range: Range::Any,
-        default: Default::None,
-        shapes: &[],
-    };
-    Key { parameter, read }
-}
-
-/// A number with a unit and a range.
-pub(super) const fn quantity(
-    path: &'static str,
-    unit: &'static str,
-    range: Range,
-    meaning: &'static str,
-) -> Key<f64> {
-    let key = key(path, Kind::Number, number, meaning);
-    key.within(unit, range)
-}
-
-/// A list of numbers.
-pub(super) const fn quantities(
-    path: &'static str,
-    unit: &'static str,
-    range: Range,
-    meaning: &'static str,
-) -> Key<Vec<f64>> {
-    let key = key(path, Kind::Numbers, numbers, meaning);
-    key.within(unit, range)
-}
-
-/// A whole number.
-pub(super) const fn count(path: &'static str, range: Range, meaning: &'static str) -> Key<u32> {
-    key(path, Kind::Whole, whole, meaning).within("", range)
-}
-
-/// Yes or no.
-pub(super) const fn flag(path: &'static str, meaning: &'static str) -> Key<bool> {
-    key(path, Kind::Flag, Value::as_bool, meaning)
-}
-
-/// A text.
-pub(super) const fn text(path: &'static str, meaning: &'static str) -> Key<String> {
-    key(path, Kind::Text, word, meaning)
-}
-
-/// One of some words, which `T` is read from.
-pub(super) const fn choice<T: FromStr>(
-    path: &'static str,
-    words: &'static [&'static str],
-    meaning: &'static str,
-) -> Key<T> {
-    key(path, Kind::Choice(words), word, meaning)
 }
 
 /// A finite number, whole or not.
@@ -349,16 +329,24 @@ pub(super) fn number(value: &Value) -> Option<f64> {
     }
 }
 
-fn numbers(value: &Value) -> Option<Vec<f64>> {
+/// A list of such numbers.
+pub(super) fn numbers(value: &Value) -> Option<Vec<f64>> {
     value.as_array()?.iter().map(number).collect()
 }
 
-fn whole(value: &Value) -> Option<u32> {
+/// A whole number.
+pub(super) fn whole(value: &Value) -> Option<u32> {
     value.as_integer()?.try_into().ok()
 }
 
-fn word<T: FromStr>(value: &Value) -> Option<T> {
+/// A text, or what is read from one.
+pub(super) fn word<T: FromStr>(value: &Value) -> Option<T> {
     value.as_str()?.parse().ok()
+}
+
+/// `true` or `false`.
+pub(super) fn flag(value: &Value) -> Option<bool> {
+    value.as_bool()
 }
 
 /// The value at a dotted path.
@@ -408,14 +396,71 @@ pub(super) fn split(path: &str) -> (&str, &str) {
     path.rsplit_once('.').unwrap_or(("", path))
 }
 
+/// Keys that exclude each other: each of the first, each of the others.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Exclusive {
+    pub keys: Vec<&'static str>,
+    pub others: Vec<&'static str>,
+    /// What one of the keys conflicts with, `{}` for the one of the others, and what would be right.
+    pub rule: &'static str,
+    /// Whether they stand for the same thing, so that an assignment to one takes the place of the others.
+    #[serde(default, rename = "twins")]
+    pub are_twins: bool,
+}
+
+/// A list of numbers in a scenario, and the name and the unit of the column that it is read from.
+type List = (&'static str, &'static str, &'static str);
+
+/// A key that names a file, and its two columns; of those that may stand for each, the first that the file has.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Embedded {
+    pub key: &'static str,
+    pub lists: [Vec<List>; 2],
+}
+
+/// The table of keys.
+#[derive(Deserialize)]
+#[serde(bound(deserialize = "'de: 'static"))]
+struct Schema {
+    #[serde(rename = "key")]
+    keys: Vec<Parameter>,
+    exclusive: Vec<Exclusive>,
+    #[serde(rename = "file")]
+    files: Vec<Embedded>,
+}
+
+static SCHEMA: LazyLock<Schema> = LazyLock::new(|| {
+    let table = toml::Deserializer::parse(include_str!("keys.toml"));
+    table
+        .and_then(Schema::deserialize)
+        .expect("the table of keys is whole")
+});
+
+/// All keys, in the order in which a scenario is written.
+pub fn parameters() -> &'static [Parameter] {
+    &SCHEMA.keys
+}
+
+/// Every kind of value that a scenario can give in one of several ways.
+pub(super) fn exclusive() -> &'static [Exclusive] {
+    &SCHEMA.exclusive
+}
+
+/// Every key that names a file.
+pub(super) fn embedded() -> &'static [Embedded] {
+    &SCHEMA.files
+}
+
 /// The parameter with this dotted path.
 pub fn find(path: &str) -> Option<&'static Parameter> {
-    PARAMETERS.iter().find(|parameter| parameter.path == path)
+    parameters().iter().find(|parameter| parameter.path == path)
 }
 
 /// Whether `path` is a table that holds parameters, directly or in tables of its own.
 pub(super) fn is_section(path: &str) -> bool {
-    PARAMETERS.iter().any(|parameter| {
+    parameters().iter().any(|parameter| {
         let rest = parameter.path.strip_prefix(path);
         rest.is_some_and(|rest| rest.starts_with('.'))
     })
@@ -424,20 +469,23 @@ pub(super) fn is_section(path: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenario::keys::SHAPES;
+    use crate::math::grid::{MAX_CELLS, MIN_CELLS};
+    use crate::scenario::keys::{NAMED, PRESCRIBED, SHAPE};
+    use crate::simulation::{Integrator, Scheme, Spacing, Stability};
 
     #[test]
     fn every_key_says_what_it_means_and_stands_once() {
-        for (i, parameter) in PARAMETERS.iter().enumerate() {
+        let shapes = SHAPE.parameter().kind.words().expect("words");
+        for (i, parameter) in parameters().iter().enumerate() {
             assert!(!parameter.meaning.is_empty(), "{}", parameter.path);
             assert!(
-                PARAMETERS[..i]
+                parameters()[..i]
                     .iter()
                     .all(|other| other.path != parameter.path),
                 "{} stands twice",
                 parameter.path
             );
-            assert!(parameter.shapes.iter().all(|shape| SHAPES.contains(shape)));
+            assert!(parameter.shapes.iter().all(|shape| shapes.contains(shape)));
             let changes = !["", "run", "changes"].contains(&parameter.section());
             assert_eq!(!parameter.effect.is_empty(), changes, "{}", parameter.path);
             assert!(parameter.effect.chars().count() <= 76, "{}", parameter.path);
@@ -446,12 +494,60 @@ mod tests {
 
     #[test]
     fn defaults_are_values_of_their_own_key() {
-        for parameter in PARAMETERS {
-            if let Default::Written(text) | Default::Implied(text) = parameter.default {
-                let value: Value = text.parse().expect("a TOML value");
-                assert!(parameter.kind.fits(&value), "{}", parameter.path);
-                assert!(parameter.allows(&value), "{}", parameter.path);
+        for parameter in parameters() {
+            if let Some(value) = parameter.default.value() {
+                assert!(parameter.kind.fits(value), "{}", parameter.path);
+                assert!(parameter.allows(value), "{}", parameter.path);
             }
         }
+    }
+
+    #[test]
+    fn every_word_of_every_choice_has_a_meaning() {
+        for parameter in parameters() {
+            if let Kind::Choice(words) = parameter.kind {
+                for Word { word, .. } in words {
+                    let meaning = parameter.meaning_of(word).unwrap_or_default();
+                    let length = meaning.chars().count();
+                    assert!((1..=66).contains(&length), "{}: {word}", parameter.path);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_table_is_that_of_the_program() {
+        for path in NAMED {
+            assert!(find(path).is_some(), "{path}");
+        }
+        for (path, names) in [
+            ("numerics.method", AbelMethod::NAMES),
+            ("numerics.grid", Spacing::NAMES),
+            ("numerics.scheme", Scheme::NAMES),
+            ("numerics.stability", Stability::NAMES),
+            ("numerics.integrator", &Integrator::NAMES),
+        ] {
+            let known = find(path).expect("a key");
+            assert_eq!(known.kind.words().as_deref(), Some(names), "{path}");
+        }
+        let points = find("numerics.points").expect("a key").range;
+        assert_eq!(points, Range::Within(MIN_CELLS as f64, MAX_CELLS as f64));
+        // Both directions of the motion have the same keys, but for the rig.
+        let of = |section: &'static str| {
+            let keys = parameters()
+                .iter()
+                .filter(move |known| known.section() == section);
+            keys.filter(|known| known.key() != "rig_stiffness")
+        };
+        for (normal, tangential) in of("motion.normal").zip(of("motion.tangential")) {
+            assert_eq!(normal.key(), tangential.key());
+            assert_eq!(normal.unit, tangential.unit);
+            assert_eq!(normal.kind, tangential.kind);
+            assert_eq!(normal.range, tangential.range);
+        }
+        assert_eq!(
+            find("motion.normal.mean").map(|known| known.unit),
+            Some(PRESCRIBED)
+        );
     }
 }

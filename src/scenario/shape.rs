@@ -2,8 +2,8 @@
 
 use super::check::length;
 use super::error::ScenarioError;
-use super::keys::{self, PARAMETERS};
-use super::schema::Key;
+use super::keys;
+use super::schema::{self, Key};
 use super::validate::Parts;
 use crate::contact::indenter::Indenter;
 use crate::contact::measured::MeasuredProfile;
@@ -51,13 +51,15 @@ impl Parts<'_> {
     }
 
     fn refuse_keys_of_other_shapes(&self, shape: &str) -> Result<(), ScenarioError> {
-        let foreign = PARAMETERS
+        let foreign = schema::parameters()
             .iter()
             .find(|key| self.has(key.path) && !key.is_of(shape));
         let Some(foreign) = foreign else {
             return Ok(());
         };
-        let takes = PARAMETERS.iter().filter(|key| key.shapes.contains(&shape));
+        let takes = schema::parameters()
+            .iter()
+            .filter(|key| key.shapes.contains(&shape));
         let takes: Vec<&str> = takes.map(|known| known.key()).collect();
         let rule = format!(
             "shape = \"{shape}\" has no such key; it takes {}",

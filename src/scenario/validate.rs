@@ -150,7 +150,7 @@ impl Parts<'_> {
 
     /// The error that a key is not given.
     pub(super) fn missing<T>(&self, key: &Key<T>) -> ScenarioError {
-        let meaning = key.parameter.described();
+        let meaning = key.parameter().described();
         self.origin.missing(key.path(), meaning)
     }
 
@@ -210,7 +210,7 @@ impl Parts<'_> {
         let Some(per_load) = self.get(&keys::WEAR_PER_LOAD) else {
             let given = self.first(&keys::WEAR_COEFFICIENT, &keys::WEAR_COURSE);
             return given.ok_or_else(|| {
-                let meaning = keys::WEAR_COEFFICIENT.parameter.described();
+                let meaning = keys::WEAR_COEFFICIENT.parameter().described();
                 let meaning = format!("{meaning}; or coefficient_per_load, of a pin test");
                 self.origin.missing(keys::WEAR_COEFFICIENT.path(), meaning)
             });

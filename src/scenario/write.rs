@@ -5,15 +5,14 @@ use std::fmt::Write;
 use toml::{Table, Value};
 
 use super::error::printable;
-use super::keys::PARAMETERS;
-use super::schema::{Kind, at};
+use super::schema::{Kind, at, parameters};
 
 /// Writes `table`, which has passed [`check::keys`](super::check::keys). Each of `follows`, a path
 /// and a value, becomes a comment where the table does not give it, which ends with its `source`.
 pub(super) fn scenario(table: &Table, follows: &[(&str, String)], source: &str) -> String {
     let mut text = String::new();
     let mut open = "";
-    for parameter in PARAMETERS
+    for parameter in parameters()
         .iter()
         .filter(|known| known.section() != "changes")
     {

@@ -1,7 +1,6 @@
 //! The keys of a scenario that can be changed while it runs, with their present values.
 
-use crate::scenario::keys::PARAMETERS;
-use crate::scenario::schema::{Kind, Parameter};
+use crate::scenario::schema::{Kind, Parameter, parameters};
 use crate::scenario::{Scenario, units};
 
 /// A key of the scenario as the explorer shows it.
@@ -19,7 +18,7 @@ impl Setting {
     /// Every key that has a value or may be given one, in the order of a scenario's file.
     pub fn all(scenario: &Scenario) -> Vec<Self> {
         let fixed = ["", "run", "changes"];
-        PARAMETERS
+        parameters()
             .iter()
             .filter(|parameter| !fixed.contains(&parameter.section()))
             // Long lists come from files and are not typed.
@@ -75,29 +74,25 @@ impl Setting {
     /// The rule for a value, in one line.
     pub fn rule(&self) -> String {
         match self.parameter.kind {
-            Kind::Choice(words) => words.join(", "),
             Kind::Whole => format!("a whole number{}", self.parameter.allowed()),
             Kind::Number => match self.parameter.allowed().as_str() {
                 "" => Kind::Number.wanted(),
                 allowed => format!("a number{allowed}"),
             },
+            Kind::Choice(_) => self.words().unwrap_or_default().join(", "),
             kind => kind.wanted(),
         }
     }
 
     /// Why the value cannot change during a run, in a sentence; `None` where it can.
     pub fn fixed(&self) -> Option<String> {
-        let because = self.parameter.fixed()?;
+        let because = self.parameter.fixed?;
         Some(format!("fixed during a run: {because}"))
     }
 
     /// The words that the value is chosen from, if it is.
-    pub fn words(&self) -> Option<&'static [&'static str]> {
-        match self.parameter.kind {
-            Kind::Choice(words) => Some(words),
-            Kind::Flag => Some(&["true", "false"]),
-            _ => None,
-        }
+    pub fn words(&self) -> Option<Vec<&'static str>> {
+        self.parameter.kind.words()
     }
 
     /// The next value up or down: the next word of a choice, the next number of two digits.
@@ -106,9 +101,9 @@ impl Setting {
         let value = self.value.as_deref()?;
         match self.parameter.kind {
             Kind::Choice(words) => {
-                let at = words.iter().position(|word| *word == value)?;
+                let at = words.iter().position(|known| known.word == value)?;
                 let places = if up { 1 } else { words.len() - 1 };
-                Some(words[(at + places) % words.len()].to_owned())
+                Some(words[(at + places) % words.len()].word.to_owned())
             }
             Kind::Flag => Some((value != "true").to_string()),
             Kind::Whole => {

@@ -9,8 +9,7 @@ use std::process::Command;
 
 use mdr_tui::guide::TOPICS;
 use mdr_tui::scenario::Scenario;
-use mdr_tui::scenario::keys::PARAMETERS;
-use mdr_tui::scenario::schema::{Default, Kind, Parameter};
+use mdr_tui::scenario::schema::{Kind, Parameter, parameters};
 use mdr_tui::tui::manual;
 
 use crate::test_dir::{TestDir, has};
@@ -215,7 +214,7 @@ fn the_default_configuration_is_shown_as_it_is() {
 fn the_keys_of_a_scenario_are_those_of_the_schema() {
     let mut text = String::new();
     let mut section = None;
-    for parameter in PARAMETERS {
+    for parameter in parameters() {
         if section != Some(parameter.section()) {
             section = Some(parameter.section());
             let heading = match parameter.section() {
@@ -234,7 +233,8 @@ fn the_keys_of_a_scenario_are_those_of_the_schema() {
 fn row(parameter: &Parameter) -> String {
     let mut meaning = parameter.meaning.to_owned();
     match parameter.kind {
-        Kind::Choice(words) => {
+        kind @ Kind::Choice(_) => {
+            let words = kind.words().unwrap_or_default();
             let words: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
             meaning += &format!(": {}", words.join(", "));
         }
@@ -247,10 +247,9 @@ fn row(parameter: &Parameter) -> String {
             }
         }
     }
-    let default = match parameter.default {
-        Default::None => String::new(),
-        Default::Written(value) | Default::Implied(value) => format!("`{value}`"),
-        Default::Derived(words) => words.to_owned(),
+    let default = match parameter.default.value() {
+        Some(_) => format!("`{}`", parameter.default),
+        None => parameter.default.to_string(),
     };
     format!("| `{}` | {meaning} | {default} |\n", parameter.key())
 }

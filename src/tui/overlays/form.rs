@@ -11,7 +11,6 @@ use super::{
     Answer, App, Command, Frame, Key, LineEdit, docked, leave_for, list, say, select, settings,
     typing,
 };
-use crate::scenario::words::meaning;
 use crate::tui::command;
 use crate::tui::keys::Named;
 use crate::tui::settings::Setting;
@@ -103,7 +102,7 @@ impl Form {
                 if !select(word, words.len(), key)
                     && let Key::Char(character) = key
                 {
-                    *word = beginning_with(words, character, *word);
+                    *word = beginning_with(&words, character, *word);
                 }
             }
         }
@@ -217,7 +216,7 @@ fn begin(setting: &Setting, typed: Option<char>) -> Giving {
                 .iter()
                 .position(|word| setting.value.as_deref() == Some(word));
             let now = now.unwrap_or(0);
-            Giving::Chosen(typed.map_or(now, |typed| beginning_with(words, typed, now)))
+            Giving::Chosen(typed.map_or(now, |typed| beginning_with(&words, typed, now)))
         }
         (None, Some(typed)) => Giving::Typed(LineEdit::new(&typed.to_string())),
         (None, None) => {
@@ -266,10 +265,10 @@ fn words<'a>(setting: &'a Setting, app: &'a App) -> impl Iterator<Item = Line<'a
     let words = setting.words().unwrap_or_default();
     let quiet = app.theme.style(Role::Quiet);
     let width = words.iter().map(|word| word.len()).max().unwrap_or(0);
-    words.iter().map(move |word| {
-        let is_now = setting.value.as_deref() == Some(*word);
+    words.into_iter().map(move |word| {
+        let is_now = setting.value.as_deref() == Some(word);
         let mark = if is_now { '*' } else { ' ' };
-        let meaning = meaning(setting.parameter.path, word).unwrap_or_default();
+        let meaning = setting.parameter.meaning_of(word).unwrap_or_default();
         Line::from(vec![
             Span::raw(format!(" {mark} {word:width$}  ")),
             Span::styled(app.theme.printable(meaning), quiet),

@@ -11,7 +11,6 @@ use ratatui::widgets::Widget;
 use super::{Answer, App, Command, Frame, Key, LineEdit, docked, list, select, settings, typing};
 use crate::scenario::preset::{self, Preset};
 use crate::scenario::schema::Kind;
-use crate::scenario::words::meaning;
 use crate::tui::command::{Act, COMMANDS};
 use crate::tui::keys::Named;
 use crate::tui::map::live::{POINTS, Range};
@@ -128,8 +127,10 @@ pub fn changes(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
     };
     let words = found.and_then(Setting::words).unwrap_or_default();
     let begun = words.iter().filter(|word| word.starts_with(value));
-    let meaning = |word: &str| meaning(key, word).unwrap_or_default().to_owned();
-    let list: Vec<_> = begun.map(|word| set(word, meaning(word))).collect();
+    let meaning = |word: &str| found?.parameter.meaning_of(word);
+    let list: Vec<_> = begun
+        .map(|word| set(word, meaning(word).unwrap_or_default().to_owned()))
+        .collect();
     if !list.is_empty() {
         return list;
     }

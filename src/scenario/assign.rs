@@ -59,7 +59,7 @@ pub(super) fn assign(
 
 /// What is assigned takes the place of other keys for the same thing.
 fn trade_twins(table: &mut Table, path: &str) {
-    for of in schema::exclusive().iter().filter(|of| of.are_twins) {
+    for of in schema::SCHEMA.exclusive.iter().filter(|of| of.are_twins) {
         let (one, other) = (of.keys.contains(&path), of.others.contains(&path));
         let replaced = match (one, other) {
             (true, _) => &of.others,

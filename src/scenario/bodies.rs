@@ -12,7 +12,7 @@ impl Parts<'_> {
         let friction = match self.first(&keys::FRICTION, &keys::FRICTION_COURSE) {
             None if self.has("motion.tangential") => {
                 let meaning = "coefficient of friction, which the tangential motion needs";
-                return Err(self.origin.missing(keys::FRICTION.path(), meaning));
+                self.any(&keys::FRICTION, meaning)?
             }
             friction => friction.unwrap_or(0.0),
         };
@@ -41,7 +41,7 @@ impl Parts<'_> {
         let section = keys.section;
         if !self.has(section) {
             let meaning = "the second body: youngs_modulus and poisson, or rigid = true";
-            return Err(self.origin.missing(section, meaning));
+            return Err(self.missing(section, meaning));
         }
         if self.require(&keys.rigid)? {
             let given = [keys.modulus, keys.poisson]

@@ -21,7 +21,7 @@ pub(super) fn conflicts(table: &Table, origin: &Origin) -> Result<(), ScenarioEr
         let given = |&key: &&'static str| Some((key, schema::at(table, key)?));
         keys.iter().find_map(given)
     };
-    for of in schema::exclusive() {
+    for of in &schema::SCHEMA.exclusive {
         if let (Some((key, value)), Some((other, _))) = (given(&of.keys), given(&of.others)) {
             let rule = format!("conflicts with {}", of.rule.replace("{}", other));
             return Err(origin.refuse(key, &show(value), rule));

@@ -17,7 +17,7 @@ pub(super) fn files(
     scenario: &str,
     origin: &mut Origin,
 ) -> Result<(), ScenarioError> {
-    for schema::Embedded { key, lists } in schema::embedded() {
+    for schema::Embedded { key, lists } in &schema::SCHEMA.files {
         let Some(value @ Value::String(file)) = schema::at(table, key) else {
             continue;
         };

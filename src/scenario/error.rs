@@ -46,15 +46,12 @@ impl From<String> for Refusal {
 #[error("{}", .refusals.iter().map(Refusal::to_string).collect::<Vec<_>>().join("\n"))]
 pub struct ScenarioError {
     refusals: Vec<Refusal>,
-    /// The key that is missing, where that is all that is wrong.
-    pub(super) lacks: Option<String>,
 }
 
 impl From<Refusal> for ScenarioError {
     fn from(refusal: Refusal) -> Self {
         Self {
             refusals: vec![refusal],
-            lacks: None,
         }
     }
 }
@@ -62,11 +59,7 @@ impl From<Refusal> for ScenarioError {
 impl ScenarioError {
     /// The error that `origin` gives no value at `path`, which means `meaning`.
     pub fn missing(origin: impl Display, path: &str, meaning: impl Display) -> Self {
-        let rule = format!("{path} is missing: {meaning}");
-        Self {
-            lacks: Some(path.to_owned()),
-            ..Refusal::new(origin, rule).into()
-        }
+        Refusal::new(origin, format!("{path} is missing: {meaning}")).into()
     }
 
     /// Errors as one; `None` where there are none. Of a long list only the first are told.
@@ -75,7 +68,6 @@ impl ScenarioError {
         let mut all = errors.next()?;
         for error in errors {
             all.refusals.extend(error.refusals);
-            all.lacks = None;
         }
         if all.refusals.len() > MOST_ERRORS {
             let more = all.refusals.split_off(MOST_ERRORS - 1).len();
@@ -123,11 +115,6 @@ impl Faults {
             .iter()
             .filter_map(|blamed| path.strip_prefix(blamed.as_str()));
         rest.any(|rest| rest.is_empty() || rest.starts_with('.'))
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.errors.is_empty()
     }
 
     /// The keys that errors deal with.

@@ -49,8 +49,7 @@ impl Parts<'_> {
     /// The motion of waveform = "table"; the table alone says so as well.
     fn tabled_motion(&self, motion: &Motion) -> Result<Option<Tabled>, ScenarioError> {
         let word = self.get(&motion.waveform);
-        let (times, values) = (self.get(&motion.times), self.get(&motion.values));
-        let is_given = times.is_some() || values.is_some();
+        let is_given = self.has(motion.times.path()) || self.has(motion.values.path());
         match word.as_deref() {
             Some("table") => {}
             None if is_given => {}
@@ -60,10 +59,8 @@ impl Parts<'_> {
             }
             _ => return Ok(None),
         }
-        let lacking = || self.missing(&motion.file);
-        let times = times.ok_or_else(lacking)?;
-        let tabled = Waveform::table(&times, &values.ok_or_else(lacking)?);
-        tabled
+        let list = |key| self.list(key, &motion.file);
+        Waveform::table(&list(&motion.times)?, &list(&motion.values)?)
             .map(Some)
             .map_err(|invalid| self.refused(motion.section, invalid))
     }

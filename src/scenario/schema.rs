@@ -313,6 +313,11 @@ impl<T> Key<T> {
         at(table, self.path).and_then(self.read)
     }
 
+    /// Some value that is allowed; `None` for texts and lists.
+    pub(super) fn any_value(&self) -> Option<T> {
+        self.parameter().any_value().as_ref().and_then(self.read)
+    }
+
     /// The value in `table`, or the default, if the key has one that can be written down.
     pub fn get_or_default(&self, table: &Table) -> Option<T> {
         let default = || self.parameter().default.value().and_then(self.read);
@@ -420,18 +425,18 @@ pub(super) struct Embedded {
     pub lists: [Vec<List>; 2],
 }
 
-/// The table of keys.
+/// What `keys.toml` says.
 #[derive(Deserialize)]
 #[serde(bound(deserialize = "'de: 'static"))]
-struct Schema {
+pub(super) struct Schema {
     #[serde(rename = "key")]
     keys: Vec<Parameter>,
-    exclusive: Vec<Exclusive>,
+    pub exclusive: Vec<Exclusive>,
     #[serde(rename = "file")]
-    files: Vec<Embedded>,
+    pub files: Vec<Embedded>,
 }
 
-static SCHEMA: LazyLock<Schema> = LazyLock::new(|| {
+pub(super) static SCHEMA: LazyLock<Schema> = LazyLock::new(|| {
     let table = toml::Deserializer::parse(include_str!("keys.toml"));
     table
         .and_then(Schema::deserialize)
@@ -441,16 +446,6 @@ static SCHEMA: LazyLock<Schema> = LazyLock::new(|| {
 /// All keys, in the order in which a scenario is written.
 pub fn parameters() -> &'static [Parameter] {
     &SCHEMA.keys
-}
-
-/// Every kind of value that a scenario can give in one of several ways.
-pub(super) fn exclusive() -> &'static [Exclusive] {
-    &SCHEMA.exclusive
-}
-
-/// Every key that names a file.
-pub(super) fn embedded() -> &'static [Embedded] {
-    &SCHEMA.files
 }
 
 /// The parameter with this dotted path.

@@ -3,7 +3,7 @@
 use super::check::length;
 use super::error::ScenarioError;
 use super::keys;
-use super::schema::{self, Key};
+use super::schema;
 use super::validate::Parts;
 use crate::contact::indenter::Indenter;
 use crate::contact::measured::MeasuredProfile;
@@ -38,10 +38,7 @@ impl Parts<'_> {
             "truncated-cone" => Indenter::truncated_cone(angle()?, tip_radius()?),
             "rounded-punch" => Indenter::rounded_punch(radius()?, tip_radius()?),
             "table" => {
-                let list = |key: &Key<Vec<f64>>| {
-                    let list = self.get(key);
-                    list.ok_or_else(|| self.missing(&keys::TABLE_FILE))
-                };
+                let list = |key| self.list(key, &keys::TABLE_FILE);
                 let (radii, heights) = (list(&keys::RADII)?, list(&keys::HEIGHTS)?);
                 Indenter::table(&radii, &heights, self.require(&keys::SMOOTHING)?)
             }

@@ -1,6 +1,7 @@
 //! Turns the keys of a scenario into parts that can be run. The schema and the parts' constructors
 //! check the values; this module adds where in the scenario a refused value is.
 
+use std::cell::RefCell;
 use std::fmt::Display;
 
 use toml::{Table, Value};
@@ -29,95 +30,27 @@ use crate::wear::WearLaw;
 pub(super) fn setup(
     table: &mut Table,
     origin: &Origin,
-    mut faults: Faults,
+    faults: Faults,
 ) -> Result<(Table, Setup), ScenarioError> {
     // Whatever is wrong, what is missing beside it can be told.
     for path in faults.paths() {
-        if schema::remove(table, path).is_some() {
-            insert_any_value(table, path);
+        let wrong = schema::remove(table, path).and_then(|_| schema::find(path));
+        if let Some(value) = wrong.and_then(Parameter::any_value) {
+            schema::insert(table, path, value);
         }
     }
-    loop {
-        let complete = complete::table(table);
-        let error = match made(&complete, table, origin) {
-            Ok(setup) if faults.is_empty() => return Ok((complete, setup)),
-            Ok(_) => break,
-            Err(error) => error,
-        };
-        let Some(path) = error.lacks.clone() else {
-            return Err(faults.into_error().unwrap_or(error));
-        };
-        if !faults.covers(&path) {
-            faults.note(&path, error);
-        }
-        if !insert_any_value(table, &path) {
-            break;
-        }
-    }
-    Err(faults.into_error().expect("something is missing"))
-}
-
-/// Puts some value that is allowed at `path`, if nothing is there and it is that of a key with such values.
-fn insert_any_value(table: &mut Table, path: &str) -> bool {
-    let known = schema::find(path).filter(|_| schema::at(table, path).is_none());
-    let value = known.and_then(Parameter::any_value);
-    let is_there = value.is_some();
-    if let Some(value) = value {
-        schema::insert(table, path, value);
-    }
-    is_there
-}
-
-/// Makes the parts of a scenario, whose keys are `table` with the defaults written out.
-fn made(table: &Table, written: &Table, origin: &Origin) -> Result<Setup, ScenarioError> {
+    let complete = complete::table(table);
     let parts = Parts {
-        table,
-        written,
+        table: &complete,
+        written: table,
         origin,
+        faults: faults.into(),
     };
-    check::conflicts(written, origin)?;
-    let indenter = parts.indenter()?;
-    let drive = parts.drive()?;
-    let material = parts.material()?;
-    let contact = Contact {
-        indenter: &indenter,
-        material: &material,
-        drive: &drive,
-    };
-    let wear = parts.wear(&contact)?;
-    let running_in = parts.running_in(&material)?;
-    let scar = parts.scar()?;
-    let domain = parts.get(&keys::DOMAIN_RADIUS).or_else(|| {
-        let runs_in = running_in.as_ref().is_some_and(|of| of.friction.is_some());
-        contact.domain_radius(!runs_in, scar.as_ref().map_or(0.0, Scar::deepest))
-    });
-    let method = parts.require(&keys::METHOD)?;
-    let (spacing, scheme) = derive::choices(method);
-    let grid = parts.grid(method, &indenter, domain)?;
-    if let Some(scar) = &scar {
-        parts.check_scar(scar, &indenter, grid.radius())?;
+    let setup = parts.setup();
+    match parts.faults.into_inner().into_error() {
+        Some(faults) => Err(faults),
+        None => Ok((complete, setup?)),
     }
-    let setup = Setup {
-        scar,
-        grid,
-        hardness: parts.hardness(),
-        material,
-        indenter,
-        drive,
-        wear,
-        running_in,
-        method,
-        spacing: parts.spacing(spacing)?,
-        scheme: parts.get(&keys::SCHEME).unwrap_or(scheme),
-        stability: parts.require(&keys::STABILITY)?,
-        steps_per_cycle: parts.require(&keys::STEPS_PER_CYCLE)?,
-        integrator: Integrator::new(
-            &parts.require(&keys::INTEGRATOR)?,
-            parts.require(&keys::TOLERANCE)?,
-        )
-        .map_err(|invalid| parts.refused("numerics", invalid))?,
-    };
-    Ok(setup)
 }
 
 /// The tables of a scenario, and where they come from: its parts are made from them here and in the modules beside
@@ -128,9 +61,58 @@ pub(super) struct Parts<'a> {
     /// The values as the user wrote them, for messages.
     written: &'a Table,
     pub(super) origin: &'a Origin,
+    /// What is wrong so far; what is missing is added.
+    faults: RefCell<Faults>,
 }
 
 impl Parts<'_> {
+    /// All parts.
+    fn setup(&self) -> Result<Setup, ScenarioError> {
+        check::conflicts(self.written, self.origin)?;
+        let indenter = self.indenter()?;
+        let drive = self.drive()?;
+        let material = self.material()?;
+        let contact = Contact {
+            indenter: &indenter,
+            material: &material,
+            drive: &drive,
+        };
+        let wear = self.wear(&contact)?;
+        let running_in = self.running_in(&material)?;
+        let scar = self.scar()?;
+        let domain = self.get(&keys::DOMAIN_RADIUS).or_else(|| {
+            let runs_in = running_in.as_ref().is_some_and(|of| of.friction.is_some());
+            contact.domain_radius(!runs_in, scar.as_ref().map_or(0.0, Scar::deepest))
+        });
+        let method = self.require(&keys::METHOD)?;
+        let (spacing, scheme) = derive::choices(method);
+        let grid = self.grid(method, &indenter, domain)?;
+        if let Some(scar) = &scar {
+            self.check_scar(scar, &indenter, grid.radius())?;
+        }
+        let setup = Setup {
+            scar,
+            grid,
+            hardness: self.hardness(),
+            material,
+            indenter,
+            drive,
+            wear,
+            running_in,
+            method,
+            spacing: self.spacing(spacing)?,
+            scheme: self.get(&keys::SCHEME).unwrap_or(scheme),
+            stability: self.require(&keys::STABILITY)?,
+            steps_per_cycle: self.require(&keys::STEPS_PER_CYCLE)?,
+            integrator: Integrator::new(
+                &self.require(&keys::INTEGRATOR)?,
+                self.require(&keys::TOLERANCE)?,
+            )
+            .map_err(|invalid| self.refused("numerics", invalid))?,
+        };
+        Ok(setup)
+    }
+
     /// The value of a key, where it is given.
     pub(super) fn get<T>(&self, key: &Key<T>) -> Option<T> {
         key.get(self.table)
@@ -142,16 +124,44 @@ impl Parts<'_> {
         self.get(key).or_else(of_table)
     }
 
-    /// The value of a key, its default, or the error that it is missing.
+    /// The value of a key, or its default; where there is neither, any value, so that what else is missing is found.
+    ///
+    /// # Errors
+    ///
+    /// That it is missing, if it is a key without such a value.
     pub(super) fn require<T>(&self, key: &Key<T>) -> Result<T, ScenarioError> {
         let value = key.get_or_default(self.table);
-        value.ok_or_else(|| self.missing(key))
+        value.map_or_else(|| self.any(key, key.parameter().described()), Ok)
     }
 
-    /// The error that a key is not given.
-    pub(super) fn missing<T>(&self, key: &Key<T>) -> ScenarioError {
-        let meaning = key.parameter().described();
-        self.origin.missing(key.path(), meaning)
+    /// A list that is read from a file.
+    ///
+    /// # Errors
+    ///
+    /// That the key of the file is missing, if there is no list.
+    pub(super) fn list(
+        &self,
+        list: &Key<Vec<f64>>,
+        file: &Key<String>,
+    ) -> Result<Vec<f64>, ScenarioError> {
+        let missing = || self.missing(file.path(), file.parameter().described());
+        self.get(list).ok_or_else(missing)
+    }
+
+    /// Notes that a key is missing, which means `meaning`, and returns any value of it.
+    pub(super) fn any<T>(&self, key: &Key<T>, meaning: impl Display) -> Result<T, ScenarioError> {
+        let missing = self.missing(key.path(), meaning);
+        key.any_value().ok_or(missing)
+    }
+
+    /// Notes the error that there is no value at `path`, which means `meaning`, unless it is dealt with already.
+    pub(super) fn missing(&self, path: &str, meaning: impl Display) -> ScenarioError {
+        let error = self.origin.missing(path, meaning);
+        let mut faults = self.faults.borrow_mut();
+        if !faults.covers(path) {
+            faults.note(path, error.clone());
+        }
+        error
     }
 
     pub(super) fn has(&self, path: &str) -> bool {
@@ -185,7 +195,7 @@ impl Parts<'_> {
             match is_power && (stress.is_none() || slip_rate.is_none()) {
                 true => contact.references().ok_or_else(|| {
                     let meaning = "Pa; none could be found from the contact";
-                    self.origin.missing(keys::REFERENCE_STRESS.path(), meaning)
+                    self.missing(keys::REFERENCE_STRESS.path(), meaning)
                 })?,
                 false => (1.0, 1.0),
             };
@@ -209,11 +219,10 @@ impl Parts<'_> {
     pub(super) fn wear_coefficient(&self, material: &Material) -> Result<f64, ScenarioError> {
         let Some(per_load) = self.get(&keys::WEAR_PER_LOAD) else {
             let given = self.first(&keys::WEAR_COEFFICIENT, &keys::WEAR_COURSE);
-            return given.ok_or_else(|| {
-                let meaning = keys::WEAR_COEFFICIENT.parameter().described();
-                let meaning = format!("{meaning}; or coefficient_per_load, of a pin test");
-                self.origin.missing(keys::WEAR_COEFFICIENT.path(), meaning)
-            });
+            let key = &keys::WEAR_COEFFICIENT;
+            let meaning = key.parameter().described();
+            let meaning = format!("{meaning}; or coefficient_per_load, of a pin test");
+            return given.map_or_else(|| self.any(key, meaning), Ok);
         };
         if material.friction() > 0.0 {
             return Ok(per_load / material.friction());

@@ -1,5 +1,6 @@
 //! `mdr-tui run`: the simulation without a screen.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -24,6 +25,7 @@ use crate::export::header::{self, number};
 use crate::export::{field, state};
 use crate::reading::verdict;
 use crate::scenario::checkpoint;
+use crate::scenario::scalars::Value;
 use crate::scenario::session::{Session, SessionError};
 use crate::scenario::{Refusal, Scenario, printable};
 use crate::studies::refinement;
@@ -475,11 +477,11 @@ impl<'a> Job<'a> {
             Err(_) => (key, text.into()),
         });
         let values = self.job.history.values(&self.session).into_iter();
-        let values = values.map(|(name, value)| (name.to_owned(), value.into()));
+        let values = values.map(|(name, value)| (name.to_owned(), value));
         let directory = self.directory.path().display().to_string();
         let directory = [("directory".to_owned(), directory.into())];
-        let summary: serde_json::Map<_, _> = header.chain(values).chain(directory).collect();
-        let summary = serde_json::Value::Object(summary);
+        let summary: BTreeMap<String, Value> = header.chain(values).chain(directory).collect();
+        let summary = serde_json::to_string(&summary)?;
         Ok(writeln!(io::stdout().lock(), "{summary}")?)
     }
 

@@ -54,48 +54,39 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
         table(trials, trials).csv()
     })?;
     let mut out = io::stdout().lock();
-    match (options.accuracy, options.printing.json) {
-        (Some(accuracy), json) => {
-            let Some((trial, [seconds, error])) = cheapest(trials, accuracy) else {
-                complain(&format!(
-                    "no setting reached an error of {accuracy:e}; try larger --points or --steps"
-                ));
-                return Ok(ExitCode::from(FAILED));
-            };
-            if json {
-                results::print_json(&table([trial], trials), &mut out)?;
-            } else {
-                let what = "at worst (depth, V, E_d, F_x)";
-                writeln!(out, "# error {error:.1e} {what}, in {seconds:.1e} s")?;
-                writeln!(out, "{}", assignments(&trial.setting).join("\n"))?;
-            }
-            return Ok(ExitCode::SUCCESS);
+    let json = options.printing.json;
+    if let Some(accuracy) = options.accuracy {
+        let Some((trial, [seconds, error])) = cheapest(trials, accuracy) else {
+            complain(&format!(
+                "no setting reached an error of {accuracy:e}; try larger --points or --steps"
+            ));
+            return Ok(ExitCode::from(FAILED));
+        };
+        if json {
+            results::print_json(&table([trial], trials), &mut out)?;
+        } else {
+            let what = "at worst (depth, V, E_d, F_x)";
+            writeln!(out, "# error {error:.1e} {what}, in {seconds:.1e} s")?;
+            writeln!(out, "{}", trial.setting.assignments().join("\n"))?;
         }
-        (None, true) => results::print_json(&table(trials, trials), &mut out)?,
-        (None, false) => {
-            let shown: Vec<&Trial> = match options.all {
-                true => trials.iter().collect(),
-                false => front(trials).into_iter().map(|(trial, _)| trial).collect(),
-            };
-            writeln!(out, "{}", notes.join("\n"))?;
-            write!(out, "{}", table(shown, trials).text())?;
-            if options.drawing.plot {
-                write!(out, "{}", plots(trials, options))?;
-            }
-            writeln!(out, "{}", advice(&found))?;
+    } else if json {
+        results::print_json(&table(trials, trials), &mut out)?;
+    } else {
+        let shown: Vec<&Trial> = match options.all {
+            true => trials.iter().collect(),
+            false => front(trials).into_iter().map(|(trial, _)| trial).collect(),
+        };
+        writeln!(out, "{}", notes.join("\n"))?;
+        write!(out, "{}", table(shown, trials).text())?;
+        if options.drawing.plot {
+            write!(out, "{}", plots(trials, options))?;
         }
+        writeln!(out, "{}", advice(&found))?;
     }
     Ok(match go_on() {
         true => ExitCode::SUCCESS,
         false => ExitCode::from(FAILED),
     })
-}
-
-/// A setting as options that `run` takes.
-fn assignments(setting: &Setting) -> Vec<String> {
-    let keys = setting.keys().into_iter();
-    keys.map(|(key, value)| format!("--set {key}={value}"))
-        .collect()
 }
 
 /// What was measured.
@@ -157,18 +148,6 @@ fn run(
             trials.push(trial);
         }
         bar.inc(1);
-    }
-    // Those that the result names are timed well.
-    bar.set_message("timing");
-    let named = front(&trials)
-        .into_iter()
-        .map(|(best, _)| best.setting.clone());
-    let named: Vec<Setting> = named.collect();
-    for trial in trials
-        .iter_mut()
-        .filter(|trial| named.contains(&trial.setting))
-    {
-        trial.time_well(scenario, cycles, go_on);
     }
     let blur = blur.map_or(String::new(), |blur| {
         format!("; a level half as fine differs by {blur:.1e} at worst")
@@ -238,7 +217,7 @@ fn advice(found: &Found) -> String {
     match cheapest(&found.trials, USUAL) {
         Some((trial, [seconds, error])) => format!(
             "use this: {}  (error {error:.1e} at worst, {seconds:.1e} s{beside})",
-            assignments(&trial.setting).join(" ")
+            trial.setting.assignments().join(" ")
         ),
         None => format!(
             "use this: --set numerics.accuracy={USUAL:e}  (no fixed setting has an error of at most {USUAL:e} and \

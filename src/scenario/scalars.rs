@@ -2,7 +2,10 @@
 //!
 //! Every name is defined once, here, so that a column means the same in every file.
 
+use std::borrow::Cow;
 use std::cell::OnceCell;
+
+use serde::Serialize;
 
 use super::{nearest, printable};
 use crate::math::scan::largest;
@@ -12,15 +15,16 @@ use crate::reading::subsurface::Peak;
 use crate::scenario::session::Session;
 use crate::simulation::{CycleFigures, Simulation};
 
-/// A scalar's value.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A scalar's value, or a cell of a table.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
 pub enum Value {
     /// A number, in the unit that its name ends with.
     Number(f64),
     /// A count.
     Count(u64),
-    /// One of a few words.
-    Word(&'static str),
+    /// Words.
+    Word(Cow<'static, str>),
     /// Undefined at this moment.
     Missing,
 }
@@ -37,33 +41,39 @@ impl From<u64> for Value {
     }
 }
 
-impl From<Option<f64>> for Value {
-    fn from(value: Option<f64>) -> Self {
-        value.map_or(Self::Missing, Self::Number)
+impl From<usize> for Value {
+    fn from(count: usize) -> Self {
+        Self::Count(count as u64)
+    }
+}
+
+impl From<&'static str> for Value {
+    fn from(word: &'static str) -> Self {
+        Self::Word(word.into())
+    }
+}
+
+impl From<String> for Value {
+    fn from(word: String) -> Self {
+        Self::Word(word.into())
+    }
+}
+
+impl<T: Into<Value>> From<Option<T>> for Value {
+    fn from(value: Option<T>) -> Self {
+        value.map_or(Self::Missing, T::into)
     }
 }
 
 impl Value {
     /// Returns the value as a field of a CSV file: numbers in the shortest form that reads back to
     /// the same bits, nothing where the value is missing.
-    pub fn field(self) -> String {
+    pub fn field(&self) -> String {
         match self {
-            Self::Number(value) => number(value),
+            Self::Number(value) => number(*value),
             Self::Count(count) => count.to_string(),
-            Self::Word(word) => word.to_owned(),
+            Self::Word(word) => quoted(word),
             Self::Missing => String::new(),
-        }
-    }
-}
-
-impl From<Value> for serde_json::Value {
-    /// Numbers that are not finite, and missing ones, become null.
-    fn from(value: Value) -> Self {
-        match value {
-            Value::Number(number) => number.into(),
-            Value::Count(count) => count.into(),
-            Value::Word(word) => word.into(),
-            Value::Missing => Self::Null,
         }
     }
 }
@@ -169,7 +179,9 @@ impl<'a> Reading<'a> {
     fn stated(&self, key: &str) -> Value {
         let mut stated = self.session.statements().iter();
         let found = stated.find(|(known, _)| known == key);
-        found.and_then(|(_, value)| value.parse().ok()).into()
+        found
+            .and_then(|(_, value)| value.parse::<f64>().ok())
+            .into()
     }
 
     fn worn(&self) -> &[f64] {
@@ -265,7 +277,7 @@ scalars! {
         "energy_ratio", "A = E_d/(4 Q* U)", |r| r.figure(|figures| figures.energy_ratio);
         "energy_ratio_B", "B = E_d/(4 Q* delta_0)", |r| r.figure(|figures| figures.energy_ratio_b);
         "regime", "stick, partial, gross or open",
-            |r| r.figures().map_or(Value::Missing, |figures| Value::Word(figures.regime.name()));
+            |r| r.figures().map(|figures| figures.regime.name());
         "wear_per_energy_m3_per_J", "V/E_d", |r| r.moment.wear_per_energy();
         "rig_displacement_m", "displacement of the rig's actuator", |r| r.moment.rig_displacement;
         "scar_depth_m", "largest worn depth", |r| largest(r.worn());

@@ -9,12 +9,13 @@ use std::fmt::{self, Display, Formatter};
 use std::time::Instant;
 
 use crate::math::abel::AbelMethod;
-use crate::reading::{Check, Subject};
+use crate::reading::Subject;
 use crate::scenario::Scenario;
+use crate::scenario::scalars::Value;
 use crate::scenario::session::{Session, SessionError};
 use crate::simulation::{Integrator, Scheme};
-use crate::studies::refinement::{self, Difference, Level, Outcome};
-use crate::studies::table::{Cell, Format, Table};
+use crate::studies::refinement::{self, Level, Outcome};
+use crate::studies::table::{Format, Table};
 
 /// Numbers of cells that are tried.
 pub const POINTS: [usize; 3] = [25, 50, 100];
@@ -28,8 +29,8 @@ const TOLERANCES: [f64; 5] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5];
 /// Steps per cycle under jumps by any but the best method.
 const STEPS_UNDER_JUMPS: u32 = 50;
 
-/// A run on the front is repeated until it has taken this long, s, and its median time counts.
-const LONG_ENOUGH: f64 = 0.06;
+/// A run is repeated until it has taken this long, s, and its median time counts.
+const LONG_ENOUGH: f64 = 0.03;
 
 /// The most repetitions.
 const REPETITIONS: usize = 25;
@@ -74,8 +75,15 @@ impl Setting {
         cycles * f64::from(self.level.steps) * (nodes * nodes + 60.0 * nodes + 1500.0)
     }
 
-    /// Runs `scenario` so over `cycles`, as long as `go_on`, which is asked at every step, says so; its end, and the
-    /// time it took, s.
+    /// The same as options that `run` takes.
+    pub fn assignments(&self) -> Vec<String> {
+        let keys = self.keys().into_iter();
+        keys.map(|(key, value)| format!("--set {key}={value}"))
+            .collect()
+    }
+
+    /// Runs `scenario` so over `cycles`, as long as `go_on`, which is asked at every step, says so, and as often as a
+    /// clock needs; its end, and the time it takes, s.
     ///
     /// # Errors
     /// If the run stops, or is [interrupted](SessionError::Interrupted).
@@ -86,9 +94,16 @@ impl Setting {
         go_on: &dyn Fn() -> bool,
     ) -> Result<(Session, f64), SessionError> {
         let scenario = scenario.with_all(&self.keys())?;
-        let start = Instant::now();
-        let session = refinement::run(&scenario, cycles, go_on)?;
-        Ok((session, start.elapsed().as_secs_f64()))
+        let mut times = Vec::new();
+        loop {
+            let start = Instant::now();
+            let session = refinement::run(&scenario, cycles, go_on)?;
+            times.push(start.elapsed().as_secs_f64());
+            if times.iter().sum::<f64>() >= LONG_ENOUGH || times.len() == REPETITIONS {
+                times.sort_by(f64::total_cmp);
+                return Ok((session, times[times.len() / 2]));
+            }
+        }
     }
 }
 
@@ -103,26 +118,28 @@ pub fn settings(
     let setup = scenario.setup();
     let wants_jumps = wants_jumps(scenario);
     let repeats = setup.drive.repeats_after().is_some() && setup.wear.is_some();
-    let schemes = |method: &AbelMethod| Scheme::ALL.map(|scheme| (*method, scheme));
     let mut settings = Vec::new();
-    for (method, scheme) in methods.iter().flat_map(schemes) {
+    for (&method, scheme) in methods
+        .iter()
+        .flat_map(|method| Scheme::ALL.map(|scheme| (method, scheme)))
+    {
         let is_best = method == AbelMethod::Product && scheme == Scheme::Trapezoid;
-        let mut ways: Vec<(u32, Option<f64>)> = Vec::new();
-        if !wants_jumps {
-            ways.extend(steps.iter().map(|&steps| (steps, None)));
-        }
+        let mut tolerances = if wants_jumps { vec![] } else { vec![None] };
         if repeats && (is_best || wants_jumps) {
-            let steps = if is_best { steps } else { &[STEPS_UNDER_JUMPS] };
-            let jumps = |&steps| TOLERANCES.map(|tolerance| (steps, Some(tolerance)));
-            ways.extend(steps.iter().flat_map(jumps));
+            tolerances.extend(TOLERANCES.map(Some));
         }
-        for (steps, tolerance) in ways {
-            let level = |&points| level(points, steps, tolerance);
-            settings.extend(points.iter().map(level).map(|level| Setting {
-                method,
-                scheme,
-                level,
-            }));
+        for tolerance in tolerances {
+            let steps = match tolerance {
+                Some(_) if !is_best => &[STEPS_UNDER_JUMPS],
+                _ => steps,
+            };
+            for &steps in steps {
+                settings.extend(points.iter().map(|&points| Setting {
+                    method,
+                    scheme,
+                    level: level(points, steps, tolerance),
+                }));
+            }
         }
     }
     settings.sort_by(|a, b| a.effort(1.0).total_cmp(&b.effort(1.0)));
@@ -162,21 +179,12 @@ fn wants_jumps(scenario: &Scenario) -> bool {
 pub struct Trial {
     /// The setting.
     pub setting: Setting,
-    /// What came of the run, or why nothing did.
-    ended: Result<Ended, String>,
-}
-
-/// A run that reached its end.
-#[derive(Debug, Clone)]
-struct Ended {
-    /// Time with its set-up, s.
-    seconds: f64,
-    /// How far it is from the reference.
-    errors: Difference,
-    /// Whether it passes its own checks.
-    is_sound: bool,
-    /// Its results as cells of the table.
-    cells: Vec<Cell>,
+    /// Time with its set-up, s, of a run that reached its end.
+    seconds: Option<f64>,
+    /// Its worst error against the reference, if it passes its own checks.
+    worst: Option<f64>,
+    /// The cells of its row from `steps` to `checks`, or why it did not reach its end.
+    cells: Vec<Value>,
 }
 
 impl Trial {
@@ -187,49 +195,55 @@ impl Trial {
         ended: Result<(Session, f64), SessionError>,
         reference: &Session,
     ) -> Self {
+        let (session, seconds) = match ended {
+            Ok(ended) => ended,
+            Err(error) => {
+                return Self {
+                    setting,
+                    seconds: None,
+                    worst: None,
+                    cells: vec![Value::Missing, Value::Missing, error.to_string().into()],
+                };
+            }
+        };
         let failing = |session: &Session| {
             let checks = session.simulation().checks().into_iter();
             checks.filter(|check| !check.holds())
         };
         let common: Vec<Subject> = failing(reference).map(|check| check.subject).collect();
-        let ended = ended.map(|(session, seconds)| {
-            let failing = failing(&session).filter(|check| !common.contains(&check.subject));
-            let failing: Vec<Check> = failing.collect();
-            let errors = Outcome::of(&session).against(&Outcome::of(reference));
-            Ended {
-                seconds,
-                errors,
-                is_sound: failing.is_empty(),
-                cells: results(&session, reference, &errors, &failing),
-            }
+        let failing = failing(&session).filter(|check| !common.contains(&check.subject));
+        let complaints: Vec<String> = failing.map(|check| check.complaint()).collect();
+        let is_sound = complaints.is_empty();
+        let simulation = session.simulation();
+        let (moment, exact) = (simulation.moment(), reference.simulation().moment());
+        // In contact radii; it does not count towards the worst.
+        let stick = moment
+            .permanent_stick_radius
+            .zip(exact.permanent_stick_radius);
+        let stick = stick.map(|(here, there)| (here - there).abs() / exact.contact_radius);
+        let errors = Outcome::of(&session).against(&Outcome::of(reference));
+        let shown = [errors.worn_depth, errors.volume, errors.work, errors.force].map(Some);
+        let shown = shown.into_iter().chain([stick]);
+        let mut cells = vec![
+            simulation.steps().into(),
+            simulation.stats().transforms.into(),
+        ];
+        cells.extend(shown.map(|error| error.filter(|error| error.is_finite()).into()));
+        cells.push(match is_sound {
+            true => "ok".into(),
+            false => complaints.join(", ").into(),
         });
         Self {
             setting,
-            ended: ended.map_err(|error| error.to_string()),
+            seconds: Some(seconds),
+            worst: Some(errors.worst()).filter(|worst| is_sound && worst.is_finite()),
+            cells,
         }
     }
 
     /// Time and worst error of a run that reached its end and passes its own checks.
     pub fn point(&self) -> Option<[f64; 2]> {
-        let ended = self.ended.as_ref().ok()?;
-        let worst = ended.errors.worst();
-        (ended.is_sound && worst.is_finite()).then_some([ended.seconds, worst])
-    }
-
-    /// Repeats the run of `cycles` as often as a clock needs, and takes the median time.
-    pub fn time_well(&mut self, scenario: &Scenario, cycles: f64, go_on: &dyn Fn() -> bool) {
-        let Ok(ended) = &mut self.ended else {
-            return;
-        };
-        let mut times = vec![ended.seconds];
-        while times.iter().sum::<f64>() < LONG_ENOUGH && times.len() < REPETITIONS {
-            match self.setting.run(scenario, cycles, go_on) {
-                Ok((_, seconds)) => times.push(seconds),
-                Err(_) => break,
-            }
-        }
-        times.sort_by(f64::total_cmp);
-        ended.seconds = times[times.len() / 2];
+        Some([self.seconds?, self.worst?])
     }
 }
 
@@ -259,6 +273,9 @@ pub fn cheapest(trials: &[Trial], accuracy: f64) -> Option<Timed<'_>> {
 /// A heading over the columns of errors.
 const ERRORS: &str = "against the reference";
 
+/// The columns before the mark of the front.
+const COLUMNS_BEFORE_FRONT: usize = 15;
+
 /// The columns: a heading over some of them, names, and how they are written.
 const COLUMNS: [(&str, &str, Format); 6] = [
     ("", "method scheme integrator", Format::Words),
@@ -278,65 +295,27 @@ pub fn table<'a>(shown: impl IntoIterator<Item = &'a Trial>, all: &[Trial]) -> T
     let mut table = Table::of(&COLUMNS);
     let front = front(all);
     for trial in shown {
-        let level = &trial.setting.level;
-        let jumps = usize::from(level.tolerance.is_some());
+        let Setting {
+            method,
+            scheme,
+            level,
+        } = &trial.setting;
+        let is_on_it = front.iter().any(|(other, _)| std::ptr::eq(*other, trial));
         let mut row = vec![
-            trial.setting.method.name().into(),
-            trial.setting.scheme.name().into(),
-            Integrator::NAMES[jumps].into(),
+            method.name().into(),
+            scheme.name().into(),
+            Integrator::NAMES[usize::from(level.tolerance.is_some())].into(),
             level.points.into(),
-            (level.steps as usize).into(),
+            Value::Count(level.steps.into()),
             level.tolerance.into(),
+            trial.seconds.into(),
         ];
-        match &trial.ended {
-            Ok(ended) => {
-                let is_on_it = front.iter().any(|(other, _)| std::ptr::eq(*other, trial));
-                row.push(ended.seconds.into());
-                row.extend(ended.cells.iter().cloned());
-                row.push(if is_on_it { "*" } else { "" }.into());
-            }
-            Err(reason) => {
-                row.extend([Cell::Missing, Cell::Missing, Cell::Missing]);
-                row.push(Cell::Across(reason.clone()));
-            }
-        }
+        row.extend(trial.cells.iter().cloned());
+        row.resize(COLUMNS_BEFORE_FRONT, Value::Missing);
+        row.push(if is_on_it { "*" } else { "" }.into());
         table.push(row);
     }
     table
-}
-
-/// The cells from `steps` to `checks`. The permanent stick radius, in contact radii, does not count towards the worst.
-fn results(
-    session: &Session,
-    reference: &Session,
-    errors: &Difference,
-    failing: &[Check],
-) -> Vec<Cell> {
-    let simulation = session.simulation();
-    let stick = |session: &Session| session.simulation().moment().permanent_stick_radius;
-    let stick_error = stick(session)
-        .zip(stick(reference))
-        .map(|(here, there)| (here - there).abs() / reference.simulation().moment().contact_radius);
-    let complaints: Vec<String> = failing.iter().map(Check::complaint).collect();
-    let Difference {
-        worn_depth,
-        volume,
-        work,
-        force,
-        ..
-    } = *errors;
-    let errors = [worn_depth, volume, work, force].map(Some);
-    let errors = errors.into_iter().chain([stick_error]);
-    let mut row = vec![
-        Cell::Count(simulation.steps() as usize),
-        Cell::Count(simulation.stats().transforms as usize),
-    ];
-    row.extend(errors.map(|error| error.filter(|error| error.is_finite()).into()));
-    row.push(match complaints.is_empty() {
-        true => "ok".into(),
-        false => Cell::Words(complaints.join(", ")),
-    });
-    row
 }
 
 #[cfg(test)]
@@ -344,49 +323,36 @@ mod tests {
     use super::*;
 
     fn trial(points: usize, seconds: f64, worst: f64) -> Trial {
-        let session = Session::start(Scenario::load("hertz", &[]).expect("a preset"));
-        let session = session.expect("a session");
-        let errors = Difference {
-            worn_depth: 0.5 * worst,
-            volume: worst,
-            ..Difference::NONE
-        };
-        let cells = results(&session, &session, &errors, &[]);
         Trial {
             setting: Setting {
                 method: AbelMethod::A,
                 scheme: Scheme::Euler,
                 level: level(points, 100, None),
             },
-            ended: Ok(Ended {
-                seconds,
-                errors,
-                is_sound: true,
-                cells,
-            }),
+            seconds: Some(seconds),
+            worst: Some(worst),
+            cells: Vec::new(),
         }
     }
 
     #[test]
     fn the_front_is_what_nothing_beats() {
-        let mut trials = vec![
+        let session = Session::start(Scenario::load("hertz", &[]).expect("a preset"));
+        let session = session.expect("a session");
+        let judged = |points, ended| Trial::new(trial(points, 0.0, 0.0).setting, ended, &session);
+        let trials = [
             trial(1, 1.0, 1e-2),
             trial(2, 0.5, 3e-2),
             trial(3, 2.0, 2e-2),
             trial(4, 3.0, 1e-3),
             trial(5, 3.0, 2e-3),
-            trial(6, 0.1, f64::NAN),
+            judged(6, Err(SessionError::Unfinished("broke".into()))),
+            // The fastest and best of all fails its own checks.
+            Trial {
+                worst: None,
+                ..trial(7, 0.01, 1e-6)
+            },
         ];
-        trials.push(Trial {
-            ended: Err("broke".into()),
-            ..trial(7, 0.0, 0.0)
-        });
-        // The fastest and best of all fails its own checks.
-        let mut unsound = trial(8, 0.01, 1e-6);
-        if let Ok(ended) = &mut unsound.ended {
-            ended.is_sound = false;
-        }
-        trials.push(unsound);
         let points = |(trial, _): Timed| trial.setting.level.points;
         let found: Vec<usize> = front(&trials).into_iter().map(points).collect();
         assert_eq!(found, [2, 1, 4]);
@@ -395,11 +361,12 @@ mod tests {
         assert!(cheapest(&trials, 1e-4).is_none());
         let table = table(&trials, &trials);
         let rows = table.rows();
-        let stars = rows.iter().filter(|row| row[15] == Cell::from("*"));
+        let stars = rows.iter().filter(|row| row[15] == Value::from("*"));
         assert_eq!(stars.count(), 3);
         assert!(table.text().contains("broke"));
-        // No tangential motion, no stick radius.
-        assert_eq!(rows[0][13], Cell::Missing);
+        // No tangential motion, no stick radius; errors without a scar are no errors.
+        let judged = judged(8, Ok((session.clone(), 0.1)));
+        assert_eq!(judged.cells[6], Value::Missing);
     }
 
     #[test]
@@ -412,14 +379,11 @@ mod tests {
         let judged =
             |reference: &Session| Trial::new(setting.clone(), Ok(coarse.clone()), reference);
         let alone = judged(&unworn);
-        assert!(alone.ended.is_ok_and(|ended| !ended.is_sound));
-        let energy = Check {
-            subject: Subject::Energy,
-            error: 0.04,
-        };
-        let results = results(&unworn, &unworn, &Difference::NONE, &[energy]);
-        assert_eq!(results.last(), Some(&Cell::from("energy off by 4.0 %")));
-        let judged = judged(&coarse.0);
-        assert!(judged.ended.is_ok_and(|ended| ended.is_sound));
+        assert!(alone.point().is_none());
+        let said = alone.cells.last().map(Value::field).unwrap_or_default();
+        assert!(said.starts_with("energy off by "), "{said}");
+        let beside = judged(&coarse.0);
+        assert_eq!(beside.cells.last(), Some(&Value::from("ok")));
+        assert!(beside.point().is_some());
     }
 }

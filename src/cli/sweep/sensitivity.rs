@@ -9,9 +9,10 @@ use anyhow::Result;
 use super::super::args::Sweep;
 use super::super::{FAILED, complain, results, stop};
 use crate::export::target::Target;
+use crate::scenario::scalars::Value;
 use crate::studies::sweep::Study;
 use crate::studies::sweep::sensitivity::{self, Sensitivity};
-use crate::studies::table::{Cell, Format, Table};
+use crate::studies::table::{Format, Table};
 
 /// Runs the study of sensitivities and prints, or writes, its table.
 pub fn sensitivity(options: &Sweep, study: &Study) -> Result<ExitCode> {
@@ -66,9 +67,9 @@ fn table(found: &Sensitivity) -> Table {
             columns.push(one.column);
         }
         table.push(vec![
-            Cell::Words(one.key.clone()),
-            Cell::Number(one.value),
-            Cell::Words(one.column.into()),
+            one.key.clone().into(),
+            one.value.into(),
+            one.column.into(),
             one.result.into(),
             one.elasticity.map(|[elasticity, _]| elasticity).into(),
             one.elasticity.map(|[_, error]| error).into(),
@@ -82,14 +83,14 @@ fn table(found: &Sensitivity) -> Table {
         };
         let result = found.elasticities.iter().find(|one| one.column == column);
         table.push(vec![
-            Cell::Words("all".into()),
-            Cell::Missing,
-            Cell::Words(column.into()),
+            "all".into(),
+            Value::Missing,
+            column.into(),
             result.and_then(|one| one.result).into(),
-            Cell::Missing,
-            Cell::Missing,
-            Cell::Missing,
-            Cell::Number(spread),
+            Value::Missing,
+            Value::Missing,
+            Value::Missing,
+            spread.into(),
         ]);
     }
     table

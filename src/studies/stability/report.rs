@@ -44,7 +44,7 @@ pub fn runs(lines: &[Line]) -> Table {
             let (cycle, sawtooth, reason) = match outcome {
                 Outcome::Stable => (None, None, None),
                 Outcome::Sawtooth(height) => (None, Some(*height), None),
-                Outcome::Exploded { cycle, reason } => (Some(*cycle), None, Some(reason.as_str())),
+                Outcome::Exploded { cycle, reason } => (Some(*cycle), None, Some(reason.clone())),
             };
             table.push(vec![
                 line.setting.method.name().into(),
@@ -189,7 +189,7 @@ mod tests {
     fn tables_tell_when_and_why() {
         let csv = runs(&[line()]).csv();
         assert!(
-            csv.contains("a,off,50,100,1e2,exploded,2.5e0,,8e0,\"it blew, up\"\n"),
+            csv.contains("a,off,50,100,100,exploded,2.5,,8,\"it blew, up\"\n"),
             "{csv}"
         );
         assert!(boundaries(&[line()]).text().contains("0.50"));

@@ -2,7 +2,8 @@
 
 use super::errors::Errors;
 use super::{Outcome, Problem, Quantity};
-use crate::studies::table::{Cell, Format, Table};
+use crate::scenario::scalars::Value;
+use crate::studies::table::{Format, Table};
 
 /// Below this an error is rounding, and its order means nothing.
 pub const ROUNDING: f64 = 1e-12;
@@ -52,7 +53,7 @@ fn shown(quantity: Quantity, roomy: bool) -> &'static [(&'static str, Format)] {
 }
 
 /// Max, its order, rms and its order; or where the run stopped.
-fn group(outcome: &Outcome, at: usize, outcomes: &[Outcome]) -> Vec<Cell> {
+fn group(outcome: &Outcome, at: usize, outcomes: &[Outcome]) -> Vec<Value> {
     match &outcome.errors {
         Ok(errors) => vec![
             errors[at].max().into(),
@@ -61,9 +62,8 @@ fn group(outcome: &Outcome, at: usize, outcomes: &[Outcome]) -> Vec<Cell> {
             order(outcome, at, outcomes, Errors::rms).into(),
         ],
         Err(stop) => {
-            let words = format!("stopped at cycle {:.2}", stop.cycle());
-            let mut cells = vec![Cell::Across(words)];
-            cells.resize(4, Cell::Missing);
+            let mut cells = vec![format!("stopped at cycle {:.2}", stop.cycle()).into()];
+            cells.resize(4, Value::Missing);
             cells
         }
     }
@@ -118,9 +118,9 @@ pub fn all_rows(outcomes: &[Outcome]) -> Table {
                     row.push(errors[at].left_out.len().into());
                 }
                 Err(stop) => {
-                    row.resize(row.len() + 6, Cell::Missing);
+                    row.resize(row.len() + 6, Value::Missing);
                     row.push(stop.cycle().into());
-                    row.push(Cell::Words(stop.to_string()));
+                    row.push(stop.to_string().into());
                 }
             }
             table.push(row);
@@ -150,7 +150,7 @@ pub fn all_nodes(outcomes: &[Outcome]) -> Table {
     table
 }
 
-fn key(outcome: &Outcome, quantity: &str) -> Vec<Cell> {
+fn key(outcome: &Outcome, quantity: &'static str) -> Vec<Value> {
     vec![
         outcome.task.problem.name().into(),
         quantity.into(),

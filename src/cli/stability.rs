@@ -68,7 +68,7 @@ fn lines(study: &Study, options: &Stability, go_on: &dyn Fn() -> bool) -> Result
     for setting in settings.into_iter().take_while(|_| go_on()) {
         bar.set_message(format!("{}, N = {}", setting.method, setting.points));
         bar.tick();
-        lines.push(study.line(setting, &wear_numbers, go_on, |_| bar.inc(1))?);
+        lines.push(study.line(setting, &wear_numbers, go_on, || bar.inc(1))?);
     }
     bar.finish_and_clear();
     Ok(lines)

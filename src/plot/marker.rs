@@ -3,7 +3,8 @@
 use clap::ValueEnum;
 
 /// The character of a dot.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Marker {
     /// Braille patterns: 2 by 4 dots per cell.
     #[default]

@@ -61,8 +61,11 @@ pub enum Role {
 }
 
 /// Which colours.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, strum::IntoStaticStr)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, ValueEnum, strum::IntoStaticStr, serde::Deserialize,
+)]
 #[strum(serialize_all = "lowercase")]
+#[serde(rename_all = "lowercase")]
 pub enum Look {
     /// For a dark background.
     Dark,

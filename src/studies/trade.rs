@@ -380,7 +380,9 @@ mod tests {
             |reference: &Session| Trial::new(setting.clone(), Ok(coarse.clone()), reference);
         let alone = judged(&unworn);
         assert!(alone.point().is_none());
-        let said = alone.cells.last().map(Value::field).unwrap_or_default();
+        let Some(Value::Word(said)) = alone.cells.last() else {
+            panic!("{:?}", alone.cells);
+        };
         assert!(said.starts_with("energy off by "), "{said}");
         let beside = judged(&coarse.0);
         assert_eq!(beside.cells.last(), Some(&Value::from("ok")));

@@ -228,7 +228,7 @@ fn seen_where_predicted(cycles: f64, setting: Setting) {
     let study = Study::new(scenario, cycles).expect("a contact");
     let study = study.expect("it wears");
     let run = |rungs: &[f64]| {
-        let line = study.line(setting, rungs, &|| true, |_| {});
+        let line = study.line(setting, rungs, &|| true, || {});
         line.expect("runs")
     };
     let predicted = run(&[]).predicted.expect("a boundary");
@@ -254,7 +254,7 @@ fn a_map_has_its_sawtooth_where_predicted_and_with_the_guard_none() {
                 guard,
             };
             let rungs = [31.6, 100.0, 316.0, 1000.0];
-            let line = study.line(setting, &rungs, &|| true, |_| {});
+            let line = study.line(setting, &rungs, &|| true, || {});
             line.expect("runs")
         };
         let ratio = line(false).ratio().expect("a boundary");

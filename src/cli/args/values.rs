@@ -22,7 +22,8 @@ pub enum HistoryChoice {
 }
 
 /// When colour is used.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum ColorChoice {
     /// Unless NO_COLOR is set.
     Auto,

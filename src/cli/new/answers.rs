@@ -142,9 +142,12 @@ impl Answers {
     /// The scenario as a commented file.
     pub fn to_toml(&self) -> String {
         let quoted = |text: &str| Value::from(text).to_string();
+        let noted = |key: &str, value: &str, note: &str| {
+            format!("{:38} # {note}\n", format!("{key} = {value}"))
+        };
         let (name, shape, of_what) = match self.is_punch {
-            false => ("Ball", quoted("paraboloid"), "of the ball"),
-            true => ("Flat punch", quoted("flat-punch"), "of the flat face"),
+            false => ("Ball", "paraboloid", "of the ball"),
+            true => ("Flat punch", "flat-punch", "of the flat face"),
         };
         let (control, meaning) = match self.holds_depth {
             false => (
@@ -159,14 +162,10 @@ impl Answers {
         let (on, stroke) = (&self.half_space.name, &self.stroke.text);
         let (of, press) = (&self.indenter.name, &self.press.text);
         let title = format!("{name} of {of} on {on}, {press}, stroke {stroke}");
-        let mut text = format!(
-            "title = {}\n\n\
-             [indenter]\n\
-             shape = {shape:30} # mdr-tui guide scenarios lists all shapes and keys\n\
-             radius = {:29} # {of_what}\n",
-            quoted(&title),
-            quoted(&self.radius.text)
-        );
+        let mut text = format!("title = {}\n\n[indenter]\n", quoted(&title));
+        let keys = "mdr-tui guide scenarios lists all shapes and keys";
+        text += &noted("shape", &quoted(shape), keys);
+        text += &noted("radius", &quoted(&self.radius.text), of_what);
         for (section, body) in [
             ("indenter", &self.indenter),
             ("half_space", &self.half_space),
@@ -174,39 +173,36 @@ impl Answers {
             text += &format!("\n[material.{section}]\n");
             text += &match &body.elastic {
                 None => "rigid = true\n".to_owned(),
-                Some((modulus, poisson)) => format!(
-                    "youngs_modulus = {:21} # {}\npoisson = {poisson}\n",
-                    quoted(modulus),
-                    body.name
-                ),
+                Some((modulus, poisson)) => {
+                    noted("youngs_modulus", &quoted(modulus), &body.name)
+                        + &format!("poisson = {poisson}\n")
+                }
             };
         }
-        text += &format!(
-            "\n[friction]\n\
-             coefficient = {}\n\n\
-             [motion.normal]\n\
-             control = {:28} # {meaning}\n\
-             mean = {}\n\n\
-             [motion.tangential]\n\
-             amplitude = {:<26} # m: half the stroke of {stroke}\n\
-             frequency = {:26} # one period is a cycle\n",
-            self.friction.text,
-            quoted(control),
-            quoted(press),
-            format!("{:e}", self.stroke.value / 2.0),
-            quoted(&self.frequency.text)
+        text += &format!("\n[friction]\ncoefficient = {}\n", self.friction.text);
+        text += "\n[motion.normal]\n";
+        text += &noted("control", &quoted(control), meaning);
+        text += &format!("mean = {}\n\n[motion.tangential]\n", quoted(press));
+        let amplitude = format!("{:e}", self.stroke.value / 2.0);
+        text += &noted(
+            "amplitude",
+            &amplitude,
+            &format!("m: half the stroke of {stroke}"),
+        );
+        text += &noted(
+            "frequency",
+            &quoted(&self.frequency.text),
+            "one period is a cycle",
         );
         if let Some(wear) = &self.wear {
-            text += &format!(
-                "\n[wear]\n\
-                 coefficient_per_load = {:15} # of a pin test: per load and sliding distance\n",
-                quoted(&wear.text)
-            );
+            let note = "of a pin test: per load and sliding distance";
+            text += "\n[wear]\n";
+            text += &noted("coefficient_per_load", &quoted(&wear.text), note);
         }
         if self.cycles.value > JUMP_FROM && self.wear.is_some() {
-            let integrator = "integrator = \"cycle-jump\"";
-            let meaning = "jumps over cycles that are alike; \"direct\": every step";
-            text += &format!("\n[numerics]\n{integrator:38} # {meaning}\n");
+            let note = "jumps over cycles that are alike; \"direct\": every step";
+            text += "\n[numerics]\n";
+            text += &noted("integrator", &quoted("cycle-jump"), note);
         }
         text + &format!("\n[run]\ncycles = {:?}\n", self.cycles.value)
     }

@@ -24,7 +24,7 @@ mod sensitivity;
 mod slurm;
 mod view;
 
-use output::Claimed;
+use output::Output;
 
 /// The largest file that is read as a study, in bytes.
 const LARGEST_STUDY: u64 = 1 << 26;
@@ -126,8 +126,7 @@ fn refuse_invalid<'a>(
         start.elapsed() < patience
     });
     bar.finish_and_clear();
-    checked.map_err(invalid)?;
-    Ok((!check.is_over()).then_some(check))
+    Ok((!checked.map_err(invalid)?).then_some(check))
 }
 
 fn invalid(refusal: Refusal) -> Refusal {
@@ -142,9 +141,8 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
         .unwrap_or_else(|| default_out(path, shard));
     let pool = pool(options)?;
     let mine = shard.points(study.points()).count();
-    let claimed = Claimed::new(&out, study, shard, options)?;
     let check = refuse_invalid(options, study, shard, &pool, CHECKED_FIRST)?;
-    let mut output = claimed.begin()?;
+    let mut output = Output::open(&out, study, shard, options)?;
     let stop = stop::patient_signal()?;
     let go_on = || !stop.load(Ordering::Relaxed);
     crate::panics::capture();

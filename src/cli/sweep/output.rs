@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 
 use super::super::args::Sweep;
 use crate::export::file::{WriteError, write_with};
@@ -21,102 +21,6 @@ use crate::studies::sweep::{Shard, Study, Success};
 /// already; a crash of the machine loses at most this much.
 const FLUSH_INTERVAL: Duration = Duration::from_secs(5);
 
-/// A file that can be made or continued, which no other process writes. Nothing is written yet.
-pub struct Claimed<'a> {
-    target: Target,
-    study: &'a Study,
-    shard: Shard,
-    arithmetic: Arithmetic,
-    /// The table that is continued.
-    earlier: Option<Record>,
-    without_failed: bool,
-}
-
-impl<'a> Claimed<'a> {
-    /// Checks that the file can be made or continued.
-    pub fn new(path: &Path, study: &'a Study, shard: Shard, options: &Sweep) -> Result<Self> {
-        let mut claimed = Self {
-            target: Target::hold_in_new_directory(path)?,
-            study,
-            shard,
-            arithmetic: [header::arithmetic().to_owned()].into(),
-            earlier: None,
-            without_failed: options.failed,
-        };
-        let refuse = |why: &str| Err(Refusal::new(path.display(), why).into());
-        if !claimed.target.exists() || options.force {
-            return Ok(claimed);
-        }
-        if !options.resume {
-            return refuse(
-                "already exists; --resume continues it, --force starts over, --out names another file",
-            );
-        }
-        let file = match own::read(path) {
-            Ok(file) => file,
-            Err(error) => return refuse(&format!("cannot be read: {error}")),
-        };
-        let record = Record::open(file, &path.display().to_string())?;
-        record.expect(study, "the study now")?;
-        if record.shard != shard {
-            let (theirs, ours) = (record.shard, shard);
-            return refuse(&format!("holds shard {theirs}, not {ours}"));
-        }
-        claimed.arithmetic.extend(record.arithmetic.iter().cloned());
-        claimed.earlier = Some(record);
-        Ok(claimed)
-    }
-
-    /// Writes the rows that are there already, so that new ones can be appended. What was there before
-    /// stays until they are.
-    pub fn begin(self) -> Result<Output> {
-        let (study, target) = (self.study, self.target);
-        let head = record::head(study, self.shard, &self.arithmetic);
-        let ledger = if target.is_stdout() {
-            // Sorted, they come out at the end.
-            let directory = env::temp_dir();
-            let ledger = Ledger::unnamed(study, &directory);
-            ledger.with_context(|| directory.display().to_string())?
-        } else {
-            let rows = self.earlier.map(|record| record.rows(study)).transpose()?;
-            let (mut ledger, mut refused) = (None, None);
-            let written = write_with(target.path(), |file| {
-                file.write_all(head.as_bytes())?;
-                let mut new = Ledger::new(study, file.try_clone()?, target.directory())?;
-                for row in rows.into_iter().flatten() {
-                    let row = row.map_err(|error| {
-                        refused = Some(error);
-                        io::ErrorKind::InvalidData
-                    })?;
-                    if self.without_failed && !Success::of_row(&row).has_result() {
-                        continue;
-                    }
-                    let begins = row.join(",");
-                    if let Err(why) = new.take(study, row)? {
-                        let why = format!("row {begins} does not belong to the study ({why:?})");
-                        refused = Some(Refusal::new(target.path().display(), why));
-                        return Err(io::ErrorKind::InvalidData.into());
-                    }
-                }
-                ledger = Some(new);
-                Ok(())
-            });
-            match (refused, written, ledger) {
-                (Some(refused), ..) => return Err(refused.into()),
-                (None, Err(error), _) => return Err(error.into()),
-                (None, Ok(()), ledger) => ledger.context("no rows")?,
-            }
-        };
-        Ok(Output {
-            target,
-            head,
-            ledger,
-            is_whole: true,
-            flushed: Instant::now(),
-        })
-    }
-}
-
 /// The rows of a study in a file.
 pub struct Output {
     /// The file.
@@ -130,6 +34,70 @@ pub struct Output {
 }
 
 impl Output {
+    /// Makes the file, or continues it, which no other process writes. What was there before stays until its rows are
+    /// written again, so that new ones can be appended.
+    pub fn open(path: &Path, study: &Study, shard: Shard, options: &Sweep) -> Result<Self> {
+        let target = Target::hold_in_new_directory(path)?;
+        let mut arithmetic: Arithmetic = [header::arithmetic().to_owned()].into();
+        let mut rows = None;
+        if target.exists() && !options.force {
+            let refuse = |why: String| Refusal::new(path.display(), why);
+            if !options.resume {
+                let rule = "already exists; --resume continues it, --force starts over, --out names another file";
+                bail!(refuse(rule.into()));
+            }
+            let file = own::read(path);
+            let file = file.map_err(|error| refuse(format!("cannot be read: {error}")))?;
+            let record = Record::open(file, &path.display().to_string())?;
+            record.expect(study, "the study now")?;
+            if record.shard != shard {
+                bail!(refuse(format!("holds shard {}, not {shard}", record.shard)));
+            }
+            arithmetic.extend(record.arithmetic.iter().cloned());
+            rows = Some(record.rows(study)?);
+        }
+        let head = record::head(study, shard, &arithmetic);
+        let ledger = if target.is_stdout() {
+            // Sorted, they come out at the end.
+            let directory = env::temp_dir();
+            let ledger = Ledger::unnamed(study, &directory);
+            ledger.with_context(|| directory.display().to_string())?
+        } else {
+            let (mut ledger, mut refused) = (None, None);
+            let written = write_with(path, |file| {
+                file.write_all(head.as_bytes())?;
+                let new = Ledger::new(study, file.try_clone()?, target.directory())?;
+                let new = ledger.insert(new);
+                for row in rows.into_iter().flatten() {
+                    let row = row.map_err(|error| {
+                        refused = Some(error);
+                        io::ErrorKind::InvalidData
+                    })?;
+                    if options.failed && !Success::of_row(&row).has_result() {
+                        continue;
+                    }
+                    let begins = row.join(",");
+                    if let Err(why) = new.take(study, row)? {
+                        let why = format!("row {begins} does not belong to the study ({why:?})");
+                        refused = Some(Refusal::new(path.display(), why));
+                        return Err(io::ErrorKind::InvalidData.into());
+                    }
+                }
+                Ok(())
+            });
+            refused.map_or(Ok(()), Err)?;
+            written?;
+            ledger.context("no rows")?
+        };
+        Ok(Self {
+            target,
+            head,
+            ledger,
+            is_whole: true,
+            flushed: Instant::now(),
+        })
+    }
+
     /// Adds the row of a point. On an error the file ends with the last whole row.
     pub fn add(&mut self, point: usize, fields: &[String]) -> Result<(), WriteError> {
         let mut written = self.ledger.add(point, fields);

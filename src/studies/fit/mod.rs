@@ -196,7 +196,7 @@ impl Fit {
         };
         let mut theta: Vec<f64> = self.free.iter().map(|free| free.start).collect();
         simulate(&theta).map_err(|error| anyhow!("at the start values: {error}"))?;
-        let mut errors: Vec<Vec<f64>> = self.data.iter().map(first_errors).collect();
+        let mut errors: Vec<f64> = self.data.iter().flat_map(first_errors).collect();
         let is_given = self.data.iter().all(|set| set.errors.is_some());
         let rounds = if is_given && !self.robust { 1 } else { ROUNDS };
         let mut round = 1;
@@ -211,8 +211,7 @@ impl Fit {
                 }
                 Some(all)
             };
-            let points = self.data.iter().map(|set| set.values.len()).sum();
-            let solved = solver::solve(&self.free, &theta, points, &mut residuals)
+            let solved = solver::solve(&self.free, &theta, errors.len(), &mut residuals)
                 .map_err(|why| anyhow!("no minimum was found: {why}"))?;
             let derivatives = self.derivatives(&solved, &deviations);
             let simulated = simulate(&solved.theta);
@@ -237,28 +236,24 @@ impl Fit {
     }
 
     /// z of all points.
-    fn deviations(&self, simulated: &[Vec<f64>], errors: &[Vec<f64>]) -> Vec<f64> {
-        let mut all = Vec::new();
-        for ((set, simulated), errors) in self.data.iter().zip(simulated).zip(errors) {
-            let points = set.values.iter().zip(simulated).zip(errors);
-            all.extend(points.map(|((value, simulated), error)| (value - simulated) / error));
-        }
-        all
+    fn deviations(&self, simulated: &[Vec<f64>], errors: &[f64]) -> Vec<f64> {
+        let sets = self.data.iter().zip(simulated);
+        let left = sets.flat_map(|(set, simulated)| residuals(set, simulated));
+        left.zip(errors).map(|(left, error)| left / error).collect()
     }
 
     /// The points of each data set among all points.
-    fn places(&self) -> impl Iterator<Item = Range<usize>> {
+    fn places(&self) -> impl Iterator<Item = (&Measured, Range<usize>)> {
         self.data.iter().scan(0, |end, set| {
             let first = *end;
             *end += set.values.len();
-            Some(first..*end)
+            Some((set, first..*end))
         })
     }
 
     /// The points of the data sets whose error is estimated, among all points.
     fn estimated(&self) -> Vec<Range<usize>> {
-        let sets = self.data.iter().zip(self.places());
-        let estimated = sets.filter(|(set, _)| set.errors.is_none());
+        let estimated = self.places().filter(|(set, _)| set.errors.is_none());
         estimated.map(|(_, points)| points).collect()
     }
 
@@ -290,14 +285,13 @@ impl Fit {
 
     /// The error that all values of a data set share, from what the fit leaves and from what each of its points
     /// has spent on the keys.
-    fn update_errors(&self, simulated: &[Vec<f64>], leverages: &[f64], errors: &mut [Vec<f64>]) {
-        let sets = self.data.iter().zip(simulated).zip(self.places());
-        for (((set, simulated), place), errors) in sets.zip(errors) {
+    fn update_errors(&self, simulated: &[Vec<f64>], leverages: &[f64], errors: &mut [f64]) {
+        for ((set, place), simulated) in self.places().zip(simulated) {
             if set.errors.is_some() {
                 continue;
             }
             let points = set.values.len();
-            let spent: f64 = leverages[place].iter().sum();
+            let spent: f64 = leverages[place.clone()].iter().sum();
             let left = residuals(set, simulated);
             let size = if self.robust {
                 let mut sizes: Vec<f64> = left.iter().map(|left| left.abs()).collect();
@@ -307,10 +301,8 @@ impl Fit {
                 rms(&left)
             };
             let size = size * (points as f64 / freedom(points, spent)).sqrt();
-            errors.fill(
-                size.max(LEAST_ERROR * rms(&set.values))
-                    .max(f64::MIN_POSITIVE),
-            );
+            let least = (LEAST_ERROR * rms(&set.values)).max(f64::MIN_POSITIVE);
+            errors[place].fill(size.max(least));
         }
     }
 
@@ -347,36 +339,32 @@ impl Fit {
         }
         let correlation = |i: usize, j: usize| {
             let norm = (uncertainty.covariance[(i, i)] * uncertainty.covariance[(j, j)]).sqrt();
-            if norm > 0.0 {
-                uncertainty.covariance[(i, j)] / norm
-            } else {
-                0.0
+            match norm > 0.0 {
+                true => uncertainty.covariance[(i, j)] / norm,
+                false => 0.0,
             }
         };
         let correlations: Vec<Vec<f64>> = (0..keys)
             .map(|i| (0..keys).map(|j| correlation(i, j)).collect())
             .collect();
-        for (i, row) in correlations.iter().enumerate() {
-            for (j, correlation) in row.iter().enumerate().take(i) {
-                if correlation.abs() > ALIKE {
-                    remarks.push(format!(
-                        "the data hardly distinguish {} from {}: their correlation \
-                         is {correlation:.4}",
-                        self.free[j].key, self.free[i].key
-                    ));
-                }
+        for (i, j) in (0..keys).flat_map(|i| (0..i).map(move |j| (i, j))) {
+            let correlation = correlations[i][j];
+            if correlation.abs() > ALIKE {
+                let (one, other) = (&self.free[j].key, &self.free[i].key);
+                remarks.push(format!(
+                    "the data hardly distinguish {one} from {other}: their correlation is {correlation:.4}"
+                ));
             }
         }
         let compared = self.data.iter().cloned().zip(simulated);
+        let compared = compared.map(|(measured, simulated)| Compared {
+            measured,
+            simulated,
+        });
         Fitted {
             values,
             correlations,
-            compared: compared
-                .map(|(measured, simulated)| Compared {
-                    measured,
-                    simulated,
-                })
-                .collect(),
+            compared: compared.collect(),
             remarks,
             runs,
             cycles: self.cycles,
@@ -387,23 +375,22 @@ impl Fit {
 
 impl Fitted {
     /// `{key: {value, stderr, correlations: {key: …}}}`, as JSON has it; no error: `null`.
-    pub fn json(&self) -> BTreeMap<String, serde_json::Value> {
-        let others = |i: usize| {
-            let pairs = self.values.iter().zip(&self.correlations[i]).enumerate();
-            pairs
-                .filter(|(j, _)| *j != i)
-                .map(|(_, (value, correlation))| (value.key.clone(), (*correlation).into()))
-                .collect::<serde_json::Map<_, _>>()
-        };
-        let entry = |(i, value): (usize, &Value)| {
-            let entry = serde_json::json!({
-                "value": value.value,
-                "stderr": value.stderr,
-                "correlations": others(i),
+    pub fn json(&self) -> serde_json::Value {
+        let keys = || self.values.iter().map(|value| value.key.clone());
+        let entries = self
+            .values
+            .iter()
+            .zip(&self.correlations)
+            .map(|(value, row)| {
+                let mut others: BTreeMap<String, f64> = keys().zip(row.iter().copied()).collect();
+                others.remove(&value.key);
+                serde_json::json!({
+                    "value": value.value,
+                    "stderr": value.stderr,
+                    "correlations": others,
+                })
             });
-            (value.key.clone(), entry)
-        };
-        self.values.iter().enumerate().map(entry).collect()
+        serde_json::Value::Object(keys().zip(entries).collect())
     }
 }
 
@@ -432,23 +419,17 @@ fn start(scenario: &Scenario, key: &str) -> Result<Free, ScenarioError> {
             "{key} has no value to start from; give one with --set {key}=..."
         ));
     };
-    let positive = match parameter.range {
-        Allowed::Positive | Allowed::UpTo(_) | Allowed::Acute => true,
-        Allowed::NotNegative | Allowed::Any => {
-            value > 0.0 && parameter.range == Allowed::NotNegative
-        }
-        Allowed::Within(least, _) => least > 0.0,
-    };
     if parameter.range == Allowed::NotNegative && value == 0.0 {
         return refuse(format!(
             "{key} starts at 0; give a value greater than 0 with --set"
         ));
     }
-    let limits = match parameter.range {
-        Allowed::Within(least, most) => [least, most],
-        Allowed::UpTo(most) => [0.0, most],
-        Allowed::Acute => [0.0, std::f64::consts::FRAC_PI_2],
-        _ => [f64::NEG_INFINITY, f64::INFINITY],
+    let (positive, limits) = match parameter.range {
+        Allowed::Any => (false, [f64::NEG_INFINITY, f64::INFINITY]),
+        Allowed::Positive | Allowed::NotNegative => (true, [0.0, f64::INFINITY]),
+        Allowed::UpTo(most) => (true, [0.0, most]),
+        Allowed::Acute => (true, [0.0, std::f64::consts::FRAC_PI_2]),
+        Allowed::Within(least, most) => (least > 0.0, [least, most]),
     };
     Ok(Free::new(key, parameter.unit, value, positive, limits))
 }

@@ -50,10 +50,8 @@ impl Free {
             true => {
                 // A limit that has no logarithm is none.
                 let (start, [least, most]) = (start.ln(), limits.map(f64::ln));
-                (
-                    start,
-                    [least.max(start - FARTHEST), most.min(start + FARTHEST)],
-                )
+                let reach = [start - FARTHEST, start + FARTHEST];
+                (start, [least.max(reach[0]), most.min(reach[1])])
             }
         };
         Self {
@@ -72,11 +70,7 @@ impl Free {
 
     /// The standard error of the value.
     pub fn error(&self, theta: f64, error: f64) -> f64 {
-        if self.positive {
-            theta.exp() * error
-        } else {
-            error
-        }
+        error * if self.positive { theta.exp() } else { 1.0 }
     }
 
     /// The size against which an error is vague.
@@ -90,11 +84,27 @@ impl Free {
 
     /// The step of differences around `theta`.
     pub fn step(&self, theta: f64) -> f64 {
-        if self.positive {
-            STEP
+        STEP * if self.positive {
+            1.0
         } else {
-            STEP * theta.abs().max(1e-12)
+            theta.abs().max(1e-12)
         }
+    }
+
+    /// The ends of its range for the search.
+    fn limits(&self, theta: f64) -> MPPar {
+        let [low, up] = self.bounds;
+        let finite = |bound: f64| if bound.is_finite() { bound } else { 0.0 };
+        let mut parameter = MPPar::new();
+        (parameter.limited_low, parameter.limited_up) = (low.is_finite(), up.is_finite());
+        (parameter.limit_low, parameter.limit_up) = (finite(low), finite(up));
+        parameter.step = self.step(theta);
+        parameter
+    }
+
+    fn is_at_bound(&self, theta: f64) -> bool {
+        let [low, up] = self.bounds;
+        theta <= low || theta >= up
     }
 }
 
@@ -137,21 +147,16 @@ pub(super) fn solve(
     points: usize,
     residuals: &mut dyn FnMut(&[f64]) -> Option<Vec<f64>>,
 ) -> Result<Solved, &'static str> {
-    let parameters = free.iter().zip(theta).map(|(free, theta)| {
-        let [low, up] = free.bounds;
-        let mut parameter = MPPar::new();
-        (parameter.limited_low, parameter.limited_up) = (low.is_finite(), up.is_finite());
-        parameter.limit_low = if low.is_finite() { low } else { 0.0 };
-        parameter.limit_up = if up.is_finite() { up } else { 0.0 };
-        parameter.step = free.step(*theta);
-        parameter
-    });
     let mut config = MPConfig::new();
     (config.ftol, config.xtol, config.gtol) = (1e-7, 1e-6, 1e-10);
     config.max_iter = 60;
     let mut problem = Problem {
         points,
-        parameters: parameters.collect(),
+        parameters: free
+            .iter()
+            .zip(theta)
+            .map(|(free, theta)| free.limits(*theta))
+            .collect(),
         config,
         residuals,
     };
@@ -164,10 +169,8 @@ pub(super) fn solve(
     if status.success == MPSuccess::MaxIter {
         return Err("no convergence after 60 iterations; try better start values");
     }
-    let at_bound = free.iter().zip(&theta).map(|(free, theta)| {
-        let [low, up] = free.bounds;
-        *theta <= low || *theta >= up
-    });
+    let at_bound = free.iter().zip(&theta);
+    let at_bound = at_bound.map(|(free, theta)| free.is_at_bound(*theta));
     Ok(Solved {
         at_bound: at_bound.collect(),
         theta,

@@ -160,7 +160,7 @@ impl Study {
         setting: Setting,
         wear_numbers: &[f64],
         go_on: &dyn Fn() -> bool,
-        mut on_run: impl FnMut(f64),
+        on_run: impl FnMut(),
     ) -> Result<Line, SessionError> {
         let mut line = Line {
             setting,
@@ -168,7 +168,7 @@ impl Study {
             predicted: predict(self, setting)?,
             seen: None,
         };
-        match self.climb(&mut line, wear_numbers, go_on, &mut on_run) {
+        match self.climb(&mut line, wear_numbers, go_on, on_run) {
             Err(SessionError::Interrupted) => Ok(line),
             climbed => climbed.map(|()| line),
         }
@@ -179,7 +179,7 @@ impl Study {
         line: &mut Line,
         wear_numbers: &[f64],
         go_on: &dyn Fn() -> bool,
-        on_run: &mut dyn FnMut(f64),
+        mut on_run: impl FnMut(),
     ) -> Result<(), SessionError> {
         let (mut below, mut above) = (None, None);
         for &wear_number in wear_numbers {
@@ -190,7 +190,7 @@ impl Study {
                 _ => {}
             }
             line.outcomes.push((wear_number, outcome));
-            on_run(wear_number);
+            on_run();
         }
         // After a sawtooth on the lowest rung: the boundary lies below the ladder.
         let (Some(mut low), Some(mut high)) = (below, above) else {

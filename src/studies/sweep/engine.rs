@@ -1,7 +1,6 @@
 //! Many points on several threads. Each thread takes the next free point, so all threads end at
 //! about the same time, and rows arrive nearly in order.
 
-use std::iter::Peekable;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError, mpsc};
 
@@ -19,7 +18,7 @@ const CHUNK: usize = 256;
 pub struct Check<'a> {
     study: &'a Study,
     /// The points that are not checked yet.
-    left: Peekable<Box<dyn Iterator<Item = usize> + Send + 'a>>,
+    left: Box<dyn Iterator<Item = usize> + Send + 'a>,
 }
 
 impl<'a> Check<'a> {
@@ -27,18 +26,17 @@ impl<'a> Check<'a> {
     /// ends of all axes come first.
     pub fn new(study: &'a Study, shard: Shard) -> Self {
         let all = shard.points(study.points());
-        let left: Box<dyn Iterator<Item = usize> + Send> = match all.len() > CHUNK {
-            true => Box::new(edges(study, shard).into_iter().chain(all)),
-            false => Box::new(all),
-        };
         Self {
             study,
-            left: left.peekable(),
+            left: match all.len() > CHUNK {
+                true => Box::new(edges(study, shard).into_iter().chain(all)),
+                false => Box::new(all),
+            },
         }
     }
 
     /// Checks points on the threads of `pool` as long as `go_on`, which is given the number checked so far,
-    /// says so.
+    /// says so. Returns whether every point is checked.
     ///
     /// # Errors
     ///
@@ -47,16 +45,19 @@ impl<'a> Check<'a> {
         &mut self,
         pool: &ThreadPool,
         mut go_on: impl FnMut(usize) -> bool,
-    ) -> Result<(), Refusal> {
+    ) -> Result<bool, Refusal> {
         let mut checked = 0;
-        while !self.is_over() && go_on(checked) {
+        while go_on(checked) {
             let chunk: Vec<usize> = self.left.by_ref().take(CHUNK).collect();
+            if chunk.is_empty() {
+                return Ok(true);
+            }
             checked += chunk.len();
             let invalid = |point| validated(self.study, point).err();
             let refused = pool.install(|| chunk.into_par_iter().find_map_first(invalid));
             refused.map_or(Ok(()), Err)?;
         }
-        Ok(())
+        Ok(false)
     }
 
     /// Checks what is left on this thread, as long as `go_on` says so.
@@ -67,11 +68,6 @@ impl<'a> Check<'a> {
     fn finish(self, go_on: &dyn Fn() -> bool) -> Result<(), Refusal> {
         let mut left = self.left.take_while(|_| go_on());
         left.try_for_each(|point| validated(self.study, point))
-    }
-
-    /// Whether every point is checked.
-    pub fn is_over(&mut self) -> bool {
-        self.left.peek().is_none()
     }
 }
 
@@ -118,9 +114,8 @@ pub fn run(
     // Nobody waits for the check once the points are done.
     let is_done = AtomicBool::new(false);
     let is_strict = check.is_some();
-    let refused = Mutex::new(Ok(()));
     let next = || todo.lock().unwrap_or_else(PoisonError::into_inner).next();
-    let work = |send: mpsc::Sender<(usize, Row)>| {
+    let work = |send: mpsc::Sender<Result<(usize, Row), Refusal>>| {
         while go_on() {
             let Some(point) = next() else {
                 return;
@@ -128,17 +123,19 @@ pub fn run(
             let Some(row) = point::run(study, point, &go_on) else {
                 return;
             };
-            // Ahead of the check.
-            if is_strict && Success::of(&row.status) == Success::Invalid {
-                *refused.lock().unwrap_or_else(PoisonError::into_inner) = validated(study, point);
-                halt();
-                return;
-            }
-            if send.send((point, row)).is_err() {
+            // The check may not have come to it yet.
+            let is_refused = is_strict && Success::of(&row.status) == Success::Invalid;
+            let checked = if is_refused {
+                validated(study, point)
+            } else {
+                Ok(())
+            };
+            if send.send(checked.map(|()| (point, row))).is_err() {
                 return;
             }
         }
     };
+    let mut refused = Ok(());
     std::thread::scope(|scope| {
         let check = scope.spawn(|| {
             let checked = check.map_or(Ok(()), |check| {
@@ -155,9 +152,11 @@ pub fn run(
                 scope.spawn(|_| work(send));
             }
             drop(send);
-            for (point, row) in &rows {
-                if !finished(point, row) {
+            for row in &rows {
+                let is_taken = row.map(|(point, row)| finished(point, row));
+                if !matches!(is_taken, Ok(true)) {
                     halt();
+                    refused = is_taken.map(drop);
                     return;
                 }
             }
@@ -165,5 +164,5 @@ pub fn run(
         is_done.store(true, Ordering::Relaxed);
         check.join().unwrap_or(Ok(()))
     })?;
-    refused.into_inner().unwrap_or_else(PoisonError::into_inner)
+    refused
 }

@@ -61,25 +61,10 @@ fn lines(study: &Study) -> String {
     text
 }
 
-/// Characters for which a field is put in quotes, beside the comma, or may be.
-const RARE: [char; 5] = ['"', '#', ';', '\n', '\r'];
-
 /// Returns one line of a CSV file, with its end.
-pub fn line<T: AsRef<str>>(fields: impl IntoIterator<Item = T>) -> String {
-    let fields: Vec<T> = fields.into_iter().collect();
-    // A writer costs more than most rows.
-    if fields.len() > 1
-        && fields
-            .iter()
-            .all(|field| !field.as_ref().contains(RARE) && !field.as_ref().contains(','))
-    {
-        let fields: Vec<&str> = fields.iter().map(T::as_ref).collect();
-        return fields.join(",") + "\n";
-    }
-    let fields = fields.iter().map(T::as_ref);
-    let mut writer = csv::WriterBuilder::new()
-        .comment(Some(b'#'))
-        .from_writer(Vec::new());
+pub fn line<T: AsRef<[u8]>>(fields: impl IntoIterator<Item = T>) -> String {
+    let mut writer = csv::WriterBuilder::new();
+    let mut writer = writer.comment(Some(b'#')).from_writer(Vec::new());
     // Memory does not fail to be written.
     let _ = writer.write_record(fields);
     let bytes = writer.into_inner().unwrap_or_default();
@@ -88,10 +73,6 @@ pub fn line<T: AsRef<str>>(fields: impl IntoIterator<Item = T>) -> String {
 
 /// The fields of one line of a CSV file.
 pub(super) fn split(line: &str) -> Vec<String> {
-    let line = line.trim_end_matches(['\n', '\r']);
-    if !line.contains(RARE) {
-        return line.split(',').map(str::to_owned).collect();
-    }
     let mut reader = csv::ReaderBuilder::new();
     let mut reader = reader.has_headers(false).from_reader(line.as_bytes());
     let mut row = csv::StringRecord::new();

@@ -1,5 +1,7 @@
 //! A study: the scenario of every point, and the columns to record.
 
+use std::fmt::Display;
+
 use serde::Deserialize;
 use toml::Value;
 
@@ -232,40 +234,36 @@ impl Study {
 
     /// The study as TOML, in one form for all ways to write it.
     pub fn to_toml(&self) -> String {
-        let mut text = String::new();
-        let mut put = |key: &str, value: &Value| {
-            text.push_str(&format!("{key} = {}\n", toml_value(value)));
-        };
-        if let Some(title) = &self.title {
-            put("title", &title.clone().into());
-        }
-        put("base", &self.base_name.clone().into());
-        let columns = self.columns.iter().map(|column| Value::from(column.name));
-        put("columns", &Value::Array(columns.collect()));
-        put("design", &self.design.name().into());
+        let columns = self.columns.iter().map(|column| column.name.into());
+        let mut head: Vec<(&str, Value)> = vec![
+            ("base", self.base_name.clone().into()),
+            ("columns", Value::Array(columns.collect())),
+            ("design", self.design.name().into()),
+        ];
         if let Some((samples, seed)) = self.samples {
-            put("samples", &(samples as i64).into());
-            put("seed", &i64::from(seed).into());
+            head.push(("samples", (samples as i64).into()));
+            head.push(("seed", i64::from(seed).into()));
         }
-        let mut table = |name: &str, rows: &mut [(String, Value)]| {
-            rows.sort_by(|(one, _), (other, _)| one.cmp(other));
-            if !rows.is_empty() {
-                text.push_str(&format!("\n[{name}]\n"));
-            }
-            for (key, value) in &*rows {
-                text.push_str(&format!("{} = {}\n", toml_key(key), toml_value(value)));
-            }
-        };
-        table("set", &mut self.set.clone());
+        let title = self.title.clone();
+        let title = title.map(|title| ("title", Value::from(title)));
+        let mut text = lines(title.into_iter().chain(head));
         let stop = self.stop.named().into_iter();
-        let stop = stop.filter_map(|(name, value)| Some((name.into(), Value::Float(value?))));
-        table("stop", &mut stop.collect::<Vec<_>>());
-        let sensitivity = self.sensitivity.iter();
-        let sensitivity =
-            sensitivity.map(|one| (one.key.clone(), one.deviation.unwrap_or(0.0).into()));
-        table("sensitivity", &mut sensitivity.collect::<Vec<_>>());
+        let stop = stop.filter_map(|(name, value)| Some((name.into(), value?.into())));
+        let varied = self.sensitivity.iter();
+        let varied = varied.map(|one| (one.key.clone(), one.deviation.unwrap_or(0.0).into()));
+        for (name, mut rows) in [
+            ("set", self.set.clone()),
+            ("stop", stop.collect()),
+            ("sensitivity", varied.collect()),
+        ] {
+            rows.sort_by(|(one, _): &(String, _), (other, _)| one.cmp(other));
+            if !rows.is_empty() {
+                text += &format!("\n[{name}]\n");
+                text += &lines(rows.iter().map(|(key, value)| (quoted(key), value.clone())));
+            }
+        }
         for axis in &self.axes {
-            text.push_str(&format!("\n[[axis]]\n{}", written(axis)));
+            text += &format!("\n[[axis]]\n{}", written(axis));
         }
         text
     }
@@ -276,8 +274,6 @@ const MOST_LISTED: usize = 1000;
 
 /// An axis as written in a study: its values listed, or its ends if there are many.
 fn written(axis: &Axis) -> String {
-    let list = |values: Vec<Value>| toml_value(&Value::Array(values));
-    let mut text = format!("key = {}\n", toml_value(&axis.key.clone().into()));
     let is_logarithmic = axis.spread == axis::Spread::Logarithmic;
     let ends = match axis.values {
         Values::Spaced([from, to], count) if count > MOST_LISTED => {
@@ -288,35 +284,35 @@ fn written(axis: &Axis) -> String {
         }
         _ => None,
     };
-    match ends {
-        Some(ends) => {
-            let name = if is_logarithmic {
-                "logspace"
-            } else {
-                "linspace"
-            };
-            text.push_str(&format!("{name} = {}\n", list(ends)));
-        }
+    let (name, list, scale) = match ends {
+        Some(ends) if is_logarithmic => ("logspace", ends, None),
+        Some(ends) => ("linspace", ends, None),
         None => {
             let values = (0..axis.count()).map(|place| axis.value(place));
-            text.push_str(&format!("values = {}\n", list(values.collect())));
-            if is_logarithmic {
-                text.push_str("scale = \"log\"\n");
-            }
+            ("values", values.collect(), is_logarithmic.then_some("log"))
         }
-    }
+    };
+    let rows = [("key", axis.key.clone().into()), (name, list.into())];
+    let scale = scale.map(|scale| ("scale", scale.into()));
+    let mut text = lines(rows.into_iter().chain(scale));
     if !axis.tied.is_empty() {
         let tied = axis.tied.iter();
-        let tied = tied
-            .map(|(key, factor)| format!("{} = {}", toml_key(key), toml_value(&(*factor).into())));
-        let tied: Vec<String> = tied.collect();
-        text.push_str(&format!("tied = {{ {} }}\n", tied.join(", ")));
+        let tied = tied.map(|(key, factor)| lines([(quoted(key), (*factor).into())]));
+        let tied: String = tied.collect::<Vec<_>>().join(", ");
+        text += &format!("tied = {{ {} }}\n", tied.replace('\n', ""));
     }
     text
 }
 
+/// Keys and values, a line each.
+fn lines(rows: impl IntoIterator<Item = (impl Display, Value)>) -> String {
+    let rows = rows.into_iter();
+    rows.map(|(key, value)| format!("{key} = {}\n", toml_value(&value)))
+        .collect()
+}
+
 /// A dotted path as one key of TOML. The keys of scenarios need no escapes.
-fn toml_key(path: &str) -> String {
+fn quoted(path: &str) -> String {
     format!("\"{path}\"")
 }
 

@@ -170,7 +170,7 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
     if outcome.is_ok() {
         let todo = output.ledger.done().clone().missing(study, shard);
         checked = engine::run(study, todo, check, &pool, &go_on, |point, row| {
-            let added = output.add(point, &record::fields(study, point, row));
+            let added = output.add(point, &row);
             outcome = added.map_err(|error| anyhow!("{error}"));
             if outcome.is_ok() {
                 outcome = print(&output.ledger);

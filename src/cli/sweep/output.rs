@@ -73,7 +73,7 @@ impl Output {
                         refused = Some(error);
                         io::ErrorKind::InvalidData
                     })?;
-                    if options.failed && !Success::of_row(&row).has_result() {
+                    if options.failed && !Success::of(&row).has_result() {
                         continue;
                     }
                     let begins = row.join(",");

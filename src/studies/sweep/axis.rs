@@ -107,10 +107,7 @@ impl Axis {
 
     /// The value at `index` as a number, if it is one.
     pub fn number(&self, index: usize) -> Option<f64> {
-        match &self.values {
-            Values::Listed(values) => numeric(&values[index]),
-            _ => numeric(&self.value(index)),
-        }
+        numeric(&self.value(index))
     }
 
     /// Where on the axis a value lies: between the indices of its neighbours, as the axis is
@@ -149,7 +146,7 @@ impl Axis {
 }
 
 /// A value as `--set` takes it.
-fn text(value: &Value) -> String {
+pub(super) fn text(value: &Value) -> String {
     match value {
         Value::Float(value) => number(*value),
         Value::String(word) => word.clone(),

@@ -65,7 +65,7 @@ impl Border {
         let axis = &study.axes[along];
         let ends = [axis.number(0)?, axis.number(axis.count() - 1)?];
         let distance = |value: f64| {
-            let scenario = study.scenario_at(places, along, value).ok()?;
+            let scenario = study.scenario_at(places, Some((along, value))).ok()?;
             self.distance(&scenario)
         };
         let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];

@@ -7,7 +7,7 @@ use std::sync::{Mutex, PoisonError, mpsc};
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
-use super::point::{self, Row, Success};
+use super::point::{self, Success};
 use super::{Shard, Study};
 use crate::scenario::Refusal;
 
@@ -104,7 +104,7 @@ pub fn run(
     check: Option<Check>,
     pool: &ThreadPool,
     go_on: &(dyn Fn() -> bool + Sync),
-    mut finished: impl FnMut(usize, Row) -> bool,
+    mut finished: impl FnMut(usize, Vec<String>) -> bool,
 ) -> Result<(), Refusal> {
     let (send, rows) = mpsc::channel();
     let todo = Mutex::new(todo);
@@ -115,7 +115,7 @@ pub fn run(
     let is_done = AtomicBool::new(false);
     let is_strict = check.is_some();
     let next = || todo.lock().unwrap_or_else(PoisonError::into_inner).next();
-    let work = |send: mpsc::Sender<Result<(usize, Row), Refusal>>| {
+    let work = |send: mpsc::Sender<Result<(usize, Vec<String>), Refusal>>| {
         while go_on() {
             let Some(point) = next() else {
                 return;
@@ -124,7 +124,7 @@ pub fn run(
                 return;
             };
             // The check may not have come to it yet.
-            let is_refused = is_strict && Success::of(&row.status) == Success::Invalid;
+            let is_refused = is_strict && Success::of(&row) == Success::Invalid;
             let checked = if is_refused {
                 validated(study, point)
             } else {

@@ -104,7 +104,7 @@ impl Ledger {
         }
         self.length += line.len() as u64;
         self.done.0[point / 64] |= 1 << (point % 64);
-        let success = Success::of_row(fields);
+        let success = Success::of(fields);
         let counts = &mut self.counts;
         counts.rows += 1;
         counts.inaccurate += usize::from(success == Success::Inaccurate);

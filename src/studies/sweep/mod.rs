@@ -25,6 +25,6 @@ mod study;
 
 pub use axis::{Axis, Spread};
 pub use design::Design;
-pub use point::{Row, Success};
+pub use point::Success;
 pub use shard::Shard;
 pub use study::{Stop, Study};

@@ -18,15 +18,6 @@ pub(super) const INVALID: &str = "invalid: ";
 /// How the status of a point begins that has its result, but not to the accuracy asked for.
 const INACCURATE: &str = "accuracy ";
 
-/// The result of a point: its fields after the axes' fields, without the status.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Row {
-    /// The columns; all empty if the point failed before its start.
-    pub fields: Vec<String>,
-    /// [`OK`], the accuracy that was reached instead of the one asked for, or why the point failed.
-    pub status: String,
-}
-
 /// What the status of a row says of its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Success {
@@ -41,19 +32,14 @@ pub enum Success {
 }
 
 impl Success {
-    /// Of a status.
-    pub fn of(status: &str) -> Self {
-        match status {
-            OK => Self::Full,
-            _ if status.starts_with(INACCURATE) => Self::Inaccurate,
-            _ if status.starts_with(INVALID) => Self::Invalid,
+    /// Of a row, whose status is its last field.
+    pub fn of(row: &[String]) -> Self {
+        match row.last().map(String::as_str) {
+            Some(OK) => Self::Full,
+            Some(status) if status.starts_with(INACCURATE) => Self::Inaccurate,
+            Some(status) if status.starts_with(INVALID) => Self::Invalid,
             _ => Self::Failed,
         }
-    }
-
-    /// Of a row, whose status is its last field.
-    pub fn of_row(row: &[String]) -> Self {
-        row.last().map_or(Self::Failed, |status| Self::of(status))
     }
 
     /// Whether the row has a result.
@@ -62,28 +48,29 @@ impl Success {
     }
 }
 
-/// Runs `point`; none if `go_on` said no before its end. A failure, even a defect of the program, is
-/// the status of the row, which then shows the last good state if there is one.
-pub(super) fn run(study: &Study, point: usize, go_on: &dyn Fn() -> bool) -> Option<Row> {
-    match study.scenario(point) {
-        Ok(scenario) => run_scenario(study, scenario, go_on),
-        Err(error) => Some(failed(study, &format!("{INVALID}{error}"))),
-    }
+/// Runs `point` and returns its row: the values of the axes, the columns, and [`OK`], the accuracy that was reached
+/// instead of the one asked for, or why the point failed. None if `go_on` said no before its end. A failure, even a
+/// defect of the program, is the status of the row, which then shows the last good state if there is one.
+pub(super) fn run(study: &Study, point: usize, go_on: &dyn Fn() -> bool) -> Option<Vec<String>> {
+    let ended = match study.scenario(point) {
+        Ok(scenario) => run_scenario(study, scenario, go_on)?,
+        Err(error) => failed(study, &format!("{INVALID}{error}")),
+    };
+    Some([study.values(point), ended].concat())
 }
 
-fn failed(study: &Study, why: &str) -> Row {
-    Row {
-        fields: vec![String::new(); study.columns.len()],
-        status: printable(why),
-    }
+fn failed(study: &Study, why: &str) -> Vec<String> {
+    let mut row = vec![String::new(); study.columns.len()];
+    row.push(printable(why));
+    row
 }
 
-/// Runs `scenario` as a point of `study`: for its columns, until one of its ends.
+/// Runs `scenario` as a point of `study`: for its columns and its status, until one of its ends.
 pub(super) fn run_scenario(
     study: &Study,
     scenario: Scenario,
     go_on: &dyn Fn() -> bool,
-) -> Option<Row> {
+) -> Option<Vec<String>> {
     let (mut session, status) = match begun(&scenario, &study.stop, go_on)? {
         Ok(begun) => begun,
         Err(error) => return Some(failed(study, &error)),
@@ -94,22 +81,18 @@ pub(super) fn run_scenario(
         let ended = advance(&mut session, &study.stop, go_on);
         let reading = Reading::new(&session);
         let columns = study.columns.iter();
-        (
-            ended,
-            columns
-                .map(|column| column.read(&reading).field())
-                .collect(),
-        )
+        let fields = columns.map(|column| column.read(&reading).field());
+        (ended, fields.collect::<Vec<_>>())
     }));
-    match ended {
-        Err(_) => Some(failed(study, "bug in mdr-tui")),
-        Ok((Err(SessionError::Interrupted), _)) => None,
-        Ok((Ok(()), fields)) => Some(Row { fields, status }),
-        Ok((Err(error), fields)) => Some(Row {
-            fields,
-            ..failed(study, &error.to_string())
-        }),
-    }
+    let Ok((ended, mut row)) = ended else {
+        return Some(failed(study, "bug in mdr-tui"));
+    };
+    row.push(match ended {
+        Ok(()) => status,
+        Err(SessionError::Interrupted) => return None,
+        Err(error) => printable(&error.to_string()),
+    });
+    Some(row)
 }
 
 /// A session with the points and steps that meet the accuracy of the scenario if it asks for one, and the status

@@ -23,7 +23,7 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
-use super::{Row, Shard, Study};
+use super::{Shard, Study};
 use crate::scenario::limited::Unread;
 use crate::scenario::{Refusal, printable};
 
@@ -79,14 +79,6 @@ pub(super) fn split(line: &str) -> Vec<String> {
     // Memory does not fail to be read.
     let _ = reader.read_record(&mut row);
     row.iter().map(str::to_owned).collect()
-}
-
-/// Returns the fields of a point's row.
-pub fn fields(study: &Study, point: usize, row: Row) -> Vec<String> {
-    let mut fields = study.values(point);
-    fields.extend(row.fields);
-    fields.push(row.status);
-    fields
 }
 
 /// Returns a row as one JSON object: numbers as numbers, empty fields as null.

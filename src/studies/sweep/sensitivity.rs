@@ -161,10 +161,11 @@ fn around(
     }
     let mut results: Vec<Vec<Option<f64>>> = Vec::new();
     for row in runs.into_iter().flatten() {
-        if !Success::of(&row.status).has_result() {
-            return Err(Refusal::new("sensitivity", row.status));
+        if !Success::of(&row).has_result() {
+            let status = row.last().cloned().unwrap_or_default();
+            return Err(Refusal::new("sensitivity", status));
         }
-        let numbers = row.fields.iter().map(|field| field.parse::<f64>().ok());
+        let numbers = row.iter().map(|field| field.parse::<f64>().ok());
         results.push(numbers.collect());
     }
     let mut elasticities = Vec::new();

@@ -135,7 +135,7 @@ impl Slice {
     /// The number of rows, and how many of them failed.
     pub fn count(&self) -> (usize, usize) {
         let rows = || self.rows.iter().flatten();
-        let failed = rows().filter(|row| !Success::of_row(row).has_result());
+        let failed = rows().filter(|row| !Success::of(row).has_result());
         (rows().count(), failed.count())
     }
 
@@ -235,7 +235,7 @@ impl Slice {
             .iter()
             .position(|known| known.name == column)?;
         let field = row.get(self.study.axes.len() + at)?;
-        (Success::of_row(row).has_result() && !field.is_empty()).then_some(field)
+        (Success::of(row).has_result() && !field.is_empty()).then_some(field)
     }
 
     /// The number in `column` of a point.

@@ -122,12 +122,10 @@ impl Study {
     ///
     /// Refuses values that make no valid scenario, and one without an end.
     pub fn scenario(&self, point: usize) -> Result<Scenario, ScenarioError> {
-        let places = self.places(point);
-        let axes = self.axes.iter().zip(places);
-        self.build(axes.flat_map(|(axis, place)| axis.assignments(&axis.value(place))))
+        self.scenario_at(&self.places(point), None)
     }
 
-    /// The scenario with the axes at `places`, but for axis `along`, which has `value`.
+    /// The scenario with the axes at `places`, but for an axis that has another value.
     ///
     /// # Errors
     ///
@@ -135,13 +133,14 @@ impl Study {
     pub fn scenario_at(
         &self,
         places: &[usize],
-        along: usize,
-        value: f64,
+        other: Option<(usize, f64)>,
     ) -> Result<Scenario, ScenarioError> {
         let axes = self.axes.iter().zip(places).enumerate();
-        self.build(axes.flat_map(|(at, (axis, &place))| match at == along {
-            true => axis.assignments(&axis::value_of(&axis.key, value)),
-            false => axis.assignments(&axis.value(place)),
+        self.build(axes.flat_map(|(at, (axis, &place))| match other {
+            Some((along, value)) if along == at => {
+                axis.assignments(&axis::value_of(&axis.key, value))
+            }
+            _ => axis.assignments(&axis.value(place)),
         }))
     }
 
@@ -191,7 +190,7 @@ impl Study {
         axes: impl Iterator<Item = (&'a str, String)>,
     ) -> Result<Scenario, ScenarioError> {
         let set = self.set.iter();
-        let set = set.map(|(key, value)| (key.as_str(), assigned(value)));
+        let set = set.map(|(key, value)| (key.as_str(), axis::text(value)));
         let all: Vec<(&str, String)> = set.chain(axes).collect();
         let scenario = self.base.with_all(&all)?;
         match scenario.run().cycles {
@@ -314,12 +313,4 @@ fn lines(rows: impl IntoIterator<Item = (impl Display, Value)>) -> String {
 /// A dotted path as one key of TOML. The keys of scenarios need no escapes.
 fn quoted(path: &str) -> String {
     format!("\"{path}\"")
-}
-
-/// A TOML value as `--set` takes it.
-fn assigned(value: &Value) -> String {
-    match value {
-        Value::String(word) => word.clone(),
-        other => other.to_string(),
-    }
 }

@@ -15,7 +15,7 @@ use super::draw;
 use super::view::{Leave, View};
 use crate::scenario::{Refusal, Scenario, schema, units};
 use crate::studies::sweep::engine::{self, Check};
-use crate::studies::sweep::{Shard, Study, record};
+use crate::studies::sweep::{Shard, Study};
 use crate::tui::app::App;
 use crate::tui::keys::Key;
 use crate::tui::overlays::Answer;
@@ -145,8 +145,7 @@ impl Live {
             // Every point is checked already.
             let go_on = || !shared.halt.load(Ordering::Relaxed);
             let _ = engine::run(&study, todo, None, &pool, &go_on, |point, row| {
-                let fields = record::fields(&study, point, row);
-                shared.with(|view| view.put(point, fields));
+                shared.with(|view| view.put(point, row));
                 tell();
                 true
             });

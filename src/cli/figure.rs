@@ -60,11 +60,8 @@ pub fn figure(options: &Figure) -> Result<ExitCode> {
         files.push((Target::claim(path, options.force)?, format));
         let beside = data_file(path, options);
         if data_files.iter().all(|target| target.path() != beside) {
-            let target = Target::hold(&beside)?;
-            if !is_data_of_a_figure(&beside) {
-                target.refuse_existing(options.force)?;
-            }
-            data_files.push(target);
+            let is_replaced = options.force || is_data_of_a_figure(&beside);
+            data_files.push(Target::claim(&beside, is_replaced)?);
         }
     }
     let sheet = sheet(options)?;
@@ -88,11 +85,8 @@ pub fn figure(options: &Figure) -> Result<ExitCode> {
         let refused = |error| Refusal::new(target.path().display(), error);
         written.push((target, picture.map_err(refused)?));
     }
-    written.extend(
-        data_files
-            .iter()
-            .map(|target| (target, data.clone().into_bytes())),
-    );
+    let tables = data_files.iter();
+    written.extend(tables.map(|target| (target, data.clone().into_bytes())));
     write_all(&written)?;
     if !options.quiet {
         let names = written.iter().map(|(target, _)| target.path().display());

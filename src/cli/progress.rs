@@ -20,10 +20,7 @@ pub const TIMES: &str = "{percent}%  {elapsed} gone, {eta} to go";
 /// A bar of `length`, with `behind` (placeholders of `indicatif`) behind it; silent if `quiet` or if
 /// stderr is no terminal.
 pub fn bar(length: u64, behind: &str, quiet: bool) -> ProgressBar {
-    let bar = ProgressBar::new(length);
-    if quiet || !io::stderr().is_terminal() {
-        bar.set_draw_target(ProgressDrawTarget::hidden());
-    }
+    let bar = ProgressBar::with_draw_target(Some(length), target(quiet));
     if let Ok(style) = ProgressStyle::with_template(&format!("{{msg}} [{{bar:32}}] {behind}")) {
         bar.set_style(style.progress_chars("=> "));
     }
@@ -34,15 +31,21 @@ pub fn bar(length: u64, behind: &str, quiet: bool) -> ProgressBar {
 pub fn spinner(message: &'static str, quiet: bool) -> ProgressBar {
     // These characters exist in every locale.
     let style = ProgressStyle::default_spinner().tick_chars("-\\|/ ");
-    let spinner = ProgressBar::new_spinner()
+    let spinner = ProgressBar::with_draw_target(None, target(quiet))
         .with_style(style)
         .with_message(message);
-    if quiet || !io::stderr().is_terminal() {
-        spinner.set_draw_target(ProgressDrawTarget::hidden());
-        return spinner;
+    if !spinner.is_hidden() {
+        spinner.enable_steady_tick(INTERVAL);
     }
-    spinner.enable_steady_tick(INTERVAL);
     spinner
+}
+
+/// Where progress is shown, if anywhere.
+fn target(quiet: bool) -> ProgressDrawTarget {
+    match quiet || !io::stderr().is_terminal() {
+        true => ProgressDrawTarget::hidden(),
+        false => ProgressDrawTarget::stderr(),
+    }
 }
 
 /// The progress of a run in cycles, drawn by a thread of its own: a terminal that stops reading does

@@ -52,17 +52,8 @@ pub fn run(options: &Run) -> Result<ExitCode> {
             complain(line);
         }
     };
-    let simulation = job.session.simulation();
-    let never = simulation.why_never_jumped();
-    let never = never.map(|why| format!("no cycle jumps: {why}"));
-    let indenter = job.session.scenario().setup().indenter.remark();
-    let indenter = indenter.map(|told| format!("indenter: {told}"));
-    let warned = simulation.warnings();
-    never
-        .iter()
-        .chain(&indenter)
-        .chain(&warned)
-        .for_each(remark);
+    let told = remarks(&job.session);
+    told.iter().for_each(remark);
     let is_over = job.watch(Arc::clone(&stop));
     // A bug must not destroy hours of computing.
     let outcome = catch_unwind(AssertUnwindSafe(|| job.advance(&go_on)));
@@ -75,9 +66,9 @@ pub fn run(options: &Run) -> Result<ExitCode> {
         locked(&job.safe).save(&job.session, &job.job);
     }
     // What has come up during the run; the same warning may have got another cycle.
-    let warnings = job.session.simulation().warnings();
-    if warnings.len() > warned.len() {
-        let new = warnings.iter().filter(|line| !warned.contains(line));
+    let now = remarks(&job.session);
+    if now.len() > told.len() {
+        let new = now.iter().filter(|line| !told.contains(line));
         new.for_each(remark);
     }
     if options.estimate_error && matches!(outcome, Ok(Ended::Done)) {
@@ -533,6 +524,17 @@ impl<'a> Job<'a> {
         }
         Ok(())
     }
+}
+
+/// What a user should know of a run: why it never jumps, what its indenter is made from, warnings.
+fn remarks(session: &Session) -> Vec<String> {
+    let simulation = session.simulation();
+    let never = simulation.why_never_jumped();
+    let never = never.map(|why| format!("no cycle jumps: {why}"));
+    let indenter = session.scenario().setup().indenter.remark();
+    let indenter = indenter.map(|told| format!("indenter: {told}"));
+    let known = never.into_iter().chain(indenter);
+    known.chain(simulation.warnings()).collect()
 }
 
 /// The table of the state at a cycle that `session` has reached or is yet to reach.

@@ -39,17 +39,14 @@ pub fn patient_signal() -> Result<Arc<AtomicBool>> {
 fn set_by(signals: &[i32], at_once: &[i32]) -> Result<Arc<AtomicBool>> {
     let stop = Arc::new(AtomicBool::new(false));
     let exit = i32::from(FAILED);
-    for at_once in at_once {
-        if *at_once != SIGHUP || !is_ignored(SIGHUP) {
-            let ended = flag::register_conditional_shutdown(*at_once, exit, Arc::clone(&stop));
-            ended.context("cannot listen for signals")?;
-        }
+    let is_heard = |signal: &&i32| **signal != SIGHUP || !is_ignored(SIGHUP);
+    for at_once in at_once.iter().filter(is_heard) {
+        let ended = flag::register_conditional_shutdown(*at_once, exit, Arc::clone(&stop));
+        ended.context("cannot listen for signals")?;
     }
-    for signal in signals {
-        if *signal != SIGHUP || !is_ignored(SIGHUP) {
-            let noted = flag::register(*signal, Arc::clone(&stop));
-            noted.context("cannot listen for signals")?;
-        }
+    for signal in signals.iter().filter(is_heard) {
+        let noted = flag::register(*signal, Arc::clone(&stop));
+        noted.context("cannot listen for signals")?;
     }
     Ok(stop)
 }

@@ -181,15 +181,17 @@ fn span(widths: &[usize]) -> usize {
 impl Serialize for Table {
     /// A list of objects, keys in the order of the columns.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq(self.rows.iter().map(|row| Object(self, row)))
+        let names: Vec<&str> = self.names().collect();
+        serializer.collect_seq(self.rows.iter().map(|row| Object(&names, row)))
     }
 }
 
-struct Object<'a>(&'a Table, &'a [Value]);
+/// A row as an object: names of columns, and cells.
+pub struct Object<'a>(pub &'a [&'a str], pub &'a [Value]);
 
 impl Serialize for Object<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(self.0.names().zip(self.1))
+        serializer.collect_map(self.0.iter().zip(self.1))
     }
 }
 

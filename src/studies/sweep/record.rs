@@ -25,7 +25,9 @@ use std::path::Path;
 
 use super::{Shard, Study};
 use crate::scenario::limited::Unread;
+use crate::scenario::scalars::Value;
 use crate::scenario::{Refusal, printable};
+use crate::studies::table::Object;
 
 /// The longest line and the longest header that are read, in bytes.
 const LONGEST: u64 = 1 << 26;
@@ -84,18 +86,12 @@ pub(super) fn split(line: &str) -> Vec<String> {
 /// Returns a row as one JSON object: numbers as numbers, empty fields as null.
 pub fn json<'a>(columns: &[&str], fields: impl IntoIterator<Item = &'a String>) -> String {
     let value = |field: &String| match field.parse::<f64>() {
-        _ if field.is_empty() => serde_json::Value::Null,
+        _ if field.is_empty() => Value::Missing,
         Ok(number) if number.is_finite() => number.into(),
         _ => field.clone().into(),
     };
-    let mut text = String::from("{");
-    for (at, (name, field)) in columns.iter().zip(fields).enumerate() {
-        let comma = if at > 0 { "," } else { "" };
-        let name = serde_json::Value::from(*name);
-        let _ = write!(text, "{comma}{name}:{}", value(field));
-    }
-    text.push('}');
-    text
+    let values: Vec<Value> = fields.into_iter().map(value).collect();
+    serde_json::to_string(&Object(columns, &values)).unwrap_or_default()
 }
 
 /// A table that is read back, row by row.
@@ -110,7 +106,7 @@ pub struct Record {
     pub shard: Shard,
     /// The names of the columns, as they stand.
     columns: Vec<String>,
-    lines: Lines,
+    lines: Box<dyn BufRead>,
 }
 
 impl Record {
@@ -134,11 +130,11 @@ impl Record {
         let name = printable(name);
         let refuse = |why: &str| Refusal::new(&name, why);
         let unread = |error: io::Error| Refusal::new(&name, Unread::Io(error));
-        let mut lines = Lines(Box::new(BufReader::new(source)));
+        let mut lines: Box<dyn BufRead> = Box::new(BufReader::new(source));
         let (mut header, mut shard) = (String::new(), Shard::WHOLE);
         let mut arithmetic = Arithmetic::new();
         let columns = loop {
-            let line = lines.next().map_err(unread)?.unwrap_or_default();
+            let line = next_line(&mut *lines).map_err(unread)?.unwrap_or_default();
             let line = match header.is_empty() {
                 true => line.trim_start_matches('\u{feff}'),
                 false => &line,
@@ -206,18 +202,17 @@ impl Record {
         if self.header == expected {
             return Ok(());
         }
-        let (mut ours, mut theirs) = (expected.lines(), self.header.lines());
-        loop {
-            let (our, their) = (ours.next(), theirs.next());
-            if our != their || our.is_none() {
-                let (our, their) = (our.unwrap_or("nothing"), their.unwrap_or("nothing"));
-                let [our, their] = [our, their].map(|line| line.trim_start_matches("# "));
-                return Err(Refusal::new(
-                    &self.name,
-                    format_args!("holds another study: {their} where {origin} has {our}"),
-                ));
-            }
-        }
+        let longest = expected.lines().count().max(self.header.lines().count());
+        let padded = |text: &'static str| std::iter::repeat(text);
+        let ours = expected.lines().chain(padded("nothing")).take(longest);
+        let theirs = self.header.lines().chain(padded("nothing"));
+        let differing = ours.zip(theirs).find(|(our, their)| our != their);
+        let (our, their) = differing.unwrap_or_default();
+        let [our, their] = [our, their].map(|line| line.trim_start_matches("# "));
+        Err(Refusal::new(
+            &self.name,
+            format_args!("holds another study: {their} where {origin} has {our}"),
+        ))
     }
 
     /// The rows that follow, with the columns in the order of `study`.
@@ -225,7 +220,10 @@ impl Record {
     /// # Errors
     ///
     /// Refuses columns that differ from the study's.
-    pub fn rows(self, study: &Study) -> Result<Given, Refusal> {
+    pub fn rows(
+        mut self,
+        study: &Study,
+    ) -> Result<impl Iterator<Item = Result<Vec<String>, Refusal>> + use<>, Refusal> {
         let refuse = |why: String| Err(Refusal::new(&self.name, why));
         let wanted = study.columns();
         if let Some(more) = self.columns.iter().find(|name| !wanted.contains(&&***name)) {
@@ -245,63 +243,40 @@ impl Record {
         if self.columns.len() > wanted.len() {
             return refuse("has a column twice".into());
         }
-        Ok(Given {
-            name: self.name,
-            order,
-            lines: self.lines,
-        })
-    }
-}
-
-/// The rows of a table, with the columns in the order of its study.
-pub struct Given {
-    name: String,
-    /// Where each column of the study stands.
-    order: Vec<usize>,
-    lines: Lines,
-}
-
-impl Iterator for Given {
-    type Item = Result<Vec<String>, Refusal>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        loop {
-            let line = match self.lines.next() {
-                Ok(line) => line?,
-                Err(error) => {
-                    return Some(Err(Refusal::new(&self.name, Unread::Io(error))));
+        let unread = move |error| Refusal::new(&self.name, Unread::Io(error));
+        Ok(std::iter::from_fn(move || {
+            loop {
+                let line = match next_line(&mut *self.lines) {
+                    Ok(line) => line?,
+                    Err(error) => return Some(Err(unread(error))),
+                };
+                if line.trim_end().is_empty() || line.starts_with('#') {
+                    continue;
                 }
-            };
-            if line.trim_end().is_empty() || line.starts_with('#') {
-                continue;
-            }
-            let mut row = split(&line);
-            if row.len() != self.order.len() {
+                let mut row = split(&line);
+                if row.len() == order.len() {
+                    let order = order.iter();
+                    row = order.map(|&at| std::mem::take(&mut row[at])).collect();
+                }
                 return Some(Ok(row));
             }
-            let order = self.order.iter();
-            return Some(Ok(order.map(|&at| std::mem::take(&mut row[at])).collect()));
-        }
+        }))
     }
 }
 
-/// Lines without their ends; one without an end does not count.
-struct Lines(Box<dyn BufRead>);
-
-impl Lines {
-    fn next(&mut self) -> io::Result<Option<String>> {
-        let mut line = Vec::new();
-        let read = self.0.by_ref().take(LONGEST).read_until(b'\n', &mut line)?;
-        if line.pop() != Some(b'\n') {
-            return match read as u64 {
-                LONGEST => Err(io::Error::other("a line is too long")),
-                _ => Ok(None),
-            };
-        }
-        line.pop_if(|last| *last == b'\r');
-        let line = String::from_utf8(line).map_err(|_| io::Error::other("is not UTF-8"))?;
-        Ok(Some(line))
+/// The next line without its end; one without an end does not count.
+fn next_line(lines: &mut dyn BufRead) -> io::Result<Option<String>> {
+    let mut line = Vec::new();
+    let read = lines.take(LONGEST).read_until(b'\n', &mut line)?;
+    if line.pop() != Some(b'\n') {
+        return match read as u64 {
+            LONGEST => Err(io::Error::other("a line is too long")),
+            _ => Ok(None),
+        };
     }
+    line.pop_if(|last| *last == b'\r');
+    let line = String::from_utf8(line).map_err(|_| io::Error::other("is not UTF-8"))?;
+    Ok(Some(line))
 }
 
 /// Why a row cannot be taken.

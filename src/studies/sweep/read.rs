@@ -94,300 +94,297 @@ impl Study {
         origin: &str,
         load: impl FnOnce(&str) -> Result<Scenario>,
     ) -> Result<Self> {
-        let from = Origin(printable(origin));
-        let written: Written = typed::read(text).map_err(|why| from.error(why))?;
-        let Some(base_name) = written.base.clone() else {
-            return Err(from.error("base is missing: a preset's name or a path to a scenario"));
+        let origin = printable(origin);
+        let refused = |why: Refusal| Refusal::new(&origin, why);
+        let mut written: Written = typed::read(text).map_err(|why| refused(why.into()))?;
+        let Some(base) = written.base.take() else {
+            let rule = "base is missing: a preset's name or a path to a scenario";
+            return error(rule).map_err(refused);
         };
-        let mut study = Self {
-            title: written.title.as_deref().map(printable),
-            base: load(&base_name)?,
+        let scenario = load(&base)?;
+        written.study(base, scenario).map_err(refused)
+    }
+}
+
+impl Written {
+    /// The study on a base of this name.
+    fn study(self, base_name: String, base: Scenario) -> Result<Study> {
+        let mut study = Study {
+            title: self.title.as_deref().map(printable),
+            base,
             base_name,
-            set: from.flat("set", &written.set)?,
+            set: flat("set", &self.set)?,
             axes: Vec::new(),
-            design: written.design,
-            samples: from.samples(&written)?,
-            columns: from.columns(written.columns.as_deref())?,
-            stop: from.stop(written.stop)?,
-            sensitivity: from.sensitivity(written.sensitivity.as_ref())?,
+            design: self.design,
+            samples: samples(&self)?,
+            columns: columns(self.columns.as_deref())?,
+            stop: stop(self.stop)?,
+            sensitivity: sensitivity(self.sensitivity.as_ref())?,
         };
-        from.axes(&mut study, written)?;
-        from.count(&study)?;
+        axes(&mut study, self)?;
+        count(&study)?;
         Ok(study)
     }
 }
 
-/// What messages call the study.
-struct Origin(String);
+fn error<T>(why: impl Display) -> Result<T> {
+    Err(Refusal::from(why.to_string()))
+}
 
-impl Origin {
-    fn error(&self, why: impl Display) -> Refusal {
-        Refusal::new(&self.0, why)
-    }
+fn refuse<T>(place: &str, value: impl Display, rule: impl Display) -> Result<T> {
+    Err(Refusal::of_value(place, value, rule))
+}
 
-    fn refuse<T>(&self, place: &str, value: impl Display, rule: impl Display) -> Result<T> {
-        let place = format!("{}: {place}", self.0);
-        Err(Refusal::of_value(place, value, rule))
-    }
-
-    /// The number of samples and the seed of a sampled design.
-    fn samples(&self, written: &Written) -> Result<Option<(usize, u32)>> {
-        let design = written.design;
-        let most = design.most_samples();
-        match (design.is_sampled(), written.samples, written.seed) {
-            (false, None, None) => Ok(None),
-            (false, ..) => {
-                Err(self
-                    .error("samples and seed go with design = \"latin-hypercube\" or \"sobol\""))
-            }
-            (true, None, _) => Err(self.error(format!(
-                "samples is missing: the number of points that design = \"{}\" draws",
-                design.name()
-            ))),
-            (true, Some(samples), seed) if (1..=most).contains(&samples) => {
-                Ok(Some((samples, seed.unwrap_or(0))))
-            }
-            (true, Some(samples), _) => {
-                let rule = format!("must be a whole number from 1 to {most}");
-                self.refuse("samples", samples, rule)
-            }
+/// The number of samples and the seed of a sampled design.
+fn samples(written: &Written) -> Result<Option<(usize, u32)>> {
+    let design = written.design;
+    let most = design.most_samples();
+    match (design.is_sampled(), written.samples, written.seed) {
+        (false, None, None) => Ok(None),
+        (false, ..) => error("samples and seed go with design = \"latin-hypercube\" or \"sobol\""),
+        (true, None, _) => error(format!(
+            "samples is missing: the number of points that design = \"{}\" draws",
+            design.name()
+        )),
+        (true, Some(samples), seed) if (1..=most).contains(&samples) => {
+            Ok(Some((samples, seed.unwrap_or(0))))
+        }
+        (true, Some(samples), _) => {
+            let rule = format!("must be a whole number from 1 to {most}");
+            refuse("samples", samples, rule)
         }
     }
+}
 
-    /// The scenario keys of a table at `place` and their values: dotted keys and nested tables alike.
-    fn flat(&self, place: &str, table: &Table) -> Result<Vec<(String, Value)>> {
-        let mut found = Vec::new();
-        for (key, value) in table {
-            match value {
-                Value::Table(inner) => {
-                    let inner = inner.iter();
-                    let dotted =
-                        inner.map(|(name, value)| (format!("{key}.{name}"), value.clone()));
-                    found.extend(self.flat(place, &dotted.collect())?);
-                }
-                value => {
-                    self.key(key, place)?;
-                    found.push((key.clone(), value.clone()));
-                }
+/// The scenario keys of a table at `place` and their values: dotted keys and nested tables alike.
+fn flat(place: &str, table: &Table) -> Result<Vec<(String, Value)>> {
+    let mut found = Vec::new();
+    for (key, value) in table {
+        match value {
+            Value::Table(inner) => {
+                let inner = inner.iter();
+                let dotted = inner.map(|(name, value)| (format!("{key}.{name}"), value.clone()));
+                found.extend(flat(place, &dotted.collect())?);
+            }
+            value => {
+                known_key(key, place)?;
+                found.push((key.clone(), value.clone()));
             }
         }
-        Ok(found)
     }
+    Ok(found)
+}
 
-    /// Refuses a key that no scenario has.
-    fn key(&self, key: &str, place: &str) -> Result<()> {
-        if schema::find(key).is_some() && !key.starts_with("changes") {
-            return Ok(());
-        }
-        let hint = hints::hint(key);
-        let key = printable(key);
-        Err(self.error(format!("{place}: unknown key {key}; {hint}")))
+/// Refuses a key that no scenario has.
+fn known_key(key: &str, place: &str) -> Result<()> {
+    if schema::find(key).is_some() && !key.starts_with("changes") {
+        return Ok(());
     }
+    let hint = hints::hint(key);
+    let key = printable(key);
+    error(format!("{place}: unknown key {key}; {hint}"))
+}
 
-    fn columns(&self, names: Option<&[String]>) -> Result<Vec<&'static Scalar>> {
-        let usual = || COLUMNS.map(str::to_owned).to_vec();
-        let names = names.map_or_else(usual, <[String]>::to_vec);
-        let mut columns: Vec<&Scalar> = Vec::new();
-        for name in names {
-            let column = scalars::named(&name);
-            let column = column.map_err(|why| self.error(format!("columns: {why}")))?;
-            if columns.contains(&column) {
-                return self.refuse("columns", Value::from(name), "stands twice");
-            }
-            columns.push(column);
+fn columns(names: Option<&[String]>) -> Result<Vec<&'static Scalar>> {
+    let usual = || COLUMNS.map(str::to_owned).to_vec();
+    let names = names.map_or_else(usual, <[String]>::to_vec);
+    let mut columns: Vec<&Scalar> = Vec::new();
+    for name in names {
+        let column = scalars::named(&name);
+        let column = column.map_err(|why| Refusal::from(format!("columns: {why}")))?;
+        if columns.contains(&column) {
+            return refuse("columns", Value::from(name), "stands twice");
         }
-        Ok(columns)
+        columns.push(column);
     }
+    Ok(columns)
+}
 
-    fn stop(&self, stop: Stop) -> Result<Stop> {
-        for (name, value) in stop.named() {
-            if let Some(value) = value.filter(|value| !(value.is_finite() && *value > 0.0)) {
-                let place = format!("stop.{name}");
-                return self.refuse(&place, number(value), "must be a number greater than 0");
-            }
+fn stop(stop: Stop) -> Result<Stop> {
+    for (name, value) in stop.named() {
+        if let Some(value) = value.filter(|value| !(value.is_finite() && *value > 0.0)) {
+            let place = format!("stop.{name}");
+            return refuse(&place, number(value), "must be a number greater than 0");
         }
-        Ok(stop)
     }
+    Ok(stop)
+}
 
-    fn sensitivity(&self, table: Option<&Table>) -> Result<Vec<Varied>> {
-        let mut varied = Vec::new();
-        for (key, value) in self.flat("sensitivity", table.unwrap_or(&Table::new()))? {
-            let known = axis::numeric(&value).filter(|number| *number >= 0.0);
-            let Some(deviation) = known.filter(|number| number.is_finite()) else {
-                let place = format!("sensitivity.{key}");
-                let rule = "must be a standard deviation, 0 if it is not known";
-                return self.refuse(&place, value, rule);
-            };
-            let deviation = (deviation > 0.0).then_some(deviation);
-            varied.push(Varied { key, deviation });
-        }
-        Ok(varied)
-    }
-
-    /// Adds the axes to a study that has all else.
-    fn axes(&self, study: &mut Study, written: Written) -> Result<()> {
-        let given = written.axis;
-        if given.is_empty() && written.sensitivity.is_none() {
-            let rule = "there is no axis: add [[axis]] with key and values, linspace or logspace";
-            return Err(self.error(rule));
-        }
-        if study.design == Design::Sobol && given.len() > MOST_SOBOL_AXES {
-            let rule = format!("design = \"sobol\" takes {MOST_SOBOL_AXES} axes or fewer");
-            return Err(self.error(rule));
-        }
-        let mut taken: Vec<String> = study.set.iter().map(|(key, _)| key.clone()).collect();
-        for (at, axis) in given.into_iter().enumerate() {
-            let place = format!("axis[{at}]");
-            let axis = self.axis(axis, &place, study)?;
-            let keys = std::iter::once(&axis.key).chain(axis.tied.iter().map(|(key, _)| key));
-            for key in keys {
-                if taken.contains(key) {
-                    return Err(self.error(format!(
-                        "{place}: {key} is given twice; [set], the axes and tied keys must name \
-                         different keys"
-                    )));
-                }
-                taken.push(key.clone());
-            }
-            study.axes.push(axis);
-        }
-        Ok(())
-    }
-
-    /// The next axis of a study.
-    fn axis(&self, axis: WrittenAxis, place: &str, study: &Study) -> Result<Axis> {
-        let key = axis.key;
-        self.key(&key, place)?;
-        let (name, mut list, spread) = match (axis.values, axis.linspace, axis.logspace) {
-            (Some(list), None, None) => ("values", list, axis.scale.unwrap_or(Spread::Linear)),
-            (None, Some(list), None) => ("linspace", list, Spread::Linear),
-            (None, None, Some(list)) => ("logspace", list, Spread::Logarithmic),
-            _ => {
-                let rule = "must have one of values, linspace and logspace";
-                return Err(self.error(format!("{place} ({key}): {rule}")));
-            }
+fn sensitivity(table: Option<&Table>) -> Result<Vec<Varied>> {
+    let mut varied = Vec::new();
+    for (key, value) in flat("sensitivity", table.unwrap_or(&Table::new()))? {
+        let known = axis::numeric(&value).filter(|number| *number >= 0.0);
+        let Some(deviation) = known.filter(|number| number.is_finite()) else {
+            let place = format!("sensitivity.{key}");
+            let rule = "must be a standard deviation, 0 if it is not known";
+            return refuse(&place, value, rule);
         };
-        if axis.scale.is_some() && name != "values" {
-            return Err(self.error(format!("{place}.scale: goes with values, not with {name}")));
+        let deviation = (deviation > 0.0).then_some(deviation);
+        varied.push(Varied { key, deviation });
+    }
+    Ok(varied)
+}
+
+/// Adds the axes to a study that has all else.
+fn axes(study: &mut Study, written: Written) -> Result<()> {
+    let given = written.axis;
+    if given.is_empty() && written.sensitivity.is_none() {
+        let rule = "there is no axis: add [[axis]] with key and values, linspace or logspace";
+        return error(rule);
+    }
+    if study.design == Design::Sobol && given.len() > MOST_SOBOL_AXES {
+        let rule = format!("design = \"sobol\" takes {MOST_SOBOL_AXES} axes or fewer");
+        return error(rule);
+    }
+    let mut taken: Vec<String> = study.set.iter().map(|(key, _)| key.clone()).collect();
+    for (at, axis) in given.into_iter().enumerate() {
+        let place = format!("axis[{at}]");
+        let axis = read_axis(axis, &place, study)?;
+        let keys = std::iter::once(&axis.key).chain(axis.tied.iter().map(|(key, _)| key));
+        for key in keys {
+            if taken.contains(key) {
+                return error(format!(
+                    "{place}: {key} is given twice; [set], the axes and tied keys must name \
+                     different keys"
+                ));
+            }
+            taken.push(key.clone());
         }
-        let named = format!("{place}.{name}");
-        // Texts may be numbers with a unit.
-        for value in &mut list {
-            let text = value.as_str().unwrap_or_default();
-            let quantity = |known| units::quantity(text, known, study.is_force(&key));
-            match schema::find(&key).and_then(quantity) {
-                Some(Ok(number)) => *value = Value::Float(number),
-                Some(Err(rule)) => return self.refuse(&named, value, rule),
-                None => {}
+        study.axes.push(axis);
+    }
+    Ok(())
+}
+
+/// The next axis of a study.
+fn read_axis(axis: WrittenAxis, place: &str, study: &Study) -> Result<Axis> {
+    let key = axis.key;
+    known_key(&key, place)?;
+    let (name, mut list, spread) = match (axis.values, axis.linspace, axis.logspace) {
+        (Some(list), None, None) => ("values", list, axis.scale.unwrap_or(Spread::Linear)),
+        (None, Some(list), None) => ("linspace", list, Spread::Linear),
+        (None, None, Some(list)) => ("logspace", list, Spread::Logarithmic),
+        _ => {
+            let rule = "must have one of values, linspace and logspace";
+            return error(format!("{place} ({key}): {rule}"));
+        }
+    };
+    if axis.scale.is_some() && name != "values" {
+        return error(format!("{place}.scale: goes with values, not with {name}"));
+    }
+    let named = format!("{place}.{name}");
+    // Texts may be numbers with a unit.
+    for value in &mut list {
+        let text = value.as_str().unwrap_or_default();
+        let quantity = |known| units::quantity(text, known, study.is_force(&key));
+        match schema::find(&key).and_then(quantity) {
+            Some(Ok(number)) => *value = Value::Float(number),
+            Some(Err(rule)) => return refuse(&named, value, rule),
+            None => {}
+        }
+    }
+    let values = match (name, study.samples) {
+        ("values", _) => Values::Listed(listed(&key, &named, list)?),
+        (_, None) => spaced(&named, &list, spread)?,
+        (_, Some((samples, seed))) => {
+            let [from, to] = ends(&named, &list, spread, 2)?;
+            let at = study.axes.len();
+            if study.design == Design::Sobol {
+                let value = |share| axis::value_of(&key, axis::between(spread, from, to, share));
+                Values::Listed(design::sobol(at, samples, seed).map(value).collect())
+            } else {
+                Values::Drawn([from, to], Strata::new(at, samples, seed))
             }
         }
-        let values = match (name, study.samples) {
-            ("values", _) => Values::Listed(self.listed(&key, &named, list)?),
-            (_, None) => self.spaced(&named, &list, spread)?,
-            (_, Some((samples, seed))) => {
-                let [from, to] = self.ends(&named, &list, spread, 2)?;
-                let at = study.axes.len();
-                if study.design == Design::Sobol {
-                    let value =
-                        |share| axis::value_of(&key, axis::between(spread, from, to, share));
-                    Values::Listed(design::sobol(at, samples, seed).map(value).collect())
-                } else {
-                    Values::Drawn([from, to], Strata::new(at, samples, seed))
-                }
+    };
+    Ok(Axis {
+        tied: tied(&axis.tied, &format!("{place}.tied"), &values)?,
+        key,
+        values,
+        spread,
+    })
+}
+
+fn listed(key: &str, place: &str, list: Vec<Value>) -> Result<Vec<Value>> {
+    if list.is_empty() {
+        return refuse(place, "[]", "must be a list of one value or more");
+    }
+    let nested = |value: &Value| matches!(value, Value::Array(_) | Value::Table(_));
+    if list.iter().any(nested) {
+        let rule = "its values must be numbers, texts or flags";
+        return refuse(place, Value::Array(list), rule);
+    }
+    // 100 and 100.0 are one value, so that both are written alike.
+    let normal = |value: Value| match value {
+        Value::Integer(whole) => axis::value_of(key, whole as f64),
+        value => value,
+    };
+    Ok(list.into_iter().map(normal).collect())
+}
+
+fn spaced(place: &str, list: &[Value], spread: Spread) -> Result<Values> {
+    let ends = ends(place, list, spread, 3)?;
+    let count = usize::try_from(list[2].as_integer().unwrap_or(0)).unwrap_or(0);
+    if !(1..=MOST_POINTS).contains(&count) {
+        let rule = format!("the third must be a whole number from 1 to {MOST_POINTS}");
+        return refuse(place, Value::from(list.to_vec()), rule);
+    }
+    Ok(Values::Spaced(ends, count))
+}
+
+/// The ends of a list [from, to, …] of `length`.
+fn ends(place: &str, list: &[Value], spread: Spread, length: usize) -> Result<[f64; 2]> {
+    let end = |value: &Value| axis::numeric(value).filter(|number| number.is_finite());
+    let rule = match list {
+        _ if list.len() != length && length == 2 => "must be [from, to]; samples gives the number",
+        _ if list.len() != length => "must be [from, to, number]",
+        [from, to, ..] if let (Some(from), Some(to)) = (end(from), end(to)) => {
+            if spread == Spread::Linear || from.min(to) > 0.0 {
+                return Ok([from, to]);
             }
+            "must begin with two numbers greater than 0"
+        }
+        _ => "must begin with two finite numbers",
+    };
+    refuse(place, Value::from(list.to_vec()), rule)
+}
+
+fn tied(table: &Table, place: &str, values: &Values) -> Result<Vec<(String, f64)>> {
+    if let Values::Listed(values) = values
+        && !table.is_empty()
+        && values.iter().any(|value| axis::numeric(value).is_none())
+    {
+        return error(format!("{place}: needs an axis of numbers"));
+    }
+    let mut tied = Vec::new();
+    for (key, factor) in flat(place, table)? {
+        let Some(number) = axis::numeric(&factor).filter(|factor| factor.is_finite()) else {
+            return refuse(&format!("{place}.{key}"), factor, "must be a finite factor");
         };
-        Ok(Axis {
-            tied: self.tied(&axis.tied, &format!("{place}.tied"), &values)?,
-            key,
-            values,
-            spread,
-        })
+        tied.push((key, number));
     }
+    Ok(tied)
+}
 
-    fn listed(&self, key: &str, place: &str, list: Vec<Value>) -> Result<Vec<Value>> {
-        if list.is_empty() {
-            return self.refuse(place, "[]", "must be a list of one value or more");
+/// Refuses too many points, and zipped axes of different lengths.
+fn count(study: &Study) -> Result<()> {
+    let lengths = study.axes.iter().map(|axis| axis.count());
+    if study.design == Design::Grid {
+        let points = lengths.fold(1.0, |points, length| points * length as f64);
+        if points > MOST_POINTS as f64 {
+            let rule = format!("{points:.3e} points; the limit is {MOST_POINTS}");
+            return error(rule);
         }
-        let nested = |value: &Value| matches!(value, Value::Array(_) | Value::Table(_));
-        if list.iter().any(nested) {
-            let rule = "its values must be numbers, texts or flags";
-            return self.refuse(place, Value::Array(list), rule);
-        }
-        // 100 and 100.0 are one value, so that both are written alike.
-        let normal = |value: Value| match value {
-            Value::Integer(whole) => axis::value_of(key, whole as f64),
-            value => value,
-        };
-        Ok(list.into_iter().map(normal).collect())
+        return Ok(());
     }
-
-    fn spaced(&self, place: &str, list: &[Value], spread: Spread) -> Result<Values> {
-        let ends = self.ends(place, list, spread, 3)?;
-        let count = usize::try_from(list[2].as_integer().unwrap_or(0)).unwrap_or(0);
-        if !(1..=MOST_POINTS).contains(&count) {
-            let rule = format!("the third must be a whole number from 1 to {MOST_POINTS}");
-            return self.refuse(place, Value::from(list.to_vec()), rule);
-        }
-        Ok(Values::Spaced(ends, count))
-    }
-
-    /// The ends of a list [from, to, …] of `length`.
-    fn ends(&self, place: &str, list: &[Value], spread: Spread, length: usize) -> Result<[f64; 2]> {
-        let end = |value: &Value| axis::numeric(value).filter(|number| number.is_finite());
-        let rule = match list {
-            _ if list.len() != length && length == 2 => {
-                "must be [from, to]; samples gives the number"
-            }
-            _ if list.len() != length => "must be [from, to, number]",
-            [from, to, ..] if let (Some(from), Some(to)) = (end(from), end(to)) => {
-                if spread == Spread::Linear || from.min(to) > 0.0 {
-                    return Ok([from, to]);
-                }
-                "must begin with two numbers greater than 0"
-            }
-            _ => "must begin with two finite numbers",
-        };
-        self.refuse(place, Value::from(list.to_vec()), rule)
-    }
-
-    fn tied(&self, table: &Table, place: &str, values: &Values) -> Result<Vec<(String, f64)>> {
-        if let Values::Listed(values) = values
-            && !table.is_empty()
-            && values.iter().any(|value| axis::numeric(value).is_none())
-        {
-            return Err(self.error(format!("{place}: needs an axis of numbers")));
-        }
-        let mut tied = Vec::new();
-        for (key, factor) in self.flat(place, table)? {
-            let Some(number) = axis::numeric(&factor).filter(|factor| factor.is_finite()) else {
-                return self.refuse(&format!("{place}.{key}"), factor, "must be a finite factor");
-            };
-            tied.push((key, number));
-        }
-        Ok(tied)
-    }
-
-    /// Refuses too many points, and zipped axes of different lengths.
-    fn count(&self, study: &Study) -> Result<()> {
-        let lengths = study.axes.iter().map(|axis| axis.count());
-        if study.design == Design::Grid {
-            let points = lengths.fold(1.0, |points, length| points * length as f64);
-            if points > MOST_POINTS as f64 {
-                let rule = format!("{points:.3e} points; the limit is {MOST_POINTS}");
-                return Err(self.error(rule));
-            }
-            return Ok(());
-        }
-        let length = study.points();
-        match study.axes.iter().find(|axis| axis.count() != length) {
-            None => Ok(()),
-            Some(axis) => Err(self.error(format!(
-                "axis {}: has {} values, the first axis {length}; design = \"{}\" needs the same \
-                 number on each",
-                axis.key,
-                axis.count(),
-                study.design.name()
-            ))),
-        }
+    let length = study.points();
+    match study.axes.iter().find(|axis| axis.count() != length) {
+        None => Ok(()),
+        Some(axis) => error(format!(
+            "axis {}: has {} values, the first axis {length}; design = \"{}\" needs the same \
+             number on each",
+            axis.key,
+            axis.count(),
+            study.design.name()
+        )),
     }
 }

@@ -16,20 +16,13 @@ use crate::plot::{Axis, Chart, Curve, Scale};
 use crate::scenario::session::{Session, SessionError};
 use crate::scenario::{Refusal, Scenario};
 use crate::studies::refinement::{Outcome, Reached, Verdict, run_to_accuracy};
-use crate::studies::trade::{self, Setting, Trial, cheapest, front, table};
+use crate::studies::trade::{self, Setting, Timed, Trial, cheapest, front, table};
 
 /// Accuracies whose search for a level is timed as well as the fixed settings.
 const ACCURACIES: [f64; 2] = [1e-2, 1e-3];
 
 /// The accuracy that a setting is recommended for where none is asked for.
 const USUAL: f64 = ACCURACIES[0];
-
-/// Errors below this one are small enough for any figure: the search ends there, or where the reference blurs.
-const FINE: f64 = 1e-3;
-
-/// Once a setting is fine enough, others are tried up to this many times its work: work predicts the time of
-/// different methods only roughly.
-const SLOWER: f64 = 2.0;
 
 /// The longest that the search for an accuracy may take, s.
 const LONGEST_SEARCH: f64 = 10.0;
@@ -49,39 +42,42 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
         complain("interrupted before the reference was computed: no results");
         return Ok(ExitCode::from(FAILED));
     };
-    let Found { trials, notes, .. } = &found;
+    let Found { trials, notes } = &found;
     results::write(target.as_ref(), "trade", notes, || {
         table(trials, trials).csv()
     })?;
     let mut out = io::stdout().lock();
-    let json = options.printing.json;
-    if let Some(accuracy) = options.accuracy {
-        let Some((trial, [seconds, error])) = cheapest(trials, accuracy) else {
+    let best = cheapest(trials, options.accuracy.unwrap_or(USUAL));
+    match (options.accuracy, best) {
+        (Some(accuracy), None) => {
             complain(&format!(
                 "no setting reached an error of {accuracy:e}; try larger --points or --steps"
             ));
             return Ok(ExitCode::from(FAILED));
-        };
-        if json {
+        }
+        (Some(_), Some((trial, _))) if options.printing.json => {
             results::print_json(&table([trial], trials), &mut out)?;
-        } else {
+        }
+        (Some(_), Some((trial, [seconds, error]))) => {
             let what = "at worst (depth, V, E_d, F_x)";
             writeln!(out, "# error {error:.1e} {what}, in {seconds:.1e} s")?;
             writeln!(out, "{}", trial.setting.assignments().join("\n"))?;
         }
-    } else if json {
-        results::print_json(&table(trials, trials), &mut out)?;
-    } else {
-        let shown: Vec<&Trial> = match options.all {
-            true => trials.iter().collect(),
-            false => front(trials).into_iter().map(|(trial, _)| trial).collect(),
-        };
-        writeln!(out, "{}", notes.join("\n"))?;
-        write!(out, "{}", table(shown, trials).text())?;
-        if options.drawing.plot {
-            write!(out, "{}", plots(trials, options))?;
+        (None, _) if options.printing.json => {
+            results::print_json(&table(trials, trials), &mut out)?;
         }
-        writeln!(out, "{}", advice(&found))?;
+        (None, best) => {
+            let shown: Vec<&Trial> = match options.all {
+                true => trials.iter().collect(),
+                false => front(trials).into_iter().map(|(trial, _)| trial).collect(),
+            };
+            writeln!(out, "{}", notes.join("\n"))?;
+            write!(out, "{}", table(shown, trials).text())?;
+            if options.drawing.plot {
+                write!(out, "{}", plots(trials, options))?;
+            }
+            writeln!(out, "{}", advice(best))?;
+        }
     }
     Ok(match go_on() {
         true => ExitCode::SUCCESS,
@@ -89,16 +85,13 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
     })
 }
 
-/// What was measured.
+/// What was measured, and what was compared with what.
 struct Found {
     trials: Vec<Trial>,
-    /// What the usual accuracy costs, which finds its level by itself, s.
-    usual: Option<f64>,
-    /// What was compared with what.
     notes: Vec<String>,
 }
 
-/// The reference first, then every setting, the cheapest first; `None` without a reference.
+/// The reference first, then every setting, the coarsest first; `None` without a reference.
 fn run(
     scenario: &Scenario,
     cycles: f64,
@@ -129,24 +122,13 @@ fn run(
     let half = measure(&half, "reference, ").ok();
     let differs = |(half, _)| Outcome::of(&half).against(&Outcome::of(&reference)).worst();
     let blur = half.map(differs);
-    // With the default cells and steps, settings that are too slow are left out: once one is as good as the reference
-    // can resolve, slower ones add nothing.
-    let is_usual = options.points == trade::POINTS && options.steps == trade::STEPS;
-    let (resolved, mut enough) = (FINE.max(blur.unwrap_or(0.0)), f64::INFINITY);
     let mut trials: Vec<Trial> = Vec::new();
     for setting in &settings {
-        let effort = setting.effort(cycles);
-        if !is_usual || effort <= SLOWER * enough {
-            let ended = measure(setting, "");
-            if !go_on() {
-                break;
-            }
-            let trial = Trial::new(setting.clone(), ended, &reference);
-            if trial.point().is_some_and(|[_, error]| error <= resolved) {
-                enough = enough.min(effort);
-            }
-            trials.push(trial);
+        let ended = measure(setting, "");
+        if !go_on() {
+            break;
         }
+        trials.push(Trial::new(setting.clone(), ended, &reference));
         bar.inc(1);
     }
     let blur = blur.map_or(String::new(), |blur| {
@@ -161,13 +143,11 @@ fn run(
         ),
         format!("reference: {finest} per cycle, {seconds:.1e} s{blur}"),
     ];
-    let mut usual = None;
     for accuracy in ACCURACIES.into_iter().take_while(|_| go_on()) {
         bar.set_message(format!("numerics.accuracy = {accuracy:e}"));
         // If no level runs to its end, there is no cost to report.
         if let Ok(reached) = run_to_accuracy(scenario, cycles, accuracy, LONGEST_SEARCH, go_on) {
             notes.push(cost(accuracy, &reached, &trials, &reference));
-            usual = usual.or((accuracy == USUAL).then_some(reached.seconds));
         }
     }
     bar.finish_and_clear();
@@ -175,11 +155,7 @@ fn run(
         let (tried, all) = (trials.len(), settings.len());
         notes.push(format!("interrupted: {tried} of {all} settings were tried"));
     }
-    Ok(Some(Found {
-        trials,
-        usual,
-        notes,
-    }))
+    Ok(Some(Found { trials, notes }))
 }
 
 /// What an accuracy cost, beside the cheapest fixed setting that would have done.
@@ -207,21 +183,16 @@ fn cost(accuracy: f64, reached: &Reached, trials: &[Trial], reference: &Session)
     )
 }
 
-/// The last line: what to use, and what it costs compared with `numerics.accuracy`.
-fn advice(found: &Found) -> String {
-    let beside = found.usual.map_or(String::new(), |seconds| {
-        format!(
-            "; numerics.accuracy={USUAL:e} takes {seconds:.1e} s, for any values of the other keys"
-        )
-    });
-    match cheapest(&found.trials, USUAL) {
+/// The last line: what to use.
+fn advice(best: Option<Timed>) -> String {
+    match best {
         Some((trial, [seconds, error])) => format!(
-            "use this: {}  (error {error:.1e} at worst, {seconds:.1e} s{beside})",
+            "use this: {}  (error {error:.1e} at worst, {seconds:.1e} s)",
             trial.setting.assignments().join(" ")
         ),
         None => format!(
             "use this: --set numerics.accuracy={USUAL:e}  (no fixed setting has an error of at most {USUAL:e} and \
-             passes its own checks{beside})"
+             passes its own checks)"
         ),
     }
 }

@@ -161,14 +161,6 @@ impl RunJob {
         }
     }
 
-    /// Appends the rows to the file at `path` once there are enough of them.
-    pub fn spill(&mut self, path: &Path) -> io::Result<()> {
-        if self.history.is_due() {
-            self.history.spill(path)?;
-        }
-        Ok(())
-    }
-
     /// Continues in the directory `to` and copies the rows of the history there.
     ///
     /// # Errors

@@ -258,9 +258,9 @@ impl<'a> Job<'a> {
         for (key, value) in &job.statements {
             session.state(key, value);
         }
-        let checkpoints = Autosave::new(state_directory(), options.checkpoint_every.0);
+        let (home, every) = (directory.checkpoint(), options.checkpoint_every.0);
         let safe = Safe {
-            checkpoints: checkpoints.at_home(directory.checkpoint()),
+            checkpoints: Autosave::new(Some(home), state_directory(), every),
             copy: Recent::new((session.clone(), job.clone())),
         };
         Self {
@@ -392,7 +392,7 @@ impl<'a> Job<'a> {
         safe.copy.refresh(|| (session.clone(), self.job.clone()));
         if self.unwritten.is_none_or(|at| at.elapsed() >= ANOTHER_TRY) {
             // Rows that cannot be written stay in memory.
-            let written = self.job.spill(&self.directory.rows());
+            let written = self.job.history.spill_if_due(&self.directory.rows());
             self.unwritten = written.is_err().then(Instant::now);
         }
         if safe.checkpoints.is_due() {

@@ -42,10 +42,11 @@ pub struct Autosave {
 }
 
 impl Autosave {
-    /// Saves in a free place of `directory`, once per interval `every`, or only on request if `None`.
-    pub fn new(directory: Option<PathBuf>, every: Option<Duration>) -> Self {
+    /// Saves at `home`, and in a free place of `directory` where there is no home or while that fails: once per interval
+    /// `every`, or only on request if `None`.
+    pub fn new(home: Option<PathBuf>, directory: Option<PathBuf>, every: Option<Duration>) -> Self {
         Self {
-            home: None,
+            home,
             directory,
             elsewhere: None,
             every,
@@ -53,13 +54,6 @@ impl Autosave {
             kept: None,
             failure: None,
         }
-    }
-
-    /// Saves at `path`, and elsewhere only while that fails.
-    #[must_use]
-    pub fn at_home(mut self, path: PathBuf) -> Self {
-        self.home = Some(path);
-        self
     }
 
     /// Notes the checkpoint that the session continues from.
@@ -81,12 +75,6 @@ impl Autosave {
     /// Writes `checkpoint`, which holds `session`; returns a message when that begins to fail or to go elsewhere. The
     /// next one is due an interval later, even if this fails.
     pub fn save(&mut self, session: &Session, checkpoint: &[u8]) -> Option<String> {
-        let word = self.try_to_save(session, checkpoint);
-        self.last = Instant::now();
-        word
-    }
-
-    fn try_to_save(&mut self, session: &Session, checkpoint: &[u8]) -> Option<String> {
         let home = self.home.as_deref();
         let at_home = home.map(|path| write_whole(path, checkpoint).map(|()| path.to_owned()));
         let elsewhere = match &at_home {
@@ -98,6 +86,7 @@ impl Autosave {
             }
             _ => self.save_elsewhere(&session.loaded().stem(), checkpoint),
         };
+        self.last = Instant::now();
         let (mut saved, mut failure) = (None, None);
         for outcome in at_home.into_iter().chain(elsewhere) {
             match outcome {
@@ -314,7 +303,7 @@ mod tests {
     fn a_checkpoint_is_due_when_its_time_has_come() {
         let base = tempfile::tempdir().expect("a directory");
         let path = base.path().join("run.checkpoint");
-        let every = |every| Autosave::new(None, every).at_home(path.clone());
+        let every = |every| Autosave::new(Some(path.clone()), None, every);
         assert!(!every(None).is_due());
         assert!(!every(Some(Duration::from_secs(60))).is_due());
         let mut always = every(Some(Duration::ZERO));
@@ -332,8 +321,8 @@ mod tests {
     fn what_cannot_be_saved_at_home_goes_elsewhere_and_comes_back_and_is_told_once() {
         let base = tempfile::tempdir().expect("a directory");
         let home = base.path().join("run/run.checkpoint");
-        let mut autosave = Autosave::new(Some(base.path().join("state")), None);
-        autosave = autosave.at_home(home.clone());
+        let state = base.path().join("state");
+        let mut autosave = Autosave::new(Some(home.clone()), Some(state), None);
         let scenario = Scenario::load("hertz", &[]).expect("a preset");
         let session = Session::start(scenario).expect("a contact");
         let word = autosave.save(&session, b"one").expect("a word");

@@ -103,9 +103,12 @@ impl History {
         self.rows += &(self.row(session) + "\n");
     }
 
-    /// Whether the rows in memory should be written to the file.
-    pub fn is_due(&self) -> bool {
-        self.rows.len() >= CHUNK
+    /// [`spill`](Self::spill) once there are enough rows.
+    pub fn spill_if_due(&mut self, path: &Path) -> io::Result<()> {
+        match self.rows.len() >= CHUNK {
+            true => self.spill(path),
+            false => Ok(()),
+        }
     }
 
     /// Appends the buffered rows to the file at `path`. On an error they stay in memory and the

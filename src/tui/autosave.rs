@@ -36,7 +36,7 @@ impl ScreenAutosave {
     /// end if `None`.
     pub fn new(directory: PathBuf, every: Option<Duration>, session: &Session) -> Self {
         Self {
-            autosave: Autosave::new(Some(directory), every),
+            autosave: Autosave::new(None, Some(directory), every),
             kept: mark(session),
             copy: Recent::new(session.clone()),
             is_finished: false,

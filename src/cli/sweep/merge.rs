@@ -56,7 +56,7 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
                 Ok(()) => {}
                 Err(Refused::Double) => doubles.push(format!("{values} ({file})")),
                 Err(Refused::Contradiction) => contradictions.push(format!("{values} ({file})")),
-                Err(Refused::Foreign | Refused::Length) => {
+                Err(Refused::Foreign) => {
                     bail!("{file}: row {values} does not belong to the study");
                 }
             }

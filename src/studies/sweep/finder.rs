@@ -3,7 +3,6 @@
 use std::collections::HashMap;
 
 use super::axis::{Axis, Values};
-use super::record::Refused;
 use super::{Design, Study};
 use crate::scenario::printable;
 use crate::scenario::scalars::number;
@@ -41,19 +40,11 @@ impl Finder {
         }
     }
 
-    /// The points that a row may belong to, by the values that it begins with.
-    ///
-    /// # Errors
-    ///
-    /// Refuses a row of another length, and one that no point has the values of.
-    pub fn points_of(&self, row: &[String]) -> Result<Vec<usize>, Refused> {
-        if row.len() != self.columns {
-            return Err(Refused::Length);
-        }
-        let points = self.points(&row[..self.axes.len()]);
-        match points.is_empty() {
-            true => Err(Refused::Foreign),
-            false => Ok(points),
+    /// The points that a row may belong to, by the values that it begins with; none where it has another length.
+    pub fn points_of(&self, row: &[String]) -> Vec<usize> {
+        match row.len() == self.columns {
+            true => self.points(&row[..self.axes.len()]),
+            false => Vec::new(),
         }
     }
 

@@ -124,11 +124,11 @@ impl Ledger {
         study: &Study,
         mut fields: Vec<String>,
     ) -> io::Result<Result<(), Refused>> {
-        let points = match self.finder.points_of(&fields) {
-            Ok(points) => points,
-            Err(why) => return Ok(Err(why)),
+        let points = self.finder.points_of(&fields);
+        let Some(&first) = points.first() else {
+            return Ok(Err(Refused::Foreign));
         };
-        for (field, value) in fields.iter_mut().zip(study.values(points[0])) {
+        for (field, value) in fields.iter_mut().zip(study.values(first)) {
             *field = value;
         }
         for field in &mut fields[study.axes.len()..] {

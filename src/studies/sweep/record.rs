@@ -282,9 +282,7 @@ fn next_line(lines: &mut dyn BufRead) -> io::Result<Option<String>> {
 /// Why a row cannot be taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Refused {
-    /// It has another number of fields.
-    Length,
-    /// No point has these values.
+    /// It has another number of fields, or no point has these values.
     Foreign,
     /// All points of these values have their rows, equal to this one.
     Double,

@@ -2,7 +2,7 @@
 
 use super::border::Border;
 use super::finder::Finder;
-use super::record::{Record, Refused};
+use super::record::Record;
 use super::{Axis, Design, Study, Success};
 use crate::scenario::Refusal;
 
@@ -114,19 +114,12 @@ impl Slice {
         let mut rows = vec![None; self.study.points()];
         for row in record.rows(&self.study)? {
             let row = row?;
-            let points = finder.points_of(&row);
-            let free = points.and_then(|points| {
-                let mut free = points.into_iter().filter(|&point| rows[point].is_none());
-                free.next().ok_or(Refused::Contradiction)
-            });
-            match free {
-                Ok(point) => rows[point] = Some(row),
-                Err(why) => {
-                    let row = row.join(",");
-                    let rule = format!("row {row} does not belong to the study ({why:?})");
-                    return Err(Refusal::new(name, rule));
-                }
-            }
+            let mut points = finder.points_of(&row).into_iter();
+            let Some(free) = points.find(|&point| rows[point].is_none()) else {
+                let rule = format!("row {} does not belong to the study", row.join(","));
+                return Err(Refusal::new(name, rule));
+            };
+            rows[free] = Some(row);
         }
         self.rows = rows;
         Ok(())

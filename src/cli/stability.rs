@@ -9,7 +9,6 @@ use anyhow::{Result, bail};
 use super::args::{Guard, Stability};
 use super::{FAILED, progress, results, stop};
 use crate::export::header::number;
-use crate::math::abel::AbelMethod;
 use crate::scenario::{Refusal, Scenario};
 use crate::studies::stability::report::{boundaries, maps, runs};
 use crate::studies::stability::{Line, Setting, Study};
@@ -76,17 +75,13 @@ fn lines(study: &Study, options: &Stability, go_on: &dyn Fn() -> bool) -> Result
 
 /// Method by method, guard by guard, grid by grid.
 fn settings(options: &Stability) -> Vec<Setting> {
-    let methods = match options.methods.as_slice() {
-        [] => &AbelMethod::ALL,
-        some => some,
-    };
     let guards: &[bool] = match options.guard {
         Guard::Off => &[false],
         Guard::On => &[true],
         Guard::Both => &[false, true],
     };
     let mut settings = Vec::new();
-    for &method in methods {
+    for &method in &options.methods {
         for &guard in guards {
             settings.extend(options.points.iter().map(|&points| Setting {
                 method,

@@ -98,12 +98,9 @@ fn run(
     options: &Trade,
     go_on: &dyn Fn() -> bool,
 ) -> Result<Option<Found>> {
-    let methods = match options.methods.is_empty() {
-        true => &AbelMethod::ALL[..],
-        false => &options.methods,
-    };
-    let settings = trade::settings(scenario, methods, &options.points, &options.steps);
-    let finest = trade::reference(scenario, &options.points, &options.steps);
+    let (points, steps) = (&options.points, &options.steps);
+    let settings = trade::settings(scenario, &options.methods, points, steps);
+    let finest = trade::reference(scenario, points, steps);
     let behind = "{pos} of {len}  {elapsed} gone";
     let bar = progress::bar(settings.len() as u64, behind, options.printing.quiet);
     let measure = |setting: &Setting, what: &str| {

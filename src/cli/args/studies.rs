@@ -76,7 +76,8 @@ pub struct Trade {
     #[arg(long, value_name = "X", value_parser = cycles)]
     pub cycles: Option<f64>,
     /// Methods to try; default: all.
-    #[arg(long, value_name = "M1,M2,...", value_parser = methods())]
+    #[arg(long, value_name = "M1,M2,...", value_parser = methods(), default_values_t = AbelMethod::ALL)]
+    #[arg(hide_default_value = true)]
     pub methods: Vec<AbelMethod>,
     /// Numbers of grid cells N to try.
     #[arg(long, value_name = "N1,N2,...", value_parser = points(), default_values_t = trade::POINTS)]
@@ -123,7 +124,8 @@ pub struct Stability {
     #[arg(long, value_name = "X", value_parser = cycles, default_value_t = 20.0)]
     pub cycles: f64,
     /// Methods to try; default: all.
-    #[arg(long, value_name = "M1,M2,...", value_parser = methods())]
+    #[arg(long, value_name = "M1,M2,...", value_parser = methods(), default_values_t = AbelMethod::ALL)]
+    #[arg(hide_default_value = true)]
     pub methods: Vec<AbelMethod>,
     /// Numbers of grid cells N to try.
     #[arg(long, value_name = "N1,N2,...", value_parser = points(), default_values_t = stability::POINTS)]

@@ -2,12 +2,11 @@
 
 use std::path::PathBuf;
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use clap_complete::engine::ArgValueCompleter;
 
 use super::Changes;
-use super::values::{CycleAsGiven, cycles, listed, within};
+use super::values::{CycleAsGiven, cycles, listed, named, within};
 use crate::charts::{Recipe, field};
 use crate::cli::complete;
 use crate::figure::look::Style;
@@ -38,7 +37,7 @@ pub struct Figure {
     #[arg(long, value_enum)]
     pub figure: Option<PaperFigure>,
     /// Chart to draw; can be repeated; default: profiles, stresses and loop, if the data are there.
-    #[arg(long, value_name = "NAME", value_parser = panel_parser(), conflicts_with = "figure")]
+    #[arg(long, value_name = "NAME", value_parser = named(on_paper().collect(), |chart| chart.name), conflicts_with = "figure")]
     pub panel: Vec<&'static Recipe>,
     /// Column of a sweep's table to draw; can be repeated; default: the first one and regime, or over one axis up to
     /// four. With more than two axes, --set KEY=VALUE holds some of them.
@@ -97,14 +96,6 @@ pub fn on_paper() -> impl Iterator<Item = &'static Recipe> {
     let maps = [&field::VON_MISES, &field::PRINCIPAL, &field::SWT];
     let charts = Panel::ALL.into_iter().map(Panel::recipe).chain(maps);
     charts.filter(|recipe| !recipe.name.is_empty())
-}
-
-fn panel_parser() -> impl TypedValueParser<Value = &'static Recipe> {
-    let names = on_paper().map(|recipe| recipe.name);
-    PossibleValuesParser::new(names).try_map(|name| {
-        let found = on_paper().find(|recipe| recipe.name == name);
-        found.ok_or("no such chart")
-    })
 }
 
 fn size(text: &str) -> Result<[f64; 2], String> {

@@ -31,7 +31,7 @@ const ACCURACY: &str =
 ]))]
 pub struct Verify {
     /// Run only this problem and print its table; can be repeated.
-    #[arg(long, value_name = "NAME", value_parser = named::<Problem>(Problem::ALL.map(Problem::name)))]
+    #[arg(long, value_name = "NAME", value_parser = named(Problem::ALL.to_vec(), Problem::name))]
     pub problem: Vec<Problem>,
     /// Print the tables of all problems, not only the verdict.
     #[arg(long)]
@@ -202,7 +202,7 @@ pub struct Fit {
 }
 
 fn methods() -> impl TypedValueParser<Value = AbelMethod> {
-    named(AbelMethod::ALL.map(AbelMethod::name))
+    named(AbelMethod::ALL.to_vec(), AbelMethod::name)
 }
 
 /// Numbers of steps per cycle.

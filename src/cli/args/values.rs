@@ -155,12 +155,13 @@ pub(super) fn points() -> impl Fn(&str) -> Result<usize, String> + Clone {
     within(least..=most, rule)
 }
 
-/// One of these names.
-pub(super) fn named<T>(
-    names: impl IntoIterator<Item = &'static str>,
-) -> impl TypedValueParser<Value = T>
-where
-    T: FromStr<Err: std::error::Error + Send + Sync> + Clone + Send + Sync + 'static,
-{
-    PossibleValuesParser::new(names).try_map(|name| name.parse())
+/// One of these, by its name.
+pub(super) fn named<T: Copy + Send + Sync + 'static>(
+    all: Vec<T>,
+    name: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T> {
+    PossibleValuesParser::new(all.iter().map(|one| name(*one))).try_map(move |given| {
+        let found = all.iter().find(|one| name(**one) == given);
+        found.copied().ok_or("no such name")
+    })
 }

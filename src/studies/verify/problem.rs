@@ -1,15 +1,14 @@
 //! The problems of the study, by name.
 
-use strum::{Display, EnumString, IntoStaticStr, VariantNames};
+use strum::{Display, IntoStaticStr};
 
 use super::errors::Errors;
 use super::{Stop, normal, sliding};
 use crate::math::abel::AbelMethod;
-use crate::math::invalid::Invalid;
 
 /// A problem with a closed form.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Display, EnumString, IntoStaticStr, VariantNames)]
-#[strum(serialize_all = "kebab-case", parse_err_ty = Invalid, parse_err_fn = Problem::unknown)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Display, IntoStaticStr)]
+#[strum(serialize_all = "kebab-case")]
 pub enum Problem {
     /// The paraboloid of the paper's Fig. 2.
     Hertz,
@@ -78,10 +77,6 @@ impl Problem {
     /// The name on the command line and in files.
     pub fn name(self) -> &'static str {
         self.into()
-    }
-
-    fn unknown(name: &str) -> Invalid {
-        Invalid::choice("problem", name, Self::VARIANTS)
     }
 
     /// What there is to know of it.

@@ -3,6 +3,7 @@
 use std::fmt::Display;
 use std::fs;
 use std::io::{self, Read, Write};
+use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -85,13 +86,12 @@ pub fn write_with(
     let failed = WriteError::io(path);
     let prefix = temporary_of(path);
     let mut builder = tempfile::Builder::new();
-    builder.prefix(&prefix).suffix(TEMPORARY);
-    #[cfg(unix)]
-    {
-        // Results are ordinary files, not secrets: what the umask leaves of 0666.
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
+    // Results are ordinary files, not secrets: what the umask leaves of 0666.
+    let permissions = fs::Permissions::from_mode(0o666);
+    builder
+        .prefix(&prefix)
+        .suffix(TEMPORARY)
+        .permissions(permissions);
     let mut file = builder.tempfile_in(directory_of(path)).map_err(failed)?;
     fill(file.as_file_mut()).map_err(failed)?;
     file.as_file().sync_all().map_err(failed)?;

@@ -90,7 +90,7 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
         }
         None => text(&mut io::stdout().lock())?,
     }
-    let (all, failed) = (rows.counts().rows, rows.counts().failed);
+    let (all, failed) = (rows.rows(), rows.failed());
     if failed > 0 {
         complain(&format!(
             "{failed} of {all} points failed; their status says why"
@@ -129,7 +129,7 @@ fn same(a: &Path, b: &Path) -> bool {
 /// Names points without a row, and the shards that should have them.
 fn refuse_missing(shown: &str, study: &Study, rows: &Ledger, count: usize) -> Result<()> {
     let missing = || rows.done().clone().missing(study, Shard::WHOLE);
-    let (all, left) = (study.points(), study.points() - rows.counts().rows);
+    let (all, left) = (study.points(), study.points() - rows.rows());
     if left == 0 {
         return Ok(());
     }

@@ -16,7 +16,7 @@ use crate::export::file::shell_word;
 use crate::scenario::{Refusal, limited, printable};
 use crate::studies::sweep::engine::{self, Check};
 use crate::studies::sweep::ledger::Ledger;
-use crate::studies::sweep::{Shard, Study, record};
+use crate::studies::sweep::{Shard, Study, Success, record};
 
 mod merge;
 mod output;
@@ -148,7 +148,7 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
     crate::panics::capture();
     let bar = progress::bar(mine as u64, progress::TIMES, options.quiet);
     bar.set_message(printable(&out.display().to_string()));
-    bar.set_position(output.ledger.counts().rows as u64);
+    bar.set_position(output.ledger.rows() as u64);
     bar.reset_eta();
     let mut points = shard.points(study.points()).peekable();
     // With --json, each row as soon as all before it are there.
@@ -181,8 +181,7 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
     }
     bar.finish_and_clear();
     let kept = output.close();
-    let counts = output.ledger.counts();
-    let (there, failed) = (counts.rows, counts.failed);
+    let (there, failed) = (output.ledger.rows(), output.ledger.failed());
     let hint = format!(
         "{there} of {mine} points are in {}; continue with the same command and --resume",
         shell_word(&out)
@@ -195,10 +194,10 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
         complain(&format!("{why}: {hint}"));
         return Ok(ExitCode::from(UNFINISHED));
     }
-    if counts.inaccurate > 0 && !options.quiet {
+    let inaccurate = output.ledger.count(Success::Inaccurate);
+    if inaccurate > 0 && !options.quiet {
         complain(&format!(
-            "{} of {there} points did not reach numerics.accuracy; their status says what they reached",
-            counts.inaccurate
+            "{inaccurate} of {there} points did not reach numerics.accuracy; their status says what they reached"
         ));
     }
     if failed > 0 {
@@ -207,10 +206,12 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
              them again"
         ));
         // Invalid points were to be skipped.
-        return Ok(match failed > counts.invalid || failed == there {
-            true => ExitCode::from(FAILED),
-            false => ExitCode::SUCCESS,
-        });
+        return Ok(
+            match output.ledger.count(Success::Failed) > 0 || failed == there {
+                true => ExitCode::from(FAILED),
+                false => ExitCode::SUCCESS,
+            },
+        );
     }
     if !options.quiet && !options.json && !output.target.is_stdout() {
         writeln!(io::stdout(), "{there} points in {}", shell_word(&out))?;

@@ -22,17 +22,7 @@ pub(super) fn growing_from(scheme: Scheme, stiffness: &[f64]) -> Option<f64> {
             .map(|z| amplification(scheme, factor(rung) * z).ln());
         logs.sum::<f64>() > 0.0
     };
-    // Beyond its limit, the stiffest step alone grows more and more.
-    let (mut below, mut above) = (-1, REACH);
-    while above - below > 1 {
-        let middle = (below + above) / 2;
-        if grows(middle) {
-            above = middle;
-        } else {
-            below = middle;
-        }
-    }
-    (above < REACH).then(|| factor(above))
+    (0..REACH).find(|&rung| grows(rung)).map(factor)
 }
 
 #[cfg(test)]

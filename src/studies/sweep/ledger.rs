@@ -1,6 +1,7 @@
 //! The rows of a study in a file, and where each of them stands, in memory that does not grow with
 //! their number: one bit a point.
 
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
 use std::os::unix::fs::FileExt;
@@ -43,20 +44,8 @@ pub struct Ledger {
     /// process.
     index: File,
     done: Done,
-    counts: Counts,
-}
-
-/// The number of rows, by how their points went.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Counts {
-    /// All of them.
-    pub rows: usize,
-    /// Those with a result that is less accurate than asked for.
-    pub inaccurate: usize,
-    /// Those without a result.
-    pub failed: usize,
-    /// Those of the failed that were no valid scenarios.
-    pub invalid: usize,
+    /// The number of rows, by how their points went.
+    counts: BTreeMap<Success, usize>,
 }
 
 impl Ledger {
@@ -72,7 +61,7 @@ impl Ledger {
             rows,
             index: tempfile::tempfile_in(directory)?,
             done: Done(vec![0; study.points().div_ceil(64)]),
-            counts: Counts::default(),
+            counts: BTreeMap::new(),
         })
     }
 
@@ -104,12 +93,7 @@ impl Ledger {
         }
         self.length += line.len() as u64;
         self.done.0[point / 64] |= 1 << (point % 64);
-        let success = Success::of(fields);
-        let counts = &mut self.counts;
-        counts.rows += 1;
-        counts.inaccurate += usize::from(success == Success::Inaccurate);
-        counts.failed += usize::from(!success.has_result());
-        counts.invalid += usize::from(success == Success::Invalid);
+        *self.counts.entry(Success::of(fields)).or_default() += 1;
         Ok(())
     }
 
@@ -155,9 +139,19 @@ impl Ledger {
         &self.done
     }
 
-    /// The rows, counted.
-    pub fn counts(&self) -> Counts {
-        self.counts
+    /// The number of rows.
+    pub fn rows(&self) -> usize {
+        self.counts.values().sum()
+    }
+
+    /// The number of rows whose points went so.
+    pub fn count(&self, success: Success) -> usize {
+        self.counts.get(&success).copied().unwrap_or(0)
+    }
+
+    /// The number of rows without a result.
+    pub fn failed(&self) -> usize {
+        self.count(Success::Failed) + self.count(Success::Invalid)
     }
 
     /// Makes sure that a crash of the machine does not lose the rows.
@@ -197,7 +191,7 @@ impl Ledger {
     pub fn each(&self, mut take: impl FnMut(&[u8]) -> io::Result<()>) -> io::Result<()> {
         let mut index = BufReader::new(&self.index);
         index.rewind()?;
-        let mut left = self.counts.rows;
+        let mut left = self.rows();
         for point in 0.. {
             if left == 0 {
                 break;

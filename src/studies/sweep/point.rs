@@ -19,7 +19,7 @@ pub(super) const INVALID: &str = "invalid: ";
 const INACCURATE: &str = "accuracy ";
 
 /// What the status of a row says of its point.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Success {
     /// It has its result, to the accuracy asked for if one was.
     Full,

@@ -21,7 +21,7 @@ use super::Study;
 use super::point::{self, Success};
 use crate::scenario::scalars::number;
 use crate::scenario::{Refusal, Scenario};
-use crate::simulation::Integrator;
+use crate::studies::refinement::Level;
 
 /// h, in ln x.
 const STEP: f64 = 0.01;
@@ -126,7 +126,9 @@ pub fn run(
     let keys = valued.collect::<Result<Vec<_>, _>>()?;
     let mut level = 0;
     loop {
-        let fixed = refined(&middle, level).map_err(|error| Refusal::new("sensitivity", error))?;
+        let finer = f64::from(1 << level);
+        let fixed = Level::of(&middle).scaled(finer, finer).of_scenario(&middle);
+        let fixed = fixed.map_err(|error| Refusal::new("sensitivity", error))?;
         let found = around(study, &fixed, &keys, pool, go_on)?;
         if level == LEVELS || found.as_ref().is_none_or(|found| found.is_resolved) {
             return Ok(found);
@@ -205,22 +207,6 @@ fn difference(results: &[f64]) -> Option<[f64; 2]> {
     let far = (far_above / far_below).ln() / (4.0 * STEP);
     let extrapolated = (4.0 * near - far) / 3.0;
     Some([extrapolated, (extrapolated - near).abs()])
-}
-
-/// The scenario with its numerics written down, cells and steps doubled `level` times.
-fn refined(middle: &Scenario, level: u32) -> Result<Scenario, crate::scenario::ScenarioError> {
-    let setup = middle.setup();
-    let cells = (setup.grid.cells() << level).to_string();
-    let steps = (setup.steps_per_cycle << level).to_string();
-    let mut set = vec![
-        ("numerics.points", cells),
-        ("numerics.steps_per_cycle", steps),
-    ];
-    if let Integrator::CycleJump { tolerance } = setup.integrator {
-        let tolerance = number(tolerance / f64::from(1 << (2 * level)));
-        set.push(("numerics.tolerance", tolerance));
-    }
-    middle.with_all(&set)
 }
 
 #[cfg(test)]

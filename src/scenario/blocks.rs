@@ -69,7 +69,7 @@ pub(super) fn expand(table: &mut Table, origin: &Origin) -> Result<(), ScenarioE
 }
 
 /// The values of a table with their dotted paths.
-fn flatten(path: &str, value: &Value, found: &mut Vec<(String, Value)>) {
+pub(crate) fn flatten(path: &str, value: &Value, found: &mut Vec<(String, Value)>) {
     match value {
         Value::Table(table) => {
             for (key, value) in table {

@@ -14,7 +14,7 @@ use crate::reading::fatigue::Limits;
 use crate::simulation::{Domain, Integrator, Setup, Spacing};
 
 pub(crate) mod assign;
-mod blocks;
+pub(crate) mod blocks;
 mod bodies;
 mod check;
 pub mod checkpoint;

@@ -10,6 +10,7 @@ use super::axis::{self, Axis, Spread, Values};
 use super::design::{self, Design, MOST_SOBOL_AXES, Strata};
 use super::sensitivity::Varied;
 use super::study::{Stop, Study};
+use crate::scenario::blocks::flatten;
 use crate::scenario::scalars::{self, Scalar, number};
 use crate::scenario::{Refusal, Scenario, printable, typed};
 use crate::scenario::{hints, preset, schema, units};
@@ -160,18 +161,11 @@ fn samples(written: &Written) -> Result<Option<(usize, u32)>> {
 fn flat(place: &str, table: &Table) -> Result<Vec<(String, Value)>> {
     let mut found = Vec::new();
     for (key, value) in table {
-        match value {
-            Value::Table(inner) => {
-                let inner = inner.iter();
-                let dotted = inner.map(|(name, value)| (format!("{key}.{name}"), value.clone()));
-                found.extend(flat(place, &dotted.collect())?);
-            }
-            value => {
-                known_key(key, place)?;
-                found.push((key.clone(), value.clone()));
-            }
-        }
+        flatten(key, value, &mut found);
     }
+    found
+        .iter()
+        .try_for_each(|(key, _)| known_key(key, place))?;
     Ok(found)
 }
 

@@ -296,9 +296,8 @@ fn written(axis: &Axis) -> String {
     let mut text = lines(rows.into_iter().chain(scale));
     if !axis.tied.is_empty() {
         let tied = axis.tied.iter();
-        let tied = tied.map(|(key, factor)| lines([(quoted(key), (*factor).into())]));
-        let tied: String = tied.collect::<Vec<_>>().join(", ");
-        text += &format!("tied = {{ {} }}\n", tied.replace('\n', ""));
+        let tied = tied.map(|(key, factor)| assignment(quoted(key), &(*factor).into()));
+        text += &format!("tied = {{ {} }}\n", tied.collect::<Vec<_>>().join(", "));
     }
     text
 }
@@ -306,8 +305,12 @@ fn written(axis: &Axis) -> String {
 /// Keys and values, a line each.
 fn lines(rows: impl IntoIterator<Item = (impl Display, Value)>) -> String {
     let rows = rows.into_iter();
-    rows.map(|(key, value)| format!("{key} = {}\n", toml_value(&value)))
+    rows.map(|(key, value)| assignment(key, &value) + "\n")
         .collect()
+}
+
+fn assignment(key: impl Display, value: &Value) -> String {
+    format!("{key} = {}", toml_value(value))
 }
 
 /// A dotted path as one key of TOML. The keys of scenarios need no escapes.

@@ -1,7 +1,7 @@
 //! `mdr-tui figure`: figures for a paper, from a run's files or from a scenario.
 
 use std::fs;
-use std::io::{self, BufRead, Read, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -27,9 +27,6 @@ use crate::traces::Table;
 
 /// The largest table of a run that is read, in bytes.
 const LARGEST: u64 = 1 << 30;
-
-/// How far the header of a table is read, in bytes.
-const LARGEST_HEADER: u64 = 1 << 26;
 
 /// The scenario of the paper's Fig. 3.
 const OF_THE_PAPER: &str = "li2019-fig3";
@@ -131,7 +128,7 @@ fn sheet(options: &Figure) -> Result<Sheet> {
             bail!(Refusal::new("figure", rule));
         }
     };
-    if let Some(record) = record(source)? {
+    if let Some(record) = record(source) {
         return study(source, record, options);
     }
     if let Some(column) = options.column.first() {
@@ -166,19 +163,10 @@ fn sheet(options: &Figure) -> Result<Sheet> {
 }
 
 /// The table of a sweep, if `source` is one.
-fn record(source: &str) -> Result<Option<Record>> {
+fn record(source: &str) -> Option<Record> {
     let path = Path::new(source);
-    if !path.is_file() || path.extension().is_none_or(|end| end != "csv") {
-        return Ok(None);
-    }
-    let file = fs::File::open(path).map_err(|error| unread(path, error))?;
-    let head = io::BufReader::new(file).take(LARGEST_HEADER).lines();
-    let mut head = head
-        .map_while(Result::ok)
-        .take_while(|line| line.trim_start_matches('\u{feff}').starts_with('#'));
-    let is_of_a_study = head.any(|line| line.starts_with("# study: base"));
-    let record = is_of_a_study.then(|| Record::of_file(path));
-    Ok(record.transpose()?)
+    let is_table = path.is_file() && path.extension().is_some_and(|end| end == "csv");
+    is_table.then(|| Record::of_file(path).ok()).flatten()
 }
 
 /// The charts of a sweep's table.

@@ -103,17 +103,12 @@ impl History {
         self.rows += &(self.row(session) + "\n");
     }
 
-    /// [`spill`](Self::spill) once there are enough rows.
-    pub fn spill_if_due(&mut self, path: &Path) -> io::Result<()> {
-        match self.rows.len() >= CHUNK {
-            true => self.spill(path),
-            false => Ok(()),
-        }
-    }
-
-    /// Appends the buffered rows to the file at `path`. On an error they stay in memory and the
-    /// file is unchanged.
+    /// Appends the buffered rows to the file at `path`, once there are enough of them. On an error they stay in memory
+    /// and the file is unchanged.
     pub fn spill(&mut self, path: &Path) -> io::Result<()> {
+        if self.rows.len() < CHUNK {
+            return Ok(());
+        }
         let mut file = own::open_or_make(path)?;
         // Anything beyond was written by a killed run.
         file.set_len(self.written)?;

@@ -29,17 +29,13 @@ impl Design {
         self.into()
     }
 
-    /// Whether the values of the axes are drawn, so that an axis names its ends alone.
-    pub fn is_sampled(self) -> bool {
-        matches!(self, Self::LatinHypercube | Self::Sobol)
-    }
-
-    /// The most samples of a sampled design.
-    pub fn most_samples(self) -> usize {
+    /// The most samples of a design that draws the values of its axes, so that an axis names its ends alone.
+    pub fn most_samples(self) -> Option<usize> {
         match self {
+            Self::Grid | Self::Zip => None,
+            Self::LatinHypercube => Some(10_000_000),
             // The length of the crate's sequences.
-            Self::Sobol => 1 << 16,
-            _ => 10_000_000,
+            Self::Sobol => Some(1 << 16),
         }
     }
 }

@@ -139,21 +139,21 @@ fn refuse<T>(place: &str, value: impl Display, rule: impl Display) -> Result<T> 
 /// The number of samples and the seed of a sampled design.
 fn samples(written: &Written) -> Result<Option<(usize, u32)>> {
     let design = written.design;
-    let most = design.most_samples();
-    match (design.is_sampled(), written.samples, written.seed) {
-        (false, None, None) => Ok(None),
-        (false, ..) => error("samples and seed go with design = \"latin-hypercube\" or \"sobol\""),
-        (true, None, _) => error(format!(
+    match (design.most_samples(), written.samples, written.seed) {
+        (None, None, None) => Ok(None),
+        (None, ..) => error("samples and seed go with design = \"latin-hypercube\" or \"sobol\""),
+        (Some(_), None, _) => error(format!(
             "samples is missing: the number of points that design = \"{}\" draws",
             design.name()
         )),
-        (true, Some(samples), seed) if (1..=most).contains(&samples) => {
-            Ok(Some((samples, seed.unwrap_or(0))))
-        }
-        (true, Some(samples), _) => {
-            let rule = format!("must be a whole number from 1 to {most}");
-            refuse("samples", samples, rule)
-        }
+        (Some(most), Some(samples), seed) => match (1..=most).contains(&samples) {
+            true => Ok(Some((samples, seed.unwrap_or(0)))),
+            false => refuse(
+                "samples",
+                samples,
+                format!("must be a whole number from 1 to {most}"),
+            ),
+        },
     }
 }
 

@@ -38,7 +38,7 @@ impl Format {
     }
 
     /// Whether a cell goes across all columns of the group from here on: words among numbers.
-    fn is_left_by(self, cell: &Value) -> bool {
+    fn is_spanned_by(self, cell: &Value) -> bool {
         self != Self::Words && matches!(cell, Value::Word(_))
     }
 }
@@ -129,7 +129,7 @@ impl Table {
     fn width(&self, at: usize) -> usize {
         let Column { name, format, .. } = &self.columns[at];
         let cells = self.rows.iter().map(|row| &row[at]);
-        let cells = cells.filter(|cell| !format.is_left_by(cell));
+        let cells = cells.filter(|cell| !format.is_spanned_by(cell));
         let widths = cells.map(|cell| format.text(cell).chars().count());
         widths.fold(name.chars().count(), usize::max)
     }
@@ -159,7 +159,7 @@ impl Table {
         let (mut line, mut at) = (Vec::new(), 0);
         while at < row.len() {
             let format = self.columns[at].format;
-            let end = match format.is_left_by(&row[at]) {
+            let end = match format.is_spanned_by(&row[at]) {
                 true => self.group_end(at),
                 false => at + 1,
             };

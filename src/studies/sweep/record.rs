@@ -203,9 +203,9 @@ impl Record {
             return Ok(());
         }
         let longest = expected.lines().count().max(self.header.lines().count());
-        let padded = |text: &'static str| std::iter::repeat(text);
-        let ours = expected.lines().chain(padded("nothing")).take(longest);
-        let theirs = self.header.lines().chain(padded("nothing"));
+        let nothing = || std::iter::repeat("nothing");
+        let ours = expected.lines().chain(nothing()).take(longest);
+        let theirs = self.header.lines().chain(nothing());
         let differing = ours.zip(theirs).find(|(our, their)| our != their);
         let (our, their) = differing.unwrap_or_default();
         let [our, their] = [our, their].map(|line| line.trim_start_matches("# "));

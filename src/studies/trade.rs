@@ -64,6 +64,17 @@ impl Setting {
         keys
     }
 
+    /// An estimate of the work of a run of `cycles`, in kernel values.
+    pub fn effort(&self, cycles: f64) -> f64 {
+        let cycles = match self.level.tolerance {
+            // What a jump looks at hardly depends on how far it goes.
+            Some(tolerance) => cycles.min(60.0 * tolerance.powf(-0.25)),
+            None => cycles,
+        };
+        let nodes = self.level.points as f64;
+        cycles * f64::from(self.level.steps) * (nodes * nodes + 60.0 * nodes + 1500.0)
+    }
+
     /// The same as options that `run` takes.
     pub fn assignments(&self) -> Vec<String> {
         let keys = self.keys().into_iter();
@@ -96,7 +107,7 @@ impl Setting {
     }
 }
 
-/// Every setting of these methods, cells and steps, the coarsest first. Where cycles are alike they are tried with
+/// Every setting of these methods, cells and steps, the cheapest first. Where cycles are alike they are tried with
 /// jumps as well, by the best method; a scenario that asks for jumps is not tried without.
 pub fn settings(
     scenario: &Scenario,
@@ -131,7 +142,7 @@ pub fn settings(
             }
         }
     }
-    settings.sort_by_key(|setting| setting.level.points as u32 * setting.level.steps);
+    settings.sort_by(|a, b| a.effort(1.0).total_cmp(&b.effort(1.0)));
     settings
 }
 

@@ -7,7 +7,7 @@ use mdr_tui::reading::{Check, Subject, verdict};
 use mdr_tui::scenario::session::Session;
 
 use crate::common::{fig3_motion, holds, load, ran};
-use crate::test_dir::{TestDir, has, lacks};
+use crate::test_dir::has;
 
 /// A preset with `sets`, at `cycles`.
 fn run(name: &str, sets: &[&str], cycles: f64) -> Session {
@@ -333,32 +333,6 @@ fn what_is_off_is_named_with_its_size() {
     let coarse = run("power-law", &["numerics.points=12"], 3.0);
     let told = says(&coarse);
     assert!(told.starts_with("interpolation off by "), "{told}");
-}
-
-#[test]
-fn what_lies_outside_of_the_theory_is_told_at_the_start() {
-    let dir = TestDir::new();
-    let file = |name: &str| std::fs::read_to_string(dir.path(name)).expect("a file");
-    let steep = "--set indenter.radius=1e-6 --set motion.normal.mean=5e-7";
-    let said = dir.line(&format!("run hertz --cycles 1 --out steep {steep}"));
-    assert_eq!(said.code, 0, "{}", said.err);
-    for words in ["slope at the contact's edge", "the pressure reaches"] {
-        let line = |text: &str| {
-            let lines: Vec<&str> = text.lines().filter(|line| line.contains(words)).collect();
-            assert_eq!(lines.len(), 1, "{words}: {text:.600}");
-            lines[0].to_owned()
-        };
-        has(&line(&said.err), "outside the theory");
-        for table in ["steep/state.csv", "steep/history.csv"] {
-            assert!(line(&file(table)).starts_with("# warning: "), "{table}");
-        }
-    }
-    let said = dir.line("run hertz --cycles 1 --out hertz");
-    assert_eq!(said.err, "");
-    has(&file("hertz/state.csv"), "\n# checks: ok\n");
-    lacks(&file("hertz/state.csv"), "# warning");
-    dir.line("run li2019-fig3 --set numerics.method=benad --cycles 10 --out harsh");
-    assert_ne!(dir.table("harsh/state.csv").header("checks"), "ok");
 }
 
 #[test]

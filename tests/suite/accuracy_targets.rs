@@ -5,8 +5,7 @@
 //! says so.
 
 use crate::common::{
-    Scene, archard, cattaneo, fig3_motion, holds, largest, limit, load, ours, rms, run, run_setup,
-    swing,
+    Scene, archard, cattaneo, fig3_motion, holds, limit, load, ours, rms, run, run_setup, swing,
 };
 use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::math::abel::AbelMethod::{A, B};
@@ -72,16 +71,9 @@ fn the_limiting_profile_is_met() {
         let first = simulation.state().wear.iter().position(|&worn| worn > 0.0);
         let border = simulation.setup().grid.border().expect("a border");
         assert_eq!(first, Some(border + 1), "{}", what("first worn node"));
-        holds(&what("rms of f"), limit_error(&simulation, c), 5e-4);
+        // A quarter of what Method A misses it by in the first case, 1.87e-3, or less.
+        holds(&what("rms of f"), limit_error(&simulation, c), 4.6e-4);
     }
-}
-
-#[test]
-fn method_a_misses_the_limiting_profile_by_four_times_as_much() {
-    let (scene, c) = (held(0.1, 0.3, 0.05), held_stick_radius(0.1, 0.3, 0.05));
-    let ours = limit_error(&run_ours(scene.clone(), 400.0), c);
-    let published = limit_error(&run(Scene { method: A, ..scene }, 400.0), c);
-    holds(&format!("ours, a: {published:.3e}"), ours, published / 4.0);
 }
 
 /// Radius and profile of the converged state.
@@ -593,45 +585,6 @@ fn a_contact_that_is_lost_in_each_cycle_wears_its_tip() {
     assert!(simulation.moment().normal_force > 0.0);
     assert_eq!(simulation.state().permanent_stick_radius(), 0.0);
     assert!(simulation.state().wear[0] > 0.0);
-}
-
-/// Radii in a₀ and depths in d₀ know of no scale.
-#[test]
-fn only_dimensionless_numbers_matter() {
-    let scene = fig3(1.0, 100, 40);
-    let unit = run_ours(scene.clone(), 10.0);
-    let unit = unit.observe(Curves::PROFILE | Curves::PRESSURE);
-    for (depth, radius, modulus) in [
-        (1e-12, 3e-7, 2.3e11),
-        (1e-9, 1e-2, 7e10),
-        (1e-6, 1e-2, 2.3e11),
-        (1e-3, 5.0, 1e6),
-        (1.0, 17.0, 1e3),
-    ] {
-        let contact = f64::sqrt(radius * depth);
-        let scaled = run_ours(
-            Scene {
-                domain: 1.5 * contact,
-                indenter: Indenter::paraboloid(radius).expect("an indenter"),
-                modulus,
-                normal: swing(depth, 0.1 * depth, 100.0, 0.0),
-                tangential: Some(swing(0.0, 0.1 * depth, 100.0, FRAC_PI_4)),
-                law: archard(contact / (modulus * depth)),
-                ..scene
-            },
-            10.0,
-        );
-        let scaled = scaled.observe(Curves::PROFILE | Curves::PRESSURE);
-        let apart = |values: &[f64], units: &[f64], scale: f64| {
-            largest(values.iter().zip(units).map(|(v, u)| v / scale - u))
-        };
-        let worn = apart(&scaled.wear, &unit.wear, depth);
-        holds(&format!("wear at d = {depth}"), worn, 1e-9);
-        let nodes = apart(&scaled.radii, &unit.radii, contact);
-        holds(&format!("radii at d = {depth}"), nodes, 1e-9);
-        let pressure = apart(&scaled.pressure, &unit.pressure, modulus * depth / contact);
-        holds(&format!("p at d = {depth}"), pressure, 1e-7);
-    }
 }
 
 #[test]

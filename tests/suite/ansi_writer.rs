@@ -115,37 +115,30 @@ fn a_frame_of_the_figure_takes_few_bytes() {
     assert!(large <= 840, "{large} bytes per frame in 200 by 50");
 }
 
+/// Fails unless a frame in motion after `keys` takes no more than the bytes of each size.
+fn in_motion(keys: &str, budgets: [usize; 3]) {
+    for ((columns, rows), budget) in [(80, 24), (120, 40), (200, 50)].into_iter().zip(budgets) {
+        let mut counted = Counted::new(Size::new(columns, rows));
+        counted.frame(keys);
+        let bytes = at_the_initial_pace(&mut counted);
+        assert!(
+            bytes <= budget,
+            "{bytes} bytes per frame in {columns} by {rows}"
+        );
+        assert_eq!(counted.draw(), 0, "a paused screen sends something");
+    }
+}
+
 /// Where motion is seen, every curve and every mark moves between two frames.
 #[test]
 fn a_frame_in_motion_takes_few_bytes() {
-    let sizes: [(Size, usize); 3] = [
-        (Size::new(80, 24), 395),
-        (Size::new(120, 40), 1150),
-        (Size::new(200, 50), 1585),
-    ];
-    for (size, budget) in sizes {
-        let mut counted = Counted::new(size);
-        let bytes = at_the_initial_pace(&mut counted);
-        assert!(bytes <= budget, "{bytes} bytes per frame in {size:?}");
-        assert_eq!(counted.draw(), 0, "a paused screen sends something");
-    }
+    in_motion("", [395, 1150, 1585]);
 }
 
 /// The indenter moves with every frame, the stress below it with every third.
 #[test]
 fn the_contact_in_motion_takes_few_bytes() {
-    let sizes: [(Size, usize); 3] = [
-        (Size::new(80, 24), 560),
-        (Size::new(120, 40), 1655),
-        (Size::new(200, 50), 2055),
-    ];
-    for (size, budget) in sizes {
-        let mut counted = Counted::new(size);
-        counted.frame("V");
-        let bytes = at_the_initial_pace(&mut counted);
-        assert!(bytes <= budget, "{bytes} bytes per frame in {size:?}");
-        assert_eq!(counted.draw(), 0, "a paused screen sends something");
-    }
+    in_motion("V", [560, 1655, 2055]);
 }
 
 #[test]

@@ -8,6 +8,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use crate::common::largest;
 use mdr_tui::math::abel::{AbelMethod, AbelPlan};
 use mdr_tui::math::grid::RadialGrid;
 use mdr_tui::oracle::pair_catalogue::Transform::{LineToSurface, LoadToStress, ProfileToMdr};
@@ -43,9 +44,8 @@ fn grid(kind: &str, pair: &Pair, cells: usize) -> RadialGrid {
 /// How near to an infinite value, in parts of its place, nothing is compared.
 const AROUND_SINGULAR: f64 = 0.05;
 
-/// The root of the mean square error over the domain, its innermost tenth left out, in parts of the image's largest
-/// value.
-fn error(method: AbelMethod, pair: &Pair, grid: &RadialGrid) -> f64 {
+/// The image of the pair's source at the nodes.
+fn image(method: AbelMethod, pair: &Pair, grid: &RadialGrid) -> Vec<f64> {
     let plan = AbelPlan::new(method, grid);
     let source: Vec<f64> = grid.nodes().iter().map(|&x| pair.source(x)).collect();
     let mut image = vec![f64::NAN; grid.len()];
@@ -54,6 +54,13 @@ fn error(method: AbelMethod, pair: &Pair, grid: &RadialGrid) -> f64 {
         LineToSurface => plan.displacement(&source, &mut image),
         LoadToStress => plan.stress(&source, &mut image),
     }
+    image
+}
+
+/// The root of the mean square error over the domain, its innermost tenth left out, in parts of the image's largest
+/// value.
+fn error(method: AbelMethod, pair: &Pair, grid: &RadialGrid) -> f64 {
+    let image = image(method, pair, grid);
     let (mut sum, mut largest) = (0.0, 0.0_f64);
     let nodes = grid.nodes().windows(2).zip(&image[1..]);
     for (cell, value) in nodes.filter(|(cell, _)| cell[1] >= 0.1 * grid.radius()) {
@@ -114,5 +121,21 @@ fn every_method_has_its_order_on_every_pair() {
             }
             (_, Order::Exact) => panic!("{row}: now exact"),
         }
+    }
+}
+
+/// The first cell is taken alone at r = 0, hence order 1 there.
+#[test]
+fn the_stress_of_smooth_data_is_of_first_order_at_the_axis() {
+    let is_it = |pair: &&Pair| pair.name == "gauss" && pair.transform == LoadToStress;
+    let pair = PAIRS.iter().find(is_it).expect("a pair");
+    for method in AbelMethod::PUBLISHED {
+        let errors = [400, 800].map(|cells| {
+            let grid = grid("uniform", pair, cells);
+            let nodes = grid.nodes().iter().zip(image(method, pair, &grid));
+            largest(nodes.map(|(&x, value)| value - (pair.image)(x)))
+        });
+        let order = (errors[0] / errors[1]).log2();
+        assert!((order - 1.0).abs() < 0.08, "{method}: {order}");
     }
 }

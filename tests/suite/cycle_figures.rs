@@ -34,26 +34,6 @@ fn close(seen: Option<f64>, expected: f64, tolerance: f64) {
     assert!((seen - expected).abs() < tolerance, "{seen} {expected}");
 }
 
-#[test]
-fn ratios_at_the_border_of_gross_slip_are_those_of_the_sphere_and_of_the_cone() {
-    let border = gross_slip("mindlin");
-    let sphere = figures("mindlin", &amplitude(0.99999 * border), 2.0);
-    close(sphere.energy_ratio, 0.2, 1e-3);
-    close(sphere.sliding_ratio, 0.26, 1e-3);
-    close(sphere.energy_ratio_b, 0.77, 3e-3);
-    close(sphere.force_ratio, 1.0, 1e-3);
-    assert_eq!(sphere.regime, Regime::Partial);
-    let mut sets = amplitude(0.99999 * border);
-    sets.extend([
-        "indenter.shape=cone".into(),
-        "indenter.angle=6.366e-3".into(),
-    ]);
-    let cone = figures("mindlin", &sets, 2.0);
-    close(cone.energy_ratio, 1.0 / 3.0, 2e-3);
-    close(cone.sliding_ratio, 0.414, 2e-3);
-    close(cone.energy_ratio_b, 0.805, 4e-3);
-}
-
 /// F_x = μF_z[1 − (1 − U/U_s)^{3/2}], and 2G*aU what the contact would carry without slip.
 #[test]
 fn partial_slip_is_mindlins() {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::common::{Scene, holds, near, ours, run_setup};
+use crate::common::{Scene, holds, ours, run_setup};
 use crate::test_dir::TestDir;
 use mdr_tui::oracle::half_space::by_point_forces;
 use mdr_tui::reading::Curves;
@@ -240,68 +240,6 @@ fn a_cycle_of_partial_slip_is_that_of_its_closed_tractions() {
     assert!(
         (largest.x.abs() - 1.0).abs() < 0.02 && largest.z < 0.02,
         "{largest:?}"
-    );
-}
-
-#[test]
-fn runs_and_studies_tell_the_parameters_where_they_are_asked() {
-    let dir = TestDir::new();
-    let limits = "material.fatigue_limit = '400 MPa'\nmaterial.shear_fatigue_limit = '300 MPa'\n";
-    let study = format!(
-        "base = 'mindlin'\ncolumns = ['swt_Pa', 'swt_x_m', 'swt_z_m', 'swt_ratio', 'crossland_Pa', \
-         'crossland_ratio', 'contact_radius_m']\n[set]\n'run.cycles' = 1\n{limits}\
-         [[axis]]\nkey = 'friction.coefficient'\nvalues = [0.3, 0.6]\n"
-    );
-    dir.write("study.toml", study.as_bytes());
-    dir.line("sweep study.toml --out map.csv --quiet")
-        .ends(0, "");
-    let map = dir.table("map.csv");
-    for row in 0..2 {
-        let at = |name: &str| map.column(name)[row];
-        near("SWT", at("swt_Pa"), 4e8 * at("swt_ratio"), 1e-12);
-        near(
-            "Crossland",
-            at("crossland_Pa"),
-            3e8 * at("crossland_ratio"),
-            1e-12,
-        );
-        let place = at("swt_x_m").abs() / at("contact_radius_m");
-        assert!(
-            (place - 1.0).abs() < 0.05 && at("swt_z_m") < 1e-6,
-            "{place}"
-        );
-    }
-    let swt = map.column("swt_Pa");
-    assert!(swt[1] > swt[0] && swt[0] > 0.0, "{swt:?}");
-    dir.line("run mindlin --cycles 1 --field --out cracks --quiet")
-        .ends(0, "");
-    let field = dir.table("cracks/field.csv");
-    let swt = field.column("swt_Pa");
-    let deepest = swt
-        .iter()
-        .zip(field.column("z_m"))
-        .max_by(|a, b| a.0.total_cmp(b.0));
-    assert!(deepest.is_some_and(|(swt, z)| *swt > 0.0 && z == 0.0));
-    dir.line("figure cracks --panel swt -o swt.svg").ends(0, "");
-    let run = "run mindlin --cycles 2 --out run --quiet --column";
-    dir.done(&format!("{run} swt_Pa,swt_ratio"));
-    let history = dir.table("run/history.csv");
-    let swt = history.column("swt_Pa");
-    assert_eq!(
-        history.columns.last().map(String::as_str),
-        Some("swt_ratio")
-    );
-    assert!(
-        swt.len() == 3 && swt.iter().all(|&each| (each / swt[0] - 1.0).abs() < 1e-3),
-        "{swt:?}"
-    );
-    dir.refuse_line(
-        &format!("{run} swt_pa"),
-        "--column: unknown column swt_pa; did you mean swt_Pa?",
-    );
-    dir.refuse_line(
-        &format!("{run} cycle"),
-        "--column: cycle is a column of the history already",
     );
 }
 

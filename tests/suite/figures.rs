@@ -203,23 +203,6 @@ fn the_guide_lays_the_figures_beside_the_papers() {
     }
 }
 
-#[test]
-fn figure_two_has_the_errors_of_both_methods() {
-    let dir = TestDir::new();
-    dir.done("figure --figure fig2 -o fig2.svg --quiet");
-    let figure = dir.table("fig2.csv");
-    // Both methods have the same 1D profile; for the deformation A is better, as the paper says.
-    let worst = |panel, name| {
-        let (radii, errors) = curve(&figure, panel, name);
-        assert!(radii.len() > 90, "{panel} {name}");
-        let errors = errors.iter().zip(&radii).filter(|(_, r)| **r < 0.9);
-        errors.map(|(e, _)| *e).fold(0.0, f64::max)
-    };
-    assert!(worst("c", "method A") < worst("c", "method B"));
-    assert!(worst("b", "method A") < 0.1);
-    assert_eq!(figure.header("points"), "100");
-}
-
 /// Both loops have the same forces; the sensor sees u + F_x/stiffness. A stiff rig has one loop, without a name.
 #[test]
 fn a_rig_that_yields_has_two_loops() {
@@ -415,24 +398,6 @@ fn a_sweep_is_a_map_with_its_borders() {
     }
 }
 
-/// One figure in another format has the same data, which may be there already; other data may not.
-#[test]
-fn a_figure_in_two_formats_has_one_file_of_data() {
-    let dir = TestDir::new();
-    dir.done("run mindlin --cycles 1 --out x --quiet");
-    dir.done("figure x --panel loop -o f.svg -o f.png --quiet");
-    dir.done("figure x --panel loop -o f.pdf --quiet");
-    dir.refuse_line(
-        "figure x --panel stresses -o f.pdf",
-        "f.pdf: already exists",
-    );
-    fs::remove_file(dir.path("f.pdf")).expect("removed");
-    dir.refuse_line(
-        "figure x --panel stresses -o f.pdf",
-        "f.csv: already exists",
-    );
-}
-
 /// `run` writes the last cycle: its steps, or after jumps a cycle that is stepped for it; the loop is drawn from it.
 #[test]
 fn a_run_leaves_the_loop_of_its_last_cycle() {
@@ -495,20 +460,6 @@ fn data_keep_clear_of_the_frame() {
         .push(Curve::new("", [0.0, 1.0], [1.0, 0.0], Role::Profile));
     let [_, [low, high]] = depth.bounds_on_paper();
     assert!(low == 0.0 && high > 1.0);
-}
-
-/// Over cycles, rows at other phases of the motion than most are left out, so that nothing but the contact moves.
-#[test]
-fn curves_over_cycles_have_one_phase() {
-    let dir = TestDir::new();
-    dir.done("run li2019-fig3 --cycles 6.3 --out x --quiet");
-    for source in ["x", "li2019-fig3 --at 2.7,6.3"] {
-        dir.done(&format!(
-            "figure {source} --panel radii -o radii.svg --force --quiet"
-        ));
-        let (cycles, _) = curve(&dir.table("radii.csv"), "a", "contact radius a");
-        assert_eq!(cycles, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0], "{source}");
-    }
 }
 
 /// Where areas only touch, a viewer that smooths edges shows the paper between them: every area of a map reaches

@@ -111,29 +111,14 @@ fn the_function_for_python_runs() {
         // No Python, nothing to be tried.
         Err(_) => return,
         Ok(said) if said.status.success() => {}
-        Ok(_) => dir.write(
-            "pandas.py",
-            b"import csv\n\
-            class DataFrame(dict): pass\n\
-            def read_csv(path, comment):\n \
-            rows = list(csv.reader(line for line in open(path) if not line.startswith(comment)))\n \
-            frame = DataFrame(zip(rows[0], zip(*rows[1:])))\n \
-            frame.attrs = {}\n \
-            return frame\n",
-        ),
+        Ok(_) => dir.write("pandas.py", include_bytes!("../fixtures/python/pandas.py")),
     }
     let page = TOPICS
         .iter()
         .find(|topic| topic.name == "python")
         .expect("a topic")
         .text;
-    let script = blocks(page, "python run").concat()
-        + "history = run({'wear.coefficient': 1e-11}, scenario='gross-slip', cycles=2)\n\
-           assert history.attrs['checks'] == 'ok', history.attrs\n\
-           volume = float(list(history['wear_volume_m3'])[-1])\n\
-           assert volume == history.attrs['wear_volume_m3'] > 0\n\
-           try:\n    run({'friction.coeficient': 1})\n\
-           except RuntimeError as error:\n    print(error)\n";
+    let script = blocks(page, "python run").concat() + include_str!("../fixtures/python/try.py");
     dir.write("function.py", script.as_bytes());
     let said = python(&dir, &["function.py"]).expect("python3");
     let (out, err) = (

@@ -3,7 +3,6 @@
 use std::f64::consts::PI;
 
 use crate::common::{Scene, holds, ours, run_setup};
-use crate::test_dir::TestDir;
 use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::oracle::half_space::{
     DEPTH_OF_LARGEST, LARGEST_VON_MISES, by_point_forces, hertz_on_axis, hertz_outside,
@@ -193,39 +192,4 @@ fn a_flat_punch_ends_with_a_jump() {
 fn nothing_in_contact_stresses_nothing() {
     let load = SpringLoad::new(&[0.0, 1.0, 2.0], &[0.0; 3], &[0.0; 3], 0.0, 0.3);
     assert_eq!(load.stress(0.3, 0.2), Stress::default());
-}
-
-#[test]
-fn a_run_writes_the_field_on_the_plane_of_motion() {
-    let dir = TestDir::new();
-    dir.line("run mindlin --cycles 0.25 --field --out x --quiet")
-        .ends(0, "");
-    let read = |name: &str| dir.table(name);
-    let (field, state) = (read("x/field.csv"), read("x/state.csv"));
-    assert_eq!(field.columns, mdr_tui::export::field::COLUMNS);
-    let (x, z) = (field.column("x_m"), field.column("z_m"));
-    assert_eq!(x.len(), 201 * 101);
-    let history = read("x/history.csv");
-    let a = history
-        .column("contact_radius_m")
-        .last()
-        .copied()
-        .expect("a");
-    for (end, exact) in [
-        (x[0], -1.5),
-        (x[200], 1.5),
-        (z[0], 0.0),
-        (z[x.len() - 1], 1.5),
-    ] {
-        assert!((end / a - exact).abs() < 1e-12, "{end} {exact}");
-    }
-    // Under the middle of the contact the half-space bears p(0).
-    let (p, zz) = (state.column("p_Pa")[0], field.column("sigma_zz_Pa")[100]);
-    holds("−σ_zz = p", (zz / p + 1.0).abs(), 1e-3);
-    // Partial slip: the half-space is torn behind the contact, pressed together before it.
-    let xx = field.column("sigma_xx_Pa");
-    let at = |place: f64| (place * a / (1.5 * a / 100.0)).round() as i32 + 100;
-    assert!(xx[at(-1.0) as usize] > 0.0 && xx[at(1.0) as usize] < 0.0);
-    let plain = dir.line("run mindlin --cycles 0.25 --out y --quiet");
-    assert!(plain.code == 0 && !dir.path("y/field.csv").exists());
 }

@@ -9,9 +9,10 @@ use std::time::{Duration, Instant};
 
 use mdr_tui::scenario::session::Session;
 use tempfile::TempDir;
-use vt100::Screen;
+use vt100::{MouseProtocolEncoding, MouseProtocolMode, Screen};
 
 use crate::pty::{Terminal, at_home, cycle, home, kept, program, read};
+use crate::terminal::assert_given_back;
 use crate::test_dir::has;
 
 fn is_under_way(screen: &Screen) -> bool {
@@ -52,7 +53,13 @@ fn a_hangup_keeps_the_session() {
         let seen = terminal.look(cycle).expect("a cycle");
         terminal.go_away();
         let hung_up = Instant::now();
-        terminal.wait_for_end();
+        let status = terminal.wait_for_end();
+        // What waits for it in the terminal's session is ended by the hangup.
+        let ended = (status.exit_code(), status.signal());
+        assert!(
+            start.contains("setsid") || ended == (0, None),
+            "{start}: {ended:?}"
+        );
         eprintln!("{start}: ended {:.0?} after the hangup", hung_up.elapsed());
         let session = read(&kept(&home).expect("a checkpoint"));
         assert!(session.simulation().cycle() >= seen - 0.005, "{start}");
@@ -60,20 +67,31 @@ fn a_hangup_keeps_the_session() {
     }
 }
 
+/// The terminal has its modes and its mouse back, which has been asked for once.
 #[test]
-fn every_way_out_keeps_the_session_and_says_where() {
-    for way in ["q", "Q", "\x03", "TERM", "INT", "HUP"] {
+fn every_way_out_gives_the_terminal_back_keeps_the_session_and_says_where() {
+    for way in ["q", "Q", "\x03"].iter().chain(&crate::signals::ENDING) {
         let home = home();
-        let mut terminal = under_way(&home, &[], 200);
-        match way {
-            "TERM" | "INT" | "HUP" => terminal.signal(way),
-            key => terminal.press(key),
-        }
-        assert_eq!(terminal.wait_for_end().exit_code(), 0);
+        let mut terminal = under_way(&home, &["--mouse"], 200);
+        terminal.look(|screen| {
+            // No movements: each would be bytes on the wire.
+            let mode = screen.mouse_protocol_mode();
+            assert_eq!(mode, MouseProtocolMode::PressRelease);
+            let encoding = screen.mouse_protocol_encoding();
+            assert_eq!(encoding, MouseProtocolEncoding::Sgr);
+        });
+        terminal.ask(way);
+        let status = terminal.wait_for_end();
+        assert_eq!((status.exit_code(), status.signal()), (0, None), "{way:?}");
+        assert_given_back(&terminal);
         let path = kept(&home).expect("a checkpoint");
         let session = read(&path);
         // A screen that is left behind pushes the line off the top.
         let text = String::from_utf8_lossy(&terminal.raw()).into_owned();
+        let [on, off] = ["\x1b[?1000h\x1b[?1006h", "\x1b[?1006l\x1b[?1000l"];
+        let count = |sequence: &str| text.matches(sequence).count();
+        assert_eq!((count(on), count(off)), (1, 1), "{way:?}");
+        assert!(text.find(on) < text.find(off), "{way:?}");
         let cycle = session.simulation().cycle();
         let line = format!(
             "mdr-tui: saved at cycle {cycle}; resume with: mdr-tui --resume {}",

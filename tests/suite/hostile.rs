@@ -91,61 +91,6 @@ proptest! {
     }
 }
 
-#[test]
-fn absurd_sizes_are_refused_with_the_limit_named() {
-    let dir = TestDir::new();
-    let hertz = preset::find("hertz").expect("a preset").text;
-    let many = |count: usize| vec!["0.001"; count].join(",");
-    let files = [
-        (
-            "list.toml",
-            hertz.replace("[run]", &format!("[run]\nsnapshot_at = [{}]", many(20_000))),
-        ),
-        ("large.toml", format!("{hertz}# {}", "x".repeat(1 << 20))),
-        ("deep.toml", format!("a = {}", "[".repeat(100_000))),
-        ("nested.toml", format!("a = {}", "{a=".repeat(100_000))),
-        (
-            "dotted.toml",
-            format!("{} = 1", vec!["a"; 100_000].join(".")),
-        ),
-        ("table.toml", format!("[{}]", vec!["a"; 100_000].join("."))),
-    ];
-    for (name, text) in &files {
-        dir.write(name, text.as_bytes());
-    }
-    let snapshots = many(10_001);
-    let snapshots = format!("run hertz --snapshot-at {snapshots}");
-    for (line, limit) in [
-        ("run list.toml", "must have at most 10000 entries"),
-        ("run large.toml", "larger than 1 MiB"),
-        ("run deep.toml", "recurs"),
-        ("run nested.toml", "recurs"),
-        ("run dotted.toml", "recurs"),
-        ("run table.toml", "recurs"),
-        ("run hertz --cycles 1e10", "at most 1e9 cycles"),
-        ("run hertz --set run.cycles=1e10", "must be 1e9 or less"),
-        (&snapshots, "snapshots; the limit is 10000"),
-        (
-            "run hertz --cycles 1e8 --history every-step",
-            "the limit is 1e7",
-        ),
-        (
-            "run hertz --set numerics.points=1000000000",
-            "must be from 4 to",
-        ),
-        (
-            "run hertz --set numerics.steps_per_cycle=1000000000",
-            "must be from 1 to 1000000",
-        ),
-        (
-            "run li2019-fig3 --set motion.normal.angular_frequency=1e300",
-            "at most 1000 times motion.tangential.angular_frequency",
-        ),
-    ] {
-        dir.refuse(&line.split(' ').collect::<Vec<_>>(), limit);
-    }
-}
-
 /// Everything a terminal would act on.
 const RUDE: &str = "\u{1b}[31mred\u{7}\r\n\u{9b}2J\u{202e}back\u{0}";
 

@@ -1,9 +1,10 @@
 //! The keyboard in the explorer: reading values, typing commands, editing parameters, going back
 //! in time. Keys are played by `--keys`, and the screen comes from `--print`.
 
+use crate::common::{begin, load, rehearsed, rehearsed_on};
 use crate::random::Random;
-use crate::screen_table::{hold, part_of, pin};
-use crate::test_dir::{Said, Table, TestDir, has, lacks, names};
+use crate::screen_table::{hold, part_of};
+use crate::test_dir::{Said, TestDir, has};
 
 /// The screen in 80 by 24 after `keys` on a scenario.
 fn shot_of(dir: &TestDir, scenario: &str, keys: &str) -> String {
@@ -11,7 +12,7 @@ fn shot_of(dir: &TestDir, scenario: &str, keys: &str) -> String {
 }
 
 fn shot(keys: &str) -> String {
-    shot_of(&TestDir::new(), "li2019-fig3", keys)
+    rehearsed("li2019-fig3", keys, (80, 24))
 }
 
 fn foot(screen: &str) -> String {
@@ -82,6 +83,8 @@ fn what_is_fixed_during_a_run_says_why() {
 /// left, and goes on. A value that is given up leaves no trace.
 #[test]
 fn typing_in_the_parameter_list_loses_no_run() {
+    let start = begin(load("li2019-fig3", &[]));
+    let shot = |keys: &str| rehearsed_on(start.clone(), keys, (80, 24));
     let expected = body(&shot(",,,"));
     let mut letters: String = ('!'..='~').filter(|c| !"?:,[]<+-=".contains(*c)).collect();
     letters.push_str("éµ∂");
@@ -109,55 +112,21 @@ fn typing_in_the_parameter_list_loses_no_run() {
     }
 }
 
-#[test]
-fn a_note_goes_into_the_state() {
-    let dir = TestDir::new();
-    shot_of(
-        &dir,
-        "li2019-fig3",
-        ",Sworn \"through\", ask k.<Backspace>?<Enter>",
-    );
-    let [name] = &names(&dir.path(""))[..] else {
-        panic!("not one snapshot");
-    };
-    let state = dir.read(&format!("{name}/state.csv"));
-    has(&state, "\n# note: worn \"through\", ask k?\n");
-    dir.done(&format!("run {name}/scenario.toml --out again --quiet"));
-    assert!(dir.read("again/state.csv") == state);
-}
-
-#[test]
-fn the_library_shows_presets_and_the_users_own_files() {
-    let dir = TestDir::new();
-    let cone = dir.done("presets cone");
-    let mine = cone.replace("title = \"", "title = \"Mine: ");
+/// Scenarios of the user's own, and what is none.
+fn own_files(dir: &TestDir) {
+    let mine = dir
+        .done("presets cone")
+        .replace("title = \"", "title = \"Mine: ");
     dir.write("mine.toml", mine.as_bytes());
     dir.write("broken.toml", b"[indenter]\nshape = \"ball\"\n");
     dir.write("notes.txt", b"no scenario");
     std::fs::create_dir_all(dir.path("deeper/down")).expect("a directory");
     dir.write("deeper/other.toml", mine.as_bytes());
-    pin(
-        "suite__keyboard__library-80x24",
-        &shot_of(&dir, "li2019-fig3", ",pj"),
-    );
-    // From the end: the directory above, the one here, the two files.
-    let ends = |keys: &str| shot_of(&dir, "li2019-fig3", &format!(",p<End>{keys}"));
-    for name in [" ../ ", " deeper/ ", " mine.toml "] {
-        has(&ends(""), name);
-    }
-    lacks(&ends(""), " notes.txt");
-    has(&ends("kk"), "Mine: ");
-    has(&ends("kkk"), "indenter.shape = \"ball\": must be one of");
-    // A file that is refused changes nothing; a good one starts.
-    let refused = ends("kkk<Enter>");
-    has(&refused, "cycle 1.00/199.24");
-    has(&foot(&refused), "must be one of");
-    has(&ends("kk<Enter>"), "cycle 0.00/");
-    for name in [" other.toml ", " down/ "] {
-        has(&ends("k<Enter>"), name);
-    }
-    let kept = ends("k<Enter><Enter>,s");
-    has(&foot(&kept), "snapshot in other-cycle-1/state.csv");
+}
+
+#[test]
+fn the_library_shows_presets_and_the_users_own_files() {
+    hold("keyboard", include_str!("library.txt"), own_files);
 }
 
 #[test]
@@ -181,23 +150,4 @@ fn themes_and_markers_change_the_look_and_nothing_else() {
     let text = on_console(&[]);
     assert!(!braille(&text) && text.contains('▄'), "{text}");
     assert!(braille(&on_console(&["--marker", "braille"])));
-}
-
-/// Recorded so that the snapshot replays it.
-#[test]
-fn finer_and_coarser_change_cells_and_steps_together() {
-    let dir = TestDir::new();
-    shot_of(&dir, "li2019-fig3", ",<lt><lt>,s");
-    let scenario = dir.read("li2019-fig3-cycle-2/scenario.toml");
-    for set in [
-        "numerics.points = 67",
-        "numerics.steps_per_cycle = 67",
-        "numerics.points = 45",
-    ] {
-        has(&scenario, set);
-    }
-    let state = dir.read("li2019-fig3-cycle-2/state.csv");
-    assert_eq!(Table::parse(&state).rows.len(), 45 + 1);
-    dir.done("run li2019-fig3-cycle-2/scenario.toml --quiet --out again");
-    assert_eq!(dir.read("again/state.csv"), state);
 }

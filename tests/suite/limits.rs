@@ -1,77 +1,12 @@
 //! What is read has a limit, what is drawn too, and what does not fit leaves nothing half.
 
-use std::fs;
 use std::io::{Read, Write};
-use std::process::Command;
 use std::time::Duration;
 
 use portable_pty::{CommandBuilder, PtySize, native_pty_system};
 
 use crate::pty::{Terminal, program};
-use crate::test_dir::{TestDir, end, has, names};
-
-fn fifo(dir: &TestDir, name: &str) {
-    let made = Command::new("mkfifo").arg(dir.path(name)).status();
-    assert!(made.expect("mkfifo").success());
-}
-
-#[test]
-fn in_a_folder_nothing_but_files_is_read() {
-    let dir = TestDir::new();
-    fs::create_dir(dir.path("x")).expect("a directory");
-    fifo(&dir, "x/state.csv");
-    for line in ["figure x -o x.svg", "sweep --merge x"] {
-        end(dir.start(line, &[])).ends(2, "x");
-    }
-    // The preferences are nobody's argument.
-    fs::create_dir(dir.path("mdr-tui")).expect("a directory");
-    fifo(&dir, "mdr-tui/config.toml");
-    let said = dir.line("--print 80x24");
-    said.ends(0, "config.toml: is not a file");
-    let said = dir.line_with(
-        "--print 80x24 --keys -,",
-        &[("XDG_CONFIG_HOME", "/dev/null")],
-    );
-    said.ends(0, "goes on without it");
-}
-
-#[test]
-fn a_fit_of_data_without_end_is_refused() {
-    let dir = TestDir::new();
-    dir.write(
-        "h.csv",
-        b"cycle,wear_volume_m3\n0,0\n1,1e-18\n1e300,2e-18\n",
-    );
-    let said = dir.line("fit li2019-fig3 --history h.csv --free wear.coefficient");
-    said.ends(2, "a run has at most");
-}
-
-#[test]
-fn a_table_with_semicolons_and_decimal_commas_is_read_or_named() {
-    let dir = TestDir::new();
-    let table = "cycle;wear_volume_m3\n0;0\n1;1e-18\n2;2e-18\n3;3e-18\n";
-    dir.write("h.csv", table.as_bytes());
-    let line = "fit li2019-fig3 --history h.csv --free wear.coefficient --set numerics.points=10";
-    dir.line(line).ends(0, "");
-    dir.write("h.csv", table.replace("2;2e-18", "2,5;2e-18").as_bytes());
-    dir.line(line).ends(2, "2,5");
-}
-
-#[test]
-fn a_state_or_a_figure_that_does_not_fit_leaves_nothing_and_a_script_fails() {
-    let dir = TestDir::new();
-    let explorer = "hertz --set numerics.points=40 --print 80x24 --keys";
-    // Blocks of 512 bytes: what comes first still fits.
-    for (keys, blocks) in [("....s", 3), ("....:figure x.svg<Enter>", 15)] {
-        let said = dir.shell(&format!(
-            "ulimit -f {blocks}; exec $BIN {explorer} '{keys}'"
-        ));
-        said.ends(1, "cannot write");
-        assert!(names(&dir.path("")).is_empty(), "{keys}");
-    }
-    dir.done(&format!("{explorer} ....s"));
-    assert_eq!(names(&dir.path("")).len(), 1);
-}
+use crate::test_dir::{TestDir, has, names};
 
 #[test]
 fn a_huge_terminal_is_drawn_in_part_and_without_memory_it_is_given_back() {

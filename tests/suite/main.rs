@@ -3,6 +3,9 @@
 //! `cargo test NAME` runs the tests whose path holds NAME, e.g. `oracles::` for the
 //! closed forms or `screens::` for the pinned screens.
 
+// Its lines of bash need the tools of Linux.
+#[cfg(target_os = "linux")]
+mod command_table;
 mod common;
 mod judge;
 #[cfg(unix)]
@@ -73,5 +76,4 @@ mod terminal;
 mod trade;
 mod two_at_once;
 mod verify;
-mod watchdog;
 mod waveforms;

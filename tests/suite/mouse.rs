@@ -1,16 +1,13 @@
-//! The mouse in a real pseudo-terminal: asked for only with `--mouse`, given back on every way out;
+//! The mouse in a real pseudo-terminal: asked for only with `--mouse`;
 //! clicks and the wheel as a terminal tells of them.
 
 use std::thread;
 use std::time::{Duration, Instant};
 
-use vt100::{Color, MouseProtocolEncoding, MouseProtocolMode};
+use vt100::{Color, Screen};
 
 use crate::pty::{TIMEOUT, Terminal, program};
 use crate::test_dir::lacks;
-
-const ON: &str = "\x1b[?1000h\x1b[?1006h";
-const OFF: &str = "\x1b[?1006l\x1b[?1000l";
 
 /// Longer than the two halves of a double click may lie apart.
 const APART: Duration = Duration::from_millis(500);
@@ -31,9 +28,8 @@ fn click(column: u16, row: u16) -> String {
 }
 
 /// Which panels the screen shows.
-fn panels(terminal: &Terminal) -> Vec<&'static str> {
-    terminal.wait_for_silence();
-    let text = terminal.text();
+fn panels(screen: &Screen) -> Vec<&'static str> {
+    let text = screen.contents();
     let titles = [
         "3D profile",
         "stresses",
@@ -43,9 +39,9 @@ fn panels(terminal: &Terminal) -> Vec<&'static str> {
         "numbers",
     ];
     // A title stands at the beginning of a rule, with what is magnified behind it.
+    let ends = [" ─", ", wear"];
     let is_shown = |title: &&str| {
-        [" ─", ", wear"]
-            .iter()
+        ends.iter()
             .any(|end| text.contains(&format!(" {title}{end}")))
     };
     titles.into_iter().filter(is_shown).collect()
@@ -53,52 +49,25 @@ fn panels(terminal: &Terminal) -> Vec<&'static str> {
 
 /// Waits until the screen shows these panels and no others.
 fn await_panels(terminal: &Terminal, expected: &[&str]) {
-    let start = Instant::now();
-    while panels(terminal) != expected && start.elapsed() < TIMEOUT {}
-    assert_eq!(panels(terminal), expected);
+    terminal.wait_until(&format!("{expected:?}"), |screen| {
+        panels(screen) == expected
+    });
 }
 
-/// The radius that the cursor reads, µm.
-fn radius(terminal: &Terminal) -> f64 {
-    let start = Instant::now();
-    let foot = loop {
-        terminal.wait_for_silence();
-        let text = terminal.text();
-        let foot = text.lines().last().unwrap_or_default().to_owned();
-        if foot.trim_start().starts_with("r ") || start.elapsed() > TIMEOUT {
-            break foot;
+/// The radius that the cursor reads, µm, once it is another one than `before`.
+fn radius(terminal: &Terminal, before: f64) -> f64 {
+    let read = |screen: &Screen| -> Option<f64> {
+        let text = screen.contents();
+        let mut words = text.lines().last().unwrap_or_default().split_whitespace();
+        match [words.next(), words.next(), words.next()] {
+            [Some("r"), Some(number), Some("µm")] => number.parse().ok(),
+            _ => None,
         }
     };
-    let mut words = foot.split_whitespace();
-    assert_eq!(words.next(), Some("r"), "{foot}");
-    let number = words.next().and_then(|word| word.parse().ok());
-    assert_eq!(words.next(), Some("µm"), "{foot}");
-    number.expect("a radius")
-}
-
-#[test]
-fn the_mouse_is_asked_for_and_given_back() {
-    for way in ["q", "Q", "\x03", "TERM", "HUP"] {
-        let mut terminal = paused(&["--mouse"]);
-        terminal.look(|screen| {
-            // No movements: each would be bytes on the wire.
-            let mode = screen.mouse_protocol_mode();
-            assert_eq!(mode, MouseProtocolMode::PressRelease);
-            let encoding = screen.mouse_protocol_encoding();
-            assert_eq!(encoding, MouseProtocolEncoding::Sgr);
-        });
-        match way {
-            "TERM" | "HUP" => terminal.signal(way),
-            key => terminal.press(key),
-        }
-        assert_eq!(terminal.wait_for_end().exit_code(), 0, "{way:?}");
-        let mode = terminal.look(vt100::Screen::mouse_protocol_mode);
-        assert_eq!(mode, MouseProtocolMode::None, "{way:?}");
-        let text = String::from_utf8_lossy(&terminal.raw()).into_owned();
-        let [on, off] = [ON, OFF].map(|sequence| text.matches(sequence).count());
-        assert_eq!((on, off), (1, 1), "{way:?}");
-        assert!(text.find(ON) < text.find(OFF), "{way:?}");
-    }
+    terminal.wait_until("a radius", |screen| {
+        read(screen).is_some_and(|r| r != before)
+    });
+    terminal.look(read).expect("a radius")
 }
 
 #[test]
@@ -120,7 +89,7 @@ fn without_the_option_the_terminal_keeps_its_mouse() {
 #[test]
 fn a_click_focuses_and_another_zooms() {
     let mut terminal = paused(&["--mouse"]);
-    let all = panels(&terminal);
+    let all = terminal.look(panels);
     assert_eq!(all.len(), 4, "{}", terminal.text());
     // At first the profile has the focus.
     terminal.press(&click(60, 3));
@@ -168,10 +137,11 @@ fn a_click_in_a_plot_moves_the_cursor_there() {
     let mut terminal = paused(&["--mouse"]);
     terminal.press("x");
     terminal.wait_for("stick");
-    let mut seen = Vec::new();
+    let (mut at, mut seen) = (radius(&terminal, -1.0), Vec::new());
     for column in [10, 20, 30, 50, 57, 64] {
         terminal.press(&click(column, 5));
-        seen.push(radius(&terminal));
+        at = radius(&terminal, at);
+        seen.push(at);
         let line = terminal.look(|screen| {
             let cell = screen.cell(5, column - 1).expect("a cell");
             cell.contents().to_owned()
@@ -190,7 +160,8 @@ fn a_click_in_a_plot_moves_the_cursor_there() {
     assert!((steps[0] - steps[1]).abs() < 0.1 * steps[0], "{seen:?}");
     // Without a place over r, a click is for the panel: here to the radii and into them.
     terminal.press(&click(60, 18));
-    assert_eq!(radius(&terminal), seen[5]);
+    terminal.wait_for_silence();
+    assert_eq!(radius(&terminal, -1.0), seen[5]);
     thread::sleep(APART);
     terminal.press(&click(60, 18));
     await_panels(&terminal, &["radii over cycles"]);
@@ -199,7 +170,8 @@ fn a_click_in_a_plot_moves_the_cursor_there() {
 
 /// The signs on the screen and how they look; blanks have no ink.
 fn shown(terminal: &Terminal) -> Shown {
-    terminal.wait_for_silence();
+    // No half of a frame.
+    terminal.wait_for_silence_of(Duration::from_millis(100));
     terminal.look(|screen| {
         let (rows, columns) = screen.size();
         let places = (0..rows.get()).flat_map(|row| (0..columns.get()).map(move |at| (row, at)));

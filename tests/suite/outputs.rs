@@ -1,7 +1,7 @@
 //! Results that cannot be lost: one maker at a time for every file, and nothing replaced but files.
 
 use std::fs;
-use std::os::unix::fs::{PermissionsExt, symlink};
+use std::os::unix::fs::PermissionsExt;
 use std::process::Stdio;
 use std::thread;
 use std::time::Duration;
@@ -117,81 +117,6 @@ fn a_study_under_way_is_refused_to_others_before_they_compute_even_by_force() {
 }
 
 #[test]
-fn links_and_devices_are_not_replaced_and_stdout_is_written_through() {
-    let dir = dir();
-    dir.write("mine", b"mine");
-    for (name, target) in [
-        ("link.svg", "mine"),
-        ("link.csv", "mine"),
-        ("nowhere.csv", "x"),
-    ] {
-        symlink(dir.path(target), dir.path(name)).expect("a link");
-    }
-    for line in [
-        "sweep a.toml --out link.csv --force",
-        "sweep a.toml --out nowhere.csv",
-        "sweep a.toml --out /dev/null --force",
-        "figure hertz --cycles 1 -o link.svg --force",
-        "verify --csv link.csv --force",
-    ] {
-        dir.refuse_line(line, "is not a regular file");
-    }
-    assert_eq!(dir.read("mine"), "mine");
-    let table = "sweep --sensitivity a.toml --quiet --out";
-    dir.done(&format!("{table} table.csv"));
-    assert_eq!(
-        dir.done(&format!("{table} /dev/stdout")),
-        dir.read("table.csv")
-    );
-    dir.done("sweep a.toml --quiet --out rows.csv");
-    assert_eq!(
-        dir.done("sweep a.toml --out /dev/stdout"),
-        dir.read("rows.csv")
-    );
-}
-
-#[test]
-fn locks_and_rows_of_a_run_are_not_followed_through_links() {
-    for own in [".mdr-tui-lock", ".mdr-tui-history"] {
-        let dir = dir();
-        dir.write("mine", b"mine");
-        fs::create_dir(dir.path("x")).expect("a directory");
-        symlink(dir.path("mine"), dir.path(&format!("x/{own}"))).expect("a link");
-        let said = dir.line("run hertz --cycles 2 --out x");
-        assert!(
-            said.code != 0 && said.err.contains("not a regular file") && said.err.contains(own),
-            "{}",
-            said.err
-        );
-        assert_eq!(dir.read("mine"), "mine");
-    }
-}
-
-#[test]
-fn a_forced_run_takes_the_old_run_s_files_away_and_no_others() {
-    let dir = dir();
-    let small = "--set numerics.points=8 --quiet --out x";
-    dir.done(&format!(
-        "run hertz --cycles 2 --snapshot-at 0.5,1 --field {small}"
-    ));
-    let mine = ["state-best.csv", "notes.txt", "state-1.5.csv"];
-    for name in mine {
-        dir.write(&format!("x/{name}"), b"mine\n1\n");
-    }
-    // What is refused takes nothing away.
-    let refused = dir.line("run cone --cycles -1 --out x --force");
-    assert!(refused.code == 2 && dir.path("x/field.csv").exists());
-    dir.done(&format!("run cone --cycles 1 --force {small}"));
-    let mut expected = vec!["history.csv", "loop.csv", "scenario.toml", "state.csv"];
-    expected.extend(mine);
-    expected.sort_unstable();
-    assert_eq!(names(&dir.path("x")), expected);
-    for name in mine {
-        assert_eq!(dir.read(&format!("x/{name}")), "mine\n1\n");
-    }
-}
-
-#[test]
 fn a_folder_of_many_users_is_nobody_s_alone() {
     let dir = dir();
     let open = |name: &str, mode: u32| {
@@ -225,66 +150,6 @@ fn a_folder_of_many_users_is_nobody_s_alone() {
     said.ends(2, "is writing this file");
     let said = say("closed/x.csv");
     has(&said.err, " closed/x.csv: cannot write: Permission denied");
-}
-
-#[test]
-fn a_run_tells_how_it_was_made_and_its_tables_do_not_hang_on_it() {
-    let dir = dir();
-    let made = |epoch: &str, out: &str| {
-        let arguments = ["run", "hertz", "--cycles", "1", "--quiet", "--out", out];
-        let mut command = dir.command(&[&arguments[..], &["--set", "title=a b"]].concat());
-        let output = command.env("SOURCE_DATE_EPOCH", epoch).output();
-        assert!(output.expect("the program starts").status.success());
-        dir.read(&format!("{out}/provenance.toml"))
-    };
-    let text = made("951782400", "x");
-    let table: toml::Table = text.parse().expect("TOML");
-    let of = |key: &str| table[key].as_str().expect("a text").to_owned();
-    assert_eq!(of("date"), "2000-02-29T00:00:00Z");
-    assert_eq!(
-        of("command"),
-        "mdr-tui run hertz --cycles 1 --quiet --out x --set 'title=a b'"
-    );
-    assert!(of("version").starts_with(env!("CARGO_PKG_VERSION")));
-    has(&of("arithmetic"), std::env::consts::ARCH);
-    // Later, elsewhere.
-    assert_ne!(made("1", "y"), text);
-    for name in names(&dir.path("x")) {
-        assert_eq!(
-            dir.read(&format!("x/{name}")),
-            dir.read(&format!("y/{name}"))
-        );
-    }
-    fs::remove_dir_all(dir.path("x")).expect("a directory");
-    assert_eq!(made("951782400", "x"), text);
-}
-
-/// What a supplement to a paper holds: a run from its `scenario.toml` writes the same files, snapshots with the error
-/// that is known at the end alone included, and figures of both are the same.
-#[test]
-fn a_supplement_gives_the_same_files() {
-    let dir = dir();
-    dir.done(
-        "run li2019-fig3 --set numerics.points=40 --set numerics.steps_per_cycle=24 --cycles 3 --snapshot-at 1,2.5 \
-         --estimate-error --out x --quiet",
-    );
-    dir.done("run x/scenario.toml --out y --quiet");
-    for out in ["x", "y"] {
-        dir.done(&format!(
-            "figure {out} --panel profile --panel loop -o {out}.pdf"
-        ));
-        fs::remove_file(dir.path(&format!("{out}/provenance.toml"))).expect("a file");
-    }
-    let mut names: Vec<String> = names(&dir.path("x")).into_iter().collect();
-    names.sort();
-    for name in &names {
-        let [first, again] = ["x", "y"].map(|out| dir.read(&format!("{out}/{name}")));
-        assert!(first == again, "{name}");
-    }
-    assert!(names.contains(&"state-2.5.csv".to_owned()), "{names:?}");
-    has(&dir.read("x/state-2.5.csv"), "# estimated_error_volume: ");
-    let [first, again] = ["x.pdf", "y.pdf"].map(|name| fs::read(dir.path(name)).expect("a file"));
-    assert!(first == again);
 }
 
 /// Calls of the system by which files come to be as they are.

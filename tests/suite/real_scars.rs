@@ -5,7 +5,7 @@ use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
 
 use crate::common::{begin, near, try_load};
-use crate::test_dir::{TestDir, cases, has, lacks};
+use crate::test_dir::{TestDir, has};
 
 const SMALL: [&str; 3] = [
     "numerics.points=60",
@@ -30,46 +30,6 @@ fn preset(name: &str) -> &'static str {
 /// The preset with `line` in its `[wear]` table.
 fn with_wear(name: &str, line: &str) -> String {
     preset(name).replace("[wear]\n", &format!("[wear]\n{line}\n"))
-}
-
-/// 20 cycles, the scar in a table, and 20 more: as 40 cycles at once.
-#[test]
-fn a_run_goes_on_from_its_exported_scar() {
-    let dir = TestDir::new();
-    let sets = SMALL.map(|set| format!("--set {set}")).join(" ");
-    let run = |name: &str, cycles: u32, text: &str| {
-        dir.write(&format!("{name}.toml"), text.as_bytes());
-        dir.done(&format!(
-            "run {name}.toml {sets} --cycles {cycles} --out {name} --quiet"
-        ));
-        let history = dir.table(&format!("{name}/history.csv"));
-        let last = |column: &str| history.column(column).pop().expect("a row");
-        [last("wear_volume_m3"), last("dissipated_energy_J")]
-    };
-    let first = run("first", 20, preset("li2019-fig3"));
-    let whole = run("whole", 40, preset("li2019-fig3"));
-    let scar = with_wear("li2019-fig3", "initial = \"first/state.csv\"");
-    let second = run("second", 20, &scar);
-    // V is that of the profile, E_d that of the run. The second run meets the first cycle with springs at rest.
-    let grown = second[0] - first[0];
-    assert!(grown > 0.1 * first[0], "{grown}");
-    near("V", second[0], whole[0], 2e-3);
-    near("dV", grown, whole[0] - first[0], 5e-3);
-    near("E_d", second[1], whole[1] - first[1], 5e-3);
-    let state = dir.table("second/state.csv");
-    let told: f64 = state
-        .header("initial_wear_volume_m3")
-        .parse()
-        .expect("a number");
-    near("the scar's volume", told, first[0], 1e-3);
-    assert_eq!(state.header("checks"), "ok");
-    // The run's scenario needs no other file.
-    std::fs::remove_file(dir.path("first/state.csv")).expect("a file");
-    dir.done("run second/scenario.toml --out again --quiet");
-    assert_eq!(
-        dir.read("again/history.csv"),
-        dir.read("second/history.csv")
-    );
 }
 
 /// The volume of a coarse table of a smooth scar is right to the second order of its points.
@@ -168,86 +128,6 @@ fn a_held_force_sinks_in_from_its_scar() {
     assert!(whole.depth > 1.02 * first.simulation().moment().depth);
 }
 
-#[test]
-fn scars_that_do_not_fit_are_told_with_the_reason() {
-    let dir = TestDir::new();
-    dir.write(
-        "scar.toml",
-        with_wear("li2019-fig3", "initial = \"scar.csv\"").as_bytes(),
-    );
-    let path = dir.path("scar.toml").display().to_string();
-    for (text, expected) in cases([
-        "r_m,x_m\n0,0\n1e-5,0\n1e-4,0\n => has no column depth_m",
-        "r_m,depth_m\n0,0\n0.05,1e-7\n0.1,0\n => is r in m?",
-        "r_m,depth_m\n0,1e-4\n5e-5,1e-4\n1e-4,0\n => is the depth in m?",
-        "r_m,depth_m\n0,0\n1e-4,1e-7\n9e-4,0\n => numerics.domain_radius",
-        "r_m,depth_m\n0,0\n5e-5,1e-7\n1e-4,1e-7\n => a longer trace",
-        "r_m,depth_m\n0,0\n5e-5,-1e-7\n1e-4,0\n => must be 0 or greater",
-        "r_m,depth_m\n0,0\n5e-5,1e-7\n5e-5,0\n => must increase",
-    ]) {
-        dir.write("scar.csv", text.as_bytes());
-        let refused = small(&path, &[]).expect_err(text);
-        has(&refused, expected);
-        assert_eq!(refused.lines().count(), 1, "{refused}");
-    }
-    dir.write("scar.csv", b"r_m,depth_m\n0,0\n5e-5,2e-8\n1e-4,0\n");
-    let ring = started(&path, &["motion.normal.mean=1e-6"]);
-    let warnings = ring.simulation().warnings();
-    assert!(
-        !warnings.iter().any(|line| line.contains("may be a ring")),
-        "{warnings:?}"
-    );
-    dir.write(
-        "scar.csv",
-        b"r_m,depth_m\n0,5e-7\n2e-5,5e-7\n4e-5,0\n1e-4,0\n",
-    );
-    let warnings = started(&path, &[]).simulation().warnings();
-    assert!(
-        warnings.iter().any(|line| line.contains("may be a ring")),
-        "{warnings:?}"
-    );
-}
-
-/// The contact feels the sum alone: all that was written without a share is written with it, bit for bit.
-#[test]
-fn shared_wear_adds_up_to_the_same_bits() {
-    let dir = TestDir::new();
-    dir.write("one.toml", preset("li2019-fig3").as_bytes());
-    dir.write(
-        "two.toml",
-        with_wear("li2019-fig3", "share = 0.3").as_bytes(),
-    );
-    for name in ["one", "two"] {
-        dir.done(&format!(
-            "run {name}.toml --set numerics.points=60 --set run.snapshot_at=[] --cycles 3 --out {name} --quiet"
-        ));
-    }
-    let table = |name: &str, file: &str| dir.table(&format!("{name}/{file}"));
-    assert_eq!(
-        table("one", "history.csv").rows,
-        table("two", "history.csv").rows
-    );
-    let (one, two) = (table("one", "state.csv"), table("two", "state.csv"));
-    let shares = ["wear_indenter_m", "wear_half_space_m"];
-    assert_eq!(two.columns[..13], one.columns);
-    assert_eq!(two.columns[13..], shares);
-    for (one, two) in one.rows.iter().zip(&two.rows) {
-        assert_eq!(*one, two[..13]);
-    }
-    let [indenter, half_space] = shares.map(|name| two.column(name));
-    let mut worn = 0.0_f64;
-    for (j, wear) in one.column("wear_m").into_iter().enumerate() {
-        assert_eq!(indenter[j], 0.3 * wear);
-        assert!((indenter[j] + half_space[j] - wear).abs() <= f64::EPSILON * wear);
-        worn = worn.max(wear);
-    }
-    assert!(worn > 0.0);
-    has(
-        &dir.read("two/state.csv"),
-        "# wear_share_of_indenter: 0.3\n",
-    );
-}
-
 /// Hertz: p₀ = (2/π) E* √(d/R) at the deepest point.
 #[test]
 fn pressure_that_passes_the_hardness_is_said() {
@@ -280,37 +160,6 @@ fn pressure_that_passes_the_hardness_is_said() {
     assert!((1.02..1.03).contains(&above), "{passed:?}");
     let never = started("li2019-fig3", &[&sets(1e12)]);
     assert_eq!(warned(&never), None);
-    let dir = TestDir::new();
-    let said = dir.line("run hertz --set material.hardness=1e6 --cycles 1 --out out");
-    assert_eq!(said.code, 0, "{}", said.err);
-    assert_eq!(
-        said.err.matches("exceeds the hardness, 1.000e6 Pa").count(),
-        1,
-        "{}",
-        said.err
-    );
-    has(
-        &dir.read("out/state.csv"),
-        "# warning: outside the theory: the pressure exceeds",
-    );
-}
-
-/// The mark stands in the status line once the pressure has passed in a step, and both bodies in the section.
-#[test]
-fn the_explorer_marks_the_limit_and_draws_both_bodies() {
-    let dir = TestDir::new();
-    let screen = |sets: &str, keys: &str, size: &str| {
-        dir.done(&format!("li2019-fig3 {sets} --keys={keys} --print {size}"))
-    };
-    // Above the pressure of the unworn contact, below that of the worn one.
-    let sets = "--set numerics.points=60 --set wear.coefficient=2e-9 --set material.hardness=1.6e9";
-    lacks(&screen(sets, "", "140x30"), "outside the theory");
-    has(&screen(sets, ",,,,,,", "140x30"), "outside the theory");
-    has(
-        &screen("--set wear.share=0.25", ",,vz", "81x24"),
-        "deep (indenter ",
-    );
-    lacks(&screen("", ",,vz", "81x24"), "deep (indenter ");
 }
 
 #[test]

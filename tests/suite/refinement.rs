@@ -13,7 +13,6 @@ use mdr_tui::studies::refinement::{
 use crate::common::{load, without_numerics};
 use crate::judge::{QUANTITIES, UNDERSTATED, judge, judge_estimate, quantile, tally_checks};
 use crate::random_scenarios;
-use crate::test_dir::{Table, TestDir, cases, has, lacks};
 
 fn clock() -> impl Fn() -> f64 {
     let begin = std::time::Instant::now();
@@ -203,106 +202,6 @@ fn failures_climb_too_and_end() {
         ladder.fail("broke".into(), 0.1);
     }
     assert_eq!(ladder.next(), Next::Done(Verdict::Failed("broke".into())));
-}
-
-/// The number in a header line, if there is one.
-fn header(table: &Table, key: &str) -> Option<f64> {
-    let line = table.header.iter().find(|(name, _)| name == key)?;
-    line.1.parse().ok()
-}
-
-const SHORT: &str = "run li2019-fig3 --cycles 5 --quiet";
-
-/// What the header says of an error that nobody has asked for.
-const UNMEASURED: &str = "\n# estimated_error: not measured (--estimate-error)\n";
-
-#[test]
-fn an_accuracy_is_stated_and_its_scenario_gives_the_same_bits() {
-    let dir = TestDir::new();
-    let said = dir.done("run li2019-fig3 --cycles 5 --set numerics.accuracy=1e-2 --out one");
-    let lines = || said.lines().filter(|line| line.contains("estimated error"));
-    for of in ["of the worn depth", "of the dissipated energy", "of F_x"] {
-        assert_eq!(
-            lines().filter(|line| line.contains(of)).count(),
-            1,
-            "{said}"
-        );
-    }
-    for file in ["one/state.csv", "one/history.csv"] {
-        let table = dir.table(file);
-        assert_eq!(header(&table, "accuracy"), Some(1e-2));
-        for key in ["estimated_error", "estimated_error_volume"] {
-            let error = header(&table, key).expect("a statement");
-            assert!(error > 0.0 && error <= 1e-2, "{key}: {error}");
-        }
-        assert!(header(&table, "estimated_error_force").is_some());
-    }
-    let scenario = dir.read("one/scenario.toml");
-    has(&scenario, "\npoints = ");
-    lacks(&scenario, "\naccuracy");
-    dir.done("run one/scenario.toml --quiet --out two");
-    let [one, two] = ["one", "two"].map(|out| dir.table(&format!("{out}/state.csv")));
-    assert_eq!((one.columns, one.rows), (two.columns, two.rows));
-}
-
-#[test]
-fn a_run_estimates_its_error_without_another_number_changing() {
-    let dir = TestDir::new();
-    dir.done(&format!("{SHORT} --out plain"));
-    dir.done(&format!("{SHORT} --estimate-error --out checked"));
-    let table = dir.table("checked/state.csv");
-    for key in ["", "_volume", "_force", "_pressure"] {
-        let error = header(&table, &format!("estimated_error{key}")).expect("a statement");
-        assert!(error > 0.0 && error < 1e-2, "{key}: {error}");
-    }
-    let [plain, checked] = ["plain", "checked"].map(|out| dir.read(&format!("{out}/state.csv")));
-    has(&plain, UNMEASURED);
-    let rest = |text: &str| -> Vec<String> {
-        let lines = text.lines().filter(|line| !line.starts_with("# estimated"));
-        lines.map(str::to_owned).collect()
-    };
-    assert_eq!(rest(&checked), rest(&plain));
-    assert!(header(&dir.table("checked/history.csv"), "estimated_error").is_some());
-}
-
-#[test]
-fn a_replay_states_the_errors_of_the_run_and_an_edit_does_not() {
-    let dir = TestDir::new();
-    dir.done("run li2019-fig3 --cycles 1 --snapshot-at 0.5 --set numerics.accuracy=1e-2 --out once --quiet");
-    dir.done("run once/scenario.toml --out twice --quiet");
-    dir.alike("once", "twice");
-    let once = dir.table("once/state.csv");
-    assert_eq!(header(&once, "accuracy"), Some(1e-2));
-    assert!(header(&once, "estimated_error").is_some_and(|error| error < 1e-2));
-    // Of another run nothing is known.
-    let again = "run once/scenario.toml --out other --force --quiet";
-    for edit in [
-        "--cycles 2",
-        "--set wear.coefficient=2e-10",
-        "--set numerics.points=60",
-    ] {
-        dir.done(&format!("{again} {edit}"));
-        has(&dir.read("other/state.csv"), UNMEASURED);
-        assert_eq!(
-            header(&dir.table("other/state.csv"), "accuracy"),
-            None,
-            "{edit}"
-        );
-        lacks(&dir.read("other/scenario.toml"), "stated");
-    }
-}
-
-#[test]
-fn what_is_not_met_is_told_in_one_line() {
-    for (more, line) in cases([
-        "numerics.accuracy=1e-5 --budget 0s => numerics.accuracy = 1e-5 was not reached in 0 s; the estimated error is ",
-        "numerics.accuracy=1e-3 --set wear.coefficient=0 => nothing has worn, so the accuracy of a scar means nothing",
-        "wear.coefficient=0 --estimate-error => nothing has worn, so there is no worn depth to estimate the error of",
-    ]) {
-        TestDir::new()
-            .line(&format!("{SHORT} --set {more}"))
-            .fails(0, line);
-    }
 }
 
 /// A screen is there to watch the cycles that a run without one jumps over.

@@ -1,7 +1,6 @@
 //! Defects that were found once stay away: keys in any order, too many of anything, and runs that are
 //! replayed from what they wrote.
 
-use std::fmt::Write;
 use std::process::{Child, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -9,16 +8,14 @@ use std::time::{Duration, Instant};
 use mdr_tui::scenario::checkpoint;
 use mdr_tui::scenario::preset;
 
-use crate::common::{begin, load, ran};
+use crate::common::{begin, load, ran, rehearsed};
 use crate::test_dir::{TestDir, has, lacks};
 
 #[test]
 fn a_comparison_may_begin_on_a_panel_that_shows_no_profile() {
-    let dir = TestDir::new();
     for preset in preset::ALL {
         for keys in ["zkc", "zkkc", "zkkkc."] {
-            let said = dir.say(&[preset.name, "--print", "80x24", "--keys", keys]);
-            assert_eq!((said.code, said.err.as_str()), (0, ""), "{}", preset.name);
+            rehearsed(preset.name, keys, (80, 24));
         }
     }
 }
@@ -79,20 +76,6 @@ fn restarts_and_the_past_stay_within_their_memory() {
     };
     let grown = run(&keys) - run("..r");
     assert!(grown < 80 << 20, "{} MiB", grown >> 20);
-}
-
-#[test]
-fn a_million_of_changes_is_refused_before_the_work() {
-    let dir = TestDir::new();
-    let mut text = preset::find("hertz").expect("a preset").text.to_owned();
-    while text.len() < (1 << 20) - 100 {
-        let _ = write!(text, "[[changes]]\nat_cycle=1.0\nset=\"title=1\"\n");
-    }
-    dir.write("many.toml", text.as_bytes());
-    let start = Instant::now();
-    let said = dir.line("run many.toml --cycles 1 --out x");
-    said.fails(2, "must have at most 1000 entries");
-    assert!(start.elapsed() < Duration::from_secs(40));
 }
 
 /// A scenario whose end, and twice that, lie between two steps.

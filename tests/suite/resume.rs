@@ -10,7 +10,7 @@ use serde::de::IgnoredAny;
 
 use crate::common::load;
 use crate::random::Random;
-use crate::test_dir::{TestDir, bits, end, has, kill, names, signal};
+use crate::test_dir::{TestDir, bits, end, kill, names, signal};
 
 /// A run with snapshots between steps, a row a step, and changes on the way.
 fn scenario() -> String {
@@ -150,36 +150,6 @@ fn assert_whole(dir: &TestDir, out: &str) {
     }
 }
 
-#[test]
-fn a_checkpoint_that_cannot_be_taken_up_is_one_line() {
-    let dir = TestDir::new();
-    let line = "run hertz --set numerics.points=8 --cycles 1e9 --out x --checkpoint-every 0.001";
-    let mut child = dir.start(line, &[]);
-    dir.wait_for(&mut child, "x/run.checkpoint");
-    kill(child);
-    let whole = fs::read(dir.path("x/run.checkpoint")).expect("a checkpoint");
-    let text = String::from_utf8_lossy(&whole).into_owned();
-    let later = text.replacen("checkpoint 2", "checkpoint 7", 1);
-    for (name, bytes, expected) in [
-        ("later", later.as_bytes(), "is a checkpoint of version 7"),
-        (
-            "torn",
-            &whole[..whole.len() - 1],
-            "torn: is damaged: it has",
-        ),
-        ("empty", b"", "is not a checkpoint"),
-        ("toml", b"title = \"x\"\n", "is not a checkpoint"),
-    ] {
-        dir.write(name, bytes);
-        for line in [
-            format!("run --resume {name} --out new"),
-            format!("--resume {name} --print 80x24"),
-        ] {
-            dir.refuse_line(&line, expected);
-        }
-    }
-}
-
 #[cfg(target_os = "linux")]
 #[test]
 fn under_nohup_a_run_outlives_its_terminal() {
@@ -215,37 +185,4 @@ fn a_defect_keeps_what_is_done_and_says_so_in_one_line() {
     dir.done("run --resume x/run.checkpoint --quiet");
     dir.done("run hertz --cycles 1 --out whole --quiet");
     dir.alike("whole", "x");
-}
-
-/// Room for a checkpoint and not for the files, as far as a limit on their size can say so.
-#[test]
-fn a_disk_that_is_full_at_the_end_leaves_a_checkpoint() {
-    let dir = TestDir::new();
-    let plan = "run li2019-fig3 --cycles 3 --snapshot-at 1,2 --set numerics.points=400 --out";
-    // Kilobytes: the tables of 401 nodes take more than 60, and the checkpoint takes less than that.
-    for (blocks, out, told) in [
-        (0, "full", "there is no checkpoint"),
-        (
-            60,
-            "tight",
-            "resume with: mdr-tui run --resume tight/run.checkpoint",
-        ),
-    ] {
-        let said = dir.shell(&format!(
-            "trap '' XFSZ; ulimit -f {blocks}; exec $BIN {plan} {out}"
-        ));
-        said.ends(1, "cannot write");
-        let owed = said
-            .err
-            .matches("the run continues and tries again at its end");
-        assert_eq!(owed.count(), 2, "{}", said.err);
-        has(said.err.lines().last().unwrap_or_default(), "cannot write");
-        has(said.err.lines().last().unwrap_or_default(), told);
-    }
-    dir.line("run --resume tight/run.checkpoint --quiet");
-    dir.done(&format!("{plan} whole --quiet"));
-    for name in ["state.csv", "history.csv", "scenario.toml"] {
-        let [whole, tight] = ["whole", "tight"].map(|out| dir.read(&format!("{out}/{name}")));
-        assert!(whole == tight, "{name} differs");
-    }
 }

@@ -6,10 +6,10 @@ use mdr_tui::oracle::partial_slip::stiffness_ratio;
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
 use mdr_tui::simulation::drive::Drive;
-use mdr_tui::simulation::{Setup, Simulation};
+use mdr_tui::simulation::{Regime, Setup, Simulation};
 
 use crate::common::{Scene, load, near, ours, ran, swing, try_load};
-use crate::test_dir::{TestDir, has, lacks};
+use crate::test_dir::TestDir;
 
 /// E* = d = a₀ = 1, μ = 0.1, ν = 0.3: a contact moved by ±`amplitude` through a rig of this compliance.
 fn on_rig(indenter: Indenter, amplitude: f64, compliance: f64) -> Setup {
@@ -77,6 +77,20 @@ fn ratios_at_the_border_of_gross_slip_on_rigs() {
             close(&what("A"), found(figures.energy_ratio), a, 1e-3);
             close(&what("D"), found(figures.sliding_ratio), d, 1e-3);
             close(&what("B"), found(figures.energy_ratio_b), a / d, 1e-3);
+            close(&what("Q*"), found(figures.force_ratio), 1.0, 1e-3);
+            // A hundredth of the amplitude before and behind the border.
+            let regime = |share: f64| {
+                let setup = on_rig(shape.clone(), share * border * (1.0 + rho), compliance);
+                after_two_cycles(setup)
+                    .cycle_figures()
+                    .expect("figures")
+                    .regime
+            };
+            assert_eq!(
+                [0.99, 1.01].map(regime),
+                [Regime::Partial, Regime::Gross],
+                "{name} {rho}"
+            );
         }
     }
 }
@@ -186,26 +200,6 @@ fn a_contact_on_a_rig_is_lost_and_made_again() {
     close("a stiff rig", works, 1.0, 1e-4);
 }
 
-/// The panel has the contact's loop and, on a rig alone, that of its sensor.
-#[test]
-fn both_loops_of_a_rig_are_drawn() {
-    let dir = TestDir::new();
-    let screen = |sets: &[&str]| {
-        let keys = ["--keys", ",,<Tab><Tab>z", "--print", "90x24"];
-        let said = dir.say(&[&["gross-slip"], sets, &keys].concat());
-        assert_eq!((said.code, said.err.as_str()), (0, ""));
-        said.out
-    };
-    let rig = screen(&["--set", "motion.tangential.rig_stiffness=3e7"]);
-    has(&rig, "fretting loop");
-    has(&rig, "rig's sensor");
-    has(&rig, "─ contact");
-    let stiff = screen(&[]);
-    has(&stiff, "fretting loop");
-    lacks(&stiff, "sensor");
-    lacks(&stiff, "─ contact");
-}
-
 /// The actuator's motion is shared: a rig of a tenth of the contact's stiffness leaves it a tenth.
 #[test]
 fn a_scenario_names_its_rig() {
@@ -226,75 +220,6 @@ fn a_scenario_names_its_rig() {
     near("stiffer", stiffer, stiff, 1e-6);
     let (soft, sensed) = energy("1e7");
     assert!(soft < 0.1 * stiff && sensed.is_some(), "{soft} {stiff}");
-}
-
-/// Blocks carry the profile over, each has a row, and their volumes add up.
-#[test]
-fn blocks_add_up() {
-    let dir = TestDir::new();
-    let sets = [
-        "motion.normal.amplitude=0",
-        "motion.tangential.phase=0",
-        "wear.coefficient=1.3e-9",
-        "numerics.points=50",
-        "numerics.steps_per_cycle=40",
-        "numerics.grid=uniform",
-        "numerics.domain_radius=1.7e-4",
-    ];
-    let text = load("li2019-fig3", &sets).to_toml();
-    let (head, _) = text.split_once("[run]").expect("a table");
-    let with = |name: &str, blocks: &str| dir.write(name, format!("{head}{blocks}").as_bytes());
-    with(
-        "blocks.toml",
-        "[[blocks]]\ncycles = 3\n\
-         [[blocks]]\ncycles = 2.5\nmotion.tangential.amplitude = 2e-7\nmotion.normal.mean = 1.2e-6\n\
-         [[blocks]]\ncycles = 2\nmotion.tangential.amplitude = 0.5e-7\n",
-    );
-    with("one.toml", "[[blocks]]\ncycles = 3\n");
-    with(
-        "same.toml",
-        "[[blocks]]\ncycles = 3\n[[blocks]]\ncycles = 4\nmotion.normal.mean = 1e-6\n",
-    );
-    with("whole.toml", "[run]\ncycles = 7.0\n");
-    for name in ["blocks", "one", "same", "whole"] {
-        dir.done(&format!("run {name}.toml --out {name} --quiet"));
-    }
-    let rows = |name: &str| -> Vec<(f64, f64, f64)> {
-        let history = dir.table(&format!("{name}/history.csv"));
-        let [volume, work] =
-            ["wear_volume_m3", "dissipated_energy_J"].map(|name| history.column(name));
-        let rows = history
-            .column("cycle")
-            .into_iter()
-            .zip(volume.into_iter().zip(work));
-        rows.map(|(cycle, (volume, work))| (cycle, volume, work))
-            .collect()
-    };
-    let blocks = rows("blocks");
-    let at = |cycle: f64| {
-        let found = blocks.iter().find(|row| row.0 == cycle);
-        *found.unwrap_or_else(|| panic!("no row at {cycle}"))
-    };
-    let ends = [0.0, 3.0, 5.5, 7.5].map(at);
-    assert_eq!(ends[1].1, rows("one").last().expect("a row").1);
-    let mut volume = 0.0;
-    for pair in ends.windows(2) {
-        let (worn, work) = (pair[1].1 - pair[0].1, pair[1].2 - pair[0].2);
-        assert!(
-            worn > 0.0 && (worn / (1.3e-9 * work) - 1.0).abs() < 0.02,
-            "{pair:?}"
-        );
-        volume += worn;
-    }
-    near("volume", volume, blocks.last().expect("a row").1, 1e-12);
-    let [same, whole] = ["same", "whole"].map(|name| rows(name).pop().expect("a row").1);
-    near("same", same, whole, 1e-3);
-    // What was run can be run again, block by block.
-    dir.done("run blocks/scenario.toml --out again --quiet");
-    assert_eq!(
-        dir.read("again/history.csv"),
-        dir.read("blocks/history.csv")
-    );
 }
 
 /// μ after n cycles is what its course says, and what runs in less wears less.

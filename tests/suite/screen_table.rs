@@ -8,8 +8,9 @@
 //!   must tell of N changes and run again without a screen to the last bit. The others are `PART VERB TEXT`, where a text with blanks at
 //!   its ends stands in quotes: `has`, `lacks`, `counts N`, `is`, `starts` and `ends` look at the part, `says` at its words
 //!   whatever lines they are broken into, `same` and `differs` compare it with the same part after other keys.
-//! - Parts are the `status` line, the `timeline` below it, the `foot`, the `body` above that, the `panels`, which
-//!   are the body without those two lines, and the `screen`, which need not be named.
+//! - Parts are the `status` line, the `timeline` below it, the `foot`, the `scale` above that, the `body` above
+//!   the foot, the `panels`, which are the body without those two lines, `/TEXT/`, which are all lines that have that text, and
+//!   the `screen`, which need not be named.
 
 use std::collections::HashMap;
 
@@ -93,36 +94,59 @@ impl Section {
                 pin(&format!("suite__{module}__{rest}-{size}"), &screen);
                 continue;
             }
-            let (part, verb, text) = match rest.split_once(' ') {
-                Some((verb, text)) if PARTS.contains(&first) => (first, verb, text),
-                _ => ("screen", first, rest),
+            let (part, rest) = match what.rsplit_once("/ ") {
+                Some((part, rest)) if part.starts_with('/') => (part, rest),
+                _ if PARTS.contains(&first) => (first, rest),
+                _ => ("screen", what),
             };
-            let quoted = text
-                .strip_prefix('"')
-                .and_then(|text| text.strip_suffix('"'));
-            let text = quoted.unwrap_or(text);
+            let (verb, text) = rest.split_once(' ').expect(place);
             let seen = part_of(&screen, part);
             let holds = match verb {
-                "has" => seen.contains(text),
-                "counts" => {
-                    let (count, text) = text.split_once(' ').expect(place);
-                    seen.matches(text).count().to_string() == count
-                }
-                "lacks" => !seen.contains(text),
-                "is" => seen == text,
-                "starts" => seen.starts_with(text),
-                "ends" => seen.ends_with(text),
-                "says" => words_of(&seen).contains(text),
                 "same" => seen == part_of(&self.screen(&unfold(text), &size), part),
                 "differs" => seen != part_of(&self.screen(&unfold(text), &size), part),
-                _ => panic!("{place}: no such verb"),
+                _ => is_so(&seen, verb, text),
             };
             assert!(holds, "{place}\n{screen}");
         }
     }
 }
 
-const PARTS: [&str; 6] = ["status", "timeline", "foot", "body", "panels", "screen"];
+/// A text in quotes keeps the blanks at its ends, and `\n` in it is a new line, `\e` the escape character.
+pub fn unquoted(text: &str) -> String {
+    let quoted = text
+        .strip_prefix('"')
+        .and_then(|text| text.strip_suffix('"'));
+    quoted.map_or_else(
+        || text.to_owned(),
+        |text| {
+            text.replace("\\\"", "\"")
+                .replace("\\n", "\n")
+                .replace("\\e", "\u{1b}")
+        },
+    )
+}
+
+/// Whether a part is what its check says.
+pub fn is_so(seen: &str, verb: &str, text: &str) -> bool {
+    let text = &*unquoted(text);
+    match verb {
+        "has" => seen.contains(text),
+        "lacks" => !seen.contains(text),
+        "is" => seen == text,
+        "starts" => seen.starts_with(text),
+        "ends" => seen.ends_with(text),
+        "says" => words_of(seen).contains(text),
+        "counts" => {
+            let (count, text) = text.split_once(' ').expect("a number and a text");
+            seen.matches(&*unquoted(text)).count().to_string() == count
+        }
+        _ => panic!("there is no verb {verb}"),
+    }
+}
+
+const PARTS: [&str; 7] = [
+    "status", "timeline", "foot", "scale", "body", "panels", "screen",
+];
 
 /// A part of a screen, by its name.
 pub fn part_of(screen: &str, part: &str) -> String {
@@ -132,8 +156,16 @@ pub fn part_of(screen: &str, part: &str) -> String {
         "timeline" => lines[1].to_owned(),
         "foot" => lines[lines.len() - 1].trim().to_owned(),
         "body" => lines[..lines.len() - 1].join("\n"),
+        "scale" => lines[lines.len() - 2].to_owned(),
         "panels" => lines[2..lines.len() - 1].join("\n"),
-        _ => screen.to_owned(),
+        _ => match part.strip_prefix('/') {
+            Some(text) => lines
+                .into_iter()
+                .filter(|line| line.contains(text))
+                .collect::<Vec<_>>()
+                .join("\n"),
+            None => screen.to_owned(),
+        },
     }
 }
 

@@ -22,7 +22,7 @@ fn running(arguments: &[&str]) -> Terminal {
 }
 
 /// Main screen, cursor shown, cooked mode.
-fn assert_given_back(terminal: &Terminal) {
+pub fn assert_given_back(terminal: &Terminal) {
     terminal.look(|screen| {
         assert!(!screen.alternate_screen(), "still on the alternate screen");
         assert!(!screen.hide_cursor(), "the cursor is still hidden");
@@ -173,12 +173,7 @@ fn ctrl_c_quits_from_anywhere() {
 }
 
 #[test]
-fn signals_quit_cleanly() {
-    for name in crate::signals::ENDING {
-        let mut terminal = running(&["--mouse"]);
-        terminal.signal(name);
-        assert_clean_end(&mut terminal);
-    }
+fn a_signal_quits_cleanly_whatever_was_typed_and_when_paused() {
     // What is typed ahead of the end does nothing to it.
     let mut terminal = running(&[]);
     terminal.press("q\x1c\x03");
@@ -190,15 +185,6 @@ fn signals_quit_cleanly() {
     terminal.wait_for("paused");
     terminal.signal("TERM");
     assert_clean_end(&mut terminal);
-}
-
-#[test]
-fn a_terminal_that_goes_away_ends_it() {
-    // Once it has drawn a screen, it has set up all it needs to notice.
-    let mut terminal = running(&[]);
-    terminal.go_away();
-    let status = terminal.wait_for_end();
-    assert_eq!((status.exit_code(), status.signal()), (0, None));
 }
 
 // The faults are there in debug builds only.

@@ -6,7 +6,6 @@ use mdr_tui::math::abel::AbelMethod;
 use mdr_tui::simulation::Scheme;
 use mdr_tui::studies::refinement::{Level, Outcome};
 use mdr_tui::studies::trade::{self, POINTS, STEPS, Setting};
-use serde_json::Value;
 
 use crate::common::load;
 use crate::test_dir::{Said, TestDir, end, has, signal};
@@ -58,24 +57,6 @@ fn the_front_is_printed_and_drawn_and_everything_is_written() {
     let Said { code, err, .. } = small(&format!("--csv {path}"));
     assert_eq!(code, 2);
     has(&err, "already exists");
-}
-
-#[test]
-fn rows_as_json_are_all_rows() {
-    let Said { code, out, err } = small("--json");
-    assert_eq!((code, err.as_str()), (0, ""));
-    let rows: Vec<Value> = serde_json::from_str(&out).expect("JSON");
-    assert_eq!(rows.len(), 54);
-    for row in &rows {
-        assert!(
-            row["time_s"].as_f64().is_some_and(|time| time > 0.0),
-            "{row}"
-        );
-        assert!(
-            row["error_rms"].as_f64().is_some_and(|error| error < 0.1),
-            "{row}"
-        );
-    }
 }
 
 #[test]

@@ -1,31 +1,16 @@
 //! `mdr-tui verify`: what it prints, writes and refuses, and that its numbers are those of the
 //! paper's Fig. 2 in kind.
 
-use std::collections::HashSet;
-use std::fs;
-
 use mdr_tui::math::abel::AbelMethod::{self, A, APlusB, B, Benad};
 use mdr_tui::studies::verify::errors::Errors;
 use mdr_tui::studies::verify::{Outcome, Problem, Study, Task};
 use serde_json::Value;
 
 use crate::common::near;
-use crate::test_dir::{Said, TestDir, has, lacks};
+use crate::test_dir::{TestDir, lacks};
 
-fn say(arguments: &[&str]) -> Said {
-    TestDir::new().say(&[&["verify"], arguments].concat())
-}
-
-fn said(arguments: &[&str]) -> String {
-    let Said { code, out, err } = say(arguments);
-    assert_eq!((code, err.as_str()), (0, ""), "{arguments:?}");
-    out
-}
-
-fn rows(arguments: &[&str]) -> Vec<Value> {
-    let mut all = vec!["--json"];
-    all.extend(arguments);
-    serde_json::from_str(&said(&all)).expect("JSON")
+fn said(arguments: &str) -> String {
+    TestDir::new().done(&format!("verify {arguments}"))
 }
 
 fn errors(problem: Problem, method: AbelMethod, points: usize) -> Vec<Errors> {
@@ -44,7 +29,7 @@ fn hertz(method: AbelMethod) -> [Errors; 3] {
 
 #[test]
 fn the_tables_have_every_method_and_n_and_fit_eighty_columns() {
-    let text = said(&["--points", "100,50,100", "--all"]);
+    let text = said("--points 100,50,100 --all");
     for problem in Problem::ALL {
         let (_, from) = text
             .split_once(&format!("{problem}\n  "))
@@ -81,12 +66,13 @@ fn the_tables_have_every_method_and_n_and_fit_eighty_columns() {
         .expect("a number");
     assert!((1e-6..1e-1).contains(&worst), "{last}");
     // Without --all it is the only one.
-    assert_eq!(said(&["--points", "100,50,100"]), format!("{last}\n"));
+    assert_eq!(said("--points 100,50,100"), format!("{last}\n"));
 }
 
 #[test]
 fn json_has_a_row_for_each_quantity_and_its_observed_order() {
-    let rows = rows(&["--points", "50,200", "--problem", "hertz"]);
+    let rows = said("--json --points 50,200 --problem hertz");
+    let rows: Vec<Value> = serde_json::from_str(&rows).expect("JSON");
     assert_eq!(rows.len(), 3 * 2 * AbelMethod::ALL.len());
     let find = |method: &str, quantity: &str, points: u64| {
         let wanted = |row: &&Value| {
@@ -157,74 +143,6 @@ fn the_limit_tells_b_from_the_causal_methods_and_waits_for_long_on_fine_grids() 
     assert_eq!(study(false).tasks().len(), AbelMethod::ALL.len());
     assert!(Problem::Limit.is_long(400) && !Problem::Limit.is_long(200));
     assert_eq!(study(true).tasks().len(), 2 * AbelMethod::ALL.len());
-}
-
-#[test]
-fn the_csv_has_every_node_and_is_never_written_over() {
-    let base = tempfile::tempdir().expect("a directory");
-    let path = base.path().join("fig2.csv");
-    let name = path.to_str().expect("a name");
-    let ask = format!("--points 50 --problem hertz --problem cattaneo --csv {name}");
-    let ask: Vec<&str> = ask.split(' ').collect();
-    said(&ask);
-    let text = fs::read_to_string(&path).expect("the file");
-    let mut lines = text.lines().skip_while(|line| line.starts_with("# "));
-    assert_eq!(
-        lines.next(),
-        Some("problem,quantity,method,points,r_over_a,error")
-    );
-    let mut seen = HashSet::new();
-    let mut largest: f64 = 0.0;
-    for line in lines {
-        let fields: Vec<&str> = line.split(',').collect();
-        let [problem, quantity, method, points, r, error] = fields[..] else {
-            panic!("{line}");
-        };
-        assert_eq!(points, "50");
-        let [r, error] = [r, error].map(|number| number.parse::<f64>().expect("a number"));
-        assert!((0.0..1.51).contains(&r) && error >= 0.0, "{line}");
-        assert!(
-            seen.insert((problem, quantity, method, r.to_bits())),
-            "{line} twice"
-        );
-        if (problem, quantity, method) == ("hertz", "w", "a") {
-            largest = largest.max(error);
-        }
-    }
-    assert_eq!(largest, errors(Problem::Hertz, A, 50)[2].max());
-    // g and p without a node each, w with all; tau at all nodes, slip inside a.
-    assert_eq!(seen.len(), AbelMethod::ALL.len() * (50 + 50 + 51 + 51 + 34));
-
-    let Said { code, out, err } = say(&ask);
-    assert_eq!((code, out.as_str()), (2, ""));
-    has(&err, "already exists");
-    has(&err, "--force");
-    said(&[&ask[..], &["--force"]].concat());
-    assert_eq!(fs::read_to_string(&path).expect("the file"), text);
-    assert_eq!(fs::read_dir(base.path()).expect("the directory").count(), 1);
-}
-
-#[test]
-fn the_curves_are_drawn_for_every_method_within_eighty_columns() {
-    let text = TestDir::new().done("verify --points 50 --problem hertz --plot --marker ascii");
-    for method in AbelMethod::ALL {
-        for quantity in ["g", "p", "w"] {
-            let title = format!("{method}: {quantity}, N = 50");
-            has(&text, &title);
-        }
-    }
-    assert!(
-        text.lines()
-            .all(|line| line.chars().count() <= 80 && line.is_ascii())
-    );
-}
-
-#[test]
-fn help_has_examples_and_the_default_ladder() {
-    let help = said(&["--help"]);
-    has(&help, "Example");
-    let ladder = mdr_tui::studies::verify::LADDER.map(|n| n.to_string());
-    has(&help, &ladder.join(","));
 }
 
 #[test]

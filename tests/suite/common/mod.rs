@@ -15,13 +15,18 @@ use mdr_tui::oracle::cattaneo_mindlin::CattaneoMindlin;
 use mdr_tui::oracle::dual_oscillation::{DualOscillation, Frequencies};
 use mdr_tui::oracle::limiting_profile::LimitingProfile;
 use mdr_tui::oracle::partial_slip::stiffness_ratio;
+use mdr_tui::plot::Marker;
 use mdr_tui::scenario::session::Session;
 use mdr_tui::scenario::{Scenario, preset};
 use mdr_tui::simulation::drive::{Control, Drive, Oscillation};
 use mdr_tui::simulation::{Integrator, Scheme, Setup, Simulation, Spacing, Stability};
-use mdr_tui::tui::Event;
+use mdr_tui::tui::theme::{Look, Theme};
 use mdr_tui::tui::worker::{Orders, Worker};
+use mdr_tui::tui::{Event, Stroke, rehearse};
 use mdr_tui::wear::WearLaw;
+use ratatui::layout::Size;
+
+use crate::test_dir::fits;
 
 /// The parts of a run as plain values; a test names only what differs from the default.
 #[derive(Debug, Clone)]
@@ -266,6 +271,24 @@ pub fn without_numerics(cycles: f64) -> Scenario {
     let (parts, _) = text.split_once("[numerics]").expect("numerics");
     let text = format!("{parts}[run]\ncycles = {cycles:e}\n");
     Scenario::from_toml(&text, "without numerics", &[]).expect("a scenario")
+}
+
+/// The screen of `size` after `keys` on a preset, as [`TestDir::screen`] has it of a process; the keys must write no file.
+///
+/// [`TestDir::screen`]: crate::test_dir::TestDir::screen
+#[track_caller]
+pub fn rehearsed(preset: &str, keys: &str, size: (usize, usize)) -> String {
+    rehearsed_on(begin(load(preset, &[])), keys, size)
+}
+
+/// [`rehearsed`] on a session.
+#[track_caller]
+pub fn rehearsed_on(session: Session, keys: &str, size: (usize, usize)) -> String {
+    let theme = Theme::new(Look::Dark, Marker::Braille);
+    let strokes = Stroke::script(keys).expect("a script");
+    let area = Size::new(size.0 as u16, size.1 as u16);
+    let screen = rehearse(session, theme, &strokes, area);
+    fits(screen.expect("a screen"), size, keys)
 }
 
 /// An explorer's worker in a thread of its own, which ends with it.

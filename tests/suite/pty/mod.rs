@@ -195,19 +195,20 @@ impl Terminal {
         assert_eq!(self.wait_for_end().exit_code(), 0);
     }
 
-    /// Presses a key or sends a signal by its name, such as TERM, after which the program must end soon, in its own
-    /// time whether the terminal reads or not. Returns the exit code.
-    #[track_caller]
-    pub fn ends_soon(&mut self, way: &str) -> u32 {
-        let start = Instant::now();
-        match way.len() > 1
-            && way
-                .chars()
-                .all(|sign| sign.is_ascii_uppercase() || sign == '1')
-        {
+    /// Presses a key or sends a signal by its name, such as TERM.
+    pub fn ask(&mut self, way: &str) {
+        match way.len() > 1 && way.starts_with(|sign: char| sign.is_ascii_uppercase()) {
             true => self.signal(way),
             false => self.press(way),
         }
+    }
+
+    /// [`ask`](Self::ask)s the program to end, which it must do soon, in its own time whether the terminal reads or not.
+    /// Returns the exit code.
+    #[track_caller]
+    pub fn ends_soon(&mut self, way: &str) -> u32 {
+        let start = Instant::now();
+        self.ask(way);
         let (waited, status) = self.end_since(start);
         eprintln!("{way:?}: ended after {waited:.0?}");
         assert!(waited < SOON, "{way:?}: {waited:.1?}");
@@ -278,9 +279,14 @@ impl Terminal {
 
     /// Waits until nothing has come out for a while.
     pub fn wait_for_silence(&self) {
+        self.wait_for_silence_of(QUIET);
+    }
+
+    /// Waits until nothing has come out for so long.
+    pub fn wait_for_silence_of(&self, quiet: Duration) {
         let start = Instant::now();
         let (mut length, mut since) = (0, start);
-        while since.elapsed() < QUIET {
+        while since.elapsed() < quiet {
             let now = self.raw().len();
             if now != length {
                 (length, since) = (now, Instant::now());
@@ -292,9 +298,7 @@ impl Terminal {
 
     /// Waits until the program has ended and all it has said has come out.
     pub fn wait_for_end(&mut self) -> ExitStatus {
-        let status = self.patiently("it does not end", |terminal| {
-            terminal.child.try_wait().expect("a program")
-        });
+        let (_, status) = self.end_since(Instant::now());
         if let Some(handles) = &mut self.handles {
             self.modes_after = Some(format!("{:?}", handles.master.get_termios()));
             handles.slave = None;

@@ -64,10 +64,16 @@ pub fn cases<const N: usize>(table: [&str; N]) -> [(&str, &str); N] {
     table.map(|row| row.split_once(" => ").expect(row))
 }
 
+impl Default for TestDir {
+    fn default() -> Self {
+        Self(tempfile::tempdir().expect("a directory"))
+    }
+}
+
 impl TestDir {
     /// A new one.
     pub fn new() -> Self {
-        Self(tempfile::tempdir().expect("a directory"))
+        Self::default()
     }
 
     /// The program with these arguments, ready to start.
@@ -163,14 +169,9 @@ impl TestDir {
         command.args(["--keys", keys, "--print", &print]);
         command.env("LC_ALL", locale);
         let said = Said::from(command.output().expect("the program starts"));
-        let what = format!("{arguments:?} {keys} at {size:?}");
+        let what = format!("{arguments:?} {keys}");
         assert_eq!((said.code, said.err.as_str()), (0, ""), "{what}");
-        assert_eq!(said.out.lines().count(), size.1, "{what}");
-        for line in said.out.lines() {
-            assert!(line.chars().count() <= size.0, "{what}: {line}");
-            assert!(!line.chars().any(char::is_control), "{line:?}");
-        }
-        said.out
+        fits(said.out, size, &what)
     }
 
     /// Starts the program with the words of a line, and with an environment besides.
@@ -199,6 +200,18 @@ impl TestDir {
         for name in names(&self.path(one)) {
             let read = |directory| self.read(&format!("{directory}/{name}"));
             assert!(read(one) == read(other), "{other}: {name} differs");
+        }
+    }
+
+    /// Runs the scenario that a run has written again: both tables are the same to the last bit.
+    #[track_caller]
+    pub fn replays(&self, first: &str, again: &str, options: &str) {
+        self.done(&format!(
+            "run {first}/scenario.toml --out {again} --quiet {options}"
+        ));
+        for name in ["state.csv", "history.csv"] {
+            let [kept, again] = [first, again].map(|out| self.read(&format!("{out}/{name}")));
+            assert!(kept == again, "{first}/{name}: another run");
         }
     }
 
@@ -242,6 +255,17 @@ impl TestDir {
         found.sort();
         found
     }
+}
+
+/// The screen if it has its size and does nothing to a terminal.
+#[track_caller]
+pub fn fits(screen: String, (columns, rows): (usize, usize), what: &str) -> String {
+    assert_eq!(screen.lines().count(), rows, "{what}");
+    for line in screen.lines() {
+        assert!(line.chars().count() <= columns, "{what}: {line}");
+        assert!(!line.chars().any(char::is_control), "{line:?}");
+    }
+    screen
 }
 
 /// Sends a signal by its name.

@@ -1,8 +1,6 @@
 //! The worn depth f − f₀ over the radius.
 
-use super::{
-    A, BAND, C, Medium, NO_STATE, Recipe, Run, View, Words, ghosts, limit, of_states, over_r,
-};
+use super::{A, BAND, C, NO_STATE, Recipe, Run, View, Words, ghosts, limit, of_states, over_r};
 use crate::plot::theme::Role;
 use crate::plot::{Chart, Fill, Scale};
 use crate::reading::Curves;
@@ -28,13 +26,13 @@ pub static RECIPE: Recipe = Recipe {
 fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     run.states.last().ok_or(NO_STATE)?;
     // Without a base on a log axis, the area would reach for minus infinity.
-    let fill = match (view.medium, view.scale) {
-        (Medium::Screen, Scale::Linear) => Fill::To(0.0),
+    let fill = match (&run.live, view.scale) {
+        (Some(_), Scale::Linear) => Fill::To(0.0),
         _ => Fill::None,
     };
-    let worn = of_states(run, "wear_m", view.pick("worn", ""), Role::Profile);
-    let mut chart = over_r(run, "r", (view.pick("f - f0", "worn depth"), "m"));
-    chart.band = run.zones(view);
+    let worn = of_states(run, "wear_m", run.pick("worn", ""), Role::Profile);
+    let mut chart = over_r(run, "r", (run.pick("f - f0", "worn depth"), "m"));
+    chart.band = run.zones();
     chart.y.expects = run.expected_wear();
     Ok(chart
         .curves(limit(run, view.theory(run), None))

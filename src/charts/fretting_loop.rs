@@ -2,7 +2,7 @@
 //! that the cycle dissipates. An arrow stands at the present moment and points the way it goes. On a rig that
 //! yields the loop of its sensor is drawn beside that of the contact: both have the same forces and the same area.
 
-use super::{F_X, Live, Loop, Medium, NO_MOTION, Recipe, Run, U_X, View, Words, ghosts};
+use super::{F_X, Live, Loop, NO_MOTION, Recipe, Run, U_X, View, Words, ghosts};
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Point};
 use crate::traces::Axes;
@@ -44,13 +44,13 @@ fn symmetric<'a>(values: impl Iterator<Item = &'a f64> + Clone) -> [f64; 2] {
 
 /// The loops before the states of a run, or the last one: that of the sensor, where the rig yields, and that of
 /// the contact.
-fn loops(run: &Run, view: &View) -> Vec<Curve> {
+fn loops(run: &Run) -> Vec<Curve> {
     let ends: Vec<f64> = match &run.states[..] {
         [] => run.end().into_iter().collect(),
         states => states.iter().map(|state| state.cycle()).collect(),
     };
     let count = ends.len();
-    let fewest = view.pick(1, SHORTEST);
+    let fewest = run.pick(1, SHORTEST);
     let mut curves = Vec::new();
     for (k, end) in ends.into_iter().enumerate() {
         let Some(one) = run.loop_at(end) else {
@@ -78,7 +78,7 @@ fn loops(run: &Run, view: &View) -> Vec<Curve> {
         };
         if is_sensed {
             let curve = Curve::new(sensor, sensed, forces, roles[1]);
-            curves.push(curve.dashed_if(view.medium == Medium::Paper));
+            curves.push(curve.dashed_if(run.live.is_none()));
         }
         // The contact's comes last: another figure takes that as its ghost.
         curves.push(Curve::new(name, one.shifts, one.forces, roles[0]));
@@ -86,13 +86,13 @@ fn loops(run: &Run, view: &View) -> Vec<Curve> {
     curves
 }
 
-fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
+fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
     if run.live.as_ref().is_some_and(|live| !live.moves()) {
         return Err(NO_MOTION);
     }
-    let loops = loops(run, view);
+    let loops = loops(run);
     let moves = |curve: &Curve| curve.xs.iter().any(|&x| x != curve.xs[0]);
-    if view.medium == Medium::Paper && !loops.iter().any(moves) {
+    if run.live.is_none() && !loops.iter().any(moves) {
         return Err(match loops.is_empty() {
             true => {
                 "there is no loop.csv, and the history has one row per cycle; run writes loop.csv if there is a \

@@ -128,7 +128,7 @@ impl Recipe {
         if chart.title.is_empty() {
             chart.title = self.title.to_owned();
         }
-        if view.medium == Medium::Paper {
+        if run.live.is_none() {
             // There, curves of other sources lie over those of the run.
             chart.curves.sort_by_key(|curve| match curve.role {
                 Role::Ghost(k) => k + 1,
@@ -147,7 +147,7 @@ impl Recipe {
             name: self.name,
             why,
         };
-        self.chart(run, &View::PAPER).map_err(missing)
+        self.chart(run, &View::default()).map_err(missing)
     }
 
     /// Whether the chart has a place for what `ghost` holds.
@@ -165,20 +165,9 @@ pub struct Missing {
     why: &'static str,
 }
 
-/// Where a chart is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Medium {
-    /// On a screen, of a run at one moment.
-    Screen,
-    /// On paper, of a run at one or several moments.
-    Paper,
-}
-
-/// How a chart is looked at.
-#[derive(Debug, Clone, Copy)]
+/// How a chart is looked at; as it is by default on paper.
+#[derive(Debug, Clone, Copy, Default)]
 pub struct View {
-    /// Where it is drawn.
-    pub medium: Medium,
     /// The scale of the ordinate.
     pub scale: Scale,
     /// Whether closed forms are drawn.
@@ -186,24 +175,9 @@ pub struct View {
 }
 
 impl View {
-    /// On paper.
-    pub const PAPER: Self = Self {
-        medium: Medium::Paper,
-        scale: Scale::Linear,
-        with_theory: false,
-    };
-
     /// The closed forms, if they are shown.
     fn theory(self, run: &Run) -> Option<&Theory> {
         run.theory.as_deref().filter(|_| self.with_theory)
-    }
-
-    /// A name for little room on a screen, or in full on paper.
-    fn pick<T>(self, screen: T, paper: T) -> T {
-        match self.medium {
-            Medium::Screen => screen,
-            Medium::Paper => paper,
-        }
     }
 }
 

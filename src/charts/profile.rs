@@ -2,8 +2,7 @@
 //! magnified where it would be thinner than a line.
 
 use super::{
-    A, BAND, C, Medium, NO_STATE, Recipe, Run, View, Words, ghosts, limit, magnification,
-    of_states, over_r,
+    A, BAND, C, NO_STATE, Recipe, Run, View, Words, ghosts, limit, magnification, of_states, over_r,
 };
 use crate::math::scan::largest;
 use crate::plot::theme::Role;
@@ -60,18 +59,18 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let column = |name| state.column(name).unwrap_or_default();
     let (radii, unworn, wear) = (column("r_m"), column("f0_m"), column("wear_m"));
     let mut chart = over_r(run, "r", ("f", "m"));
-    let times = view.pick(times(run, unworn, wear), 1.0);
+    let times = run.pick(times(run, unworn, wear), 1.0);
     if times > 1.0 {
         chart.title = format!("{}, wear drawn ×{times}", RECIPE.title);
     }
-    let worn = match view.medium {
-        Medium::Screen => {
+    let worn = match run.live {
+        Some(_) => {
             let worn = unworn.iter().zip(wear);
             let worn: Vec<f64> = worn.map(|(f0, wear)| f0 + times * wear).collect();
             let worn = Curve::new("worn", radii, worn, Role::Profile);
             vec![worn.filled(Fill::From(unworn.to_vec()))]
         }
-        Medium::Paper => {
+        None => {
             // What a page hides in the profile: wear that is seen there would lie under its inset.
             let (r, depth) = (Axis::new("r", "m"), Axis::new("worn depth", "m"));
             let inset = of_states(run, "wear_m", "", Role::Profile);
@@ -82,8 +81,8 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
             of_states(run, "f_m", "worn", Role::Profile)
         }
     };
-    chart.band = run.zones(view);
-    let theory = view.theory(run).or(view.pick(None, run.theory.as_deref()));
+    chart.band = run.zones();
+    let theory = view.theory(run).or(run.pick(None, run.theory.as_deref()));
     // Unworn curves come first: the worn ones lie on them.
     Ok(chart
         .curve(Curve::new("unworn", radii, unworn, Role::Unworn).dashed())

@@ -1,6 +1,6 @@
 //! The largest contact radius and the smallest stick radius of every cycle.
 
-use super::{Medium, Recipe, Run, View, Words, cycles_shown, ghosts, over_cycles, series};
+use super::{Recipe, Run, View, Words, cycles_shown, ghosts, over_cycles, series};
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve};
 use crate::traces::Axes;
@@ -24,20 +24,20 @@ pub static RECIPE: Recipe = Recipe {
 };
 
 fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
-    let names = view.pick(
+    let names = run.pick(
         ["contact a", "stick c"],
         ["contact radius a", "stick radius c"],
     );
     let contact = series(run, "contact_radius_m", names[0], Role::Contact)?;
     let stick = series(run, "permanent_stick_radius_m", names[1], Role::Stick).ok();
     let stick = stick.filter(|stick| stick.ys.iter().any(|radius| radius.is_finite()));
-    let stick = stick.map(|stick| stick.dashed_if(view.medium == Medium::Screen));
+    let stick = stick.map(|stick| stick.dashed_if(run.live.is_some()));
     let theory = view.theory(run).and_then(|theory| theory.stick_radius);
     let theory = theory
         .zip(cycles_shown(run))
         .map(|(c, ends)| Curve::new("theory c", ends, [c; 2], Role::Limit).theory());
     let mut ordinate = Axis::new("radius", "m").from_zero();
-    if view.medium == Medium::Paper {
+    if run.live.is_none() {
         let largest = contact.highest();
         ordinate.bounds = (largest > 0.0).then_some([0.0, 1.1 * largest]);
     }

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use super::{Medium, View};
 use crate::contact::indenter::Indenter;
 use crate::plot::Zone;
 use crate::reading::Moment;
@@ -104,11 +103,19 @@ pub struct Run {
     pub theory: Option<Arc<Theory>>,
     /// The unworn shape.
     pub indenter: Option<Indenter>,
-    /// What belongs to a screen.
+    /// What belongs to a screen, of a run at one moment; `None` on paper.
     pub live: Option<Live>,
 }
 
 impl Run {
+    /// A name for little room on a screen, or in full on paper.
+    pub(super) fn pick<T>(&self, screen: T, paper: T) -> T {
+        match self.live {
+            Some(_) => screen,
+            None => paper,
+        }
+    }
+
     /// About the deepest wear at the planned end, m; 0 where it is not known.
     pub fn expected_wear(&self) -> f64 {
         self.live.as_ref().map_or(0.0, |live| live.expected_wear)
@@ -205,9 +212,11 @@ impl Run {
     }
 
     /// Stick, slip and open along the radius, on a screen.
-    pub(super) fn zones(&self, view: &View) -> Vec<Zone> {
-        let live = self.live.as_ref().filter(|_| view.medium == Medium::Screen);
-        live.map(|live| live.zones(self.edge())).unwrap_or_default()
+    pub(super) fn zones(&self) -> Vec<Zone> {
+        self.live
+            .as_ref()
+            .map(|live| live.zones(self.edge()))
+            .unwrap_or_default()
     }
 
     /// Columns of the history over cycles. Of a finished run in which most rows end a cycle, others are left out:

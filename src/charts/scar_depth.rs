@@ -32,13 +32,13 @@ fn of_states(run: &Run) -> Option<Curve> {
     Some(curve.scattered([])).filter(|curve| !curve.xs.is_empty())
 }
 
-fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
+fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
     run.wears()?;
     let depth = series(run, "scar_depth_m", "", Role::Profile).ok();
     let depth = depth
         .or_else(|| of_states(run))
         .ok_or("there is no state.csv")?;
-    let ordinate = Axis::new(view.pick("depth", "worn depth"), "m")
+    let ordinate = Axis::new(run.pick("depth", "worn depth"), "m")
         .from_zero()
         .expecting(run.expected_wear());
     Ok(over_cycles(run, ordinate)

@@ -22,7 +22,7 @@ pub static RECIPE: Recipe = Recipe {
     ..Recipe::new(make)
 };
 
-fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
+fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
     run.states.last().ok_or(NO_STATE)?;
     let depth = run.live.as_ref().map(|live| {
         let (ends, depth) = ([0.0, run.edge()], [live.moment.depth; 2]);
@@ -34,7 +34,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
         .curves(of_states(
             run,
             "g_m",
-            view.pick("g", ""),
-            view.pick(Role::Profile1d, Role::Profile),
+            run.pick("g", ""),
+            run.pick(Role::Profile1d, Role::Profile),
         )))
 }

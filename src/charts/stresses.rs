@@ -1,6 +1,6 @@
 //! Pressure p(r) and shear stress τ(r). τ is drawn as τ/μ: it meets ±p where the contact slips.
 
-use super::{A, C, Medium, NO_STATE, Recipe, Run, View, Words, ghosts, over_r};
+use super::{A, C, NO_STATE, Recipe, Run, View, Words, ghosts, over_r};
 use crate::plot::theme::Role;
 use crate::plot::{Chart, Curve, Scale};
 use crate::reading::Curves;
@@ -36,10 +36,10 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let (radii, pressure) = columns.ok_or("the state has no column p_Pa")?;
     let is_log = view.scale == Scale::Log;
     // What τ is divided by; on paper it is drawn as it is.
-    let (name, divisor) = match view.medium {
-        Medium::Paper => ("τ", Some(1.0)),
-        Medium::Screen if is_log => ("|τ|/μ", run.friction()),
-        Medium::Screen => ("τ/μ", run.friction()),
+    let (name, divisor) = match &run.live {
+        None => ("τ", Some(1.0)),
+        Some(_) if is_log => ("|τ|/μ", run.friction()),
+        Some(_) => ("τ/μ", run.friction()),
     };
     // A logarithmic ordinate shows the size of τ.
     let scaled = |shear: f64| {
@@ -55,8 +55,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
         .curves(others)
         .curve(curve("p", pressure.to_vec(), Role::Pressure));
     let shear = state.column("tau_Pa").filter(|_| divisor.is_some());
-    let is_seen =
-        |shear: &&[f64]| view.medium == Medium::Screen || shear.iter().any(|&tau| tau != 0.0);
+    let is_seen = |shear: &&[f64]| run.live.is_some() || shear.iter().any(|&tau| tau != 0.0);
     if let Some(shear) = shear.filter(is_seen) {
         let shear = curve(
             name,
@@ -64,7 +63,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
             Role::Shear,
         );
         // Dashes: where the contact slips the pressure lies under it, and is still seen.
-        chart = chart.curve(shear.dashed_if(view.medium == Medium::Screen));
+        chart = chart.curve(shear.dashed_if(run.live.is_some()));
     }
     let (Some(theory), Some(live)) = (view.theory(run), &run.live) else {
         return Ok(chart);

@@ -3,9 +3,9 @@
 use super::Sheet;
 use crate::plot::colormap::ColorMap;
 use crate::plot::theme::Role;
-use crate::plot::{Axis, Chart, Curve, Map, Mark, Scale};
+use crate::plot::{Axis, Chart, Curve, Map, Mark, Point, Scale};
 use crate::scenario::{scalars, schema};
-use crate::studies::sweep::slice::{REGIMES, Slice};
+use crate::studies::sweep::slice::{Line, REGIMES, Slice};
 use crate::studies::sweep::{self, Design, Spread};
 use crate::traces::unit_of;
 
@@ -59,9 +59,10 @@ pub fn sheet(slice: &Slice, columns: &[String], name: &str) -> Result<Sheet, Str
     if chosen.is_empty() {
         return Err(format!("{name}: no point has a value to draw"));
     }
-    let charts = chosen.iter().map(|column| match slice.y() {
-        Some(y) => map(slice, y, column),
-        None => points(slice, column),
+    let charts = chosen.iter().map(|column| {
+        let mut chart = chart(slice, column, [slice.borders(), slice.criteria()]);
+        chart.curves.splice(0..0, regime_border(slice, column));
+        chart
     });
     Ok(Sheet {
         title: study.title.clone().unwrap_or_else(|| name.to_owned()),
@@ -156,15 +157,31 @@ fn values(slice: &Slice, column: &str, points: impl Iterator<Item = usize>) -> V
         .collect()
 }
 
-/// A column over two axes as colours, with the borders of the running conditions.
-fn map(slice: &Slice, upwards: &sweep::Axis, column: &str) -> Chart {
-    let [(x, xs, across), (y, ys, up)] = [slice.x(), upwards].map(|axis| {
-        let (shown, places) = (paper_axis(slice, axis), places(axis));
-        let edges = shown.edges(&places);
-        let [first, last] = [edges[0], edges[edges.len() - 1]];
-        let bounds = [first.min(last), first.max(last)];
-        (shown.bounds(bounds), places, edges)
-    });
+/// A column over the axes that are shown: a curve, or a map with borders in closed form and criteria of the field.
+pub fn chart(slice: &Slice, column: &str, lines: [Vec<Line>; 2]) -> Chart {
+    match slice.y() {
+        Some(upwards) => map(slice, upwards, column, lines),
+        None => points(slice, column),
+    }
+}
+
+/// An axis of a map, its places, and the edges between them.
+fn gridded(slice: &Slice, axis: &sweep::Axis) -> (Axis, Vec<f64>, Vec<f64>) {
+    let (shown, places) = (paper_axis(slice, axis), places(axis));
+    let edges = shown.edges(&places);
+    let [first, last] = [edges[0], edges[edges.len() - 1]];
+    let bounds = [first.min(last), first.max(last)];
+    (shown.bounds(bounds), places, edges)
+}
+
+/// A column over two axes as colours, with a letter at the end of each line.
+fn map(
+    slice: &Slice,
+    upwards: &sweep::Axis,
+    column: &str,
+    [borders, criteria]: [Vec<Line>; 2],
+) -> Chart {
+    let [(x, xs, _), (y, ys, _)] = [slice.x(), upwards].map(|axis| gridded(slice, axis));
     let values = values(slice, column, slice.points());
     let is_regime = column == REGIME;
     let title = if is_regime { "running condition" } else { "" };
@@ -179,14 +196,10 @@ fn map(slice: &Slice, upwards: &sweep::Axis, column: &str) -> Chart {
         },
         places: [xs, ys],
     });
-    if !is_regime && let Some([xs, ys]) = regime_border(slice, [&across, &up]) {
-        let name = "running condition changes";
-        chart.curves.push(Curve::new(name, xs, ys, Role::Border(2)));
-    }
-    let borders = slice.borders().into_iter().enumerate();
-    let criteria = slice.criteria().into_iter().enumerate();
-    for (k, line) in borders.chain(criteria.map(|(k, line)| (3 + k, line))) {
-        let value = |[x, y]: [f64; 2]| Some((slice.x().value_at(x)?, upwards.value_at(y)?));
+    let value = |[x, y]: [f64; 2]| Some((slice.x().value_at(x)?, upwards.value_at(y)?));
+    let criteria = criteria.into_iter().enumerate();
+    let criteria = criteria.map(|(k, line)| (3 + k, line));
+    for (k, line) in borders.into_iter().enumerate().chain(criteria) {
         let mut points = Vec::new();
         let mut last = None;
         for [from, to] in line.pieces() {
@@ -198,14 +211,23 @@ fn map(slice: &Slice, upwards: &sweep::Axis, column: &str) -> Chart {
             last = Some(to);
         }
         let (xs, ys): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();
+        let end = line.at.last().and_then(|&end| value(end));
+        chart.points.extend(end.map(|(x, y)| Point {
+            at: [x, y],
+            sign: line.letter,
+            role: Role::Title,
+        }));
         let curve = Curve::new(line.name, xs, ys, Role::Border(k));
         chart.curves.push(curve);
     }
     chart
 }
 
-/// The edges of the map's cells between points of different regimes, with gaps; `None` without any.
-fn regime_border(slice: &Slice, [across, up]: [&[f64]; 2]) -> Option<[Vec<f64>; 2]> {
+/// The edges of a map's cells between points of different regimes, with gaps; `None` without any, and where the
+/// `column` itself shows them.
+fn regime_border(slice: &Slice, column: &str) -> Option<Curve> {
+    let upwards = slice.y().filter(|_| column != REGIME)?;
+    let [(_, _, across), (_, _, up)] = [slice.x(), upwards].map(|axis| gridded(slice, axis));
     let [wide, high] = slice.size();
     let regime = |x: usize, y: usize| slice.regime(slice.point_at(x, y));
     let differ = |a: Option<usize>, b: Option<usize>| a.zip(b).is_some_and(|(a, b)| a != b);
@@ -225,12 +247,14 @@ fn regime_border(slice: &Slice, [across, up]: [&[f64]; 2]) -> Option<[Vec<f64>; 
             }
         }
     }
-    (!border[0].is_empty()).then_some(border)
+    let [xs, ys] = border;
+    let name = "running condition changes";
+    (!xs.is_empty()).then(|| Curve::new(name, xs, ys, Role::Border(2)))
 }
 
 /// A column over the first axis, a symbol a point, with error bars where the study has recorded them; joined where
 /// one axis alone tells the points apart.
-pub fn points(slice: &Slice, column: &str) -> Chart {
+fn points(slice: &Slice, column: &str) -> Chart {
     let places = places(slice.x());
     let is_joined = matches!(slice.study.design, Design::Grid | Design::Zip);
     let mut order: Vec<usize> = (0..places.len()).collect();

@@ -18,6 +18,12 @@ pub fn largest(values: &[f64]) -> f64 {
     maxima.iter().chain(rest).copied().fold(0.0, larger)
 }
 
+/// The smallest and the largest of `values`; `None` of none.
+pub fn range(values: impl IntoIterator<Item = f64>) -> Option<[f64; 2]> {
+    let ends = values.into_iter().map(|value| [value; 2]);
+    ends.reduce(|[low, high], [value, _]| [low.min(value), high.max(value)])
+}
+
 /// How many of `values` from the first one on have a property: up to the first that has not.
 ///
 /// Eight at a time, without a branch between them.

@@ -1,15 +1,31 @@
 //! Values over two axes as colours.
 
+use ratatui::style::Color;
+
 use super::axis::{Axis, Scale};
 use super::colormap::ColorMap;
+use super::shades::{self, SHADES};
+use super::theme::{Role, Theme};
 
 /// How many words a map can tell apart.
 pub const WORDS: usize = 4;
 
+/// Characters from low to high, in a terminal without colours: the lowest value is told from a blank.
+const SIGNS: [char; SHADES] = ['.', ':', '-', '=', '+', 'c', 'o', 'x', '*', '%', '#', '@'];
+
+/// The characters and roles of words in a terminal. Of running conditions, stick and slip have the colours that they
+/// have in all panels, and any kind of colour vision tells the one between them from both.
+pub const SWATCHES: [(char, Role); WORDS] = [
+    ('s', Role::Stick),
+    ('~', Role::Pressure),
+    ('#', Role::Slip),
+    (' ', Role::Limit),
+];
+
 /// Values on a grid of places, as colours; NaN stays blank.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Map {
-    /// The quantity and its unit.
+    /// The quantity and its unit; bounds that are given end the colours.
     pub quantity: Axis,
     /// The abscissae and the ordinates of the grid, monotonic.
     pub places: [Vec<f64>; 2],
@@ -25,6 +41,9 @@ pub struct Map {
 impl Map {
     /// The values at the ends of the colours.
     pub fn range(&self) -> [f64; 2] {
+        if let Some([low, high]) = self.quantity.bounds.filter(|[low, high]| low < high) {
+            return [low, high];
+        }
         let is_log = self.quantity.scale == Scale::Log;
         let shown = self.values.iter().copied();
         let shown = shown.filter(|value| self.quantity.scale.has(*value));
@@ -49,5 +68,87 @@ impl Map {
         let scale = self.quantity.scale;
         let [low, high] = range.map(|end| scale.spread(end));
         (scale.spread(value) - low) / (high - low)
+    }
+
+    /// The colour of a value in a terminal, and the character that stands for it without colours.
+    pub(super) fn look(&self, value: f64, range: [f64; 2], theme: &Theme) -> (Option<Color>, char) {
+        if !self.quantity.scale.has(value) {
+            return (None, ' ');
+        }
+        if self.words.is_empty() {
+            let shade = shades::shade(self.share(value, range), [0.0, 1.0]);
+            return (shades::color(theme, self.colors, shade), sign(shade));
+        }
+        let (sign, role) = SWATCHES[value as usize % WORDS];
+        (theme.style(role).fg, sign)
+    }
+}
+
+/// The character of a shade without colours.
+pub fn sign(shade: usize) -> char {
+    SIGNS[shade.min(SHADES - 1)]
+}
+
+/// The colour of signs on a ground: the dark blues of the cube, with which maps begin, hide what is black.
+pub(super) fn ink_on(ground: Color) -> Color {
+    match ground {
+        Color::Indexed(16..=28) => Color::Indexed(231),
+        Color::Blue => Color::White,
+        Color::Reset => Color::Reset,
+        _ => Color::Black,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plot::Marker;
+    use crate::plot::theme::{Depth, Look};
+
+    /// G. Machado et al. (2009): what a deuteranope sees of linear red, green and blue.
+    const DEUTERANOPE: [[f64; 3]; 3] = [
+        [0.367322, 0.860646, -0.227968],
+        [0.280085, 0.672501, 0.047413],
+        [-0.011820, 0.042940, 0.968881],
+    ];
+
+    #[test]
+    fn a_deuteranope_tells_the_words_apart() {
+        for look in [Look::Dark, Look::Light] {
+            let theme = Theme::new(look, Marker::Braille).with_depth(Depth::Indexed);
+            let seen = |word: usize| {
+                let Some(Color::Indexed(index)) = theme.style(SWATCHES[word].1).fg else {
+                    panic!("{word} has no colour of the cube");
+                };
+                let digits = [36, 6, 1].map(|place| (index - 16) / place % 6);
+                let linear = digits.map(|digit| match f64::from(digit) {
+                    0.0 => 0.0,
+                    digit => ((55.0 + 40.0 * digit) / 255.0).powf(2.2),
+                });
+                DEUTERANOPE.map(|row| (0..3).map(|k| row[k] * linear[k]).sum::<f64>())
+            };
+            // Lift-off has no sign, the others have one each.
+            for (a, b, least) in [
+                (0, 1, 0.3),
+                (1, 2, 0.5),
+                (0, 2, 0.2),
+                (0, 3, 0.3),
+                (1, 3, 0.1),
+                (2, 3, 0.5),
+            ] {
+                let apart = seen(a).into_iter().zip(seen(b));
+                let apart = apart.map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+                assert!(apart > least, "{look:?} {a} {b}: {apart}");
+            }
+        }
+    }
+
+    #[test]
+    fn signs_are_seen_on_both_ends_of_the_colours() {
+        let theme = Theme::new(Look::Dark, Marker::Braille).with_depth(Depth::Indexed);
+        let ground = |shade| shades::color(&theme, ColorMap::Sequential, shade).expect("a colour");
+        let inks = [0, 2, 7, SHADES - 1].map(|shade| ink_on(ground(shade)));
+        let [white, black] = [Color::Indexed(231), Color::Black];
+        assert_eq!(inks, [white, white, black, black]);
     }
 }

@@ -11,7 +11,7 @@
 //!      0            50            100                  tick labels
 //! ```
 //!
-//! One idea per file: `chart` (what is drawn, on a screen or on paper), `map` (values as colours in it), `theme`
+//! One idea per file: `chart` (what is drawn, on a screen or on paper), `map` (values as colours in it), `shades` (the colours and signs of a terminal), `theme`
 //! (what roles look like), `units` (SI prefixes), `axis` (what an axis shows, its bounds), `window` (the map from
 //! values to dots), `step` (the 1-2-5 grid), `ticks` (an axis laid over cells, on a screen or on paper), `marker`,
 //! `stroke`, `raster` and `segment` (dots finer than a cell), `legend`, `widget` (the layout above), `screen_svg`
@@ -31,6 +31,7 @@ mod marker;
 mod raster;
 pub mod screen_svg;
 pub mod segment;
+pub mod shades;
 mod step;
 mod stroke;
 pub mod theme;

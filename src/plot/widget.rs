@@ -3,16 +3,19 @@
 use std::ops::Range;
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{self, Rect};
+use ratatui::buffer::Cell;
+use ratatui::layout::{self, Rect, Size};
 use ratatui::style::{Color, Style};
 use ratatui::widgets::Widget;
 
 use super::Plot;
-use super::axis::titled;
+use super::axis::{Axis, titled};
 use super::chart::Fill;
 use super::legend::{self, Legend, cells};
+use super::map::{Map, ink_on};
 use super::marker::Under;
 use super::raster::{Position, Raster};
+use super::shades::{has_blocks, paint_halves};
 use super::stroke::Stroke;
 use super::theme::Role;
 use super::ticks::{Labels, Ruler};
@@ -37,8 +40,7 @@ impl Plot<'_> {
         let frame = Frame::new(self, area);
         let window = frame.x.window;
         let column = cell.x.checked_sub(frame.inner.x)?;
-        let middle = window.cell_middle(column);
-        frame.inner.contains(cell).then(|| window.value(middle))
+        frame.inner.contains(cell).then(|| window.middle(column, 1))
     }
 }
 
@@ -54,10 +56,22 @@ impl Widget for &Plot<'_> {
             frame.words(&mut raster, buf);
             frame.axes(buf);
         }
+        if let Some(map) = &self.chart.map {
+            frame.map(map, buf);
+        }
         raster.render(buf);
+        if self.chart.map.is_some() {
+            let places = frame.inner.positions();
+            for place in places.filter(|place| raster.dots_in((*place, SINGLE).into()) > 0) {
+                frame.ink(buf.cell_mut(place));
+            }
+        }
         frame.signs(buf);
     }
 }
+
+/// One cell.
+const SINGLE: Size = Size::new(1, 1);
 
 /// Whether an area has no room for axes.
 fn is_bare(area: Rect) -> bool {
@@ -124,7 +138,10 @@ impl<'p> Frame<'p> {
 
         let window = Window::new(y_bounds, chart.y.scale, rows, down);
         let unit = chart.y.unit_for(y_bounds, ascii);
-        let mut y = Ruler::new(window, unit, Labels::Column).even();
+        let mut y = Ruler::new(window, unit, Labels::Column);
+        if chart.map.is_none() {
+            y = y.even();
+        }
         let labels = y.ticks.iter().map(|tick| cells(&tick.label));
         let mut gutter = labels.max().unwrap_or(0);
         if bare || gutter > area.width / 3 {
@@ -172,7 +189,8 @@ impl<'p> Frame<'p> {
         }
         let zero = |window: Window| {
             let [lo, hi] = window.bounds;
-            window.dot(0.0).filter(|_| lo < 0.0 && hi > 0.0)
+            let is_within = lo < 0.0 && hi > 0.0 && plot.chart.map.is_none();
+            window.dot(0.0).filter(|_| is_within)
         };
         if let Some(row) = zero(y) {
             raster.zero_line(row, rule);
@@ -194,6 +212,55 @@ impl<'p> Frame<'p> {
             raster.line(curve.bars().map(place), style, Stroke::Solid);
         }
         raster
+    }
+
+    /// The map, upwards in half cells where there are colours: each shows the place that its middle belongs to.
+    fn map(&self, map: &Map, buf: &mut Buffer) {
+        let (theme, chart, range) = (self.plot.theme, self.plot.chart, map.range());
+        let parts = 1 + u16::from(has_blocks(theme));
+        // The places of cells or halves: as many edges lie before their middles.
+        let places = |axis: &Axis, places: &[f64], window: Window, parts: u16| -> Vec<usize> {
+            let edges = axis.edges(places);
+            let (inner, rises) = (&edges[1..places.len()], edges[0] < edges[places.len()]);
+            let is_before = |edge: f64, middle: f64| (edge <= middle) == rises;
+            let middles = (0..window.cells * parts).map(|part| window.middle(part, parts));
+            let place = |middle| {
+                inner
+                    .iter()
+                    .filter(|&&edge| is_before(edge, middle))
+                    .count()
+            };
+            middles.map(place).collect()
+        };
+        let [xs, ys] = &map.places;
+        let columns = places(&chart.x, xs, self.x.window, 1);
+        let rows = places(&chart.y, ys, self.y.window, parts);
+        for (column, x) in columns.into_iter().enumerate() {
+            for (row, halves) in rows.chunks(usize::from(parts)).enumerate() {
+                let place = (
+                    self.inner.x + column as u16,
+                    self.inner.bottom() - 1 - row as u16,
+                );
+                let seen = |half: usize| {
+                    let value = map.values[halves[half] * xs.len() + x];
+                    map.look(value, range, theme)
+                };
+                let Some(cell) = buf.cell_mut(place) else {
+                    continue;
+                };
+                match parts {
+                    1 => _ = cell.set_char(seen(0).1),
+                    _ => paint_halves(cell, [seen(1).0, seen(0).0]),
+                }
+            }
+        }
+    }
+
+    /// Gives a sign on the map a colour that is seen there.
+    fn ink(&self, cell: Option<&mut Cell>) {
+        if let Some(cell) = cell.filter(|_| self.plot.theme.colored()) {
+            cell.fg = ink_on(cell.bg);
+        }
     }
 
     /// Points with a sign of their own, and arrows where a curve leaves through the top.
@@ -218,6 +285,9 @@ impl<'p> Frame<'p> {
                     self.sign(point.sign),
                     plot.theme.style(point.role),
                 );
+                if plot.chart.map.is_some() {
+                    self.ink(buf.cell_mut(place));
+                }
             }
         }
     }

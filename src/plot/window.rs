@@ -90,6 +90,13 @@ impl Window {
         self.scale.unspread(lo * (1.0 - share) + hi * share)
     }
 
+    /// The value in the middle of one of the `parts` that cells are divided into.
+    pub fn middle(&self, part: u16, parts: u16) -> f64 {
+        let dots = f64::from(self.dots_per_cell) / f64::from(parts);
+        let middle = (f64::from(part) + 0.5) * dots - 0.5;
+        self.value(middle.clamp(0.0, self.dots().max(1) as f64 - 1.0))
+    }
+
     /// The position in dots of the middle of cell `index`.
     pub fn cell_middle(&self, index: u16) -> f64 {
         let dots = f64::from(self.dots_per_cell);

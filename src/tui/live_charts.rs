@@ -7,7 +7,7 @@ use super::frame::Frame;
 use super::held::Held;
 use super::panels::Panel;
 use super::tour;
-use crate::charts::{Medium, View};
+use crate::charts::View;
 use crate::plot::{Chart, Scale};
 
 /// A chart, or why there is none.
@@ -76,7 +76,6 @@ impl LiveCharts {
 
     fn view(&self, panel: Panel) -> View {
         View {
-            medium: Medium::Screen,
             scale: self.scale(panel),
             with_theory: self.with_theory,
         }

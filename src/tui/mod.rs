@@ -58,7 +58,6 @@ pub mod refinement_check;
 pub mod screen;
 mod script;
 pub mod settings;
-mod shades;
 pub mod snapshot;
 pub mod stage;
 mod suspend;

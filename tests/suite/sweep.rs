@@ -211,7 +211,7 @@ fn the_map_shows_two_axes_and_reads_points() {
     assert!(
         screen(&dir, "map.csv", "x")
             .iter()
-            .any(|line| line.ends_with(" 2.00"))
+            .any(|line| line.ends_with(" 2.2"))
     );
 }
 

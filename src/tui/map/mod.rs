@@ -22,7 +22,6 @@ use super::{Event, Input, script};
 
 mod draw;
 pub mod live;
-mod ramp;
 mod view;
 
 pub use view::{Leave, View};

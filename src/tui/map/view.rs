@@ -3,9 +3,9 @@
 use std::cell::RefCell;
 use std::collections::HashMap;
 
-use super::ramp::Shade;
 use crate::figure::study;
-use crate::plot::{self, Scale};
+use crate::math::scan;
+use crate::plot::{self, Chart, Scale};
 use crate::scenario::Refusal;
 use crate::studies::sweep::record::Record;
 use crate::studies::sweep::slice::{Line, Slice};
@@ -19,16 +19,6 @@ pub enum Leave {
     Quit,
     /// To open this point in the explorer.
     Open(usize),
-}
-
-/// The column that is shown, with the scale of its colours.
-#[derive(Debug)]
-pub struct Scaled {
-    /// Column and unit in words. Logarithmic where the values span decades, unless the user wants the other
-    /// scale.
-    pub quantity: plot::Axis,
-    /// The smallest and the largest number, positive ones alone on a logarithmic scale; `None` without any.
-    pub range: Option<[f64; 2]>,
 }
 
 /// A study, and what of it is shown.
@@ -172,11 +162,9 @@ impl View {
     }
 
     /// The cursor's places on the axes to the right and upwards.
-    pub fn cursor(&self) -> (usize, usize) {
-        (
-            self.slice.at[self.slice.x],
-            self.slice.y.map_or(0, |y| self.slice.at[y]),
-        )
+    pub fn cursor(&self) -> [usize; 2] {
+        let y = self.slice.y.map_or(0, |y| self.slice.at[y]);
+        [self.slice.at[self.slice.x], y]
     }
 
     /// The name of the column; empty if the study has none.
@@ -190,7 +178,7 @@ impl View {
 
     /// The point under the cursor.
     pub fn point(&self) -> usize {
-        let (x, y) = self.cursor();
+        let [x, y] = self.cursor();
         self.slice.point_at(x, y)
     }
 
@@ -205,26 +193,27 @@ impl View {
         self.column() == "regime"
     }
 
-    /// Returns the column in words with its range, from one pass over the points that are shown.
-    pub fn scaled(&self) -> Scaled {
-        let numbers = self.slice.points();
-        let numbers: Vec<f64> = numbers
-            .filter_map(|point| self.slice.number(point, self.column()))
-            .collect();
-        let mut quantity = study::quantity(self.column(), &numbers);
-        if self.is_flipped {
+    /// The chart of the column, as on paper; its colours end with the values that are shown, and its scale is the
+    /// other one where the user wants that.
+    pub fn chart(&self) -> Chart {
+        let lines = match self.with_overlays {
+            true => [self.borders(), self.slice.criteria()],
+            false => Default::default(),
+        };
+        let mut chart = study::chart(&self.slice, self.column(), lines);
+        let quantity = chart.map.as_mut().map(|map| &mut map.quantity);
+        let quantity = quantity.unwrap_or(&mut chart.y);
+        if self.is_flipped && !self.is_regime() {
             quantity.scale = match quantity.scale {
                 Scale::Linear => Scale::Log,
                 Scale::Log => Scale::Linear,
             };
         }
-        let shown = numbers.into_iter();
-        let shown = shown.filter(|number| quantity.scale == Scale::Linear || *number > 0.0);
-        let range = shown.fold(None, |range: Option<[f64; 2]>, number| {
-            let [low, high] = range.unwrap_or([number; 2]);
-            Some([low.min(number), high.max(number)])
-        });
-        Scaled { quantity, range }
+        let (_, range) = shown(&chart);
+        if let Some(map) = &mut chart.map {
+            map.quantity.bounds = range;
+        }
+        chart
     }
 
     /// An axis in words, with its unit.
@@ -232,49 +221,17 @@ impl View {
         study::paper_axis(&self.slice, axis)
     }
 
-    /// The places of the base scenario on the axes that are shown, where they are on the map.
-    pub fn here(&self) -> Option<(f64, f64)> {
-        let place = |axis: &Axis| {
-            let value = self.slice.study.base.value(&axis.key)?;
-            axis.place_of(value.parse().ok()?)
+    /// The values of the base scenario on the axes that are shown, where they are on the map.
+    pub fn here(&self) -> Option<[f64; 2]> {
+        let value = |axis: &Axis| {
+            let value: f64 = self.slice.study.base.value(&axis.key)?.parse().ok()?;
+            axis.place_of(value).map(|_| value)
         };
         let y = match self.slice.y() {
-            Some(axis) => place(axis)?,
+            Some(axis) => value(axis)?,
             None => 0.0,
         };
-        Some((place(self.slice.x())?, y))
-    }
-
-    /// What a point shows of the column.
-    pub fn shade(&self, point: usize, scaled: &Scaled) -> Shade {
-        if self.slice.row(point).is_none() {
-            return Shade::Waiting;
-        }
-        if self.is_regime() {
-            return self.slice.regime(point).map_or(Shade::Failed, Shade::Word);
-        }
-        let (Some(number), Some([low, high])) =
-            (self.slice.number(point, self.column()), scaled.range)
-        else {
-            return Shade::Failed;
-        };
-        let of = |value: f64| scaled.quantity.scale.spread(value);
-        match (of(number) - of(low)) / (of(high) - of(low)) {
-            share if share.is_finite() => Shade::Share(share.clamp(0.0, 1.0)),
-            _ if number == low => Shade::Share(0.5),
-            _ => Shade::Failed,
-        }
-    }
-
-    /// Borders in closed form and criteria of the field, where the study has their columns.
-    pub fn overlays(&self) -> Vec<Line> {
-        if self.slice.y.is_none() || !self.with_overlays {
-            return Vec::new();
-        }
-        let mut overlays = self.slice.criteria();
-        // What holds for any shape is drawn last, and seen.
-        overlays.extend(self.borders());
-        overlays
+        Some([value(self.slice.x())?, y])
     }
 
     /// The closed forms: computed once for the places of the axes that are not shown.
@@ -290,4 +247,15 @@ impl View {
             .or_insert_with(|| self.slice.borders())
             .clone()
     }
+}
+
+/// The quantity whose values a chart of a study shows, and the smallest and the largest of them; `None` without any.
+pub fn shown(chart: &Chart) -> (&plot::Axis, Option<[f64; 2]>) {
+    let (quantity, values) = match &chart.map {
+        Some(map) => (&map.quantity, Some(&map.values)),
+        None => (&chart.y, chart.curves.first().map(|curve| &curve.ys)),
+    };
+    let values = values.into_iter().flatten().copied();
+    let range = scan::range(values.filter(|value| quantity.scale.has(*value)));
+    (quantity, range)
 }

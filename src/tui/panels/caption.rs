@@ -10,9 +10,9 @@ use ratatui::widgets::Widget;
 use super::section::Section;
 use super::{Frame, Pane};
 use crate::math::scan::largest;
+use crate::plot::shades::{self, SHADES, has_blocks};
 use crate::plot::units::{format_number, format_value_in};
 use crate::reading::Moment;
-use crate::tui::shades::{self, SHADES, has_blocks};
 use crate::tui::theme::{Depth, Look, Role, Theme};
 
 /// The size from which the picture has captions below it, and their rows.

@@ -20,9 +20,9 @@ use crate::charts::look_of;
 use crate::math::grid::interpolate;
 use crate::math::scan::largest;
 use crate::plot::colormap::ColorMap;
+use crate::plot::shades::{self, has_blocks, paint_halves};
 use crate::plot::units::format_value_in;
 use crate::reading::Curves;
-use crate::tui::shades::{self, has_blocks, paint_halves};
 
 /// The panel.
 pub static PICTURE: Picture = Picture {

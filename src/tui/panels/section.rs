@@ -24,8 +24,8 @@ use super::{Frame, Pane, Panel, Picture, Recipe, Words, caption, edge};
 use crate::charts::{U_X, magnification};
 use crate::math::grid::interpolate;
 use crate::math::scan::largest;
+use crate::plot::shades::{self, has_blocks};
 use crate::reading::{Curves, Zone};
-use crate::tui::shades::{self, has_blocks};
 use crate::tui::theme::{Depth, Look, Role, Theme};
 
 /// The panel.

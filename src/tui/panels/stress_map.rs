@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use super::Frame;
 use crate::plot::colormap::ColorMap;
+use crate::plot::shades;
 use crate::plot::sticky_bounds;
 use crate::reading::fatigue::StressCycle;
 use crate::reading::subsurface::{SpringLoad, Stress};
-use crate::tui::shades;
 
 /// Places below the contact, and their depth in contact radii, that set the range of SWT.
 const SPANS: u32 = 24;

@@ -4,8 +4,8 @@ use ratatui::buffer::Cell;
 use ratatui::style::{Color, Style};
 use ratatui::text::Span;
 
+use super::colormap::ColorMap;
 use super::theme::{Depth, Look, Theme};
-use crate::plot::colormap::ColorMap;
 
 /// How many there are: few, so that only the lines between them change from frame to frame.
 pub const SHADES: usize = 12;

@@ -2,6 +2,7 @@
 //! further to the right and up. The axes are those of the last loop.
 
 use super::{F_X, Loop, NO_CYCLE, NO_MOTION, Recipe, Run, U_X, View, Words};
+use crate::math::scan::range;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve};
 
@@ -34,11 +35,8 @@ fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
         .map(|(first, last)| (first.end, last.end))
         .ok_or(NO_CYCLE)?;
     let extent = |of: fn(&Loop) -> &Vec<f64>| {
-        let values = loops.iter().flat_map(|one| of(one));
-        let bounds = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &v| {
-            (a.min(v), b.max(v))
-        });
-        bounds.1 - bounds.0
+        let values = loops.iter().flat_map(|one| of(one)).copied();
+        range(values).map_or(0.0, |[low, high]| high - low)
     };
     let size = [extent(|one| &one.shifts), extent(|one| &one.forces)];
     let newest = loops.len() - 1;

@@ -4,6 +4,7 @@
 use crate::plot::theme::Role;
 use crate::plot::{self, Axis, Chart, Curve, Mark, Scale};
 use crate::reading::{Curves, Zone};
+use crate::scenario::Refusal;
 use crate::studies::ghost::Ghost;
 use crate::studies::theory::Theory;
 use crate::traces::Axes;
@@ -142,12 +143,9 @@ impl Recipe {
     ///
     /// # Errors
     /// If the run has no data for it.
-    pub fn on_paper(&self, run: &Run) -> Result<Chart, Missing> {
-        let missing = |why| Missing {
-            name: self.name,
-            why,
-        };
-        self.chart(run, &View::default()).map_err(missing)
+    pub fn on_paper(&self, run: &Run) -> Result<Chart, Refusal> {
+        let chart = self.chart(run, &View::default());
+        chart.map_err(|why| Refusal::new(format_args!("no chart {}", self.name), why))
     }
 
     /// Whether the chart has a place for what `ghost` holds.
@@ -155,14 +153,6 @@ impl Recipe {
         let mut overlays = self.overlays.iter();
         overlays.any(|axes| ghost.trace(*axes).is_some())
     }
-}
-
-/// Why a chart cannot be made.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("no chart {name}: {why}")]
-pub struct Missing {
-    name: &'static str,
-    why: &'static str,
 }
 
 /// How a chart is looked at; as it is by default on paper.

@@ -5,7 +5,7 @@ use super::run::Loop;
 use crate::export::last_loop::LastLoop;
 use crate::export::{field, header, state};
 use crate::reading::Curves;
-use crate::scenario::scalars::{self, Reading, Value};
+use crate::scenario::scalars::Reading;
 use crate::scenario::session::{Session, SessionError};
 use crate::traces::Table;
 
@@ -42,11 +42,7 @@ impl Run {
         let mut seen: Vec<[f64; OVER_CYCLES.len()]> = Vec::new();
         let mut record = |session: &Session| {
             let reading = Reading::new(session);
-            let value = |name| scalars::find(name).map(|scalar| scalar.read(&reading));
-            let row = OVER_CYCLES.map(|name| match value(name) {
-                Some(Value::Number(number)) => number,
-                _ => f64::NAN,
-            });
+            let row = OVER_CYCLES.map(|name| reading.number(name));
             if seen.last().is_none_or(|last| last[0] < row[0]) {
                 seen.push(row);
             }

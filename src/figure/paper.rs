@@ -1,10 +1,11 @@
 //! The figures of Li, Forsbach & Benad (2019), point by point.
 
 use super::Sheet;
-use crate::charts::{Missing, Run, profile, springs, stresses};
+use crate::charts::{Run, profile, springs, stresses};
 use crate::math::abel::AbelMethod;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Scale};
+use crate::scenario::Refusal;
 use crate::studies::verify::{Problem, Stop, Task};
 
 /// N of the paper's figures.
@@ -52,7 +53,7 @@ pub fn errors(points: usize) -> Result<Sheet, Stop> {
 ///
 /// # Errors
 /// If the run has no data for it.
-pub fn fretting(run: &Run) -> Result<Sheet, Missing> {
+pub fn fretting(run: &Run) -> Result<Sheet, Refusal> {
     let mut charts = vec![
         profile::RECIPE.on_paper(run)?,
         springs::RECIPE.on_paper(run)?,

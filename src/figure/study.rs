@@ -1,6 +1,7 @@
 //! Charts of a study's table: a map over two axes, curves over one, points of a sampled design.
 
 use super::Sheet;
+use crate::math::scan::range;
 use crate::plot::colormap::ColorMap;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Map, Mark, Point, Scale};
@@ -137,12 +138,9 @@ pub fn quantity(column: &str, values: &[f64]) -> Axis {
         .map_or(column, |scalar| scalar.meaning)
         .to_owned();
     let shown = values.iter().copied().filter(|value| value.is_finite());
-    let [low, high] = shown.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| {
-        [low.min(v), high.max(v)]
-    });
-    Axis::new(label, unit_of(column)).scale(match low > 0.0 && high / low >= DECADES {
-        true => Scale::Log,
-        false => Scale::Linear,
+    Axis::new(label, unit_of(column)).scale(match range(shown) {
+        Some([low, high]) if low > 0.0 && high / low >= DECADES => Scale::Log,
+        _ => Scale::Linear,
     })
 }
 

@@ -6,6 +6,7 @@ use super::axis::{Axis, Scale};
 use super::colormap::ColorMap;
 use super::shades::{self, SHADES};
 use super::theme::{Role, Theme};
+use crate::math::scan::range;
 
 /// How many words a map can tell apart.
 pub const WORDS: usize = 4;
@@ -44,19 +45,13 @@ impl Map {
         if let Some([low, high]) = self.quantity.bounds.filter(|[low, high]| low < high) {
             return [low, high];
         }
-        let is_log = self.quantity.scale == Scale::Log;
         let shown = self.values.iter().copied();
-        let shown = shown.filter(|value| self.quantity.scale.has(*value));
-        let first = if is_log {
-            [f64::INFINITY, 0.0]
-        } else {
-            [0.0; 2]
-        };
-        let [low, high] = shown.fold(first, |[low, high], v| [low.min(v), high.max(v)]);
-        match is_log {
-            true if low < high => [low, high],
-            true => [0.1, 10.0],
-            false => self.colors.range([low, high]),
+        let shown = range(shown.filter(|value| self.quantity.scale.has(*value)));
+        match (self.quantity.scale, shown) {
+            (Scale::Log, Some([low, high])) if low < high => [low, high],
+            (Scale::Log, _) => [0.1, 10.0],
+            (Scale::Linear, Some([low, high])) => self.colors.range([low.min(0.0), high.max(0.0)]),
+            (Scale::Linear, None) => self.colors.range([0.0; 2]),
         }
     }
 

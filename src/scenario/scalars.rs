@@ -133,6 +133,14 @@ impl<'a> Reading<'a> {
         }
     }
 
+    /// The scalar of this name; NaN where there is none, or where it is no number at this moment.
+    pub fn number(&self, name: &str) -> f64 {
+        match find(name).map(|scalar| scalar.read(self)) {
+            Some(Value::Number(number)) => number,
+            _ => f64::NAN,
+        }
+    }
+
     /// p(r), Pa: one transform the first time.
     fn pressure(&self) -> &[f64] {
         self.pressure

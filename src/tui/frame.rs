@@ -4,7 +4,6 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::facts::Facts;
 use super::pace::Pace;
-use super::trend::Trend;
 use crate::charts::Run;
 use crate::reading::subsurface::{Peak, SpringLoad};
 use crate::reading::{Check, Observation};
@@ -49,8 +48,6 @@ pub struct Frame {
     pub figures: Option<CycleFigures>,
     /// The phase of the tangential motion at which frames are taken, degrees; `None` while the motion is shown.
     pub phase: Option<f64>,
-    /// The past.
-    pub trend: Trend,
     /// What the worker does.
     pub activity: Activity,
     /// The requested pace.

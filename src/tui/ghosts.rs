@@ -18,18 +18,11 @@ pub const MOST: usize = 4;
 
 /// Curves beside the run.
 #[derive(Debug, Clone)]
-pub enum Source {
-    /// They do not change.
-    Still(Arc<Ghost>),
-    /// They are those of another run at the same cycle.
-    Run(GhostRun),
-}
-
-/// A scenario that runs beside, from its start to the present cycle.
-#[derive(Debug, Clone)]
-pub struct GhostRun {
-    name: String,
-    beside: Box<Beside>,
+pub struct Source {
+    /// Its name, and its curves if they do not change.
+    ghost: Arc<Ghost>,
+    /// The run whose curves at the same cycle they are, if there is one.
+    pub(super) beside: Option<Box<Beside>>,
 }
 
 impl Source {
@@ -48,58 +41,47 @@ impl Source {
             let resolved = refinement::resolve_soon(&scenario);
             let resolved = resolved.map_err(|error| error.to_string())?;
             let start = Session::start(resolved.scenario).map_err(|error| error.to_string())?;
-            return Ok(Self::Run(GhostRun {
-                name: scenario.stem(),
-                beside: Box::new(Beside::from_start(start)),
-            }));
+            return Ok(Self {
+                ghost: Arc::new(Ghost::new(&scenario.stem())),
+                beside: Some(Box::new(Beside::from_start(start))),
+            });
         }
         let ghost = Ghost::read(path).map_err(|error| error.to_string())?;
         let checked = ghost.check_radii(reach);
         checked.map_err(|refusal| refusal.to_string())?;
-        Ok(Self::Still(Arc::new(ghost)))
+        Ok(Self::still(ghost))
     }
 
     /// The present state of a run.
     pub(super) fn frozen(run: &Recorded) -> Self {
         let name = format!("cycle {:.2}", run.cycle());
-        Self::Still(Arc::new(ghost(&name, run, Curves::all())))
+        Self::still(ghost(&name, run, Curves::all()))
+    }
+
+    /// Curves that do not change.
+    fn still(ghost: Ghost) -> Self {
+        Self {
+            ghost: Arc::new(ghost),
+            beside: None,
+        }
     }
 
     /// What legends call it.
     pub(super) fn name(&self) -> &str {
-        match self {
-            Self::Still(ghost) => &ghost.name,
-            Self::Run(run) => &run.name,
-        }
-    }
-
-    /// The run that follows, if it is one.
-    pub(super) fn beside(&self) -> Option<&Beside> {
-        match self {
-            Self::Still(_) => None,
-            Self::Run(run) => Some(&run.beside),
-        }
-    }
-
-    /// The same, to be stepped.
-    pub(super) fn beside_mut(&mut self) -> Option<&mut Beside> {
-        match self {
-            Self::Still(_) => None,
-            Self::Run(run) => Some(&mut run.beside),
-        }
+        &self.ghost.name
     }
 
     /// Its curves, `curves` of them if they are computed for each frame.
     pub(super) fn seen(&self, curves: Curves) -> Arc<Ghost> {
-        let GhostRun { name, beside } = match self {
-            Self::Still(ghost) => return Arc::clone(ghost),
-            Self::Run(run) => run,
+        let Some(beside) = &self.beside else {
+            return Arc::clone(&self.ghost);
         };
         let end = match beside.stopped {
             Some(_) => format!(" (ends at {:.2})", beside.run.cycle()),
             None => String::new(),
         };
-        Arc::new(ghost(&format!("{name}{end}"), &beside.run, curves))
+        let name = format!("{}{end}", self.name());
+        Arc::new(ghost(&name, &beside.run, curves))
     }
 }
 

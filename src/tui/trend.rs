@@ -6,7 +6,7 @@ use super::loops::Loops;
 use crate::export::history;
 use crate::math::scan::largest;
 use crate::reading::Moment;
-use crate::scenario::scalars::{self, Reading, Value, scar_radius};
+use crate::scenario::scalars::{Reading, scar_radius};
 use crate::scenario::session::{Session, SessionError};
 use crate::simulation::Simulation;
 use crate::traces::Table;
@@ -214,13 +214,7 @@ impl Trend {
 
     /// Notes the end of the last entry, which is the moment that is read.
     fn end(&mut self, reading: &Reading) {
-        let condition = [AMPLITUDE, LOAD].map(|k| {
-            let scalar = scalars::find(COLUMNS[k].0);
-            match scalar.map(|scalar| scalar.read(reading)) {
-                Some(Value::Number(number)) => number,
-                _ => f64::NAN,
-            }
-        });
+        let condition = [AMPLITUDE, LOAD].map(|k| reading.number(COLUMNS[k].0));
         self.condition = Some(condition);
         if let Some(entry) = self.cycles.last_mut().map(Arc::make_mut) {
             [entry.values[AMPLITUDE], entry.values[LOAD]] = condition;

@@ -40,11 +40,9 @@ pub fn beside(area: Rect) -> [Rect; 2] {
 /// The speed of the indenter to the right, relative to the fastest of the last cycle; `None` where no motion is
 /// seen, as after a jump over cycles.
 fn speed(frame: &Frame) -> Option<f64> {
-    let past = &frame.trend.loops.steps;
-    let later = past.iter().skip(1);
-    let mut steps = later.zip(past).map(|(later, before)| later[1] - before[1]);
-    let sizes = steps.clone().map(f64::abs);
-    let fastest = sizes.fold(0.0, f64::max);
+    let shifts = &frame.run.loops.last()?.shifts;
+    let mut steps = shifts.windows(2).map(|pair| pair[1] - pair[0]);
+    let fastest = steps.clone().map(f64::abs).fold(0.0, f64::max);
     // Rounding is no motion.
     let is_seen = fastest > 1e-12 * frame.observation.moment.contact_radius;
     steps

@@ -357,10 +357,8 @@ fn amplitude(frame: &Frame) -> f64 {
     let mut settings = frame.facts.settings.iter();
     let given = settings.find(|setting| setting.parameter.path == key && setting.unit == "m");
     let given = given.and_then(|setting| setting.value.as_deref()?.parse::<f64>().ok());
-    given.unwrap_or_else(|| {
-        let steps = frame.trend.loops.steps.iter();
-        steps.fold(0.0, |most, step| step[1].abs().max(most))
-    })
+    let shifts = frame.run.loops.iter().flat_map(|one| &one.shifts);
+    given.unwrap_or_else(|| shifts.fold(0.0, |most, shift| shift.abs().max(most)))
 }
 
 /// The title, with what is magnified.

@@ -32,7 +32,8 @@ impl Companions {
     /// Whether what is seen is not yet at `cycle`.
     fn lags(&self, cycle: f64) -> bool {
         let comparison = self.comparison.iter().map(|comparison| &comparison.beside);
-        let mut seen = comparison.chain(self.ghosts.iter().filter_map(Source::beside));
+        let mut seen =
+            comparison.chain(self.ghosts.iter().flat_map(|ghost| ghost.beside.as_deref()));
         seen.any(|beside| beside.lags(cycle))
     }
 
@@ -40,7 +41,8 @@ impl Companions {
     pub fn follow(&mut self, cycle: f64) {
         let comparison = self.comparison.iter_mut();
         let comparison = comparison.map(|comparison| &mut comparison.beside);
-        let ghosts = self.ghosts.iter_mut().filter_map(Source::beside_mut);
+        let ghosts = self.ghosts.iter_mut();
+        let ghosts = ghosts.flat_map(|ghost| ghost.beside.as_deref_mut());
         for beside in comparison.chain(ghosts) {
             beside.follow(cycle, cycle, CATCH_UP);
         }

@@ -70,7 +70,6 @@ impl Worker {
             observation,
             figures,
             phase: self.clock.held_phase(simulation),
-            trend: self.run.trend.clone(),
             activity: self.activity.clone(),
             pace: self.clock.pace(),
             speed: self

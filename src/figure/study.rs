@@ -194,7 +194,9 @@ fn map(
         },
         places: [xs, ys],
     });
-    let value = |[x, y]: [f64; 2]| Some((slice.x().value_at(x)?, upwards.value_at(y)?));
+    // The value of a word is its place.
+    let value = |axis: &sweep::Axis, place: f64| axis.value_at(place).unwrap_or(place);
+    let spot = |[x, y]: [f64; 2]| (value(slice.x(), x), value(upwards, y));
     let criteria = criteria.into_iter().enumerate();
     let criteria = criteria.map(|(k, line)| (3 + k, line));
     for (k, line) in borders.into_iter().enumerate().chain(criteria) {
@@ -203,13 +205,13 @@ fn map(
         for [from, to] in line.pieces() {
             if last != Some(from) {
                 points.extend(last.map(|_| (f64::NAN, f64::NAN)));
-                points.extend(value(from));
+                points.push(spot(from));
             }
-            points.extend(value(to));
+            points.push(spot(to));
             last = Some(to);
         }
         let (xs, ys): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();
-        let end = line.at.last().and_then(|&end| value(end));
+        let end = line.at.last().map(|&end| spot(end));
         chart.points.extend(end.map(|(x, y)| Point {
             at: [x, y],
             sign: line.letter,

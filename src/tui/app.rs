@@ -12,7 +12,7 @@ use ratatui::layout::{Rect, Size};
 use super::calm::Calm;
 use super::command::{Act, Command};
 use super::cursor::Cursor;
-use super::event_loop::Scene;
+use super::event_loop::{Next, Scene};
 use super::frame::Frame;
 use super::keys::Key;
 use super::line::one_line;
@@ -88,7 +88,7 @@ impl Scene for App {
         screen::draw(self, area, buffer);
     }
 
-    fn handle(&mut self, event: Event) {
+    fn handle(&mut self, event: Event) -> Next {
         match event {
             Event::Input(Input::Key(key)) => self.press(key),
             Event::Input(Input::Paste(text)) => self.paste(&text),
@@ -107,18 +107,15 @@ impl Scene for App {
             Event::Sweep(live) => self.overlay = Overlay::Sweep(live),
             _ => {}
         }
+        match (self.leave, std::mem::take(&mut self.suspend)) {
+            (Some(_), _) => Next::Leave,
+            (None, true) => Next::Suspend,
+            (None, false) => Next::Stay,
+        }
     }
 
     fn say(&mut self, notice: &str) {
         self.notice = Some(notice.to_owned());
-    }
-
-    fn asks_to_suspend(&mut self) -> bool {
-        std::mem::take(&mut self.suspend)
-    }
-
-    fn is_left(&self) -> bool {
-        self.leave.is_some()
     }
 }
 
@@ -253,7 +250,7 @@ impl App {
         if let Some(frame) = &self.frame {
             self.stress.follow(frame);
         }
-        self.notice = Some(format!("cross-section: {}", self.stress.name()));
+        self.notice = Some(format!("cross-section: {}", self.stress.names()[0]));
     }
 
     /// Opens the words of a key.

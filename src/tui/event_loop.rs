@@ -29,17 +29,24 @@ pub trait Scene {
     /// Its colours and signs.
     fn theme(&mut self) -> &mut Theme;
     /// Takes the size of the terminal.
-    fn resize(&mut self, size: Size);
+    fn resize(&mut self, _: Size) {}
     /// Draws it.
     fn draw(&self, area: Rect, buffer: &mut Buffer);
     /// Answers what is not the terminal's own.
-    fn handle(&mut self, event: Event);
+    fn handle(&mut self, event: Event) -> Next;
     /// Tells the user something until the next key.
     fn say(&mut self, notice: &str);
-    /// Whether the user has asked for the shell since the last call.
-    fn asks_to_suspend(&mut self) -> bool;
-    /// Whether the user has left it.
-    fn is_left(&self) -> bool;
+}
+
+/// What follows an event.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Next {
+    /// The scene goes on.
+    Stay,
+    /// The user asks for the shell.
+    Suspend,
+    /// The user leaves the scene.
+    Leave,
 }
 
 /// There is no usable terminal.
@@ -152,17 +159,18 @@ fn handle_events(
                         }
                         screen.flow().hurry(Instant::now());
                     }
-                    scene.handle(event);
+                    match scene.handle(event) {
+                        Next::Stay => {}
+                        Next::Suspend => suspends = true,
+                        Next::Leave => return Ok(()),
+                    }
                 }
-            }
-            if scene.is_left() {
-                return Ok(());
             }
         }
         if waiting.has_dropped() {
             scene.say("keys came faster than they could be handled; some were dropped");
         }
-        if (scene.asks_to_suspend() || suspends) && !is_away {
+        if suspends && !is_away {
             held = drain_replies(screen, inbox);
             if waiting.is_over() {
                 return Ok(());

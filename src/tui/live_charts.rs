@@ -1,7 +1,7 @@
 //! The charts on the screen: made once for each frame and key, on scales that follow their data calmly.
 
 use std::borrow::Cow;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::frame::Frame;
 use super::held::Held;
@@ -18,7 +18,7 @@ pub(super) type Made = Result<Chart, &'static str>;
 pub struct LiveCharts {
     charts: HashMap<Panel, Made>,
     /// The panels with a logarithmic ordinate.
-    logarithmic: Vec<Panel>,
+    logarithmic: HashSet<Panel>,
     ordinates: HashMap<(Panel, Scale), Held>,
     abscissas: HashMap<Panel, Held>,
     /// Whether the frame is one of another run than the next: scales do not follow it.
@@ -31,7 +31,7 @@ impl LiveCharts {
     /// The next frame is one of the scenario `origin`, another one than before if it `differs`.
     pub fn begin(&mut self, origin: &str, differs: bool) {
         if differs {
-            self.logarithmic = tour::logarithmic(origin);
+            self.logarithmic = tour::logarithmic(origin).collect();
         }
         self.is_outdated = false;
     }
@@ -53,10 +53,8 @@ impl LiveCharts {
 
     /// Changes between a linear and a logarithmic ordinate.
     pub fn toggle_log(&mut self, panel: Panel) {
-        let before = self.logarithmic.len();
-        self.logarithmic.retain(|other| *other != panel);
-        if self.logarithmic.len() == before {
-            self.logarithmic.push(panel);
+        if !self.logarithmic.remove(&panel) {
+            self.logarithmic.insert(panel);
         }
     }
 

@@ -40,9 +40,9 @@ pub fn captions(origin: &str) -> &'static [Caption] {
 }
 
 /// The panels that a preset shows on a logarithmic scale.
-pub fn logarithmic(origin: &str) -> Vec<Panel> {
+pub fn logarithmic(origin: &str) -> impl Iterator<Item = Panel> {
     let asked = captions(origin).iter().filter(|caption| caption.log);
-    asked.filter_map(Caption::panel).collect()
+    asked.filter_map(Caption::panel)
 }
 
 /// A tour under way.

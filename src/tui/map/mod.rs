@@ -14,7 +14,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Rect, Size};
 
 use super::command::{self, Command};
-use super::event_loop::{self, Scene};
+use super::event_loop::{self, Next, Scene};
 use super::keys::Key;
 use super::terminal::Capture;
 use super::theme::Theme;
@@ -34,7 +34,6 @@ struct Shown<'a, F> {
     view: &'a mut View,
     theme: Theme,
     renew: F,
-    suspends: bool,
     leave: Option<Leave>,
 }
 
@@ -43,33 +42,24 @@ impl<F: FnMut(&mut View)> Scene for Shown<'_, F> {
         &mut self.theme
     }
 
-    fn resize(&mut self, _: Size) {}
-
     fn draw(&self, area: Rect, buffer: &mut Buffer) {
         draw::draw(self.view, &self.theme, area, buffer);
     }
 
-    fn handle(&mut self, event: Event) {
+    fn handle(&mut self, event: Event) -> Next {
         match event {
             Event::Input(Input::Key(key)) if command::of_key(key) == Some(Command::Suspend) => {
-                self.suspends = true;
+                return Next::Suspend;
             }
             Event::Input(Input::Key(key)) => self.leave = self.view.press(key),
             Event::News => (self.renew)(self.view),
             _ => {}
         }
+        self.leave.map_or(Next::Stay, |_| Next::Leave)
     }
 
     fn say(&mut self, notice: &str) {
         self.view.notice = Some(notice.to_owned());
-    }
-
-    fn asks_to_suspend(&mut self) -> bool {
-        std::mem::take(&mut self.suspends)
-    }
-
-    fn is_left(&self) -> bool {
-        self.leave.is_some()
     }
 }
 
@@ -92,7 +82,6 @@ pub fn run(view: &mut View, theme: &Theme, renew: impl FnMut(&mut View)) -> Resu
         view,
         theme: *theme,
         renew,
-        suspends: false,
         leave: None,
     };
     event_loop::run(&mut shown, Capture::None, &events, &inbox, || {})?;

@@ -271,7 +271,7 @@ fn stress_key(pane: &Pane, width: u16) -> Vec<Span<'static>> {
     let Some(bounds) = pane.stress.bounds.filter(|bounds| bounds[1] > 1.0) else {
         return Vec::new();
     };
-    let name = format!(" {} ", pane.stress.short_name());
+    let name = format!(" {} ", pane.stress.names()[1]);
     let [low, high] = bounds.map(|end| format_value_in(end, "Pa", 3, theme.ascii()));
     // With little room the number of the other end stands for both.
     let short = match bounds {

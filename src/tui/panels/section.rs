@@ -19,7 +19,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier, Style};
 
-use super::stress_map::Samples;
+use super::stress_map::Shades;
 use super::{Frame, Pane, Panel, Picture, Recipe, Words, caption, edge};
 use crate::charts::{U_X, magnification};
 use crate::math::grid::interpolate;
@@ -91,28 +91,16 @@ enum Matter {
 }
 
 impl Matter {
-    fn role(self) -> Role {
+    /// Its colour, and a whole cell of it, in Unicode and in ASCII.
+    fn look(self) -> (Role, [char; 2]) {
         match self {
-            Self::Air => Role::Quiet,
-            Self::Indenter => Role::Profile,
-            Self::Worn => Role::Notice,
-            Self::Stick => Role::Stick,
-            Self::Slip => Role::Slip,
-            Self::HalfSpace => Role::Open,
+            Self::Air => (Role::Quiet, [' ', ' ']),
+            Self::Indenter => (Role::Profile, ['█', '#']),
+            Self::Worn => (Role::Notice, ['╱', '/']),
+            Self::Stick => (Role::Stick, ['▀', 's']),
+            Self::Slip => (Role::Slip, ['▀', '~']),
+            Self::HalfSpace => (Role::Open, ['░', '.']),
         }
-    }
-
-    /// A whole cell of it, in ASCII or not.
-    fn glyph(self, ascii: bool) -> char {
-        let [fine, plain] = match self {
-            Self::Air => [' ', ' '],
-            Self::Indenter => ['█', '#'],
-            Self::Worn => ['╱', '/'],
-            Self::Stick => ['▀', 's'],
-            Self::Slip => ['▀', '~'],
-            Self::HalfSpace => ['░', '.'],
-        };
-        if ascii { plain } else { fine }
     }
 }
 
@@ -393,7 +381,7 @@ struct Canvas<'a> {
     /// m, on the scale of the surfaces.
     thick: f64,
     tall: f64,
-    stress: Option<Samples>,
+    stress: Option<Shades>,
 }
 
 impl Canvas<'_> {
@@ -441,12 +429,9 @@ impl Canvas<'_> {
             }
             Matter::Worn => {
                 let style = ground(ink(color), color);
-                (
-                    Matter::Worn.glyph(false),
-                    style.patch(self.theme().style(Role::Profile)),
-                )
+                ('╱', style.patch(self.theme().style(Role::Profile)))
             }
-            Matter::Indenter => (Matter::Indenter.glyph(false), ink(color)),
+            Matter::Indenter => ('█', ink(color)),
             _ => (' ', ground(Style::new(), color)),
         }
     }
@@ -480,7 +465,7 @@ impl Canvas<'_> {
     /// The shade of the stress at height `z`.
     fn shade(&self, cut: &Cut, column: usize, z: f64) -> Option<usize> {
         let below = ((cut.surface - z) / self.section.half).max(0.0) as usize;
-        Some(self.stress.as_ref()?.shade(column, below))
+        Some(self.stress.as_ref()?(column, below))
     }
 
     /// A cell without colour: the bodies as signs, one a cell in ASCII.
@@ -496,11 +481,12 @@ impl Canvas<'_> {
             return (shades::sign(shade), Style::new());
         }
         if theme.ascii() || upper == lower {
-            return (shown.glyph(theme.ascii()), theme.style(shown.role()));
+            let (role, signs) = shown.look();
+            return (signs[usize::from(theme.ascii())], theme.style(role));
         }
-        match (upper, lower) {
-            (Matter::Air, below) => ('▄', theme.style(below.role())),
-            (above, _) => ('▀', theme.style(above.role())),
+        match upper {
+            Matter::Air => ('▄', theme.style(lower.look().0)),
+            above => ('▀', theme.style(above.look().0)),
         }
     }
 }

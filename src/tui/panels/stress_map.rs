@@ -131,23 +131,14 @@ impl StressMap {
         self.over_cycle && !matches!(self.quantity().of, Value::Swt)
     }
 
-    /// The title of the map.
-    pub fn name(self) -> String {
-        let largest = match self.is_largest_of_cycle() {
-            true => ", largest of a cycle",
-            false => "",
+    /// The title of the map, and one for little room.
+    pub fn names(self) -> [String; 2] {
+        let of_cycle = match self.is_largest_of_cycle() {
+            true => [", largest of a cycle", ", cycle"],
+            false => [""; 2],
         };
-        format!("{}{largest}", self.quantity().name)
-    }
-
-    /// A title for little room.
-    pub fn short_name(self) -> String {
-        let cycle = if self.is_largest_of_cycle() {
-            ", cycle"
-        } else {
-            ""
-        };
-        format!("{}{cycle}", self.quantity().short)
+        let Quantity { name, short, .. } = self.quantity();
+        [0, 1].map(|k| format!("{}{}", [name, short][k], of_cycle[k]))
     }
 
     /// The loads that the map is made of.
@@ -200,7 +191,7 @@ impl StressMap {
 
     /// Returns the shades on samples: `columns` over x symmetrical about the axis, `rows` downwards from the surface,
     /// both `size` apart (m). `None` without contact, and where no stress is shown.
-    pub fn samples(self, frame: &Frame, columns: usize, rows: usize, size: f64) -> Option<Samples> {
+    pub fn samples(self, frame: &Frame, columns: usize, rows: usize, size: f64) -> Option<Shades> {
         let of = self.values(frame).filter(|_| columns > 0)?;
         let range = self.bounds?;
         let mut shades = vec![0; columns * rows];
@@ -212,20 +203,11 @@ impl StressMap {
                 (shades[column], shades[columns - 1 - column]) = (right, left);
             }
         }
-        Some(Samples { columns, shades })
+        Some(Box::new(move |column, below| {
+            shades[below.min(rows - 1) * columns + column]
+        }))
     }
 }
 
-/// Shades of a stress on samples.
-pub struct Samples {
-    columns: usize,
-    shades: Vec<usize>,
-}
-
-impl Samples {
-    /// The shade of a column this many samples below the surface; the last row continues downwards.
-    pub fn shade(&self, column: usize, below: usize) -> usize {
-        let rows = self.shades.len() / self.columns;
-        self.shades[below.min(rows - 1) * self.columns + column]
-    }
-}
+/// The shade of a stress in a column, this many samples below the surface; the last row continues downwards.
+pub type Shades = Box<dyn Fn(usize, usize) -> usize>;

@@ -99,26 +99,22 @@ impl Stage {
     pub fn go_back(&mut self) {
         if self.tour.take().is_some() {
             self.return_from_tour();
-        } else if self.shows_contact() {
-            self.leave_contact();
-        } else {
+        } else if !self.leave_contact() {
             self.zoomed = false;
         }
     }
 
     /// Zooms the focused panel, or shows all panels.
     pub fn toggle_zoom(&mut self) {
-        match self.shows_contact() {
-            true => self.leave_contact(),
-            false => self.zoomed = !self.zoomed,
+        if !self.leave_contact() {
+            self.zoomed = !self.zoomed;
         }
     }
 
     /// Shows the contact large, or all panels.
     pub fn toggle_contact(&mut self) {
-        match self.shows_contact() {
-            true => self.leave_contact(),
-            false => self.show_contact(),
+        if !self.leave_contact() {
+            self.show_contact();
         }
     }
 
@@ -133,10 +129,14 @@ impl Stage {
         self.zoomed = true;
     }
 
-    /// All panels again, and the focus where it was before.
-    fn leave_contact(&mut self) {
-        (self.zoomed, self.presents) = (false, false);
-        self.focus = self.before_contact.take().unwrap_or(self.focus);
+    /// Where the contact is shown large: all panels again, and the focus where it was before. Returns whether it was.
+    fn leave_contact(&mut self) -> bool {
+        let is_shown = self.shows_contact();
+        if is_shown {
+            (self.zoomed, self.presents) = (false, false);
+            self.focus = self.before_contact.take().unwrap_or(self.focus);
+        }
+        is_shown
     }
 
     /// Shows the contact and one chart for a projector.
@@ -199,9 +199,7 @@ impl Stage {
         let Some(panel) = caption.and_then(|caption| caption.panel()) else {
             return;
         };
-        if self.shows_contact() {
-            self.leave_contact();
-        }
+        self.leave_contact();
         match panel {
             Panel::Section if self.area.height >= CONTACT_ROWS => self.show_contact(),
             panel => self.focus = panel,

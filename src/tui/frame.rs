@@ -3,7 +3,6 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::facts::Facts;
-use super::pace::Pace;
 use crate::charts::Run;
 use crate::reading::subsurface::{Peak, SpringLoad};
 use crate::reading::{Check, Observation};
@@ -50,8 +49,8 @@ pub struct Frame {
     pub phase: Option<f64>,
     /// What the worker does.
     pub activity: Activity,
-    /// The requested pace.
-    pub pace: Pace,
+    /// The requested pace, cycles per second; infinite without limit.
+    pub pace: f64,
     /// Its actual speed, cycles per second; `None` until measured.
     pub speed: Option<f64>,
     /// Time per step, s.

@@ -49,7 +49,7 @@ pub mod map;
 pub mod mouse;
 mod output;
 pub mod overlays;
-pub mod pace;
+mod pace;
 pub mod panels;
 mod present;
 mod reader;

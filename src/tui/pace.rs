@@ -4,40 +4,26 @@ use std::time::{Duration, Instant};
 
 use crate::simulation::Simulation;
 
-/// The requested speed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Pace {
-    /// Cycles per second.
-    Cycles(f64),
-    /// As fast as it can.
-    Unlimited,
-}
+/// The slowest rung of the ladder of speeds.
+const SLOWEST: i32 = -3;
 
-impl Pace {
-    /// The slowest rung.
-    pub const SLOWEST: i32 = -3;
-    /// The initial rung: half a cycle per second, slow enough to see it rub.
-    pub const START: i32 = -1;
-    /// The rung without limit.
-    pub const UNLIMITED: i32 = 15;
+/// The initial rung: half a cycle per second, slow enough to see it rub.
+const START: i32 = -1;
 
-    /// Whether frames at this pace would show an arbitrary phase of the motion each, so that it seems to
-    /// creep or to run backwards: above two cycles per second.
-    pub fn blurs_motion(self) -> bool {
-        match self {
-            Self::Cycles(pace) => pace > 2.0,
-            Self::Unlimited => true,
-        }
+/// The rung without limit.
+const UNLIMITED: i32 = 15;
+
+/// Above this pace, cycles per second, each frame would show an arbitrary phase of the motion, so that it seems to
+/// creep or to run backwards.
+const BLURRED: f64 = 2.0;
+
+/// 1, 2, 5, 10, … cycles per second by rung; infinite at the last one.
+fn pace_of(rung: i32) -> f64 {
+    if rung >= UNLIMITED {
+        return f64::INFINITY;
     }
-
-    /// 1, 2, 5, 10, … cycles per second by rung; the last rung is without limit.
-    pub fn of_rung(rung: i32) -> Self {
-        if rung >= Self::UNLIMITED {
-            return Self::Unlimited;
-        }
-        let mantissa = [1.0, 2.0, 5.0][rung.rem_euclid(3) as usize];
-        Self::Cycles(mantissa * 10f64.powi(rung.div_euclid(3)))
-    }
+    let mantissa = [1.0, 2.0, 5.0][rung.rem_euclid(3) as usize];
+    mantissa * 10f64.powi(rung.div_euclid(3))
 }
 
 /// The time between two jumps over cycles, unless the pace is without limit.
@@ -67,7 +53,7 @@ pub(super) struct Clock {
 impl Default for Clock {
     fn default() -> Self {
         Self {
-            rung: Pace::START,
+            rung: START,
             holds_phase: true,
             stepped: Instant::now(),
             since: Instant::now(),
@@ -81,36 +67,32 @@ impl Default for Clock {
 }
 
 impl Clock {
-    /// The requested speed.
-    pub fn pace(&self) -> Pace {
-        Pace::of_rung(self.rung)
+    /// The requested speed, cycles per second; infinite without limit.
+    pub fn pace(&self) -> f64 {
+        pace_of(self.rung)
     }
 
     /// Changes it by this many rungs.
     pub fn change(&mut self, rungs: i32) {
-        self.rung = (self.rung + rungs).clamp(Pace::SLOWEST, Pace::UNLIMITED);
+        self.rung = (self.rung + rungs).clamp(SLOWEST, UNLIMITED);
     }
 
     /// The phase at which frames are taken, degrees: the end of a cycle, as the rows of a history are; `None` while
     /// the motion itself is shown.
     pub fn held_phase(&self, simulation: &Simulation) -> Option<f64> {
-        let holds = self.holds_phase && self.pace().blurs_motion() && !simulation.may_jump();
+        let holds = self.holds_phase && self.pace() > BLURRED && !simulation.may_jump();
         holds.then_some(0.0)
     }
 
     /// Seconds until the next step is due. A jump over many cycles is due a moment after the one
     /// before: its length must not depend on the pace, or runs would not be repeatable.
     pub fn ahead(&self, simulation: &Simulation) -> f64 {
-        match self.pace() {
-            Pace::Unlimited => 0.0,
-            Pace::Cycles(_) if simulation.may_jump() => {
-                JUMP_EVERY.as_secs_f64() - self.stepped.elapsed().as_secs_f64()
-            }
-            Pace::Cycles(pace) => {
-                let cycles = simulation.next_moment() - self.cycle;
-                cycles / pace - self.since.elapsed().as_secs_f64()
-            }
+        let pace = self.pace();
+        if pace.is_finite() && simulation.may_jump() {
+            return JUMP_EVERY.as_secs_f64() - self.stepped.elapsed().as_secs_f64();
         }
+        let cycles = simulation.next_moment() - self.cycle;
+        cycles / pace - self.since.elapsed().as_secs_f64()
     }
 
     /// Begins anew where the run stands: how far it was ahead or behind is forgotten.
@@ -143,12 +125,10 @@ mod tests {
 
     #[test]
     fn the_pace_goes_up_in_ones_twos_and_fives() {
-        let paces: Vec<Pace> = (0..7).map(Pace::of_rung).collect();
-        let expected = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0].map(Pace::Cycles);
-        assert_eq!(paces, expected);
-        assert_eq!(Pace::of_rung(-1), Pace::Cycles(0.5));
-        assert_eq!(Pace::of_rung(Pace::UNLIMITED), Pace::Unlimited);
-        assert_eq!(Pace::of_rung(Pace::START), Pace::Cycles(0.5));
-        assert!(!Pace::of_rung(1).blurs_motion() && Pace::of_rung(2).blurs_motion());
+        let paces: Vec<f64> = (0..7).map(pace_of).collect();
+        assert_eq!(paces, [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0]);
+        assert_eq!((pace_of(-1), pace_of(START)), (0.5, 0.5));
+        assert_eq!(pace_of(UNLIMITED), f64::INFINITY);
+        assert!(pace_of(1) <= BLURRED && pace_of(2) > BLURRED);
     }
 }

@@ -6,7 +6,6 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::Style;
 
 use super::frame::{Activity, Frame};
-use super::pace::Pace;
 use super::panels::{Panel, contact_state};
 use super::theme::{Role, Theme};
 
@@ -38,9 +37,9 @@ pub fn areas(area: Rect) -> [Rect; 3] {
     [contact, chart, words]
 }
 
-/// Since which cycle the run is at its pace.
+/// The pace of the run, cycles per second, and since which cycle it has that.
 #[derive(Debug, Default)]
-pub struct SpeedUp(Option<(Pace, f64)>);
+pub struct SpeedUp(Option<(f64, f64)>);
 
 impl SpeedUp {
     /// Whether the run of a lecture has been at its pace for a while.
@@ -51,10 +50,8 @@ impl SpeedUp {
             .0
             .filter(|(pace, began)| is_running && *pace == frame.pace && cycle >= *began);
         let planned = frame.facts.planned_cycles.unwrap_or(f64::INFINITY);
-        let is_due = since.is_some_and(|(pace, began)| match pace {
-            Pace::Cycles(pace) => planned / pace > LEAST && cycle - began >= SECONDS * pace,
-            Pace::Unlimited => false,
-        });
+        let is_due = since
+            .is_some_and(|(pace, began)| planned / pace > LEAST && cycle - began >= SECONDS * pace);
         if is_due || since.is_none() {
             self.0 = Some((frame.pace, cycle));
         }

@@ -21,7 +21,6 @@ use super::app::App;
 use super::frame::{Activity, Frame};
 use super::layout;
 use super::overlays::Overlay;
-use super::pace::Pace;
 use super::panels::compare;
 use super::theme::{Role, Theme};
 use super::{footer, present, timeline};
@@ -156,8 +155,8 @@ fn status_parts(frame: &Frame, has_room: bool, ascii: bool) -> Vec<Part> {
     }
     let mut pace = match (frame.speed, frame.pace) {
         (Some(speed), _) => format!("{} cycles/s", short(speed)),
-        (None, Pace::Cycles(pace)) => format!("{} cycles/s", short(pace)),
-        (None, Pace::Unlimited) => "unlimited".into(),
+        (None, pace) if pace.is_finite() => format!("{} cycles/s", short(pace)),
+        (None, _) => "unlimited".into(),
     };
     let mut pace_width = "0.5 cycles/s".len();
     if let Some(phase) = frame.phase.filter(|_| frame.activity == Activity::Running) {

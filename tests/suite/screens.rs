@@ -20,7 +20,6 @@ use mdr_tui::tui::frame::{Activity, Frame};
 use mdr_tui::tui::keys::{Key, Named, parse_script};
 use mdr_tui::tui::manual;
 use mdr_tui::tui::mouse::Gesture;
-use mdr_tui::tui::pace::Pace;
 use mdr_tui::tui::panels::Panel;
 use mdr_tui::tui::theme::{Look, Theme};
 use mdr_tui::tui::worker::Worker;
@@ -104,7 +103,7 @@ fn a_lecture_speeds_up_by_itself() {
         (0.5, 99.0, &paused, false),
     ] {
         frame.observation.moment.cycle = cycle;
-        frame.pace = Pace::Cycles(at);
+        frame.pace = at;
         frame.activity = activity.clone();
         let before = stage.frame().pace;
         app.take_frame(Arc::new(frame.clone()));
@@ -415,7 +414,7 @@ fn fast_runs_are_shown_at_one_phase() {
         }
         seen
     };
-    assert_eq!(frames(1)[0].pace, Pace::Cycles(0.5));
+    assert_eq!(frames(1)[0].pace, 0.5);
     // To 20 cycles per second.
     orders.send(|worker| worker.change_pace(5));
     // What was on the way, and the answer to the order.

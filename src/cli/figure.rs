@@ -13,7 +13,7 @@ use super::{accuracy, job};
 use crate::charts::{
     Recipe, Run, depth, fretting_loop, profile, scar_depth, springs, stresses, volume,
 };
-use crate::export::target::{Target, write_all};
+use crate::export::target::Target;
 use crate::figure::look::Look;
 use crate::figure::{Format, Sheet, paper, study as figure_of_study};
 use crate::plot::Chart;
@@ -73,21 +73,12 @@ pub fn figure(options: &Figure) -> Result<ExitCode> {
         font: options.font_size * POINT,
         style: options.style,
     };
-    let size = options.size.unwrap_or_else(|| sheet.usual_size());
-    let canvas = sheet.draw(size, &look);
     let dpi = f64::from(options.dpi);
-    let mut written: Vec<(&Target, Vec<u8>)> = Vec::new();
-    for (target, format) in &files {
-        let picture = format.write(&canvas, dpi);
-        let refused = |error| Refusal::new(target.path().display(), error);
-        written.push((target, picture.map_err(refused)?));
-    }
-    let tables = data_files.iter();
-    written.extend(tables.map(|target| (target, data.clone().into_bytes())));
-    write_all(&written)?;
+    sheet.save(&look, options.size, dpi, &files, &data_files)?;
     if !options.quiet {
-        let names = written.iter().map(|(target, _)| target.path().display());
-        let names: Vec<String> = names.map(|name| printable(&name.to_string())).collect();
+        let written = files.iter().map(|(target, _)| target).chain(&data_files);
+        let names = written.map(|target| printable(&target.path().display().to_string()));
+        let names: Vec<String> = names.collect();
         writeln!(io::stdout().lock(), "{}", names.join(" and "))?;
     }
     Ok(ExitCode::SUCCESS)

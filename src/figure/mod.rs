@@ -24,11 +24,13 @@ use canvas::Canvas;
 use draw::Ordinate;
 use look::Look;
 
+use crate::export::file::WriteError;
 use crate::export::header::{field, number};
+use crate::export::target::{Target, write_all};
 use crate::plot::theme::Role;
 use crate::plot::{Chart, Curve};
-use crate::scenario::printable;
 use crate::scenario::scalars::quoted;
+use crate::scenario::{Refusal, printable};
 
 /// The kinds of files, by what their names end in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, strum::EnumString)]
@@ -73,6 +75,30 @@ pub struct Sheet {
 }
 
 impl Sheet {
+    /// Draws the sheet into `pictures`, on paper of a size in mm or the usual one, and writes its data into `tables`:
+    /// all of them or none. `dpi` is for pixels.
+    ///
+    /// # Errors
+    /// Of the first file that cannot be made or written.
+    pub fn save(
+        &self,
+        look: &Look,
+        size: Option<[f64; 2]>,
+        dpi: f64,
+        pictures: &[(Target, Format)],
+        tables: &[Target],
+    ) -> Result<(), WriteError> {
+        let canvas = self.draw(size.unwrap_or_else(|| self.usual_size()), look);
+        let mut files: Vec<(&Target, Vec<u8>)> = Vec::new();
+        for (target, format) in pictures {
+            let refused = |error| Refusal::new(target.path().display(), error);
+            files.push((target, format.write(&canvas, dpi).map_err(refused)?));
+        }
+        let data = self.csv().into_bytes();
+        files.extend(tables.iter().map(|target| (target, data.clone())));
+        write_all(&files)
+    }
+
     /// How many charts stand side by side.
     fn columns(&self) -> usize {
         match self.charts.len() {

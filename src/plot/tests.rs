@@ -442,3 +442,36 @@ fn values_between_points() {
     let back = Curve::new("", [2.0, 0.0], [1e308, -1e308], Role::Profile);
     assert_eq!(back.value_at(1.0), Some(0.0));
 }
+
+/// Each place of a map fills its cells, whichever way its axes run, in any area.
+#[test]
+fn a_map_shows_each_place() {
+    let map = |xs: [f64; 2], ys: [f64; 2]| {
+        let mut chart = axes([0.5, 2.5], [0.5, 2.5]);
+        chart.map = Some(Map {
+            quantity: Axis::new("V", ""),
+            places: [xs.to_vec(), ys.to_vec()],
+            values: vec![0.0, 1.0, f64::NAN, 3.0],
+            colors: colormap::ColorMap::Sequential,
+            words: Vec::new(),
+        });
+        shown(chart)
+    };
+    let corners = |shown: &Shown| {
+        let lines = draw(shown, 40, 12);
+        let inner = |line: &String| line.chars().skip(5).collect::<Vec<char>>();
+        let (top, bottom) = (inner(&lines[1]), inner(&lines[8]));
+        [top[0], top[34], bottom[0], bottom[34]]
+    };
+    assert_eq!(corners(&map([1.0, 2.0], [1.0, 2.0])), [' ', '@', '.', '+']);
+    assert_eq!(corners(&map([2.0, 1.0], [2.0, 1.0])), ['+', '.', '@', ' ']);
+    for marker in MARKERS {
+        for look in [Look::Dark, Look::Mono] {
+            for (width, height) in [(0, 0), (1, 1), (11, 3), (12, 4), (80, 24)] {
+                let mut shown = map([1.0, 2.0], [1.0, 2.0]).marker(marker);
+                shown.1.look = look;
+                draw(&shown, width, height);
+            }
+        }
+    }
+}

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::trend::Recorded;
 use crate::charts::{self, fretting_loop, profile, springs, stresses};
-use crate::export::target::{Target, write_all};
+use crate::export::target::Target;
 use crate::figure::look::{Look, Style};
 use crate::figure::{Format, Sheet};
 
@@ -47,10 +47,6 @@ pub(super) fn write(of: &Recorded, path: &Path) -> Result<(), String> {
         font: FONT,
         style: Style::Color,
     };
-    let canvas = sheet.draw(sheet.usual_size(), &look);
-    let picture = format
-        .write(&canvas, DPI)
-        .map_err(|error| error.to_string())?;
-    write_all(&[(&data_target, sheet.csv().into_bytes()), (&target, picture)])
-        .map_err(|error| error.to_string())
+    let saved = sheet.save(&look, None, DPI, &[(target, format)], &[data_target]);
+    saved.map_err(|error| error.to_string())
 }

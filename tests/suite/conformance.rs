@@ -133,7 +133,7 @@ fn the_stress_of_smooth_data_is_of_first_order_at_the_axis() {
         let errors = [400, 800].map(|cells| {
             let grid = grid("uniform", pair, cells);
             let nodes = grid.nodes().iter().zip(image(method, pair, &grid));
-            largest(nodes.map(|(&x, value)| value - (pair.image)(x)))
+            largest(nodes.map(|(&x, value)| value - pair.image(x)))
         });
         let order = (errors[0] / errors[1]).log2();
         assert!((order - 1.0).abs() < 0.08, "{method}: {order}");

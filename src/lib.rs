@@ -14,7 +14,7 @@
 //! | [`contact`] | materials, indenters, normal and tangential springs | no time |
 //! | [`wear`] | wear laws | one step |
 //! | [`simulation`] | motion, state, stepping | no scenario, no file, no screen |
-//! | [`reading`] | observations, checks, warnings, stresses below the surface, fatigue | only reads a simulation |
+//! | [`reading`] | observations, the log of a run, checks, warnings, stresses below the surface, fatigue | only reads a simulation |
 //! | [`scenario`] | TOML in and out, presets, a session with its changes and checkpoints | no screen |
 //! | [`traces`] | what is known of a run as named columns | no screen |
 //! | [`studies`] | errors against theory, speed against accuracy, stability, as tables | no file, no screen |

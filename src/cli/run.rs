@@ -506,7 +506,7 @@ impl<'a> Job<'a> {
             let words = refinement::words_of(key);
             lines.extend(words.map(|words| (error, format!("{value}   {words}"))));
         }
-        if let Some(verdict) = verdict(&simulation.checks()) {
+        if let Some(verdict) = verdict(&self.session.checks()) {
             lines.push(("checks", verdict.trim_start_matches("checks ").to_owned()));
         }
         if stats.parts > 0 {
@@ -528,13 +528,12 @@ impl<'a> Job<'a> {
 
 /// What a user should know of a run: why it never jumps, what its indenter is made from, warnings.
 fn remarks(session: &Session) -> Vec<String> {
-    let simulation = session.simulation();
-    let never = simulation.why_never_jumped();
+    let never = session.simulation().why_never_jumped();
     let never = never.map(|why| format!("no cycle jumps: {why}"));
     let indenter = session.scenario().setup().indenter.remark();
     let indenter = indenter.map(|told| format!("indenter: {told}"));
     let known = never.into_iter().chain(indenter);
-    known.chain(simulation.warnings()).collect()
+    known.chain(session.warnings()).collect()
 }
 
 /// The table of the state at a cycle that `session` has reached or is yet to reach.

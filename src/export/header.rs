@@ -79,7 +79,7 @@ pub fn entries(session: &Session) -> Vec<(String, String)> {
         line("initial_wear_volume_m3", &number(initial));
     }
     line("checks", &checks(session));
-    for warning in session.simulation().warnings() {
+    for warning in session.warnings() {
         line("warning", &warning);
     }
     if let Some(note) = &session.loaded().run().note {
@@ -125,7 +125,7 @@ fn grid(setup: &Setup) -> &'static str {
 
 /// `ok`, or each check that fails with its size.
 fn checks(session: &Session) -> String {
-    let checks = session.simulation().checks();
+    let checks = session.checks();
     let failing = checks.iter().filter(|check| !check.holds());
     let failing =
         failing.map(|check| format!("{} {:.1e}", check.subject.name(), check.error.abs()));

@@ -3,6 +3,7 @@
 //! One list serves the status line, the accuracy panel, the header of every file and the end of a
 //! run. The guide's chapter on checks, which the panel shows too, explains each.
 
+use super::Log;
 use crate::math::abel::worn;
 use crate::simulation::{Simulation, Unworn, cycles_to_settle};
 
@@ -109,8 +110,8 @@ pub fn verdict(checks: &[Check]) -> Option<String> {
 }
 
 impl Simulation {
-    /// Every certificate that the present moment has.
-    pub fn checks(&self) -> Vec<Check> {
+    /// Every certificate that the present moment has, with the notes of the run.
+    pub fn checks(&self, log: &Log) -> Vec<Check> {
         let moment = self.moment();
         let mut checks = Vec::new();
         let mut add = |subject, error: Option<f64>| {
@@ -127,7 +128,9 @@ impl Simulation {
             );
         }
         if moment.cycle >= 2.0 * period {
-            let [force, energy] = self.closed_forms().map_or([None; 2], |both| both.map(Some));
+            let [force, energy] = self
+                .closed_forms(log)
+                .map_or([None; 2], |both| both.map(Some));
             add(Subject::TangentialForce, force);
             add(Subject::Dissipation, energy);
         }
@@ -135,12 +138,12 @@ impl Simulation {
     }
 
     /// F_x and E_d of the last period over the closed forms of a held load, less 1, where nothing wears.
-    fn closed_forms(&self) -> Option<[f64; 2]> {
+    fn closed_forms(&self, log: &Log) -> Option<[f64; 2]> {
         let worn = self.setup().wear.is_some_and(|law| law.coefficient() > 0.0);
         if worn || self.state().wear.iter().any(|&worn| worn > 0.0) {
             return None;
         }
-        let figures = self.state().figures.as_ref()?;
+        let figures = log.stepped_figures()?;
         let ring = Unworn(self.setup()).ring()?;
         let of = |seen: f64, due: f64| seen / due - 1.0;
         let both = [

@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use super::Log;
 use crate::math::invalid::Invalid;
 use crate::simulation::drive::{Control, Drive, Oscillation};
 use crate::simulation::{Setup, Simulation, Spacing, Unworn, border};
@@ -21,10 +22,10 @@ const LEVEL: f64 = 0.02;
 
 impl Simulation {
     /// A line for each way in which the scene lies outside the theory, or beyond what any grid
-    /// sees.
-    pub fn warnings(&self) -> Vec<String> {
+    /// sees; the notes of the run say what it has passed.
+    pub fn warnings(&self, log: &Log) -> Vec<String> {
         let mut lines = warnings(self.setup());
-        lines.extend(self.hardness_warning());
+        lines.extend(self.hardness_warning(log));
         lines.extend(self.ring_of_contact());
         lines
     }
@@ -51,9 +52,9 @@ impl Simulation {
 
     /// What there is to say of the hardness: that the pressure has passed it, or, before the first step, that it
     /// will when the contact is deepest.
-    fn hardness_warning(&self) -> Option<String> {
+    fn hardness_warning(&self, log: &Log) -> Option<String> {
         let hardness = self.setup().hardness?;
-        let (pressure, radius, when) = match self.state().passed_hardness {
+        let (pressure, radius, when) = match log.passed_hardness() {
             Some(passed) => (
                 passed.pressure,
                 passed.radius,

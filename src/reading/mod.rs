@@ -1,10 +1,14 @@
 //! What only reads a simulation: quantities that no step needs, computed where somebody asks for them.
 
 mod checks;
+mod cycle_figures;
 pub mod fatigue;
 mod limits;
+mod log;
 pub mod observation;
 pub mod subsurface;
 
 pub use checks::{Check, Subject, verdict};
+pub use cycle_figures::{CycleFigures, Regime};
+pub use log::{Log, Passed};
 pub use observation::{Curves, Moment, Observation, Zone};

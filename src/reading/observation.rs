@@ -6,13 +6,14 @@ use bitflags::bitflags;
 use serde::Serialize;
 use strum::IntoStaticStr;
 
+use super::cycle_figures::sensed;
 use super::subsurface::SpringLoad;
 use crate::contact::tangential::SpringState;
 use crate::math::abel::AbelMethod;
 use crate::math::abel::worn;
 use crate::math::grid::RadialGrid;
 use crate::math::quadrature::volume_of_revolution;
-use crate::simulation::{Simulation, cycle_figures, stability, traction};
+use crate::simulation::{Simulation, stability, traction};
 
 bitflags! {
     /// Which curves a reader shows. What nobody shows is not computed.
@@ -86,8 +87,6 @@ pub struct Moment {
     pub initial_volume: f64,
     /// E_d, J.
     pub dissipated_energy: f64,
-    /// 1 − ΔV/∫k dE_d over the last complete period of the motion.
-    pub period_residual: Option<f64>,
     /// 1 − V/∫k dE_d: how far the 3D side and the 1D side disagree. None before anything has worn
     /// and under laws that do not follow energy.
     pub energy_residual: Option<f64>,
@@ -196,7 +195,7 @@ impl Simulation {
             shift: contact.shift,
             rig_displacement: (self.setup().drive.rig_compliance() > 0.0).then(|| {
                 let force = contact.tangential_force(self.model());
-                cycle_figures::sensed(self.setup(), contact.shift, force)
+                sensed(self.setup(), contact.shift, force)
             }),
             normal_force: contact.normal_force(self.model()),
             tangential_force: contact.tangential_force(self.model()),
@@ -208,7 +207,6 @@ impl Simulation {
             wear_volume,
             initial_volume: state.initial_volume,
             dissipated_energy: state.dissipated_energy,
-            period_residual: state.period.residual,
             energy_residual: (state.expected_volume > 0.0).then_some(residual),
             stability_margin: (state.last.stiffness > 0.0)
                 .then(|| stability::limit(self.setup().scheme) / state.last.stiffness),

@@ -1,7 +1,7 @@
 //! A checkpoint: a session saved in one file, and restored to the same bits.
 //!
 //! ```text
-//! mdr-tui checkpoint 2
+//! mdr-tui checkpoint 3
 //! 20517 bytes, CRC-32 9ae0daaf
 //! written by mdr-tui 0.1.0 at cycle 42.5
 //! <CBOR>
@@ -25,10 +25,11 @@ use super::limited::Unread;
 use super::session::{Session, Unchanged, at_one_cycle};
 use super::{Change, Refusal, Scenario, echo, printable};
 use crate::math::grid::RadialGrid;
+use crate::reading::Log;
 use crate::simulation::{Saved, Simulation};
 
 /// The version of the format that is written, and the only one that is read.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 
 /// What the first line begins with.
 const MAGIC: &str = "mdr-tui checkpoint ";
@@ -55,12 +56,11 @@ struct Body<'a, E> {
     scenario: String,
     changes: Cow<'a, [Change]>,
     pending: VecDeque<Change>,
-    #[serde(default)]
     goals: Cow<'a, [f64]>,
     saved: Saved,
+    log: Cow<'a, Log>,
     /// The run before the changes of the present cycle.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    unchanged: Option<Saved>,
+    unchanged: Option<(Saved, Cow<'a, Log>)>,
     job: Option<E>,
 }
 
@@ -75,7 +75,9 @@ pub fn encode<E: Serialize>(session: &Session, job: Option<&E>) -> Vec<u8> {
         pending: session.pending.clone(),
         goals: (&session.goals).into(),
         saved,
-        unchanged: session.unchanged().map(|before| before.simulation.save()),
+        log: Cow::Borrowed(&session.log),
+        unchanged: (session.unchanged())
+            .map(|before| (before.simulation.save(), Cow::Borrowed(&before.log))),
         job,
     };
     let version = env!("CARGO_PKG_VERSION");
@@ -199,9 +201,10 @@ fn restore<E: DeserializeOwned>(contents: &[u8]) -> Result<Checkpoint<E>, String
         let after = scenario.after(together).map_err(|why| why.to_string())?;
         let before = std::mem::replace(&mut scenario, after);
         let is_last = made + together.len() == body.changes.len();
-        if let Some(saved) = body.unchanged.as_ref().filter(|_| is_last) {
+        if let Some((saved, log)) = body.unchanged.as_ref().filter(|_| is_last) {
             unchanged = Some(Box::new(Unchanged {
                 simulation: simulation(&before, saved.clone())?,
+                log: Log::clone(log),
                 scenario: before,
                 changes: made,
             }));
@@ -210,6 +213,7 @@ fn restore<E: DeserializeOwned>(contents: &[u8]) -> Result<Checkpoint<E>, String
     }
     let session = Session {
         simulation: simulation(&scenario, body.saved)?,
+        log: body.log.into_owned(),
         loaded,
         scenario,
         changes: body.changes.into_owned(),

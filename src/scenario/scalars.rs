@@ -9,11 +9,11 @@ use serde::Serialize;
 
 use super::{nearest, printable};
 use crate::math::scan::largest;
-use crate::reading::Moment;
 use crate::reading::fatigue::{Limits, StressCycle};
 use crate::reading::subsurface::Peak;
+use crate::reading::{CycleFigures, Moment};
 use crate::scenario::session::Session;
-use crate::simulation::{CycleFigures, Simulation};
+use crate::simulation::Simulation;
 
 /// A scalar's value, or a cell of a table.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -153,8 +153,7 @@ impl<'a> Reading<'a> {
     }
 
     fn figures(&self) -> &Option<CycleFigures> {
-        self.figures
-            .get_or_init(|| self.session.simulation().cycle_figures())
+        self.figures.get_or_init(|| self.session.cycle_figures())
     }
 
     /// The loads of a steady cycle, which is stepped the first time.
@@ -268,7 +267,7 @@ scalars! {
         "dissipated_energy_J", "friction work E_d", |r| r.moment.dissipated_energy;
         "energy_residual", "1 - V/(k E_d)", |r| r.moment.energy_residual;
         "max_pressure_Pa", "largest pressure", |r| largest(r.pressure());
-        "period_energy_residual", "1 - V/(k E_d) of the last period", |r| r.moment.period_residual;
+        "period_energy_residual", "1 - V/(k E_d) of the last period", |r| r.session.log().period_residual();
         "force_residual", "1 - (integral of p)/F_z",
             |r| r.session.simulation().force_residual(r.pressure());
         "steps", "steps taken", |r| r.session.simulation().steps();

@@ -8,6 +8,7 @@ use std::collections::VecDeque;
 use thiserror::Error;
 
 use super::{Change, MOST_CHANGES, Refusal, RunPlan, Scenario, ScenarioError};
+use crate::reading::{Check, CycleFigures, Log};
 use crate::simulation::{Breakdown, Domain, Simulation};
 
 /// Why a session could not start, change or continue.
@@ -41,6 +42,8 @@ pub struct Session {
     /// As it is now, with the changes made so far.
     pub(super) scenario: Scenario,
     pub(super) simulation: Simulation,
+    /// What is noted of it.
+    pub(super) log: Log,
     pub(super) changes: Vec<Change>,
     pub(super) pending: VecDeque<Change>,
     /// What steps were cut short for so far, in cycles.
@@ -57,6 +60,7 @@ pub struct Session {
 pub(super) struct Unchanged {
     pub scenario: Scenario,
     pub simulation: Simulation,
+    pub log: Log,
     /// How many changes were made before.
     pub changes: usize,
 }
@@ -79,6 +83,7 @@ impl Session {
         let mut session = Self {
             scenario: scenario.clone(),
             loaded: scenario,
+            log: Log::of(&simulation),
             simulation,
             changes: Vec::new(),
             pending: pending.into(),
@@ -105,6 +110,26 @@ impl Session {
         &self.simulation
     }
 
+    /// What is noted of the run.
+    pub fn log(&self) -> &Log {
+        &self.log
+    }
+
+    /// The [figures](Log::cycle_figures) of the last complete period of the motion.
+    pub fn cycle_figures(&self) -> Option<CycleFigures> {
+        self.log.cycle_figures(&self.simulation)
+    }
+
+    /// Every certificate that the present moment has.
+    pub fn checks(&self) -> Vec<Check> {
+        self.simulation.checks(&self.log)
+    }
+
+    /// A line for each way in which the run lies outside the theory, or beyond what any grid sees.
+    pub fn warnings(&self) -> Vec<String> {
+        self.simulation.warnings(&self.log)
+    }
+
     /// The changes made so far, in order.
     pub fn changes(&self) -> &[Change] {
         &self.changes
@@ -125,6 +150,7 @@ impl Session {
         let stops = recorded.filter(|&stop| stop > now).chain(change);
         let goal = stops.fold(cycle, f64::min);
         self.simulation.step_until(goal)?;
+        self.log.follow(&self.simulation);
         if self.unchanged().is_none() {
             self.unchanged = None;
         }
@@ -217,6 +243,7 @@ impl Session {
             None => Unchanged {
                 scenario: self.scenario.clone(),
                 simulation: self.simulation.clone(),
+                log: self.log.clone(),
                 changes: self.changes.len(),
             },
         };
@@ -235,6 +262,8 @@ impl Session {
             false => scenario.domain(),
         };
         simulation.reconfigure(scenario.setup().clone(), domain)?;
+        self.log = before.log.clone();
+        self.log.begin_anew(&simulation);
         self.simulation = simulation;
         self.scenario = scenario;
         self.changes = made;

@@ -60,9 +60,7 @@ pub(crate) mod border;
 pub mod breakdown;
 mod choices;
 pub mod contact;
-pub(crate) mod cycle_figures;
 pub mod drive;
-mod hardness;
 mod model;
 mod moments;
 mod reconfigure;
@@ -78,9 +76,7 @@ mod wear;
 
 pub use breakdown::{Breakdown, Cause};
 pub use choices::{Integrator, Scheme, Spacing, Stability};
-pub use cycle_figures::{CycleFigures, LoopTally, Regime};
 use drive::{Drive, WITHOUT_REPEAT};
-pub use hardness::Passed;
 pub(crate) use model::Model;
 pub use reconfigure::Domain;
 use running_in::RunningIn;
@@ -147,6 +143,14 @@ impl Setup {
         f64::from(self.steps_per_cycle) * f64::from(self.drive.turns_of_the_faster())
     }
 
+    /// Brings friction and wear to what use has made of them in `state`.
+    fn run_in(&mut self, state: &State) {
+        if let Some(running_in) = &self.running_in {
+            let (cycle, energy) = (state.cycle, state.dissipated_energy);
+            running_in.apply(cycle, energy, &mut self.material, &mut self.wear);
+        }
+    }
+
     /// The depth that wear is measured in, m: the largest of the motion, or the `present` one where the
     /// force is prescribed.
     pub fn depth_scale(&self, present: f64) -> f64 {
@@ -177,8 +181,6 @@ struct Scratch {
     /// The 1D profile that the contact is solved on, m.
     g: Vec<f64>,
     increment: Increment,
-    /// A contact between the ends of a step.
-    moment: contact::Contact,
     /// Transforms computed since they were last counted.
     transforms: u64,
 }
@@ -188,7 +190,6 @@ impl Scratch {
         Self {
             g: vec![0.0; model.nodes()],
             increment: Increment::new(model),
-            moment: contact::Contact::new(model.nodes(), model.springs()),
             transforms: 0,
         }
     }
@@ -212,14 +213,16 @@ impl Simulation {
             state.initial_volume = model.volume(&state.wear);
             state.unexplained_volume = state.initial_volume;
         }
-        let mut simulation = Self::with(model, state);
-        simulation.settle()?;
-        Ok(simulation)
+        Self::continued(model, state)
     }
 
     /// Continues from a saved state, on the grid of `setup` as it is.
     pub fn resume(setup: Setup, state: State) -> Result<Self, Breakdown> {
-        let mut simulation = Self::with(Model::new(setup, None), state);
+        Self::continued(Model::new(setup, None), state)
+    }
+
+    fn continued(model: Model, state: State) -> Result<Self, Breakdown> {
+        let mut simulation = Self::with(model, state);
         simulation.settle()?;
         Ok(simulation)
     }
@@ -350,10 +353,6 @@ impl Simulation {
         }
         self.is_shortened = matches!(jumped, Jumped::Shortened | Jumped::TooNear);
         let jumped = matches!(jumped, Jumped::Done | Jumped::Shortened);
-        if jumped {
-            cycle_figures::forget(&self.model, &mut self.state);
-        }
-        self.watch_hardness();
         self.run_in();
         self.next = self.look_ahead();
         Ok(jumped)
@@ -386,8 +385,6 @@ impl Simulation {
             outcome => outcome.map_err(|cause| self.refused(cause))?,
         }
         std::mem::swap(&mut self.state, &mut self.spare);
-        cycle_figures::follow(&self.model, &self.spare, &mut self.state, &mut self.scratch);
-        self.watch_hardness();
         self.run_in();
         self.next = self.look_ahead();
         Ok(())
@@ -395,16 +392,7 @@ impl Simulation {
 
     /// Brings friction and wear to what use has made of them.
     fn run_in(&mut self) {
-        let Setup {
-            running_in,
-            material,
-            wear,
-            ..
-        } = &mut self.model.setup;
-        if let Some(running_in) = running_in {
-            let state = &self.state;
-            running_in.apply(state.cycle, state.dissipated_energy, material, wear);
-        }
+        self.model.setup.run_in(&self.state);
     }
 
     /// Solves the contact at the present cycle, without wear and without passing time.
@@ -412,8 +400,6 @@ impl Simulation {
         self.run_in();
         step::settle(&self.model, &mut self.state, &mut self.scratch)
             .map_err(|cause| self.refused(cause))?;
-        cycle_figures::forget(&self.model, &mut self.state);
-        self.watch_hardness();
         self.spare.clone_from(&self.state);
         self.run_in();
         self.next = self.look_ahead();
@@ -426,6 +412,41 @@ impl Simulation {
             cycle: self.state.cycle,
             cause,
         }
+    }
+
+    /// The present contact in a simulation of its own that wears no more and steps every cycle: a steady cycle on
+    /// the present profile. `None` if the contact cannot be held so.
+    pub fn without_wear(&self) -> Option<Self> {
+        let setup = Setup {
+            wear: None,
+            integrator: Integrator::Direct,
+            ..self.setup().clone()
+        };
+        Self::continued(Model::new(setup, Some(&self.model)), self.state.clone()).ok()
+    }
+
+    /// Whether the last thing done was a jump over cycles: nothing has been stepped or changed since.
+    pub(crate) fn has_jumped(&self) -> bool {
+        self.state.jump.settled.is_some()
+    }
+
+    /// The model as it was in the last step: friction and wear may have run in since.
+    pub(crate) fn model_of_last_step(&self) -> Model {
+        let mut model = self.model.clone();
+        model.setup.run_in(&self.spare);
+        model
+    }
+
+    /// The contact that the last step, of the `model` [then](Self::model_of_last_step), would have come to after a
+    /// `share` of it on a profile that stays. `None` if it cannot be solved.
+    pub(crate) fn within_last_step(&self, model: &Model, share: f64) -> Option<contact::Contact> {
+        let (before, springs) = (&self.spare, model.springs());
+        let cycle = before.cycle + share * (self.state.cycle - before.cycle);
+        let mut contact = contact::Contact::new(model.nodes(), springs);
+        let (mut g, mut slip) = (vec![0.0; model.nodes()], vec![0.0; springs]);
+        model.profile(&before.image, 0.0, &[], &mut g);
+        contact::solve(model, &g, &before.contact, cycle, &mut contact, &mut slip).ok()?;
+        Some(contact)
     }
 
     /// g at the nodes, m, of the present profile.

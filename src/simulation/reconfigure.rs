@@ -90,10 +90,6 @@ impl Simulation {
         }
         let mut wider = Self::with(model, state);
         wider.settle()?;
-        // The period under way goes on.
-        wider.state.tally = self.state.tally.clone();
-        wider.state.figures = self.state.figures;
-        wider.spare.clone_from(&wider.state);
         wider.is_shortened = self.is_shortened;
         *self = wider;
         Ok(true)

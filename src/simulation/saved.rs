@@ -70,12 +70,7 @@ impl Simulation {
         let setup = Setup { grid, ..setup };
         check(&setup, &saved.state)?;
         let model = Model::new(setup, None);
-        let mut state = saved.state;
-        if state.image.is_empty() {
-            state.image.resize(model.nodes(), 0.0);
-            model.image(&state.wear, &mut state.image);
-        }
-        let mut simulation = Self::with(model, state);
+        let mut simulation = Self::with(model, saved.state);
         simulation.run_in();
         simulation.next = simulation.look_ahead();
         Ok(simulation)
@@ -87,10 +82,9 @@ fn check(setup: &Setup, state: &State) -> Result<(), Unfit> {
     let (contact, traction): (&Contact, _) = (&state.contact, &state.traction);
     let (nodes, springs) = (setup.grid.len(), setup.springs());
     let settled = state.jump.settled.as_ref();
-    let image = if state.image.is_empty() { 0 } else { nodes };
     for (what, length, due) in [
         ("wear", state.wear.len(), nodes),
-        ("image of the wear", state.image.len(), image),
+        ("image of the wear", state.image.len(), nodes),
         ("springs", contact.spring.nodal.len(), springs),
         ("springs' states", contact.spring_state.len(), springs),
         ("growth of g", state.last.growth.len(), nodes),

@@ -3,8 +3,6 @@
 use serde::{Deserialize, Serialize};
 
 use super::contact::Contact;
-use super::cycle_figures::{CycleFigures, LoopTally};
-use super::hardness::Passed;
 use super::traction::Traction;
 
 /// What is saved, restored, and carried over when a method or a law is switched.
@@ -18,7 +16,6 @@ pub struct State {
     /// would be lost in f.
     pub wear: Vec<f64>,
     /// Its 1D image by Eq. (1), m, as the steps have added it up.
-    #[serde(default)]
     pub image: Vec<f64>,
     /// The contact as the last step solved it.
     pub contact: Contact,
@@ -30,8 +27,6 @@ pub struct State {
     pub jump: JumpMemory,
     /// How much has been done so far.
     pub stats: Stats,
-    /// The energy balance of the last period of the motion.
-    pub period: PeriodBalance,
     /// Work of friction since the start, E_d, J.
     pub dissipated_energy: f64,
     /// The part of the volume that a law in proportion to friction work must have worn, ∫k dE_d, m³.
@@ -40,21 +35,11 @@ pub struct State {
     /// grid. Left out where wear is compared with work.
     pub unexplained_volume: f64,
     /// Volume that was worn before the run, m³.
-    #[serde(default)]
     pub initial_volume: f64,
     /// The smallest stick radius since the period of the motion began, m.
     pub smallest_stick_radius: f64,
     /// The smallest stick radius of the last complete period, m; none before there is one.
     pub settled_stick_radius: Option<f64>,
-    /// Where the pressure first passed the hardness; none if it never has, or none is given.
-    #[serde(default)]
-    pub passed_hardness: Option<Passed>,
-    /// The present period of the motion so far.
-    #[serde(default)]
-    pub tally: LoopTally,
-    /// What the last complete period was like; none before there is one, or where it was jumped over.
-    #[serde(default)]
-    pub figures: Option<CycleFigures>,
 }
 
 /// The work done since the start, in counts that do not depend on the machine.
@@ -95,30 +80,11 @@ pub struct SteadyCycle {
     /// Work of friction, J.
     pub friction_work: f64,
     /// The largest compression of a spring, m.
-    #[serde(default)]
     pub elastic_depth: f64,
     /// The largest stiffness of a node: h cycles at once are explicitly stable for h times this < 2.
     pub stiffness: f64,
     /// The smallest stick radius, m.
     pub stick_radius: f64,
-}
-
-/// V = k E_d over one period of the motion.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct PeriodBalance {
-    /// Worn volume and ∫k dE_d where the period began, m³.
-    start: [f64; 2],
-    /// 1 − ΔV/∫k dE_d of the last complete period; none before there is one, or if nothing wore.
-    pub residual: Option<f64>,
-}
-
-impl PeriodBalance {
-    /// Ends a period at a worn volume and an expected one (m³).
-    pub fn close(&mut self, volume: f64, expected: f64) {
-        let (worn, due) = (volume - self.start[0], expected - self.start[1]);
-        self.residual = (due > 0.0).then(|| 1.0 - worn / due);
-        self.start = [volume, expected];
-    }
 }
 
 /// The step before, as far as the next one builds on it.
@@ -153,16 +119,12 @@ impl State {
             },
             jump: JumpMemory::default(),
             stats: Stats::default(),
-            period: PeriodBalance::default(),
             dissipated_energy: 0.0,
             expected_volume: 0.0,
             unexplained_volume: 0.0,
             initial_volume: 0.0,
             smallest_stick_radius: f64::INFINITY,
             settled_stick_radius: None,
-            passed_hardness: None,
-            tally: LoopTally::default(),
-            figures: None,
         }
     }
 
@@ -171,16 +133,12 @@ impl State {
         self.cycle = from.cycle;
         self.steps = from.steps;
         self.stats = from.stats;
-        self.period = from.period;
         self.dissipated_energy = from.dissipated_energy;
         self.expected_volume = from.expected_volume;
         self.unexplained_volume = from.unexplained_volume;
         self.initial_volume = from.initial_volume;
         self.smallest_stick_radius = from.smallest_stick_radius;
         self.settled_stick_radius = from.settled_stick_radius;
-        self.passed_hardness = from.passed_hardness;
-        self.tally.clone_from(&from.tally);
-        self.figures = from.figures;
         // The profile changes: what a steady-state cycle wore on the old one is out of date.
         self.jump = JumpMemory {
             settled: None,

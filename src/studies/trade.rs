@@ -207,7 +207,7 @@ impl Trial {
             }
         };
         let failing = |session: &Session| {
-            let checks = session.simulation().checks().into_iter();
+            let checks = session.checks().into_iter();
             checks.filter(|check| !check.holds())
         };
         let common: Vec<Subject> = failing(reference).map(|check| check.subject).collect();

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use super::settings::Setting;
 use crate::contact::indenter::Indenter;
+use crate::reading::Passed;
 use crate::scenario::session::Session;
-use crate::simulation::Passed;
 use crate::studies::theory::Theory;
 
 /// The present scenario in numbers and words.
@@ -60,8 +60,8 @@ impl Facts {
             wear_coefficient: setup.wear.map(|law| law.coefficient()),
             wear_share: scenario.wear_share(),
             friction: setup.material.friction(),
-            warnings: simulation.warnings(),
-            passed_hardness: simulation.passed_hardness(),
+            warnings: session.warnings(),
+            passed_hardness: session.log().passed_hardness(),
             theory: Arc::new(theory),
         })
     }

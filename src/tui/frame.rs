@@ -5,8 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::facts::Facts;
 use crate::charts::Run;
 use crate::reading::subsurface::{Peak, SpringLoad};
-use crate::reading::{Check, Observation};
-use crate::simulation::CycleFigures;
+use crate::reading::{Check, CycleFigures, Observation};
 
 /// What the worker is doing.
 #[derive(Debug, Clone, PartialEq)]

@@ -268,7 +268,6 @@ pub(super) mod tests {
             wear_volume: cycle,
             initial_volume: 0.0,
             dissipated_energy: 0.0,
-            period_residual: None,
             energy_residual: None,
             stability_margin: None,
         }

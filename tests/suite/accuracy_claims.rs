@@ -15,8 +15,7 @@ fn run(name: &str, sets: &[&str], cycles: f64) -> Session {
 }
 
 fn checks(session: &Session) -> Vec<Check> {
-    let simulation = session.simulation();
-    simulation.checks()
+    session.checks()
 }
 
 fn check(session: &Session, subject: Subject) -> f64 {
@@ -210,18 +209,13 @@ fn a_ring_too_thin_for_any_cell_is_told() {
         "motion.normal.amplitude=0",
         "motion.tangential.amplitude=1e-17",
     ];
-    let warnings = run("li2019-fig3", &sets, 0.1).simulation().warnings();
+    let warnings = run("li2019-fig3", &sets, 0.1).warnings();
     assert_eq!(warnings.len(), 1, "{warnings:?}");
     assert!(
         warnings[0].starts_with("the ring of slip is "),
         "{warnings:?}"
     );
-    assert!(
-        run("li2019-fig3", &[], 0.0)
-            .simulation()
-            .warnings()
-            .is_empty()
-    );
+    assert!(run("li2019-fig3", &[], 0.0).warnings().is_empty());
 }
 
 /// R. D. Mindlin and H. Deresiewicz (1953): the energy of small forces goes with their third power.
@@ -343,7 +337,7 @@ fn a_tangential_force_beyond_friction_is_told_before_it_slips() {
         "motion.tangential.control=force",
         "motion.tangential.amplitude=3.5",
     ];
-    let warnings = run("mindlin", &sets, 0.0).simulation().warnings();
+    let warnings = run("mindlin", &sets, 0.0).warnings();
     assert_eq!(warnings.len(), 1, "{warnings:?}");
     has(&warnings[0], "may exceed the friction limit");
 }

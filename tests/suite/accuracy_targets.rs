@@ -12,7 +12,7 @@ use mdr_tui::math::abel::AbelMethod::{A, B};
 use mdr_tui::math::abel::worn;
 use mdr_tui::oracle::dual_oscillation::{DualOscillation, Frequencies};
 use mdr_tui::oracle::partial_slip::stiffness_ratio;
-use mdr_tui::reading::Curves;
+use mdr_tui::reading::{Curves, Log};
 use mdr_tui::simulation::drive::{Control, Oscillation};
 use mdr_tui::simulation::{Domain, Integrator, Scheme, Setup, Simulation, Spacing, State};
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_3, FRAC_PI_4};
@@ -326,11 +326,13 @@ struct Balance {
 
 fn balance(scene: Scene, cycles: u32) -> Balance {
     let mut simulation = Simulation::new(ours(scene.clone())).expect("a contact");
+    let mut log = Log::of(&simulation);
     let residuals: Vec<f64> = (1..=cycles)
         .map(|cycle| {
-            simulation.advance_to(f64::from(cycle)).expect("a cycle");
+            let stepped = log.advance(&mut simulation, f64::from(cycle));
+            stepped.expect("a cycle");
             // None where nothing slips any more.
-            simulation.moment().period_residual.map_or(0.0, f64::abs)
+            log.period_residual().map_or(0.0, f64::abs)
         })
         .collect();
     Balance {
@@ -383,8 +385,10 @@ fn an_edge_that_passes_many_cells_in_a_step_wears_what_it_has_worked() {
             format!("numerics.steps_per_cycle={steps}"),
         ];
         let scenario = load(name, &keys.each_ref().map(String::as_str));
-        let simulation = run_setup(scenario.setup().clone(), 2.0);
-        let residual = simulation.moment().period_residual.expect("wear");
+        let mut simulation = Simulation::new(scenario.setup().clone()).expect("a contact");
+        let mut log = Log::of(&simulation);
+        log.advance(&mut simulation, 2.0).expect("two cycles");
+        let residual = log.period_residual().expect("wear");
         holds(&format!("residual of {name}"), residual.abs(), bound);
     }
 }
@@ -410,6 +414,7 @@ fn every_period_of_the_presets_wears_what_it_has_worked() {
     ] {
         let scenario = load(name, &[]);
         let mut simulation = Simulation::new(scenario.setup().clone()).expect("a contact");
+        let mut log = Log::of(&simulation);
         let end = scenario.run().cycles.expect("a length");
         let end = match scenario.setup().integrator {
             Integrator::Direct => end.min(100.0),
@@ -418,6 +423,7 @@ fn every_period_of_the_presets_wears_what_it_has_worked() {
         let (mut worst, mut volume, mut periods) = (0.0_f64, 0.0, 0);
         while simulation.cycle() < end {
             simulation.step_until(end).expect("a step");
+            log.follow(&simulation);
             if simulation.cycle().fract() != 0.0 {
                 continue;
             }
@@ -425,7 +431,7 @@ fn every_period_of_the_presets_wears_what_it_has_worked() {
             let worn = moment.wear_volume - volume;
             volume = moment.wear_volume;
             if worn > 1e-4 * volume {
-                worst = worst.max(moment.period_residual.map_or(0.0, f64::abs));
+                worst = worst.max(log.period_residual().map_or(0.0, f64::abs));
                 periods += 1;
             }
         }

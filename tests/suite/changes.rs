@@ -41,7 +41,7 @@ fn a_shallower_contact_keeps_the_scar_of_a_deeper_one() {
         let direct = ran(figure(&[&grid], &[]), 5.0);
         assert!(before > 1.2 * volume(&direct), "{grid}");
         // The books of the energy balance bridge the change of nodes.
-        let residual = session.simulation().moment().period_residual;
+        let residual = session.log().period_residual();
         assert!(
             residual.is_some_and(|residual| residual.abs() < 2e-3),
             "{grid} {residual:?}"

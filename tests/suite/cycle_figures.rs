@@ -2,9 +2,9 @@
 //! slip, and the running conditions of the presets.
 
 use crate::common::near;
+use mdr_tui::reading::{CycleFigures, Regime};
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
-use mdr_tui::simulation::{CycleFigures, Regime};
 
 /// The session of a preset with `sets` after so many cycles.
 fn after(preset: &str, sets: &[String], cycles: f64) -> Session {
@@ -16,7 +16,7 @@ fn after(preset: &str, sets: &[String], cycles: f64) -> Session {
 
 fn figures(preset: &str, sets: &[String], cycles: f64) -> CycleFigures {
     let session = after(preset, sets, cycles);
-    session.simulation().cycle_figures().expect("a whole cycle")
+    session.cycle_figures().expect("a whole cycle")
 }
 
 fn amplitude(value: f64) -> Vec<String> {
@@ -75,39 +75,39 @@ fn the_regime_is_the_running_condition() {
         assert_eq!(seen.regime, expected, "{preset} {sets:?} {seen:?}");
     }
     let hertz = after("hertz", &[], 2.0);
-    assert_eq!(hertz.simulation().cycle_figures(), None);
+    assert_eq!(hertz.cycle_figures(), None);
 }
 
 #[test]
 fn there_are_none_before_the_first_period_ends_and_within_that_of_a_change() {
     let mut session = after("li2019-fig3", &[], 0.5);
-    assert_eq!(session.simulation().cycle_figures(), None);
+    assert_eq!(session.cycle_figures(), None);
     session.advance_to(2.5).expect("cycles");
-    let before = session.simulation().cycle_figures().expect("figures");
+    let before = session.cycle_figures().expect("figures");
     // A period that was begun under other parameters tells of neither.
     session
         .change("friction.coefficient", "0.2")
         .expect("a change");
     session.advance_to(3.0).expect("cycles");
-    assert_eq!(session.simulation().cycle_figures(), None);
+    assert_eq!(session.cycle_figures(), None);
     session.advance_to(4.0).expect("cycles");
-    let after = session.simulation().cycle_figures().expect("figures");
+    let after = session.cycle_figures().expect("figures");
     assert!(after.force_ratio < before.force_ratio);
     // Two frequencies repeat after two cycles.
     let session = self::after("two-frequencies", &[], 1.0);
-    assert_eq!(session.simulation().cycle_figures(), None);
+    assert_eq!(session.cycle_figures(), None);
 }
 
 #[test]
 fn after_a_jump_they_are_those_of_the_cycle_that_follows() {
     let mut session = after("mild-million", &[], 20_000.0);
     assert!(session.simulation().state().stats.jumps > 0);
-    let jumped = session.simulation().cycle_figures().expect("figures");
+    let jumped = session.cycle_figures().expect("figures");
     session
         .change("numerics.integrator", "\"direct\"")
         .expect("a change");
     session.advance_to(20_001.0).expect("a cycle");
-    let stepped = session.simulation().cycle_figures().expect("figures");
+    let stepped = session.cycle_figures().expect("figures");
     for (a, b) in [
         (jumped.energy, stepped.energy),
         (jumped.force_amplitude, stepped.force_amplitude),
@@ -126,7 +126,7 @@ fn after_a_jump_they_are_those_of_the_cycle_that_follows() {
 fn energy_per_cycle_adds_up_to_the_work_of_friction() {
     let session = after("li2019-fig3", &[], 3.0);
     let work = session.simulation().moment().dissipated_energy;
-    let figures = session.simulation().cycle_figures().expect("figures");
+    let figures = session.cycle_figures().expect("figures");
     let before = after("li2019-fig3", &[], 2.0);
     let before = before.simulation().moment().dissipated_energy;
     near("energy", figures.energy, work - before, 1e-12);

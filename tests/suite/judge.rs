@@ -151,7 +151,7 @@ fn judge_checks(seed: u64) -> Result<(Difference, bool), String> {
 
 /// Whether all checks of a run hold.
 fn passes(session: &Session) -> bool {
-    session.simulation().checks().iter().all(Check::holds)
+    session.checks().iter().all(Check::holds)
 }
 
 /// How many runs fail and pass the checks, of those that are right to 1e-2, and of those whose volume or work is wrong.

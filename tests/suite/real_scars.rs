@@ -135,7 +135,7 @@ fn pressure_that_passes_the_hardness_is_said() {
     let highest = std::f64::consts::FRAC_2_PI * modulus * (depth / radius).sqrt();
     let sets = |hardness: f64| format!("material.hardness={hardness:e}");
     let warned = |session: &Session| -> Option<String> {
-        let lines = session.simulation().warnings();
+        let lines = session.warnings();
         lines.into_iter().find(|line| line.contains("hardness"))
     };
     // Known before the run from the deepest point, which the first moment has not reached.
@@ -144,9 +144,9 @@ fn pressure_that_passes_the_hardness_is_said() {
         &warned(&soft).expect("a warning"),
         "where the contact is deepest",
     );
-    assert_eq!(soft.simulation().passed_hardness(), None);
+    assert_eq!(soft.log().passed_hardness(), None);
     soft.advance_to(1.0).expect("a cycle");
-    let passed = soft.simulation().passed_hardness().expect("passed");
+    let passed = soft.log().passed_hardness().expect("passed");
     assert!((0.15..0.25).contains(&passed.cycle), "{passed:?}");
     has(&warned(&soft).expect("a warning"), "at cycle 0.");
     // The stick zone takes over the load of the ring that wears.
@@ -155,7 +155,7 @@ fn pressure_that_passes_the_hardness_is_said() {
     hard.advance_to(0.5).expect("half a cycle");
     assert_eq!(warned(&hard), None);
     hard.advance_to(60.0).expect("a run");
-    let passed = hard.simulation().passed_hardness().expect("passed");
+    let passed = hard.log().passed_hardness().expect("passed");
     let above = passed.pressure / highest;
     assert!((1.02..1.03).contains(&above), "{passed:?}");
     let never = started("li2019-fig3", &[&sets(1e12)]);

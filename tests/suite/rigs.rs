@@ -3,10 +3,11 @@
 use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::oracle::cattaneo_mindlin::CattaneoMindlin;
 use mdr_tui::oracle::partial_slip::stiffness_ratio;
+use mdr_tui::reading::{CycleFigures, Log, Regime};
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
 use mdr_tui::simulation::drive::Drive;
-use mdr_tui::simulation::{Regime, Setup, Simulation};
+use mdr_tui::simulation::{Setup, Simulation};
 
 use crate::common::{Scene, load, near, ours, ran, swing, try_load};
 use crate::test_dir::TestDir;
@@ -35,10 +36,13 @@ fn on_rig(indenter: Indenter, amplitude: f64, compliance: f64) -> Setup {
     }
 }
 
-fn after_two_cycles(setup: Setup) -> Simulation {
+/// Two cycles, and the figures of the second.
+fn after_two_cycles(setup: Setup) -> (Simulation, CycleFigures) {
     let mut simulation = Simulation::new(setup).expect("a contact");
-    simulation.advance_to(2.0).expect("two cycles");
-    simulation
+    let mut log = Log::of(&simulation);
+    log.advance(&mut simulation, 2.0).expect("two cycles");
+    let figures = log.cycle_figures(&simulation).expect("figures");
+    (simulation, figures)
 }
 
 fn close(what: &str, found: f64, expected: f64, bound: f64) {
@@ -69,7 +73,7 @@ fn ratios_at_the_border_of_gross_slip_on_rigs() {
         for rho in [0.0, 1.0, 3.0] {
             let compliance = rho * border / (mu * load);
             let setup = on_rig(shape.clone(), border * (1.0 + rho), compliance);
-            let figures = after_two_cycles(setup).cycle_figures().expect("figures");
+            let (_, figures) = after_two_cycles(setup);
             let a = (m - 1.0) / (m + 1.0) / (1.0 + rho);
             let d = (2f64.powf(1.0 - 1.0 / m) - 1.0) / (1.0 + rho);
             let found = |value: Option<f64>| value.expect("a ratio");
@@ -81,10 +85,7 @@ fn ratios_at_the_border_of_gross_slip_on_rigs() {
             // A hundredth of the amplitude before and behind the border.
             let regime = |share: f64| {
                 let setup = on_rig(shape.clone(), share * border * (1.0 + rho), compliance);
-                after_two_cycles(setup)
-                    .cycle_figures()
-                    .expect("figures")
-                    .regime
+                after_two_cycles(setup).1.regime
             };
             assert_eq!(
                 [0.99, 1.01].map(regime),
@@ -117,8 +118,7 @@ fn a_compliant_rig_in_partial_slip_is_the_closed_form() {
             amplitude,
             compliance,
         );
-        let simulation = after_two_cycles(setup);
-        let figures = simulation.cycle_figures().expect("figures");
+        let (simulation, figures) = after_two_cycles(setup);
         let what = |value: &str| format!("u = {share} of the border, C = {compliance}: {value}");
         let relative =
             |name: &str, found: f64, exact: f64| close(&what(name), found / exact, 1.0, 1e-3);

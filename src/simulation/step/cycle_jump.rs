@@ -24,7 +24,7 @@ use super::super::breakdown::Cause;
 use super::super::choices::Integrator;
 use super::super::model::Model;
 use super::super::state::{JumpMemory, State, SteadyCycle};
-use super::{close_period, deepest, refuse, steady_cycle};
+use super::{deepest, refuse, steady_cycle};
 use crate::math::chebyshev;
 use crate::math::scan::largest;
 
@@ -339,7 +339,6 @@ fn after_jump(model: &Model, state: &State, memory: State, jump: Jump) -> State 
         }
     }
     (end.wear, end.image) = (after.wear, after.image);
-    close_period(model, &mut end);
     end.stats.jumps += 1;
     end.last.duration = 0.0;
     // A jump has as many stages as it needs: the limit of a step is not its own.

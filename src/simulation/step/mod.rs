@@ -195,14 +195,7 @@ fn least_depth(setup: &Setup) -> f64 {
     }
 }
 
-/// Weighs what a period of the motion has worn against its work of friction.
-fn close_period(model: &Model, state: &mut State) {
-    let volume = model.volume(&state.wear) - state.unexplained_volume;
-    state.period.close(volume, state.expected_volume);
-}
-
-/// Follows the smallest stick radius and the energy balance through the period of the motion that `state` is in until
-/// `cycle`.
+/// Follows the smallest stick radius through the period of the motion that `state` is in until `cycle`.
 fn follow_stick(model: &Model, state: &mut State, cycle: f64) {
     let Some(stick) = state.contact.stick_radius else {
         return;
@@ -216,6 +209,5 @@ fn follow_stick(model: &Model, state: &mut State, cycle: f64) {
     if (cycle / period).floor() > (state.cycle / period).floor() {
         state.settled_stick_radius = Some(state.smallest_stick_radius);
         state.smallest_stick_radius = f64::INFINITY;
-        close_period(model, state);
     }
 }

@@ -7,7 +7,7 @@ use ratatui::widgets::Widget;
 
 use super::{Frame, Pane, Picture, Recipe, Words};
 use crate::plot::units::{format_number, format_value};
-use crate::simulation::CycleFigures;
+use crate::reading::CycleFigures;
 use crate::tui::theme::Role;
 
 /// The panel.

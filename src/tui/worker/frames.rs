@@ -7,8 +7,7 @@ use crate::charts::{Live, Run};
 use crate::export::state;
 use crate::math::scan::largest;
 use crate::reading::subsurface::Stress;
-use crate::reading::{Curves, Observation};
-use crate::simulation::CycleFigures;
+use crate::reading::{Curves, CycleFigures, Observation};
 use crate::traces::Table;
 use crate::tui::comparison::ComparisonRun;
 use crate::tui::facts::Facts;
@@ -32,7 +31,7 @@ impl Worker {
 
     fn frame(&mut self) -> Frame {
         // The pressure may pass the hardness in any step, and has not yet in an earlier state.
-        if self.facts.passed_hardness != self.run.simulation().passed_hardness() {
+        if self.facts.passed_hardness != self.run.session.log().passed_hardness() {
             self.facts = Facts::of(&self.run.session);
         }
         let simulation = self.run.simulation();
@@ -58,9 +57,9 @@ impl Worker {
         let checks = if observation.pressure.is_empty() {
             Vec::new()
         } else {
-            simulation.checks()
+            self.run.session.checks()
         };
-        let figures = simulation.cycle_figures();
+        let figures = self.run.session.cycle_figures();
         Frame {
             run: self.charted(&observation, figures.as_ref()),
             facts: Arc::clone(&self.facts),

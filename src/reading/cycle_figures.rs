@@ -2,7 +2,8 @@
 //! running condition.
 //!
 //! The figures describe the last complete period of the motion. Each step adds its end point to a
-//! [`LoopTally`]; at the end of the period the tally becomes [`CycleFigures`].
+//! [`LoopTally`]; at the end of the period the tally becomes [`CycleFigures`]. The [`Log`](super::Log) of a run keeps
+//! both.
 //!
 //! # Formulas
 //!
@@ -24,11 +25,8 @@
 use serde::{Deserialize, Serialize};
 use strum::IntoStaticStr;
 
-use super::choices::Integrator;
-use super::contact;
-use super::model::Model;
-use super::{Scratch, Setup, Simulation, State, cycles_to_settle};
 use crate::math::root;
+use crate::simulation::{Setup, Simulation};
 
 /// Below this energy ratio A the loop is a line to any test rig: the contact counts as sticking. A
 /// sphere in partial slip passes it near U = 0.06 of the amplitude of gross slip.
@@ -72,7 +70,6 @@ pub struct CycleFigures {
     /// Dissipated energy per cycle, J.
     pub energy: f64,
     /// The area of the fretting loop per cycle, ∮F_x du_x⁽⁰⁾, J: in a settled cycle the dissipated energy.
-    #[serde(default)]
     pub loop_area: f64,
     /// U, half the range of u_x⁽⁰⁾, or of the rig's actuator, m.
     pub displacement_amplitude: f64,
@@ -99,8 +96,8 @@ pub struct CycleFigures {
 /// The present period of the motion so far.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct LoopTally {
-    /// Where it began, in cycles, and E_d there, J; none before the first step.
-    start: Option<[f64; 2]>,
+    /// Where it began, in cycles, and E_d there, J.
+    start: [f64; 2],
     /// Cycle, u_x⁽⁰⁾ (m) and F_x (N) of the last step.
     last: [f64; 3],
     /// Smallest and largest u_x⁽⁰⁾, m.
@@ -111,7 +108,6 @@ pub struct LoopTally {
     normal_force: f64,
     contact_radius: f64,
     /// ∫F_x du_x⁽⁰⁾, J.
-    #[serde(default)]
     work: f64,
     /// Whether nothing touched at some moment.
     opened: bool,
@@ -121,25 +117,31 @@ pub struct LoopTally {
 }
 
 impl LoopTally {
-    fn begin(state: &State, moment: [f64; 3]) -> Self {
+    /// Begins at the present moment of a simulation.
+    pub fn begin(simulation: &Simulation) -> Self {
+        let [cycle, shift, force] = moment(simulation);
         Self {
-            start: Some([moment[0], state.dissipated_energy]),
-            last: moment,
-            shift: [moment[1]; 2],
-            force: [moment[2]; 2],
+            start: [cycle, simulation.state().dissipated_energy],
+            last: [cycle, shift, force],
+            shift: [shift; 2],
+            force: [force; 2],
             ..Self::default()
         }
     }
 
-    /// Adds the end of a step: cycle, u_x⁽⁰⁾ and F_x, with F_z (N) and a (m). `unloaded` finds the u_x⁽⁰⁾ at which F_x
-    /// passes through zero in the step, and is asked only if it does; without an answer a straight line stands in.
-    fn add(
-        &mut self,
-        moment: [f64; 3],
-        normal_force: f64,
-        contact_radius: f64,
-        unloaded: impl FnOnce() -> Option<f64>,
-    ) {
+    /// The end of the last step, in cycles.
+    pub fn cycle(&self) -> f64 {
+        self.last[0]
+    }
+
+    /// Adds the end of the last step of a simulation.
+    pub fn add(&mut self, simulation: &Simulation) {
+        let contact = &simulation.state().contact;
+        let (normal_force, contact_radius) = (
+            contact.normal_force(simulation.model()),
+            contact.normal.radius,
+        );
+        let moment = moment(simulation);
         let [cycle, shift, force] = moment;
         let [before, shift_before, force_before] = self.last;
         self.shift = [self.shift[0].min(shift), self.shift[1].max(shift)];
@@ -150,7 +152,7 @@ impl LoopTally {
         self.opened |= contact_radius == 0.0;
         let crossing = || {
             let share = force_before / (force_before - force);
-            unloaded().unwrap_or(shift_before + share * (shift - shift_before))
+            unloaded(simulation).unwrap_or(shift_before + share * (shift - shift_before))
         };
         let into = if force_before > 0.0 && force <= 0.0 {
             &mut self.falling
@@ -164,13 +166,16 @@ impl LoopTally {
         self.last = moment;
     }
 
-    /// The figures of the period that ends here; none if it began within the period.
-    fn close(&self, setup: &Setup, state: &State, period: f64) -> Option<CycleFigures> {
-        let [start, energy] = self.start?;
+    /// The figures of the period that ends at the present moment of a simulation; none if it began within the
+    /// period, and without tangential motion.
+    pub fn close(&self, simulation: &Simulation, period: f64) -> Option<CycleFigures> {
+        let [start, energy] = self.start;
         let cycles = self.last[0] - start;
-        if start % period != 0.0 || cycles <= 0.0 {
+        if start % period != 0.0 || cycles <= 0.0 || simulation.setup().springs() == 0 {
             return None;
         }
+        let state = simulation.state();
+        let setup = simulation.model_of_last_step().setup;
         let material = &setup.material;
         let energy = (state.dissipated_energy - energy) / cycles;
         let (normal_force, radius) = (self.normal_force / cycles, self.contact_radius / cycles);
@@ -211,110 +216,33 @@ impl LoopTally {
     }
 }
 
-/// Adds the end of a step from `start` to the tally, and closes it where the period of the motion ends.
-pub(super) fn follow(model: &Model, start: &State, state: &mut State, scratch: &mut Scratch) {
-    if model.springs() == 0 {
-        return;
-    }
-    let State {
-        cycle,
-        contact,
-        tally,
-        ..
-    } = state;
-    let (setup, cycle) = (&model.setup, *cycle);
-    let force = contact.tangential_force(model);
-    let moment = [cycle, sensed(setup, contact.shift, force), force];
-    let (normal_force, radius) = (contact.normal_force(model), contact.normal.radius);
-    let before = tally.last[0];
-    tally.add(moment, normal_force, radius, || {
-        unloaded(model, start, cycle, scratch)
-    });
-    if cycle.floor() == before.floor() {
-        return;
-    }
-    let period = f64::from(cycles_to_settle(&setup.drive));
-    if (cycle / period).floor() > (before / period).floor() {
-        state.figures = state.tally.close(setup, state, period);
-        state.tally = LoopTally::begin(state, moment);
-    }
+/// The present cycle, the displacement that the rig's sensor sees, m, and F_x, N.
+fn moment(simulation: &Simulation) -> [f64; 3] {
+    let contact = &simulation.state().contact;
+    let force = contact.tangential_force(simulation.model());
+    let shift = sensed(simulation.setup(), contact.shift, force);
+    [simulation.cycle(), shift, force]
 }
 
-/// Returns the displacement at which F_x passes through zero between `start` and `cycle`, m. F_x bends so much in the
-/// longest steps that a straight line misses it by 6 %. `None` if the contact cannot be solved there.
-fn unloaded(model: &Model, start: &State, cycle: f64, scratch: &mut Scratch) -> Option<f64> {
-    let Scratch {
-        g,
-        increment,
-        moment: contact,
-        ..
-    } = scratch;
-    model.profile(&start.image, 0.0, &[], g);
-    let span = cycle - start.cycle;
+/// Returns the displacement at which F_x passes through zero in the last step, m. F_x bends so much in the longest
+/// steps that a straight line misses it by 6 %. `None` if the contact cannot be solved there.
+fn unloaded(simulation: &Simulation) -> Option<f64> {
+    let model = simulation.model_of_last_step();
+    let mut found = None;
     let force = |share: f64| {
-        let cycle = start.cycle + share * span;
-        contact::solve(
-            model,
-            g,
-            &start.contact,
-            cycle,
-            contact,
-            &mut increment.slip,
-        )
-        .map_or(f64::NAN, |()| contact.tangential_force(model))
+        let Some(contact) = simulation.within_last_step(&model, share) else {
+            return f64::NAN;
+        };
+        let force = contact.tangential_force(&model);
+        found = Some(sensed(&model.setup, contact.shift, force));
+        force
     };
     root::bracketed(force, 0.0, 1.0, 1e-4)?;
-    Some(sensed(
-        &model.setup,
-        contact.shift,
-        contact.tangential_force(model),
-    ))
+    found
 }
 
 /// The displacement of the actuator, m, where the contact is shifted by `shift` under `force` (N): what
 /// the rig's sensor sees.
-pub(crate) fn sensed(setup: &Setup, shift: f64, force: f64) -> f64 {
+pub(super) fn sensed(setup: &Setup, shift: f64, force: f64) -> f64 {
     shift + setup.drive.rig_compliance() * force
-}
-
-/// Forgets the figures and begins the tally anew: after a change of the parts, or a jump over cycles.
-pub(super) fn forget(model: &Model, state: &mut State) {
-    state.figures = None;
-    if model.springs() == 0 {
-        state.tally = LoopTally::default();
-        return;
-    }
-    let force = state.contact.tangential_force(model);
-    let shift = sensed(&model.setup, state.contact.shift, force);
-    state.tally = LoopTally::begin(state, [state.cycle, shift, force]);
-}
-
-impl Simulation {
-    /// The figures of the last complete period of the motion. After a jump over cycles, those of the
-    /// next period on the present profile, which is stepped through without wear for that purpose.
-    /// None before the first period has ended, within the period of a change, and without tangential
-    /// motion.
-    pub fn cycle_figures(&self) -> Option<CycleFigures> {
-        let state = &self.state;
-        if state.figures.is_some() || state.jump.settled.is_none() {
-            return state.figures;
-        }
-        let mut probe = self.without_wear()?;
-        let period = f64::from(cycles_to_settle(&self.setup().drive));
-        probe.advance_to(state.cycle + period).ok()?;
-        probe.state.figures
-    }
-
-    /// The present contact in a simulation of its own that wears no more and steps every cycle: a steady cycle on
-    /// the present profile. `None` if the contact cannot be held so.
-    pub fn without_wear(&self) -> Option<Self> {
-        let setup = Setup {
-            wear: None,
-            integrator: Integrator::Direct,
-            ..self.setup().clone()
-        };
-        let mut probe = Self::with(Model::new(setup, Some(&self.model)), self.state.clone());
-        probe.settle().ok()?;
-        Some(probe)
-    }
 }

@@ -1,0 +1,163 @@
+//! What is noted of a run as it goes on, and no step needs: whoever drives a simulation lets a [`Log`] follow it.
+
+use serde::{Deserialize, Serialize};
+
+use super::cycle_figures::{CycleFigures, LoopTally};
+use crate::simulation::{Breakdown, Simulation, cycles_to_settle};
+
+/// The notes of a run.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Log {
+    /// The present period of the motion so far.
+    tally: LoopTally,
+    /// What the last complete period was like; none before there is one, or where it was jumped over.
+    figures: Option<CycleFigures>,
+    balance: PeriodBalance,
+    passed_hardness: Option<Passed>,
+}
+
+/// V = k E_d over one period of the motion.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+struct PeriodBalance {
+    /// Worn volume and ∫k dE_d where the period began, m³.
+    start: [f64; 2],
+    /// 1 − ΔV/∫k dE_d of the last complete period; none before there is one, or if nothing wore.
+    residual: Option<f64>,
+}
+
+/// Where and when the pressure first passed the hardness.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Passed {
+    /// Cycles since the start.
+    pub cycle: f64,
+    /// r, m.
+    pub radius: f64,
+    /// The largest p there and then, Pa.
+    pub pressure: f64,
+}
+
+impl Log {
+    /// Begins with a simulation that has not stepped yet.
+    pub fn of(simulation: &Simulation) -> Self {
+        let mut log = Self::default();
+        log.begin_anew(simulation);
+        log
+    }
+
+    /// Forgets the figures and begins a period: after a change of the parts, or a jump over cycles.
+    pub fn begin_anew(&mut self, simulation: &Simulation) {
+        self.figures = None;
+        self.tally = LoopTally::begin(simulation);
+        self.watch_hardness(simulation);
+    }
+
+    /// Notes the step or the jump that the simulation has just made, if it has made one.
+    pub fn follow(&mut self, simulation: &Simulation) {
+        let (before, cycle) = (self.tally.cycle(), simulation.cycle());
+        if cycle == before {
+            return;
+        }
+        if simulation.has_jumped() {
+            self.balance.close(simulation);
+            return self.begin_anew(simulation);
+        }
+        self.tally.add(simulation);
+        let period = period(simulation);
+        // A period is a whole number of cycles.
+        if cycle.floor() > before.floor() && (cycle / period).floor() > (before / period).floor() {
+            self.figures = self.tally.close(simulation, period);
+            self.tally = LoopTally::begin(simulation);
+            self.balance.close(simulation);
+        }
+        self.watch_hardness(simulation);
+    }
+
+    /// Steps a simulation to `cycle` exactly, and follows it.
+    ///
+    /// # Errors
+    ///
+    /// What stops the simulation.
+    pub fn advance(&mut self, simulation: &mut Simulation, cycle: f64) -> Result<(), Breakdown> {
+        while simulation.cycle() < cycle {
+            simulation.step_until(cycle)?;
+            self.follow(simulation);
+        }
+        Ok(())
+    }
+
+    /// The figures of the last complete period of the motion. After a jump over cycles, those of the
+    /// next period on the present profile, which is stepped through without wear for that purpose.
+    /// None before the first period has ended, within the period of a change, and without tangential
+    /// motion.
+    pub fn cycle_figures(&self, simulation: &Simulation) -> Option<CycleFigures> {
+        if self.figures.is_some() || !simulation.has_jumped() {
+            return self.figures;
+        }
+        let mut probe = simulation.without_wear()?;
+        let mut log = Self::of(&probe);
+        let end = probe.cycle() + period(&probe);
+        log.advance(&mut probe, end).ok()?;
+        log.figures
+    }
+
+    /// The figures of the last complete period if it was stepped through.
+    pub(super) fn stepped_figures(&self) -> Option<&CycleFigures> {
+        self.figures.as_ref()
+    }
+
+    /// 1 − ΔV/∫k dE_d over the last complete period of the motion.
+    pub fn period_residual(&self) -> Option<f64> {
+        self.balance.residual
+    }
+
+    /// Where and when the pressure first passed the hardness; none if it never has, or none is given.
+    pub fn passed_hardness(&self) -> Option<Passed> {
+        self.passed_hardness
+    }
+
+    /// Notes the first moment at which p lies above the hardness: an elastic calculation continues where a metal would
+    /// yield. Without a hardness nothing is computed.
+    fn watch_hardness(&mut self, simulation: &Simulation) {
+        if let Some(hardness) = simulation.setup().hardness
+            && self.passed_hardness.is_none()
+        {
+            let (radius, pressure) = simulation.highest_pressure();
+            self.passed_hardness = (pressure > hardness).then_some(Passed {
+                cycle: simulation.cycle(),
+                radius,
+                pressure,
+            });
+        }
+    }
+}
+
+impl PeriodBalance {
+    /// Ends a period at the present moment of a simulation.
+    fn close(&mut self, simulation: &Simulation) {
+        let state = simulation.state();
+        let volume = simulation.wear_volume() - state.unexplained_volume;
+        let expected = state.expected_volume;
+        let (worn, due) = (volume - self.start[0], expected - self.start[1]);
+        self.residual = (due > 0.0).then(|| 1.0 - worn / due);
+        self.start = [volume, expected];
+    }
+}
+
+impl Simulation {
+    /// Where the largest pressure acts, m, and how large it is, Pa.
+    pub(super) fn highest_pressure(&self) -> (f64, f64) {
+        let pressure = self.pressure();
+        let points = self.setup().grid.nodes().iter().copied().zip(pressure);
+        points.fold(
+            (0.0, 0.0),
+            |most, point| {
+                if point.1 > most.1 { point } else { most }
+            },
+        )
+    }
+}
+
+/// The period of the motion, in cycles.
+fn period(simulation: &Simulation) -> f64 {
+    f64::from(cycles_to_settle(&simulation.setup().drive))
+}

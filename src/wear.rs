@@ -5,107 +5,98 @@ use std::hint::select_unpredictable as select;
 use crate::math::invalid::{Invalid, non_negative, positive};
 
 /// A local law of wear, written as a rate so that the result does not depend on the step's size.
+///
+/// Eq. (15) of the paper, Archard's law: Δf = k τ Δs, wear in proportion to frictional work; or by [`Powers`].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum WearLaw {
-    /// Eq. (15) of the paper: Δf = k τ Δs, wear in proportion to frictional work.
-    Archard {
-        /// k, 1/Pa.
-        coefficient: f64,
-    },
-    /// Δf = k τ_ref (τ/τ_ref)^m v_ref (|ṡ|/v_ref)^n Δt.
-    ///
-    /// A power of the slip *rate*: a power n ≠ 1 of the slip increment itself would change the wear
-    /// by 2^(n−1) when the step is halved. m = n = 1 is Archard's law.
-    Power {
-        /// k, 1/Pa.
-        coefficient: f64,
-        /// m.
-        stress_exponent: f64,
-        /// n.
-        slip_rate_exponent: f64,
-        /// τ_ref, Pa.
-        reference_stress: f64,
-        /// v_ref, m/s.
-        reference_slip_rate: f64,
-    },
+pub struct WearLaw {
+    /// k, 1/Pa.
+    coefficient: f64,
+    /// None: Archard's law.
+    powers: Option<Powers>,
+}
+
+/// Δf = k τ_ref (τ/τ_ref)^m v_ref (|ṡ|/v_ref)^n Δt.
+///
+/// A power of the slip *rate*: a power n ≠ 1 of the slip increment itself would change the wear
+/// by 2^(n−1) when the step is halved. m = n = 1 is Archard's law.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Powers {
+    /// m.
+    pub stress_exponent: f64,
+    /// n.
+    pub slip_rate_exponent: f64,
+    /// τ_ref, Pa.
+    pub reference_stress: f64,
+    /// v_ref, m/s.
+    pub reference_slip_rate: f64,
 }
 
 impl WearLaw {
     /// Archard's law with k in 1/Pa; k = 0 wears nothing.
     pub fn archard(coefficient: f64) -> Result<Self, Invalid> {
-        non_negative("coefficient", coefficient).map(|coefficient| Self::Archard { coefficient })
+        Ok(Self {
+            coefficient: non_negative("coefficient", coefficient)?,
+            powers: None,
+        })
     }
 
     /// The power law; exponents from 0.1 to 10, references greater than 0.
-    pub fn power(
-        coefficient: f64,
-        stress_exponent: f64,
-        slip_rate_exponent: f64,
-        reference_stress: f64,
-        reference_slip_rate: f64,
-    ) -> Result<Self, Invalid> {
-        let exponent = |field, value: f64| {
-            if (0.1..=10.0).contains(&value) {
-                Ok(value)
-            } else {
-                Err(Invalid::new(field, value, "must be from 0.1 to 10"))
-            }
+    pub fn power(coefficient: f64, powers: Powers) -> Result<Self, Invalid> {
+        let exponent = |field, value: f64| match (0.1..=10.0).contains(&value) {
+            true => Ok(value),
+            false => Err(Invalid::new(field, value, "must be from 0.1 to 10")),
         };
-        Ok(Self::Power {
-            coefficient: non_negative("coefficient", coefficient)?,
-            stress_exponent: exponent("stress_exponent", stress_exponent)?,
-            slip_rate_exponent: exponent("slip_rate_exponent", slip_rate_exponent)?,
-            reference_stress: positive("reference_stress", reference_stress)?,
-            reference_slip_rate: positive("reference_slip_rate", reference_slip_rate)?,
+        let archard = Self::archard(coefficient)?;
+        exponent("stress_exponent", powers.stress_exponent)?;
+        exponent("slip_rate_exponent", powers.slip_rate_exponent)?;
+        positive("reference_stress", powers.reference_stress)?;
+        positive("reference_slip_rate", powers.reference_slip_rate)?;
+        Ok(Self {
+            powers: Some(powers),
+            ..archard
         })
     }
 
     /// The law's name, as a scenario spells it.
     pub fn name(&self) -> &'static str {
-        match self {
-            Self::Archard { .. } => "archard",
-            Self::Power { .. } => "power",
+        match self.powers {
+            None => "archard",
+            Some(_) => "power",
         }
     }
 
     /// k, 1/Pa.
     pub fn coefficient(&self) -> f64 {
-        match *self {
-            Self::Archard { coefficient } | Self::Power { coefficient, .. } => coefficient,
-        }
+        self.coefficient
     }
 
     /// The same law with another k, 1/Pa, 0 or greater.
     #[must_use]
-    pub fn with_coefficient(mut self, k: f64) -> Self {
-        let (Self::Archard { coefficient } | Self::Power { coefficient, .. }) = &mut self;
-        *coefficient = k;
-        self
+    pub fn with_coefficient(self, coefficient: f64) -> Self {
+        Self {
+            coefficient,
+            ..self
+        }
+    }
+
+    /// The powers that wear goes by; none under Archard's law.
+    pub fn powers(&self) -> Option<Powers> {
+        self.powers
     }
 
     /// Whether wear is k times the frictional work, so that V = k E_d can be watched.
     pub fn follows_energy(&self) -> bool {
-        matches!(self, Self::Archard { .. })
+        self.powers.is_none()
     }
 
     /// By which power of the stress a surface wears: m.
     pub fn stress_exponent(&self) -> f64 {
-        match *self {
-            Self::Archard { .. } => 1.0,
-            Self::Power {
-                stress_exponent, ..
-            } => stress_exponent,
-        }
+        self.powers.map_or(1.0, |powers| powers.stress_exponent)
     }
 
     /// By which power of the slip rate a surface wears: n.
     pub fn slip_rate_exponent(&self) -> f64 {
-        match *self {
-            Self::Archard { .. } => 1.0,
-            Self::Power {
-                slip_rate_exponent, ..
-            } => slip_rate_exponent,
-        }
+        self.powers.map_or(1.0, |powers| powers.slip_rate_exponent)
     }
 
     /// ∂Δf/∂τ of one step, m/Pa, into `answers`: how strongly the wear of each node answers to its
@@ -114,31 +105,24 @@ impl WearLaw {
     pub fn sensitivity(&self, tau: &[f64], slip: &[f64], duration: f64, answers: &mut [f64]) {
         let points = answers.iter_mut().zip(tau.iter().zip(slip));
         let works = |tau: f64, slip: f64| (tau != 0.0) & (slip != 0.0);
-        match *self {
-            Self::Archard { coefficient } => {
-                for (answer, (&tau, &slip)) in points {
-                    *answer = select(works(tau, slip), coefficient * slip.abs(), 0.0);
-                }
+        let k = self.coefficient;
+        let Some(by) = self.powers else {
+            for (answer, (&tau, &slip)) in points {
+                *answer = select(works(tau, slip), k * slip.abs(), 0.0);
             }
-            Self::Power {
-                coefficient,
-                stress_exponent,
-                slip_rate_exponent,
-                reference_stress,
-                reference_slip_rate,
-            } => {
-                for (answer, (&tau, &slip)) in points {
-                    *answer = 0.0;
-                    if works(tau, slip) {
-                        *answer = coefficient
-                            * reference_slip_rate
-                            * duration
-                            * stress_exponent
-                            * (tau.abs() / reference_stress).powf(stress_exponent - 1.0)
-                            * (slip.abs() / (reference_slip_rate * duration))
-                                .powf(slip_rate_exponent);
-                    }
-                }
+            return;
+        };
+        for (answer, (&tau, &slip)) in points {
+            *answer = 0.0;
+            if works(tau, slip) {
+                let rate = slip.abs() / (by.reference_slip_rate * duration);
+                let stress = tau.abs() / by.reference_stress;
+                *answer = k
+                    * by.reference_slip_rate
+                    * duration
+                    * by.stress_exponent
+                    * stress.powf(by.stress_exponent - 1.0)
+                    * rate.powf(by.slip_rate_exponent);
             }
         }
     }
@@ -151,31 +135,24 @@ impl WearLaw {
     #[inline(always)]
     pub fn wear(&self, tau: &[f64], slip: &[f64], duration: f64, wear: &mut [f64]) {
         let points = wear.iter_mut().zip(tau.iter().zip(slip));
-        match *self {
-            Self::Archard { coefficient } => {
-                for (worn, (tau, slip)) in points {
-                    *worn = coefficient * positive_part(tau * slip);
-                }
+        let k = self.coefficient;
+        let Some(by) = self.powers else {
+            for (worn, (tau, slip)) in points {
+                *worn = k * positive_part(tau * slip);
             }
-            Self::Power {
-                coefficient,
-                stress_exponent,
-                slip_rate_exponent,
-                reference_stress,
-                reference_slip_rate,
-            } => {
-                let scale = coefficient * reference_stress * reference_slip_rate * duration;
-                let per_rate = (reference_slip_rate * duration).recip();
-                for (worn, (tau, slip)) in points {
-                    *worn = 0.0;
-                    if tau * slip > 0.0 {
-                        *worn = scale
-                            * (tau.abs() / reference_stress).powf(stress_exponent)
-                            * (slip.abs() * per_rate).powf(slip_rate_exponent);
-                    } else if !(tau * slip).is_finite() {
-                        *worn = f64::NAN;
-                    }
-                }
+            return;
+        };
+        let scale = k * by.reference_stress * by.reference_slip_rate * duration;
+        let per_rate = (by.reference_slip_rate * duration).recip();
+        for (worn, (tau, slip)) in points {
+            *worn = 0.0;
+            if tau * slip > 0.0 {
+                let stress = tau.abs() / by.reference_stress;
+                *worn = scale
+                    * stress.powf(by.stress_exponent)
+                    * (slip.abs() * per_rate).powf(by.slip_rate_exponent);
+            } else if !(tau * slip).is_finite() {
+                *worn = f64::NAN;
             }
         }
     }
@@ -191,6 +168,17 @@ fn positive_part(value: f64) -> f64 {
 mod tests {
     use super::*;
 
+    /// k = 1e-12/Pa with the powers m and n.
+    fn power(m: f64, n: f64) -> Result<WearLaw, Invalid> {
+        let powers = Powers {
+            stress_exponent: m,
+            slip_rate_exponent: n,
+            reference_stress: 3e7,
+            reference_slip_rate: 2e-5,
+        };
+        WearLaw::power(1e-12, powers)
+    }
+
     fn worn(law: WearLaw, steps: usize) -> f64 {
         let mut wear = [0.0];
         let (slip, duration) = (1e-7 / steps as f64, 1e-3 / steps as f64);
@@ -201,7 +189,7 @@ mod tests {
     #[test]
     fn a_power_law_of_one_is_archard() {
         let archard = WearLaw::archard(1e-12).expect("a law");
-        let power = WearLaw::power(1e-12, 1.0, 1.0, 3e7, 2e-5).expect("a law");
+        let power = power(1.0, 1.0).expect("a law");
         assert!((worn(archard, 1) - 2e-11).abs() < 1e-24);
         assert!((worn(power, 1) / worn(archard, 1) - 1.0).abs() < 1e-12);
     }
@@ -209,7 +197,7 @@ mod tests {
     #[test]
     fn no_law_depends_on_the_size_of_the_step() {
         for exponent in [0.5, 1.0, 2.0] {
-            let law = WearLaw::power(1e-12, 1.5, exponent, 3e7, 2e-5).expect("a law");
+            let law = power(1.5, exponent).expect("a law");
             assert!(
                 (worn(law, 1) / worn(law, 64) - 1.0).abs() < 1e-12,
                 "n = {exponent}"
@@ -219,10 +207,7 @@ mod tests {
 
     #[test]
     fn the_sensitivity_is_the_derivative() {
-        for law in [
-            WearLaw::archard(1e-12),
-            WearLaw::power(1e-12, 1.5, 0.7, 3e7, 2e-5),
-        ] {
+        for law in [WearLaw::archard(1e-12), power(1.5, 0.7)] {
             let law = law.expect("a law");
             let at = |tau: f64| {
                 let mut wear = [0.0];
@@ -239,10 +224,7 @@ mod tests {
 
     #[test]
     fn wear_is_never_negative_and_never_hides_a_broken_state() {
-        for law in [
-            WearLaw::archard(1e-12),
-            WearLaw::power(1e-12, 1.5, 0.7, 3e7, 2e-5),
-        ] {
+        for law in [WearLaw::archard(1e-12), power(1.5, 0.7)] {
             let law = law.expect("a law");
             let mut wear = [0.0; 4];
             law.wear(
@@ -260,7 +242,7 @@ mod tests {
     #[test]
     fn impossible_laws_are_refused() {
         assert!(WearLaw::archard(-1.0).is_err());
-        assert!(WearLaw::power(1.0, 0.0, 1.0, 1.0, 1.0).is_err());
-        assert!(WearLaw::power(1.0, 1.0, 1.0, 0.0, 1.0).is_err());
+        assert!(power(0.0, 1.0).is_err());
+        assert!(power(1.0, 11.0).is_err());
     }
 }

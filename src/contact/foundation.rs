@@ -1,16 +1,20 @@
 //! The Winkler foundation: the row of springs that represents the half-space.
 
+use serde::{Deserialize, Serialize};
+
 use crate::math::abel::field::Field;
 use crate::math::grid::RadialGrid;
 use crate::math::quadrature::{ProductWeights, line_weights, weighted_first};
 use crate::math::scan::{leading, trailing};
 
-/// Where the contact ends.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Edge {
-    /// The contact radius a, m.
+/// What pressing a profile to a depth gives, beside the line load itself.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct NormalContact {
+    /// The largest load of a spring, N/m; NaN where one is not finite.
+    pub strongest: f64,
+    /// The contact radius a, m; 0 without contact.
     pub radius: f64,
-    /// How many springs lie within it: what is further out carries nothing.
+    /// How many springs, counted from r = 0, lie within the contact radius: what is further out carries nothing.
     pub nodes: usize,
 }
 
@@ -51,14 +55,14 @@ impl WinklerFoundation {
         self.grid.squares()
     }
 
-    /// 2∫ q dx over the row: the force (N) of a line load (N/m) with its kinks, that ends at `edge`.
+    /// 2∫ q dx over the row: the force (N) of a line load (N/m) with its kinks, that ends where the `contact` does.
     ///
     /// A load with a cusp at the tip, as under a cone, is linear in x and not in x²: what that adds is
     /// added.
-    pub fn force(&self, load: &Field, edge: Edge) -> f64 {
-        let nodal = weighted_first(&self.weights, &load.nodal, edge.nodes);
+    pub fn force(&self, load: &Field, contact: NormalContact) -> f64 {
+        let nodal = weighted_first(&self.weights, &load.nodal, contact.nodes);
         let kinked = nodal + load.between_nodes(self.grid.radius());
-        2.0 * (kinked + self.cusp_integral(&load.nodal, edge))
+        2.0 * (kinked + self.cusp_integral(&load.nodal, contact))
     }
 
     /// What no force (N) of a line load of up to `strongest` (N/m) exceeds: finite where an f64 holds the force.
@@ -67,15 +71,15 @@ impl WinklerFoundation {
         2.0 * strongest * self.grid.radius() + 0.0 * self.bubbles[self.bubbles.len() - 1]
     }
 
-    /// 2∫ q |s| dx over the row: the work (J) of a line load (N/m) that ends at `edge` on a slip (m).
+    /// 2∫ q |s| dx over the row: the work (J) of a line load (N/m) that ends where the `contact` does on a slip (m).
     /// Both are linear in x² in each cell.
-    pub fn work(&self, load: &[f64], slip: &[f64], edge: Edge) -> f64 {
+    pub fn work(&self, load: &[f64], slip: &[f64], contact: NormalContact) -> f64 {
         // Most springs stick or carry nothing.
         let first = leading(slip, |&slip| slip == 0.0).saturating_sub(1);
         let end = load.len() + 1 - trailing(load, |&load| load == 0.0);
         let end = end.min(load.len()).saturating_sub(1).max(first);
         let smooth = self.products.integral(first..end, load, slip);
-        let cusp = self.cusp_integral(load, edge) * slip[0].abs();
+        let cusp = self.cusp_integral(load, contact) * slip[0].abs();
         2.0 * (smooth + cusp)
     }
 
@@ -88,15 +92,15 @@ impl WinklerFoundation {
         }
     }
 
-    /// ∫ of what the cusp of `values` adds to them up to `edge`, in their unit times m.
-    fn cusp_integral(&self, values: &[f64], edge: Edge) -> f64 {
-        let cusp = self.cusp(values, edge.radius);
+    /// ∫ of what the cusp of `values` adds to them within the `contact`, in their unit times m.
+    fn cusp_integral(&self, values: &[f64], contact: NormalContact) -> f64 {
+        let cusp = self.cusp(values, contact.radius);
         if cusp == 0.0 {
             return 0.0;
         }
-        let last = edge.nodes - 1;
+        let last = contact.nodes - 1;
         let inner = self.nodes()[last];
-        cusp * (self.bubbles[last] + bubble(inner, edge.radius))
+        cusp * (self.bubbles[last] + bubble(inner, contact.radius))
     }
 }
 
@@ -169,7 +173,11 @@ mod tests {
         let row = WinklerFoundation::new(&grid);
         let (x, t) = (grid.nodes(), grid.squares());
         let nodes = x.partition_point(|&x| x < 1.0);
-        let edge = Edge { radius: 1.0, nodes };
+        let contact = NormalContact {
+            strongest: 1.0,
+            radius: 1.0,
+            nodes,
+        };
         for (cone, square) in [(1.0, 0.0), (0.0, 1.0), (0.7, 0.4)] {
             let q = |x: f64| (cone * (1.0 - x) + square * (1.0 - x * x)).max(0.0);
             let mut load = Field::zeros(x.len());
@@ -185,7 +193,7 @@ mod tests {
                 &mut load.kinks,
             );
             let exact = 2.0 * (cone / 2.0 + square * 2.0 / 3.0);
-            let force = row.force(&load, edge);
+            let force = row.force(&load, contact);
             assert!((force / exact - 1.0).abs() < 1e-9, "{force} {exact}");
         }
     }

@@ -119,6 +119,9 @@ impl Indenter {
 
     /// f₀(r), m. A flat punch ends at its rim: there is nothing to ask beyond.
     pub fn profile(&self, r: f64) -> f64 {
+        if self.flat_face().is_some_and(|face| r <= face) {
+            return 0.0;
+        }
         match *self {
             Self::Table(ref measured) => measured.profile(r),
             Self::Paraboloid { radius } => r * r / (2.0 * radius),
@@ -128,23 +131,19 @@ impl Indenter {
                 exponent,
             } => coefficient * r.powf(exponent),
             Self::FlatPunch { .. } => 0.0,
-            Self::TruncatedParaboloid { radius, tip_radius } if r > tip_radius => {
+            Self::TruncatedParaboloid { radius, tip_radius } => {
                 (r - tip_radius) * (r + tip_radius) / (2.0 * radius)
             }
-            Self::TruncatedCone { angle, tip_radius } if r > tip_radius => {
-                (r - tip_radius) * angle.tan()
-            }
-            Self::RoundedPunch { radius, tip_radius } if r > tip_radius => {
-                (r - tip_radius).powi(2) / (2.0 * radius)
-            }
-            Self::TruncatedParaboloid { .. }
-            | Self::TruncatedCone { .. }
-            | Self::RoundedPunch { .. } => 0.0,
+            Self::TruncatedCone { angle, tip_radius } => (r - tip_radius) * angle.tan(),
+            Self::RoundedPunch { radius, tip_radius } => (r - tip_radius).powi(2) / (2.0 * radius),
         }
     }
 
     /// g₀(x), m: Eq. (1) of the paper in closed form.
     pub fn profile_1d(&self, x: f64) -> f64 {
+        if self.flat_face().is_some_and(|face| x <= face) {
+            return 0.0;
+        }
         match *self {
             Self::Table(ref measured) => measured.profile_1d(x),
             Self::Paraboloid { radius } => x * x / radius,
@@ -154,19 +153,14 @@ impl Indenter {
                 exponent,
             } => kappa(exponent) * coefficient * x.powf(exponent),
             Self::FlatPunch { .. } => 0.0,
-            Self::TruncatedParaboloid { radius, tip_radius } if x > tip_radius => {
+            Self::TruncatedParaboloid { radius, tip_radius } => {
                 x * ((x - tip_radius) * (x + tip_radius)).sqrt() / radius
             }
-            Self::TruncatedCone { angle, tip_radius } if x > tip_radius => {
-                x * angle.tan() * (tip_radius / x).acos()
-            }
-            Self::RoundedPunch { radius, tip_radius } if x > tip_radius => {
+            Self::TruncatedCone { angle, tip_radius } => x * angle.tan() * (tip_radius / x).acos(),
+            Self::RoundedPunch { radius, tip_radius } => {
                 let root = ((x - tip_radius) * (x + tip_radius)).sqrt();
                 x / radius * (root - tip_radius * (tip_radius / x).acos())
             }
-            Self::TruncatedParaboloid { .. }
-            | Self::TruncatedCone { .. }
-            | Self::RoundedPunch { .. } => 0.0,
         }
     }
 

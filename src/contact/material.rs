@@ -130,6 +130,11 @@ impl Material {
         self.friction
     }
 
+    /// μ/G*, 1/Pa: how far a spring of unit load can be strained.
+    pub fn reach(&self) -> f64 {
+        self.friction / self.tangential_modulus
+    }
+
     /// κ = G*/(μE*): the tangential displacement that a spring of compression κ⁻¹ can hold is 1.
     /// Infinite without friction.
     pub fn stick_ratio(&self) -> f64 {

@@ -9,9 +9,7 @@
 
 use std::hint::select_unpredictable as select;
 
-use serde::{Deserialize, Serialize};
-
-use super::foundation::{Edge, WinklerFoundation};
+use super::foundation::{NormalContact, WinklerFoundation};
 use crate::math::abel::field::Field;
 use crate::math::abel::kink;
 use crate::math::abel::product;
@@ -21,28 +19,6 @@ use crate::math::vector::vectorized;
 
 /// An edge closer to a spring than this fraction of the cell counts as being on it.
 const ON_A_SPRING: f64 = 1e-9;
-
-/// What pressing the profile g to a depth gives, beside the line load itself.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct NormalContact {
-    /// The largest load of a spring, N/m; NaN where one is not finite.
-    #[serde(default)]
-    pub strongest: f64,
-    /// The contact radius a, m; 0 without contact.
-    pub radius: f64,
-    /// How many springs, counted from r = 0, lie within the contact radius.
-    pub nodes: usize,
-}
-
-impl NormalContact {
-    /// Where it ends.
-    pub fn edge(&self) -> Edge {
-        Edge {
-            radius: self.radius,
-            nodes: self.nodes,
-        }
-    }
-}
 
 /// Presses the 1D profile `g` (m) to `depth` (m) on springs of stiffness E* = `modulus` (Pa) a length:
 /// writes the line `load` (N/m).
@@ -110,7 +86,7 @@ pub fn depth_for_load(
     root::bracketed(
         |depth| {
             let contact = press(row, g, depth, modulus, carried);
-            row.force(carried, contact.edge()) / load - 1.0
+            row.force(carried, contact) / load - 1.0
         },
         shallowest,
         deepest,
@@ -137,7 +113,7 @@ mod tests {
             let mut q = Field::zeros(g.len());
             q.nodal.fill(f64::NAN);
             let contact = press(&row, &g, 1.0, 1.0, &mut q);
-            let force = row.force(&q, contact.edge());
+            let force = row.force(&q, contact);
             assert!((force - 4.0 / 3.0).abs() < 1e-14, "{force}");
             assert!((contact.strongest - 1.0).abs() < 1e-15);
             assert!((contact.radius - 1.0).abs() < 1e-14);
@@ -150,7 +126,7 @@ mod tests {
         let (row, g) = hertz(200);
         let mut q = Field::zeros(g.len());
         let contact = press(&row, &g, 0.8, 1.0, &mut q);
-        let load = row.force(&q, contact.edge());
+        let load = row.force(&q, contact);
         let mut depth = |load| depth_for_load(&row, &g, load, 1.0, 1.5, &mut q);
         assert!((depth(load).expect("a depth") - 0.8).abs() < 1e-12);
         assert_eq!(depth(0.0), Some(0.0));

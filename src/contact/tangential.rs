@@ -8,7 +8,7 @@ use std::hint::select_unpredictable as select;
 
 use serde::{Deserialize, Serialize};
 
-use super::foundation::{Edge, WinklerFoundation};
+use super::foundation::{NormalContact, WinklerFoundation};
 use crate::math::abel::field::Field;
 use crate::math::abel::kink;
 use crate::math::scan::{changes, leading};
@@ -50,28 +50,21 @@ impl SpringState {
     }
 }
 
-/// The part of the contact that the tangential springs need to know.
+/// What the tangential springs need to know: the normal contact, and where they stood before.
 #[derive(Debug, Clone, Copy)]
 pub struct SlipInput<'a> {
     /// Where the springs stand.
     pub foundation: &'a WinklerFoundation,
     /// The normal line load q_z, N/m, nodal.
     pub normal_load: &'a [f64],
-    /// The largest of it, N/m.
-    pub strongest: f64,
-    /// Where the contact ends.
-    pub edge: Edge,
+    /// Where the contact ends, and the largest of the load.
+    pub contact: NormalContact,
     /// μ/G*, 1/Pa: how far a spring of unit load can be strained.
     pub reach: f64,
-}
-
-/// What each spring did in a step.
-#[derive(Debug, Clone, Copy)]
-pub struct Motion<'a> {
     /// u_x before, m.
     pub before: &'a [f64],
     /// What the springs did in the step before.
-    pub states: &'a [SpringState],
+    pub held: &'a [SpringState],
 }
 
 /// Moves the indenter by `increment` (m): `spring` (m) receives the displacement of every spring
@@ -82,20 +75,19 @@ pub struct Motion<'a> {
 pub fn slide(
     input: SlipInput<'_>,
     increment: f64,
-    before: &[f64],
     spring: &mut [f64],
     slip: &mut [f64],
     hold: &mut [SpringState],
 ) {
-    let nodes = input.edge.nodes;
+    let SlipInput { reach, before, .. } = input;
+    let NormalContact {
+        strongest, nodes, ..
+    } = input.contact;
     let load = &input.normal_load[..nodes];
     spring[nodes..].fill(0.0);
     slip[nodes..].fill(increment);
     hold[nodes..].fill(SpringState::Open);
     // Without branches, so that the processor takes several springs at a time.
-    let SlipInput {
-        reach, strongest, ..
-    } = input;
     vectorized(
         #[inline(always)]
         move || {
@@ -131,15 +123,15 @@ pub fn take_along_late(
     increment: f64,
     [before, now]: [f64; 2],
     g: &[f64],
-    held: &[SpringState],
     springs: (&mut [f64], &mut [f64], &mut [SpringState]),
 ) {
     if now <= before {
         return;
     }
     let (spring, slip, hold) = springs;
+    let held = input.held;
     let first = leading(held, |&state| state != SpringState::Open);
-    for j in first..input.edge.nodes {
+    for j in first..input.contact.nodes {
         if held[j] != SpringState::Open || hold[j] == SpringState::Open {
             continue;
         }
@@ -163,12 +155,8 @@ pub fn take_along_late(
 /// At a border the line of the springs that stick meets the line of the limits, μ q_z/G*. A spring
 /// that stuck in the step before and slips now tells the slope of the first line by where it stood;
 /// else the last cell that sticks does.
-pub fn borders(
-    input: SlipInput<'_>,
-    motion: Motion<'_>,
-    spring: &mut Field,
-    states: &[SpringState],
-) -> f64 {
+pub fn borders(input: SlipInput<'_>, spring: &mut Field, states: &[SpringState]) -> f64 {
+    let contact_radius = input.contact.radius;
     let Field {
         nodal: spring,
         kinks,
@@ -185,14 +173,13 @@ pub fn borders(
     for k in changes(states, |&state| state).map(|behind| behind - 1) {
         let cell = Cell {
             input,
-            motion,
             spring,
             states,
             k,
         };
         let width = squares[k + 1] - squares[k];
         let edge = (states[k] == SpringState::Open || states[k + 1] == SpringState::Open)
-            .then_some(input.edge.radius * input.edge.radius)
+            .then_some(contact_radius * contact_radius)
             .filter(|&at| {
                 at > squares[k] + ON_A_SPRING * width && at < squares[k + 1] - ON_A_SPRING * width
             });
@@ -216,15 +203,12 @@ pub fn borders(
             (None, None) => {}
         }
     }
-    stick_radius
-        .unwrap_or(input.edge.radius)
-        .min(input.edge.radius)
+    stick_radius.unwrap_or(contact_radius).min(contact_radius)
 }
 
 /// A cell whose two springs do different things.
 struct Cell<'a> {
     input: SlipInput<'a>,
-    motion: Motion<'a>,
     spring: &'a [f64],
     states: &'a [SpringState],
     k: usize,
@@ -242,20 +226,19 @@ impl Cell<'_> {
         let (from, sign, stick_slope) = match (self.states[k], self.states[k + 1]) {
             (SpringState::Stick, other) => {
                 let sign = other.sign().unwrap_or(self.spring[k].signum());
-                let slope = if other != SpringState::Open
-                    && self.motion.states[k + 1] == SpringState::Stick
-                {
-                    (self.motion.before[k + 1] - self.motion.before[k]) / width
-                } else if k > 0 && self.states[k - 1] == SpringState::Stick {
-                    (self.spring[k] - self.spring[k - 1]) / (t[k] - t[k - 1])
-                } else {
-                    0.0
-                };
+                let slope =
+                    if other != SpringState::Open && self.input.held[k + 1] == SpringState::Stick {
+                        (self.input.before[k + 1] - self.input.before[k]) / width
+                    } else if k > 0 && self.states[k - 1] == SpringState::Stick {
+                        (self.spring[k] - self.spring[k - 1]) / (t[k] - t[k - 1])
+                    } else {
+                        0.0
+                    };
                 (k, sign, slope)
             }
             (other, SpringState::Stick) => {
-                let slope = if self.motion.states[k] == SpringState::Stick {
-                    (self.motion.before[k + 1] - self.motion.before[k]) / width
+                let slope = if self.input.held[k] == SpringState::Stick {
+                    (self.input.before[k + 1] - self.input.before[k]) / width
                 } else if self.states.get(k + 2) == Some(&SpringState::Stick) {
                     (self.spring[k + 2] - self.spring[k + 1]) / (t[k + 2] - t[k + 1])
                 } else {
@@ -289,7 +272,8 @@ mod tests {
     }
 
     impl Bench {
-        const EDGE: Edge = Edge {
+        const CONTACT: NormalContact = NormalContact {
+            strongest: 1.0,
             radius: 1.0,
             nodes: 200,
         };
@@ -309,27 +293,23 @@ mod tests {
 
         /// Moves by `increment` with `reach`; returns the stick radius.
         fn slide(&mut self, increment: f64, reach: f64) -> f64 {
+            let (before, held) = (self.spring.nodal.clone(), self.states.clone());
             let input = SlipInput {
                 foundation: &self.row,
                 normal_load: &self.load,
-                strongest: 1.0,
-                edge: Self::EDGE,
+                contact: Self::CONTACT,
                 reach,
+                before: &before,
+                held: &held,
             };
-            let (before, held) = (self.spring.nodal.clone(), self.states.clone());
             slide(
                 input,
                 increment,
-                &before,
                 &mut self.spring.nodal,
                 &mut self.slip,
                 &mut self.states,
             );
-            let motion = Motion {
-                before: &before,
-                states: &held,
-            };
-            borders(input, motion, &mut self.spring, &self.states)
+            borders(input, &mut self.spring, &self.states)
         }
     }
 
@@ -343,7 +323,7 @@ mod tests {
                 stick = bench.slide(0.05 / f64::from(steps), 0.1);
             }
             assert!((stick - 0.5f64.sqrt()).abs() < 1e-13, "{stick}");
-            let force = bench.row.force(&bench.spring, Bench::EDGE);
+            let force = bench.row.force(&bench.spring, Bench::CONTACT);
             let expected = 0.1 * 4.0 / 3.0 * (1.0 - 0.5f64.powf(1.5));
             assert!((force / expected - 1.0).abs() < 1e-12, "{force} {expected}");
             assert!(

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::Log;
 use crate::math::invalid::Invalid;
 use crate::simulation::drive::{Control, Drive, Oscillation};
-use crate::simulation::{Setup, Simulation, Spacing, Unworn, border};
+use crate::simulation::{Integrator, Setup, Simulation, Spacing, Unworn, border};
 
 /// Slopes and a/R above this one are no half-space any more.
 const STEEP: f64 = 0.3;
@@ -28,6 +28,24 @@ impl Simulation {
         lines.extend(self.hardness_warning(log));
         lines.extend(self.ring_of_contact());
         lines
+    }
+
+    /// Why cycles that should be jumped are all stepped directly; `None` if they are jumped.
+    pub fn why_never_jumped(&self) -> Option<&'static str> {
+        let Setup {
+            drive,
+            wear,
+            integrator,
+            ..
+        } = self.setup();
+        match integrator {
+            Integrator::Direct => None,
+            _ if drive.tangential().is_none() || wear.is_none() => Some("nothing wears"),
+            _ if drive.repeats_after().is_none() => {
+                Some("the two frequencies have no common period, so no two cycles are the same")
+            }
+            Integrator::CycleJump { .. } => None,
+        }
     }
 
     /// A scar may leave a profile that touches in a ring, which the springs do not stand for.

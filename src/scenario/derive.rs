@@ -163,7 +163,7 @@ impl Contact<'_> {
         Some(Pressed {
             depth,
             radius: contact.radius,
-            force: foundation.force(&load, contact.edge()),
+            force: foundation.force(&load, contact),
         })
     }
 

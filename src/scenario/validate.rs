@@ -19,7 +19,7 @@ use crate::math::abel::AbelMethod;
 use crate::math::grid::RadialGrid;
 use crate::math::invalid::Invalid;
 use crate::simulation::{Integrator, Setup, Spacing};
-use crate::wear::WearLaw;
+use crate::wear::{Powers, WearLaw};
 
 /// Makes the parts of a scenario from the keys that the user gave, and returns them behind the
 /// [completed](super::complete::table) keys. Where an accuracy leaves points and steps open, they have their defaults.
@@ -199,13 +199,13 @@ impl Parts<'_> {
                 })?,
                 false => (1.0, 1.0),
             };
-        let power = WearLaw::power(
-            coefficient,
-            self.require(&keys::STRESS_EXPONENT)?,
-            self.require(&keys::SLIP_RATE_EXPONENT)?,
-            stress.unwrap_or(any_stress),
-            slip_rate.unwrap_or(any_slip_rate),
-        );
+        let powers = Powers {
+            stress_exponent: self.require(&keys::STRESS_EXPONENT)?,
+            slip_rate_exponent: self.require(&keys::SLIP_RATE_EXPONENT)?,
+            reference_stress: stress.unwrap_or(any_stress),
+            reference_slip_rate: slip_rate.unwrap_or(any_slip_rate),
+        };
+        let power = WearLaw::power(coefficient, powers);
         let law = match is_power {
             true => power,
             false => power.and(WearLaw::archard(coefficient)),

@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use super::Setup;
 use super::choices::Stability;
 use crate::math::abel::AbelMethod;
 
@@ -19,14 +20,12 @@ pub struct Breakdown {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Cause {
     /// A NaN or an infinity in the contact or in the worn profile.
-    #[error("the {quantity} is not finite; {}", advice(*method, *stability))]
+    #[error("the {quantity} is not finite; {advice}")]
     NotFinite {
         /// Which quantity was seen first.
         quantity: &'static str,
-        /// The transform method in use.
-        method: AbelMethod,
-        /// Whether harsh steps were taken in parts.
-        stability: Stability,
+        /// What may help.
+        advice: &'static str,
     },
     /// A contact whose force no f64 holds.
     #[error(
@@ -39,19 +38,16 @@ pub enum Cause {
     },
     /// The worn profile stands far above what can touch.
     #[error(
-        "wear diverges: {} times the largest depth at r = {radius:.4e} m; {}",
-        short(*worn),
-        advice(*method, *stability)
+        "wear diverges: {} times the largest depth at r = {radius:.4e} m; {advice}",
+        short(*worn)
     )]
     Runaway {
         /// Largest worn depth in units of the largest depth of indentation.
         worn: f64,
         /// Where it stands, m.
         radius: f64,
-        /// The transform method in use.
-        method: AbelMethod,
-        /// Whether harsh steps were taken in parts.
-        stability: Stability,
+        /// What may help.
+        advice: &'static str,
     },
     /// The contact has grown to the last node.
     #[error(
@@ -65,16 +61,13 @@ pub enum Cause {
     /// The contact has grown to where the unworn indenter stands too high to touch.
     #[error(
         "the contact reaches {radius:.4e} m, where nothing can touch at this depth: the profile \
-         has diverged; {}",
-        advice(*method, *stability)
+         has diverged; {advice}"
     )]
     BlownUp {
         /// L, m.
         radius: f64,
-        /// The transform method in use.
-        method: AbelMethod,
-        /// Whether harsh steps were taken in parts.
-        stability: Stability,
+        /// What may help.
+        advice: &'static str,
     },
     /// A prescribed normal force that no depth carries.
     #[error(
@@ -140,8 +133,8 @@ fn short(value: f64) -> String {
 }
 
 /// What is likely behind a state that blows up, by method.
-fn advice(method: AbelMethod, stability: Stability) -> &'static str {
-    match method {
+pub(super) fn advice(setup: &Setup) -> &'static str {
+    match setup.method {
         AbelMethod::Benad => {
             "method benad amplifies errors in every round trip f -> g -> f; \
              numerics.method = \"product\" is stable"
@@ -150,7 +143,7 @@ fn advice(method: AbelMethod, stability: Stability) -> &'static str {
             "method b develops a sawtooth at large wear coefficients; try numerics.method = \
              \"product\" or more numerics.steps_per_cycle"
         }
-        _ if stability == Stability::Off => {
+        _ if setup.stability == Stability::Off => {
             "the wear per step is too large for the grid; try numerics.stability = \"sub-step\", \
              more numerics.steps_per_cycle, fewer numerics.points or a smaller wear.coefficient"
         }

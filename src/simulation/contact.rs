@@ -2,12 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::breakdown::Cause;
+use super::breakdown::{Cause, advice};
 use super::choices::Scheme;
 use super::drive::Target;
 use super::model::Model;
-use crate::contact::normal::{self, NormalContact};
-use crate::contact::tangential::{self, Motion, SlipInput, SpringState};
+use crate::contact::foundation::NormalContact;
+use crate::contact::normal;
+use crate::contact::tangential::{self, SlipInput, SpringState};
 use crate::math::abel::field::Field;
 use crate::math::root;
 use crate::math::scan::largest;
@@ -47,8 +48,7 @@ impl Contact {
 
     /// F_z, N.
     pub(crate) fn normal_force(&self, model: &Model) -> f64 {
-        let edge = self.normal.edge();
-        model.foundation.force(&self.load, edge)
+        model.foundation.force(&self.load, self.normal)
     }
 
     /// F_x, N; 0 without tangential motion.
@@ -56,8 +56,8 @@ impl Contact {
         if self.spring.nodal.is_empty() {
             return 0.0;
         }
-        let edge = self.normal.edge();
-        model.setup.material.tangential_modulus() * model.foundation.force(&self.spring, edge)
+        let springs = model.foundation.force(&self.spring, self.normal);
+        model.setup.material.tangential_modulus() * springs
     }
 
     /// u_x(r), m, of the surface by Eq. (2).
@@ -75,203 +75,187 @@ impl Contact {
     }
 }
 
-/// Presses and shifts the indenter to what the drive asks for at `cycle`, on the 1D profile `g` (m), from where
-/// the springs stood `before`. Writes the contact `after`, and how far each tangential spring slips, m.
-pub(super) fn solve(
-    model: &Model,
-    g: &[f64],
-    before: &Contact,
-    cycle: f64,
-    after: &mut Contact,
-    slip: &mut [f64],
-) -> Result<(), Cause> {
-    press_at(model, g, cycle, after)?;
-    after.shift = before.shift;
-    let increment = match model.setup.drive.tangential_at(cycle) {
-        None => return Ok(()),
-        Some(Target::Displacement(target)) if model.setup.drive.rig_compliance() > 0.0 => {
-            increment_on_rig(model, g, before, after, slip, target)?
-        }
-        Some(Target::Displacement(target)) => target - before.shift,
-        Some(Target::Force(target)) => increment_for_force(model, g, before, after, slip, target)?,
-    };
-    shift_by(model, g, before, after, slip, increment);
-    after.shift = match model.setup.drive.tangential_at(cycle) {
-        Some(Target::Displacement(target)) if model.setup.drive.rig_compliance() == 0.0 => target,
-        _ => before.shift + increment,
-    };
-    Ok(())
+/// What the contact of a moment is solved from.
+#[derive(Clone, Copy)]
+pub(super) struct Problem<'a> {
+    pub model: &'a Model,
+    /// The 1D profile, m.
+    pub g: &'a [f64],
+    /// Where the springs stood.
+    pub before: &'a Contact,
 }
 
-/// Presses the indenter to what the drive asks for at `cycle` on the 1D profile `g` (m). The tangential springs
-/// stay as they are.
-pub(super) fn press_at(
-    model: &Model,
-    g: &[f64],
-    cycle: f64,
-    contact: &mut Contact,
-) -> Result<(), Cause> {
-    let setup = &model.setup;
-    let depth = depth_at(model, g, cycle, contact)?;
-    let modulus = setup.material.normal_modulus();
-    let normal = normal::press(&model.foundation, g, depth, modulus, &mut contact.load);
-    if !model.foundation.most_force(normal.strongest).is_finite() {
-        if g.iter().all(|g| g.is_finite()) {
-            return Err(Cause::Overflow { depth });
-        }
-        return Err(Cause::NotFinite {
-            quantity: "normal force",
-            method: setup.method,
-            stability: setup.stability,
-        });
-    }
-    let last = setup.grid.cells();
-    let at_end = contact.load.nodal[last];
-    if setup.indenter.rim().is_none() && normal.nodes > last && at_end > 1e-9 * modulus * depth {
-        let radius = setup.grid.radius();
-        // Wear only lowers the surface: where f₀ exceeds the depth, nothing ever touches.
-        return Err(if model.unworn[last] >= depth * (1.0 - 1e-9) {
-            Cause::BlownUp {
-                radius,
-                method: setup.method,
-                stability: setup.stability,
+impl Problem<'_> {
+    /// Presses and shifts the indenter to what the drive asks for at `cycle`. Writes the contact `after`, and how far
+    /// each tangential spring slips, m.
+    pub fn solve(self, cycle: f64, after: &mut Contact, slip: &mut [f64]) -> Result<(), Cause> {
+        let Self { before, .. } = self;
+        let drive = &self.model.setup.drive;
+        self.press(cycle, after)?;
+        after.shift = before.shift;
+        let is_stiff = drive.rig_compliance() == 0.0;
+        let (increment, shift) = match drive.tangential_at(cycle) {
+            None => return Ok(()),
+            Some(Target::Displacement(target)) if is_stiff => (target - before.shift, target),
+            Some(target) => {
+                let increment = match target {
+                    Target::Displacement(target) => self.increment_on_rig(after, slip, target)?,
+                    Target::Force(target) => self.increment_for_force(after, slip, target)?,
+                };
+                (increment, before.shift + increment)
             }
-        } else {
-            Cause::EdgeReached {
-                domain_radius: radius,
+        };
+        self.shift_by(increment, after, slip);
+        after.shift = shift;
+        Ok(())
+    }
+
+    /// Presses the indenter to what the drive asks for at `cycle`. The tangential springs stay as they are.
+    fn press(self, cycle: f64, contact: &mut Contact) -> Result<(), Cause> {
+        let Self { model, g, .. } = self;
+        let setup = &model.setup;
+        let depth = self.depth_at(cycle, contact)?;
+        let modulus = setup.material.normal_modulus();
+        let normal = normal::press(&model.foundation, g, depth, modulus, &mut contact.load);
+        if !model.foundation.most_force(normal.strongest).is_finite() {
+            if g.iter().all(|g| g.is_finite()) {
+                return Err(Cause::Overflow { depth });
             }
-        });
+            return Err(Cause::NotFinite {
+                quantity: "normal force",
+                advice: advice(setup),
+            });
+        }
+        let last = setup.grid.cells();
+        let at_end = contact.load.nodal[last];
+        if setup.indenter.rim().is_none() && normal.nodes > last && at_end > 1e-9 * modulus * depth
+        {
+            let radius = setup.grid.radius();
+            // Wear only lowers the surface: where f₀ exceeds the depth, nothing ever touches.
+            return Err(if model.unworn[last] >= depth * (1.0 - 1e-9) {
+                Cause::BlownUp {
+                    radius,
+                    advice: advice(setup),
+                }
+            } else {
+                Cause::EdgeReached {
+                    domain_radius: radius,
+                }
+            });
+        }
+        contact.depth = depth;
+        contact.normal = normal;
+        Ok(())
     }
-    contact.depth = depth;
-    contact.normal = normal;
-    Ok(())
-}
 
-/// The depth, m: prescribed, or the one that carries the prescribed force.
-fn depth_at(model: &Model, g: &[f64], cycle: f64, contact: &mut Contact) -> Result<f64, Cause> {
-    let setup = &model.setup;
-    let force = match setup.drive.normal_at(cycle) {
-        Target::Displacement(depth) => return Ok(depth),
-        Target::Force(force) => force,
-    };
-    let modulus = setup.material.normal_modulus();
-    let deepest = match setup.indenter.rim() {
-        // A punch carries any load; its springs yield at most what the load needs.
-        Some(rim) => largest(g) + 2.0 * (force / (2.0 * modulus * rim)).abs(),
-        None => g[setup.grid.cells()],
-    };
-    let load = &mut contact.load;
-    normal::depth_for_load(&model.foundation, g, force, modulus, deepest, load).ok_or(
-        Cause::LoadTooLarge {
-            force,
-            domain_radius: setup.grid.radius(),
-        },
-    )
-}
-
-/// Moves the tangential springs by `increment` (m) from where they stood `before`.
-fn shift_by(
-    model: &Model,
-    g: &[f64],
-    before: &Contact,
-    after: &mut Contact,
-    slip: &mut [f64],
-    increment: f64,
-) {
-    let material = &model.setup.material;
-    let input = SlipInput {
-        foundation: &model.foundation,
-        normal_load: &after.load.nodal,
-        strongest: after.normal.strongest,
-        edge: after.normal.edge(),
-        reach: material.friction() / material.tangential_modulus(),
-    };
-    let motion = Motion {
-        before: &before.spring.nodal,
-        states: &before.spring_state,
-    };
-    let (spring, states) = (&mut after.spring, &mut after.spring_state);
-    tangential::slide(
-        input,
-        increment,
-        motion.before,
-        &mut spring.nodal,
-        slip,
-        states,
-    );
-    // The published scheme is of first order anyway, and stays as it was published.
-    if model.setup.scheme == Scheme::Trapezoid {
-        let depths = [before.depth, after.depth];
-        let springs = (&mut spring.nodal[..], &mut *slip, &mut states[..]);
-        tangential::take_along_late(input, increment, depths, g, motion.states, springs);
+    /// The depth, m: prescribed, or the one that carries the prescribed force.
+    fn depth_at(self, cycle: f64, contact: &mut Contact) -> Result<f64, Cause> {
+        let Self { model, g, .. } = self;
+        let setup = &model.setup;
+        let force = match setup.drive.normal_at(cycle) {
+            Target::Displacement(depth) => return Ok(depth),
+            Target::Force(force) => force,
+        };
+        let modulus = setup.material.normal_modulus();
+        let deepest = match setup.indenter.rim() {
+            // A punch carries any load; its springs yield at most what the load needs.
+            Some(rim) => largest(g) + 2.0 * (force / (2.0 * modulus * rim)).abs(),
+            None => g[setup.grid.cells()],
+        };
+        let load = &mut contact.load;
+        normal::depth_for_load(&model.foundation, g, force, modulus, deepest, load).ok_or(
+            Cause::LoadTooLarge {
+                force,
+                domain_radius: setup.grid.radius(),
+            },
+        )
     }
-    after.stick_radius = Some(tangential::borders(input, motion, spring, states));
-}
 
-/// The increment of displacement (m) that a rig leaves to the contact where its actuator stands at
-/// `target` (m): u + C F_x(u) = U. F_x rises with u and never exceeds μF_z, which brackets the root.
-fn increment_on_rig(
-    model: &Model,
-    g: &[f64],
-    before: &Contact,
-    after: &mut Contact,
-    slip: &mut [f64],
-    target: f64,
-) -> Result<f64, Cause> {
-    let setup = &model.setup;
-    let compliance = setup.drive.rig_compliance();
-    let limit = setup.material.friction() * after.normal_force(model);
-    let (wanted, span) = (target - before.shift, 1.1 * compliance * limit);
-    // A contact that is being lost or made bends the rig by less than its actuator's place is rounded to: nothing
-    // would be bracketed.
-    if span <= ROUNDING * (target.abs() + before.shift.abs()) {
-        return Ok(wanted);
+    /// Moves the tangential springs by `increment` (m) from where they stood before.
+    fn shift_by(self, increment: f64, after: &mut Contact, slip: &mut [f64]) {
+        let Self { model, g, before } = self;
+        let material = &model.setup.material;
+        let input = SlipInput {
+            foundation: &model.foundation,
+            normal_load: &after.load.nodal,
+            contact: after.normal,
+            reach: material.reach(),
+            before: &before.spring.nodal,
+            held: &before.spring_state,
+        };
+        let (spring, states) = (&mut after.spring, &mut after.spring_state);
+        tangential::slide(input, increment, &mut spring.nodal, slip, states);
+        // The published scheme is of first order anyway, and stays as it was published.
+        if model.setup.scheme == Scheme::Trapezoid {
+            let depths = [before.depth, after.depth];
+            let springs = (&mut spring.nodal[..], &mut *slip, &mut states[..]);
+            tangential::take_along_late(input, increment, depths, g, springs);
+        }
+        after.stick_radius = Some(tangential::borders(input, spring, states));
     }
-    root::bracketed(
-        |increment| {
-            shift_by(model, g, before, after, slip, increment);
-            (increment - wanted + compliance * after.tangential_force(model)) / span
-        },
-        wanted - span,
-        wanted + span,
-        1e-15 * (span + target.abs()),
-    )
-    .ok_or(Cause::NotFinite {
-        quantity: "tangential force",
-        method: setup.method,
-        stability: setup.stability,
-    })
-}
 
-/// The increment of displacement (m) that brings the tangential force to `target` (N).
-fn increment_for_force(
-    model: &Model,
-    g: &[f64],
-    before: &Contact,
-    after: &mut Contact,
-    slip: &mut [f64],
-    target: f64,
-) -> Result<f64, Cause> {
-    let material = &model.setup.material;
-    let limit = material.friction() * after.normal_force(model);
-    let exceeded = Cause::FrictionExceeded {
-        force: target,
-        limit,
-    };
-    if target.abs() >= limit {
-        return Err(exceeded);
+    /// The increment of displacement (m) that a rig leaves to the contact where its actuator stands at
+    /// `target` (m): u + C F_x(u) = U. F_x rises with u and never exceeds μF_z, which brackets the root.
+    fn increment_on_rig(
+        self,
+        after: &mut Contact,
+        slip: &mut [f64],
+        target: f64,
+    ) -> Result<f64, Cause> {
+        let Self { model, before, .. } = self;
+        let setup = &model.setup;
+        let compliance = setup.drive.rig_compliance();
+        let limit = setup.material.friction() * after.normal_force(model);
+        let (wanted, span) = (target - before.shift, 1.1 * compliance * limit);
+        // A contact that is being lost or made bends the rig by less than its actuator's place is rounded to: nothing
+        // would be bracketed.
+        if span <= ROUNDING * (target.abs() + before.shift.abs()) {
+            return Ok(wanted);
+        }
+        root::bracketed(
+            |increment| {
+                self.shift_by(increment, after, slip);
+                (increment - wanted + compliance * after.tangential_force(model)) / span
+            },
+            wanted - span,
+            wanted + span,
+            1e-15 * (span + target.abs()),
+        )
+        .ok_or(Cause::NotFinite {
+            quantity: "tangential force",
+            advice: advice(setup),
+        })
     }
-    // Twice the largest strain a spring can hold turns every spring over.
-    let reach = material.friction() / material.tangential_modulus();
-    let span = 2.0 * after.normal.strongest * reach;
-    root::bracketed(
-        |increment| {
-            shift_by(model, g, before, after, slip, increment);
-            (after.tangential_force(model) - target) / limit
-        },
-        -span,
-        span,
-        1e-15 * span,
-    )
-    .ok_or(exceeded)
+
+    /// The increment of displacement (m) that brings the tangential force to `target` (N).
+    fn increment_for_force(
+        self,
+        after: &mut Contact,
+        slip: &mut [f64],
+        target: f64,
+    ) -> Result<f64, Cause> {
+        let model = self.model;
+        let material = &model.setup.material;
+        let limit = material.friction() * after.normal_force(model);
+        let exceeded = Cause::FrictionExceeded {
+            force: target,
+            limit,
+        };
+        if target.abs() >= limit {
+            return Err(exceeded);
+        }
+        // Twice the largest strain a spring can hold turns every spring over.
+        let reach = material.reach();
+        let span = 2.0 * after.normal.strongest * reach;
+        root::bracketed(
+            |increment| {
+                self.shift_by(increment, after, slip);
+                (after.tangential_force(model) - target) / limit
+            },
+            -span,
+            span,
+            1e-15 * span,
+        )
+        .ok_or(exceeded)
+    }
 }

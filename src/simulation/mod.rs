@@ -164,10 +164,8 @@ pub struct Simulation {
     model: Model,
     /// After the last good step.
     state: State,
-    /// What the next step is written into.
-    spare: State,
-    /// What its sub-steps are written into.
-    between: State,
+    /// What the next step and its sub-steps are written into; the first is the state before the last step.
+    spare: [State; 2],
     scratch: Scratch,
     /// Where the next step ends, and whether the motion turns there.
     next: (f64, bool),
@@ -229,8 +227,7 @@ impl Simulation {
 
     fn with(model: Model, state: State) -> Self {
         Self {
-            spare: state.clone(),
-            between: state.clone(),
+            spare: [state.clone(), state.clone()],
             scratch: Scratch::new(&model),
             next: (0.0, false),
             is_shortened: false,
@@ -318,36 +315,18 @@ impl Simulation {
         step::is_possible(self.setup(), &self.state)
     }
 
-    /// Why cycles that should be jumped are all stepped directly; `None` if they are jumped.
-    pub fn why_never_jumped(&self) -> Option<&'static str> {
-        let Setup {
-            drive,
-            wear,
-            integrator,
-            ..
-        } = self.setup();
-        match integrator {
-            Integrator::Direct => None,
-            _ if drive.tangential().is_none() || wear.is_none() => Some("nothing wears"),
-            _ if drive.repeats_after().is_none() => {
-                Some("the two frequencies have no common period, so no two cycles are the same")
-            }
-            Integrator::CycleJump { .. } => None,
-        }
-    }
-
     /// Jumps over at most `most` cycles, where that is wanted and pays.
     fn jump(&mut self, most: f64) -> Result<bool, Breakdown> {
         if !self.may_jump() {
             return Ok(false);
         }
         use step::Jumped;
-        let (state, spare) = (&self.state, &mut self.spare);
+        let (state, spare) = (&self.state, &mut self.spare[0]);
         let jumped = step::jump(&self.model, state, spare, &mut self.scratch, most)
             .map_err(|cause| self.refused(cause))?;
-        std::mem::swap(&mut self.state, &mut self.spare);
+        std::mem::swap(&mut self.state, &mut self.spare[0]);
         // A jump leaves buffers of its own.
-        self.spare.clone_from(&self.state);
+        self.spare[0].clone_from(&self.state);
         if jumped == Jumped::WithoutRoom && self.grow()? {
             return self.jump(most);
         }
@@ -378,13 +357,16 @@ impl Simulation {
 
     /// One step into the spare state, which becomes the present one if all went well.
     fn step_to(&mut self, cycle: f64, turns: bool) -> Result<(), Breakdown> {
-        let (model, state, scratch) = (&self.model, &self.state, &mut self.scratch);
-        let (next, between) = (&mut self.spare, &mut self.between);
-        match step::step(model, state, next, between, scratch, cycle, turns) {
+        let (state, spare) = (&self.state, &mut self.spare);
+        match step::step(&self.model, state, spare, &mut self.scratch, cycle) {
             Err(cause) if cause.lacks_room() && self.grow()? => return self.step_to(cycle, turns),
             outcome => outcome.map_err(|cause| self.refused(cause))?,
         }
-        std::mem::swap(&mut self.state, &mut self.spare);
+        std::mem::swap(&mut self.state, &mut self.spare[0]);
+        if turns {
+            self.state.last.duration = 0.0;
+        }
+        self.state.steps += 1;
         self.run_in();
         self.next = self.look_ahead();
         Ok(())
@@ -400,7 +382,7 @@ impl Simulation {
         self.run_in();
         step::settle(&self.model, &mut self.state, &mut self.scratch)
             .map_err(|cause| self.refused(cause))?;
-        self.spare.clone_from(&self.state);
+        self.spare[0].clone_from(&self.state);
         self.run_in();
         self.next = self.look_ahead();
         Ok(())
@@ -433,19 +415,24 @@ impl Simulation {
     /// The model as it was in the last step: friction and wear may have run in since.
     pub(crate) fn model_of_last_step(&self) -> Model {
         let mut model = self.model.clone();
-        model.setup.run_in(&self.spare);
+        model.setup.run_in(&self.spare[0]);
         model
     }
 
     /// The contact that the last step, of the `model` [then](Self::model_of_last_step), would have come to after a
     /// `share` of it on a profile that stays. `None` if it cannot be solved.
     pub(crate) fn within_last_step(&self, model: &Model, share: f64) -> Option<contact::Contact> {
-        let (before, springs) = (&self.spare, model.springs());
+        let (before, springs) = (&self.spare[0], model.springs());
         let cycle = before.cycle + share * (self.state.cycle - before.cycle);
         let mut contact = contact::Contact::new(model.nodes(), springs);
         let (mut g, mut slip) = (vec![0.0; model.nodes()], vec![0.0; springs]);
         model.profile(&before.image, 0.0, &[], &mut g);
-        contact::solve(model, &g, &before.contact, cycle, &mut contact, &mut slip).ok()?;
+        let problem = contact::Problem {
+            model,
+            g: &g,
+            before: &before.contact,
+        };
+        problem.solve(cycle, &mut contact, &mut slip).ok()?;
         Some(contact)
     }
 

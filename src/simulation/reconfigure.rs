@@ -3,7 +3,7 @@
 use super::breakdown::{Breakdown, Cause};
 use super::model::Model;
 use super::state::{JumpMemory, State};
-use super::{Setup, Simulation, border, contact};
+use super::{Setup, Simulation, border};
 use crate::math::abel::worn;
 use crate::math::grid::RadialGrid;
 
@@ -124,20 +124,10 @@ impl Simulation {
             };
         }
         let before = &self.state.contact;
-        let fresh = State::new(setup.grid.len(), springs > 0);
-        let mut state = State {
-            contact: contact::Contact {
-                depth: before.depth,
-                shift: before.shift,
-                ..fresh.contact
-            },
-            wear: fresh.wear,
-            image: fresh.image,
-            traction: fresh.traction,
-            last: fresh.last,
-            jump: JumpMemory::default(),
-            ..self.state.clone()
-        };
+        let mut state = State::new(setup.grid.len(), springs > 0);
+        state.carry_sums(&self.state);
+        state.jump = JumpMemory::default();
+        (state.contact.depth, state.contact.shift) = (before.depth, before.shift);
         let nodes = setup.grid.nodes();
         for (worn, &r) in state.wear.iter_mut().zip(nodes) {
             // Between nodes the interpolant may swing below zero by a little.

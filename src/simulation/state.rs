@@ -151,10 +151,4 @@ impl State {
         self.settled_stick_radius
             .unwrap_or(self.smallest_stick_radius)
     }
-
-    /// The radius within which nothing has slipped since the last complete period began, m.
-    pub fn stuck_radius(&self) -> f64 {
-        self.permanent_stick_radius()
-            .min(self.smallest_stick_radius)
-    }
 }

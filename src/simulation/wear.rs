@@ -20,7 +20,7 @@ use super::contact::Contact;
 use super::model::Model;
 use super::stability::response;
 use super::traction::Traction;
-use crate::contact::normal::NormalContact;
+use crate::contact::foundation::NormalContact;
 use crate::contact::tangential::SpringState;
 use crate::math::abel::field::Field;
 use crate::math::abel::kink;
@@ -134,25 +134,18 @@ impl Increment {
         }
     }
 
-    /// What the slip so far wears by the pressure `p` (Pa) of a `contact`, which stays as it is, in `seconds`, and the
-    /// work of friction: τ = ±μp and ΔE_d = 2∫ μq |Δs| dx. From the node `zone` on τ is `sign` times μp; further in,
-    /// it is what `shear` says.
-    pub fn wear_by_load(
-        &mut self,
-        model: &Model,
-        contact: &Contact,
-        p: &[f64],
-        (zone, sign): (usize, f64),
-        seconds: f64,
-    ) {
+    /// What the slip so far wears by the pressure `p` (Pa) of a `contact`, which stays as it is, and the work of
+    /// friction: τ = μp and ΔE_d = 2∫ μq |Δs| dx. The first `stuck` nodes do not slip.
+    pub fn wear_by_load(&mut self, model: &Model, contact: &Contact, p: &[f64], stuck: usize) {
         let friction = model.setup.material.friction();
-        for (tau, p) in self.shear[zone..].iter_mut().zip(&p[zone..]) {
-            *tau = sign * friction * p;
+        self.shear[..stuck].fill(0.0);
+        for (tau, p) in self.shear[stuck..].iter_mut().zip(&p[stuck..]) {
+            *tau = friction * p;
         }
-        self.nodes = 0..self.depth.len();
-        self.wear(model, seconds);
+        self.nodes = stuck..self.depth.len();
+        self.wear(model, 1.0);
         self.rub(model, [contact, contact]);
-        if zone == 0 {
+        if stuck == 0 {
             self.balance_edge(model, contact.normal.nodes);
         }
     }
@@ -183,9 +176,9 @@ impl Increment {
         };
         let between = |contact: &Contact| contact.load.between_nodes(model.grid.radius());
         let between_springs = between(before) + between(after);
-        let (row, edge) = (&model.foundation, after.normal.edge());
-        self.friction_work =
-            friction * between_springs * at_edge + row.work(&self.rubbing.nodal, &self.slip, edge);
+        let nodal = &self.rubbing.nodal;
+        let in_cells = model.foundation.work(nodal, &self.slip, after.normal);
+        self.friction_work = friction * between_springs * at_edge + in_cells;
     }
 
     /// Makes the last of the nodes that `touch` wear what friction works there, where nothing sticks for ever.
@@ -231,7 +224,7 @@ impl Increment {
             let edge = (normal.radius * normal.radius, 0.0);
             kink::polyline(cell, ends, &[edge], kinks);
         }
-        let work = model.foundation.force(&self.rubbing, normal.edge());
+        let work = model.foundation.force(&self.rubbing, *normal);
         // On a contact of a cell or two, a cusp and the edge may take off more than there is: friction gives nothing
         // back.
         self.friction_work = work.clamp(0.0, f64::INFINITY);

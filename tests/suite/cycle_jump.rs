@@ -8,7 +8,7 @@ use crate::common::{
 use crate::test_dir::has;
 use mdr_tui::math::abel::AbelMethod::A;
 use mdr_tui::simulation::{Integrator, Scheme, Setup, Simulation, Spacing};
-use mdr_tui::wear::WearLaw;
+use mdr_tui::wear::{Powers, WearLaw};
 use std::f64::consts::{FRAC_PI_4, SQRT_2};
 
 fn jumping(setup: &Setup, tolerance: f64) -> Setup {
@@ -38,7 +38,13 @@ fn difference(one: &Simulation, other: &Simulation) -> [f64; 2] {
 
 #[test]
 fn a_jumped_scar_is_the_stepped_one() {
-    let power = Some(WearLaw::power(0.3, 1.5, 0.8, 0.3, 0.1).expect("a law"));
+    let powers = Powers {
+        stress_exponent: 1.5,
+        slip_rate_exponent: 0.8,
+        reference_stress: 0.3,
+        reference_slip_rate: 0.1,
+    };
+    let power = Some(WearLaw::power(0.3, powers).expect("a law"));
     let scenes = [
         ("held", held(0.1), 400.0),
         ("Fig. 3", fig3(0.05), 400.0),

@@ -12,7 +12,7 @@ use mdr_tui::oracle::partial_slip::stiffness_ratio;
 use mdr_tui::reading::{Curves, Observation, Zone};
 use mdr_tui::simulation::drive::{Control, Drive, Oscillation, Target};
 use mdr_tui::simulation::{Simulation, State};
-use mdr_tui::wear::WearLaw;
+use mdr_tui::wear::{Powers, WearLaw};
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_4, SQRT_2, TAU};
 
@@ -357,9 +357,15 @@ fn the_stick_zone_never_wears_under_a_causal_method() {
 #[test]
 fn a_power_of_the_slip_rate_does_not_depend_on_the_step() {
     for exponent in [0.5, 1.0, 1.5, 2.0] {
+        let powers = Powers {
+            stress_exponent: 1.5,
+            slip_rate_exponent: exponent,
+            reference_stress: 0.05,
+            reference_slip_rate: 0.05,
+        };
         let volume = |steps| {
             let scene = Scene {
-                law: Some(WearLaw::power(0.1, 1.5, exponent, 0.05, 0.05).expect("a law")),
+                law: Some(WearLaw::power(0.1, powers).expect("a law")),
                 steps,
                 ..Scene::default()
             };

@@ -251,22 +251,19 @@ fn a_key_changed_follows_the_same_rules() {
 fn the_law_can_be_switched_there_and_back() {
     let archard = load("li2019-fig3", &[]);
     let power = archard.with("wear.law", "\"power\"").expect("a law");
-    let Some(WearLaw::Power {
-        stress_exponent,
-        slip_rate_exponent,
-        reference_stress,
-        reference_slip_rate,
-        ..
-    }) = power.setup().wear
-    else {
-        panic!("the power law");
-    };
-    assert_eq!((stress_exponent, slip_rate_exponent), (1.5, 1.0));
+    let law = power.setup().wear.expect("a law");
+    let powers = law.powers().expect("the power law");
+    let exponents = (powers.stress_exponent, powers.slip_rate_exponent);
+    assert_eq!(exponents, (1.5, 1.0));
     // mu F/(pi a^2) of Hertz, with the error of 200 cells.
     let mean_pressure =
         4.0 / 3.0 * 2.3077e11 * 1e-3 * 0.01f64.sqrt() * 1e-6 / (std::f64::consts::PI * 1e-8);
-    assert_relative_eq!(reference_stress, 0.1 * mean_pressure, max_relative = 1e-3);
-    assert_relative_eq!(reference_slip_rate, 1e-5, max_relative = 1e-12);
+    assert_relative_eq!(
+        powers.reference_stress,
+        0.1 * mean_pressure,
+        max_relative = 1e-3
+    );
+    assert_relative_eq!(powers.reference_slip_rate, 1e-5, max_relative = 1e-12);
     assert_eq!(power.with("wear.law", "archard"), Ok(archard));
     let given = load("power-law", &["wear.reference_stress=1e8"]);
     let archard = given.with("wear.law", "archard").expect("a law");

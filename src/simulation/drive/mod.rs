@@ -27,13 +27,16 @@ pub const WITHOUT_REPEAT: u32 = 20;
 const PIECES_OF_A_STEP: u32 = 16;
 
 /// How one direction is driven.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Control {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Control<T = Oscillation> {
     /// The displacement of the indenter, m, is prescribed.
-    Displacement(Oscillation),
+    Displacement(T),
     /// The force on the indenter, N, is prescribed.
-    Force(Oscillation),
+    Force(T),
 }
+
+/// A prescribed value at one moment.
+pub type Target = Control<f64>;
 
 impl Control {
     /// The oscillation of whatever is prescribed.
@@ -42,15 +45,15 @@ impl Control {
             Self::Displacement(oscillation) | Self::Force(oscillation) => oscillation,
         }
     }
-}
 
-/// A prescribed value at one moment: displacement in m or force in N.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Target {
-    /// m.
-    Displacement(f64),
-    /// N.
-    Force(f64),
+    /// What is asked for after so many turns of the oscillation.
+    fn at(&self, turns: f64) -> Target {
+        let value = self.oscillation().after_turns(turns);
+        match self {
+            Self::Displacement(_) => Target::Displacement(value),
+            Self::Force(_) => Target::Force(value),
+        }
+    }
 }
 
 /// Both directions of the motion.
@@ -191,19 +194,12 @@ impl Drive {
 
     /// What the normal direction is asked for after `cycles`.
     pub fn normal_at(&self, cycles: f64) -> Target {
-        at(&self.normal, cycles * self.frequency_ratio())
+        self.normal.at(cycles * self.frequency_ratio())
     }
 
     /// What the tangential direction is asked for after `cycles`.
     pub fn tangential_at(&self, cycles: f64) -> Option<Target> {
-        self.tangential.as_ref().map(|control| at(control, cycles))
-    }
-}
-
-fn at(control: &Control, turns: f64) -> Target {
-    match control {
-        Control::Displacement(oscillation) => Target::Displacement(oscillation.after_turns(turns)),
-        Control::Force(oscillation) => Target::Force(oscillation.after_turns(turns)),
+        self.tangential.as_ref().map(|control| control.at(cycles))
     }
 }
 

@@ -18,12 +18,11 @@
 //! - **Cost**: as many evaluated cycles as stages, whatever the number of cycles covered.
 //! - **Known failure**: motions that never repeat cannot be jumped; they are stepped directly.
 
-use super::super::Scratch;
-use super::super::Setup;
 use super::super::breakdown::Cause;
 use super::super::choices::Integrator;
 use super::super::model::Model;
 use super::super::state::{JumpMemory, State, SteadyCycle};
+use super::super::{Scratch, Setup, cycles_to_settle};
 use super::{deepest, refuse, steady_cycle};
 use crate::math::chebyshev;
 use crate::math::scan::largest;
@@ -104,6 +103,7 @@ pub(in super::super) fn jump(
         model,
         state,
         first: &first,
+        springs: &springs,
         spare: next,
         scratch,
     };
@@ -113,27 +113,25 @@ pub(in super::super) fn jump(
         go_back(&mut memory, &springs);
         found = search.search(&mut memory, most);
     }
-    let jump = match found {
-        Ok(jump) => jump,
-        Err(Refused::WithoutRoom) => {
-            next.clone_from(state);
-            next.stats = memory.stats;
-            return Ok(Jumped::WithoutRoom);
+    let refused = match found {
+        Ok(jump) => {
+            *next = after_jump(model, state, memory, jump);
+            return Ok(match is_short {
+                true => Jumped::Shortened,
+                false => Jumped::Done,
+            });
         }
-        Err(Refused::TooShort(length)) => {
-            next.clone_from(state);
-            next.stats = memory.stats;
-            if is_short {
-                return Ok(Jumped::TooNear);
-            }
-            rest(&model.setup, next, length);
-            return Ok(Jumped::NotWorthIt);
-        }
+        Err(refused) => refused,
     };
-    *next = after_jump(model, state, memory, jump);
-    Ok(match is_short {
-        true => Jumped::Shortened,
-        false => Jumped::Done,
+    next.clone_from(state);
+    next.stats = memory.stats;
+    Ok(match refused {
+        Refused::WithoutRoom => Jumped::WithoutRoom,
+        Refused::TooShort(_) if is_short => Jumped::TooNear,
+        Refused::TooShort(length) => {
+            rest(&model.setup, next, length);
+            Jumped::NotWorthIt
+        }
     })
 }
 
@@ -143,6 +141,8 @@ struct Search<'a> {
     state: &'a State,
     /// What a cycle does there.
     first: &'a SteadyCycle,
+    /// The springs there, shaken down.
+    springs: &'a State,
     spare: &'a mut State,
     scratch: &'a mut Scratch,
 }
@@ -155,15 +155,15 @@ impl Search<'_> {
         let Integrator::CycleJump { tolerance } = setup.integrator else {
             return Err(Refused::TooShort(0.0));
         };
-        let period = period_of(setup);
+        let period = f64::from(cycles_to_settle(&setup.drive));
         // Under a held force the depth of indentation grows with the scar, and says nothing of the contact.
         let depth = setup.depth_scale(first.elastic_depth);
+        let near_edge = NEAR_EDGE * setup.grid.radius();
         let mut length = if state.jump.length > 0.0 {
             state.jump.length
         } else {
             FIRST * tolerance.sqrt() * depth / largest(&first.wear)
         };
-        let springs = memory.clone();
         loop {
             let covered = (length.min(most).min(LONGEST) / period).floor() * period;
             let stages = chebyshev::stages_for(covered * first.stiffness);
@@ -177,40 +177,36 @@ impl Search<'_> {
             }
             let tried = self.attempt(memory, covered, stages);
             let error = match &tried {
-                Ok(after) => error(state, first, after, covered, tolerance * depth, tolerance),
-                Err(cause) if cause.lacks_room() && is_near_edge(self.model, state) => {
-                    go_back(memory, &springs);
+                Ok(jump) => error(state, first, jump, tolerance * depth, tolerance),
+                // The springs are not taken back: the state as it was has them.
+                Err(cause) if cause.lacks_room() && state.contact.normal.radius > near_edge => {
                     return Err(Refused::WithoutRoom);
                 }
                 // What fails in the middle of a jump is left to a shorter one, or to direct steps.
                 Err(_) => f64::INFINITY,
             };
-            let factor = (0.75 * error.powf(-1.0 / 3.0)).clamp(0.2, 2.0);
+            let next = covered * (0.75 * error.powf(-1.0 / 3.0)).clamp(0.2, 2.0);
             match tried {
-                Ok(after) if error <= 1.0 => {
-                    let next = covered * factor;
-                    return Ok(Jump {
-                        covered,
-                        // A goal that was near says nothing about the next jump.
-                        next: if most < length {
-                            next.max(length)
-                        } else {
-                            next
-                        },
-                        after,
-                    });
+                Ok(jump) if error <= 1.0 => {
+                    // A goal that was near says nothing about the next jump.
+                    let next = if most < length {
+                        next.max(length)
+                    } else {
+                        next
+                    };
+                    return Ok(Jump { next, ..jump });
                 }
                 _ => {
-                    go_back(memory, &springs);
+                    go_back(memory, self.springs);
                     memory.stats.rejected_jumps += 1;
-                    length = covered * factor;
+                    length = next;
                 }
             }
         }
     }
 
     /// One Runge–Kutta–Chebyshev step over `covered` cycles. The last entry of y is the work of friction.
-    fn attempt(&mut self, memory: &mut State, covered: f64, stages: usize) -> Result<After, Cause> {
+    fn attempt(&mut self, memory: &mut State, covered: f64, stages: usize) -> Result<Jump, Cause> {
         let (model, nodes) = (self.model, self.model.nodes());
         let with_work = |wear: &[f64], friction_work: f64| [wear, &[friction_work]].concat();
         let start = with_work(&memory.wear, 0.0);
@@ -233,19 +229,16 @@ impl Search<'_> {
         let friction_work = end.pop().unwrap_or_default();
         let steady = look(memory, &end, &mut image)?;
         let depth = memory.contact.depth;
-        refuse(model, depth, &end, model.grid.nodes(), deepest(&end))?;
-        Ok(After {
+        refuse(model, depth, &end, model.grid.nodes())?;
+        Ok(Jump {
+            covered,
+            next: covered,
             wear: end,
             image,
             friction_work,
             steady,
         })
     }
-}
-
-/// Whether the contact has almost come to the domain's edge.
-fn is_near_edge(model: &Model, state: &State) -> bool {
-    state.contact.normal.radius > NEAR_EDGE * model.grid.radius()
 }
 
 /// Takes the springs back to where they stood; the counts of what was done stay.
@@ -263,16 +256,11 @@ enum Refused {
     WithoutRoom,
 }
 
-/// A jump that was found.
+/// A jump over so many cycles, and the profile after it.
 struct Jump {
     covered: f64,
     /// How many cycles the next one should cover.
     next: f64,
-    after: After,
-}
-
-/// The state of the profile after a jump.
-struct After {
     wear: Vec<f64>,
     image: Vec<f64>,
     friction_work: f64,
@@ -281,17 +269,11 @@ struct After {
 
 /// The error of a jump in units of what is allowed: that of the worn depth, by its rms over the nodes that
 /// wear and its largest value, and that of the friction work relative to all the work so far.
-fn error(
-    state: &State,
-    first: &SteadyCycle,
-    after: &After,
-    covered: f64,
-    allowed: f64,
-    tolerance: f64,
-) -> f64 {
+fn error(state: &State, first: &SteadyCycle, jump: &Jump, allowed: f64, tolerance: f64) -> f64 {
+    let covered = jump.covered;
     let (mut sum, mut largest, mut count) = (0.0, 0.0_f64, 0.0);
-    for (j, (&y, &next)) in state.wear.iter().zip(&after.wear).enumerate() {
-        let (f, last) = (first.wear[j], after.steady.wear[j]);
+    for (j, (&y, &next)) in state.wear.iter().zip(&jump.wear).enumerate() {
+        let (f, last) = (first.wear[j], jump.steady.wear[j]);
         if f != 0.0 || last != 0.0 {
             let error = chebyshev::error(covered, y, next, f, last).abs();
             sum += error * error;
@@ -299,46 +281,43 @@ fn error(
             count += 1.0;
         }
     }
-    let (before, after_work) = (first.friction_work, after.steady.friction_work);
-    let work = chebyshev::error(covered, 0.0, after.friction_work, before, after_work).abs();
-    let total = state.dissipated_energy + after.friction_work;
+    let (before, after) = (first.friction_work, jump.steady.friction_work);
+    let work = chebyshev::error(covered, 0.0, jump.friction_work, before, after).abs();
+    let total = state.dissipated_energy + jump.friction_work;
     let of_depth = f64::sqrt(sum / f64::max(count, 1.0)).max(largest / PEAK) / allowed;
     // The part of the scar's depth that is allowed is allowed of the work as well.
-    let scar = deepest(&after.wear).unwrap_or(f64::INFINITY);
+    let scar = deepest(&jump.wear).unwrap_or(f64::INFINITY);
     let of_scar = (allowed / scar).min(LEAST_CERTAIN).max(tolerance);
     of_depth.max(work / (of_scar * total).max(f64::MIN_POSITIVE))
 }
 
 /// The state after a jump from `state`, with the springs of `memory`.
 fn after_jump(model: &Model, state: &State, memory: State, jump: Jump) -> State {
-    let Jump {
-        covered,
-        next,
-        after,
-    } = jump;
     // Rounding must not take work back where none is done any more.
-    let friction_work = after.friction_work.max(0.0);
+    let friction_work = jump.friction_work.max(0.0);
+    let worn = model.volume(&jump.wear) - model.volume(&state.wear);
     let mut end = State {
-        cycle: state.cycle + covered,
+        cycle: state.cycle + jump.covered,
         steps: state.steps + 1,
         dissipated_energy: state.dissipated_energy + friction_work,
         smallest_stick_radius: f64::INFINITY,
-        settled_stick_radius: Some(after.steady.stick_radius),
+        settled_stick_radius: Some(jump.steady.stick_radius),
         jump: JumpMemory {
-            length: next,
-            settled: Some(after.steady),
+            length: jump.next,
+            settled: Some(jump.steady),
             ..JumpMemory::default()
         },
+        wear: jump.wear,
+        image: jump.image,
         ..memory
     };
     if let Some(law) = &model.setup.wear {
         if law.follows_energy() {
             end.expected_volume += law.coefficient() * friction_work;
         } else {
-            end.unexplained_volume += model.volume(&after.wear) - model.volume(&state.wear);
+            end.unexplained_volume += worn;
         }
     }
-    (end.wear, end.image) = (after.wear, after.image);
     end.stats.jumps += 1;
     end.last.duration = 0.0;
     // A jump has as many stages as it needs: the limit of a step is not its own.
@@ -352,12 +331,7 @@ fn after_jump(model: &Model, state: &State, memory: State, jump: Jump) -> State 
 /// cycles too short may be over by then: the next one tried is twice as long.
 fn rest(setup: &Setup, state: &mut State, length: f64) {
     let patience = state.jump.patience.max(1);
-    state.jump.rest_until = state.cycle + f64::from(patience) * period_of(setup);
+    state.jump.rest_until = state.cycle + f64::from(patience * cycles_to_settle(&setup.drive));
     state.jump.patience = (2 * patience).min(LONGEST_REST);
     state.jump.length = 2.0 * length;
-}
-
-/// The cycles after which the motion repeats.
-fn period_of(setup: &Setup) -> f64 {
-    f64::from(setup.drive.repeats_after().unwrap_or(1))
 }

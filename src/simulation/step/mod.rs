@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! g        = model.profile(state.image)            Eq. (1), Model::profile
-//! contact  = contact::solve(g, state.contact)      the springs of both directions
+//! contact  = Problem(g, state.contact).solve()     the springs of both directions
 //! traction = traction::of(contact)                 Eq. (3)
 //! wear     = increment.wear(traction, slip)        Eqs. (2) and (15)
 //! next     = accept(state, contact, traction, wear)
@@ -15,7 +15,7 @@
 //! [`substep`] takes their steps, in parts where they are too stiff; [`cycle_jump`] takes many cycles at once, by the
 //! wear of a [steady-state cycle](steady_cycle).
 
-use super::breakdown::Cause;
+use super::breakdown::{Cause, advice};
 use super::choices::Scheme;
 use super::drive::Control;
 use super::model::Model;
@@ -31,6 +31,7 @@ mod substep;
 mod trapezoid;
 
 pub(super) use cycle_jump::{Jumped, is_possible, jump};
+pub(super) use substep::step;
 
 /// A worn depth of this many times the largest depth of indentation cannot come from contact.
 const RUNAWAY: f64 = 10.0;
@@ -40,15 +41,12 @@ pub(super) fn settle(model: &Model, state: &mut State, scratch: &mut Scratch) ->
     model.image(&state.wear, &mut state.image);
     model.profile(&state.image, 0.0, &[], &mut scratch.g);
     let mut solved = state.contact.clone();
-    let slip = &mut scratch.increment.slip;
-    contact::solve(
+    let problem = contact::Problem {
         model,
-        &scratch.g,
-        &state.contact,
-        state.cycle,
-        &mut solved,
-        slip,
-    )?;
+        g: &scratch.g,
+        before: &state.contact,
+    };
+    problem.solve(state.cycle, &mut solved, &mut scratch.increment.slip)?;
     state.contact = solved;
     state.last.duration = 0.0;
     state.last.stiffness = 0.0;
@@ -61,25 +59,6 @@ pub(super) fn settle(model: &Model, state: &mut State, scratch: &mut Scratch) ->
     }
     state.stats.contacts += 1;
     state.stats.transforms += 1;
-    Ok(())
-}
-
-/// One step from `state` to `cycle`, at which the motion turns or does not, into `next`, by way of the ends of sub-steps
-/// `between` them.
-pub(super) fn step(
-    model: &Model,
-    state: &State,
-    next: &mut State,
-    between: &mut State,
-    scratch: &mut Scratch,
-    cycle: f64,
-    turns: bool,
-) -> Result<(), Cause> {
-    substep::step(model, state, next, between, scratch, cycle)?;
-    if turns {
-        next.last.duration = 0.0;
-    }
-    next.steps = state.steps + 1;
     Ok(())
 }
 
@@ -108,9 +87,7 @@ fn accept(
         let (after, before) = (&mut next.wear[nodes.clone()], &state.wear[nodes.clone()]);
         let worn = &increment.depth[nodes.clone()];
         write_each(after, before, worn, |before, worn| before + worn);
-        let deepest = deepest(after);
-        let radii = &model.grid.nodes()[nodes];
-        refuse(model, next.contact.depth, after, radii, deepest)?;
+        refuse(model, next.contact.depth, after, &model.grid.nodes()[nodes])?;
         // The two sides of V = k E_d: what work explains, and what other laws wore.
         if law.follows_energy() {
             next.expected_volume += law.coefficient() * increment.friction_work;
@@ -151,25 +128,17 @@ fn deepest(wear: &[f64]) -> Option<f64> {
     )
 }
 
-/// Refuses the worn depths `wear` (m) at some `radii` (m) if the `deepest` of them is not finite or far above anything
+/// Refuses the worn depths `wear` (m) at some `radii` (m) if the deepest of them is not finite or far above anything
 /// that can touch.
-fn refuse(
-    model: &Model,
-    depth: f64,
-    wear: &[f64],
-    radii: &[f64],
-    deepest: Option<f64>,
-) -> Result<(), Cause> {
-    let (method, stability) = (model.setup.method, model.setup.stability);
-    let depth = model
-        .setup
-        .depth_scale(depth.max(least_depth(&model.setup)));
+fn refuse(model: &Model, depth: f64, wear: &[f64], radii: &[f64]) -> Result<(), Cause> {
+    let setup = &model.setup;
+    let depth = setup.depth_scale(depth.max(least_depth(setup)));
+    let deepest = deepest(wear);
     let worn = deepest.map_or(f64::INFINITY, |deepest| deepest / depth);
     if deepest.is_none() || worn == f64::INFINITY && depth > 0.0 {
         return Err(Cause::NotFinite {
             quantity: "worn profile",
-            method,
-            stability,
+            advice: advice(setup),
         });
     }
     if worn > RUNAWAY && depth > 0.0 {
@@ -177,8 +146,7 @@ fn refuse(
         return Err(Cause::Runaway {
             worn,
             radius: radii[at.unwrap_or_default()],
-            method,
-            stability,
+            advice: advice(setup),
         });
     }
     Ok(())

@@ -22,7 +22,7 @@ use super::super::drive::{Control, Oscillation};
 use super::super::model::Model;
 use super::super::moments;
 use super::super::state::{State, SteadyCycle};
-use super::super::{Scratch, contact, traction};
+use super::super::{Scratch, contact, cycles_to_settle, traction};
 use super::wear;
 use crate::math::abel::field::Field;
 use crate::math::abel::kink;
@@ -67,8 +67,12 @@ fn solve(
     scratch: &mut Scratch,
     cycle: f64,
 ) -> Result<(), Cause> {
-    let (after, slip) = (&mut spare.contact, &mut scratch.increment.slip);
-    contact::solve(model, &scratch.g, &memory.contact, cycle, after, slip)
+    let problem = contact::Problem {
+        model,
+        g: &scratch.g,
+        before: &memory.contact,
+    };
+    problem.solve(cycle, &mut spare.contact, &mut scratch.increment.slip)
 }
 
 /// Makes the contact in `spare` that of `memory`, at `cycle`.
@@ -90,7 +94,7 @@ fn period(
     spare: &mut State,
     scratch: &mut Scratch,
 ) -> Result<SteadyCycle, Cause> {
-    let cycles = model.setup.drive.repeats_after().unwrap_or(1);
+    let cycles = cycles_to_settle(&model.setup.drive);
     let touch = moments::Touch::on(&model.setup, memory, scratch.g.iter().copied());
     let moments = moments::of_period(&model.setup, touch, cycles);
     memory.cycle = 0.0;
@@ -174,7 +178,7 @@ fn plain_cycle(
 
     let increment = &mut scratch.increment;
     let material = &model.setup.material;
-    let reach = material.friction() / material.tangential_modulus();
+    let reach = material.reach();
     let (contact, squares) = (&memory.contact, model.grid.squares());
     let excess = |j: usize| swing.amplitude() - reach * contact.load.nodal[j];
     let mut slip = Field::zeros(model.nodes());
@@ -197,11 +201,8 @@ fn plain_cycle(
     slip.displacement(&model.plan, &model.grid, &mut increment.surface_slip);
     increment.surface_slip[..stuck].fill(0.0);
     memory.stats.transforms += 1;
-    increment.shear[..stuck].fill(0.0);
     increment.slip.copy_from_slice(&slip.nodal);
-    let p = &memory.traction.pressure;
-    increment.wear_by_load(model, contact, p, (stuck, 1.0), 1.0);
-    increment.nodes = stuck..model.nodes();
+    increment.wear_by_load(model, contact, &memory.traction.pressure, stuck);
     Ok(SteadyCycle {
         wear: increment.depth.iter().map(|worn| 2.0 * worn).collect(),
         friction_work: 2.0 * increment.friction_work,
@@ -214,16 +215,10 @@ fn plain_cycle(
 /// Brings the springs that slip in a steady-state cycle to where they stand at its end under a normal `load` (N/m):
 /// those that do not stay where they are.
 fn settle_springs(setup: &Setup, memory: &mut State, load: &Field, swing: &Oscillation) {
-    let reach = setup.material.friction() / setup.material.tangential_modulus();
-    let rising = swing.rises_at_start();
+    let reach = setup.material.reach();
+    let sign = if swing.rises_at_start() { 1.0 } else { -1.0 };
     // How far the indenter has come since its last turn.
-    let shift = swing.after_turns(0.0) - swing.mean();
-    let since = if rising {
-        swing.amplitude() + shift
-    } else {
-        swing.amplitude() - shift
-    };
-    let sign = if rising { 1.0 } else { -1.0 };
+    let since = swing.amplitude() + sign * (swing.after_turns(0.0) - swing.mean());
     for (u, load) in memory.contact.spring.nodal.iter_mut().zip(&load.nodal) {
         let limit = reach * load;
         if limit < swing.amplitude() {

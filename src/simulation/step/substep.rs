@@ -35,13 +35,8 @@ pub(super) struct Bounds {
     pub aim: f64,
 }
 
-/// What came of a try.
-enum Outcome {
-    /// Accepted, at this stiffness.
-    Done(f64),
-    /// Not accepted, for this stiffness.
-    TooStiff(f64),
-}
+/// The stiffness for which a try was not accepted.
+struct TooStiff(f64);
 
 /// How a step or a sub-step is to be tried.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,12 +49,11 @@ enum Part {
     Unstable,
 }
 
-/// One step from `state` to `cycle`, into `next`, by way of the ends of sub-steps `between` them.
-pub(super) fn step(
+/// One step from `state` to `cycle`, into the first of two spare states; the other holds the ends of sub-steps.
+pub(in super::super) fn step(
     model: &Model,
     state: &State,
-    next: &mut State,
-    between: &mut State,
+    [next, between]: &mut [State; 2],
     scratch: &mut Scratch,
     cycle: f64,
 ) -> Result<(), Cause> {
@@ -90,15 +84,15 @@ pub(super) fn step(
         };
         let growth = match attempt(model, from, next, scratch, reach, kind)? {
             // No sub-step is short enough: what comes of it says what is wrong.
-            Outcome::TooStiff(f64::INFINITY) => {
+            Err(TooStiff(f64::INFINITY)) => {
                 hopeless = true;
                 continue;
             }
-            Outcome::TooStiff(stiffness) => {
+            Err(TooStiff(stiffness)) => {
                 part = (part * aim / stiffness).max(SMALLEST);
                 continue;
             }
-            Outcome::Done(stiffness) => {
+            Ok(stiffness) => {
                 stiffest = stiffest.max(stiffness);
                 (aim / stiffness).clamp(1.0, GROWTH)
             }
@@ -117,7 +111,7 @@ pub(super) fn step(
     Ok(())
 }
 
-/// Tries a step or a sub-step from `state` to `cycle`, into `next`.
+/// Tries a step or a sub-step from `state` to `cycle`, into `next`; returns how stiff it was.
 fn attempt(
     model: &Model,
     state: &State,
@@ -125,7 +119,7 @@ fn attempt(
     scratch: &mut Scratch,
     cycle: f64,
     part: Part,
-) -> Result<Outcome, Cause> {
+) -> Result<Result<f64, TooStiff>, Cause> {
     let scheme = model.setup.scheme;
     let duration = cycle - state.cycle;
     let ahead = match scheme {
@@ -133,15 +127,19 @@ fn attempt(
         Scheme::Trapezoid | Scheme::Euler => 0.0,
     };
     model.profile(&state.image, ahead, &state.last.growth, &mut scratch.g);
-    let (contact, slip) = (&mut next.contact, &mut scratch.increment.slip);
-    contact::solve(model, &scratch.g, &state.contact, cycle, contact, slip)?;
+    let problem = contact::Problem {
+        model,
+        g: &scratch.g,
+        before: &state.contact,
+    };
+    problem.solve(cycle, &mut next.contact, &mut scratch.increment.slip)?;
     wear(model, state, next, scratch, cycle);
     let stiffness = scratch.increment.stiffness(model, model.seconds(duration));
     match part {
-        Part::Guarded { stiff } if stiffness > stiff => return Ok(Outcome::TooStiff(stiffness)),
+        Part::Guarded { stiff } if stiffness > stiff => return Ok(Err(TooStiff(stiffness))),
         Part::Guarded { .. } | Part::Raw => {}
         Part::Unstable => scratch.increment.damp(model),
     }
     accept(model, state, next, scratch, cycle)?;
-    Ok(Outcome::Done(stiffness))
+    Ok(Ok(stiffness))
 }

@@ -69,7 +69,7 @@ pub(super) fn wear(
     let contacts = [&state.contact, &next.contact];
     let increment = &mut scratch.increment;
     increment.rub(model, contacts);
-    if model.setup.wear.is_some() {
+    if let Some(law) = model.setup.wear {
         let states = &next.contact.spring_state;
         let stuck = leading(states, |&spring| spring == SpringState::Stick);
         let zone = outer_slip_zone(states);
@@ -82,7 +82,7 @@ pub(super) fn wear(
         if zone.0 == 0 || state.settled_stick_radius == Some(0.0) {
             increment.balance_edge(model, next.contact.normal.nodes);
         }
-        let exponent = model.setup.wear.map_or(1.0, |law| law.slip_rate_exponent());
+        let exponent = law.slip_rate_exponent();
         if exponent != 1.0 {
             let uneven = model.setup.drive.unevenness(exponent, state.cycle, cycle);
             let nodes = scratch.increment.nodes.clone();

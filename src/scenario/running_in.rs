@@ -16,16 +16,18 @@ impl Parts<'_> {
         let mut all = RunningIn {
             friction: self.course(&keys::FRICTION, &FRICTION_COURSE)?,
             wear: self.course(&keys::WEAR_COEFFICIENT, &WEAR_COURSE)?,
+            wear_per_load: None,
             threshold: match self.has(WEAR_COURSE.section) {
                 true => self.require(&keys::WEAR_THRESHOLD)?,
                 false => 0.0,
             },
         };
         if let Some(per_load) = self.get(&keys::WEAR_PER_LOAD) {
-            all.wear = self.over_friction(per_load, all.friction.as_ref())?;
+            all.wear = None;
+            all.wear_per_load = self.over_friction(per_load, all.friction.as_ref())?;
         }
         // Behind the threshold the coefficient is what it is without one.
-        if all.threshold > 0.0 && all.wear.is_none() {
+        if all.threshold > 0.0 && all.wear.is_none() && all.wear_per_load.is_none() {
             let coefficient = self.wear_coefficient(material)?;
             let constant = Course::table(&[0.0], &[coefficient], Over::Cycles);
             all.wear =
@@ -39,13 +41,16 @@ impl Parts<'_> {
         &self,
         per_load: f64,
         friction: Option<&Course>,
-    ) -> Result<Option<Course>, ScenarioError> {
-        let course = friction.map(|friction| Course::over(per_load, friction));
-        course.transpose().map_err(|_| {
-            let rule = "needs friction greater than 0 at all times: per friction work it is \
-                        k = coefficient_per_load / friction";
-            self.refuse(keys::WEAR_PER_LOAD.path(), "", rule)
-        })
+    ) -> Result<Option<f64>, ScenarioError> {
+        let Some(friction) = friction else {
+            return Ok(None);
+        };
+        if friction.least() > 0.0 {
+            return Ok(Some(per_load));
+        }
+        let rule = "needs friction greater than 0 at all times: per friction work it is \
+                    k = coefficient_per_load / friction";
+        Err(self.refuse(keys::WEAR_PER_LOAD.path(), "", rule))
     }
 
     fn course(&self, first: &Key<f64>, keys: &RunsIn) -> Result<Option<Course>, ScenarioError> {

@@ -45,13 +45,6 @@ pub enum Course {
         /// What x is.
         over: Over,
     },
-    /// A constant over another course, which is always greater than 0.
-    Quotient {
-        /// What is divided.
-        dividend: f64,
-        /// What it is divided by.
-        divisor: Box<Course>,
-    },
 }
 
 /// Everything that changes with use.
@@ -59,8 +52,10 @@ pub enum Course {
 pub struct RunningIn {
     /// μ; none: it stays as it is.
     pub friction: Option<Course>,
-    /// k; none: it stays as it is.
+    /// k; none: it stays as it is, or follows friction.
     pub wear: Option<Course>,
+    /// kμ, 1/Pa: k follows friction, which is then always greater than 0. None: it does not.
+    pub wear_per_load: Option<f64>,
     /// The friction work below which nothing wears, J.
     pub threshold: f64,
 }
@@ -95,21 +90,12 @@ impl Course {
         })
     }
 
-    /// `dividend` over a course that is always greater than 0.
-    ///
-    /// # Errors
-    /// The course has a value of 0.
-    pub fn over(dividend: f64, divisor: &Self) -> Result<Self, Invalid> {
-        let least = match divisor {
+    /// The least of its values.
+    pub fn least(&self) -> f64 {
+        match self {
             Self::Exponential { first, last, .. } => first.min(*last),
             Self::Table { rows, .. } => rows.iter().map(|row| row.1).fold(f64::INFINITY, f64::min),
-            Self::Quotient { dividend, .. } => *dividend,
-        };
-        positive("divisor", least)?;
-        Ok(Self::Quotient {
-            dividend,
-            divisor: Box::new(divisor.clone()),
-        })
+        }
     }
 
     /// The value after `cycles` cycles and `energy` J.
@@ -133,7 +119,6 @@ impl Course {
                     (None, None) => 0.0,
                 }
             }
-            Self::Quotient { dividend, divisor } => dividend / divisor.after(cycles, energy),
         }
     }
 
@@ -146,7 +131,6 @@ impl Course {
             Self::Table { rows, over } => rows
                 .last()
                 .is_none_or(|last| over.of(cycles, energy) >= last.0),
-            Self::Quotient { divisor, .. } => divisor.is_settled(cycles, energy),
         }
     }
 }
@@ -181,14 +165,13 @@ impl RunningIn {
             *material = material.with_friction(course.after(cycles, energy));
         }
         let Some(law) = wear else { return };
-        let coefficient = match &self.wear {
-            _ if energy < self.threshold => Some(0.0),
-            Some(course) => Some(course.after(cycles, energy)),
-            None => None,
+        let coefficient = match (&self.wear, self.wear_per_load) {
+            _ if energy < self.threshold => 0.0,
+            (Some(course), _) => course.after(cycles, energy),
+            (None, Some(per_load)) => per_load / material.friction(),
+            (None, None) => return,
         };
-        if let Some(coefficient) = coefficient {
-            *law = law.with_coefficient(coefficient);
-        }
+        *law = law.with_coefficient(coefficient);
     }
 
     /// Whether nothing changes any more, so that cycles are alike.
@@ -215,11 +198,24 @@ mod tests {
             assert!((table.after(1e9, energy) - value).abs() < 1e-15, "{energy}");
         }
         assert!(!table.is_settled(1e9, 5.0) && table.is_settled(0.0, 6.0));
-        let over = Course::over(0.3, &table).expect("a course");
-        assert!((over.after(0.0, 1.0) - 0.75).abs() < 1e-15);
-        assert!(!over.is_settled(1e9, 5.0) && over.is_settled(0.0, 6.0));
-        let none = Course::table(&[0.0], &[0.0], Over::Cycles).expect("a course");
-        assert!(Course::over(0.3, &none).is_err());
+        assert_eq!((course.least(), table.least()), (0.7, 0.2));
+    }
+
+    #[test]
+    fn wear_per_load_follows_friction() {
+        let rows = ([0.0, 2.0, 6.0], [0.2, 0.6, 0.4]);
+        let friction = Course::table(&rows.0, &rows.1, Over::Energy).expect("a course");
+        let running_in = RunningIn {
+            friction: Some(friction),
+            wear_per_load: Some(0.3),
+            ..RunningIn::default()
+        };
+        let mut material = Material::new(1.0, 0.3, 0.2).expect("a material");
+        let mut law = WearLaw::archard(1.5).ok();
+        running_in.apply(0.0, 1.0, &mut material, &mut law);
+        let k = law.expect("a law").coefficient();
+        assert!((material.friction() - 0.4).abs() < 1e-15 && (k - 0.75).abs() < 1e-15);
+        assert!(!running_in.is_settled(1e9, 5.0) && running_in.is_settled(0.0, 6.0));
     }
 
     #[test]

@@ -10,7 +10,6 @@ use mdr_tui::scenario::session::Session;
 use mdr_tui::scenario::{Change, RunPlan, Scenario, preset};
 use mdr_tui::simulation::drive::Control;
 use mdr_tui::simulation::{Scheme, Simulation, Spacing};
-use mdr_tui::wear::WearLaw;
 use proptest::prelude::*;
 
 use crate::common::{load, near, ran, try_load};

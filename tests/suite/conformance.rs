@@ -15,7 +15,7 @@ use mdr_tui::oracle::pair_catalogue::Transform::{LineToSurface, LoadToStress, Pr
 use mdr_tui::oracle::pair_catalogue::{PAIRS, Pair};
 
 /// Errors below this part of the largest value are rounding: such a pair is reproduced exactly.
-const EXACT: f64 = 1e-11;
+const EXACT: f64 = 1e-9;
 
 /// How far an order may be from the one in the table.
 const BAND: f64 = 0.1;

@@ -24,7 +24,7 @@ fn scenario() -> String {
     scenario.with_changes(changes.to_vec()).to_toml()
 }
 
-const ORDER: &str = "run mine.toml --cycles 120.125 --snapshot-at 10.123,2,30 --history every-step";
+const ORDER: &str = "run mine.toml --cycles 240.125 --snapshot-at 10.123,2,30 --history every-step";
 
 fn dir() -> TestDir {
     let dir = TestDir::new();

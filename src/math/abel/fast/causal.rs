@@ -33,24 +33,26 @@ pub(super) struct Causal {
     near: Vec<[f64; REACH]>,
 }
 
+/// How far apart two radii are: ln of the ratio of their squares; infinite if one is 0.
+pub(super) fn apart(one: f64, other: f64) -> f64 {
+    let (inner, outer) = (one.min(other), one.max(other));
+    2.0 * ((outer - inner) / inner).ln_1p()
+}
+
 impl Causal {
-    /// For rows at `radii`, in rising or in falling order, with weights of their own where ln v is less than `nearest`.
-    pub fn new(radii: &[f64], powers: &Powers, nearest: f64) -> Self {
-        let apart = |a: f64, b: f64| 2.0 * ((a.max(b) - a.min(b)) / a.min(b)).ln_1p();
+    /// For rows at `radii`, in rising or in falling order, with weights of their own where the `powers` do not reach.
+    pub fn new(radii: &[f64], powers: &Powers) -> Self {
         let decay = |step: f64, exponent: f64| match exponent {
             0.0 => 1.0,
             _ => (-exponent * step).exp(),
         };
         let decays_of = |j: usize| {
-            let step = if j == 0 {
-                0.0
-            } else {
-                apart(radii[j - 1], radii[j])
+            let step = match j {
+                0 => 0.0,
+                _ => apart(radii[j - 1], radii[j]),
             };
-            powers
-                .exponents
-                .iter()
-                .map(move |&exponent| decay(step, exponent))
+            let exponents = powers.exponents.iter();
+            exponents.map(move |&exponent| decay(step, exponent))
         };
         let decays: Vec<f64> = (0..radii.len()).flat_map(decays_of).collect();
         let count = powers.factors.len();
@@ -59,7 +61,7 @@ impl Causal {
             let mut left = powers.factors.clone();
             for distance in 1..=REACH.min(j) {
                 let (one, other) = (radii[j - distance], radii[j]);
-                if one.min(other) == 0.0 || apart(one, other) >= nearest {
+                if one.min(other) == 0.0 || apart(one, other) >= powers.nearest {
                     break;
                 }
                 let row = &decays[(j + 1 - distance) * count..][..count];

@@ -44,8 +44,8 @@ mod powers;
 #[cfg(test)]
 mod tests;
 
-use causal::{Causal, REACH};
-use powers::{Kernel, fit};
+use causal::{Causal, REACH, apart};
+use powers::{Kernel, Powers, fit};
 
 /// The error of a kernel that a run asks for.
 pub const TOLERANCE: f64 = 1e-8;
@@ -80,19 +80,29 @@ pub struct FastWorn {
     outer: Causal,
 }
 
-/// The operator of a kernel for rows at `radii`.
-fn causal(radii: &[f64], kernel: Kernel, tolerance: f64) -> Option<Causal> {
-    let apart = |a: f64, b: f64| 2.0 * ((b - a).abs() / a.min(b)).ln_1p();
+/// The powers for rows at `radii`: all but the nearest neighbours are theirs.
+fn powers(radii: &[f64], kernel: Kernel, tolerance: f64) -> Option<Powers> {
     let pairs = radii.iter().zip(&radii[REACH.min(radii.len() - 1)..]);
-    let pairs = pairs.filter(|(a, b)| a.min(**b) > 0.0);
+    let pairs = pairs.filter(|(inner, _)| **inner > 0.0);
     let least = pairs.map(|(&a, &b)| apart(a, b)).fold(1.0, f64::min);
     // The neighbours at that distance are far.
-    let nearest = least * (1.0 - 1e-9);
-    Some(Causal::new(
-        radii,
-        &fit(kernel, nearest, tolerance)?,
-        nearest,
-    ))
+    fit(kernel, least * (1.0 - 1e-9), tolerance)
+}
+
+/// Writes `values[0]` and the sums, each times the square of its radius: Eqs. (1) and (2).
+#[inline(always)]
+fn outwards(operator: &Causal, values: &[f64], inverse: &[f64], squares: &[f64], out: &mut [f64]) {
+    operator.apply(
+        #[inline(always)]
+        |first, jumps| write_jumps(values, inverse, first, jumps),
+        #[inline(always)]
+        |first, sums| {
+            let rows = out[first..].iter_mut().zip(&squares[first..]);
+            for ((out, square), sum) in rows.zip(sums) {
+                *out = values[0] + square * *sum;
+            }
+        },
+    );
 }
 
 /// 1/Δ of consecutive values.
@@ -108,9 +118,8 @@ fn inverse_widths(values: &[f64]) -> Vec<f64> {
 fn write_jumps(values: &[f64], inverse: &[f64], first: usize, jumps: &mut [f64]) {
     let cells = inverse.len();
     let mut before = match first {
-        0 => 0.0,
-        _ if first > cells => 0.0,
-        _ => (values[first] - values[first - 1]) * inverse[first - 1],
+        1.. if first <= cells => (values[first] - values[first - 1]) * inverse[first - 1],
+        _ => 0.0,
     };
     let own = cells.saturating_sub(first).min(jumps.len());
     let (within, behind) = jumps.split_at_mut(own);
@@ -134,38 +143,25 @@ impl FastProduct {
     pub fn new(grid: &RadialGrid, tolerance: f64) -> Option<Self> {
         let nodes = grid.nodes();
         let inwards: Vec<f64> = nodes.iter().rev().copied().collect();
+        let roots = powers(nodes, Kernel::Root, tolerance)?;
         Some(Self {
             nodes: nodes.to_vec(),
             squares: grid.squares().to_vec(),
             inverse: inverse_widths(grid.squares()),
-            profile: causal(nodes, Kernel::Root, tolerance)?,
-            displacement: causal(nodes, Kernel::Arc, tolerance)?,
-            stress: causal(&inwards, Kernel::Root, tolerance)?,
+            profile: Causal::new(nodes, &roots),
+            displacement: Causal::new(nodes, &powers(nodes, Kernel::Arc, tolerance)?),
+            stress: Causal::new(&inwards, &roots),
         })
     }
 
     /// Eq. (1): the 1D profile `g` of the 3D profile `f`, both nodal, in the same unit.
     pub fn profile(&self, f: &[f64], g: &mut [f64]) {
-        self.outwards(&self.profile, f, g);
+        outwards(&self.profile, f, &self.inverse, &self.squares, g);
     }
 
     /// Eq. (2): the surface displacement `w` of the spring displacement `u`, both nodal.
     pub fn displacement(&self, u: &[f64], w: &mut [f64]) {
-        self.outwards(&self.displacement, u, w);
-    }
-
-    fn outwards(&self, operator: &Causal, values: &[f64], out: &mut [f64]) {
-        operator.apply(
-            #[inline(always)]
-            |first, jumps| write_jumps(values, &self.inverse, first, jumps),
-            #[inline(always)]
-            |first, sums| {
-                let rows = out[first..].iter_mut().zip(&self.squares[first..]);
-                for ((out, square), sum) in rows.zip(sums) {
-                    *out = values[0] + square * *sum;
-                }
-            },
-        );
+        outwards(&self.displacement, u, &self.inverse, &self.squares, w);
     }
 
     /// Eq. (3): the stress `p` (N/m²) of the line load `q` (N/m), both nodal. `q` ends at the grid's edge.
@@ -212,10 +208,10 @@ impl FastWorn {
             border,
             squares: squares.to_vec(),
             inverse: inverse_widths(&squares[..=border]),
-            inner: causal(nodes, Kernel::Root, tolerance)?,
+            inner: Causal::new(nodes, &powers(nodes, Kernel::Root, tolerance)?),
             x: x.to_vec(),
             inverse_z: inverse_widths(&z),
-            outer: causal(&z, Kernel::Worn, tolerance)?,
+            outer: Causal::new(&z, &powers(&z, Kernel::Worn, tolerance)?),
             z,
         })
     }
@@ -223,17 +219,7 @@ impl FastWorn {
     /// The 1D image `g` of the worn `depth`, both nodal, m.
     pub fn profile(&self, depth: &[f64], g: &mut [f64]) {
         let (within, beyond) = (&depth[..=self.border], &depth[self.border..]);
-        self.inner.apply(
-            #[inline(always)]
-            |first, jumps| write_jumps(within, &self.inverse, first, jumps),
-            #[inline(always)]
-            |first, sums| {
-                let rows = g[first..].iter_mut().zip(&self.squares[first..]);
-                for ((g, square), sum) in rows.zip(sums) {
-                    *g = depth[0] + square * *sum;
-                }
-            },
-        );
+        outwards(&self.inner, within, &self.inverse, &self.squares, g);
         // F = (δ − δ_c)/z; at the border it is that of the next node: flat in the first cell.
         let share = |i: usize| (beyond[i] - beyond[0]) / self.z[i];
         let slope = |i: usize| match self.inverse_z.get(i) {

@@ -153,6 +153,8 @@ impl Kernel {
 pub(super) struct Powers {
     /// The kernel that they stand for.
     pub kernel: Kernel,
+    /// They do so for v ≤ exp(−this).
+    pub nearest: f64,
     /// μ, a multiple of [`LANES`] of them.
     pub exponents: Vec<f64>,
     /// a of each.
@@ -185,6 +187,7 @@ pub(super) fn fit(kernel: Kernel, nearest: f64, tolerance: f64) -> Option<Powers
             let (factors, exponents) = powers.chain([(kernel.whole(), 0.0)]).unzip();
             Powers {
                 kernel,
+                nearest,
                 exponents,
                 factors,
             }

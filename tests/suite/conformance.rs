@@ -57,8 +57,7 @@ fn image(method: AbelMethod, pair: &Pair, grid: &RadialGrid) -> Vec<f64> {
     image
 }
 
-/// The root of the mean square error over the domain, its innermost tenth left out, in parts of the image's largest
-/// value.
+/// The rms error over the domain without its innermost tenth, relative to the largest value of the image.
 fn error(method: AbelMethod, pair: &Pair, grid: &RadialGrid) -> f64 {
     let image = image(method, pair, grid);
     let (mut sum, mut largest) = (0.0, 0.0_f64);

@@ -46,7 +46,7 @@ impl Control {
         }
     }
 
-    /// What is asked for after so many turns of the oscillation.
+    /// The prescribed displacement or force after this many turns of the oscillation.
     fn at(&self, turns: f64) -> Target {
         let value = self.oscillation().after_turns(turns);
         match self {

@@ -178,7 +178,7 @@ impl Search<'_> {
             let tried = self.attempt(memory, covered, stages);
             let error = match &tried {
                 Ok(jump) => error(state, first, jump, tolerance * depth, tolerance),
-                // The springs are not taken back: the state as it was has them.
+                // The state before the jump still has the springs as they were.
                 Err(cause) if cause.lacks_room() && state.contact.normal.radius > near_edge => {
                     return Err(Refused::WithoutRoom);
                 }
@@ -256,8 +256,9 @@ enum Refused {
     WithoutRoom,
 }
 
-/// A jump over so many cycles, and the profile after it.
+/// A jump over cycles, and the profile after it.
 struct Jump {
+    /// How many cycles it covers.
     covered: f64,
     /// How many cycles the next one should cover.
     next: f64,

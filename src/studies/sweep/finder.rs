@@ -40,7 +40,7 @@ impl Finder {
         }
     }
 
-    /// The points that a row may belong to, by the values that it begins with; none where it has another length.
+    /// The points whose axis values a row begins with; none if the row has another number of columns.
     pub fn points_of(&self, row: &[String]) -> Vec<usize> {
         match row.len() == self.columns {
             true => self.points(&row[..self.axes.len()]),

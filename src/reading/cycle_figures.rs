@@ -121,7 +121,7 @@ impl LoopTally {
     pub fn begin(simulation: &Simulation) -> Self {
         let [cycle, shift, force] = moment(simulation);
         Self {
-            start: [cycle, simulation.state().dissipated_energy],
+            start: [cycle, simulation.state().ledger.dissipated_energy],
             last: [cycle, shift, force],
             shift: [shift; 2],
             force: [force; 2],
@@ -177,7 +177,7 @@ impl LoopTally {
         let state = simulation.state();
         let setup = simulation.model_of_last_step().setup;
         let material = &setup.material;
-        let energy = (state.dissipated_energy - energy) / cycles;
+        let energy = (state.ledger.dissipated_energy - energy) / cycles;
         let (normal_force, radius) = (self.normal_force / cycles, self.contact_radius / cycles);
         let amplitude = |[low, high]: [f64; 2]| 0.5 * (high - low);
         let (shift, force) = (amplitude(self.shift), amplitude(self.force));

@@ -135,8 +135,8 @@ impl PeriodBalance {
     /// Ends a period at the present moment of a simulation.
     fn close(&mut self, simulation: &Simulation) {
         let state = simulation.state();
-        let volume = simulation.wear_volume() - state.unexplained_volume;
-        let expected = state.expected_volume;
+        let volume = simulation.wear_volume() - state.ledger.unexplained_volume;
+        let expected = state.ledger.expected_volume;
         let (worn, due) = (volume - self.start[0], expected - self.start[1]);
         self.residual = (due > 0.0).then(|| 1.0 - worn / due);
         self.start = [volume, expected];

@@ -187,7 +187,8 @@ impl Simulation {
     pub fn moment(&self) -> Moment {
         let (state, contact) = (self.state(), &self.state().contact);
         let wear_volume = self.wear_volume();
-        let residual = 1.0 - (wear_volume - state.unexplained_volume) / state.expected_volume;
+        let residual =
+            1.0 - (wear_volume - state.ledger.unexplained_volume) / state.ledger.expected_volume;
         Moment {
             cycle: state.cycle,
             time: state.cycle * self.setup().drive.period(),
@@ -205,9 +206,9 @@ impl Simulation {
                 .stick_radius
                 .map(|stick| state.permanent_stick_radius().min(stick)),
             wear_volume,
-            initial_volume: state.initial_volume,
-            dissipated_energy: state.dissipated_energy,
-            energy_residual: (state.expected_volume > 0.0).then_some(residual),
+            initial_volume: state.ledger.initial_volume,
+            dissipated_energy: state.ledger.dissipated_energy,
+            energy_residual: (state.ledger.expected_volume > 0.0).then_some(residual),
             stability_margin: (state.last.stiffness > 0.0)
                 .then(|| stability::limit(self.setup().scheme) / state.last.stiffness),
         }

@@ -29,7 +29,7 @@ use crate::reading::Log;
 use crate::simulation::{Saved, Simulation};
 
 /// The version of the format that is written, and the only one that is read.
-pub const VERSION: u32 = 3;
+pub const VERSION: u32 = 4;
 
 /// What the first line begins with.
 const MAGIC: &str = "mdr-tui checkpoint ";

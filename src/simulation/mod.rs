@@ -146,7 +146,7 @@ impl Setup {
     /// Brings friction and wear to what use has made of them in `state`.
     fn run_in(&mut self, state: &State) {
         if let Some(running_in) = &self.running_in {
-            let (cycle, energy) = (state.cycle, state.dissipated_energy);
+            let (cycle, energy) = (state.cycle, state.ledger.dissipated_energy);
             running_in.apply(cycle, energy, &mut self.material, &mut self.wear);
         }
     }
@@ -208,8 +208,8 @@ impl Simulation {
             state.wear = nodes.iter().map(|&r| scar.depth(r)).collect();
             model.image(&state.wear, &mut state.image);
             // Nobody knows by which work it was worn.
-            state.initial_volume = model.volume(&state.wear);
-            state.unexplained_volume = state.initial_volume;
+            state.ledger.initial_volume = model.volume(&state.wear);
+            state.ledger.unexplained_volume = state.ledger.initial_volume;
         }
         Self::continued(model, state)
     }

@@ -55,7 +55,7 @@ impl Simulation {
             }));
         }
         // The change of volume by interpolation is no wear.
-        changed.state.unexplained_volume -= lost;
+        changed.state.ledger.unexplained_volume -= lost;
         *self = changed;
         Ok(())
     }

@@ -17,13 +17,7 @@
 //!
 //! ρ holds on graded cells with the slip of a step as it is: the largest eigenvalue of diag(∂Δf/∂τ) μE*M on the grid
 //! of a run is 0.9 to 1.05 of the largest z of its nodes, unworn and worn (Fig. 3, methods product and a).
-//!
-//! Methods b and benad develop a sawtooth that no step limit explains, once the contact has worn by
-//! [this depth](sawtooth_from).
 
-use nalgebra::Matrix3;
-
-use super::Setup;
 use super::choices::Scheme;
 use crate::math::abel::AbelMethod;
 
@@ -35,59 +29,11 @@ pub fn response(method: AbelMethod) -> f64 {
     }
 }
 
-/// Why even the shortest steps do not keep a method from a sawtooth; `None` if they do.
-pub fn beyond_steps(method: AbelMethod) -> Option<&'static str> {
-    match method {
-        AbelMethod::Product | AbelMethod::A | AbelMethod::APlusB => None,
-        AbelMethod::B => Some(
-            "its differences reach across the stick border and wear the \
-            permanent stick zone",
-        ),
-        AbelMethod::Benad => Some("its Eq. (2) adds the unevenness of the springs in every cycle"),
-    }
-}
-
-/// The wear at which a method shows a sawtooth whatever the step, at the rate of a cycle of the unworn contact and
-/// relative to the largest depth. `None` if short steps prevent it.
-///
-/// Measured, not derived: on the motion of Fig. 3 with 20 cycles, at N from 25 to 200 and 50 to 400 steps a
-/// cycle, 0.38 to 0.44 with b and 0.038 to 0.055 with benad. The eigenvalues of what a cycle wears by a given profile
-/// are those of the other methods with b, and change fourfold with N with benad, so that they tell neither.
-/// On other motions they may be off by more than 1.5.
-pub fn sawtooth_from(method: AbelMethod) -> Option<f64> {
-    match method {
-        AbelMethod::Product | AbelMethod::A | AbelMethod::APlusB => None,
-        AbelMethod::B => Some(0.4),
-        AbelMethod::Benad => Some(0.045),
-    }
-}
-
-/// G for p = 1 Pa: a spring that slips holds u = μq/G*, so that wear by δ lets the surface slip by μE*δ/G* more,
-/// and that wears G = kμ²pE*/G* times δ. None under a law that is not in proportion to friction work.
-pub fn gain(setup: &Setup) -> Option<f64> {
-    let law = setup.wear.filter(|law| law.follows_energy())?;
-    let (material, friction) = (&setup.material, setup.material.friction());
-    let moduli = material.normal_modulus() / material.tangential_modulus();
-    Some(law.coefficient() * friction * friction * moduli)
-}
-
 /// The largest z of a stable step.
 pub fn limit(scheme: Scheme) -> f64 {
     match scheme {
         Scheme::Euler => 2.0,
         Scheme::Trapezoid => 2.0 / 3.0_f64.sqrt(),
-    }
-}
-
-/// By how much a step of the stiffness z multiplies the stiffest error.
-pub fn amplification(scheme: Scheme, z: f64) -> f64 {
-    match scheme {
-        Scheme::Euler => (1.0 - z).abs(),
-        Scheme::Trapezoid => {
-            let companion = Matrix3::new(1.0 - z, -0.5 * z, 0.5 * z, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0);
-            let roots = companion.complex_eigenvalues();
-            roots.iter().map(|root| root.norm()).fold(0.0, f64::max)
-        }
     }
 }
 
@@ -134,19 +80,6 @@ mod tests {
                 method != AbelMethod::B,
                 "{method}: {smallest}"
             );
-        }
-    }
-
-    #[test]
-    fn errors_grow_beyond_the_limit_and_not_before() {
-        for scheme in Scheme::ALL {
-            let limit = limit(scheme);
-            assert!(
-                (amplification(scheme, limit) - 1.0).abs() < 1e-9,
-                "{scheme}"
-            );
-            assert!(amplification(scheme, 0.99 * limit) < 1.0, "{scheme}");
-            assert!(amplification(scheme, 1.01 * limit) > 1.0, "{scheme}");
         }
     }
 }

@@ -27,19 +27,8 @@ pub struct State {
     pub jump: JumpMemory,
     /// How much has been done so far.
     pub stats: Stats,
-    /// Work of friction since the start, E_d, J.
-    pub dissipated_energy: f64,
-    /// The part of the volume that a law in proportion to friction work must have worn, ∫k dE_d, m³.
-    pub expected_volume: f64,
-    /// Volume that no work of friction explains, m³: worn before the run, under other laws, or by a change of
-    /// grid. Left out where wear is compared with work.
-    pub unexplained_volume: f64,
-    /// Volume that was worn before the run, m³.
-    pub initial_volume: f64,
-    /// The smallest stick radius since the period of the motion began, m.
-    pub smallest_stick_radius: f64,
-    /// The smallest stick radius of the last complete period, m; none before there is one.
-    pub settled_stick_radius: Option<f64>,
+    /// Its sums.
+    pub ledger: Ledger,
 }
 
 /// The work done since the start, in counts that do not depend on the machine.
@@ -101,6 +90,35 @@ pub struct LastStep {
     pub growth: Vec<f64>,
 }
 
+/// What a run has summed up since it began.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Ledger {
+    /// Work of friction since the start, E_d, J.
+    pub dissipated_energy: f64,
+    /// The part of the volume that a law in proportion to friction work must have worn, ∫k dE_d, m³.
+    pub expected_volume: f64,
+    /// Volume that no work of friction explains, m³: worn before the run, under other laws, or by a change of
+    /// grid. Left out where wear is compared with work.
+    pub unexplained_volume: f64,
+    /// Volume that was worn before the run, m³.
+    pub initial_volume: f64,
+    /// The smallest stick radius since the period of the motion began, m.
+    pub smallest_stick_radius: f64,
+    /// The smallest stick radius of the last complete period, m; none before there is one.
+    pub settled_stick_radius: Option<f64>,
+}
+
+impl Ledger {
+    const EMPTY: Self = Self {
+        dissipated_energy: 0.0,
+        expected_volume: 0.0,
+        unexplained_volume: 0.0,
+        initial_volume: 0.0,
+        smallest_stick_radius: f64::INFINITY,
+        settled_stick_radius: None,
+    };
+}
+
 impl State {
     /// An unworn, unloaded contact.
     pub fn new(nodes: usize, has_springs: bool) -> Self {
@@ -119,12 +137,7 @@ impl State {
             },
             jump: JumpMemory::default(),
             stats: Stats::default(),
-            dissipated_energy: 0.0,
-            expected_volume: 0.0,
-            unexplained_volume: 0.0,
-            initial_volume: 0.0,
-            smallest_stick_radius: f64::INFINITY,
-            settled_stick_radius: None,
+            ledger: Ledger::EMPTY,
         }
     }
 
@@ -133,13 +146,7 @@ impl State {
         self.cycle = from.cycle;
         self.steps = from.steps;
         self.stats = from.stats;
-        self.dissipated_energy = from.dissipated_energy;
-        self.expected_volume = from.expected_volume;
-        self.unexplained_volume = from.unexplained_volume;
-        self.initial_volume = from.initial_volume;
-        self.smallest_stick_radius = from.smallest_stick_radius;
-        self.settled_stick_radius = from.settled_stick_radius;
-        // The profile changes: what a steady-state cycle wore on the old one is out of date.
+        self.ledger = from.ledger;
         self.jump = JumpMemory {
             settled: None,
             ..from.jump
@@ -148,7 +155,11 @@ impl State {
 
     /// The permanent stick radius, m: the smallest of the last complete period, or so far in the first.
     pub fn permanent_stick_radius(&self) -> f64 {
-        self.settled_stick_radius
-            .unwrap_or(self.smallest_stick_radius)
+        let Ledger {
+            settled_stick_radius: settled,
+            smallest_stick_radius: smallest,
+            ..
+        } = self.ledger;
+        settled.unwrap_or(smallest)
     }
 }

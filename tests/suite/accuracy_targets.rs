@@ -240,7 +240,7 @@ fn a_cycle_costs_its_work_and_wears_its_depth() {
             let before = simulation.state().clone();
             simulation.advance_to(2.25).expect("a cycle");
             let after = simulation.state();
-            let work = after.dissipated_energy - before.dissipated_energy;
+            let work = after.ledger.dissipated_energy - before.ledger.dissipated_energy;
             let error = (work / exact.energy_per_cycle() - 1.0).abs();
             let case = format!("work, N={cells}, {steps} steps");
             holds(&case, error, work_bound);

@@ -78,7 +78,9 @@ fn a_jumped_scar_is_the_stepped_one() {
             assert!(stats.jumps >= 2, "{name}: {stats:?}");
             let [rms, largest] = difference(&direct, &jumped);
             let volume = jumped.wear_volume() / direct.wear_volume() - 1.0;
-            let work = jumped.state().dissipated_energy / direct.state().dissipated_energy - 1.0;
+            let work = jumped.state().ledger.dissipated_energy
+                / direct.state().ledger.dissipated_energy
+                - 1.0;
             for (what, off, tolerances) in [
                 ("rms", rms, 1.5),
                 ("largest", largest, 10.0),
@@ -169,7 +171,7 @@ fn a_shallow_scar_is_jumped_as_well() {
     let deepest = stepped.state().wear.iter().copied().fold(0.0, f64::max);
     assert!(deepest < 1e-2 * 1e-6, "{deepest}");
     holds("rms of the worn depth", rms / deepest, 1e-3);
-    let works = [&stepped, &jumped].map(|run| run.state().dissipated_energy);
+    let works = [&stepped, &jumped].map(|run| run.state().ledger.dissipated_energy);
     holds("friction work", (works[1] / works[0] - 1.0).abs(), 1e-3);
     let looked_at = jumped.state().stats.evaluated_cycles;
     assert!(looked_at < 300 && jumped.cycle() == 1000.0, "{looked_at}");

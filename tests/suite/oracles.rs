@@ -206,7 +206,7 @@ fn the_loop_and_its_energy() {
                 };
                 // From the turning point +U on.
                 let mut simulation = run(scene, 1.25);
-                let before = simulation.state().dissipated_energy;
+                let before = simulation.state().ledger.dissipated_energy;
                 let error = largest((0..steps).map(|i| {
                     simulation.step().expect("a step");
                     let moment = simulation.moment();
@@ -220,7 +220,7 @@ fn the_loop_and_its_energy() {
                 }));
                 let what = format!("U={share}U_s by {method}, N={cells}, {steps} steps, F_x(u)");
                 holds(&what, error, 0.5 * width(&simulation).powf(1.5));
-                simulation.state().dissipated_energy - before
+                simulation.state().ledger.dissipated_energy - before
             });
             let what = format!("U={share}U_s by {method}, N={cells}, energy");
             let case = format!("{what} of 8 against 40 steps");

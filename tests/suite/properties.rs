@@ -443,7 +443,7 @@ fn materials_grids_and_coefficients_at_their_ends() {
         watch(Scene::by(method).cells(8).wear(0.3), 20.0);
         let frozen = watch(Scene::by(method).wear(0.0), 2.0);
         assert_eq!(frozen.wear_volume(), 0.0);
-        assert!(frozen.state().dissipated_energy > 0.0);
+        assert!(frozen.state().ledger.dissipated_energy > 0.0);
         // The same phase at the end of every step: nothing moves, nothing wears.
         let still = watch(Scene::by(method).steps(1).wear(1.0), 50.0);
         let case = format!("volume of still pictures by {method}");
@@ -533,12 +533,12 @@ fn ten_million_cycles_on_a_cycle_has_its_steps() {
         let fresh = run(scene.clone(), 1.0);
         let spent = |mut simulation: Simulation, from: f64| {
             let (work, count) = (
-                simulation.state().dissipated_energy,
+                simulation.state().ledger.dissipated_energy,
                 simulation.state().steps,
             );
             simulation.advance_to(from + 1.0).expect("a cycle");
             let state = simulation.state();
-            (state.dissipated_energy - work, state.steps - count)
+            (state.ledger.dissipated_energy - work, state.steps - count)
         };
         let late = State {
             cycle: 1e7,
@@ -562,7 +562,7 @@ fn more_amplitude_dissipates_more() {
         let mut before = 0.0;
         for amplitude in [0.01, 0.03, 0.1, 0.13] {
             let scene = Scene::by(method).shaken(amplitude);
-            let energy = run(scene, 2.0).state().dissipated_energy;
+            let energy = run(scene, 2.0).state().ledger.dissipated_energy;
             assert!(energy > before, "{method} at {amplitude}");
             before = energy;
         }

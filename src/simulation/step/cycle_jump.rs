@@ -21,7 +21,7 @@
 use super::super::breakdown::Cause;
 use super::super::choices::Integrator;
 use super::super::model::Model;
-use super::super::state::{JumpMemory, State, SteadyCycle};
+use super::super::state::{JumpMemory, Ledger, State, SteadyCycle};
 use super::super::{Scratch, Setup, cycles_to_settle};
 use super::{deepest, refuse, steady_cycle};
 use crate::math::chebyshev;
@@ -77,7 +77,7 @@ pub(in super::super) fn is_possible(setup: &Setup, state: &State) -> bool {
     let running_in = setup.running_in.as_ref();
     setup.wear.is_some()
         && setup.drive.tangential().is_some()
-        && running_in.is_none_or(|all| all.is_settled(state.cycle, state.dissipated_energy))
+        && running_in.is_none_or(|all| all.is_settled(state.cycle, state.ledger.dissipated_energy))
         && state.cycle >= period.max(state.jump.rest_until)
         && state.cycle % period == 0.0
 }
@@ -284,7 +284,7 @@ fn error(state: &State, first: &SteadyCycle, jump: &Jump, allowed: f64, toleranc
     }
     let (before, after) = (first.friction_work, jump.steady.friction_work);
     let work = chebyshev::error(covered, 0.0, jump.friction_work, before, after).abs();
-    let total = state.dissipated_energy + jump.friction_work;
+    let total = state.ledger.dissipated_energy + jump.friction_work;
     let of_depth = f64::sqrt(sum / f64::max(count, 1.0)).max(largest / PEAK) / allowed;
     // The part of the scar's depth that is allowed is allowed of the work as well.
     let scar = deepest(&jump.wear).unwrap_or(f64::INFINITY);
@@ -300,9 +300,12 @@ fn after_jump(model: &Model, state: &State, memory: State, jump: Jump) -> State 
     let mut end = State {
         cycle: state.cycle + jump.covered,
         steps: state.steps + 1,
-        dissipated_energy: state.dissipated_energy + friction_work,
-        smallest_stick_radius: f64::INFINITY,
-        settled_stick_radius: Some(jump.steady.stick_radius),
+        ledger: Ledger {
+            dissipated_energy: state.ledger.dissipated_energy + friction_work,
+            smallest_stick_radius: f64::INFINITY,
+            settled_stick_radius: Some(jump.steady.stick_radius),
+            ..state.ledger
+        },
         jump: JumpMemory {
             length: jump.next,
             settled: Some(jump.steady),
@@ -314,9 +317,9 @@ fn after_jump(model: &Model, state: &State, memory: State, jump: Jump) -> State 
     };
     if let Some(law) = &model.setup.wear {
         if law.follows_energy() {
-            end.expected_volume += law.coefficient() * friction_work;
+            end.ledger.expected_volume += law.coefficient() * friction_work;
         } else {
-            end.unexplained_volume += worn;
+            end.ledger.unexplained_volume += worn;
         }
     }
     end.stats.jumps += 1;

@@ -90,9 +90,9 @@ fn accept(
         refuse(model, next.contact.depth, after, &model.grid.nodes()[nodes])?;
         // The two sides of V = k E_d: what work explains, and what other laws wore.
         if law.follows_energy() {
-            next.expected_volume += law.coefficient() * increment.friction_work;
+            next.ledger.expected_volume += law.coefficient() * increment.friction_work;
         } else {
-            next.unexplained_volume += model.volume(&increment.depth);
+            next.ledger.unexplained_volume += model.volume(&increment.depth);
         }
         // Eq. (1) is linear: only the growth is transformed.
         model.image(&increment.depth, &mut next.last.growth);
@@ -107,7 +107,7 @@ fn accept(
         std::mem::swap(&mut next.last.wear, &mut increment.depth);
     }
     if model.springs() > 0 {
-        next.dissipated_energy += increment.friction_work;
+        next.ledger.dissipated_energy += increment.friction_work;
         follow_stick(model, next, cycle);
     }
     next.last.duration = cycle - state.cycle;
@@ -168,14 +168,14 @@ fn follow_stick(model: &Model, state: &mut State, cycle: f64) {
     let Some(stick) = state.contact.stick_radius else {
         return;
     };
-    state.smallest_stick_radius = state.smallest_stick_radius.min(stick);
+    state.ledger.smallest_stick_radius = state.ledger.smallest_stick_radius.min(stick);
     // A period is a whole number of cycles.
     if cycle.floor() == state.cycle.floor() {
         return;
     }
     let period = f64::from(cycles_to_settle(&model.setup.drive));
     if (cycle / period).floor() > (state.cycle / period).floor() {
-        state.settled_stick_radius = Some(state.smallest_stick_radius);
-        state.smallest_stick_radius = f64::INFINITY;
+        state.ledger.settled_stick_radius = Some(state.ledger.smallest_stick_radius);
+        state.ledger.smallest_stick_radius = f64::INFINITY;
     }
 }

@@ -35,16 +35,13 @@ pub(super) struct Bounds {
     pub aim: f64,
 }
 
-/// The stiffness for which a try was not accepted.
-struct TooStiff(f64);
-
-/// How a step or a sub-step is to be tried.
+/// How a step or a sub-step is to be taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Part {
     /// As it is, whatever comes of it.
     Raw,
-    /// If it is no stiffer than that.
-    Guarded { stiff: f64 },
+    /// If it is not too stiff.
+    Guarded,
     /// As a slip instability, which stays as stiff in the smallest sub-steps.
     Unstable,
 }
@@ -57,7 +54,8 @@ pub(in super::super) fn step(
     scratch: &mut Scratch,
     cycle: f64,
 ) -> Result<(), Cause> {
-    let Bounds { stiff, aim } = match model.setup.scheme {
+    let scheme = model.setup.scheme;
+    let Bounds { stiff, aim } = match scheme {
         Scheme::Euler => euler::BOUNDS,
         Scheme::Trapezoid => trapezoid::BOUNDS,
     };
@@ -80,25 +78,33 @@ pub(in super::super) fn step(
             _ if hopeless => Part::Raw,
             Stability::Off => Part::Raw,
             Stability::SubStep if part <= SMALLEST => Part::Unstable,
-            Stability::SubStep => Part::Guarded { stiff },
+            Stability::SubStep => Part::Guarded,
         };
-        let growth = match attempt(model, from, next, scratch, reach, kind)? {
+        let ahead = match scheme {
+            Scheme::Trapezoid if kind != Part::Unstable => {
+                trapezoid::ahead(from, reach - from.cycle)
+            }
+            Scheme::Trapezoid | Scheme::Euler => 0.0,
+        };
+        model.profile(&from.image, ahead, &from.last.growth, &mut scratch.g);
+        let stiffness = attempt(model, from, next, scratch, reach)?;
+        match kind {
             // No sub-step is short enough: what comes of it says what is wrong.
-            Err(TooStiff(f64::INFINITY)) => {
+            Part::Guarded if stiffness == f64::INFINITY => {
                 hopeless = true;
                 continue;
             }
-            Err(TooStiff(stiffness)) => {
+            Part::Guarded if stiffness > stiff => {
                 part = (part * aim / stiffness).max(SMALLEST);
                 continue;
             }
-            Ok(stiffness) => {
-                stiffest = stiffest.max(stiffness);
-                (aim / stiffness).clamp(1.0, GROWTH)
-            }
-        };
+            Part::Guarded | Part::Raw => {}
+            Part::Unstable => scratch.increment.damp(model),
+        }
+        accept(model, from, next, scratch, reach)?;
+        stiffest = stiffest.max(stiffness);
         parts += 1;
-        part = (part * growth).min(1.0);
+        part = (part * (aim / stiffness).clamp(1.0, GROWTH)).min(1.0);
         if next.cycle >= cycle {
             break;
         }
@@ -111,22 +117,15 @@ pub(in super::super) fn step(
     Ok(())
 }
 
-/// Tries a step or a sub-step from `state` to `cycle`, into `next`; returns how stiff it was.
+/// Solves the contact at `cycle` on the profile in `scratch`, into `next`, and what the step there from `state` wears;
+/// returns how stiff it is.
 fn attempt(
     model: &Model,
     state: &State,
     next: &mut State,
     scratch: &mut Scratch,
     cycle: f64,
-    part: Part,
-) -> Result<Result<f64, TooStiff>, Cause> {
-    let scheme = model.setup.scheme;
-    let duration = cycle - state.cycle;
-    let ahead = match scheme {
-        Scheme::Trapezoid if part != Part::Unstable => trapezoid::ahead(state, duration),
-        Scheme::Trapezoid | Scheme::Euler => 0.0,
-    };
-    model.profile(&state.image, ahead, &state.last.growth, &mut scratch.g);
+) -> Result<f64, Cause> {
     let problem = contact::Problem {
         model,
         g: &scratch.g,
@@ -134,12 +133,6 @@ fn attempt(
     };
     problem.solve(cycle, &mut next.contact, &mut scratch.increment.slip)?;
     wear(model, state, next, scratch, cycle);
-    let stiffness = scratch.increment.stiffness(model, model.seconds(duration));
-    match part {
-        Part::Guarded { stiff } if stiffness > stiff => return Ok(Err(TooStiff(stiffness))),
-        Part::Guarded { .. } | Part::Raw => {}
-        Part::Unstable => scratch.increment.damp(model),
-    }
-    accept(model, state, next, scratch, cycle)?;
-    Ok(Ok(stiffness))
+    let seconds = model.seconds(cycle - state.cycle);
+    Ok(scratch.increment.stiffness(model, seconds))
 }

@@ -79,7 +79,7 @@ pub(super) fn wear(
         let friction = model.setup.material.friction();
         increment.mean_shear(friction, &state.traction, &next.traction, zone);
         increment.wear(model, model.seconds(cycle - state.cycle));
-        if zone.0 == 0 || state.settled_stick_radius == Some(0.0) {
+        if zone.0 == 0 || state.ledger.settled_stick_radius == Some(0.0) {
             increment.balance_edge(model, next.contact.normal.nodes);
         }
         let exponent = law.slip_rate_exponent();

@@ -8,9 +8,8 @@
 //! e = D/(ρᵖ − 1),   p = 1.1,   but at least e of the rung before/ρ²
 //! ```
 //!
-//! Orders of 1.5 to 2 are usual, so that this is twice the true error in the median. An order that is read from two
-//! differences is no better, since neighbouring rungs scatter. Where cells and steps are both refined, D is shared out as
-//! the errors stood before. Errors of several sources add up as independent ones do: as the root of the sum of squares.
+//! Where cells and steps are both refined, D is shared out as the errors stood before. Errors of several sources add up
+//! as independent ones do: as the root of the sum of squares.
 
 use super::level::{Level, MOST_TOLERANT, Ratio};
 use super::outcome::{Difference, Outcome};
@@ -20,20 +19,11 @@ use crate::math::grid::RadialGrid;
 use crate::scenario::Scenario;
 use crate::simulation::Integrator;
 
-/// The order that an error is estimated by.
-const ORDER: f64 = 1.1;
-
 /// The order by which the next rung is chosen.
 const EXPECTED_ORDER: f64 = 1.7;
 
-/// No error falls faster than with this order; what seems to is a coincidence of two runs.
-const HIGHEST_ORDER: f64 = 2.0;
-
 /// The estimate must be below this part of the accuracy: it is itself a measurement with an error.
 const MARGIN: f64 = 0.8;
-
-/// The part of the accuracy that all sources may use up, shared out equally.
-const SHARES: f64 = 0.8;
 
 /// The accuracy that the coarsest first rung is chosen for.
 const COARSE: f64 = 1e-2;
@@ -98,11 +88,6 @@ pub enum Next {
     Twin(Level),
     /// The last rung that was run is the result.
     Done(Verdict),
-}
-
-/// The error of the finer one of two levels, the one `ratio` times finer.
-fn error_by(difference: &Difference, ratio: f64) -> Difference {
-    difference.with(difference, |d, _| d / (ratio.powf(ORDER) - 1.0))
 }
 
 /// A rung and its errors, by what they come from.
@@ -347,7 +332,7 @@ impl Ladder {
         let twins = self.twins.iter().enumerate();
         let sources = twins.map(|(source, twin)| {
             let ratio = rung.level.ratio(&twin.level)[source];
-            error_by(&twin.outcome.against(&rung.outcome), ratio)
+            twin.outcome.against(&rung.outcome).error_of_finer(ratio)
         });
         let sources = sources.collect();
         self.settle(Top { rung, sources });
@@ -373,8 +358,7 @@ impl Ladder {
                 total => error / total,
             });
             let own = share.with(&difference, |share, d| share * d);
-            let floor = ratio.powf(-HIGHEST_ORDER);
-            error_by(&own, ratio).with(before, |error, before| error.max(before * floor))
+            own.error_above(before, ratio)
         };
         let top = Top {
             sources: known().map(after).collect(),
@@ -385,9 +369,9 @@ impl Ladder {
         self.settle(top);
     }
 
-    /// Takes a rung and plans the next one: finer in what uses up more than its share.
+    /// Takes a rung and plans the next one: finer in what uses up more than its share, where all have equal ones.
     fn settle(&mut self, top: Top) {
-        let allowed = SHARES / top.sources.len() as f64 * self.accuracy;
+        let allowed = MARGIN * self.accuracy / (top.sources.len() as f64).sqrt();
         let mut finer = [1.0; 3];
         for (finer, source) in finer.iter_mut().zip(&top.sources) {
             let excess = source.promised() / allowed;

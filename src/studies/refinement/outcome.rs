@@ -18,6 +18,13 @@ const INSIDE: f64 = 0.95;
 /// V and E_d err by at least this part of what the worn depth does.
 const OF_SCAR: f64 = 0.3;
 
+/// The order that an error is estimated by. Orders of 1.5 to 2 are usual, so that estimates are twice the true error in
+/// the median. An order that is read from two differences is no better, since neighbouring levels scatter.
+const ORDER: f64 = 1.1;
+
+/// No error falls faster than with this order; what seems to is a coincidence of two runs.
+const HIGHEST_ORDER: f64 = 2.0;
+
 /// How a run ended.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
@@ -92,6 +99,18 @@ impl Difference {
             work: self.work.max(least),
             ..*self
         }
+    }
+
+    /// The error of the finer one of two levels that differ by this, the one `ratio` times finer: D/(ρᵖ − 1).
+    pub(super) fn error_of_finer(&self, ratio: f64) -> Self {
+        self.with(self, |d, _| d / (ratio.powf(ORDER) - 1.0))
+    }
+
+    /// The same where the coarser one has an error of `before`, of which at least 1/ρ² is left.
+    pub(super) fn error_above(&self, before: &Self, ratio: f64) -> Self {
+        let left = ratio.powf(-HIGHEST_ORDER);
+        let error = self.error_of_finer(ratio);
+        error.with(before, |error, before| error.max(before * left))
     }
 
     /// Combines two differences, number by number.
@@ -219,5 +238,24 @@ fn rms(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
         (sum / f64::from(count)).sqrt() / largest
     } else {
         0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn all(value: f64) -> Difference {
+        Difference::NONE.with(&Difference::NONE, |_, _| value)
+    }
+
+    #[test]
+    fn differences_tell_errors_of_the_usual_order_and_no_coincidence() {
+        // e(h) = hᵖ: a ratio of 2 makes a difference of 2ᵖ − 1 for an error of 1 of the finer level.
+        let difference = all(2f64.powf(ORDER) - 1.0);
+        assert!((difference.error_of_finer(2.0).worst() - 1.0).abs() < 1e-12);
+        assert_eq!(difference.error_above(&all(3.0), 2.0).worst(), 1.0);
+        // Two levels that agree have a quarter of the error of the one below, not none.
+        assert_eq!(all(0.0).error_above(&all(1.0), 2.0).worst(), 0.25);
     }
 }

@@ -1,8 +1,10 @@
 //! Whether errors grow over a cycle.
 
+use nalgebra::Matrix3;
+
 use crate::math::scan::largest;
 use crate::simulation::Scheme;
-use crate::simulation::stability::{amplification, limit};
+use crate::simulation::stability::limit;
 
 /// Steps of one percent in which the boundary is looked for, from where the stiffest step has its limit.
 const REACH: i32 = 300;
@@ -25,6 +27,19 @@ pub(super) fn growing_from(scheme: Scheme, stiffness: &[f64]) -> Option<f64> {
     (0..REACH).find(|&rung| grows(rung)).map(factor)
 }
 
+/// By how much a step of the stiffness z multiplies the stiffest error: the largest root λ of the
+/// [polynomial of its scheme](crate::simulation::stability).
+fn amplification(scheme: Scheme, z: f64) -> f64 {
+    match scheme {
+        Scheme::Euler => (1.0 - z).abs(),
+        Scheme::Trapezoid => {
+            let companion = Matrix3::new(1.0 - z, -0.5 * z, 0.5 * z, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0);
+            let roots = companion.complex_eigenvalues();
+            roots.iter().map(|root| root.norm()).fold(0.0, f64::max)
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -45,5 +60,18 @@ mod tests {
         assert!(mixed > 2.02, "{mixed}");
         assert_eq!(growing_from(Scheme::Euler, &[0.0, 0.0]), None);
         assert_eq!(growing_from(Scheme::Euler, &[]), None);
+    }
+
+    #[test]
+    fn errors_grow_beyond_the_limit_and_not_before() {
+        for scheme in Scheme::ALL {
+            let limit = limit(scheme);
+            assert!(
+                (amplification(scheme, limit) - 1.0).abs() < 1e-9,
+                "{scheme}"
+            );
+            assert!(amplification(scheme, 0.99 * limit) < 1.0, "{scheme}");
+            assert!(amplification(scheme, 1.01 * limit) > 1.0, "{scheme}");
+        }
     }
 }

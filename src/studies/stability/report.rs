@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
+use super::predict::beyond_steps;
 use super::{Line, Outcome};
-use crate::simulation::stability;
 use crate::studies::table::{Format, Table};
 
 impl Outcome {
@@ -107,7 +107,7 @@ pub fn maps(lines: &[Line]) -> String {
         let rungs = first.outcomes.iter().map(|(k, _)| format!("{k:<RUNG$}"));
         let rungs: String = rungs.collect();
         let _ = writeln!(text, "  N  K={}", rungs.trim_end());
-        if let Some(why) = stability::beyond_steps(first.setting.method) {
+        if let Some(why) = beyond_steps(first.setting.method) {
             let _ = writeln!(
                 text,
                 "  Measured, not derived: the sawtooth grows with K x cycles at any step \

@@ -1,7 +1,7 @@
 //! A checkpoint: a session saved in one file, and restored to the same bits.
 //!
 //! ```text
-//! mdr-tui checkpoint 3
+//! mdr-tui checkpoint 4
 //! 20517 bytes, CRC-32 9ae0daaf
 //! written by mdr-tui 0.1.0 at cycle 42.5
 //! <CBOR>

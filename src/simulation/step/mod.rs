@@ -81,7 +81,6 @@ fn accept(
     let increment = &mut scratch.increment;
     next.carry_sums(state);
     next.wear.copy_from_slice(&state.wear);
-    next.image.copy_from_slice(&state.image);
     if let Some(law) = model.setup.wear.filter(|_| model.springs() > 0) {
         let nodes = increment.nodes.clone();
         let (after, before) = (&mut next.wear[nodes.clone()], &state.wear[nodes.clone()]);
@@ -105,6 +104,8 @@ fn accept(
         );
         scratch.transforms += 1;
         std::mem::swap(&mut next.last.wear, &mut increment.depth);
+    } else {
+        next.image.copy_from_slice(&state.image);
     }
     if model.springs() > 0 {
         next.ledger.dissipated_energy += increment.friction_work;

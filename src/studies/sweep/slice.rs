@@ -114,7 +114,7 @@ impl Slice {
         let mut rows = vec![None; self.study.points()];
         for row in record.rows(&self.study)? {
             let row = row?;
-            let mut points = finder.points_of(&row).into_iter();
+            let mut points = finder.points_of(&self.study, &row).into_iter();
             let Some(free) = points.find(|&point| rows[point].is_none()) else {
                 let rule = format!("row {} does not belong to the study", row.join(","));
                 return Err(Refusal::new(name, rule));

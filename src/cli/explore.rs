@@ -15,6 +15,7 @@ use crate::export::autosave;
 use crate::scenario::nearest::nearest;
 use crate::scenario::session::Session;
 use crate::scenario::{Refusal, Scenario, ScenarioError, checkpoint, preset, printable};
+use crate::studies::refinement;
 use crate::tui::ghosts::{MOST, Source};
 use crate::tui::{self, Capture, Options, Script, Stroke, command, snapshot};
 
@@ -41,7 +42,8 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
         None => {
             let scenario = Scenario::load(&options.scenario, &options.changes.set)
                 .map_err(|error| or_command(&options.scenario, error))?;
-            Session::start(accuracy::resolve_soon(&scenario)?.scenario)?.into()
+            let found = accuracy::resolve(&scenario, false, refinement::resolve_soon)?;
+            Session::start(found.scenario)?.into()
         }
     };
     let reach = run.simulation().setup().grid.radius();
@@ -57,7 +59,7 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
         run,
         ghosts,
         keep_in,
-        keep_every: options.checkpoint_every.0,
+        keep_every: Some(options.checkpoint_every).filter(|every| !every.is_zero()),
         fps: options.fps.or(config.fps).unwrap_or(DEFAULT_FPS),
         marker: options.marker.or(config.marker),
         colored: color.and_then(ColorChoice::is_colored),

@@ -232,7 +232,7 @@ fn ghost(given: &str, run: &Run) -> Result<Ghost> {
     let end = run.end().or(scenario.run().cycles);
     let end = job::end(end, given)?;
     let name = scenario.stem();
-    let session = accuracy::session(scenario, Some(end), true);
+    let session = accuracy::session(&scenario, Some(end), true);
     let mut session = session.with_context(|| printable(given))?;
     Ok(Run::to(&mut session, &[end], false)?.ghost(&name))
 }
@@ -257,14 +257,14 @@ fn run(source: &str, options: &Figure) -> Result<Run> {
     if let Some(wanted) = &options.at {
         let is_at = |state: &Table, cycle: f64| (state.cycle() - cycle).abs() < 1e-9;
         for at in wanted {
-            if !run.states.iter().any(|state| is_at(state, at.cycle)) {
+            if !run.states.iter().any(|state| is_at(state, at.cycle())) {
                 let cycles = run.states.iter().map(|state| state.cycle().to_string());
                 let cycles = cycles.collect::<Vec<_>>().join(", ");
                 let rule = format!("{source} has no such state; it has those at {cycles}");
-                bail!(Refusal::new(format_args!("--at {}", at.spelling), rule));
+                bail!(Refusal::new(format_args!("--at {}", at.0), rule));
             }
         }
-        let is_wanted = |state: &Table| wanted.iter().any(|at| is_at(state, at.cycle));
+        let is_wanted = |state: &Table| wanted.iter().any(|at| is_at(state, at.cycle()));
         run.states.retain(is_wanted);
     }
     Ok(run)
@@ -295,9 +295,7 @@ fn from_directory(directory: &Path) -> Result<Run> {
 
 /// Reads a table of a run.
 fn take(run: &mut Run, path: &Path) -> Result<()> {
-    let text = limited::regular_text(path, LARGEST).map_err(|why| unread(path, why))?;
-    let columns = Columns::parse(&text, &path.display().to_string());
-    let table = Table::of_file(&columns?);
+    let table = Table::of_file(&Columns::read(path)?);
     if table.rows() == 0 {
         bail!(unread(path, "has no rows of numbers"));
     }
@@ -311,7 +309,7 @@ fn unread(path: &Path, why: impl std::fmt::Display) -> Refusal {
 fn from_scenario(name: &str, options: &Figure) -> Result<Run> {
     let scenario = Scenario::load(name, &options.changes.set)?;
     let mut cycles: Vec<f64> = match &options.at {
-        Some(at) => at.iter().map(|at| at.cycle).collect(),
+        Some(at) => at.iter().map(|at| at.cycle()).collect(),
         None => {
             let end = job::end(options.cycles.or(scenario.run().cycles), name)?;
             let planned = scenario.run().snapshot_at.iter().copied();
@@ -320,7 +318,7 @@ fn from_scenario(name: &str, options: &Figure) -> Result<Run> {
     };
     cycles.sort_by(f64::total_cmp);
     let with_field = options.panel.iter().any(|panel| panel.needs_field);
-    let session = accuracy::session(scenario, cycles.last().copied(), options.quiet);
+    let session = accuracy::session(&scenario, cycles.last().copied(), options.quiet);
     let mut session = session.with_context(|| printable(name))?;
     Ok(Run::to(&mut session, &cycles, with_field)?)
 }

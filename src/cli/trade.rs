@@ -8,7 +8,7 @@ use anyhow::{Context, Result, bail};
 
 use super::args::Trade;
 use super::job::end;
-use super::{FAILED, complain, progress, results, small_multiples, stop};
+use super::{FAILED, progress, results, small_multiples, stop};
 use crate::export::header::number;
 use crate::math::abel::AbelMethod;
 use crate::plot::theme::Role;
@@ -45,11 +45,9 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
     }
     let stop = stop::signal()?;
     let go_on = || !stop.load(Ordering::Relaxed);
-    let Some(found) = run(&scenario, cycles, options, &go_on)? else {
-        complain("interrupted before the reference was computed: no results");
-        return Ok(ExitCode::from(FAILED));
+    let Some((trials, notes)) = &run(&scenario, cycles, options, &go_on)? else {
+        bail!("interrupted before the reference was computed: no results");
     };
-    let Found { trials, notes } = &found;
     results::write(target.as_ref(), "trade", notes, || {
         table(trials, trials).csv()
     })?;
@@ -57,10 +55,7 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
     let best = cheapest(trials, options.accuracy.unwrap_or(USUAL));
     match (options.accuracy, best) {
         (Some(accuracy), None) => {
-            complain(&format!(
-                "no setting reached an error of {accuracy:e}; try larger --points or --steps"
-            ));
-            return Ok(ExitCode::from(FAILED));
+            bail!("no setting reached an error of {accuracy:e}; try larger --points or --steps")
         }
         (Some(_), Some((trial, _))) if options.printing.json => {
             results::print_json(&table([trial], trials), &mut out)?;
@@ -92,19 +87,14 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
     })
 }
 
-/// What was measured, and what was compared with what.
-struct Found {
-    trials: Vec<Trial>,
-    notes: Vec<String>,
-}
-
-/// The reference first, then every setting, the cheapest first; `None` without a reference.
+/// What was measured, and what was compared with what: the reference first, then every setting, the cheapest first;
+/// `None` without a reference.
 fn run(
     scenario: &Scenario,
     cycles: f64,
     options: &Trade,
     go_on: &dyn Fn() -> bool,
-) -> Result<Option<Found>> {
+) -> Result<Option<(Vec<Trial>, Vec<String>)>> {
     let (points, steps) = (&options.points, &options.steps);
     let settings = trade::settings(scenario, &options.methods, points, steps);
     let finest = trade::reference(scenario, points, steps);
@@ -139,7 +129,7 @@ fn run(
                 break;
             }
             let trial = Trial::new(setting.clone(), ended, &reference);
-            if trial.point().is_some_and(|[_, error]| error <= resolved) {
+            if trial.point.is_some_and(|[_, error]| error <= resolved) {
                 enough = enough.min(effort);
             }
             trials.push(trial);
@@ -170,7 +160,7 @@ fn run(
         let (tried, all) = (trials.len(), settings.len());
         notes.push(format!("interrupted: {tried} of {all} settings were tried"));
     }
-    Ok(Some(Found { trials, notes }))
+    Ok(Some((trials, notes)))
 }
 
 /// What an accuracy cost, beside the cheapest fixed setting that would have done.

@@ -2,7 +2,6 @@
 
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;
-use std::process::ExitCode;
 
 use anyhow::{Result, bail};
 use clap::CommandFactory;
@@ -23,7 +22,7 @@ use crate::tui::{self, Capture, Options, Script, Stroke, command, snapshot};
 const DEFAULT_FPS: u16 = 10;
 
 /// Opens the explorer.
-pub fn explore(options: &Explore) -> Result<ExitCode> {
+pub fn explore(options: &Explore) -> Result<()> {
     let strokes = Stroke::script(options.keys.as_deref().unwrap_or("")).map_err(Refusal::from)?;
     let config = Config::load()?;
     let color = options.color.or(config.color);
@@ -84,7 +83,7 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
             let _ = io::stdout().write_all(screen.as_bytes());
         });
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(())
 }
 
 /// A mistyped command looks like the name of a preset: it is led to the command.

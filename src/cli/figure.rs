@@ -3,7 +3,6 @@
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::sync::Arc;
 
 use anyhow::{Context, Result, bail};
@@ -43,7 +42,7 @@ const USUAL: [&Recipe; 4] = [
 ];
 
 /// Draws the figure and writes it, with its data beside it.
-pub fn figure(options: &Figure) -> Result<ExitCode> {
+pub fn figure(options: &Figure) -> Result<()> {
     let mut files: Vec<(Target, Format)> = Vec::new();
     let mut data_files: Vec<Target> = Vec::new();
     for path in &options.out {
@@ -81,7 +80,7 @@ pub fn figure(options: &Figure) -> Result<ExitCode> {
         let names: Vec<String> = names.collect();
         writeln!(io::stdout().lock(), "{}", names.join(" and "))?;
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(())
 }
 
 /// Where the data of a figure go: to the same name with .csv, or to `map-drawn.csv` where `map.csv` is what is drawn.
@@ -111,14 +110,7 @@ fn sheet(options: &Figure) -> Result<Sheet> {
         }
         return Ok(paper::errors(paper::POINTS)?);
     }
-    let source = match (&options.source, options.figure) {
-        (Some(source), _) => source.as_str(),
-        (None, Some(_)) => OF_THE_PAPER,
-        (None, None) => {
-            let rule = "needs a run's directory, a CSV file of one, or a scenario";
-            bail!(Refusal::new("figure", rule));
-        }
-    };
+    let source = options.source.as_deref().unwrap_or(OF_THE_PAPER);
     if let Some(record) = record(source) {
         return study(source, record, options);
     }
@@ -241,15 +233,14 @@ fn ghost(given: &str, run: &Run) -> Result<Ghost> {
 fn run(source: &str, options: &Figure) -> Result<Run> {
     let path = Path::new(source);
     let ending = path.extension();
-    let mut run = if path.is_dir() {
-        from_directory(path)?
+    let mut run = Run::default();
+    if path.is_dir() {
+        run = from_directory(path)?;
     } else if ending.is_some_and(|end| end.eq_ignore_ascii_case("csv")) {
-        let mut run = Run::default();
         take(&mut run, path)?;
-        run
     } else {
         return from_scenario(source, options);
-    };
+    }
     if !options.changes.set.is_empty() || options.cycles.is_some() {
         let rule = "a finished run is not run again, so --set and --cycles have no effect";
         bail!(Refusal::new(source, rule));

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 use anyhow::Result;
 
@@ -22,7 +21,7 @@ use crate::studies::refinement;
 use crate::traces::Axes;
 
 /// Fits, and prints, draws and writes what was asked for.
-pub fn fit(options: &args::Fit) -> Result<ExitCode> {
+pub fn fit(options: &args::Fit) -> Result<()> {
     let scenario = Scenario::load(&options.scenario, &options.changes.set)?;
     // The fit runs on the points and steps that its start values need.
     let found = accuracy::resolve(&scenario, options.printing.quiet, |scenario| {
@@ -56,7 +55,7 @@ pub fn fit(options: &args::Fit) -> Result<ExitCode> {
             write!(out, "{}", residual_plots(&fitted, options.drawing.marker))?;
         }
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(())
 }
 
 /// All data sets that the options name.

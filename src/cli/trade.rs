@@ -51,35 +51,31 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
     results::write(target.as_ref(), "trade", notes, || {
         table(trials, trials).csv()
     })?;
-    let mut out = io::stdout().lock();
     let best = cheapest(trials, options.accuracy.unwrap_or(USUAL));
-    match (options.accuracy, best) {
-        (Some(accuracy), None) => {
-            bail!("no setting reached an error of {accuracy:e}; try larger --points or --steps")
+    if let (Some(accuracy), None) = (options.accuracy, best) {
+        bail!("no setting reached an error of {accuracy:e}; try larger --points or --steps");
+    }
+    let only = best.filter(|_| options.accuracy.is_some());
+    let mut out = io::stdout().lock();
+    if options.printing.json {
+        let shown = only.map_or_else(|| trials.iter().collect(), |(trial, _)| vec![trial]);
+        results::print_json(&table(shown, trials), &mut out)?;
+    } else if let Some((trial, [seconds, error])) = only {
+        let what = "at worst (depth, V, E_d, F_x)";
+        writeln!(out, "# error {error:.1e} {what}, in {seconds:.1e} s")?;
+        writeln!(out, "{}", trial.setting.assignments().join("\n"))?;
+    } else {
+        let front = || front(trials).into_iter().map(|(trial, _)| trial).collect();
+        let shown: Vec<&Trial> = match options.all {
+            true => trials.iter().collect(),
+            false => front(),
+        };
+        writeln!(out, "{}", notes.join("\n"))?;
+        write!(out, "{}", table(shown, trials).text())?;
+        if options.drawing.plot {
+            write!(out, "{}", plots(trials, options))?;
         }
-        (Some(_), Some((trial, _))) if options.printing.json => {
-            results::print_json(&table([trial], trials), &mut out)?;
-        }
-        (Some(_), Some((trial, [seconds, error]))) => {
-            let what = "at worst (depth, V, E_d, F_x)";
-            writeln!(out, "# error {error:.1e} {what}, in {seconds:.1e} s")?;
-            writeln!(out, "{}", trial.setting.assignments().join("\n"))?;
-        }
-        (None, _) if options.printing.json => {
-            results::print_json(&table(trials, trials), &mut out)?;
-        }
-        (None, best) => {
-            let shown: Vec<&Trial> = match options.all {
-                true => trials.iter().collect(),
-                false => front(trials).into_iter().map(|(trial, _)| trial).collect(),
-            };
-            writeln!(out, "{}", notes.join("\n"))?;
-            write!(out, "{}", table(shown, trials).text())?;
-            if options.drawing.plot {
-                write!(out, "{}", plots(trials, options))?;
-            }
-            writeln!(out, "{}", advice(best))?;
-        }
+        writeln!(out, "{}", advice(best))?;
     }
     Ok(match go_on() {
         true => ExitCode::SUCCESS,

@@ -5,7 +5,6 @@ use std::env;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
 
@@ -21,7 +20,7 @@ use crate::studies::sweep::{Shard, Study};
 const NAMED: usize = 3;
 
 /// Reads every table of the directory and writes the whole one.
-pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
+pub fn merge(directory: &Path, options: &Sweep) -> Result<()> {
     let shown = printable(&directory.display().to_string());
     let target = Target::claim_given(options.out.as_deref(), options.force)?;
     let mut files = tables(directory).map_err(|error| Refusal::new(&shown, error))?;
@@ -86,7 +85,7 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
             "{failed} of {all} points failed; their status says why"
         ));
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(())
 }
 
 /// Rows in a file without a name, where the merged table will stand.
@@ -99,15 +98,12 @@ fn spool(study: &Study, target: Option<&Target>) -> Result<Ledger> {
 /// The names of the CSV files of a directory, sorted. Nothing else is opened:
 /// a pipe would wait for its other end.
 fn tables(directory: &Path) -> io::Result<Vec<PathBuf>> {
-    let mut files = Vec::new();
-    for entry in fs::read_dir(directory)? {
-        let entry = entry?;
-        let (path, name) = (entry.path(), entry.file_name());
-        let name = name.to_string_lossy();
-        if name.ends_with(".csv") && !name.starts_with('.') && path.is_file() {
-            files.push(path);
-        }
-    }
+    let entries = fs::read_dir(directory)?.map(|entry| Ok(entry?.path()));
+    let mut files: Vec<PathBuf> = entries.collect::<io::Result<_>>()?;
+    files.retain(|path| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        name.ends_with(".csv") && !name.starts_with('.') && path.is_file()
+    });
     files.sort();
     Ok(files)
 }

@@ -129,10 +129,8 @@ impl Fit {
         cycles: Option<f64>,
         robust: bool,
     ) -> Result<Self, ScenarioError> {
-        let free: Vec<Free> = free
-            .iter()
-            .map(|key| start(&scenario, key))
-            .collect::<Result<_, _>>()?;
+        let free = free.iter().map(|key| start(&scenario, key));
+        let free: Vec<Free> = free.collect::<Result<_, _>>()?;
         let points: usize = data.iter().map(|set| set.values.len()).sum();
         if free.is_empty() || data.is_empty() {
             return refuse("needs a key to fit and a data set to fit it to".into());
@@ -158,23 +156,22 @@ impl Fit {
                 "the data end at cycle {cycles:e}; a run has at most {MOST_CYCLES:e} cycles"
             ));
         }
-        let loops = || data.iter().filter(|set| set.axes == Axes::LOOP);
-        if cycles <= 0.0 || loops().next().is_some() && cycles < 1.0 {
-            let rule = "the length of the run is unknown, or less than a cycle; give --cycles";
-            return refuse(rule.into());
-        }
-        let outside = |end: f64| !(1.0..=cycles).contains(&end);
-        if let Some((set, end)) =
-            loops().find_map(|set| Some((set, set.cycle.filter(|end| outside(*end))?)))
-        {
-            let name = &set.name;
-            return refuse(format!(
-                "{name}: its loop ends at cycle {end}, but the run has the cycles 1 to {cycles}; --cycles and \
-                 --loop FILE@CYCLE say others"
-            ));
-        }
         let domain = scenario.setup().grid.radius();
         for set in &data {
+            let is_loop = set.axes == Axes::LOOP;
+            if cycles <= 0.0 || is_loop && cycles < 1.0 {
+                let rule = "the length of the run is unknown, or less than a cycle; give --cycles";
+                return refuse(rule.into());
+            }
+            if let Some(end) = set.cycle.filter(|_| is_loop)
+                && !(1.0..=cycles).contains(&end)
+            {
+                let name = &set.name;
+                return refuse(format!(
+                    "{name}: its loop ends at cycle {end}, but the run has the cycles 1 to {cycles}; --cycles and \
+                     --loop FILE@CYCLE say others"
+                ));
+            }
             set.check_radii(domain)?;
         }
         Ok(Self {

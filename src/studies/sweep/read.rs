@@ -34,7 +34,7 @@ type Result<T> = std::result::Result<T, Refusal>;
 #[serde(deny_unknown_fields)]
 struct Written {
     title: Option<String>,
-    base: Option<String>,
+    base: String,
     columns: Option<Vec<String>>,
     #[serde(default)]
     design: Design,
@@ -98,16 +98,12 @@ impl Study {
     ) -> Result<Self> {
         let origin = printable(origin);
         let refused = |why: Refusal| Refusal::new(&origin, why);
-        let mut given: Written = typed::read(text).map_err(|why| refused(why.into()))?;
+        let given: Written = typed::read(text).map_err(|why| refused(why.into()))?;
         let written: Table = typed::read(text).map_err(|why| refused(why.into()))?;
-        let Some(base_name) = given.base.take() else {
-            let rule = "base is missing: a preset's name or a path to a scenario";
-            return error(rule).map_err(refused);
-        };
         let study = Study {
             title: given.title.as_deref().map(printable),
-            base: load(&base_name)?,
-            base_name,
+            base: load(&given.base)?,
+            base_name: given.base.clone(),
             set: BTreeMap::new(),
             axes: Vec::new(),
             design: given.design,
@@ -201,7 +197,7 @@ fn flat(place: &str, table: &Table) -> Result<Vec<(String, Value)>> {
 }
 
 /// Refuses a key that no scenario has.
-fn known_key(key: &str, place: &str) -> Result<()> {
+pub(super) fn known_key(key: &str, place: &str) -> Result<()> {
     if schema::find(key).is_some() && !key.starts_with("changes") {
         return Ok(());
     }

@@ -7,11 +7,12 @@ use toml::{Table, Value};
 
 use super::Design;
 use super::axis::{self, Axis};
+use super::read::known_key;
 use super::sensitivity::Varied;
 use crate::scenario::scalars::Scalar;
 use crate::scenario::write::value as toml_value;
 use crate::scenario::{Refusal, Scenario, ScenarioError, printable};
-use crate::scenario::{assign, hints, schema, units};
+use crate::scenario::{assign, schema, units};
 
 /// When a point ends before its `run.cycles`: at the end of the first cycle in which one of these is
 /// reached.
@@ -66,18 +67,11 @@ impl Study {
         if self.design != Design::Grid {
             return vec![point; self.axes.len()];
         }
-        let mut rest = point;
-        let mut places: Vec<usize> = self
-            .axes
-            .iter()
-            .rev()
-            .map(|axis| {
-                let place = rest % axis.count();
-                rest /= axis.count();
-                place
-            })
-            .collect();
-        places.reverse();
+        let (mut rest, mut places) = (point, vec![0; self.axes.len()]);
+        for (place, axis) in places.iter_mut().zip(&self.axes).rev() {
+            *place = rest % axis.count();
+            rest /= axis.count();
+        }
         places
     }
 
@@ -202,14 +196,12 @@ impl Study {
     /// Refuses a text that is not an assignment, an unknown key, and the key of an axis.
     pub fn assign(&mut self, set: &str) -> Result<(), ScenarioError> {
         let (key, value) = assign::split(set, "--set ")?;
-        let refuse = |why| Refusal::new(format_args!("--set {}", printable(set)), why);
-        if schema::find(key).is_none() {
-            let why = format!("unknown key {key}; {}", hints::hint(key));
-            return Err(refuse(why).into());
-        }
+        let place = format!("--set {}", printable(set));
+        known_key(key, &place)?;
         let varied = |axis: &Axis| axis.key == key || axis.tied.iter().any(|(tied, _)| tied == key);
         if self.axes.iter().any(varied) {
-            return Err(refuse(format!("{key} is varied by an axis of the study")).into());
+            let rule = format!("{key} is varied by an axis of the study");
+            return Err(Refusal::new(place, rule).into());
         }
         let value: Value = value.parse().unwrap_or_else(|_| value.into());
         self.set.insert(key.to_owned(), value);
@@ -224,34 +216,30 @@ impl Study {
             let set = self.set.clone().into_iter();
             table.insert("set".to_owned(), Value::Table(set.collect()));
         }
-        let tables = |value: &Value| -> Vec<Table> {
-            let all = value.as_array().into_iter().flatten();
-            all.filter_map(Value::as_table).cloned().collect()
-        };
         let (mut text, mut sections) = (String::new(), String::new());
         for (key, value) in &table {
-            if let Value::Table(rows) = value {
-                sections += &format!("\n[{key}]\n{}", lines(rows));
-            }
-            for rows in tables(value) {
-                sections += &format!("\n[[{key}]]\n{}", lines(&rows));
+            match value {
+                Value::Table(rows) => sections += &format!("\n[{key}]\n{}", lines(rows)),
+                Value::Array(list) if list.iter().any(Value::is_table) => {
+                    for rows in list.iter().filter_map(Value::as_table) {
+                        sections += &format!("\n[[{key}]]\n{}", lines(rows));
+                    }
+                }
+                value => text += &line(key, value),
             }
         }
-        table.retain(|_, value| !value.is_table() && tables(value).is_empty());
-        text += &lines(&table);
         text + &sections
     }
 }
 
-/// Keys and values, a line each.
 fn lines(rows: &Table) -> String {
-    let line = |(key, value): (&String, &Value)| {
-        let is_bare = key
-            .chars()
-            .all(|c| c.is_ascii_alphanumeric() || "_-".contains(c));
-        // A dotted path is one key. The keys of scenarios need no escapes.
-        let quote = if is_bare { "" } else { "\"" };
-        format!("{quote}{key}{quote} = {}\n", toml_value(value))
-    };
-    rows.iter().map(line).collect()
+    rows.iter().map(|(key, value)| line(key, value)).collect()
+}
+
+/// A key and its value. A dotted path is one key; those of scenarios need no escapes.
+fn line(key: &str, value: &Value) -> String {
+    let mut signs = key.chars();
+    let is_bare = signs.all(|c| c.is_ascii_alphanumeric() || "_-".contains(c));
+    let quote = if is_bare { "" } else { "\"" };
+    format!("{quote}{key}{quote} = {}\n", toml_value(value))
 }

@@ -1,47 +1,23 @@
 //! `numerics.accuracy` and `--estimate-error` on the command line.
 
-use anyhow::Result;
-
 use super::{complain, progress};
 use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
 use crate::studies::refinement::{self, Resolved};
 
-/// Finds the points and steps that meet the accuracy of `scenario`, with a spinner on stderr, and says there if they do
-/// not meet it.
+/// Finds the points and steps that meet the accuracy of `scenario` by `search`, with a spinner on stderr unless `quiet`,
+/// and says there if they do not meet it.
 ///
 /// # Errors
-/// If no level runs to its end, or on an interrupt.
+/// Of `search`.
 pub(super) fn resolve(
     scenario: &Scenario,
-    cycles: Option<f64>,
-    budget: f64,
     quiet: bool,
-    go_on: &dyn Fn() -> bool,
-) -> std::result::Result<Resolved, SessionError> {
-    searching(quiet || scenario.accuracy().is_none(), || {
-        refinement::resolve(scenario, cycles, budget, go_on)
-    })
-}
-
-/// The same for a screen, which does not wait for long.
-///
-/// # Errors
-/// If no level can be run.
-pub(super) fn resolve_soon(scenario: &Scenario) -> std::result::Result<Resolved, SessionError> {
-    searching(scenario.accuracy().is_none(), || {
-        refinement::resolve_soon(scenario)
-    })
-}
-
-/// Shows a spinner on stderr while `search` runs, and the warning that it ends with.
-fn searching(
-    is_hidden: bool,
-    search: impl FnOnce() -> std::result::Result<Resolved, SessionError>,
-) -> std::result::Result<Resolved, SessionError> {
+    search: impl FnOnce(&Scenario) -> Result<Resolved, SessionError>,
+) -> Result<Resolved, SessionError> {
     let message = "looking for points and steps that meet numerics.accuracy";
-    let spinner = progress::spinner(message, is_hidden);
-    let found = search();
+    let spinner = progress::spinner(message, quiet || scenario.accuracy().is_none());
+    let found = search(scenario);
     // What ticks would draw it once more.
     spinner.disable_steady_tick();
     spinner.finish_and_clear();
@@ -56,8 +32,14 @@ fn searching(
 ///
 /// # Errors
 /// If no level runs to its end, and a contact that cannot be made.
-pub(super) fn session(scenario: Scenario, cycles: Option<f64>, quiet: bool) -> Result<Session> {
-    let found = resolve(&scenario, cycles, f64::INFINITY, quiet, &|| true)?;
+pub(super) fn session(
+    scenario: &Scenario,
+    cycles: Option<f64>,
+    quiet: bool,
+) -> Result<Session, SessionError> {
+    let found = resolve(scenario, quiet, |scenario| {
+        refinement::resolve(scenario, cycles, f64::INFINITY, &|| true)
+    })?;
     let mut session = Session::start(found.scenario)?;
     for (key, value) in &found.statements {
         session.state(key, value);
@@ -69,7 +51,7 @@ pub(super) fn session(scenario: Scenario, cycles: Option<f64>, quiet: bool) -> R
 pub(super) fn estimated(
     session: &Session,
     go_on: &dyn Fn() -> bool,
-) -> std::result::Result<Vec<(String, String)>, String> {
+) -> Result<Vec<(String, String)>, String> {
     if session.simulation().moment().wear_volume <= 0.0 {
         return Err("nothing has worn, so there is no worn depth to estimate the error of".into());
     }

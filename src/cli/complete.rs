@@ -40,10 +40,9 @@ fn presets_and_files(typed: &OsStr, endings: &'static [&'static str]) -> Vec<Com
 
 /// The names of the presets.
 pub fn presets() -> Vec<CompletionCandidate> {
-    let named = preset::ALL
-        .iter()
-        .map(|preset| (preset.name, preset.title()));
-    named.map(|(name, title)| candidate(name, title)).collect()
+    let all = preset::ALL.iter();
+    all.map(|preset| candidate(preset.name, preset.title()))
+        .collect()
 }
 
 /// The topics of the guide.

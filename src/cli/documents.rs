@@ -2,7 +2,6 @@
 
 use std::io::{self, Write};
 use std::path::Path;
-use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
 use clap::{Command, CommandFactory};
@@ -17,7 +16,7 @@ use crate::scenario::nearest::hint;
 use crate::tui::manual;
 
 /// Prints a script with which the shell asks this program for completions.
-pub fn completions(shell: clap_complete::Shell) -> Result<ExitCode> {
+pub fn completions(shell: clap_complete::Shell) -> Result<()> {
     let mut script = Vec::new();
     let shells = Shells::builtins();
     let completer = shells
@@ -25,11 +24,11 @@ pub fn completions(shell: clap_complete::Shell) -> Result<ExitCode> {
         .with_context(|| format!("no completions for {shell}"))?;
     completer.write_registration(VARIABLE, "mdr-tui", "mdr-tui", "mdr-tui", &mut script)?;
     io::stdout().write_all(&script)?;
-    Ok(ExitCode::SUCCESS)
+    Ok(())
 }
 
 /// Prints one man page or all of them, or writes each to a file.
-pub fn man(options: &Manual) -> Result<ExitCode> {
+pub fn man(options: &Manual) -> Result<()> {
     let mut program = Arguments::command();
     // Gives the commands their full names, "mdr-tui run".
     program.build();
@@ -53,7 +52,7 @@ pub fn man(options: &Manual) -> Result<ExitCode> {
             None => io::stdout().write_all(&page)?,
         }
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(())
 }
 
 fn write(directory: &Path, command: &Command, page: &[u8]) -> Result<()> {

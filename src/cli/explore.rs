@@ -2,7 +2,6 @@
 
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;
-use std::process::ExitCode;
 
 use anyhow::{Result, bail};
 use clap::CommandFactory;
@@ -15,6 +14,7 @@ use crate::export::autosave;
 use crate::scenario::nearest::nearest;
 use crate::scenario::session::Session;
 use crate::scenario::{Refusal, Scenario, ScenarioError, checkpoint, preset, printable};
+use crate::studies::refinement;
 use crate::tui::ghosts::{MOST, Source};
 use crate::tui::{self, Capture, Options, Script, Stroke, command, snapshot};
 
@@ -22,7 +22,7 @@ use crate::tui::{self, Capture, Options, Script, Stroke, command, snapshot};
 const DEFAULT_FPS: u16 = 10;
 
 /// Opens the explorer.
-pub fn explore(options: &Explore) -> Result<ExitCode> {
+pub fn explore(options: &Explore) -> Result<()> {
     let strokes = Stroke::script(options.keys.as_deref().unwrap_or("")).map_err(Refusal::from)?;
     let config = Config::load()?;
     let color = options.color.or(config.color);
@@ -41,7 +41,8 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
         None => {
             let scenario = Scenario::load(&options.scenario, &options.changes.set)
                 .map_err(|error| or_command(&options.scenario, error))?;
-            Session::start(accuracy::resolve_soon(&scenario)?.scenario)?.into()
+            let found = accuracy::resolve(&scenario, false, refinement::resolve_soon)?;
+            Session::start(found.scenario)?.into()
         }
     };
     let reach = run.simulation().setup().grid.radius();
@@ -57,7 +58,7 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
         run,
         ghosts,
         keep_in,
-        keep_every: options.checkpoint_every.0,
+        keep_every: Some(options.checkpoint_every).filter(|every| !every.is_zero()),
         fps: options.fps.or(config.fps).unwrap_or(DEFAULT_FPS),
         marker: options.marker.or(config.marker),
         colored: color.and_then(ColorChoice::is_colored),
@@ -82,7 +83,7 @@ pub fn explore(options: &Explore) -> Result<ExitCode> {
             let _ = io::stdout().write_all(screen.as_bytes());
         });
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(())
 }
 
 /// A mistyped command looks like the name of a preset: it is led to the command.

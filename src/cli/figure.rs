@@ -3,7 +3,6 @@
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::sync::Arc;
 
 use anyhow::{Context, Result, bail};
@@ -43,7 +42,7 @@ const USUAL: [&Recipe; 4] = [
 ];
 
 /// Draws the figure and writes it, with its data beside it.
-pub fn figure(options: &Figure) -> Result<ExitCode> {
+pub fn figure(options: &Figure) -> Result<()> {
     let mut files: Vec<(Target, Format)> = Vec::new();
     let mut data_files: Vec<Target> = Vec::new();
     for path in &options.out {
@@ -81,7 +80,7 @@ pub fn figure(options: &Figure) -> Result<ExitCode> {
         let names: Vec<String> = names.collect();
         writeln!(io::stdout().lock(), "{}", names.join(" and "))?;
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(())
 }
 
 /// Where the data of a figure go: to the same name with .csv, or to `map-drawn.csv` where `map.csv` is what is drawn.
@@ -111,14 +110,7 @@ fn sheet(options: &Figure) -> Result<Sheet> {
         }
         return Ok(paper::errors(paper::POINTS)?);
     }
-    let source = match (&options.source, options.figure) {
-        (Some(source), _) => source.as_str(),
-        (None, Some(_)) => OF_THE_PAPER,
-        (None, None) => {
-            let rule = "needs a run's directory, a CSV file of one, or a scenario";
-            bail!(Refusal::new("figure", rule));
-        }
-    };
+    let source = options.source.as_deref().unwrap_or(OF_THE_PAPER);
     if let Some(record) = record(source) {
         return study(source, record, options);
     }
@@ -232,7 +224,7 @@ fn ghost(given: &str, run: &Run) -> Result<Ghost> {
     let end = run.end().or(scenario.run().cycles);
     let end = job::end(end, given)?;
     let name = scenario.stem();
-    let session = accuracy::session(scenario, Some(end), true);
+    let session = accuracy::session(&scenario, Some(end), true);
     let mut session = session.with_context(|| printable(given))?;
     Ok(Run::to(&mut session, &[end], false)?.ghost(&name))
 }
@@ -241,15 +233,14 @@ fn ghost(given: &str, run: &Run) -> Result<Ghost> {
 fn run(source: &str, options: &Figure) -> Result<Run> {
     let path = Path::new(source);
     let ending = path.extension();
-    let mut run = if path.is_dir() {
-        from_directory(path)?
+    let mut run = Run::default();
+    if path.is_dir() {
+        run = from_directory(path)?;
     } else if ending.is_some_and(|end| end.eq_ignore_ascii_case("csv")) {
-        let mut run = Run::default();
         take(&mut run, path)?;
-        run
     } else {
         return from_scenario(source, options);
-    };
+    }
     if !options.changes.set.is_empty() || options.cycles.is_some() {
         let rule = "a finished run is not run again, so --set and --cycles have no effect";
         bail!(Refusal::new(source, rule));
@@ -257,14 +248,14 @@ fn run(source: &str, options: &Figure) -> Result<Run> {
     if let Some(wanted) = &options.at {
         let is_at = |state: &Table, cycle: f64| (state.cycle() - cycle).abs() < 1e-9;
         for at in wanted {
-            if !run.states.iter().any(|state| is_at(state, at.cycle)) {
+            if !run.states.iter().any(|state| is_at(state, at.cycle())) {
                 let cycles = run.states.iter().map(|state| state.cycle().to_string());
                 let cycles = cycles.collect::<Vec<_>>().join(", ");
                 let rule = format!("{source} has no such state; it has those at {cycles}");
-                bail!(Refusal::new(format_args!("--at {}", at.spelling), rule));
+                bail!(Refusal::new(format_args!("--at {}", at.0), rule));
             }
         }
-        let is_wanted = |state: &Table| wanted.iter().any(|at| is_at(state, at.cycle));
+        let is_wanted = |state: &Table| wanted.iter().any(|at| is_at(state, at.cycle()));
         run.states.retain(is_wanted);
     }
     Ok(run)
@@ -295,9 +286,7 @@ fn from_directory(directory: &Path) -> Result<Run> {
 
 /// Reads a table of a run.
 fn take(run: &mut Run, path: &Path) -> Result<()> {
-    let text = limited::regular_text(path, LARGEST).map_err(|why| unread(path, why))?;
-    let columns = Columns::parse(&text, &path.display().to_string());
-    let table = Table::of_file(&columns?);
+    let table = Table::of_file(&Columns::read(path)?);
     if table.rows() == 0 {
         bail!(unread(path, "has no rows of numbers"));
     }
@@ -311,7 +300,7 @@ fn unread(path: &Path, why: impl std::fmt::Display) -> Refusal {
 fn from_scenario(name: &str, options: &Figure) -> Result<Run> {
     let scenario = Scenario::load(name, &options.changes.set)?;
     let mut cycles: Vec<f64> = match &options.at {
-        Some(at) => at.iter().map(|at| at.cycle).collect(),
+        Some(at) => at.iter().map(|at| at.cycle()).collect(),
         None => {
             let end = job::end(options.cycles.or(scenario.run().cycles), name)?;
             let planned = scenario.run().snapshot_at.iter().copied();
@@ -320,7 +309,7 @@ fn from_scenario(name: &str, options: &Figure) -> Result<Run> {
     };
     cycles.sort_by(f64::total_cmp);
     let with_field = options.panel.iter().any(|panel| panel.needs_field);
-    let session = accuracy::session(scenario, cycles.last().copied(), options.quiet);
+    let session = accuracy::session(&scenario, cycles.last().copied(), options.quiet);
     let mut session = session.with_context(|| printable(name))?;
     Ok(Run::to(&mut session, &cycles, with_field)?)
 }

@@ -1,9 +1,9 @@
 //! `mdr-tui fit`: parameters from measured scars, loops and histories.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 use anyhow::Result;
 
@@ -15,16 +15,18 @@ use crate::plot::{Axis, Chart, Curve, Marker};
 use crate::scenario::Scenario;
 use crate::scenario::columns::Columns;
 use crate::scenario::units::reading;
-use crate::studies::fit::{Fit, Fitted};
+use crate::studies::fit::{Fit, Fitted, Value};
 use crate::studies::measured::Measured;
+use crate::studies::refinement;
 use crate::traces::Axes;
 
 /// Fits, and prints, draws and writes what was asked for.
-pub fn fit(options: &args::Fit) -> Result<ExitCode> {
+pub fn fit(options: &args::Fit) -> Result<()> {
     let scenario = Scenario::load(&options.scenario, &options.changes.set)?;
     // The fit runs on the points and steps that its start values need.
-    let (cycles, quiet) = (options.cycles, options.printing.quiet);
-    let found = accuracy::resolve(&scenario, cycles, f64::INFINITY, quiet, &|| true)?;
+    let found = accuracy::resolve(&scenario, options.printing.quiet, |scenario| {
+        refinement::resolve(scenario, options.cycles, f64::INFINITY, &|| true)
+    })?;
     let fit = Fit::new(
         found.scenario,
         data(options)?,
@@ -42,7 +44,8 @@ pub fn fit(options: &args::Fit) -> Result<ExitCode> {
     }
     let mut out = io::stdout().lock();
     if options.printing.json {
-        results::print_json(&fitted.json(), &mut out)?;
+        let keys = fitted.values.iter().map(|value| (&value.key, value));
+        results::print_json(&keys.collect::<BTreeMap<_, _>>(), &mut out)?;
         for remark in &fitted.remarks {
             super::complain(remark);
         }
@@ -52,7 +55,7 @@ pub fn fit(options: &args::Fit) -> Result<ExitCode> {
             write!(out, "{}", residual_plots(&fitted, options.drawing.marker))?;
         }
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(())
 }
 
 /// All data sets that the options name.
@@ -111,13 +114,9 @@ fn report(fitted: &Fitted) -> String {
         );
     }
     for (i, value) in fitted.values.iter().enumerate() {
-        for (j, other) in fitted.values.iter().enumerate().take(i) {
-            let correlation = fitted.correlations[i][j];
-            let _ = writeln!(
-                text,
-                "correlation {} - {}: {correlation:.3}",
-                other.key, value.key
-            );
+        for Value { key: other, .. } in &fitted.values[..i] {
+            let (key, correlation) = (&value.key, value.correlations[other]);
+            let _ = writeln!(text, "correlation {other} - {key}: {correlation:.3}");
         }
     }
     for set in &fitted.compared {

@@ -1,7 +1,7 @@
 //! `mdr-tui guide [TOPIC]`: the long documentation, in a pager where stdout is a terminal.
 
 use std::io::{self, IsTerminal, Write};
-use std::process::{Command, ExitCode, Stdio};
+use std::process::{Command, Stdio};
 
 use anyhow::Result;
 
@@ -11,10 +11,10 @@ use crate::scenario::Refusal;
 use crate::scenario::nearest::hint;
 
 /// Shows a topic; without one, the list of topics.
-pub fn guide(options: &Guide) -> Result<ExitCode> {
+pub fn guide(options: &Guide) -> Result<()> {
     let Some(name) = &options.topic else {
         io::stdout().write_all(list().as_bytes())?;
-        return Ok(ExitCode::SUCCESS);
+        return Ok(());
     };
     let topic = Topic::find(name).ok_or_else(|| unknown(name))?;
     if io::stdout().is_terminal() {
@@ -22,7 +22,7 @@ pub fn guide(options: &Guide) -> Result<ExitCode> {
     } else {
         io::stdout().write_all(topic.text.as_bytes())?;
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(())
 }
 
 fn list() -> String {

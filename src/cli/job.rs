@@ -51,9 +51,9 @@ impl RunJob {
         let cycles = end(options.cycles.or(scenario.run().cycles), name)?;
         let snapshots = match &options.snapshot_at {
             Some(given) => {
-                if let Some(late) = given.iter().find(|snapshot| snapshot.cycle > cycles) {
+                if let Some(late) = given.iter().find(|snapshot| snapshot.cycle() > cycles) {
                     bail!(Refusal::new(
-                        format_args!("--snapshot-at {}", late.spelling),
+                        format_args!("--snapshot-at {}", late.0),
                         format_args!("is after the end of the run, {cycles} cycles")
                     ));
                 }
@@ -88,7 +88,7 @@ impl RunJob {
                 let planned_end = session.loaded().run().cycles.filter(|end| *end > now);
                 Self {
                     cycles: end(cycles.or(planned_end), name)?,
-                    taken: snapshots.iter().filter(|at| at.cycle < now).count(),
+                    taken: snapshots.iter().filter(|at| at.cycle() < now).count(),
                     snapshots,
                     ..Self::default()
                 }
@@ -105,8 +105,8 @@ impl RunJob {
     /// Sorts the snapshots and refuses histories too large to store.
     fn ready(mut self, scenario: &Scenario) -> Result<Self> {
         self.due = self.snapshots.clone();
-        self.due.retain(|snapshot| snapshot.cycle <= self.cycles);
-        self.due.sort_by(|a, b| a.cycle.total_cmp(&b.cycle));
+        self.due.retain(|snapshot| snapshot.cycle() <= self.cycles);
+        self.due.sort_by(|a, b| a.cycle().total_cmp(&b.cycle()));
         if self.due.len() > MOST_SNAPSHOTS {
             let count = self.due.len();
             let rule = format!("{count} snapshots; the limit is {MOST_SNAPSHOTS}");
@@ -124,7 +124,7 @@ impl RunJob {
     /// Takes the next snapshot before `cycle`; it then counts as done.
     pub fn next_snapshot(&mut self, cycle: f64) -> Option<CycleAsGiven> {
         let next = self.due.get(self.taken)?;
-        (next.cycle < cycle).then(|| {
+        (next.cycle() < cycle).then(|| {
             self.taken += 1;
             next.clone()
         })
@@ -133,7 +133,7 @@ impl RunJob {
     /// Whether a snapshot is due before `cycle`.
     pub fn has_snapshot_before(&self, cycle: f64) -> bool {
         let next = self.due.get(self.taken);
-        next.is_some_and(|next| next.cycle < cycle)
+        next.is_some_and(|next| next.cycle() < cycle)
     }
 
     /// The snapshots done so far.
@@ -143,7 +143,7 @@ impl RunJob {
 
     /// The snapshots as `scenario.toml` is to name them.
     pub fn snapshot_at(&self) -> Vec<f64> {
-        self.snapshots.iter().map(|at| at.cycle).collect()
+        self.snapshots.iter().map(CycleAsGiven::cycle).collect()
     }
 
     /// Records the present moment in the history, if it is due.
@@ -200,9 +200,5 @@ pub(super) fn end(cycles: Option<f64>, name: &str) -> Result<f64, Refusal> {
 /// The snapshots that the scenario itself asks for.
 fn planned(scenario: &Scenario) -> Vec<CycleAsGiven> {
     let planned = scenario.run().snapshot_at.iter();
-    let planned = planned.map(|&cycle| CycleAsGiven {
-        cycle,
-        spelling: cycle.to_string(),
-    });
-    planned.collect()
+    planned.map(|at| CycleAsGiven(at.to_string())).collect()
 }

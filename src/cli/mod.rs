@@ -91,20 +91,22 @@ fn dispatch(arguments: Arguments) -> anyhow::Result<ExitCode> {
     #[cfg(debug_assertions)]
     crate::failpoint::hit("command");
     match arguments.command {
-        None => explore::explore(&arguments.explore),
-        Some(Command::Run(options)) => run::run(&options),
-        Some(Command::New(options)) => new::new(&options),
-        Some(Command::Presets(options)) => presets::presets(&options),
-        Some(Command::Verify(options)) => verify::verify(&options),
-        Some(Command::Trade(options)) => trade::trade(&options),
-        Some(Command::Fit(options)) => fit::fit(&options),
-        Some(Command::Stability(options)) => stability::stability(&options),
-        Some(Command::Guide(options)) => guide::guide(&options),
-        Some(Command::Sweep(options)) => sweep::sweep(&options),
-        Some(Command::Figure(options)) => figure::figure(&options),
-        Some(Command::Completions { shell }) => documents::completions(shell),
-        Some(Command::Man(options)) => documents::man(&options),
+        None => explore::explore(&arguments.explore)?,
+        Some(Command::New(options)) => new::new(&options)?,
+        Some(Command::Presets(options)) => presets::presets(&options)?,
+        Some(Command::Verify(options)) => verify::verify(&options)?,
+        Some(Command::Fit(options)) => fit::fit(&options)?,
+        Some(Command::Guide(options)) => guide::guide(&options)?,
+        Some(Command::Figure(options)) => figure::figure(&options)?,
+        Some(Command::Completions { shell }) => documents::completions(shell)?,
+        Some(Command::Man(options)) => documents::man(&options)?,
+        // What these have computed may be less than was asked for.
+        Some(Command::Run(options)) => return run::run(&options),
+        Some(Command::Trade(options)) => return trade::trade(&options),
+        Some(Command::Stability(options)) => return stability::stability(&options),
+        Some(Command::Sweep(options)) => return sweep::sweep(&options),
     }
+    Ok(ExitCode::SUCCESS)
 }
 
 /// Longest wait for a terminal that has stopped reading.

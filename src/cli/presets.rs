@@ -1,7 +1,6 @@
 //! `mdr-tui presets`: the list of presets, or one of them as TOML.
 
 use std::io::{self, Write};
-use std::process::ExitCode;
 
 use anyhow::{Result, bail};
 
@@ -11,7 +10,7 @@ use crate::scenario::nearest::hint;
 use crate::scenario::{Refusal, preset};
 
 /// Lists the presets or prints one.
-pub fn presets(options: &Presets) -> Result<ExitCode> {
+pub fn presets(options: &Presets) -> Result<()> {
     let mut out = io::stdout().lock();
     if let Some(name) = &options.name {
         let Some(found) = preset::find(name) else {
@@ -20,19 +19,19 @@ pub fn presets(options: &Presets) -> Result<ExitCode> {
             bail!(Refusal::new(place, "no such preset").or(hint));
         };
         write!(out, "{}", found.text)?;
-        return Ok(ExitCode::SUCCESS);
+        return Ok(());
     }
     if options.json {
         let list = preset::ALL
             .iter()
             .map(|preset| serde_json::json!({ "name": preset.name, "title": preset.title() }));
         results::print_json(&list.collect::<Vec<_>>(), &mut out)?;
-        return Ok(ExitCode::SUCCESS);
+        return Ok(());
     }
     let widths = preset::ALL.iter().map(|preset| preset.name.len());
     let width = widths.max().unwrap_or(0);
     for preset in preset::ALL {
         writeln!(out, "{:width$}  {}", preset.name, preset.title())?;
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(())
 }

@@ -3,9 +3,10 @@
 //! It has its own file. The tables of a run are the same to the byte whenever and wherever it is
 //! repeated on the same arithmetic, which their headers name; a date in them would end that.
 
+use std::env::consts::{ARCH, OS};
 use std::fs;
 use std::path::Path;
-use std::time::{SystemTime, UNIX_EPOCH};
+use std::time::UNIX_EPOCH;
 
 use crate::export::file::shell_word;
 use crate::export::header;
@@ -25,10 +26,7 @@ pub fn text() -> String {
         ("version", VERSION.to_owned()),
         ("command", command()),
         ("date", date(now())),
-        (
-            "system",
-            format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
-        ),
+        ("system", format!("{OS} {ARCH}")),
         ("processor", processor().unwrap_or_else(|| "unknown".into())),
         ("arithmetic", header::arithmetic().to_owned()),
     ];
@@ -48,12 +46,10 @@ fn command() -> String {
 /// Seconds since 1970: from `SOURCE_DATE_EPOCH`, as in reproducible builds, or from the clock.
 fn now() -> u64 {
     let given = std::env::var("SOURCE_DATE_EPOCH").ok();
+    let since = || UNIX_EPOCH.elapsed().map_or(0, |since| since.as_secs());
     given
         .and_then(|given| given.parse().ok())
-        .unwrap_or_else(|| {
-            let since = SystemTime::now().duration_since(UNIX_EPOCH);
-            since.map_or(0, |since| since.as_secs())
-        })
+        .unwrap_or_else(since)
 }
 
 /// A moment as ISO 8601 has it, in UTC. The days are counted from 1 March of the year 0, so that a leap

@@ -61,8 +61,8 @@ pub fn run(options: &Run) -> Result<ExitCode> {
         // The copy is being saved, and the process ends.
         thread::park();
     }
-    let outcome = outcome.unwrap_or_else(|_| Ok(Ended::Broken(job.go_back())));
-    if matches!(outcome, Ok(Ended::Interrupted | Ended::Broken(_))) {
+    let outcome = outcome.unwrap_or_else(|_| Ok(Some(job.go_back())));
+    if matches!(outcome, Ok(Some(_))) {
         locked(&job.safe).save(&job.session, &job.job);
     }
     // What has come up during the run; the same warning may have got another cycle.
@@ -71,7 +71,7 @@ pub fn run(options: &Run) -> Result<ExitCode> {
         let new = now.iter().filter(|line| !told.contains(line));
         new.for_each(remark);
     }
-    if options.estimate_error && matches!(outcome, Ok(Ended::Done)) {
+    if options.estimate_error && matches!(outcome, Ok(None)) {
         job.estimate(&go_on);
     }
     // Saves what was computed, whatever happened.
@@ -81,14 +81,14 @@ pub fn run(options: &Run) -> Result<ExitCode> {
         locked(&job.safe).save_silently(&job.session, &job.job);
         return Err(anyhow!("{error}; {}", job.how_to_resume()));
     }
-    if matches!(outcome, Ok(Ended::Done) | Err(_)) {
+    if matches!(outcome, Ok(None) | Err(_)) {
         job.directory.close()?;
     }
     // Everything is done: blocking on the reader of the summary must not need a second signal.
     stop.store(true, Ordering::SeqCst);
     let directory = job.directory.path().display();
     match outcome {
-        Ok(Ended::Done) => {
+        Ok(None) => {
             if options.json {
                 job.print_json()?;
             } else if !options.quiet {
@@ -96,24 +96,9 @@ pub fn run(options: &Run) -> Result<ExitCode> {
             }
             Ok(ExitCode::SUCCESS)
         }
-        Ok(Ended::Interrupted) => {
-            let cycle = number(job.session.simulation().cycle());
-            let hint = job.how_to_resume();
-            complain(&format!(
-                "interrupted at cycle {cycle}; saved in {directory}; {hint}"
-            ));
-            Ok(ExitCode::from(FAILED))
-        }
-        Ok(Ended::Broken(word)) => Err(anyhow!("{word}; {}", job.how_to_resume())),
+        Ok(Some(why)) => Err(anyhow!("{why}; {}", job.how_to_resume())),
         Err(error) => Err(error.context(format!("{} (saved in {directory})", job.name))),
     }
-}
-
-enum Ended {
-    Done,
-    Interrupted,
-    /// By a bug, with its message.
-    Broken(String),
 }
 
 /// What survives the run: a copy in memory, and a checkpoint on disk.
@@ -183,7 +168,9 @@ impl<'a> Job<'a> {
         }
         if scenario.accuracy().is_some() {
             let (end, budget) = (Some(job.cycles), options.budget.unwrap_or(f64::INFINITY));
-            let found = accuracy::resolve(&scenario, end, budget, options.quiet, go_on);
+            let found = accuracy::resolve(&scenario, options.quiet, |scenario| {
+                refinement::resolve(scenario, end, budget, go_on)
+            });
             let found = found.with_context(|| printable(name))?;
             scenario = found.scenario;
             job.statements = found.statements;
@@ -258,7 +245,8 @@ impl<'a> Job<'a> {
         for (key, value) in &job.statements {
             session.state(key, value);
         }
-        let (home, every) = (directory.checkpoint(), options.checkpoint_every.0);
+        let home = directory.checkpoint();
+        let every = Some(options.checkpoint_every).filter(|every| !every.is_zero());
         let safe = Safe {
             checkpoints: Autosave::new(Some(home), state_directory(), every),
             copy: Recent::new((session.clone(), job.clone())),
@@ -336,8 +324,8 @@ impl<'a> Job<'a> {
         is_over
     }
 
-    /// Steps to the end, taking snapshots on the way.
-    fn advance(&mut self, go_on: &dyn Fn() -> bool) -> Result<Ended> {
+    /// Steps to the end, taking snapshots on the way. Returns where it was interrupted, if it was.
+    fn advance(&mut self, go_on: &dyn Fn() -> bool) -> Result<Option<String>> {
         let end = self.job.cycles;
         let progress = Progress::new(end, self.options.quiet);
         // A bug leaves this one behind, and the copy takes its place.
@@ -352,9 +340,14 @@ impl<'a> Job<'a> {
         self.session = session;
         outcome?;
         match ended {
-            Ok(()) => Ok(Ended::Done),
-            Err(SessionError::Interrupted) => Ok(Ended::Interrupted),
-            Err(error) => Err(error.into()),
+            Err(SessionError::Interrupted) => {
+                let cycle = number(self.session.simulation().cycle());
+                let directory = self.directory.path().display();
+                Ok(Some(format!(
+                    "interrupted at cycle {cycle}; saved in {directory}"
+                )))
+            }
+            ended => Ok(ended.map(|()| None)?),
         }
     }
 
@@ -539,11 +532,11 @@ fn remarks(session: &Session) -> Vec<String> {
 /// The table of the state at a cycle that `session` has reached or is yet to reach.
 fn table_at(snapshot: &CycleAsGiven, session: &Session) -> Result<String> {
     let simulation = session.simulation();
-    if snapshot.cycle <= simulation.cycle() + simulation.rounding() {
+    if snapshot.cycle() <= simulation.cycle() + simulation.rounding() {
         return Ok(state::table(session));
     }
     let mut glimpse = session.clone();
-    glimpse.advance_to(snapshot.cycle)?;
+    glimpse.advance_to(snapshot.cycle())?;
     Ok(state::table(&glimpse))
 }
 
@@ -559,5 +552,5 @@ fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 
 /// The name of a snapshot's file.
 fn file_of(snapshot: &CycleAsGiven) -> String {
-    format!("state-{}.csv", snapshot.spelling)
+    format!("state-{}.csv", snapshot.0)
 }

@@ -4,6 +4,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 
+use crate::math::scan::range;
 use crate::plot::theme::{Look, Theme};
 use crate::plot::{Axis, Chart, Marker, Plot, Scale};
 
@@ -64,8 +65,6 @@ fn ends<'a>(axis: &Axis, values: impl Iterator<Item = &'a f64>) -> Option<[f64; 
         Scale::Linear => f64::NEG_INFINITY,
     };
     let seen = values.filter(|value| value.is_finite() && **value > floor);
-    let range = seen.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
-        [low.min(*value), high.max(*value)]
-    });
-    (range[0] <= range[1]).then(|| axis.resolve(Some(range), true))
+    let range = range(seen.copied())?;
+    Some(axis.resolve(Some(range), true))
 }

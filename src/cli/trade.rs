@@ -8,7 +8,7 @@ use anyhow::{Context, Result, bail};
 
 use super::args::Trade;
 use super::job::end;
-use super::{FAILED, complain, progress, results, small_multiples, stop};
+use super::{FAILED, progress, results, small_multiples, stop};
 use crate::export::header::number;
 use crate::math::abel::AbelMethod;
 use crate::plot::theme::Role;
@@ -45,46 +45,37 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
     }
     let stop = stop::signal()?;
     let go_on = || !stop.load(Ordering::Relaxed);
-    let Some(found) = run(&scenario, cycles, options, &go_on)? else {
-        complain("interrupted before the reference was computed: no results");
-        return Ok(ExitCode::from(FAILED));
+    let Some((trials, notes)) = &run(&scenario, cycles, options, &go_on)? else {
+        bail!("interrupted before the reference was computed: no results");
     };
-    let Found { trials, notes } = &found;
     results::write(target.as_ref(), "trade", notes, || {
         table(trials, trials).csv()
     })?;
-    let mut out = io::stdout().lock();
     let best = cheapest(trials, options.accuracy.unwrap_or(USUAL));
-    match (options.accuracy, best) {
-        (Some(accuracy), None) => {
-            complain(&format!(
-                "no setting reached an error of {accuracy:e}; try larger --points or --steps"
-            ));
-            return Ok(ExitCode::from(FAILED));
+    if let (Some(accuracy), None) = (options.accuracy, best) {
+        bail!("no setting reached an error of {accuracy:e}; try larger --points or --steps");
+    }
+    let only = best.filter(|_| options.accuracy.is_some());
+    let mut out = io::stdout().lock();
+    if options.printing.json {
+        let shown = only.map_or_else(|| trials.iter().collect(), |(trial, _)| vec![trial]);
+        results::print_json(&table(shown, trials), &mut out)?;
+    } else if let Some((trial, [seconds, error])) = only {
+        let what = "at worst (depth, V, E_d, F_x)";
+        writeln!(out, "# error {error:.1e} {what}, in {seconds:.1e} s")?;
+        writeln!(out, "{}", trial.setting.assignments().join("\n"))?;
+    } else {
+        let front = || front(trials).into_iter().map(|(trial, _)| trial).collect();
+        let shown: Vec<&Trial> = match options.all {
+            true => trials.iter().collect(),
+            false => front(),
+        };
+        writeln!(out, "{}", notes.join("\n"))?;
+        write!(out, "{}", table(shown, trials).text())?;
+        if options.drawing.plot {
+            write!(out, "{}", plots(trials, options))?;
         }
-        (Some(_), Some((trial, _))) if options.printing.json => {
-            results::print_json(&table([trial], trials), &mut out)?;
-        }
-        (Some(_), Some((trial, [seconds, error]))) => {
-            let what = "at worst (depth, V, E_d, F_x)";
-            writeln!(out, "# error {error:.1e} {what}, in {seconds:.1e} s")?;
-            writeln!(out, "{}", trial.setting.assignments().join("\n"))?;
-        }
-        (None, _) if options.printing.json => {
-            results::print_json(&table(trials, trials), &mut out)?;
-        }
-        (None, best) => {
-            let shown: Vec<&Trial> = match options.all {
-                true => trials.iter().collect(),
-                false => front(trials).into_iter().map(|(trial, _)| trial).collect(),
-            };
-            writeln!(out, "{}", notes.join("\n"))?;
-            write!(out, "{}", table(shown, trials).text())?;
-            if options.drawing.plot {
-                write!(out, "{}", plots(trials, options))?;
-            }
-            writeln!(out, "{}", advice(best))?;
-        }
+        writeln!(out, "{}", advice(best))?;
     }
     Ok(match go_on() {
         true => ExitCode::SUCCESS,
@@ -92,19 +83,14 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
     })
 }
 
-/// What was measured, and what was compared with what.
-struct Found {
-    trials: Vec<Trial>,
-    notes: Vec<String>,
-}
-
-/// The reference first, then every setting, the cheapest first; `None` without a reference.
+/// What was measured, and what was compared with what: the reference first, then every setting, the cheapest first;
+/// `None` without a reference.
 fn run(
     scenario: &Scenario,
     cycles: f64,
     options: &Trade,
     go_on: &dyn Fn() -> bool,
-) -> Result<Option<Found>> {
+) -> Result<Option<(Vec<Trial>, Vec<String>)>> {
     let (points, steps) = (&options.points, &options.steps);
     let settings = trade::settings(scenario, &options.methods, points, steps);
     let finest = trade::reference(scenario, points, steps);
@@ -139,7 +125,7 @@ fn run(
                 break;
             }
             let trial = Trial::new(setting.clone(), ended, &reference);
-            if trial.point().is_some_and(|[_, error]| error <= resolved) {
+            if trial.point.is_some_and(|[_, error]| error <= resolved) {
                 enough = enough.min(effort);
             }
             trials.push(trial);
@@ -170,7 +156,7 @@ fn run(
         let (tried, all) = (trials.len(), settings.len());
         notes.push(format!("interrupted: {tried} of {all} settings were tried"));
     }
-    Ok(Some(Found { trials, notes }))
+    Ok(Some((trials, notes)))
 }
 
 /// What an accuracy cost, beside the cheapest fixed setting that would have done.

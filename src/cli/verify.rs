@@ -1,7 +1,6 @@
 //! `mdr-tui verify`: the error of every method against closed forms.
 
 use std::io::{self, Write};
-use std::process::ExitCode;
 
 use anyhow::{Result, bail};
 
@@ -11,21 +10,16 @@ use crate::math::abel::AbelMethod;
 use crate::scenario::Refusal;
 use crate::studies::verify::errors::Errors;
 use crate::studies::verify::report::{all_nodes, all_rows, problem_table};
-use crate::studies::verify::{Outcome, Problem, Study, Task};
+use crate::studies::verify::{Outcome, Problem, Task, tasks};
 
 /// Runs the study and prints, draws and writes what was asked for.
-pub fn verify(options: &Verify) -> Result<ExitCode> {
+pub fn verify(options: &Verify) -> Result<()> {
     let target = options.rows.claim()?;
-    let study = Study {
-        problems: if options.problem.is_empty() {
-            Problem::ALL.to_vec()
-        } else {
-            options.problem.clone()
-        },
-        points: options.points.clone(),
-        long: options.long,
+    let problems = match &options.problem[..] {
+        [] => &Problem::ALL,
+        some => some,
     };
-    let tasks = study.tasks();
+    let tasks = tasks(problems, &options.points, options.long);
     if tasks.is_empty() {
         bail!(Refusal::new(
             "--points",
@@ -41,11 +35,11 @@ pub fn verify(options: &Verify) -> Result<ExitCode> {
         results::print_json(&all_rows(&outcomes), &mut out)?;
     } else {
         if options.all || options.drawing.plot || !options.problem.is_empty() {
-            writeln!(out, "{}", text(&study, &outcomes, options))?;
+            writeln!(out, "{}", text(&outcomes, options))?;
         }
         writeln!(out, "{}", verdict(&outcomes))?;
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(())
 }
 
 fn run(tasks: &[Task], quiet: bool) -> Vec<Outcome> {
@@ -69,7 +63,7 @@ fn run(tasks: &[Task], quiet: bool) -> Vec<Outcome> {
 }
 
 /// Every table under what it shows, and the curves under their table.
-fn text(study: &Study, outcomes: &[Outcome], options: &Verify) -> String {
+fn text(outcomes: &[Outcome], options: &Verify) -> String {
     let marker = options.drawing.marker;
     let mut text = String::new();
     for problem in Problem::ALL {
@@ -84,8 +78,8 @@ fn text(study: &Study, outcomes: &[Outcome], options: &Verify) -> String {
             text.push_str(&format!("  {line}\n"));
         }
         text.push_str(&problem_table(problem, outcomes).text());
-        let left = study.points.iter();
-        let left = left.filter(|&&points| !study.long && problem.is_long(points));
+        let left = options.points.iter();
+        let left = left.filter(|&&points| !options.long && problem.is_long(points));
         let left: Vec<String> = left.map(usize::to_string).collect();
         if !left.is_empty() {
             text.push_str(&format!("N = {} only with --long\n", left.join(", ")));

@@ -1,6 +1,6 @@
 //! Measured results to compare with simulated ones: scars, fretting loops, histories.
 
-use crate::math::scan::value_at;
+use crate::math::scan::{range, value_at};
 use crate::scenario::columns::Columns;
 use crate::scenario::{Refusal, ScenarioError};
 use crate::traces::Axes;
@@ -165,8 +165,7 @@ pub(super) fn check_radii(name: &str, radii: &[f64], reach: f64) -> Result<(), R
 }
 
 fn span(values: &[f64]) -> f64 {
-    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-    values.iter().copied().fold(f64::NEG_INFINITY, f64::max) - least
+    range(values.iter().copied()).map_or(0.0, |[least, most]| most - least)
 }
 
 /// The points of a closed loop at which its motion turns: those of the least and of the largest displacement.

@@ -73,9 +73,8 @@ impl Theory {
 
     /// f∞(r), m: what wear leads to.
     pub fn limiting_profile(&self, radii: &[f64]) -> Option<Vec<f64>> {
-        self.limit
-            .as_ref()
-            .map(|limit| radii.iter().map(|&r| limit.profile(r)).collect())
+        let limit = self.limit.as_ref()?;
+        Some(over(radii, |r| limit.profile(r)))
     }
 
     /// About the deepest wear after `cycles` cycles, m: by Archard's law under the pressure of the unworn
@@ -120,12 +119,7 @@ impl Theory {
     pub fn unworn_pressure(&self, depth: f64, radii: &[f64]) -> Option<Vec<f64>> {
         let (shape, e_star) = self.unworn.as_ref()?;
         let radius = shape.contact_radius(depth.max(0.0));
-        Some(
-            radii
-                .iter()
-                .map(|&r| shape.pressure(*e_star, radius, r))
-                .collect(),
-        )
+        Some(over(radii, |r| shape.pressure(*e_star, radius, r)))
     }
 
     /// τ(r), Pa, of the unworn paraboloid at constant depth, at a cycle and a shift (m).
@@ -136,13 +130,12 @@ impl Theory {
             later if (0.25..0.75).contains(&later.fract()) => Branch::Unloading,
             _ => Branch::Reloading,
         };
-        Some(
-            radii
-                .iter()
-                .map(|&r| cattaneo.loop_shear(branch, shift, r))
-                .collect(),
-        )
+        Some(over(radii, |r| cattaneo.loop_shear(branch, shift, r)))
     }
+}
+
+fn over(radii: &[f64], value: impl Fn(f64) -> f64) -> Vec<f64> {
+    radii.iter().map(|&r| value(r)).collect()
 }
 
 /// The profile as a power of r, where it is one.

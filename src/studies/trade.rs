@@ -179,13 +179,15 @@ fn wants_jumps(scenario: &Scenario) -> bool {
 pub struct Trial {
     /// The setting.
     pub setting: Setting,
-    /// Time with its set-up, s, of a run that reached its end.
-    seconds: Option<f64>,
-    /// Its worst error against the reference, if it passes its own checks.
-    worst: Option<f64>,
-    /// The cells of its row from `steps` to `checks`, or why it did not reach its end.
-    cells: Vec<Value>,
+    /// Time with its set-up, s, and worst error against the reference, if the run reached its end and passes its own
+    /// checks.
+    pub point: Option<[f64; 2]>,
+    /// Its row, up to the mark of the front.
+    row: Vec<Value>,
 }
+
+/// A trial with its time and its worst error.
+pub type Timed<'a> = (&'a Trial, [f64; 2]);
 
 impl Trial {
     /// Judges how a run by `setting` ended. Checks that fail in the `reference` too do not count: the setting is not
@@ -195,64 +197,71 @@ impl Trial {
         ended: Result<(Session, f64), SessionError>,
         reference: &Session,
     ) -> Self {
-        let (session, seconds) = match ended {
-            Ok(ended) => ended,
-            Err(error) => {
-                return Self {
-                    setting,
-                    seconds: None,
-                    worst: None,
-                    cells: vec![Value::Missing, Value::Missing, error.to_string().into()],
-                };
-            }
-        };
-        let failing = |session: &Session| {
-            let checks = session.checks().into_iter();
-            checks.filter(|check| !check.holds())
-        };
-        let common: Vec<Subject> = failing(reference).map(|check| check.subject).collect();
-        let failing = failing(&session).filter(|check| !common.contains(&check.subject));
-        let complaints: Vec<String> = failing.map(|check| check.complaint()).collect();
-        let is_sound = complaints.is_empty();
-        let simulation = session.simulation();
-        let (moment, exact) = (simulation.moment(), reference.simulation().moment());
-        // In contact radii; it does not count towards the worst.
-        let stick = moment
-            .permanent_stick_radius
-            .zip(exact.permanent_stick_radius);
-        let stick = stick.map(|(here, there)| (here - there).abs() / exact.contact_radius);
-        let errors = Outcome::of(&session).against(&Outcome::of(reference));
-        let shown = [errors.worn_depth, errors.volume, errors.work, errors.force].map(Some);
-        let shown = shown.into_iter().chain([stick]);
-        let mut cells = vec![
-            simulation.steps().into(),
-            simulation.stats().transforms.into(),
+        let (level, tolerance) = (&setting.level, setting.level.tolerance);
+        let mut row: Vec<Value> = vec![
+            setting.method.name().into(),
+            setting.scheme.name().into(),
+            Integrator::NAMES[usize::from(tolerance.is_some())].into(),
+            level.points.into(),
+            Value::Count(level.steps.into()),
+            tolerance.into(),
         ];
-        cells.extend(shown.map(|error| error.filter(|error| error.is_finite()).into()));
-        cells.push(match is_sound {
-            true => "ok".into(),
-            false => complaints.join(", ").into(),
-        });
+        let mut point = None;
+        match ended {
+            Err(error) => {
+                row.resize(row.len() + 3, Value::Missing);
+                // It takes the place of the errors and of the checks.
+                row.push(error.to_string().into());
+                row.resize(row.len() + 5, Value::Missing);
+            }
+            Ok((session, seconds)) => {
+                let (outcome, exact) = (Outcome::of(&session), Outcome::of(reference));
+                let errors = outcome.against(&exact);
+                let complaints = complaints(&session, reference);
+                if complaints.is_empty() && errors.worst().is_finite() {
+                    point = Some([seconds, errors.worst()]);
+                }
+                let simulation = session.simulation();
+                let (moment, exact) = (simulation.moment(), reference.simulation().moment());
+                // In contact radii; it does not count towards the worst.
+                let stick = moment
+                    .permanent_stick_radius
+                    .zip(exact.permanent_stick_radius);
+                let stick = stick.map(|(here, there)| (here - there).abs() / exact.contact_radius);
+                let shown = [errors.worn_depth, errors.volume, errors.work, errors.force];
+                row.push(seconds.into());
+                row.push(simulation.steps().into());
+                row.push(simulation.stats().transforms.into());
+                let shown = shown.map(Some).into_iter().chain([stick]);
+                row.extend(shown.map(|error| error.filter(|error| error.is_finite()).into()));
+                row.push(match complaints.is_empty() {
+                    true => "ok".into(),
+                    false => complaints.join(", ").into(),
+                });
+            }
+        }
         Self {
             setting,
-            seconds: Some(seconds),
-            worst: Some(errors.worst()).filter(|worst| is_sound && worst.is_finite()),
-            cells,
+            point,
+            row,
         }
-    }
-
-    /// Time and worst error of a run that reached its end and passes its own checks.
-    pub fn point(&self) -> Option<[f64; 2]> {
-        Some([self.seconds?, self.worst?])
     }
 }
 
-/// A trial with its time and its worst error.
-pub type Timed<'a> = (&'a Trial, [f64; 2]);
+/// The checks that fail in a run, but not in the reference.
+fn complaints(session: &Session, reference: &Session) -> Vec<String> {
+    let failing = |session: &Session| {
+        let checks = session.checks().into_iter();
+        checks.filter(|check| !check.holds())
+    };
+    let common: Vec<Subject> = failing(reference).map(|check| check.subject).collect();
+    let own = failing(session).filter(|check| !common.contains(&check.subject));
+    own.map(|check| check.complaint()).collect()
+}
 
 /// The trials that no other one beats in both time and error, the fastest first.
 pub fn front<'a>(trials: impl IntoIterator<Item = &'a Trial>) -> Vec<Timed<'a>> {
-    let timed = |trial: &'a Trial| Some((trial, trial.point()?));
+    let timed = |trial: &'a Trial| Some((trial, trial.point?));
     let mut sorted: Vec<Timed> = trials.into_iter().filter_map(timed).collect();
     sorted.sort_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     let mut best = f64::INFINITY;
@@ -270,50 +279,22 @@ pub fn cheapest(trials: &[Trial], accuracy: f64) -> Option<Timed<'_>> {
     front.find(|(_, [_, error])| *error <= accuracy)
 }
 
-/// A heading over the columns of errors.
-const ERRORS: &str = "against the reference";
-
-/// The columns before the mark of the front.
-const COLUMNS_BEFORE_FRONT: usize = 15;
-
-/// The columns: a heading over some of them, names, and how they are written.
-const COLUMNS: [(&str, &str, Format); 6] = [
-    ("", "method scheme integrator", Format::Words),
-    ("", "points steps_per_cycle", Format::Count),
-    ("", "tolerance time_s", Format::Rough),
-    ("", "steps transforms", Format::Count),
-    (
-        ERRORS,
-        "error_rms volume_error work_error force_error stick_error",
-        Format::Rough,
-    ),
-    ("", "checks front", Format::Words),
-];
-
 /// One row per trial of `shown`, with a mark if it is on the front of all.
 pub fn table<'a>(shown: impl IntoIterator<Item = &'a Trial>, all: &[Trial]) -> Table {
-    let mut table = Table::of(&COLUMNS);
+    let errors = "error_rms volume_error work_error force_error stick_error";
+    let mut table = Table::of(&[
+        ("", "method scheme integrator", Format::Words),
+        ("", "points steps_per_cycle", Format::Count),
+        ("", "tolerance time_s", Format::Rough),
+        ("", "steps transforms", Format::Count),
+        ("against the reference", errors, Format::Rough),
+        ("", "checks front", Format::Words),
+    ]);
     let front = front(all);
     for trial in shown {
-        let Setting {
-            method,
-            scheme,
-            level,
-        } = &trial.setting;
         let is_on_it = front.iter().any(|(other, _)| std::ptr::eq(*other, trial));
-        let mut row = vec![
-            method.name().into(),
-            scheme.name().into(),
-            Integrator::NAMES[usize::from(level.tolerance.is_some())].into(),
-            level.points.into(),
-            Value::Count(level.steps.into()),
-            level.tolerance.into(),
-            trial.seconds.into(),
-        ];
-        row.extend(trial.cells.iter().cloned());
-        row.resize(COLUMNS_BEFORE_FRONT, Value::Missing);
-        row.push(if is_on_it { "*" } else { "" }.into());
-        table.push(row);
+        let mark = if is_on_it { "*" } else { "" };
+        table.push([&trial.row[..], &[mark.into()]].concat());
     }
     table
 }
@@ -329,9 +310,8 @@ mod tests {
                 scheme: Scheme::Euler,
                 level: level(points, 100, None),
             },
-            seconds: Some(seconds),
-            worst: Some(worst),
-            cells: Vec::new(),
+            point: Some([seconds, worst]),
+            row: vec![Value::Missing; 15],
         }
     }
 
@@ -349,7 +329,7 @@ mod tests {
             judged(6, Err(SessionError::Unfinished("broke".into()))),
             // The fastest and best of all fails its own checks.
             Trial {
-                worst: None,
+                point: None,
                 ..trial(7, 0.01, 1e-6)
             },
         ];
@@ -366,7 +346,7 @@ mod tests {
         assert!(table.text().contains("broke"));
         // No tangential motion, no stick radius; errors without a scar are no errors.
         let judged = judged(8, Ok((session.clone(), 0.1)));
-        assert_eq!(judged.cells[6], Value::Missing);
+        assert_eq!(judged.row[13], Value::Missing);
     }
 
     #[test]
@@ -379,13 +359,13 @@ mod tests {
         let judged =
             |reference: &Session| Trial::new(setting.clone(), Ok(coarse.clone()), reference);
         let alone = judged(&unworn);
-        assert!(alone.point().is_none());
-        let Some(Value::Word(said)) = alone.cells.last() else {
-            panic!("{:?}", alone.cells);
+        assert!(alone.point.is_none());
+        let Some(Value::Word(said)) = alone.row.last() else {
+            panic!("{:?}", alone.row);
         };
         assert!(said.starts_with("energy off by "), "{said}");
         let beside = judged(&coarse.0);
-        assert_eq!(beside.cells.last(), Some(&Value::from("ok")));
-        assert!(beside.point().is_some());
+        assert_eq!(beside.row.last(), Some(&Value::from("ok")));
+        assert!(beside.point.is_some());
     }
 }

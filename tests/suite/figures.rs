@@ -203,60 +203,6 @@ fn the_guide_lays_the_figures_beside_the_papers() {
     }
 }
 
-/// Both loops have the same forces; the sensor sees u + F_x/stiffness. A stiff rig has one loop, without a name.
-#[test]
-fn a_rig_that_yields_has_two_loops() {
-    let dir = TestDir::new();
-    let rig = "gross-slip --set motion.tangential.rig_stiffness=3e7";
-    for source in [
-        format!("run {rig} --cycles 3 --history every-step --out x --quiet"),
-        "figure x --panel loop -o run.svg --quiet".into(),
-        format!("figure {rig} --at 3 --panel loop -o scenario.svg --quiet"),
-        format!("figure {rig} --at 2,3 --panel loop -o two.svg --quiet"),
-        "figure gross-slip --at 3 --panel loop -o stiff.svg --quiet".into(),
-    ] {
-        dir.done(&source);
-    }
-    for name in ["run", "scenario"] {
-        let figure = dir.table(&format!("{name}.csv"));
-        let (contact, sensor) = (
-            curve(&figure, "a", "contact"),
-            curve(&figure, "a", "rig's sensor"),
-        );
-        assert!(contact.0.len() > 90, "{name}");
-        assert_eq!(contact.1, sensor.1, "{name}");
-        for ((u, sensed), force) in contact.0.iter().zip(&sensor.0).zip(&contact.1) {
-            assert!(
-                (sensed - (u + force / 3e7)).abs() < 1e-6 * sensed.abs().max(1e-9),
-                "{name}"
-            );
-        }
-        has(&dir.read(&format!("{name}.svg")), "rig's sensor");
-    }
-    let two = dir.table("two.csv");
-    for end in [2, 3] {
-        let named = |suffix: &str| curve(&two, "a", &format!("{end} cycles{suffix}"));
-        assert_eq!(named("").1, named(" (rig's sensor)").1, "{end}");
-    }
-    lacks(&dir.read("stiff.svg"), "sensor");
-    // The screen's figure has what its panel has.
-    let said = dir.say(&[
-        "gross-slip",
-        "--set",
-        "motion.tangential.rig_stiffness=3e7",
-        "--keys",
-        ",,,:figure screen.svg<Enter>",
-        "--print",
-        "80x24",
-    ]);
-    assert_eq!((said.code, said.err.as_str()), (0, ""));
-    let screen = dir.table("screen.csv");
-    assert_eq!(
-        curve(&screen, "d", "contact").1,
-        curve(&screen, "d", "rig's sensor").1
-    );
-}
-
 /// A study over depth and amplitude, the depth held: gross slip begins at U = d μE*/G*.
 const MAP: &str = r#"
 base = "li2019-fig3"

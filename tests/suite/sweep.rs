@@ -5,6 +5,7 @@ use std::thread;
 use std::time::Duration;
 
 use crate::common::near;
+use crate::regressions::memory_of;
 use crate::screen_table::hold;
 use crate::test_dir::{TestDir, end, has, lacks, signal};
 
@@ -137,7 +138,6 @@ fn memory_does_not_grow_with_the_number_of_points_and_the_first_row_comes_soon()
         let dir = dir_with(&many(points));
         let start = std::time::Instant::now();
         let child = dir.start("sweep study.toml --threads 2 --quiet", &[]);
-        let status = format!("/proc/{}/status", child.id());
         let rows = || fs::metadata(dir.path("study.csv")).map_or(0, |about| about.len());
         while rows() < 4000 {
             assert!(start.elapsed() < Duration::from_secs(20), "no row");
@@ -147,23 +147,15 @@ fn memory_does_not_grow_with_the_number_of_points_and_the_first_row_comes_soon()
         while rows() < 100_000 {
             thread::sleep(Duration::from_millis(5));
         }
-        let status = fs::read_to_string(status).expect("its status");
-        let line = status
-            .lines()
-            .find(|line| line.starts_with("VmHWM"))
-            .expect("its memory");
-        let memory = line
-            .split_whitespace()
-            .nth(1)
-            .and_then(|number| number.parse::<f64>().ok());
+        let memory = memory_of(&child) as f64;
         signal(&child, "TERM");
         let said = end(child);
         assert!([0, 75].contains(&said.code), "{}", said.err);
-        (memory.expect("a number"), first)
+        (memory, first)
     };
     let (few, _) = peak(10_000);
     let (many, first) = peak(1_000_000);
-    assert!(many < 1.2 * few, "{few} kB, {many} kB");
+    assert!(many < 1.2 * few, "{few} bytes, {many} bytes");
     // Two seconds, on a machine that others use too.
     assert!(first < Duration::from_secs(8), "{first:?}");
 }

@@ -3,7 +3,7 @@
 
 use mdr_tui::math::abel::AbelMethod::{self, A, APlusB, B, Benad};
 use mdr_tui::studies::verify::errors::Errors;
-use mdr_tui::studies::verify::{Outcome, Problem, Study, Task};
+use mdr_tui::studies::verify::{Outcome, Problem, Task, tasks};
 use serde_json::Value;
 
 use crate::common::near;
@@ -135,14 +135,10 @@ fn the_limit_tells_b_from_the_causal_methods_and_waits_for_long_on_fine_grids() 
     let rms = |method| errors(Problem::Limit, method, 100)[0].rms();
     near("a", rms(A), 1.87e-3, 0.03);
     near("b", rms(B), 4.25e-2, 0.03);
-    let study = |long| Study {
-        problems: vec![Problem::Limit],
-        points: vec![400, 200],
-        long,
-    };
-    assert_eq!(study(false).tasks().len(), AbelMethod::ALL.len());
+    let tasks = |long| tasks(&[Problem::Limit], &[400, 200], long).len();
+    assert_eq!(tasks(false), AbelMethod::ALL.len());
     assert!(Problem::Limit.is_long(400) && !Problem::Limit.is_long(200));
-    assert_eq!(study(true).tasks().len(), 2 * AbelMethod::ALL.len());
+    assert_eq!(tasks(true), 2 * AbelMethod::ALL.len());
 }
 
 #[test]

@@ -29,6 +29,7 @@ const FONT: &str = "a font has from 3 to 72 points, e.g. 8";
 pub struct Figure {
     /// A run's directory, a CSV file of one, the table of a sweep, a preset's name, or a path to a .toml file,
     /// which is run.
+    #[arg(required_unless_present = "figure")]
     pub source: Option<String>,
     /// Output file; the ending .svg, .png or .pdf gives the format. Can be repeated.
     #[arg(short, long, value_name = "FILE", required = true)]

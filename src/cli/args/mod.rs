@@ -1,6 +1,7 @@
 //! The command line and its help.
 
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand};
 use clap_complete::engine::{ArgValueCandidates, ArgValueCompleter};
@@ -20,7 +21,7 @@ mod values;
 pub use figure::{Figure, PaperFigure, on_paper};
 pub use studies::{Fit, Guard, Rows, Stability, Trade, Verify};
 pub use sweep::Sweep;
-pub use values::{ColorChoice, CycleAsGiven, HistoryChoice, Interval};
+pub use values::{ColorChoice, CycleAsGiven, HistoryChoice};
 use values::{budget, cycles, interval, listed};
 
 /// Watch a fretting contact wear away, live in the terminal.
@@ -145,7 +146,7 @@ pub struct Explore {
     pub resume: Option<PathBuf>,
     /// Checkpoint interval in seconds; 0: only at the end.
     #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = interval)]
-    pub checkpoint_every: Interval,
+    pub checkpoint_every: Duration,
     /// Print the screen at this size after the last key, and exit; the simulation starts paused.
     #[arg(long, value_name = "COLUMNSxROWS", value_parser = parse_size)]
     pub print: Option<Size>,
@@ -213,7 +214,7 @@ pub struct Run {
     pub column: Vec<String>,
     /// Checkpoint interval in seconds; 0: only when the run stops.
     #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = interval)]
-    pub checkpoint_every: Interval,
+    pub checkpoint_every: Duration,
     /// Print the final state as JSON.
     #[arg(long)]
     pub json: bool,

@@ -44,41 +44,24 @@ impl ColorChoice {
     }
 }
 
-/// Time between two checkpoints; `None`: only at the end.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Interval(pub Option<Duration>);
-
-pub(super) fn interval(text: &str) -> Result<Interval, String> {
-    match text.parse::<f64>() {
-        Ok(0.0) => Ok(Interval(None)),
-        Ok(seconds) if (1e-3..=1e6).contains(&seconds) => {
-            Ok(Interval(Some(Duration::from_secs_f64(seconds))))
-        }
-        _ => Err("an interval is 0, or from 0.001 to 1000000 seconds, e.g. 60".into()),
-    }
+/// Seconds between two checkpoints; 0: only at the end.
+pub(super) fn interval(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse().ok();
+    let seconds = seconds.filter(|seconds| *seconds == 0.0 || (1e-3..=1e6).contains(seconds));
+    let rule = "an interval is 0, or from 0.001 to 1000000 seconds, e.g. 60";
+    seconds
+        .map(Duration::from_secs_f64)
+        .ok_or_else(|| rule.to_owned())
 }
 
-/// A cycle and its spelling, which names the file.
+/// A cycle as it was typed, which names the file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "String")]
-pub struct CycleAsGiven {
+pub struct CycleAsGiven(pub String);
+
+impl CycleAsGiven {
     /// The cycle.
-    pub cycle: f64,
-    /// As typed.
-    pub spelling: String,
-}
-
-impl From<CycleAsGiven> for String {
-    fn from(cycle: CycleAsGiven) -> Self {
-        cycle.spelling
-    }
-}
-
-impl TryFrom<String> for CycleAsGiven {
-    type Error = String;
-
-    fn try_from(spelling: String) -> Result<Self, String> {
-        spelling.parse()
+    pub fn cycle(&self) -> f64 {
+        self.0.parse().unwrap_or(f64::NAN)
     }
 }
 
@@ -86,11 +69,8 @@ impl FromStr for CycleAsGiven {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let spelling = text.trim().to_owned();
-        Ok(Self {
-            cycle: cycles(&spelling)?,
-            spelling,
-        })
+        cycles(text.trim())?;
+        Ok(Self(text.trim().to_owned()))
     }
 }
 

@@ -142,9 +142,6 @@ impl Answers {
     /// The scenario as a commented file.
     pub fn to_toml(&self) -> String {
         let quoted = |text: &str| Value::from(text).to_string();
-        let noted = |key: &str, value: &str, note: &str| {
-            format!("{:38} # {note}\n", format!("{key} = {value}"))
-        };
         let (name, shape, of_what) = match self.is_punch {
             false => ("Ball", "paraboloid", "of the ball"),
             true => ("Flat punch", "flat-punch", "of the flat face"),
@@ -159,52 +156,77 @@ impl Answers {
                 "the depth is held: wear unloads the contact",
             ),
         };
-        let (on, stroke) = (&self.half_space.name, &self.stroke.text);
-        let (of, press) = (&self.indenter.name, &self.press.text);
-        let title = format!("{name} of {of} on {on}, {press}, stroke {stroke}");
-        let mut text = format!("title = {}\n\n[indenter]\n", quoted(&title));
+        let (press, stroke) = (&self.press.text, &self.stroke.text);
+        let half = format!("{:e}", self.stroke.value / 2.0);
         let keys = "mdr-tui guide scenarios lists all shapes and keys";
-        text += &noted("shape", &quoted(shape), keys);
-        text += &noted("radius", &quoted(&self.radius.text), of_what);
+        // Section, key, value, and what it means.
+        let mut rows = vec![
+            ("indenter", "shape", quoted(shape), keys.to_owned()),
+            (
+                "indenter",
+                "radius",
+                quoted(&self.radius.text),
+                of_what.into(),
+            ),
+        ];
         for (section, body) in [
-            ("indenter", &self.indenter),
-            ("half_space", &self.half_space),
+            ("material.indenter", &self.indenter),
+            ("material.half_space", &self.half_space),
         ] {
-            text += &format!("\n[material.{section}]\n");
-            text += &match &body.elastic {
-                None => "rigid = true\n".to_owned(),
-                Some((modulus, poisson)) => {
-                    noted("youngs_modulus", &quoted(modulus), &body.name)
-                        + &format!("poisson = {poisson}\n")
-                }
+            match &body.elastic {
+                None => rows.push((section, "rigid", "true".into(), String::new())),
+                Some((modulus, poisson)) => rows.extend([
+                    (
+                        section,
+                        "youngs_modulus",
+                        quoted(modulus),
+                        body.name.clone(),
+                    ),
+                    (section, "poisson", poisson.to_string(), String::new()),
+                ]),
+            }
+        }
+        let friction = self.friction.text.clone();
+        let frequency = quoted(&self.frequency.text);
+        let half_stroke = format!("m: half the stroke of {stroke}");
+        let tangential = "motion.tangential";
+        rows.extend([
+            ("friction", "coefficient", friction, String::new()),
+            ("motion.normal", "control", quoted(control), meaning.into()),
+            ("motion.normal", "mean", quoted(press), String::new()),
+            (tangential, "amplitude", half, half_stroke),
+            (
+                tangential,
+                "frequency",
+                frequency,
+                "one period is a cycle".into(),
+            ),
+        ]);
+        if let Some(wear) = &self.wear {
+            let note = "of a pin test: per load and sliding distance".to_owned();
+            rows.push(("wear", "coefficient_per_load", quoted(&wear.text), note));
+            if self.cycles.value > JUMP_FROM {
+                let note = "jumps over cycles that are alike; \"direct\": every step".to_owned();
+                rows.push(("numerics", "integrator", quoted("cycle-jump"), note));
+            }
+        }
+        let cycles = format!("{:?}", self.cycles.value);
+        rows.push(("run", "cycles", cycles, String::new()));
+        let (of, on) = (&self.indenter.name, &self.half_space.name);
+        let title = quoted(&format!("{name} of {of} on {on}, {press}, stroke {stroke}"));
+        let (mut text, mut open) = (format!("title = {title}\n"), "");
+        for (section, key, value, note) in rows {
+            if section != open {
+                text += &format!("\n[{section}]\n");
+                open = section;
+            }
+            let row = format!("{key} = {value}");
+            text += &match note.is_empty() {
+                true => row + "\n",
+                false => format!("{row:38} # {note}\n"),
             };
         }
-        text += &format!("\n[friction]\ncoefficient = {}\n", self.friction.text);
-        text += "\n[motion.normal]\n";
-        text += &noted("control", &quoted(control), meaning);
-        text += &format!("mean = {}\n\n[motion.tangential]\n", quoted(press));
-        let amplitude = format!("{:e}", self.stroke.value / 2.0);
-        text += &noted(
-            "amplitude",
-            &amplitude,
-            &format!("m: half the stroke of {stroke}"),
-        );
-        text += &noted(
-            "frequency",
-            &quoted(&self.frequency.text),
-            "one period is a cycle",
-        );
-        if let Some(wear) = &self.wear {
-            let note = "of a pin test: per load and sliding distance";
-            text += "\n[wear]\n";
-            text += &noted("coefficient_per_load", &quoted(&wear.text), note);
-        }
-        if self.cycles.value > JUMP_FROM && self.wear.is_some() {
-            let note = "jumps over cycles that are alike; \"direct\": every step";
-            text += "\n[numerics]\n";
-            text += &noted("integrator", &quoted("cycle-jump"), note);
-        }
-        text + &format!("\n[run]\ncycles = {:?}\n", self.cycles.value)
+        text
     }
 }
 

@@ -42,22 +42,18 @@ impl Forecast {
     /// Size and pressure of the unworn contact.
     pub fn contact(&self) -> String {
         let value = |value: f64, unit: &str| format_value_in(value, unit, 3, false);
-        let pressure = match self.is_ball {
+        let mean = self.pressed.mean_pressure();
+        let (what, pressure, place) = match self.is_ball {
             // Hertz: p0 = 3/2 of the mean.
-            true => format!(
-                "Hertz pressure {} at its centre",
-                value(1.5 * self.pressed.mean_pressure(), "Pa")
-            ),
-            false => format!(
-                "mean pressure {}",
-                value(self.pressed.mean_pressure(), "Pa")
-            ),
+            true => ("Hertz pressure", 1.5 * mean, " at its centre"),
+            false => ("mean pressure", mean, ""),
         };
         format!(
-            "contact radius {}, depth {}, load {}, {pressure}",
+            "contact radius {}, depth {}, load {}, {what} {}{place}",
             value(self.pressed.radius, "m"),
             value(self.pressed.depth, "m"),
             value(self.pressed.force, "N"),
+            value(pressure, "Pa"),
         )
     }
 

@@ -4,7 +4,6 @@
 
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;
-use std::process::ExitCode;
 
 use anyhow::{Context, Result};
 use clap::Parser;
@@ -24,7 +23,7 @@ use answers::{Answers, Body, MATERIALS, Quantity, quantity};
 use forecast::Forecast;
 
 /// Writes a new scenario.
-pub fn new(options: &New) -> Result<ExitCode> {
+pub fn new(options: &New) -> Result<()> {
     let path = Path::new(&options.file);
     let target = Target::claim(path, options.force)?;
     let asks = io::stdin().is_terminal() && io::stderr().is_terminal();
@@ -60,7 +59,7 @@ pub fn new(options: &New) -> Result<ExitCode> {
     match opens {
         // A name that begins with a dash is not an option.
         true => explore::explore(&Arguments::parse_from(["mdr-tui", "--", &options.file]).explore),
-        false => Ok(ExitCode::SUCCESS),
+        false => Ok(()),
     }
 }
 

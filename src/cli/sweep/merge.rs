@@ -5,7 +5,6 @@ use std::env;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
 
@@ -21,33 +20,25 @@ use crate::studies::sweep::{Shard, Study};
 const NAMED: usize = 3;
 
 /// Reads every table of the directory and writes the whole one.
-pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
+pub fn merge(directory: &Path, options: &Sweep) -> Result<()> {
     let shown = printable(&directory.display().to_string());
     let target = Target::claim_given(options.out.as_deref(), options.force)?;
-    let files = tables(directory).map_err(|error| Refusal::new(&shown, error))?;
+    let mut files = tables(directory).map_err(|error| Refusal::new(&shown, error))?;
+    files.retain(|file| options.out.as_ref().is_none_or(|out| !same(out, file)));
+    let Some(first) = files.first() else {
+        bail!(Refusal::new(shown, "has no table written by mdr-tui sweep"));
+    };
+    let record = Record::of_file(first)?;
+    let study = &record.study()?;
+    record.expect(study, "this version of mdr-tui")?;
+    let mut ledger = spool(study, target.as_ref())?;
     let mut arithmetic = Arithmetic::new();
-    let mut merged: Option<(Study, PathBuf, Ledger)> = None;
     let (mut doubles, mut contradictions, mut count) = (Vec::new(), Vec::new(), 1);
-    for file in files {
-        if options.out.as_ref().is_some_and(|out| same(out, &file)) {
-            continue;
-        }
-        let record = Record::of_file(&file)?;
+    for file in &files {
+        let record = Record::of_file(file)?;
+        record.expect(study, &first.display().to_string())?;
         count = count.max(record.shard.count);
         arithmetic.extend(record.arithmetic.iter().cloned());
-        let (study, ledger) = match &mut merged {
-            Some((study, first, ledger)) => {
-                record.expect(study, &first.display().to_string())?;
-                (study, ledger)
-            }
-            none => {
-                let study = record.study()?;
-                record.expect(&study, "this version of mdr-tui")?;
-                let ledger = spool(&study, target.as_ref())?;
-                let (study, _, ledger) = none.insert((study, file.clone(), ledger));
-                (study, ledger)
-            }
-        };
         for row in record.rows(study)? {
             let row = row?;
             let (file, axes) = (file.display(), study.axes.len().min(row.len()));
@@ -62,9 +53,7 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
             }
         }
     }
-    let Some((study, _, rows)) = merged else {
-        bail!(Refusal::new(shown, "has no table written by mdr-tui sweep"));
-    };
+    let rows = &ledger;
     if !doubles.is_empty() {
         let (count, named) = (doubles.len(), some(&doubles));
         complain(&format!(
@@ -75,9 +64,9 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
         let (count, named) = (contradictions.len(), some(&contradictions));
         bail!("{shown}: {count} points have two rows that differ: {named}");
     }
-    refuse_missing(&shown, &study, &rows, count)?;
+    refuse_missing(&shown, study, rows, count)?;
     let text = |out: &mut dyn Write| {
-        out.write_all(record::head(&study, Shard::WHOLE, &arithmetic).as_bytes())?;
+        out.write_all(record::head(study, Shard::WHOLE, &arithmetic).as_bytes())?;
         rows.each(|line| out.write_all(line))
     };
     match &target {
@@ -96,7 +85,7 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<ExitCode> {
             "{failed} of {all} points failed; their status says why"
         ));
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(())
 }
 
 /// Rows in a file without a name, where the merged table will stand.
@@ -109,15 +98,12 @@ fn spool(study: &Study, target: Option<&Target>) -> Result<Ledger> {
 /// The names of the CSV files of a directory, sorted. Nothing else is opened:
 /// a pipe would wait for its other end.
 fn tables(directory: &Path) -> io::Result<Vec<PathBuf>> {
-    let mut files = Vec::new();
-    for entry in fs::read_dir(directory)? {
-        let entry = entry?;
-        let (path, name) = (entry.path(), entry.file_name());
-        let name = name.to_string_lossy();
-        if name.ends_with(".csv") && !name.starts_with('.') && path.is_file() {
-            files.push(path);
-        }
-    }
+    let entries = fs::read_dir(directory)?.map(|entry| Ok(entry?.path()));
+    let mut files: Vec<PathBuf> = entries.collect::<io::Result<_>>()?;
+    files.retain(|path| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        name.ends_with(".csv") && !name.starts_with('.') && path.is_file()
+    });
     files.sort();
     Ok(files)
 }

@@ -35,36 +35,29 @@ const SLURM_INDEX: &str = "SLURM_ARRAY_TASK_ID";
 /// Runs the command.
 pub fn sweep(options: &Sweep) -> Result<ExitCode> {
     if let Some(directory) = &options.merge {
-        return merge::merge(directory, options);
+        return merge::merge(directory, options).map(|()| ExitCode::SUCCESS);
     }
     if let Some(file) = &options.view {
-        return view::view(file, options);
+        return view::view(file, options).map(|()| ExitCode::SUCCESS);
     }
     let path = options.study.clone().unwrap_or_default();
     let study = read(&path, &options.changes.set)?;
     if let Some(point) = options.point {
-        return print_point(&study, point);
-    }
-    if options.sensitivity {
-        return sensitivity::sensitivity(options, &study);
-    }
-    if study.axes.is_empty() {
+        print_point(&study, point)?;
+    } else if options.sensitivity {
+        sensitivity::sensitivity(options, &study)?;
+    } else if study.axes.is_empty() {
         let rule = "the study has no axis (only --sensitivity works without one)";
         bail!(Refusal::new(path.display(), rule));
-    }
-    if options.slurm {
-        refuse_invalid(
-            options,
-            &study,
-            Shard::WHOLE,
-            &pool(options)?,
-            Duration::MAX,
-        )?;
+    } else if options.slurm {
+        let pool = pool(options)?;
+        refuse_invalid(options, &study, Shard::WHOLE, &pool, Duration::MAX)?;
         let script = slurm::script(&path, options, study.points());
         io::stdout().write_all(script.as_bytes())?;
-        return Ok(ExitCode::SUCCESS);
+    } else {
+        return run(options, &path, &study);
     }
-    run(options, &path, &study)
+    Ok(ExitCode::SUCCESS)
 }
 
 /// The threads to run on: as many as are asked for, or one for each processor.
@@ -87,19 +80,14 @@ fn read(path: &Path, sets: &[String]) -> Result<Study> {
     Ok(study)
 }
 
-fn print_point(study: &Study, point: usize) -> Result<ExitCode> {
+fn print_point(study: &Study, point: usize) -> Result<()> {
     if point >= study.points() {
         let rule = format!("the study has {} points, counted from 0", study.points());
         bail!(Refusal::new(format_args!("--point {point}"), rule));
     }
     let scenario = study.scenario(point)?;
-    writeln!(
-        io::stdout(),
-        "# {}\n{}",
-        study.name(point),
-        scenario.to_toml()
-    )?;
-    Ok(ExitCode::SUCCESS)
+    let (name, scenario) = (study.name(point), scenario.to_toml());
+    Ok(writeln!(io::stdout(), "# {name}\n{scenario}")?)
 }
 
 /// How long points are checked before the first one runs; the others are checked while they run.
@@ -171,10 +159,8 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
         let todo = output.ledger.done().clone().missing(study, shard);
         checked = engine::run(study, todo, check, &pool, &go_on, |point, row| {
             let added = output.add(point, &row);
-            outcome = added.map_err(|error| anyhow!("{error}"));
-            if outcome.is_ok() {
-                outcome = print(&output.ledger);
-            }
+            let added = added.map_err(|error| anyhow!("{error}"));
+            outcome = added.and_then(|()| print(&output.ledger));
             bar.inc(1);
             outcome.is_ok()
         });

@@ -22,30 +22,27 @@ const MOST_REQUEUES: u32 = 100;
 /// Returns the job script for a study of this many `points`.
 pub fn script(study: &Path, options: &Sweep, points: usize) -> String {
     let shards = options.shards.unwrap_or(1);
-    let directory = match &options.out {
-        Some(out) => out.clone(),
-        None => shards_directory(study),
-    };
+    let directory = options.out.clone();
+    let directory = directory.unwrap_or_else(|| shards_directory(study));
     let (study, directory) = (shell_word(study), shell_word(&directory));
-    let mut more = String::new();
-    for set in &options.changes.set {
-        more.push_str(&format!(" --set {}", shell_word(Path::new(set))));
-    }
+    let sets = options.changes.set.iter();
+    let mut more: String = sets
+        .map(|set| format!(" --set {}", shell_word(Path::new(set))))
+        .collect();
     if options.skip_invalid {
-        more.push_str(" --skip-invalid");
+        more += " --skip-invalid";
     }
     let last = shards - 1;
-    let mut wanted = format!("#SBATCH --time={}\n", options.time);
-    let more_wanted = [
-        ("account", &options.account),
-        ("partition", &options.partition),
-        ("mem", &options.mem),
+    let wanted = [
+        ("time", Some(&options.time)),
+        ("account", options.account.as_ref()),
+        ("partition", options.partition.as_ref()),
+        ("mem", options.mem.as_ref()),
     ];
-    for (name, value) in more_wanted {
-        if let Some(value) = value {
-            wanted.push_str(&format!("#SBATCH --{name}={value}\n"));
-        }
-    }
+    let wanted = wanted.into_iter();
+    let wanted: String = wanted
+        .filter_map(|(name, value)| Some(format!("#SBATCH --{name}={}\n", value?)))
+        .collect();
     let modules = options.module.iter();
     let modules: String = modules
         .map(|name| format!("module load {name}\n"))

@@ -2,7 +2,6 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 use std::time::SystemTime;
 
@@ -17,7 +16,7 @@ use crate::tui::map::{self, Leave, View};
 use crate::tui::{self, keys};
 
 /// Shows the table until the user quits.
-pub fn view(file: &Path, options: &Sweep) -> Result<ExitCode> {
+pub fn view(file: &Path, options: &Sweep) -> Result<()> {
     let name = file.display().to_string();
     let keys = keys::parse_script(options.keys.as_deref().unwrap_or("")).map_err(Refusal::from)?;
     let mut view = View::new(Record::of_file(file)?, &name)?;
@@ -38,7 +37,7 @@ pub fn view(file: &Path, options: &Sweep) -> Result<ExitCode> {
             })?,
         };
         let Leave::Open(point) = leave else {
-            return Ok(ExitCode::SUCCESS);
+            return Ok(());
         };
         let opened = open(&view, point, options);
         if options.print.is_some() || is_ending.load(Ordering::Relaxed) {
@@ -49,7 +48,7 @@ pub fn view(file: &Path, options: &Sweep) -> Result<ExitCode> {
 }
 
 /// Opens a point in the explorer until the user leaves it.
-fn open(view: &View, point: usize, options: &Sweep) -> Result<ExitCode> {
+fn open(view: &View, point: usize, options: &Sweep) -> Result<()> {
     let scenario = view.slice.study.scenario(point)?;
     let directory = tempfile::tempdir().context("cannot make a temporary directory")?;
     let file = directory.path().join(format!("point-{point}.toml"));

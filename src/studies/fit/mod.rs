@@ -23,6 +23,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use anyhow::{Context, Result, anyhow};
+use serde::Serialize;
 
 use crate::scenario::schema::{self, Kind, Range as Allowed};
 use crate::scenario::session::SessionError;
@@ -30,7 +31,7 @@ use crate::scenario::{MOST_CYCLES, Refusal, Scenario, ScenarioError};
 use crate::studies::measured::Measured;
 use crate::traces::Axes;
 use errors::{Errors, freedom};
-use solver::{Free, Solved};
+use solver::Free;
 
 mod errors;
 mod model;
@@ -60,16 +61,20 @@ pub struct Fit {
 }
 
 /// A key that was fitted.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Value {
     /// The dotted path.
+    #[serde(skip)]
     pub key: String,
     /// Its unit.
+    #[serde(skip)]
     pub unit: &'static str,
     /// The value at the minimum.
     pub value: f64,
     /// Its standard error; `None` if the data do not determine it.
     pub stderr: Option<f64>,
+    /// Its correlations with the other keys; 0 with a key that is not determined.
+    pub correlations: BTreeMap<String, f64>,
 }
 
 /// A data set beside what the fitted scenario gives for it.
@@ -98,8 +103,6 @@ impl Compared {
 pub struct Fitted {
     /// The keys in the order in which they were asked for.
     pub values: Vec<Value>,
-    /// Their correlations, row by row; 0 with a key that is not determined.
-    pub correlations: Vec<Vec<f64>>,
     /// The data sets.
     pub compared: Vec<Compared>,
     /// Where data do not determine a key, in a line each.
@@ -126,10 +129,8 @@ impl Fit {
         cycles: Option<f64>,
         robust: bool,
     ) -> Result<Self, ScenarioError> {
-        let free: Vec<Free> = free
-            .iter()
-            .map(|key| start(&scenario, key))
-            .collect::<Result<_, _>>()?;
+        let free = free.iter().map(|key| start(&scenario, key));
+        let free: Vec<Free> = free.collect::<Result<_, _>>()?;
         let points: usize = data.iter().map(|set| set.values.len()).sum();
         if free.is_empty() || data.is_empty() {
             return refuse("needs a key to fit and a data set to fit it to".into());
@@ -155,23 +156,22 @@ impl Fit {
                 "the data end at cycle {cycles:e}; a run has at most {MOST_CYCLES:e} cycles"
             ));
         }
-        let loops = || data.iter().filter(|set| set.axes == Axes::LOOP);
-        if cycles <= 0.0 || loops().next().is_some() && cycles < 1.0 {
-            let rule = "the length of the run is unknown, or less than a cycle; give --cycles";
-            return refuse(rule.into());
-        }
-        let outside = |end: f64| !(1.0..=cycles).contains(&end);
-        if let Some((set, end)) =
-            loops().find_map(|set| Some((set, set.cycle.filter(|end| outside(*end))?)))
-        {
-            let name = &set.name;
-            return refuse(format!(
-                "{name}: its loop ends at cycle {end}, but the run has the cycles 1 to {cycles}; --cycles and \
-                 --loop FILE@CYCLE say others"
-            ));
-        }
         let domain = scenario.setup().grid.radius();
         for set in &data {
+            let is_loop = set.axes == Axes::LOOP;
+            if cycles <= 0.0 || is_loop && cycles < 1.0 {
+                let rule = "the length of the run is unknown, or less than a cycle; give --cycles";
+                return refuse(rule.into());
+            }
+            if let Some(end) = set.cycle.filter(|_| is_loop)
+                && !(1.0..=cycles).contains(&end)
+            {
+                let name = &set.name;
+                return refuse(format!(
+                    "{name}: its loop ends at cycle {end}, but the run has the cycles 1 to {cycles}; --cycles and \
+                     --loop FILE@CYCLE say others"
+                ));
+            }
             set.check_radii(domain)?;
         }
         Ok(Self {
@@ -211,19 +211,18 @@ impl Fit {
                 }
                 Some(all)
             };
-            let solved = solver::solve(&self.free, &theta, errors.len(), &mut residuals)
+            theta = solver::solve(&self.free, &theta, errors.len(), &mut residuals)
                 .map_err(|why| anyhow!("no minimum was found: {why}"))?;
-            let derivatives = self.derivatives(&solved, &deviations);
-            let simulated = simulate(&solved.theta);
+            let derivatives = self.derivatives(&theta, &deviations);
+            let simulated = simulate(&theta);
             let simulated = simulated.map_err(|error| anyhow!("no minimum was found: {error}"))?;
             let z = self.deviations(&simulated, &errors);
             let uncertainty = Errors::new(&z, &derivatives, &self.estimated(), self.robust);
             if round == rounds {
-                let scenario = self.at(&solved.theta).context("no minimum was found")?;
-                return Ok(self.fitted(&solved, &uncertainty, simulated, scenario, runs.get()));
+                let scenario = self.at(&theta).context("no minimum was found")?;
+                return Ok(self.fitted(&theta, &uncertainty, simulated, scenario, runs.get()));
             }
             self.update_errors(&simulated, &uncertainty.leverages, &mut errors);
-            theta = solved.theta;
             round += 1;
         }
     }
@@ -261,17 +260,17 @@ impl Fit {
     /// computed; none for a key at the end of its range.
     fn derivatives(
         &self,
-        solved: &Solved,
+        theta: &[f64],
         deviations: &dyn Fn(&[f64]) -> Option<Vec<f64>>,
     ) -> Vec<Option<Vec<f64>>> {
         let derivative = |i: usize| {
-            let step = self.free[i].step(solved.theta[i]);
+            let step = self.free[i].step(theta[i]);
             let at = |offset: f64| {
-                let mut theta = solved.theta.clone();
+                let mut theta = theta.to_vec();
                 theta[i] += offset;
                 deviations(&theta).map(|z| (theta[i], z))
             };
-            if solved.at_bound[i] {
+            if self.free[i].is_at_bound(theta[i]) {
                 return None;
             }
             let low = at(-step).or_else(|| at(0.0))?;
@@ -308,54 +307,55 @@ impl Fit {
 
     fn fitted(
         &self,
-        solved: &Solved,
+        theta: &[f64],
         uncertainty: &Errors,
         simulated: Vec<Vec<f64>>,
         scenario: Scenario,
         runs: usize,
     ) -> Fitted {
         let mut remarks = Vec::new();
-        let (theta, keys) = (&solved.theta, self.free.len());
         let mut values = Vec::new();
-        for (i, free) in self.free.iter().enumerate() {
-            let error = uncertainty.covariance[(i, i)].sqrt();
-            let is_known = error.is_finite() && error > 0.0 && !solved.at_bound[i];
+        let covariance = &uncertainty.covariance;
+        let correlation = |i: usize, j: usize| {
+            let norm = (covariance[(i, i)] * covariance[(j, j)]).sqrt();
+            match norm > 0.0 {
+                true => covariance[(i, j)] / norm,
+                false => 0.0,
+            }
+        };
+        let mut alike = Vec::new();
+        for (i, (free, &theta)) in self.free.iter().zip(theta).enumerate() {
+            let error = covariance[(i, i)].sqrt();
+            let at_bound = free.is_at_bound(theta);
+            let is_known = error.is_finite() && error > 0.0 && !at_bound;
             let key = free.key.clone();
-            if solved.at_bound[i] {
+            if at_bound {
                 remarks.push(format!("{key} reached the end of its range"));
             } else if !is_known {
                 remarks.push(format!("the data do not determine {key}"));
-            } else if error > VAGUE * free.vague_at(theta[i]) {
+            } else if error > VAGUE * free.vague_at(theta) {
                 remarks.push(format!(
                     "the data hardly determine {key}: its standard error is as large as itself"
                 ));
             }
+            let others = self.free.iter().enumerate().filter(|(j, _)| *j != i);
+            let others = others.map(|(j, other)| (other.key.clone(), correlation(i, j)));
+            for (other, correlation) in others.clone().take(i) {
+                if correlation.abs() > ALIKE {
+                    alike.push(format!(
+                        "the data hardly distinguish {other} from {key}: their correlation is {correlation:.4}"
+                    ));
+                }
+            }
             values.push(Value {
                 unit: free.unit,
-                value: free.value(theta[i]),
-                stderr: is_known.then(|| free.error(theta[i], error)),
+                value: free.value(theta),
+                stderr: is_known.then(|| free.error(theta, error)),
+                correlations: others.collect(),
                 key,
             });
         }
-        let correlation = |i: usize, j: usize| {
-            let norm = (uncertainty.covariance[(i, i)] * uncertainty.covariance[(j, j)]).sqrt();
-            match norm > 0.0 {
-                true => uncertainty.covariance[(i, j)] / norm,
-                false => 0.0,
-            }
-        };
-        let correlations: Vec<Vec<f64>> = (0..keys)
-            .map(|i| (0..keys).map(|j| correlation(i, j)).collect())
-            .collect();
-        for (i, j) in (0..keys).flat_map(|i| (0..i).map(move |j| (i, j))) {
-            let correlation = correlations[i][j];
-            if correlation.abs() > ALIKE {
-                let (one, other) = (&self.free[j].key, &self.free[i].key);
-                remarks.push(format!(
-                    "the data hardly distinguish {one} from {other}: their correlation is {correlation:.4}"
-                ));
-            }
-        }
+        remarks.extend(alike);
         let compared = self.data.iter().cloned().zip(simulated);
         let compared = compared.map(|(measured, simulated)| Compared {
             measured,
@@ -363,34 +363,12 @@ impl Fit {
         });
         Fitted {
             values,
-            correlations,
             compared: compared.collect(),
             remarks,
             runs,
             cycles: self.cycles,
             scenario,
         }
-    }
-}
-
-impl Fitted {
-    /// `{key: {value, stderr, correlations: {key: …}}}`, as JSON has it; no error: `null`.
-    pub fn json(&self) -> serde_json::Value {
-        let keys = || self.values.iter().map(|value| value.key.clone());
-        let entries = self
-            .values
-            .iter()
-            .zip(&self.correlations)
-            .map(|(value, row)| {
-                let mut others: BTreeMap<String, f64> = keys().zip(row.iter().copied()).collect();
-                others.remove(&value.key);
-                serde_json::json!({
-                    "value": value.value,
-                    "stderr": value.stderr,
-                    "correlations": others,
-                })
-            });
-        serde_json::Value::Object(keys().zip(entries).collect())
     }
 }
 

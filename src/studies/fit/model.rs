@@ -1,6 +1,5 @@
 //! Evaluates the scenario at each point of the data.
 
-use crate::math::grid::RadialGrid;
 use crate::math::scan::largest;
 use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
@@ -51,20 +50,27 @@ pub(super) fn simulate(
     let worn = session.simulation().worn_depth();
     let setup = session.simulation().setup();
     for (set, simulated) in data.iter().zip(&mut simulated) {
-        if !set.axes.over_r() {
-            continue;
-        }
-        for (value, &r) in simulated.iter_mut().zip(&set.at) {
-            *value = worn_at(&setup.grid, worn, r);
-            if set.axes == Axes::PROFILE {
-                *value += setup.indenter.profile(r);
-            }
+        if set.axes.over_r() {
+            let is_profile = set.axes == Axes::PROFILE;
+            let at = |&r: &f64| match r > setup.grid.radius() {
+                // Nothing wears outside of the grid.
+                true => 0.0,
+                false => setup.grid.interpolate(worn, r),
+            };
+            let unworn = |&r: &f64| {
+                if is_profile {
+                    setup.indenter.profile(r)
+                } else {
+                    0.0
+                }
+            };
+            *simulated = set.at.iter().map(|r| at(r) + unworn(r)).collect();
         }
     }
     Ok(simulated)
 }
 
-/// The cycle that begins now, every step of it, in a copy of the run: where cycles are jumped over, the run goes on
+/// The displacement that the rig measures, m, and the tangential force, N, of every step of the cycle that begins now, in a copy of the run: where cycles are jumped over, the run goes on
 /// with its jumps.
 fn next_cycle(session: &Session) -> Result<Vec<(f64, f64)>, SessionError> {
     let mut session = session.clone();
@@ -72,24 +78,11 @@ fn next_cycle(session: &Session) -> Result<Vec<(f64, f64)>, SessionError> {
     let end = session.simulation().cycle() + 1.0;
     let mut trace = Vec::new();
     session.advance_while(end, |session| {
-        trace.push(point(session));
+        let moment = session.simulation().moment();
+        // What the rig measures.
+        let displacement = moment.rig_displacement.unwrap_or(moment.shift);
+        trace.push((displacement, moment.tangential_force));
         true
     })?;
     Ok(trace)
-}
-
-/// The displacement that the rig measures, m, and the tangential force, N.
-fn point(session: &Session) -> (f64, f64) {
-    let moment = session.simulation().moment();
-    let displacement = moment.rig_displacement.unwrap_or(moment.shift);
-    (displacement, moment.tangential_force)
-}
-
-/// The worn depth at a radius, m; nothing wears outside of the grid.
-fn worn_at(grid: &RadialGrid, wear: &[f64], r: f64) -> f64 {
-    if r > grid.radius() {
-        0.0
-    } else {
-        grid.interpolate(wear, r)
-    }
 }

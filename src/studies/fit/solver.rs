@@ -27,15 +27,6 @@ pub(super) struct Free {
     bounds: [f64; 2],
 }
 
-/// The minimum.
-#[derive(Debug)]
-pub(super) struct Solved {
-    /// The keys there, positive ones by their logarithms.
-    pub theta: Vec<f64>,
-    /// Whether a key ran into the end of its range.
-    pub at_bound: Vec<bool>,
-}
-
 impl Free {
     /// A key within `limits`, a `positive` one fitted by its logarithm.
     pub fn new(
@@ -102,7 +93,8 @@ impl Free {
         parameter
     }
 
-    fn is_at_bound(&self, theta: f64) -> bool {
+    /// Whether it ran into the end of its range.
+    pub fn is_at_bound(&self, theta: f64) -> bool {
         let [low, up] = self.bounds;
         theta <= low || theta >= up
     }
@@ -137,7 +129,8 @@ impl MPFitter for Problem<'_> {
     }
 }
 
-/// Seeks the minimum of the sum of squares of `residuals`, of which there are `points`, from `theta`.
+/// Seeks the minimum of the sum of squares of `residuals`, of which there are `points`, from `theta`. Returns the keys
+/// there, positive ones by their logarithms.
 ///
 /// # Errors
 /// In words, where the search cannot begin or does not end.
@@ -146,7 +139,7 @@ pub(super) fn solve(
     theta: &[f64],
     points: usize,
     residuals: &mut dyn FnMut(&[f64]) -> Option<Vec<f64>>,
-) -> Result<Solved, &'static str> {
+) -> Result<Vec<f64>, &'static str> {
     let mut config = MPConfig::new();
     (config.ftol, config.xtol, config.gtol) = (1e-7, 1e-6, 1e-10);
     config.max_iter = 60;
@@ -169,12 +162,7 @@ pub(super) fn solve(
     if status.success == MPSuccess::MaxIter {
         return Err("no convergence after 60 iterations; try better start values");
     }
-    let at_bound = free.iter().zip(&theta);
-    let at_bound = at_bound.map(|(free, theta)| free.is_at_bound(*theta));
-    Ok(Solved {
-        at_bound: at_bound.collect(),
-        theta,
-    })
+    Ok(theta)
 }
 
 #[cfg(test)]
@@ -186,8 +174,8 @@ mod tests {
         let free = [Free::new("a", "", 0.3, false, [0.0, 0.5])];
         let mut residuals =
             |theta: &[f64]| Some((1..9).map(|i| f64::from(i) * (theta[0] - 2.0)).collect());
-        let solved = solve(&free, &[0.3], 8, &mut residuals).expect("a minimum");
-        assert_eq!(solved.theta[0], 0.5);
-        assert!(solved.at_bound[0]);
+        let theta = solve(&free, &[0.3], 8, &mut residuals).expect("a minimum");
+        assert_eq!(theta, [0.5]);
+        assert!(free[0].is_at_bound(theta[0]));
     }
 }

@@ -3,7 +3,7 @@
 use serde::Deserialize;
 use toml::Value;
 
-use super::design::Strata;
+use super::design::Spacing;
 use crate::scenario::scalars::number;
 use crate::scenario::schema::{self, Kind};
 
@@ -37,10 +37,8 @@ pub struct Axis {
 pub enum Values {
     /// As written in the study.
     Listed(Vec<Value>),
-    /// This many from the first to the last of two ends.
-    Spaced([f64; 2], usize),
-    /// One in each stratum between two ends.
-    Drawn([f64; 2], Strata),
+    /// This many between two ends.
+    Between([f64; 2], usize, Spacing),
 }
 
 impl Axis {
@@ -48,55 +46,19 @@ impl Axis {
     pub fn count(&self) -> usize {
         match &self.values {
             Values::Listed(values) => values.len(),
-            Values::Spaced(_, count) => *count,
-            Values::Drawn(_, strata) => strata.len(),
+            Values::Between(_, count, _) => *count,
         }
     }
 
     /// The value at `index`.
     pub fn value(&self, index: usize) -> Value {
-        let at = |[from, to]: [f64; 2], share| {
-            value_of(&self.key, between(self.spread, from, to, share))
-        };
         match &self.values {
             Values::Listed(values) => values[index].clone(),
-            Values::Spaced(ends, count) => at(*ends, index as f64 / (count - 1).max(1) as f64),
-            Values::Drawn(ends, strata) => at(*ends, strata.share(index)),
+            Values::Between([from, to], count, spacing) => {
+                let share = spacing.share(index, *count);
+                value_of(&self.key, between(self.spread, *from, *to, share))
+            }
         }
-    }
-
-    /// The places at which an axis given by its two ends has the value `wanted`, in order. In the order of the strata
-    /// its values only rise, or only fall.
-    pub(super) fn places_of(&self, wanted: f64) -> Vec<usize> {
-        let ([from, to], strata) = match &self.values {
-            Values::Listed(_) => return Vec::new(),
-            Values::Spaced(ends, _) => (*ends, None),
-            Values::Drawn(ends, strata) => (*ends, Some(strata)),
-        };
-        let place = |at: usize| strata.map_or(at, |strata| strata.sample_in(at));
-        let ahead = |at: usize| {
-            let number = self.number(place(at)).unwrap_or(f64::NAN);
-            if from <= to {
-                number - wanted
-            } else {
-                wanted - number
-            }
-        };
-        let first = |is_there: fn(f64) -> bool| {
-            let (mut low, mut high) = (0, self.count());
-            while low < high {
-                let middle = low.midpoint(high);
-                match is_there(ahead(middle)) {
-                    true => high = middle,
-                    false => low = middle + 1,
-                }
-            }
-            low
-        };
-        let alike = first(|ahead| ahead >= 0.0)..first(|ahead| ahead > 0.0);
-        let mut places: Vec<usize> = alike.map(place).collect();
-        places.sort_unstable();
-        places
     }
 
     /// The value at `index` as `--set` takes it and as its column shows it: numbers in the shortest

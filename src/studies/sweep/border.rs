@@ -27,9 +27,6 @@ pub enum Border {
 }
 
 impl Border {
-    /// All borders.
-    pub const ALL: [Self; 2] = [Self::GrossSlip, Self::LiftOff];
-
     /// How far (m, or N for the lift-off of a prescribed force) a scenario is from the border:
     /// negative beyond it, `None` without a closed form.
     pub fn distance(self, scenario: &Scenario) -> Option<f64> {

@@ -4,7 +4,7 @@
 use serde::Deserialize;
 use strum::IntoStaticStr;
 
-use super::shuffle::{Shuffle, mix};
+use super::shuffle::{mix, shuffled};
 
 /// The way from axes to points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, IntoStaticStr)]
@@ -43,46 +43,37 @@ impl Design {
 /// The most axes of a Sobol sequence.
 pub(super) const MOST_SOBOL_AXES: usize = 256;
 
-/// The shares (0 to 1) of one axis in `samples` samples of a Sobol sequence.
-pub(super) fn sobol(axis: usize, samples: usize, seed: u32) -> impl Iterator<Item = f64> {
-    let share = move |sample: usize| sobol_burley::sample(sample as u32, axis as u32, seed);
-    (0..samples).map(move |sample| f64::from(share(sample)))
-}
-
-/// The samples of one axis of a Latin hypercube.
+/// Where the values of an axis lie between its ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Strata {
-    samples: usize,
-    /// Each axis has its own key, so that adding one leaves the others unchanged.
-    key: u64,
-    order: Shuffle,
+pub enum Spacing {
+    /// In order, at equal distances from end to end.
+    Even,
+    /// Anywhere, one in each stratum, by a key of the axis's own, so that adding one leaves the others unchanged.
+    Strata(u64),
+    /// As in a Sobol sequence: of this axis, with this seed.
+    Sobol(u32, u32),
 }
 
-impl Strata {
-    pub(super) fn new(axis: usize, samples: usize, seed: u32) -> Self {
-        let key = mix((u64::from(seed) << 32) | axis as u64);
-        Self {
-            samples,
-            key,
-            order: Shuffle::new(samples, key),
+impl Spacing {
+    /// That of the axis number `axis` in a design.
+    pub(super) fn of(design: Design, axis: usize, seed: u32) -> Self {
+        match design {
+            Design::Sobol => Self::Sobol(axis as u32, seed),
+            _ => Self::Strata(mix((u64::from(seed) << 32) | axis as u64)),
         }
     }
 
-    /// The number of samples.
-    pub(super) fn len(self) -> usize {
-        self.samples
-    }
-
-    /// The share (0 to 1) of a sample: somewhere in its stratum.
-    pub(super) fn share(self, sample: usize) -> f64 {
-        let stratum = self.order.of(sample);
-        let within = mix(self.key ^ mix(stratum as u64)) >> 11;
-        (stratum as f64 + within as f64 / (1_u64 << 53) as f64) / self.samples as f64
-    }
-
-    /// The sample in a stratum.
-    pub(super) fn sample_in(self, stratum: usize) -> usize {
-        self.order.back(stratum)
+    /// How far (0 to 1) the value at `index` of `count` is from the first end to the second.
+    pub(super) fn share(self, index: usize, count: usize) -> f64 {
+        match self {
+            Self::Even => index as f64 / (count - 1).max(1) as f64,
+            Self::Strata(key) => {
+                let stratum = shuffled(index, count, key) as f64;
+                let within = mix(key ^ mix(stratum as u64)) >> 11;
+                (stratum + within as f64 / (1_u64 << 53) as f64) / count as f64
+            }
+            Self::Sobol(axis, seed) => f64::from(sobol_burley::sample(index as u32, axis, seed)),
+        }
     }
 }
 
@@ -90,14 +81,17 @@ impl Strata {
 mod tests {
     use super::*;
 
+    fn shares(design: Design, axis: usize, count: usize, seed: u32) -> Vec<f64> {
+        let spacing = Spacing::of(design, axis, seed);
+        (0..count)
+            .map(|index| spacing.share(index, count))
+            .collect()
+    }
+
     #[test]
     fn a_latin_hypercube_has_one_sample_in_every_stratum_of_every_axis() {
         for axis in 0..5 {
-            let strata = Strata::new(axis, 40, 7);
-            let mut shares: Vec<f64> = (0..40).map(|sample| strata.share(sample)).collect();
-            for (sample, share) in shares.iter().enumerate() {
-                assert_eq!(strata.sample_in((share * 40.0) as usize), sample);
-            }
+            let mut shares = shares(Design::LatinHypercube, axis, 40, 7);
             shares.sort_by(f64::total_cmp);
             for (stratum, share) in shares.iter().enumerate() {
                 assert_eq!((share * 40.0) as usize, stratum);
@@ -108,7 +102,8 @@ mod tests {
     #[test]
     fn a_sobol_sequence_fills_every_square_of_a_power_of_two_once() {
         let mut filled = [false; 64];
-        for (x, y) in sobol(0, 64, 3).zip(sobol(1, 64, 3)) {
+        let axis = |axis| shares(Design::Sobol, axis, 64, 3);
+        for (x, y) in axis(0).into_iter().zip(axis(1)) {
             let square = (x * 8.0) as usize * 8 + (y * 8.0) as usize;
             assert!(!filled[square], "two samples in square {square}");
             filled[square] = true;
@@ -117,15 +112,10 @@ mod tests {
 
     #[test]
     fn samples_hang_on_the_seed_alone() {
-        let latin = |axis, seed| {
-            let strata = Strata::new(axis, 16, seed);
-            (0..16).map(|sample| strata.share(sample)).collect()
-        };
-        let drawn =
-            |axis, seed| -> [Vec<f64>; 2] { [latin(axis, seed), sobol(axis, 16, seed).collect()] };
-        assert_eq!(drawn(1, 5), drawn(1, 5));
-        for (one, other) in [(drawn(1, 5), drawn(1, 6)), (drawn(0, 5), drawn(1, 5))] {
-            assert!(one[0] != other[0] && one[1] != other[1]);
+        for design in [Design::LatinHypercube, Design::Sobol] {
+            let drawn = |axis, seed| shares(design, axis, 16, seed);
+            assert_eq!(drawn(1, 5), drawn(1, 5));
+            assert!(drawn(1, 5) != drawn(1, 6) && drawn(0, 5) != drawn(1, 5));
         }
     }
 }

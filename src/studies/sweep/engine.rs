@@ -2,7 +2,7 @@
 //! about the same time, and rows arrive nearly in order.
 
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, PoisonError, mpsc};
+use std::sync::mpsc;
 
 use rayon::ThreadPool;
 use rayon::prelude::*;
@@ -107,33 +107,18 @@ pub fn run(
     mut finished: impl FnMut(usize, Vec<String>) -> bool,
 ) -> Result<(), Refusal> {
     let (send, rows) = mpsc::channel();
-    let todo = Mutex::new(todo);
     let is_halted = AtomicBool::new(false);
     let halt = || is_halted.store(true, Ordering::Relaxed);
     let go_on = || go_on() && !is_halted.load(Ordering::Relaxed);
     // Nobody waits for the check once the points are done.
     let is_done = AtomicBool::new(false);
     let is_strict = check.is_some();
-    let next = || todo.lock().unwrap_or_else(PoisonError::into_inner).next();
-    let work = |send: mpsc::Sender<Result<(usize, Vec<String>), Refusal>>| {
-        while go_on() {
-            let Some(point) = next() else {
-                return;
-            };
-            let Some(row) = point::run(study, point, &go_on) else {
-                return;
-            };
-            // The check may not have come to it yet.
-            let is_refused = is_strict && Success::of(&row) == Success::Invalid;
-            let checked = if is_refused {
-                validated(study, point)
-            } else {
-                Ok(())
-            };
-            if send.send(checked.map(|()| (point, row))).is_err() {
-                return;
-            }
-        }
+    let row_of = |point| {
+        let row = point::run(study, point, &go_on)?;
+        // The check may not have come to it yet.
+        let is_refused = is_strict && Success::of(&row) == Success::Invalid;
+        let checked = is_refused.then(|| validated(study, point));
+        Some(checked.unwrap_or(Ok(())).map(|()| (point, row)))
     };
     let mut refused = Ok(());
     std::thread::scope(|scope| {
@@ -147,11 +132,10 @@ pub fn run(
             checked
         });
         pool.in_place_scope(|scope| {
-            for _ in 0..pool.current_num_threads() {
-                let send = send.clone();
-                scope.spawn(|_| work(send));
-            }
-            drop(send);
+            scope.spawn(|_| {
+                let todo = todo.take_while(|_| go_on()).par_bridge();
+                let _ = todo.try_for_each_with(send, |send, point| send.send(row_of(point)?).ok());
+            });
             for row in &rows {
                 let is_taken = row.map(|(point, row)| finished(point, row));
                 if !matches!(is_taken, Ok(true)) {

@@ -1,86 +1,73 @@
 //! From the values that a row begins with to the points that have them.
 
-use std::collections::HashMap;
-
-use super::axis::{Axis, Values};
-use super::{Design, Study};
+use super::{Axis, Design, Study};
 use crate::scenario::printable;
 use crate::scenario::scalars::number;
 
-/// Finds the points of a study by their values. It grows with the values that the study lists, and not
-/// with the number of points.
-#[derive(Debug, Clone, PartialEq)]
+/// Finds the points of a study by their values. It grows with the lengths of the axes, and not with the number of
+/// points of a grid.
+#[derive(Debug)]
 pub(super) struct Finder {
-    axes: Vec<Axis>,
-    columns: usize,
-    is_grid: bool,
-    /// The places of the values of each axis that lists them.
-    listed: Vec<HashMap<String, Vec<usize>>>,
+    /// For each axis, its places under a hash of their values, sorted.
+    places: Vec<Vec<(u32, u32)>>,
 }
 
 impl Finder {
     pub fn new(study: &Study) -> Self {
-        let listed = study.axes.iter().map(|axis| {
-            let mut places: HashMap<String, Vec<usize>> = HashMap::new();
-            if let Values::Listed(values) = &axis.values {
-                for place in 0..values.len() {
-                    places
-                        .entry(normal(&printable(&axis.text(place))))
-                        .or_default()
-                        .push(place);
-                }
-            }
-            places
+        let places = study.axes.iter().map(|axis| {
+            let places = 0..axis.count();
+            let hashed = places.map(|place| (crc32fast::hash(&value(axis, place)), place as u32));
+            let mut hashed: Vec<_> = hashed.collect();
+            hashed.sort_unstable();
+            hashed
         });
         Self {
-            listed: listed.collect(),
-            columns: study.columns().len(),
-            is_grid: study.design == Design::Grid,
-            axes: study.axes.clone(),
+            places: places.collect(),
         }
     }
 
-    /// The points whose axis values a row begins with; none if the row has another number of columns.
-    pub fn points_of(&self, row: &[String]) -> Vec<usize> {
-        match row.len() == self.columns {
-            true => self.points(&row[..self.axes.len()]),
-            false => Vec::new(),
+    /// The points of `study` whose axis values a row begins with, in order; numbers count, however they are written.
+    /// None if the row has another number of columns.
+    pub fn points_of(&self, study: &Study, row: &[String]) -> Vec<usize> {
+        if row.len() != study.columns().len() {
+            return Vec::new();
         }
-    }
-
-    /// The points with these values, in order; numbers count, however they are written.
-    fn points(&self, values: &[String]) -> Vec<usize> {
-        let places = (0..self.axes.len()).map(|at| self.places(at, &values[at]));
-        if self.is_grid {
-            let axes = places.zip(&self.axes);
+        let axes = study.axes.iter().zip(&self.places).zip(row);
+        let places = axes.map(|((axis, places), given)| {
+            let wanted = normal(given);
+            let hash = crc32fast::hash(&wanted);
+            let first = places.partition_point(|(known, _)| *known < hash);
+            let alike = places[first..].iter();
+            let alike = alike.take_while(|(known, _)| *known == hash);
+            let alike = alike.map(|(_, place)| *place as usize);
+            alike
+                .filter(|place| value(axis, *place) == wanted)
+                .collect::<Vec<_>>()
+        });
+        if study.design == Design::Grid {
+            let axes = places.zip(&study.axes);
             return axes.fold(vec![0], |points, (places, axis)| {
                 let with = |point| places.iter().map(move |place| point * axis.count() + place);
                 points.into_iter().flat_map(with).collect()
             });
         }
-        let common = |some: Vec<usize>, others: Vec<usize>| {
-            let common = some.into_iter();
-            common
-                .filter(|place| others.binary_search(place).is_ok())
-                .collect()
+        let common = |mut some: Vec<usize>, others: Vec<usize>| {
+            some.retain(|place| others.binary_search(place).is_ok());
+            some
         };
         places.reduce(common).unwrap_or_else(|| vec![0])
     }
+}
 
-    /// The places of a value on an axis, in order.
-    fn places(&self, axis: usize, value: &str) -> Vec<usize> {
-        if let Values::Listed(_) = self.axes[axis].values {
-            let places = self.listed[axis].get(&normal(value));
-            return places.cloned().unwrap_or_default();
-        }
-        let places = |wanted| self.axes[axis].places_of(wanted);
-        value.parse().map_or_else(|_| Vec::new(), places)
-    }
+/// The value at a place of an axis as a row shows it, numbers in one form.
+fn value(axis: &Axis, place: usize) -> Vec<u8> {
+    normal(&printable(&axis.text(place)))
 }
 
 /// One form for all ways to write a number.
-fn normal(value: &str) -> String {
-    value.parse().map_or_else(|_| value.to_owned(), number)
+fn normal(value: &str) -> Vec<u8> {
+    let number = value.parse().map(number);
+    number.unwrap_or_else(|_| value.to_owned()).into_bytes()
 }
 
 #[cfg(test)]
@@ -123,19 +110,23 @@ mod tests {
             let text = text + &axes(one, other);
             let study = Study::read(&text, "it", "".as_ref()).expect("a study");
             let finder = Finder::new(&study);
+            let points = |values: &[String]| {
+                let none = vec![String::new(); study.columns.len() + 1];
+                finder.points_of(&study, &[values, &none].concat())
+            };
             for point in 0..study.points() {
                 let values = study.values(point);
                 let alike = (0..study.points()).filter(|&other| study.values(other) == values);
-                assert_eq!(finder.points(&values), alike.collect::<Vec<_>>(), "{text}");
+                assert_eq!(points(&values), alike.collect::<Vec<_>>(), "{text}");
                 let respelled = values.iter().map(|value| {
                     let value: f64 = value.parse().expect("a number");
                     format!("{value:E}")
                 });
                 let respelled: Vec<String> = respelled.collect();
-                assert!(finder.points(&respelled).contains(&point), "{respelled:?}");
+                assert!(points(&respelled).contains(&point), "{respelled:?}");
             }
             let foreign = ["1.2345e-6".to_owned(), "7".to_owned()];
-            assert_eq!(finder.points(&foreign), [0; 0], "{text}");
+            assert_eq!(points(&foreign), [0; 0], "{text}");
         }
     }
 }

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
+use std::io::{self, Seek, SeekFrom, Write};
 use std::os::unix::fs::FileExt;
 use std::path::Path;
 
@@ -36,7 +36,8 @@ impl Done {
 /// Rows in the order in which they came.
 #[derive(Debug)]
 pub struct Ledger {
-    finder: Finder,
+    /// Made when a row is to be taken in.
+    finder: Option<Finder>,
     rows: File,
     /// The length of `rows` up to the last whole row.
     length: u64,
@@ -56,7 +57,7 @@ impl Ledger {
     /// If no file can be made there.
     pub fn new(study: &Study, mut rows: File, directory: &Path) -> io::Result<Self> {
         Ok(Self {
-            finder: Finder::new(study),
+            finder: None,
             length: rows.seek(SeekFrom::End(0))?,
             rows,
             index: tempfile::tempfile_in(directory)?,
@@ -108,7 +109,8 @@ impl Ledger {
         study: &Study,
         mut fields: Vec<String>,
     ) -> io::Result<Result<(), Refused>> {
-        let points = self.finder.points_of(&fields);
+        let finder = self.finder.get_or_insert_with(|| Finder::new(study));
+        let points = finder.points_of(study, &fields);
         let Some(&first) = points.first() else {
             return Ok(Err(Refused::Foreign));
         };
@@ -169,14 +171,14 @@ impl Ledger {
     ///
     /// If the file cannot be read.
     pub fn row(&self, point: usize) -> io::Result<Vec<String>> {
-        let mut entry = [0; ENTRY];
-        self.index
-            .read_exact_at(&mut entry, (ENTRY * point) as u64)?;
-        let line = self.line_at(entry)?;
+        let line = self.line(point)?;
         Ok(record::split(&String::from_utf8_lossy(&line)))
     }
 
-    fn line_at(&self, entry: [u8; ENTRY]) -> io::Result<Vec<u8>> {
+    fn line(&self, point: usize) -> io::Result<Vec<u8>> {
+        let mut entry = [0; ENTRY];
+        self.index
+            .read_exact_at(&mut entry, (ENTRY * point) as u64)?;
         let entry = u128::from_le_bytes(entry);
         let mut line = vec![0; (entry >> 64) as usize];
         self.rows.read_exact_at(&mut line, entry as u64)?;
@@ -189,20 +191,7 @@ impl Ledger {
     ///
     /// Of `take`, or if a file cannot be read.
     pub fn each(&self, mut take: impl FnMut(&[u8]) -> io::Result<()>) -> io::Result<()> {
-        let mut index = BufReader::new(&self.index);
-        index.rewind()?;
-        let mut left = self.rows();
-        for point in 0.. {
-            if left == 0 {
-                break;
-            }
-            let mut entry = [0; ENTRY];
-            index.read_exact(&mut entry)?;
-            if self.done.has(point) {
-                take(&self.line_at(entry)?)?;
-                left -= 1;
-            }
-        }
-        Ok(())
+        let mut points = (0..64 * self.done.0.len()).filter(|&point| self.done.has(point));
+        points.try_for_each(|point| take(&self.line(point)?))
     }
 }

@@ -71,9 +71,10 @@ pub(super) fn run_scenario(
     scenario: Scenario,
     go_on: &dyn Fn() -> bool,
 ) -> Option<Vec<String>> {
-    let (mut session, status) = match begun(&scenario, &study.stop, go_on)? {
+    let (mut session, status) = match begun(&scenario, &study.stop, go_on) {
         Ok(begun) => begun,
-        Err(error) => return Some(failed(study, &error)),
+        Err(SessionError::Interrupted) => return None,
+        Err(error) => return Some(failed(study, &error.to_string())),
     };
     let ended = catch_unwind(AssertUnwindSafe(|| {
         #[cfg(debug_assertions)]
@@ -96,32 +97,26 @@ pub(super) fn run_scenario(
 }
 
 /// A session with the points and steps that meet the accuracy of the scenario if it asks for one, and the status
-/// that its row gets; none if `halt` was set meanwhile. If only the scenario's last cycle ends the point, the run
-/// that met the accuracy is the point already; else the session is at its start.
+/// that its row gets. If only the scenario's last cycle ends the point, the run that met the accuracy is the point
+/// already; else the session is at its start.
 fn begun(
     scenario: &Scenario,
     stop: &Stop,
     go_on: &dyn Fn() -> bool,
-) -> Option<Result<(Session, String), String>> {
-    let found = match refinement::resolve(scenario, None, f64::INFINITY, go_on) {
-        Ok(found) => found,
-        Err(SessionError::Interrupted) => return None,
-        Err(error) => return Some(Err(error.to_string())),
+) -> Result<(Session, String), SessionError> {
+    let found = refinement::resolve(scenario, None, f64::INFINITY, go_on)?;
+    let mut session = match found.ended {
+        Some(ended) if *stop == Stop::default() => ended,
+        _ => Session::start(found.scenario)?,
     };
-    let session = match found.ended {
-        Some(ended) if *stop == Stop::default() => Ok(ended),
-        _ => Session::start(found.scenario).map_err(|error| error.to_string()),
-    };
+    for (key, value) in &found.statements {
+        session.state(key, value);
+    }
     let status = match (found.missed_by, scenario.accuracy()) {
         (Some(reached), Some(asked)) => format!("{INACCURATE}{reached:.1e} instead of {asked:e}"),
         _ => OK.to_owned(),
     };
-    Some(session.map(|mut session| {
-        for (key, value) in &found.statements {
-            session.state(key, value);
-        }
-        (session, status)
-    }))
+    Ok((session, status))
 }
 
 /// Runs to the end of the scenario, or until `stop` is reached, with the steps that `mdr-tui run` takes.

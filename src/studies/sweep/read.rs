@@ -1,5 +1,6 @@
 //! From a TOML text to a study. Each refusal is one line: what is wrong, where, what would be right.
 
+use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::path::Path;
 
@@ -7,7 +8,7 @@ use serde::Deserialize;
 use toml::{Table, Value};
 
 use super::axis::{self, Axis, Spread, Values};
-use super::design::{self, Design, MOST_SOBOL_AXES, Strata};
+use super::design::{Design, MOST_SOBOL_AXES, Spacing};
 use super::sensitivity::Varied;
 use super::study::{Stop, Study};
 use crate::scenario::blocks::flatten;
@@ -33,7 +34,7 @@ type Result<T> = std::result::Result<T, Refusal>;
 #[serde(deny_unknown_fields)]
 struct Written {
     title: Option<String>,
-    base: Option<String>,
+    base: String,
     columns: Option<Vec<String>>,
     #[serde(default)]
     design: Design,
@@ -97,33 +98,59 @@ impl Study {
     ) -> Result<Self> {
         let origin = printable(origin);
         let refused = |why: Refusal| Refusal::new(&origin, why);
-        let mut written: Written = typed::read(text).map_err(|why| refused(why.into()))?;
-        let Some(base) = written.base.take() else {
-            let rule = "base is missing: a preset's name or a path to a scenario";
-            return error(rule).map_err(refused);
+        let given: Written = typed::read(text).map_err(|why| refused(why.into()))?;
+        let written: Table = typed::read(text).map_err(|why| refused(why.into()))?;
+        let study = Study {
+            title: given.title.as_deref().map(printable),
+            base: load(&given.base)?,
+            base_name: given.base.clone(),
+            set: BTreeMap::new(),
+            axes: Vec::new(),
+            design: given.design,
+            columns: Vec::new(),
+            stop: given.stop,
+            sensitivity: Vec::new(),
+            written,
         };
-        let scenario = load(&base)?;
-        written.study(base, scenario).map_err(refused)
+        given.complete(study).map_err(refused)
     }
 }
 
 impl Written {
-    /// The study on a base of this name.
-    fn study(self, base_name: String, base: Scenario) -> Result<Study> {
-        let mut study = Study {
-            title: self.title.as_deref().map(printable),
-            base,
-            base_name,
-            set: flat("set", &self.set)?,
-            axes: Vec::new(),
-            design: self.design,
-            samples: samples(&self)?,
-            columns: columns(self.columns.as_deref())?,
-            stop: stop(self.stop)?,
-            sensitivity: sensitivity(self.sensitivity.as_ref())?,
-        };
-        axes(&mut study, self)?;
-        count(&study)?;
+    /// Checks what is left, and puts it into the study.
+    fn complete(self, mut study: Study) -> Result<Study> {
+        study.set = flat("set", &self.set)?.into_iter().collect();
+        let samples = samples(&self)?;
+        study.columns = columns(self.columns.as_deref())?;
+        check_stop(study.stop)?;
+        if let Some(table) = &self.sensitivity {
+            study.sensitivity = sensitivity(table)?;
+        }
+        if self.axis.is_empty() && self.sensitivity.is_none() {
+            return error(
+                "there is no axis: add [[axis]] with key and values, linspace or logspace",
+            );
+        }
+        if study.design == Design::Sobol && self.axis.len() > MOST_SOBOL_AXES {
+            let rule = format!("design = \"sobol\" takes {MOST_SOBOL_AXES} axes or fewer");
+            return error(rule);
+        }
+        let mut taken: Vec<String> = study.set.keys().cloned().collect();
+        for (at, axis) in self.axis.into_iter().enumerate() {
+            let place = format!("axis[{at}]");
+            let axis = read_axis(axis, &place, &study, samples)?;
+            for key in std::iter::once(&axis.key).chain(axis.tied.iter().map(|(key, _)| key)) {
+                if taken.contains(key) {
+                    return error(format!(
+                        "{place}: {key} is given twice; [set], the axes and tied keys must name \
+                         different keys"
+                    ));
+                }
+                taken.push(key.clone());
+            }
+            study.axes.push(axis);
+        }
+        check_count(&study)?;
         Ok(study)
     }
 }
@@ -170,7 +197,7 @@ fn flat(place: &str, table: &Table) -> Result<Vec<(String, Value)>> {
 }
 
 /// Refuses a key that no scenario has.
-fn known_key(key: &str, place: &str) -> Result<()> {
+pub(super) fn known_key(key: &str, place: &str) -> Result<()> {
     if schema::find(key).is_some() && !key.starts_with("changes") {
         return Ok(());
     }
@@ -194,63 +221,43 @@ fn columns(names: Option<&[String]>) -> Result<Vec<&'static Scalar>> {
     Ok(columns)
 }
 
-fn stop(stop: Stop) -> Result<Stop> {
-    for (name, value) in stop.named() {
+fn check_stop(stop: Stop) -> Result<()> {
+    for (name, value) in [
+        ("worn_depth", stop.worn_depth),
+        ("volume", stop.volume),
+        ("settled", stop.settled),
+    ] {
         if let Some(value) = value.filter(|value| !(value.is_finite() && *value > 0.0)) {
             let place = format!("stop.{name}");
             return refuse(&place, number(value), "must be a number greater than 0");
         }
     }
-    Ok(stop)
-}
-
-fn sensitivity(table: Option<&Table>) -> Result<Vec<Varied>> {
-    let mut varied = Vec::new();
-    for (key, value) in flat("sensitivity", table.unwrap_or(&Table::new()))? {
-        let known = axis::numeric(&value).filter(|number| *number >= 0.0);
-        let Some(deviation) = known.filter(|number| number.is_finite()) else {
-            let place = format!("sensitivity.{key}");
-            let rule = "must be a standard deviation, 0 if it is not known";
-            return refuse(&place, value, rule);
-        };
-        let deviation = (deviation > 0.0).then_some(deviation);
-        varied.push(Varied { key, deviation });
-    }
-    Ok(varied)
-}
-
-/// Adds the axes to a study that has all else.
-fn axes(study: &mut Study, written: Written) -> Result<()> {
-    let given = written.axis;
-    if given.is_empty() && written.sensitivity.is_none() {
-        let rule = "there is no axis: add [[axis]] with key and values, linspace or logspace";
-        return error(rule);
-    }
-    if study.design == Design::Sobol && given.len() > MOST_SOBOL_AXES {
-        let rule = format!("design = \"sobol\" takes {MOST_SOBOL_AXES} axes or fewer");
-        return error(rule);
-    }
-    let mut taken: Vec<String> = study.set.iter().map(|(key, _)| key.clone()).collect();
-    for (at, axis) in given.into_iter().enumerate() {
-        let place = format!("axis[{at}]");
-        let axis = read_axis(axis, &place, study)?;
-        let keys = std::iter::once(&axis.key).chain(axis.tied.iter().map(|(key, _)| key));
-        for key in keys {
-            if taken.contains(key) {
-                return error(format!(
-                    "{place}: {key} is given twice; [set], the axes and tied keys must name \
-                     different keys"
-                ));
-            }
-            taken.push(key.clone());
-        }
-        study.axes.push(axis);
-    }
     Ok(())
 }
 
+fn sensitivity(table: &Table) -> Result<Vec<Varied>> {
+    let varied = flat("sensitivity", table)?.into_iter();
+    let varied = varied.map(|(key, value)| match axis::numeric(&value) {
+        Some(number) if number >= 0.0 && number.is_finite() => Ok(Varied {
+            key,
+            deviation: Some(number).filter(|number| *number > 0.0),
+        }),
+        _ => refuse(
+            &format!("sensitivity.{key}"),
+            value,
+            "must be a standard deviation, 0 if it is not known",
+        ),
+    });
+    varied.collect()
+}
+
 /// The next axis of a study.
-fn read_axis(axis: WrittenAxis, place: &str, study: &Study) -> Result<Axis> {
+fn read_axis(
+    axis: WrittenAxis,
+    place: &str,
+    study: &Study,
+    samples: Option<(usize, u32)>,
+) -> Result<Axis> {
     let key = axis.key;
     known_key(&key, place)?;
     let (name, mut list, spread) = match (axis.values, axis.linspace, axis.logspace) {
@@ -276,18 +283,27 @@ fn read_axis(axis: WrittenAxis, place: &str, study: &Study) -> Result<Axis> {
             None => {}
         }
     }
-    let values = match (name, study.samples) {
+    let sampled = samples.map(|(samples, seed)| {
+        let at = study.axes.len();
+        (samples, Spacing::of(study.design, at, seed))
+    });
+    let values = match (name, sampled) {
         ("values", _) => Values::Listed(listed(&key, &named, list)?),
-        (_, None) => spaced(&named, &list, spread)?,
-        (_, Some((samples, seed))) => {
-            let [from, to] = ends(&named, &list, spread, 2)?;
-            let at = study.axes.len();
-            if study.design == Design::Sobol {
-                let value = |share| axis::value_of(&key, axis::between(spread, from, to, share));
-                Values::Listed(design::sobol(at, samples, seed).map(value).collect())
-            } else {
-                Values::Drawn([from, to], Strata::new(at, samples, seed))
+        (_, None) => {
+            let ends = ends(&named, &list, spread, 3)?;
+            let count = list[2].as_integer().map(usize::try_from);
+            match count {
+                Some(Ok(count)) if (1..=MOST_POINTS).contains(&count) => {
+                    Values::Between(ends, count, Spacing::Even)
+                }
+                _ => {
+                    let rule = format!("the third must be a whole number from 1 to {MOST_POINTS}");
+                    return refuse(&named, Value::from(list), rule);
+                }
             }
+        }
+        (_, Some((samples, spacing))) => {
+            Values::Between(ends(&named, &list, spread, 2)?, samples, spacing)
         }
     };
     Ok(Axis {
@@ -315,16 +331,6 @@ fn listed(key: &str, place: &str, list: Vec<Value>) -> Result<Vec<Value>> {
     Ok(list.into_iter().map(normal).collect())
 }
 
-fn spaced(place: &str, list: &[Value], spread: Spread) -> Result<Values> {
-    let ends = ends(place, list, spread, 3)?;
-    let count = usize::try_from(list[2].as_integer().unwrap_or(0)).unwrap_or(0);
-    if !(1..=MOST_POINTS).contains(&count) {
-        let rule = format!("the third must be a whole number from 1 to {MOST_POINTS}");
-        return refuse(place, Value::from(list.to_vec()), rule);
-    }
-    Ok(Values::Spaced(ends, count))
-}
-
 /// The ends of a list [from, to, …] of `length`.
 fn ends(place: &str, list: &[Value], spread: Spread, length: usize) -> Result<[f64; 2]> {
     let end = |value: &Value| axis::numeric(value).filter(|number| number.is_finite());
@@ -349,26 +355,23 @@ fn tied(table: &Table, place: &str, values: &Values) -> Result<Vec<(String, f64)
     {
         return error(format!("{place}: needs an axis of numbers"));
     }
-    let mut tied = Vec::new();
-    for (key, factor) in flat(place, table)? {
-        let Some(number) = axis::numeric(&factor).filter(|factor| factor.is_finite()) else {
-            return refuse(&format!("{place}.{key}"), factor, "must be a finite factor");
-        };
-        tied.push((key, number));
-    }
-    Ok(tied)
+    let tied = flat(place, table)?.into_iter();
+    let tied = tied.map(|(key, factor)| match axis::numeric(&factor) {
+        Some(number) if number.is_finite() => Ok((key, number)),
+        _ => refuse(&format!("{place}.{key}"), factor, "must be a finite factor"),
+    });
+    tied.collect()
 }
 
 /// Refuses too many points, and zipped axes of different lengths.
-fn count(study: &Study) -> Result<()> {
-    let lengths = study.axes.iter().map(|axis| axis.count());
+fn check_count(study: &Study) -> Result<()> {
     if study.design == Design::Grid {
-        let points = lengths.fold(1.0, |points, length| points * length as f64);
-        if points > MOST_POINTS as f64 {
-            let rule = format!("{points:.3e} points; the limit is {MOST_POINTS}");
-            return error(rule);
-        }
-        return Ok(());
+        let lengths = study.axes.iter().map(|axis| axis.count() as f64);
+        let points: f64 = lengths.product();
+        return match points > MOST_POINTS as f64 {
+            true => error(format!("{points:.3e} points; the limit is {MOST_POINTS}")),
+            false => Ok(()),
+        };
     }
     let length = study.points();
     match study.axes.iter().find(|axis| axis.count() != length) {

@@ -135,10 +135,7 @@ impl Record {
         let mut arithmetic = Arithmetic::new();
         let columns = loop {
             let line = next_line(&mut *lines).map_err(unread)?.unwrap_or_default();
-            let line = match header.is_empty() {
-                true => line.trim_start_matches('\u{feff}'),
-                false => &line,
-            };
+            let line = line.trim_start_matches('\u{feff}');
             if line.starts_with("\"#") {
                 return Err(refuse(
                     "a spreadsheet has put the lines of its header in quotes; take them from the \
@@ -224,24 +221,20 @@ impl Record {
         mut self,
         study: &Study,
     ) -> Result<impl Iterator<Item = Result<Vec<String>, Refusal>> + use<>, Refusal> {
-        let refuse = |why: String| Err(Refusal::new(&self.name, why));
+        let refuse = |why: String| Refusal::new(&self.name, why);
         let wanted = study.columns();
         if let Some(more) = self.columns.iter().find(|name| !wanted.contains(&&***name)) {
             let more = printable(more);
-            return refuse(format!(
-                "has a column {more}, which the study does not have"
-            ));
+            let rule = "which the study does not have";
+            return Err(refuse(format!("has a column {more}, {rule}")));
         }
-        let mut order = Vec::new();
-        for name in &wanted {
-            let mut at = self.columns.iter().enumerate();
-            let Some((at, _)) = at.find(|(_, column)| column == name) else {
-                return refuse(format!("has no column {name}"));
-            };
-            order.push(at);
-        }
+        let place = |name: &&str| {
+            let at = self.columns.iter().position(|column| column == name);
+            at.ok_or_else(|| refuse(format!("has no column {name}")))
+        };
+        let order: Vec<usize> = wanted.iter().map(place).collect::<Result<_, _>>()?;
         if self.columns.len() > wanted.len() {
-            return refuse("has a column twice".into());
+            return Err(refuse("has a column twice".into()));
         }
         let unread = move |error| Refusal::new(&self.name, Unread::Io(error));
         Ok(std::iter::from_fn(move || {

@@ -19,9 +19,10 @@ use rayon::prelude::*;
 
 use super::Study;
 use super::point::{self, Success};
-use crate::scenario::scalars::number;
+use crate::scenario::scalars::{Value, number};
 use crate::scenario::{Refusal, Scenario};
 use crate::studies::refinement::Level;
+use crate::studies::table::{Format, Table};
 
 /// h, in ln x.
 const STEP: f64 = 0.01;
@@ -44,57 +45,16 @@ pub struct Varied {
     pub deviation: Option<f64>,
 }
 
-/// How a result depends on a key.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Elasticity {
-    /// The key.
-    pub key: String,
-    /// Its value.
-    pub value: f64,
-    /// Its standard deviation.
-    pub deviation: Option<f64>,
-    /// The column.
-    pub column: &'static str,
-    /// The result with all keys at their values; `None` if it is undefined.
-    pub result: Option<f64>,
-    /// d ln y/d ln x, and its error; `None` if y is undefined, or not positive, in one of the runs.
-    pub elasticity: Option<[f64; 2]>,
-}
-
-impl Elasticity {
-    /// The relative spread of the result that the key's deviation brings about.
-    pub fn spread(&self) -> Option<f64> {
-        let [elasticity, _] = self.elasticity?;
-        Some((elasticity * self.deviation? / self.value).abs())
-    }
-
-    fn is_resolved(&self) -> bool {
-        let good = |[found, error]: [f64; 2]| error <= WANTED.0.max(WANTED.1 * found.abs());
-        self.elasticity.is_none_or(good)
-    }
-}
-
 /// What a study of sensitivities has found.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug)]
 pub struct Sensitivity {
-    /// Keys by columns, keys first.
-    pub elasticities: Vec<Elasticity>,
+    /// A row per key and column; at the end, of each column, the relative spread that all deviations bring about
+    /// together.
+    pub table: Table,
     /// Cells and steps per cycle of the last runs.
     pub numerics: (usize, u32),
     /// Whether every elasticity is known as well as wanted.
     pub is_resolved: bool,
-}
-
-impl Sensitivity {
-    /// The relative spread of a column that all deviations bring about together.
-    pub fn spread(&self, column: &str) -> Option<f64> {
-        let of_column = self.elasticities.iter().filter(|one| one.column == column);
-        let squares: Vec<f64> = of_column
-            .filter(|one| one.deviation.is_some())
-            .map(|one| one.spread().map(|spread| spread * spread))
-            .collect::<Option<_>>()?;
-        (!squares.is_empty()).then(|| squares.iter().sum::<f64>().sqrt())
-    }
 }
 
 /// Finds the elasticities of the study's columns with respect to `keys`, around its base with what it
@@ -170,25 +130,60 @@ fn around(
         let numbers = row.iter().map(|field| field.parse::<f64>().ok());
         results.push(numbers.collect());
     }
-    let mut elasticities = Vec::new();
+    let mut table = Table::of(&[
+        ("", "key", Format::Words),
+        ("", "value", Format::Rough),
+        ("", "column", Format::Words),
+        ("", "result", Format::Rough),
+        ("", "elasticity", Format::Fixed),
+        ("", "error deviation relative_spread", Format::Rough),
+    ]);
+    let mut is_resolved = true;
+    let has_deviation = keys.iter().any(|(varied, _)| varied.deviation.is_some());
+    // The relative spread of each column, unless an elasticity that adds to it is not known.
+    let mut spreads = vec![has_deviation.then_some(0.0); study.columns.len()];
     for ((varied, value), around) in keys.iter().zip(results[1..].chunks(PLACES.len())) {
         for (column, scalar) in study.columns.iter().enumerate() {
             let around: Option<Vec<f64>> = around.iter().map(|run| run[column]).collect();
-            elasticities.push(Elasticity {
-                key: varied.key.clone(),
-                value: *value,
-                deviation: varied.deviation,
-                column: scalar.name,
-                result: results[0][column],
-                elasticity: around.as_deref().and_then(difference),
-            });
+            let found = around.as_deref().and_then(difference);
+            let good = |[found, error]: [f64; 2]| error <= WANTED.0.max(WANTED.1 * found.abs());
+            is_resolved &= found.is_none_or(good);
+            let [elasticity, error] = found.map_or([None; 2], |found| found.map(Some));
+            let spread = varied.deviation.zip(elasticity);
+            let spread = spread.map(|(deviation, found)| (found * deviation / value).abs());
+            if varied.deviation.is_some() {
+                let both = spreads[column].zip(spread);
+                spreads[column] = both.map(|(sum, spread)| f64::hypot(sum, spread));
+            }
+            table.push(vec![
+                varied.key.clone().into(),
+                (*value).into(),
+                scalar.name.into(),
+                results[0][column].into(),
+                elasticity.into(),
+                error.into(),
+                varied.deviation.into(),
+                spread.into(),
+            ]);
         }
+    }
+    let columns = study.columns.iter().zip(&results[0]).zip(spreads);
+    for ((scalar, &result), spread) in columns.filter(|(_, spread)| spread.is_some()) {
+        let mut row = vec![
+            "all".into(),
+            Value::Missing,
+            scalar.name.into(),
+            result.into(),
+        ];
+        row.resize(7, Value::Missing);
+        row.push(spread.into());
+        table.push(row);
     }
     let setup = fixed.setup();
     Ok(Some(Sensitivity {
-        is_resolved: elasticities.iter().all(Elasticity::is_resolved),
+        table,
         numerics: (setup.grid.cells(), setup.steps_per_cycle),
-        elasticities,
+        is_resolved,
     }))
 }
 

@@ -37,20 +37,13 @@ impl FromStr for Shard {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
+        let number = |text: &str| text.trim().parse().ok();
         let halves = text.split_once('/');
-        let parsed = halves.and_then(|(index, count)| {
-            Some(Self {
-                index: index.trim().parse().ok()?,
-                count: count.trim().parse().ok()?,
-            })
-        });
-        match parsed {
-            Some(shard) if shard.index < shard.count => Ok(shard),
-            Some(shard) if shard.count > 0 => Err(format!(
-                "shards count from 0, so the last of {} is {}/{}",
-                shard.count,
-                shard.count - 1,
-                shard.count
+        match halves.and_then(|(index, count)| Some((number(index)?, number(count)?))) {
+            Some((index, count)) if index < count => Ok(Self { index, count }),
+            Some((_, count)) if count > 0 => Err(format!(
+                "shards count from 0, so the last of {count} is {}/{count}",
+                count - 1
             )),
             _ => Err("a shard is INDEX/COUNT, counted from 0, as in 3/16".into()),
         }

@@ -44,19 +44,15 @@ pub struct Line {
     /// The letter that draws it on a screen.
     pub letter: char,
     /// What it is.
-    pub name: String,
+    pub name: &'static str,
     /// Places on the x axis and on the y axis, where it crosses columns and rows of the map, from left to right.
     pub at: Vec<[f64; 2]>,
 }
 
 impl Line {
-    fn new(letter: char, name: impl Into<String>, mut at: Vec<[f64; 2]>) -> Option<Self> {
+    fn new(letter: char, name: &'static str, mut at: Vec<[f64; 2]>) -> Option<Self> {
         at.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-        (at.len() > 1).then(|| Self {
-            letter,
-            name: name.into(),
-            at,
-        })
+        (at.len() > 1).then_some(Self { letter, name, at })
     }
 
     /// Its pieces from crossing to crossing; it ends where a column is not crossed.
@@ -114,7 +110,7 @@ impl Slice {
         let mut rows = vec![None; self.study.points()];
         for row in record.rows(&self.study)? {
             let row = row?;
-            let mut points = finder.points_of(&row).into_iter();
+            let mut points = finder.points_of(&self.study, &row).into_iter();
             let Some(free) = points.find(|&point| rows[point].is_none()) else {
                 let rule = format!("row {} does not belong to the study", row.join(","));
                 return Err(Refusal::new(name, rule));
@@ -153,21 +149,16 @@ impl Slice {
             (Some(number), Some(wanted)) => (number - wanted).abs() <= 1e-9 * number.abs(),
             _ => axis.text(*place) == value,
         };
-        let mut places = 0..axis.count();
-        let Some(place) = places.find(is_wanted) else {
-            let values = (0..axis.count()).map(|place| axis.text(place));
-            let values = values.collect::<Vec<_>>().join(", ");
-            return Err(format!("must be one of {values}"));
+        let Some(place) = (0..axis.count()).find(is_wanted) else {
+            let values: Vec<String> = (0..axis.count()).map(|place| axis.text(place)).collect();
+            return Err(format!("must be one of {}", values.join(", ")));
         };
         self.at[held] = place;
         self.held.push(held);
-        let free = (0..axes.len()).filter(|axis| !self.held.contains(axis));
-        let free: Vec<usize> = free.collect();
-        match free[..] {
-            [] => return Err("no axis is left to draw over".into()),
-            [one] => (self.x, self.y) = (one, None),
-            [first, .., last] => (self.x, self.y) = (last, Some(first)),
-        }
+        let mut free = (0..axes.len()).filter(|axis| !self.held.contains(axis));
+        let first = free.next().ok_or("no axis is left to draw over")?;
+        let last = free.next_back();
+        (self.x, self.y) = (last.unwrap_or(first), last.map(|_| first));
         Ok(())
     }
 
@@ -222,11 +213,8 @@ impl Slice {
     /// The field of `column` of a point; `None` without a row, or where the point failed.
     pub fn field(&self, point: usize, column: &str) -> Option<&str> {
         let row = self.row(point)?;
-        let at = self
-            .study
-            .columns
-            .iter()
-            .position(|known| known.name == column)?;
+        let mut columns = self.study.columns.iter();
+        let at = columns.position(|known| known.name == column)?;
         let field = row.get(self.study.axes.len() + at)?;
         (Success::of(row).has_result() && !field.is_empty()).then_some(field)
     }
@@ -246,7 +234,7 @@ impl Slice {
     /// The criteria of the field, where the study has their columns: between neighbouring points of the map.
     pub fn criteria(&self) -> Vec<Line> {
         let [wide, high] = self.size();
-        let line = |(column, value, letter, name): (&str, f64, char, &str)| {
+        let line = |(column, value, letter, name): (&str, f64, char, &'static str)| {
             let off = |x: usize, y: usize| {
                 let inside = x < wide && y < high;
                 let number = inside.then(|| self.number(self.point_at(x, y), column));
@@ -282,12 +270,12 @@ impl Slice {
             };
             let columns = (0..wide).filter_map(|at| Some([at as f64, crossed(y, self.x, at)?]));
             let rows = (0..high).filter_map(|at| Some([crossed(self.x, y, at)?, at as f64]));
-            let (letter, name) = match border {
-                Border::GrossSlip => ('G', "gross slip, closed form, unworn"),
-                Border::LiftOff => ('L', "lift-off, closed form, unworn"),
-            };
-            Line::new(letter, name, columns.chain(rows).collect())
+            columns.chain(rows).collect()
         };
-        Border::ALL.into_iter().filter_map(line).collect()
+        let gross = "gross slip, closed form, unworn";
+        let gross = Line::new('G', gross, line(Border::GrossSlip));
+        let open = "lift-off, closed form, unworn";
+        let open = Line::new('L', open, line(Border::LiftOff));
+        gross.into_iter().chain(open).collect()
     }
 }

@@ -1,17 +1,18 @@
 //! A study: the scenario of every point, and the columns to record.
 
-use std::fmt::Display;
+use std::collections::BTreeMap;
 
 use serde::Deserialize;
-use toml::Value;
+use toml::{Table, Value};
 
 use super::Design;
-use super::axis::{self, Axis, Values};
+use super::axis::{self, Axis};
+use super::read::known_key;
 use super::sensitivity::Varied;
 use crate::scenario::scalars::Scalar;
 use crate::scenario::write::value as toml_value;
 use crate::scenario::{Refusal, Scenario, ScenarioError, printable};
-use crate::scenario::{assign, hints, schema, units};
+use crate::scenario::{assign, schema, units};
 
 /// When a point ends before its `run.cycles`: at the end of the first cycle in which one of these is
 /// reached.
@@ -27,17 +28,6 @@ pub struct Stop {
     pub settled: Option<f64>,
 }
 
-impl Stop {
-    /// Names and values, as in `[stop]`.
-    pub(super) fn named(&self) -> [(&'static str, Option<f64>); 3] {
-        [
-            ("worn_depth", self.worn_depth),
-            ("volume", self.volume),
-            ("settled", self.settled),
-        ]
-    }
-}
-
 /// One scenario for many values of some of its keys.
 #[derive(Debug, Clone)]
 pub struct Study {
@@ -48,19 +38,19 @@ pub struct Study {
     /// The base.
     pub base: Scenario,
     /// What is set for all points, as `--set` takes it.
-    pub set: Vec<(String, Value)>,
+    pub set: BTreeMap<String, Value>,
     /// What is varied.
     pub axes: Vec<Axis>,
     /// How the axes make points.
     pub design: Design,
-    /// Number of samples and seed of a sampled design.
-    pub samples: Option<(usize, u32)>,
     /// The columns after the axes' columns.
     pub columns: Vec<&'static Scalar>,
     /// When a point ends.
     pub stop: Stop,
     /// Keys whose sensitivities are asked for.
     pub sensitivity: Vec<Varied>,
+    /// As it is written.
+    pub(super) written: Table,
 }
 
 impl Study {
@@ -77,18 +67,11 @@ impl Study {
         if self.design != Design::Grid {
             return vec![point; self.axes.len()];
         }
-        let mut rest = point;
-        let mut places: Vec<usize> = self
-            .axes
-            .iter()
-            .rev()
-            .map(|axis| {
-                let place = rest % axis.count();
-                rest /= axis.count();
-                place
-            })
-            .collect();
-        places.reverse();
+        let (mut rest, mut places) = (point, vec![0; self.axes.len()]);
+        for (place, axis) in places.iter_mut().zip(&self.axes).rev() {
+            *place = rest % axis.count();
+            rest /= axis.count();
+        }
         places
     }
 
@@ -177,9 +160,8 @@ impl Study {
             return false;
         };
         let control = format!("{motion}.control");
-        let set = self.set.iter().find(|(known, _)| *known == control);
-        let control = match set {
-            Some((_, value)) => value.as_str().map(str::to_owned),
+        let control = match self.set.get(&control) {
+            Some(value) => value.as_str().map(str::to_owned),
             None => self.base.value(&control),
         };
         control.is_some_and(|control| control.trim_matches('"') == "force")
@@ -214,106 +196,50 @@ impl Study {
     /// Refuses a text that is not an assignment, an unknown key, and the key of an axis.
     pub fn assign(&mut self, set: &str) -> Result<(), ScenarioError> {
         let (key, value) = assign::split(set, "--set ")?;
-        let refuse = |why| Refusal::new(format_args!("--set {}", printable(set)), why);
-        if schema::find(key).is_none() {
-            let why = format!("unknown key {key}; {}", hints::hint(key));
-            return Err(refuse(why).into());
-        }
+        let place = format!("--set {}", printable(set));
+        known_key(key, &place)?;
         let varied = |axis: &Axis| axis.key == key || axis.tied.iter().any(|(tied, _)| tied == key);
         if self.axes.iter().any(varied) {
-            return Err(refuse(format!("{key} is varied by an axis of the study")).into());
+            let rule = format!("{key} is varied by an axis of the study");
+            return Err(Refusal::new(place, rule).into());
         }
         let value: Value = value.parse().unwrap_or_else(|_| value.into());
-        match self.set.iter_mut().find(|(known, _)| known == key) {
-            Some((_, known)) => *known = value,
-            None => self.set.push((key.to_owned(), value)),
-        }
+        self.set.insert(key.to_owned(), value);
         Ok(())
     }
 
-    /// The study as TOML, in one form for all ways to write it.
+    /// The study as TOML: as it is written, without comments, and with what was set since.
     pub fn to_toml(&self) -> String {
-        let columns = self.columns.iter().map(|column| column.name.into());
-        let mut head: Vec<(&str, Value)> = vec![
-            ("base", self.base_name.clone().into()),
-            ("columns", Value::Array(columns.collect())),
-            ("design", self.design.name().into()),
-        ];
-        if let Some((samples, seed)) = self.samples {
-            head.push(("samples", (samples as i64).into()));
-            head.push(("seed", i64::from(seed).into()));
+        let mut table = self.written.clone();
+        table.remove("set");
+        if !self.set.is_empty() {
+            let set = self.set.clone().into_iter();
+            table.insert("set".to_owned(), Value::Table(set.collect()));
         }
-        let title = self.title.clone();
-        let title = title.map(|title| ("title", Value::from(title)));
-        let mut text = lines(title.into_iter().chain(head));
-        let stop = self.stop.named().into_iter();
-        let stop = stop.filter_map(|(name, value)| Some((name.into(), value?.into())));
-        let varied = self.sensitivity.iter();
-        let varied = varied.map(|one| (one.key.clone(), one.deviation.unwrap_or(0.0).into()));
-        for (name, mut rows) in [
-            ("set", self.set.clone()),
-            ("stop", stop.collect()),
-            ("sensitivity", varied.collect()),
-        ] {
-            rows.sort_by(|(one, _): &(String, _), (other, _)| one.cmp(other));
-            if !rows.is_empty() {
-                text += &format!("\n[{name}]\n");
-                text += &lines(rows.iter().map(|(key, value)| (quoted(key), value.clone())));
+        let (mut text, mut sections) = (String::new(), String::new());
+        for (key, value) in &table {
+            match value {
+                Value::Table(rows) => sections += &format!("\n[{key}]\n{}", lines(rows)),
+                Value::Array(list) if list.iter().any(Value::is_table) => {
+                    for rows in list.iter().filter_map(Value::as_table) {
+                        sections += &format!("\n[[{key}]]\n{}", lines(rows));
+                    }
+                }
+                value => text += &line(key, value),
             }
         }
-        for axis in &self.axes {
-            text += &format!("\n[[axis]]\n{}", written(axis));
-        }
-        text
+        text + &sections
     }
 }
 
-/// The most values that an axis of two ends and a number lists in a table's header.
-const MOST_LISTED: usize = 1000;
-
-/// An axis as written in a study: its values listed, or its ends if there are many.
-fn written(axis: &Axis) -> String {
-    let is_logarithmic = axis.spread == axis::Spread::Logarithmic;
-    let ends = match axis.values {
-        Values::Spaced([from, to], count) if count > MOST_LISTED => {
-            Some(vec![from.into(), to.into(), (count as i64).into()])
-        }
-        Values::Drawn([from, to], strata) if strata.len() > MOST_LISTED => {
-            Some(vec![from.into(), to.into()])
-        }
-        _ => None,
-    };
-    let (name, list, scale) = match ends {
-        Some(ends) if is_logarithmic => ("logspace", ends, None),
-        Some(ends) => ("linspace", ends, None),
-        None => {
-            let values = (0..axis.count()).map(|place| axis.value(place));
-            ("values", values.collect(), is_logarithmic.then_some("log"))
-        }
-    };
-    let rows = [("key", axis.key.clone().into()), (name, list.into())];
-    let scale = scale.map(|scale| ("scale", scale.into()));
-    let mut text = lines(rows.into_iter().chain(scale));
-    if !axis.tied.is_empty() {
-        let tied = axis.tied.iter();
-        let tied = tied.map(|(key, factor)| assignment(quoted(key), &(*factor).into()));
-        text += &format!("tied = {{ {} }}\n", tied.collect::<Vec<_>>().join(", "));
-    }
-    text
+fn lines(rows: &Table) -> String {
+    rows.iter().map(|(key, value)| line(key, value)).collect()
 }
 
-/// Keys and values, a line each.
-fn lines(rows: impl IntoIterator<Item = (impl Display, Value)>) -> String {
-    let rows = rows.into_iter();
-    rows.map(|(key, value)| assignment(key, &value) + "\n")
-        .collect()
-}
-
-fn assignment(key: impl Display, value: &Value) -> String {
-    format!("{key} = {}", toml_value(value))
-}
-
-/// A dotted path as one key of TOML. The keys of scenarios need no escapes.
-fn quoted(path: &str) -> String {
-    format!("\"{path}\"")
+/// A key and its value. A dotted path is one key; those of scenarios need no escapes.
+fn line(key: &str, value: &Value) -> String {
+    let mut signs = key.chars();
+    let is_bare = signs.all(|c| c.is_ascii_alphanumeric() || "_-".contains(c));
+    let quote = if is_bare { "" } else { "\"" };
+    format!("{quote}{key}{quote} = {}\n", toml_value(value))
 }

@@ -3,7 +3,7 @@
 use crate::math::quadrature::trapezoid;
 
 /// Errors at the nodes of one result, none of them negative.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Errors {
     /// r/a of the nodes that were compared.
     pub radii: Vec<f64>,
@@ -21,12 +21,7 @@ pub type Sample = (f64, f64, f64);
 impl Errors {
     /// |result − theory|/`unit`, or relative to theory without a unit, as in the paper's Fig. 2.
     pub fn new(unit: Option<f64>, samples: impl Iterator<Item = Sample>) -> Self {
-        let mut all = Self {
-            radii: Vec::new(),
-            errors: Vec::new(),
-            left_out: Vec::new(),
-            over_radius: false,
-        };
+        let mut all = Self::default();
         for (r, result, theory) in samples {
             let unit = unit.unwrap_or(theory.abs());
             if theory.is_finite() && unit > 0.0 {

@@ -1,7 +1,9 @@
 //! The error study: the paper's Fig. 2 and more, for every method over a ladder of N.
 //!
-//! A [`Study`] names what to try, [`Study::tasks`] splits it, [`Task::run`] compares one method on
-//! one grid with theory, and [`report`] makes tables of the results.
+//! [`tasks`] names what to try, [`Task::run`] compares one method on one grid with theory, and [`report`] makes tables
+//! of the results.
+
+use std::collections::BTreeSet;
 
 use thiserror::Error;
 
@@ -17,21 +19,10 @@ mod scene;
 mod sliding;
 
 use errors::Errors;
-pub use problem::{Problem, Quantity};
+pub use problem::{Problem, STICK_RADIUS};
 
 /// N of the ladder that is tried if nothing else is asked for.
 pub const LADDER: [usize; 5] = [50, 100, 200, 400, 800];
-
-/// What is to be tried.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Study {
-    /// The problems; each is tried once.
-    pub problems: Vec<Problem>,
-    /// N, in any order.
-    pub points: Vec<usize>,
-    /// Whether runs that take minutes are tried as well.
-    pub long: bool,
-}
 
 /// One method on one grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -74,29 +65,25 @@ impl Stop {
     }
 }
 
-impl Study {
-    /// The tasks, by problem, method and rising N.
-    pub fn tasks(&self) -> Vec<Task> {
-        let mut points = self.points.clone();
-        points.sort_unstable();
-        points.dedup();
-        let mut tasks = Vec::new();
-        for problem in Problem::ALL {
-            if !self.problems.contains(&problem) {
-                continue;
-            }
-            for method in AbelMethod::ALL {
-                let points = points.iter().copied();
-                let points = points.filter(|&points| self.long || !problem.is_long(points));
-                tasks.extend(points.map(|points| Task {
-                    problem,
-                    method,
-                    points,
-                }));
-            }
+/// The tasks of some problems, by problem, method and rising N; `long` ones, which take minutes, only if asked for.
+pub fn tasks(problems: &[Problem], points: &[usize], long: bool) -> Vec<Task> {
+    let points: BTreeSet<usize> = points.iter().copied().collect();
+    let problems = Problem::ALL
+        .into_iter()
+        .filter(|problem| problems.contains(problem));
+    let mut tasks = Vec::new();
+    for problem in problems {
+        for method in AbelMethod::ALL {
+            let points = points.iter().copied();
+            let points = points.filter(|&points| long || !problem.is_long(points));
+            tasks.extend(points.map(|points| Task {
+                problem,
+                method,
+                points,
+            }));
         }
-        tasks
     }
+    tasks
 }
 
 impl Task {

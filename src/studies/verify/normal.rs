@@ -67,15 +67,15 @@ impl Exact {
         }
     }
 
-    /// Errors of g of the exact f, of p of the exact q = d − g with E* = 1 or else of `pressure`, and of w of the exact
-    /// u: relative to theory, or in d and in the mean pressure.
+    /// Errors of g of the exact f, of p of the exact q = d − g with E* = 1, or as the simulation of an indenter has it,
+    /// and of w of the exact u: relative to theory, or in d and in the mean pressure.
     fn errors(
         &self,
         method: AbelMethod,
         grid: &RadialGrid,
-        pressure: Option<Vec<f64>>,
+        indenter: Option<Indenter>,
         is_relative: bool,
-    ) -> Vec<Errors> {
+    ) -> Result<Vec<Errors>, Stop> {
         let plan = AbelPlan::new(method, grid);
         let transform = |source: &[f64], apply: fn(&AbelPlan, &[f64], &mut [f64])| {
             let mut out = vec![f64::NAN; source.len()];
@@ -87,20 +87,21 @@ impl Exact {
         };
         let compression: Vec<f64> = pressed(&self.g).iter().map(|u| u.max(0.0)).collect();
         let profile = transform(&self.f, AbelPlan::profile);
-        let pressure = pressure.unwrap_or_else(|| transform(&compression, AbelPlan::stress));
+        let pressure = match indenter {
+            Some(indenter) => simulated(method, grid, indenter, self.depth)?,
+            None => transform(&compression, AbelPlan::stress),
+        };
         let displacement = transform(&compression, AbelPlan::displacement);
-        [
+        let all = [
             (self.depth, profile, &self.g),
             (self.mean_pressure, pressure, &self.p),
             (self.depth, displacement, &pressed(&self.f)),
-        ]
-        .map(|(unit, values, theory)| {
-            Errors::new(
-                (!is_relative).then_some(unit),
-                inside(grid, &values, theory),
-            )
-        })
-        .into()
+        ];
+        let errors = all.map(|(unit, values, theory)| {
+            let unit = (!is_relative).then_some(unit);
+            Errors::new(unit, inside(grid, &values, theory))
+        });
+        Ok(errors.into())
     }
 }
 
@@ -129,23 +130,20 @@ fn simulated(
 /// The paraboloid of the paper's Fig. 2.
 pub fn hertz(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop> {
     let grid = RadialGrid::uniform(points, 1.0)?;
-    let exact = Exact::power_law(PowerLaw::paraboloid(1.0), &grid);
-    Ok(exact.errors(method, &grid, None, true))
+    Exact::power_law(PowerLaw::paraboloid(1.0), &grid).errors(method, &grid, None, true)
 }
 
 /// A cone of slope 1.
 pub fn cone(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop> {
     let grid = RadialGrid::uniform(points, 1.0)?;
-    let exact = Exact::power_law(PowerLaw::cone(1.0), &grid);
-    Ok(exact.errors(method, &grid, None, false))
+    Exact::power_law(PowerLaw::cone(1.0), &grid).errors(method, &grid, None, false)
 }
 
 /// f = r⁴, the edge between nodes.
 pub fn quartic(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop> {
     let grid = RadialGrid::uniform(points, Between::nodes(points).domain)?;
     let exact = Exact::power_law(PowerLaw::quartic(1.0), &grid);
-    let pressure = simulated(method, &grid, Indenter::power(1.0, 4.0)?, exact.depth)?;
-    Ok(exact.errors(method, &grid, Some(pressure), false))
+    exact.errors(method, &grid, Some(Indenter::power(1.0, 4.0)?), false)
 }
 
 /// R = 1, b about a/2, both edges between nodes.
@@ -159,8 +157,7 @@ pub fn truncated_paraboloid(method: AbelMethod, points: usize) -> Result<Vec<Err
     };
     let exact = Exact::truncated(shape, &grid);
     let indenter = Indenter::truncated_paraboloid(1.0, inner)?;
-    let pressure = simulated(method, &grid, indenter, exact.depth)?;
-    Ok(exact.errors(method, &grid, Some(pressure), false))
+    exact.errors(method, &grid, Some(indenter), false)
 }
 
 /// a = d = 1.

@@ -26,37 +26,15 @@ pub enum Problem {
     Limit,
 }
 
-/// A result that is compared with theory.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Quantity {
-    /// Its symbol.
-    pub name: &'static str,
-    /// Whether it is one number, and not one a node.
-    pub single: bool,
-}
-
-const fn curve(name: &'static str) -> Quantity {
-    Quantity {
-        name,
-        single: false,
-    }
-}
-
-/// The border of the permanent stick zone.
-const STICK_RADIUS: Quantity = Quantity {
-    name: "c",
-    single: true,
-};
-
-/// g, p and w.
-const TRANSFORMS: [Quantity; 3] = [curve("g"), curve("p"), curve("w")];
+/// The border of the permanent stick zone: the quantity that is one number, and not one a node.
+pub const STICK_RADIUS: &str = "c";
 
 /// What there is to know of a problem.
 pub struct Facts {
     /// Solves it by a method on N cells; gives the errors of the quantities.
     pub(super) solve: fn(AbelMethod, usize) -> Result<Vec<Errors>, Stop>,
-    /// What is compared.
-    pub quantities: &'static [Quantity],
+    /// The symbols of what is compared.
+    pub quantities: &'static [&'static str],
     /// What is solved, how, where the edges lie, in what the error is measured and what is left
     /// out: lines of at most 78 columns.
     pub description: &'static [&'static str],
@@ -84,7 +62,7 @@ impl Problem {
         match self {
             Self::Hertz => Facts {
                 solve: normal::hertz,
-                quantities: &TRANSFORMS,
+                quantities: &["g", "p", "w"],
                 description: &[
                     "Paraboloid, as in Fig. 2 of the paper: N cells over the contact, the edge a on",
                     "the last node; g of the exact f, p of the exact q, w of the exact u = d - g.",
@@ -94,7 +72,7 @@ impl Problem {
             },
             Self::Cone => Facts {
                 solve: normal::cone,
-                quantities: &TRANSFORMS,
+                quantities: &["g", "p", "w"],
                 description: &[
                     "Cone: N cells over the contact, the edge a on the last node; transforms of",
                     "exact data. Errors of g and w relative to d, of p to the mean pressure.",
@@ -103,7 +81,7 @@ impl Problem {
             },
             Self::Quartic => Facts {
                 solve: normal::quartic,
-                quantities: &TRANSFORMS,
+                quantities: &["g", "p", "w"],
                 description: &[
                     "f = r^4: N cells over 1.5 a, the edge a a third of a cell past a node; p as",
                     "the simulation has it, g and w of exact data. Error of g and w in the depth d,",
@@ -112,7 +90,7 @@ impl Problem {
             },
             Self::TruncatedParaboloid => Facts {
                 solve: normal::truncated_paraboloid,
-                quantities: &TRANSFORMS,
+                quantities: &["g", "p", "w"],
                 description: &[
                     "Paraboloid with a flat tip of radius b = a/2: N cells over 1.5 a, a and b a",
                     "third of a cell past a node; p, infinite at b, as the simulation has it, g and",
@@ -122,7 +100,7 @@ impl Problem {
             },
             Self::FlatPunch => Facts {
                 solve: normal::flat_punch,
-                quantities: const { &[curve("p")] },
+                quantities: &["p"],
                 description: &[
                     "Flat punch: N cells over the punch, its rim on the last node, where q jumps;",
                     "p as the simulation has it. Error relative to the mean pressure.",
@@ -131,7 +109,7 @@ impl Problem {
             },
             Self::Cattaneo => Facts {
                 solve: sliding::cattaneo,
-                quantities: const { &[curve("tau"), curve("slip")] },
+                quantities: &["tau", "slip"],
                 description: &[
                     "Partial slip of a paraboloid on first loading, c = a/2, a quarter of a cycle",
                     "of the simulation without wear: N cells over 1.5 a, a and c a third of a cell",
@@ -141,7 +119,7 @@ impl Problem {
             },
             Self::Limit => Facts {
                 solve: sliding::limit,
-                quantities: const { &[curve("f"), STICK_RADIUS] },
+                quantities: &["f", STICK_RADIUS],
                 description: &[
                     "Limiting profile: paraboloid at constant depth d, mu = 0.1, nu = 0.3,",
                     "amplitude 0.05 d, k E* d/a = 3, 400 cycles of 40 steps, N cells over 1.5 a;",

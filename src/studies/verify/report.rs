@@ -1,7 +1,7 @@
 //! Tables of a study: one per problem to read, one of all rows for JSON, one of all nodes for CSV.
 
 use super::errors::Errors;
-use super::{Outcome, Problem, Quantity};
+use super::{Outcome, Problem, STICK_RADIUS};
 use crate::scenario::scalars::Value;
 use crate::studies::table::{Format, Table};
 
@@ -17,8 +17,8 @@ pub fn problem_table(problem: Problem, outcomes: &[Outcome]) -> Table {
     let roomy = quantities.len() <= ROOMY;
     let mut columns = vec![("", "method", Format::Words), ("", "N", Format::Count)];
     for quantity in quantities {
-        let shown = shown(*quantity, roomy).iter();
-        columns.extend(shown.map(|&(name, format)| (quantity.name, name, format)));
+        let shown = shown(quantity, roomy).iter();
+        columns.extend(shown.map(|&(name, format)| (*quantity, name, format)));
     }
     let mut table = Table::of(&columns);
     for outcome in outcomes.iter().filter(|o| o.task.problem == problem) {
@@ -28,7 +28,7 @@ pub fn problem_table(problem: Problem, outcomes: &[Outcome]) -> Table {
         ];
         for (at, quantity) in quantities.iter().enumerate() {
             let mut cells = group(outcome, at, outcomes);
-            cells.truncate(shown(*quantity, roomy).len());
+            cells.truncate(shown(quantity, roomy).len());
             row.extend(cells);
         }
         table.push(row);
@@ -37,7 +37,7 @@ pub fn problem_table(problem: Problem, outcomes: &[Outcome]) -> Table {
 }
 
 /// The columns of one quantity.
-fn shown(quantity: Quantity, roomy: bool) -> &'static [(&'static str, Format)] {
+fn shown(quantity: &str, roomy: bool) -> &'static [(&'static str, Format)] {
     const ALL: [(&str, Format); 4] = [
         ("max", Format::Rough),
         ("order", Format::Fixed),
@@ -45,7 +45,7 @@ fn shown(quantity: Quantity, roomy: bool) -> &'static [(&'static str, Format)] {
         ("order", Format::Fixed),
     ];
     const SINGLE: [(&str, Format); 2] = [("error", Format::Rough), ("order", Format::Fixed)];
-    match (quantity.single, roomy) {
+    match (quantity == STICK_RADIUS, roomy) {
         (true, _) => &SINGLE,
         (false, true) => &ALL,
         (false, false) => &ALL[..3],
@@ -110,7 +110,7 @@ pub fn all_rows(outcomes: &[Outcome]) -> Table {
     ]);
     for outcome in outcomes {
         for (at, quantity) in outcome.task.problem.facts().quantities.iter().enumerate() {
-            let mut row = key(outcome, quantity.name);
+            let mut row = key(outcome, quantity);
             match &outcome.errors {
                 Ok(errors) => {
                     row.extend(group(outcome, at, outcomes));
@@ -141,7 +141,7 @@ pub fn all_nodes(outcomes: &[Outcome]) -> Table {
         let Ok(all) = &outcome.errors else { continue };
         for (quantity, errors) in outcome.task.problem.facts().quantities.iter().zip(all) {
             for (&r, &error) in errors.radii.iter().zip(&errors.errors) {
-                let mut row = key(outcome, quantity.name);
+                let mut row = key(outcome, quantity);
                 row.extend([r.into(), error.into()]);
                 table.push(row);
             }

@@ -5,9 +5,8 @@
 //! two styles is written. A frame is wrapped in a synchronized update (DEC private mode 2026), so that
 //! the order of its cells is not seen; a frame without changes writes nothing.
 
-use ratatui::buffer::{Buffer, Cell};
-use ratatui::layout::Position;
-use ratatui::style::{Color, Modifier};
+use ratatui::buffer::Cell;
+use ratatui::prelude::*;
 
 /// The modifiers that the screen uses, and the codes that set them.
 const MODIFIERS: [(Modifier, &str); 5] = [

@@ -6,8 +6,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::{Rect, Size};
+use ratatui::prelude::*;
 
 use super::calm::Calm;
 use super::command::{Act, Command};
@@ -18,7 +17,7 @@ use super::keys::Key;
 use super::line::one_line;
 use super::live_charts::LiveCharts;
 use super::overlays::{Answer, Form, Overlay, Palette};
-use super::panels::{Pane, Panel, StressMap};
+use super::panels::StressMap;
 use super::present::SpeedUp;
 use super::refinement_check::RefinementCheck;
 use super::snapshot;
@@ -43,7 +42,7 @@ pub struct App {
     /// The latest frame; none before the worker's first.
     pub frame: Option<Arc<Frame>>,
     /// The frame of calm panels.
-    calm: Calm,
+    pub(super) calm: Calm,
     /// Which panels there are.
     pub stage: Stage,
     /// Their charts and scales.
@@ -145,13 +144,11 @@ impl App {
 
     /// Takes a new frame.
     pub fn take_frame(&mut self, frame: Arc<Frame>) {
-        let before = self.frame.as_ref().map(|shown| shown.facts.origin.as_str());
-        self.charts
-            .begin(&frame.facts.origin, before != Some(&frame.facts.origin));
+        let (before, origin) = (self.origin(), frame.facts.scenario.origin());
+        let differs = self.frame.is_none() || before != origin;
+        self.charts.begin(origin, differs);
         // Another scenario has another tour.
-        self.stage
-            .tour
-            .take_if(|tour| !tour.is_of(&frame.facts.origin));
+        self.stage.tour.take_if(|tour| !tour.is_of(origin));
         self.stress.follow(&frame);
         self.calm.take(&frame, self.stage.shows_contact());
         if self.speed_up.is_due(&frame, self.stage.presents) {
@@ -161,19 +158,10 @@ impl App {
         self.show();
     }
 
-    /// Draws a panel where the screen is that of `frame`.
-    pub(super) fn draw_panel(&self, panel: Panel, frame: &Frame, area: Rect, buffer: &mut Buffer) {
-        let chart = self.charts.get(panel, frame);
-        let pane = Pane {
-            theme: &self.theme,
-            has_focus: self.stage.focus == panel,
-            bounds: self.charts.bounds(panel),
-            cursor: self.cursor.radius(frame),
-            stress: self.stress,
-            calm: self.calm.of(frame),
-        };
-        let frame = self.calm.shown(panel, &self.stage, frame);
-        panel.draw(frame, &chart, &pane, area, buffer);
+    /// The preset or the file on the screen; empty before the first frame.
+    pub(super) fn origin(&self) -> &str {
+        let frame = self.frame.as_ref();
+        frame.map_or("", |frame| frame.facts.scenario.origin())
     }
 
     /// Whether a second run takes the place of all panels.
@@ -229,13 +217,13 @@ impl App {
     /// Opens the checks of the run, and has its errors estimated.
     pub(super) fn check_accuracy(&mut self) {
         self.refinement_check = None;
-        self.overlay = Overlay::Accuracy;
+        self.overlay = Overlay::Accuracy { explains: false };
         self.order(|run| run.check_refinement());
     }
 
     /// Whether the accuracy panel waits for the refinement check.
     pub fn awaits_refinement(&self) -> bool {
-        matches!(self.overlay, Overlay::Accuracy) && self.refinement_check.is_none()
+        matches!(self.overlay, Overlay::Accuracy { .. }) && self.refinement_check.is_none()
     }
 
     pub(super) fn change_theme(&mut self) {
@@ -264,8 +252,8 @@ impl App {
     /// Begins the tour, or shows its next caption.
     pub(super) fn continue_tour(&mut self) {
         if let Some(frame) = &self.frame {
-            let notice = self.stage.continue_tour(&frame.facts.origin);
-            self.notice = notice.map(str::to_owned);
+            let origin = frame.facts.scenario.origin();
+            self.notice = self.stage.continue_tour(origin).map(str::to_owned);
         }
     }
 
@@ -282,7 +270,7 @@ impl App {
         match focus.recipe().can_be_log {
             true => self.charts.toggle_log(focus),
             false => {
-                let title = focus.title();
+                let title = focus.recipe().title;
                 self.notice = Some(format!("the {title} panel has no logarithmic scale"));
             }
         }

@@ -106,7 +106,7 @@ commands! {
     }
     "change" {
         Presets [Char('p')] "presets", "another preset, or a file of your own",
-            Screen(|app| app.overlay = Overlay::Library(Library::open(app.frame.as_deref())));
+            Screen(|app| app.overlay = Overlay::Library(Library::open(app.origin())));
         Edit [Char('e')] "edit", "edit any parameter while it runs; changes are recorded",
             Screen(|app| app.overlay = Overlay::Form(Form::default()));
         NextMethod [Char('m')] "method", "next transform method; the state is carried over",

@@ -64,11 +64,7 @@ impl Loops {
         let thinned = thinned.map(|(_, step)| step);
         self.kept.push(Arc::new(Loop::of_rows(whole, thinned)));
         if self.kept.len() > MOST {
-            let mut k = 0;
-            self.kept.retain(|_| {
-                k += 1;
-                k % 2 == 1
-            });
+            self.kept = self.kept.iter().step_by(2).cloned().collect();
             self.apart = 2.0 * self.apart.max(1.0);
         }
     }

@@ -111,13 +111,12 @@ impl Setting {
                 Some(if up { next.ceil() } else { next.floor() }.to_string())
             }
             // A step of the number that is shown: 46 degrees follow 45.
-            Kind::Number => match self.reading(true) {
-                Some((number, unit)) => {
-                    let next = units::plain(next_number(number.parse().ok()?, up));
-                    Some(format!("{next} {unit}"))
-                }
-                None => Some(units::plain(next_number(value.parse().ok()?, up))),
-            },
+            Kind::Number => {
+                let shown = self.reading(true);
+                let (number, unit) = shown.unwrap_or_else(|| (value.to_owned(), String::new()));
+                let next = units::plain(next_number(number.parse().ok()?, up));
+                Some(format!("{next} {unit}").trim_end().to_owned())
+            }
             Kind::Text | Kind::Numbers => None,
         }
     }

@@ -67,14 +67,14 @@ impl Stage {
 
     /// The panels beside the focused one where `room` of them fit.
     pub fn page(&self, room: usize) -> &'static [Panel] {
-        let at = self.focus.index() / room.max(1) * room;
+        let at = self.focus as usize / room.max(1) * room;
         &Panel::ALL[at..(at + room).min(Panel::ALL.len())]
     }
 
     /// The first panel of the next page gets the focus.
     pub fn turn_page(&mut self) {
         let room = self.room().max(1);
-        let next = (self.focus.index() / room + 1) * room;
+        let next = (self.focus as usize / room + 1) * room;
         self.focus = Panel::ALL.get(next).copied().unwrap_or(Panel::ALL[0]);
     }
 

@@ -5,8 +5,8 @@ use std::sync::mpsc::Sender;
 use std::time::Instant;
 
 use crossterm::terminal::{disable_raw_mode, enable_raw_mode};
-use ratatui::buffer::{Buffer, Cell};
-use ratatui::layout::{Rect, Size};
+use ratatui::buffer::Cell;
+use ratatui::prelude::*;
 
 use super::Event;
 use super::ansi_writer::AnsiWriter;

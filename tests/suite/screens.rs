@@ -136,7 +136,7 @@ fn panels_come_in_pages() {
         .map(|keys| shot("li2019-fig3", keys, (200, 50)))
         .concat();
     for panel in Panel::ALL {
-        has(&all, panel.title());
+        has(&all, panel.recipe().title);
     }
 }
 
@@ -278,7 +278,7 @@ fn a_panel_is_explained_where_it_stands() {
     for (tabs, panel) in Panel::ALL.into_iter().enumerate() {
         let tabs = "<Tab>".repeat(tabs);
         let text = shot(&format!(",<Enter>{tabs}"));
-        has(&text, &format!("┌ {} (", panel.title()));
+        has(&text, &format!("┌ {} (", panel.recipe().title));
         let plain = shot(&format!(",{tabs}"));
         let same = plain
             .lines()
@@ -286,7 +286,7 @@ fn a_panel_is_explained_where_it_stands() {
         assert!(same.count() >= 12, "{text}");
         has(
             &words_of(&text),
-            panel.words().symbols.last().expect("a symbol").1,
+            panel.recipe().words.symbols.last().expect("a symbol").1,
         );
     }
 }

@@ -6,9 +6,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
-use ratatui::widgets::{Clear, Widget};
+use ratatui::prelude::*;
+use ratatui::widgets::Clear;
 use rayon::ThreadPoolBuilder;
 
 use super::draw;
@@ -103,17 +102,11 @@ impl Range {
 }
 
 /// A study under way, shared by the screen and the worker threads.
-#[derive(Clone)]
+#[derive(Debug, Clone)]
 pub struct Live {
     view: Arc<Mutex<View>>,
     halt: Arc<AtomicBool>,
     done: Arc<AtomicBool>,
-}
-
-impl fmt::Debug for Live {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Live").finish_non_exhaustive()
-    }
 }
 
 impl Live {
@@ -145,7 +138,7 @@ impl Live {
             // Every point is checked already.
             let go_on = || !shared.halt.load(Ordering::Relaxed);
             let _ = engine::run(&study, todo, None, &pool, &go_on, |point, row| {
-                shared.with(|view| view.put(point, row));
+                shared.with(|view| view.slice.rows[point] = Some(row));
                 tell();
                 true
             });

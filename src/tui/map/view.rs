@@ -68,11 +68,6 @@ impl View {
         })
     }
 
-    /// Takes the row of a point.
-    pub fn put(&mut self, point: usize, fields: Vec<String>) {
-        self.slice.rows[point] = Some(fields);
-    }
-
     /// Takes the rows of a newer table of the same study.
     ///
     /// # Errors
@@ -182,12 +177,6 @@ impl View {
         self.slice.point_at(x, y)
     }
 
-    /// The number of rows, of those that failed, and of points.
-    pub fn count(&self) -> (usize, usize, usize) {
-        let (there, failed) = self.slice.count();
-        (there, failed, self.slice.study.points())
-    }
-
     /// Whether the column holds words.
     pub fn is_regime(&self) -> bool {
         self.column() == "regime"
@@ -214,11 +203,6 @@ impl View {
             map.quantity.bounds = range;
         }
         chart
-    }
-
-    /// An axis in words, with its unit.
-    pub fn in_words(&self, axis: &Axis) -> plot::Axis {
-        study::paper_axis(&self.slice, axis)
     }
 
     /// The values of the base scenario on the axes that are shown, where they are on the map.

@@ -53,20 +53,14 @@ impl Worker {
         let within = COARSEST..=scenario.setup().method.most_cells();
         if next == now || !within.contains(&next.points) {
             let end = if places > 0 { "finest" } else { "coarsest" };
-            let cells = now.points;
-            return self
-                .screen
-                .notice(&format!("N = {cells}: this is the {end} level"));
+            let told = format!("N = {}: this is the {end} level", now.points);
+            return self.screen.notice(&told);
         }
         let mut changes = next.keys();
         changes.retain(|(key, _)| *key != "numerics.integrator");
-        self.change_all(
-            &changes,
-            &format!(
-                "N = {}, {} steps per cycle; a estimates the error",
-                next.points, next.steps
-            ),
-        );
+        let Level { points, steps, .. } = next;
+        let done = format!("N = {points}, {steps} steps per cycle; a estimates the error");
+        self.change_all(&changes, &done);
     }
 
     /// Changes a key from here on; further `, KEY=VALUE` change at the same time.

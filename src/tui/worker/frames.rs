@@ -45,20 +45,19 @@ impl Worker {
             let poisson = simulation.setup().material.poisson();
             Arc::new(observation.spring_load(poisson))
         });
-        let peaks = load
-            .as_ref()
-            .filter(|_| observation.moment.contact_radius > 0.0);
-        let peaks = peaks.map(|load| {
-            [
-                load.largest(Stress::von_mises),
-                load.largest(Stress::max_principal),
-            ]
-        });
-        let checks = if observation.pressure.is_empty() {
-            Vec::new()
-        } else {
-            self.run.session.checks()
+        let touches = observation.moment.contact_radius > 0.0;
+        let shown: [fn(&Stress) -> f64; 2] = [Stress::von_mises, Stress::max_principal];
+        let peaks = load.as_ref().filter(|_| touches);
+        let peaks = peaks.map(|load| shown.map(|of| load.largest(of)));
+        let checks = match observation.pressure.is_empty() {
+            true => Vec::new(),
+            false => self.run.session.checks(),
         };
+        let is_running = self.activity == Activity::Running;
+        let changes = self.past.line(&self.run).session.changes().iter();
+        // The twin has looked at the present.
+        let twin = self.companions.twin.as_ref();
+        let twin = twin.filter(|_| self.past.present().is_none());
         let figures = self.run.session.cycle_figures();
         Frame {
             run: self.charted(&observation, figures.as_ref()),
@@ -71,25 +70,12 @@ impl Worker {
             phase: self.clock.held_phase(simulation),
             activity: self.activity.clone(),
             pace: self.clock.pace(),
-            speed: self
-                .clock
-                .speed
-                .filter(|_| self.activity == Activity::Running),
+            speed: self.clock.speed.filter(|_| is_running),
             step_cost: self.clock.step_cost,
             present: self.past.present(),
-            changes: self
-                .past
-                .line(&self.run)
-                .session
-                .changes()
-                .iter()
-                .map(|change| (change.at_cycle, change.set.clone()))
-                .collect(),
+            changes: (changes.map(|change| (change.at_cycle, change.set.clone()))).collect(),
             snapshots: self.snapshots.clone(),
-            // The twin has looked at the present.
-            error: (self.companions.twin.as_ref())
-                .filter(|_| self.past.present().is_none())
-                .and_then(Twin::error),
+            error: twin.and_then(Twin::error),
             checks,
             comparison: self.companions.comparison.as_ref().map(ComparisonRun::seen),
         }
@@ -99,7 +85,8 @@ impl Worker {
     fn charted(&self, seen: &Observation, figures: Option<&CycleFigures>) -> Run {
         let (facts, trend) = (&self.facts, &self.run.trend);
         let (moment, load) = (seen.moment, &seen.normal_load);
-        let material = &self.run.simulation().setup().material;
+        let setup = self.run.simulation().setup();
+        let material = &setup.material;
         let ghosts = self.companions.ghosts.iter();
         Run {
             states: vec![Table::of_columns(
@@ -111,11 +98,11 @@ impl Worker {
             ghosts: ghosts.map(|ghost| ghost.seen(self.curves)).collect(),
             field: None,
             theory: Some(Arc::clone(&facts.theory)),
-            indenter: Some(facts.indenter.clone()),
+            indenter: Some(setup.indenter.clone()),
             live: Some(Live {
                 moment,
                 wears: seen.law.is_some(),
-                friction: facts.friction,
+                friction: material.friction(),
                 planned_cycles: facts.planned_cycles,
                 expected_wear: facts.expected_wear,
                 is_within_a_cycle: trend.is_within_a_cycle(),

@@ -18,6 +18,7 @@ use super::frame::{Activity, Frame};
 use super::ghosts::Source;
 use super::pace::Clock;
 use super::trend::Recorded;
+use super::twin::Twin;
 use super::undo::Past;
 use crate::reading::Curves;
 
@@ -100,7 +101,10 @@ impl Worker {
         let run = run.into();
         Self {
             facts: Facts::of(&run.session),
-            companions: Companions::of(&run.session),
+            companions: Companions {
+                twin: Twin::of(&run.session),
+                ..Companions::default()
+            },
             run,
             past: Past::default(),
             kept_at: Instant::now(),

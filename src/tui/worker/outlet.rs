@@ -1,6 +1,7 @@
 //! What the worker tells the screen.
 
 use std::fmt::Display;
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
 use std::time::{Duration, Instant};
@@ -55,9 +56,12 @@ impl Outlet {
         result.map_err(told).ok()
     }
 
-    /// Tells the user why a file was not written.
-    pub fn unwritten(&self, text: &str) {
-        self.send(Event::Unwritten(one_line(text)));
+    /// Tells the user where `what` was written, or why it was not.
+    pub fn written(&self, what: &str, path: Result<impl AsRef<Path>, impl Display>) {
+        match path {
+            Ok(path) => self.notice(&format!("{what} in {}", path.as_ref().display())),
+            Err(error) => self.send(Event::Unwritten(one_line(&error.to_string()))),
+        }
     }
 
     /// A screen that is gone needs no word.

@@ -146,7 +146,7 @@ fn is_certain(cell: &Cell) -> bool {
 #[derive(Debug, Default)]
 pub struct AnsiWriter {
     /// What the terminal shows; of no size while nothing is known of it.
-    shown: Buffer,
+    pub shown: Buffer,
     /// How the terminal writes now.
     pen: Pen,
     /// Where the terminal's cursor is, while that is certain.
@@ -154,11 +154,6 @@ pub struct AnsiWriter {
 }
 
 impl AnsiWriter {
-    /// What the terminal shows.
-    pub fn shown(&self) -> &Buffer {
-        &self.shown
-    }
-
     /// The bytes that have the terminal show `next`; none if it does. One that shows a screen of another size is
     /// cleared first.
     pub fn frame(&mut self, next: Buffer) -> String {

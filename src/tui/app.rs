@@ -8,17 +8,16 @@ use std::sync::Arc;
 
 use ratatui::prelude::*;
 
-use super::calm::Calm;
 use super::command::{Act, Command};
-use super::cursor::Cursor;
 use super::event_loop::{Next, Scene};
 use super::frame::Frame;
 use super::keys::Key;
 use super::line::one_line;
-use super::live_charts::LiveCharts;
+use super::live_charts::{Calm, LiveCharts};
 use super::overlays::{Answer, Form, Overlay, Palette};
 use super::panels::StressMap;
 use super::present::SpeedUp;
+use super::readout::Cursor;
 use super::refinement_check::RefinementCheck;
 use super::snapshot;
 use super::stage::Stage;
@@ -148,7 +147,7 @@ impl App {
         let differs = self.frame.is_none() || before != origin;
         self.charts.begin(origin, differs);
         // Another scenario has another tour.
-        self.stage.tour.take_if(|tour| !tour.is_of(origin));
+        self.stage.tour.take_if(|tour| tour.origin != origin);
         self.stress.follow(&frame);
         self.calm.take(&frame, self.stage.shows_contact());
         if self.speed_up.is_due(&frame, self.stage.presents) {
@@ -180,7 +179,7 @@ impl App {
     pub fn press(&mut self, key: Key) {
         self.notice = None;
         // The answer to a key is seen at once.
-        self.calm.wake();
+        self.calm = Calm::default();
         self.is_new = false;
         if key == Key::Ctrl('c') {
             self.leave = Some(Leave::Clean);
@@ -251,10 +250,8 @@ impl App {
 
     /// Begins the tour, or shows its next caption.
     pub(super) fn continue_tour(&mut self) {
-        if let Some(frame) = &self.frame {
-            let origin = frame.facts.scenario.origin();
-            self.notice = self.stage.continue_tour(origin).map(str::to_owned);
-        }
+        let origin = self.origin().to_owned();
+        self.notice = self.stage.continue_tour(&origin).map(str::to_owned);
     }
 
     /// Moves the cursor by a hundredth of the domain, or the focus where there is no cursor.
@@ -279,38 +276,24 @@ impl App {
     /// Loads a scenario, or the state in a directory.
     pub(super) fn load(&mut self, name: &str) {
         let path = Path::new(name);
-        if path.is_dir() {
-            match snapshot::open(path) {
-                Ok(opened) => {
-                    self.forget_scales();
-                    self.order(|run| run.replace_run(opened));
-                }
-                Err(error) => self.notice = Some(error),
+        let loaded = match path.is_dir() {
+            true => {
+                snapshot::open(path).map(|run| self.order_anew(|worker| worker.replace_run(run)))
             }
-            return;
-        }
-        match Scenario::load(name, &[]) {
-            Ok(scenario) => {
-                self.forget_scales();
-                self.order(|run| run.load(scenario));
+            false => {
+                let scenario = Scenario::load(name, &[]);
+                let scenario = scenario.map_err(|error| one_line(&error.to_string()));
+                scenario.map(|scenario| self.order_anew(|run| run.load(scenario)))
             }
-            Err(error) => self.notice = Some(one_line(&error.to_string())),
-        }
+        };
+        self.notice = loaded.err();
     }
 
-    pub(super) fn restart(&mut self) {
-        self.forget_scales();
-        self.order(Worker::restart);
-    }
-
-    pub(super) fn drop_ghosts(&mut self) {
-        self.forget_scales();
-        self.order(Worker::drop_ghosts);
-    }
-
-    fn forget_scales(&mut self) {
+    /// Has the worker show something else, for which the scales begin anew.
+    pub(super) fn order_anew(&mut self, order: impl FnOnce(&mut Worker) + Send + 'static) {
         self.charts.forget_scales();
         self.stress.bounds = None;
+        self.order(order);
     }
 
     /// Makes what shows, and tells the worker: hidden panels cost neither a chart nor a transform.

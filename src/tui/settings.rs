@@ -1,5 +1,6 @@
 //! The keys of a scenario that can be changed while it runs, with their present values.
 
+use super::shifted;
 use crate::scenario::schema::{Kind, Parameter, parameters};
 use crate::scenario::{Scenario, units};
 
@@ -100,10 +101,9 @@ impl Setting {
     pub fn next(&self, up: bool) -> Option<String> {
         let value = self.value.as_deref()?;
         match self.parameter.kind {
-            Kind::Choice(words) => {
-                let at = words.iter().position(|known| known.word == value)?;
-                let places = if up { 1 } else { words.len() - 1 };
-                Some(words[(at + places) % words.len()].word.to_owned())
+            Kind::Choice(_) => {
+                let places = if up { 1 } else { -1 };
+                Some(shifted(&self.words()?, value, places).to_owned())
             }
             Kind::Flag => Some((value != "true").to_string()),
             Kind::Whole => {

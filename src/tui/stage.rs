@@ -51,18 +51,13 @@ impl Default for Stage {
 impl Stage {
     /// The panels on the screen.
     pub fn visible(&self) -> Vec<Panel> {
-        if self.presents {
-            vec![Panel::Section, self.presented()]
-        } else if self.zoomed {
-            vec![self.focus]
-        } else {
-            self.page(self.room()).to_vec()
-        }
+        let places = layout::places(self, layout::middle(self.area));
+        places.into_iter().map(|(panel, _)| panel).collect()
     }
 
     /// How many panels the terminal has room for.
     fn room(&self) -> usize {
-        layout::room(self.area.width, self.area.height)
+        layout::room(layout::middle(self.area))
     }
 
     /// The panels beside the focused one where `room` of them fit.

@@ -48,7 +48,7 @@ pub fn logarithmic(origin: &str) -> impl Iterator<Item = Panel> {
 /// A tour under way.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Tour {
-    origin: String,
+    pub(super) origin: String,
     at: usize,
 }
 
@@ -59,11 +59,6 @@ impl Tour {
             origin: origin.to_owned(),
             at: 0,
         })
-    }
-
-    /// Whether it is the tour of that scenario.
-    pub fn is_of(&self, origin: &str) -> bool {
-        self.origin == origin
     }
 
     /// The tour at its next caption; `None` after the last.

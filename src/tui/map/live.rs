@@ -2,7 +2,7 @@
 
 use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Duration;
 
@@ -17,6 +17,7 @@ use crate::studies::sweep::engine::{self, Check};
 use crate::studies::sweep::{Shard, Study};
 use crate::tui::app::App;
 use crate::tui::keys::Key;
+use crate::tui::locked;
 use crate::tui::overlays::Answer;
 use crate::tui::theme::Theme;
 
@@ -149,7 +150,7 @@ impl Live {
     }
 
     fn with<T>(&self, act: impl FnOnce(&mut View) -> T) -> T {
-        act(&mut self.view.lock().unwrap_or_else(PoisonError::into_inner))
+        act(&mut locked(&self.view))
     }
 
     /// Answers a key; leaving ends the study.

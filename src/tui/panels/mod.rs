@@ -8,6 +8,7 @@ use ratatui::widgets::{Block, Borders};
 use super::app::App;
 use super::frame::Frame;
 use super::live_charts::Made;
+use super::shifted;
 use super::theme::{Role, Theme};
 use crate::charts::{self, Recipe, Words};
 use crate::plot::{Chart, Plot, Scale};
@@ -84,8 +85,7 @@ panels! {
 impl Panel {
     /// The panel this many places on.
     pub fn shifted(self, places: isize) -> Self {
-        let at = self as isize;
-        Self::ALL[(at + places).rem_euclid(Self::ALL.len() as isize) as usize]
+        shifted(&Self::ALL, self, places)
     }
 
     /// The smallest and largest ordinate that it must hold: those of its chart, if it is one.

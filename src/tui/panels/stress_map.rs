@@ -10,6 +10,7 @@ use crate::plot::shades;
 use crate::plot::sticky_bounds;
 use crate::reading::fatigue::StressCycle;
 use crate::reading::subsurface::{SpringLoad, Stress};
+use crate::tui::shifted;
 
 /// Places below the contact, and their depth in contact radii, that set the range of SWT.
 const SPANS: u32 = 24;
@@ -71,8 +72,7 @@ pub struct StressMap {
 impl StressMap {
     /// Shows the next stress.
     pub fn next(&mut self) {
-        let all = Quantity::VARIANTS;
-        (self.shown, self.bounds) = (all[(self.shown as usize + 1) % all.len()], None);
+        (self.shown, self.bounds) = (shifted(Quantity::VARIANTS, self.shown, 1), None);
     }
 
     /// Shows the largest stress of a cycle, or that of the moment.

@@ -3,11 +3,9 @@
 use std::time::Duration;
 
 use super::Worker;
-use crate::tui::beside::Beside;
-use crate::tui::comparison::{ComparisonRun, From};
+use crate::tui::beside::{Beside, ComparisonRun, From, Twin};
 use crate::tui::frame::Activity;
 use crate::tui::ghosts::{MOST, Source};
-use crate::tui::twin::Twin;
 
 /// How long each catches up before the worker looks for orders again.
 pub(super) const CATCH_UP: Duration = Duration::from_millis(10);
@@ -70,13 +68,8 @@ impl Worker {
         }
     }
 
-    /// Compares from the start of the scenario on.
-    pub fn compare_from_start(&mut self) {
-        self.compare(0, From::Start);
-    }
-
     /// Starts a comparison, this many places after the previous one, from now or from the start.
-    pub(super) fn compare(&mut self, places: isize, from: From) {
+    pub(in crate::tui) fn compare(&mut self, places: isize, from: From) {
         let before = self.companions.comparison.as_ref();
         let begun = ComparisonRun::beside(&self.run.session, before, places, from);
         if let Some(comparison) = self.screen.or_notice(begun) {

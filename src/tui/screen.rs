@@ -79,12 +79,12 @@ fn status(frame: &Frame, theme: &Theme, area: Rect, buffer: &mut Buffer) {
     let mut parts = status_parts(frame, area.width >= WITH_WORDS);
     let text = |parts: &[Part]| {
         let slots = parts.iter();
-        let slots = slots.map(|part| format!("{:1$}", theme.printable(&part.text), part.width));
+        let slots = slots.map(|(_, text, width)| format!("{:1$}", theme.printable(text), width));
         slots.collect::<Vec<_>>().join(&theme.printable(" │ "))
     };
     let mut left = text(&parts);
     while parts.len() > 1 && Line::raw(&*left).width() + 1 > usize::from(area.width) {
-        let least = (0..parts.len()).min_by_key(|&at| parts[at].weight);
+        let least = (0..parts.len()).min_by_key(|&at| parts[at].0);
         parts.remove(least.unwrap_or(0));
         left = text(&parts);
     }
@@ -98,13 +98,9 @@ fn status(frame: &Frame, theme: &Theme, area: Rect, buffer: &mut Buffer) {
 /// Columns from which on the status line says what the method's name is.
 const WITH_WORDS: u16 = 80;
 
-/// A part of the status line; the least important parts are dropped first.
-struct Part {
-    weight: u8,
-    text: String,
-    /// The least width of its slot, cells.
-    width: usize,
-}
+/// A part of the status line: its weight, for the least important parts are dropped first, its text, and the least width
+/// of its slot in cells.
+type Part = (u8, String, usize);
 
 /// As much of a title as fits in `room` cells, and a blank behind it.
 fn shortened(mut text: String, room: usize) -> String {
@@ -131,10 +127,9 @@ fn status_parts(frame: &Frame, has_room: bool) -> Vec<Part> {
         cycle.push_str(&format!("/{planned}"));
         widest = format!("cycle {planned:.2}/{planned}").len();
     }
-    let mut pace = match (frame.speed, frame.pace) {
-        (Some(speed), _) => format!("{} cycles/s", short(speed)),
-        (None, pace) if pace.is_finite() => format!("{} cycles/s", short(pace)),
-        (None, _) => "unlimited".into(),
+    let mut pace = match frame.speed.unwrap_or(frame.pace) {
+        pace if pace.is_finite() => format!("{} cycles/s", short(pace)),
+        _ => "unlimited".into(),
     };
     let mut pace_width = "0.5 cycles/s".len();
     if let Some(phase) = frame.phase.filter(|_| frame.activity == Activity::Running) {
@@ -148,36 +143,28 @@ fn status_parts(frame: &Frame, has_room: bool) -> Vec<Part> {
         Activity::Done => "■ done",
         Activity::Stopped(_) => "! stopped",
     };
-    let part = |weight, text: String, width| Part {
-        weight,
-        text,
-        width,
-    };
     let law = frame.observation.law.unwrap_or("no wear");
     let word = if has_room { "method: " } else { "" };
+    let method = format!("{word}{}", frame.observation.method);
     let mut parts = vec![
-        part(6, activity.into(), 9),
-        part(5, cycle, widest),
-        part(4, pace, pace_width),
-        part(
-            3,
-            format!("{word}{}", frame.observation.method),
-            7 + word.len(),
-        ),
-        part(1, law.into(), 7),
+        (6, activity.into(), 9),
+        (5, cycle, widest),
+        (4, pace, pace_width),
+        (3, method, 7 + word.len()),
+        (1, law.into(), 7),
     ];
     parts.extend(verdict(&frame.checks).map(|verdict| {
         let fails = verdict != "checks ok";
-        part(if fails { 3 } else { 2 }, verdict, 12)
+        (if fails { 3 } else { 2 }, verdict, 12)
     }));
     let error = frame.error.map(wear_error);
-    parts.extend(error.map(|error| part(2, error, 12)));
+    parts.extend(error.map(|error| (2, error, 12)));
     let outside = |warning: &String| warning.starts_with("outside");
     if frame.facts.warnings.iter().any(outside) {
-        parts.push(part(2, "! outside the theory".into(), 0));
+        parts.push((2, "! outside the theory".into(), 0));
     }
     if let Some(present) = frame.present {
-        parts.insert(2, part(4, format!("present {present:.2}"), 0));
+        parts.insert(2, (4, format!("present {present:.2}"), 0));
     }
     parts
 }

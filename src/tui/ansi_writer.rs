@@ -5,9 +5,8 @@
 //! two styles is written. A frame is wrapped in a synchronized update (DEC private mode 2026), so that
 //! the order of its cells is not seen; a frame without changes writes nothing.
 
-use ratatui::buffer::{Buffer, Cell};
-use ratatui::layout::Position;
-use ratatui::style::{Color, Modifier};
+use ratatui::buffer::Cell;
+use ratatui::prelude::*;
 
 /// The modifiers that the screen uses, and the codes that set them.
 const MODIFIERS: [(Modifier, &str); 5] = [
@@ -147,7 +146,7 @@ fn is_certain(cell: &Cell) -> bool {
 #[derive(Debug, Default)]
 pub struct AnsiWriter {
     /// What the terminal shows; of no size while nothing is known of it.
-    shown: Buffer,
+    pub shown: Buffer,
     /// How the terminal writes now.
     pen: Pen,
     /// Where the terminal's cursor is, while that is certain.
@@ -155,11 +154,6 @@ pub struct AnsiWriter {
 }
 
 impl AnsiWriter {
-    /// What the terminal shows.
-    pub fn shown(&self) -> &Buffer {
-        &self.shown
-    }
-
     /// The bytes that have the terminal show `next`; none if it does. One that shows a screen of another size is
     /// cleared first.
     pub fn frame(&mut self, next: Buffer) -> String {

@@ -6,20 +6,18 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::{Rect, Size};
+use ratatui::prelude::*;
 
-use super::calm::Calm;
 use super::command::{Act, Command};
-use super::cursor::Cursor;
 use super::event_loop::{Next, Scene};
 use super::frame::Frame;
 use super::keys::Key;
 use super::line::one_line;
-use super::live_charts::LiveCharts;
+use super::live_charts::{Calm, LiveCharts};
 use super::overlays::{Answer, Form, Overlay, Palette};
-use super::panels::{Pane, Panel, StressMap};
+use super::panels::StressMap;
 use super::present::SpeedUp;
+use super::readout::Cursor;
 use super::refinement_check::RefinementCheck;
 use super::snapshot;
 use super::stage::Stage;
@@ -43,7 +41,7 @@ pub struct App {
     /// The latest frame; none before the worker's first.
     pub frame: Option<Arc<Frame>>,
     /// The frame of calm panels.
-    calm: Calm,
+    pub(super) calm: Calm,
     /// Which panels there are.
     pub stage: Stage,
     /// Their charts and scales.
@@ -145,13 +143,11 @@ impl App {
 
     /// Takes a new frame.
     pub fn take_frame(&mut self, frame: Arc<Frame>) {
-        let before = self.frame.as_ref().map(|shown| shown.facts.origin.as_str());
-        self.charts
-            .begin(&frame.facts.origin, before != Some(&frame.facts.origin));
+        let (before, origin) = (self.origin(), frame.facts.scenario.origin());
+        let differs = self.frame.is_none() || before != origin;
+        self.charts.begin(origin, differs);
         // Another scenario has another tour.
-        self.stage
-            .tour
-            .take_if(|tour| !tour.is_of(&frame.facts.origin));
+        self.stage.tour.take_if(|tour| tour.origin != origin);
         self.stress.follow(&frame);
         self.calm.take(&frame, self.stage.shows_contact());
         if self.speed_up.is_due(&frame, self.stage.presents) {
@@ -161,19 +157,10 @@ impl App {
         self.show();
     }
 
-    /// Draws a panel where the screen is that of `frame`.
-    pub(super) fn draw_panel(&self, panel: Panel, frame: &Frame, area: Rect, buffer: &mut Buffer) {
-        let chart = self.charts.get(panel, frame);
-        let pane = Pane {
-            theme: &self.theme,
-            has_focus: self.stage.focus == panel,
-            bounds: self.charts.bounds(panel),
-            cursor: self.cursor.radius(frame),
-            stress: self.stress,
-            calm: self.calm.of(frame),
-        };
-        let frame = self.calm.shown(panel, &self.stage, frame);
-        panel.draw(frame, &chart, &pane, area, buffer);
+    /// The preset or the file on the screen; empty before the first frame.
+    pub(super) fn origin(&self) -> &str {
+        let frame = self.frame.as_ref();
+        frame.map_or("", |frame| frame.facts.scenario.origin())
     }
 
     /// Whether a second run takes the place of all panels.
@@ -192,7 +179,7 @@ impl App {
     pub fn press(&mut self, key: Key) {
         self.notice = None;
         // The answer to a key is seen at once.
-        self.calm.wake();
+        self.calm = Calm::default();
         self.is_new = false;
         if key == Key::Ctrl('c') {
             self.leave = Some(Leave::Clean);
@@ -229,13 +216,13 @@ impl App {
     /// Opens the checks of the run, and has its errors estimated.
     pub(super) fn check_accuracy(&mut self) {
         self.refinement_check = None;
-        self.overlay = Overlay::Accuracy;
+        self.overlay = Overlay::Accuracy { explains: false };
         self.order(|run| run.check_refinement());
     }
 
     /// Whether the accuracy panel waits for the refinement check.
     pub fn awaits_refinement(&self) -> bool {
-        matches!(self.overlay, Overlay::Accuracy) && self.refinement_check.is_none()
+        matches!(self.overlay, Overlay::Accuracy { .. }) && self.refinement_check.is_none()
     }
 
     pub(super) fn change_theme(&mut self) {
@@ -263,10 +250,8 @@ impl App {
 
     /// Begins the tour, or shows its next caption.
     pub(super) fn continue_tour(&mut self) {
-        if let Some(frame) = &self.frame {
-            let notice = self.stage.continue_tour(&frame.facts.origin);
-            self.notice = notice.map(str::to_owned);
-        }
+        let origin = self.origin().to_owned();
+        self.notice = self.stage.continue_tour(&origin).map(str::to_owned);
     }
 
     /// Moves the cursor by a hundredth of the domain, or the focus where there is no cursor.
@@ -282,7 +267,7 @@ impl App {
         match focus.recipe().can_be_log {
             true => self.charts.toggle_log(focus),
             false => {
-                let title = focus.title();
+                let title = focus.recipe().title;
                 self.notice = Some(format!("the {title} panel has no logarithmic scale"));
             }
         }
@@ -291,38 +276,24 @@ impl App {
     /// Loads a scenario, or the state in a directory.
     pub(super) fn load(&mut self, name: &str) {
         let path = Path::new(name);
-        if path.is_dir() {
-            match snapshot::open(path) {
-                Ok(opened) => {
-                    self.forget_scales();
-                    self.order(|run| run.replace_run(opened));
-                }
-                Err(error) => self.notice = Some(error),
+        let loaded = match path.is_dir() {
+            true => {
+                snapshot::open(path).map(|run| self.order_anew(|worker| worker.replace_run(run)))
             }
-            return;
-        }
-        match Scenario::load(name, &[]) {
-            Ok(scenario) => {
-                self.forget_scales();
-                self.order(|run| run.load(scenario));
+            false => {
+                let scenario = Scenario::load(name, &[]);
+                let scenario = scenario.map_err(|error| one_line(&error.to_string()));
+                scenario.map(|scenario| self.order_anew(|run| run.load(scenario)))
             }
-            Err(error) => self.notice = Some(one_line(&error.to_string())),
-        }
+        };
+        self.notice = loaded.err();
     }
 
-    pub(super) fn restart(&mut self) {
-        self.forget_scales();
-        self.order(Worker::restart);
-    }
-
-    pub(super) fn drop_ghosts(&mut self) {
-        self.forget_scales();
-        self.order(Worker::drop_ghosts);
-    }
-
-    fn forget_scales(&mut self) {
+    /// Has the worker show something else, for which the scales begin anew.
+    pub(super) fn order_anew(&mut self, order: impl FnOnce(&mut Worker) + Send + 'static) {
         self.charts.forget_scales();
         self.stress.bounds = None;
+        self.order(order);
     }
 
     /// Makes what shows, and tells the worker: hidden panels cost neither a chart nor a transform.

@@ -1,9 +1,19 @@
-//! A second run that follows the first from cycle to cycle.
+//! Second runs that follow the first from cycle to cycle: a comparison in lockstep (another method, or the same on half
+//! the cells), and a coarser twin, from which the run differs by about its own error.
+//!
+//! The twin has half the cells and half the steps per cycle, so about a quarter of the work. The two are compared at
+//! the end of a cycle, then again when the run is a quarter longer. In between the twin takes steps and jumps of
+//! its own length: one that was cut wherever the run stands would show no error of time.
 
 use std::time::{Duration, Instant};
 
+use super::frame::Comparison;
 use super::trend::Recorded;
-use crate::scenario::session::Session;
+use crate::math::abel::AbelMethod;
+use crate::math::grid::MIN_CELLS;
+use crate::reading::Curves;
+use crate::scenario::session::{Session, SessionError};
+use crate::studies::refinement::{self, Outcome};
 
 /// The second run, and what its steps have cost.
 #[derive(Debug, Clone)]
@@ -71,5 +81,155 @@ impl Beside {
         }
         self.busy += start.elapsed();
         self.steps += self.run.simulation().steps() - before;
+    }
+}
+
+/// Where a comparison begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum From {
+    /// At the present state of the run.
+    Now,
+    /// At the start of the scenario.
+    Start,
+}
+
+/// The worker's side of a comparison.
+#[derive(Debug)]
+pub(super) struct ComparisonRun {
+    pub beside: Beside,
+    /// Which of [`choices`] it is.
+    choice: usize,
+    /// Where it has begun.
+    pub from: From,
+}
+
+impl ComparisonRun {
+    /// Makes the comparison `places` after that of `before`, or the first one if there was none. It
+    /// begins at the present state of `session`, or at the start, with the changes made since.
+    pub fn beside(
+        session: &Session,
+        before: Option<&Self>,
+        places: isize,
+        from: From,
+    ) -> Result<Self, SessionError> {
+        let choices = choices(session);
+        let now = before.map_or(0, |comparison| comparison.choice) as isize;
+        let choice = (now + places).rem_euclid(choices.len() as isize) as usize;
+        let (key, value) = &choices[choice];
+        let session = match from {
+            From::Now => {
+                let mut session = session.clone();
+                session.change(key, value)?;
+                session
+            }
+            From::Start => {
+                let run = session.as_run(Vec::new());
+                let changes = run.changes().iter();
+                let others = changes.filter(|change| change.key() != *key).cloned();
+                let others = others.collect();
+                let scenario = run.with_changes(Vec::new()).with(key, value)?;
+                Session::start(scenario.with_changes(others))?
+            }
+        };
+        Ok(Self {
+            beside: Beside::new(session.into()),
+            choice,
+            from,
+        })
+    }
+
+    /// Method and cells.
+    pub fn name(&self) -> String {
+        let setup = self.beside.run.simulation().setup();
+        format!("{}, N = {}", setup.method.spoken(), setup.grid.cells())
+    }
+
+    /// The part that the screen shows.
+    pub fn seen(&self) -> Comparison {
+        let simulation = self.beside.run.simulation();
+        Comparison {
+            name: self.name(),
+            observation: simulation.observe(Curves::PROFILE | Curves::PRESSURE),
+            step_cost: self.beside.step_cost(),
+            stopped: self.beside.stopped.clone(),
+        }
+    }
+}
+
+/// What a run can be compared with: every other method, and itself on half the cells.
+fn choices(session: &Session) -> Vec<(&'static str, String)> {
+    let setup = session.simulation().setup();
+    let others = AbelMethod::ALL
+        .into_iter()
+        .filter(|method| *method != setup.method);
+    let mut list: Vec<_> = others
+        .map(|method| ("numerics.method", format!("\"{method}\"")))
+        .collect();
+    // Method b comes first, because the paper's conclusion is about it.
+    list.sort_by_key(|(_, value)| value != "\"b\"");
+    let half = (setup.grid.cells() / 2).max(MIN_CELLS);
+    list.push(("numerics.points", half.to_string()));
+    list
+}
+
+/// The run is this many times longer at the next comparison.
+const NEXT: f64 = 1.25;
+
+/// The twin, and what it has told so far.
+#[derive(Debug)]
+pub(super) struct Twin {
+    beside: Beside,
+    /// The cycle at which the two are compared next.
+    due: f64,
+    /// The run at that cycle, once it has been there.
+    run: Option<Outcome>,
+    error: Option<f64>,
+}
+
+impl Twin {
+    /// A twin of `session`, which it has to catch up with; `None` if nothing wears, or if the run is too coarse to be
+    /// halved.
+    pub fn of(session: &Session) -> Option<Self> {
+        session.simulation().setup().wear?;
+        let mut twin = Self {
+            beside: Beside::new(refinement::twin(session)?.ok()?.into()),
+            due: 1.0,
+            run: None,
+            error: None,
+        };
+        twin.look_at(session, true);
+        Some(twin)
+    }
+
+    /// The last estimate of the run's error: of the worn depth or of the volume, whichever is larger, relative.
+    pub fn error(&self) -> Option<f64> {
+        self.error.filter(|error| error.is_finite())
+    }
+
+    /// Looks at the run if a comparison is due, or in any case if it `must`; a jump may have led the twin past it.
+    pub fn look_at(&mut self, session: &Session, must: bool) {
+        let cycle = session.simulation().cycle();
+        let is_due = self.run.is_none() && cycle >= self.due;
+        let is_ahead = self.beside.run.cycle() > cycle;
+        if cycle > 0.0 && (is_due || must) && !is_ahead {
+            self.due = cycle;
+            self.run = Some(Outcome::of(session));
+        }
+    }
+
+    /// Whether it has not yet told the error of the run, which is at `cycle`.
+    pub fn lags(&self, cycle: f64) -> bool {
+        self.beside.lags(cycle.min(self.due))
+    }
+
+    /// Steps towards the next comparison for about `budget`, but not past the run, which is at `cycle`.
+    pub fn follow_for(&mut self, cycle: f64, budget: Duration) {
+        self.beside.follow(self.due, cycle.min(self.due), budget);
+        let is_there = self.beside.run.cycle() >= self.due;
+        if let Some(run) = self.run.take_if(|_| is_there) {
+            let twin = Outcome::of(&self.beside.run.session);
+            self.error = Some(refinement::by_twin(&twin, &run).promised());
+            self.due = (NEXT * self.due).ceil().max(self.due.floor() + 1.0);
+        }
     }
 }

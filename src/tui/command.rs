@@ -6,6 +6,7 @@
 use std::sync::OnceLock;
 
 use super::app::{App, Leave};
+use super::beside::From;
 use super::frame::Frame;
 use super::keys::Key::{self, Char, Ctrl, Named};
 use super::keys::Named as N;
@@ -75,7 +76,7 @@ commands! {
         Slower [Char('-')] "slower", "fewer cycles per second", Work(|run| run.change_pace(-1));
         HoldPhase [Char('f')] "phase", "fast runs: frames at one phase of the motion, or at any",
             Work(Worker::hold_or_release_phase);
-        Restart [Char('r')] "restart", "restart the scenario as it was loaded", Screen(App::restart);
+        Restart [Char('r')] "restart", "restart the scenario as it was loaded", Screen(|app| app.order_anew(Worker::restart));
     }
     "look" {
         Accept [Named(N::Enter)] "explain", "explain the focused panel; in a list, choose the entry",
@@ -106,7 +107,7 @@ commands! {
     }
     "change" {
         Presets [Char('p')] "presets", "another preset, or a file of your own",
-            Screen(|app| app.overlay = Overlay::Library(Library::open(app.frame.as_deref())));
+            Screen(|app| app.overlay = Overlay::Library(Library::open(app.origin())));
         Edit [Char('e')] "edit", "edit any parameter while it runs; changes are recorded",
             Screen(|app| app.overlay = Overlay::Form(Form::default()));
         NextMethod [Char('m')] "method", "next transform method; the state is carried over",
@@ -123,9 +124,9 @@ commands! {
     "compare and check" {
         Compare [Char('c')] "compare", "compare with a second method; m and M change it", Work(Worker::compare_or_stop);
         CompareFromStart [Char('C')] "compare from start", "compare from the start of the scenario",
-            Work(Worker::compare_from_start);
+            Work(|run| run.compare(0, From::Start));
         Freeze [Char('g')] "ghost", "freeze this state as a ghost in the plots", Work(Worker::freeze);
-        DropGhosts [Char('G')] "no ghosts", "remove all ghosts: frozen states and overlays", Screen(App::drop_ghosts);
+        DropGhosts [Char('G')] "no ghosts", "remove all ghosts: frozen states and overlays", Screen(|app| app.order_anew(Worker::drop_ghosts));
         Accuracy [Char('a')] "accuracy", "checks of the run, and its estimated errors", Screen(App::check_accuracy);
     }
     "time and files" {

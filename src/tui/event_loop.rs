@@ -7,8 +7,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
-use ratatui::buffer::Buffer;
-use ratatui::layout::{Rect, Size};
+use ratatui::prelude::*;
 use signal_hook::consts::{
     SIGABRT, SIGALRM, SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SIGUSR1, SIGUSR2,
     SIGWINCH, SIGXCPU,
@@ -113,7 +112,7 @@ fn handle_events(
     // What came in while the terminal's answers were awaited.
     let mut held = Vec::new();
     loop {
-        let wait = match screen.when() {
+        let wait = match screen.flow.when(Instant::now()) {
             _ if !held.is_empty() => Some(Duration::ZERO),
             When::At(then) if is_due && !is_away => {
                 Some(then.saturating_duration_since(Instant::now()))
@@ -137,8 +136,8 @@ fn handle_events(
             }
             is_due |= !matches!(event, Event::Input(Input::Ready) | Event::Written);
             match event {
-                Event::Input(Input::Ready) => screen.flow().answered(Instant::now()),
-                Event::Written => screen.flow().written(),
+                Event::Input(Input::Ready) => screen.flow.answered(Instant::now()),
+                Event::Written => screen.flow.written(),
                 Event::Input(Input::Background(color)) => scene.theme().follow(color),
                 Event::Suspend => suspends = true,
                 Event::Resize if is_away => {}
@@ -157,7 +156,7 @@ fn handle_events(
                         if matches!(input, Input::Key(_) | Input::Paste(_)) {
                             waiting.leave();
                         }
-                        screen.flow().hurry(Instant::now());
+                        screen.flow.hurry(Instant::now());
                     }
                     match scene.handle(event) {
                         Next::Stay => {}
@@ -182,7 +181,7 @@ fn handle_events(
                 screen.take_back()?;
             }
         }
-        if !is_away && is_due && screen.when() == When::Now {
+        if !is_away && is_due && screen.flow.when(Instant::now()) == When::Now {
             is_due = !screen.draw(|area, buffer| scene.draw(area, buffer))?;
         }
     }
@@ -192,9 +191,9 @@ fn handle_events(
 fn drain_replies(screen: &mut Screen, inbox: &Receiver<Event>) -> Vec<Event> {
     let end = Instant::now() + LAST_ANSWERS;
     let mut held = Vec::new();
-    while screen.flow().is_awaited(Instant::now()) {
+    while screen.flow.is_awaited(Instant::now()) {
         match inbox.recv_timeout(end.saturating_duration_since(Instant::now())) {
-            Ok(Event::Input(Input::Ready)) => screen.flow().answered(Instant::now()),
+            Ok(Event::Input(Input::Ready)) => screen.flow.answered(Instant::now()),
             Ok(event) => held.push(event),
             Err(_) => break,
         }

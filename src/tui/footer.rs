@@ -1,9 +1,6 @@
 //! The line below the panels: a notice, the values at the cursor, or the keys of the present mode.
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
-use ratatui::text::{Line, Span};
-use ratatui::widgets::Widget;
+use ratatui::prelude::*;
 
 use super::app::App;
 use super::command::Command::{self, self as C};
@@ -14,7 +11,7 @@ use super::theme::{Role, Theme};
 
 /// The hint before the first key.
 const HINT: &str =
-    " Space pauses, + runs faster, Enter explains, V: the contact, n: a tour.   ? help   q quit";
+    "Space pauses, + runs faster, Enter explains, V: the contact, n: a tour.   ? help   q quit";
 
 /// Commands, and their names where those are others than in the table.
 type Mode = &'static [(Command, &'static str)];
@@ -66,60 +63,50 @@ fn mode(app: &App) -> Mode {
 
 /// The notice if there is one, else the values at the cursor, else as many keys as fit.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
-    let stopped = app.frame.as_ref().and_then(|frame| match &frame.activity {
-        Activity::Stopped(reason) => Some(reason.as_str()),
+    let (theme, frame) = (&app.theme, app.frame.as_deref());
+    // The form shows its own notices.
+    let notice = app.notice.as_deref();
+    let notice = notice.filter(|_| !matches!(app.overlay, Overlay::Form(_)));
+    let stopped = frame.and_then(|frame| match &frame.activity {
+        Activity::Stopped(reason) => Some((&**reason, Role::Alarm)),
         _ => None,
     });
-    // The form shows its own notices.
-    let notice = app
-        .notice
-        .as_deref()
-        .filter(|_| !matches!(app.overlay, Overlay::Form(_)));
-    if let Some(text) = notice.or(stopped) {
-        let text = app.theme.printable(text);
-        let role = if notice.is_some() {
-            Role::Notice
-        } else {
-            Role::Alarm
-        };
-        Line::styled(format!(" {text}"), app.theme.style(role)).render(area, buffer);
-        return;
+    let is_usual = app.stage.tour.is_none() && !app.stage.shows_contact();
+    let hints = app.is_new && is_usual && HINT.len() < usize::from(area.width);
+    let told = notice.map(|text| (text, Role::Notice)).or(stopped);
+    let told = told.or(hints.then_some((HINT, Role::Notice)));
+    let at_cursor = frame.and_then(|frame| Some((frame, app.cursor.radius(frame)?)));
+    if let (Some((frame, r)), None) = (at_cursor, told) {
+        let room = usize::from(area.width);
+        let text = readout::line(frame, app.stage.focus, r, room, theme);
+        return Line::raw(text).render(area, buffer);
     }
-    if app.is_new
-        && app.stage.tour.is_none()
-        && !app.stage.shows_contact()
-        && HINT.len() <= usize::from(area.width)
-    {
-        Line::styled(HINT, app.theme.style(Role::Notice)).render(area, buffer);
-        return;
-    }
-    let frame = app.frame.as_ref();
-    if let Some((frame, r)) = frame.and_then(|frame| Some((frame, app.cursor.radius(frame)?))) {
-        let text = readout::line(
-            frame,
-            app.stage.focus,
-            r,
-            usize::from(area.width),
-            app.theme.ascii(),
-        );
-        Line::raw(text).render(area, buffer);
-        return;
-    }
-    keys(app, area, buffer);
+    let [keys, always] = [mode(app), ALWAYS].map(texts);
+    draw_line(told, &keys, &always, theme, area, buffer);
 }
 
-/// A notice, or else keys and what they do: as many of `keys` as fit, and those of `always`.
+/// The keys of commands and what they are called.
+fn texts(mode: Mode) -> Vec<[String; 2]> {
+    let texts = mode.iter().map(|(command, name)| {
+        let row = command.row();
+        let name = if name.is_empty() { row.name } else { name };
+        [row.keys[0].to_string(), name.to_owned()]
+    });
+    texts.collect()
+}
+
+/// What is told, or else keys and what they do: as many of `keys` as fit, and those of `always`.
 pub fn draw_line<S: AsRef<str>>(
-    notice: Option<&str>,
+    told: Option<(&str, Role)>,
     keys: &[[S; 2]],
     always: &[[S; 2]],
     theme: &Theme,
     area: Rect,
     buffer: &mut Buffer,
 ) {
-    if let Some(text) = notice {
+    if let Some((text, role)) = told {
         let text = format!(" {}", theme.printable(text));
-        return Line::styled(text, theme.style(Role::Notice)).render(area, buffer);
+        return Line::styled(text, theme.style(role)).render(area, buffer);
     }
     let width = |texts: &[S; 2]| -> usize {
         let widths = texts.iter().map(|text| text.as_ref().chars().count() + 1);
@@ -137,24 +124,4 @@ pub fn draw_line<S: AsRef<str>>(
         parts.map(|(text, style)| Span::styled(format!(" {}", text.as_ref()), style))
     });
     Line::from_iter(spans).render(area, buffer);
-}
-
-/// The keys of the present mode; help and quit always.
-fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
-    let texts = |mode: Mode| -> Vec<[String; 2]> {
-        let texts = mode.iter().map(|(command, name)| {
-            let row = command.row();
-            let name = if name.is_empty() { row.name } else { name };
-            [row.keys[0].to_string(), name.to_owned()]
-        });
-        texts.collect()
-    };
-    draw_line(
-        None,
-        &texts(mode(app)),
-        &texts(ALWAYS),
-        &app.theme,
-        area,
-        buffer,
-    );
 }

@@ -1,11 +1,16 @@
-//! What the worker publishes of the simulation, and the slot where the screen picks it up.
+//! What the worker publishes of the simulation, what is known of a run before it is run, and the slot where the screen
+//! picks a frame up.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 
-use super::facts::Facts;
+use super::locked;
+use super::settings::Setting;
 use crate::charts::Run;
 use crate::reading::subsurface::{Peak, SpringLoad};
-use crate::reading::{Check, CycleFigures, Observation};
+use crate::reading::{Check, CycleFigures, Observation, Passed};
+use crate::scenario::Scenario;
+use crate::scenario::session::Session;
+use crate::studies::theory::Theory;
 
 /// What the worker is doing.
 #[derive(Debug, Clone, PartialEq)]
@@ -81,15 +86,50 @@ pub struct Slot(Mutex<Option<Arc<Frame>>>);
 impl Slot {
     /// Takes the latest frame, if there is a new one.
     pub fn take(&self) -> Option<Arc<Frame>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).take()
+        locked(&self.0).take()
     }
 
     /// Stores a frame; returns true if the slot was empty and the screen must be notified.
     pub(super) fn put(&self, frame: Arc<Frame>) -> bool {
-        self.0
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .replace(frame)
-            .is_none()
+        locked(&self.0).replace(frame).is_none()
+    }
+}
+
+/// The present scenario in numbers and words.
+#[derive(Debug, Clone)]
+pub struct Facts {
+    /// The scenario that the run follows now.
+    pub scenario: Scenario,
+    /// Where the scenario's plan ends, cycles.
+    pub planned_cycles: Option<f64>,
+    /// About the deepest wear at the planned end of the scenario as it was loaded, m; 0 where it is not known. An
+    /// edit does not change it: wear is drawn by one factor from the start of a run to its end.
+    pub expected_wear: f64,
+    /// The keys that can be changed, with their values.
+    pub settings: Vec<Setting>,
+    /// Where the scenario leaves the theory.
+    pub warnings: Vec<String>,
+    /// What the warnings say of the hardness, which any step may pass.
+    pub passed_hardness: Option<Passed>,
+    /// Closed forms for the scenario.
+    pub theory: Arc<Theory>,
+}
+
+impl Facts {
+    /// Those of the scenario that `session` runs now.
+    pub fn of(session: &Session) -> Arc<Self> {
+        let scenario = session.scenario();
+        let planned_cycles = session.loaded().run().cycles;
+        let loaded = session.loaded().setup();
+        let expected_wear = Theory::of(loaded).expected_wear(loaded, planned_cycles);
+        Arc::new(Self {
+            scenario: scenario.clone(),
+            planned_cycles,
+            expected_wear: expected_wear.unwrap_or(0.0),
+            settings: Setting::all(scenario),
+            warnings: session.warnings(),
+            passed_hardness: session.log().passed_hardness(),
+            theory: Arc::new(Theory::of(session.simulation().setup())),
+        })
     }
 }

@@ -54,7 +54,7 @@ pub enum Named {
 
 impl Key {
     /// The key with a name as it stands between angle brackets.
-    fn of_name(name: &str) -> Option<Self> {
+    pub(super) fn of_name(name: &str) -> Option<Self> {
         match name {
             "Space" => return Some(Self::Char(' ')),
             "lt" => return Some(Self::Char('<')),
@@ -86,34 +86,33 @@ impl fmt::Display for Key {
 
 /// Reads a script of keys; an error says what could not be read and where.
 pub fn parse_script(script: &str) -> Result<Vec<Key>, String> {
-    let mut keys = Vec::new();
-    let mut rest = script;
+    read(script, |key| key, Key::of_name)
+}
+
+/// Reads a script of characters, each a `key`, and of names between angle brackets.
+pub(super) fn read<T>(
+    script: &str,
+    key: fn(Key) -> T,
+    of_name: fn(&str) -> Option<T>,
+) -> Result<Vec<T>, String> {
+    let (mut read, mut rest) = (Vec::new(), script);
     while let Some(first) = rest.chars().next() {
-        if first != '<' {
-            if first.is_control() {
-                return Err(format!(
-                    "--keys: {first:?} is not a key; write <Enter>, <Tab>, ..."
-                ));
-            }
-            keys.push(Key::Char(first));
-            rest = &rest[first.len_utf8()..];
-            continue;
-        }
-        let named = rest[1..]
-            .split_once('>')
-            .and_then(|(name, after)| Some((Key::of_name(name)?, after)));
-        let Some((key, after)) = named else {
+        let next = match rest[first.len_utf8()..].split_once('>') {
+            Some((name, after)) if first == '<' => of_name(name).map(|named| (named, after)),
+            _ if first == '<' || first.is_control() => None,
+            _ => Some((key(Key::Char(first)), &rest[first.len_utf8()..])),
+        };
+        let Some((next, after)) = next else {
             let start: String = rest.chars().take(12).collect();
             return Err(format!(
-                "--keys: {start:?} is not a key; keys are characters \
-                 or <Space>, <Tab>, <Esc>, <Enter>, <Up>, \
-                 <C-c>, and <lt> for \"<\""
+                "--keys: {start:?} is not a key; keys are characters or <Space>, <Tab>, <Esc>, \
+                 <Enter>, <Up>, <C-c>, and <lt> for \"<\""
             ));
         };
-        keys.push(key);
+        read.push(next);
         rest = after;
     }
-    Ok(keys)
+    Ok(read)
 }
 
 #[cfg(test)]

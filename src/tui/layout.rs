@@ -56,10 +56,15 @@ pub fn timeline(middle: Rect) -> (Option<Rect>, Rect) {
     (Some(line), rest)
 }
 
-/// How many panels fit on a screen of this size.
-pub fn room(columns: u16, rows: u16) -> usize {
-    let middle = Rect::new(0, 0, columns, rows.saturating_sub(2));
-    let (across, down) = grid(timeline(middle).1);
+/// The area of the panels on a screen.
+pub fn middle(screen: Rect) -> Rect {
+    let height = screen.height.saturating_sub(2);
+    timeline(Rect { height, ..screen }).1
+}
+
+/// How many panels fit into an area.
+pub fn room(area: Rect) -> usize {
+    let (across, down) = grid(area);
     across * down
 }
 

@@ -1,14 +1,17 @@
-//! The charts on the screen: made once for each frame and key, on scales that follow their data calmly.
+//! The charts on the screen: made once for each frame and key, on scales that follow their data calmly. In a live run
+//! the bounds of an axis hold for a whole period of the motion, and calm panels show every third frame: a third of the
+//! bytes and of the stresses.
 
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 
-use super::frame::Frame;
-use super::held::Held;
+use super::frame::{Activity, Frame};
 use super::panels::Panel;
+use super::stage::Stage;
 use super::tour;
 use crate::charts::View;
-use crate::plot::{Chart, Scale};
+use crate::plot::{Chart, Scale, sticky_bounds};
 
 /// A chart, or why there is none.
 pub(super) type Made = Result<Chart, &'static str>;
@@ -19,8 +22,8 @@ pub struct LiveCharts {
     charts: HashMap<Panel, Made>,
     /// The panels with a logarithmic ordinate.
     logarithmic: HashSet<Panel>,
-    ordinates: HashMap<(Panel, Scale), Held>,
-    abscissas: HashMap<Panel, Held>,
+    /// The bounds of ordinates by their scale, and of abscissas.
+    held: HashMap<(Panel, Option<Scale>), Held>,
     /// Whether the frame is one of another run than the next: scales do not follow it.
     is_outdated: bool,
     /// Whether closed forms are drawn over the charts.
@@ -38,8 +41,7 @@ impl LiveCharts {
 
     /// Another run is to come.
     pub fn forget_scales(&mut self) {
-        self.ordinates.clear();
-        self.abscissas.clear();
+        self.held.clear();
         self.is_outdated = true;
     }
 
@@ -60,8 +62,26 @@ impl LiveCharts {
 
     /// The bounds of a panel's ordinate.
     pub(super) fn bounds(&self, panel: Panel) -> Option<[f64; 2]> {
-        let held = self.ordinates.get(&(panel, self.scale(panel)));
+        let held = self.held.get(&(panel, Some(self.scale(panel))));
         held.map(|held| held.bounds)
+    }
+
+    /// Takes in the range of an axis in a frame at `cycle`, and returns the bounds that it has then.
+    fn hold(
+        &mut self,
+        axis: (Panel, Option<Scale>),
+        range: Option<[f64; 2]>,
+        cycle: f64,
+    ) -> Option<[f64; 2]> {
+        if let Some([low, high]) = range.filter(|_| !self.is_outdated) {
+            let held = self.held.entry(axis).or_insert_with(|| Held {
+                bounds: sticky_bounds(None, low, high),
+                seen: [low, high],
+                since: cycle,
+            });
+            held.take([low, high], cycle);
+        }
+        self.held.get(&axis).map(|held| held.bounds)
     }
 
     /// The chart of a panel: as it was made when the frame came, else of `frame`.
@@ -95,20 +115,156 @@ impl LiveCharts {
             let (recipe, view, frame) = (panel.recipe(), self.view(panel), shown(panel));
             let mut chart = recipe.chart(&frame.run, &view);
             let made = chart.as_ref().ok();
-            let extent = panel.extent(frame, made);
-            if let Some(extent) = extent.filter(|_| !self.is_outdated) {
-                Held::hold(self.ordinates.entry((panel, view.scale)), extent, cycle);
-            }
-            let across = made.filter(|_| recipe.keeps_abscissa && !self.is_outdated);
-            if let Some(across) = across.and_then(|chart| chart.x.bounds) {
-                Held::hold(self.abscissas.entry(panel), across, cycle);
-            }
+            let across = made.filter(|_| recipe.keeps_abscissa);
+            let across = across.and_then(|chart| chart.x.bounds);
+            let along = self.hold((panel, Some(view.scale)), panel.extent(frame, made), cycle);
+            let across = self.hold((panel, None), across, cycle);
             if let Ok(chart) = &mut chart {
-                chart.y.bounds = self.bounds(panel);
-                let across = self.abscissas.get(&panel).map(|held| held.bounds);
+                chart.y.bounds = along;
                 chart.x.bounds = across.or(chart.x.bounds);
             }
             self.charts.insert(panel, chart);
         }
+    }
+}
+
+/// Bounds, and what has been seen within them since they were last judged.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Held {
+    /// The bounds to draw with.
+    bounds: [f64; 2],
+    seen: [f64; 2],
+    /// The cycle from which on that was seen.
+    since: f64,
+}
+
+impl Held {
+    /// Takes in the range of a frame at `cycle`. The bounds grow at once, and shrink only where a whole
+    /// period leaves half of them empty.
+    fn take(&mut self, [low, high]: [f64; 2], cycle: f64) {
+        if cycle < self.since {
+            (self.seen, self.since) = ([low, high], cycle);
+        }
+        let [lowest, highest] = self.seen;
+        self.seen = [lowest.min(low), highest.max(high)];
+        // What reaches as far on both sides of zero is drawn so, also where it was on one side at first.
+        if low == -high && high > 0.0 {
+            let most = self.bounds[1].max(-self.bounds[0]);
+            self.bounds = [-most, most];
+        }
+        let grows = low < self.bounds[0] || high > self.bounds[1];
+        let is_over = cycle - self.since >= 1.0;
+        if grows || is_over {
+            let [a, b] = match is_over {
+                true => self.seen,
+                // What is within them already stays within them.
+                false => [low.min(self.bounds[0]), high.max(self.bounds[1])],
+            };
+            self.bounds = sticky_bounds(Some(self.bounds), a, b);
+        }
+        if is_over {
+            (self.seen, self.since) = ([low, high], cycle);
+        }
+    }
+}
+
+/// How many frames it lasts.
+const LASTS: u32 = 3;
+
+/// The frame, and how many it has lasted; none where the newest one is shown.
+#[derive(Debug, Default)]
+pub struct Calm(Option<(Arc<Frame>, u32)>);
+
+impl Calm {
+    /// Keeps its frame where `newest` comes, or takes that; for all of a cycle where it is `slow`: a contact that is
+    /// shown large has the stress of one phase of the motion.
+    pub fn take(&mut self, newest: &Arc<Frame>, slow: bool) {
+        let begins = |frame: &Frame| frame.observation.moment.cycle.floor();
+        let may_stay = |calm: &Frame, lasted| match slow {
+            true => begins(calm) == begins(newest),
+            false => lasted < LASTS,
+        };
+        let kept = self.0.take();
+        let kept = kept.filter(|(calm, lasted)| may_stay(calm, *lasted) && may_last(calm, newest));
+        self.0 = Some(kept.map_or_else(
+            || (Arc::clone(newest), 1),
+            |(calm, lasted)| (calm, lasted + 1),
+        ));
+    }
+
+    /// What a calm panel shows where the others show `frame`.
+    pub fn of<'a>(&'a self, frame: &'a Frame) -> &'a Frame {
+        self.0.as_ref().map_or(frame, |(calm, _)| calm)
+    }
+
+    /// What a panel shows where the screen is that of `frame`: large, the indenter moves with every frame.
+    pub fn shown<'a>(&'a self, panel: Panel, stage: &Stage, frame: &'a Frame) -> &'a Frame {
+        let is_large = panel == Panel::Section && stage.shows_contact();
+        match panel.recipe().is_calm && !is_large {
+            true => self.of(frame),
+            false => frame,
+        }
+    }
+}
+
+/// Whether `calm` may stay where the others show `frame`: the run goes on, and both have what a panel shows.
+fn may_last(calm: &Frame, frame: &Frame) -> bool {
+    frame.activity == Activity::Running
+        && frame.observation.moment.cycle >= calm.observation.moment.cycle
+        && frame.load.is_some() == calm.load.is_some()
+        && frame.comparison.is_some() == calm.comparison.is_some()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A motion begins to one side, and swings to both.
+    #[test]
+    fn bounds_of_a_swing_are_symmetric() {
+        let mut held = Held {
+            bounds: sticky_bounds(None, 0.0, 7.0),
+            seen: [0.0, 7.0],
+            since: 0.0,
+        };
+        for step in 0..300 {
+            let most = 7.0 + 0.01 * f64::from(step);
+            held.take([-most, most], f64::from(step) / 100.0);
+            let [low, high] = held.bounds;
+            assert!(low == -high && high >= most && high < 16.0, "{held:?}");
+        }
+    }
+
+    #[test]
+    fn bounds_hold_for_a_period_and_follow_a_trend() {
+        let start = Held {
+            bounds: sticky_bounds(None, 0.0, 0.1),
+            seen: [0.0, 0.1],
+            since: 0.0,
+        };
+        // A stress that comes and goes within each cycle, and falls from cycle to cycle.
+        let (mut held, mut changes) = (start, Vec::new());
+        for step in 0..=2000 {
+            let cycle = f64::from(step) / 100.0;
+            let swing = (std::f64::consts::TAU * cycle).sin().abs();
+            let before = held.bounds;
+            held.take([0.0, swing * (-cycle / 5.0).exp()], cycle);
+            if held.bounds != before {
+                changes.push(cycle);
+            }
+        }
+        let early = changes.iter().filter(|&&cycle| cycle < 1.0).count();
+        assert!(early <= 6, "{changes:?}");
+        let late: Vec<f64> = changes
+            .iter()
+            .copied()
+            .filter(|&cycle| cycle > 1.0)
+            .collect();
+        assert!(
+            late.windows(2).all(|pair| pair[1] - pair[0] > 1.0),
+            "{late:?}"
+        );
+        assert!((2..=6).contains(&late.len()), "{late:?}");
+        assert!(held.bounds[1] < 0.1);
     }
 }

@@ -1,10 +1,13 @@
-//! The fretting loops of a run's past: the last one in full, those of earlier cycles thinned and ever further apart.
+//! Fretting loops and loads of a run's past: the loop of the last cycle in full, those of earlier cycles thinned and ever
+//! further apart; the loads of the last cycle, from which the half-space's largest stresses of a cycle follow.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
 
 use crate::charts::Loop;
-use crate::reading::Moment;
+use crate::reading::subsurface::SpringLoad;
+use crate::reading::{Curves, Moment};
+use crate::simulation::Simulation;
 
 /// Maximum number of steps of the last loop.
 const CAPACITY: usize = 4096;
@@ -23,7 +26,7 @@ pub struct Loops {
     /// The steps of the last cycle, and the point that closes it.
     pub steps: Steps,
     /// Loops of cycles so far apart, oldest first.
-    kept: Vec<Arc<Loop>>,
+    pub kept: Vec<Arc<Loop>>,
     apart: f64,
 }
 
@@ -64,23 +67,45 @@ impl Loops {
         let thinned = thinned.map(|(_, step)| step);
         self.kept.push(Arc::new(Loop::of_rows(whole, thinned)));
         if self.kept.len() > MOST {
-            let mut k = 0;
-            self.kept.retain(|_| {
-                k += 1;
-                k % 2 == 1
-            });
+            self.kept = self.kept.iter().step_by(2).cloned().collect();
             self.apart = 2.0 * self.apart.max(1.0);
         }
-    }
-
-    /// The stored loops, oldest first.
-    pub fn kept(&self) -> &[Arc<Loop>] {
-        &self.kept
     }
 
     /// The loop of the last cycle, which ends at `end`.
     pub fn last(&self, end: f64) -> Loop {
         Loop::of_rows(end, self.steps.iter())
+    }
+}
+
+/// Moments stored per cycle: extremes between them are missed by about 1 %.
+const MOMENTS: f64 = 16.0;
+
+/// Loads with the cycles at which they were seen, at most one cycle of them.
+#[derive(Debug, Default)]
+pub(super) struct CycleLoads(VecDeque<(f64, Arc<SpringLoad>)>);
+
+impl CycleLoads {
+    /// Takes the present load in, unless one was taken a moment ago.
+    pub fn note(&mut self, simulation: &Simulation) {
+        let now = simulation.cycle();
+        match self.0.back() {
+            // A different run, or an earlier state of this one.
+            Some((last, _)) if now < *last => self.0.clear(),
+            Some((last, _)) if now < last + 1.0 / MOMENTS - 1e-9 => return,
+            _ => {}
+        }
+        let seen = simulation.observe(Curves::SPRINGS);
+        let load = seen.spring_load(simulation.setup().material.poisson());
+        self.0.push_back((now, Arc::new(load)));
+        while self.0.front().is_some_and(|(then, _)| *then < now - 1.0) {
+            self.0.pop_front();
+        }
+    }
+
+    /// The loads, oldest first.
+    pub fn all(&self) -> Vec<Arc<SpringLoad>> {
+        self.0.iter().map(|(_, load)| Arc::clone(load)).collect()
     }
 }
 
@@ -100,12 +125,12 @@ mod tests {
     #[test]
     fn loops_are_kept_ever_further_apart() {
         let loops = of_steps(100_000);
-        let cycles: Vec<f64> = loops.kept().iter().map(|kept| kept.end).collect();
+        let cycles: Vec<f64> = loops.kept.iter().map(|kept| kept.end).collect();
         assert!((12..=MOST).contains(&cycles.len()), "{cycles:?}");
         let steps: Vec<f64> = cycles.windows(2).map(|pair| pair[1] - pair[0]).collect();
         assert!(steps.iter().all(|step| *step == steps[0]), "{cycles:?}");
         assert!(1000.0 - cycles[cycles.len() - 1] < steps[0]);
-        let mut points = loops.kept().iter().map(|kept| kept.shifts.len());
+        let mut points = loops.kept.iter().map(|kept| kept.shifts.len());
         assert!(points.all(|points| (50..=66).contains(&points)));
     }
 

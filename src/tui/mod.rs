@@ -15,7 +15,7 @@ use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::mpsc::channel;
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use anyhow::{Result, bail};
@@ -25,19 +25,13 @@ pub mod app;
 mod appearance;
 pub mod autosave;
 mod beside;
-mod calm;
 pub mod command;
-mod comparison;
-mod cursor;
-mod cycle_loads;
 mod event_loop;
-pub mod facts;
 mod figure;
 mod flow;
 pub mod footer;
 pub mod frame;
 pub mod ghosts;
-mod held;
 mod input;
 pub mod keys;
 pub mod layout;
@@ -65,7 +59,6 @@ mod terminal;
 mod timeline;
 pub mod tour;
 pub mod trend;
-mod twin;
 mod undo;
 pub mod worker;
 
@@ -157,7 +150,8 @@ pub struct Farewell {
 
 /// Opens the explorer, or plays a script of keys to it.
 pub fn run(options: Options) -> Result<Farewell> {
-    if options.script.is_none() {
+    let is_live = options.script.is_none();
+    if is_live {
         event_loop::require_terminal()?;
     }
     let theme = theme(&options);
@@ -166,18 +160,14 @@ pub fn run(options: Options) -> Result<Farewell> {
     let (orders, to_worker) = Orders::channel();
     let (events, from_threads) = channel();
     let interval = Duration::from_secs_f64(1.0 / f64::from(options.fps));
-    let keeping = options
-        .keep_in
-        .filter(|_| options.script.is_none())
-        .map(|directory| ScreenAutosave::new(directory, options.keep_every, &options.run.session))
-        .map(|keeping| Arc::new(Mutex::new(keeping)));
-    let worker = Worker::new(
-        options.run,
-        events.clone(),
-        interval,
-        options.running && options.script.is_none(),
-    )
-    .with_ghosts(options.ghosts);
+    let keeping = options.keep_in.filter(|_| is_live).map(|directory| {
+        let session = &options.run.session;
+        let autosave = ScreenAutosave::new(directory, options.keep_every, session);
+        Arc::new(Mutex::new(autosave))
+    });
+    let running = options.running && is_live;
+    let worker = Worker::new(options.run, events.clone(), interval, running);
+    let worker = worker.with_ghosts(options.ghosts);
     let mut app = App::new(theme, orders.clone());
     if options.present {
         app.stage.present();
@@ -191,10 +181,11 @@ pub fn run(options: Options) -> Result<Farewell> {
         Some(script) => {
             catch(|| script::play(&mut app, &script, &orders, &from_threads).map(|()| None))
         }
-        None => event_loop::run(&mut app, options.mouse, &events, &from_threads, || {
-            worker.end()
-        })
-        .and_then(|is_restored| left_behind(&app, is_restored)),
+        None => {
+            let end = || worker.end();
+            let shown = event_loop::run(&mut app, options.mouse, &events, &from_threads, end);
+            shown.and_then(|is_restored| left_behind(&app, is_restored))
+        }
     };
     worker.end();
     let kept = worker.saved();
@@ -232,6 +223,17 @@ fn left_behind(app: &App, is_restored: bool) -> Result<Option<String>> {
     Ok(Some(script::text(app, size)))
 }
 
+/// The element `places` after the one that is `now`, wrapping around at the ends.
+fn shifted<T: Copy + PartialEq>(all: &[T], now: T, places: isize) -> T {
+    let at = all.iter().position(|one| *one == now).unwrap_or(0) as isize;
+    all[(at + places).rem_euclid(all.len() as isize) as usize]
+}
+
+/// The value, which is never half written, even after a panic.
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 /// Carries out `action`; a panic in it is reported by the caller, when the terminal is itself again.
 fn catch<T: Default>(action: impl FnOnce() -> Result<T>) -> Result<T> {
     catch_unwind(AssertUnwindSafe(action)).unwrap_or_else(|_| Ok(T::default()))
@@ -239,9 +241,8 @@ fn catch<T: Default>(action: impl FnOnce() -> Result<T>) -> Result<T> {
 
 fn theme(options: &Options) -> Theme {
     let theme = theme_of(options.marker, options.colored, options.look);
-    let is_picture = |script: &Script| script.format == Format::Svg;
-    match options.script.as_ref().is_some_and(is_picture) {
-        true => theme.with_depth(Depth::Indexed),
-        false => theme,
+    match &options.script {
+        Some(script) if script.format == Format::Svg => theme.with_depth(Depth::Indexed),
+        _ => theme,
     }
 }

@@ -56,10 +56,7 @@ impl App {
     /// Answers the mouse.
     pub fn point(&mut self, gesture: Gesture) {
         match (gesture, &self.overlay) {
-            (
-                Gesture::WheelUp | Gesture::WheelDown,
-                Overlay::None | Overlay::Accuracy | Overlay::Checks,
-            ) => {}
+            (Gesture::WheelUp | Gesture::WheelDown, Overlay::None | Overlay::Accuracy { .. }) => {}
             (Gesture::WheelUp, _) => self.press(Key::Named(Named::Up)),
             (Gesture::WheelDown, _) => self.press(Key::Named(Named::Down)),
             (Gesture::Click(at), Overlay::None) => self.click(at, false),

@@ -18,10 +18,7 @@ use super::flow::QUESTION;
 const DRAIN_TIMEOUT: Duration = Duration::from_millis(500);
 
 /// Bytes for the writer, and whom to tell when they are written.
-struct Chunk {
-    bytes: Vec<u8>,
-    then: Box<dyn FnOnce() + Send>,
-}
+type Chunk = (Vec<u8>, Box<dyn FnOnce() + Send>);
 
 /// The way to the terminal.
 pub struct Output {
@@ -40,11 +37,11 @@ impl Output {
         thread::Builder::new()
             .name("terminal".into())
             .spawn(move || {
-                for chunk in inbox {
-                    if terminal.write_all(&chunk.bytes).is_err() {
+                for (bytes, then) in inbox {
+                    if terminal.write_all(&bytes).is_err() {
                         let _ = gone.send(Event::HangUp);
                     }
-                    (chunk.then)();
+                    then();
                 }
             })?;
         Ok(Self { chunks, events })
@@ -52,10 +49,7 @@ impl Output {
 
     /// Hands a text to the writer, which calls `then` when it is written. A writer that has ended has reported it.
     fn queue(&self, text: &str, then: impl FnOnce() + Send + 'static) {
-        let _ = self.chunks.send(Chunk {
-            bytes: text.as_bytes().to_vec(),
-            then: Box::new(then),
-        });
+        let _ = self.chunks.send((text.as_bytes().to_vec(), Box::new(then)));
     }
 
     /// Sends a text without waiting.

@@ -1,9 +1,7 @@
 //! `--present`, for a projector: the contact and one chart, large words, and a pace that begins slowly and rises by
 //! itself.
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::{Constraint, Layout, Rect};
-use ratatui::style::Style;
+use ratatui::prelude::*;
 
 use super::frame::{Activity, Frame};
 use super::panels::{Panel, contact_state};
@@ -64,58 +62,30 @@ pub fn draw(frame: &Frame, theme: &Theme, area: Rect, buffer: &mut Buffer) {
     if area.height < WORDS {
         return;
     }
-    let below = Rect {
-        y: area.y + 1,
-        height: area.height - 1,
-        x: area.x + 1,
-        width: area.width - 1,
-    };
+    let below = Rect::new(area.x + 1, area.y + 1, area.width - 1, area.height - 1);
     let (_, words, role) = contact_state(&frame.observation.moment);
     let used = large(words, theme.style(role), below, buffer);
     let cycle = format!("CYCLE {:.0}", frame.observation.moment.cycle.floor());
     let width = 4 * cycle.len() as u16;
     if used + width + 4 < below.width {
-        let right = Rect {
-            x: below.right() - width,
-            width,
-            ..below
-        };
+        let right = Rect::new(below.right() - width, below.y, width, below.height);
         large(&cycle, theme.style(Role::Quiet), right, buffer);
     }
 }
 
 /// Letters of three by five dots, a row an octal digit, its dots from left to right.
-const LETTERS: [(&str, [u16; 13]); 3] = [
-    (
-        "ABCDEFGHIJKLM",
-        [
-            0o25755, 0o65656, 0o34443, 0o65556, 0o74647, 0o74644, 0o34553, 0o55755, 0o72227,
-            0o11152, 0o55655, 0o44447, 0o57755,
-        ],
-    ),
-    (
-        "NOPQRSTUVWXYZ",
-        [
-            0o65555, 0o25552, 0o65644, 0o25563, 0o65655, 0o34216, 0o72222, 0o55557, 0o55552,
-            0o55775, 0o55255, 0o55222, 0o71247,
-        ],
-    ),
-    (
-        "0123456789.-,",
-        [
-            0o75557, 0o26227, 0o61247, 0o61216, 0o55711, 0o74616, 0o34652, 0o71222, 0o25252,
-            0o25316, 0o00002, 0o00700, 0o00024,
-        ],
-    ),
+const LETTERS: &str = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-,";
+const DOTS: [u16; 39] = [
+    0o25755, 0o65656, 0o34443, 0o65556, 0o74647, 0o74644, 0o34553, 0o55755, 0o72227, 0o11152,
+    0o55655, 0o44447, 0o57755, 0o65555, 0o25552, 0o65644, 0o25563, 0o65655, 0o34216, 0o72222,
+    0o55557, 0o55552, 0o55775, 0o55255, 0o55222, 0o71247, 0o75557, 0o26227, 0o61247, 0o61216,
+    0o55711, 0o74616, 0o34652, 0o71222, 0o25252, 0o25316, 0o00002, 0o00700, 0o00024,
 ];
 
 /// Whether the letter has a dot in a column and a row from the top.
 fn has_dot(letter: char, column: u16, row: u16) -> bool {
-    let mut rows = LETTERS
-        .iter()
-        .filter_map(|(letters, dots)| Some(dots[letters.find(letter)?]));
-    rows.next()
-        .is_some_and(|dots| row < 5 && dots >> (3 * (4 - row) + 2 - column) & 1 == 1)
+    let dots = LETTERS.find(letter).map_or(0, |at| DOTS[at]);
+    row < 5 && dots >> (3 * (4 - row) + 2 - column) & 1 == 1
 }
 
 /// Writes `words` in letters that are four cells wide and three high; returns the cells that they take.

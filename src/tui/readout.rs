@@ -1,11 +1,12 @@
-//! The values of the curves at the cursor, in a line; what the focused panel shows comes first where there
-//! are ghosts, with the value of each and its difference.
+//! The cursor over r, and the values of the curves under it in a line; what the focused panel shows comes first where
+//! there are ghosts, with the value of each and its difference.
 
 use super::frame::Frame;
 use super::panels::Panel;
 use crate::charts::{Loop, Run};
 use crate::math::scan::value_at;
-use crate::plot::units::{format_value_in, to_ascii};
+use crate::plot::theme::Theme;
+use crate::plot::units::format_value;
 use crate::studies::ghost::Ghost;
 use crate::traces::Axes;
 
@@ -17,29 +18,26 @@ const LONGEST_NAME: usize = 16;
 
 /// `r 52.0 µm  slip  f ...`: as many values at the radius `r` (m) as fit `width` cells. Curves that
 /// no panel shows are not computed, and so not here.
-pub(super) fn line(frame: &Frame, focus: Panel, r: f64, width: usize, ascii: bool) -> String {
+pub(super) fn line(frame: &Frame, focus: Panel, r: f64, width: usize, theme: &Theme) -> String {
     let value = |name: &str, value: f64, unit: &str| {
-        let name = if ascii { to_ascii(name) } else { name.into() };
-        format!(" {name} {} ", format_value_in(value, unit, DIGITS, ascii))
+        format!(" {name} {} ", format_value(value, unit, DIGITS))
     };
     let run = &frame.run;
-    let mut parts = compared(run, focus, r, ascii);
+    let mut parts = compared(run, focus, r);
     let at_radius = parts.is_empty() || compared_axes(focus).over_r();
     if at_radius {
         let zone = frame.observation.moment.zone_at(r);
         let place = [value("r", r, "m"), format!(" {} ", zone.name())];
         parts.splice(0..0, place);
         let moves = frame.observation.moment.stick_radius.is_some();
-        let curves = CURVES
-            .into_iter()
-            .filter(|axes| moves || *axes != Axes::SHEAR);
-        for axes in curves {
+        let curves = CURVES.into_iter();
+        for axes in curves.filter(|axes| moves || *axes != Axes::SHEAR) {
             let at = over_r(run, axes, r).map(|seen| value(axes.symbol, seen, axes.unit()));
             parts.extend(at.filter(|part| !parts.contains(part)));
         }
     }
     let mut line = String::new();
-    for part in parts {
+    for part in parts.iter().map(|part| theme.printable(part)) {
         if line.chars().count() + part.chars().count() > width {
             break;
         }
@@ -103,12 +101,12 @@ fn of_ghost(run: &Run, ghost: &Ghost, axes: Axes, place: f64) -> Option<f64> {
 
 /// The run's value of what the focused panel shows, and for each ghost that has it its value and how far
 /// it is above that of the run; nothing where no ghost has it.
-fn compared(run: &Run, focus: Panel, r: f64, ascii: bool) -> Vec<String> {
+fn compared(run: &Run, focus: Panel, r: f64) -> Vec<String> {
     let axes = compared_axes(focus);
     let Some((place, own)) = here(run, axes, r) else {
         return Vec::new();
     };
-    let shown = |value: f64| format_value_in(value, axes.unit(), DIGITS, ascii);
+    let shown = |value: f64| format_value(value, axes.unit(), DIGITS);
     let mut parts = vec![format!(" {} {} ", axes.symbol, shown(own))];
     for ghost in &run.ghosts {
         let Some(value) = of_ghost(run, ghost, axes, place) else {
@@ -117,19 +115,50 @@ fn compared(run: &Run, focus: Panel, r: f64, ascii: bool) -> Vec<String> {
         let difference = value - own;
         let sign = if difference < 0.0 { "" } else { "+" };
         let name: String = ghost.name.chars().take(LONGEST_NAME).collect();
-        let name = if ascii {
-            to_ascii(&name).into_owned()
-        } else {
-            name
-        };
-        parts.push(format!(
-            " {name} {} ({sign}{}) ",
-            shown(value),
-            shown(difference)
-        ));
+        let [value, difference] = [value, difference].map(shown);
+        parts.push(format!(" {name} {value} ({sign}{difference}) "));
     }
     if parts.len() == 1 {
         parts.clear();
     }
     parts
+}
+
+/// The number of its places over the domain, and the initial one.
+const PLACES: i16 = 100;
+const START: i16 = 33;
+
+/// Where it stands, in hundredths of the domain, if there is one.
+#[derive(Debug, Default)]
+pub struct Cursor(Option<i16>);
+
+impl Cursor {
+    /// Shows or hides it.
+    pub fn toggle(&mut self) {
+        self.0 = self.0.is_none().then_some(START);
+    }
+
+    /// Whether there is one.
+    pub fn is_shown(&self) -> bool {
+        self.0.is_some()
+    }
+
+    /// Moves it by hundredths of the domain.
+    pub fn shift(&mut self, places: i16) {
+        self.0 = self.0.map(|place| (place + places).clamp(0, PLACES));
+    }
+
+    /// Puts it to the place nearest to a radius, m.
+    pub fn put(&mut self, frame: &Frame, radius: f64) {
+        if let Some(edge) = frame.observation.radii.last() {
+            let place = (radius / edge * f64::from(PLACES)).round();
+            self.0 = Some((place as i16).clamp(0, PLACES));
+        }
+    }
+
+    /// The radius under it, m.
+    pub fn radius(&self, frame: &Frame) -> Option<f64> {
+        let edge = frame.observation.radii.last()?;
+        Some(edge * f64::from(self.0?) / f64::from(PLACES))
+    }
 }

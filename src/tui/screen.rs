@@ -12,10 +12,8 @@
 //! Space run/pause  . step  , cycle  m method ...                       ? help
 //! ```
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
-use ratatui::text::Line;
-use ratatui::widgets::{Paragraph, Widget};
+use ratatui::prelude::*;
+use ratatui::widgets::Paragraph;
 
 use super::app::App;
 use super::frame::{Activity, Frame};
@@ -59,18 +57,10 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
 
 fn panels(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
     if let Some(comparison) = &frame.comparison {
-        compare::draw(
-            frame,
-            comparison,
-            app.cursor.radius(frame),
-            &app.theme,
-            area,
-            buffer,
-        );
-        return;
+        return compare::draw(frame, comparison, app, area, buffer);
     }
     for (panel, place) in layout::places(&app.stage, area) {
-        app.draw_panel(panel, frame, place, buffer);
+        panel.draw(frame, app, place, buffer);
     }
     if app.stage.presents {
         let (above, _) = layout::with_tour(&app.stage, area);
@@ -86,66 +76,50 @@ fn panels(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
 fn status(frame: &Frame, theme: &Theme, area: Rect, buffer: &mut Buffer) {
     let bar = theme.style(Role::Bar);
     buffer.set_style(area, bar);
-    let ascii = theme.ascii();
-    let separator = if ascii { " | " } else { " │ " };
-    let mut parts = status_parts(frame, area.width >= WITH_WORDS, ascii);
-    while parts.len() > 1
-        && Line::raw(parts_text(&parts, separator)).width() + 1 > usize::from(area.width)
-    {
-        let least = parts
-            .iter()
-            .enumerate()
-            .min_by_key(|(_, part)| part.weight)
-            .map_or(0, |(at, _)| at);
-        parts.remove(least);
+    let mut parts = status_parts(frame, area.width >= WITH_WORDS);
+    let text = |parts: &[Part]| {
+        let slots = parts.iter();
+        let slots = slots.map(|(_, text, width)| format!("{:1$}", theme.printable(text), width));
+        slots.collect::<Vec<_>>().join(&theme.printable(" │ "))
+    };
+    let mut left = text(&parts);
+    while parts.len() > 1 && Line::raw(&*left).width() + 1 > usize::from(area.width) {
+        let least = (0..parts.len()).min_by_key(|&at| parts[at].0);
+        parts.remove(least.unwrap_or(0));
+        left = text(&parts);
     }
-    let left = parts_text(&parts, separator);
     let room = usize::from(area.width).saturating_sub(Line::raw(left.as_str()).width() + 4);
-    let mut title = shortened(theme.printable(&frame.facts.title), room);
-    if !title.is_empty() {
-        title.push(' ');
-    }
-    Line::styled(title, bar)
-        .right_aligned()
-        .render(area, buffer);
+    let title = shortened(theme.printable(frame.facts.scenario.title()), room);
+    let title = Line::styled(title, bar).right_aligned();
+    title.render(area, buffer);
     buffer.set_string(area.x, area.y, format!(" {left}"), bar);
 }
 
 /// Columns from which on the status line says what the method's name is.
 const WITH_WORDS: u16 = 80;
 
-/// A part of the status line; the least important parts are dropped first.
-struct Part {
-    weight: u8,
-    text: String,
-    /// The least width of its slot, cells.
-    width: usize,
-}
+/// A part of the status line: its weight, for the least important parts are dropped first, its text, and the least width
+/// of its slot in cells.
+type Part = (u8, String, usize);
 
-fn parts_text(parts: &[Part], separator: &str) -> String {
-    parts
-        .iter()
-        .map(|part| format!("{:1$}", part.text, part.width))
-        .collect::<Vec<_>>()
-        .join(separator)
-}
-
-/// As much of a title as fits in `room` cells.
+/// As much of a title as fits in `room` cells, and a blank behind it.
 fn shortened(mut text: String, room: usize) -> String {
-    if Line::raw(text.as_str()).width() <= room {
-        return text;
+    let width = |text: &str| Line::raw(text).width();
+    match width(&text) {
+        0 => text,
+        all if all <= room => text + " ",
+        _ if room < 12 => String::new(),
+        _ => {
+            while width(&text) + 2 > room {
+                text.pop();
+            }
+            text + ".. "
+        }
     }
-    if room < 12 {
-        return String::new();
-    }
-    while Line::raw(text.as_str()).width() + 2 > room {
-        text.pop();
-    }
-    text + ".."
 }
 
 /// What the status line says, the state first.
-fn status_parts(frame: &Frame, has_room: bool, ascii: bool) -> Vec<Part> {
+fn status_parts(frame: &Frame, has_room: bool) -> Vec<Part> {
     let moment = &frame.observation.moment;
     let mut cycle = format!("cycle {:.2}", moment.cycle);
     let mut widest = "cycle 0000.00".len();
@@ -153,72 +127,55 @@ fn status_parts(frame: &Frame, has_room: bool, ascii: bool) -> Vec<Part> {
         cycle.push_str(&format!("/{planned}"));
         widest = format!("cycle {planned:.2}/{planned}").len();
     }
-    let mut pace = match (frame.speed, frame.pace) {
-        (Some(speed), _) => format!("{} cycles/s", short(speed)),
-        (None, pace) if pace.is_finite() => format!("{} cycles/s", short(pace)),
-        (None, _) => "unlimited".into(),
+    let mut pace = match frame.speed.unwrap_or(frame.pace) {
+        pace if pace.is_finite() => format!("{} cycles/s", short(pace)),
+        _ => "unlimited".into(),
     };
     let mut pace_width = "0.5 cycles/s".len();
     if let Some(phase) = frame.phase.filter(|_| frame.activity == Activity::Running) {
-        let degrees = if ascii { " deg" } else { "°" };
-        pace.push_str(&format!(", phase {phase:.0}{degrees}"));
+        pace.push_str(&format!(", phase {phase:.0}°"));
         pace_width = pace.len().max("1000 cycles/s, phase 90°".len());
     }
-    let activity = match (&frame.activity, ascii) {
-        (Activity::Paused, false) if frame.present.is_some() => "◂ past",
-        (Activity::Paused, true) if frame.present.is_some() => "< past",
-        (Activity::Running, false) => "▶ running",
-        (Activity::Running, true) => "> running",
-        (Activity::Paused, false) => "⏸ paused",
-        (Activity::Paused, true) => "= paused",
-        (Activity::Done, false) => "■ done",
-        (Activity::Done, true) => "# done",
-        (Activity::Stopped(_), _) => "! stopped",
-    };
-    let part = |weight, text: String, width| Part {
-        weight,
-        text,
-        width,
+    let activity = match &frame.activity {
+        Activity::Paused if frame.present.is_some() => "◂ past",
+        Activity::Running => "▶ running",
+        Activity::Paused => "⏸ paused",
+        Activity::Done => "■ done",
+        Activity::Stopped(_) => "! stopped",
     };
     let law = frame.observation.law.unwrap_or("no wear");
+    let word = if has_room { "method: " } else { "" };
+    let method = format!("{word}{}", frame.observation.method);
     let mut parts = vec![
-        part(6, activity.into(), 9),
-        part(5, cycle, widest),
-        part(4, pace, pace_width),
-        match has_room {
-            true => part(3, format!("method: {}", frame.observation.method), 15),
-            false => part(3, frame.observation.method.to_string(), 7),
-        },
-        part(1, law.into(), 7),
+        (6, activity.into(), 9),
+        (5, cycle, widest),
+        (4, pace, pace_width),
+        (3, method, 7 + word.len()),
+        (1, law.into(), 7),
     ];
     parts.extend(verdict(&frame.checks).map(|verdict| {
         let fails = verdict != "checks ok";
-        part(if fails { 3 } else { 2 }, verdict, 12)
+        (if fails { 3 } else { 2 }, verdict, 12)
     }));
-    parts.extend(
-        frame
-            .error
-            .map(|error| part(2, wear_error(error, ascii), 12)),
-    );
+    let error = frame.error.map(wear_error);
+    parts.extend(error.map(|error| (2, error, 12)));
     let outside = |warning: &String| warning.starts_with("outside");
     if frame.facts.warnings.iter().any(outside) {
-        parts.push(part(2, "! outside the theory".into(), 0));
+        parts.push((2, "! outside the theory".into(), 0));
     }
     if let Some(present) = frame.present {
-        parts.insert(2, part(4, format!("present {present:.2}"), 0));
+        parts.insert(2, (4, format!("present {present:.2}"), 0));
     }
     parts
 }
 
 /// The estimated error of what has worn, to a digit.
-fn wear_error(error: f64, ascii: bool) -> String {
-    let sign = if ascii { "+-" } else { "±" };
-    let percent = 100.0 * error;
-    match percent {
-        size if size < 0.01 => format!("wear {sign}<0.01 %"),
-        size if size < 0.1 => format!("wear {sign}{size:.2} %"),
-        size if size < 1.0 => format!("wear {sign}{size:.1} %"),
-        size => format!("wear {sign}{size:.0} %"),
+fn wear_error(error: f64) -> String {
+    match 100.0 * error {
+        size if size < 0.01 => "wear ±<0.01 %".into(),
+        size if size < 0.1 => format!("wear ±{size:.2} %"),
+        size if size < 1.0 => format!("wear ±{size:.1} %"),
+        size => format!("wear ±{size:.0} %"),
     }
 }
 

@@ -5,10 +5,8 @@ use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
 use anyhow::{Context, Result, anyhow};
-use ratatui::buffer::{Buffer, Cell};
-use ratatui::layout::{Rect, Size};
-use ratatui::style::Color;
-use ratatui::text::Line;
+use ratatui::buffer::Cell;
+use ratatui::prelude::*;
 
 use super::Event;
 use super::app::App;
@@ -68,26 +66,11 @@ impl Stroke {
     /// Reads a script in the notation of [`keys`], with `<paste:TEXT>` and `<resize:80x24>` beside; an
     /// error says what could not be read.
     pub fn script(script: &str) -> Result<Vec<Self>, String> {
-        let mut strokes = Vec::new();
-        let mut rest = script;
-        loop {
-            let marks = ["<paste:", "<resize:"].map(|mark| (mark, rest.find(mark)));
-            let next = marks.into_iter().filter_map(|(mark, at)| Some((at?, mark)));
-            let Some((at, mark)) = next.min() else {
-                break;
-            };
-            strokes.extend(keys::parse_script(&rest[..at])?.into_iter().map(Self::Key));
-            let (given, after) = rest[at + mark.len()..]
-                .split_once('>')
-                .ok_or_else(|| format!("--keys: {mark} is not closed; it ends with >"))?;
-            strokes.push(match mark {
-                "<paste:" => Self::Paste(given.to_owned()),
-                _ => Self::Resize(parse_size(given).map_err(|error| format!("--keys: {error}"))?),
-            });
-            rest = after;
-        }
-        strokes.extend(keys::parse_script(rest)?.into_iter().map(Self::Key));
-        Ok(strokes)
+        keys::read(script, Self::Key, |name| match name.split_once(':') {
+            Some(("paste", text)) => Some(Self::Paste(text.to_owned())),
+            Some(("resize", size)) => parse_size(size).ok().map(Self::Resize),
+            _ => Key::of_name(name).map(Self::Key),
+        })
     }
 }
 
@@ -123,7 +106,15 @@ pub fn play(
     let size = press(app, &script.strokes, script.size, orders, events)?;
     let screen = match script.format {
         Format::Text => text(app, size),
-        Format::Svg => picture(app, size),
+        Format::Svg => {
+            let is_light = app.theme.look == Look::Light;
+            let ground = if is_light {
+                Ground::LIGHT
+            } else {
+                Ground::DARK
+            };
+            screen_svg::picture(&drawn(app, size), ground)
+        }
     };
     io::stdout().lock().write_all(screen.as_bytes())?;
     match &app.unwritten {
@@ -187,15 +178,6 @@ fn drawn(app: &App, size: Size) -> Buffer {
     let mut buffer = Buffer::empty(area);
     screen::draw(app, area, &mut buffer);
     buffer
-}
-
-/// The screen as an SVG picture.
-fn picture(app: &App, size: Size) -> String {
-    let ground = match app.theme.look {
-        Look::Light => Ground::LIGHT,
-        Look::Dark | Look::Mono => Ground::DARK,
-    };
-    screen_svg::picture(&drawn(app, size), ground)
 }
 
 /// The screen as lines of text, trailing blanks cut.

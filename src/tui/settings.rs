@@ -1,5 +1,6 @@
 //! The keys of a scenario that can be changed while it runs, with their present values.
 
+use super::shifted;
 use crate::scenario::schema::{Kind, Parameter, parameters};
 use crate::scenario::{Scenario, units};
 
@@ -100,10 +101,9 @@ impl Setting {
     pub fn next(&self, up: bool) -> Option<String> {
         let value = self.value.as_deref()?;
         match self.parameter.kind {
-            Kind::Choice(words) => {
-                let at = words.iter().position(|known| known.word == value)?;
-                let places = if up { 1 } else { words.len() - 1 };
-                Some(words[(at + places) % words.len()].word.to_owned())
+            Kind::Choice(_) => {
+                let places = if up { 1 } else { -1 };
+                Some(shifted(&self.words()?, value, places).to_owned())
             }
             Kind::Flag => Some((value != "true").to_string()),
             Kind::Whole => {
@@ -111,13 +111,12 @@ impl Setting {
                 Some(if up { next.ceil() } else { next.floor() }.to_string())
             }
             // A step of the number that is shown: 46 degrees follow 45.
-            Kind::Number => match self.reading(true) {
-                Some((number, unit)) => {
-                    let next = units::plain(next_number(number.parse().ok()?, up));
-                    Some(format!("{next} {unit}"))
-                }
-                None => Some(units::plain(next_number(value.parse().ok()?, up))),
-            },
+            Kind::Number => {
+                let shown = self.reading(true);
+                let (number, unit) = shown.unwrap_or_else(|| (value.to_owned(), String::new()));
+                let next = units::plain(next_number(number.parse().ok()?, up));
+                Some(format!("{next} {unit}").trim_end().to_owned())
+            }
             Kind::Text | Kind::Numbers => None,
         }
     }

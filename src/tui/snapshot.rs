@@ -27,11 +27,9 @@ pub(super) fn write(run: &Recorded, note: Option<&str>) -> Result<PathBuf, Write
     let cycle = number(session.simulation().cycle());
     let stem = session.loaded().stem();
     let directory = RunDirectory::claim_new(&format!("{stem}-cycle-{cycle}"))?;
+    let scenario = session.as_run(Vec::new()).to_toml();
     let mut files = vec![
-        (
-            "scenario.toml",
-            session.as_run(Vec::new()).to_toml().into_bytes(),
-        ),
+        ("scenario.toml", scenario.into_bytes()),
         ("history.csv", history(session, &run.trend).into_bytes()),
         (CHECKPOINT, kept),
     ];
@@ -96,9 +94,8 @@ pub(super) fn about(path: &Path) -> Option<String> {
     let fact = |key: &str| state.fact(key).map(printable);
     let (cycle, title) = (fact("cycle")?, fact("scenario")?);
     let note = fact("note").map_or_else(String::new, |note| format!(" Note: {note}."));
-    Some(format!(
-        "{title}, cycle {cycle}.{note} Enter goes on from there"
-    ))
+    let next = "Enter goes on from there";
+    Some(format!("{title}, cycle {cycle}.{note} {next}"))
 }
 
 /// Opens the state in a directory, with its past as far as it is known.

@@ -51,30 +51,25 @@ impl Default for Stage {
 impl Stage {
     /// The panels on the screen.
     pub fn visible(&self) -> Vec<Panel> {
-        if self.presents {
-            vec![Panel::Section, self.presented()]
-        } else if self.zoomed {
-            vec![self.focus]
-        } else {
-            self.page(self.room()).to_vec()
-        }
+        let places = layout::places(self, layout::middle(self.area));
+        places.into_iter().map(|(panel, _)| panel).collect()
     }
 
     /// How many panels the terminal has room for.
     fn room(&self) -> usize {
-        layout::room(self.area.width, self.area.height)
+        layout::room(layout::middle(self.area))
     }
 
     /// The panels beside the focused one where `room` of them fit.
     pub fn page(&self, room: usize) -> &'static [Panel] {
-        let at = self.focus.index() / room.max(1) * room;
+        let at = self.focus as usize / room.max(1) * room;
         &Panel::ALL[at..(at + room).min(Panel::ALL.len())]
     }
 
     /// The first panel of the next page gets the focus.
     pub fn turn_page(&mut self) {
         let room = self.room().max(1);
-        let next = (self.focus.index() / room + 1) * room;
+        let next = (self.focus as usize / room + 1) * room;
         self.focus = Panel::ALL.get(next).copied().unwrap_or(Panel::ALL[0]);
     }
 

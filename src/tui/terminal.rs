@@ -5,12 +5,12 @@ use std::sync::mpsc::Sender;
 use std::time::Instant;
 
 use crossterm::terminal::{disable_raw_mode, enable_raw_mode};
-use ratatui::buffer::{Buffer, Cell};
-use ratatui::layout::{Rect, Size};
+use ratatui::buffer::Cell;
+use ratatui::prelude::*;
 
 use super::Event;
 use super::ansi_writer::AnsiWriter;
-use super::flow::{Flow, When};
+use super::flow::Flow;
 use super::output::Output;
 
 /// Takes the terminal over: the alternate screen (DEC private mode 1049), and a paste is marked as one (2004).
@@ -45,7 +45,8 @@ pub struct Screen {
     output: Output,
     writer: AnsiWriter,
     mouse: Capture,
-    flow: Flow,
+    /// What is known of the line to the terminal.
+    pub flow: Flow,
     /// Whether the terminal was restored successfully.
     is_restored: bool,
 }
@@ -124,16 +125,6 @@ impl Screen {
         Ok(())
     }
 
-    /// When the next frame may be drawn.
-    pub fn when(&self) -> When {
-        self.flow.when(Instant::now())
-    }
-
-    /// Reports progress on the line to the terminal.
-    pub fn flow(&mut self) -> &mut Flow {
-        &mut self.flow
-    }
-
     /// Draws a screen: only changes are sent, and on a slow line only as many rows as do not delay a
     /// key. Returns false if rows are left for the next frame.
     pub fn draw(&mut self, draw: impl FnOnce(Rect, &mut Buffer)) -> io::Result<bool> {
@@ -152,7 +143,7 @@ impl Screen {
         let (mut bytes, mut frames) = (0, 0);
         for room in rooms {
             let next = match room {
-                Some(room) => rows_within(self.writer.shown(), &wanted, *room),
+                Some(room) => rows_within(&self.writer.shown, &wanted, *room),
                 None => wanted.clone(),
             };
             let frame = self.writer.frame(next);
@@ -162,7 +153,7 @@ impl Screen {
             }
         }
         self.flow.sent(now, bytes, frames);
-        Ok(*self.writer.shown() == wanted)
+        Ok(self.writer.shown == wanted)
     }
 }
 

@@ -5,10 +5,7 @@
 //!  0 ━━━━━━━━━▼━━━━━━━●━━━◆━━━━━━────────────────── 200   at cycle 40: friction.coefficient = 0.2
 //! ```
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::{Position, Rect};
-use ratatui::text::{Line, Span};
-use ratatui::widgets::Widget;
+use ratatui::prelude::*;
 
 use super::frame::Frame;
 use super::theme::{Role, Theme};
@@ -54,12 +51,8 @@ fn parts(frame: &Frame, area: Rect) -> (String, Rect) {
     words.extend(edit(frame, left).map(|edit| format!("   {edit}")));
     let words: String = words.chars().take(room).collect();
     let taken = Line::raw(words.as_str()).width() as u16 + 1;
-    let line = Rect {
-        x: area.x + 3,
-        width: area.width.saturating_sub(3 + taken),
-        ..area
-    };
-    (words, line)
+    let width = area.width.saturating_sub(3 + taken);
+    (words, Rect::new(area.x + 3, area.y, width, area.height))
 }
 
 /// The cycle under a place of the screen, where the timeline in `area` is there.
@@ -84,14 +77,10 @@ pub fn draw(frame: &Frame, theme: &Theme, area: Rect, buffer: &mut Buffer) {
             false => Span::styled(sign(["─", "-"]), theme.style(Role::Faint)),
         })
         .collect();
-    let changes = frame
-        .changes
-        .iter()
-        .map(|(cycle, _)| (*cycle, ["▼", "v"], Role::Notice));
-    let snapshots = frame
-        .snapshots
-        .iter()
-        .map(|cycle| (*cycle, ["◆", "s"], Role::Contact));
+    let changes = frame.changes.iter();
+    let changes = changes.map(|(cycle, _)| (*cycle, ["▼", "v"], Role::Notice));
+    let snapshots = frame.snapshots.iter();
+    let snapshots = snapshots.map(|cycle| (*cycle, ["◆", "s"], Role::Contact));
     let shown = (frame.observation.moment.cycle, ["●", "O"], Role::Title);
     for (cycle, signs_of, role) in changes.chain(snapshots).chain([shown]) {
         if let Some(span) = signs.get_mut(usize::from(place(cycle))) {

@@ -3,9 +3,8 @@
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::{Margin, Rect};
-use ratatui::widgets::{Paragraph, Widget, Wrap};
+use ratatui::prelude::*;
+use ratatui::widgets::{Paragraph, Wrap};
 
 use super::panels::{self, Panel};
 use super::theme::{Role, Theme};
@@ -27,7 +26,8 @@ impl Caption {
     /// The panel that gets the focus.
     pub fn panel(&self) -> Option<Panel> {
         let title = self.panel.as_deref()?;
-        Panel::ALL.into_iter().find(|panel| panel.title() == title)
+        let mut panels = Panel::ALL.into_iter();
+        panels.find(|panel| panel.recipe().title == title)
     }
 }
 
@@ -48,7 +48,7 @@ pub fn logarithmic(origin: &str) -> impl Iterator<Item = Panel> {
 /// A tour under way.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Tour {
-    origin: String,
+    pub(super) origin: String,
     at: usize,
 }
 
@@ -59,11 +59,6 @@ impl Tour {
             origin: origin.to_owned(),
             at: 0,
         })
-    }
-
-    /// Whether it is the tour of that scenario.
-    pub fn is_of(&self, origin: &str) -> bool {
-        self.origin == origin
     }
 
     /// The tour at its next caption; `None` after the last.
@@ -82,11 +77,8 @@ impl Tour {
         let Some(caption) = self.caption() else {
             return;
         };
-        let title = format!(
-            "tour {}/{} (n next, Esc closes)",
-            self.at + 1,
-            captions(&self.origin).len()
-        );
+        let (at, count) = (self.at + 1, captions(&self.origin).len());
+        let title = format!("tour {at}/{count} (n next, Esc closes)");
         let inside = panels::titled(&title, Role::Notice, theme, area, buffer);
         let inside = inside.inner(Margin::new(1, 0));
         Paragraph::new(theme.printable(&caption.text))

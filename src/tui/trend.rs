@@ -112,7 +112,8 @@ pub struct Trend {
     open: Option<Arc<Cycle>>,
     /// How many cycles an entry stands for.
     stride: f64,
-    step_cost: Option<f64>,
+    /// The time per step from now on, s.
+    pub step_cost: Option<f64>,
     /// Cycle and worn volume (m³) of the first moment.
     start: Option<[f64; 2]>,
     /// Amplitude and load of the last cycle.
@@ -140,11 +141,6 @@ impl Trend {
             loops: Loops::of_steps(steps),
             ..Self::default()
         }
-    }
-
-    /// Sets the time per step from now on, s.
-    pub fn note_cost(&mut self, step_cost: Option<f64>) {
-        self.step_cost = step_cost;
     }
 
     /// Its memory beside that of an earlier one, with which it shares its first cycles or none; bytes.

@@ -2,78 +2,65 @@
 
 use std::num::NonZeroU16;
 use std::sync::Arc;
-use std::time::Duration;
 
 use mdr_tui::plot::Marker;
 use mdr_tui::tui::ansi_writer::AnsiWriter;
-use mdr_tui::tui::app::App;
 use mdr_tui::tui::frame::{Activity, Frame};
-use mdr_tui::tui::keys::{Key, parse_script};
+use mdr_tui::tui::keys::parse_script;
 use mdr_tui::tui::panels::Panel;
 use mdr_tui::tui::screen;
 use mdr_tui::tui::theme::{Depth, Look, Theme};
 use mdr_tui::tui::worker::Worker;
 use proptest::prelude::*;
 use ratatui::buffer::{Buffer, Cell};
-use ratatui::layout::{Rect, Size};
+use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier, Style};
 use vt100::Parser;
 
-use crate::common::{LiveWorker, load};
+use crate::common::Explorer;
 
 /// The explorer on a terminal that counts.
 struct Counted {
     line: AnsiWriter,
-    app: App,
-    worker: LiveWorker,
+    explorer: Explorer,
 }
 
 impl Counted {
-    fn new(size: Size) -> Self {
-        let worker = LiveWorker::on(load("li2019-fig3", &[]), Duration::from_secs(1), false);
+    fn new(columns: u16, rows: u16) -> Self {
         // The longest names of colours.
         let theme = Theme::new(Look::Dark, Marker::Braille).with_depth(Depth::Indexed);
-        let mut app = App::new(theme, worker.orders.clone());
-        app.resize(size.width, size.height);
-        Self {
-            line: AnsiWriter::default(),
-            app,
-            worker,
-        }
+        let mut explorer = Explorer::on("li2019-fig3", theme);
+        explorer.app.resize(columns, rows);
+        let line = AnsiWriter::default();
+        Self { line, explorer }
     }
 
     /// Plays keys, draws once, and returns the bytes of the frame.
     fn frame(&mut self, keys: &str) -> usize {
         for key in parse_script(keys).expect("a script") {
-            self.app.press(key);
+            self.explorer.app.press(key);
         }
-        let frame = self.sync();
-        self.app.take_frame(frame);
+        let frame = self.explorer.frame();
+        self.explorer.app.take_frame(frame);
         self.draw()
     }
 
-    /// The same as if the run had come there by itself: the worker takes the steps, and the screen
-    /// knows of no key.
-    fn running_frame(&mut self, keys: &str) -> usize {
-        for key in parse_script(keys).expect("a script") {
-            assert_eq!(key, Key::Char('.'));
-            self.worker.orders.send(Worker::step_once);
+    /// So many steps as if the run had come there by itself: the worker takes them, and the screen knows of no key.
+    fn running_frame(&mut self, steps: usize) -> usize {
+        for _ in 0..steps {
+            self.explorer.worker.orders.send(Worker::step_once);
         }
-        let mut frame = Frame::clone(&self.sync());
+        let mut frame = Frame::clone(&self.explorer.frame());
         frame.activity = Activity::Running;
-        self.app.take_frame(Arc::new(frame));
+        self.explorer.app.take_frame(Arc::new(frame));
         self.draw()
-    }
-
-    fn sync(&self) -> Arc<Frame> {
-        self.worker.orders.frame().expect("a worker")
     }
 
     /// What the screen shows.
     fn screen(&self) -> Buffer {
-        let area = self.app.stage.area;
+        let area = self.explorer.app.stage.area;
         let mut buffer = Buffer::empty(area);
-        screen::draw(&self.app, area, &mut buffer);
+        screen::draw(&self.explorer.app, area, &mut buffer);
         buffer
     }
 
@@ -87,79 +74,54 @@ impl Counted {
 /// The status request behind each frame, which the flow control adds.
 const REQUEST: usize = 4;
 
-/// Average bytes per frame over `frames` of about a cycle each: what ten cycles per second send at ten
-/// frames per second, whose moments wander through the cycle.
-fn average(size: Size, frames: usize) -> usize {
-    let mut counted = Counted::new(size);
-    counted.frame("");
-    let total: usize = (0..frames).map(|_| counted.frame(",..") + REQUEST).sum();
-    total / frames
+/// Fails unless `count` frames take no more than so many bytes each, and a paused screen none.
+fn take_few_bytes(
+    counted: &mut Counted,
+    budget: usize,
+    count: usize,
+    of: fn(&mut Counted) -> usize,
+) {
+    let total: usize = (0..count).map(|_| of(counted) + REQUEST).sum();
+    let (bytes, area) = (total / count, counted.explorer.app.stage.area);
+    assert!(bytes <= budget, "{bytes} bytes per frame in {area}");
+    assert_eq!(counted.draw(), 0, "a paused screen sends something");
 }
 
-/// Average bytes per frame at the initial pace: half a cycle per second at ten frames per second, over
-/// two cycles after the third. A scripted run, so the bytes are the same on every machine.
-fn at_the_initial_pace(counted: &mut Counted) -> usize {
-    counted.frame(",,,");
-    let frames = 40;
-    let total: usize = (0..frames)
-        .map(|_| counted.running_frame(".....") + REQUEST)
-        .sum();
-    total / frames
-}
-
+/// Frames of about a cycle each: what ten cycles per second send at ten frames per second, whose moments wander
+/// through the cycle. The cross-section, with its stresses, is among the nine panels of the second screen.
 #[test]
 fn a_frame_of_the_figure_takes_few_bytes() {
-    let small = average(Size::new(80, 24), 60);
-    assert!(small <= 165, "{small} bytes per frame in 80 by 24");
-    let large = average(Size::new(200, 50), 60);
-    assert!(large <= 840, "{large} bytes per frame in 200 by 50");
-}
-
-/// Fails unless a frame in motion after `keys` takes no more than the bytes of each size.
-fn in_motion(keys: &str, budgets: [usize; 3]) {
-    for ((columns, rows), budget) in [(80, 24), (120, 40), (200, 50)].into_iter().zip(budgets) {
-        let mut counted = Counted::new(Size::new(columns, rows));
-        counted.frame(keys);
-        let bytes = at_the_initial_pace(&mut counted);
-        assert!(
-            bytes <= budget,
-            "{bytes} bytes per frame in {columns} by {rows}"
-        );
-        assert_eq!(counted.draw(), 0, "a paused screen sends something");
+    for (columns, rows, budget) in [(80, 24, 165), (120, 40, 554), (200, 50, 840)] {
+        let mut counted = Counted::new(columns, rows);
+        counted.frame("");
+        let app = &counted.explorer.app;
+        let has_stresses =
+            app.stage.visible().contains(&Panel::Section) && app.stress.bounds.is_some();
+        assert!(columns != 120 || has_stresses);
+        take_few_bytes(&mut counted, budget, 60, |counted| counted.frame(",.."));
     }
 }
 
-/// Where motion is seen, every curve and every mark moves between two frames.
+/// Frames at the initial pace, half a cycle per second at ten frames per second, over two cycles after the third. Where
+/// motion is seen, every curve and every mark moves between two frames; the contact itself moves with every frame, the
+/// stress below it with every third.
 #[test]
 fn a_frame_in_motion_takes_few_bytes() {
-    in_motion("", [395, 1150, 1585]);
-}
-
-/// The indenter moves with every frame, the stress below it with every third.
-#[test]
-fn the_contact_in_motion_takes_few_bytes() {
-    in_motion("V", [560, 1655, 2055]);
-}
-
-#[test]
-fn stresses_in_the_half_space_take_few_bytes() {
-    let size = Size::new(120, 40);
-    let mut counted = Counted::new(size);
-    counted.frame("");
-    // The cross-section is among the nine panels of this screen, and shows stresses.
-    assert!(counted.app.stage.visible().contains(&Panel::Section));
-    assert!(counted.app.stress.bounds.is_some());
-    let frames = 60;
-    let total: usize = (0..frames).map(|_| counted.frame(",..")).sum();
-    assert!(total / frames <= 550, "{} bytes a frame", total / frames);
-    assert_eq!(counted.draw(), 0, "a paused screen sends something");
+    for (keys, budgets) in [("", [395, 1150, 1585]), ("V", [560, 1655, 2055])] {
+        for ((columns, rows), budget) in [(80, 24), (120, 40), (200, 50)].into_iter().zip(budgets) {
+            let mut counted = Counted::new(columns, rows);
+            counted.frame(keys);
+            counted.frame(",,,");
+            take_few_bytes(&mut counted, budget, 40, |counted| counted.running_frame(5));
+        }
+    }
 }
 
 /// A run's cross-section and numbers follow within two frames, and at once when it pauses or a key is
 /// pressed.
 #[test]
 fn calm_panels_are_never_three_frames_behind() {
-    let mut counted = Counted::new(Size::new(120, 40));
+    let mut counted = Counted::new(120, 40);
     counted.frame(",");
     let force = |counted: &Counted| {
         let text: String = counted.screen().content.iter().map(Cell::symbol).collect();
@@ -168,7 +130,7 @@ fn calm_panels_are_never_three_frames_behind() {
     };
     let mut seen = Vec::new();
     for _ in 0..7 {
-        counted.running_frame(".....");
+        counted.running_frame(5);
         seen.push(force(&counted));
     }
     assert_eq!(seen[0], seen[1]);
@@ -182,7 +144,7 @@ fn calm_panels_are_never_three_frames_behind() {
 
 #[test]
 fn what_stays_the_same_is_not_sent() {
-    let mut counted = Counted::new(Size::new(80, 24));
+    let mut counted = Counted::new(80, 24);
     assert!(counted.frame(",") > 1000);
     assert_eq!(counted.frame(""), 0);
     assert_eq!(counted.draw(), 0);
@@ -222,12 +184,8 @@ fn seen(parser: &Parser, row: u16, column: u16) -> String {
     } else {
         " "
     };
-    let ink = (cell.fgcolor(), cell.bold(), cell.dim());
-    let ink = if text == " " && !cell.inverse() {
-        None
-    } else {
-        Some(ink)
-    };
+    let has_ink = text != " " || cell.inverse();
+    let ink = has_ink.then(|| (cell.fgcolor(), cell.bold(), cell.dim()));
     format!("{text:?} {ink:?} {:?} {}", cell.bgcolor(), cell.inverse())
 }
 

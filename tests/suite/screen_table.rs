@@ -3,7 +3,8 @@
 //! - `== heading` begins a section, in a new directory, on `li2019-fig3` in 80 by 24.
 //! - `@ WORDS 80x24 ..` sets the arguments of the program and the sizes of the screen for what follows.
 //! - `$ LINE` runs the program on a line, which must succeed.
-//! - Without keys a line is about the screen of the line above; `.{30}` is a key pressed 30 times.
+//! - Without keys a line is about the screen of the line above; `.{30}` is a key pressed 30 times. Behind `KEYS & KEYS`
+//!   stands what holds after each of them.
 //! - `pin NAME` pins the screen in `snapshots/`; `replays N` takes the one snapshot that the keys have written, which
 //!   must tell of N changes and run again without a screen to the last bit. The others are `PART VERB TEXT`, where a text with blanks at
 //!   its ends stands in quotes: `has`, `lacks`, `counts N`, `is`, `starts` and `ends` look at the part, `says` at its words
@@ -40,7 +41,7 @@ struct Section {
     dir: TestDir,
     arguments: Vec<String>,
     sizes: Vec<String>,
-    keys: String,
+    keys: Vec<String>,
     seen: HashMap<[String; 2], String>,
 }
 
@@ -50,7 +51,7 @@ impl Section {
             dir: TestDir::new(),
             arguments: Vec::new(),
             sizes: Vec::new(),
-            keys: String::new(),
+            keys: Vec::new(),
             seen: HashMap::new(),
         };
         section.set("li2019-fig3 80x24");
@@ -81,14 +82,17 @@ impl Section {
     fn check(&mut self, module: &str, line: &str, place: &str) {
         let (keys, what) = line.split_once("| ").expect(place);
         if !keys.is_empty() || self.keys.is_empty() {
-            self.keys = unfold(keys.trim_end());
+            self.keys = keys.trim_end().split(" & ").map(unfold).collect();
         }
-        let keys = self.keys.clone();
+        let (each, sizes) = (self.keys.clone(), self.sizes.clone());
         if let Some(changes) = what.strip_prefix("replays ") {
-            return replays(&self.arguments, &keys, changes, place);
+            return replays(&self.arguments, &each[0], changes, place);
         }
-        for size in self.sizes.clone() {
-            let screen = self.screen(&keys, &size);
+        for (keys, size) in each
+            .iter()
+            .flat_map(|keys| sizes.iter().map(move |size| (keys, size)))
+        {
+            let screen = self.screen(keys, size);
             let (first, rest) = what.split_once(' ').expect(place);
             if first == "pin" {
                 pin(&format!("suite__{module}__{rest}-{size}"), &screen);
@@ -102,8 +106,8 @@ impl Section {
             let (verb, text) = rest.split_once(' ').expect(place);
             let seen = part_of(&screen, part);
             let holds = match verb {
-                "same" => seen == part_of(&self.screen(&unfold(text), &size), part),
-                "differs" => seen != part_of(&self.screen(&unfold(text), &size), part),
+                "same" => seen == part_of(&self.screen(&unfold(text), size), part),
+                "differs" => seen != part_of(&self.screen(&unfold(text), size), part),
                 _ => is_so(&seen, verb, text),
             };
             assert!(holds, "{place}\n{screen}");

@@ -5,7 +5,7 @@ use std::thread;
 use std::time::Duration;
 
 use portable_pty::CommandBuilder;
-use vt100::{Color, MouseProtocolMode, Screen};
+use vt100::{Cell, Color, MouseProtocolMode, Screen};
 
 use crate::pty::{Terminal, cycle, program};
 use crate::test_dir::{TestDir, end, has};
@@ -73,14 +73,9 @@ fn it_runs_pauses_switches_resizes_and_quits() {
         let lines: Vec<&str> = text.lines().collect();
         // In 80 columns the title gives way to what runs and how.
         assert!(lines[0].starts_with(" ▶ running │ cycle "), "{text}");
-        assert!(
-            lines[0].contains(" │ 0.5 cycles/s │ method: product │ "),
-            "{text}"
-        );
-        assert!(
-            lines[23].contains("? help") && lines[23].contains("q quit"),
-            "{text}"
-        );
+        has(lines[0], " │ 0.5 cycles/s │ method: product │ ");
+        has(lines[23], "? help");
+        has(lines[23], "q quit");
     });
     let seen = terminal.look(cycle).expect("a cycle");
     terminal.wait_until("later cycle", |screen| {
@@ -163,28 +158,27 @@ fn leaving_with_the_screen_kept_leaves_it_on_the_main_screen() {
     }
 }
 
+/// Whatever is typed ahead of a signal does nothing to it, and a paused explorer listens as well.
 #[test]
-fn ctrl_c_quits_from_anywhere() {
-    for keys in ["\x03", "?\x03", "p\x03", "z\x03"] {
+fn ctrl_c_and_signals_quit_from_anywhere() {
+    for (keys, then) in [
+        ("\x03", None),
+        ("?\x03", None),
+        ("p\x03", None),
+        ("z\x03", None),
+        ("q\x1c\x03", Some("QUIT")),
+        (" ", Some("TERM")),
+    ] {
         let mut terminal = running(&[]);
         terminal.press(keys);
+        if keys == " " {
+            terminal.wait_for("paused");
+        }
+        if let Some(signal) = then {
+            terminal.signal(signal);
+        }
         assert_clean_end(&mut terminal);
     }
-}
-
-#[test]
-fn a_signal_quits_cleanly_whatever_was_typed_and_when_paused() {
-    // What is typed ahead of the end does nothing to it.
-    let mut terminal = running(&[]);
-    terminal.press("q\x1c\x03");
-    terminal.signal("QUIT");
-    assert_clean_end(&mut terminal);
-    // A paused explorer listens as well.
-    let mut terminal = running(&[]);
-    terminal.press(" ");
-    terminal.wait_for("paused");
-    terminal.signal("TERM");
-    assert_clean_end(&mut terminal);
 }
 
 // The faults are there in debug builds only.
@@ -202,10 +196,7 @@ fn a_panic_gives_the_terminal_back_and_says_so_in_one_line() {
         let lines: Vec<&str> = text.lines().filter(|line| !line.is_empty()).collect();
         assert_eq!(lines.len(), 1, "{text}");
         assert!(lines[0].starts_with("mdr-tui: bug in mdr-tui: "));
-        assert!(
-            lines[0].contains(&format!("a fault in the {place}")),
-            "{text}"
-        );
+        has(lines[0], &format!("a fault in the {place}"));
     }
 }
 
@@ -224,10 +215,8 @@ fn what_is_no_terminal_is_refused_with_a_way_out() {
         let mut terminal = Terminal::start(command, 120, 24);
         terminal.wait_for_end();
         let text = terminal.text();
-        assert!(
-            text.contains("mdr-tui run") && text.contains("code 2"),
-            "{redirection}: {text}"
-        );
+        has(&text, "mdr-tui run");
+        has(&text, "code 2");
         assert_eq!(text.trim_end().lines().count(), 2, "{text}");
         assert_given_back(&terminal);
     }
@@ -259,16 +248,16 @@ fn sets_colour(style: u16) -> bool {
     matches!(style, 30..=38 | 40..=48 | 58 | 90..=97 | 100..=107)
 }
 
+fn cells(screen: &Screen) -> impl Iterator<Item = &Cell> {
+    let (rows, columns) = screen.size();
+    let places = (0..rows.get()).flat_map(move |row| (0..columns.get()).map(move |at| (row, at)));
+    places.filter_map(|(row, column)| screen.cell(row, column))
+}
+
 /// Whether any cell of the screen has a colour.
 fn is_coloured(screen: &Screen) -> bool {
-    let (rows, columns) = screen.size();
-    (0..rows.get()).any(|row| {
-        (0..columns.get()).any(|column| {
-            screen.cell(row, column).is_some_and(|cell| {
-                (cell.fgcolor(), cell.bgcolor()) != (Color::Default, Color::Default)
-            })
-        })
-    })
+    let plain = (Color::Default, Color::Default);
+    cells(screen).any(|cell| (cell.fgcolor(), cell.bgcolor()) != plain)
 }
 
 /// Asked once, behind which the first frame does not wait; a chosen theme stays.
@@ -295,9 +284,8 @@ fn the_colours_follow_the_background_that_the_terminal_tells() {
         let what = format!("{arguments:?} {background}");
         let count = |terminal: &Terminal| {
             let raw = terminal.raw();
-            raw.windows(QUESTION.len())
-                .filter(|&w| w == QUESTION)
-                .count()
+            let windows = raw.windows(QUESTION.len());
+            windows.filter(|&bytes| bytes == QUESTION).count()
         };
         assert_eq!(count(&terminal), usize::from(asks), "{what}");
         terminal.press(&format!("\x1b]11;rgb:{background}\x1b\\"));
@@ -306,12 +294,8 @@ fn the_colours_follow_the_background_that_the_terminal_tells() {
         terminal.wait_for("keys (");
         terminal.press("\x1b");
         terminal.wait_until("the colours", |screen| {
-            let (rows, columns) = screen.size();
-            let mut cells = (0..rows.get())
-                .flat_map(|row| (0..columns.get()).map(move |column| (row, column)))
-                .filter_map(|(row, column)| screen.cell(row, column));
             let profiles = [on_dark, on_light, Color::Idx(3)];
-            let found = cells.find(|cell| profiles.contains(&cell.fgcolor()));
+            let found = cells(screen).find(|cell| profiles.contains(&cell.fgcolor()));
             screen.contents().contains("3D profile")
                 && found.map_or(Color::Default, |cell| cell.fgcolor()) == expected
         });
@@ -370,8 +354,7 @@ fn a_locale_without_utf8_gets_plain_ascii() {
     assert_clean_end(&mut terminal);
     let raw = terminal.raw();
     let first = raw.iter().position(|byte| !byte.is_ascii());
-    let near = first
-        .map(|at| String::from_utf8_lossy(&raw[at.saturating_sub(40)..raw.len().min(at + 40)]));
+    let near = first.map(|at| String::from_utf8_lossy(&raw[at.saturating_sub(40)..=at]));
     assert_eq!(near, None, "{}", terminal.text());
 }
 

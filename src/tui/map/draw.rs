@@ -12,18 +12,14 @@
 //! arrows move  Enter open  Tab column  t theory  q quit
 //! ```
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
-use ratatui::style::Style;
-use ratatui::text::{Line, Span};
-use ratatui::widgets::Widget;
+use ratatui::prelude::*;
 
 use super::view::{View, shown};
 use crate::figure::study;
 use crate::plot::colormap::ColorMap;
 use crate::plot::map::{self, SWATCHES};
 use crate::plot::shades::{self, has_blocks};
-use crate::plot::units::{axis_unit, format_number, format_value_in};
+use crate::plot::units::{axis_unit, format_number, format_value};
 use crate::plot::{Axis, Chart, Plot, Point, Scale};
 use crate::studies::sweep::slice::REGIMES;
 use crate::tui::footer;
@@ -47,10 +43,9 @@ const DIGITS: usize = 4;
 /// Draws the whole screen.
 pub fn draw(view: &View, theme: &Theme, area: Rect, buffer: &mut Buffer) {
     if area.width < 20 || area.height < 10 {
-        let text = "too small: needs 20x10 or more";
-        return put(buffer, area.x, area.y, text, Style::new(), theme);
+        return Line::raw("too small: needs 20x10 or more").render(area, buffer);
     }
-    let (there, failed, points) = view.count();
+    let ((there, failed), points) = (view.slice.count(), view.slice.study.points());
     let failed = match failed {
         0 => String::new(),
         failed => format!(", {failed} failed"),
@@ -68,14 +63,20 @@ pub fn draw(view: &View, theme: &Theme, area: Rect, buffer: &mut Buffer) {
     let (point, quiet) = (view.point(), theme.style(Role::Quiet));
     let below = area.height - 4;
     let mut write = |row: u16, column: u16, text: &str, style: Style| {
-        put(buffer, area.x + column, area.y + row, text, style, theme);
+        let room = usize::from(area.width - column);
+        let text = theme.printable(text);
+        buffer.set_stringn(area.x + column, area.y + row, text, room, style);
     };
     write(0, 0, &view.name, theme.style(Role::Title));
     write(0, behind, &count, quiet);
     write(below, 0, &names.join("   "), quiet);
-    write(below + 1, 0, &place(view, point, theme), Style::new());
-    let read = reading(view, point, theme);
-    write(below + 2, 0, &read, theme.style(Role::Notice));
+    write(below + 1, 0, &place(view, point), Style::new());
+    write(
+        below + 2,
+        0,
+        &reading(view, point),
+        theme.style(Role::Notice),
+    );
     let row = |row: u16| Rect::new(area.x, area.y + row, area.width, 1);
     legend(view, theme, &chart).render(row(1), buffer);
     signs(view, theme, &mut chart);
@@ -84,8 +85,9 @@ pub fn draw(view: &View, theme: &Theme, area: Rect, buffer: &mut Buffer) {
     let along = view.slice.x().number(place).unwrap_or(place as f64);
     let along = Some(along).filter(|_| chart.map.is_none());
     Plot::new(&chart, theme).cursor(along).render(body, buffer);
-    let (notice, last) = (view.notice.as_deref(), row(area.height - 1));
-    footer::draw_line(notice, &KEYS, &[QUIT], theme, last, buffer);
+    let told = view.notice.as_deref().map(|text| (text, Role::Notice));
+    let last = row(area.height - 1);
+    footer::draw_line(told, &KEYS, &[QUIT], theme, last, buffer);
 }
 
 /// Puts the signs on the chart that belong to a screen: the base scenario, and on a map points without a value, the
@@ -132,11 +134,11 @@ fn signs(view: &View, theme: &Theme, chart: &mut Chart) {
 }
 
 /// A point in words: its number and its values.
-fn place(view: &View, point: usize, theme: &Theme) -> String {
+fn place(view: &View, point: usize) -> String {
     let study = &view.slice.study;
     let axes = study.axes.iter().zip(study.places(point));
     let values = axes.map(|(axis, place)| match axis.number(place) {
-        Some(number) => in_words(&view.in_words(axis), number, theme),
+        Some(number) => in_words(&study::paper_axis(&view.slice, axis), number),
         None => format!("{} {}", axis.key, axis.text(place)),
     });
     let values: Vec<String> = values.collect();
@@ -144,7 +146,7 @@ fn place(view: &View, point: usize, theme: &Theme) -> String {
 }
 
 /// The values of a point: the column that is shown, the others and the status.
-fn reading(view: &View, point: usize, theme: &Theme) -> String {
+fn reading(view: &View, point: usize) -> String {
     let study = &view.slice.study;
     let Some(fields) = view.slice.row(point) else {
         return "not there yet".to_owned();
@@ -154,16 +156,15 @@ fn reading(view: &View, point: usize, theme: &Theme) -> String {
     let (first, others): (Vec<_>, Vec<_>) = read.partition(|(name, _)| **name == view.column());
     let read = first.into_iter().chain(others);
     let read = read.map(|(name, field)| match field.parse() {
-        Ok(number) => in_words(&study::quantity(name, &[]), number, theme),
+        Ok(number) => in_words(&study::quantity(name, &[]), number),
         Err(_) => format!("{name} {field}"),
     });
     read.collect::<Vec<_>>().join("  ")
 }
 
 /// A number with the name and the unit of what it is.
-fn in_words(of: &Axis, number: f64, theme: &Theme) -> String {
-    let value = format_value_in(number, of.unit, DIGITS, theme.ascii());
-    format!("{} {value}", of.label)
+fn in_words(of: &Axis, number: f64) -> String {
+    format!("{} {}", of.label, format_value(number, of.unit, DIGITS))
 }
 
 /// The column, and its range or its words in their colours.
@@ -209,12 +210,4 @@ fn legend(view: &View, theme: &Theme, chart: &Chart) -> Line<'static> {
 /// The sign of the base scenario.
 fn here_sign(theme: &Theme) -> char {
     if theme.ascii() { 'o' } else { '◆' }
-}
-
-/// A text, cut where the screen ends.
-fn put(buffer: &mut Buffer, x: u16, y: u16, text: &str, style: Style, theme: &Theme) {
-    let room = buffer.area.right().saturating_sub(x);
-    if y < buffer.area.bottom() {
-        buffer.set_stringn(x, y, theme.printable(text), room.into(), style);
-    }
 }

@@ -2,13 +2,12 @@
 
 use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Duration;
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
-use ratatui::widgets::{Clear, Widget};
+use ratatui::prelude::*;
+use ratatui::widgets::Clear;
 use rayon::ThreadPoolBuilder;
 
 use super::draw;
@@ -18,6 +17,7 @@ use crate::studies::sweep::engine::{self, Check};
 use crate::studies::sweep::{Shard, Study};
 use crate::tui::app::App;
 use crate::tui::keys::Key;
+use crate::tui::locked;
 use crate::tui::overlays::Answer;
 use crate::tui::theme::Theme;
 
@@ -103,17 +103,11 @@ impl Range {
 }
 
 /// A study under way, shared by the screen and the worker threads.
-#[derive(Clone)]
+#[derive(Debug, Clone)]
 pub struct Live {
     view: Arc<Mutex<View>>,
     halt: Arc<AtomicBool>,
     done: Arc<AtomicBool>,
-}
-
-impl fmt::Debug for Live {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Live").finish_non_exhaustive()
-    }
 }
 
 impl Live {
@@ -145,7 +139,7 @@ impl Live {
             // Every point is checked already.
             let go_on = || !shared.halt.load(Ordering::Relaxed);
             let _ = engine::run(&study, todo, None, &pool, &go_on, |point, row| {
-                shared.with(|view| view.put(point, row));
+                shared.with(|view| view.slice.rows[point] = Some(row));
                 tell();
                 true
             });
@@ -156,7 +150,7 @@ impl Live {
     }
 
     fn with<T>(&self, act: impl FnOnce(&mut View) -> T) -> T {
-        act(&mut self.view.lock().unwrap_or_else(PoisonError::into_inner))
+        act(&mut locked(&self.view))
     }
 
     /// Answers a key; leaving ends the study.

@@ -10,8 +10,7 @@ use std::thread;
 use std::time::Duration;
 
 use anyhow::Result;
-use ratatui::buffer::Buffer;
-use ratatui::layout::{Rect, Size};
+use ratatui::prelude::*;
 
 use super::command::{self, Command};
 use super::event_loop::{self, Next, Scene};
@@ -94,13 +93,8 @@ pub fn run(view: &mut View, theme: &Theme, renew: impl FnMut(&mut View)) -> Resu
 ///
 /// Fails where stdout cannot be written.
 pub fn play(view: &mut View, theme: &Theme, keys: &[Key], size: Size) -> Result<Leave> {
-    let mut leave = Leave::Quit;
-    for key in keys {
-        if let Some(asked) = view.press(*key) {
-            leave = asked;
-            break;
-        }
-    }
+    let leave = keys.iter().find_map(|key| view.press(*key));
+    let leave = leave.unwrap_or(Leave::Quit);
     let area = Rect::from(size);
     let mut buffer = Buffer::empty(area);
     draw::draw(view, theme, area, &mut buffer);

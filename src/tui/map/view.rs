@@ -68,11 +68,6 @@ impl View {
         })
     }
 
-    /// Takes the row of a point.
-    pub fn put(&mut self, point: usize, fields: Vec<String>) {
-        self.slice.rows[point] = Some(fields);
-    }
-
     /// Takes the rows of a newer table of the same study.
     ///
     /// # Errors
@@ -88,12 +83,12 @@ impl View {
         match key {
             Key::Char('q') | Key::Ctrl('c') | Key::Named(Named::Esc) => return Some(Leave::Quit),
             Key::Named(Named::Enter) => return Some(Leave::Open(self.point())),
-            Key::Char('l') | Key::Named(Named::Right) => self.move_by(self.slice.x, 1),
-            Key::Char('h') | Key::Named(Named::Left) => self.move_by(self.slice.x, -1),
-            Key::Char('k') | Key::Named(Named::Up) => self.move_up(1),
-            Key::Char('j') | Key::Named(Named::Down) => self.move_up(-1),
-            Key::Named(Named::Home) => self.move_by(self.slice.x, isize::MIN / 2),
-            Key::Named(Named::End) => self.move_by(self.slice.x, isize::MAX / 2),
+            Key::Char('l') | Key::Named(Named::Right) => self.move_by(Some(self.slice.x), 1),
+            Key::Char('h') | Key::Named(Named::Left) => self.move_by(Some(self.slice.x), -1),
+            Key::Char('k') | Key::Named(Named::Up) => self.move_by(self.slice.y, 1),
+            Key::Char('j') | Key::Named(Named::Down) => self.move_by(self.slice.y, -1),
+            Key::Named(Named::Home) => self.move_by(Some(self.slice.x), isize::MIN / 2),
+            Key::Named(Named::End) => self.move_by(Some(self.slice.x), isize::MAX / 2),
             Key::Named(Named::Tab) => self.column = (self.column + 1) % self.columns(),
             Key::Named(Named::BackTab) => {
                 self.column = (self.column + self.columns() - 1) % self.columns();
@@ -113,19 +108,16 @@ impl View {
         self.slice.study.columns.len().max(1)
     }
 
-    fn move_by(&mut self, axis: usize, by: isize) {
+    fn move_by(&mut self, axis: Option<usize>, by: isize) {
+        let Some(axis) = axis else {
+            return;
+        };
         let last = self.slice.study.axes[axis].count() - 1;
         let place = self.slice.at[axis].saturating_add_signed(by).min(last);
         if self.slice.study.design == Design::Grid {
             self.slice.at[axis] = place;
         } else {
             self.slice.at.fill(place);
-        }
-    }
-
-    fn move_up(&mut self, by: isize) {
-        if let Some(y) = self.slice.y {
-            self.move_by(y, by);
         }
     }
 
@@ -182,12 +174,6 @@ impl View {
         self.slice.point_at(x, y)
     }
 
-    /// The number of rows, of those that failed, and of points.
-    pub fn count(&self) -> (usize, usize, usize) {
-        let (there, failed) = self.slice.count();
-        (there, failed, self.slice.study.points())
-    }
-
     /// Whether the column holds words.
     pub fn is_regime(&self) -> bool {
         self.column() == "regime"
@@ -214,11 +200,6 @@ impl View {
             map.quantity.bounds = range;
         }
         chart
-    }
-
-    /// An axis in words, with its unit.
-    pub fn in_words(&self, axis: &Axis) -> plot::Axis {
-        study::paper_axis(&self.slice, axis)
     }
 
     /// The values of the base scenario on the axes that are shown, where they are on the map.

@@ -1,9 +1,7 @@
 //! The checks of the run, what each means, and the same run on half the cells.
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
-use ratatui::text::Line;
-use ratatui::widgets::{Paragraph, Widget};
+use ratatui::prelude::*;
+use ratatui::widgets::Paragraph;
 
 use super::{App, Command, popup};
 use crate::tui::theme::Role;
@@ -47,26 +45,20 @@ pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
             )));
             match &check.error {
                 None => lines.push(text("nothing has worn")),
-                Some(of) => lines.extend([
-                    error(
-                        of.worn_depth,
-                        "error of the worn depth, rms, of its largest",
-                    ),
-                    error(of.volume, "error of the worn volume"),
-                    error(of.force, "error of F_x"),
-                    error(of.pressure, "error of p away from borders, rms"),
-                ]),
+                Some(of) => {
+                    let rows = [
+                        (of.worn_depth, "the worn depth, rms, of its largest"),
+                        (of.volume, "the worn volume"),
+                        (of.force, "F_x"),
+                        (of.pressure, "p away from borders, rms"),
+                    ];
+                    lines.extend(rows.map(|(value, of)| error(value, &format!("error of {of}"))));
+                }
             }
         }
     }
-    page(
-        "accuracy (Esc closes, Tab explains)",
-        76,
-        lines,
-        app,
-        area,
-        buffer,
-    );
+    let title = "accuracy (Esc closes, Tab explains)";
+    page((title, 76), lines, app, area, buffer);
 }
 
 /// What each check of the moment compares, and what a difference means; what lies outside the
@@ -76,12 +68,9 @@ pub(super) fn draw_explanations(app: &App, area: Rect, buffer: &mut Buffer) {
     let warnings = frame.facts.warnings.iter();
     let warnings = warnings.map(|warning| format!("! {warning}"));
     let checks = frame.checks.iter().map(|check| {
+        let (name, error) = (check.subject.name(), check.error.abs());
         let verdict = match check.holds() {
-            true => format!(
-                "{}: holds to {:.1e}",
-                check.subject.name(),
-                check.error.abs()
-            ),
+            true => format!("{name}: holds to {error:.1e}"),
             false => check.complaint(),
         };
         format!("{verdict}. {}", check.subject.explanation())
@@ -92,18 +81,12 @@ pub(super) fn draw_explanations(app: &App, area: Rect, buffer: &mut Buffer) {
     if lines.is_empty() {
         lines.push(Line::raw(NOTHING));
     }
-    page(
-        "checks (Esc closes, Tab goes back)",
-        WIDTH,
-        lines,
-        app,
-        area,
-        buffer,
-    );
+    let title = "checks (Esc closes, Tab goes back)";
+    page((title, WIDTH), lines, app, area, buffer);
 }
 
 /// A page of text.
-fn page(title: &str, width: u16, lines: Vec<Line>, app: &App, area: Rect, buffer: &mut Buffer) {
+fn page((title, width): (&str, u16), lines: Vec<Line>, app: &App, area: Rect, buffer: &mut Buffer) {
     let size = (width, lines.len() as u16 + 2);
     let inside = popup(&app.theme, title, size, area, buffer);
     Paragraph::new(lines).render(inside, buffer);

@@ -1,9 +1,8 @@
 //! What the focused panel shows: a few sentences, its symbols, and what to look for in this scenario.
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::{Margin, Rect};
-use ratatui::text::{Line, Span};
-use ratatui::widgets::{Paragraph, Widget, Wrap};
+use ratatui::layout::Constraint::{Fill, Length};
+use ratatui::prelude::*;
+use ratatui::widgets::{Paragraph, Wrap};
 
 use super::{App, Command, popup};
 use crate::tui::theme::Role;
@@ -19,26 +18,15 @@ pub(super) const WATCHED: &[Command] = &[
 
 /// What the focused panel leaves free above or below it; all where it is zoomed.
 fn beside(app: &App, area: Rect) -> Rect {
-    let places = layout::places(&app.stage, area);
-    let focused = places.iter().find(|(panel, _)| *panel == app.stage.focus);
-    let Some((_, place)) = focused.filter(|_| !app.stage.zoomed) else {
+    let mut places = layout::places(&app.stage, area).into_iter();
+    let focused = places.find(|(panel, _)| *panel == app.stage.focus && !app.stage.zoomed);
+    let Some((_, place)) = focused else {
         return area;
     };
-    let above = Rect {
-        height: place.y.saturating_sub(area.y),
-        ..area
-    };
-    let below = Rect {
-        y: place.bottom(),
-        height: area.bottom().saturating_sub(place.bottom()),
-        ..area
-    };
-    let larger = if below.height >= above.height {
-        below
-    } else {
-        above
-    };
-    if larger.is_empty() { area } else { larger }
+    let rows = [Length(place.y - area.y), Length(place.height), Fill(1)];
+    let [above, _, below] = Layout::vertical(rows).areas(area);
+    let larger = [above, below].into_iter().max_by_key(|part| part.height);
+    larger.filter(|part| !part.is_empty()).unwrap_or(area)
 }
 
 pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
@@ -46,9 +34,10 @@ pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let is_compared = app.compares();
     // In a comparison there are other panels than the focused one.
     let focus = app.stage.focus;
+    let recipe = focus.recipe();
     let (title, keys, words) = match is_compared {
         true => ("comparison", "Esc closes", panels::compare::WORDS),
-        false => (focus.title(), "Tab: next panel, Esc closes", focus.words()),
+        false => (recipe.title, "Tab: next panel, Esc closes", recipe.words),
     };
     let spelled = |text: &str| theme.printable(text);
     let mut lines = vec![Line::raw(spelled(words.text)), Line::default()];
@@ -61,9 +50,7 @@ pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
             Span::raw(spelled(meaning)),
         ])
     }));
-    let frame = app.frame.as_ref();
-    let origin = frame.map_or("", |frame| frame.facts.origin.as_str());
-    let captions = tour::captions(origin).iter();
+    let captions = tour::captions(app.origin()).iter();
     let mut here = captions.filter(|caption| !is_compared && caption.panel() == Some(focus));
     if let Some(first) = here.next() {
         let heading = Line::styled("In this scenario", theme.style(Role::Title));

@@ -1,15 +1,12 @@
 //! The parameters of the scenario, edited while it runs: value, unit, range and effect of each.
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Constraint::{Fill, Length};
-use ratatui::layout::{Layout, Rect};
-use ratatui::style::Style;
-use ratatui::text::{Line, Span};
-use ratatui::widgets::{Paragraph, Widget};
+use ratatui::prelude::*;
+use ratatui::widgets::Paragraph;
 
 use super::{
-    Answer, App, Command, Frame, Key, LineEdit, docked, leave_for, list, say, select, settings,
-    typing,
+    Answer, App, Command, Frame, Key, LineEdit, docked, leave_for, list, select, settings, typing,
+    watch,
 };
 use crate::tui::command;
 use crate::tui::keys::Named;
@@ -36,6 +33,14 @@ enum Giving {
     /// Chosen from its words, of which this one is selected.
     Chosen(usize),
 }
+
+/// What is done while the list stays open: the run can be watched from here, and an edit undone.
+const WATCHED: &[Command] = &[
+    Command::RunPause,
+    Command::Cycle,
+    Command::TimeBack,
+    Command::TimeForth,
+];
 
 /// Where the values begin, in cells.
 const VALUES: usize = 38;
@@ -121,18 +126,8 @@ impl Form {
                 self.step(key, up, setting, app)
             }
             (_, Some(Command::Back)) => Answer::Close,
-            // The run can be watched from here, and an edit undone.
-            (
-                Key::Char(' ' | ',' | '[' | ']'),
-                Some(
-                    watched @ (Command::RunPause
-                    | Command::Cycle
-                    | Command::TimeBack
-                    | Command::TimeForth),
-                ),
-            ) => {
-                app.run(watched);
-                Answer::Stay
+            (Key::Char(' ' | ',' | '[' | ']'), Some(watched)) if WATCHED.contains(&watched) => {
+                watch(Some(watched), &[], WATCHED, app)
             }
             (Key::Char('?' | ':'), other) => leave_for(other, app),
             (Key::Char(character), _) => self.edit(setting, Some(character), app),
@@ -143,22 +138,19 @@ impl Form {
 
     /// Begins to give the value, with the character typed.
     fn edit(&mut self, setting: &Setting, typed: Option<char>, app: &mut App) -> Answer {
-        if let Some(because) = setting.fixed() {
-            return say(because, app);
+        app.notice = setting.fixed();
+        if app.notice.is_none() {
+            self.giving = begin(setting, typed);
         }
-        self.giving = begin(setting, typed);
         Answer::Stay
     }
 
     /// The next value of a parameter. Where there is none, the key is the first of a text.
     fn step(&mut self, key: Key, up: bool, setting: &Setting, app: &mut App) -> Answer {
         let next = setting.next(up).filter(|_| setting.fixed().is_none());
-        match (next, key) {
-            (Some(value), _) if setting.value.as_ref() != Some(&value) => {
-                change(setting, value, app)
-            }
-            (_, Key::Char('-')) => self.edit(setting, Some('-'), app),
-            _ => self.edit(setting, None, app),
+        match next {
+            Some(value) if setting.value.as_ref() != Some(&value) => change(setting, value, app),
+            _ => self.edit(setting, Some('-').filter(|_| key == Key::Char('-')), app),
         }
     }
 

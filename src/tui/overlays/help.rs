@@ -1,11 +1,9 @@
 //! The help: keys and what they do, one per row, in groups, with a search.
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::{Constraint, Layout, Rect};
-use ratatui::text::{Line, Span};
-use ratatui::widgets::{Paragraph, Widget};
+use ratatui::prelude::*;
+use ratatui::widgets::Paragraph;
 
-use super::{Answer, App, Command, Key, LineEdit, leave_for, popup, typing};
+use super::{Answer, App, Command, Key, LineEdit, PAGE, leave_for, popup, typing};
 use crate::tui::command::{self, Row, with_keys};
 use crate::tui::keys::Named;
 use crate::tui::manual::groups;
@@ -47,22 +45,21 @@ impl Help {
             }
             return Answer::Stay;
         }
-        const PAGE: u16 = 10;
-        let last = 2 * with_keys().count() as u16;
-        match key {
-            Key::Named(Named::PageUp) => self.first = self.first.saturating_sub(PAGE),
-            Key::Named(Named::PageDown) => self.first = (self.first + PAGE).min(last),
-            Key::Named(Named::Home) => self.first = 0,
-            Key::Named(Named::End) => self.first = last,
-            _ => {}
-        }
-        match command::of_key(key) {
-            Some(Command::Up) => self.first = self.first.saturating_sub(1),
-            Some(Command::Down) => self.first = (self.first + 1).min(last),
-            Some(Command::Search) => self.search = Some(LineEdit::default()),
-            Some(Command::Back | Command::Help | Command::Accept) => return Answer::Close,
-            other => return leave_for(other, app),
-        }
+        let (first, last) = (self.first, 2 * with_keys().count() as u16);
+        self.first = match (key, command::of_key(key)) {
+            (Key::Named(Named::PageUp), _) => first.saturating_sub(PAGE as u16),
+            (Key::Named(Named::PageDown), _) => (first + PAGE as u16).min(last),
+            (Key::Named(Named::Home), _) => 0,
+            (Key::Named(Named::End), _) => last,
+            (_, Some(Command::Up)) => first.saturating_sub(1),
+            (_, Some(Command::Down)) => (first + 1).min(last),
+            (_, Some(Command::Back | Command::Help | Command::Accept)) => return Answer::Close,
+            (_, Some(Command::Search)) => {
+                self.search = Some(LineEdit::default());
+                first
+            }
+            (_, other) => return leave_for(other, app),
+        };
         Answer::Stay
     }
 
@@ -80,24 +77,17 @@ impl Help {
             if !lines.is_empty() {
                 lines.push(Line::default());
             }
-            lines.push(Line::styled(
-                format!(" {group}"),
-                app.theme.style(Role::Title),
-            ));
+            let style = app.theme.style(Role::Title);
+            lines.push(Line::styled(format!(" {group}"), style));
             lines.extend(rows.iter().map(|row| line(row, app)));
         }
         let count = lines.len();
-        let columns = if area.width >= 2 * WIDTH && count + 2 > usize::from(area.height) {
-            2
-        } else {
-            1
-        };
+        let height = usize::from(area.height);
+        let columns = 1 + usize::from(area.width >= 2 * WIDTH && count + 2 > height);
         let rows = count.div_ceil(columns);
-        let fits = rows + 2 <= usize::from(area.height);
-        let title = if fits {
-            "keys (/ searches, Esc closes)"
-        } else {
-            "keys (arrows, PgUp, PgDn scroll, / searches, Esc closes)"
+        let title = match rows + 2 <= height {
+            true => "keys (/ searches, Esc closes)",
+            false => "keys (arrows, PgUp, PgDn scroll, / searches, Esc closes)",
         };
         let size = (columns as u16 * WIDTH, rows as u16 + 2);
         let inside = popup(&app.theme, title, size, area, buffer);

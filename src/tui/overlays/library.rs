@@ -2,13 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Constraint::{Fill, Length};
-use ratatui::layout::{Layout, Margin, Rect};
-use ratatui::text::Line;
-use ratatui::widgets::{Paragraph, Widget, Wrap};
+use ratatui::prelude::*;
+use ratatui::widgets::{Paragraph, Wrap};
 
-use super::{Answer, App, Command, Frame, Key, leave_for, list, popup, select};
+use super::{Answer, App, Command, Key, leave_for, list, popup, select};
 use crate::scenario::preset::{self, Preset};
 use crate::scenario::{Scenario, printable};
 use crate::tui::command;
@@ -32,40 +30,32 @@ pub struct Library {
     about: String,
 }
 
-/// An entry of the list: a preset, a scenario's file, a snapshot, or a directory of such.
+/// An entry of the list.
 #[derive(Debug)]
 struct Entry {
     name: String,
-    title: &'static str,
     /// A path, or the name of a preset.
     path: PathBuf,
-    /// Its description; `None` for a file, which is read only to be described.
-    about: Option<String>,
-    /// Whether it is a directory to look into.
-    is_opened: bool,
+    kind: Kind,
+}
+
+#[derive(Debug)]
+enum Kind {
+    Preset(&'static Preset),
+    /// A scenario's file, which is read only to be described.
+    Scenario,
+    /// A directory that holds a state to go on from, and what is said of that.
+    Snapshot(String),
+    /// A directory to look into.
+    Directory,
 }
 
 impl Entry {
-    fn preset(preset: &Preset) -> Self {
+    fn preset(preset: &'static Preset) -> Self {
         Self {
             name: preset.name.to_owned(),
-            title: preset.title(),
             path: preset.name.into(),
-            about: Some(preset.summary().to_owned()),
-            is_opened: false,
-        }
-    }
-
-    /// A directory that holds a state to go on from, where something is said of that, or any other one.
-    fn directory(path: PathBuf, name: &str, snapshot: Option<String>) -> Self {
-        let is_opened = snapshot.is_none();
-        let scenarios = || format!("the scenarios in {}", path.display());
-        Self {
-            name: format!("{name}/"),
-            title: if is_opened { "" } else { "snapshot" },
-            about: Some(snapshot.unwrap_or_else(scenarios)),
-            is_opened,
-            path,
+            kind: Kind::Preset(preset),
         }
     }
 
@@ -74,23 +64,30 @@ impl Entry {
         let name = path.file_name()?.to_str()?;
         let name = printable(Some(name).filter(|name| !name.starts_with('.'))?);
         if path.is_dir() {
-            let snapshot = snapshot::about(&path);
-            return Some(Self::directory(path, &name, snapshot));
+            let kind = snapshot::about(&path).map_or(Kind::Directory, Kind::Snapshot);
+            let name = name + "/";
+            return Some(Self { name, path, kind });
         }
         let is_scenario = path.extension()?.eq_ignore_ascii_case("toml");
-        is_scenario.then_some(Self {
-            name,
-            title: "",
-            path,
-            about: None,
-            is_opened: false,
-        })
+        let kind = is_scenario.then_some(Kind::Scenario)?;
+        Some(Self { name, path, kind })
+    }
+
+    fn title(&self) -> &'static str {
+        match &self.kind {
+            Kind::Preset(preset) => preset.title(),
+            Kind::Snapshot(_) => "snapshot",
+            Kind::Scenario | Kind::Directory => "",
+        }
     }
 
     /// Its description, or why it cannot be run.
     fn about(&self) -> String {
-        if let Some(about) = &self.about {
-            return about.clone();
+        match &self.kind {
+            Kind::Preset(preset) => return preset.summary().to_owned(),
+            Kind::Snapshot(about) => return about.clone(),
+            Kind::Directory => return format!("the scenarios in {}", self.path.display()),
+            Kind::Scenario => {}
         }
         match Scenario::load(&self.path.to_string_lossy(), &[]) {
             Ok(scenario) => {
@@ -113,17 +110,21 @@ fn files(directory: &Path) -> Vec<Entry> {
     let found = std::fs::read_dir(directory).into_iter().flatten().flatten();
     let found = found.filter_map(|entry| Entry::at(entry.path()));
     let mut found: Vec<Entry> = found.take(LONGEST).collect();
-    found.sort_by_cached_key(|entry| (entry.about.is_some(), entry.name.clone()));
-    found.push(Entry::directory(directory.join(".."), "..", None));
+    let is_file = |entry: &Entry| matches!(entry.kind, Kind::Scenario);
+    found.sort_by_cached_key(|entry| (!is_file(entry), entry.name.clone()));
+    found.push(Entry {
+        name: "../".into(),
+        path: directory.join(".."),
+        kind: Kind::Directory,
+    });
     found
 }
 
 impl Library {
     /// The list with the scenario on the screen selected, and the working directory.
-    pub fn open(frame: Option<&Frame>) -> Self {
+    pub fn open(origin: &str) -> Self {
         let mut library = Self::default();
         library.enter(PathBuf::from("."));
-        let origin = frame.map_or("", |frame| frame.facts.origin.as_str());
         let here = Path::new(".").join(origin);
         let is_shown = |entry: &Entry| entry.path == Path::new(origin) || entry.path == here;
         let at = library.entries.iter().position(is_shown);
@@ -158,7 +159,7 @@ impl Library {
     /// Loads the selected scenario, or opens the selected directory.
     fn take(&mut self, app: &mut App) -> Answer {
         let entry = &self.entries[self.at];
-        if !entry.is_opened {
+        if !matches!(entry.kind, Kind::Directory) {
             app.load(&entry.path.to_string_lossy());
             return Answer::Close;
         }
@@ -176,7 +177,7 @@ impl Library {
         let shown = inside.height.saturating_sub(WORDS);
         let [above, _, below] = Layout::vertical([Length(shown), Length(1), Fill(1)]).areas(inside);
         let line = |entry: &Entry| {
-            let [name, title] = [&entry.name, entry.title].map(|text| app.theme.printable(text));
+            let [name, title] = [&*entry.name, entry.title()].map(|text| app.theme.printable(text));
             Line::raw(format!(" {name:width$}  {title} "))
         };
         let (lines, focus) = (self.entries.iter().map(line), app.theme.style(Role::Focus));

@@ -1,10 +1,7 @@
 //! Overlays, one per file: each has its own state, handles keys and draws itself.
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
-use ratatui::style::{Modifier, Style};
-use ratatui::text::{Line, Span};
-use ratatui::widgets::{Borders, Clear, List, ListState, StatefulWidget, Widget};
+use ratatui::prelude::*;
+use ratatui::widgets::{Borders, Clear, List, ListState};
 
 use super::app::App;
 use super::command::{self, Command};
@@ -38,12 +35,13 @@ pub enum Overlay {
     Help(Help),
     /// The presets.
     Library(Library),
-    /// Checks and the refinement check.
-    Accuracy,
+    /// The checks and the refinement check, or a second page that explains each check.
+    Accuracy {
+        /// Whether it is the second page.
+        explains: bool,
+    },
     /// What the focused panel shows.
     Explain,
-    /// The checks, each explained: the second page of the one before.
-    Checks,
     /// The command palette.
     Palette(Palette),
     /// The parameters.
@@ -72,12 +70,9 @@ impl Overlay {
             Self::Help(help) => help.press(key, app),
             Self::Library(library) => library.press(key, app),
             Self::Explain => watch(command, explain::CLOSING, explain::WATCHED, app),
-            Self::Accuracy | Self::Checks => match command {
+            Self::Accuracy { explains } => match command {
                 Some(Command::NextPanel | Command::PreviousPanel) => {
-                    *self = match self {
-                        Self::Checks => Self::Accuracy,
-                        _ => Self::Checks,
-                    };
+                    *explains ^= true;
                     Answer::Stay
                 }
                 _ => watch(command, accuracy::CLOSING, accuracy::WATCHED, app),
@@ -106,9 +101,9 @@ impl Overlay {
             Self::None => {}
             Self::Help(help) => help.draw(app, area, buffer),
             Self::Library(library) => library.draw(app, area, buffer),
-            Self::Accuracy => accuracy::draw(app, area, buffer),
+            Self::Accuracy { explains: false } => accuracy::draw(app, area, buffer),
+            Self::Accuracy { explains: true } => accuracy::draw_explanations(app, area, buffer),
             Self::Explain => explain::draw(app, area, buffer),
-            Self::Checks => accuracy::draw_explanations(app, area, buffer),
             Self::Palette(palette) => palette.draw(app, area, buffer),
             Self::Form(form) => form.draw(app, area, buffer),
             Self::Sweep(live) => live.draw(&app.theme, area, buffer),
@@ -152,12 +147,6 @@ fn settings(frame: Option<&Frame>) -> &[Setting] {
     frame.map_or(&[], |frame| &frame.facts.settings)
 }
 
-/// Stays and tells the user.
-fn say(text: String, app: &mut App) -> Answer {
-    app.notice = Some(text);
-    Answer::Stay
-}
-
 /// A note is typed; Enter takes the snapshot.
 fn note(line: &mut LineEdit, key: Key, app: &mut App) -> Answer {
     match key {
@@ -185,11 +174,7 @@ fn popup(theme: &Theme, title: &str, size: (u16, u16), area: Rect, buffer: &mut 
 /// The same at the lower end of `area`: what lies above can be watched.
 fn docked(theme: &Theme, title: &str, size: (u16, u16), area: Rect, buffer: &mut Buffer) -> Rect {
     let height = size.1.min(area.height);
-    let place = Rect {
-        y: area.bottom() - height,
-        height,
-        ..area
-    };
+    let place = Rect::new(area.x, area.bottom() - height, area.width, height);
     popup(theme, title, size, place, buffer)
 }
 

@@ -2,11 +2,8 @@
 
 use std::path::Path;
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Constraint::{Fill, Length};
-use ratatui::layout::{Layout, Rect};
-use ratatui::text::{Line, Span};
-use ratatui::widgets::Widget;
+use ratatui::prelude::*;
 
 use super::{Answer, App, Command, Frame, Key, LineEdit, docked, list, select, settings, typing};
 use crate::scenario::preset::{self, Preset};

@@ -1,17 +1,14 @@
 //! The words of the cross-section: the phase of the cycle in a plain sentence, what has worn, a and c, and
 //! what the colours mean. A small picture has the load and the scale of the stress alone.
 
-use ratatui::buffer::{Buffer, Cell};
-use ratatui::layout::{Constraint, Layout, Rect};
-use ratatui::style::{Color, Modifier, Style};
-use ratatui::text::{Line, Span};
-use ratatui::widgets::Widget;
+use ratatui::buffer::Cell;
+use ratatui::prelude::*;
 
 use super::section::Section;
-use super::{Frame, Pane};
+use super::{App, Frame};
 use crate::math::scan::largest;
 use crate::plot::shades::{self, SHADES, has_blocks};
-use crate::plot::units::{format_number, format_value_in};
+use crate::plot::units::{format_number, format_value};
 use crate::reading::Moment;
 use crate::tui::theme::{Depth, Look, Role, Theme};
 
@@ -64,11 +61,10 @@ pub fn contact_state(moment: &Moment) -> (&'static str, &'static str, Role) {
         None => ("Nothing slides: pressed together", "PRESSED", Role::Stick),
         Some(share) if share >= 1.0 - NOTHING => ("All of it sticks", "ALL STICKS", Role::Stick),
         Some(share) if share <= NOTHING => ("All of it slips", "ALL SLIPS", Role::Slip),
-        Some(_) => (
-            "The outer ring slips, the middle sticks",
-            "RING SLIPS",
-            Role::Slip,
-        ),
+        Some(_) => {
+            let what = "The outer ring slips, the middle sticks";
+            (what, "RING SLIPS", Role::Slip)
+        }
     }
 }
 
@@ -79,11 +75,8 @@ fn phase(moment: &Moment, speed: Option<f64>) -> String {
     let Some(speed) = speed.filter(|_| is_in_contact) else {
         return what.into();
     };
-    let verb = if role == Role::Slip {
-        "sliding"
-    } else {
-        "pushed"
-    };
+    let slips = role == Role::Slip;
+    let verb = if slips { "sliding" } else { "pushed" };
     match speed {
         speed if speed.abs() < TURNS => format!("{what}: turning round"),
         speed if speed > 0.0 => format!("{what}: {verb} right"),
@@ -102,7 +95,7 @@ fn worn(frame: &Frame, value: impl Fn(f64) -> String) -> String {
         return "Nothing has worn yet: wear needs pressure and sliding.".into();
     }
     let depth = value(deepest);
-    let bodies = frame.facts.wear_share.map(|share| {
+    let bodies = frame.facts.scenario.wear_share().map(|share| {
         let [indenter, half_space] = [share, 1.0 - share].map(|part| value(part * deepest));
         format!(" (indenter {indenter}, half-space {half_space})")
     });
@@ -149,6 +142,7 @@ pub fn take_ground(cell: &mut Cell) {
 
 /// Writes on what is drawn already: the ground stays.
 fn on(buffer: &mut Buffer, x: u16, y: u16, text: &str, theme: &Theme) {
+    let text = &*theme.printable(text);
     let style = match has_blocks(theme) {
         true => ink(theme).remove_modifier(Modifier::REVERSED),
         false => Style::reset(),
@@ -162,59 +156,51 @@ fn on(buffer: &mut Buffer, x: u16, y: u16, text: &str, theme: &Theme) {
 
 /// Draws the words on the picture and below it.
 pub fn draw(section: &Section, below: Rect, buffer: &mut Buffer) {
-    let (frame, pane, area) = (section.frame, section.pane, section.area);
+    let (frame, app, area) = (section.frame, section.app, section.area);
     // Nobody reads numbers ten times a second.
-    let (calm, theme) = (&pane.calm.observation.moment, pane.theme);
-    let value = |value, unit| format_value_in(value, unit, 3, theme.ascii());
+    let seen = app.calm.of(frame);
+    let (calm, theme) = (&seen.observation.moment, &app.theme);
+    let value = |value, unit| format_value(value, unit, 3);
     if area.height < 5 || area.width < 30 {
         return;
     }
-    let names = if below.is_empty() {
-        ["F_z", "u_x"]
+    let is_brief = below.is_empty();
+    let [load, shift] = if is_brief {
+        ["", ""]
     } else {
-        ["load F_z", "shift u_x"]
+        ["load ", "shift "]
     };
-    let mut forces = format!("{} {}", names[0], value(calm.normal_force, "N"));
+    let mut forces = format!("{load}F_z {}", value(calm.normal_force, "N"));
     if calm.stick_radius.is_some() {
         // Rounding is no motion.
-        let shift = calm.shift * f64::from(calm.shift.abs() > 1e-12 * calm.contact_radius);
-        forces.push_str(&format!(", {} {}", names[1], value(shift, "m")));
+        let moved = calm.shift * f64::from(calm.shift.abs() > 1e-12 * calm.contact_radius);
+        forces.push_str(&format!(", {shift}u_x {}", value(moved, "m")));
     }
-    if below.is_empty() {
+    if is_brief {
         let forces = format!(" {forces} ");
         if let Some(spare) = area.width.checked_sub(Line::raw(&forces).width() as u16) {
             on(buffer, area.x + spare / 2, area.y, &forces, theme);
         }
-        let scale = Line::from(stress_key(pane, area.width)).style(Style::reset());
+        let scale = Line::from(stress_key(app, area.width)).style(Style::reset());
         let width = scale.width() as u16;
-        let place = Rect {
-            x: area.x + area.width.saturating_sub(width) / 2,
-            y: area.bottom() - 1,
-            width,
-            height: 1,
-        };
-        return scale.render(place, buffer);
+        let left = area.x + area.width.saturating_sub(width) / 2;
+        return scale.render(Rect::new(left, area.bottom() - 1, width, 1), buffer);
     }
     let speed = speed(frame);
     let said = phase(&frame.observation.moment, speed);
     // The words stay where they are when the motion turns.
     let start = area.x + area.width.saturating_sub(LONGEST) / 2;
     on(buffer, start, area.y, &said, theme);
-    let [left, right] = if theme.ascii() {
-        ["<--", "-->"]
-    } else {
-        ["◀━━", "━━▶"]
-    };
     match speed {
         _ if area.width < LONGEST + 10 => {}
-        Some(speed) if speed >= TURNS => on(buffer, start + LONGEST + 2, area.y, right, theme),
-        Some(speed) if speed <= -TURNS => on(buffer, start - 5, area.y, left, theme),
+        Some(speed) if speed >= TURNS => on(buffer, start + LONGEST + 2, area.y, "━━▶", theme),
+        Some(speed) if speed <= -TURNS => on(buffer, start - 5, area.y, "◀━━", theme),
         _ => {}
     }
     on(buffer, start, area.y + 1, &forces, theme);
     radii(section, buffer);
     let [first, second] = Layout::vertical([Constraint::Length(1); ROWS as usize]).areas(below);
-    let worn = worn(pane.calm, |depth| value(depth, "m"));
+    let worn = theme.printable(&worn(seen, |depth| value(depth, "m")));
     // What is obvious from the rest is said where there is room for it.
     let room = usize::from(first.width.saturating_sub(1));
     let worn = match worn.rsplit_once(", ") {
@@ -224,14 +210,14 @@ pub fn draw(section: &Section, below: Rect, buffer: &mut Buffer) {
     buffer.set_stringn(first.x + 1, first.y, worn, room, Style::new());
     let mut key = Line::from(body_key(theme));
     let room = second.width.saturating_sub(key.width() as u16);
-    key.extend(stress_key(pane, room));
+    key.extend(stress_key(app, room));
     key.render(second, buffer);
 }
 
 /// c and a: a short line over the border of each, and its name.
 fn radii(section: &Section, buffer: &mut Buffer) {
-    let (moment, theme) = (&section.pane.calm.observation.moment, section.pane.theme);
-    let bar = if theme.ascii() { ":" } else { "┊" };
+    let calm = section.app.calm.of(section.frame);
+    let (moment, theme) = (&calm.observation.moment, &section.app.theme);
     let a = Some(moment.contact_radius).filter(|a| *a > 0.0);
     let marks = [("c", sticking(moment)), ("a", a)];
     for (name, r) in marks.into_iter().filter_map(|(name, r)| Some((name, r?))) {
@@ -239,7 +225,7 @@ fn radii(section: &Section, buffer: &mut Buffer) {
             if let (Some(column), Some([row, _])) = (section.column(x), section.rows_above(x)) {
                 let above = row.saturating_sub(1).max(section.area.y);
                 on(buffer, column, above, name, theme);
-                on(buffer, column, row, bar, theme);
+                on(buffer, column, row, "┊", theme);
             }
         }
     }
@@ -247,17 +233,13 @@ fn radii(section: &Section, buffer: &mut Buffer) {
 
 /// What the colours of the bodies mean.
 fn body_key(theme: &Theme) -> Vec<Span<'static>> {
-    let [surface, other, gone] = if theme.ascii() {
-        ["s", "~", "/"]
-    } else {
-        ["▀▀", "▀▀", "╱╱"]
-    };
     let parts = [
-        (surface, Role::Stick, "sticks"),
-        (other, Role::Slip, "slips"),
-        (gone, Role::Profile, "worn away"),
+        (["▀▀", "s"], Role::Stick, "sticks"),
+        (["▀▀", "~"], Role::Slip, "slips"),
+        (["╱╱", "/"], Role::Profile, "worn away"),
     ];
-    let spans = parts.map(|(sign, role, name)| {
+    let spans = parts.map(|(signs, role, name)| {
+        let sign = signs[usize::from(theme.ascii())];
         let sign = Span::styled(format!(" {sign}"), theme.style(role));
         [sign, format!(" {name} ").into()]
     });
@@ -265,14 +247,14 @@ fn body_key(theme: &Theme) -> Vec<Span<'static>> {
 }
 
 /// The scale of the stress in as many words as `width` cells have room for; nothing without a stress.
-fn stress_key(pane: &Pane, width: u16) -> Vec<Span<'static>> {
-    let theme = pane.theme;
+fn stress_key(app: &App, width: u16) -> Vec<Span<'static>> {
+    let (theme, stress) = (&app.theme, app.stress);
     // Nothing is loaded yet where the scale is that of no stress.
-    let Some(bounds) = pane.stress.bounds.filter(|bounds| bounds[1] > 1.0) else {
+    let Some(bounds) = stress.bounds.filter(|bounds| bounds[1] > 1.0) else {
         return Vec::new();
     };
-    let name = format!(" {} ", pane.stress.names()[1]);
-    let [low, high] = bounds.map(|end| format_value_in(end, "Pa", 3, theme.ascii()));
+    let name = format!(" {} ", stress.names()[1]);
+    let [low, high] = bounds.map(|end| theme.printable(&format_value(end, "Pa", 3)));
     // With little room the number of the other end stands for both.
     let short = match bounds {
         [0.0, _] => "0 ",
@@ -285,14 +267,12 @@ fn stress_key(pane: &Pane, width: u16) -> Vec<Span<'static>> {
         [name, format!(" {high}")],
         [" ".into(), format!(" {high}")],
     ];
-    let shades = shades::key(theme, pane.stress.colors(), shades::sign);
+    let shades = shades::key(theme, stress.colors(), shades::sign);
     let fits = |words: &[String; 2]| {
         let words = words.iter().map(|text| Line::raw(text).width());
         words.sum::<usize>() + SHADES <= usize::from(width)
     };
-    let Some([from, to]) = words.into_iter().find(fits) else {
-        return Vec::new();
-    };
-    let ends = [vec![from.into()], shades.to_vec(), vec![to.into()]];
-    ends.concat()
+    let fitting = words.into_iter().find(fits);
+    let key = fitting.map(|[from, to]| [vec![from.into()], shades.to_vec(), vec![to.into()]]);
+    key.map_or_else(Vec::new, |parts| parts.concat())
 }

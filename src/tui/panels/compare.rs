@@ -1,20 +1,17 @@
 //! Two runs in lockstep from one state: both profiles, both pressures, and the difference below. Ghosts lie
 //! over each plot, in the difference as their own from this run.
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::{Constraint, Layout, Rect};
-use ratatui::text::Line;
-use ratatui::widgets::Widget;
+use ratatui::prelude::*;
 
-use super::{Frame, clip_spikes, edge, nothing, plot, titled};
+use super::{App, Frame, clip_spikes, edge, nothing, plot, titled};
 use crate::charts::{A, C, Live, Words, ghosts};
 use crate::math::scan::largest;
-use crate::plot::units::{format_number, format_value_in};
+use crate::plot::units::{format_number, format_value};
 use crate::plot::{Axis, Chart, Curve, Scale, nice_bounds};
 use crate::reading::{Moment, Observation};
 use crate::traces::Axes;
 use crate::tui::frame::Comparison;
-use crate::tui::theme::{Role, Theme};
+use crate::tui::theme::Role;
 
 /// Least width of a column of numbers, cells.
 const COLUMN: usize = 11;
@@ -34,38 +31,28 @@ pub const WORDS: Words = Words {
 };
 
 /// Draws the comparison over the whole area of the panels.
-pub fn draw(
-    frame: &Frame,
-    comparison: &Comparison,
-    cursor: Option<f64>,
-    theme: &Theme,
-    area: Rect,
-    buffer: &mut Buffer,
-) {
+pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffer: &mut Buffer) {
+    let look = (&app.theme, app.cursor.radius(frame));
+    let (theme, _) = look;
     let [top, bottom] = Layout::vertical([Constraint::Fill(3), Constraint::Fill(2)]).areas(area);
-    let [left, right] = Layout::horizontal([Constraint::Fill(1); 2])
-        .spacing(1)
-        .areas(top);
+    let halves = Layout::horizontal([Constraint::Fill(1); 2]);
+    let [left, right] = halves.spacing(1).areas(top);
     let (seen, other) = (&frame.observation, &comparison.observation);
     let difference: Vec<f64> = differences(other, seen).into_iter().map(f64::abs).collect();
-    let rows = rows(frame, comparison, &difference, theme.ascii());
+    let rows = rows(frame, comparison, &difference);
     let cells = rows.iter().flat_map(|(_, here, there)| [here, there]);
-    let column = cells
-        .map(|cell| cell.chars().count())
-        .fold(COLUMN, usize::max);
+    let widths = cells.map(|cell| cell.chars().count());
+    let column = widths.fold(COLUMN, usize::max);
     // The numbers must not be cut; the difference gets the rest, if that is wide enough.
     let table = 17 + 2 * column as u16;
     let left_over = bottom.width.saturating_sub(table + 1);
-    let [below, numbers] = if left_over < NARROWEST {
-        [Rect::ZERO, bottom]
-    } else {
-        Layout::horizontal([Constraint::Fill(1), Constraint::Length(table)])
-            .spacing(1)
-            .areas(bottom)
+    let columns = Layout::horizontal([Constraint::Fill(1), Constraint::Length(table)]);
+    let [below, numbers] = match left_over < NARROWEST {
+        true => [Rect::ZERO, bottom],
+        false => columns.spacing(1).areas(bottom),
     };
     let names = (this_name(frame), comparison.name.as_str());
     let inside = |title, place, buffer: &mut _| titled(title, Role::Title, theme, place, buffer);
-    let look = (theme, cursor);
     let render =
         |chart: &Chart, place, buffer: &mut _| plot(chart, Role::Title, look, place, buffer);
     let pair = |there: &[f64], here: &[f64], role| {
@@ -112,12 +99,7 @@ pub fn draw(
         let abscissa = Axis::new("r", "m").bounds([0.0, edge(frame)]);
         let chart = Chart::new(DIFFERENCE, abscissa, ordinate.bounds(bounds))
             .curves(of_ghosts)
-            .curve(Curve::new(
-                "",
-                &other.radii[..],
-                &difference[..],
-                Role::Slip,
-            ));
+            .curve(Curve::new("", &*other.radii, &*difference, Role::Slip));
         render(&chart, below, buffer);
     }
     let inside = inside("side by side", numbers, buffer);
@@ -126,16 +108,13 @@ pub fn draw(
         .map(|(name, here, there)| format!(" {name:14} {here:>column$} {there:>column$}"));
     let stopped = comparison.stopped.iter().map(|why| format!(" {why}"));
     for (line, row) in lines.chain(stopped).zip(inside.rows()) {
-        Line::raw(line).render(row, buffer);
+        Line::raw(theme.printable(&line)).render(row, buffer);
     }
 }
 
 fn this_name(frame: &Frame) -> String {
-    format!(
-        "{}, N = {}",
-        frame.observation.method.spoken(),
-        frame.observation.radii.len() - 1
-    )
+    let (method, nodes) = (frame.observation.method, frame.observation.radii.len());
+    format!("{}, N = {}", method.spoken(), nodes - 1)
 }
 
 /// The numbers of both runs: a name and the two values.
@@ -143,10 +122,9 @@ fn rows(
     frame: &Frame,
     comparison: &Comparison,
     difference: &[f64],
-    ascii: bool,
 ) -> Vec<(&'static str, String, String)> {
     let moments = [&frame.observation.moment, &comparison.observation.moment];
-    let value = |value: f64, unit: &str| format_value_in(value, unit, 4, ascii);
+    let value = |value: f64, unit: &str| format_value(value, unit, 4);
     let maybe = |number: Option<f64>, unit: &str| number.map(|number| value(number, unit));
     let row = |name, values: [Option<String>; 2]| {
         let [here, there] = values.map(|value| value.unwrap_or_else(|| "-".into()));
@@ -171,9 +149,8 @@ fn rows(
 /// The worn profile of `there` less that of `here`, m, at the nodes of `there`.
 fn differences(there: &Observation, here: &Observation) -> Vec<f64> {
     let points = there.radii.iter().zip(&there.wear);
-    points
-        .map(|(&r, wear)| wear - here.worn_depth_at(r))
-        .collect()
+    let differences = points.map(|(&r, wear)| wear - here.worn_depth_at(r));
+    differences.collect()
 }
 
 /// Root mean square of differences; 0 of none.

@@ -1,14 +1,14 @@
 //! Panels: the charts that a screen shows, and pictures of cells beside them, one per file.
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::{Position, Rect};
-use ratatui::style::Modifier;
+use ratatui::layout::Constraint::{Fill, Length};
+use ratatui::prelude::*;
 use ratatui::symbols::border;
-use ratatui::text::{Line, Span};
-use ratatui::widgets::{Block, Borders, Widget};
+use ratatui::widgets::{Block, Borders};
 
+use super::app::App;
 use super::frame::Frame;
 use super::live_charts::Made;
+use super::shifted;
 use super::theme::{Role, Theme};
 use crate::charts::{self, Recipe, Words};
 use crate::plot::{Chart, Plot, Scale};
@@ -23,29 +23,12 @@ mod stress_map;
 pub use caption::contact_state;
 pub use stress_map::StressMap;
 
-/// How a panel is drawn.
-#[derive(Debug)]
-pub struct Pane<'a> {
-    /// The colours and signs.
-    pub theme: &'a Theme,
-    /// Whether it has the focus.
-    pub has_focus: bool,
-    /// The bounds that its ordinate holds.
-    pub bounds: Option<[f64; 2]>,
-    /// The radius under the cursor, m.
-    pub cursor: Option<f64>,
-    /// The stress in the half-space.
-    pub stress: StressMap,
-    /// The frame of what moves more calmly than the rest.
-    pub calm: &'a Frame,
-}
-
 /// A panel that no chart can be.
 pub struct Picture {
     /// Its names and needs.
     recipe: Recipe,
-    /// Draws a frame.
-    draw: fn(&Frame, &Pane, Rect, &mut Buffer),
+    /// Draws a frame below a rule with the title, which has this role.
+    draw: fn(&Frame, &App, Role, Rect, &mut Buffer),
     /// The values that it must hold.
     extent: fn(&Frame) -> Option<[f64; 2]>,
 }
@@ -102,23 +85,7 @@ panels! {
 impl Panel {
     /// The panel this many places on.
     pub fn shifted(self, places: isize) -> Self {
-        let at = self.index() as isize;
-        Self::ALL[(at + places).rem_euclid(Self::ALL.len() as isize) as usize]
-    }
-
-    /// Its place in reading order.
-    pub fn index(self) -> usize {
-        self as usize
-    }
-
-    /// The title.
-    pub fn title(self) -> &'static str {
-        self.recipe().title
-    }
-
-    /// The explanation of the panel.
-    pub fn words(self) -> Words {
-        self.recipe().words
+        shifted(&Self::ALL, self, places)
     }
 
     /// The smallest and largest ordinate that it must hold: those of its chart, if it is one.
@@ -129,24 +96,20 @@ impl Panel {
         }
     }
 
-    /// Draws the panel: its picture, or its chart.
-    pub fn draw(self, frame: &Frame, chart: &Made, pane: &Pane, area: Rect, buffer: &mut Buffer) {
-        let (recipe, theme) = (self.recipe(), pane.theme);
-        let role = match pane.has_focus {
+    /// Draws the panel where the screen is that of `frame`: its picture, or its chart.
+    pub fn draw(self, frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
+        let (recipe, theme) = (self.recipe(), &app.theme);
+        let role = match app.stage.focus == self {
             true => Role::Focus,
             false => Role::Title,
         };
         if let Some(picture) = self.picture() {
-            let title = match self {
-                Self::Section => section::title(frame, pane, area),
-                _ => recipe.title.to_owned(),
-            };
-            let inner = titled(&title, role, theme, area, buffer);
-            return (picture.draw)(frame, pane, inner, buffer);
+            let shown = app.calm.shown(self, &app.stage, frame);
+            return (picture.draw)(shown, app, role, area, buffer);
         }
-        match chart {
+        match &*app.charts.get(self, frame) {
             Ok(chart) => {
-                let cursor = pane.cursor.filter(|_| recipe.over_r);
+                let cursor = app.cursor.radius(frame).filter(|_| recipe.over_r);
                 plot(chart, role, (theme, cursor), area, buffer);
             }
             Err(why) => {
@@ -160,11 +123,7 @@ impl Panel {
     pub fn radius_at(self, chart: &Made, theme: &Theme, area: Rect, at: Position) -> Option<f64> {
         let chart = chart.as_ref().ok().filter(|_| self.recipe().over_r)?;
         // The first row is the title's.
-        let inner = Rect {
-            y: area.y.saturating_add(1),
-            height: area.height.saturating_sub(1),
-            ..area
-        };
+        let [_, inner] = Layout::vertical([Length(1), Fill(1)]).areas(area);
         Plot::new(chart, theme).abscissa_at(inner, at)
     }
 }
@@ -268,11 +227,10 @@ fn plot(
 ) {
     let inner = titled(&chart.title, role, theme, area, buffer);
     let taken = theme.printable(&chart.title).chars().count() as u16 + 2;
+    let [_, behind] = Layout::horizontal([Length(taken), Fill(1)]).areas(area);
     let rule = Rect {
-        x: area.x.saturating_add(taken),
-        width: area.width.saturating_sub(taken),
         height: 1,
-        ..area
+        ..behind
     };
     let plot = Plot::new(chart, theme).cursor(cursor).rule(rule);
     plot.render(inner, buffer);
@@ -308,7 +266,7 @@ mod tests {
     #[test]
     fn every_panel_is_explained_in_a_box_of_a_small_screen() {
         for panel in Panel::ALL {
-            let Words { text, symbols } = panel.words();
+            let Words { text, symbols } = panel.recipe().words;
             assert!((50..=330).contains(&text.chars().count()), "{panel:?}");
             assert!(!text.contains("  ") && text.ends_with('.'), "{panel:?}");
             assert!((1..=5).contains(&symbols.len()), "{panel:?}");

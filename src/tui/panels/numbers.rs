@@ -1,11 +1,8 @@
 //! The numbers of the moment, most important first: a small panel shows fewer.
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
-use ratatui::text::{Line, Span};
-use ratatui::widgets::Widget;
+use ratatui::prelude::*;
 
-use super::{Frame, Pane, Picture, Recipe, Words};
+use super::{App, Frame, Picture, Recipe, Words, titled};
 use crate::plot::units::{format_number, format_value};
 use crate::reading::CycleFigures;
 use crate::tui::theme::Role;
@@ -37,14 +34,15 @@ pub static PICTURE: Picture = Picture {
     extent: |_| None,
 };
 
-fn draw(frame: &Frame, pane: &Pane, area: Rect, buffer: &mut Buffer) {
+fn draw(frame: &Frame, app: &App, role: Role, area: Rect, buffer: &mut Buffer) {
+    let area = titled(PICTURE.recipe.title, role, &app.theme, area, buffer);
     let columns = (area.width / 30).clamp(1, 2);
     let width = area.width / columns;
     for ((name, value), i) in rows(frame).into_iter().zip(0..columns * area.height) {
         let (column, row) = (i / area.height, i % area.height);
         let (x, y) = (area.x + column * width, area.y + row);
         let cell = Rect::new(x, y, width.saturating_sub(1), 1);
-        let [name, value] = [name, &value].map(|text| pane.theme.printable(text));
+        let [name, value] = [name, &value].map(|text| app.theme.printable(text));
         // Rather than the value, the name is cut: its last words, and the symbol, tell most.
         let room = usize::from(cell.width).saturating_sub(value.chars().count() + 2);
         let mut name = name.as_str();
@@ -54,7 +52,7 @@ fn draw(frame: &Frame, pane: &Pane, area: Rect, buffer: &mut Buffer) {
             name = rest;
         }
         let name = format!(" {name:room$.room$} ");
-        let name = Span::styled(name, pane.theme.style(Role::Quiet));
+        let name = Span::styled(name, app.theme.style(Role::Quiet));
         Line::from(vec![name, value.into()]).render(cell, buffer);
     }
 }
@@ -62,8 +60,9 @@ fn draw(frame: &Frame, pane: &Pane, area: Rect, buffer: &mut Buffer) {
 fn rows(frame: &Frame) -> Vec<(&'static str, String)> {
     let (facts, moment, figures) = (&frame.facts, &frame.observation.moment, &frame.figures);
     let figures = figures.as_ref();
-    let k = facts.wear_coefficient;
-    let per_load = |k: f64| format_number(k * facts.friction * 1e9, 3);
+    let setup = facts.scenario.setup();
+    let k = setup.wear.map(|law| law.coefficient());
+    let per_load = |k: f64| format_number(k * setup.material.friction() * 1e9, 3);
     let [equivalent, tension] = frame.peaks.map_or([None; 2], |peaks| peaks.map(Some));
     let cells = frame.observation.radii.len() - 1;
 
@@ -112,7 +111,7 @@ fn rows(frame: &Frame) -> Vec<(&'static str, String)> {
         value("largest tension", tension.map(|peak| peak.value), "Pa"),
         place("  at x", tension.map(|peak| peak.x)),
         Some(("cells", cells.to_string())),
-        Some(("steps per cycle", facts.steps_per_cycle.to_string())),
+        Some(("steps per cycle", setup.steps_in_a_cycle().to_string())),
     ];
     rows.into_iter().flatten().collect()
 }

@@ -9,20 +9,17 @@
 //!  |----| 50 µm   slip →   depth 0 [colours] 0.3 µm
 //! ```
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
-use ratatui::style::Color;
-use ratatui::text::Line;
-use ratatui::widgets::Widget;
+use ratatui::prelude::*;
 
-use super::{Frame, Pane, Picture, Recipe, Words, edge, nothing};
+use super::{App, Frame, Panel, Picture, Recipe, Words, edge, nothing, titled};
 use crate::charts::look_of;
 use crate::math::grid::interpolate;
 use crate::math::scan::largest;
 use crate::plot::colormap::ColorMap;
 use crate::plot::shades::{self, has_blocks, paint_halves};
-use crate::plot::units::format_value_in;
+use crate::plot::units::format_value;
 use crate::reading::Curves;
+use crate::tui::theme::{Role, Theme};
 
 /// The panel.
 pub static PICTURE: Picture = Picture {
@@ -48,18 +45,18 @@ const TWO_LINES: u16 = 10;
 
 /// The colour of the disc at `x` and `y` from its middle (m), and the sign that stands for it without colours; depths
 /// have those between 0 and `deepest`.
-fn shown(frame: &Frame, pane: &Pane, deepest: f64, [x, y]: [f64; 2]) -> (Option<Color>, char) {
+fn shown(frame: &Frame, theme: &Theme, deepest: f64, [x, y]: [f64; 2]) -> (Option<Color>, char) {
     let (seen, r) = (&frame.observation, x.hypot(y));
     if r > edge(frame) {
         return (None, ' ');
     }
     if x < 0.0 {
         let (role, sign) = look_of(seen.moment.zone_at(r));
-        return (pane.theme.style(role).fg, sign);
+        return (theme.style(role).fg, sign);
     }
     let depth = interpolate(&seen.radii, &seen.wear, r);
     let shade = shades::shade(depth, [0.0, deepest]);
-    let color = shades::color(pane.theme, ColorMap::Sequential, shade);
+    let color = shades::color(theme, ColorMap::Sequential, shade);
     (color, shades::sign(shade))
 }
 
@@ -70,20 +67,20 @@ fn depths(frame: &Frame) -> Option<[f64; 2]> {
     (deepest > 0.0).then_some([0.0, deepest])
 }
 
-fn draw(frame: &Frame, pane: &Pane, area: Rect, buffer: &mut Buffer) {
+fn draw(frame: &Frame, app: &App, role: Role, area: Rect, buffer: &mut Buffer) {
+    let theme = &app.theme;
+    let area = titled(PICTURE.recipe.title, role, theme, area, buffer);
     let seen = &frame.observation;
     let Some(&edge) = seen.radii.last().filter(|_| !seen.wear.is_empty()) else {
         return;
     };
     if area.height < 4 || area.width < 12 {
-        return nothing("too small for the scar", pane.theme, area, buffer);
+        return nothing("too small for the scar", theme, area, buffer);
     }
     let lines = legend_lines(area);
-    let disc = Rect {
-        height: area.height - lines,
-        ..area
-    };
-    let deepest = pane.bounds.map_or(0.0, |[_, high]| high);
+    let disc = Rect::new(area.x, area.y, area.width, area.height - lines);
+    let held = app.charts.bounds(Panel::Scar);
+    let deepest = held.map_or(0.0, |[_, high]| high);
     let deepest = match deepest.max(largest(&seen.wear)) {
         0.0 => frame.facts.expected_wear,
         deepest => deepest,
@@ -96,17 +93,17 @@ fn draw(frame: &Frame, pane: &Pane, area: Rect, buffer: &mut Buffer) {
     for row in 0..disc.height {
         for column in 0..disc.width {
             let halves = [2 * row, 2 * row + 1]
-                .map(|half| shown(frame, pane, deepest, [x(column), y(half)]));
+                .map(|half| shown(frame, theme, deepest, [x(column), y(half)]));
             let Some(cell) = buffer.cell_mut((disc.x + column, disc.y + row)) else {
                 continue;
             };
-            match has_blocks(pane.theme) {
+            match has_blocks(theme) {
                 true => paint_halves(cell, halves.map(|(color, _)| color)),
                 false => _ = cell.set_char(halves[0].1),
             }
         }
     }
-    legend(frame, pane, area, size, deepest, buffer);
+    legend(frame, theme, area, [size, deepest], buffer);
 }
 
 /// Where the sliding parts of the indenter move: with the traction that they exert.
@@ -126,32 +123,32 @@ fn legend_lines(area: Rect) -> u16 {
 }
 
 /// The scale bar, the direction of slip, and the scale of the depth, as far as there is room.
-fn legend(frame: &Frame, pane: &Pane, area: Rect, size: f64, deepest: f64, buffer: &mut Buffer) {
-    let ascii = pane.theme.ascii();
-    let value = |value| format_value_in(value, "m", 3, ascii);
+fn legend(
+    frame: &Frame,
+    theme: &Theme,
+    area: Rect,
+    [size, deepest]: [f64; 2],
+    buffer: &mut Buffer,
+) {
+    let value = |value| format_value(value, "m", 3);
     // A round length near a fifth of the disc.
     let decade = 10f64.powf((10.0 * size).log10().floor());
     let rounds = [1.0, 2.0, 5.0, 10.0].map(|digit| digit * decade);
     let reach = rounds.into_iter().find(|&reach| reach >= 8.0 * size);
     let reach = reach.unwrap_or(10.0 * decade);
     let middle = (reach / size).round().max(2.0) as usize - 2;
-    let bar = match ascii {
-        true => format!("|{:-<middle$}|", ""),
-        false => format!("├{:─<middle$}┤", ""),
-    };
-    let slip = match (slip_direction(frame), ascii) {
-        (None, _) => "no slip",
-        (Some(sign), true) if sign > 0.0 => "slip ->",
-        (Some(_), true) => "slip <-",
-        (Some(sign), false) if sign > 0.0 => "slip →",
-        (Some(_), false) => "slip ←",
+    let bar = format!("├{:─<middle$}┤", "");
+    let slip = match slip_direction(frame) {
+        None => "no slip",
+        Some(sign) if sign > 0.0 => "slip →",
+        Some(_) => "slip ←",
     };
     let mut depths = Line::raw(" worn 0 ");
-    depths.extend(shades::key(pane.theme, ColorMap::Sequential, shades::sign));
-    depths.push_span(format!(" {}", value(deepest)));
+    depths.extend(shades::key(theme, ColorMap::Sequential, shades::sign));
+    depths.push_span(theme.printable(&format!(" {}", value(deepest))));
     let mut row = Rect::new(area.x, area.bottom() - 1, area.width, 1);
     for part in [format!(" {bar} {} ", value(reach)), format!(" {slip} ")] {
-        let part = Line::raw(part);
+        let part = Line::raw(theme.printable(&part));
         let width = part.width() as u16;
         if width > row.width {
             return;

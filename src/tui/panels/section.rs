@@ -15,12 +15,10 @@
 //! on both bodies stay in one where the contact sticks, and part where it slips. The flanks of the indenter
 //! move with it; between them the contact stays closed.
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
-use ratatui::style::{Color, Modifier, Style};
+use ratatui::prelude::*;
 
 use super::stress_map::Shades;
-use super::{Frame, Pane, Panel, Picture, Recipe, Words, caption, edge};
+use super::{App, Frame, Panel, Picture, Recipe, Words, caption, edge, titled};
 use crate::charts::{U_X, magnification};
 use crate::math::grid::interpolate;
 use crate::math::scan::largest;
@@ -135,9 +133,10 @@ fn heights(frame: &Frame) -> Option<[f64; 2]> {
     if frame.observation.depression.is_empty() {
         return None;
     }
-    let flank = match frame.facts.indenter.rim() {
+    let indenter = &frame.facts.scenario.setup().indenter;
+    let flank = match indenter.rim() {
         Some(_) => depth.abs(),
-        None => frame.facts.indenter.profile(WIDER * edge(frame)),
+        None => indenter.profile(WIDER * edge(frame)),
     };
     Some([-depth.max(0.0) - 1.2 * flank, flank - depth])
 }
@@ -145,7 +144,7 @@ fn heights(frame: &Frame) -> Option<[f64; 2]> {
 /// A frame as a cut in an area: its lengths, m, and how much is magnified.
 pub(super) struct Section<'a> {
     pub frame: &'a Frame,
-    pub pane: &'a Pane<'a>,
+    pub app: &'a App,
     pub area: Rect,
     /// The width of a column, and the height of half a cell on the scale of the surfaces.
     width: f64,
@@ -159,13 +158,19 @@ pub(super) struct Section<'a> {
     /// whole columns and rows, so that a small motion does not redraw everything with every frame.
     shift: f64,
     lift: f64,
+    /// The height of the drawn surface of contact, and that from the lowest place of the indenter to the upper edge,
+    /// m, on the scale of the surfaces.
+    thick: f64,
+    tall: f64,
+    stress: Option<Shades>,
 }
 
 impl<'a> Section<'a> {
     /// The cut; `None` where there is nothing to draw.
-    fn of(frame: &'a Frame, pane: &'a Pane, area: Rect) -> Option<Self> {
+    fn of(frame: &'a Frame, app: &'a App, area: Rect) -> Option<Self> {
         let seen = &frame.observation;
-        let ([low, high], &edge) = (pane.bounds?, seen.radii.last()?);
+        let held = app.charts.bounds(Panel::Section);
+        let ([low, high], &edge) = (held?, seen.radii.last()?);
         if seen.depression.is_empty() || area.is_empty() {
             return None;
         }
@@ -178,9 +183,10 @@ impl<'a> Section<'a> {
         let half = (high - low) / (2.0 * f64::from(area.height));
         let deepest = largest(&seen.wear).max(frame.facts.expected_wear);
         let wear = magnification(deepest, WEAR * (high - low)).max(LEAST_WEAR);
-        Some(Self {
+        let [columns, rows] = [area.width, 2 * area.height].map(usize::from);
+        let mut section = Self {
             frame,
-            pane,
+            app,
             area,
             width,
             half,
@@ -189,13 +195,20 @@ impl<'a> Section<'a> {
             motion,
             shift: whole(motion * seen.moment.shift, width),
             lift: seen.moment.depth - whole(seen.moment.depth, 2.0 * half),
-        })
+            thick: half * if area.height >= LARGE { 2.0 } else { 1.0 },
+            tall: 0.0,
+            // The bodies move with every frame, the stress below changes more calmly.
+            stress: (app.stress).samples(app.calm.of(frame), columns, rows, width),
+        };
+        section.tall = high - section.cut(0.0).surface;
+        Some(section)
     }
 
     /// The cut at `x`, where the wear is drawn magnified and the indenter shifted. Beyond the domain the
     /// indenter goes on unworn, and the surface comes back as under a point load, in proportion to 1/r.
     fn cut(&self, x: f64) -> Cut {
-        let (seen, facts) = (&self.frame.observation, &self.frame.facts);
+        let (seen, scenario) = (&self.frame.observation, &self.frame.facts.scenario);
+        let indenter = &scenario.setup().indenter;
         let (moment, edge, r) = (&seen.moment, edge(self.frame), x.abs());
         let sunk = |r: f64| interpolate(&seen.radii, &seen.depression, r.min(edge));
         let back = if r > edge { edge / r } else { 1.0 };
@@ -206,18 +219,18 @@ impl<'a> Section<'a> {
         };
         let surface = self.lift * lifted - sunk(r) * back;
         // Nothing of the half-space is worn unless the scenario says so.
-        let share = facts.wear_share.unwrap_or(1.0);
+        let share = scenario.wear_share().unwrap_or(1.0);
         let wear = |r: f64| match r <= edge {
             true => self.wear * interpolate(&seen.radii, &seen.wear, r),
             false => 0.0,
         };
         let ground = surface - (1.0 - share) * wear(r);
-        let rim = facts.indenter.rim().unwrap_or(f64::INFINITY);
+        let rim = indenter.rim().unwrap_or(f64::INFINITY);
         // Where it touches, the indenter stays on the surface; its flanks are shifted as a whole.
         let along = (x - self.given_way(moment.contact_radius, r)).abs();
         let unworn = match (x - self.shift).abs() > rim {
             true => f64::INFINITY,
-            false => facts.indenter.profile(along.min(rim)) - moment.depth + self.lift,
+            false => indenter.profile(along.min(rim)) - moment.depth + self.lift,
         };
         let contact = match moment.zone_at(r) {
             Zone::Open => None,
@@ -245,16 +258,15 @@ impl<'a> Section<'a> {
 
     /// The title with what is magnified, the wear first, as far as `room` cells suffice.
     fn title(&self, room: usize) -> String {
-        let times = if self.pane.theme.ascii() { "x" } else { "×" };
         let heights = self.width / self.half;
         let factors = [
             ("wear", heights * self.wear, self.wear > 1.0),
             ("heights", heights, heights >= 1.5),
             ("motion", self.motion, self.motion > 1.0),
         ];
-        let mut title = Panel::Section.title().to_owned();
+        let mut title = PICTURE.recipe.title.to_owned();
         for (name, factor, _) in factors.into_iter().filter(|factor| factor.2) {
-            let more = format!(", {name} {times}{}", caption::plain(factor));
+            let more = format!(", {name} ×{}", caption::plain(factor));
             if title.chars().count() + more.chars().count() <= room {
                 title.push_str(&more);
             }
@@ -281,21 +293,13 @@ impl<'a> Section<'a> {
 
     /// Draws the bodies.
     fn bodies(&self, buffer: &mut Buffer) {
-        let (area, stress) = (self.area, self.pane.stress);
-        let (columns, rows) = (usize::from(area.width), 2 * usize::from(area.height));
-        let canvas = Canvas {
-            section: self,
-            thick: self.half * if area.height >= LARGE { 2.0 } else { 1.0 },
-            tall: self.high - self.cut(0.0).surface,
-            // The bodies move with every frame, the stress below changes more calmly.
-            stress: stress.samples(self.pane.calm, columns, rows, self.width),
-        };
+        let area = self.area;
         for column in 0..area.width {
             let middle = f64::from(column) + 0.5 - f64::from(area.width) / 2.0;
             let cut = self.cut(middle * self.width);
             for row in 0..area.height {
                 let top = self.high - 2.0 * f64::from(row) * self.half;
-                let (glyph, style) = canvas.cell(&cut, usize::from(column), top);
+                let (glyph, style) = self.cell(&cut, usize::from(column), top);
                 if let Some(cell) = buffer.cell_mut((area.x + column, area.y + row)) {
                     cell.set_char(glyph).set_style(style);
                 }
@@ -306,7 +310,7 @@ impl<'a> Section<'a> {
     /// Lines on both bodies: those of the indenter move with it, those of the half-space with its surface.
     fn lines(&self, buffer: &mut Buffer) {
         let (seen, area) = (&self.frame.observation, self.area);
-        if self.motion == 0.0 || seen.surface.is_empty() || !has_blocks(self.pane.theme) {
+        if self.motion == 0.0 || seen.surface.is_empty() || !has_blocks(&self.app.theme) {
             return;
         }
         let apart = (f64::from(area.width) / 14.0).max(5.0).floor() * self.width;
@@ -327,74 +331,18 @@ impl<'a> Section<'a> {
                 for row in rows.filter(|&row| row < area.bottom()) {
                     let cell = &mut buffer[(column, row)];
                     caption::take_ground(cell);
-                    cell.set_char('┃').set_style(caption::ink(self.pane.theme));
+                    cell.set_char('┃').set_style(caption::ink(&self.app.theme));
                 }
             }
         }
     }
-}
-
-/// The nearest multiple of a step.
-fn whole(value: f64, step: f64) -> f64 {
-    (value / step).round() * step
-}
-
-/// The amplitude of u_x, m: the one that is prescribed, or that of the last cycle.
-fn amplitude(frame: &Frame) -> f64 {
-    let key = "motion.tangential.amplitude";
-    let mut settings = frame.facts.settings.iter();
-    let given = settings.find(|setting| setting.parameter.path == key && setting.unit == "m");
-    let given = given.and_then(|setting| setting.value.as_deref()?.parse::<f64>().ok());
-    let shifts = frame.run.loops.iter().flat_map(|one| &one.shifts);
-    given.unwrap_or_else(|| shifts.fold(0.0, |most, shift| shift.abs().max(most)))
-}
-
-/// The title, with what is magnified.
-pub fn title(frame: &Frame, pane: &Pane, area: Rect) -> String {
-    let below = Rect {
-        height: area.height.saturating_sub(1),
-        ..area
-    };
-    let room = usize::from(area.width.saturating_sub(2));
-    Section::of(frame, pane, caption::beside(below)[0]).map_or_else(
-        || Panel::Section.title().to_owned(),
-        |section| section.title(room),
-    )
-}
-
-fn draw(frame: &Frame, pane: &Pane, area: Rect, buffer: &mut Buffer) {
-    let [area, below] = caption::beside(area);
-    let Some(section) = Section::of(frame, pane, area) else {
-        return;
-    };
-    section.bodies(buffer);
-    if area.height >= LARGE {
-        section.lines(buffer);
-    }
-    caption::draw(&section, below, buffer);
-}
-
-/// How the cut becomes cells.
-struct Canvas<'a> {
-    section: &'a Section<'a>,
-    /// The height of the drawn surface of contact, and that from the lowest place of the indenter to the upper edge,
-    /// m, on the scale of the surfaces.
-    thick: f64,
-    tall: f64,
-    stress: Option<Shades>,
-}
-
-impl Canvas<'_> {
-    fn theme(&self) -> &Theme {
-        self.section.pane.theme
-    }
 
     /// The cell whose upper edge is at height `top`.
     fn cell(&self, cut: &Cut, column: usize, top: f64) -> (char, Style) {
-        if !has_blocks(self.theme()) {
+        if !has_blocks(&self.app.theme) {
             return self.plain(cut, column, top);
         }
-        let half = self.section.half;
+        let half = self.half;
         let part = |k: usize| top - (k as f64 + 0.5) * 2.0 * half / PARTS as f64;
         let matter: [Matter; PARTS] = std::array::from_fn(|k| cut.matter(part(k), self.thick));
         // The two that have most of the cell, in their order.
@@ -429,7 +377,7 @@ impl Canvas<'_> {
             }
             Matter::Worn => {
                 let style = ground(ink(color), color);
-                ('╱', style.patch(self.theme().style(Role::Profile)))
+                ('╱', style.patch(self.app.theme.style(Role::Profile)))
             }
             Matter::Indenter => ('█', ink(color)),
             _ => (' ', ground(Style::new(), color)),
@@ -438,19 +386,19 @@ impl Canvas<'_> {
 
     /// The colour of what is at height `z`; `None` for air.
     fn ink(&self, cut: &Cut, column: usize, z: f64, matter: Matter) -> Option<Color> {
-        let theme = self.theme();
+        let theme = &self.app.theme;
         match matter {
             Matter::Air => None,
             // Greys, which no colour of the map is, brighter towards the contact.
             Matter::Indenter => {
-                let depth = (self.section.high - z) / self.tall * SHADES_OF_BODY;
+                let depth = (self.high - z) / self.tall * SHADES_OF_BODY;
                 let depth = depth.clamp(0.0, SHADES_OF_BODY - 1.0) as u8;
                 Some(color(theme, Color::Gray, [236 + depth, 254 - depth]))
             }
             // Where the indenter was, under the hatching.
             Matter::Worn => Some(color(theme, Color::Black, [58, 229])),
             Matter::HalfSpace => match self.shade(cut, column, z) {
-                Some(shade) => shades::color(theme, self.section.pane.stress.colors(), shade),
+                Some(shade) => shades::color(theme, self.app.stress.colors(), shade),
                 None => theme.style(Role::Open).fg,
             },
             // What slips glows.
@@ -464,13 +412,13 @@ impl Canvas<'_> {
 
     /// The shade of the stress at height `z`.
     fn shade(&self, cut: &Cut, column: usize, z: f64) -> Option<usize> {
-        let below = ((cut.surface - z) / self.section.half).max(0.0) as usize;
+        let below = ((cut.surface - z) / self.half).max(0.0) as usize;
         Some(self.stress.as_ref()?(column, below))
     }
 
     /// A cell without colour: the bodies as signs, one a cell in ASCII.
     fn plain(&self, cut: &Cut, column: usize, top: f64) -> (char, Style) {
-        let (theme, half) = (self.theme(), self.section.half);
+        let (theme, half) = (&self.app.theme, self.half);
         let [upper, lower] = [0.5, 1.5].map(|at| cut.matter(top - at * half, self.thick));
         let is_contact = matches!(lower, Matter::Stick | Matter::Slip);
         let shown = match is_contact && theme.ascii() {
@@ -489,6 +437,36 @@ impl Canvas<'_> {
             above => ('▀', theme.style(above.look().0)),
         }
     }
+}
+
+/// The nearest multiple of a step.
+fn whole(value: f64, step: f64) -> f64 {
+    (value / step).round() * step
+}
+
+/// The amplitude of u_x, m: the one that is prescribed, or that of the last cycle.
+fn amplitude(frame: &Frame) -> f64 {
+    let key = "motion.tangential.amplitude";
+    let mut settings = frame.facts.settings.iter();
+    let given = settings.find(|setting| setting.parameter.path == key && setting.unit == "m");
+    let given = given.and_then(|setting| setting.value.as_deref()?.parse::<f64>().ok());
+    let shifts = frame.run.loops.iter().flat_map(|one| &one.shifts);
+    given.unwrap_or_else(|| shifts.fold(0.0, |most, shift| shift.abs().max(most)))
+}
+
+fn draw(frame: &Frame, app: &App, role: Role, area: Rect, buffer: &mut Buffer) {
+    let (theme, room) = (&app.theme, usize::from(area.width.saturating_sub(2)));
+    let inner = titled(PICTURE.recipe.title, role, theme, area, buffer);
+    let [picture, below] = caption::beside(inner);
+    let Some(section) = Section::of(frame, app, picture) else {
+        return;
+    };
+    titled(&section.title(room), role, theme, area, buffer);
+    section.bodies(buffer);
+    if picture.height >= LARGE {
+        section.lines(buffer);
+    }
+    caption::draw(&section, below, buffer);
 }
 
 /// A colour of the cube of 256 for a dark and for a light background, or the one of sixteen.

@@ -2,86 +2,58 @@
 
 use std::sync::Arc;
 
+use strum::VariantArray;
+
 use super::Frame;
 use crate::plot::colormap::ColorMap;
 use crate::plot::shades;
 use crate::plot::sticky_bounds;
 use crate::reading::fatigue::StressCycle;
 use crate::reading::subsurface::{SpringLoad, Stress};
+use crate::tui::shifted;
 
 /// Places below the contact, and their depth in contact radii, that set the range of SWT.
 const SPANS: u32 = 24;
 const SKIN: f64 = 0.03;
 
-/// A stress that the half-space can show.
-struct Quantity {
-    name: &'static str,
-    /// A name for little room.
-    short: &'static str,
-    colors: ColorMap,
-    of: Value,
-}
-
-/// What the value of a quantity belongs to.
-#[derive(Clone, Copy)]
-enum Value {
-    /// A moment; in Pa.
-    Moment(fn(&Stress) -> f64),
-    /// A cycle: the Smith–Watson–Topper stress amplitude, which no single moment has.
+/// A stress that the half-space can show, in the order in which a key leads to them.
+#[derive(Debug, Clone, Copy, PartialEq, Default, VariantArray)]
+enum Quantity {
+    #[default]
+    Mises,
+    Principal,
+    Shear,
+    Pressure,
+    /// The Smith–Watson–Topper stress amplitude of a cycle, which no single moment has.
     Swt,
-    /// Nothing: the half-space is a solid body.
+    /// None: the half-space is a solid body.
     Off,
 }
 
 impl Quantity {
-    const fn new(name: &'static str, short: &'static str, colors: ColorMap, of: Value) -> Self {
-        Self {
-            name,
-            short,
-            colors,
-            of,
+    /// Its name, and one for little room.
+    fn names(self) -> [&'static str; 2] {
+        match self {
+            Self::Mises => ["von Mises stress", "von Mises"],
+            Self::Principal => ["largest principal stress", "principal"],
+            Self::Shear => ["largest shear stress", "shear"],
+            Self::Pressure => ["hydrostatic pressure", "pressure"],
+            Self::Swt => ["crack parameter SWT of a cycle", "SWT, cycle"],
+            Self::Off => ["no stress", ""],
+        }
+    }
+
+    /// Its value in a moment, Pa, if a moment has one.
+    fn of_moment(self) -> Option<fn(&Stress) -> f64> {
+        match self {
+            Self::Mises => Some(Stress::von_mises),
+            Self::Principal => Some(Stress::max_principal),
+            Self::Shear => Some(Stress::max_shear),
+            Self::Pressure => Some(Stress::pressure),
+            Self::Swt | Self::Off => None,
         }
     }
 }
-
-/// The stresses, in the order in which a key leads to them.
-const QUANTITIES: [Quantity; 6] = {
-    use ColorMap::{Diverging, Sequential};
-    use Value::{Moment, Off, Swt};
-    [
-        Quantity::new(
-            "von Mises stress",
-            "von Mises",
-            Sequential,
-            Moment(Stress::von_mises),
-        ),
-        Quantity::new(
-            "largest principal stress",
-            "principal",
-            Diverging,
-            Moment(Stress::max_principal),
-        ),
-        Quantity::new(
-            "largest shear stress",
-            "shear",
-            Sequential,
-            Moment(Stress::max_shear),
-        ),
-        Quantity::new(
-            "hydrostatic pressure",
-            "pressure",
-            Sequential,
-            Moment(Stress::pressure),
-        ),
-        Quantity::new(
-            "crack parameter SWT of a cycle",
-            "SWT, cycle",
-            Sequential,
-            Swt,
-        ),
-        Quantity::new("no stress", "", Sequential, Off),
-    ]
-};
 
 /// Values at (r, z) and at (−r, z), Pa.
 type Values = Box<dyn Fn(f64, f64) -> [f64; 2]>;
@@ -90,7 +62,7 @@ type Values = Box<dyn Fn(f64, f64) -> [f64; 2]>;
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StressMap {
     /// Which of the quantities.
-    shown: usize,
+    shown: Quantity,
     /// Its largest value in the last cycle instead of the present one.
     over_cycle: bool,
     /// The range of the colours, Pa; `None` where nothing is shown.
@@ -98,13 +70,9 @@ pub struct StressMap {
 }
 
 impl StressMap {
-    fn quantity(self) -> &'static Quantity {
-        &QUANTITIES[self.shown]
-    }
-
     /// Shows the next stress.
     pub fn next(&mut self) {
-        (self.shown, self.bounds) = ((self.shown + 1) % QUANTITIES.len(), None);
+        (self.shown, self.bounds) = (shifted(Quantity::VARIANTS, self.shown, 1), None);
     }
 
     /// Shows the largest stress of a cycle, or that of the moment.
@@ -123,27 +91,24 @@ impl StressMap {
 
     /// Its colours.
     pub fn colors(self) -> ColorMap {
-        self.quantity().colors
-    }
-
-    /// Whether the map is the largest value of a cycle of what each moment has.
-    fn is_largest_of_cycle(self) -> bool {
-        self.over_cycle && !matches!(self.quantity().of, Value::Swt)
+        match self.shown {
+            Quantity::Principal => ColorMap::Diverging,
+            _ => ColorMap::Sequential,
+        }
     }
 
     /// The title of the map, and one for little room.
     pub fn names(self) -> [String; 2] {
-        let of_cycle = match self.is_largest_of_cycle() {
+        let of_cycle = match self.over_cycle && self.shown != Quantity::Swt {
             true => [", largest of a cycle", ", cycle"],
             false => [""; 2],
         };
-        let Quantity { name, short, .. } = self.quantity();
-        [0, 1].map(|k| format!("{}{}", [name, short][k], of_cycle[k]))
+        [0, 1].map(|k| format!("{}{}", self.shown.names()[k], of_cycle[k]))
     }
 
     /// The loads that the map is made of.
     fn loads(self, frame: &Frame) -> Vec<Arc<SpringLoad>> {
-        let is_of_cycle = self.over_cycle || matches!(self.quantity().of, Value::Swt);
+        let is_of_cycle = self.over_cycle || self.shown == Quantity::Swt;
         let earlier = frame.cycle_loads.iter().filter(|_| is_of_cycle);
         earlier.chain(&frame.load).cloned().collect()
     }
@@ -151,20 +116,19 @@ impl StressMap {
     /// Returns the values of the map at (r, z) and at (−r, z), Pa; `None` without contact or without a map.
     fn values(self, frame: &Frame) -> Option<Values> {
         let loads = self.loads(frame);
-        match self.quantity().of {
-            _ if loads.is_empty() => None,
-            Value::Off => None,
-            Value::Swt => {
-                let cycle = StressCycle::new(loads);
-                Some(Box::new(move |r, z| cycle.mirrored(r, z).map(|at| at.swt)))
-            }
-            Value::Moment(of) => Some(Box::new(move |r, z| {
-                let each = loads.iter().map(|load| load.mirrored(r, z));
-                each.fold([f64::NEG_INFINITY; 2], |[a, b], [c, d]| {
-                    [a.max(of(&c)), b.max(of(&d))]
-                })
-            })),
+        if loads.is_empty() || self.shown == Quantity::Off {
+            return None;
         }
+        let Some(of) = self.shown.of_moment() else {
+            let cycle = StressCycle::new(loads);
+            return Some(Box::new(move |r, z| cycle.mirrored(r, z).map(|at| at.swt)));
+        };
+        Some(Box::new(move |r, z| {
+            let each = loads.iter().map(|load| load.mirrored(r, z));
+            each.fold([f64::NEG_INFINITY; 2], |[a, b], [c, d]| {
+                [a.max(of(&c)), b.max(of(&d))]
+            })
+        }))
     }
 
     /// What the colours must reach, Pa: the largest present value, and for signed stresses that of the
@@ -172,21 +136,16 @@ impl StressMap {
     fn extent(self, frame: &Frame) -> Option<[f64; 2]> {
         let load = frame.load.as_deref()?;
         let a = load.contact_radius();
-        match self.quantity().of {
-            Value::Off => None,
-            Value::Swt => {
-                // The largest value is a spike at the surface; colours are for what lies below it.
-                let values = self.values(frame)?;
-                let below = (0..=SPANS).map(|k| 1.2 * a * f64::from(k) / f64::from(SPANS));
-                let top = below.flat_map(|r| values(r, SKIN * a)).fold(0.0, f64::max);
-                // Nothing is in tension, or no cycle has been seen yet.
-                (top > 0.0).then_some([0.0, top])
-            }
-            Value::Moment(of) => {
-                let (peak, top) = (load.largest(of).value, of(&load.stress(0.0, 0.05 * a)));
-                Some([top.min(0.0), peak.max(top.abs())])
-            }
+        if let Some(of) = self.shown.of_moment() {
+            let (peak, top) = (load.largest(of).value, of(&load.stress(0.0, 0.05 * a)));
+            return Some([top.min(0.0), peak.max(top.abs())]);
         }
+        // The largest value is a spike at the surface; colours are for what lies below it.
+        let values = self.values(frame)?;
+        let below = (0..=SPANS).map(|k| 1.2 * a * f64::from(k) / f64::from(SPANS));
+        let top = below.flat_map(|r| values(r, SKIN * a)).fold(0.0, f64::max);
+        // Nothing is in tension, or no cycle has been seen yet.
+        (top > 0.0).then_some([0.0, top])
     }
 
     /// Returns the shades on samples: `columns` over x symmetrical about the axis, `rows` downwards from the surface,

@@ -6,10 +6,10 @@ use crate::scenario::Scenario;
 use crate::scenario::schema::{Kind, find};
 use crate::scenario::session::Session;
 use crate::studies::refinement::{self, Level};
-use crate::tui::facts::Facts;
-use crate::tui::frame::Activity;
+use crate::tui::beside::Twin;
+use crate::tui::frame::{Activity, Facts};
 use crate::tui::trend::Recorded;
-use crate::tui::twin::Twin;
+use crate::tui::{locked, shifted};
 
 /// Factor by which each key press refines cells and steps.
 const STRIDE: f64 = 1.5;
@@ -27,7 +27,7 @@ impl Worker {
             return self.compare(places, comparison.from);
         }
         let now = self.run.simulation().setup().method;
-        let method = shifted(&AbelMethod::ALL, |method| *method == now, places);
+        let method = shifted(&AbelMethod::ALL, now, places);
         self.change("numerics.method", method.name());
     }
 
@@ -38,7 +38,7 @@ impl Worker {
                 .screen
                 .notice("this scenario has no wear, so it has no wear law to change"),
             Some(now) => {
-                let law = shifted(&LAWS, |law| *law == now.name(), places);
+                let law = shifted(&LAWS, now.name(), places);
                 self.change("wear.law", law);
             }
         }
@@ -53,20 +53,14 @@ impl Worker {
         let within = COARSEST..=scenario.setup().method.most_cells();
         if next == now || !within.contains(&next.points) {
             let end = if places > 0 { "finest" } else { "coarsest" };
-            let cells = now.points;
-            return self
-                .screen
-                .notice(&format!("N = {cells}: this is the {end} level"));
+            let told = format!("N = {}: this is the {end} level", now.points);
+            return self.screen.notice(&told);
         }
         let mut changes = next.keys();
         changes.retain(|(key, _)| *key != "numerics.integrator");
-        self.change_all(
-            &changes,
-            &format!(
-                "N = {}, {} steps per cycle; a estimates the error",
-                next.points, next.steps
-            ),
-        );
+        let Level { points, steps, .. } = next;
+        let done = format!("N = {points}, {steps} steps per cycle; a estimates the error");
+        self.change_all(&changes, &done);
     }
 
     /// Changes a key from here on; further `, KEY=VALUE` change at the same time.
@@ -127,7 +121,7 @@ impl Worker {
     pub fn replace_run(&mut self, run: Recorded) {
         self.keep();
         if let Some(keeping) = &self.keeping {
-            super::locked(keeping).turn_over(&self.past.line(&self.run).session, &run.session);
+            locked(keeping).turn_over(&self.past.line(&self.run).session, &run.session);
         }
         self.past.leave();
         self.snapshots.clear();
@@ -160,12 +154,6 @@ fn assignments(key: &str, value: &str) -> Vec<(String, String)> {
     parts
 }
 
-/// The element `places` after the one that is `now`, wrapping around at the ends.
-fn shifted<T: Copy>(all: &[T], now: impl Fn(&T) -> bool, places: isize) -> T {
-    let at = all.iter().position(now).unwrap_or(0) as isize;
-    all[(at + places).rem_euclid(all.len() as isize) as usize]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -184,7 +172,7 @@ mod tests {
 
     #[test]
     fn methods_go_around() {
-        assert_eq!(shifted(&[1, 2, 3], |n| *n == 3, 1), 1);
-        assert_eq!(shifted(&[1, 2, 3], |n| *n == 1, -1), 3);
+        assert_eq!(shifted(&[1, 2, 3], 3, 1), 1);
+        assert_eq!(shifted(&[1, 2, 3], 1, -1), 3);
     }
 }

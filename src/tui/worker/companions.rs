@@ -3,16 +3,15 @@
 use std::time::Duration;
 
 use super::Worker;
-use crate::scenario::session::Session;
-use crate::tui::comparison::{ComparisonRun, From};
+use crate::tui::beside::{Beside, ComparisonRun, From, Twin};
 use crate::tui::frame::Activity;
-use crate::tui::ghosts::{self, Source};
-use crate::tui::twin::Twin;
+use crate::tui::ghosts::{MOST, Source};
 
 /// How long each catches up before the worker looks for orders again.
 pub(super) const CATCH_UP: Duration = Duration::from_millis(10);
 
 /// The runs and curves beside the run.
+#[derive(Default)]
 pub(super) struct Companions {
     pub comparison: Option<ComparisonRun>,
     pub ghosts: Vec<Source>,
@@ -20,32 +19,18 @@ pub(super) struct Companions {
 }
 
 impl Companions {
-    /// The twin of `session`, and nothing else.
-    pub fn of(session: &Session) -> Self {
-        Self {
-            comparison: None,
-            ghosts: Vec::new(),
-            twin: Twin::of(session),
-        }
-    }
-
-    /// Whether what is seen is not yet at `cycle`.
-    fn lags(&self, cycle: f64) -> bool {
-        let comparison = self.comparison.iter().map(|comparison| &comparison.beside);
-        let mut seen =
-            comparison.chain(self.ghosts.iter().flat_map(|ghost| ghost.beside.as_deref()));
-        seen.any(|beside| beside.lags(cycle))
+    /// The runs that are seen.
+    fn seen(&mut self) -> impl Iterator<Item = &mut Beside> {
+        let ghosts = self.ghosts.iter_mut();
+        let ghosts = ghosts.flat_map(|ghost| ghost.beside.as_deref_mut());
+        let comparison = self.comparison.iter_mut();
+        comparison.map(|run| &mut run.beside).chain(ghosts)
     }
 
     /// Lets what is seen come nearer to `cycle`.
     pub fn follow(&mut self, cycle: f64) {
-        let comparison = self.comparison.iter_mut();
-        let comparison = comparison.map(|comparison| &mut comparison.beside);
-        let ghosts = self.ghosts.iter_mut();
-        let ghosts = ghosts.flat_map(|ghost| ghost.beside.as_deref_mut());
-        for beside in comparison.chain(ghosts) {
-            beside.follow(cycle, cycle, CATCH_UP);
-        }
+        self.seen()
+            .for_each(|beside| beside.follow(cycle, cycle, CATCH_UP));
     }
 
     /// Lets the twin come nearer to `cycle`.
@@ -58,11 +43,12 @@ impl Companions {
 
 impl Worker {
     /// Whether anything is not yet where the run is; a run does not wait for its twin.
-    pub(super) fn is_awaited(&self) -> bool {
+    pub(super) fn is_awaited(&mut self) -> bool {
         let cycle = self.run.cycle();
         let twin = self.companions.twin.as_ref();
         let twin = twin.filter(|_| self.activity != Activity::Running);
-        self.companions.lags(cycle) || twin.is_some_and(|twin| twin.lags(cycle))
+        let twin_lags = twin.is_some_and(|twin| twin.lags(cycle));
+        twin_lags || self.companions.seen().any(|beside| beside.lags(cycle))
     }
 
     /// Lets what runs beside come nearer to the run for a moment.
@@ -82,13 +68,8 @@ impl Worker {
         }
     }
 
-    /// Compares from the start of the scenario on.
-    pub fn compare_from_start(&mut self) {
-        self.compare(0, From::Start);
-    }
-
     /// Starts a comparison, this many places after the previous one, from now or from the start.
-    pub(super) fn compare(&mut self, places: isize, from: From) {
+    pub(in crate::tui) fn compare(&mut self, places: isize, from: From) {
         let before = self.companions.comparison.as_ref();
         let begun = ComparisonRun::beside(&self.run.session, before, places, from);
         if let Some(comparison) = self.screen.or_notice(begun) {
@@ -115,15 +96,14 @@ impl Worker {
     }
 
     fn add_ghost(&mut self, ghost: Source) {
-        let most = ghosts::MOST;
-        if self.companions.ghosts.len() >= most {
-            let told = format!("{most} ghosts are there already; G removes them");
-            return self.screen.notice(&told);
-        }
-        let name = ghost.name();
-        self.screen
-            .notice(&format!("{name} is over the plots now; G removes it"));
-        self.companions.ghosts.push(ghost);
+        let is_full = self.companions.ghosts.len() >= MOST;
+        self.screen.notice(&match is_full {
+            true => format!("{MOST} ghosts are there already; G removes them"),
+            false => format!("{} is over the plots now; G removes it", ghost.name()),
+        });
+        self.companions
+            .ghosts
+            .extend(Some(ghost).filter(|_| !is_full));
     }
 
     /// Takes all of them away.

@@ -41,21 +41,15 @@ impl Worker {
 
     /// Writes the state to a new directory, with a note if there is one.
     pub fn write_snapshot(&mut self, note: Option<&str>) {
-        match snapshot::write(&self.run, note) {
-            Ok(path) => {
-                self.snapshots.push(self.run.cycle());
-                self.screen
-                    .notice(&format!("snapshot in {}", path.display()));
-            }
-            Err(error) => self.screen.unwritten(&error.to_string()),
-        }
+        let written = snapshot::write(&self.run, note);
+        let cycle = written.is_ok().then(|| self.run.cycle());
+        self.snapshots.extend(cycle);
+        self.screen.written("snapshot", written);
     }
 
     /// Draws a figure of the state into a file, its data beside it.
     pub fn write_figure(&self, path: &Path) {
-        match figure::write(&self.run, path) {
-            Ok(()) => self.screen.notice(&format!("figure in {}", path.display())),
-            Err(error) => self.screen.unwritten(&error),
-        }
+        let written = figure::write(&self.run, path);
+        self.screen.written("figure", written.map(|()| path));
     }
 }

@@ -7,24 +7,23 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use super::Event;
 use super::autosave::ScreenAutosave;
-use super::cycle_loads::CycleLoads;
-use super::facts::Facts;
-use super::frame::{Activity, Frame};
+use super::beside::Twin;
+use super::frame::{Activity, Facts, Frame};
 use super::ghosts::Source;
+use super::loops::CycleLoads;
 use super::pace::Clock;
 use super::trend::Recorded;
 use super::undo::Past;
+use super::{Event, locked};
 use crate::reading::Curves;
 
 mod changes;
 mod companions;
 mod files;
-mod frames;
 mod outlet;
 mod stepping;
 mod thread;
@@ -100,7 +99,10 @@ impl Worker {
         let run = run.into();
         Self {
             facts: Facts::of(&run.session),
-            companions: Companions::of(&run.session),
+            companions: Companions {
+                twin: Twin::of(&run.session),
+                ..Companions::default()
+            },
             run,
             past: Past::default(),
             kept_at: Instant::now(),
@@ -220,9 +222,4 @@ impl Worker {
     fn is_over(&self) -> bool {
         self.halt.load(Ordering::Relaxed)
     }
-}
-
-/// The value is never half written, even after a panic.
-fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

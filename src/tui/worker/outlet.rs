@@ -1,12 +1,21 @@
-//! What the worker tells the screen.
+//! What the worker tells the screen: frames of the present state, and notices.
 
 use std::fmt::Display;
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
 use std::time::{Duration, Instant};
 
+use super::Worker;
+use crate::charts::{Live, Run};
+use crate::export::state;
+use crate::math::scan::largest;
+use crate::reading::subsurface::Stress;
+use crate::reading::{Curves, CycleFigures, Observation};
+use crate::traces::Table;
 use crate::tui::Event;
-use crate::tui::frame::{Frame, Slot};
+use crate::tui::beside::{ComparisonRun, Twin};
+use crate::tui::frame::{Activity, Facts, Frame, Slot};
 use crate::tui::line::one_line;
 
 /// Frames go into a slot, at most one an interval; all else is an event.
@@ -55,13 +64,117 @@ impl Outlet {
         result.map_err(told).ok()
     }
 
-    /// Tells the user why a file was not written.
-    pub fn unwritten(&self, text: &str) {
-        self.send(Event::Unwritten(one_line(text)));
+    /// Tells the user where `what` was written, or why it was not.
+    pub fn written(&self, what: &str, path: Result<impl AsRef<Path>, impl Display>) {
+        match path {
+            Ok(path) => self.notice(&format!("{what} in {}", path.as_ref().display())),
+            Err(error) => self.send(Event::Unwritten(one_line(&error.to_string()))),
+        }
     }
 
     /// A screen that is gone needs no word.
     pub fn send(&self, event: Event) {
         let _ = self.events.send(event);
+    }
+}
+
+impl Worker {
+    /// Shows the present state.
+    pub(super) fn publish(&mut self) {
+        let frame = self.frame();
+        self.screen.show(frame);
+    }
+
+    /// The present frame, when all that runs beside has come to it.
+    pub(super) fn settled_frame(&mut self) -> Arc<Frame> {
+        while self.is_awaited() && !self.is_over() {
+            self.catch_up();
+        }
+        Arc::new(self.frame())
+    }
+
+    fn frame(&mut self) -> Frame {
+        // The pressure may pass the hardness in any step, and has not yet in an earlier state.
+        if self.facts.passed_hardness != self.run.session.log().passed_hardness() {
+            self.facts = Facts::of(&self.run.session);
+        }
+        let simulation = self.run.simulation();
+        // A comparison subtracts profiles; the screen that asked for it may not have shown one.
+        let compared = match self.companions.comparison {
+            Some(_) => Curves::PROFILE | Curves::PRESSURE,
+            None => Curves::empty(),
+        };
+        let observation = simulation.observe(self.curves | compared);
+        let load = self.curves.contains(Curves::SPRINGS).then(|| {
+            let poisson = simulation.setup().material.poisson();
+            Arc::new(observation.spring_load(poisson))
+        });
+        let touches = observation.moment.contact_radius > 0.0;
+        let shown: [fn(&Stress) -> f64; 2] = [Stress::von_mises, Stress::max_principal];
+        let peaks = load.as_ref().filter(|_| touches);
+        let peaks = peaks.map(|load| shown.map(|of| load.largest(of)));
+        let checks = match observation.pressure.is_empty() {
+            true => Vec::new(),
+            false => self.run.session.checks(),
+        };
+        let is_running = self.activity == Activity::Running;
+        let changes = self.past.line(&self.run).session.changes().iter();
+        // The twin has looked at the present.
+        let twin = self.companions.twin.as_ref();
+        let twin = twin.filter(|_| self.past.present().is_none());
+        let figures = self.run.session.cycle_figures();
+        Frame {
+            run: self.charted(&observation, figures.as_ref()),
+            facts: Arc::clone(&self.facts),
+            load,
+            cycle_loads: self.cycle_loads.all(),
+            peaks,
+            observation,
+            figures,
+            phase: self.clock.held_phase(simulation),
+            activity: self.activity.clone(),
+            pace: self.clock.pace(),
+            speed: self.clock.speed.filter(|_| is_running),
+            step_cost: self.clock.step_cost,
+            present: self.past.present(),
+            changes: (changes.map(|change| (change.at_cycle, change.set.clone()))).collect(),
+            snapshots: self.snapshots.clone(),
+            error: twin.and_then(Twin::error),
+            checks,
+            comparison: self.companions.comparison.as_ref().map(ComparisonRun::seen),
+        }
+    }
+
+    /// What charts are made of: what is `seen` of the present moment, the past, and other sources.
+    fn charted(&self, seen: &Observation, figures: Option<&CycleFigures>) -> Run {
+        let (facts, trend) = (&self.facts, &self.run.trend);
+        let (moment, load) = (seen.moment, &seen.normal_load);
+        let setup = self.run.simulation().setup();
+        let material = &setup.material;
+        let ghosts = self.companions.ghosts.iter();
+        Run {
+            states: vec![Table::of_columns(
+                vec![("cycle".to_owned(), moment.cycle.to_string())],
+                state::columns(seen),
+            )],
+            history: Some(trend.history()),
+            loops: vec![trend.loops.last(moment.cycle)],
+            ghosts: ghosts.map(|ghost| ghost.seen(self.curves)).collect(),
+            field: None,
+            theory: Some(Arc::clone(&facts.theory)),
+            indenter: Some(setup.indenter.clone()),
+            live: Some(Live {
+                moment,
+                wears: seen.law.is_some(),
+                friction: material.friction(),
+                planned_cycles: facts.planned_cycles,
+                expected_wear: facts.expected_wear,
+                is_within_a_cycle: trend.is_within_a_cycle(),
+                regime: figures.map(|figures| figures.regime.title()),
+                slip_border: (!load.is_empty())
+                    .then(|| largest(load) / (material.normal_modulus() * material.stick_ratio())),
+                log: trend.loops.kept.clone(),
+            }),
+        }
     }
 }

@@ -6,6 +6,7 @@ use super::Worker;
 use super::travel::ends_cycle;
 use crate::reading::Curves;
 use crate::tui::frame::Activity;
+use crate::tui::locked;
 
 /// How long the worker steps before it looks for orders again.
 const STINT: Duration = Duration::from_millis(4);
@@ -52,7 +53,7 @@ impl Worker {
     pub(super) fn until_next_step(&self) -> Option<Duration> {
         if self.activity != Activity::Running {
             let line = &self.past.line(&self.run).session;
-            return super::locked(self.keeping.as_ref()?).wait(line);
+            return locked(self.keeping.as_ref()?).wait(line);
         }
         let ahead = self.clock.ahead(self.run.simulation());
         Some(Duration::from_secs_f64(ahead.clamp(0.0, 0.1)))
@@ -82,7 +83,7 @@ impl Worker {
         let simulation = self.run.simulation();
         self.clock.measure(simulation, start.elapsed());
         let cycle = simulation.cycle();
-        self.run.trend.note_cost(self.clock.step_cost);
+        self.run.trend.step_cost = self.clock.step_cost;
         self.companions.follow_with_twin(cycle, TWIN_STINT);
         let wait = match self.holds_phase() {
             true => self.screen.interval.max(AT_LEAST),

@@ -4,8 +4,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::Worker;
-use crate::tui::facts::Facts;
-use crate::tui::frame::Activity;
+use crate::tui::frame::{Activity, Facts};
+use crate::tui::locked;
 use crate::tui::undo::{Kept, Past};
 
 /// Minimum time between stored states while running.
@@ -31,7 +31,7 @@ impl Worker {
         let left = self.past.branch()?;
         let (cycle, end) = (self.run.cycle(), left.end.run.cycle());
         if let Some(keeping) = self.keeping.as_ref().filter(|_| left.is_other_run) {
-            super::locked(keeping).turn_over(&left.end.run.session, &self.run.session);
+            locked(keeping).turn_over(&left.end.run.session, &self.run.session);
         }
         Some(format!(
             "branch at cycle {cycle:.2}; [ leads back to the run up to {end:.2}"

@@ -3,6 +3,7 @@
 #![allow(dead_code, reason = "not every file of tests needs all of it")]
 
 use std::f64::consts::FRAC_PI_4;
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
@@ -20,6 +21,9 @@ use mdr_tui::scenario::session::Session;
 use mdr_tui::scenario::{Scenario, preset};
 use mdr_tui::simulation::drive::{Control, Drive, Oscillation};
 use mdr_tui::simulation::{Integrator, Scheme, Setup, Simulation, Spacing, Stability};
+use mdr_tui::tui::app::App;
+use mdr_tui::tui::frame::Frame;
+use mdr_tui::tui::keys::parse_script;
 use mdr_tui::tui::theme::{Look, Theme};
 use mdr_tui::tui::worker::{Orders, Worker};
 use mdr_tui::tui::{Event, Stroke, rehearse};
@@ -319,6 +323,41 @@ impl Drop for LiveWorker {
         self.orders.send(Worker::quit);
         if let Some(thread) = self.thread.take() {
             let _ = thread.join();
+        }
+    }
+}
+
+/// The explorer on a worker of its own, without a terminal and without a process.
+pub struct Explorer {
+    /// The screen's side.
+    pub app: App,
+    /// The worker's.
+    pub worker: LiveWorker,
+}
+
+impl Explorer {
+    /// A preset, paused at its start.
+    pub fn on(preset: &str, theme: Theme) -> Self {
+        let worker = LiveWorker::on(load(preset, &[]), Duration::from_secs(1), false);
+        let app = App::new(theme, worker.orders.clone());
+        Self { app, worker }
+    }
+
+    /// The worker's present frame.
+    pub fn frame(&self) -> Arc<Frame> {
+        self.worker.orders.frame().expect("a worker")
+    }
+
+    /// Presses keys, each when the worker has answered the one before.
+    pub fn press(&mut self, keys: &str) {
+        for key in parse_script(keys).expect("a script") {
+            self.app.press(key);
+            self.app.take_frame(self.frame());
+            for event in self.worker.events.try_iter() {
+                if let Event::Notice(text) = event {
+                    self.app.notice = Some(text);
+                }
+            }
         }
     }
 }

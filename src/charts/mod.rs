@@ -1,13 +1,17 @@
 //! Charts of a run, one per file: each declares what it is called, what it needs, how it is explained, and how it
 //! is made. The terminal, the paper, the line of the cursor and the help all read that.
+//!
+//! What charts are made of is imported here; each of them begins with `use super::*`.
 
+use crate::plot::colormap::ColorMap;
 use crate::plot::theme::Role;
-use crate::plot::{self, Axis, Chart, Curve, Mark, Scale};
+use crate::plot::units::format_value;
+use crate::plot::{self, Axis, Chart, Curve, Fill, Map, Mark, Point, Scale};
 use crate::reading::{Curves, Zone};
 use crate::scenario::Refusal;
 use crate::studies::ghost::Ghost;
 use crate::studies::theory::Theory;
-use crate::traces::Axes;
+use crate::traces::{Axes, Loop};
 
 pub mod condition;
 pub mod cost;
@@ -28,16 +32,10 @@ pub mod springs;
 pub mod stresses;
 pub mod volume;
 
-pub use run::{Live, Loop, Run};
+pub use run::{Live, Run};
 
-/// An explanation, for a reader who knows Hertz and nothing else.
-#[derive(Debug, Clone, Copy)]
-pub struct Words {
-    /// A few sentences.
-    pub text: &'static str,
-    /// The symbols in the chart with their meaning.
-    pub symbols: &'static [(&'static str, &'static str)],
-}
+/// Symbols with their meaning, for a reader who knows Hertz and nothing else.
+pub type Symbols = &'static [(&'static str, &'static str)];
 
 /// The contact radius, explained.
 pub const A: (&str, &str) = ("a", "contact radius: the bodies touch inside it");
@@ -73,8 +71,6 @@ pub struct Recipe {
     pub needs: Curves,
     /// Whether it needs the stresses inside the half-space.
     pub needs_field: bool,
-    /// Whether its abscissa is the radius, which has the cursor.
-    pub over_r: bool,
     /// Whether the range of the abscissa is kept as that of the ordinate is: a loop is drawn on axes that hold.
     pub keeps_abscissa: bool,
     /// Whether a few values may be far above all others: a stress that is singular at a border, or a slow step.
@@ -85,8 +81,10 @@ pub struct Recipe {
     pub is_calm: bool,
     /// What it shows of other sources; the line of the cursor compares the first.
     pub overlays: &'static [Axes],
-    /// The explanation.
-    pub words: Words,
+    /// The explanation: a few sentences.
+    pub text: &'static str,
+    /// The symbols in the chart with their meaning.
+    pub symbols: Symbols,
     /// How it is made.
     pub make: Make,
 }
@@ -106,15 +104,12 @@ impl Recipe {
             can_be_log: false,
             needs: Curves::empty(),
             needs_field: false,
-            over_r: false,
             keeps_abscissa: false,
             has_spikes: false,
             is_calm: false,
             overlays: &[],
-            words: Words {
-                text: "",
-                symbols: &[],
-            },
+            text: "",
+            symbols: &[],
             make,
         }
     }
@@ -146,6 +141,11 @@ impl Recipe {
     pub fn on_paper(&self, run: &Run) -> Result<Chart, Refusal> {
         let chart = self.chart(run, &View::default());
         chart.map_err(|why| Refusal::new(format_args!("no chart {}", self.name), why))
+    }
+
+    /// Whether its abscissa is the radius, which has the cursor.
+    pub fn is_over_r(&self) -> bool {
+        self.overlays.first().is_some_and(|axes| axes.over_r())
     }
 
     /// Whether the chart has a place for what `ghost` holds.

@@ -73,29 +73,23 @@ impl Axis {
 
     /// The same axis from `bounds[0]` to `bounds[1]` (in the data's unit).
     #[must_use]
-    pub fn bounds(self, bounds: [f64; 2]) -> Self {
-        Axis {
-            bounds: Some(bounds),
-            ..self
-        }
+    pub fn bounds(mut self, bounds: [f64; 2]) -> Self {
+        self.bounds = Some(bounds);
+        self
     }
 
     /// The same axis, which holds zero: volumes and radii grow from there.
     #[must_use]
-    pub fn from_zero(self) -> Self {
-        Axis {
-            holds: Some(0.0),
-            ..self
-        }
+    pub fn from_zero(mut self) -> Self {
+        self.holds = Some(0.0);
+        self
     }
 
     /// The same axis, which is expected to reach `value`.
     #[must_use]
-    pub fn expecting(self, value: f64) -> Self {
-        Axis {
-            expects: value,
-            ..self
-        }
+    pub fn expecting(mut self, value: f64) -> Self {
+        self.expects = value;
+        self
     }
 
     /// The unit to label a range with: that of what is expected, unless the numbers would be too small in it.

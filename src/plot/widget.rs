@@ -24,12 +24,6 @@ use super::window::Window;
 /// The smallest area that gets axes, in cells.
 const SMALLEST: (u16, u16) = (12, 4);
 
-impl Widget for Plot<'_> {
-    fn render(self, area: Rect, buf: &mut Buffer) {
-        (&self).render(area, buf);
-    }
-}
-
 impl Plot<'_> {
     /// The abscissa, in the x axis' unit, under a cell of the screen where the plot is drawn in `area`;
     /// none outside of the curves' own part of it.
@@ -44,23 +38,22 @@ impl Plot<'_> {
     }
 }
 
-impl Widget for &Plot<'_> {
+impl Widget for Plot<'_> {
     fn render(self, area: Rect, buf: &mut Buffer) {
         let area = area.intersection(buf.area);
         if area.is_empty() {
             return;
         }
-        let frame = Frame::new(self, area);
+        let frame = Frame::new(&self, area);
         let mut raster = frame.raster();
         if !is_bare(area) {
             frame.words(&mut raster, buf);
             frame.axes(buf);
         }
-        if let Some(map) = &self.chart.map {
-            frame.map(map, buf);
-        }
+        let map = self.chart.map.as_ref();
+        map.inspect(|map| frame.map(map, buf));
         raster.render(buf);
-        if self.chart.map.is_some() {
+        if map.is_some() {
             let places = frame.inner.positions();
             for place in places.filter(|place| raster.dots_in((*place, SINGLE).into()) > 0) {
                 frame.ink(buf.cell_mut(place));

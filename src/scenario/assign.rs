@@ -38,10 +38,7 @@ pub(super) fn assign(
     }
     let Some(parameter) = schema::find(key) else {
         return Err(if schema::is_section(key) {
-            refuse(format!(
-                "{key} is a table; {}",
-                hints::hint(&format!("{key}.*"))
-            ))
+            refuse(format!("{key} is a table; {}", hints::known_in(key)))
         } else {
             unknown(written, key, key)
         });

@@ -142,10 +142,9 @@ impl Scenario {
     /// Where the domain radius comes from.
     pub fn domain(&self) -> Domain {
         let is_given = keys::DOMAIN_RADIUS.get(&self.table).is_some();
-        if is_given || self.setup.indenter.rim().is_some() {
-            Domain::Given
-        } else {
-            Domain::Derived
+        match is_given || self.setup.indenter.rim().is_some() {
+            true => Domain::Given,
+            false => Domain::Derived,
         }
     }
 
@@ -214,14 +213,7 @@ impl Scenario {
     pub fn stem(&self) -> String {
         let stem = Path::new(&self.origin).file_stem();
         let stem = stem.map_or_else(|| "scenario".into(), |stem| stem.to_string_lossy());
-        let plain = |c: char| {
-            if c.is_alphanumeric() || "-_.+".contains(c) {
-                c
-            } else {
-                '-'
-            }
-        };
-        stem.chars().map(plain).collect()
+        stem.replace(|c: char| !c.is_alphanumeric() && !"-_.+".contains(c), "-")
     }
 
     /// The parts of the simulation, ready to run.

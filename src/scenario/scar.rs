@@ -31,47 +31,43 @@ impl Parts<'_> {
         indenter: &Indenter,
         domain: f64,
     ) -> Result<(), ScenarioError> {
-        let refuse = |path: &str, rule: String| Err(self.refuse(path, "{...}", rule));
         let (edge, (last, depth_there)) = (scar.edge(), scar.end());
-        if edge > HARDLY_SAME * domain || HARDLY_SAME * last < domain {
-            let rule = format!(
-                "the scar ends at r = {} m, where contact may reach {} m: is r in m? a column r_mm is converted",
-                length(last.min(edge)),
-                length(domain)
-            );
-            return refuse(RADII.path(), rule);
-        }
         // A punch has no flank, and may be worn as deep as its slopes stay small.
         let flank = match indenter.rim() {
             Some(rim) => rim / HARDLY_SAME,
             None => indenter.profile(domain),
         };
-        if scar.deepest() > HARDLY_SAME * flank {
+        let [ends, reaches, deepest] = [last.min(edge), edge, scar.deepest()].map(length);
+        let (path, rule) = if edge > HARDLY_SAME * domain || HARDLY_SAME * last < domain {
             let rule = format!(
-                "the scar is {} m deep, where a contact has depths of {} m: is the depth in m? a column \
-                 depth_um is converted",
-                length(scar.deepest()),
-                length(flank)
-            );
-            return refuse(DEPTHS.path(), rule);
-        }
-        if edge > domain * (1.0 + 1e-9) {
-            let rule = format!(
-                "the scar reaches r = {} m, beyond the domain's edge, {} m; a greater numerics.domain_radius \
-                 would hold it",
-                length(edge),
+                "the scar ends at r = {ends} m, where contact may reach {} m: is r in m? a column r_mm is converted",
                 length(domain)
             );
-            return refuse(RADII.path(), rule);
-        }
-        if last < domain * (1.0 - 1e-9) && depth_there > CUT_OFF * scar.deepest() {
+            (RADII.path(), rule)
+        } else if scar.deepest() > HARDLY_SAME * flank {
+            let rule = format!(
+                "the scar is {deepest} m deep, where a contact has depths of {} m: is the depth in m? a column \
+                 depth_um is converted",
+                length(flank)
+            );
+            (DEPTHS.path(), rule)
+        } else if edge > domain * (1.0 + 1e-9) {
+            let rule = format!(
+                "the scar reaches r = {reaches} m, beyond the domain's edge, {} m; a greater numerics.domain_radius \
+                 would hold it",
+                length(domain)
+            );
+            (RADII.path(), rule)
+        } else if last < domain * (1.0 - 1e-9) && depth_there > CUT_OFF * scar.deepest() {
             let rule = format!(
                 "the table ends at r = {} m, where the scar is still {} m deep; a longer trace",
                 length(last),
                 length(depth_there)
             );
-            return refuse(DEPTHS.path(), rule);
-        }
-        Ok(())
+            (DEPTHS.path(), rule)
+        } else {
+            return Ok(());
+        };
+        Err(self.refuse(path, "{...}", rule))
     }
 }

@@ -72,35 +72,31 @@ impl Parts<'_> {
         measured: &MeasuredProfile,
         domain: f64,
     ) -> Result<(), ScenarioError> {
-        let refuse = |rule: String| Err(self.refuse("indenter.radii", "{...}", rule));
         let last = measured.last_radius();
         let points = measured.points_within(domain);
         let slope = 2.0 * measured.profile(domain.min(last)) / domain.min(last);
         let unit = "are r and f in m? columns r_mm and f_um are converted";
-        if slope > STEEPEST {
-            return refuse(format!(
-                "a/R = {slope:.1e} at the contact's edge, where slopes must be small: {unit}"
-            ));
-        }
-        if domain > last {
-            let edge = length(domain);
+        let edge = length(domain);
+        let rule = if slope > STEEPEST {
+            format!("a/R = {slope:.1e} at the contact's edge, where slopes must be small: {unit}")
+        } else if domain > last {
             let hint = if domain > HARDLY_SAME * last || slope < SHALLOWEST {
                 format!(": {unit}")
             } else {
                 "; a longer trace, or a smaller depth".into()
             };
-            return refuse(format!(
+            format!(
                 "the table ends at r = {} m, but the contact can reach {edge} m{hint}",
                 length(last)
-            ));
-        }
-        if points < FEWEST_IN_CONTACT || slope < SHALLOWEST {
-            let edge = length(domain);
-            return refuse(format!(
+            )
+        } else if points < FEWEST_IN_CONTACT || slope < SHALLOWEST {
+            format!(
                 "only {points} points lie within {edge} m, where contact is possible, \
                  and a/R is {slope:.1e}: {unit}"
-            ));
-        }
-        Ok(())
+            )
+        } else {
+            return Ok(());
+        };
+        Err(self.refuse("indenter.radii", "{...}", rule))
     }
 }

@@ -3,8 +3,8 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use crate::charts::Loop;
 use crate::reading::Moment;
+use crate::traces::Loop;
 
 /// Maximum number of steps of the last loop.
 const CAPACITY: usize = 4096;

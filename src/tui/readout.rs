@@ -3,11 +3,11 @@
 
 use super::frame::Frame;
 use super::panels::Panel;
-use crate::charts::{Loop, Run};
+use crate::charts::Run;
 use crate::math::scan::value_at;
 use crate::plot::units::{format_value_in, to_ascii};
 use crate::studies::ghost::Ghost;
-use crate::traces::Axes;
+use crate::traces::{Axes, Loop};
 
 /// Significant digits.
 const DIGITS: usize = 4;

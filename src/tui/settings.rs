@@ -1,5 +1,6 @@
 //! The keys of a scenario that can be changed while it runs, with their present values.
 
+use crate::plot::units::{plain, reading};
 use crate::scenario::schema::{Kind, Parameter, parameters};
 use crate::scenario::{Scenario, units};
 
@@ -54,7 +55,7 @@ impl Setting {
     fn reading(&self, ascii: bool) -> Option<(String, String)> {
         let value: f64 = self.value.as_deref()?.parse().ok()?;
         let has_unit = self.parameter.kind == Kind::Number && !self.unit.is_empty();
-        has_unit.then(|| units::reading(value, self.unit, ascii))
+        has_unit.then(|| reading(value, self.unit, ascii))
     }
 
     /// The unit that a number without one is typed in: the one that is shown.
@@ -113,10 +114,10 @@ impl Setting {
             // A step of the number that is shown: 46 degrees follow 45.
             Kind::Number => match self.reading(true) {
                 Some((number, unit)) => {
-                    let next = units::plain(next_number(number.parse().ok()?, up));
+                    let next = plain(next_number(number.parse().ok()?, up));
                     Some(format!("{next} {unit}"))
                 }
-                None => Some(units::plain(next_number(value.parse().ok()?, up))),
+                None => Some(plain(next_number(value.parse().ok()?, up))),
             },
             Kind::Text | Kind::Numbers => None,
         }

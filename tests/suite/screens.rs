@@ -286,7 +286,7 @@ fn a_panel_is_explained_where_it_stands() {
         assert!(same.count() >= 12, "{text}");
         has(
             &words_of(&text),
-            panel.words().symbols.last().expect("a symbol").1,
+            panel.words().1.last().expect("a symbol").1,
         );
     }
 }

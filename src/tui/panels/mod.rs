@@ -10,7 +10,7 @@ use ratatui::widgets::{Block, Borders, Widget};
 use super::frame::Frame;
 use super::live_charts::Made;
 use super::theme::{Role, Theme};
-use crate::charts::{self, Recipe, Words};
+use crate::charts::{self, Recipe, Symbols};
 use crate::plot::{Chart, Plot, Scale};
 
 mod caption;
@@ -116,9 +116,9 @@ impl Panel {
         self.recipe().title
     }
 
-    /// The explanation of the panel.
-    pub fn words(self) -> Words {
-        self.recipe().words
+    /// The explanation of the panel: sentences, and its symbols.
+    pub fn words(self) -> (&'static str, Symbols) {
+        (self.recipe().text, self.recipe().symbols)
     }
 
     /// The smallest and largest ordinate that it must hold: those of its chart, if it is one.
@@ -146,7 +146,7 @@ impl Panel {
         }
         match chart {
             Ok(chart) => {
-                let cursor = pane.cursor.filter(|_| recipe.over_r);
+                let cursor = pane.cursor.filter(|_| recipe.is_over_r());
                 plot(chart, role, (theme, cursor), area, buffer);
             }
             Err(why) => {
@@ -158,7 +158,7 @@ impl Panel {
 
     /// The radius under a place of the screen, m, where the panel in `area` has a chart over r there.
     pub fn radius_at(self, chart: &Made, theme: &Theme, area: Rect, at: Position) -> Option<f64> {
-        let chart = chart.as_ref().ok().filter(|_| self.recipe().over_r)?;
+        let chart = chart.as_ref().ok().filter(|_| self.recipe().is_over_r())?;
         // The first row is the title's.
         let inner = Rect {
             y: area.y.saturating_add(1),
@@ -308,7 +308,7 @@ mod tests {
     #[test]
     fn every_panel_is_explained_in_a_box_of_a_small_screen() {
         for panel in Panel::ALL {
-            let Words { text, symbols } = panel.words();
+            let (text, symbols) = panel.words();
             assert!((50..=330).contains(&text.chars().count()), "{panel:?}");
             assert!(!text.contains("  ") && text.ends_with('.'), "{panel:?}");
             assert!((1..=5).contains(&symbols.len()), "{panel:?}");

@@ -15,7 +15,7 @@ use ratatui::style::Color;
 use ratatui::text::Line;
 use ratatui::widgets::Widget;
 
-use super::{Frame, Pane, Picture, Recipe, Words, edge, nothing};
+use super::{Frame, Pane, Picture, Recipe, edge, nothing};
 use crate::charts::look_of;
 use crate::math::grid::interpolate;
 use crate::math::scan::largest;
@@ -29,12 +29,10 @@ pub static PICTURE: Picture = Picture {
     recipe: Recipe {
         title: "scar from above",
         needs: Curves::PROFILE.union(Curves::SPRINGS),
-        words: Words {
-            text: "The contact from above. The left half shows where it sticks, slips and is open at this moment, the \
-                 right half the worn depth in colours. The arrow shows which way the indenter \
-                     slips.",
-            symbols: &[("s ~ .", "stick, slip, open (without colours)")],
-        },
+        text: "The contact from above. The left half shows where it sticks, slips and is open at this moment, the \
+             right half the worn depth in colours. The arrow shows which way the indenter \
+                 slips.",
+        symbols: &[("s ~ .", "stick, slip, open (without colours)")],
         ..Recipe::new(|_, _| Err(""))
     },
     draw,

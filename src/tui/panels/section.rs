@@ -20,7 +20,7 @@ use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier, Style};
 
 use super::stress_map::Shades;
-use super::{Frame, Pane, Panel, Picture, Recipe, Words, caption, edge};
+use super::{Frame, Pane, Panel, Picture, Recipe, caption, edge};
 use crate::charts::{U_X, magnification};
 use crate::math::grid::interpolate;
 use crate::math::scan::largest;
@@ -37,12 +37,10 @@ pub static PICTURE: Picture = Picture {
             .union(Curves::SPRINGS)
             .union(Curves::SURFACE),
         is_calm: true,
-        words: Words {
-            text: "A cut through both bodies: the indenter above, the half-space it deforms below. \
-                 The title tells what is magnified. The contact surface is coloured by stick and slip; \
-                 the short lines across it (V) stay in one where it sticks, and part where it slips.",
-            symbols: &[("F_z", "normal force"), U_X],
-        },
+        text: "A cut through both bodies: the indenter above, the half-space it deforms below. \
+             The title tells what is magnified. The contact surface is coloured by stick and slip; \
+             the short lines across it (V) stay in one where it sticks, and part where it slips.",
+        symbols: &[("F_z", "normal force"), U_X],
         ..Recipe::new(|_, _| Err(""))
     },
     draw,

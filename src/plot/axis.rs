@@ -115,22 +115,18 @@ impl Axis {
 
     /// Values halfway between neighbouring `places`, and as far beyond the first and the last one.
     pub fn edges(&self, places: &[f64]) -> Vec<f64> {
-        let at: Vec<f64> = places
-            .iter()
-            .map(|&place| self.scale.spread(place))
-            .collect();
-        let last = at.len().saturating_sub(1);
-        let half = |a: usize, b: usize| match at[b] - at[a] {
-            0.0 => 0.5 * at[a].abs().max(1e-300),
-            step => 0.5 * step,
+        let at = places.iter().map(|&place| self.scale.spread(place));
+        let at: Vec<f64> = at.collect();
+        let step = |a: usize, b: usize| match at[b] - at[a] {
+            0.0 => at[a].abs().max(1e-300),
+            step => step,
         };
-        let mut edges = vec![at[0] - half(0, last.min(1))];
-        edges.extend(at.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])));
-        edges.push(at[last] + half(last.saturating_sub(1), last));
-        edges
-            .into_iter()
-            .map(|edge| self.scale.unspread(edge))
-            .collect()
+        let last = at.len() - 1;
+        let before = at[0] - step(0, last.min(1));
+        let beyond = at[last] + step(last.saturating_sub(1), last);
+        let all = [&[before], &at[..], &[beyond]].concat();
+        let middles = all.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
+        middles.map(|edge| self.scale.unspread(edge)).collect()
     }
 
     /// `bounds` with this share of their distance more on either side.

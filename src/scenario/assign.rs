@@ -47,42 +47,25 @@ pub(super) fn assign(
     if parameter.path == "indenter.shape" {
         drop_keys_of_other_shapes(table, &value, origin);
     }
-    trade_twins(table, parameter.path);
-    trade_nodes_for_others(table, parameter.path);
+    drop_replaced(table, parameter.path);
     origin.assign(parameter.path, written);
     schema::insert(table, parameter.path, value);
     Ok(())
 }
 
-/// What is assigned takes the place of other keys for the same thing.
-fn trade_twins(table: &mut Table, path: &str) {
-    for of in schema::SCHEMA.exclusive.iter().filter(|of| of.are_twins) {
-        let (one, other) = (of.keys.contains(&path), of.others.contains(&path));
-        let replaced = match (one, other) {
-            (true, _) => &of.others,
-            (_, true) => &of.keys,
-            _ => continue,
-        };
-        for path in replaced {
-            schema::remove(table, path);
+/// Drops the keys whose place the one that is assigned takes, or that do not go with it.
+fn drop_replaced(table: &mut Table, path: &str) {
+    let twins = schema::SCHEMA.exclusive.iter().filter(|of| of.are_twins);
+    for of in twins {
+        for (keys, others) in [(&of.keys, &of.others), (&of.others, &of.keys)] {
+            let replaced = others.iter().filter(|_| keys.contains(&path));
+            replaced.for_each(|other| _ = schema::remove(table, other));
         }
     }
-}
-
-/// Nodes are those of one number of cells on one domain; another one takes their place, and the other way round.
-fn trade_nodes_for_others(table: &mut Table, path: &str) {
-    const OTHERS: [&str; 4] = [
-        keys::POINTS.path(),
-        keys::GRID.path(),
-        keys::DOMAIN_RADIUS.path(),
-        keys::SHAPE.path(),
-    ];
-    let removed = match path {
-        _ if path == keys::NODES.path() => keys::GRID.path(),
-        _ if OTHERS.contains(&path) => keys::NODES.path(),
-        _ => return,
-    };
-    schema::remove(table, removed);
+    let stale = schema::SCHEMA.stale.iter();
+    for of in stale.filter(|of| of.keys.contains(&path)) {
+        schema::remove(table, of.dropped);
+    }
 }
 
 /// The value as TOML reads it, or the bare text.

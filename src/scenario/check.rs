@@ -76,6 +76,10 @@ fn broken(value: &mut Value, parameter: &Parameter, is_force: bool) -> Option<St
         let instead = hints::instead(parameter, value);
         return Some(format!("must be {wanted}{instead}"));
     }
+    let entries = value.as_array().map_or(0, Vec::len);
+    if let Some(most) = parameter.most.filter(|most| entries > *most) {
+        return Some(format!("must have at most {most} entries, not {entries}"));
+    }
     let each = if value.is_array() { "each " } else { "" };
     let rule = || format!("{each}must be {}", parameter.range);
     (!parameter.allows(value)).then(rule)

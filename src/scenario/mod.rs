@@ -289,7 +289,10 @@ impl Scenario {
         check::keys(&mut table, from, &mut faults);
         let (complete, setup) = validate::setup(&mut table, from, faults)?;
         let changes: Vec<Change> = part(&table, "changes");
-        run::at_most(MOST_CHANGES, "changes", changes.len(), from)?;
+        if changes.len() > MOST_CHANGES {
+            let rule = format!("must have at most {MOST_CHANGES} entries");
+            return Err(from.refuse("changes", &changes.len().to_string(), rule));
+        }
         let given = keys::TITLE.get(&table);
         let given = given.filter(|title| !title.trim().is_empty());
         let description = keys::DESCRIPTION.get(&table).unwrap_or_default();
@@ -303,7 +306,6 @@ impl Scenario {
             run: part(&table, "run"),
             changes: Vec::new(),
         };
-        scenario.run.check(from)?;
         scenario.check_changes(&changes, from)?;
         let mut scenario = scenario.with_changes(changes);
         if scenario.run.stated.is_some() && scenario.statements().is_empty() {

@@ -130,10 +130,13 @@ impl fmt::Display for Range {
             Self::Any => Ok(()),
             Self::Positive => f.write_str("greater than 0"),
             Self::NotNegative => f.write_str("0 or greater"),
-            Self::Within(least, most) if *least > 0.0 && *least < 1e-3 => {
-                write!(f, "from {least:e} to {most}")
+            Self::Within(least, most) => {
+                let short = |end: f64| match end == 0.0 || (1e-3..1e9).contains(&end) {
+                    true => end.to_string(),
+                    false => format!("{end:e}"),
+                };
+                write!(f, "from {} to {}", short(*least), short(*most))
             }
-            Self::Within(least, most) => write!(f, "from {least} to {most}"),
             Self::UpTo(most) => write!(f, "greater than 0, at most {most}"),
             Self::Acute => f.write_str("greater than 0 and less than pi/2"),
         }
@@ -197,6 +200,8 @@ pub struct Parameter {
     pub kind: Kind,
     /// The numbers that are allowed.
     pub range: Range,
+    /// How many entries a list may have; `None`: any number.
+    pub(super) most: Option<usize>,
     /// What holds where it is not given.
     pub default: Default,
     /// The indenter shapes that take the key; empty where the shape does not matter.
@@ -414,6 +419,14 @@ pub(super) struct Exclusive {
     pub are_twins: bool,
 }
 
+/// Keys whose assignment makes another one stale, which is dropped.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Stale {
+    pub keys: Vec<&'static str>,
+    pub dropped: &'static str,
+}
+
 /// A list of numbers in a scenario, and the name and the unit of the column that it is read from.
 type List = (&'static str, &'static str, &'static str);
 
@@ -432,6 +445,7 @@ pub(super) struct Schema {
     #[serde(rename = "key")]
     keys: Vec<Parameter>,
     pub exclusive: Vec<Exclusive>,
+    pub stale: Vec<Stale>,
     #[serde(rename = "file")]
     pub files: Vec<Embedded>,
 }
@@ -466,6 +480,7 @@ mod tests {
     use super::*;
     use crate::math::grid::{MAX_CELLS, MIN_CELLS};
     use crate::scenario::keys::{NAMED, PRESCRIBED, SHAPE};
+    use crate::scenario::{MOST_CYCLES, MOST_SNAPSHOTS};
     use crate::simulation::{Integrator, Scheme, Spacing, Stability};
 
     #[test]
@@ -527,6 +542,10 @@ mod tests {
         }
         let points = find("numerics.points").expect("a key").range;
         assert_eq!(points, Range::Within(MIN_CELLS as f64, MAX_CELLS as f64));
+        let cycles = find("run.cycles").expect("a key").range;
+        assert_eq!(cycles, Range::Within(0.0, MOST_CYCLES));
+        let snapshots = find("run.snapshot_at").expect("a key").most;
+        assert_eq!(snapshots, Some(MOST_SNAPSHOTS));
         // Both directions of the motion have the same keys, but for the rig.
         let of = |section: &'static str| {
             let keys = parameters()

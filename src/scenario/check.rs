@@ -1,5 +1,5 @@
 //! Checks every key of a scenario against the schema: is it known, is its value of the right type
-//! and in range? `validate` checks how the values fit together.
+//! and in range? `parts` checks how the values fit together.
 
 use toml::{Table, Value};
 

@@ -2,7 +2,7 @@
 //!
 //! The pipeline: text (`read`) → TOML table → assignments (`assign`) → columns of other files (`embed`, `columns`) →
 //! every key checked against the [`schema`], with its number in SI units (`check`, `units`) → defaults (`complete`,
-//! `derive`) → the parts' own constructors (`validate`) → [`Scenario`]. Each step refuses with one line that names the
+//! `derive`) → the parts' own constructors (`parts`) → [`Scenario`]. Each step refuses with one line that names the
 //! origin, the dotted path, the value and the rule.
 
 use std::path::Path;
@@ -15,7 +15,6 @@ use crate::simulation::{Domain, Integrator, Setup, Spacing};
 
 pub(crate) mod assign;
 pub(crate) mod blocks;
-mod bodies;
 mod check;
 pub mod checkpoint;
 pub mod columns;
@@ -26,20 +25,16 @@ mod error;
 pub mod hints;
 mod keys;
 pub(crate) mod limited;
-mod motion;
 pub mod nearest;
+mod parts;
 pub mod preset;
 mod read;
 mod run;
-mod running_in;
 pub mod scalars;
-mod scar;
 pub mod schema;
 pub mod session;
-mod shape;
 pub mod typed;
 pub mod units;
-mod validate;
 pub(crate) mod write;
 
 pub use complete::USUAL_ACCURACY;
@@ -287,7 +282,7 @@ impl Scenario {
         let from = &from;
         let mut faults = Faults::default();
         check::keys(&mut table, from, &mut faults);
-        let (complete, setup) = validate::setup(&mut table, from, faults)?;
+        let (complete, setup) = parts::setup(&mut table, from, faults)?;
         let changes: Vec<Change> = part(&table, "changes");
         if changes.len() > MOST_CHANGES {
             let rule = format!("must have at most {MOST_CHANGES} entries");

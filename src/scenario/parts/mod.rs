@@ -1,12 +1,14 @@
 //! Turns the keys of a scenario into parts that can be run. The schema and the parts' constructors
-//! check the values; this module adds where in the scenario a refused value is.
+//! check the values; these modules add where in the scenario a refused value is.
+//!
+//! One file for each section of a scenario: what they need is imported here, and they begin with `use super::*`.
 
 use std::cell::RefCell;
 use std::fmt::Display;
 
 use toml::{Table, Value};
 
-use super::check::{self, show};
+use super::check::{self, length, show};
 use super::complete;
 use super::derive::{self, Contact};
 use super::error::{Faults, Origin, ScenarioError};
@@ -20,6 +22,15 @@ use crate::math::grid::RadialGrid;
 use crate::math::invalid::Invalid;
 use crate::simulation::{Integrator, Setup, Spacing};
 use crate::wear::{Powers, WearLaw};
+
+mod bodies;
+mod motion;
+mod running_in;
+mod scar;
+mod shape;
+
+/// By what factor lengths may seem off before their unit is in doubt.
+const HARDLY_SAME: f64 = 20.0;
 
 /// Makes the parts of a scenario from the keys that the user gave, and returns them behind the
 /// [completed](super::complete::table) keys. Where an accuracy leaves points and steps open, they have their defaults.
@@ -60,7 +71,7 @@ pub(super) struct Parts<'a> {
     table: &'a Table,
     /// The values as the user wrote them, for messages.
     written: &'a Table,
-    pub(super) origin: &'a Origin,
+    origin: &'a Origin,
     /// What is wrong so far; what is missing is added.
     faults: RefCell<Faults>,
 }
@@ -114,12 +125,12 @@ impl Parts<'_> {
     }
 
     /// The value of a key, where it is given.
-    pub(super) fn get<T>(&self, key: &Key<T>) -> Option<T> {
+    fn get<T>(&self, key: &Key<T>) -> Option<T> {
         key.get(self.table)
     }
 
     /// A coefficient as a run begins with it: its value, or the first of its table.
-    pub(super) fn first(&self, key: &Key<f64>, course: &RunsIn) -> Option<f64> {
+    fn first(&self, key: &Key<f64>, course: &RunsIn) -> Option<f64> {
         let of_table = || self.get(&course.values)?.first().copied();
         self.get(key).or_else(of_table)
     }
@@ -129,7 +140,7 @@ impl Parts<'_> {
     /// # Errors
     ///
     /// That it is missing, if it is a key without such a value.
-    pub(super) fn require<T>(&self, key: &Key<T>) -> Result<T, ScenarioError> {
+    fn require<T>(&self, key: &Key<T>) -> Result<T, ScenarioError> {
         let value = key.get_or_default(self.table);
         value.map_or_else(|| self.any(key, key.parameter().described()), Ok)
     }
@@ -139,23 +150,19 @@ impl Parts<'_> {
     /// # Errors
     ///
     /// That the key of the file is missing, if there is no list.
-    pub(super) fn list(
-        &self,
-        list: &Key<Vec<f64>>,
-        file: &Key<String>,
-    ) -> Result<Vec<f64>, ScenarioError> {
+    fn list(&self, list: &Key<Vec<f64>>, file: &Key<String>) -> Result<Vec<f64>, ScenarioError> {
         let missing = || self.missing(file.path(), file.parameter().described());
         self.get(list).ok_or_else(missing)
     }
 
     /// Notes that a key is missing, which means `meaning`, and returns any value of it.
-    pub(super) fn any<T>(&self, key: &Key<T>, meaning: impl Display) -> Result<T, ScenarioError> {
+    fn any<T>(&self, key: &Key<T>, meaning: impl Display) -> Result<T, ScenarioError> {
         let missing = self.missing(key.path(), meaning);
         key.any_value().ok_or(missing)
     }
 
     /// Notes the error that there is no value at `path`, which means `meaning`, unless it is dealt with already.
-    pub(super) fn missing(&self, path: &str, meaning: impl Display) -> ScenarioError {
+    fn missing(&self, path: &str, meaning: impl Display) -> ScenarioError {
         let error = self.origin.missing(path, meaning);
         let mut faults = self.faults.borrow_mut();
         if !faults.covers(path) {
@@ -164,19 +171,19 @@ impl Parts<'_> {
         error
     }
 
-    pub(super) fn has(&self, path: &str) -> bool {
+    fn has(&self, path: &str) -> bool {
         schema::at(self.written, path).is_some()
     }
 
     /// Refuses the value that stands at `path`; `otherwise` is shown where none was written.
-    pub(super) fn refuse(&self, path: &str, otherwise: &str, rule: impl Display) -> ScenarioError {
+    fn refuse(&self, path: &str, otherwise: &str, rule: impl Display) -> ScenarioError {
         let written = schema::at(self.written, path).map(show);
         let value = written.unwrap_or_else(|| otherwise.to_owned());
         self.origin.refuse(path, &value, rule)
     }
 
     /// Adds the table to what a constructor refused.
-    pub(super) fn refused(&self, section: &str, invalid: Invalid) -> ScenarioError {
+    fn refused(&self, section: &str, invalid: Invalid) -> ScenarioError {
         let path = format!("{section}.{}", invalid.field);
         self.refuse(&path, &invalid.value, invalid.rule)
     }
@@ -216,7 +223,7 @@ impl Parts<'_> {
 
     /// k per friction work, 1/Pa: as given, or that per load and distance over the friction that the run
     /// begins with.
-    pub(super) fn wear_coefficient(&self, material: &Material) -> Result<f64, ScenarioError> {
+    fn wear_coefficient(&self, material: &Material) -> Result<f64, ScenarioError> {
         let Some(per_load) = self.get(&keys::WEAR_PER_LOAD) else {
             let given = self.first(&keys::WEAR_COEFFICIENT, &keys::WEAR_COURSE);
             let key = &keys::WEAR_COEFFICIENT;

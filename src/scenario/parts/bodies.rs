@@ -1,10 +1,8 @@
 //! Builds the material from the keys of a scenario: of the pair, or of two bodies.
 
-use super::error::ScenarioError;
-use super::keys::{self, BodyKeys, HALF_SPACE, INDENTER};
-use super::validate::Parts;
-use crate::contact::material::{Body, Material};
-use crate::math::invalid::Invalid;
+use super::keys::{BodyKeys, HALF_SPACE, INDENTER};
+use super::*;
+use crate::contact::material::Body;
 
 impl Parts<'_> {
     /// The moduli and the coefficient of friction.

@@ -1,10 +1,7 @@
 //! Builds coefficients that run in from the keys of a scenario.
 
-use super::error::ScenarioError;
-use super::keys::{self, FRICTION_COURSE, RunsIn, WEAR_COURSE};
-use super::schema::Key;
-use super::validate::Parts;
-use crate::contact::material::Material;
+use super::keys::{FRICTION_COURSE, WEAR_COURSE};
+use super::*;
 use crate::simulation::running_in::{Course, Over, RunningIn};
 
 impl Parts<'_> {

@@ -2,10 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::error::ScenarioError;
-use super::keys::{self, Motion, NORMAL, TANGENTIAL};
-use super::schema::Key;
-use super::validate::Parts;
+use super::keys::{Motion, NORMAL, TANGENTIAL};
+use super::*;
 use crate::simulation::drive::{Control, Drive, Oscillation};
 use crate::simulation::waveform::{Tabled, Waveform};
 

@@ -1,14 +1,7 @@
 //! From the keys of a scenario to the scar that a run begins with.
 
-use super::check::length;
-use super::error::ScenarioError;
 use super::keys::{WEAR_INITIAL_DEPTHS as DEPTHS, WEAR_INITIAL_RADII as RADII};
-use super::validate::Parts;
-use crate::contact::indenter::Indenter;
-use crate::contact::scar::Scar;
-
-/// By what factor lengths may seem off before their unit is in doubt.
-const HARDLY_SAME: f64 = 20.0;
+use super::*;
 
 /// How deep a scar may be where its table ends inside the domain, relative to its greatest depth.
 const CUT_OFF: f64 = 0.05;

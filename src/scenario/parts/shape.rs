@@ -1,20 +1,12 @@
 //! Builds the indenter from the keys of a scenario, and holds a measured one against the domain.
 
-use super::check::length;
-use super::error::ScenarioError;
-use super::keys;
-use super::schema;
-use super::validate::Parts;
-use crate::contact::indenter::Indenter;
+use super::*;
 use crate::contact::measured::MeasuredProfile;
 
 /// The steepest slope at the contact's edge, a/R, that a table may have, and the shallowest: beyond them
 /// one of its columns is in another unit.
 const STEEPEST: f64 = 1.0;
 const SHALLOWEST: f64 = 1e-6;
-
-/// How far contact may seem to reach beyond a table before its unit is in doubt.
-const HARDLY_SAME: f64 = 20.0;
 
 /// The fewest points of a table that are to lie within the domain.
 const FEWEST_IN_CONTACT: usize = 4;

@@ -5,7 +5,6 @@ use toml::{Table, Value};
 use super::check::unknown;
 use super::error::{Origin, Refusal, ScenarioError, echo};
 use super::hints;
-use super::keys;
 use super::schema::{self, Kind, Parameter};
 
 /// Splits `KEY=VALUE`; `flag` stands before it in messages.
@@ -82,24 +81,23 @@ fn parse(parameter: &Parameter, text: &str) -> Value {
 /// is not a radius of curvature, and a punch brings its own edge of the domain. Keys of both shapes that are assigned
 /// together with the shape stay.
 fn drop_keys_of_other_shapes(table: &mut Table, shape: &Value, origin: &Origin) {
-    let known = keys::SHAPE.parameter().kind;
+    let known = schema::known("indenter.shape").kind;
     let Some(shape) = shape.as_str().filter(|_| known.fits(shape)) else {
         return;
     };
     let is_punch = |shape: &str| shape == "flat-punch";
-    let was_punch = keys::SHAPE
-        .get(table)
-        .is_some_and(|before| is_punch(&before));
+    let before: Option<String> = schema::read(table, "indenter.shape");
+    let was_punch = before.is_some_and(|before| is_punch(&before));
     let others = schema::parameters().iter().filter(|key| !key.is_of(shape));
     for key in others {
         schema::remove(table, key.path);
     }
     for (key, is_stale) in [
-        (&keys::RADIUS, was_punch != is_punch(shape)),
-        (&keys::DOMAIN_RADIUS, is_punch(shape)),
+        ("indenter.radius", was_punch != is_punch(shape)),
+        ("numerics.domain_radius", is_punch(shape)),
     ] {
-        if is_stale && !origin.assigns(key.path()) {
-            schema::remove(table, key.path());
+        if is_stale && !origin.assigns(key) {
+            schema::remove(table, key);
         }
     }
 }

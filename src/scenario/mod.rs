@@ -23,7 +23,6 @@ mod derive;
 mod embed;
 mod error;
 pub mod hints;
-mod keys;
 pub(crate) mod limited;
 pub mod nearest;
 mod parts;
@@ -112,13 +111,13 @@ impl Scenario {
     ) -> Result<Self, ScenarioError> {
         let mut origin = Origin::new(&self.origin);
         let mut table = self.whole();
-        let is_accuracy = |key: &str| key.trim() == keys::ACCURACY.path();
+        let is_accuracy = |key: &str| key.trim() == "numerics.accuracy";
         if assignments.iter().any(|(key, _)| is_accuracy(key.as_ref()))
             && self.accuracy().is_none()
             && self.setup.integrator == Integrator::Direct
         {
             // An accuracy chooses the integrator; the default that was written out for chosen numbers is no choice.
-            schema::remove(&mut table, keys::INTEGRATOR.path());
+            schema::remove(&mut table, "numerics.integrator");
         }
         for (key, value) in assignments {
             let (key, value) = (key.as_ref(), value.as_ref());
@@ -136,7 +135,7 @@ impl Scenario {
 
     /// Where the domain radius comes from.
     pub fn domain(&self) -> Domain {
-        let is_given = keys::DOMAIN_RADIUS.get(&self.table).is_some();
+        let is_given = self.value("numerics.domain_radius").is_some();
         match is_given || self.setup.indenter.rim().is_some() {
             true => Domain::Given,
             false => Domain::Derived,
@@ -230,25 +229,25 @@ impl Scenario {
     /// then points, steps and tolerance are still to be found, by [`refinement`](crate::studies::refinement), and
     /// assigning one of them takes its place.
     pub fn accuracy(&self) -> Option<f64> {
-        keys::ACCURACY.get(&self.table)
+        schema::read(&self.table, "numerics.accuracy")
     }
 
     /// `wear.share`, the part of the worn depth that is the indenter's, where it is given. The contact feels the sum of
     /// both bodies' wear alone, so the simulation does not know it.
     pub fn wear_share(&self) -> Option<f64> {
-        keys::WEAR_SHARE.get(&self.table)
+        schema::read(&self.table, "wear.share")
     }
 
     /// `material.fatigue_limit`, Pa, where it is given: what stresses are compared with after the run.
     pub fn fatigue_limit(&self) -> Option<f64> {
-        keys::FATIGUE_LIMIT.get(&self.table)
+        schema::read(&self.table, "material.fatigue_limit")
     }
 
     /// Both fatigue limits, where both are given.
     pub fn fatigue_limits(&self) -> Option<Limits> {
         Some(Limits {
             tension: self.fatigue_limit()?,
-            shear: keys::SHEAR_FATIGUE_LIMIT.get(&self.table)?,
+            shear: schema::read(&self.table, "material.shear_fatigue_limit")?,
         })
     }
 
@@ -288,9 +287,10 @@ impl Scenario {
             let rule = format!("must have at most {MOST_CHANGES} entries");
             return Err(from.refuse("changes", &changes.len().to_string(), rule));
         }
-        let given = keys::TITLE.get(&table);
+        let given: Option<String> = schema::read(&table, "title");
         let given = given.filter(|title| !title.trim().is_empty());
-        let description = keys::DESCRIPTION.get(&table).unwrap_or_default();
+        let description: Option<String> = schema::read(&table, "description");
+        let description = description.unwrap_or_default();
         let lines: Vec<String> = description.lines().map(printable).collect();
         let scenario = Self {
             origin: origin.to_owned(),
@@ -363,19 +363,18 @@ impl Scenario {
         place: impl Fn(usize) -> String,
     ) -> Result<(), ScenarioError> {
         let changes_at = |path: &str| changes.iter().position(|change| change.key() == path);
-        for motion in [keys::NORMAL, keys::TANGENTIAL] {
-            let control = motion.control.get(table);
-            let Some(at) = changes_at(motion.control.path()) else {
+        for motion in ["motion.normal", "motion.tangential"] {
+            let key = schema::join(motion, "control");
+            let [control, before] = [table, &self.table].map(|of| schema::read::<String>(of, &key));
+            let Some(at) = changes_at(&key).filter(|_| control != before) else {
                 continue;
             };
-            if control == motion.control.get(&self.table) {
-                continue;
-            }
-            for key in [motion.mean, motion.amplitude] {
-                let value = key.get(&self.table).unwrap_or(0.0);
-                if value != 0.0 && changes_at(key.path()).is_none() {
-                    let unit = units::unit_of(key.parameter(), control.as_deref() == Some("force"));
-                    let path = key.path();
+            for key in ["mean", "amplitude"] {
+                let path = schema::join(motion, key);
+                let value: f64 = schema::read(&self.table, &path).unwrap_or(0.0);
+                if value != 0.0 && changes_at(&path).is_none() {
+                    let is_force = control.as_deref() == Some("force");
+                    let unit = units::unit_of(schema::known(&path), is_force);
                     let rule = format!("needs {path} in {unit}, changed at the same cycle");
                     return Err(Refusal::new(place(at), rule).into());
                 }

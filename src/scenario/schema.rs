@@ -7,6 +7,7 @@ use std::fmt;
 use std::str::FromStr;
 use std::sync::LazyLock;
 
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer};
 use toml::{Table, Value};
 
@@ -290,46 +291,6 @@ impl Parameter {
     }
 }
 
-/// A key together with the type that it is read as.
-#[derive(Debug, Clone, Copy)]
-pub struct Key<T: 'static> {
-    path: &'static str,
-    read: fn(&Value) -> Option<T>,
-}
-
-impl<T> Key<T> {
-    /// The key with this dotted path, which the table describes.
-    pub(super) const fn new(path: &'static str, read: fn(&Value) -> Option<T>) -> Self {
-        Self { path, read }
-    }
-
-    /// The dotted path.
-    pub const fn path(&self) -> &'static str {
-        self.path
-    }
-
-    /// Its description.
-    pub fn parameter(&self) -> &'static Parameter {
-        find(self.path).expect("a key of the table")
-    }
-
-    /// The value in `table`, where one of the right kind is given.
-    pub fn get(&self, table: &Table) -> Option<T> {
-        at(table, self.path).and_then(self.read)
-    }
-
-    /// Some value that is allowed; `None` for texts and lists.
-    pub(super) fn any_value(&self) -> Option<T> {
-        self.parameter().any_value().as_ref().and_then(self.read)
-    }
-
-    /// The value in `table`, or the default, if the key has one that can be written down.
-    pub fn get_or_default(&self, table: &Table) -> Option<T> {
-        let default = || self.parameter().default.value().and_then(self.read);
-        self.get(table).or_else(default)
-    }
-}
-
 /// A finite number, whole or not.
 pub(super) fn number(value: &Value) -> Option<f64> {
     match value {
@@ -344,19 +305,15 @@ pub(super) fn numbers(value: &Value) -> Option<Vec<f64>> {
     value.as_array()?.iter().map(number).collect()
 }
 
-/// A whole number.
-pub(super) fn whole(value: &Value) -> Option<u32> {
-    value.as_integer()?.try_into().ok()
+/// The value of a key in `table` as a `T`, where one of that type is given.
+pub(super) fn read<T: DeserializeOwned>(table: &Table, path: &str) -> Option<T> {
+    debug_assert!(find(path).is_some(), "{path} is a key of the table");
+    at(table, path)?.clone().try_into().ok()
 }
 
-/// A text, or what is read from one.
-pub(super) fn word<T: FromStr>(value: &Value) -> Option<T> {
-    value.as_str()?.parse().ok()
-}
-
-/// `true` or `false`.
-pub(super) fn flag(value: &Value) -> Option<bool> {
-    value.as_bool()
+/// What the word of a key in `table` names, where one is given.
+pub(super) fn named<T: FromStr>(table: &Table, path: &str) -> Option<T> {
+    read::<String>(table, path)?.parse().ok()
 }
 
 /// The value at a dotted path.
@@ -462,6 +419,11 @@ pub fn parameters() -> &'static [Parameter] {
     &SCHEMA.keys
 }
 
+/// The description of a key that the program names.
+pub(super) fn known(path: &str) -> &'static Parameter {
+    find(path).expect("a key of the table")
+}
+
 /// The parameter with this dotted path.
 pub fn find(path: &str) -> Option<&'static Parameter> {
     parameters().iter().find(|parameter| parameter.path == path)
@@ -479,13 +441,13 @@ pub(super) fn is_section(path: &str) -> bool {
 mod tests {
     use super::*;
     use crate::math::grid::{MAX_CELLS, MIN_CELLS};
-    use crate::scenario::keys::{NAMED, PRESCRIBED, SHAPE};
+    use crate::scenario::units::PRESCRIBED;
     use crate::scenario::{MOST_CYCLES, MOST_SNAPSHOTS};
     use crate::simulation::{Integrator, Scheme, Spacing, Stability};
 
     #[test]
     fn every_key_says_what_it_means_and_stands_once() {
-        let shapes = SHAPE.parameter().kind.words().expect("words");
+        let shapes = known("indenter.shape").kind.words().expect("words");
         for (i, parameter) in parameters().iter().enumerate() {
             assert!(!parameter.meaning.is_empty(), "{}", parameter.path);
             assert!(
@@ -527,9 +489,6 @@ mod tests {
 
     #[test]
     fn the_table_is_that_of_the_program() {
-        for path in NAMED {
-            assert!(find(path).is_some(), "{path}");
-        }
         for (path, names) in [
             ("numerics.method", AbelMethod::NAMES),
             ("numerics.grid", Spacing::NAMES),

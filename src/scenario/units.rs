@@ -8,7 +8,6 @@
 use std::f64::consts::{PI, TAU};
 
 use super::error::echo;
-use super::keys::PRESCRIBED;
 use super::schema::{Kind, Parameter};
 
 /// A product of units: powers of metre, kilogram, second, radian and ten, and what else it is worth in SI units.
@@ -244,6 +243,9 @@ fn example(unit: &str) -> &'static str {
         _ => "\"10 mm\" for a length",
     }
 }
+
+/// The unit of what a motion prescribes.
+pub(super) const PRESCRIBED: &str = "m, or N if control = \"force\"";
 
 /// The rule for a force where a motion prescribes a displacement, and the other way round; `None` for other texts.
 pub(super) fn of_other_control(text: &str, known: &Parameter) -> Option<&'static str> {

@@ -1,7 +1,10 @@
 //! From the keys of a scenario to the scar that a run begins with.
 
-use super::keys::{WEAR_INITIAL_DEPTHS as DEPTHS, WEAR_INITIAL_RADII as RADII};
 use super::*;
+
+/// The keys of the scar.
+const RADII: &str = "wear.initial_radii";
+const DEPTHS: &str = "wear.initial_depths";
 
 /// How deep a scar may be where its table ends inside the domain, relative to its greatest depth.
 const CUT_OFF: f64 = 0.05;
@@ -9,12 +12,15 @@ const CUT_OFF: f64 = 0.05;
 impl Parts<'_> {
     /// The scar that the run begins with; `None` without `wear.initial`.
     pub(super) fn scar(&self) -> Result<Option<Scar>, ScenarioError> {
-        if self.get(&RADII).is_none() && self.get(&DEPTHS).is_none() {
+        if !self.has(RADII) && !self.has(DEPTHS) {
             return Ok(None);
         }
-        Scar::new(&self.require(&RADII)?, &self.require(&DEPTHS)?)
-            .map(Some)
-            .map_err(|invalid| self.refused("wear", invalid))
+        Scar::new(
+            &self.require::<Vec<f64>>(RADII)?,
+            &self.require::<Vec<f64>>(DEPTHS)?,
+        )
+        .map(Some)
+        .map_err(|invalid| self.refused("wear", invalid))
     }
 
     /// Refuses a scar that no domain which ends at `domain` (m) can hold, most often for its unit.
@@ -36,28 +42,28 @@ impl Parts<'_> {
                 "the scar ends at r = {ends} m, where contact may reach {} m: is r in m? a column r_mm is converted",
                 length(domain)
             );
-            (RADII.path(), rule)
+            (RADII, rule)
         } else if scar.deepest() > HARDLY_SAME * flank {
             let rule = format!(
                 "the scar is {deepest} m deep, where a contact has depths of {} m: is the depth in m? a column \
                  depth_um is converted",
                 length(flank)
             );
-            (DEPTHS.path(), rule)
+            (DEPTHS, rule)
         } else if edge > domain * (1.0 + 1e-9) {
             let rule = format!(
                 "the scar reaches r = {reaches} m, beyond the domain's edge, {} m; a greater numerics.domain_radius \
                  would hold it",
                 length(domain)
             );
-            (RADII.path(), rule)
+            (RADII, rule)
         } else if last < domain * (1.0 - 1e-9) && depth_there > CUT_OFF * scar.deepest() {
             let rule = format!(
                 "the table ends at r = {} m, where the scar is still {} m deep; a longer trace",
                 length(last),
                 length(depth_there)
             );
-            (DEPTHS.path(), rule)
+            (DEPTHS, rule)
         } else {
             return Ok(());
         };

@@ -14,25 +14,25 @@ const FEWEST_IN_CONTACT: usize = 4;
 impl Parts<'_> {
     /// The unworn shape.
     pub(super) fn indenter(&self) -> Result<Indenter, ScenarioError> {
-        let shape = self.require(&keys::SHAPE)?;
+        let shape: String = self.require("indenter.shape")?;
         self.refuse_keys_of_other_shapes(&shape)?;
-        let radius = || self.require(&keys::RADIUS);
-        let angle = || self.require(&keys::ANGLE);
-        let tip_radius = || self.require(&keys::TIP_RADIUS);
+        let radius = || self.require("indenter.radius");
+        let angle = || self.require("indenter.angle");
+        let tip_radius = || self.require("indenter.tip_radius");
         match shape.as_str() {
             "cone" => Indenter::cone(angle()?),
             "power" => Indenter::power(
-                self.require(&keys::SHAPE_COEFFICIENT)?,
-                self.require(&keys::SHAPE_EXPONENT)?,
+                self.require("indenter.coefficient")?,
+                self.require("indenter.exponent")?,
             ),
             "flat-punch" => Indenter::flat_punch(radius()?),
             "truncated-paraboloid" => Indenter::truncated_paraboloid(radius()?, tip_radius()?),
             "truncated-cone" => Indenter::truncated_cone(angle()?, tip_radius()?),
             "rounded-punch" => Indenter::rounded_punch(radius()?, tip_radius()?),
             "table" => {
-                let list = |key| self.list(key, &keys::TABLE_FILE);
-                let (radii, heights) = (list(&keys::RADII)?, list(&keys::HEIGHTS)?);
-                Indenter::table(&radii, &heights, self.require(&keys::SMOOTHING)?)
+                let list = |key| self.list(key, "indenter.file");
+                let (radii, heights) = (list("indenter.radii")?, list("indenter.heights")?);
+                Indenter::table(&radii, &heights, self.require("indenter.smoothing")?)
             }
             _ => Indenter::paraboloid(radius()?),
         }

@@ -10,7 +10,7 @@ use ratatui::style::{Color, Modifier};
 use ratatui::symbols::braille::BRAILLE;
 use ratatui::text::Line;
 
-use super::colormap::Rgb;
+use super::colormap::{NAMED, Rgb};
 
 /// What the terminal's own colours look like.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,32 +44,12 @@ const MARGIN: f64 = 8.0;
 /// How much of what is dim is its own colour; the rest is that of its background.
 const DIM: f64 = 0.55;
 
-/// The sixteen colours of a terminal, for what is not given as red, green and blue.
-const SIXTEEN: [(Color, Rgb); 16] = [
-    (Color::Black, [0, 0, 0]),
-    (Color::Red, [0xcd, 0x31, 0x31]),
-    (Color::Green, [0x0d, 0xbc, 0x79]),
-    (Color::Yellow, [0xe5, 0xe5, 0x10]),
-    (Color::Blue, [0x24, 0x72, 0xc8]),
-    (Color::Magenta, [0xbc, 0x3f, 0xbc]),
-    (Color::Cyan, [0x11, 0xa8, 0xcd]),
-    (Color::Gray, [0xe5, 0xe5, 0xe5]),
-    (Color::DarkGray, [0x66, 0x66, 0x66]),
-    (Color::LightRed, [0xf1, 0x4c, 0x4c]),
-    (Color::LightGreen, [0x23, 0xd1, 0x8b]),
-    (Color::LightYellow, [0xf5, 0xf5, 0x43]),
-    (Color::LightBlue, [0x3b, 0x8e, 0xea]),
-    (Color::LightMagenta, [0xd6, 0x70, 0xd6]),
-    (Color::LightCyan, [0x29, 0xb8, 0xdb]),
-    (Color::White, [0xff, 0xff, 0xff]),
-];
-
 /// The colour that a terminal shows; `own` where it is the terminal's.
 fn shown(color: Color, own: Rgb) -> Rgb {
-    let named = || SIXTEEN.iter().find(|(name, _)| *name == color);
+    let named = || NAMED.iter().find(|(name, _)| *name == color);
     match color {
         Color::Rgb(r, g, b) => [r, g, b],
-        Color::Indexed(index @ 0..=15) => SIXTEEN[usize::from(index)].1,
+        Color::Indexed(index @ 0..=15) => NAMED[usize::from(index)].1,
         Color::Indexed(index @ 16..=231) => {
             let at = index - 16;
             [at / 36, at / 6 % 6, at % 6].map(|level| match level {

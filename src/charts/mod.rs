@@ -59,7 +59,7 @@ const NO_HISTORY: &str = "there is no history.csv";
 pub type Make = fn(&Run, &View) -> Result<Chart, &'static str>;
 
 /// Everything that there is to know of a chart but its data.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 pub struct Recipe {
     /// The name on the command line, for charts that a paper can have.
     pub name: &'static str,
@@ -87,12 +87,6 @@ pub struct Recipe {
     pub symbols: Symbols,
     /// How it is made.
     pub make: Make,
-}
-
-impl std::fmt::Debug for Recipe {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.title)
-    }
 }
 
 impl Recipe {

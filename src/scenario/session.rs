@@ -292,14 +292,9 @@ impl Session {
     /// The same run with a remark that its files carry.
     #[must_use]
     pub fn noted(&self, note: &str) -> Self {
-        let run = RunPlan {
-            note: Some(note.to_owned()),
-            ..self.loaded.run().clone()
-        };
-        Self {
-            loaded: self.loaded.with_run(run),
-            ..self.clone()
-        }
+        let mut noted = self.clone();
+        noted.loaded.run.note = Some(note.to_owned());
+        noted
     }
 
     /// The run so far as a scenario of its own: what was loaded, each change, and where it stands.

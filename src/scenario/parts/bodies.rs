@@ -47,7 +47,7 @@ impl Parts<'_> {
         let [modulus, poisson] = ["youngs_modulus", "poisson"].map(|key| join(section, key));
         if self.require(&join(section, "rigid"))? {
             return match [modulus, poisson].iter().find(|key| self.has(key)) {
-                Some(key) => Err(self.refuse(key, "", "a rigid body has no such key")),
+                Some(key) => Err(self.refuse(key, "a rigid body has no such key")),
                 None => Ok(Body::Rigid),
             };
         }

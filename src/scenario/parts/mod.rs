@@ -132,12 +132,8 @@ impl Parts<'_> {
 
     /// A coefficient as a run begins with it: its value, or the first of the table of its `section`.
     fn first(&self, key: &str, section: &str) -> Option<f64> {
-        let of_table = || {
-            self.get::<Vec<f64>>(&join(section, "values"))?
-                .first()
-                .copied()
-        };
-        self.get(key).or_else(of_table)
+        let values = || self.get::<Vec<f64>>(&join(section, "values"));
+        self.get(key).or_else(|| values()?.first().copied())
     }
 
     /// The value of a key, or its default; where there is neither, any value, so that what else is missing is found.
@@ -198,17 +194,19 @@ impl Parts<'_> {
         schema::at(self.written, path).is_some()
     }
 
-    /// Refuses the value that stands at `path`; `otherwise` is shown where none was written.
-    fn refuse(&self, path: &str, otherwise: &str, rule: impl Display) -> ScenarioError {
+    /// Refuses the value that stands at `path`, if one was written.
+    fn refuse(&self, path: &str, rule: impl Display) -> ScenarioError {
         let written = schema::at(self.written, path).map(show);
-        let value = written.unwrap_or_else(|| otherwise.to_owned());
-        self.origin.refuse(path, &value, rule)
+        self.origin.refuse(path, &written.unwrap_or_default(), rule)
     }
 
     /// Adds the table to what a constructor refused.
     fn refused(&self, section: &str, invalid: Invalid) -> ScenarioError {
         let path = format!("{section}.{}", invalid.field);
-        self.refuse(&path, &invalid.value, invalid.rule)
+        match self.has(&path) {
+            true => self.refuse(&path, invalid.rule),
+            false => self.origin.refuse(&path, &invalid.value, invalid.rule),
+        }
     }
 
     /// The law of wear. Keys of the power law are judged under either law, so that the law can be
@@ -259,7 +257,7 @@ impl Parts<'_> {
         }
         let rule = "needs friction greater than 0: per friction work it is \
                     k = coefficient_per_load / friction";
-        Err(self.refuse("wear.coefficient_per_load", "", rule))
+        Err(self.refuse("wear.coefficient_per_load", rule))
     }
 
     fn grid(
@@ -274,31 +272,24 @@ impl Parts<'_> {
             let rule = format!(
                 "must be at most {most} with method = \"{method}\", which has no fast algorithm"
             );
-            return Err(self.refuse("numerics.points", "", rule));
+            return Err(self.refuse("numerics.points", rule));
         }
         if indenter.rim().is_some() && self.has("numerics.domain_radius") {
             let shape = indenter.name();
             let rule =
                 format!("conflicts with shape = \"{shape}\", whose rim is the domain's edge");
-            return Err(self.refuse("numerics.domain_radius", "", rule));
+            return Err(self.refuse("numerics.domain_radius", rule));
         }
-        let radius = domain.ok_or_else(|| {
-            self.refuse(
-                "motion.normal.mean",
-                "",
-                "no contact can carry this force; must be smaller",
-            )
-        })?;
+        let too_large = "no contact can carry this force; must be smaller";
+        let radius = domain.ok_or_else(|| self.refuse("motion.normal.mean", too_large))?;
         if let Indenter::Table(measured) = indenter {
             self.check_measured(measured, radius)?;
         }
-        if indenter
-            .flat_face()
-            .is_some_and(|tip_radius| tip_radius >= radius)
-        {
+        let face = indenter.flat_face();
+        if face.is_some_and(|tip_radius| tip_radius >= radius) {
             let edge = show(&Value::Float(radius));
             let rule = format!("must be less than the domain's edge, {edge} m");
-            return Err(self.refuse("indenter.tip_radius", "", rule));
+            return Err(self.refuse("indenter.tip_radius", rule));
         }
         let grid = match self.get::<Vec<f64>>("numerics.nodes") {
             None => RadialGrid::uniform(points, radius),
@@ -309,7 +300,7 @@ impl Parts<'_> {
                     points + 1,
                     nodes.len()
                 );
-                return Err(self.refuse("numerics.nodes", "[...]", rule));
+                return Err(self.refuse("numerics.nodes", rule));
             }
         };
         grid.map_err(|invalid| self.refused("numerics", invalid))
@@ -324,11 +315,11 @@ impl Parts<'_> {
             (Spacing::Given, false) => {
                 let rule =
                     "needs numerics.nodes, the list that a run with numerics.accuracy writes";
-                Err(self.refuse("numerics.grid", "", rule))
+                Err(self.refuse("numerics.grid", rule))
             }
             (Spacing::Graded | Spacing::Uniform, true) => {
                 let rule = "conflicts with numerics.nodes; give one of them";
-                Err(self.refuse("numerics.grid", "", rule))
+                Err(self.refuse("numerics.grid", rule))
             }
             _ => Ok(named),
         }

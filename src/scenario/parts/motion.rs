@@ -19,7 +19,7 @@ impl Parts<'_> {
         let normal = self.control(NORMAL, TANGENTIAL)?;
         if normal.oscillation().highest() <= 0.0 {
             let rule = "never touches; mean + amplitude must be greater than 0";
-            return Err(self.refuse("motion.normal.mean", "", rule));
+            return Err(self.refuse("motion.normal.mean", rule));
         }
         let tangential = self
             .has(TANGENTIAL)
@@ -36,7 +36,7 @@ impl Parts<'_> {
                 true => "motion.normal.frequency",
                 false => "motion.normal.angular_frequency",
             };
-            return Err(self.refuse(given, "", rule));
+            return Err(self.refuse(given, rule));
         }
         let drive = Drive::new(normal, tangential);
         match self.get("motion.tangential.rig_stiffness") {
@@ -57,7 +57,7 @@ impl Parts<'_> {
             None if is_given => {}
             Some(_) if is_given => {
                 let rule = "conflicts with this waveform; give waveform = \"table\"";
-                return Err(self.refuse(&times, "", rule));
+                return Err(self.refuse(&times, rule));
             }
             _ => return Ok(None),
         }

@@ -45,7 +45,7 @@ impl Parts<'_> {
         }
         let rule = "needs friction greater than 0 at all times: per friction work it is \
                     k = coefficient_per_load / friction";
-        Err(self.refuse("wear.coefficient_per_load", "", rule))
+        Err(self.refuse("wear.coefficient_per_load", rule))
     }
 
     /// The coefficient of a section as it runs in; `None` if it is constant.
@@ -75,7 +75,7 @@ impl Parts<'_> {
         }
         if self.has(&key("settled")) {
             let rule = format!("needs {}", constants.join(" or "));
-            return Err(self.refuse(&key("settled"), "", rule));
+            return Err(self.refuse(&key("settled"), rule));
         }
         Ok(None)
     }

@@ -67,6 +67,6 @@ impl Parts<'_> {
         } else {
             return Ok(());
         };
-        Err(self.refuse(path, "{...}", rule))
+        Err(self.refuse(path, rule))
     }
 }

@@ -16,25 +16,22 @@ impl Parts<'_> {
     pub(super) fn indenter(&self) -> Result<Indenter, ScenarioError> {
         let shape: String = self.require("indenter.shape")?;
         self.refuse_keys_of_other_shapes(&shape)?;
-        let radius = || self.require("indenter.radius");
-        let angle = || self.require("indenter.angle");
-        let tip_radius = || self.require("indenter.tip_radius");
+        let of = |key: &str| self.require::<f64>(&join("indenter", key));
         match shape.as_str() {
-            "cone" => Indenter::cone(angle()?),
-            "power" => Indenter::power(
-                self.require("indenter.coefficient")?,
-                self.require("indenter.exponent")?,
-            ),
-            "flat-punch" => Indenter::flat_punch(radius()?),
-            "truncated-paraboloid" => Indenter::truncated_paraboloid(radius()?, tip_radius()?),
-            "truncated-cone" => Indenter::truncated_cone(angle()?, tip_radius()?),
-            "rounded-punch" => Indenter::rounded_punch(radius()?, tip_radius()?),
+            "cone" => Indenter::cone(of("angle")?),
+            "power" => Indenter::power(of("coefficient")?, of("exponent")?),
+            "flat-punch" => Indenter::flat_punch(of("radius")?),
+            "truncated-paraboloid" => {
+                Indenter::truncated_paraboloid(of("radius")?, of("tip_radius")?)
+            }
+            "truncated-cone" => Indenter::truncated_cone(of("angle")?, of("tip_radius")?),
+            "rounded-punch" => Indenter::rounded_punch(of("radius")?, of("tip_radius")?),
             "table" => {
                 let list = |key| self.list(key, "indenter.file");
                 let (radii, heights) = (list("indenter.radii")?, list("indenter.heights")?);
-                Indenter::table(&radii, &heights, self.require("indenter.smoothing")?)
+                Indenter::table(&radii, &heights, of("smoothing")?)
             }
-            _ => Indenter::paraboloid(radius()?),
+            _ => Indenter::paraboloid(of("radius")?),
         }
         .map_err(|invalid| self.refused("indenter", invalid))
     }
@@ -54,7 +51,7 @@ impl Parts<'_> {
             "shape = \"{shape}\" has no such key; it takes {}",
             takes.join(", ")
         );
-        Err(self.refuse(foreign.path, "", rule))
+        Err(self.refuse(foreign.path, rule))
     }
 
     /// Refuses a table that ends inside the domain, has hardly a point in the contact, or has
@@ -89,6 +86,6 @@ impl Parts<'_> {
         } else {
             return Ok(());
         };
-        Err(self.refuse("indenter.radii", "{...}", rule))
+        Err(self.refuse("indenter.radii", rule))
     }
 }

@@ -4,6 +4,7 @@
 //! What charts are made of is imported here; each of them begins with `use super::*`.
 
 use crate::plot::colormap::ColorMap;
+use crate::plot::step::Step;
 use crate::plot::theme::Role;
 use crate::plot::units::format_value;
 use crate::plot::{self, Axis, Chart, Curve, Fill, Map, Mark, Point, Scale};
@@ -258,10 +259,7 @@ pub fn magnification(deepest: f64, height: f64) -> f64 {
     if deepest <= 0.0 || deepest.is_nan() {
         return 1.0;
     }
-    let most = (height / deepest).clamp(1.0, 1e6);
-    let decade = 10f64.powf(most.log10().floor());
-    let fits = [5.0, 2.0].into_iter().find(|times| times * decade <= most);
-    fits.unwrap_or(1.0) * decade
+    Step::at_most((height / deepest).clamp(1.0, 1e6)).value()
 }
 
 /// The round number of cycles, at least one, that `end` does not exceed: an axis that ended at the

@@ -32,7 +32,7 @@ mod raster;
 pub mod screen_svg;
 pub mod segment;
 pub mod shades;
-mod step;
+pub(crate) mod step;
 mod stroke;
 pub mod theme;
 pub mod ticks;

@@ -128,6 +128,11 @@ impl Table {
         cycle.unwrap_or(f64::NAN)
     }
 
+    /// The last of its cycles, of a table over cycles.
+    pub fn last_cycle(&self) -> Option<f64> {
+        self.column("cycle")?.last().copied()
+    }
+
     /// The columns of a file, in SI units; fields that are no numbers become NaN.
     pub fn of_file(columns: &Columns) -> Self {
         Self::of_columns(columns.header.clone(), columns.all())
@@ -163,7 +168,7 @@ impl Loop {
         let cycles = table.column("cycle")?;
         let pairs = [["u_x_m", "F_x_N"], ["u_m", "F_N"]];
         let [shift, force] = pairs.into_iter().find(|pair| table.has(pair))?;
-        let end = end.or(cycles.last().copied())?;
+        let end = end.or(table.last_cycle())?;
         let within = |cycle: f64| cycle > end - 1.0 - 1e-9 && cycle < end + 1e-9;
         let rows = || (0..cycles.len()).filter(|&row| within(cycles[row]));
         let column = |name| {

@@ -12,7 +12,7 @@ use crate::reading::{Curves, Zone};
 use crate::scenario::Refusal;
 use crate::studies::ghost::Ghost;
 use crate::studies::theory::Theory;
-use crate::traces::{Axes, Loop};
+use crate::traces::{Axes, Loop, Table};
 
 pub mod condition;
 pub mod cost;
@@ -245,11 +245,8 @@ fn finished_series(run: &Run, column: &str, role: Role) -> Result<Curve, &'stati
 /// The cycles that charts of a live run show.
 fn cycles_shown(run: &Run) -> Option<[f64; 2]> {
     let live = run.live.as_ref()?;
-    let seen = run.history.as_ref().and_then(|table| table.column("cycle"));
-    let end = seen
-        .and_then(|cycles| cycles.last().copied())
-        .unwrap_or(0.0);
-    let end = end.max(live.planned_cycles.unwrap_or(0.0));
+    let seen = run.history.as_ref().and_then(Table::last_cycle);
+    let end = seen.unwrap_or(0.0).max(live.planned_cycles.unwrap_or(0.0));
     Some([0.0, round_end(end.max(ghosts::end(run)))])
 }
 

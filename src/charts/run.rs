@@ -191,16 +191,10 @@ impl Run {
 
     /// The last cycle that there is anything of.
     pub fn end(&self) -> Option<f64> {
-        let recorded = self
-            .history
-            .as_ref()
-            .and_then(|table| table.column("cycle"));
+        let recorded = self.history.as_ref().and_then(Table::last_cycle);
         let states = self.states.iter().map(Table::cycle);
         let loops = self.loops.iter().map(|one| one.end);
-        states
-            .chain(loops)
-            .chain(recorded.and_then(|cycles| cycles.last().copied()))
-            .reduce(f64::max)
+        states.chain(loops).chain(recorded).reduce(f64::max)
     }
 
     /// Returns the data for a caption.

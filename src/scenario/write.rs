@@ -75,11 +75,8 @@ fn escaped(text: &str) -> String {
     for c in text.chars() {
         match c {
             '"' | '\\' => quoted.extend(['\\', c]),
-            c if is_rude(c) && u32::from(c) > 0xffff => {
-                let _ = write!(quoted, "\\U{:08X}", u32::from(c));
-            }
             c if is_rude(c) => {
-                let _ = write!(quoted, "\\u{:04X}", u32::from(c));
+                let _ = write!(quoted, "\\U{:08X}", u32::from(c));
             }
             c => quoted.push(c),
         }

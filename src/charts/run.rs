@@ -163,10 +163,8 @@ impl Run {
 
     /// Stick, slip and open along the radius, on a screen.
     pub(super) fn zones(&self) -> Vec<Zone> {
-        self.live
-            .as_ref()
-            .map(|live| live.zones(self.edge()))
-            .unwrap_or_default()
+        let live = self.live.as_ref();
+        live.map_or_else(Vec::new, |live| live.zones(self.edge()))
     }
 
     /// Columns of the history over cycles. Of a finished run in which most rows end a cycle, others are left out:
@@ -199,12 +197,8 @@ impl Run {
 
     /// Returns the data for a caption.
     pub fn facts(&self) -> Vec<(String, String)> {
-        let Some(last) = self
-            .states
-            .last()
-            .or(self.history.as_ref())
-            .or(self.field.as_ref())
-        else {
+        let last = self.states.last().or(self.history.as_ref());
+        let Some(last) = last.or(self.field.as_ref()) else {
             return Vec::new();
         };
         let told = [

@@ -178,7 +178,7 @@ impl Ghost {
             .tables
             .iter()
             .filter(|table| table.column("r_m").is_none());
-        let cycles = histories.filter_map(|table| table.column("cycle")?.last().copied());
+        let cycles = histories.filter_map(Table::last_cycle);
         cycles.fold(0.0, f64::max)
     }
 

@@ -128,6 +128,11 @@ impl Table {
         cycle.unwrap_or(f64::NAN)
     }
 
+    /// The last of its cycles, of a table over cycles.
+    pub fn last_cycle(&self) -> Option<f64> {
+        self.column("cycle")?.last().copied()
+    }
+
     /// The columns of a file, in SI units; fields that are no numbers become NaN.
     pub fn of_file(columns: &Columns) -> Self {
         Self::of_columns(columns.header.clone(), columns.all())
@@ -137,13 +142,56 @@ impl Table {
     pub fn rows(&self) -> usize {
         self.columns.first().map_or(0, Vec::len)
     }
+}
 
-    /// The rows of the cycle before `end`, as far as there are any.
-    pub fn cycle_before(&self, end: f64) -> Vec<usize> {
-        let cycles = self.column("cycle").unwrap_or_default();
+/// The loop of one cycle.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Loop {
+    /// The end of the cycle.
+    pub end: f64,
+    /// u_x⁽⁰⁾, m.
+    pub shifts: Vec<f64>,
+    /// F_x, N.
+    pub forces: Vec<f64>,
+    /// The displacement of the rig's actuator, m; NaN where it is not known.
+    pub sensed: Vec<f64>,
+}
+
+impl Loop {
+    /// Whether the indenter moves to the right at its end.
+    pub fn rises(&self) -> bool {
+        !matches!(self.shifts[..], [.., before, now] if before > now)
+    }
+
+    /// The rows of a table in the cycle before `end`, or before its own end; `None` if it is no table of loops.
+    pub fn of(table: &Table, end: Option<f64>) -> Option<Self> {
+        let cycles = table.column("cycle")?;
+        let pairs = [["u_x_m", "F_x_N"], ["u_m", "F_N"]];
+        let [shift, force] = pairs.into_iter().find(|pair| table.has(pair))?;
+        let end = end.or(table.last_cycle())?;
         let within = |cycle: f64| cycle > end - 1.0 - 1e-9 && cycle < end + 1e-9;
-        (0..cycles.len())
-            .filter(|&row| within(cycles[row]))
-            .collect()
+        let rows = || (0..cycles.len()).filter(|&row| within(cycles[row]));
+        let column = |name| {
+            let values = table.column(name);
+            let value = |row: usize| values.map_or(f64::NAN, |values| values[row]);
+            rows().map(value).collect()
+        };
+        Some(Self {
+            end,
+            shifts: column(shift),
+            forces: column(force),
+            sensed: column("rig_displacement_m"),
+        })
+    }
+
+    /// From steps: cycle, u_x⁽⁰⁾, F_x and the displacement of the actuator.
+    pub fn of_rows<'a>(end: f64, rows: impl Iterator<Item = &'a [f64; 4]> + Clone) -> Self {
+        let column = |k: usize| rows.clone().map(|row| row[k]).collect();
+        Self {
+            end,
+            shifts: column(1),
+            forces: column(2),
+            sensed: column(3),
+        }
     }
 }

@@ -5,21 +5,16 @@
 //! depth and load of a power-law tip give it in closed form, u_t ∝ N^(2/3) for a sphere. The second border
 //! is that of the present, worn profile through the present point of load and u_t.
 
-use super::{NO_CYCLE, NO_MOTION, Recipe, Run, View, Words};
-use crate::plot::theme::Role;
-use crate::plot::{Axis, Chart, Curve, Point};
-use crate::reading::Curves;
+use super::*;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
     title: "running-condition map",
     needs: Curves::SPRINGS,
-    words: Words {
-        text: "Load and displacement amplitude of the cycles so far. Right of the border the \
-                 whole contact slips in each cycle; left of it the middle sticks. The border is \
-                 dashed for the unworn shape, solid for the present one.",
-        symbols: &[("F_z", "mean normal force of a cycle")],
-    },
+    text: "Load and displacement amplitude of the cycles so far. Right of the border the \
+             whole contact slips in each cycle; left of it the middle sticks. The border is \
+             dashed for the unworn shape, solid for the present one.",
+    symbols: &[("F_z", "mean normal force of a cycle")],
     ..Recipe::new(make)
 };
 

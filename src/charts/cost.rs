@@ -1,8 +1,6 @@
 //! Time per step on this machine, over finished cycles.
 
-use super::{Recipe, Run, View, Words, finished_series, over_cycles};
-use crate::plot::theme::Role;
-use crate::plot::{Axis, Chart};
+use super::*;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -10,10 +8,8 @@ pub static RECIPE: Recipe = Recipe {
     can_be_log: true,
     has_spikes: true,
     is_calm: true,
-    words: Words {
-        text: "How long one step of the simulation takes on this machine.",
-        symbols: &[("t", "time per step")],
-    },
+    text: "How long one step of the simulation takes on this machine.",
+    symbols: &[("t", "time per step")],
     ..Recipe::new(make)
 };
 

@@ -1,10 +1,6 @@
 //! The worn depth f − f₀ over the radius.
 
-use super::{A, BAND, C, NO_STATE, Recipe, Run, View, Words, ghosts, limit, of_states, over_r};
-use crate::plot::theme::Role;
-use crate::plot::{Chart, Fill, Scale};
-use crate::reading::Curves;
-use crate::traces::Axes;
+use super::*;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -12,14 +8,11 @@ pub static RECIPE: Recipe = Recipe {
     title: "worn depth",
     can_be_log: true,
     needs: Curves::PROFILE,
-    over_r: true,
     overlays: &[Axes::WEAR, Axes::PROFILE],
-    words: Words {
-        text: "How much has worn off, against the radius. Inside the permanent stick zone it is \
-                 zero; the \
-                 ring outside it grows towards the limiting shape (t) if the depth is held.",
-        symbols: &[("f - f0", "worn depth"), A, C, BAND],
-    },
+    text: "How much has worn off, against the radius. Inside the permanent stick zone it is \
+             zero; the \
+             ring outside it grows towards the limiting shape (t) if the depth is held.",
+    symbols: &[("f - f0", "worn depth"), A, C, BAND],
     ..Recipe::new(make)
 };
 

@@ -1,8 +1,6 @@
 //! The stresses inside the half-space in the plane of motion, as colours.
 
-use super::{Recipe, Run, View};
-use crate::plot::colormap::ColorMap;
-use crate::plot::{Axis, Chart, Map};
+use super::*;
 
 const NO_FIELD: &str = "there is no field.csv; run --field writes it";
 

@@ -1,20 +1,16 @@
 //! The fretting log: the loops F_x over u_x of earlier cycles behind that of the last one, each a step
 //! further to the right and up. The axes are those of the last loop.
 
-use super::{F_X, Loop, NO_CYCLE, NO_MOTION, Recipe, Run, U_X, View, Words};
+use super::*;
 use crate::math::scan::range;
-use crate::plot::theme::Role;
-use crate::plot::{Axis, Chart, Curve};
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
     title: "fretting log",
     is_calm: true,
-    words: Words {
-        text: "The fretting loops of earlier cycles behind the last one. The axes belong to the \
-                 last loop; older loops are shifted to the right and up.",
-        symbols: &[U_X, F_X],
-    },
+    text: "The fretting loops of earlier cycles behind the last one. The axes belong to the \
+             last loop; older loops are shifted to the right and up.",
+    symbols: &[U_X, F_X],
     ..Recipe::new(make)
 };
 

@@ -2,10 +2,7 @@
 //! that the cycle dissipates. An arrow stands at the present moment and points the way it goes. On a rig that
 //! yields the loop of its sensor is drawn beside that of the contact: both have the same forces and the same area.
 
-use super::{F_X, Live, Loop, NO_MOTION, Recipe, Run, U_X, View, Words, ghosts};
-use crate::plot::theme::Role;
-use crate::plot::{Axis, Chart, Curve, Point};
-use crate::traces::Axes;
+use super::*;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -13,13 +10,11 @@ pub static RECIPE: Recipe = Recipe {
     title: "fretting loop",
     keeps_abscissa: true,
     overlays: &[Axes::LOOP],
-    words: Words {
-        text: "Tangential force against tangential displacement in the last cycle. The area \
-                 inside is the energy lost to friction. A line means full stick, a thin loop \
-                 partial slip, a parallelogram with flat ends gross slip. The arrow marks the \
-                 present moment.",
-        symbols: &[U_X, F_X],
-    },
+    text: "Tangential force against tangential displacement in the last cycle. The area \
+             inside is the energy lost to friction. A line means full stick, a thin loop \
+             partial slip, a parallelogram with flat ends gross slip. The arrow marks the \
+             present moment.",
+    symbols: &[U_X, F_X],
     ..Recipe::new(make)
 };
 

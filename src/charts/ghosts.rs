@@ -1,28 +1,22 @@
 //! Curves of other sources in a chart: on a screen dashes in the colour of text, each its own pattern; error bars
 //! where there are any.
 
-use super::Run;
-use crate::plot::Curve;
-use crate::plot::theme::Role;
-use crate::studies::ghost::Ghost;
-use crate::traces::Axes;
+use super::*;
 
 /// What one ghost gives for a chart: abscissae, ordinates, and errors if there are any.
 type Points = (Vec<f64>, Vec<f64>, Option<Vec<f64>>);
 
-/// The curve of ghost number `k`.
-fn curve(ghost: &Ghost, k: usize, (xs, ys, errors): Points) -> Curve {
-    let curve = Curve::new(ghost.name.clone(), xs, ys, Role::Ghost(k));
-    match ghost.is_measured {
-        true => curve.scattered(errors.unwrap_or_default()),
-        false => curve.dashed(),
-    }
-}
-
 /// The curves of all ghosts that `of` finds points in.
 fn curves(run: &Run, of: impl Fn(&Ghost) -> Option<Points>) -> Vec<Curve> {
     let ghosts = run.ghosts.iter().enumerate();
-    let curves = ghosts.filter_map(|(k, ghost)| Some(curve(ghost, k, of(ghost)?)));
+    let curves = ghosts.filter_map(|(k, ghost)| {
+        let (xs, ys, errors) = of(ghost)?;
+        let curve = Curve::new(ghost.name.clone(), xs, ys, Role::Ghost(k));
+        Some(match ghost.is_measured {
+            true => curve.scattered(errors.unwrap_or_default()),
+            false => curve.dashed(),
+        })
+    });
     let is_there = |curve: &Curve| curve.ys.iter().any(|y| y.is_finite());
     curves.filter(is_there).collect()
 }

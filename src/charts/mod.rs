@@ -1,13 +1,18 @@
 //! Charts of a run, one per file: each declares what it is called, what it needs, how it is explained, and how it
 //! is made. The terminal, the paper, the line of the cursor and the help all read that.
+//!
+//! What charts are made of is imported here; each of them begins with `use super::*`.
 
+use crate::plot::colormap::ColorMap;
+use crate::plot::step::Step;
 use crate::plot::theme::Role;
-use crate::plot::{self, Axis, Chart, Curve, Mark, Scale};
+use crate::plot::units::format_value;
+use crate::plot::{self, Axis, Chart, Curve, Fill, Map, Mark, Point, Scale};
 use crate::reading::{Curves, Zone};
 use crate::scenario::Refusal;
 use crate::studies::ghost::Ghost;
 use crate::studies::theory::Theory;
-use crate::traces::Axes;
+use crate::traces::{Axes, Loop, Table};
 
 pub mod condition;
 pub mod cost;
@@ -28,16 +33,10 @@ pub mod springs;
 pub mod stresses;
 pub mod volume;
 
-pub use run::{Live, Loop, Run};
+pub use run::{Live, Run};
 
-/// An explanation, for a reader who knows Hertz and nothing else.
-#[derive(Debug, Clone, Copy)]
-pub struct Words {
-    /// A few sentences.
-    pub text: &'static str,
-    /// The symbols in the chart with their meaning.
-    pub symbols: &'static [(&'static str, &'static str)],
-}
+/// Symbols with their meaning, for a reader who knows Hertz and nothing else.
+pub type Symbols = &'static [(&'static str, &'static str)];
 
 /// The contact radius, explained.
 pub const A: (&str, &str) = ("a", "contact radius: the bodies touch inside it");
@@ -61,7 +60,7 @@ const NO_HISTORY: &str = "there is no history.csv";
 pub type Make = fn(&Run, &View) -> Result<Chart, &'static str>;
 
 /// Everything that there is to know of a chart but its data.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 pub struct Recipe {
     /// The name on the command line, for charts that a paper can have.
     pub name: &'static str,
@@ -73,8 +72,6 @@ pub struct Recipe {
     pub needs: Curves,
     /// Whether it needs the stresses inside the half-space.
     pub needs_field: bool,
-    /// Whether its abscissa is the radius, which has the cursor.
-    pub over_r: bool,
     /// Whether the range of the abscissa is kept as that of the ordinate is: a loop is drawn on axes that hold.
     pub keeps_abscissa: bool,
     /// Whether a few values may be far above all others: a stress that is singular at a border, or a slow step.
@@ -85,16 +82,12 @@ pub struct Recipe {
     pub is_calm: bool,
     /// What it shows of other sources; the line of the cursor compares the first.
     pub overlays: &'static [Axes],
-    /// The explanation.
-    pub words: Words,
+    /// The explanation: a few sentences.
+    pub text: &'static str,
+    /// The symbols in the chart with their meaning.
+    pub symbols: Symbols,
     /// How it is made.
     pub make: Make,
-}
-
-impl std::fmt::Debug for Recipe {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.title)
-    }
 }
 
 impl Recipe {
@@ -106,15 +99,12 @@ impl Recipe {
             can_be_log: false,
             needs: Curves::empty(),
             needs_field: false,
-            over_r: false,
             keeps_abscissa: false,
             has_spikes: false,
             is_calm: false,
             overlays: &[],
-            words: Words {
-                text: "",
-                symbols: &[],
-            },
+            text: "",
+            symbols: &[],
             make,
         }
     }
@@ -146,6 +136,11 @@ impl Recipe {
     pub fn on_paper(&self, run: &Run) -> Result<Chart, Refusal> {
         let chart = self.chart(run, &View::default());
         chart.map_err(|why| Refusal::new(format_args!("no chart {}", self.name), why))
+    }
+
+    /// Whether its abscissa is the radius, which has the cursor.
+    pub fn is_over_r(&self) -> bool {
+        self.overlays.first().is_some_and(|axes| axes.over_r())
     }
 
     /// Whether the chart has a place for what `ghost` holds.
@@ -250,11 +245,8 @@ fn finished_series(run: &Run, column: &str, role: Role) -> Result<Curve, &'stati
 /// The cycles that charts of a live run show.
 fn cycles_shown(run: &Run) -> Option<[f64; 2]> {
     let live = run.live.as_ref()?;
-    let seen = run.history.as_ref().and_then(|table| table.column("cycle"));
-    let end = seen
-        .and_then(|cycles| cycles.last().copied())
-        .unwrap_or(0.0);
-    let end = end.max(live.planned_cycles.unwrap_or(0.0));
+    let seen = run.history.as_ref().and_then(Table::last_cycle);
+    let end = seen.unwrap_or(0.0).max(live.planned_cycles.unwrap_or(0.0));
     Some([0.0, round_end(end.max(ghosts::end(run)))])
 }
 
@@ -264,10 +256,7 @@ pub fn magnification(deepest: f64, height: f64) -> f64 {
     if deepest <= 0.0 || deepest.is_nan() {
         return 1.0;
     }
-    let most = (height / deepest).clamp(1.0, 1e6);
-    let decade = 10f64.powf(most.log10().floor());
-    let fits = [5.0, 2.0].into_iter().find(|times| times * decade <= most);
-    fits.unwrap_or(1.0) * decade
+    Step::at_most((height / deepest).clamp(1.0, 1e6)).value()
 }
 
 /// The round number of cycles, at least one, that `end` does not exceed: an axis that ended at the

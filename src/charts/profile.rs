@@ -1,14 +1,8 @@
 //! The 3D profile f(r), worn and unworn, with the zones of the contact under it. The wear is drawn
 //! magnified where it would be thinner than a line.
 
-use super::{
-    A, BAND, C, NO_STATE, Recipe, Run, View, Words, ghosts, limit, magnification, of_states, over_r,
-};
+use super::*;
 use crate::math::scan::largest;
-use crate::plot::theme::Role;
-use crate::plot::{Axis, Chart, Curve, Fill};
-use crate::reading::Curves;
-use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -16,15 +10,12 @@ pub static RECIPE: Recipe = Recipe {
     title: "3D profile",
     can_be_log: true,
     needs: Curves::PROFILE,
-    over_r: true,
     overlays: &[Axes::WEAR, Axes::PROFILE],
-    words: Words {
-        text: "The shape of the indenter against the radius, unworn and worn. Wear thinner than a \
-                 line is drawn magnified, by one factor for the whole run that the title tells. It begins \
-                 where surfaces slide under pressure: in the ring between c and a. A faint line ends what \
-                 sticks at the moment: all, whenever the motion reverses.",
-        symbols: &[("f", "height of the profile over its tip"), A, C, BAND],
-    },
+    text: "The shape of the indenter against the radius, unworn and worn. Wear thinner than a \
+             line is drawn magnified, by one factor for the whole run that the title tells. It begins \
+             where surfaces slide under pressure: in the ring between c and a. A faint line ends what \
+             sticks at the moment: all, whenever the motion reverses.",
+    symbols: &[("f", "height of the profile over its tip"), A, C, BAND],
     ..Recipe::new(make)
 };
 

@@ -1,9 +1,6 @@
 //! The largest contact radius and the smallest stick radius of every cycle.
 
-use super::{Recipe, Run, View, Words, cycles_shown, ghosts, over_cycles, series};
-use crate::plot::theme::Role;
-use crate::plot::{Axis, Chart, Curve};
-use crate::traces::Axes;
+use super::*;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -11,15 +8,13 @@ pub static RECIPE: Recipe = Recipe {
     title: "radii over cycles",
     is_calm: true,
     overlays: &[Axes::CONTACT, Axes::STICK],
-    words: Words {
-        text: "The largest contact radius and the smallest stick radius of each cycle. As the \
-                 ring wears, a grows; c settles, because what has stuck through a whole cycle \
-                 keeps sticking.",
-        symbols: &[
-            ("a", "contact radius"),
-            ("c", "stick radius: the smallest of the cycle"),
-        ],
-    },
+    text: "The largest contact radius and the smallest stick radius of each cycle. As the \
+             ring wears, a grows; c settles, because what has stuck through a whole cycle \
+             keeps sticking.",
+    symbols: &[
+        ("a", "contact radius"),
+        ("c", "stick radius: the smallest of the cycle"),
+    ],
     ..Recipe::new(make)
 };
 

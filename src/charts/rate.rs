@@ -1,10 +1,7 @@
 //! Worn volume per cycle, over cycles. The unfinished cycle is left out: most of the wear of a cycle falls
 //! into a part of it, so a rate over less than a cycle means little.
 
-use super::{Recipe, Run, View, Words, finished_series, over_cycles};
-use crate::plot::theme::Role;
-use crate::plot::{Axis, Chart};
-use crate::traces::Axes;
+use super::*;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -13,11 +10,9 @@ pub static RECIPE: Recipe = Recipe {
     has_spikes: true,
     is_calm: true,
     overlays: &[Axes::VOLUME],
-    words: Words {
-        text: "The wear volume of each cycle. It falls as the ring wears free of load, and \
-                 stays up if a force keeps pressing the indenter in.",
-        symbols: &[("V per cycle", "wear volume of one cycle")],
-    },
+    text: "The wear volume of each cycle. It falls as the ring wears free of load, and \
+             stays up if a force keeps pressing the indenter in.",
+    symbols: &[("V per cycle", "wear volume of one cycle")],
     ..Recipe::new(make)
 };
 

@@ -1,20 +1,16 @@
 //! The difference between wear volume and friction work: V/(k E_d) − 1 since the start, in
 //! thousandths. The wear law says zero.
 
-use super::{E_D, Recipe, Run, V, View, Words, cycles_shown, over_cycles, series};
-use crate::plot::theme::Role;
-use crate::plot::{Axis, Chart, Curve};
+use super::*;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
     title: "V against k E_d",
     has_spikes: true,
     is_calm: true,
-    words: Words {
-        text: "V = k E_d holds exactly in theory: V comes from the 3D profile, E_d from the 1D springs. The \
-                 difference shows how consistent the numerics are.",
-        symbols: &[V, ("k", "wear coefficient"), E_D],
-    },
+    text: "V = k E_d holds exactly in theory: V comes from the 3D profile, E_d from the 1D springs. The \
+             difference shows how consistent the numerics are.",
+    symbols: &[V, ("k", "wear coefficient"), E_D],
     ..Recipe::new(make)
 };
 

@@ -8,53 +8,7 @@ use crate::reading::Moment;
 use crate::scenario::Scenario;
 use crate::studies::ghost::Ghost;
 use crate::studies::theory::Theory;
-use crate::traces::Table;
-
-/// The loop of one cycle.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Loop {
-    /// The end of the cycle.
-    pub end: f64,
-    /// u_x⁽⁰⁾, m.
-    pub shifts: Vec<f64>,
-    /// F_x, N.
-    pub forces: Vec<f64>,
-    /// The displacement of the rig's actuator, m; NaN where it is not known.
-    pub sensed: Vec<f64>,
-}
-
-impl Loop {
-    /// Whether the indenter moves to the right at its end.
-    pub fn rises(&self) -> bool {
-        !matches!(self.shifts[..], [.., before, now] if before > now)
-    }
-
-    /// The cycle before `end` of a table with these columns for displacement and force.
-    fn of(table: &Table, [shift, force]: [&str; 2], end: f64) -> Option<Self> {
-        let column = |name: &str| table.column(name);
-        let (shifts, forces) = (column(shift)?, column(force)?);
-        let sensed = column("rig_displacement_m");
-        let rows = table.cycle_before(end);
-        let of = |values: &[f64]| rows.iter().map(|&row| values[row]).collect();
-        Some(Self {
-            end,
-            shifts: of(shifts),
-            forces: of(forces),
-            sensed: sensed.map_or_else(|| vec![f64::NAN; rows.len()], of),
-        })
-    }
-
-    /// From steps: cycle, u_x⁽⁰⁾, F_x and the displacement of the actuator.
-    pub fn of_rows<'a>(end: f64, rows: impl Iterator<Item = &'a [f64; 4]> + Clone) -> Self {
-        let column = |k: usize| rows.clone().map(|row| row[k]).collect();
-        Self {
-            end,
-            shifts: column(1),
-            forces: column(2),
-            sensed: column(3),
-        }
-    }
-}
+use crate::traces::{Loop, Table};
 
 /// What a run has only while it is on a screen.
 #[derive(Debug, Clone)]
@@ -141,17 +95,13 @@ impl Run {
 
     /// Adds a table, recognised by its columns; refuses a table that is not from a run.
     pub fn take(&mut self, table: Table) -> Result<(), String> {
-        let of_loop = [["u_x_m", "F_x_N"], ["u_m", "F_N"]];
         if table.has(&["r_m", "f_m"]) {
             self.states.push(table);
             self.states.sort_by(|a, b| a.cycle().total_cmp(&b.cycle()));
             self.states.dedup_by(|a, b| a.cycle() == b.cycle());
         } else if table.has(&["cycle", "contact_radius_m", "wear_volume_m3"]) {
             self.history = Some(table);
-        } else if let Some(one) = of_loop
-            .into_iter()
-            .find_map(|names| Loop::of(&table, names, *table.column("cycle")?.last()?))
-        {
+        } else if let Some(one) = Loop::of(&table, None) {
             self.loops.push(one);
         } else if table.has(&["x_m", "z_m", "von_mises_Pa"]) {
             self.field = Some(table);
@@ -165,7 +115,7 @@ impl Run {
     pub fn loop_at(&self, end: f64) -> Option<Loop> {
         let mut alone = self.loops.iter();
         let alone = alone.find(|one| (one.end - end).abs() < 1e-9).cloned();
-        let recorded = || Loop::of(self.history.as_ref()?, ["u_x_m", "F_x_N"], end);
+        let recorded = || Loop::of(self.history.as_ref()?, Some(end));
         alone.or_else(recorded)
     }
 
@@ -213,10 +163,8 @@ impl Run {
 
     /// Stick, slip and open along the radius, on a screen.
     pub(super) fn zones(&self) -> Vec<Zone> {
-        self.live
-            .as_ref()
-            .map(|live| live.zones(self.edge()))
-            .unwrap_or_default()
+        let live = self.live.as_ref();
+        live.map_or_else(Vec::new, |live| live.zones(self.edge()))
     }
 
     /// Columns of the history over cycles. Of a finished run in which most rows end a cycle, others are left out:
@@ -241,26 +189,16 @@ impl Run {
 
     /// The last cycle that there is anything of.
     pub fn end(&self) -> Option<f64> {
-        let recorded = self
-            .history
-            .as_ref()
-            .and_then(|table| table.column("cycle"));
+        let recorded = self.history.as_ref().and_then(Table::last_cycle);
         let states = self.states.iter().map(Table::cycle);
         let loops = self.loops.iter().map(|one| one.end);
-        states
-            .chain(loops)
-            .chain(recorded.and_then(|cycles| cycles.last().copied()))
-            .reduce(f64::max)
+        states.chain(loops).chain(recorded).reduce(f64::max)
     }
 
     /// Returns the data for a caption.
     pub fn facts(&self) -> Vec<(String, String)> {
-        let Some(last) = self
-            .states
-            .last()
-            .or(self.history.as_ref())
-            .or(self.field.as_ref())
-        else {
+        let last = self.states.last().or(self.history.as_ref());
+        let Some(last) = last.or(self.field.as_ref()) else {
             return Vec::new();
         };
         let told = [

@@ -1,10 +1,7 @@
 //! The largest worn depth over cycles.
 
-use super::{Recipe, Run, View, Words, ghosts, over_cycles, series};
+use super::*;
 use crate::math::scan::largest;
-use crate::plot::theme::Role;
-use crate::plot::{Axis, Chart, Curve};
-use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -13,11 +10,9 @@ pub static RECIPE: Recipe = Recipe {
     can_be_log: true,
     is_calm: true,
     overlays: &[Axes::DEPTH],
-    words: Words {
-        text: "The largest worn depth of the profile over cycles: what a profilometer reads in the deepest point of \
-                 the scar. Measured depths lie over it with --overlay.",
-        symbols: &[("depth", "largest f - f0 over the radius")],
-    },
+    text: "The largest worn depth of the profile over cycles: what a profilometer reads in the deepest point of \
+             the scar. Measured depths lie over it with --overlay.",
+    symbols: &[("depth", "largest f - f0 over the radius")],
     ..Recipe::new(make)
 };
 

@@ -1,9 +1,6 @@
 //! The scar's radius and depth over the work of friction: what a profilometer and a loop give of a test.
 
-use super::{E_D, NO_CYCLE, NO_HISTORY, Recipe, Run, View, Words, ghosts, magnification};
-use crate::plot::theme::Role;
-use crate::plot::{Axis, Chart, Curve, Scale};
-use crate::traces::Axes;
+use super::*;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -13,16 +10,14 @@ pub static RECIPE: Recipe = Recipe {
     keeps_abscissa: true,
     is_calm: true,
     overlays: &[DEPTH, RADIUS],
-    words: Words {
-        text: "The outer radius of the wear scar and its depth over the energy that friction has dissipated. At \
-               first the ring deepens where it is; then it grows outwards, and the depth per energy falls. The \
-               depth is drawn magnified by the factor in the legend, which a logarithmic scale does not need.",
-        symbols: &[
-            E_D,
-            ("radius", "outermost radius that has worn"),
-            ("depth", "largest f - f0 over the radius"),
-        ],
-    },
+    text: "The outer radius of the wear scar and its depth over the energy that friction has dissipated. At \
+           first the ring deepens where it is; then it grows outwards, and the depth per energy falls. The \
+           depth is drawn magnified by the factor in the legend, which a logarithmic scale does not need.",
+    symbols: &[
+        E_D,
+        ("radius", "outermost radius that has worn"),
+        ("depth", "largest f - f0 over the radius"),
+    ],
     ..Recipe::new(make)
 };
 

@@ -1,13 +1,12 @@
 //! What is known of a session: its present state, and all that charts show of it where it is run for them.
 
 use super::Run;
-use super::run::Loop;
 use crate::export::last_loop::LastLoop;
 use crate::export::{field, header, state};
 use crate::reading::Curves;
 use crate::scenario::scalars::Reading;
 use crate::scenario::session::{Session, SessionError};
-use crate::traces::Table;
+use crate::traces::{Loop, Table};
 
 /// What the charts over cycles show.
 const OVER_CYCLES: [&str; 7] = [

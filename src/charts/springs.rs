@@ -1,24 +1,17 @@
 //! The 1D profile g(x) against the depth to which it is pressed: springs touch where g is less.
 
-use super::{A, C, NO_STATE, Recipe, Run, View, Words, ghosts, of_states, over_r};
-use crate::plot::theme::Role;
-use crate::plot::{Chart, Curve};
-use crate::reading::Curves;
-use crate::traces::Axes;
+use super::*;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
     name: "profile-1d",
     title: "1D profile",
     needs: Curves::PROFILE_1D,
-    over_r: true,
     overlays: &[Axes::SPRINGS],
-    words: Words {
-        text: "The method replaces the 3D contact with a row of independent springs, and the \
-                 shape f with its 1D image g. A spring at x touches where g(x) is below the depth \
-                 d. The contact force is exactly the sum of the spring forces.",
-        symbols: &[("g", "1D profile"), ("d", "indentation depth"), A, C],
-    },
+    text: "The method replaces the 3D contact with a row of independent springs, and the \
+             shape f with its 1D image g. A spring at x touches where g(x) is below the depth \
+             d. The contact force is exactly the sum of the spring forces.",
+    symbols: &[("g", "1D profile"), ("d", "indentation depth"), A, C],
     ..Recipe::new(make)
 };
 

@@ -1,10 +1,6 @@
 //! Pressure p(r) and shear stress τ(r). τ is drawn as τ/μ: it meets ±p where the contact slips.
 
-use super::{A, C, NO_STATE, Recipe, Run, View, Words, ghosts, over_r};
-use crate::plot::theme::Role;
-use crate::plot::{Chart, Curve, Scale};
-use crate::reading::Curves;
-use crate::traces::Axes;
+use super::*;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -12,21 +8,18 @@ pub static RECIPE: Recipe = Recipe {
     title: "stresses",
     can_be_log: true,
     needs: Curves::PRESSURE.union(Curves::SHEAR),
-    over_r: true,
     has_spikes: true,
     overlays: &[Axes::PRESSURE, Axes::SHEAR],
-    words: Words {
-        text: "Pressure p and shear stress against the radius. The shear stress is divided by \
-                 μ, so it lies on p or -p where the contact slips and between them where it \
-                 sticks. The unworn p is Hertz's half-ellipse; wear moves the load into the stick \
-                 zone.",
-        symbols: &[
-            ("p", "pressure"),
-            ("τ/μ", "shear stress over the friction coefficient"),
-            A,
-            C,
-        ],
-    },
+    text: "Pressure p and shear stress against the radius. The shear stress is divided by \
+             μ, so it lies on p or -p where the contact slips and between them where it \
+             sticks. The unworn p is Hertz's half-ellipse; wear moves the load into the stick \
+             zone.",
+    symbols: &[
+        ("p", "pressure"),
+        ("τ/μ", "shear stress over the friction coefficient"),
+        A,
+        C,
+    ],
     ..Recipe::new(make)
 };
 

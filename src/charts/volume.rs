@@ -1,11 +1,7 @@
 //! Wear volume V over cycles. What the work of friction says of it, V = k E_d, differs by less than a line
 //! is wide: the panel beside shows the difference.
 
-use super::{E_D, Recipe, Run, V, View, Words, ghosts, over_cycles, series};
-use crate::plot::theme::Role;
-use crate::plot::units::format_value;
-use crate::plot::{Axis, Chart};
-use crate::traces::Axes;
+use super::*;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -14,10 +10,8 @@ pub static RECIPE: Recipe = Recipe {
     can_be_log: true,
     is_calm: true,
     overlays: &[Axes::VOLUME],
-    words: Words {
-        text: "The wear volume since the start. It grows by k times the energy that friction dissipates.",
-        symbols: &[V, E_D],
-    },
+    text: "The wear volume since the start. It grows by k times the energy that friction dissipates.",
+    symbols: &[V, E_D],
     ..Recipe::new(make)
 };
 

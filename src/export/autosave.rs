@@ -176,9 +176,21 @@ fn free(directory: &Path, stem: &str) -> Result<Target, WriteError> {
     let failed = WriteError::io(directory);
     fs::create_dir_all(directory).map_err(failed)?;
     sweep(directory, INTERNAL, STALE);
-    let others = checkpoints(directory).map_err(failed)?;
-    let highest = others.iter().map(|other| other.number).max();
-    prune(others, highest);
+    let mut others = checkpoints(directory).map_err(failed)?;
+    others.sort();
+    let highest = others.iter().map(|(_, number, _)| *number).max();
+    let mut excess = (others.len() + 1).saturating_sub(KEPT);
+    for (_, number, path) in others {
+        // What can be claimed here belongs to no running session; the highest number stays, so that the next is new.
+        if excess > 0
+            && Some(number) != highest
+            && let Ok(claimed) = Target::hold(&path)
+        {
+            // One that cannot be removed does no harm.
+            let _ = fs::remove_file(claimed.path());
+            excess -= 1;
+        }
+    }
     let first = highest.unwrap_or(0).saturating_add(1);
     for number in first..first.saturating_add(MOST_AT_ONCE) {
         let path = directory.join(format!("{stem}-{number}.{ENDING}"));
@@ -191,35 +203,9 @@ fn free(directory: &Path, stem: &str) -> Result<Target, WriteError> {
     Err(failed(io::ErrorKind::AlreadyExists.into()))
 }
 
-/// Removes the oldest checkpoints, except those of running sessions and the one with the highest
-/// number, so that the next number is new.
-fn prune(mut others: Vec<Found>, highest: Option<u64>) {
-    others.sort_by_key(|other| other.written);
-    let mut excess = (others.len() + 1).saturating_sub(KEPT);
-    for other in others {
-        // What is claimed here belongs to no running session.
-        if excess > 0
-            && Some(other.number) != highest
-            && let Ok(claimed) = Target::hold(&other.path)
-        {
-            // One that cannot be removed does no harm.
-            let _ = fs::remove_file(claimed.path());
-            excess -= 1;
-        }
-    }
-}
-
-/// A checkpoint in a directory.
-#[derive(Debug)]
-struct Found {
-    path: PathBuf,
-    written: SystemTime,
-    /// The number at the end of its name; 0 if there is none.
-    number: u64,
-}
-
-/// The checkpoints in a directory.
-fn checkpoints(directory: &Path) -> io::Result<Vec<Found>> {
+/// The checkpoints in a directory: when each was written, the number at the end of its name (0 without one), and
+/// where it is.
+fn checkpoints(directory: &Path) -> io::Result<Vec<(SystemTime, u64, PathBuf)>> {
     let mut found = Vec::new();
     for entry in fs::read_dir(directory)? {
         let path = entry?.path();
@@ -228,11 +214,7 @@ fn checkpoints(directory: &Path) -> io::Result<Vec<Found>> {
         if let (true, Ok(about)) = (is_one, fs::metadata(&path)) {
             let stem = path.file_stem().map(|stem| stem.to_string_lossy());
             let number = stem.and_then(|stem| stem.rsplit_once('-')?.1.parse().ok());
-            found.push(Found {
-                written: about.modified()?,
-                number: number.unwrap_or(0),
-                path,
-            });
+            found.push((about.modified()?, number.unwrap_or(0), path));
         }
     }
     Ok(found)
@@ -265,7 +247,7 @@ mod tests {
         }
         let left = checkpoints(&directory).expect("a directory");
         assert_eq!(left.len(), KEPT);
-        assert!(left.iter().any(|found| Some(&found.path) == places.last()));
+        assert!(left.iter().any(|(.., path)| Some(path) == places.last()));
         fs::write(directory.join("notes.txt"), b"mine").expect("a file");
         come_and_go(&directory, "cone");
         assert!(directory.join("notes.txt").exists());

@@ -63,9 +63,8 @@ impl History {
     /// The columns of the present moment of `session` with their values.
     pub fn values(&self, session: &Session) -> Vec<(&str, Value)> {
         let reading = Reading::new(session);
-        self.names()
-            .map(|name| (name, read(name, &reading)))
-            .collect()
+        let values = self.names().map(|name| (name, reading.value(name)));
+        values.collect()
     }
 
     fn row(&self, session: &Session) -> String {
@@ -132,10 +131,7 @@ impl History {
             return Ok(());
         }
         let whole = self.copied(from, to);
-        if whole.is_err() {
-            self.written = 0;
-        }
-        whole
+        whole.inspect_err(|_| self.written = 0)
     }
 
     fn copied(&self, from: &Path, to: &Path) -> io::Result<()> {
@@ -174,9 +170,5 @@ impl History {
 
 /// The fields of a moment, in the order of the columns.
 pub fn fields(reading: &Reading) -> [String; COLUMNS.len()] {
-    COLUMNS.map(|name| read(name, reading).field())
-}
-
-fn read(name: &str, reading: &Reading) -> Value {
-    scalars::find(name).map_or(Value::Missing, |scalar| scalar.read(reading))
+    COLUMNS.map(|name| reading.value(name).field())
 }

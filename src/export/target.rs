@@ -49,27 +49,26 @@ impl Target {
     ///
     /// If something else than a file is there, and if another process makes the file.
     pub fn hold(path: &Path) -> Result<Self, WriteError> {
+        let mut target = Self {
+            path: path.to_owned(),
+            claim: None,
+        };
         if path == Path::new(STDOUT) {
-            return Ok(Self {
-                path: path.to_owned(),
-                claim: None,
-            });
+            return Ok(target);
         }
+        let refused = |rule| Err(WriteError::refused(path, rule));
         if path.file_name().is_none() || path.is_dir() {
-            return Err(WriteError::refused(path, "is not a file name"));
+            return refused("is not a file name");
         }
         if path.symlink_metadata().is_ok_and(|about| !about.is_file()) {
-            return Err(WriteError::refused(path, IRREGULAR));
+            return refused(IRREGULAR);
         }
         if !directory_of(path).is_dir() {
-            return Err(WriteError::refused(path, "its directory does not exist"));
+            return refused("its directory does not exist");
         }
-        let claim = Claim::of_file(path)?;
+        target.claim = Some(Claim::of_file(path)?);
         sweep(directory_of(path), &temporary_of(path), Duration::ZERO);
-        Ok(Self {
-            path: path.to_owned(),
-            claim: Some(claim),
-        })
+        Ok(target)
     }
 
     /// [`hold`](Self::hold), in a directory that is made where it is not there; it goes again if

@@ -6,6 +6,7 @@ use super::frame::{BAR, Frame, symbol};
 use super::look::Look;
 use super::map::Key;
 use crate::plot::axis::titled;
+use crate::plot::segment::clip;
 use crate::plot::ticks::{Labels, Ruler};
 use crate::plot::units::{AxisUnit, axis_unit};
 use crate::plot::window::Window;
@@ -92,7 +93,7 @@ impl Chart {
                 canvas.text(above, mark.label, 0.9 * font, Anchor::Middle);
             }
         }
-        let mut drawn = Vec::new();
+        let mut drawn: Vec<[[f64; 2]; 2]> = Vec::new();
         if self.map.is_some() {
             let parts = self.curves.iter().flat_map(|curve| frame.clipped(curve));
             for part in parts {
@@ -106,11 +107,12 @@ impl Chart {
             let dashes = look.dashes(curve.role, curve.dashed);
             let parts = frame.clipped(curve);
             for part in parts.into_iter().filter(|_| curve.has_line) {
-                drawn.extend(along(&part));
+                drawn.extend(part.windows(2).map(|pair| [pair[0], pair[1]]));
                 canvas.line(part, look.color(curve.role), CURVE, dashes);
             }
             if curve.has_symbols {
-                drawn.extend(frame.points(curve, canvas, look));
+                let points = frame.points(curve, canvas, look).into_iter();
+                drawn.extend(points.map(|at| [at; 2]));
             }
         }
         self.axes(&frame, at[0], canvas, font);
@@ -127,9 +129,7 @@ impl Chart {
             inset.draw(true, canvas, [corner, size], ordinate, &small);
             let [wide, high] = size.map(|side| side + 2.0 * TICK);
             let rows = (0..20).map(|k| frame.top + high * f64::from(k) / 20.0);
-            drawn.extend(rows.flat_map(|y| {
-                (0..200).map(move |k| [frame.left + wide * f64::from(k) / 200.0, y])
-            }));
+            drawn.extend(rows.map(|y| [[frame.left, y], [frame.left + wide, y]]));
         }
         if !is_inset {
             self.legend(&frame, &drawn, canvas, look);
@@ -181,7 +181,7 @@ impl Chart {
                 0 => [x, y - length],
                 _ => [x + length, y],
             };
-            for from in minor(ruler).into_iter().filter_map(place) {
+            for from in ruler.minor().into_iter().filter_map(place) {
                 let to = inwards(from, 0.55 * TICK);
                 canvas.line(vec![from, to], BLACK, FRAME, &[]);
             }
@@ -210,7 +210,7 @@ impl Chart {
     }
 
     /// The names of the curves, in the corner where they cover the least of them; those of a map below it.
-    fn legend(&self, frame: &Frame, drawn: &[[f64; 2]], canvas: &mut Canvas, look: &Look) {
+    fn legend(&self, frame: &Frame, drawn: &[[[f64; 2]; 2]], canvas: &mut Canvas, look: &Look) {
         let font = 0.9 * look.font;
         if self.named().next().is_none() {
             return;
@@ -221,10 +221,14 @@ impl Chart {
         let height = line * self.named().count() as f64 + gap;
         let [left, top] = [frame.left + TICK, frame.top + TICK];
         let (right, bottom) = (frame.right() - TICK - width, frame.bottom() - TICK - height);
-        let covered = |[x, y]: [f64; 2]| {
-            let hit =
-                |p: &&[f64; 2]| (x..x + width).contains(&p[0]) && (y..y + height).contains(&p[1]);
-            drawn.iter().filter(hit).count()
+        // Half millimetres of what is drawn there; a point or a short piece counts as one.
+        let covered = |[x, y]: [f64; 2]| -> usize {
+            let inside = |&[a, b]: &[[f64; 2]; 2]| clip(a, b, [x, y], [x + width, y + height]);
+            let lengths = drawn.iter().filter_map(inside);
+            let lengths = lengths.map(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1]));
+            lengths
+                .map(|length| (2.0 * length).ceil().max(1.0) as usize)
+                .sum()
         };
         let corners = [[right, top], [left, top], [right, bottom], [left, bottom]];
         let best = corners.into_iter().min_by_key(|&corner| covered(corner));
@@ -279,20 +283,6 @@ pub(super) fn title(axis: &Axis, unit: &AxisUnit) -> String {
 /// Height of a line of the legend, in sizes of the font.
 const LEGEND_LINE: f64 = 1.17;
 
-/// Points along a drawn line, half a millimetre apart.
-fn along(part: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let mut points = Vec::new();
-    for pair in part.windows(2) {
-        let [dx, dy] = [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]];
-        let count = (2.0 * dx.hypot(dy)).ceil().max(1.0) as usize;
-        points.extend((0..count).map(|k| {
-            let share = k as f64 / count as f64;
-            [pair[0][0] + share * dx, pair[0][1] + share * dy]
-        }));
-    }
-    points
-}
-
 /// The unit that an axis is labelled in; logarithmic ones over many decades keep that of the data.
 fn unit_of(axis: &Axis, bounds: [f64; 2]) -> AxisUnit {
     let largest = bounds[0].abs().max(bounds[1].abs());
@@ -304,31 +294,6 @@ fn unit_of(axis: &Axis, bounds: [f64; 2]) -> AxisUnit {
         },
         _ => axis_unit(largest, axis.unit, false),
     }
-}
-
-/// Ticks between those with labels: five, four or two to a step; 2 to 9 in a decade.
-fn minor(ruler: &Ruler) -> Vec<f64> {
-    let [low, high] = ruler.window.bounds;
-    let within = |value: &f64| (low..=high).contains(value);
-    if ruler.window.scale == Scale::Log {
-        let decades = low.log10().floor() as i32..=high.log10().floor() as i32;
-        let few = decades.clone().count() <= 8;
-        let mantissas = if few { 1..10 } else { 1..2 };
-        let all = decades.flat_map(|decade| {
-            let sizes = mantissas.clone();
-            sizes.map(move |mantissa| f64::from(mantissa) * 10f64.powi(decade))
-        });
-        return all.filter(within).collect();
-    }
-    let [first, second, ..] = &ruler.ticks[..] else {
-        return Vec::new();
-    };
-    let step = second.value - first.value;
-    let mantissa = step / 10f64.powf((step * 1.000_001).log10().floor());
-    let parts = if (1.5..3.5).contains(&mantissa) { 4 } else { 5 };
-    let last = ((high - low) / step) as i32 + 2;
-    let all = (-parts..=last * parts).map(|k| first.value + step * f64::from(k) / f64::from(parts));
-    all.filter(within).collect()
 }
 
 /// A number, alone or before a unit, as print has it: a true minus sign, and 2e-8 as 2·10^−8.
@@ -364,19 +329,5 @@ mod tests {
         ] {
             assert_eq!(numeral(text), set);
         }
-    }
-
-    #[test]
-    fn minor_ticks_lie_between_the_labelled_ones() {
-        let axis = |bounds, scale| {
-            let window = Window::new(bounds, scale, 40, 16);
-            let unit = axis_unit(1.0, "", false);
-            minor(&Ruler::new(window, unit, Labels::Row(0)))
-        };
-        let linear = axis([0.0, 1.0], Scale::Linear);
-        assert!(linear.len() > 12 && linear.iter().all(|v| (0.0..=1.0).contains(v)));
-        let log = axis([1e-3, 1.0], Scale::Log);
-        assert_eq!(log.len(), 28);
-        assert!((log[1] - 2e-3).abs() < 1e-12);
     }
 }

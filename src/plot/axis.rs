@@ -73,29 +73,23 @@ impl Axis {
 
     /// The same axis from `bounds[0]` to `bounds[1]` (in the data's unit).
     #[must_use]
-    pub fn bounds(self, bounds: [f64; 2]) -> Self {
-        Axis {
-            bounds: Some(bounds),
-            ..self
-        }
+    pub fn bounds(mut self, bounds: [f64; 2]) -> Self {
+        self.bounds = Some(bounds);
+        self
     }
 
     /// The same axis, which holds zero: volumes and radii grow from there.
     #[must_use]
-    pub fn from_zero(self) -> Self {
-        Axis {
-            holds: Some(0.0),
-            ..self
-        }
+    pub fn from_zero(mut self) -> Self {
+        self.holds = Some(0.0);
+        self
     }
 
     /// The same axis, which is expected to reach `value`.
     #[must_use]
-    pub fn expecting(self, value: f64) -> Self {
-        Axis {
-            expects: value,
-            ..self
-        }
+    pub fn expecting(mut self, value: f64) -> Self {
+        self.expects = value;
+        self
     }
 
     /// The unit to label a range with: that of what is expected, unless the numbers would be too small in it.
@@ -121,22 +115,18 @@ impl Axis {
 
     /// Values halfway between neighbouring `places`, and as far beyond the first and the last one.
     pub fn edges(&self, places: &[f64]) -> Vec<f64> {
-        let at: Vec<f64> = places
-            .iter()
-            .map(|&place| self.scale.spread(place))
-            .collect();
-        let last = at.len().saturating_sub(1);
-        let half = |a: usize, b: usize| match at[b] - at[a] {
-            0.0 => 0.5 * at[a].abs().max(1e-300),
-            step => 0.5 * step,
+        let at = places.iter().map(|&place| self.scale.spread(place));
+        let at: Vec<f64> = at.collect();
+        let step = |a: usize, b: usize| match at[b] - at[a] {
+            0.0 => at[a].abs().max(1e-300),
+            step => step,
         };
-        let mut edges = vec![at[0] - half(0, last.min(1))];
-        edges.extend(at.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])));
-        edges.push(at[last] + half(last.saturating_sub(1), last));
-        edges
-            .into_iter()
-            .map(|edge| self.scale.unspread(edge))
-            .collect()
+        let last = at.len() - 1;
+        let before = at[0] - step(0, last.min(1));
+        let beyond = at[last] + step(last.saturating_sub(1), last);
+        let all = [&[before], &at[..], &[beyond]].concat();
+        let middles = all.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
+        middles.map(|edge| self.scale.unspread(edge)).collect()
     }
 
     /// `bounds` with this share of their distance more on either side.

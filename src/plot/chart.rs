@@ -91,22 +91,17 @@ impl Curve {
 
     /// The same curve as a closed form beside the run.
     #[must_use]
-    pub fn theory(self) -> Self {
-        Self {
-            is_theory: true,
-            ..self
-        }
+    pub fn theory(mut self) -> Self {
+        self.is_theory = true;
+        self
     }
 
     /// The same as points, with standard errors if these are known.
     #[must_use]
-    pub fn scattered(self, errors: impl Into<Vec<f64>>) -> Self {
-        Self {
-            has_symbols: true,
-            has_line: false,
-            errors: errors.into(),
-            ..self
-        }
+    pub fn scattered(mut self, errors: impl Into<Vec<f64>>) -> Self {
+        (self.has_symbols, self.has_line) = (true, false);
+        self.errors = errors.into();
+        self
     }
 
     /// The curve's value at `x`: at a point of it, or linearly interpolated between the first two

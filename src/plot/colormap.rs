@@ -1,7 +1,29 @@
 //! Colours of a map: shares of a range as red, green and blue.
 
+use ratatui::style::Color;
+
 /// A colour, red, green and blue.
 pub type Rgb = [u8; 3];
+
+/// The colours of a terminal that have names, by their numbers, and what they look like where that is not known.
+pub(super) const NAMED: [(Color, Rgb); 16] = [
+    (Color::Black, [0, 0, 0]),
+    (Color::Red, [0xcd, 0x31, 0x31]),
+    (Color::Green, [0x0d, 0xbc, 0x79]),
+    (Color::Yellow, [0xe5, 0xe5, 0x10]),
+    (Color::Blue, [0x24, 0x72, 0xc8]),
+    (Color::Magenta, [0xbc, 0x3f, 0xbc]),
+    (Color::Cyan, [0x11, 0xa8, 0xcd]),
+    (Color::Gray, [0xe5, 0xe5, 0xe5]),
+    (Color::DarkGray, [0x66, 0x66, 0x66]),
+    (Color::LightRed, [0xf1, 0x4c, 0x4c]),
+    (Color::LightGreen, [0x23, 0xd1, 0x8b]),
+    (Color::LightYellow, [0xf5, 0xf5, 0x43]),
+    (Color::LightBlue, [0x3b, 0x8e, 0xea]),
+    (Color::LightMagenta, [0xd6, 0x70, 0xd6]),
+    (Color::LightCyan, [0x29, 0xb8, 0xdb]),
+    (Color::White, [0xff, 0xff, 0xff]),
+];
 
 /// Which colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

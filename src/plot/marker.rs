@@ -1,6 +1,7 @@
 //! Characters that dots are made of.
 
 use clap::ValueEnum;
+use ratatui::symbols::braille::BRAILLE;
 
 /// The character of a dot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, serde::Deserialize)]
@@ -31,7 +32,7 @@ impl Marker {
     /// The character of a cell with these dots of curves.
     pub(super) fn glyph(self, dots: u8) -> char {
         match (self, dots) {
-            (Marker::Braille, _) => braille(dots),
+            (Marker::Braille, _) => BRAILLE[usize::from(dots)],
             (Marker::HalfBlock, 1) => '▀',
             (Marker::HalfBlock, 2) => '▄',
             (Marker::HalfBlock, _) => '█',
@@ -43,7 +44,7 @@ impl Marker {
     /// The character of a cell with these dots of the layer below.
     pub(super) fn under_glyph(self, kind: Under, dots: u8) -> char {
         match (self, kind) {
-            (Marker::Braille, _) => braille(dots),
+            (Marker::Braille, _) => BRAILLE[usize::from(dots)],
             (Marker::HalfBlock, Under::Fill) => '░',
             (Marker::Dot, Under::Fill) => '·',
             (Marker::Ascii, Under::Fill) => '.',
@@ -68,15 +69,4 @@ pub(super) enum Under {
     Mark,
     /// The cursor.
     Cursor,
-}
-
-/// The Braille character of a cell's bits (left, right; top to bottom).
-fn braille(bits: u8) -> char {
-    const PATTERN: [u32; 8] = [0x01, 0x08, 0x02, 0x10, 0x04, 0x20, 0x40, 0x80];
-    let dots = PATTERN
-        .iter()
-        .enumerate()
-        .filter(|(bit, _)| bits & (1 << bit) != 0);
-    let code: u32 = dots.map(|(_, dot)| dot).sum();
-    char::from_u32(0x2800 + code).unwrap_or(' ')
 }

@@ -32,7 +32,7 @@ mod raster;
 pub mod screen_svg;
 pub mod segment;
 pub mod shades;
-mod step;
+pub(crate) mod step;
 mod stroke;
 pub mod theme;
 pub mod ticks;
@@ -51,7 +51,7 @@ use ratatui::layout::Rect;
 use theme::Theme;
 
 /// The widget: a chart, the look of the terminal, and perhaps a cursor. See the [module](self) for its parts.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy)]
 pub struct Plot<'a> {
     chart: &'a Chart,
     theme: &'a Theme,
@@ -72,11 +72,9 @@ impl<'a> Plot<'a> {
 
     /// The free part of the rule above the plot, in which the abscissa is named.
     #[must_use]
-    pub fn rule(self, rule: Rect) -> Self {
-        Plot {
-            rule: Some(rule),
-            ..self
-        }
+    pub fn rule(mut self, rule: Rect) -> Self {
+        self.rule = Some(rule);
+        self
     }
 
     /// A vertical line at this x (in the x axis' unit), and in the legend each curve's

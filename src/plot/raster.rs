@@ -154,6 +154,11 @@ impl Raster {
         cells.map(|cell| cell.curve.count_ones()).sum()
     }
 
+    /// Whether a rectangle of the screen lies on the raster, and no curve in it.
+    pub(super) fn is_free(&self, spot: Rect) -> bool {
+        self.area.intersection(spot) == spot && self.dots_in(spot) == 0
+    }
+
     /// Removes everything in a rectangle of the screen.
     pub(super) fn blank(&mut self, area: Rect) {
         for place in self.area.intersection(area).positions() {

@@ -7,9 +7,10 @@ use std::fmt::Write;
 
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Modifier};
+use ratatui::symbols::braille::BRAILLE;
 use ratatui::text::Line;
 
-use super::colormap::Rgb;
+use super::colormap::{NAMED, Rgb};
 
 /// What the terminal's own colours look like.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,35 +41,15 @@ const LETTERS: f64 = 15.0;
 /// Around the screen, pixels.
 const MARGIN: f64 = 8.0;
 
-/// The opacity of what is dim.
+/// How much of what is dim is its own colour; the rest is that of its background.
 const DIM: f64 = 0.55;
-
-/// The sixteen colours of a terminal, for what is not given as red, green and blue.
-const SIXTEEN: [(Color, Rgb); 16] = [
-    (Color::Black, [0, 0, 0]),
-    (Color::Red, [0xcd, 0x31, 0x31]),
-    (Color::Green, [0x0d, 0xbc, 0x79]),
-    (Color::Yellow, [0xe5, 0xe5, 0x10]),
-    (Color::Blue, [0x24, 0x72, 0xc8]),
-    (Color::Magenta, [0xbc, 0x3f, 0xbc]),
-    (Color::Cyan, [0x11, 0xa8, 0xcd]),
-    (Color::Gray, [0xe5, 0xe5, 0xe5]),
-    (Color::DarkGray, [0x66, 0x66, 0x66]),
-    (Color::LightRed, [0xf1, 0x4c, 0x4c]),
-    (Color::LightGreen, [0x23, 0xd1, 0x8b]),
-    (Color::LightYellow, [0xf5, 0xf5, 0x43]),
-    (Color::LightBlue, [0x3b, 0x8e, 0xea]),
-    (Color::LightMagenta, [0xd6, 0x70, 0xd6]),
-    (Color::LightCyan, [0x29, 0xb8, 0xdb]),
-    (Color::White, [0xff, 0xff, 0xff]),
-];
 
 /// The colour that a terminal shows; `own` where it is the terminal's.
 fn shown(color: Color, own: Rgb) -> Rgb {
-    let named = || SIXTEEN.iter().find(|(name, _)| *name == color);
+    let named = || NAMED.iter().find(|(name, _)| *name == color);
     match color {
         Color::Rgb(r, g, b) => [r, g, b],
-        Color::Indexed(index @ 0..=15) => SIXTEEN[usize::from(index)].1,
+        Color::Indexed(index @ 0..=15) => NAMED[usize::from(index)].1,
         Color::Indexed(index @ 16..=231) => {
             let at = index - 16;
             [at / 36, at / 6 % 6, at % 6].map(|level| match level {
@@ -87,7 +68,6 @@ struct Look {
     fore: Rgb,
     back: Rgb,
     bold: bool,
-    opacity: f64,
 }
 
 impl Look {
@@ -96,16 +76,20 @@ impl Look {
         if cell.modifier.contains(Modifier::REVERSED) {
             std::mem::swap(&mut fore, &mut back);
         }
-        Self {
-            fore,
-            back,
-            bold: cell.modifier.contains(Modifier::BOLD),
-            opacity: if cell.modifier.contains(Modifier::DIM) {
-                DIM
-            } else {
-                1.0
-            },
+        let bold = cell.modifier.contains(Modifier::BOLD);
+        let mut look = Self { fore, back, bold };
+        if cell.modifier.contains(Modifier::DIM) {
+            look.fore = look.mixed(DIM);
         }
+        look
+    }
+
+    /// This share of its colour on its background.
+    fn mixed(self, share: f64) -> Rgb {
+        [0, 1, 2].map(|k| {
+            let [fore, back] = [self.fore[k], self.back[k]].map(f64::from);
+            (back + share * (fore - back)).round() as u8
+        })
     }
 }
 
@@ -142,45 +126,39 @@ impl Drawing {
         &mut self.0[at].1
     }
 
-    fn area(&mut self, color: Rgb, opacity: f64, (x, y): (f64, f64), height: f64) {
-        let data = self.of(format!("fill=\"{}\"{}", hex(color), seen(opacity)));
+    fn area(&mut self, color: Rgb, (x, y): (f64, f64), height: f64) {
+        let data = self.of(format!("fill=\"{}\"", hex(color)));
         let _ = write!(data, "M{x} {y}h{0}v{height}h-{0}z", CELL.0);
     }
 
-    fn line(&mut self, look: Look, width: &str) -> &mut String {
-        let (color, seen) = (hex(look.fore), seen(look.opacity));
-        self.of(format!("stroke=\"{color}\" stroke-width={width}{seen}"))
+    fn line(&mut self, color: Rgb, width: &str) -> &mut String {
+        self.of(format!("stroke=\"{}\" stroke-width={width}", hex(color)))
     }
 
     /// Draws the sign of a cell at a place; false if it is a letter.
     fn sign(&mut self, sign: char, look: Look, (x, y): (f64, f64)) -> bool {
-        let ((w, h), color, opacity) = (CELL, look.fore, look.opacity);
-        match sign {
-            '█' => self.area(color, opacity, (x, y), h),
-            '▀' => self.area(color, opacity, (x, y), 0.5 * h),
-            '▄' => self.area(color, opacity, (x, y + 0.5 * h), 0.5 * h),
-            '░' => self.area(color, 0.25 * opacity, (x, y), h),
-            '▒' => self.area(color, 0.5 * opacity, (x, y), h),
-            '▓' => self.area(color, 0.75 * opacity, (x, y), h),
-            '\u{2800}'..='\u{28ff}' => {
-                let dots = self.line(look, "\"3\" stroke-linecap=\"round\"");
-                for bit in (0..8).filter(|bit| (sign as u32) >> bit & 1 == 1) {
-                    // The lowest row came last to Braille.
-                    let [column, row] = if bit < 6 {
-                        [bit / 3, bit % 3]
-                    } else {
-                        [bit - 6, 3]
-                    };
-                    let x = x + w * (f64::from(column) * 0.5 + 0.25);
-                    let y = y + h * (f64::from(row) * 0.25 + 0.125);
-                    let _ = write!(dots, "M{x} {y}h0");
-                }
+        let ((w, h), color) = (CELL, look.fore);
+        if let Some(bits) = BRAILLE.iter().position(|&dots| dots == sign) {
+            let dots = self.line(color, "\"3\" stroke-linecap=\"round\"");
+            for bit in (0..8).filter(|bit| bits >> bit & 1 == 1) {
+                let [column, row] = [bit % 2, bit / 2].map(f64::from);
+                let (x, y) = (x + w * (0.5 * column + 0.25), y + h * (0.25 * row + 0.125));
+                let _ = write!(dots, "M{x} {y}h0");
             }
+            return true;
+        }
+        match sign {
+            '█' => self.area(color, (x, y), h),
+            '▀' => self.area(color, (x, y), 0.5 * h),
+            '▄' => self.area(color, (x, y + 0.5 * h), 0.5 * h),
+            '░' => self.area(look.mixed(0.25), (x, y), h),
+            '▒' => self.area(look.mixed(0.5), (x, y), h),
+            '▓' => self.area(look.mixed(0.75), (x, y), h),
             _ => {
                 let Some([left, right, up, down]) = arms(sign) else {
                     return false;
                 };
-                let rules = self.line(look, "\"1\"");
+                let rules = self.line(color, "\"1\"");
                 let (mx, my) = (x + w / 2.0, y + h / 2.0);
                 let end = |arm: bool, end: f64, middle: f64| if arm { end } else { middle };
                 if left || right {
@@ -203,14 +181,6 @@ impl Drawing {
     }
 }
 
-/// The attribute of what one can see through.
-fn seen(opacity: f64) -> String {
-    match opacity {
-        1.0 => String::new(),
-        opacity => format!(" opacity=\"{opacity}\""),
-    }
-}
-
 /// A colour as SVG has it.
 pub fn hex([red, green, blue]: Rgb) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
@@ -226,17 +196,16 @@ pub fn escaped(text: &str) -> String {
         .replace(printable, " ")
 }
 
-/// A run of letters of one look, from a column on.
+/// A run of letters of one look, from a place of its baseline on.
 struct Run {
     look: Look,
-    column: u16,
+    at: (f64, f64),
     text: String,
 }
 
 impl Run {
-    fn write(&self, y: f64, svg: &mut String) {
-        let text = self.text.trim_end();
-        let x = MARGIN + f64::from(self.column) * CELL.0;
+    fn write(&self, svg: &mut String) {
+        let (text, (x, y)) = (self.text.trim_end(), self.at);
         let width = Line::raw(text).width() as f64 * CELL.0;
         let bold = match self.look.bold {
             true => " font-weight=\"bold\"",
@@ -244,9 +213,8 @@ impl Run {
         };
         let _ = writeln!(
             svg,
-            "<text x=\"{x}\" y=\"{y}\" textLength=\"{width}\" fill=\"{}\"{bold}{}>{}</text>",
+            "<text x=\"{x}\" y=\"{y}\" textLength=\"{width}\" fill=\"{}\"{bold}>{}</text>",
             hex(self.look.fore),
-            seen(self.look.opacity),
             escaped(text),
         );
     }
@@ -265,18 +233,19 @@ pub fn picture(buffer: &Buffer, ground: Ground) -> String {
          font-size=\"{LETTERS}\" xml:space=\"preserve\" fill=\"none\">\n",
         hex(ground.back)
     );
-    let (mut backs, mut letters) = (Drawing::default(), String::new());
-    let mut drawing = Drawing::default();
-    for (row, cells) in buffer.area.rows().enumerate() {
-        let y = MARGIN + row as f64 * h;
-        let mut runs: Vec<Run> = Vec::new();
+    let (mut backs, mut drawing) = (Drawing::default(), Drawing::default());
+    let mut runs: Vec<Run> = Vec::new();
+    for row in buffer.area.rows() {
         let (mut is_open, mut covered) = (false, 0);
-        for (column, at) in cells.positions().enumerate() {
-            let (cell, column) = (&buffer[at], column as u16);
+        for at in row.positions() {
+            let (cell, column) = (&buffer[at], f64::from(at.x - buffer.area.x));
             let look = Look::of(cell, ground);
-            let place = (MARGIN + f64::from(column) * w, y);
+            let (x, y) = (
+                MARGIN + column * w,
+                MARGIN + f64::from(at.y - buffer.area.y) * h,
+            );
             if look.back != ground.back {
-                backs.area(look.back, 1.0, place, h);
+                backs.area(look.back, (x, y), h);
             }
             // A wide character covers the cell behind it.
             if covered > 0 {
@@ -286,7 +255,7 @@ pub fn picture(buffer: &Buffer, ground: Ground) -> String {
             let symbol = cell.symbol();
             covered = Line::raw(symbol).width().saturating_sub(1);
             let sign = symbol.chars().next().unwrap_or(' ');
-            if drawing.sign(sign, look, place) {
+            if drawing.sign(sign, look, (x, y)) {
                 is_open = false;
                 continue;
             }
@@ -299,19 +268,16 @@ pub fn picture(buffer: &Buffer, ground: Ground) -> String {
                     is_open = !is_blank;
                     runs.extend(is_open.then(|| Run {
                         look,
-                        column,
+                        at: (x, y + 0.72 * h),
                         text: symbol.to_owned(),
                     }));
                 }
             }
         }
-        for run in runs {
-            run.write(y + 0.72 * h, &mut letters);
-        }
     }
     backs.write(&mut svg);
     drawing.write(&mut svg);
-    svg.push_str(&letters);
+    runs.iter().for_each(|run| run.write(&mut svg));
     svg.push_str("</g>\n</svg>\n");
     svg
 }

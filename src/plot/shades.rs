@@ -4,7 +4,7 @@ use ratatui::buffer::Cell;
 use ratatui::style::{Color, Style};
 use ratatui::text::Span;
 
-use super::colormap::ColorMap;
+use super::colormap::{ColorMap, NAMED};
 use super::theme::{Depth, Look, Theme};
 
 /// How many there are: few, so that only the lines between them change from frame to frame.
@@ -25,35 +25,9 @@ const DIVERGING: [u8; SHADES] = [117, 75, 33, 26, 24, 237, 237, 88, 124, 160, 20
 /// The same on a light background: those nearest to the colours of [`ColorMap::Diverging`].
 const DIVERGING_ON_LIGHT: [u8; SHADES] = [67, 68, 110, 152, 254, 255, 255, 224, 223, 216, 167, 131];
 
-/// Shades of terminals that have sixteen colours: neighbours share one.
-const SIXTEEN: [Color; SHADES] = [
-    Color::Blue,
-    Color::Blue,
-    Color::LightBlue,
-    Color::LightBlue,
-    Color::Cyan,
-    Color::Cyan,
-    Color::LightCyan,
-    Color::Green,
-    Color::LightGreen,
-    Color::LightGreen,
-    Color::Yellow,
-    Color::LightYellow,
-];
-const SIXTEEN_DIVERGING: [Color; SHADES] = [
-    Color::Blue,
-    Color::Blue,
-    Color::LightBlue,
-    Color::LightBlue,
-    Color::LightCyan,
-    Color::Gray,
-    Color::Gray,
-    Color::LightYellow,
-    Color::LightRed,
-    Color::LightRed,
-    Color::Red,
-    Color::Red,
-];
+/// Shades of terminals that have sixteen colours, by the colours' numbers: neighbours share one.
+const SIXTEEN: [u8; SHADES] = [4, 4, 12, 12, 6, 6, 14, 2, 10, 10, 3, 11];
+const SIXTEEN_DIVERGING: [u8; SHADES] = [4, 4, 12, 12, 14, 7, 7, 11, 9, 9, 1, 1];
 
 /// Whether blocks and colours can be drawn.
 pub fn has_blocks(theme: &Theme) -> bool {
@@ -70,13 +44,17 @@ pub fn shade(value: f64, [low, high]: [f64; 2]) -> usize {
 pub fn color(theme: &Theme, map: ColorMap, shade: usize) -> Option<Color> {
     let shade = shade.min(SHADES - 1);
     let is_light = theme.look == Look::Light;
-    let color = match (theme.depth, map) {
+    let number = match (theme.depth, map) {
         (Depth::Sixteen, ColorMap::Sequential) => SIXTEEN[shade],
         (Depth::Sixteen, ColorMap::Diverging) => SIXTEEN_DIVERGING[shade],
-        (_, ColorMap::Sequential) if is_light => Color::Indexed(SEQUENTIAL[SHADES - 1 - shade]),
-        (_, ColorMap::Sequential) => Color::Indexed(SEQUENTIAL[shade]),
-        (_, ColorMap::Diverging) if is_light => Color::Indexed(DIVERGING_ON_LIGHT[shade]),
-        (_, ColorMap::Diverging) => Color::Indexed(DIVERGING[shade]),
+        (_, ColorMap::Sequential) if is_light => SEQUENTIAL[SHADES - 1 - shade],
+        (_, ColorMap::Sequential) => SEQUENTIAL[shade],
+        (_, ColorMap::Diverging) if is_light => DIVERGING_ON_LIGHT[shade],
+        (_, ColorMap::Diverging) => DIVERGING[shade],
+    };
+    let color = match theme.depth {
+        Depth::Sixteen => NAMED[usize::from(number)].0,
+        Depth::Indexed => Color::Indexed(number),
     };
     has_blocks(theme).then_some(color)
 }

@@ -2,11 +2,11 @@
 
 /// A step of the grid, 1, 2 or 5 times a power of ten, by its number: 0 is 1, 1 is 2, 2 is 5, 3 is 10.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Step(pub(super) i32);
+pub(crate) struct Step(pub(super) i32);
 
 impl Step {
     /// The largest step that is not above `size` (positive and finite).
-    pub(super) fn at_most(size: f64) -> Step {
+    pub(crate) fn at_most(size: f64) -> Step {
         let decade = 3 * size.log10().floor().clamp(-306.0, 306.0) as i32;
         let bound = size * (1.0 + 1e-9);
         // The logarithm may be off by one unit in the last place: allow the next decade.
@@ -26,7 +26,7 @@ impl Step {
     }
 
     /// The step's size.
-    pub(super) fn value(self) -> f64 {
+    pub(crate) fn value(self) -> f64 {
         self.multiple(1.0)
     }
 

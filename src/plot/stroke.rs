@@ -30,30 +30,24 @@ impl Stroke {
             (Self::Dashed, Braille) => [&[4, 2], &[5, 3]],
             (Self::Dashed, HalfBlock) => [&[2, 1], &[3, 1]],
             (Self::Dashed, Dot | Ascii) => [&[1, 1], &[1, 1]],
-            (Self::Dotted, Braille) => [&[1, 2], &[1, 2]],
-            (Self::Dotted, HalfBlock) => [&[1, 2], &[1, 2]],
-            (Self::Dotted, Dot | Ascii) => [&[1, 2], &[1, 2]],
+            (Self::Dotted, _) => [&[1, 2], &[1, 2]],
             (Self::DashDotted, Braille) => [&[5, 2, 1, 2], &[6, 2, 1, 2]],
-            (Self::DashDotted, HalfBlock | Dot | Ascii) => [&[3, 1, 1, 1], &[3, 1, 1, 1]],
+            (Self::DashDotted, _) => [&[3, 1, 1, 1], &[3, 1, 1, 1]],
             (Self::LongDashed, Braille) => [&[9, 3], &[10, 4]],
-            (Self::LongDashed, HalfBlock | Dot | Ascii) => [&[5, 1], &[5, 1]],
+            (Self::LongDashed, _) => [&[5, 1], &[5, 1]],
         }
     }
 
     /// The sign that stands for it in a legend.
     pub(super) fn swatch(self, ascii: bool) -> char {
-        match (self, ascii) {
-            (Self::Solid, false) => '─',
-            (Self::Dashed, false) => '╌',
-            (Self::Dotted, false) => '┈',
-            (Self::DashDotted, false) => '┄',
-            (Self::LongDashed, false) => '╴',
-            (Self::Solid, true) => '-',
-            (Self::Dashed, true) => '=',
-            (Self::Dotted, true) => '.',
-            (Self::DashDotted, true) => '~',
-            (Self::LongDashed, true) => '_',
-        }
+        let (line, in_ascii) = match self {
+            Self::Solid => ('─', '-'),
+            Self::Dashed => ('╌', '='),
+            Self::Dotted => ('┈', '.'),
+            Self::DashDotted => ('┄', '~'),
+            Self::LongDashed => ('╴', '_'),
+        };
+        if ascii { in_ascii } else { line }
     }
 }
 

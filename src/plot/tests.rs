@@ -373,7 +373,7 @@ fn nothing_makes_it_panic() {
                 for width in 0..=30 {
                     for height in 0..=12 {
                         let mut buf = Buffer::empty(Rect::new(3, 2, width, height));
-                        (&plot).render(buf.area, &mut buf);
+                        plot.render(buf.area, &mut buf);
                     }
                 }
             }
@@ -400,7 +400,7 @@ fn it_stays_in_its_area() {
         for height in 0..=12 {
             let mut buf = Buffer::empty(Rect::new(0, 0, 40, 20));
             let area = Rect::new(5, 4, width, height);
-            (&plot).render(area, &mut buf);
+            plot.render(area, &mut buf);
             for place in buf.area.positions().filter(|&place| !area.contains(place)) {
                 assert_eq!(buf[place].symbol(), " ", "{width} {height} {place:?}");
             }

@@ -89,6 +89,32 @@ impl Ruler {
     }
 }
 
+impl Ruler {
+    /// Values of ticks between those with labels: on a linear axis two steps of the grid finer, which makes four or
+    /// five to a step; 2 to 9 in a decade.
+    pub fn minor(&self) -> Vec<f64> {
+        let [low, high] = self.window.bounds;
+        if self.window.scale == Scale::Log {
+            let [first, last] = [low, high].map(|end| end.log10().floor() as i32);
+            let most = if last - first < 8 { 9 } else { 1 };
+            let decade =
+                |decade| (1..=most).map(move |count| Step(3 * decade).multiple(f64::from(count)));
+            let all = (first..=last).flat_map(decade);
+            return all.filter(|value| (low..=high).contains(value)).collect();
+        }
+        let [first, second, ..] = &self.ticks[..] else {
+            return Vec::new();
+        };
+        let Step(labelled) = Step::at_most(second.value - first.value);
+        let step = Step(labelled - 2);
+        let [first, last] = [low, high].map(|end| end / step.value());
+        let counts = (first - 1e-9).ceil() as i32..=(last + 1e-9).floor() as i32;
+        counts
+            .map(|count| step.multiple(f64::from(count)))
+            .collect()
+    }
+}
+
 /// The ticks of an axis, in increasing order: as many as fit without their labels coming
 /// close, at least two where there is room for two. `factor` is the axis' unit in the
 /// data's unit (1e-6 for µm), a power of ten on a log axis.
@@ -220,6 +246,20 @@ fn fit(ticks: &[Tick], window: &Window, labels: Labels, apart: u16, blanks: i32)
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn minor_ticks_lie_between_the_labelled_ones() {
+        let minor = |bounds, scale| {
+            let window = Window::new(bounds, scale, 40, 16);
+            let (factor, text) = (1.0, String::new());
+            Ruler::new(window, AxisUnit { factor, text }, Labels::Row(0)).minor()
+        };
+        let linear = minor([0.0, 1.0], Scale::Linear);
+        assert!(linear.len() > 12 && linear.iter().all(|v| (0.0..=1.0).contains(v)));
+        let log = minor([1e-3, 1.0], Scale::Log);
+        assert_eq!(log.len(), 28);
+        assert!((log[1] - 2e-3).abs() < 1e-12);
+    }
 
     fn labels_of(ticks: &[Tick]) -> Vec<&str> {
         ticks.iter().map(|tick| tick.label.as_str()).collect()

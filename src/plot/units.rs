@@ -2,10 +2,11 @@
 //!
 //! One axis has one prefix, taken from the largest absolute value on it, so that all its
 //! labels share it. A prefix before a power of a unit is raised with it, as SI wants:
-//! 1 µm³ is 10⁻¹⁸ m³. Where no prefix applies (pure numbers, `1/Pa`, cycles), a power of
+//! 1 µm³ is 10⁻¹⁸ m³. Where no prefix applies (pure numbers, `1/Pa`, cycles) or fits, a power of
 //! a thousand is written in its place: `[1e-6 1/Pa]`.
 
 use std::borrow::Cow;
+use std::f64::consts::TAU;
 
 use crate::scenario::units::SHOWN_PREFIXES;
 
@@ -41,7 +42,7 @@ fn leading_power(unit: &str) -> Option<i32> {
     match rest.trim_start_matches('^').chars().next() {
         Some('²' | '2') => Some(2),
         Some('³' | '3') => Some(3),
-        Some('-' | '⁻' | '0'..='9' | '⁰' | '¹' | '⁴'..='⁹') => None,
+        Some('(' | '-' | '⁻' | '0'..='9' | '⁰' | '¹' | '⁴'..='⁹') => None,
         _ => Some(1),
     }
 }
@@ -57,15 +58,28 @@ pub struct AxisUnit {
 
 /// The common unit of an axis whose largest absolute value is `max` (in `unit`).
 pub fn axis_unit(max: f64, unit: &str, ascii: bool) -> AxisUnit {
-    let (symbol, mut factor) = prefix(max, unit);
-    let mut text = shown(&format!("{symbol}{unit}"), ascii);
+    let (symbol, factor) = prefix(max, unit);
     let scaled = max.abs() / factor;
-    if scaled != 0.0 && scaled.is_finite() && !(0.01..1e5).contains(&scaled) {
-        let power = 3 * ((scaled * (1.0 + 1e-9)).log10() / 3.0).floor() as i32;
-        factor *= 10f64.powi(power);
-        text = format!("1e{power} {text}").trim_end().to_owned();
+    if scaled == 0.0 || !scaled.is_finite() || (0.01..1e5).contains(&scaled) {
+        let text = shown(&format!("{symbol}{unit}"), ascii);
+        return AxisUnit { factor, text };
     }
-    AxisUnit { factor, text }
+    let power = 3 * ((max.abs() * (1.0 + 1e-9)).log10() / 3.0).floor() as i32;
+    AxisUnit {
+        factor: 10f64.powi(power),
+        text: shown(format!("1e{power} {unit}").trim_end(), ascii),
+    }
+}
+
+/// The ends of a range (in `unit`) for its key, `digits` significant digits each: in one unit, which the second end
+/// names, or each with its own where that has a power of ten.
+pub fn range_ends([low, high]: [f64; 2], unit: &str, digits: usize, ascii: bool) -> [String; 2] {
+    let AxisUnit { factor, text } = axis_unit(high.abs().max(low.abs()), unit, ascii);
+    if text.starts_with("1e") {
+        return [low, high].map(|end| format_value_in(end, unit, digits, ascii));
+    }
+    let [low, high] = [low, high].map(|end| format_number(end / factor, digits));
+    [low, format!("{high} {text}").trim_end().to_owned()]
 }
 
 /// A reading with its unit, `1.23 µm`: `digits` significant digits (digits before the
@@ -107,6 +121,36 @@ pub fn format_number(value: f64, digits: usize) -> String {
         )
     } else {
         format!("{rounded:.*e}", digits - 1)
+    }
+}
+
+/// A value (in `unit`) as an engineer reads it, in up to seven digits: the number, and the unit it is in, which a
+/// scenario takes back: `230.77 GPa`, `1 µm`, `45 deg`, `50 Hz`, `0.13 mm³/J`.
+pub fn reading(value: f64, unit: &str, ascii: bool) -> (String, String) {
+    let (number, unit) = match unit {
+        "rad" => (value.to_degrees(), "°".to_owned()),
+        "rad/s" => (value / TAU, "Hz".to_owned()),
+        // 1/Pa = m³/J: per friction work, where m³/(N·m) is per load and distance.
+        "1/Pa" => (value * 1e9, "mm³/J".to_owned()),
+        "m^3/(N*m)" => (value * 1e9, "mm³/(N·m)".to_owned()),
+        _ => {
+            let (symbol, factor) = prefix(value, unit);
+            (value / factor, format!("{symbol}{unit}"))
+        }
+    };
+    let unit = match ascii {
+        true => unit.replace('³', "^3"),
+        false => unit,
+    };
+    (plain(number), shown(&unit, ascii))
+}
+
+/// A number in up to seven digits, without trailing zeros.
+pub fn plain(number: f64) -> String {
+    match round_to(number, 7) {
+        0.0 => "0".to_owned(),
+        rounded if (1e-3..1e6).contains(&rounded.abs()) => rounded.to_string(),
+        rounded => format!("{rounded:e}"),
     }
 }
 
@@ -182,6 +226,8 @@ pub fn to_ascii(text: &str) -> Cow<'_, str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scenario::schema::parameters;
+    use crate::scenario::units::quantity;
 
     #[test]
     fn the_prefix_follows_the_largest_value() {
@@ -245,14 +291,60 @@ mod tests {
         assert_eq!(text(4e-7, ""), "1e-9");
         assert_eq!(text(1e6, "cycles"), "1e6 cycles");
         assert_eq!(text(200.0, "cycles"), "cycles");
-        assert_eq!(text(1e-300, "N"), "1e-288 pN");
-        assert_eq!(axis_unit(1e-3, "m³", true).text, "1e6 mm3");
+        assert_eq!(text(1e-300, "N"), "1e-300 N");
+        assert_eq!(axis_unit(1e-3, "m³", true).text, "1e-3 m3");
         for exponent in -300..=300 {
             let max = 10f64.powi(exponent);
             for unit in ["", "m", "m²", "m³", "cycles"] {
                 let scaled = max / axis_unit(max, unit, false).factor;
                 assert!((0.009..1.1e5).contains(&scaled), "{max} {unit}: {scaled}");
             }
+        }
+    }
+
+    #[test]
+    fn readings_are_read_back() {
+        for (value, unit, shown) in [
+            (2.3077e11, "Pa", "230.77 GPa"),
+            (1e-6, "m", "1 µm"),
+            (0.01, "m", "10 mm"),
+            (std::f64::consts::FRAC_PI_4, "rad", "45 °"),
+            (1.3e-10, "1/Pa", "0.13 mm³/J"),
+            (1.3e-14, "m^3/(N*m)", "1.3e-5 mm³/(N·m)"),
+            (TAU * 50.0, "rad/s", "50 Hz"),
+            (0.3, "", "0.3"),
+            (0.0, "m", "0 m"),
+            (5e-15, "m", "0.005 pm"),
+            (0.7, "m^(1-exponent)", "0.7 m^(1-exponent)"),
+        ] {
+            let (number, of) = reading(value, unit, false);
+            assert_eq!(format!("{number} {of}").trim_end(), shown);
+            for ascii in [true, false] {
+                let (number, of) = reading(value, unit, ascii);
+                assert!(!ascii || of.is_ascii());
+                let known = parameters().iter().find(|known| known.unit == unit);
+                let read = quantity(&format!("{number} {of}"), known.expect("a key"), false);
+                if let Some(Ok(read)) = read {
+                    assert!(
+                        (read - value).abs() <= 1e-6 * value.abs(),
+                        "{shown}: {read}"
+                    );
+                }
+            }
+        }
+    }
+
+    /// A key reads 151000 µm³, not 151 1e3 µm³.
+    #[test]
+    fn a_number_of_a_range_has_a_prefix_or_a_power_of_ten_and_never_both() {
+        for (range, unit, ends) in [
+            ([0.0, 1.51e-13], "m³", ["0 m³", "151000 µm³"]),
+            ([2e-16, 3e-15], "m³", ["200", "3000 µm³"]),
+            ([2e-7, 3e-6], "m", ["0.200", "3.00 µm"]),
+            ([0.0, 3e-9], "1/Pa", ["0 1/Pa", "3.00e-9 1/Pa"]),
+            ([0.1, 0.7], "", ["0.100", "0.700"]),
+        ] {
+            assert_eq!(range_ends(range, unit, 3, false), ends);
         }
     }
 

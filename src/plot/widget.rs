@@ -24,12 +24,6 @@ use super::window::Window;
 /// The smallest area that gets axes, in cells.
 const SMALLEST: (u16, u16) = (12, 4);
 
-impl Widget for Plot<'_> {
-    fn render(self, area: Rect, buf: &mut Buffer) {
-        (&self).render(area, buf);
-    }
-}
-
 impl Plot<'_> {
     /// The abscissa, in the x axis' unit, under a cell of the screen where the plot is drawn in `area`;
     /// none outside of the curves' own part of it.
@@ -44,23 +38,22 @@ impl Plot<'_> {
     }
 }
 
-impl Widget for &Plot<'_> {
+impl Widget for Plot<'_> {
     fn render(self, area: Rect, buf: &mut Buffer) {
         let area = area.intersection(buf.area);
         if area.is_empty() {
             return;
         }
-        let frame = Frame::new(self, area);
+        let frame = Frame::new(&self, area);
         let mut raster = frame.raster();
         if !is_bare(area) {
             frame.words(&mut raster, buf);
             frame.axes(buf);
         }
-        if let Some(map) = &self.chart.map {
-            frame.map(map, buf);
-        }
+        let map = self.chart.map.as_ref();
+        map.inspect(|map| frame.map(map, buf));
         raster.render(buf);
-        if self.chart.map.is_some() {
+        if map.is_some() {
             let places = frame.inner.positions();
             for place in places.filter(|place| raster.dots_in((*place, SINGLE).into()) > 0) {
                 frame.ink(buf.cell_mut(place));
@@ -90,12 +83,9 @@ fn name_start(first: u16, width: u16, name: u16, cells: u16) -> u16 {
     } else if first + width == cells {
         first + room - room.min(MARGIN)
     } else {
-        let near = (middle + EVERY / 2) / EVERY * EVERY;
-        if (first..=first + room).contains(&near) {
-            near
-        } else {
-            middle
-        }
+        let near = Some((middle + EVERY / 2) / EVERY * EVERY);
+        near.filter(|near| (first..=first + room).contains(near))
+            .unwrap_or(middle)
     }
 }
 
@@ -224,23 +214,16 @@ impl<'p> Frame<'p> {
             let (inner, rises) = (&edges[1..places.len()], edges[0] < edges[places.len()]);
             let is_before = |edge: f64, middle: f64| (edge <= middle) == rises;
             let middles = (0..window.cells * parts).map(|part| window.middle(part, parts));
-            let place = |middle| {
-                inner
-                    .iter()
-                    .filter(|&&edge| is_before(edge, middle))
-                    .count()
-            };
-            middles.map(place).collect()
+            let before = |middle| inner.iter().filter(move |&&edge| is_before(edge, middle));
+            middles.map(|middle| before(middle).count()).collect()
         };
         let [xs, ys] = &map.places;
         let columns = places(&chart.x, xs, self.x.window, 1);
         let rows = places(&chart.y, ys, self.y.window, parts);
         for (column, x) in columns.into_iter().enumerate() {
             for (row, halves) in rows.chunks(usize::from(parts)).enumerate() {
-                let place = (
-                    self.inner.x + column as u16,
-                    self.inner.bottom() - 1 - row as u16,
-                );
+                let [column, row] = [column, row].map(|place| place as u16);
+                let place = (self.inner.x + column, self.inner.bottom() - 1 - row);
                 let seen = |half: usize| {
                     let value = map.values[halves[half] * xs.len() + x];
                     map.look(value, range, theme)
@@ -279,12 +262,8 @@ impl<'p> Frame<'p> {
         for point in &plot.chart.points {
             if let (Some(column), Some(row)) = (x.cell(point.at[0]), y.cell(point.at[1])) {
                 let place = (self.inner.x + column, self.inner.bottom() - 1 - row);
-                glyph(
-                    buf,
-                    place,
-                    self.sign(point.sign),
-                    plot.theme.style(point.role),
-                );
+                let style = plot.theme.style(point.role);
+                glyph(buf, place, self.sign(point.sign), style);
                 if plot.chart.map.is_some() {
                     self.ink(buf.cell_mut(place));
                 }
@@ -424,11 +403,12 @@ impl<'p> Frame<'p> {
             }
             // No place above the line: beside its upper end, unless a curve passes there.
             let beside = [Some(column + 1), column.checked_sub(width)];
-            let spots = beside.into_iter().flatten();
-            let spot = spots.map(|x| Rect::new(x, inner.y, width, 1)).find(|spot| {
-                let around = Rect::new(spot.x.saturating_sub(1), inner.y, width + 2, 1);
+            let mut spots = beside.into_iter().flatten();
+            let spot = spots.find_map(|x| {
+                let around = Rect::new(x.saturating_sub(1), inner.y, width + 2, 1);
                 let is_taken = legend.as_ref().is_some_and(|it| it.area.intersects(around));
-                inner.intersection(*spot) == *spot && raster.dots_in(*spot) == 0 && !is_taken
+                let spot = Rect::new(x, inner.y, width, 1);
+                (!is_taken && raster.is_free(spot)).then_some(spot)
             });
             if let Some(spot) = spot {
                 raster.blank(spot);
@@ -477,11 +457,8 @@ impl<'p> Frame<'p> {
             let (column, row) = curve.points().filter_map(cell).last()?;
             let start = inner.x + (column + 1).saturating_sub(width);
             let row = inner.bottom() - 1 - row;
-            let mut spots = [row - 1, row + 1]
-                .map(|row| Rect::new(start, row, width, 1))
-                .into_iter();
-            let spot = spots
-                .find(|spot| inner.intersection(*spot) == *spot && raster.dots_in(*spot) == 0)?;
+            let spots = [row - 1, row + 1].map(|row| Rect::new(start, row, width, 1));
+            let spot = spots.into_iter().find(|spot| raster.is_free(*spot))?;
             if placed.iter().any(|(other, ..)| other.intersects(spot)) {
                 return None;
             }

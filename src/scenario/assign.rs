@@ -5,7 +5,6 @@ use toml::{Table, Value};
 use super::check::unknown;
 use super::error::{Origin, Refusal, ScenarioError, echo};
 use super::hints;
-use super::keys;
 use super::schema::{self, Kind, Parameter};
 
 /// Splits `KEY=VALUE`; `flag` stands before it in messages.
@@ -38,10 +37,7 @@ pub(super) fn assign(
     }
     let Some(parameter) = schema::find(key) else {
         return Err(if schema::is_section(key) {
-            refuse(format!(
-                "{key} is a table; {}",
-                hints::hint(&format!("{key}.*"))
-            ))
+            refuse(format!("{key} is a table; {}", hints::known_in(key)))
         } else {
             unknown(written, key, key)
         });
@@ -50,42 +46,25 @@ pub(super) fn assign(
     if parameter.path == "indenter.shape" {
         drop_keys_of_other_shapes(table, &value, origin);
     }
-    trade_twins(table, parameter.path);
-    trade_nodes_for_others(table, parameter.path);
+    drop_replaced(table, parameter.path);
     origin.assign(parameter.path, written);
     schema::insert(table, parameter.path, value);
     Ok(())
 }
 
-/// What is assigned takes the place of other keys for the same thing.
-fn trade_twins(table: &mut Table, path: &str) {
-    for of in schema::SCHEMA.exclusive.iter().filter(|of| of.are_twins) {
-        let (one, other) = (of.keys.contains(&path), of.others.contains(&path));
-        let replaced = match (one, other) {
-            (true, _) => &of.others,
-            (_, true) => &of.keys,
-            _ => continue,
-        };
-        for path in replaced {
-            schema::remove(table, path);
+/// Drops the keys whose place the one that is assigned takes, or that do not go with it.
+fn drop_replaced(table: &mut Table, path: &str) {
+    let twins = schema::SCHEMA.exclusive.iter().filter(|of| of.are_twins);
+    for of in twins {
+        for (keys, others) in [(&of.keys, &of.others), (&of.others, &of.keys)] {
+            let replaced = others.iter().filter(|_| keys.contains(&path));
+            replaced.for_each(|other| _ = schema::remove(table, other));
         }
     }
-}
-
-/// Nodes are those of one number of cells on one domain; another one takes their place, and the other way round.
-fn trade_nodes_for_others(table: &mut Table, path: &str) {
-    const OTHERS: [&str; 4] = [
-        keys::POINTS.path(),
-        keys::GRID.path(),
-        keys::DOMAIN_RADIUS.path(),
-        keys::SHAPE.path(),
-    ];
-    let removed = match path {
-        _ if path == keys::NODES.path() => keys::GRID.path(),
-        _ if OTHERS.contains(&path) => keys::NODES.path(),
-        _ => return,
-    };
-    schema::remove(table, removed);
+    let stale = schema::SCHEMA.stale.iter();
+    for of in stale.filter(|of| of.keys.contains(&path)) {
+        schema::remove(table, of.dropped);
+    }
 }
 
 /// The value as TOML reads it, or the bare text.
@@ -102,24 +81,23 @@ fn parse(parameter: &Parameter, text: &str) -> Value {
 /// is not a radius of curvature, and a punch brings its own edge of the domain. Keys of both shapes that are assigned
 /// together with the shape stay.
 fn drop_keys_of_other_shapes(table: &mut Table, shape: &Value, origin: &Origin) {
-    let known = keys::SHAPE.parameter().kind;
+    let known = schema::known("indenter.shape").kind;
     let Some(shape) = shape.as_str().filter(|_| known.fits(shape)) else {
         return;
     };
     let is_punch = |shape: &str| shape == "flat-punch";
-    let was_punch = keys::SHAPE
-        .get(table)
-        .is_some_and(|before| is_punch(&before));
+    let before: Option<String> = schema::read(table, "indenter.shape");
+    let was_punch = before.is_some_and(|before| is_punch(&before));
     let others = schema::parameters().iter().filter(|key| !key.is_of(shape));
     for key in others {
         schema::remove(table, key.path);
     }
     for (key, is_stale) in [
-        (&keys::RADIUS, was_punch != is_punch(shape)),
-        (&keys::DOMAIN_RADIUS, is_punch(shape)),
+        ("indenter.radius", was_punch != is_punch(shape)),
+        ("numerics.domain_radius", is_punch(shape)),
     ] {
-        if is_stale && !origin.assigns(key.path()) {
-            schema::remove(table, key.path());
+        if is_stale && !origin.assigns(key) {
+            schema::remove(table, key);
         }
     }
 }

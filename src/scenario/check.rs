@@ -1,5 +1,5 @@
 //! Checks every key of a scenario against the schema: is it known, is its value of the right type
-//! and in range? `validate` checks how the values fit together.
+//! and in range? `parts` checks how the values fit together.
 
 use toml::{Table, Value};
 
@@ -75,6 +75,10 @@ fn broken(value: &mut Value, parameter: &Parameter, is_force: bool) -> Option<St
         let wanted = format!("{}{}", parameter.kind.wanted(), parameter.allowed());
         let instead = hints::instead(parameter, value);
         return Some(format!("must be {wanted}{instead}"));
+    }
+    let entries = value.as_array().map_or(0, Vec::len);
+    if let Some(most) = parameter.most.filter(|most| entries > *most) {
+        return Some(format!("must have at most {most} entries, not {entries}"));
     }
     let each = if value.is_array() { "each " } else { "" };
     let rule = || format!("{each}must be {}", parameter.range);

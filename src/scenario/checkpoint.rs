@@ -22,7 +22,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use super::limited::Unread;
-use super::session::{Session, Unchanged, at_one_cycle};
+use super::session::{Session, at_one_cycle};
 use super::{Change, Refusal, Scenario, echo, printable};
 use crate::math::grid::RadialGrid;
 use crate::reading::Log;
@@ -195,6 +195,17 @@ fn restore<E: DeserializeOwned>(contents: &[u8]) -> Result<Checkpoint<E>, String
     })?;
     let loaded = Scenario::from_toml(&body.scenario, &body.origin, &[])
         .map_err(|error| format!("its scenario {error}"))?;
+    let session = |simulation, log, scenario, changes: &[Change]| Session {
+        loaded: loaded.clone(),
+        scenario,
+        simulation,
+        log,
+        changes: changes.to_vec(),
+        pending: VecDeque::new(),
+        unchanged: None,
+        statements: Vec::new(),
+        goals: Vec::new(),
+    };
     let (mut scenario, mut unchanged) = (loaded.clone(), None);
     let mut made = 0;
     for together in at_one_cycle(&body.changes) {
@@ -202,25 +213,18 @@ fn restore<E: DeserializeOwned>(contents: &[u8]) -> Result<Checkpoint<E>, String
         let before = std::mem::replace(&mut scenario, after);
         let is_last = made + together.len() == body.changes.len();
         if let Some((saved, log)) = body.unchanged.as_ref().filter(|_| is_last) {
-            unchanged = Some(Box::new(Unchanged {
-                simulation: simulation(&before, saved.clone())?,
-                log: Log::clone(log),
-                scenario: before,
-                changes: made,
-            }));
+            let run = simulation(&before, saved.clone())?;
+            let before = session(run, Log::clone(log), before, &body.changes[..made]);
+            unchanged = Some(Box::new(before));
         }
         made += together.len();
     }
+    let run = simulation(&scenario, body.saved)?;
     let session = Session {
-        simulation: simulation(&scenario, body.saved)?,
-        log: body.log.into_owned(),
-        loaded,
-        scenario,
-        changes: body.changes.into_owned(),
         pending: body.pending,
         unchanged,
-        statements: Vec::new(),
         goals: body.goals.into_owned(),
+        ..session(run, body.log.into_owned(), scenario, &body.changes)
     };
     Ok(Checkpoint {
         session,

@@ -3,11 +3,19 @@
 
 use toml::{Table, Value};
 
-use super::keys::{ACCURACY, CHOSEN_BY_ACCURACY, INTEGRATOR, WEAR_COEFFICIENT, WEAR_PER_LOAD};
 use super::schema::{self, Default, Kind, Parameter};
 
 /// Tables that every scenario has, written or not.
 const ALWAYS: [&str; 2] = ["motion.normal", "numerics"];
+
+/// The key of an accuracy, and the keys that it chooses.
+const ACCURACY: &str = "numerics.accuracy";
+const CHOSEN_BY_ACCURACY: [&str; 4] = [
+    "numerics.points",
+    "numerics.steps_per_cycle",
+    "numerics.tolerance",
+    "numerics.nodes",
+];
 
 /// The accuracy of a run with wear whose numerics nobody has chosen.
 pub const USUAL_ACCURACY: f64 = 1e-2;
@@ -16,7 +24,7 @@ pub const USUAL_ACCURACY: f64 = 1e-2;
 /// `[[changes]]`: numbers as floats, defaults filled in.
 pub(super) fn table(written: &Table) -> Table {
     let usual = has_usual_accuracy(written).then_some(Value::Float(USUAL_ACCURACY));
-    let has_accuracy = ACCURACY.get(written).is_some() || usual.is_some();
+    let has_accuracy = schema::at(written, ACCURACY).is_some() || usual.is_some();
     let mut complete = Table::new();
     for parameter in schema::parameters()
         .iter()
@@ -25,11 +33,11 @@ pub(super) fn table(written: &Table) -> Table {
         // These are found before the run, and written then.
         let chosen = has_accuracy
             && (CHOSEN_BY_ACCURACY.contains(&parameter.path)
-                || parameter.path == INTEGRATOR.path());
+                || parameter.path == "numerics.integrator");
         let value = match schema::at(written, parameter.path) {
             Some(value) => Some(plain(value, parameter.kind)),
             None if chosen => None,
-            None if parameter.path == ACCURACY.path() => usual.clone(),
+            None if parameter.path == ACCURACY => usual.clone(),
             None => default(written, parameter),
         };
         if let Some(value) = value {
@@ -42,8 +50,8 @@ pub(super) fn table(written: &Table) -> Table {
 /// Whether wear is computed and nothing is written that says how finely.
 fn has_usual_accuracy(written: &Table) -> bool {
     let is_written = |path: &str| schema::at(written, path).is_some();
-    let mut chosen = CHOSEN_BY_ACCURACY.into_iter().chain([ACCURACY.path()]);
-    let mut wear = [WEAR_COEFFICIENT.path(), WEAR_PER_LOAD.path()].into_iter();
+    let mut chosen = CHOSEN_BY_ACCURACY.into_iter().chain([ACCURACY]);
+    let mut wear = ["wear.coefficient", "wear.coefficient_per_load"].into_iter();
     wear.any(is_written) && !chosen.any(is_written)
 }
 

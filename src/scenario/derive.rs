@@ -155,16 +155,7 @@ impl Contact<'_> {
 
     /// Presses to a depth, m.
     fn press_to(&self, depth: f64) -> Option<Pressed> {
-        let (grid, g) = self.unworn(self.indenter.radius_at(depth))?;
-        let mut load = Field::zeros(grid.len());
-        let foundation = WinklerFoundation::new(&grid);
-        let modulus = self.material.normal_modulus();
-        let contact = normal::press(&foundation, &g, depth, modulus, &mut load);
-        Some(Pressed {
-            depth,
-            radius: contact.radius,
-            force: foundation.force(&load, contact),
-        })
+        self.press(self.indenter.radius_at(depth), |_, _, _| Some(depth))
     }
 
     /// Presses by a force, N, on a domain just wide enough to carry it.
@@ -182,25 +173,32 @@ impl Contact<'_> {
         let radius = std::iter::successors(Some(1e-15), |radius| Some(radius * 1.25))
             .take_while(|radius| *radius < 1e15)
             .find(|&radius| modulus * self.indenter.profile(radius) * radius >= force)?;
-        let (grid, g) = self.unworn(radius)?;
+        let pressed = self.press(radius, |foundation, g, load| {
+            let deepest = g.last().copied()?;
+            normal::depth_for_load(foundation, g, force, modulus, deepest, load)
+        })?;
+        Some(Pressed { force, ..pressed })
+    }
+
+    /// Presses to the depth (m) that `depth` finds for the 1D image of the unworn profile on a grid out to `radius`, m.
+    fn press(
+        &self,
+        radius: f64,
+        depth: impl Fn(&WinklerFoundation, &[f64], &mut Field) -> Option<f64>,
+    ) -> Option<Pressed> {
+        let grid = RadialGrid::uniform(CELLS, radius).ok()?;
+        let image = |&x: &f64| self.indenter.profile_1d(x);
+        let g: Vec<f64> = grid.nodes().iter().map(image).collect();
         let mut load = Field::zeros(grid.len());
-        let deepest = g[grid.cells()];
         let foundation = WinklerFoundation::new(&grid);
-        let depth = normal::depth_for_load(&foundation, &g, force, modulus, deepest, &mut load)?;
+        let depth = depth(&foundation, &g, &mut load)?;
+        let modulus = self.material.normal_modulus();
         let contact = normal::press(&foundation, &g, depth, modulus, &mut load);
         Some(Pressed {
             depth,
             radius: contact.radius,
-            force,
+            force: foundation.force(&load, contact),
         })
-    }
-
-    /// A grid out to `radius`, m, and the 1D image of the unworn profile on it.
-    fn unworn(&self, radius: f64) -> Option<(RadialGrid, Vec<f64>)> {
-        let grid = RadialGrid::uniform(CELLS, radius).ok()?;
-        let image = |&x: &f64| self.indenter.profile_1d(x);
-        let g = grid.nodes().iter().map(image).collect();
-        Some((grid, g))
     }
 }
 

@@ -82,49 +82,42 @@ impl ScenarioError {
     }
 }
 
-/// The errors found in a scenario, and which keys they blame.
+/// The keys of a scenario that errors blame, each with its error, unless one that is there already deals with it.
 #[derive(Debug, Default)]
-pub(super) struct Faults {
-    errors: Vec<ScenarioError>,
-    paths: Vec<String>,
-}
+pub(super) struct Faults(Vec<(String, Option<ScenarioError>)>);
 
 impl Faults {
     /// Notes an error that is due to the key at `path`. A key is blamed once.
     pub fn note(&mut self, path: &str, error: ScenarioError) {
         if !self.blames(path) {
-            self.errors.push(error);
-            self.blame(path);
+            self.0.push((path.to_owned(), Some(error)));
         }
     }
 
     /// Notes that the key at `path` is dealt with by an error that is there already.
     pub fn blame(&mut self, path: &str) {
-        self.paths.push(path.to_owned());
+        self.0.push((path.to_owned(), None));
     }
 
     /// Whether an error deals with the key at `path`.
     pub fn blames(&self, path: &str) -> bool {
-        self.paths.iter().any(|blamed| blamed == path)
+        self.paths().any(|blamed| blamed == path)
     }
 
     /// Whether an error deals with the key at `path`, or with the whole table that it stands in.
     pub fn covers(&self, path: &str) -> bool {
-        let mut rest = self
-            .paths
-            .iter()
-            .filter_map(|blamed| path.strip_prefix(blamed.as_str()));
+        let mut rest = self.paths().filter_map(|blamed| path.strip_prefix(blamed));
         rest.any(|rest| rest.is_empty() || rest.starts_with('.'))
     }
 
     /// The keys that errors deal with.
     pub fn paths(&self) -> impl Iterator<Item = &str> {
-        self.paths.iter().map(String::as_str)
+        self.0.iter().map(|(path, _)| path.as_str())
     }
 
     /// All errors as one; `None` where there are none.
     pub fn into_error(self) -> Option<ScenarioError> {
-        ScenarioError::all(self.errors)
+        ScenarioError::all(self.0.into_iter().filter_map(|(_, error)| error))
     }
 }
 

@@ -60,13 +60,14 @@ pub fn hint(path: &str) -> String {
         let told = meant.iter().map(|(key, more)| format!("{key}{more}"));
         return format!("did you mean {}?", told.collect::<Vec<_>>().join(" or "));
     }
-    let section = split(path).0;
+    known_in(split(path).0)
+}
+
+/// The keys and tables of a table, or of the whole scenario where there is no such table.
+pub(super) fn known_in(section: &str) -> String {
     let section = if is_section(section) { section } else { "" };
-    let keys: Vec<&str> = places()
-        .into_iter()
-        .filter(|key| split(key).0 == section)
-        .collect();
-    format!("known are {}", keys.join(", "))
+    let keys = places().into_iter().filter(|key| split(key).0 == section);
+    format!("known are {}", keys.collect::<Vec<_>>().join(", "))
 }
 
 /// A remark behind the rule that `value` breaks as one of a key's words: the word that was meant, if that

@@ -2,7 +2,7 @@
 //!
 //! The pipeline: text (`read`) → TOML table → assignments (`assign`) → columns of other files (`embed`, `columns`) →
 //! every key checked against the [`schema`], with its number in SI units (`check`, `units`) → defaults (`complete`,
-//! `derive`) → the parts' own constructors (`validate`) → [`Scenario`]. Each step refuses with one line that names the
+//! `derive`) → the parts' own constructors (`parts`) → [`Scenario`]. Each step refuses with one line that names the
 //! origin, the dotted path, the value and the rule.
 
 use std::path::Path;
@@ -15,7 +15,6 @@ use crate::simulation::{Domain, Integrator, Setup, Spacing};
 
 pub(crate) mod assign;
 pub(crate) mod blocks;
-mod bodies;
 mod check;
 pub mod checkpoint;
 pub mod columns;
@@ -24,22 +23,17 @@ mod derive;
 mod embed;
 mod error;
 pub mod hints;
-mod keys;
 pub(crate) mod limited;
-mod motion;
 pub mod nearest;
+mod parts;
 pub mod preset;
 mod read;
 mod run;
-mod running_in;
 pub mod scalars;
-mod scar;
 pub mod schema;
 pub mod session;
-mod shape;
 pub mod typed;
 pub mod units;
-mod validate;
 pub(crate) mod write;
 
 pub use complete::USUAL_ACCURACY;
@@ -117,13 +111,13 @@ impl Scenario {
     ) -> Result<Self, ScenarioError> {
         let mut origin = Origin::new(&self.origin);
         let mut table = self.whole();
-        let is_accuracy = |key: &str| key.trim() == keys::ACCURACY.path();
+        let is_accuracy = |key: &str| key.trim() == "numerics.accuracy";
         if assignments.iter().any(|(key, _)| is_accuracy(key.as_ref()))
             && self.accuracy().is_none()
             && self.setup.integrator == Integrator::Direct
         {
             // An accuracy chooses the integrator; the default that was written out for chosen numbers is no choice.
-            schema::remove(&mut table, keys::INTEGRATOR.path());
+            schema::remove(&mut table, "numerics.integrator");
         }
         for (key, value) in assignments {
             let (key, value) = (key.as_ref(), value.as_ref());
@@ -141,11 +135,10 @@ impl Scenario {
 
     /// Where the domain radius comes from.
     pub fn domain(&self) -> Domain {
-        let is_given = keys::DOMAIN_RADIUS.get(&self.table).is_some();
-        if is_given || self.setup.indenter.rim().is_some() {
-            Domain::Given
-        } else {
-            Domain::Derived
+        let is_given = self.value("numerics.domain_radius").is_some();
+        match is_given || self.setup.indenter.rim().is_some() {
+            true => Domain::Given,
+            false => Domain::Derived,
         }
     }
 
@@ -214,14 +207,7 @@ impl Scenario {
     pub fn stem(&self) -> String {
         let stem = Path::new(&self.origin).file_stem();
         let stem = stem.map_or_else(|| "scenario".into(), |stem| stem.to_string_lossy());
-        let plain = |c: char| {
-            if c.is_alphanumeric() || "-_.+".contains(c) {
-                c
-            } else {
-                '-'
-            }
-        };
-        stem.chars().map(plain).collect()
+        stem.replace(|c: char| !c.is_alphanumeric() && !"-_.+".contains(c), "-")
     }
 
     /// The parts of the simulation, ready to run.
@@ -243,25 +229,25 @@ impl Scenario {
     /// then points, steps and tolerance are still to be found, by [`refinement`](crate::studies::refinement), and
     /// assigning one of them takes its place.
     pub fn accuracy(&self) -> Option<f64> {
-        keys::ACCURACY.get(&self.table)
+        schema::read(&self.table, "numerics.accuracy")
     }
 
     /// `wear.share`, the part of the worn depth that is the indenter's, where it is given. The contact feels the sum of
     /// both bodies' wear alone, so the simulation does not know it.
     pub fn wear_share(&self) -> Option<f64> {
-        keys::WEAR_SHARE.get(&self.table)
+        schema::read(&self.table, "wear.share")
     }
 
     /// `material.fatigue_limit`, Pa, where it is given: what stresses are compared with after the run.
     pub fn fatigue_limit(&self) -> Option<f64> {
-        keys::FATIGUE_LIMIT.get(&self.table)
+        schema::read(&self.table, "material.fatigue_limit")
     }
 
     /// Both fatigue limits, where both are given.
     pub fn fatigue_limits(&self) -> Option<Limits> {
         Some(Limits {
             tension: self.fatigue_limit()?,
-            shear: keys::SHEAR_FATIGUE_LIMIT.get(&self.table)?,
+            shear: schema::read(&self.table, "material.shear_fatigue_limit")?,
         })
     }
 
@@ -295,12 +281,16 @@ impl Scenario {
         let from = &from;
         let mut faults = Faults::default();
         check::keys(&mut table, from, &mut faults);
-        let (complete, setup) = validate::setup(&mut table, from, faults)?;
+        let (complete, setup) = parts::setup(&mut table, from, faults)?;
         let changes: Vec<Change> = part(&table, "changes");
-        run::at_most(MOST_CHANGES, "changes", changes.len(), from)?;
-        let given = keys::TITLE.get(&table);
+        if changes.len() > MOST_CHANGES {
+            let rule = format!("must have at most {MOST_CHANGES} entries");
+            return Err(from.refuse("changes", &changes.len().to_string(), rule));
+        }
+        let given: Option<String> = schema::read(&table, "title");
         let given = given.filter(|title| !title.trim().is_empty());
-        let description = keys::DESCRIPTION.get(&table).unwrap_or_default();
+        let description: Option<String> = schema::read(&table, "description");
+        let description = description.unwrap_or_default();
         let lines: Vec<String> = description.lines().map(printable).collect();
         let scenario = Self {
             origin: origin.to_owned(),
@@ -311,7 +301,6 @@ impl Scenario {
             run: part(&table, "run"),
             changes: Vec::new(),
         };
-        scenario.run.check(from)?;
         scenario.check_changes(&changes, from)?;
         let mut scenario = scenario.with_changes(changes);
         if scenario.run.stated.is_some() && scenario.statements().is_empty() {
@@ -374,19 +363,18 @@ impl Scenario {
         place: impl Fn(usize) -> String,
     ) -> Result<(), ScenarioError> {
         let changes_at = |path: &str| changes.iter().position(|change| change.key() == path);
-        for motion in [keys::NORMAL, keys::TANGENTIAL] {
-            let control = motion.control.get(table);
-            let Some(at) = changes_at(motion.control.path()) else {
+        for motion in ["motion.normal", "motion.tangential"] {
+            let key = schema::join(motion, "control");
+            let [control, before] = [table, &self.table].map(|of| schema::read::<String>(of, &key));
+            let Some(at) = changes_at(&key).filter(|_| control != before) else {
                 continue;
             };
-            if control == motion.control.get(&self.table) {
-                continue;
-            }
-            for key in [motion.mean, motion.amplitude] {
-                let value = key.get(&self.table).unwrap_or(0.0);
-                if value != 0.0 && changes_at(key.path()).is_none() {
-                    let unit = units::unit_of(key.parameter(), control.as_deref() == Some("force"));
-                    let path = key.path();
+            for key in ["mean", "amplitude"] {
+                let path = schema::join(motion, key);
+                let value: f64 = schema::read(&self.table, &path).unwrap_or(0.0);
+                if value != 0.0 && changes_at(&path).is_none() {
+                    let is_force = control.as_deref() == Some("force");
+                    let unit = units::unit_of(schema::known(&path), is_force);
                     let rule = format!("needs {path} in {unit}, changed at the same cycle");
                     return Err(Refusal::new(place(at), rule).into());
                 }

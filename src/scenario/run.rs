@@ -2,8 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::error::{Origin, ScenarioError};
-
 /// The longest run, in cycles.
 pub const MOST_CYCLES: f64 = 1e9;
 
@@ -32,37 +30,10 @@ pub struct RunPlan {
     pub stated: Option<String>,
 }
 
-/// Refuses a list of more than `most` entries at `path`.
-pub(super) fn at_most(
-    most: usize,
-    path: &str,
-    entries: usize,
-    origin: &Origin,
-) -> Result<(), ScenarioError> {
-    let rule = format!("must have at most {most} entries");
-    let refused = || Err(origin.refuse(path, &entries.to_string(), rule));
-    if entries > most { refused() } else { Ok(()) }
-}
-
 /// Between the parts of [`RunPlan::stated`], the last of which is the seal.
 const BETWEEN: &str = " | ";
 
 impl RunPlan {
-    /// Refuses absurdly many cycles, snapshots or steps.
-    pub(super) fn check(&self, origin: &Origin) -> Result<(), ScenarioError> {
-        if let Some(cycles) = self.cycles.filter(|cycles| *cycles > MOST_CYCLES) {
-            let rule = format!("must be {MOST_CYCLES:e} or less");
-            return Err(origin.refuse("run.cycles", &cycles.to_string(), rule));
-        }
-        for (path, cycles) in [
-            ("run.snapshot_at", &self.snapshot_at),
-            ("run.shortened_at", &self.shortened_at),
-        ] {
-            at_most(MOST_SNAPSHOTS, path, cycles.len(), origin)?;
-        }
-        Ok(())
-    }
-
     /// Sets the statements, keys and values, with the seal of the scenario that they are about.
     pub(super) fn state(&mut self, statements: &[(String, String)], seal: &str) {
         let entries = statements.iter().map(|(key, value)| {

@@ -133,10 +133,15 @@ impl<'a> Reading<'a> {
         }
     }
 
-    /// The scalar of this name; NaN where there is none, or where it is no number at this moment.
+    /// The scalar of this name; missing where there is none.
+    pub fn value(&self, name: &str) -> Value {
+        find(name).map_or(Value::Missing, |scalar| scalar.read(self))
+    }
+
+    /// The same as a number; NaN where it is none at this moment.
     pub fn number(&self, name: &str) -> f64 {
-        match find(name).map(|scalar| scalar.read(self)) {
-            Some(Value::Number(number)) => number,
+        match self.value(name) {
+            Value::Number(number) => number,
             _ => f64::NAN,
         }
     }

@@ -7,6 +7,7 @@ use std::fmt;
 use std::str::FromStr;
 use std::sync::LazyLock;
 
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer};
 use toml::{Table, Value};
 
@@ -130,10 +131,13 @@ impl fmt::Display for Range {
             Self::Any => Ok(()),
             Self::Positive => f.write_str("greater than 0"),
             Self::NotNegative => f.write_str("0 or greater"),
-            Self::Within(least, most) if *least > 0.0 && *least < 1e-3 => {
-                write!(f, "from {least:e} to {most}")
+            Self::Within(least, most) => {
+                let short = |end: f64| match end == 0.0 || (1e-3..1e9).contains(&end) {
+                    true => end.to_string(),
+                    false => format!("{end:e}"),
+                };
+                write!(f, "from {} to {}", short(*least), short(*most))
             }
-            Self::Within(least, most) => write!(f, "from {least} to {most}"),
             Self::UpTo(most) => write!(f, "greater than 0, at most {most}"),
             Self::Acute => f.write_str("greater than 0 and less than pi/2"),
         }
@@ -197,6 +201,8 @@ pub struct Parameter {
     pub kind: Kind,
     /// The numbers that are allowed.
     pub range: Range,
+    /// How many entries a list may have; `None`: any number.
+    pub(super) most: Option<usize>,
     /// What holds where it is not given.
     pub default: Default,
     /// The indenter shapes that take the key; empty where the shape does not matter.
@@ -285,46 +291,6 @@ impl Parameter {
     }
 }
 
-/// A key together with the type that it is read as.
-#[derive(Debug, Clone, Copy)]
-pub struct Key<T: 'static> {
-    path: &'static str,
-    read: fn(&Value) -> Option<T>,
-}
-
-impl<T> Key<T> {
-    /// The key with this dotted path, which the table describes.
-    pub(super) const fn new(path: &'static str, read: fn(&Value) -> Option<T>) -> Self {
-        Self { path, read }
-    }
-
-    /// The dotted path.
-    pub const fn path(&self) -> &'static str {
-        self.path
-    }
-
-    /// Its description.
-    pub fn parameter(&self) -> &'static Parameter {
-        find(self.path).expect("a key of the table")
-    }
-
-    /// The value in `table`, where one of the right kind is given.
-    pub fn get(&self, table: &Table) -> Option<T> {
-        at(table, self.path).and_then(self.read)
-    }
-
-    /// Some value that is allowed; `None` for texts and lists.
-    pub(super) fn any_value(&self) -> Option<T> {
-        self.parameter().any_value().as_ref().and_then(self.read)
-    }
-
-    /// The value in `table`, or the default, if the key has one that can be written down.
-    pub fn get_or_default(&self, table: &Table) -> Option<T> {
-        let default = || self.parameter().default.value().and_then(self.read);
-        self.get(table).or_else(default)
-    }
-}
-
 /// A finite number, whole or not.
 pub(super) fn number(value: &Value) -> Option<f64> {
     match value {
@@ -339,19 +305,15 @@ pub(super) fn numbers(value: &Value) -> Option<Vec<f64>> {
     value.as_array()?.iter().map(number).collect()
 }
 
-/// A whole number.
-pub(super) fn whole(value: &Value) -> Option<u32> {
-    value.as_integer()?.try_into().ok()
+/// The value of a key in `table` as a `T`, where one of that type is given.
+pub(super) fn read<T: DeserializeOwned>(table: &Table, path: &str) -> Option<T> {
+    debug_assert!(find(path).is_some(), "{path} is a key of the table");
+    at(table, path)?.clone().try_into().ok()
 }
 
-/// A text, or what is read from one.
-pub(super) fn word<T: FromStr>(value: &Value) -> Option<T> {
-    value.as_str()?.parse().ok()
-}
-
-/// `true` or `false`.
-pub(super) fn flag(value: &Value) -> Option<bool> {
-    value.as_bool()
+/// What the word of a key in `table` names, where one is given.
+pub(super) fn named<T: FromStr>(table: &Table, path: &str) -> Option<T> {
+    read::<String>(table, path)?.parse().ok()
 }
 
 /// The value at a dotted path.
@@ -414,6 +376,14 @@ pub(super) struct Exclusive {
     pub are_twins: bool,
 }
 
+/// Keys whose assignment makes another one stale, which is dropped.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Stale {
+    pub keys: Vec<&'static str>,
+    pub dropped: &'static str,
+}
+
 /// A list of numbers in a scenario, and the name and the unit of the column that it is read from.
 type List = (&'static str, &'static str, &'static str);
 
@@ -432,6 +402,7 @@ pub(super) struct Schema {
     #[serde(rename = "key")]
     keys: Vec<Parameter>,
     pub exclusive: Vec<Exclusive>,
+    pub stale: Vec<Stale>,
     #[serde(rename = "file")]
     pub files: Vec<Embedded>,
 }
@@ -446,6 +417,11 @@ pub(super) static SCHEMA: LazyLock<Schema> = LazyLock::new(|| {
 /// All keys, in the order in which a scenario is written.
 pub fn parameters() -> &'static [Parameter] {
     &SCHEMA.keys
+}
+
+/// The description of a key that the program names.
+pub(super) fn known(path: &str) -> &'static Parameter {
+    find(path).expect("a key of the table")
 }
 
 /// The parameter with this dotted path.
@@ -465,12 +441,13 @@ pub(super) fn is_section(path: &str) -> bool {
 mod tests {
     use super::*;
     use crate::math::grid::{MAX_CELLS, MIN_CELLS};
-    use crate::scenario::keys::{NAMED, PRESCRIBED, SHAPE};
+    use crate::scenario::units::PRESCRIBED;
+    use crate::scenario::{MOST_CYCLES, MOST_SNAPSHOTS};
     use crate::simulation::{Integrator, Scheme, Spacing, Stability};
 
     #[test]
     fn every_key_says_what_it_means_and_stands_once() {
-        let shapes = SHAPE.parameter().kind.words().expect("words");
+        let shapes = known("indenter.shape").kind.words().expect("words");
         for (i, parameter) in parameters().iter().enumerate() {
             assert!(!parameter.meaning.is_empty(), "{}", parameter.path);
             assert!(
@@ -512,9 +489,6 @@ mod tests {
 
     #[test]
     fn the_table_is_that_of_the_program() {
-        for path in NAMED {
-            assert!(find(path).is_some(), "{path}");
-        }
         for (path, names) in [
             ("numerics.method", AbelMethod::NAMES),
             ("numerics.grid", Spacing::NAMES),
@@ -527,6 +501,10 @@ mod tests {
         }
         let points = find("numerics.points").expect("a key").range;
         assert_eq!(points, Range::Within(MIN_CELLS as f64, MAX_CELLS as f64));
+        let cycles = find("run.cycles").expect("a key").range;
+        assert_eq!(cycles, Range::Within(0.0, MOST_CYCLES));
+        let snapshots = find("run.snapshot_at").expect("a key").most;
+        assert_eq!(snapshots, Some(MOST_SNAPSHOTS));
         // Both directions of the motion have the same keys, but for the rig.
         let of = |section: &'static str| {
             let keys = parameters()

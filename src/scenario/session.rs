@@ -48,21 +48,11 @@ pub struct Session {
     pub(super) pending: VecDeque<Change>,
     /// What steps were cut short for so far, in cycles.
     pub(super) goals: Vec<f64>,
-    /// The run before the changes of the present cycle.
-    pub(super) unchanged: Option<Box<Unchanged>>,
+    /// The run before the changes of the present cycle, which are made together: each further one is made again with
+    /// those before it, from there.
+    pub(super) unchanged: Option<Box<Self>>,
     /// Statements for the file headers, such as the estimated error.
     pub(super) statements: Vec<(String, String)>,
-}
-
-/// A run before the changes of one cycle, which are made together: each further one is made again with
-/// those before it, from here.
-#[derive(Debug, Clone)]
-pub(super) struct Unchanged {
-    pub scenario: Scenario,
-    pub simulation: Simulation,
-    pub log: Log,
-    /// How many changes were made before.
-    pub changes: usize,
 }
 
 impl Session {
@@ -238,22 +228,15 @@ impl Session {
 
     /// Makes changes together with those that were made at this cycle already.
     fn make(&mut self, changes: impl Iterator<Item = Change>) -> Result<(), SessionError> {
-        let before = match self.unchanged() {
-            Some(before) => before.clone(),
-            None => Unchanged {
-                scenario: self.scenario.clone(),
-                simulation: self.simulation.clone(),
-                log: self.log.clone(),
-                changes: self.changes.len(),
-            },
-        };
+        let mut before = self.unchanged().unwrap_or(self).clone();
+        before.unchanged = None;
         let mut made = self.changes.clone();
         made.extend(changes);
         if let Some(last) = made.last().filter(|_| made.len() > MOST_CHANGES) {
             let rule = format!("a run takes at most {MOST_CHANGES} changes");
             return Err(ScenarioError::from(Refusal::new(&last.set, rule)).into());
         }
-        let scenario = before.scenario.after(&made[before.changes..])?;
+        let scenario = before.scenario.after(&made[before.changes.len()..])?;
         let mut simulation = before.simulation.clone();
         // A domain that nobody changes may have grown.
         let radius = |scenario: &Scenario| scenario.setup().grid.radius();
@@ -272,7 +255,7 @@ impl Session {
     }
 
     /// The run before the changes of the present cycle, if there are any.
-    pub(super) fn unchanged(&self) -> Option<&Unchanged> {
+    pub(super) fn unchanged(&self) -> Option<&Self> {
         let before = self.unchanged.as_deref()?;
         (before.simulation.cycle() == self.simulation.cycle()).then_some(before)
     }
@@ -292,14 +275,9 @@ impl Session {
     /// The same run with a remark that its files carry.
     #[must_use]
     pub fn noted(&self, note: &str) -> Self {
-        let run = RunPlan {
-            note: Some(note.to_owned()),
-            ..self.loaded.run().clone()
-        };
-        Self {
-            loaded: self.loaded.with_run(run),
-            ..self.clone()
-        }
+        let mut noted = self.clone();
+        noted.loaded.run.note = Some(note.to_owned());
+        noted
     }
 
     /// The run so far as a scenario of its own: what was loaded, each change, and where it stands.

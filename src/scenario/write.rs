@@ -30,13 +30,13 @@ pub(super) fn scenario(table: &Table, follows: &[(&str, String)], source: &str) 
             open = parameter.section();
             let _ = writeln!(text, "\n[{open}]");
         }
-        let _ = write!(text, "{} = {}", parameter.key(), self::value(value));
-        let commented =
-            matches!(parameter.kind, Kind::Number | Kind::Numbers) && !parameter.unit.is_empty();
-        let _ = match commented {
-            true => writeln!(text, "  # {}", parameter.unit),
-            false => writeln!(text),
+        let comment = match (parameter.kind, parameter.unit) {
+            (_, "") => String::new(),
+            (Kind::Number | Kind::Numbers, unit) => format!("  # {unit}"),
+            _ => String::new(),
         };
+        let (key, value) = (parameter.key(), self::value(value));
+        let _ = writeln!(text, "{key} = {value}{comment}");
     }
     let changes = table.get("changes").and_then(Value::as_array);
     for change in changes.into_iter().flatten() {
@@ -75,11 +75,8 @@ fn escaped(text: &str) -> String {
     for c in text.chars() {
         match c {
             '"' | '\\' => quoted.extend(['\\', c]),
-            c if is_rude(c) && u32::from(c) > 0xffff => {
-                let _ = write!(quoted, "\\U{:08X}", u32::from(c));
-            }
             c if is_rude(c) => {
-                let _ = write!(quoted, "\\u{:04X}", u32::from(c));
+                let _ = write!(quoted, "\\U{:08X}", u32::from(c));
             }
             c => quoted.push(c),
         }

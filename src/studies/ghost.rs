@@ -6,7 +6,7 @@ use super::measured::{Measured, Strokes, check_radii};
 use crate::math::scan::value_at;
 use crate::scenario::columns::Columns;
 use crate::scenario::{Refusal, ScenarioError, printable};
-use crate::traces::{Axes, Table};
+use crate::traces::{Axes, Loop, Table};
 
 /// The fewest rows of a history that show a loop.
 const SHORTEST_LOOP: usize = 9;
@@ -178,7 +178,7 @@ impl Ghost {
             .tables
             .iter()
             .filter(|table| table.column("r_m").is_none());
-        let cycles = histories.filter_map(|table| table.column("cycle")?.last().copied());
+        let cycles = histories.filter_map(Table::last_cycle);
         cycles.fold(0.0, f64::max)
     }
 
@@ -202,16 +202,8 @@ impl Ghost {
 
     /// Adds one of this program's own tables, with the loop of its last cycle where it has one.
     pub fn take(&mut self, table: Table) {
-        let last = table
-            .column("cycle")
-            .and_then(|cycles| cycles.last().copied());
-        if let (Some(end), Some(shifts), Some(forces)) =
-            (last, table.column("u_x_m"), table.column("F_x_N"))
-        {
-            let rows = table.cycle_before(end);
-            let of = |values: &[f64]| rows.iter().map(|&row| values[row]).collect();
-            let (shifts, forces) = (of(shifts), of(forces));
-            self.take_loop(shifts, forces);
+        if let Some(one) = Loop::of(&table, None) {
+            self.take_loop(one.shifts, one.forces);
         }
         self.tables.push(table);
     }

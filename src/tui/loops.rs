@@ -4,10 +4,10 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use crate::charts::Loop;
 use crate::reading::subsurface::SpringLoad;
 use crate::reading::{Curves, Moment};
 use crate::simulation::Simulation;
+use crate::traces::Loop;
 
 /// Maximum number of steps of the last loop.
 const CAPACITY: usize = 4096;

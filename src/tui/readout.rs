@@ -3,12 +3,12 @@
 
 use super::frame::Frame;
 use super::panels::Panel;
-use crate::charts::{Loop, Run};
+use crate::charts::Run;
 use crate::math::scan::value_at;
 use crate::plot::theme::Theme;
 use crate::plot::units::format_value;
 use crate::studies::ghost::Ghost;
-use crate::traces::Axes;
+use crate::traces::{Axes, Loop};
 
 /// Significant digits.
 const DIGITS: usize = 4;

@@ -1,6 +1,7 @@
 //! The keys of a scenario that can be changed while it runs, with their present values.
 
 use super::shifted;
+use crate::plot::units::{plain, reading};
 use crate::scenario::schema::{Kind, Parameter, parameters};
 use crate::scenario::{Scenario, units};
 
@@ -55,7 +56,7 @@ impl Setting {
     fn reading(&self, ascii: bool) -> Option<(String, String)> {
         let value: f64 = self.value.as_deref()?.parse().ok()?;
         let has_unit = self.parameter.kind == Kind::Number && !self.unit.is_empty();
-        has_unit.then(|| units::reading(value, self.unit, ascii))
+        has_unit.then(|| reading(value, self.unit, ascii))
     }
 
     /// The unit that a number without one is typed in: the one that is shown.
@@ -114,7 +115,7 @@ impl Setting {
             Kind::Number => {
                 let shown = self.reading(true);
                 let (number, unit) = shown.unwrap_or_else(|| (value.to_owned(), String::new()));
-                let next = units::plain(next_number(number.parse().ok()?, up));
+                let next = plain(next_number(number.parse().ok()?, up));
                 Some(format!("{next} {unit}").trim_end().to_owned())
             }
             Kind::Text | Kind::Numbers => None,

@@ -22,46 +22,30 @@ fn curve(data: &Table, panel: &str, name: &str) -> (Vec<f64>, Vec<f64>) {
 
 #[test]
 fn an_svg_is_lines_and_words_in_millimetres() {
-    let mut y = Axis::new("p", "Pa");
-    y.bounds = Some([0.0, 2e9]);
-    let mut chart = Chart::new("pressure", Axis::new("r", "m"), y);
+    let y = Axis::new("p", "Pa").bounds([0.0, 2e9]);
     let xs = [0.0, 5e-5, 1e-4];
-    chart
-        .curves
-        .push(Curve::new("p & τ", xs, [2e9, 1.5e9, 0.0], Role::Pressure));
+    let pressure = Curve::new("p & τ", xs, [2e9, 1.5e9, 0.0], Role::Pressure);
     // What leaves the frame is cut at its edge.
-    chart
-        .curves
-        .push(Curve::new("", xs, [1e9, 3e9, f64::NAN], Role::Limit).dashed());
+    let cut = Curve::new("", xs, [1e9, 3e9, f64::NAN], Role::Limit).dashed();
+    let mut chart = Chart::new("pressure", Axis::new("r", "m"), y).curves([pressure, cut]);
     chart.marks.push(Mark {
         x: 5e-5,
         label: "c",
         role: Role::Stick,
     });
-    let mut logged = Axis::new("error", "");
-    logged.scale = Scale::Log;
-    let mut errors = Chart::new("errors", Axis::new("r/a", ""), logged);
-    errors.curves.push(Curve::new(
-        "A",
-        [0.0, 0.5, 1.0],
-        [1e-4, 0.0, 1e-2],
-        Role::Series(0),
-    ));
+    let logged = Axis::new("error", "").scale(Scale::Log);
+    let series = Curve::new("A", [0.0, 0.5, 1.0], [1e-4, 0.0, 1e-2], Role::Series(0));
+    let errors = Chart::new("errors", Axis::new("r/a", ""), logged).curve(series);
     let sheet = Sheet {
         title: "a <figure>".into(),
         facts: vec![("method".into(), "product".into())],
         charts: vec![chart, errors],
     };
-    let look = Look {
-        font: 2.8,
-        style: Style::Color,
-    };
-    insta::assert_snapshot!("figure", svg::write(&sheet.draw([120.0, 50.0], &look)));
-    let grey = Look {
-        style: Style::Grey,
-        ..look
-    };
-    let text = svg::write(&sheet.draw([120.0, 50.0], &grey));
+    let [drawn, text] = [Style::Color, Style::Grey].map(|style| {
+        let look = Look { font: 2.8, style };
+        svg::write(&sheet.draw([120.0, 50.0], &look))
+    });
+    insta::assert_snapshot!("figure", drawn);
     let colors = text.split('#').skip(1).map(|rest| &rest[..6]);
     for color in colors {
         assert!(
@@ -390,20 +374,14 @@ fn a_run_leaves_the_loop_of_its_last_cycle() {
 /// Plateaus do not lie on the frame; curves that begin at zero do.
 #[test]
 fn data_keep_clear_of_the_frame() {
-    let mut chart = Chart::new("loop", Axis::new("u_x", "m"), Axis::new("F_x", "N"));
-    chart.curves.push(Curve::new(
-        "",
-        [-1.0, 1.0, 1.0, -1.0],
-        [2.0, 2.0, -2.0, -2.0],
-        Role::Shear,
-    ));
+    let (us, forces) = ([-1.0, 1.0, 1.0, -1.0], [2.0, 2.0, -2.0, -2.0]);
+    let mut chart = Chart::new("loop", Axis::new("u_x", "m"), Axis::new("F_x", "N"))
+        .curve(Curve::new("", us, forces, Role::Shear));
     chart.margin = 0.05;
     let [[left, right], [low, high]] = chart.bounds_on_paper();
     assert!(left < -1.05 && right > 1.05 && low < -2.05 && high > 2.05);
-    let mut depth = Chart::new("depth", Axis::new("r", "m"), Axis::new("depth", "m"));
-    depth
-        .curves
-        .push(Curve::new("", [0.0, 1.0], [1.0, 0.0], Role::Profile));
+    let depth = Chart::new("depth", Axis::new("r", "m"), Axis::new("depth", "m"))
+        .curve(Curve::new("", [0.0, 1.0], [1.0, 0.0], Role::Profile));
     let [_, [low, high]] = depth.bounds_on_paper();
     assert!(low == 0.0 && high > 1.0);
 }

@@ -58,25 +58,20 @@ fn every_invalid_fixture_is_refused_with_the_line_it_expects() {
 }
 
 #[test]
-fn every_valid_fixture_presses_its_contact_and_reads_back() {
-    for (name, text) in fixtures("valid") {
+fn every_preset_and_valid_fixture_presses_its_contact_and_reads_back() {
+    let presets = preset::ALL.iter();
+    let presets = presets.map(|preset| (preset.name.to_owned(), preset.text.to_owned()));
+    for (name, text) in fixtures("valid").into_iter().chain(presets) {
         let scenario =
             Scenario::from_toml(&text, &name, &[]).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(again(&scenario), scenario, "{name}");
+        assert_eq!(again(&scenario).to_toml(), scenario.to_toml());
+        let preset = preset::find(&name);
+        assert!(preset.is_none_or(|preset| preset.title() == scenario.title()));
         if scenario.setup().grid.cells() < 1000 && name != "narrow-domain.toml" {
             let simulation = Simulation::new(scenario.setup().clone());
             assert!(simulation.is_ok(), "{name}: {:?}", simulation.err());
         }
-    }
-}
-
-#[test]
-fn presets_read_back() {
-    for preset in preset::ALL {
-        let scenario = load(preset.name, &[]);
-        assert_eq!(again(&scenario), scenario, "{}", preset.name);
-        assert_eq!(again(&scenario).to_toml(), scenario.to_toml());
-        assert_eq!(scenario.title(), preset.title());
     }
 }
 
@@ -360,17 +355,6 @@ fn what_stands_still_shares_the_period_of_what_moves() {
     let frequency = |control: &Control| control.oscillation().angular_frequency();
     assert_eq!(frequency(scenario.setup().drive.normal()), 100.0);
     assert_eq!(scenario.setup().drive.repeats_after(), Some(1));
-}
-
-#[test]
-fn user_text_stays_on_its_line() {
-    let text = format!(
-        "title = \"a\\u001b[31m\\nb\"\n{}",
-        preset::ALL[1].text.replace("title", "# title")
-    );
-    let scenario = Scenario::from_toml(&text, "x", &[]).unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!(scenario.title(), "a\\u{1b}[31m\\nb");
-    assert_eq!(again(&scenario), scenario);
 }
 
 /// A number of any size, to the last bit.

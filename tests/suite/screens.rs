@@ -232,7 +232,7 @@ fn a_panel_is_explained_where_it_stands() {
             .lines()
             .filter(|line| text.lines().any(|seen| seen == *line));
         assert!(same.count() >= 12, "{text}");
-        let symbols = panel.recipe().words.symbols;
+        let symbols = panel.recipe().symbols;
         has(&words_of(&text), symbols.last().expect("a symbol").1);
     }
 }

@@ -19,7 +19,7 @@ use crate::figure::study;
 use crate::plot::colormap::ColorMap;
 use crate::plot::map::{self, SWATCHES};
 use crate::plot::shades::{self, has_blocks};
-use crate::plot::units::{axis_unit, format_number, format_value};
+use crate::plot::units::{format_value, range_ends};
 use crate::plot::{Axis, Chart, Plot, Point, Scale};
 use crate::studies::sweep::slice::REGIMES;
 use crate::tui::footer;
@@ -188,14 +188,13 @@ fn legend(view: &View, theme: &Theme, chart: &Chart) -> Line<'static> {
         }
         return line;
     }
-    let Some([low, high]) = range else {
+    let Some(range) = range else {
         return line;
     };
-    let unit = axis_unit(high.abs().max(low.abs()), quantity.unit, theme.ascii());
-    let value = |value: f64| format_number(value / unit.factor, 3);
-    line.push_span(format!("  {} ", value(low)));
+    let [low, high] = range_ends(range, quantity.unit, 3, theme.ascii());
+    line.push_span(format!("  {low} "));
     line.extend(shades::key(theme, ColorMap::Sequential, map::sign));
-    line.push_span(theme.printable(&format!(" {} {}", value(high), unit.text)));
+    line.push_span(theme.printable(&format!(" {high}")));
     if quantity.scale == Scale::Log {
         line.push_span(Span::styled("  log", quiet));
     }

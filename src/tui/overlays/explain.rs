@@ -35,13 +35,17 @@ pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     // In a comparison there are other panels than the focused one.
     let focus = app.stage.focus;
     let recipe = focus.recipe();
-    let (title, keys, words) = match is_compared {
+    let (title, keys, (text, symbols)) = match is_compared {
         true => ("comparison", "Esc closes", panels::compare::WORDS),
-        false => (recipe.title, "Tab: next panel, Esc closes", recipe.words),
+        false => (
+            recipe.title,
+            "Tab: next panel, Esc closes",
+            (recipe.text, recipe.symbols),
+        ),
     };
     let spelled = |text: &str| theme.printable(text);
-    let mut lines = vec![Line::raw(spelled(words.text)), Line::default()];
-    lines.extend(words.symbols.iter().map(|(symbol, meaning)| {
+    let mut lines = vec![Line::raw(spelled(text)), Line::default()];
+    lines.extend(symbols.iter().map(|(symbol, meaning)| {
         Line::from(vec![
             Span::styled(
                 format!("{:<11} ", spelled(symbol)),
@@ -66,10 +70,11 @@ pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     // Where the whole would cover the panel, it is told in running text, without what can be done without.
     let (mut place, mut height) = (beside(app, area), rows(&lines));
     if height > place.height {
-        let symbols = words.symbols.iter();
-        let symbols = symbols.map(|(symbol, meaning)| format!("{symbol}: {meaning}"));
+        let symbols = symbols
+            .iter()
+            .map(|(symbol, meaning)| format!("{symbol}: {meaning}"));
         let symbols = symbols.collect::<Vec<_>>().join("; ");
-        let brief = vec![Line::raw(spelled(words.text)), Line::raw(spelled(&symbols))];
+        let brief = vec![Line::raw(spelled(text)), Line::raw(spelled(&symbols))];
         if rows(&brief) <= place.height {
             (height, lines) = (rows(&brief), brief);
         } else {

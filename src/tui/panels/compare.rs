@@ -4,7 +4,7 @@
 use ratatui::prelude::*;
 
 use super::{App, Frame, clip_spikes, edge, nothing, plot, titled};
-use crate::charts::{A, C, Live, Words, ghosts};
+use crate::charts::{A, C, Live, Symbols, ghosts};
 use crate::math::scan::largest;
 use crate::plot::units::{format_number, format_value};
 use crate::plot::{Axis, Chart, Curve, Scale, nice_bounds};
@@ -23,12 +23,12 @@ const NARROWEST: u16 = 17;
 const DIFFERENCE: &str = "difference of f";
 
 /// The explanation of a comparison, which takes the place of all panels.
-pub const WORDS: Words = Words {
-    text: "Two methods run side by side from one state: both profiles, both pressures, and below them the size \
+pub const WORDS: (&str, Symbols) = (
+    "Two methods run side by side from one state: both profiles, both pressures, and below them the size \
            of the difference of the profiles, which is logarithmic. m and M change the second method, C begins \
            at the start of the scenario, c ends the comparison.",
-    symbols: &[A, C, ("side by side", "the same numbers of both runs")],
-};
+    &[A, C, ("side by side", "the same numbers of both runs")],
+);
 
 /// Draws the comparison over the whole area of the panels.
 pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffer: &mut Buffer) {

@@ -10,7 +10,7 @@ use super::frame::Frame;
 use super::live_charts::Made;
 use super::shifted;
 use super::theme::{Role, Theme};
-use crate::charts::{self, Recipe, Words};
+use crate::charts::{self, Recipe};
 use crate::plot::{Chart, Plot, Scale};
 
 mod caption;
@@ -109,7 +109,7 @@ impl Panel {
         }
         match &*app.charts.get(self, frame) {
             Ok(chart) => {
-                let cursor = app.cursor.radius(frame).filter(|_| recipe.over_r);
+                let cursor = app.cursor.radius(frame).filter(|_| recipe.is_over_r());
                 plot(chart, role, (theme, cursor), area, buffer);
             }
             Err(why) => {
@@ -121,7 +121,7 @@ impl Panel {
 
     /// The radius under a place of the screen, m, where the panel in `area` has a chart over r there.
     pub fn radius_at(self, chart: &Made, theme: &Theme, area: Rect, at: Position) -> Option<f64> {
-        let chart = chart.as_ref().ok().filter(|_| self.recipe().over_r)?;
+        let chart = chart.as_ref().ok().filter(|_| self.recipe().is_over_r())?;
         // The first row is the title's.
         let [_, inner] = Layout::vertical([Length(1), Fill(1)]).areas(area);
         Plot::new(chart, theme).abscissa_at(inner, at)
@@ -266,7 +266,7 @@ mod tests {
     #[test]
     fn every_panel_is_explained_in_a_box_of_a_small_screen() {
         for panel in Panel::ALL {
-            let Words { text, symbols } = panel.recipe().words;
+            let Recipe { text, symbols, .. } = *panel.recipe();
             assert!((50..=330).contains(&text.chars().count()), "{panel:?}");
             assert!(!text.contains("  ") && text.ends_with('.'), "{panel:?}");
             assert!((1..=5).contains(&symbols.len()), "{panel:?}");

@@ -2,7 +2,7 @@
 
 use ratatui::prelude::*;
 
-use super::{App, Frame, Picture, Recipe, Words, titled};
+use super::{App, Frame, Picture, Recipe, titled};
 use crate::plot::units::{format_number, format_value};
 use crate::reading::CycleFigures;
 use crate::tui::theme::Role;
@@ -12,22 +12,20 @@ pub static PICTURE: Picture = Picture {
     recipe: Recipe {
         title: "numbers",
         is_calm: true,
-        words: Words {
-            text: "The state in numbers, and what a fretting test reports for the last complete \
-                 cycle. A, B and D \
-                 are ratios of the loop: at the border of gross slip an unworn sphere has A = 0.2, B = 0.77 and \
-                 D = 0.26. k is wear per friction work; Archard's, per normal force and distance, is μ k.",
-            symbols: &[
-                ("E_d", "energy lost to friction"),
-                ("Q*/(μP)", "amplitude of F_x divided by the friction limit"),
-                (
-                    "slip ratio",
-                    "mean slip of the contact divided by the amplitude",
-                ),
-                ("D, A, B", "sliding ratio and energy ratios of the loop"),
-                ("V/E_d", "wear volume divided by accumulated energy"),
-            ],
-        },
+        text: "The state in numbers, and what a fretting test reports for the last complete \
+             cycle. A, B and D \
+             are ratios of the loop: at the border of gross slip an unworn sphere has A = 0.2, B = 0.77 and \
+             D = 0.26. k is wear per friction work; Archard's, per normal force and distance, is μ k.",
+        symbols: &[
+            ("E_d", "energy lost to friction"),
+            ("Q*/(μP)", "amplitude of F_x divided by the friction limit"),
+            (
+                "slip ratio",
+                "mean slip of the contact divided by the amplitude",
+            ),
+            ("D, A, B", "sliding ratio and energy ratios of the loop"),
+            ("V/E_d", "wear volume divided by accumulated energy"),
+        ],
         ..Recipe::new(|_, _| Err(""))
     },
     draw,

@@ -11,7 +11,7 @@
 
 use ratatui::prelude::*;
 
-use super::{App, Frame, Panel, Picture, Recipe, Words, edge, nothing, titled};
+use super::{App, Frame, Panel, Picture, Recipe, edge, nothing, titled};
 use crate::charts::look_of;
 use crate::math::grid::interpolate;
 use crate::math::scan::largest;
@@ -26,12 +26,10 @@ pub static PICTURE: Picture = Picture {
     recipe: Recipe {
         title: "scar from above",
         needs: Curves::PROFILE.union(Curves::SPRINGS),
-        words: Words {
-            text: "The contact from above. The left half shows where it sticks, slips and is open at this moment, the \
-                 right half the worn depth in colours. The arrow shows which way the indenter \
-                     slips.",
-            symbols: &[("s ~ .", "stick, slip, open (without colours)")],
-        },
+        text: "The contact from above. The left half shows where it sticks, slips and is open at this moment, the \
+             right half the worn depth in colours. The arrow shows which way the indenter \
+                 slips.",
+        symbols: &[("s ~ .", "stick, slip, open (without colours)")],
         ..Recipe::new(|_, _| Err(""))
     },
     draw,

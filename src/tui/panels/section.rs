@@ -18,7 +18,7 @@
 use ratatui::prelude::*;
 
 use super::stress_map::Shades;
-use super::{App, Frame, Panel, Picture, Recipe, Words, caption, edge, titled};
+use super::{App, Frame, Panel, Picture, Recipe, caption, edge, titled};
 use crate::charts::{U_X, magnification};
 use crate::math::grid::interpolate;
 use crate::math::scan::largest;
@@ -35,12 +35,10 @@ pub static PICTURE: Picture = Picture {
             .union(Curves::SPRINGS)
             .union(Curves::SURFACE),
         is_calm: true,
-        words: Words {
-            text: "A cut through both bodies: the indenter above, the half-space it deforms below. \
-                 The title tells what is magnified. The contact surface is coloured by stick and slip; \
-                 the short lines across it (V) stay in one where it sticks, and part where it slips.",
-            symbols: &[("F_z", "normal force"), U_X],
-        },
+        text: "A cut through both bodies: the indenter above, the half-space it deforms below. \
+             The title tells what is magnified. The contact surface is coloured by stick and slip; \
+             the short lines across it (V) stay in one where it sticks, and part where it slips.",
+        symbols: &[("F_z", "normal force"), U_X],
         ..Recipe::new(|_, _| Err(""))
     },
     draw,

@@ -1,17 +1,20 @@
 //! Turns the keys of a scenario into parts that can be run. The schema and the parts' constructors
-//! check the values; this module adds where in the scenario a refused value is.
+//! check the values; these modules add where in the scenario a refused value is.
+//!
+//! One file for each section of a scenario: what they need is imported here, and they begin with `use super::*`.
 
 use std::cell::RefCell;
 use std::fmt::Display;
+use std::str::FromStr;
 
+use serde::de::DeserializeOwned;
 use toml::{Table, Value};
 
-use super::check::{self, show};
+use super::check::{self, length, show};
 use super::complete;
 use super::derive::{self, Contact};
 use super::error::{Faults, Origin, ScenarioError};
-use super::keys::{self, RunsIn};
-use super::schema::{self, Key, Parameter};
+use super::schema::{self, Parameter, join};
 use crate::contact::indenter::Indenter;
 use crate::contact::material::Material;
 use crate::contact::scar::Scar;
@@ -20,6 +23,15 @@ use crate::math::grid::RadialGrid;
 use crate::math::invalid::Invalid;
 use crate::simulation::{Integrator, Setup, Spacing};
 use crate::wear::{Powers, WearLaw};
+
+mod bodies;
+mod motion;
+mod running_in;
+mod scar;
+mod shape;
+
+/// By what factor lengths may seem off before their unit is in doubt.
+const HARDLY_SAME: f64 = 20.0;
 
 /// Makes the parts of a scenario from the keys that the user gave, and returns them behind the
 /// [completed](super::complete::table) keys. Where an accuracy leaves points and steps open, they have their defaults.
@@ -60,7 +72,7 @@ pub(super) struct Parts<'a> {
     table: &'a Table,
     /// The values as the user wrote them, for messages.
     written: &'a Table,
-    pub(super) origin: &'a Origin,
+    origin: &'a Origin,
     /// What is wrong so far; what is missing is added.
     faults: RefCell<Faults>,
 }
@@ -80,11 +92,11 @@ impl Parts<'_> {
         let wear = self.wear(&contact)?;
         let running_in = self.running_in(&material)?;
         let scar = self.scar()?;
-        let domain = self.get(&keys::DOMAIN_RADIUS).or_else(|| {
+        let domain = self.get("numerics.domain_radius").or_else(|| {
             let runs_in = running_in.as_ref().is_some_and(|of| of.friction.is_some());
             contact.domain_radius(!runs_in, scar.as_ref().map_or(0.0, Scar::deepest))
         });
-        let method = self.require(&keys::METHOD)?;
+        let method = self.choice("numerics.method")?;
         let (spacing, scheme) = derive::choices(method);
         let grid = self.grid(method, &indenter, domain)?;
         if let Some(scar) = &scar {
@@ -101,12 +113,12 @@ impl Parts<'_> {
             running_in,
             method,
             spacing: self.spacing(spacing)?,
-            scheme: self.get(&keys::SCHEME).unwrap_or(scheme),
-            stability: self.require(&keys::STABILITY)?,
-            steps_per_cycle: self.require(&keys::STEPS_PER_CYCLE)?,
+            scheme: schema::named(self.table, "numerics.scheme").unwrap_or(scheme),
+            stability: self.choice("numerics.stability")?,
+            steps_per_cycle: self.require("numerics.steps_per_cycle")?,
             integrator: Integrator::new(
-                &self.require(&keys::INTEGRATOR)?,
-                self.require(&keys::TOLERANCE)?,
+                &self.require::<String>("numerics.integrator")?,
+                self.require("numerics.tolerance")?,
             )
             .map_err(|invalid| self.refused("numerics", invalid))?,
         };
@@ -114,14 +126,14 @@ impl Parts<'_> {
     }
 
     /// The value of a key, where it is given.
-    pub(super) fn get<T>(&self, key: &Key<T>) -> Option<T> {
-        key.get(self.table)
+    fn get<T: DeserializeOwned>(&self, key: &str) -> Option<T> {
+        schema::read(self.table, key)
     }
 
-    /// A coefficient as a run begins with it: its value, or the first of its table.
-    pub(super) fn first(&self, key: &Key<f64>, course: &RunsIn) -> Option<f64> {
-        let of_table = || self.get(&course.values)?.first().copied();
-        self.get(key).or_else(of_table)
+    /// A coefficient as a run begins with it: its value, or the first of the table of its `section`.
+    fn first(&self, key: &str, section: &str) -> Option<f64> {
+        let values = || self.get::<Vec<f64>>(&join(section, "values"));
+        self.get(key).or_else(|| values()?.first().copied())
     }
 
     /// The value of a key, or its default; where there is neither, any value, so that what else is missing is found.
@@ -129,33 +141,47 @@ impl Parts<'_> {
     /// # Errors
     ///
     /// That it is missing, if it is a key without such a value.
-    pub(super) fn require<T>(&self, key: &Key<T>) -> Result<T, ScenarioError> {
-        let value = key.get_or_default(self.table);
-        value.map_or_else(|| self.any(key, key.parameter().described()), Ok)
+    fn require<T: DeserializeOwned>(&self, key: &str) -> Result<T, ScenarioError> {
+        let known = schema::known(key);
+        let default = || known.default.value()?.clone().try_into().ok();
+        let value = self.get(key).or_else(default);
+        value.map_or_else(|| self.any(key, known.described()), Ok)
     }
 
-    /// A list that is read from a file.
+    /// What the word of a key names.
+    ///
+    /// # Errors
+    ///
+    /// As [`require`](Self::require).
+    fn choice<T: FromStr>(&self, key: &str) -> Result<T, ScenarioError> {
+        let word: String = self.require(key)?;
+        let unknown = |_| self.missing(key, schema::known(key).described());
+        word.parse().map_err(unknown)
+    }
+
+    /// A list that is read from a `file`, which a key names.
     ///
     /// # Errors
     ///
     /// That the key of the file is missing, if there is no list.
-    pub(super) fn list(
-        &self,
-        list: &Key<Vec<f64>>,
-        file: &Key<String>,
-    ) -> Result<Vec<f64>, ScenarioError> {
-        let missing = || self.missing(file.path(), file.parameter().described());
+    fn list(&self, list: &str, file: &str) -> Result<Vec<f64>, ScenarioError> {
+        let missing = || self.missing(file, schema::known(file).described());
         self.get(list).ok_or_else(missing)
     }
 
     /// Notes that a key is missing, which means `meaning`, and returns any value of it.
-    pub(super) fn any<T>(&self, key: &Key<T>, meaning: impl Display) -> Result<T, ScenarioError> {
-        let missing = self.missing(key.path(), meaning);
-        key.any_value().ok_or(missing)
+    fn any<T: DeserializeOwned>(
+        &self,
+        key: &str,
+        meaning: impl Display,
+    ) -> Result<T, ScenarioError> {
+        let missing = self.missing(key, meaning);
+        let any = schema::known(key).any_value();
+        any.and_then(|any| any.try_into().ok()).ok_or(missing)
     }
 
     /// Notes the error that there is no value at `path`, which means `meaning`, unless it is dealt with already.
-    pub(super) fn missing(&self, path: &str, meaning: impl Display) -> ScenarioError {
+    fn missing(&self, path: &str, meaning: impl Display) -> ScenarioError {
         let error = self.origin.missing(path, meaning);
         let mut faults = self.faults.borrow_mut();
         if !faults.covers(path) {
@@ -164,21 +190,23 @@ impl Parts<'_> {
         error
     }
 
-    pub(super) fn has(&self, path: &str) -> bool {
+    fn has(&self, path: &str) -> bool {
         schema::at(self.written, path).is_some()
     }
 
-    /// Refuses the value that stands at `path`; `otherwise` is shown where none was written.
-    pub(super) fn refuse(&self, path: &str, otherwise: &str, rule: impl Display) -> ScenarioError {
+    /// Refuses the value that stands at `path`, if one was written.
+    fn refuse(&self, path: &str, rule: impl Display) -> ScenarioError {
         let written = schema::at(self.written, path).map(show);
-        let value = written.unwrap_or_else(|| otherwise.to_owned());
-        self.origin.refuse(path, &value, rule)
+        self.origin.refuse(path, &written.unwrap_or_default(), rule)
     }
 
     /// Adds the table to what a constructor refused.
-    pub(super) fn refused(&self, section: &str, invalid: Invalid) -> ScenarioError {
+    fn refused(&self, section: &str, invalid: Invalid) -> ScenarioError {
         let path = format!("{section}.{}", invalid.field);
-        self.refuse(&path, &invalid.value, invalid.rule)
+        match self.has(&path) {
+            true => self.refuse(&path, invalid.rule),
+            false => self.origin.refuse(&path, &invalid.value, invalid.rule),
+        }
     }
 
     /// The law of wear. Keys of the power law are judged under either law, so that the law can be
@@ -187,21 +215,21 @@ impl Parts<'_> {
         if !self.has("wear") {
             return Ok(None);
         }
-        let is_power = self.require(&keys::LAW)? == "power";
+        let is_power = self.require::<String>("wear.law")? == "power";
         let coefficient = self.wear_coefficient(contact.material)?;
-        let stress = self.get(&keys::REFERENCE_STRESS);
-        let slip_rate = self.get(&keys::REFERENCE_SLIP_RATE);
+        let stress = self.get("wear.reference_stress");
+        let slip_rate = self.get("wear.reference_slip_rate");
         let (any_stress, any_slip_rate) =
             match is_power && (stress.is_none() || slip_rate.is_none()) {
                 true => contact.references().ok_or_else(|| {
                     let meaning = "Pa; none could be found from the contact";
-                    self.missing(keys::REFERENCE_STRESS.path(), meaning)
+                    self.missing("wear.reference_stress", meaning)
                 })?,
                 false => (1.0, 1.0),
             };
         let powers = Powers {
-            stress_exponent: self.require(&keys::STRESS_EXPONENT)?,
-            slip_rate_exponent: self.require(&keys::SLIP_RATE_EXPONENT)?,
+            stress_exponent: self.require("wear.stress_exponent")?,
+            slip_rate_exponent: self.require("wear.slip_rate_exponent")?,
             reference_stress: stress.unwrap_or(any_stress),
             reference_slip_rate: slip_rate.unwrap_or(any_slip_rate),
         };
@@ -216,11 +244,11 @@ impl Parts<'_> {
 
     /// k per friction work, 1/Pa: as given, or that per load and distance over the friction that the run
     /// begins with.
-    pub(super) fn wear_coefficient(&self, material: &Material) -> Result<f64, ScenarioError> {
-        let Some(per_load) = self.get(&keys::WEAR_PER_LOAD) else {
-            let given = self.first(&keys::WEAR_COEFFICIENT, &keys::WEAR_COURSE);
-            let key = &keys::WEAR_COEFFICIENT;
-            let meaning = key.parameter().described();
+    fn wear_coefficient(&self, material: &Material) -> Result<f64, ScenarioError> {
+        let Some(per_load) = self.get::<f64>("wear.coefficient_per_load") else {
+            let given = self.first("wear.coefficient", "wear");
+            let key = "wear.coefficient";
+            let meaning = schema::known(key).described();
             let meaning = format!("{meaning}; or coefficient_per_load, of a pin test");
             return given.map_or_else(|| self.any(key, meaning), Ok);
         };
@@ -229,7 +257,7 @@ impl Parts<'_> {
         }
         let rule = "needs friction greater than 0: per friction work it is \
                     k = coefficient_per_load / friction";
-        Err(self.refuse(keys::WEAR_PER_LOAD.path(), "", rule))
+        Err(self.refuse("wear.coefficient_per_load", rule))
     }
 
     fn grid(
@@ -238,39 +266,32 @@ impl Parts<'_> {
         indenter: &Indenter,
         domain: Option<f64>,
     ) -> Result<RadialGrid, ScenarioError> {
-        let points = self.require(&keys::POINTS)? as usize;
+        let points: usize = self.require("numerics.points")?;
         let most = method.most_cells();
         if points > most {
             let rule = format!(
                 "must be at most {most} with method = \"{method}\", which has no fast algorithm"
             );
-            return Err(self.refuse(keys::POINTS.path(), "", rule));
+            return Err(self.refuse("numerics.points", rule));
         }
-        if indenter.rim().is_some() && self.get(&keys::DOMAIN_RADIUS).is_some() {
+        if indenter.rim().is_some() && self.has("numerics.domain_radius") {
             let shape = indenter.name();
             let rule =
                 format!("conflicts with shape = \"{shape}\", whose rim is the domain's edge");
-            return Err(self.refuse(keys::DOMAIN_RADIUS.path(), "", rule));
+            return Err(self.refuse("numerics.domain_radius", rule));
         }
-        let radius = domain.ok_or_else(|| {
-            self.refuse(
-                keys::NORMAL.mean.path(),
-                "",
-                "no contact can carry this force; must be smaller",
-            )
-        })?;
+        let too_large = "no contact can carry this force; must be smaller";
+        let radius = domain.ok_or_else(|| self.refuse("motion.normal.mean", too_large))?;
         if let Indenter::Table(measured) = indenter {
             self.check_measured(measured, radius)?;
         }
-        if indenter
-            .flat_face()
-            .is_some_and(|tip_radius| tip_radius >= radius)
-        {
+        let face = indenter.flat_face();
+        if face.is_some_and(|tip_radius| tip_radius >= radius) {
             let edge = show(&Value::Float(radius));
             let rule = format!("must be less than the domain's edge, {edge} m");
-            return Err(self.refuse(keys::TIP_RADIUS.path(), "", rule));
+            return Err(self.refuse("indenter.tip_radius", rule));
         }
-        let grid = match self.get(&keys::NODES) {
+        let grid = match self.get::<Vec<f64>>("numerics.nodes") {
             None => RadialGrid::uniform(points, radius),
             Some(nodes) if nodes.len() == points + 1 => RadialGrid::restored(nodes, None),
             Some(nodes) => {
@@ -279,7 +300,7 @@ impl Parts<'_> {
                     points + 1,
                     nodes.len()
                 );
-                return Err(self.refuse(keys::NODES.path(), "[...]", rule));
+                return Err(self.refuse("numerics.nodes", rule));
             }
         };
         grid.map_err(|invalid| self.refused("numerics", invalid))
@@ -287,18 +308,18 @@ impl Parts<'_> {
 
     /// Where the nodes lie: as the list says, if there is one.
     fn spacing(&self, default: Spacing) -> Result<Spacing, ScenarioError> {
-        let has_nodes = self.get(&keys::NODES).is_some();
+        let has_nodes = self.has("numerics.nodes");
         let default = if has_nodes { Spacing::Given } else { default };
-        let named = self.get(&keys::GRID).unwrap_or(default);
+        let named = schema::named(self.table, "numerics.grid").unwrap_or(default);
         match (named, has_nodes) {
             (Spacing::Given, false) => {
                 let rule =
                     "needs numerics.nodes, the list that a run with numerics.accuracy writes";
-                Err(self.refuse(keys::GRID.path(), "", rule))
+                Err(self.refuse("numerics.grid", rule))
             }
             (Spacing::Graded | Spacing::Uniform, true) => {
                 let rule = "conflicts with numerics.nodes; give one of them";
-                Err(self.refuse(keys::GRID.path(), "", rule))
+                Err(self.refuse("numerics.grid", rule))
             }
             _ => Ok(named),
         }

@@ -1,11 +1,6 @@
 //! Builds the indenter from the keys of a scenario, and holds a measured one against the domain.
 
-use super::check::length;
-use super::error::ScenarioError;
-use super::keys;
-use super::schema;
-use super::validate::Parts;
-use crate::contact::indenter::Indenter;
+use super::*;
 use crate::contact::measured::MeasuredProfile;
 
 /// The steepest slope at the contact's edge, a/R, that a table may have, and the shallowest: beyond them
@@ -13,36 +8,30 @@ use crate::contact::measured::MeasuredProfile;
 const STEEPEST: f64 = 1.0;
 const SHALLOWEST: f64 = 1e-6;
 
-/// How far contact may seem to reach beyond a table before its unit is in doubt.
-const HARDLY_SAME: f64 = 20.0;
-
 /// The fewest points of a table that are to lie within the domain.
 const FEWEST_IN_CONTACT: usize = 4;
 
 impl Parts<'_> {
     /// The unworn shape.
     pub(super) fn indenter(&self) -> Result<Indenter, ScenarioError> {
-        let shape = self.require(&keys::SHAPE)?;
+        let shape: String = self.require("indenter.shape")?;
         self.refuse_keys_of_other_shapes(&shape)?;
-        let radius = || self.require(&keys::RADIUS);
-        let angle = || self.require(&keys::ANGLE);
-        let tip_radius = || self.require(&keys::TIP_RADIUS);
+        let of = |key: &str| self.require::<f64>(&join("indenter", key));
         match shape.as_str() {
-            "cone" => Indenter::cone(angle()?),
-            "power" => Indenter::power(
-                self.require(&keys::SHAPE_COEFFICIENT)?,
-                self.require(&keys::SHAPE_EXPONENT)?,
-            ),
-            "flat-punch" => Indenter::flat_punch(radius()?),
-            "truncated-paraboloid" => Indenter::truncated_paraboloid(radius()?, tip_radius()?),
-            "truncated-cone" => Indenter::truncated_cone(angle()?, tip_radius()?),
-            "rounded-punch" => Indenter::rounded_punch(radius()?, tip_radius()?),
-            "table" => {
-                let list = |key| self.list(key, &keys::TABLE_FILE);
-                let (radii, heights) = (list(&keys::RADII)?, list(&keys::HEIGHTS)?);
-                Indenter::table(&radii, &heights, self.require(&keys::SMOOTHING)?)
+            "cone" => Indenter::cone(of("angle")?),
+            "power" => Indenter::power(of("coefficient")?, of("exponent")?),
+            "flat-punch" => Indenter::flat_punch(of("radius")?),
+            "truncated-paraboloid" => {
+                Indenter::truncated_paraboloid(of("radius")?, of("tip_radius")?)
             }
-            _ => Indenter::paraboloid(radius()?),
+            "truncated-cone" => Indenter::truncated_cone(of("angle")?, of("tip_radius")?),
+            "rounded-punch" => Indenter::rounded_punch(of("radius")?, of("tip_radius")?),
+            "table" => {
+                let list = |key| self.list(key, "indenter.file");
+                let (radii, heights) = (list("indenter.radii")?, list("indenter.heights")?);
+                Indenter::table(&radii, &heights, of("smoothing")?)
+            }
+            _ => Indenter::paraboloid(of("radius")?),
         }
         .map_err(|invalid| self.refused("indenter", invalid))
     }
@@ -62,7 +51,7 @@ impl Parts<'_> {
             "shape = \"{shape}\" has no such key; it takes {}",
             takes.join(", ")
         );
-        Err(self.refuse(foreign.path, "", rule))
+        Err(self.refuse(foreign.path, rule))
     }
 
     /// Refuses a table that ends inside the domain, has hardly a point in the contact, or has
@@ -72,35 +61,31 @@ impl Parts<'_> {
         measured: &MeasuredProfile,
         domain: f64,
     ) -> Result<(), ScenarioError> {
-        let refuse = |rule: String| Err(self.refuse("indenter.radii", "{...}", rule));
         let last = measured.last_radius();
         let points = measured.points_within(domain);
         let slope = 2.0 * measured.profile(domain.min(last)) / domain.min(last);
         let unit = "are r and f in m? columns r_mm and f_um are converted";
-        if slope > STEEPEST {
-            return refuse(format!(
-                "a/R = {slope:.1e} at the contact's edge, where slopes must be small: {unit}"
-            ));
-        }
-        if domain > last {
-            let edge = length(domain);
+        let edge = length(domain);
+        let rule = if slope > STEEPEST {
+            format!("a/R = {slope:.1e} at the contact's edge, where slopes must be small: {unit}")
+        } else if domain > last {
             let hint = if domain > HARDLY_SAME * last || slope < SHALLOWEST {
                 format!(": {unit}")
             } else {
                 "; a longer trace, or a smaller depth".into()
             };
-            return refuse(format!(
+            format!(
                 "the table ends at r = {} m, but the contact can reach {edge} m{hint}",
                 length(last)
-            ));
-        }
-        if points < FEWEST_IN_CONTACT || slope < SHALLOWEST {
-            let edge = length(domain);
-            return refuse(format!(
+            )
+        } else if points < FEWEST_IN_CONTACT || slope < SHALLOWEST {
+            format!(
                 "only {points} points lie within {edge} m, where contact is possible, \
                  and a/R is {slope:.1e}: {unit}"
-            ));
-        }
-        Ok(())
+            )
+        } else {
+            return Ok(());
+        };
+        Err(self.refuse("indenter.radii", rule))
     }
 }

@@ -1,10 +1,6 @@
 //! Builds coefficients that run in from the keys of a scenario.
 
-use super::error::ScenarioError;
-use super::keys::{self, FRICTION_COURSE, RunsIn, WEAR_COURSE};
-use super::schema::Key;
-use super::validate::Parts;
-use crate::contact::material::Material;
+use super::*;
 use crate::simulation::running_in::{Course, Over, RunningIn};
 
 impl Parts<'_> {
@@ -14,15 +10,15 @@ impl Parts<'_> {
         material: &Material,
     ) -> Result<Option<RunningIn>, ScenarioError> {
         let mut all = RunningIn {
-            friction: self.course(&keys::FRICTION, &FRICTION_COURSE)?,
-            wear: self.course(&keys::WEAR_COEFFICIENT, &WEAR_COURSE)?,
+            friction: self.course("friction")?,
+            wear: self.course("wear")?,
             wear_per_load: None,
-            threshold: match self.has(WEAR_COURSE.section) {
-                true => self.require(&keys::WEAR_THRESHOLD)?,
+            threshold: match self.has("wear") {
+                true => self.require("wear.threshold_energy")?,
                 false => 0.0,
             },
         };
-        if let Some(per_load) = self.get(&keys::WEAR_PER_LOAD) {
+        if let Some(per_load) = self.get("wear.coefficient_per_load") {
             all.wear = None;
             all.wear_per_load = self.over_friction(per_load, all.friction.as_ref())?;
         }
@@ -30,8 +26,7 @@ impl Parts<'_> {
         if all.threshold > 0.0 && all.wear.is_none() && all.wear_per_load.is_none() {
             let coefficient = self.wear_coefficient(material)?;
             let constant = Course::table(&[0.0], &[coefficient], Over::Cycles);
-            all.wear =
-                Some(constant.map_err(|invalid| self.refused(WEAR_COURSE.section, invalid))?);
+            all.wear = Some(constant.map_err(|invalid| self.refused("wear", invalid))?);
         }
         Ok((all != RunningIn::default()).then_some(all))
     }
@@ -50,30 +45,37 @@ impl Parts<'_> {
         }
         let rule = "needs friction greater than 0 at all times: per friction work it is \
                     k = coefficient_per_load / friction";
-        Err(self.refuse(keys::WEAR_PER_LOAD.path(), "", rule))
+        Err(self.refuse("wear.coefficient_per_load", rule))
     }
 
-    fn course(&self, first: &Key<f64>, keys: &RunsIn) -> Result<Option<Course>, ScenarioError> {
-        let refused = |invalid| self.refused(keys.section, invalid);
-        for (at, over) in [
-            (&keys.at_cycle, Over::Cycles),
-            (&keys.at_energy, Over::Energy),
-        ] {
-            let Some(rows) = self.get(at) else { continue };
-            let course = Course::table(&rows, &self.require(&keys.values)?, over);
-            return course.map(Some).map_err(refused);
+    /// The coefficient of a section as it runs in; `None` if it is constant.
+    fn course(&self, section: &str) -> Result<Option<Course>, ScenarioError> {
+        let key = |key: &str| join(section, key);
+        let refused = |invalid| self.refused(section, invalid);
+        for (at, over) in [("at_cycle", Over::Cycles), ("at_energy", Over::Energy)] {
+            let Some(rows) = self.get::<Vec<f64>>(&key(at)) else {
+                continue;
+            };
+            let values: Vec<f64> = self.require(&key("values"))?;
+            return Course::table(&rows, &values, over)
+                .map(Some)
+                .map_err(refused);
         }
-        for (constant, over) in [(&keys.cycles, Over::Cycles), (&keys.energy, Over::Energy)] {
+        let constants = ["running_in_cycles", "running_in_energy"].map(key);
+        for (constant, over) in constants.iter().zip([Over::Cycles, Over::Energy]) {
             let Some(constant) = self.get(constant) else {
                 continue;
             };
-            let (first, settled) = (self.require(first)?, self.require(&keys.settled)?);
+            let (first, settled) = (
+                self.require(&key("coefficient"))?,
+                self.require(&key("settled"))?,
+            );
             let course = Course::exponential(first, settled, constant, over);
             return course.map(Some).map_err(refused);
         }
-        if self.has(keys.settled.path()) {
-            let rule = format!("needs {} or {}", keys.cycles.path(), keys.energy.path());
-            return Err(self.refuse(keys.settled.path(), "", rule));
+        if self.has(&key("settled")) {
+            let rule = format!("needs {}", constants.join(" or "));
+            return Err(self.refuse(&key("settled"), rule));
         }
         Ok(None)
     }

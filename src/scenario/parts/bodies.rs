@@ -1,0 +1,57 @@
+//! Builds the material from the keys of a scenario: of the pair, or of two bodies.
+
+use super::*;
+use crate::contact::material::Body;
+
+/// The sections of two bodies.
+const INDENTER: &str = "material.indenter";
+const HALF_SPACE: &str = "material.half_space";
+
+impl Parts<'_> {
+    /// The moduli and the coefficient of friction.
+    pub(super) fn material(&self) -> Result<Material, ScenarioError> {
+        let friction = match self.first("friction.coefficient", "friction") {
+            None if self.has("motion.tangential") => {
+                let meaning = "coefficient of friction, which the tangential motion needs";
+                self.any("friction.coefficient", meaning)?
+            }
+            friction => friction.unwrap_or(0.0),
+        };
+        let refused = |invalid: Invalid| match invalid.field {
+            "coefficient" => self.refused("friction", invalid),
+            "rigid" => self.refused(HALF_SPACE, invalid),
+            _ => self.refused("material", invalid),
+        };
+        if !self.has(INDENTER) && !self.has(HALF_SPACE) {
+            let modulus = self.require("material.effective_modulus")?;
+            let poisson = self.require("material.poisson")?;
+            return Material::new(modulus, poisson, friction).map_err(refused);
+        }
+        let (indenter, half_space) = (self.body(INDENTER)?, self.body(HALF_SPACE)?);
+        Material::of_bodies(indenter, half_space, friction).map_err(refused)
+    }
+
+    /// The hardness of the softer body, Pa.
+    pub(super) fn hardness(&self) -> Option<f64> {
+        let all = ["material", INDENTER, HALF_SPACE].into_iter();
+        let given = all.filter_map(|section| self.get::<f64>(&join(section, "hardness")));
+        given.reduce(f64::min)
+    }
+
+    /// One of two bodies, from its section of the scenario.
+    fn body(&self, section: &str) -> Result<Body, ScenarioError> {
+        if !self.has(section) {
+            let meaning = "the second body: youngs_modulus and poisson, or rigid = true";
+            return Err(self.missing(section, meaning));
+        }
+        let [modulus, poisson] = ["youngs_modulus", "poisson"].map(|key| join(section, key));
+        if self.require(&join(section, "rigid"))? {
+            return match [modulus, poisson].iter().find(|key| self.has(key)) {
+                Some(key) => Err(self.refuse(key, "a rigid body has no such key")),
+                None => Ok(Body::Rigid),
+            };
+        }
+        Body::elastic(self.require(&modulus)?, self.require(&poisson)?)
+            .map_err(|invalid| self.refused(section, invalid))
+    }
+}

@@ -1,0 +1,72 @@
+//! From the keys of a scenario to the scar that a run begins with.
+
+use super::*;
+
+/// The keys of the scar.
+const RADII: &str = "wear.initial_radii";
+const DEPTHS: &str = "wear.initial_depths";
+
+/// How deep a scar may be where its table ends inside the domain, relative to its greatest depth.
+const CUT_OFF: f64 = 0.05;
+
+impl Parts<'_> {
+    /// The scar that the run begins with; `None` without `wear.initial`.
+    pub(super) fn scar(&self) -> Result<Option<Scar>, ScenarioError> {
+        if !self.has(RADII) && !self.has(DEPTHS) {
+            return Ok(None);
+        }
+        Scar::new(
+            &self.require::<Vec<f64>>(RADII)?,
+            &self.require::<Vec<f64>>(DEPTHS)?,
+        )
+        .map(Some)
+        .map_err(|invalid| self.refused("wear", invalid))
+    }
+
+    /// Refuses a scar that no domain which ends at `domain` (m) can hold, most often for its unit.
+    pub(super) fn check_scar(
+        &self,
+        scar: &Scar,
+        indenter: &Indenter,
+        domain: f64,
+    ) -> Result<(), ScenarioError> {
+        let (edge, (last, depth_there)) = (scar.edge(), scar.end());
+        // A punch has no flank, and may be worn as deep as its slopes stay small.
+        let flank = match indenter.rim() {
+            Some(rim) => rim / HARDLY_SAME,
+            None => indenter.profile(domain),
+        };
+        let [ends, reaches, deepest] = [last.min(edge), edge, scar.deepest()].map(length);
+        let (path, rule) = if edge > HARDLY_SAME * domain || HARDLY_SAME * last < domain {
+            let rule = format!(
+                "the scar ends at r = {ends} m, where contact may reach {} m: is r in m? a column r_mm is converted",
+                length(domain)
+            );
+            (RADII, rule)
+        } else if scar.deepest() > HARDLY_SAME * flank {
+            let rule = format!(
+                "the scar is {deepest} m deep, where a contact has depths of {} m: is the depth in m? a column \
+                 depth_um is converted",
+                length(flank)
+            );
+            (DEPTHS, rule)
+        } else if edge > domain * (1.0 + 1e-9) {
+            let rule = format!(
+                "the scar reaches r = {reaches} m, beyond the domain's edge, {} m; a greater numerics.domain_radius \
+                 would hold it",
+                length(domain)
+            );
+            (RADII, rule)
+        } else if last < domain * (1.0 - 1e-9) && depth_there > CUT_OFF * scar.deepest() {
+            let rule = format!(
+                "the table ends at r = {} m, where the scar is still {} m deep; a longer trace",
+                length(last),
+                length(depth_there)
+            );
+            (DEPTHS, rule)
+        } else {
+            return Ok(());
+        };
+        Err(self.refuse(path, rule))
+    }
+}
